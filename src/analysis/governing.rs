@@ -1,0 +1,74 @@
+//! The governing parameter κ and what it ties together, eqs. (11) and (14).
+
+use crate::scene::{Adhesion, Material, Roughness, Scene};
+
+/// Roughness amplitude of a line: root mean square height and gradient.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Amplitude {
+    /// h, m.
+    pub rms_height: f64,
+    /// ⟨∇z⟩.
+    pub rms_gradient: f64,
+}
+
+/// The parameters that govern a scene, each given or worked out from the others.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Governing {
+    /// Effective modulus E*, Pa.
+    pub effective_modulus: f64,
+    /// Work of adhesion γ, J/m²; `None` without adhesion.
+    pub work_of_adhesion: Option<f64>,
+    /// Amplitude of the roughness; `None` where the line is smooth.
+    pub amplitude: Option<Amplitude>,
+    /// κ = √(h⟨∇z⟩E*/γ), eq. (11); `None` without roughness or adhesion.
+    pub kappa: Option<f64>,
+}
+
+impl Governing {
+    /// Works out the parameters of a checked scene. `gradient_per_height` is ⟨∇z⟩/h of its self-affine
+    /// line, 1/m; `measured` the amplitude of its measured profile.
+    ///
+    /// Given κ alone, γ = h⟨∇z⟩E*/κ²; given γ and κ, h = κ √(γ/(E* ⟨∇z⟩/h)).
+    #[must_use]
+    pub fn of(scene: &Scene, gradient_per_height: Option<f64>, measured: Option<Amplitude>) -> Self {
+        let effective_modulus = modulus(&scene.material);
+        let Adhesion { work, kappa } = scene.adhesion.unwrap_or(Adhesion { work: None, kappa: None });
+        let amplitude = measured.or_else(|| {
+            let ratio = gradient_per_height?;
+            let Some(Roughness::SelfAffine { rms_height, rms_gradient, .. }) = scene.roughness else {
+                return None;
+            };
+            let rms_height = rms_height
+                .or_else(|| rms_gradient.map(|gradient| gradient / ratio))
+                .or_else(|| Some(kappa? * (work? / (effective_modulus * ratio)).sqrt()))?;
+            Some(Amplitude { rms_height, rms_gradient: rms_gradient.unwrap_or(rms_height * ratio) })
+        });
+        let stiff = amplitude.map(|a| a.rms_height * a.rms_gradient * effective_modulus);
+        let work_of_adhesion = work.or_else(|| Some(stiff? / kappa?.powi(2)));
+        let kappa = kappa.or_else(|| {
+            let work = work_of_adhesion.filter(|&work| work > 0.0)?;
+            Some((stiff? / work).sqrt())
+        });
+        Governing { effective_modulus, work_of_adhesion, amplitude, kappa }
+    }
+
+    /// The work of adhesion where there is any, J/m².
+    #[must_use]
+    pub fn adhesive_work(&self) -> Option<f64> {
+        self.work_of_adhesion.filter(|&work| work > 0.0)
+    }
+}
+
+/// E* = E/(1 − ν²), eq. (2), unless given.
+fn modulus(material: &Material) -> f64 {
+    material.effective_modulus.unwrap_or_else(|| {
+        let poisson = material.poisson_ratio.unwrap_or(0.0);
+        material.youngs_modulus.unwrap_or(0.0) / (1.0 - poisson * poisson)
+    })
+}
+
+/// Ideal adhesion force F_a,max = √(π γ E* L³), N, of a flat face of length L, eq. (14).
+#[must_use]
+pub fn ideal_adhesion_force(work_of_adhesion: f64, effective_modulus: f64, length: f64) -> f64 {
+    (std::f64::consts::PI * work_of_adhesion * effective_modulus * length.powi(3)).sqrt()
+}

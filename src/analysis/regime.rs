@@ -1,0 +1,96 @@
+//! The three regimes of adhesion of Fig. 4, told apart by documented thresholds.
+
+use serde::Serialize;
+
+/// Adhesion without a preload is pressure-insensitive when it is at least this share of the adhesion
+/// after the preload: half of it needs no pressing.
+pub const INSENSITIVE_SHARE: f64 = 0.5;
+
+/// Adhesion without a preload has vanished when it is below this share of that of the smooth body. The
+/// transition from above one half to below one twentieth spans a factor of about three in κ, so the
+/// choice moves the boundary little.
+pub const VANISHING_SHARE: f64 = 0.05;
+
+/// An adhesion coefficient F_a/F_n below this is negligible: the bodies stick with less than a
+/// hundredth of the force that pressed them together.
+pub const NEGLIGIBLE_COEFFICIENT: f64 = 0.01;
+
+/// How adhesion depends on the load, Fig. 4.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Regime {
+    /// (a) Adhesion is there at first contact and hardly depends on the preload.
+    PressureInsensitive,
+    /// (b) Adhesion appears, or grows considerably, only under a preload.
+    PressureSensitive,
+    /// (c) Almost no adhesion, however strongly the bodies are pressed.
+    NonAdhesive,
+}
+
+impl Regime {
+    /// The name in words.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Regime::PressureInsensitive => "pressure-insensitive",
+            Regime::PressureSensitive => "pressure-sensitive",
+            Regime::NonAdhesive => "non-adhesive",
+        }
+    }
+}
+
+/// What the regime is read from; forces in N.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RegimeEvidence {
+    /// Adhesion force F_a(0) by the touch protocol: turned at first touch.
+    pub zero_load_adhesion: f64,
+    /// Adhesion force F_a(F_n) of the scene's own loading.
+    pub adhesion: f64,
+    /// Preload F_n of the scene's own loading.
+    pub preload: f64,
+    /// Adhesion force of the same body without its roughness.
+    pub smooth_adhesion: f64,
+}
+
+impl RegimeEvidence {
+    /// The regime of these forces.
+    ///
+    /// Pressure-insensitive: F_a(0) is at least [`INSENSITIVE_SHARE`] of F_a(F_n) and at least
+    /// [`VANISHING_SHARE`] of the smooth body's. Otherwise non-adhesive when F_a(F_n)/F_n is below
+    /// [`NEGLIGIBLE_COEFFICIENT`], or, where there was no preload, because F_a(0) has vanished; and
+    /// pressure-sensitive in all other cases.
+    #[must_use]
+    pub fn regime(&self) -> Regime {
+        let present = self.zero_load_adhesion >= VANISHING_SHARE * self.smooth_adhesion
+            && self.zero_load_adhesion > 0.0;
+        if present && self.zero_load_adhesion >= INSENSITIVE_SHARE * self.adhesion {
+            Regime::PressureInsensitive
+        } else if self.adhesion <= NEGLIGIBLE_COEFFICIENT * self.preload || (self.preload <= 0.0 && !present)
+        {
+            Regime::NonAdhesive
+        } else {
+            Regime::PressureSensitive
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_three_cases_of_the_paper() {
+        let evidence = |zero_load_adhesion, adhesion, preload| RegimeEvidence {
+            zero_load_adhesion,
+            adhesion,
+            preload,
+            smooth_adhesion: 1.0,
+        };
+        assert_eq!(evidence(0.8, 0.9, 5.0).regime(), Regime::PressureInsensitive);
+        assert_eq!(evidence(0.01, 0.5, 5.0).regime(), Regime::PressureSensitive);
+        assert_eq!(evidence(0.2, 0.9, 5.0).regime(), Regime::PressureSensitive);
+        assert_eq!(evidence(0.001, 0.001, 5.0).regime(), Regime::NonAdhesive);
+        assert_eq!(evidence(0.001, 0.001, 0.0).regime(), Regime::NonAdhesive);
+        assert_eq!(evidence(0.0, 0.0, 0.0).regime(), Regime::NonAdhesive);
+    }
+}

@@ -1,0 +1,60 @@
+//! What can go wrong between the body and the foundation.
+
+use crate::scene::Leg;
+use thiserror::Error;
+
+/// Why a contact could not be computed.
+#[derive(Clone, Debug, PartialEq, Error)]
+pub enum ContactError {
+    /// An array does not fit into memory.
+    #[error("not enough memory for {springs} springs")]
+    OutOfMemory {
+        /// Springs asked for.
+        springs: usize,
+    },
+    /// Nothing touches that could be pulled.
+    #[error(
+        "loading.{index} = ToForce({force:e}): a pulling force needs a contact; allowed from separation: at least 0 N"
+    )]
+    NothingToPull {
+        /// Index of the leg.
+        index: usize,
+        /// Force asked for, N.
+        force: f64,
+    },
+    /// The contact lets go before this force.
+    #[error(
+        "loading.{index} = {leg:?}: the contact lets go before that force; allowed on this leg: at least {smallest:e} N"
+    )]
+    LetsGoBefore {
+        /// Index of the leg.
+        index: usize,
+        /// The leg.
+        leg: Leg,
+        /// Smallest force the contact bears, N.
+        smallest: f64,
+    },
+    /// The force lies beyond what indentations can reach.
+    #[error("loading.{index} = {leg:?}: no finite indentation reaches that force on this foundation")]
+    OutOfReach {
+        /// Index of the leg.
+        index: usize,
+        /// The leg.
+        leg: Leg,
+    },
+    /// The stepwise solver would need too many steps.
+    #[error(
+        "loading.{index}: more than {limit} steps of {step:e} m; take a larger numerics.solver.step or the exact solver"
+    )]
+    TooManySteps {
+        /// Index of the leg.
+        index: usize,
+        /// Step, m.
+        step: f64,
+        /// Most steps allowed on one leg.
+        limit: u64,
+    },
+    /// The computation was told to stop.
+    #[error("interrupted")]
+    Interrupted,
+}

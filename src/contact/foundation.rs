@@ -1,0 +1,44 @@
+//! The elastic foundation of the method of dimensionality reduction and the rule of Hess on it.
+
+/// A foundation of independent springs that stands for an elastic half-space.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Foundation {
+    /// Distance Δx between springs, m.
+    pub spacing: f64,
+    /// Effective modulus E*, Pa, eq. (2).
+    pub effective_modulus: f64,
+}
+
+impl Foundation {
+    /// Stiffness Δk = E* Δx of one spring, N/m, eq. (1).
+    #[must_use]
+    pub fn spring_stiffness(&self) -> f64 {
+        self.effective_modulus * self.spacing
+    }
+}
+
+/// The rule of Hess, eqs. (3) and (10): how far the springs of a contact fragment can be stretched
+/// before they let go.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct HessRule {
+    stretch_of_one: f64,
+}
+
+impl HessRule {
+    /// The rule for a work of adhesion γ in J/m².
+    #[must_use]
+    pub fn new(foundation: Foundation, work_of_adhesion: f64) -> Self {
+        // The quotient γ/E* first: scaling both by one power of two then changes no bit.
+        let range = work_of_adhesion / foundation.effective_modulus;
+        HessRule { stretch_of_one: (std::f64::consts::PI * foundation.spacing * range).sqrt() }
+    }
+
+    /// Largest stretch Δl_max = sqrt(π n Δx γ/E*), m, of a fragment of `springs` springs, eq. (10).
+    ///
+    /// Rounding keeps the order: more springs never give a smaller value.
+    #[inline]
+    #[must_use]
+    pub fn largest_stretch(&self, springs: u32) -> f64 {
+        self.stretch_of_one * f64::from(springs).sqrt()
+    }
+}

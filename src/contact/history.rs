@@ -1,0 +1,110 @@
+//! What a loading history leaves behind: its legs, their curves, and how much was done for it.
+
+use crate::scene::Leg;
+use serde::Serialize;
+
+/// Whether a leg presses or pulls.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Direction {
+    /// The indentation grows.
+    Loading,
+    /// The indentation falls.
+    Unloading,
+}
+
+/// One point of a force curve.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CurvePoint {
+    /// Indentation d, m; 0 at first touch.
+    pub indentation: f64,
+    /// Force F, N; compression positive.
+    pub force: f64,
+    /// Springs in contact.
+    pub springs: u64,
+    /// Contact fragments.
+    pub fragments: u64,
+}
+
+/// One leg as it went.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LegRecord {
+    /// What was asked for.
+    pub leg: Leg,
+    /// Whether it pressed or pulled.
+    pub direction: Direction,
+    /// The curve along the leg: its samples, and the point of the smallest force of an unloading leg.
+    /// Where the contact forms or ends at once, the point before and the point after both stand.
+    pub curve: Vec<CurvePoint>,
+    /// Largest force on the leg, exact to rounding (loading legs).
+    pub largest: CurvePoint,
+    /// Smallest force on the leg, exact to rounding (unloading legs).
+    pub smallest: CurvePoint,
+    /// Springs that came into contact.
+    pub joins: u64,
+    /// Springs that left.
+    pub leaves: u64,
+    /// Energy lost, J: ½ Δk Σ e² over the springs that left with a stretch e, less the same over those
+    /// that joined. The work done on the springs over a closed loop is the sum of this over its legs.
+    pub dissipated_energy: f64,
+}
+
+impl LegRecord {
+    /// Where the leg began.
+    #[must_use]
+    pub fn start(&self) -> f64 {
+        self.curve.first().map_or(0.0, |point| point.indentation)
+    }
+
+    /// Where the leg ended.
+    #[must_use]
+    pub fn end(&self) -> f64 {
+        self.curve.last().map_or(0.0, |point| point.indentation)
+    }
+}
+
+/// A whole loading history.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct History {
+    /// Its legs, in order.
+    pub legs: Vec<LegRecord>,
+    /// First and last spring of each fragment in contact after the last leg.
+    pub contacts: Vec<(usize, usize)>,
+    /// What was done for it.
+    pub work: Work,
+}
+
+/// Counts of what was done: the same on every machine, unlike times.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+pub struct Work {
+    /// Springs under the body.
+    pub springs: u64,
+    /// Random phases drawn.
+    pub random_phases: u64,
+    /// Fourier transforms of the whole line.
+    pub transforms: u64,
+    /// Nodes of the tree.
+    pub tree_nodes: u64,
+    /// Passes over the tree for loading legs.
+    pub loading_passes: u64,
+    /// Passes over the tree for unloading legs.
+    pub unloading_passes: u64,
+    /// Evaluations of the rule of Hess.
+    pub hess_evaluations: u64,
+    /// Springs sorted into the intervals of a curve.
+    pub springs_tallied: u64,
+    /// Springs sorted by threshold in the intervals that may hold an extreme of the force.
+    pub events_sorted: u64,
+    /// Springs that came into contact.
+    pub joins: u64,
+    /// Springs that left contact.
+    pub leaves: u64,
+    /// Steps of the stepwise solver.
+    pub steps: u64,
+    /// Sweeps over the line that relaxed it.
+    pub relaxation_sweeps: u64,
+    /// Springs looked at in those sweeps.
+    pub spring_updates: u64,
+    /// Heights counted into the histogram.
+    pub heights_binned: u64,
+}

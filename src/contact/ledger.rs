@@ -1,0 +1,183 @@
+//! The force over a whole leg: springs sorted into the intervals of a grid of indentations.
+
+use super::tally::{GapScale, Tally};
+
+/// One spring as a leg sees it: in contact at indentation d exactly when `threshold` ≤ d.
+#[derive(Clone, Copy, Debug)]
+pub struct Spring {
+    /// Smallest indentation at which it is in contact, m; −∞ when it was so before a loading leg
+    /// began, +∞ when it was not before an unloading leg began.
+    pub threshold: f64,
+    /// Its gap c, m; never below the threshold.
+    pub gap: f64,
+    /// Contact fragments it adds: 1, 0 or −1.
+    pub fragments: i64,
+}
+
+impl Spring {
+    /// What this spring adds to a tally.
+    #[inline]
+    fn tally(&self, scale: &GapScale) -> Tally {
+        Tally { springs: 1, fragments: self.fragments, quanta: i128::from(scale.quanta(self.gap)) }
+    }
+}
+
+/// The springs of a leg, in any fixed order.
+pub trait Springs {
+    /// Calls `see` once for each spring.
+    fn each(&self, see: impl FnMut(Spring));
+    /// The scale on which the gaps are summed.
+    fn scale(&self) -> &GapScale;
+}
+
+/// An evenly spaced grid of indentations, both ends exact.
+#[derive(Clone, Debug)]
+pub(crate) struct Grid {
+    points: Vec<f64>,
+    intervals_per_metre: f64,
+}
+
+impl Grid {
+    /// `intervals` equal intervals from `low` to `high`; a single point where they coincide.
+    pub fn new(low: f64, high: f64, intervals: usize) -> Self {
+        let width = (high - low) / intervals as f64;
+        // Also too narrow a range to tell its points apart is one point at each end.
+        let even = low + width > low && high - width < high && width.recip().is_finite();
+        let mut points: Vec<f64> = if even {
+            (0..intervals).map(|k| (low + width * k as f64).min(high)).collect()
+        } else {
+            vec![low]
+        };
+        if high > low {
+            points.push(high);
+        }
+        Grid { points, intervals_per_metre: if even { width.recip() } else { 0.0 } }
+    }
+
+    pub fn points(&self) -> &[f64] {
+        &self.points
+    }
+
+    pub fn low(&self) -> f64 {
+        self.points[0]
+    }
+
+    pub fn high(&self) -> f64 {
+        self.points[self.points.len() - 1]
+    }
+
+    /// Index of the first point that is at least `indentation`, which must not exceed the last.
+    #[inline]
+    fn first_at_least(&self, indentation: f64) -> usize {
+        // The guess is off by one at the most where the grid is even; the loops make it exact.
+        let guess = ((indentation - self.points[0]) * self.intervals_per_metre) as usize;
+        let mut index = guess.min(self.points.len() - 1);
+        while self.points[index] < indentation {
+            index += 1;
+        }
+        while index > 0 && self.points[index - 1] >= indentation {
+            index -= 1;
+        }
+        index
+    }
+}
+
+/// What is in contact at each point of a grid, and what the joins between them cost.
+#[derive(Clone, Debug)]
+pub(crate) struct Ledger {
+    pub grid: Grid,
+    /// Springs in contact at each grid point.
+    pub tallies: Vec<Tally>,
+    /// Σ (c − threshold)² over the springs whose thresholds lie above the lowest grid point, m².
+    pub squared_stretch: f64,
+    /// The same for the springs whose thresholds are finite and at or below the lowest grid point.
+    pub squared_stretch_below: f64,
+}
+
+impl Ledger {
+    /// Sorts `springs` into the intervals of `grid`.
+    pub fn new(springs: &impl Springs, grid: Grid) -> Self {
+        let scale = *springs.scale();
+        let high = grid.high();
+        let mut tallies = vec![Tally::default(); grid.points.len()];
+        let mut stretches = vec![CompensatedSum::default(); grid.points.len()];
+        springs.each(|spring| {
+            if spring.threshold <= high {
+                let index = grid.first_at_least(spring.threshold);
+                tallies[index] += spring.tally(&scale);
+                let stretch = spring.gap - spring.threshold;
+                if stretch < f64::INFINITY {
+                    stretches[index].add(stretch * stretch);
+                }
+            }
+        });
+        for index in 1..tallies.len() {
+            let before = tallies[index - 1];
+            tallies[index] += before;
+        }
+        let mut above = CompensatedSum::default();
+        for sum in &stretches[1..] {
+            above.add(sum.value);
+            above.add(sum.error);
+        }
+        Ledger { grid, tallies, squared_stretch: above.total(), squared_stretch_below: stretches[0].total() }
+    }
+
+    /// Number of intervals between grid points.
+    pub fn intervals(&self) -> usize {
+        self.tallies.len() - 1
+    }
+
+    /// Compression Σ (d − c), m, at grid point `index`.
+    pub fn compression(&self, index: usize, scale: &GapScale) -> f64 {
+        self.tallies[index].compression(self.grid.points[index], scale)
+    }
+
+    /// The springs whose thresholds lie in the chosen intervals (interval k is above point k, up to
+    /// and including point k + 1), in ascending order of interval and threshold.
+    pub fn events(&self, springs: &impl Springs, chosen: &[bool]) -> Vec<Event> {
+        let scale = *springs.scale();
+        let (low, high) = (self.grid.low(), self.grid.high());
+        let mut events = Vec::new();
+        springs.each(|spring| {
+            if spring.threshold > low && spring.threshold <= high {
+                let interval = self.grid.first_at_least(spring.threshold) - 1;
+                if chosen[interval] {
+                    events.push(Event { threshold: spring.threshold, joins: spring.tally(&scale), interval });
+                }
+            }
+        });
+        events.sort_unstable_by(|a, b| a.threshold.total_cmp(&b.threshold));
+        events
+    }
+}
+
+/// A spring that joins or leaves inside an interval of the grid.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Event {
+    pub threshold: f64,
+    pub joins: Tally,
+    pub interval: usize,
+}
+
+/// Sum of non-negative terms that keeps its rounding errors (Neumaier): relative error below
+/// 2u + O(n u²).
+#[derive(Clone, Copy, Debug, Default)]
+struct CompensatedSum {
+    value: f64,
+    error: f64,
+}
+
+impl CompensatedSum {
+    #[inline]
+    fn add(&mut self, term: f64) {
+        let sum = self.value + term;
+        let added = sum - self.value;
+        self.error += (self.value - (sum - added)) + (term - added);
+        self.value = sum;
+    }
+
+    fn total(self) -> f64 {
+        self.value + self.error
+    }
+}

@@ -1,0 +1,44 @@
+//! The rigid line on the elastic foundation: when each spring joins and leaves, and the force.
+//!
+//! Everything here follows the rules of equilibrium of the method of dimensionality reduction with the
+//! rule of Hess:
+//!
+//! * *touch*: a free spring whose gap is closed, c ≤ d, comes into contact;
+//! * *grow*: a free spring beside a fragment of n springs comes into contact when
+//!   d ≥ c − Δl_max(n), eq. (10);
+//! * *detach*: within a fragment of n springs the most stretched one leaves when d ≤ c − Δl_max(n), but
+//!   not while its gap is closed.
+//!
+//! [`exact`] solves them for any loading history in one pass over a tree for each leg; [`stepwise`]
+//! moves by small steps and relaxes, as the paper does.
+
+mod edges;
+mod error;
+pub mod exact;
+mod foundation;
+mod history;
+mod ledger;
+mod search;
+mod solver;
+mod springs;
+pub mod stepwise;
+mod tally;
+mod thresholds;
+mod tree;
+
+pub use edges::{EdgeRule, GridEdges};
+pub use error::ContactError;
+pub use exact::Exact;
+pub use foundation::{Foundation, HessRule};
+pub use history::{CurvePoint, Direction, History, LegRecord, Work};
+pub use solver::{Solver, run};
+pub use stepwise::Stepwise;
+pub use tally::{GapScale, Tally};
+pub use tree::ContactTree;
+
+/// An empty vector with room for `count` values, or an error instead of an abort.
+pub(crate) fn reserve<T>(count: usize) -> Result<Vec<T>, ContactError> {
+    let mut values = Vec::new();
+    values.try_reserve_exact(count).map_err(|_| ContactError::OutOfMemory { springs: count })?;
+    Ok(values)
+}

@@ -1,0 +1,136 @@
+//! Adhesive contact of a power-law body b rⁿ, JKR (n = 2) and the cone (n = 1) among them, and of the
+//! flat punch (Kendall).
+
+use crate::analysis::ideal_adhesion_force;
+use crate::scene::Form;
+use crate::surface::power_law_factor;
+use std::f64::consts::PI;
+
+/// A body whose equivalent line is g(x) = c |x|ⁿ, on a half-space under adhesion.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PowerLaw {
+    /// c = κₙ b, m^(1−n).
+    pub line_coefficient: f64,
+    /// n > 1/2.
+    pub exponent: f64,
+    /// Effective modulus E*, Pa.
+    pub effective_modulus: f64,
+    /// Work of adhesion γ, J/m².
+    pub work_of_adhesion: f64,
+}
+
+impl PowerLaw {
+    /// The closed form of a body, where it has one: every form but the punch.
+    #[must_use]
+    pub fn of(form: &Form, effective_modulus: f64, work_of_adhesion: f64) -> Option<Self> {
+        let (line_coefficient, exponent) = match *form {
+            Form::Paraboloid { radius } => (radius.recip(), 2.0),
+            Form::Cone { angle } => (std::f64::consts::FRAC_PI_2 * angle.tan(), 1.0),
+            Form::Power { coefficient, exponent } => (power_law_factor(exponent) * coefficient, exponent),
+            Form::Punch { .. } => return None,
+        };
+        Some(PowerLaw { line_coefficient, exponent, effective_modulus, work_of_adhesion })
+    }
+
+    /// Indentation d(a) = c aⁿ − √(2π a γ/E*), m, at contact radius a.
+    #[must_use]
+    pub fn indentation(&self, radius: f64) -> f64 {
+        self.line_coefficient * radius.powf(self.exponent) - self.stretch(radius)
+    }
+
+    /// Force F(a) = 2E* n c a^(n+1)/(n+1) − √(8π a³ E* γ), N, at contact radius a.
+    #[must_use]
+    pub fn force(&self, radius: f64) -> f64 {
+        let n = self.exponent;
+        let pressed =
+            2.0 * self.effective_modulus * n * self.line_coefficient * radius.powf(n + 1.0) / (n + 1.0);
+        pressed - self.detaching(radius)
+    }
+
+    /// Contact radius, m, and force, N, of pull-off under force control, where dF/da = 0; the smallest
+    /// force there is.
+    #[must_use]
+    pub fn force_controlled_pull_off(&self) -> (f64, f64) {
+        let n = self.exponent;
+        let radius = self.critical_radius(9.0);
+        (radius, -(2.0 * n - 1.0) / (2.0 * (n + 1.0)) * self.detaching(radius))
+    }
+
+    /// Contact radius, m, and force, N, of pull-off under displacement control, where dd/da = 0.
+    #[must_use]
+    pub fn displacement_controlled_pull_off(&self) -> (f64, f64) {
+        let n = self.exponent;
+        let radius = self.critical_radius(1.0);
+        (radius, -(2.0 * n + 1.0) / (2.0 * (n + 1.0)) * self.detaching(radius))
+    }
+
+    /// [m π γ/(2n²c²E*)]^(1/(2n−1)), m.
+    fn critical_radius(&self, multiple: f64) -> f64 {
+        let n = self.exponent;
+        let scale = 2.0 * (n * self.line_coefficient).powi(2) * self.effective_modulus;
+        (multiple * PI * self.work_of_adhesion / scale).powf((2.0 * n - 1.0).recip())
+    }
+
+    /// Rule of Hess, eq. (3), m.
+    fn stretch(&self, radius: f64) -> f64 {
+        (2.0 * PI * radius * self.work_of_adhesion / self.effective_modulus).sqrt()
+    }
+
+    fn detaching(&self, radius: f64) -> f64 {
+        flat_punch(radius, self.effective_modulus, self.work_of_adhesion)
+    }
+}
+
+/// Adhesion force √(8π a³ E* γ), N, of a flat punch of radius a m (Kendall).
+#[must_use]
+pub fn flat_punch(radius: f64, effective_modulus: f64, work_of_adhesion: f64) -> f64 {
+    (8.0 * PI * radius.powi(3) * effective_modulus * work_of_adhesion).sqrt()
+}
+
+/// Adhesion force, N, of a smooth body of a form (`None`: flat) and apparent diameter `length` m: the
+/// closed form of its shape, at most that of a flat face of its length.
+#[must_use]
+pub fn smooth_adhesion_force(form: Option<&Form>, length: f64, effective_modulus: f64, work: f64) -> f64 {
+    let flat = ideal_adhesion_force(work, effective_modulus, length);
+    match form {
+        None => flat,
+        Some(Form::Punch { radius }) => flat_punch(*radius, effective_modulus, work).min(flat),
+        Some(form) => PowerLaw::of(form, effective_modulus, work)
+            .map_or(flat, |body| -body.force_controlled_pull_off().1)
+            .min(flat),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_paraboloid_is_jkr() {
+        let (radius, modulus, work) = (2.0e-3, 1.5e6, 0.07);
+        let body = PowerLaw::of(&Form::Paraboloid { radius }, modulus, work).unwrap();
+        let scale = PI * work * radius;
+        let (force_controlled, displacement_controlled) =
+            (body.force_controlled_pull_off().1, body.displacement_controlled_pull_off().1);
+        assert!((force_controlled / (-1.5 * scale) - 1.0).abs() < 1e-14);
+        assert!((displacement_controlled / (-5.0 / 6.0 * scale) - 1.0).abs() < 1e-14);
+    }
+
+    #[test]
+    fn pull_off_radii_are_where_the_derivatives_vanish() {
+        for form in [
+            Form::Cone { angle: 0.3 },
+            Form::Power { coefficient: 2.0, exponent: 1.5 },
+            Form::Power { coefficient: 0.7, exponent: 4.0 },
+        ] {
+            let body = PowerLaw::of(&form, 3.0, 0.5).unwrap();
+            let (a, force) = body.force_controlled_pull_off();
+            assert!((body.force(a) / force - 1.0).abs() < 1e-12);
+            assert!(body.force(a * 1.001) > force && body.force(a * 0.999) > force);
+            let (a, force) = body.displacement_controlled_pull_off();
+            assert!((body.force(a) / force - 1.0).abs() < 1e-12);
+            let d = body.indentation(a);
+            assert!(body.indentation(a * 1.001) > d && body.indentation(a * 0.999) > d);
+        }
+    }
+}

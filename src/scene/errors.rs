@@ -1,0 +1,202 @@
+//! What is wrong with a scene: where, what stands there, what is allowed.
+
+use std::fmt;
+
+use super::check::Violation;
+
+/// Values and names longer than this are shortened in messages.
+const MOST_SHOWN: usize = 80;
+
+/// Where an error comes from.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Origin {
+    /// A place in a scene file.
+    Place {
+        /// Name of the file or of the built-in scene.
+        name: String,
+        /// Line, from 1.
+        line: usize,
+        /// Column, from 1, counted in characters.
+        column: usize,
+    },
+    /// A scene file as a whole.
+    File {
+        /// Its name.
+        name: String,
+    },
+    /// One or more overrides, as `path=value`.
+    Overrides(Vec<String>),
+    /// A scene that was not read from text.
+    Scene,
+}
+
+impl fmt::Display for Origin {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Origin::Place { name, line, column } => write!(f, "{}:{line}:{column}: ", shown(name)),
+            Origin::File { name } => write!(f, "{}: ", shown(name)),
+            Origin::Overrides(overrides) => {
+                let all: Vec<_> = overrides.iter().map(|one| format!("--set {}", shown(one))).collect();
+                write!(f, "{}: ", all.join(" "))
+            }
+            Origin::Scene => Ok(()),
+        }
+    }
+}
+
+/// One thing that is wrong with a scene.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct SceneError {
+    /// Where it comes from.
+    pub origin: Origin,
+    /// Path of the field; empty where no field is meant.
+    pub field: String,
+    /// What stands there, as written; empty where nothing does.
+    pub value: String,
+    /// What is allowed there; empty where `message` says it all.
+    pub allowed: String,
+    /// Why it is wrong, or the name of the field.
+    pub message: String,
+}
+
+impl SceneError {
+    /// An error about a file or scene as a whole.
+    pub(super) fn whole(origin: Origin, message: impl Into<String>) -> SceneError {
+        let message = message.into();
+        SceneError { origin, field: String::new(), value: String::new(), allowed: String::new(), message }
+    }
+
+    pub(super) fn of_violation(origin: Origin, violation: Violation) -> SceneError {
+        let Violation { field, value, allowed, reason, .. } = violation;
+        SceneError { origin, field, value, allowed, message: reason }
+    }
+
+    /// The error without its origin: `roughness.hurst = 1.4: allowed: above 0 and below 1 (Hurst
+    /// exponent)`.
+    pub fn what(&self) -> impl fmt::Display {
+        let mut what = shown(&self.field);
+        if !self.field.is_empty() && !self.value.is_empty() {
+            what.push_str(" = ");
+        }
+        what.push_str(&shown(&self.value));
+        if !what.is_empty() {
+            what.push_str(": ");
+        }
+        if self.allowed.is_empty() {
+            what.push_str(&self.message);
+        } else {
+            what.push_str("allowed: ");
+            what.push_str(&self.allowed);
+            if !self.message.is_empty() {
+                what.push_str(&format!(" ({})", self.message));
+            }
+        }
+        what
+    }
+}
+
+impl fmt::Display for SceneError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}{}", self.origin, self.what())
+    }
+}
+
+impl std::error::Error for SceneError {}
+
+/// All that is wrong with a scene: at least one error, each a line of its own.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct SceneErrors {
+    first: SceneError,
+    rest: Vec<SceneError>,
+}
+
+impl SceneErrors {
+    /// The errors of a list; `None` where there are none.
+    pub fn of(errors: Vec<SceneError>) -> Option<SceneErrors> {
+        let mut errors = errors.into_iter();
+        Some(SceneErrors { first: errors.next()?, rest: errors.collect() })
+    }
+
+    /// The first error.
+    pub fn first(&self) -> &SceneError {
+        &self.first
+    }
+
+    /// All errors, in the order in which they were found.
+    pub fn iter(&self) -> impl Iterator<Item = &SceneError> {
+        std::iter::once(&self.first).chain(&self.rest)
+    }
+}
+
+impl From<SceneError> for SceneErrors {
+    fn from(error: SceneError) -> SceneErrors {
+        SceneErrors { first: error, rest: Vec::new() }
+    }
+}
+
+impl fmt::Display for SceneErrors {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}", self.first)?;
+        self.rest.iter().try_for_each(|error| write!(f, "\n{error}"))
+    }
+}
+
+impl std::error::Error for SceneErrors {}
+
+/// Foreign text for a message: one line, without control characters, not too long.
+pub(super) fn shown(text: &str) -> String {
+    let mut shown = String::new();
+    for (index, c) in text.chars().enumerate() {
+        if index == MOST_SHOWN {
+            shown.push('…');
+            break;
+        }
+        match c {
+            '\n' | '\r' | '\t' => shown.push(' '),
+            c if c.is_control() => shown.extend(c.escape_default()),
+            c => shown.push(c),
+        }
+    }
+    shown
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn error() -> SceneError {
+        SceneError {
+            origin: Origin::Place { name: "presets/x.ron".into(), line: 7, column: 24 },
+            field: "roughness.hurst".into(),
+            value: "1.4".into(),
+            allowed: "above 0 and below 1".into(),
+            message: "Hurst exponent".into(),
+        }
+    }
+
+    #[test]
+    fn an_error_is_one_line() {
+        assert_eq!(
+            error().to_string(),
+            "presets/x.ron:7:24: roughness.hurst = 1.4: allowed: above 0 and below 1 (Hurst exponent)"
+        );
+        let origin = Origin::Overrides(vec!["roughness.hurst=1.4".into()]);
+        let error = SceneError { origin, allowed: String::new(), message: "no".into(), ..error() };
+        assert_eq!(error.to_string(), "--set roughness.hurst=1.4: roughness.hurst = 1.4: no");
+        assert_eq!(error.what().to_string(), "roughness.hurst = 1.4: no");
+    }
+
+    #[test]
+    fn errors_are_lines() {
+        let errors = SceneErrors::of(vec![error(), error()]).unwrap();
+        assert_eq!(errors.to_string().lines().count(), 2);
+        assert_eq!(errors.iter().count(), 2);
+        assert_eq!(SceneErrors::of(vec![]), None);
+    }
+
+    #[test]
+    fn foreign_text_neither_floods_nor_controls_the_terminal() {
+        assert_eq!(shown("a\u{1b}[2J\nb"), "a\\u{1b}[2J b");
+        assert_eq!(shown(&"x".repeat(1000)).chars().count(), MOST_SHOWN + 1);
+    }
+}

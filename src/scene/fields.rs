@@ -1,0 +1,405 @@
+//! The one table of everything a scene can say: paths, symbols, units, ranges, meanings.
+//!
+//! The checks, the names an override may use, the explorer's list of parameters and the reference
+//! in the README all read this table, so they cannot disagree.
+
+use std::f64::consts::FRAC_PI_2;
+
+use super::model::SCENE_VERSION;
+use super::range::Range;
+use super::step::Step;
+
+/// One field of a scene.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Field {
+    /// Path from the top of the scene, components joined by dots: `roughness.hurst`.
+    pub path: &'static str,
+    /// The variant of the enclosing choice that has this field: `Paraboloid` for `form.radius`.
+    /// `None` where the field does not depend on a choice.
+    pub variant: Option<&'static str>,
+    /// Its name in the terms of the field: `Hurst exponent`.
+    pub name: &'static str,
+    /// Its symbol in the equations, empty where it has none.
+    pub symbol: &'static str,
+    /// SI unit; `1` for numbers without one, empty for what is not a number.
+    pub unit: &'static str,
+    /// What is allowed.
+    pub range: Range,
+    /// How a key steps it.
+    pub step: Step,
+    /// What stands where the field is left out, as it would be written; empty where it may not be
+    /// left out.
+    pub default: &'static str,
+    /// What it does, in one plain line.
+    pub meaning: &'static str,
+}
+
+impl Field {
+    /// What is allowed, with the unit: `from 1 to 1e13 Pa`.
+    pub fn allowed(&self) -> String {
+        match self.unit {
+            "" | "1" => self.range.to_string(),
+            unit => format!("{} {unit}", self.range),
+        }
+    }
+
+    /// Path of the enclosing group; empty at the top of the scene.
+    pub fn parent(&self) -> &'static str {
+        self.path.rsplit_once('.').map_or("", |(parent, _)| parent)
+    }
+
+    /// The last component of the path.
+    pub fn last(&self) -> &'static str {
+        self.path.rsplit_once('.').map_or(self.path, |(_, last)| last)
+    }
+}
+
+/// The field at a path. Where variants of a choice share the name, `variant` decides; with `None`
+/// the first of them is returned.
+pub fn field(path: &str, variant: Option<&str>) -> Option<&'static Field> {
+    FIELDS.iter().find(|field| {
+        field.path == path && (variant.is_none() || field.variant.is_none() || field.variant == variant)
+    })
+}
+
+const TEXT: Field = Field {
+    path: "",
+    variant: None,
+    name: "",
+    symbol: "",
+    unit: "",
+    range: Range::Group,
+    step: Step::Typed,
+    default: "",
+    meaning: "",
+};
+
+const NUMBER: Field = Field { unit: "1", ..TEXT };
+
+/// Every field of a scene, in the order in which a scene is written.
+pub const FIELDS: &[Field] = &[
+    Field {
+        path: "version",
+        name: "version",
+        range: Range::whole(SCENE_VERSION as u64, SCENE_VERSION as u64),
+        meaning: "version of the scene file format",
+        ..NUMBER
+    },
+    Field {
+        path: "title",
+        name: "title",
+        range: Range::Text { most: 200, lines: false },
+        default: "\"\"",
+        meaning: "one line naming the scene",
+        ..TEXT
+    },
+    Field {
+        path: "notice",
+        name: "notice",
+        range: Range::Text { most: 4000, lines: true },
+        default: "\"\"",
+        meaning: "what to look at",
+        ..TEXT
+    },
+    Field {
+        path: "material",
+        name: "material",
+        range: Range::Choice(&["(youngs_modulus: 2.0e6, poisson_ratio: 0.5)", "(effective_modulus: 2.7e6)"]),
+        meaning: "how stiff the bodies are: Young's modulus with Poisson's ratio, or the effective modulus",
+        ..TEXT
+    },
+    Field {
+        path: "material.youngs_modulus",
+        name: "Young's modulus",
+        symbol: "E",
+        unit: "Pa",
+        range: Range::closed(1.0, 1e13),
+        step: Step::Logarithmic,
+        default: "None",
+        meaning: "stiffness of the elastic body; goes with Poisson's ratio",
+        ..NUMBER
+    },
+    Field {
+        path: "material.poisson_ratio",
+        name: "Poisson's ratio",
+        symbol: "ν",
+        range: Range::above(-1.0, 0.5),
+        step: Step::Linear { fine: 0.01, coarse: 0.1 },
+        default: "None",
+        meaning: "how much the body bulges when pressed; 0.5 keeps its volume, as rubber does",
+        ..NUMBER
+    },
+    Field {
+        path: "material.effective_modulus",
+        name: "effective modulus",
+        symbol: "E*",
+        unit: "Pa",
+        range: Range::closed(1.0, 1e13),
+        step: Step::Logarithmic,
+        default: "None",
+        meaning: "stiffness of the contact, E/(1 − ν²); stands in place of E and ν",
+        ..NUMBER
+    },
+    Field {
+        path: "length",
+        name: "apparent diameter",
+        symbol: "L",
+        unit: "m",
+        range: Range::closed(1e-9, 10.0),
+        step: Step::Logarithmic,
+        meaning: "apparent diameter of the contact: the length of the line",
+        ..NUMBER
+    },
+    Field {
+        path: "form",
+        name: "form",
+        range: Range::Choice(&[
+            "Paraboloid(radius: 1.0e-3)",
+            "Cone(angle: 0.1)",
+            "Power(coefficient: 1.0e7, exponent: 3.0)",
+            "Punch(radius: 2.0e-5)",
+        ]),
+        step: Step::Choice,
+        default: "None",
+        meaning: "macroscopic shape of the rigid body; left out: nominally flat",
+        ..TEXT
+    },
+    Field {
+        path: "form.radius",
+        variant: Some("Paraboloid"),
+        name: "radius of curvature",
+        symbol: "R",
+        unit: "m",
+        range: Range::above(0.0, 1e9),
+        step: Step::Logarithmic,
+        meaning: "radius of the sphere of which the paraboloid is the tip",
+        ..NUMBER
+    },
+    Field {
+        path: "form.angle",
+        variant: Some("Cone"),
+        name: "flank angle",
+        symbol: "θ",
+        unit: "rad",
+        range: Range::between(0.0, FRAC_PI_2),
+        step: Step::Linear { fine: 0.01, coarse: 0.1 },
+        meaning: "angle between the cone's flank and the surface; small is blunt",
+        ..NUMBER
+    },
+    Field {
+        path: "form.coefficient",
+        variant: Some("Power"),
+        name: "coefficient",
+        symbol: "b",
+        unit: "m^(1−n)",
+        range: Range::above(0.0, 1e300),
+        step: Step::Logarithmic,
+        meaning: "b of the power law b rⁿ",
+        ..NUMBER
+    },
+    Field {
+        path: "form.exponent",
+        variant: Some("Power"),
+        name: "exponent",
+        symbol: "n",
+        range: Range::above(0.5, 100.0),
+        step: Step::Linear { fine: 0.1, coarse: 1.0 },
+        meaning: "n of the power law b rⁿ; large is flat in the middle and steep outside",
+        ..NUMBER
+    },
+    Field {
+        path: "form.radius",
+        variant: Some("Punch"),
+        name: "punch radius",
+        symbol: "a",
+        unit: "m",
+        range: Range::above(0.0, 5.0),
+        step: Step::Logarithmic,
+        meaning: "radius of the flat end; nothing outside it touches",
+        ..NUMBER
+    },
+    Field {
+        path: "roughness",
+        name: "roughness",
+        range: Range::Choice(&[
+            "SelfAffine(hurst: 0.7, rms_height: 1.0e-7, modes: (1, 512), seed: 1)",
+            "Measured(file: \"line.csv\")",
+        ]),
+        step: Step::Choice,
+        default: "None",
+        meaning: "roughness of the rigid line; left out: smooth",
+        ..TEXT
+    },
+    Field {
+        path: "roughness.hurst",
+        variant: Some("SelfAffine"),
+        name: "Hurst exponent",
+        symbol: "H",
+        range: Range::between(0.0, 1.0),
+        step: Step::Linear { fine: 0.01, coarse: 0.1 },
+        meaning: "how fast roughness fades on small scales: low is jagged, high is smooth; Df = 3 − H",
+        ..NUMBER
+    },
+    Field {
+        path: "roughness.rms_height",
+        variant: Some("SelfAffine"),
+        name: "rms height",
+        symbol: "h",
+        unit: "m",
+        range: Range::closed(1e-30, 100.0),
+        step: Step::Logarithmic,
+        default: "None",
+        meaning: "root mean square height of the line",
+        ..NUMBER
+    },
+    Field {
+        path: "roughness.rms_gradient",
+        variant: Some("SelfAffine"),
+        name: "rms gradient",
+        symbol: "⟨∇z⟩",
+        range: Range::closed(1e-30, 1e9),
+        step: Step::Logarithmic,
+        default: "None",
+        meaning: "root mean square slope of the line; stands in place of the rms height",
+        ..NUMBER
+    },
+    Field {
+        path: "roughness.modes",
+        variant: Some("SelfAffine"),
+        name: "modes",
+        symbol: "k",
+        range: Range::Band { min: 1, max: 1 << 27 },
+        step: Step::Band,
+        meaning: "first and last wave of the line, in waves per length; the last is at most points/2",
+        ..NUMBER
+    },
+    Field {
+        path: "roughness.seed",
+        variant: Some("SelfAffine"),
+        name: "seed",
+        range: Range::whole(0, u64::MAX),
+        step: Step::Integer { fine: 1, coarse: 100 },
+        meaning: "which random line: the same seed gives the same line",
+        ..NUMBER
+    },
+    Field {
+        path: "roughness.file",
+        variant: Some("Measured"),
+        name: "measured line",
+        range: Range::Text { most: 4096, lines: false },
+        meaning: "text file with the columns x and z in m, relative to the scene file",
+        ..TEXT
+    },
+    Field {
+        path: "adhesion",
+        name: "adhesion",
+        range: Range::Choice(&["(work: 0.05)", "(kappa: 2.0)"]),
+        step: Step::Choice,
+        default: "None",
+        meaning: "how strongly the surfaces attract, by work of adhesion or by κ; left out: not at all",
+        ..TEXT
+    },
+    Field {
+        path: "adhesion.work",
+        name: "work of adhesion",
+        symbol: "γ",
+        unit: "J/m²",
+        range: Range::closed(0.0, 1e6),
+        step: Step::Logarithmic,
+        default: "None",
+        meaning: "energy it takes to part a unit area of the interface",
+        ..NUMBER
+    },
+    Field {
+        path: "adhesion.kappa",
+        name: "roughness parameter",
+        symbol: "κ",
+        range: Range::closed(1e-6, 1e6),
+        step: Step::Logarithmic,
+        default: "None",
+        meaning: "roughness against adhesion, sqrt(h⟨∇z⟩E*/γ): small sticks, large does not",
+        ..NUMBER
+    },
+    Field {
+        path: "loading",
+        name: "loading",
+        range: Range::List {
+            of: &["ToForce(1.0e-5)", "ToIndentation(1.0e-7)", "ToTouch", "ToZeroForce", "ToSeparation"],
+            least: 1,
+            most: 100_000,
+        },
+        default: "[ToZeroForce, ToSeparation]",
+        meaning: "how the bodies are pressed and pulled, one leg after the other, from separation",
+        ..TEXT
+    },
+    Field {
+        path: "numerics",
+        name: "numerics",
+        range: Range::Group,
+        default: "()",
+        meaning: "how finely the scene is computed",
+        ..TEXT
+    },
+    Field {
+        path: "numerics.points",
+        name: "points",
+        symbol: "N",
+        range: Range::whole(1, 1 << 28),
+        step: Step::Doubling,
+        default: "16384",
+        meaning: "number of springs along the line",
+        ..NUMBER
+    },
+    Field {
+        path: "numerics.solver",
+        name: "solver",
+        range: Range::Choice(&["Exact", "Stepwise(step: 1.0e-9)"]),
+        step: Step::Choice,
+        default: "Exact",
+        meaning: "exact loop, or the paper's way of moving by a step and relaxing",
+        ..TEXT
+    },
+    Field {
+        path: "numerics.solver.step",
+        variant: Some("Stepwise"),
+        name: "step",
+        symbol: "Δd",
+        unit: "m",
+        range: Range::closed(1e-30, 1e6),
+        step: Step::Logarithmic,
+        meaning: "how far the body moves before it relaxes",
+        ..NUMBER
+    },
+    Field {
+        path: "numerics.edges",
+        name: "edges",
+        range: Range::Choice(&["Grid"]),
+        step: Step::Choice,
+        default: "Grid",
+        meaning: "how the edges of a fragment are counted: Grid counts whole springs",
+        ..TEXT
+    },
+    Field {
+        path: "numerics.samples",
+        name: "samples",
+        range: Range::whole(2, 1_000_000),
+        step: Step::Doubling,
+        default: "512",
+        meaning: "points of the force curve on each leg",
+        ..NUMBER
+    },
+    Field {
+        path: "observe",
+        name: "observe",
+        range: Range::List { of: &["Fragments", "HeightHistogram"], least: 0, most: 2 },
+        default: "[]",
+        meaning: "what is observed beside the force curve",
+        ..TEXT
+    },
+];
+
+/// The forces a leg may go to, N.
+pub const LEG_FORCE: Range = Range::closed(-1e30, 1e30);
+
+/// The indentations a leg may go to, m.
+pub const LEG_INDENTATION: Range = Range::closed(-1e6, 1e6);

@@ -1,0 +1,32 @@
+//! The scene: what its author chose, read from RON, checked, and changed field by field.
+//!
+//! [`open`] gives a [`Document`]: a checked [`Scene`] with the text it came from. [`FIELDS`] is the
+//! table of everything a scene can say; the checks, overrides and the explorer read it.
+
+mod agree;
+mod check;
+mod document;
+mod errors;
+mod fields;
+mod locate;
+mod model;
+mod presets;
+mod quantity;
+mod range;
+mod read;
+mod scan;
+mod splice;
+mod step;
+mod suggest;
+mod write;
+
+pub use check::{Violation, check};
+pub use document::{Document, LONGEST_TEXT};
+pub use errors::{Origin, SceneError, SceneErrors};
+pub use fields::{FIELDS, Field, LEG_FORCE, LEG_INDENTATION, field};
+pub use locate::{Place, line_column, locate};
+pub use model::*;
+pub use presets::{DEFAULT, Preset, find, open, presets};
+pub use range::{End, Range};
+pub use step::Step;
+pub use write::{ron_float, ron_string, to_ron};

@@ -1,0 +1,194 @@
+//! The types of a scene: what its author may choose, in SI units.
+//!
+//! These types hold values as written; [`super::check`] says which of them are allowed.
+
+use serde::{Deserialize, Serialize};
+
+/// The only version of the scene file this program reads.
+pub const SCENE_VERSION: u32 = 1;
+
+/// A scene: two bodies, how they are pressed and pulled, and how finely that is computed.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Scene {
+    /// Version of the file format, [`SCENE_VERSION`].
+    pub version: u32,
+    /// One line naming the scene.
+    #[serde(default)]
+    pub title: String,
+    /// What to look at.
+    #[serde(default)]
+    pub notice: String,
+    /// Elastic constants of the half-space.
+    pub material: Material,
+    /// Apparent diameter L of the contact, m.
+    pub length: f64,
+    /// Macroscopic form; `None` is nominally flat.
+    #[serde(default)]
+    pub form: Option<Form>,
+    /// Roughness; `None` is smooth.
+    #[serde(default)]
+    pub roughness: Option<Roughness>,
+    /// Adhesion; `None` is none.
+    #[serde(default)]
+    pub adhesion: Option<Adhesion>,
+    /// Loading history, one leg after the other, from separation.
+    #[serde(default = "default_loading")]
+    pub loading: Vec<Leg>,
+    /// How finely the scene is computed.
+    #[serde(default)]
+    pub numerics: Numerics,
+    /// What is observed beside the force curve.
+    #[serde(default)]
+    pub observe: Vec<Observer>,
+}
+
+/// Elastic constants: Young's modulus with Poisson's ratio, or the effective modulus E* of eq. (2).
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Material {
+    /// Young's modulus E, Pa.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub youngs_modulus: Option<f64>,
+    /// Poisson's ratio ν.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub poisson_ratio: Option<f64>,
+    /// Effective modulus E*, Pa.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub effective_modulus: Option<f64>,
+}
+
+/// Macroscopic form of the rigid body; the axis stands at L/2.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub enum Form {
+    /// Paraboloid r²/2R, the sphere of Hertz and JKR.
+    Paraboloid {
+        /// Radius of curvature R, m.
+        radius: f64,
+    },
+    /// Cone r tan θ.
+    Cone {
+        /// Angle θ between flank and surface plane, rad.
+        angle: f64,
+    },
+    /// Power law b rⁿ.
+    Power {
+        /// Coefficient b, m^(1−n).
+        coefficient: f64,
+        /// Exponent n.
+        exponent: f64,
+    },
+    /// Flat-ended cylinder; nothing outside its radius touches.
+    Punch {
+        /// Radius a, m.
+        radius: f64,
+    },
+}
+
+/// Roughness of the rigid line.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub enum Roughness {
+    /// Random-phase self-affine line, eqs. (4)–(9). Its amplitude is set by `rms_height`, by
+    /// `rms_gradient`, or, when neither is given, by work of adhesion and κ together.
+    SelfAffine {
+        /// Hurst exponent H.
+        hurst: f64,
+        /// Root mean square height h, m.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        rms_height: Option<f64>,
+        /// Root mean square gradient ⟨∇z⟩.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        rms_gradient: Option<f64>,
+        /// First and last mode k, q = 2πk/L.
+        modes: (u64, u64),
+        /// Seed of the random phases.
+        seed: u64,
+    },
+    /// Heights measured along a line, read from a text file with the columns x and z in m.
+    Measured {
+        /// The file, relative to the scene file.
+        file: String,
+    },
+}
+
+/// Adhesion by the work of adhesion γ, or by the governing parameter κ of eq. (11).
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Adhesion {
+    /// Work of adhesion γ, J/m².
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub work: Option<f64>,
+    /// κ = sqrt(h⟨∇z⟩E*/γ).
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub kappa: Option<f64>,
+}
+
+/// One leg of the loading history.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub enum Leg {
+    /// Until the force first reaches this value, N (compression positive).
+    ToForce(f64),
+    /// To this indentation, m (0 at first touch).
+    ToIndentation(f64),
+    /// To the indentation of first touch, d = 0.
+    ToTouch,
+    /// Until the force is zero: from separation, touch and go on until the force is back at zero.
+    ToZeroForce,
+    /// Pull until nothing touches.
+    ToSeparation,
+}
+
+/// How finely the scene is computed.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Numerics {
+    /// Number of springs N.
+    pub points: u64,
+    /// Exact loop or stepwise relaxation.
+    pub solver: Solver,
+    /// How the edges of a fragment are counted.
+    pub edges: Edges,
+    /// Curve samples on each leg.
+    pub samples: u64,
+}
+
+impl Default for Numerics {
+    fn default() -> Self {
+        Numerics { points: 16_384, solver: Solver::Exact, edges: Edges::Grid, samples: 512 }
+    }
+}
+
+/// How equilibrium is found.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub enum Solver {
+    /// All thresholds at once, no step error.
+    Exact,
+    /// The paper's way: move by a step, relax, repeat.
+    Stepwise {
+        /// Step Δd of the indentation, m.
+        step: f64,
+    },
+}
+
+/// How the edges of a contact fragment are counted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Edges {
+    /// The paper's rule: a fragment of n springs is n Δx long.
+    Grid,
+}
+
+/// Something observed beside the force curve.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Observer {
+    /// The contact fragments and their lengths.
+    Fragments,
+    /// The histogram of heights.
+    HeightHistogram,
+}
+
+pub(super) fn default_loading() -> Vec<Leg> {
+    vec![Leg::ToZeroForce, Leg::ToSeparation]
+}

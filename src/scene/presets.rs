@@ -1,0 +1,99 @@
+//! The scenes that come with the program, and opening a scene by file or by name.
+
+use std::fs;
+use std::io::Read;
+use std::path::Path;
+
+use super::document::{Document, LONGEST_TEXT};
+use super::errors::{Origin, SceneError, SceneErrors};
+use super::suggest::nearest;
+
+/// Name of the scene that is opened where none is named.
+pub const DEFAULT: &str = "pressure-sensitive";
+
+/// A built-in scene.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Preset {
+    /// Its name, which opens it.
+    pub name: &'static str,
+    /// Its text in RON.
+    pub text: &'static str,
+}
+
+macro_rules! presets {
+    ($($name:literal),* $(,)?) => {
+        &[$(Preset {
+            name: $name,
+            text: include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/presets/", $name, ".ron")),
+        }),*]
+    };
+}
+
+const PRESETS: &[Preset] = presets![
+    "ideal-adhesion",
+    "pressure-sensitive",
+    "non-adhesive",
+    "profile-hurst-025",
+    "profile-hurst-075",
+    "fragment-closeup",
+    "jkr-sphere",
+    "kendall-punch",
+    "rough-sphere",
+    "million-springs",
+];
+
+/// All built-in scenes, in the order in which they are best looked at.
+pub fn presets() -> &'static [Preset] {
+    PRESETS
+}
+
+/// The built-in scene of a name.
+pub fn find(name: &str) -> Option<&'static Preset> {
+    PRESETS.iter().find(|preset| preset.name == name)
+}
+
+/// Opens a scene: a file, where one of that name exists or the name looks like one (it ends in
+/// `.ron` or has a path separator), else a built-in scene.
+///
+/// # Errors
+///
+/// No such scene, a file that cannot be read, or what is wrong with the scene in it.
+pub fn open(name_or_path: &str) -> Result<Document, SceneErrors> {
+    let path = Path::new(name_or_path);
+    let looks_like_file = name_or_path.ends_with(".ron") || name_or_path.chars().any(std::path::is_separator);
+    if looks_like_file || path.is_file() {
+        return Document::parse(
+            &read_file(path).map_err(|message| whole(name_or_path, message))?,
+            name_or_path,
+        );
+    }
+    if let Some(preset) = find(name_or_path) {
+        return Document::parse(preset.text, preset.name);
+    }
+    let names: Vec<_> = PRESETS.iter().map(|preset| preset.name).collect();
+    let near = nearest(name_or_path, names.iter().copied());
+    let near = near.map_or_else(String::new, |near| format!("; did you mean {near}?"));
+    let no_file = if path.is_dir() { "it is a directory" } else { "there is no such file" };
+    let message = format!("{no_file} and no built-in scene{near} Built-in scenes: {}", names.join(", "));
+    Err(whole(name_or_path, message))
+}
+
+fn whole(name: &str, message: String) -> SceneErrors {
+    SceneError::whole(Origin::File { name: name.into() }, message).into()
+}
+
+/// The text of a file, of which no more than a scene can be long is read.
+fn read_file(path: &Path) -> Result<String, String> {
+    if path.is_dir() {
+        return Err("this is a directory, not a scene file".into());
+    }
+    let file = fs::File::open(path).map_err(|error| format!("cannot be read: {error}"))?;
+    let mut bytes = Vec::new();
+    let most = LONGEST_TEXT as u64 + 1;
+    file.take(most).read_to_end(&mut bytes).map_err(|error| format!("cannot be read: {error}"))?;
+    if bytes.len() > LONGEST_TEXT {
+        return Err(format!("the scene is too long: at most {LONGEST_TEXT} bytes are read"));
+    }
+    String::from_utf8(bytes)
+        .map_err(|error| format!("this is not UTF-8 text: byte {} is not", error.utf8_error().valid_up_to()))
+}

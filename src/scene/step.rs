@@ -1,0 +1,247 @@
+//! How a key steps a field: from the text of one value to the text of the next.
+
+use super::fields::Field;
+use super::range::{Range, choice_name};
+use super::write::ron_float;
+
+/// How a key steps a field.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Step {
+    /// By adding; the result is a multiple of `fine`.
+    Linear {
+        /// Small step.
+        fine: f64,
+        /// Large step.
+        coarse: f64,
+    },
+    /// To the next preferred number: twenty to a decade (the Renard series R20) as the small step,
+    /// 1–2–5 as the large one.
+    Logarithmic,
+    /// By adding to a whole number.
+    Integer {
+        /// Small step.
+        fine: u64,
+        /// Large step.
+        coarse: u64,
+    },
+    /// To the next power of two; the large step is four of them.
+    Doubling,
+    /// The last mode of a pair to the next power of two; the large step moves the first mode.
+    Band,
+    /// To the next choice.
+    Choice,
+    /// Not stepped, only typed.
+    Typed,
+}
+
+/// The Renard series R20 of ISO 3.
+const FINE_SERIES: &[f64] = &[
+    1.0, 1.12, 1.25, 1.4, 1.6, 1.8, 2.0, 2.24, 2.5, 2.8, 3.15, 3.55, 4.0, 4.5, 5.0, 5.6, 6.3, 7.1, 8.0, 9.0,
+];
+const COARSE_SERIES: &[f64] = &[1.0, 2.0, 5.0];
+
+/// Values closer than this to a member of a series are that member.
+const SAME: f64 = 1e-9;
+
+impl Field {
+    /// The value that `steps` key presses away from `value` (both as written in a scene) stands, or
+    /// `None` where there is no other: at the end of the range, or where the field is only typed.
+    ///
+    /// Numbers stay inside the field's range. A choice goes round in a circle, with `None` as one
+    /// of its members where the field may be left out.
+    pub fn stepped(&self, value: &str, steps: i32, coarse: bool) -> Option<String> {
+        let next = match self.step {
+            Step::Linear { fine, coarse: large } => {
+                let size = if coarse { (large / fine).round() } else { 1.0 };
+                let grid = (number(value)? / fine).round() + size * f64::from(steps);
+                self.kept(decimal(grid * fine, fine))
+            }
+            Step::Logarithmic => {
+                let series = if coarse { COARSE_SERIES } else { FINE_SERIES };
+                let next = (0..steps.unsigned_abs())
+                    .try_fold(number(value)?, |value, _| preferred(value, series, steps > 0))?;
+                self.kept(next)
+            }
+            Step::Integer { fine, coarse: large } => {
+                let size = if coarse { large } else { fine };
+                let distance = u64::from(steps.unsigned_abs()).saturating_mul(size);
+                let value = whole(value)?;
+                let next =
+                    if steps < 0 { value.saturating_sub(distance) } else { value.saturating_add(distance) };
+                self.kept_whole(next)
+            }
+            Step::Doubling => {
+                let times = if coarse { steps.saturating_mul(4) } else { steps };
+                self.kept_whole(doubled(whole(value)?, times))
+            }
+            Step::Band => {
+                let (first, last) = pair(value)?;
+                let (first, last) =
+                    if coarse { (doubled(first, steps), last) } else { (first, doubled(last, steps)) };
+                (first <= last && self.range.contains_whole(first) && self.range.contains_whole(last))
+                    .then(|| format!("({first}, {last})"))
+            }
+            Step::Choice => self.chosen(value, steps),
+            Step::Typed => None,
+        };
+        next.filter(|next| next != value && number(next).is_none_or(|next| number(value) != Some(next)))
+    }
+
+    fn kept(&self, value: f64) -> Option<String> {
+        let value = match (self.range.min(), self.range.max()) {
+            (Some(min), Some(max)) if !self.range.contains(value) => value.clamp(min, max),
+            _ => value,
+        };
+        self.range.contains(value).then(|| ron_float(value))
+    }
+
+    fn kept_whole(&self, value: u64) -> Option<String> {
+        let Range::Whole { min, max } = self.range else {
+            return None;
+        };
+        Some(value.clamp(min, max).to_string())
+    }
+
+    fn chosen(&self, value: &str, steps: i32) -> Option<String> {
+        let Range::Choice(choices) = self.range else {
+            return None;
+        };
+        let mut choices = choices.to_vec();
+        if self.default == "None" {
+            choices.insert(0, "None");
+        }
+        let here = choices.iter().position(|choice| choice_name(choice) == choice_name(value.trim()));
+        let count = i64::try_from(choices.len()).ok()?;
+        let next = (i64::try_from(here.unwrap_or(0)).ok()? + i64::from(steps)).rem_euclid(count);
+        choices.get(usize::try_from(next).ok()?).map(|choice| (*choice).to_string())
+    }
+}
+
+fn number(text: &str) -> Option<f64> {
+    text.trim().replace('_', "").parse().ok().filter(|value: &f64| value.is_finite())
+}
+
+fn whole(text: &str) -> Option<u64> {
+    text.trim().replace('_', "").parse().ok()
+}
+
+fn pair(text: &str) -> Option<(u64, u64)> {
+    let inside = text.trim().strip_prefix('(')?.strip_suffix(')')?;
+    let (first, last) = inside.trim_end_matches([',', ' ']).split_once(',')?;
+    Some((whole(first)?, whole(last)?))
+}
+
+/// A multiple of `unit` without the dust of binary arithmetic: 0.71, not 0.7100000000000001.
+fn decimal(value: f64, unit: f64) -> f64 {
+    let digits = (-unit.log10()).ceil().max(0.0) as usize;
+    format!("{value:.digits$}").parse().unwrap_or(value)
+}
+
+/// The next power of two above or below, `times` times.
+fn doubled(value: u64, times: i32) -> u64 {
+    (0..times.unsigned_abs().min(64)).fold(value, |value, _| match value {
+        value if times > 0 => value.saturating_add(1).checked_next_power_of_two().unwrap_or(u64::MAX),
+        0 | 1 => value,
+        value => 1 << (value - 1).ilog2(),
+    })
+}
+
+/// The next member of a series of preferred numbers in [1, 10), continued over all decades.
+fn preferred(value: f64, series: &[f64], up: bool) -> Option<f64> {
+    if value == 0.0 {
+        return None;
+    }
+    // Exponent and mantissa from the decimal text, which is exact at powers of ten; log10 is not.
+    let text = format!("{:e}", value.abs());
+    let (mantissa, exponent) = text.split_once('e')?;
+    let (mantissa, exponent) = (mantissa.parse::<f64>().ok()?, exponent.parse::<i32>().ok()?);
+    let larger = up == (value > 0.0);
+    let (mantissa, exponent) = if larger {
+        let next = series.iter().find(|member| **member > mantissa * (1.0 + SAME));
+        next.map_or((1.0, exponent + 1), |next| (*next, exponent))
+    } else {
+        let next = series.iter().rev().find(|member| **member < mantissa * (1.0 - SAME));
+        match next {
+            Some(next) => (*next, exponent),
+            None => (*series.last()?, exponent - 1),
+        }
+    };
+    let next: f64 = format!("{mantissa}e{exponent}").parse().ok()?;
+    Some(next.copysign(value))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::fields::{FIELDS, field};
+    use super::*;
+
+    fn stepped(path: &str, value: &str, steps: i32, coarse: bool) -> Option<String> {
+        field(path, None).unwrap().stepped(value, steps, coarse)
+    }
+
+    #[test]
+    fn each_kind_of_field_steps_in_its_way() {
+        for (path, value, steps, coarse, next) in [
+            ("roughness.hurst", "0.7", 1, false, Some("0.71")),
+            ("roughness.hurst", "0.7", -1, true, Some("0.6")),
+            ("roughness.hurst", "0.99", 1, false, None),
+            ("material.poisson_ratio", "0.5", 1, false, None),
+            ("material.poisson_ratio", "0.45", 1, true, Some("0.5")),
+            ("adhesion.work", "0.05", 1, false, Some("0.056")),
+            ("adhesion.work", "0.05", 1, true, Some("0.1")),
+            ("adhesion.work", "0.1", -1, true, Some("0.05")),
+            ("adhesion.work", "0.0", 1, false, None),
+            ("length", "1.0e-4", -1, false, Some("9.0e-5")),
+            ("length", "1.0e-4", 20, false, Some("0.001")),
+            ("length", "10.0", 1, false, None),
+            ("roughness.seed", "1", -1, true, Some("0")),
+            ("roughness.seed", "18446744073709551615", 1, false, None),
+            ("numerics.points", "16384", 1, false, Some("32768")),
+            ("numerics.points", "1000", -1, false, Some("512")),
+            ("numerics.points", "1", -1, false, None),
+            ("numerics.points", "268435456", 1, true, None),
+            ("roughness.modes", "(1, 512)", 1, false, Some("(1, 1024)")),
+            ("roughness.modes", "(1, 512)", 1, true, Some("(2, 512)")),
+            ("roughness.modes", "(4, 4)", -1, false, None),
+            ("form", "None", 1, false, Some("Paraboloid(radius: 1.0e-3)")),
+            ("form", "Cone(angle: 0.3)", -1, false, Some("Paraboloid(radius: 1.0e-3)")),
+            ("form", "Punch(radius: 0.3)", 1, false, Some("None")),
+            ("numerics.solver", "Exact", 1, false, Some("Stepwise(step: 1.0e-9)")),
+            ("numerics.edges", "Grid", 1, false, Some("Grid")),
+            ("title", "\"a\"", 1, false, None),
+        ] {
+            let next = next.filter(|next| *next != value).map(str::to_string);
+            assert_eq!(stepped(path, value, steps, coarse), next, "{path} {value}");
+        }
+    }
+
+    #[test]
+    fn stepping_up_and_down_returns() {
+        for start in ["1.0e-9", "1.12e-9", "2.0e-4", "0.5", "90.0"] {
+            let field = field("roughness.rms_height", None).unwrap();
+            let up = field.stepped(start, 1, false).unwrap();
+            assert_eq!(field.stepped(&up, -1, false).as_deref(), Some(start));
+        }
+    }
+
+    #[test]
+    fn no_value_makes_stepping_panic_or_leave_the_range() {
+        for field in FIELDS {
+            for value in ["", "(", "()", "(,)", "(1,2)", "0", "-1", "1e308", "-1e-320", "NaN", "inf", "x"] {
+                for steps in [i32::MIN, -1, 0, 1, 1000] {
+                    for coarse in [false, true] {
+                        if let Some(next) = field.stepped(value, steps, coarse)
+                            && let Ok(next) = next.parse::<f64>()
+                        {
+                            assert!(
+                                field.range.contains(next)
+                                    || next >= field.range.min().unwrap()
+                                        && next <= field.range.max().unwrap()
+                            );
+                        }
+                    }
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,73 @@
+//! The nearest of a list of names to one that is not in it.
+
+/// Longer names than this are not compared; nobody mistypes them.
+const LONGEST: usize = 64;
+
+/// The nearest name, where it is near enough to be what was meant.
+///
+/// A name may also be meant by its last component: `hurst` means `roughness.hurst`.
+pub(super) fn nearest<'n>(name: &str, names: impl IntoIterator<Item = &'n str>) -> Option<&'n str> {
+    if name.is_empty() || name.len() > LONGEST {
+        return None;
+    }
+    let near = |candidate: &str| {
+        let last = candidate.rsplit('.').next().unwrap_or(candidate);
+        let short = name.rsplit('.').next().unwrap_or(name);
+        // A match of the last component alone counts a little less than one of the whole.
+        (2 * distance(name, candidate)).min(2 * distance(short, last) + 1)
+    };
+    let best = names.into_iter().map(|candidate| (near(candidate), candidate)).min_by_key(|(far, _)| *far)?;
+    let longest_way = (name.chars().count() / 3).max(1);
+    (best.0 <= 2 * longest_way + 1).then_some(best.1)
+}
+
+/// How many insertions, deletions, exchanges and swaps of neighbours lead from one to the other.
+fn distance(one: &str, other: &str) -> usize {
+    let one: Vec<char> = one.to_lowercase().chars().collect();
+    let other: Vec<char> = other.to_lowercase().chars().collect();
+    let mut before: Vec<usize> = vec![0; other.len() + 1];
+    let mut above: Vec<usize> = (0..=other.len()).collect();
+    for (i, a) in one.iter().enumerate() {
+        let mut row = vec![i + 1];
+        for (j, b) in other.iter().enumerate() {
+            let mut least = (above[j + 1] + 1).min(row[j] + 1).min(above[j] + usize::from(a != b));
+            if i > 0 && j > 0 && *a == other[j - 1] && one[i - 1] == *b {
+                least = least.min(before[j - 1] + 1);
+            }
+            row.push(least);
+        }
+        before = std::mem::replace(&mut above, row);
+    }
+    above[other.len()]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn near_names_are_suggested_and_far_ones_are_not() {
+        let names = ["roughness.hurst", "adhesion.work", "numerics.points", "length"];
+        for (name, expected) in [
+            ("roughness.hurts", Some("roughness.hurst")),
+            ("hurst", Some("roughness.hurst")),
+            ("adhesion.Work", Some("adhesion.work")),
+            ("lenght", Some("length")),
+            ("points", Some("numerics.points")),
+            ("nothing.like.it", None),
+            ("", None),
+        ] {
+            assert_eq!(nearest(name, names), expected, "{name}");
+        }
+        assert_eq!(nearest(&"x".repeat(1_000_000), names), None);
+    }
+
+    #[test]
+    fn distances_are_counted() {
+        for (one, other, expected) in
+            [("", "abc", 3), ("abc", "abc", 0), ("abc", "acb", 1), ("kitten", "sitting", 3)]
+        {
+            assert_eq!(distance(one, other), expected);
+        }
+    }
+}

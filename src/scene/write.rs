@@ -1,0 +1,147 @@
+//! Writing a scene as RON: every field that differs from its default, in the order of the table.
+
+use super::model::{Adhesion, Form, Leg, Material, Numerics, Observer, Roughness, Scene, Solver};
+
+/// The scene as canonical RON text, ending in a line break; reading it gives the same scene.
+pub fn to_ron(scene: &Scene) -> String {
+    let mut lines = Vec::new();
+    let mut line = |name: &str, value: String| lines.push(format!("    {name}: {value},\n"));
+    line("version", scene.version.to_string());
+    if !scene.title.is_empty() {
+        line("title", ron_string(&scene.title));
+    }
+    if !scene.notice.is_empty() {
+        line("notice", ron_string(&scene.notice));
+    }
+    line("material", material(&scene.material));
+    line("length", ron_float(scene.length));
+    if let Some(part) = &scene.form {
+        line("form", form(part));
+    }
+    if let Some(part) = &scene.roughness {
+        line("roughness", roughness(part));
+    }
+    if let Some(part) = &scene.adhesion {
+        line("adhesion", adhesion(part));
+    }
+    if scene.loading != super::model::default_loading() {
+        line("loading", list(scene.loading.iter().map(leg)));
+    }
+    if scene.numerics != Numerics::default() {
+        line("numerics", numerics(&scene.numerics));
+    }
+    if !scene.observe.is_empty() {
+        line("observe", list(scene.observe.iter().map(observer)));
+    }
+    format!("(\n{})\n", lines.concat())
+}
+
+/// A number as RON: the shortest text that reads back as the same number, always with a decimal
+/// point, with an exponent where it is much smaller or larger than one.
+pub fn ron_float(value: f64) -> String {
+    let size = value.abs();
+    if !value.is_finite() || size == 0.0 || (1e-3..1e5).contains(&size) {
+        return format!("{value:?}");
+    }
+    let text = format!("{value:e}");
+    match text.split_once('e') {
+        Some((mantissa, exponent)) if !mantissa.contains('.') => format!("{mantissa}.0e{exponent}"),
+        _ => text,
+    }
+}
+
+/// Text as a RON string; only what RON cannot carry in the open is escaped.
+pub fn ron_string(text: &str) -> String {
+    let mut string = String::with_capacity(text.len() + 2);
+    string.push('"');
+    for c in text.chars() {
+        match c {
+            '"' => string.push_str("\\\""),
+            '\\' => string.push_str("\\\\"),
+            '\n' => string.push_str("\\n"),
+            '\r' => string.push_str("\\r"),
+            '\t' => string.push_str("\\t"),
+            c if c.is_control() => string.push_str(&format!("\\u{{{:x}}}", u32::from(c))),
+            c => string.push(c),
+        }
+    }
+    string.push('"');
+    string
+}
+
+fn list(items: impl Iterator<Item = String>) -> String {
+    format!("[{}]", items.collect::<Vec<_>>().join(", "))
+}
+
+/// `(name: value, …)` of the fields that are there.
+fn group(fields: &[(&str, Option<String>)]) -> String {
+    let present = fields.iter().filter_map(|(name, value)| Some(format!("{name}: {}", value.as_ref()?)));
+    format!("({})", present.collect::<Vec<_>>().join(", "))
+}
+
+fn material(part: &Material) -> String {
+    group(&[
+        ("youngs_modulus", part.youngs_modulus.map(ron_float)),
+        ("poisson_ratio", part.poisson_ratio.map(ron_float)),
+        ("effective_modulus", part.effective_modulus.map(ron_float)),
+    ])
+}
+
+fn form(part: &Form) -> String {
+    match *part {
+        Form::Paraboloid { radius } => format!("Paraboloid(radius: {})", ron_float(radius)),
+        Form::Cone { angle } => format!("Cone(angle: {})", ron_float(angle)),
+        Form::Power { coefficient, exponent } => {
+            format!("Power(coefficient: {}, exponent: {})", ron_float(coefficient), ron_float(exponent))
+        }
+        Form::Punch { radius } => format!("Punch(radius: {})", ron_float(radius)),
+    }
+}
+
+fn roughness(part: &Roughness) -> String {
+    match part {
+        Roughness::SelfAffine { hurst, rms_height, rms_gradient, modes: (first, last), seed } => {
+            let fields = group(&[
+                ("hurst", Some(ron_float(*hurst))),
+                ("rms_height", rms_height.map(ron_float)),
+                ("rms_gradient", rms_gradient.map(ron_float)),
+                ("modes", Some(format!("({first}, {last})"))),
+                ("seed", Some(seed.to_string())),
+            ]);
+            format!("SelfAffine{fields}")
+        }
+        Roughness::Measured { file } => format!("Measured(file: {})", ron_string(file)),
+    }
+}
+
+fn adhesion(part: &Adhesion) -> String {
+    group(&[("work", part.work.map(ron_float)), ("kappa", part.kappa.map(ron_float))])
+}
+
+fn leg(leg: &Leg) -> String {
+    match *leg {
+        Leg::ToForce(force) => format!("ToForce({})", ron_float(force)),
+        Leg::ToIndentation(indentation) => format!("ToIndentation({})", ron_float(indentation)),
+        Leg::ToTouch => "ToTouch".into(),
+        Leg::ToZeroForce => "ToZeroForce".into(),
+        Leg::ToSeparation => "ToSeparation".into(),
+    }
+}
+
+fn numerics(part: &Numerics) -> String {
+    let default = Numerics::default();
+    let solver = match part.solver {
+        Solver::Exact => "Exact".to_string(),
+        Solver::Stepwise { step } => format!("Stepwise(step: {})", ron_float(step)),
+    };
+    group(&[
+        ("points", (part.points != default.points).then(|| part.points.to_string())),
+        ("solver", (part.solver != default.solver).then_some(solver)),
+        ("edges", (part.edges != default.edges).then(|| format!("{:?}", part.edges))),
+        ("samples", (part.samples != default.samples).then(|| part.samples.to_string())),
+    ])
+}
+
+fn observer(observer: &Observer) -> String {
+    format!("{observer:?}")
+}

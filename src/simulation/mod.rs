@@ -1,0 +1,11 @@
+//! From a scene to its curve: the stages, which of them a scene calls for, and what they give.
+
+mod error;
+mod outcome;
+mod plan;
+mod stages;
+
+pub use error::RunError;
+pub use outcome::{LineFacts, Outcome, Timings};
+pub use plan::{Plan, PlannedStage, Stage};
+pub use stages::Simulation;

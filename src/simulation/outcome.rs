@@ -1,0 +1,80 @@
+//! What a computed scene gives.
+
+use crate::analysis::{Figures, Governing, Regime};
+use crate::contact::History;
+use crate::surface::Histogram;
+use serde::Serialize;
+
+/// Everything computed for one scene.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Outcome {
+    /// The line.
+    pub line: LineFacts,
+    /// Governing parameters, worked out.
+    pub governing: Governing,
+    /// Ideal adhesion force F_a,max, eq. (14), N; `None` without adhesion.
+    pub ideal_adhesion_force: Option<f64>,
+    /// Adhesion force of the same body without roughness (closed form), N; `None` without adhesion.
+    pub smooth_adhesion_force: Option<f64>,
+    /// Adhesion force F_a(0) by the touch protocol, N; `None` without adhesion or a leg back.
+    pub zero_load_adhesion_force: Option<f64>,
+    /// Regime of Fig. 4; `None` where nothing is pulled.
+    pub regime: Option<Regime>,
+    /// Headline figures of the loading history.
+    pub figures: Figures,
+    /// The loading history itself.
+    pub history: History,
+    /// First and last spring of each fragment in contact after each leg, where they are observed.
+    pub fragments: Vec<Vec<(usize, usize)>>,
+    /// Histogram of the line's heights, where it is observed.
+    pub histogram: Option<Histogram>,
+    /// How long each stage took.
+    pub timings: Timings,
+}
+
+/// What is known of a line beside its heights.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LineFacts {
+    /// Springs N of the foundation.
+    pub points: usize,
+    /// Apparent diameter L, m.
+    pub length: f64,
+    /// Distance Δx between springs, m.
+    pub spacing: f64,
+    /// Index of the first spring under the body; above zero only under a punch.
+    pub first: usize,
+    /// Height of the highest point, m.
+    pub summit: f64,
+    /// Largest gap, m.
+    pub deepest: f64,
+    /// First and last mode of the roughness.
+    pub modes: Option<(u64, u64)>,
+    /// Seed of the roughness.
+    pub seed: Option<u64>,
+    /// The rms gradient that the integrals of eq. (12) give for the same rms height.
+    pub continuum_rms_gradient: Option<f64>,
+}
+
+/// How long each stage took, s; zero for a stage that did not run.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct Timings {
+    /// Making the line.
+    pub line: f64,
+    /// Building the tree.
+    pub tree: f64,
+    /// Thresholds of all legs, or the steps of the stepwise solver.
+    #[serde(rename = "loop")]
+    pub passes: f64,
+    /// Curves and exact extremes of all legs.
+    pub curve: f64,
+    /// F_a(0) for the regime.
+    pub zero_load: f64,
+}
+
+impl Timings {
+    /// All stages together, s.
+    #[must_use]
+    pub fn total(&self) -> f64 {
+        self.line + self.tree + self.passes + self.curve + self.zero_load
+    }
+}

@@ -1,0 +1,37 @@
+//! What can go wrong with the rigid line.
+
+use thiserror::Error;
+
+/// Why a line could not be made.
+#[derive(Clone, Debug, PartialEq, Error)]
+pub enum SurfaceError {
+    /// An array does not fit into memory.
+    #[error("numerics.points: not enough memory for {points} springs")]
+    OutOfMemory {
+        /// Springs asked for.
+        points: usize,
+    },
+    /// The Fourier transform refused its input.
+    #[error("roughness: the Fourier transform failed: {0}")]
+    Transform(String),
+    /// A height came out as no finite number.
+    #[error("the line has a height that is not finite at spring {index}; form and roughness are too large")]
+    NotFinite {
+        /// First such spring.
+        index: usize,
+    },
+    /// A measured profile could not be read.
+    #[error("roughness.file = {file:?}: {reason}")]
+    Measured {
+        /// The file.
+        file: String,
+        /// What is wrong with it, with the line number where there is one.
+        reason: String,
+    },
+    /// No spring lies under the body.
+    #[error("form.radius: no spring lies under the punch; allowed: at least half the spacing, {least:e} m")]
+    NoSprings {
+        /// Smallest radius that covers a spring, m.
+        least: f64,
+    },
+}

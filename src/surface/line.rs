@@ -1,0 +1,130 @@
+//! The rigid line as the contact sees it: gaps below its highest point.
+
+use super::{SurfaceError, mdr_profile};
+use crate::scene::Form;
+
+/// The rigid line under which springs stand at x = (i + ½)Δx.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Line {
+    /// Gaps c_i = max z − z_i ≥ 0, m, of the springs under the body.
+    pub gaps: Vec<f64>,
+    /// Index on the foundation of the first of them: above zero only under a punch.
+    pub first: usize,
+    /// Springs N of the whole foundation.
+    pub points: usize,
+    /// Distance Δx = L/N between springs, m.
+    pub spacing: f64,
+    /// Height of the highest point, m, above the apex of the form and the mean of the roughness.
+    pub summit: f64,
+}
+
+impl Line {
+    /// The line of a form (`None`: flat), its axis at L/2, with heights of roughness added: one for
+    /// each point, times `scale` m, or none where the line is smooth.
+    ///
+    /// # Errors
+    /// [`SurfaceError::OutOfMemory`], [`SurfaceError::NotFinite`], [`SurfaceError::NoSprings`].
+    pub fn new(
+        length: f64,
+        points: usize,
+        form: Option<&Form>,
+        roughness: Option<&[f64]>,
+        scale: f64,
+    ) -> Result<Self, SurfaceError> {
+        let spacing = length / points as f64;
+        // Whole and half cells from the axis: exact, so that the line is as symmetric as its form.
+        let distance = |index: usize| (index as f64 + 0.5 - points as f64 / 2.0) * spacing;
+        let (first, end) = match form {
+            Some(Form::Punch { radius }) => {
+                let under = |index: &usize| distance(*index).abs() <= *radius;
+                let first = (0..points).find(under).ok_or_else(|| {
+                    let least = if points % 2 == 0 { spacing / 2.0 } else { 0.0 };
+                    SurfaceError::NoSprings { least }
+                })?;
+                (first, points - first)
+            }
+            _ => (0, points),
+        };
+        let mut heights: Vec<f64> = Vec::new();
+        heights.try_reserve_exact(end - first).map_err(|_| SurfaceError::OutOfMemory { points })?;
+        let depth = |index: usize| form.and_then(|form| mdr_profile(form, distance(index)));
+        match (form, roughness) {
+            (None, None) => heights.resize(points, 0.0),
+            (None, Some(rough)) => heights.extend(rough.iter().map(|z| scale * z)),
+            (Some(_), None) => heights.extend((first..end).map(|i| -depth(i).unwrap_or(0.0))),
+            (Some(_), Some(rough)) => {
+                heights.extend((first..end).map(|i| scale * rough[i] - depth(i).unwrap_or(0.0)));
+            }
+        }
+        let mut summit = f64::NEG_INFINITY;
+        for (index, &height) in heights.iter().enumerate() {
+            if !height.is_finite() {
+                return Err(SurfaceError::NotFinite { index: first + index });
+            }
+            summit = summit.max(height);
+        }
+        let mut gaps = heights;
+        for (index, height) in gaps.iter_mut().enumerate() {
+            *height = summit - *height;
+            if !height.is_finite() {
+                return Err(SurfaceError::NotFinite { index: first + index });
+            }
+        }
+        Ok(Line { gaps, first, points, spacing, summit })
+    }
+
+    /// Heights z, m, of the points under the body.
+    pub fn heights(&self) -> impl Iterator<Item = f64> {
+        self.gaps.iter().map(|gap| self.summit - gap)
+    }
+
+    /// Position x, m, of the `index`-th spring under the body.
+    #[must_use]
+    pub fn position(&self, index: usize) -> f64 {
+        ((self.first + index) as f64 + 0.5) * self.spacing
+    }
+
+    /// Largest gap, m.
+    #[must_use]
+    pub fn deepest(&self) -> f64 {
+        self.gaps.iter().copied().fold(0.0, f64::max)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn forms_are_symmetric_about_the_axis() {
+        let line = Line::new(1.0, 7, Some(&Form::Cone { angle: 0.2 }), None, 0.0).unwrap();
+        let mirrored: Vec<f64> = line.gaps.iter().rev().copied().collect();
+        assert_eq!(line.gaps, mirrored);
+        assert_eq!(line.gaps[3], 0.0);
+    }
+
+    #[test]
+    fn only_springs_under_a_punch_belong_to_the_line() {
+        let line = Line::new(1.0, 10, Some(&Form::Punch { radius: 0.2 }), None, 0.0).unwrap();
+        assert_eq!((line.first, line.gaps.len()), (3, 4));
+        let none = Line::new(1.0, 10, Some(&Form::Punch { radius: 0.04 }), None, 0.0);
+        assert_eq!(none, Err(SurfaceError::NoSprings { least: 0.05 }));
+    }
+
+    #[test]
+    fn form_and_roughness_add() {
+        let rough = [0.0, 3.0, -1.0, 2.0];
+        let form = Form::Paraboloid { radius: 1.0 };
+        let line = Line::new(4.0, 4, Some(&form), Some(&rough), 2.0).unwrap();
+        // z = 2·rough − x²: −2.25, 5.75, −2.25, 1.75.
+        assert_eq!(line.summit, 5.75);
+        assert_eq!(line.gaps, [8.0, 0.0, 8.0, 4.0]);
+        assert_eq!(line.heights().collect::<Vec<_>>(), [-2.25, 5.75, -2.25, 1.75]);
+    }
+
+    #[test]
+    fn heights_that_are_not_finite_are_refused() {
+        let result = Line::new(1.0, 3, None, Some(&[0.0, 1e300, 0.0]), 1e300);
+        assert_eq!(result, Err(SurfaceError::NotFinite { index: 1 }));
+    }
+}

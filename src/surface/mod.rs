@@ -1,0 +1,19 @@
+//! The rigid line: macroscopic form, self-affine or measured roughness, and its statistics.
+
+mod error;
+mod form;
+mod histogram;
+mod line;
+pub mod measured;
+mod phases;
+mod roughness;
+mod spectrum;
+
+pub use error::SurfaceError;
+pub use form::{mdr_profile, power_law_factor};
+pub use histogram::Histogram;
+pub use line::Line;
+pub use measured::MeasuredProfile;
+pub use phases::phases;
+pub use roughness::UnitRoughness;
+pub use spectrum::SelfAffine;
