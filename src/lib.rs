@@ -4,7 +4,10 @@
 //! them stick more.
 
 pub mod analysis;
+pub mod cli;
 pub mod contact;
+pub mod explorer;
+pub mod export;
 pub mod reference;
 pub mod scene;
 pub mod simulation;

@@ -9,26 +9,6 @@ use super::write::ron_float;
 /// Most samples of all legs together; a curve of this size still fits the memory of a small machine.
 const MOST_SAMPLES: u64 = 1 << 24;
 
-impl Material {
-    /// Effective modulus E* of eq. (2), Pa. NaN where the material is not determined, which
-    /// [`check`](super::check()) refuses.
-    pub fn effective_modulus(&self) -> f64 {
-        match (self.effective_modulus, self.youngs_modulus, self.poisson_ratio) {
-            (Some(modulus), None, None) => modulus,
-            // (1 − ν)(1 + ν) keeps its digits where ν is close to −1; 1 − ν² does not.
-            (None, Some(modulus), Some(ratio)) => modulus / ((1.0 - ratio) * (1.0 + ratio)),
-            _ => f64::NAN,
-        }
-    }
-}
-
-impl Scene {
-    /// Distance Δx = L/N of the springs, m.
-    pub fn spacing(&self) -> f64 {
-        self.length / self.numerics.points as f64
-    }
-}
-
 pub(super) fn check_agreement(scene: &Scene, found: &mut Found) {
     check_material(&scene.material, found);
     check_form(scene, found);
@@ -88,7 +68,7 @@ fn check_form(scene: &Scene, found: &mut Found) {
     }
     // The line carries the transformed profile, which is at most this many times higher.
     let rise = 20.0 * rise_at_end(form, scene.length / 2.0);
-    if !LEG_INDENTATION.contains(rise) {
+    if !LEG_INDENTATION.range.contains(rise) {
         let (path, value) = match form {
             Form::Paraboloid { radius } | Form::Punch { radius } => ("form.radius", radius),
             Form::Cone { angle } => ("form.angle", angle),
@@ -96,7 +76,7 @@ fn check_form(scene: &Scene, found: &mut Found) {
         };
         let reason = format!(
             "the body rises too steeply: at the ends of the line it is higher than the {} m an indentation can reach",
-            LEG_INDENTATION.max().unwrap_or_default()
+            LEG_INDENTATION.range.max().unwrap_or_default()
         );
         found.add(disagreement(path, ron_float(value), reason, &["form", "form.exponent", "length"]));
     }
@@ -235,5 +215,176 @@ fn check_loading(scene: &Scene, found: &mut Found) {
             reason: format!("{} legs have at most {MOST_SAMPLES} samples together", scene.loading.len()),
             involves: &["loading"],
         });
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::check::check;
+    use super::super::samples::sound;
+    use super::*;
+
+    fn only(scene: &Scene) -> (String, String) {
+        let violations = check(scene);
+        assert_eq!(violations.len(), 1, "{violations:?}");
+        (violations[0].field.clone(), violations[0].reason.clone())
+    }
+
+    #[test]
+    fn a_material_is_determined_once() {
+        for (effective_modulus, youngs_modulus, poisson_ratio, said) in [
+            (Some(1e6), Some(1e6), Some(0.5), "one or the other"),
+            (Some(1e6), Some(1e6), None, "one or the other"),
+            (Some(1e6), None, Some(0.5), "one or the other"),
+            (None, Some(1e6), None, "poisson_ratio, which is missing"),
+            (None, None, Some(0.5), "youngs_modulus, which is missing"),
+            (None, None, None, "give youngs_modulus with poisson_ratio, or"),
+        ] {
+            let mut scene = sound();
+            scene.material = Material { youngs_modulus, poisson_ratio, effective_modulus };
+            let (field, reason) = only(&scene);
+            assert_eq!(field, "material");
+            assert!(reason.contains(said), "{reason}");
+        }
+    }
+
+    #[test]
+    fn the_effective_modulus_is_in_its_range_too() {
+        let material = |poisson_ratio| Material {
+            youngs_modulus: Some(1e6),
+            poisson_ratio: Some(poisson_ratio),
+            effective_modulus: None,
+        };
+        let mut scene = sound();
+        // Nearly −1: E* is enormous, though E and ν are in their ranges.
+        scene.material = material(-1.0 + 1e-9);
+        assert_eq!(only(&scene).0, "material");
+        scene.material = material(-1.0 + 1e-6);
+        assert_eq!(check(&scene), vec![]);
+    }
+
+    #[test]
+    fn amplitude_work_and_kappa_determine_each_other() {
+        let set = |height: bool, gradient: bool, adhesion: Option<(Option<f64>, Option<f64>)>| {
+            let mut scene = sound();
+            if let Some(Roughness::SelfAffine { rms_height, rms_gradient, .. }) = &mut scene.roughness {
+                *rms_height = height.then_some(1e-7);
+                *rms_gradient = gradient.then_some(0.1);
+            }
+            scene.adhesion = adhesion.map(|(work, kappa)| Adhesion { work, kappa });
+            scene
+        };
+        let (work, kappa) = (Some(0.05), Some(2.0));
+        for sound in [
+            set(true, false, None),
+            set(false, true, Some((work, None))),
+            set(true, false, Some((Some(0.0), None))),
+            set(true, false, Some((None, kappa))),
+            set(false, false, Some((work, kappa))),
+        ] {
+            assert_eq!(check(&sound), vec![]);
+        }
+        for (scene, field, said) in [
+            (set(true, true, None), "roughness", "determine each other"),
+            (set(true, true, Some((work, kappa))), "roughness", "determine each other"),
+            (set(true, false, Some((work, kappa))), "adhesion", "determines the third"),
+            (set(false, false, None), "roughness", "the amplitude is missing"),
+            (set(false, false, Some((work, None))), "roughness", "the amplitude is missing"),
+            (set(false, false, Some((None, kappa))), "roughness", "the amplitude is missing"),
+            (set(false, false, Some((Some(0.0), kappa))), "roughness", "does not set an amplitude"),
+            (set(true, false, Some((None, None))), "adhesion", "give work or kappa"),
+        ] {
+            let (path, reason) = only(&scene);
+            assert_eq!(path, field);
+            assert!(reason.contains(said), "{reason}");
+        }
+    }
+
+    #[test]
+    fn kappa_needs_roughness() {
+        let mut scene = sound();
+        scene.roughness = None;
+        assert_eq!(check(&scene), vec![]);
+        scene.adhesion = Some(Adhesion { work: None, kappa: Some(2.0) });
+        assert_eq!(only(&scene).0, "adhesion.kappa");
+        scene.roughness = Some(Roughness::Measured { file: "line.csv".into() });
+        assert_eq!(check(&scene), vec![]);
+        scene.adhesion = Some(Adhesion { work: Some(0.05), kappa: Some(2.0) });
+        assert_eq!(only(&scene).0, "adhesion");
+    }
+
+    #[test]
+    fn no_wave_is_shorter_than_two_springs() {
+        let mut scene = sound();
+        for (points, sound) in [(1024, true), (1025, true), (1023, false), (1, false)] {
+            scene.numerics.points = points;
+            assert_eq!(check(&scene).is_empty(), sound, "{points}");
+        }
+        scene.numerics.points = 64;
+        let violations = check(&scene);
+        assert_eq!(violations[0].allowed, "last mode at most points/2 = 32");
+        assert_eq!(violations[0].value, "(1, 512)");
+    }
+
+    #[test]
+    fn a_punch_is_on_the_line_and_over_a_spring() {
+        let mut scene = sound();
+        let spacing = scene.spacing();
+        for (radius, sound) in [
+            (5e-5, true),
+            (5.1e-5, false),
+            (0.51 * spacing, true),
+            // An even number of springs has none on the axis itself.
+            (0.49 * spacing, false),
+        ] {
+            scene.form = Some(Form::Punch { radius });
+            assert_eq!(check(&scene).is_empty(), sound, "{radius}");
+        }
+        scene.roughness = None;
+        for points in [1, 3, 4097] {
+            scene.numerics.points = points;
+            assert_eq!(check(&scene), vec![], "{points}");
+        }
+    }
+
+    #[test]
+    fn a_body_does_not_rise_beyond_all_indentations() {
+        let mut scene = sound();
+        scene.length = 10.0;
+        for form in [
+            Form::Paraboloid { radius: 1e-300 },
+            Form::Cone { angle: std::f64::consts::FRAC_PI_2 - 1e-9 },
+            Form::Power { coefficient: 1e300, exponent: 100.0 },
+        ] {
+            scene.form = Some(form);
+            assert!(only(&scene).1.contains("rises too steeply"));
+        }
+    }
+
+    #[test]
+    fn nothing_is_pulled_that_does_not_touch() {
+        use Leg::*;
+        let mut scene = sound();
+        for (loading, field) in [
+            (vec![ToSeparation], "loading.0"),
+            (vec![ToForce(-1e-6)], "loading.0"),
+            (vec![ToTouch, ToSeparation, ToForce(-1.0)], "loading.2"),
+            (vec![ToTouch, ToSeparation, ToSeparation], "loading.2"),
+        ] {
+            scene.loading = loading;
+            assert_eq!(only(&scene).0, field);
+        }
+        scene.loading = vec![ToForce(1.0), ToForce(-1e-6), ToTouch, ToSeparation, ToZeroForce];
+        assert_eq!(check(&scene), vec![]);
+    }
+
+    #[test]
+    fn samples_of_all_legs_are_bounded_together() {
+        let mut scene = sound();
+        scene.loading = vec![Leg::ToTouch; 1 << 14];
+        scene.numerics.samples = 1 << 10;
+        assert_eq!(check(&scene), vec![]);
+        scene.numerics.samples += 1;
+        assert_eq!(only(&scene).0, "numerics.samples");
     }
 }

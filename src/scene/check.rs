@@ -173,17 +173,17 @@ fn check_roughness(roughness: &Roughness, found: &mut Found) {
 fn check_loading(loading: &[Leg], found: &mut Found) {
     found.count("loading", loading.len());
     for (index, leg) in loading.iter().enumerate() {
-        let (value, range, unit, name) = match *leg {
-            Leg::ToForce(force) => (force, LEG_FORCE, "N", "force of a leg"),
-            Leg::ToIndentation(indentation) => (indentation, LEG_INDENTATION, "m", "indentation of a leg"),
+        let (value, field) = match *leg {
+            Leg::ToForce(force) => (force, LEG_FORCE),
+            Leg::ToIndentation(indentation) => (indentation, LEG_INDENTATION),
             Leg::ToTouch | Leg::ToZeroForce | Leg::ToSeparation => continue,
         };
-        if !range.contains(value) {
+        if !field.range.contains(value) {
             found.add(Violation {
-                field: format!("loading.{index}"),
+                field: format!("loading.{index}.0"),
                 value: ron_float(value),
-                allowed: format!("{range} {unit}"),
-                reason: name.to_string(),
+                allowed: field.allowed(),
+                reason: field.name.to_string(),
                 involves: &[],
             });
         }
@@ -192,35 +192,8 @@ fn check_loading(loading: &[Leg], found: &mut Found) {
 
 #[cfg(test)]
 mod tests {
-    use super::super::model::{Edges, Numerics};
+    use super::super::samples::sound;
     use super::*;
-
-    /// A scene with nothing to complain about, rough and sticky.
-    pub(in crate::scene) fn sound() -> Scene {
-        Scene {
-            version: 1,
-            title: "A line".into(),
-            notice: String::new(),
-            material: Material {
-                youngs_modulus: Some(2e6),
-                poisson_ratio: Some(0.5),
-                effective_modulus: None,
-            },
-            length: 1e-4,
-            form: None,
-            roughness: Some(Roughness::SelfAffine {
-                hurst: 0.7,
-                rms_height: Some(1e-7),
-                rms_gradient: None,
-                modes: (1, 512),
-                seed: 1,
-            }),
-            adhesion: Some(Adhesion { work: Some(0.05), kappa: None }),
-            loading: vec![Leg::ToForce(1e-5), Leg::ToSeparation],
-            numerics: Numerics { points: 4096, solver: Solver::Exact, edges: Edges::Grid, samples: 512 },
-            observe: vec![],
-        }
-    }
 
     fn fields_of(scene: &Scene) -> Vec<String> {
         check(scene).into_iter().map(|violation| violation.field).collect()
@@ -276,7 +249,7 @@ mod tests {
             assert_eq!(fields_of(&scene), ["adhesion.work"], "{value}");
             let mut scene = sound();
             scene.loading = vec![Leg::ToForce(1.0), Leg::ToIndentation(value), Leg::ToForce(value)];
-            assert_eq!(fields_of(&scene), ["loading.1", "loading.2"], "{value}");
+            assert_eq!(fields_of(&scene), ["loading.1.0", "loading.2.0"], "{value}");
             let mut scene = sound();
             scene.numerics.solver = Solver::Stepwise { step: value };
             assert_eq!(fields_of(&scene), ["numerics.solver.step"], "{value}");

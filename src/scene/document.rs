@@ -2,9 +2,11 @@
 
 use std::path::{Path, PathBuf};
 
-use super::check::{Violation, check};
+use super::blame::{all_of, blamed, nearest_place, place, remember, told};
+use super::check::check;
 use super::errors::{Origin, SceneError, SceneErrors};
-use super::locate::{Outline, line_column};
+use super::fields::{FIELDS, Field};
+use super::locate::Outline;
 use super::model::Scene;
 use super::read::{Unread, read, wrong_version};
 use super::splice;
@@ -12,9 +14,6 @@ use super::write::to_ron;
 
 /// Longer texts are refused before they are read; scenes are a few hundred bytes.
 pub const LONGEST_TEXT: usize = 1 << 20;
-
-/// More errors than this are counted, not told one by one.
-const MOST_TOLD: usize = 100;
 
 /// A checked scene, its text, and what was overridden in it. Changing it gives a new document;
 /// where the change is refused, the old one stands as it was.
@@ -100,7 +99,7 @@ impl Document {
         for (path, value) in overrides {
             match new.splice(path, value) {
                 Ok(()) => remember(&mut new.overrides, path, value),
-                Err(error) => errors.push(error),
+                Err(refused) => errors.extend(refused.iter().cloned()),
             }
         }
         if let Some(errors) = SceneErrors::of(errors) {
@@ -115,7 +114,7 @@ impl Document {
     }
 
     /// Changes text and scene, leaving both as they are where that fails.
-    fn splice(&mut self, path: &str, value: &str) -> Result<(), SceneError> {
+    fn splice(&mut self, path: &str, value: &str) -> Result<(), SceneErrors> {
         let origin = Origin::Overrides(vec![format!("{path}={value}")]);
         let text = splice::set(&self.text, path, value)
             .and_then(|text| check_length(&text).map(|()| text))
@@ -133,6 +132,22 @@ impl Document {
     /// The scene, checked.
     pub fn scene(&self) -> &Scene {
         &self.scene
+    }
+
+    /// The value of a field as it is written; where it is left out, what stands in its place. `None`
+    /// where the scene has no such field, such as the radius of a form that is not there.
+    pub fn value(&self, path: &str) -> Option<&str> {
+        let outline = Outline::of(&self.text).ok()?;
+        outline.inner(path).or_else(|| {
+            let field = fields_of(&outline).find(|field| field.path == path)?;
+            (!field.default.is_empty()).then_some(field.default)
+        })
+    }
+
+    /// The fields this scene has or could be given as it stands: all but those of choices it did not
+    /// make.
+    pub fn fields(&self) -> Vec<&'static Field> {
+        Outline::of(&self.text).map_or_else(|_| Vec::new(), |outline| fields_of(&outline).collect())
     }
 
     /// Name of the file or of the built-in scene.
@@ -164,6 +179,10 @@ impl Unread {
     }
 }
 
+fn fields_of(outline: &Outline) -> impl Iterator<Item = &'static Field> {
+    FIELDS.iter().filter(|field| field.variant.is_none() || field.variant == outline.head(field.parent()))
+}
+
 fn check_length(text: &str) -> Result<(), String> {
     if text.len() > LONGEST_TEXT {
         return Err(format!("the scene is {} bytes long, at most {LONGEST_TEXT} are read", text.len()));
@@ -171,69 +190,217 @@ fn check_length(text: &str) -> Result<(), String> {
     Ok(())
 }
 
-fn place(text: &str, name: &str, offset: usize) -> Origin {
-    let (line, column) = line_column(text, offset);
-    Origin::Place { name: name.into(), line, column }
-}
+#[cfg(test)]
+mod tests {
+    use super::super::model::{Adhesion, Form, Leg, Roughness, Solver};
+    use super::super::samples::sound;
+    use super::*;
 
-/// Where a field's value starts, or that of the group nearest around it.
-fn nearest_place(outline: &Outline, field: &str) -> usize {
-    let mut path = field;
-    loop {
-        if let Some(place) = outline.find(path) {
-            return place.value.start;
+    const SCENE: &str = r#"(
+    version: 1,
+    material: (effective_modulus: 1.0e6), // soft
+    length: 1.0e-4,
+    roughness: SelfAffine(hurst: 0.7, rms_height: 1.0e-7, modes: (1, 512), seed: 1),
+    loading: [ToForce(1.0e-5), ToSeparation],
+)
+"#;
+
+    fn document() -> Document {
+        Document::parse(SCENE, "a/scene.ron").unwrap()
+    }
+
+    fn lines(errors: &SceneErrors) -> Vec<String> {
+        errors.to_string().lines().map(str::to_string).collect()
+    }
+
+    fn pairs(overrides: &[(&str, &str)]) -> Vec<(String, String)> {
+        overrides.iter().map(|(path, value)| (path.to_string(), value.to_string())).collect()
+    }
+
+    #[test]
+    fn several_errors_are_told_with_their_places() {
+        let text = SCENE.replace("0.7", "1.4").replace("1.0e-4", "NaN").replace("ToForce(1.0e-5), ", "");
+        assert_eq!(
+            lines(&Document::parse(&text, "a/scene.ron").unwrap_err()),
+            [
+                "a/scene.ron:4:13: length = NaN: allowed: from 1e-9 to 10 m (apparent diameter)",
+                "a/scene.ron:5:34: roughness.hurst = 1.4: allowed: above 0 and below 1 (Hurst exponent)",
+                "a/scene.ron:6:15: loading.0 = ToSeparation: from separation nothing can pull: \
+                 press first, with ToTouch, ToForce or ToIndentation",
+            ]
+        );
+    }
+
+    #[test]
+    fn a_wrong_version_is_told_first() {
+        let text = SCENE.replace("version: 1", "version: 2").replace("hurst", "hurts");
+        let errors = Document::parse(&text, "x").unwrap_err();
+        assert_eq!(
+            errors.iter().map(|error| error.field.as_str()).collect::<Vec<_>>(),
+            ["version", "roughness.hurts"]
+        );
+        assert_eq!(lines(&errors)[0], "x:2:14: version = 2: allowed: 1 (version of the scene file)");
+        for text in [SCENE.replace("version: 1,", ""), SCENE.replace("version: 1", "version: \"1\"")] {
+            let errors = Document::parse(&text, "x").unwrap_err();
+            assert_eq!(errors.iter().count(), 1, "{errors}");
+            assert_eq!(errors.first().field, "version");
         }
-        match path.rsplit_once('.') {
-            Some((parent, _)) => path = parent,
-            None => return outline.body("").map_or(0, |body| outline.inside(body).start.saturating_sub(1)),
+        let errors = Document::parse(&SCENE.replace("version: 1", "version: 3"), "x").unwrap_err();
+        assert_eq!(lines(&errors), ["x:2:14: version = 3: allowed: 1 (version)"]);
+    }
+
+    #[test]
+    fn long_texts_are_refused_unread() {
+        let text = format!("{SCENE}{}", " ".repeat(LONGEST_TEXT));
+        let message = Document::parse(&text, "x").unwrap_err().to_string();
+        assert!(message.contains("at most 1048576"), "{message}");
+        let value = format!("\"{}\"", "x".repeat(LONGEST_TEXT));
+        assert!(document().set("title", &value).unwrap_err().to_string().contains("at most 1048576"));
+    }
+
+    #[test]
+    fn a_flood_of_errors_is_counted() {
+        let text = SCENE.replace("ToForce(1.0e-5), ", &"ToForce(NaN), ".repeat(50_000));
+        let errors = Document::parse(&text, "x").unwrap_err();
+        assert_eq!(errors.iter().count(), 101);
+        assert!(errors.to_string().ends_with("and 49900 more errors"));
+    }
+
+    #[test]
+    fn a_byte_order_mark_is_no_error() {
+        assert_eq!(Document::parse(&format!("\u{feff}{SCENE}"), "x").unwrap().scene(), document().scene());
+    }
+
+    #[test]
+    fn fields_are_set_inserted_and_removed() {
+        let document = document();
+        let set = |path: &str, value: &str| document.set(path, value).unwrap().scene().clone();
+        assert_eq!(set("length", "2.0e-4").length, 2e-4);
+        assert_eq!(set("adhesion.work", "0.1").adhesion, Some(Adhesion { work: Some(0.1), kappa: None }));
+        assert_eq!(set("form", "Cone(angle: 0.1)").form, Some(Form::Cone { angle: 0.1 }));
+        assert_eq!(set("roughness", "None").roughness, None);
+        assert_eq!(set("numerics.points", "2048").numerics.points, 2048);
+        assert_eq!(set("loading.0", "ToTouch").loading, [Leg::ToTouch, Leg::ToSeparation]);
+        let stepwise = document.set("numerics.solver", "Stepwise(step: 1e-9)").unwrap();
+        let stepwise = stepwise.set("numerics.solver.step", "2e-9").unwrap();
+        assert_eq!(stepwise.scene().numerics.solver, Solver::Stepwise { step: 2e-9 });
+        let kappa = document.set("adhesion.kappa", "2.0").unwrap();
+        assert!(kappa.set("adhesion.work", "0.1").is_err());
+        let work = kappa.set_all(&pairs(&[("adhesion.kappa", "None"), ("adhesion.work", "0.1")])).unwrap();
+        assert_eq!(work.scene().adhesion, Some(Adhesion { work: Some(0.1), kappa: None }));
+    }
+
+    #[test]
+    fn overrides_allowed_only_together_are_checked_together() {
+        let document = document();
+        assert!(document.set("numerics.points", "64").is_err());
+        for both in [
+            [("numerics.points", "64"), ("roughness.modes", "(1, 32)")],
+            [("roughness.modes", "(1, 32)"), ("numerics.points", "64")],
+        ] {
+            assert_eq!(document.set_all(&pairs(&both)).unwrap().scene().numerics.points, 64);
         }
     }
-}
 
-/// The errors of violations, of which there is at least one.
-fn told(violations: Vec<Violation>, origin: impl Fn(&Violation) -> Origin) -> SceneErrors {
-    let count = violations.len();
-    let mut errors: Vec<_> = violations
-        .into_iter()
-        .take(MOST_TOLD)
-        .map(|violation| SceneError::of_violation(origin(&violation), violation))
-        .collect();
-    if count > MOST_TOLD {
-        errors.push(SceneError::whole(Origin::Scene, format!("and {} more errors", count - MOST_TOLD)));
+    #[test]
+    fn errors_name_the_overrides_that_cause_them() {
+        let document = document();
+        let refused = |overrides: &[(&str, &str)]| lines(&document.set_all(&pairs(overrides)).unwrap_err());
+        assert_eq!(
+            refused(&[("length", "2.0e-4"), ("roughness.hurst", "1.4")]),
+            [
+                "--set roughness.hurst=1.4: roughness.hurst = 1.4: allowed: above 0 and below 1 (Hurst exponent)"
+            ]
+        );
+        assert_eq!(
+            refused(&[("length", "2.0e-4"), ("numerics.points", "64")]),
+            [
+                "--set numerics.points=64: roughness.modes = (1, 512): allowed: last mode at most points/2 = 32 \
+              (64 springs carry no shorter wave)"
+            ]
+        );
+        let errors = refused(&[("roughness.seed", "1.5"), ("length", "\"x\""), ("nothing", "1")]);
+        assert_eq!(errors.len(), 3);
+        assert!(
+            errors[0].starts_with("--set roughness.seed=1.5: roughness.seed = 1.5: allowed: a whole number")
+        );
+        assert!(errors[1].starts_with("--set length=\"x\": length = \"x\": allowed: from 1e-9 to 10 m"));
+        assert!(errors[2].starts_with("--set nothing=1: no such field"));
     }
-    all_of(errors)
-}
 
-fn all_of(errors: Vec<SceneError>) -> SceneErrors {
-    SceneErrors::of(errors)
-        .unwrap_or_else(|| SceneErrors::from(SceneError::whole(Origin::Scene, "the scene was refused")))
-}
-
-/// The overrides that caused a violation: those of its field, else those of the fields that take
-/// part in it, else all of them.
-fn blamed(violation: &Violation, overrides: &[(String, String)]) -> Origin {
-    let naming = |touches: &dyn Fn(&str) -> bool| {
-        let touching = overrides.iter().filter(|(path, _)| touches(path));
-        touching.map(|(path, value)| format!("{path}={value}")).collect::<Vec<_>>()
-    };
-    let mut blamed = naming(&|path| within(&violation.field, path));
-    if blamed.is_empty() {
-        blamed =
-            naming(&|path| violation.involves.iter().any(|field| within(field, path) || within(path, field)));
+    #[test]
+    fn nothing_changes_where_a_change_is_refused() {
+        let document = document();
+        let before = document.clone();
+        assert!(document.set_all(&pairs(&[("length", "2.0e-4"), ("roughness.hurst", "2.0")])).is_err());
+        assert_eq!(document, before);
     }
-    if blamed.is_empty() {
-        blamed = naming(&|_| true);
+
+    #[test]
+    fn overrides_that_matter_are_remembered() {
+        let mut document = document();
+        assert!(!document.is_changed());
+        for (path, value) in [
+            ("roughness.hurst", "0.6"),
+            ("length", "2.0e-4"),
+            ("roughness.hurst", "0.5"),
+            ("numerics.points", "2048"),
+            ("loading.0", "ToTouch"),
+            ("loading", "[ToTouch, ToSeparation]"),
+        ] {
+            document = document.set(path, value).unwrap();
+        }
+        let expected = [
+            ("length", "2.0e-4"),
+            ("roughness.hurst", "0.5"),
+            ("numerics.points", "2048"),
+            ("loading", "[ToTouch, ToSeparation]"),
+        ];
+        assert_eq!(document.overrides(), pairs(&expected));
+        assert!(document.is_changed());
+        let again = self::document().set_all(document.overrides()).unwrap();
+        assert_eq!(again.scene(), document.scene());
+        assert!(document.text().contains("// soft"));
+        assert!(!self::document().set("length", "1.0e-4").unwrap().is_changed());
     }
-    Origin::Overrides(blamed)
-}
 
-/// Adds an override, forgetting earlier ones of the same field or of what is inside it.
-fn remember(overrides: &mut Vec<(String, String)>, path: &str, value: &str) {
-    overrides.retain(|(earlier, _)| !within(earlier, path));
-    overrides.push((path.to_string(), value.to_string()));
-}
+    #[test]
+    fn values_are_given_as_written_or_as_left_out() {
+        let document = document().set("adhesion", "Some((work: Some(0.1)))").unwrap();
+        for (path, value) in [
+            ("length", Some("1.0e-4")),
+            ("roughness.hurst", Some("0.7")),
+            ("loading.0.0", Some("1.0e-5")),
+            ("adhesion.work", Some("0.1")),
+            ("adhesion.kappa", Some("None")),
+            ("form", Some("None")),
+            ("form.radius", None),
+            ("numerics.points", Some("16384")),
+            ("numerics.solver.step", None),
+            ("nothing", None),
+        ] {
+            assert_eq!(document.value(path), value, "{path}");
+        }
+        let paths: Vec<_> = document.fields().iter().map(|field| field.path).collect();
+        assert!(paths.contains(&"roughness.hurst") && paths.contains(&"material.poisson_ratio"));
+        assert!(!paths.contains(&"form.radius") && !paths.contains(&"roughness.file"));
+        let punch = document.set("form", "Punch(radius: 1.0e-5)").unwrap();
+        let radius = punch.fields().into_iter().find(|field| field.path == "form.radius").unwrap();
+        assert_eq!(radius.variant, Some("Punch"));
+    }
 
-/// Whether a path is another path or inside it.
-fn within(path: &str, other: &str) -> bool {
-    path.strip_prefix(other).is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
+    #[test]
+    fn files_are_relative_to_the_scene() {
+        assert_eq!(document().resolve("line.csv"), Path::new("a").join("line.csv"));
+        assert_eq!(document().resolve("/line.csv"), Path::new("/line.csv"));
+    }
+
+    #[test]
+    fn scenes_made_in_the_program_are_checked_too() {
+        let mut scene = sound();
+        assert_eq!(Document::of_scene(&scene, "x").unwrap().scene(), &scene);
+        scene.roughness = Some(Roughness::Measured { file: String::new() });
+        let errors = Document::of_scene(&scene, "x").unwrap_err();
+        assert!(errors.to_string().starts_with("roughness.file = \"\": allowed: "), "{errors}");
+    }
 }

@@ -106,7 +106,7 @@ impl std::error::Error for SceneError {}
 /// All that is wrong with a scene: at least one error, each a line of its own.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SceneErrors {
-    first: SceneError,
+    first: Box<SceneError>,
     rest: Vec<SceneError>,
 }
 
@@ -114,7 +114,7 @@ impl SceneErrors {
     /// The errors of a list; `None` where there are none.
     pub fn of(errors: Vec<SceneError>) -> Option<SceneErrors> {
         let mut errors = errors.into_iter();
-        Some(SceneErrors { first: errors.next()?, rest: errors.collect() })
+        Some(SceneErrors { first: Box::new(errors.next()?), rest: errors.collect() })
     }
 
     /// The first error.
@@ -124,13 +124,13 @@ impl SceneErrors {
 
     /// All errors, in the order in which they were found.
     pub fn iter(&self) -> impl Iterator<Item = &SceneError> {
-        std::iter::once(&self.first).chain(&self.rest)
+        std::iter::once(&*self.first).chain(&self.rest)
     }
 }
 
 impl From<SceneError> for SceneErrors {
     fn from(error: SceneError) -> SceneErrors {
-        SceneErrors { first: error, rest: Vec::new() }
+        SceneErrors { first: Box::new(error), rest: Vec::new() }
     }
 }
 

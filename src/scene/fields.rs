@@ -250,7 +250,6 @@ pub const FIELDS: &[Field] = &[
         step: Step::Logarithmic,
         default: "None",
         meaning: "root mean square height of the line",
-        ..NUMBER
     },
     Field {
         path: "roughness.rms_gradient",
@@ -398,8 +397,29 @@ pub const FIELDS: &[Field] = &[
     },
 ];
 
-/// The forces a leg may go to, N.
-pub const LEG_FORCE: Range = Range::closed(-1e30, 1e30);
+/// The force of a leg [`ToForce`](super::Leg::ToForce), at `loading.0.0` for the first leg.
+pub const LEG_FORCE: Field = Field {
+    path: "loading",
+    variant: Some("ToForce"),
+    name: "force of a leg",
+    symbol: "F",
+    unit: "N",
+    range: Range::closed(-1e30, 1e30),
+    step: Step::Logarithmic,
+    meaning: "the leg goes on until the force first reaches this; compression is positive",
+    ..NUMBER
+};
 
-/// The indentations a leg may go to, m.
-pub const LEG_INDENTATION: Range = Range::closed(-1e6, 1e6);
+/// The indentation of a leg [`ToIndentation`](super::Leg::ToIndentation), at `loading.0.0` for the
+/// first leg.
+pub const LEG_INDENTATION: Field = Field {
+    path: "loading",
+    variant: Some("ToIndentation"),
+    name: "indentation of a leg",
+    symbol: "d",
+    unit: "m",
+    range: Range::closed(-1e6, 1e6),
+    step: Step::Logarithmic,
+    meaning: "the leg goes to this indentation; 0 is first touch, positive is deeper",
+    ..NUMBER
+};

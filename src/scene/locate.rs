@@ -101,6 +101,13 @@ impl<'t> Outline<'t> {
         self.word(first)
     }
 
+    /// The value at a path without any `Some(…)` around it.
+    pub(super) fn inner(&self, path: &str) -> Option<&'t str> {
+        let first = self.inside_some(self.entry(path)?.first);
+        let end = self.value_end(first)?;
+        self.text.get(self.tokens[first].start..self.tokens[end - 1].end)
+    }
+
     /// The body of the value at a path; the scene's own for the empty path.
     pub(super) fn body(&self, path: &str) -> Option<Body> {
         let first = if path.is_empty() { self.root()? } else { self.entry(path)?.first };
@@ -175,7 +182,8 @@ impl<'t> Outline<'t> {
         loop {
             let token = self.tokens.get(index)?;
             let text = &self.text[token.start..token.end];
-            if !text.starts_with('#') && !(index > 0 && text == "!") {
+            let attribute = text.starts_with('#') || index > 0 && text == "!";
+            if !attribute {
                 return Some(index);
             }
             index += 1;
@@ -298,6 +306,8 @@ Scene(
         assert_eq!(outline.head("roughness"), Some("SelfAffine"));
         assert_eq!(outline.head("loading.0"), Some("ToForce"));
         assert_eq!(outline.head("material"), None);
+        assert_eq!(outline.inner("material.youngs_modulus"), Some("2.0e6"));
+        assert_eq!(outline.inner("adhesion"), Some("Some(work: 0.05)"));
     }
 
     #[test]

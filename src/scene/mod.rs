@@ -4,7 +4,9 @@
 //! table of everything a scene can say; the checks, overrides and the explorer read it.
 
 mod agree;
+mod blame;
 mod check;
+mod derived;
 mod document;
 mod errors;
 mod fields;
@@ -14,6 +16,8 @@ mod presets;
 mod quantity;
 mod range;
 mod read;
+#[cfg(test)]
+mod samples;
 mod scan;
 mod splice;
 mod step;
@@ -27,6 +31,7 @@ pub use fields::{FIELDS, Field, LEG_FORCE, LEG_INDENTATION, field};
 pub use locate::{Place, line_column, locate};
 pub use model::*;
 pub use presets::{DEFAULT, Preset, find, open, presets};
+pub use quantity::{QuantityError, format_quantity, parse_quantity};
 pub use range::{End, Range};
 pub use step::Step;
 pub use write::{ron_float, ron_string, to_ron};

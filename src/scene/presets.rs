@@ -97,3 +97,53 @@ fn read_file(path: &Path) -> Result<String, String> {
     String::from_utf8(bytes)
         .map_err(|error| format!("this is not UTF-8 text: byte {} is not", error.utf8_error().valid_up_to()))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_preset_is_a_scene_with_a_title_and_a_notice() {
+        for preset in presets() {
+            let document = open(preset.name).unwrap_or_else(|errors| panic!("{errors}"));
+            assert!(!document.scene().title.is_empty(), "{}", preset.name);
+            assert!(!document.scene().notice.is_empty(), "{}", preset.name);
+            assert_eq!(document.name(), preset.name);
+        }
+    }
+
+    #[test]
+    fn presets_have_different_names_and_one_is_the_default() {
+        let mut names: Vec<_> = presets().iter().map(|preset| preset.name).collect();
+        names.sort_unstable();
+        names.dedup();
+        assert_eq!(names.len(), presets().len());
+        assert!(find(DEFAULT).is_some());
+        assert_eq!(find("nothing"), None);
+    }
+
+    #[test]
+    fn unknown_names_get_the_list_and_a_suggestion() {
+        let message = open("jkr-spere").unwrap_err().to_string();
+        assert!(message.starts_with("jkr-spere: there is no such file"), "{message}");
+        assert!(message.contains("did you mean jkr-sphere?") && message.contains("million-springs"));
+    }
+
+    #[test]
+    fn files_are_read_and_their_errors_told() {
+        let directory = tempfile::tempdir().unwrap();
+        let path = |name: &str| directory.path().join(name).to_str().unwrap().to_string();
+        let message = |name: &str| open(&path(name)).unwrap_err().to_string();
+        fs::write(path("good"), PRESETS[0].text).unwrap();
+        assert_eq!(open(&path("good")).unwrap().text(), PRESETS[0].text);
+        fs::write(path("bad.ron"), "(\n  version: 1,\n  lenght: 1,\n)").unwrap();
+        assert!(message("bad.ron").contains("bad.ron:3:3: lenght: no such field; did you mean length?"));
+        fs::write(path("binary.ron"), [b'(', 0xff]).unwrap();
+        assert!(message("binary.ron").ends_with("this is not UTF-8 text: byte 1 is not"));
+        fs::write(path("long.ron"), " ".repeat(LONGEST_TEXT + 1)).unwrap();
+        assert!(message("long.ron").contains("too long"));
+        fs::create_dir(path("folder.ron")).unwrap();
+        assert!(message("folder.ron").ends_with("this is a directory, not a scene file"));
+        assert!(message("missing.ron").contains("cannot be read"));
+    }
+}

@@ -1,1 +1,299 @@
-//! placeholder
+//! Numbers as people type and read them: `2.5 MPa`, `10 µm`, `50 mJ/m²`.
+
+use std::fmt;
+
+/// SI prefixes that are read, with their powers of ten.
+const PREFIXES: &[(&str, i32)] = &[
+    ("y", -24),
+    ("z", -21),
+    ("a", -18),
+    ("f", -15),
+    ("p", -12),
+    ("n", -9),
+    ("µ", -6),
+    ("μ", -6),
+    ("u", -6),
+    ("m", -3),
+    ("c", -2),
+    ("k", 3),
+    ("M", 6),
+    ("G", 9),
+    ("T", 12),
+    ("P", 15),
+    ("E", 18),
+];
+
+/// Prefixes that are written, one for every third power of ten.
+const WRITTEN: &[&str] = &["y", "z", "a", "f", "p", "n", "µ", "m", "", "k", "M", "G", "T", "P", "E"];
+
+/// Power of ten of the first of [`WRITTEN`].
+const SMALLEST: i32 = -24;
+
+/// Digits that are written.
+const DIGITS: usize = 4;
+
+/// A number that could not be read, and what would have been.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct QuantityError {
+    /// What was typed.
+    pub typed: String,
+    /// Unit of the field, as in the table of fields.
+    pub unit: String,
+}
+
+impl fmt::Display for QuantityError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let typed = super::errors::shown(&self.typed);
+        match self.unit.as_str() {
+            "1" | "" => write!(f, "{typed:?}: allowed: a number, such as 0.7, 16k or 1.0e-3"),
+            unit if !has_prefixes(unit) => write!(f, "{typed:?}: allowed: a number, such as 0.7 or 1.0e-3"),
+            unit => write!(
+                f,
+                "{typed:?}: allowed: a number, with or without SI prefix and {unit}, such as 1.0e-3, 2.5 m{unit} or 2.5k{unit}"
+            ),
+        }
+    }
+}
+
+impl std::error::Error for QuantityError {}
+
+/// Reads a number as typed for a field of this unit, in SI units: `50m` for J/m² is 0.05, `10um` for
+/// m is 1.0e-5.
+///
+/// Unit and blanks may be left out. A lone `m` is the prefix milli, except for fields in metres,
+/// where it is the unit: there `50m` is fifty metres and `50mm` fifty millimetres. Angles may also be
+/// in degrees, `30°` or `30 deg`, and counts take `Ki`, `Mi` and `Gi` for powers of 1024. The number
+/// is the one nearest to what was typed; no digit is lost to the prefix.
+///
+/// # Errors
+///
+/// What is not a number, has another unit, or is not finite.
+pub fn parse_quantity(text: &str, unit: &str) -> Result<f64, QuantityError> {
+    let error = || QuantityError { typed: text.to_string(), unit: unit.to_string() };
+    let typed = text.trim();
+    let (digits, exponent, suffix) = split_number(typed).ok_or_else(error)?;
+    let (power, factor) = suffix_factor(suffix.trim(), unit).ok_or_else(error)?;
+    let power = exponent.checked_add(power).ok_or_else(error)?;
+    // The prefix goes into the decimal exponent: 100 nm is then 1.0e-7 exactly as if typed so.
+    let number: f64 = format!("{digits}e{power}").parse().map_err(|_| error())?;
+    let value = number * factor;
+    if value.is_finite() { Ok(value) } else { Err(error()) }
+}
+
+/// Splits `2.5e3 MPa` into its digits, its exponent of ten, and the rest.
+fn split_number(text: &str) -> Option<(&str, i32, &str)> {
+    let signless = text.trim_start_matches(['+', '-', '−']);
+    let sign = text.len() - signless.len();
+    if text[..sign].chars().count() > 1 || text.starts_with('−') {
+        return None;
+    }
+    let end = signless.find(|c: char| !c.is_ascii_digit() && c != '.').unwrap_or(signless.len());
+    let digits = &text[..sign + end];
+    let number = &digits[sign..];
+    if !number.contains(|c: char| c.is_ascii_digit()) || number.matches('.').count() > 1 {
+        return None;
+    }
+    let rest = &text[digits.len()..];
+    // An e is an exponent only with digits after it; an E alone is the prefix exa.
+    if let Some(after) = rest.strip_prefix(['e', 'E']) {
+        let unsigned = after.strip_prefix(['+', '-']).unwrap_or(after);
+        let length = unsigned.find(|c: char| !c.is_ascii_digit()).unwrap_or(unsigned.len());
+        if length > 0 {
+            let split = after.len() - unsigned.len() + length;
+            let exponent = after[..split].parse().ok()?;
+            return Some((digits, exponent, &after[split..]));
+        }
+    }
+    Some((digits, 0, rest))
+}
+
+/// Power of ten and further factor of what follows a number.
+fn suffix_factor(suffix: &str, unit: &str) -> Option<(i32, f64)> {
+    let suffix = canonical(suffix);
+    let unit = canonical(unit);
+    let plain = unit == "1" || unit.is_empty();
+    if suffix.is_empty() || suffix == unit {
+        return Some((0, 1.0));
+    }
+    match (unit.as_str(), suffix.as_str()) {
+        ("rad", "°" | "deg") => return Some((0, std::f64::consts::PI / 180.0)),
+        ("1" | "", "Ki") => return Some((0, f64::from(1 << 10))),
+        ("1" | "", "Mi") => return Some((0, f64::from(1 << 20))),
+        ("1" | "", "Gi") => return Some((0, f64::from(1 << 30))),
+        ("J/m2", _) if suffix.ends_with("N/m") => {
+            return suffix_factor(&suffix.replace("N/m", "J/m2"), "J/m2");
+        }
+        _ if !has_prefixes(&unit) && !plain => return None,
+        _ => {}
+    }
+    PREFIXES.iter().find_map(|(prefix, power)| {
+        let rest = suffix.strip_prefix(prefix)?.trim_start();
+        (rest.is_empty() || (!plain && rest == unit)).then_some((*power, 1.0))
+    })
+}
+
+/// A unit in one spelling: `J/m²`, `J/m^2` and `J / m2` are the same.
+fn canonical(unit: &str) -> String {
+    unit.replace('²', "2").replace(['^', ' '], "")
+}
+
+/// Whether SI prefixes make sense with a unit: not with the powers of a metre that a power law has.
+fn has_prefixes(unit: &str) -> bool {
+    !unit.contains(['−', '('])
+}
+
+/// A value with its unit as people read it, to four digits: `2.67 MPa`, `100 nm`, `50 mJ/m²`, `0.7`.
+///
+/// Numbers without unit take no prefix; those much smaller or larger than one take an exponent.
+pub fn format_quantity(value: f64, unit: &str) -> String {
+    let plain = unit == "1" || unit.is_empty();
+    let unit_after = if plain { String::new() } else { format!(" {unit}") };
+    if !value.is_finite() || value == 0.0 {
+        return format!("{value}{unit_after}");
+    }
+    // Rounded first, so that 999.99 becomes 1000 before its prefix is chosen.
+    let scientific = format!("{value:.*e}", DIGITS - 1);
+    let (mantissa, exponent) = scientific.split_once('e').unwrap_or((&scientific, "0"));
+    let exponent: i32 = exponent.parse().unwrap_or(0);
+    let index = (exponent - SMALLEST).div_euclid(3);
+    let prefix = usize::try_from(index).ok().and_then(|index| WRITTEN.get(index));
+    match prefix {
+        Some(prefix) if !plain && has_prefixes(unit) => {
+            let shift = exponent - (SMALLEST + 3 * index);
+            format!("{} {prefix}{unit}", shifted(mantissa, shift))
+        }
+        _ if (-3..6).contains(&exponent) => format!("{}{unit_after}", shifted(mantissa, exponent)),
+        _ => format!("{}e{exponent}{unit_after}", trimmed(mantissa)),
+    }
+}
+
+/// A decimal mantissa times a power of ten, without trailing zeros.
+fn shifted(mantissa: &str, power: i32) -> String {
+    let number: f64 = format!("{mantissa}e{power}").parse().unwrap_or(f64::NAN);
+    let decimals = usize::try_from(DIGITS as i32 - 1 - power).unwrap_or(0);
+    trimmed(&format!("{number:.decimals$}"))
+}
+
+fn trimmed(number: &str) -> String {
+    if number.contains('.') {
+        number.trim_end_matches('0').trim_end_matches('.').to_string()
+    } else {
+        number.to_string()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::fields::FIELDS;
+    use super::*;
+
+    #[test]
+    fn what_people_type_is_read() {
+        for (text, unit, value) in [
+            ("2.5 MPa", "Pa", 2.5e6),
+            ("2.5e6", "Pa", 2.5e6),
+            ("2.5M", "Pa", 2.5e6),
+            ("2 E", "Pa", 2e18),
+            ("2EPa", "Pa", 2e18),
+            ("2E3Pa", "Pa", 2e3),
+            ("10 µm", "m", 1e-5),
+            ("10um", "m", 1e-5),
+            ("10 μm", "m", 1e-5),
+            ("100nm", "m", 1e-7),
+            ("5cm", "m", 0.05),
+            ("50m", "m", 50.0),
+            ("50 mm", "m", 0.05),
+            ("50m", "J/m²", 0.05),
+            ("50 mJ/m2", "J/m²", 0.05),
+            ("50 mJ/m^2", "J/m²", 0.05),
+            ("0.05 J/m²", "J/m²", 0.05),
+            ("50 mN/m", "J/m²", 0.05),
+            ("1e-3", "J/m²", 1e-3),
+            ("-20 uN", "N", -20e-6),
+            ("+3", "1", 3.0),
+            (".5", "1", 0.5),
+            ("5.", "1", 5.0),
+            ("16k", "1", 16_000.0),
+            ("64Ki", "1", 65_536.0),
+            (" 45 ° ", "rad", std::f64::consts::FRAC_PI_4),
+            ("100 mrad", "rad", 0.1),
+            ("3e5", "m^(1−n)", 3e5),
+            ("3 m^(1−n)", "m^(1−n)", 3.0),
+        ] {
+            assert_eq!(parse_quantity(text, unit), Ok(value), "{text} {unit}");
+        }
+    }
+
+    #[test]
+    fn what_is_no_quantity_is_refused() {
+        for (text, unit) in [
+            ("", "m"),
+            ("m", "m"),
+            ("x", "1"),
+            ("1 Pa", "m"),
+            ("1 mpa", "Pa"),
+            ("1 kk", "Pa"),
+            ("1e", "Pa"),
+            ("1..2", "1"),
+            ("--1", "1"),
+            ("−1", "1"),
+            ("NaN", "1"),
+            ("inf", "1"),
+            ("1e400", "1"),
+            ("1e99999999999", "1"),
+            ("1e2147483647 k", "Pa"),
+            ("1 2", "1"),
+            ("1k", "m^(1−n)"),
+            ("1 k1", "1"),
+            ("é1", "1"),
+        ] {
+            assert!(parse_quantity(text, unit).is_err(), "{text} {unit}");
+        }
+        let message = parse_quantity("1 Pa", "m").unwrap_err().to_string();
+        assert!(message.contains("1 Pa") && message.contains("2.5 mm"), "{message}");
+    }
+
+    #[test]
+    fn quantities_are_written_as_people_read_them() {
+        for (value, unit, text) in [
+            (2.67e6, "Pa", "2.67 MPa"),
+            (2.666_666e6, "Pa", "2.667 MPa"),
+            (1e-7, "m", "100 nm"),
+            (1e-4, "m", "100 µm"),
+            (0.05, "J/m²", "50 mJ/m²"),
+            (999.99e-9, "m", "1 µm"),
+            (0.0, "N", "0 N"),
+            (-2.5e-5, "N", "-25 µN"),
+            (0.7, "1", "0.7"),
+            (16_384.0, "1", "16380"),
+            (1e-6, "1", "1e-6"),
+            (2.5e7, "1", "2.5e7"),
+            (3e5, "m^(1−n)", "300000 m^(1−n)"),
+            (1e-30, "m", "1e-30 m"),
+            (1.0, "m", "1 m"),
+        ] {
+            assert_eq!(format_quantity(value, unit), text);
+        }
+    }
+
+    #[test]
+    fn what_is_written_is_read_back_to_its_digits() {
+        for unit in ["Pa", "m", "J/m²", "N", "rad", "1", "m^(1−n)"] {
+            for exponent in -20..20 {
+                for mantissa in [1.0, 1.5, 9.999, 9.9999, -3.25] {
+                    let value: f64 = format!("{mantissa}e{exponent}").parse().unwrap();
+                    let read = parse_quantity(&format_quantity(value, unit), unit).unwrap();
+                    assert!((read / value - 1.0).abs() < 6e-4, "{value} {unit}: {read}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn every_unit_of_the_table_is_understood() {
+        for field in FIELDS {
+            let text = format!("1 {}", if field.unit == "1" { "" } else { field.unit });
+            assert_eq!(parse_quantity(&text, field.unit), Ok(1.0), "{}", field.path);
+        }
+    }
+}

@@ -2,9 +2,10 @@
 
 use ron::extensions::Extensions;
 
-use super::fields::{Field, field};
+use super::fields::{Field, LEG_FORCE, LEG_INDENTATION, field};
 use super::locate::{Outline, offset_of};
 use super::model::{SCENE_VERSION, Scene};
+use super::range::Range;
 use super::suggest::nearest;
 
 /// Longer values than this are not repeated in messages.
@@ -47,67 +48,71 @@ pub(super) fn wrong_version(text: &str) -> Option<Unread> {
 }
 
 fn explain(text: &str, error: &ron::error::SpannedError) -> Unread {
-    use ron::Error;
-
     let start = offset_of(text, error.span.start.line, error.span.start.col);
     let end = offset_of(text, error.span.end.line, error.span.end.col).max(start);
     // The span starts before the last thing read; where that was only blank or punctuation, what is
     // wrong comes after it.
-    let names_it =
-        text[start..end].contains(|c: char| c.is_alphanumeric() || matches!(c, '"' | '\'' | '_' | '-'));
-    let offset = if names_it { start } else { end };
-
-    let outline = match Outline::of(text) {
-        Ok(outline) => outline,
-        Err(unreadable) => {
-            let lost =
-                matches!(error.code, Error::Eof | Error::ExpectedStringEnd | Error::UnclosedBlockComment);
-            let (offset, message) = if lost {
-                (unreadable.offset, unreadable.reason.to_string())
-            } else {
-                (offset, plain(&error.code))
-            };
-            return Unread { offset, message, ..Unread::nowhere() };
+    let something = |c: char| c.is_alphanumeric() || matches!(c, '"' | '\'' | '_' | '-');
+    let offset = if text[start..end].contains(something) { start } else { end };
+    match Outline::of(text) {
+        Ok(outline) => explain_at(text, &outline, offset, &error.code),
+        // Where the reader only found the end of the text, the bracket that stays open says more.
+        Err(unreadable) if end >= text.trim_end().len() || is_lost(&error.code) => {
+            Unread { offset: unreadable.offset, message: unreadable.reason.into(), ..Unread::nowhere() }
         }
-    };
-    let path = outline.path_at(offset);
-    match &error.code {
+        Err(_) => Unread { offset, message: plain(&error.code), ..Unread::nowhere() },
+    }
+}
+
+fn is_lost(error: &ron::Error) -> bool {
+    use ron::Error;
+
+    matches!(error, Error::Eof | Error::ExpectedStringEnd | Error::UnclosedBlockComment)
+}
+
+fn explain_at(text: &str, outline: &Outline, offset: usize, error: &ron::Error) -> Unread {
+    use ron::Error;
+
+    let field = outline.path_at(offset);
+    let at = Unread { offset, field, ..Unread::nowhere() };
+    match error {
         Error::NoSuchStructField { expected, found, .. } => {
-            let mut message = "no such field".to_string();
-            if let Some(near) = nearest(found, expected.iter().copied()) {
-                message.push_str(&format!("; did you mean {near}?"));
-            }
-            message.push_str(&format!(" Fields here: {}", expected.join(", ")));
-            Unread { offset, field: path, message, ..Unread::nowhere() }
+            let near = nearest(found, expected.iter().copied());
+            let near = near.map_or_else(String::new, |near| format!("; did you mean {near}?"));
+            Unread { message: format!("no such field{near} Fields here: {}", expected.join(", ")), ..at }
         }
         Error::MissingStructField { field: name, .. } => {
-            let path = if path.is_empty() { (*name).to_string() } else { format!("{path}.{name}") };
+            let field =
+                if at.field.is_empty() { (*name).to_string() } else { format!("{}.{name}", at.field) };
             let allowed =
-                known(&outline, &path).map_or_else(String::new, |field| format!(": {}", field.allowed()));
-            Unread { offset, field: path, message: format!("missing{allowed}"), ..Unread::nowhere() }
+                known(outline, &field).map_or_else(String::new, |field| format!(": {}", field.allowed()));
+            Unread { field, message: format!("missing{allowed}"), ..at }
         }
-        Error::DuplicateStructField { .. } => {
-            Unread { offset, field: path, message: "given twice".into(), ..Unread::nowhere() }
-        }
+        Error::DuplicateStructField { .. } => Unread { message: "given twice".into(), ..at },
         Error::NoSuchEnumVariant { expected, found, .. } => {
             let near = nearest(found, expected.iter().copied());
-            Unread {
-                offset,
-                field: path,
-                value: found.clone(),
-                allowed: expected.join(", "),
-                message: near.map_or_else(String::new, |near| format!("did you mean {near}?")),
-            }
+            let message = near.map_or_else(String::new, |near| format!("did you mean {near}?"));
+            Unread { value: found.clone(), allowed: expected.join(", "), message, ..at }
         }
-        code => {
-            let value = outline.find(&path).map(|place| &text[place.value]).unwrap_or_default();
-            let scalar =
-                !value.is_empty() && value.len() <= MOST_REPEATED && !value.contains(['(', '[', '{']);
-            let allowed = known(&outline, &path).filter(|_| scalar).map_or_else(String::new, Field::allowed);
-            let value = if scalar { value.to_string() } else { String::new() };
-            Unread { offset, field: path, value, allowed, message: plain(code) }
-        }
+        error => explain_value(text, outline, at, error),
     }
+}
+
+/// A value that stands by itself is pointed at as a whole and repeated, with what is allowed there.
+fn explain_value(text: &str, outline: &Outline, at: Unread, error: &ron::Error) -> Unread {
+    let scalar = outline.find(&at.field).filter(|place| {
+        let value = &text[place.value.clone()];
+        value.len() <= MOST_REPEATED && !value.contains(['(', '[', '{'])
+    });
+    let Some(place) = scalar else {
+        return Unread { message: plain(error), ..at };
+    };
+    let (allowed, message) = match known(outline, &at.field) {
+        // What text may hold is not the point where the quotes are missing.
+        Some(Field { range: Range::Text { .. }, .. }) | None => (String::new(), plain(error)),
+        Some(field) => (field.allowed(), field.name.to_string()),
+    };
+    Unread { offset: place.value.start, value: text[place.value].to_string(), allowed, message, ..at }
 }
 
 impl Unread {
@@ -122,10 +127,14 @@ impl Unread {
     }
 }
 
-/// The field at a path, by the variant the text gives to the group around it.
+/// The field at a path, by the variant the text gives to the group or leg around it.
 fn known(outline: &Outline, path: &str) -> Option<&'static Field> {
     let parent = path.rsplit_once('.').map_or("", |(parent, _)| parent);
-    field(path, outline.head(parent)).or_else(|| field(path, None))
+    let head = outline.head(parent);
+    if parent.starts_with("loading.") {
+        return [&LEG_FORCE, &LEG_INDENTATION].into_iter().find(|field| field.variant == head);
+    }
+    field(path, head).or_else(|| field(path, None))
 }
 
 /// What the reader says, in words that do not presume the reader's own.
@@ -177,46 +186,28 @@ mod tests {
         for (text, place, field, value, said) in [
             (scene("    lenght: 1,"), (5, 5), "lenght", "", "did you mean length?"),
             (scene("    title: \"a\",\n    title: \"b\","), (6, 5), "title", "", "given twice"),
-            (
-                scene("    form: Cube(radius: 1.0),"),
-                (5, 11),
-                "form",
-                "Cube",
-                "Paraboloid, Cone, Power, Punch",
-            ),
+            (scene("    form: Cube(radius: 1.0),"), (5, 11), "form", "Cube", "Cone, Power, Punch"),
             (scene("    form: Cone(angel: 1.0),"), (5, 16), "form.angel", "", "did you mean angle?"),
             (
                 scene("    loading: [ToTouch, ToFroce(1.0)],"),
                 (5, 24),
                 "loading.1",
                 "ToFroce",
-                "did you mean ToForce?",
+                "mean ToForce?",
             ),
             (
                 scene("    loading: [ToForce(\"a\")],"),
                 (5, 23),
                 "loading.0.0",
                 "\"a\"",
-                "a number is expected",
+                "from -1e30 to 1e30 N",
             ),
-            (
-                scene("    numerics: (points: 1.5),"),
-                (5, 25),
-                "numerics.points",
-                "1.5",
-                "a whole number from 1",
-            ),
-            (scene("    numerics: (points: -5),"), (5, 24), "numerics.points", "-5", "a whole number from 1"),
-            (
-                scene("    numerics: (points: 1e3),"),
-                (5, 25),
-                "numerics.points",
-                "1e3",
-                "a whole number from 1",
-            ),
+            (scene("    numerics: (points: 1.5),"), (5, 24), "numerics.points", "1.5", "from 1 to 268435456"),
+            (scene("    numerics: (points: -5),"), (5, 24), "numerics.points", "-5", "from 1 to 268435456"),
+            (scene("    numerics: (points: 1e3),"), (5, 24), "numerics.points", "1e3", "from 1 to 268435456"),
             (scene("    title: Hello,"), (5, 12), "title", "Hello", "text in quotes"),
-            (scene("    adhesion: 0.5,"), (5, 15), "adhesion", "0.5", "an opening ("),
-            (rough("hurst: 0.7, modes: (1, 2)"), (5, 48), "roughness.seed", "", "missing: a whole number"),
+            (scene("    adhesion: 0.5,"), (5, 15), "adhesion", "0.5", "(work: 0.05) or (kappa: 2.0)"),
+            (rough("hurst: 0.7, modes: (1, 2)"), (5, 52), "roughness.seed", "", "missing: a whole number"),
             (rough("hurst: \"x\""), (5, 34), "roughness.hurst", "\"x\"", "above 0 and below 1"),
             (rough("hurst: 0.7 seed: 1"), (5, 38), "roughness", "", "a comma is expected"),
             ("(version: 1)".into(), (1, 12), "material", "", "missing"),

@@ -50,6 +50,9 @@ impl Field {
     /// Numbers stay inside the field's range. A choice goes round in a circle, with `None` as one
     /// of its members where the field may be left out.
     pub fn stepped(&self, value: &str, steps: i32, coarse: bool) -> Option<String> {
+        if steps == 0 {
+            return None;
+        }
         let next = match self.step {
             Step::Linear { fine, coarse: large } => {
                 let size = if coarse { (large / fine).round() } else { 1.0 };
@@ -58,8 +61,12 @@ impl Field {
             }
             Step::Logarithmic => {
                 let series = if coarse { COARSE_SERIES } else { FINE_SERIES };
-                let next = (0..steps.unsigned_abs())
-                    .try_fold(number(value)?, |value, _| preferred(value, series, steps > 0))?;
+                let mut next = preferred(number(value)?, series, steps > 0)?;
+                let mut left = steps.unsigned_abs().saturating_sub(1);
+                while left > 0 && self.range.contains(next) {
+                    next = preferred(next, series, steps > 0)?;
+                    left -= 1;
+                }
                 self.kept(next)
             }
             Step::Integer { fine, coarse: large } => {
@@ -173,7 +180,6 @@ fn preferred(value: f64, series: &[f64], up: bool) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::super::fields::{FIELDS, field};
-    use super::*;
 
     fn stepped(path: &str, value: &str, steps: i32, coarse: bool) -> Option<String> {
         field(path, None).unwrap().stepped(value, steps, coarse)
@@ -192,7 +198,7 @@ mod tests {
             ("adhesion.work", "0.1", -1, true, Some("0.05")),
             ("adhesion.work", "0.0", 1, false, None),
             ("length", "1.0e-4", -1, false, Some("9.0e-5")),
-            ("length", "1.0e-4", 20, false, Some("0.001")),
+            ("length", "1.0e-4", 20, false, Some("1.0e-3")),
             ("length", "10.0", 1, false, None),
             ("roughness.seed", "1", -1, true, Some("0")),
             ("roughness.seed", "18446744073709551615", 1, false, None),

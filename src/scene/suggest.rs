@@ -10,15 +10,24 @@ pub(super) fn nearest<'n>(name: &str, names: impl IntoIterator<Item = &'n str>) 
     if name.is_empty() || name.len() > LONGEST {
         return None;
     }
-    let near = |candidate: &str| {
-        let last = candidate.rsplit('.').next().unwrap_or(candidate);
-        let short = name.rsplit('.').next().unwrap_or(name);
+    let short = last(name);
+    let near = |candidate: &'n str| {
+        let whole = near_enough(name, candidate).map(|far| 2 * far);
         // A match of the last component alone counts a little less than one of the whole.
-        (2 * distance(name, candidate)).min(2 * distance(short, last) + 1)
+        let end = near_enough(short, last(candidate)).map(|far| 2 * far + 1);
+        Some((whole.into_iter().chain(end).min()?, candidate))
     };
-    let best = names.into_iter().map(|candidate| (near(candidate), candidate)).min_by_key(|(far, _)| *far)?;
-    let longest_way = (name.chars().count() / 3).max(1);
-    (best.0 <= 2 * longest_way + 1).then_some(best.1)
+    names.into_iter().filter_map(near).min_by_key(|(far, _)| *far).map(|(_, candidate)| candidate)
+}
+
+fn last(path: &str) -> &str {
+    path.rsplit('.').next().unwrap_or(path)
+}
+
+/// The distance, where no more than a third of the name is wrong.
+fn near_enough(name: &str, candidate: &str) -> Option<usize> {
+    let far = distance(name, candidate);
+    (far <= (name.chars().count() / 3).max(1)).then_some(far)
 }
 
 /// How many insertions, deletions, exchanges and swaps of neighbours lead from one to the other.

@@ -40,7 +40,7 @@ pub fn to_ron(scene: &Scene) -> String {
 /// point, with an exponent where it is much smaller or larger than one.
 pub fn ron_float(value: f64) -> String {
     let size = value.abs();
-    if !value.is_finite() || size == 0.0 || (1e-3..1e5).contains(&size) {
+    if !value.is_finite() || size == 0.0 || (1e-2..1e5).contains(&size) {
         return format!("{value:?}");
     }
     let text = format!("{value:e}");
@@ -144,4 +144,83 @@ fn numerics(part: &Numerics) -> String {
 
 fn observer(observer: &Observer) -> String {
     format!("{observer:?}")
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::super::check::check;
+    use super::super::document::Document;
+    use super::super::samples::{sound, sound_scenes};
+    use super::*;
+
+    #[test]
+    fn only_what_differs_from_the_defaults_is_written() {
+        let mut scene = sound();
+        scene.numerics = Numerics::default();
+        scene.roughness = None;
+        scene.loading = super::super::model::default_loading();
+        assert_eq!(
+            to_ron(&scene),
+            r#"(
+    version: 1,
+    title: "A line",
+    material: (youngs_modulus: 2.0e6, poisson_ratio: 0.5),
+    length: 1.0e-4,
+    adhesion: (work: 0.05),
+)
+"#
+        );
+        scene.numerics.points = 64;
+        assert!(to_ron(&scene).contains("    numerics: (points: 64),\n"));
+    }
+
+    #[test]
+    fn numbers_are_short() {
+        for (value, text) in [
+            (2e6, "2.0e6"),
+            (1e-4, "1.0e-4"),
+            (2.5e-7, "2.5e-7"),
+            (0.5, "0.5"),
+            (-40.0, "-40.0"),
+            (0.001, "1.0e-3"),
+            (0.01, "0.01"),
+            (99_999.0, "99999.0"),
+            (0.0, "0.0"),
+            (-0.0, "-0.0"),
+            (f64::NAN, "NaN"),
+            (f64::NEG_INFINITY, "-inf"),
+        ] {
+            assert_eq!(ron_float(value), text);
+        }
+    }
+
+    #[test]
+    fn strings_are_escaped_only_where_they_must_be() {
+        assert_eq!(ron_string("κ \"a\" \\ \n\u{1b}"), r#""κ \"a\" \\ \n\u{1b}""#);
+    }
+
+    proptest! {
+        #[test]
+        fn what_is_written_reads_back_the_same(scene in sound_scenes()) {
+            prop_assert_eq!(check(&scene), vec![]);
+            let text = to_ron(&scene);
+            let document = Document::parse(&text, "scene").map_err(|errors| TestCaseError::fail(format!("{errors}\n{text}")))?;
+            prop_assert_eq!(document.scene(), &scene);
+            prop_assert_eq!(to_ron(document.scene()), text);
+        }
+
+        #[test]
+        fn all_numbers_survive(bits in any::<u64>()) {
+            let value = f64::from_bits(bits);
+            let read: f64 = ron::from_str(&ron_float(value)).map_err(|error| TestCaseError::fail(error.to_string()))?;
+            prop_assert!(read.to_bits() == bits || value.is_nan() && read.is_nan());
+        }
+
+        #[test]
+        fn all_strings_survive(text in any::<String>()) {
+            prop_assert_eq!(ron::from_str::<String>(&ron_string(&text)), Ok(text));
+        }
+    }
 }

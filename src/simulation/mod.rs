@@ -8,4 +8,4 @@ mod stages;
 pub use error::RunError;
 pub use outcome::{LineFacts, Outcome, Timings};
 pub use plan::{Plan, PlannedStage, Stage};
-pub use stages::Simulation;
+pub use stages::{AfterLeg, Simulation};

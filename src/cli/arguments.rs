@@ -1,0 +1,67 @@
+//! What may be typed after `asperity`.
+
+use super::{
+    CompletionsArguments, ExploreArguments, LineArguments, PlanArguments, PresetsCommand, RunArguments,
+};
+use clap::{Parser, Subcommand};
+
+const EXAMPLES: &str = "\
+Examples:
+  asperity                                  Open the explorer
+  asperity rough-sphere --set adhesion.work=0.1
+                                            ... on a built-in scene, with one field changed
+  asperity run my-scene.ron                 Compute a scene and print what came out
+  asperity run jkr-sphere --format csv -o jkr.csv
+                                            ... and keep its force curve
+
+Exit codes: 0 done, 1 the input or the run failed, 2 wrong usage.";
+
+/// How strongly two rough elastic bodies stick, and whether pressing them together makes them stick
+/// more.
+///
+/// Computes the adhesive contact of a rough body on an elastic half-space by the method of
+/// dimensionality reduction with the rule of Hess: the whole loop of force against indentation,
+/// exactly, for any loading history. Without a command the explorer opens in the terminal.
+#[derive(Debug, Parser)]
+#[command(
+    name = "asperity",
+    version,
+    after_help = EXAMPLES,
+    args_conflicts_with_subcommands = true,
+    subcommand_negates_reqs = true
+)]
+pub struct Arguments {
+    /// The command; without one the explorer opens.
+    #[command(subcommand)]
+    pub command: Option<Command>,
+    /// The scene the explorer opens on.
+    #[command(flatten)]
+    pub explore: ExploreArguments,
+}
+
+/// The commands.
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Compute a scene and print what came out: a summary, JSON, or the curve as CSV
+    Run(RunArguments),
+    /// Tell which stages a scene runs, which it skips and why, and what they cost
+    Plan(PlanArguments),
+    /// Print the rigid line of a scene as CSV: x,z in m
+    Line(LineArguments),
+    /// List, show and check scenes
+    #[command(subcommand)]
+    Presets(PresetsCommand),
+    /// Print a completion script for a shell
+    Completions(CompletionsArguments),
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::CommandFactory;
+
+    #[test]
+    fn the_arguments_agree_with_each_other() {
+        Arguments::command().debug_assert();
+    }
+}

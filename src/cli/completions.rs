@@ -1,0 +1,28 @@
+//! `asperity completions`: completion scripts for shells.
+
+use super::{Arguments, CliError};
+use clap::{Args, CommandFactory};
+use clap_complete::Shell;
+use std::io::Write;
+
+const EXAMPLES: &str = "\
+Examples:
+  asperity completions bash > ~/.local/share/bash-completion/completions/asperity
+  asperity completions zsh > ~/.zfunc/_asperity
+  asperity completions fish > ~/.config/fish/completions/asperity.fish";
+
+/// Arguments of `completions`.
+#[derive(Args, Debug)]
+#[command(after_help = EXAMPLES)]
+pub struct CompletionsArguments {
+    /// The shell
+    pub shell: Shell,
+}
+
+/// Writes the completion script of a shell.
+pub(super) fn completions(arguments: &CompletionsArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
+    // Into memory first: the generator panics when what it writes to fails.
+    let mut script = Vec::new();
+    clap_complete::generate(arguments.shell, &mut Arguments::command(), "asperity", &mut script);
+    Ok(stdout.write_all(&script)?)
+}

@@ -1,0 +1,80 @@
+//! Why a command failed.
+
+use crate::export::WriteError;
+use crate::scene::SceneErrors;
+use crate::simulation::RunError;
+use std::io;
+use thiserror::Error;
+
+/// Why a command failed: one message, or one for each line of input that is wrong.
+#[derive(Debug, Error)]
+pub enum CliError {
+    /// A scene cannot be opened or is not allowed.
+    #[error(transparent)]
+    Scene(Box<SceneErrors>),
+    /// What was typed is neither a scene nor a command.
+    #[error("{errors}\nCommands: {commands} (see asperity --help)")]
+    NeitherSceneNorCommand {
+        /// Why it is no scene.
+        errors: Box<SceneErrors>,
+        /// The commands there are.
+        commands: String,
+    },
+    /// Scenes that were checked are wrong.
+    #[error("{}", .0.join("\n"))]
+    Checked(Vec<String>),
+    /// There is no built-in scene of this name.
+    #[error("{name}: there is no such built-in scene; allowed: {allowed}")]
+    NoPreset {
+        /// The name.
+        name: String,
+        /// Those there are.
+        allowed: String,
+    },
+    /// A scene could not be computed.
+    #[error("{scene}: {error}")]
+    Run {
+        /// Name of the scene.
+        scene: String,
+        /// Why not.
+        error: RunError,
+    },
+    /// A file could not be written.
+    #[error("{0}{hint}", hint = hint(.0))]
+    Write(#[from] WriteError),
+    /// Standard output could not be written to.
+    #[error("standard output: cannot be written: {0}")]
+    StandardOutput(#[from] io::Error),
+    /// The explorer cannot draw.
+    #[error("the explorer needs a terminal; asperity run {scene} computes the scene without one")]
+    NoTerminal {
+        /// Name of the scene.
+        scene: String,
+    },
+    /// The explorer failed.
+    #[error("the explorer failed: {0}")]
+    Explorer(String),
+}
+
+impl From<SceneErrors> for CliError {
+    fn from(errors: SceneErrors) -> CliError {
+        CliError::Scene(Box::new(errors))
+    }
+}
+
+impl CliError {
+    /// Whether what was to read the results has ended, and with it the need for them.
+    #[must_use]
+    pub fn is_closed_pipe(&self) -> bool {
+        match self {
+            CliError::StandardOutput(error) | CliError::Write(WriteError::Failed { reason: error, .. }) => {
+                error.kind() == io::ErrorKind::BrokenPipe
+            }
+            _ => false,
+        }
+    }
+}
+
+fn hint(error: &WriteError) -> &'static str {
+    if matches!(error, WriteError::Exists { .. }) { "; --force overwrites it" } else { "" }
+}

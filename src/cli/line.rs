@@ -1,0 +1,37 @@
+//! `asperity line`: the rigid line of a scene.
+
+use super::scene::simulation_of;
+use super::{CliError, OutputArguments, SceneArguments};
+use crate::export::write_line;
+use clap::Args;
+use std::io::Write;
+
+const EXAMPLES: &str = "\
+Examples:
+  asperity line profile-hurst-025 > line.csv
+  asperity line profile-hurst-025 --set numerics.points=65536 -o finer.csv
+
+The finer line is the same line: a wave of a seed keeps its phase on every grid.";
+
+/// Arguments of `line`.
+#[derive(Args, Debug)]
+#[command(after_help = EXAMPLES)]
+pub struct LineArguments {
+    /// The scene.
+    #[command(flatten)]
+    pub scene: SceneArguments,
+    /// Where it goes.
+    #[command(flatten)]
+    pub output: OutputArguments,
+}
+
+/// Makes the line of a scene and writes it.
+pub(super) fn line(arguments: &LineArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
+    let document = arguments.scene.open()?;
+    arguments.output.check()?;
+    let mut simulation = simulation_of(&document);
+    let (line, ..) = simulation
+        .make_line(document.scene())
+        .map_err(|error| CliError::Run { scene: document.name().into(), error })?;
+    arguments.output.write(stdout, |out| write_line(out, line))
+}

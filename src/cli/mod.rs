@@ -1,0 +1,77 @@
+//! The command line: what may be typed, and one function for each command.
+//!
+//! Results go to standard output, everything else to standard error. Exit codes: 0 done, 1 the input
+//! or the run failed, 2 wrong usage.
+
+mod arguments;
+mod completions;
+mod error;
+mod explore;
+mod line;
+mod output;
+mod plan;
+mod plan_cost;
+mod plan_legs;
+mod presets;
+mod run;
+mod scene;
+
+pub use arguments::{Arguments, Command};
+pub use completions::CompletionsArguments;
+pub use error::CliError;
+pub use explore::ExploreArguments;
+pub use line::LineArguments;
+pub use output::OutputArguments;
+pub use plan::{PlanArguments, PlanFormat};
+pub use presets::{ListFormat, PresetsCommand};
+pub use run::{RunArguments, RunFormat};
+pub use scene::{Overrides, SceneArguments};
+
+use clap::Parser;
+use std::ffi::OsString;
+use std::io::{self, BufWriter, Write};
+use std::process::ExitCode;
+
+/// Bytes gathered before they go to standard output.
+const BUFFER: usize = 1 << 18;
+
+/// Exit code of input or a run that failed.
+const FAILED: u8 = 1;
+
+/// Exit code of wrong usage.
+const WRONG_USAGE: u8 = 2;
+
+/// Runs the program with these arguments, the first of them its own name.
+pub fn main(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
+    let arguments = match Arguments::try_parse_from(arguments) {
+        Ok(arguments) => arguments,
+        Err(error) => {
+            // Help and version come this way as well. Where nobody reads them, that is all right.
+            let _ = error.print();
+            return if error.use_stderr() { ExitCode::from(WRONG_USAGE) } else { ExitCode::SUCCESS };
+        }
+    };
+    let mut stdout = BufWriter::with_capacity(BUFFER, io::stdout().lock());
+    let done = dispatch(&arguments, &mut stdout).and_then(|()| Ok(stdout.flush()?));
+    match done {
+        Ok(()) => ExitCode::SUCCESS,
+        // Whoever reads has seen enough: `asperity run … | head`.
+        Err(error) if error.is_closed_pipe() => ExitCode::SUCCESS,
+        Err(error) => {
+            let _ = stdout.flush();
+            let _ = writeln!(io::stderr(), "{error}");
+            ExitCode::from(FAILED)
+        }
+    }
+}
+
+fn dispatch(arguments: &Arguments, stdout: &mut dyn Write) -> Result<(), CliError> {
+    match &arguments.command {
+        None => explore::explore(&arguments.explore),
+        Some(Command::Run(arguments)) => run::run(arguments, stdout),
+        Some(Command::Plan(arguments)) => plan::plan(arguments, stdout),
+        Some(Command::Line(arguments)) => line::line(arguments, stdout),
+        Some(Command::Presets(command)) => presets::presets(command, stdout),
+        Some(Command::Completions(arguments)) => completions::completions(arguments, stdout),
+    }
+}

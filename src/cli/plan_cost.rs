@@ -1,0 +1,100 @@
+//! What the stages of a scene cost, as far as the scene alone tells: passes and memory.
+
+use super::plan_legs::Legs;
+use crate::contact::CurvePoint;
+use crate::scene::{Form, Roughness, Scene, Solver};
+use crate::simulation::{Plan, PlannedStage, Stage};
+use serde::Serialize;
+
+/// Bytes for each spring: a height of the roughness, or a gap of the line.
+const HEIGHT: u64 = 8;
+/// Bytes for each spring while a line is synthesized, beside its heights: half as many complex
+/// coefficients, scratch space and twiddle factors of the transform.
+const TRANSFORM: u64 = 28;
+/// Bytes for each spring: a node of the tree.
+const NODE: u64 = 20;
+/// Bytes for each spring: the indentation at which it joins or leaves.
+const THRESHOLD: u64 = 8;
+/// Bytes for each spring of the stepwise solver: its threshold and whether it touches.
+const RELAXED: u64 = THRESHOLD + 1;
+
+/// What a scene costs.
+pub(super) struct Cost {
+    /// Springs N of the foundation.
+    points: u64,
+    /// Springs under the body.
+    pub(super) springs: u64,
+    /// Points of all curves.
+    curve_points: u64,
+    legs: Legs,
+    exact: bool,
+    rough: bool,
+}
+
+/// What one stage costs; nothing where it is skipped.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+pub(super) struct StageCost {
+    /// Passes over the line or its tree; `None` where only the run can tell.
+    pub(super) passes: Option<u64>,
+    /// Bytes of the arrays it adds while it runs.
+    pub(super) bytes: u64,
+}
+
+impl Cost {
+    pub(super) fn of(scene: &Scene) -> Cost {
+        let loading = scene.loading.as_slice();
+        Cost {
+            points: scene.numerics.points,
+            springs: springs_under_body(scene),
+            curve_points: scene.numerics.samples * loading.len() as u64,
+            legs: Legs::of(loading),
+            exact: scene.numerics.solver == Solver::Exact,
+            rough: matches!(scene.roughness, Some(Roughness::SelfAffine { .. } | Roughness::Measured { .. })),
+        }
+    }
+
+    pub(super) fn stage(&self, planned: &PlannedStage) -> StageCost {
+        if !planned.runs {
+            return StageCost { passes: Some(0), bytes: 0 };
+        }
+        let on_line = |passes, per_spring: u64| StageCost { passes, bytes: per_spring * self.springs };
+        match planned.stage {
+            Stage::Form | Stage::HeightHistogram => on_line(Some(1), 0),
+            Stage::Synthesis => StageCost { passes: Some(1), bytes: (HEIGHT + TRANSFORM) * self.points },
+            Stage::MeasuredProfile => StageCost { passes: Some(1), bytes: HEIGHT * self.points },
+            Stage::Tree => on_line(Some(1), NODE),
+            Stage::RuleOfHess => on_line(Some(0), 0),
+            Stage::LoadingPass => on_line(self.legs.loading(), THRESHOLD),
+            Stage::UnloadingPass => on_line(self.legs.unloading(), 0),
+            Stage::Relaxation => on_line(None, RELAXED),
+            Stage::ZeroLoadAdhesion if self.exact => on_line(Some(2), THRESHOLD),
+            Stage::ZeroLoadAdhesion => on_line(None, RELAXED),
+            Stage::Fragments => on_line(Some(self.legs.all()), 0),
+        }
+    }
+
+    /// About the most memory the arrays of a run take at any one time, bytes.
+    pub(super) fn peak_bytes(&self, plan: &Plan) -> u64 {
+        let kept = if self.rough { HEIGHT * self.points } else { 0 };
+        let of_contact = match (self.exact, plan.runs(Stage::Tree)) {
+            (false, _) => RELAXED,
+            (true, true) => NODE + THRESHOLD,
+            (true, false) => 0,
+        };
+        let curves = self.curve_points * size_of::<CurvePoint>() as u64;
+        let contact = kept + (HEIGHT + of_contact) * self.springs + curves;
+        let synthesis = if plan.runs(Stage::Synthesis) { (HEIGHT + TRANSFORM) * self.points } else { 0 };
+        contact.max(synthesis)
+    }
+}
+
+/// Springs of the foundation that stand under the body: all of them but those beside a punch.
+fn springs_under_body(scene: &Scene) -> u64 {
+    let points = scene.numerics.points;
+    let Some(Form::Punch { radius }) = scene.form else { return points };
+    let cells = radius / scene.spacing();
+    // Pairs at half or whole cells from the axis, and one on it where the number of springs is odd.
+    let under =
+        if points.is_multiple_of(2) { 2.0 * (cells + 0.5).floor() } else { 2.0 * cells.floor() + 1.0 };
+    (under as u64).min(points)
+}

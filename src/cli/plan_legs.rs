@@ -1,0 +1,142 @@
+//! Which legs of a loading press and which pull, as far as that is clear without a run.
+
+use crate::scene::Leg;
+
+/// How many legs there are of either kind.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct Legs {
+    loading: u64,
+    unloading: u64,
+    /// Legs that move nothing that touches.
+    idle: u64,
+    unclear: u64,
+}
+
+/// What is known of the body before a leg.
+#[derive(Clone, Copy)]
+struct Standing {
+    /// Whether it touches; `None` where only the run can tell.
+    touches: Option<bool>,
+    force: Option<f64>,
+    indentation: Option<f64>,
+}
+
+enum Way {
+    Loading,
+    Unloading,
+    Idle,
+    Unclear,
+}
+
+impl Legs {
+    pub(super) fn of(loading: &[Leg]) -> Legs {
+        let mut legs = Legs::default();
+        let mut standing = Standing { touches: Some(false), force: Some(0.0), indentation: Some(0.0) };
+        for leg in loading {
+            let way = standing.way(leg);
+            match way {
+                Way::Loading => legs.loading += 1,
+                Way::Unloading => legs.unloading += 1,
+                Way::Idle => legs.idle += 1,
+                Way::Unclear => legs.unclear += 1,
+            }
+            standing = standing.after(leg);
+        }
+        legs
+    }
+
+    /// All legs.
+    pub(super) fn all(self) -> u64 {
+        self.loading + self.unloading + self.idle + self.unclear
+    }
+
+    /// Loading legs, where that is clear for all.
+    pub(super) fn loading(self) -> Option<u64> {
+        (self.unclear == 0).then_some(self.loading)
+    }
+
+    /// Unloading legs, where that is clear for all.
+    pub(super) fn unloading(self) -> Option<u64> {
+        (self.unclear == 0).then_some(self.unloading)
+    }
+}
+
+impl Standing {
+    fn way(self, leg: &Leg) -> Way {
+        match (self.touches, target(leg)) {
+            (Some(false), Target::Indentation(wanted)) if wanted < 0.0 => Way::Idle,
+            (Some(false), Target::Separation) => Way::Idle,
+            (Some(false), _) => Way::Loading,
+            (None, _) => Way::Unclear,
+            (Some(true), Target::Separation) => Way::Unloading,
+            (Some(true), Target::Force(wanted)) => from_to(self.force, wanted),
+            (Some(true), Target::Indentation(wanted)) => match (self.force, self.indentation) {
+                // A pressing force needs an indentation.
+                (Some(force), None) if force > 0.0 && wanted <= 0.0 => Way::Unloading,
+                (_, indentation) => from_to(indentation, wanted),
+            },
+        }
+    }
+
+    fn after(self, leg: &Leg) -> Standing {
+        match target(leg) {
+            Target::Force(force) => Standing { touches: Some(true), force: Some(force), indentation: None },
+            Target::Indentation(indentation) => {
+                // The highest spring touches from d = 0 on; below, adhesion decides.
+                let touches =
+                    if indentation >= 0.0 { Some(true) } else { self.touches.filter(|touches| !touches) };
+                Standing { touches, force: None, indentation: Some(indentation) }
+            }
+            Target::Separation => Standing { touches: Some(false), force: Some(0.0), indentation: None },
+        }
+    }
+}
+
+enum Target {
+    Force(f64),
+    Indentation(f64),
+    Separation,
+}
+
+fn target(leg: &Leg) -> Target {
+    match *leg {
+        Leg::ToForce(force) => Target::Force(force),
+        Leg::ToZeroForce => Target::Force(0.0),
+        Leg::ToIndentation(indentation) => Target::Indentation(indentation),
+        Leg::ToTouch => Target::Indentation(0.0),
+        Leg::ToSeparation => Target::Separation,
+    }
+}
+
+/// Equal numbers leave it unclear: rounding decides on which side of its target a leg has ended.
+fn from_to(from: Option<f64>, to: f64) -> Way {
+    match from {
+        Some(from) if to > from => Way::Loading,
+        Some(from) if to < from => Way::Unloading,
+        _ => Way::Unclear,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Leg::{ToForce, ToIndentation, ToSeparation, ToTouch, ToZeroForce};
+
+    #[test]
+    fn legs_are_counted_where_they_are_clear() {
+        for (loading, counts) in [
+            (&[ToForce(1.0), ToSeparation][..], (Some(1), Some(1))),
+            (&[ToZeroForce, ToSeparation], (Some(1), Some(1))),
+            (&[ToForce(1.0), ToForce(0.5), ToForce(2.0), ToZeroForce, ToForce(-1.0)], (Some(2), Some(3))),
+            (&[ToTouch, ToIndentation(1.0), ToIndentation(-1.0)], (Some(2), Some(1))),
+            (&[ToForce(1.0), ToTouch, ToSeparation, ToSeparation], (Some(1), Some(2))),
+            (&[ToIndentation(-1.0), ToSeparation, ToTouch], (Some(1), Some(0))),
+            (&[ToForce(1.0), ToIndentation(1.0)], (None, None)),
+            (&[ToTouch, ToIndentation(-1.0), ToSeparation], (None, None)),
+        ] {
+            let legs = Legs::of(loading);
+            assert_eq!((legs.loading(), legs.unloading()), counts, "{loading:?}");
+            assert_eq!(legs.all(), loading.len() as u64);
+        }
+    }
+}

@@ -1,0 +1,161 @@
+//! `asperity presets`: the built-in scenes, and checking scene files.
+
+use super::CliError;
+use crate::export::sheet::Sheet;
+use crate::export::write_lines;
+use crate::scene::{self, Document, LONGEST_TEXT, Roughness, SceneErrors, line_column, locate};
+use crate::surface::MeasuredProfile;
+use clap::{Subcommand, ValueEnum};
+use serde::Serialize;
+use std::io::{self, Read, Write};
+use std::path::Path;
+
+const CHECK_EXAMPLES: &str = "\
+Examples:
+  asperity presets check my-scene.ron other-scene.ron
+  asperity presets show jkr-sphere | asperity presets check -
+
+Every error of every file is told with its line and column. The exit code is 1 if there is any.";
+
+const SHOW_EXAMPLES: &str = "\
+Example:
+  asperity presets show rough-sphere > my-scene.ron";
+
+/// What is done with scenes.
+#[derive(Debug, Subcommand)]
+pub enum PresetsCommand {
+    /// List the built-in scenes
+    List {
+        /// How
+        #[arg(long, value_enum, default_value_t = ListFormat::Text)]
+        format: ListFormat,
+    },
+    /// Print the text of a built-in scene, to start one's own from
+    #[command(after_help = SHOW_EXAMPLES)]
+    Show {
+        /// Its name
+        name: String,
+    },
+    /// Check scene files, without computing anything
+    #[command(after_help = CHECK_EXAMPLES)]
+    Check {
+        /// Scene files; `-` is standard input
+        #[arg(required = true, value_name = "FILE")]
+        files: Vec<String>,
+    },
+}
+
+/// How scenes are listed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum ListFormat {
+    /// Name and title in columns
+    Text,
+    /// Objects with name, title and notice
+    Json,
+}
+
+/// A built-in scene in the list.
+#[derive(Serialize)]
+struct Listed {
+    name: &'static str,
+    title: String,
+    notice: String,
+}
+
+/// Does one of the commands.
+pub(super) fn presets(command: &PresetsCommand, stdout: &mut dyn Write) -> Result<(), CliError> {
+    match command {
+        PresetsCommand::List { format } => list(*format, stdout),
+        PresetsCommand::Show { name } => show(name, stdout),
+        PresetsCommand::Check { files } => check(files, stdout),
+    }
+}
+
+fn list(format: ListFormat, stdout: &mut dyn Write) -> Result<(), CliError> {
+    let mut presets = Vec::new();
+    for preset in scene::presets() {
+        let document = Document::parse(preset.text, preset.name)?;
+        let scene = document.scene();
+        let (title, notice) = (scene.title.clone(), scene.notice.clone());
+        presets.push(Listed { name: preset.name, title, notice });
+    }
+    match format {
+        ListFormat::Json => write_lines(stdout, &presets)?,
+        ListFormat::Text => {
+            let rows: Vec<_> = presets.into_iter().map(|preset| [preset.name.into(), preset.title]).collect();
+            let mut sheet = Sheet::default();
+            sheet.table(&rows);
+            stdout.write_all(sheet.into_text().as_bytes())?;
+        }
+    }
+    Ok(())
+}
+
+fn show(name: &str, stdout: &mut dyn Write) -> Result<(), CliError> {
+    let preset = scene::find(name).ok_or_else(|| {
+        let names: Vec<_> = scene::presets().iter().map(|preset| preset.name).collect();
+        CliError::NoPreset { name: name.into(), allowed: names.join(", ") }
+    })?;
+    Ok(stdout.write_all(preset.text.as_bytes())?)
+}
+
+fn check(files: &[String], stdout: &mut dyn Write) -> Result<(), CliError> {
+    let mut wrong = Vec::new();
+    for file in files {
+        match checked(file) {
+            Ok(name) => writeln!(stdout, "{name}: ok")?,
+            Err(errors) => wrong.push(errors),
+        }
+    }
+    if wrong.is_empty() { Ok(()) } else { Err(CliError::Checked(wrong)) }
+}
+
+/// The name of a scene in which nothing is wrong, or all that is, line by line.
+fn checked(file: &str) -> Result<String, String> {
+    let document = if file == "-" { of_standard_input() } else { of_file(file) }?;
+    match profile_error(&document) {
+        None => Ok(document.name().into()),
+        Some(error) => Err(error),
+    }
+}
+
+fn of_file(file: &str) -> Result<Document, String> {
+    let path = Path::new(file);
+    // Names of built-in scenes are no files.
+    match path.metadata() {
+        Err(error) if error.kind() == io::ErrorKind::NotFound => {
+            Err(format!("{file}: there is no such file"))
+        }
+        Err(error) => Err(format!("{file}: cannot be read: {error}")),
+        Ok(found) if found.is_dir() => Err(format!("{file}: this is a folder; allowed: files")),
+        Ok(_) => scene::open(file).map_err(|errors| errors.to_string()),
+    }
+}
+
+fn of_standard_input() -> Result<Document, String> {
+    let name = "standard input";
+    let mut bytes = Vec::new();
+    let most = LONGEST_TEXT as u64 + 1;
+    io::stdin()
+        .lock()
+        .take(most)
+        .read_to_end(&mut bytes)
+        .map_err(|error| format!("{name}: cannot be read: {error}"))?;
+    let text = String::from_utf8(bytes).map_err(|error| {
+        format!("{name}: this is not UTF-8 text: byte {} is not", error.utf8_error().valid_up_to())
+    })?;
+    Document::parse(&text, name).map_err(|errors: SceneErrors| errors.to_string())
+}
+
+/// What is wrong with the measured profile a scene names, with the place where it names it.
+fn profile_error(document: &Document) -> Option<String> {
+    let scene = document.scene();
+    let Some(Roughness::Measured { file }) = &scene.roughness else { return None };
+    let error = match MeasuredProfile::read(&document.resolve(file)) {
+        Err(error) => error.to_string(),
+        Ok(profile) => profile.sample(scene.length, 1).err()?,
+    };
+    let offset = locate(document.text(), "roughness.file").map_or(0, |place| place.value.start);
+    let (line, column) = line_column(document.text(), offset);
+    Some(format!("{}:{line}:{column}: {error}", document.name()))
+}

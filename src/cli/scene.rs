@@ -1,0 +1,65 @@
+//! Which scene a command is about, and what is changed in it.
+
+use super::CliError;
+use crate::scene::{Document, open};
+use crate::simulation::Simulation;
+use clap::Args;
+
+/// A scene, with overrides.
+#[derive(Args, Debug)]
+pub struct SceneArguments {
+    /// A scene file, or the name of a built-in scene (see `asperity presets list`)
+    pub scene: String,
+    /// What is changed in it.
+    #[command(flatten)]
+    pub overrides: Overrides,
+}
+
+/// Overrides of a scene's fields.
+#[derive(Args, Debug)]
+pub struct Overrides {
+    /// Override a field of the scene, VALUE written as in a scene file; may be repeated:
+    /// --set roughness.seed=7 --set "loading=[ToForce(2e-3), ToSeparation]"
+    #[arg(long = "set", value_name = "PATH=VALUE", value_parser = path_and_value)]
+    pub set: Vec<(String, String)>,
+}
+
+impl SceneArguments {
+    /// Opens the scene and changes it.
+    pub(super) fn open(&self) -> Result<Document, CliError> {
+        self.overrides.apply(open(&self.scene)?)
+    }
+}
+
+impl Overrides {
+    /// The document with these overrides.
+    pub(super) fn apply(&self, document: Document) -> Result<Document, CliError> {
+        if self.set.is_empty() { Ok(document) } else { Ok(document.set_all(&self.set)?) }
+    }
+}
+
+/// A simulation that finds the files a scene names, which are relative to its own.
+pub(super) fn simulation_of(document: &Document) -> Simulation {
+    Simulation::new(document.resolve(""))
+}
+
+fn path_and_value(text: &str) -> Result<(String, String), String> {
+    match text.split_once('=') {
+        Some((path, value)) if !path.trim().is_empty() => Ok((path.trim().into(), value.into())),
+        _ => Err("a field and its value are expected, such as adhesion.work=0.1".into()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn overrides_are_a_path_and_all_that_follows() {
+        let both = |path: &str, value: &str| Ok((path.to_string(), value.to_string()));
+        assert_eq!(path_and_value("adhesion.work=0.1"), both("adhesion.work", "0.1"));
+        assert_eq!(path_and_value("title = \"a=b\""), both("title", " \"a=b\""));
+        assert!(path_and_value("adhesion.work").is_err());
+        assert!(path_and_value("=0.1").is_err());
+    }
+}

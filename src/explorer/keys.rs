@@ -1,0 +1,231 @@
+//! The one table of keys: it feeds dispatch, footer, help and the README.
+
+use super::action::{Command, Motion};
+use super::model::ModeKind;
+use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
+
+/// A row of the table: keys, where they are valid, and what they do.
+pub struct Binding {
+    /// The keys.
+    pub keys: &'static [Key],
+    /// The modes in which they are valid.
+    pub modes: &'static [ModeKind],
+    /// What they do.
+    pub command: Command,
+    /// One word for the footer; empty where the footer leaves it out.
+    pub label: &'static str,
+    /// A line for the help.
+    pub help: &'static str,
+    /// The section of the help.
+    pub section: &'static str,
+}
+
+/// A key with its modifiers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Key {
+    code: KeyCode,
+    modifiers: KeyModifiers,
+}
+
+impl Key {
+    /// Whether a key event is this key. Shift is part of a character, not beside it.
+    #[must_use]
+    pub fn matches(&self, event: &KeyEvent) -> bool {
+        let modifiers = match event.code {
+            KeyCode::Char(_) | KeyCode::BackTab => event.modifiers - KeyModifiers::SHIFT,
+            _ => event.modifiers,
+        };
+        self.code == event.code && self.modifiers == modifiers
+    }
+
+    /// The key as it is written on a keyboard.
+    #[must_use]
+    pub fn name(&self) -> String {
+        let name = match self.code {
+            KeyCode::Char(' ') => "space".to_owned(),
+            KeyCode::Char(character) => character.to_string(),
+            KeyCode::Up => "↑".to_owned(),
+            KeyCode::Down => "↓".to_owned(),
+            KeyCode::Left => "←".to_owned(),
+            KeyCode::Right => "→".to_owned(),
+            KeyCode::BackTab => "Shift+Tab".to_owned(),
+            other => format!("{other:?}"),
+        };
+        let mut prefix = String::new();
+        if self.modifiers.contains(KeyModifiers::CONTROL) {
+            prefix.push_str("Ctrl+");
+        }
+        if self.modifiers.contains(KeyModifiers::SHIFT) {
+            prefix.push_str("Shift+");
+        }
+        prefix + &name
+    }
+}
+
+const fn key(code: KeyCode) -> Key {
+    Key { code, modifiers: KeyModifiers::NONE }
+}
+
+const fn char(character: char) -> Key {
+    key(KeyCode::Char(character))
+}
+
+const fn control(character: char) -> Key {
+    Key { code: KeyCode::Char(character), modifiers: KeyModifiers::CONTROL }
+}
+
+const fn shift(code: KeyCode) -> Key {
+    Key { code, modifiers: KeyModifiers::SHIFT }
+}
+
+const EXPLORE: &[ModeKind] = &[ModeKind::Explore];
+const HELP: &[ModeKind] = &[ModeKind::Help];
+const LINE: &[ModeKind] = &[ModeKind::Edit, ModeKind::SaveAs];
+const ASK: &[ModeKind] = &[ModeKind::Overwrite];
+const LEAVE: &[ModeKind] = &[ModeKind::Quit];
+
+const ANIMATION: &str = "Animation";
+const PARAMETERS: &str = "Parameters";
+const LOOK: &str = "Looking";
+const SCENE: &str = "Scene";
+const TEXT: &str = "Typing";
+
+const fn row(
+    keys: &'static [Key],
+    modes: &'static [ModeKind],
+    command: Command,
+    label: &'static str,
+    help: &'static str,
+    section: &'static str,
+) -> Binding {
+    Binding { keys, modes, command, label, help, section }
+}
+
+const FINER: Command = Command::StepValue { steps: -1, coarse: false };
+const FINE: Command = Command::StepValue { steps: 1, coarse: false };
+const COARSER: Command = Command::StepValue { steps: -1, coarse: true };
+const COARSE: Command = Command::StepValue { steps: 1, coarse: true };
+
+/// All keys. Where two rows of one mode share a key the first counts; a test forbids it.
+pub const BINDINGS: &[Binding] = &[
+    row(&[char(' ')], EXPLORE, Command::TogglePlay, "play/pause", "play or pause", ANIMATION),
+    row(&[char('.')], EXPLORE, Command::Step(1), "step", "one step forwards", ANIMATION),
+    row(&[char(',')], EXPLORE, Command::Step(-1), "", "one step backwards", ANIMATION),
+    row(&[char('r')], EXPLORE, Command::Restart, "restart", "play from the beginning", ANIMATION),
+    row(&[char('>')], EXPLORE, Command::Leg(1), "", "to the start of the next leg", ANIMATION),
+    row(&[char('<')], EXPLORE, Command::Leg(-1), "", "to the start of this leg or the one before", ANIMATION),
+    row(&[key(KeyCode::Up), char('k')], EXPLORE, Command::Select(-1), "", "the parameter above", PARAMETERS),
+    row(&[key(KeyCode::Down), char('j')], EXPLORE, Command::Select(1), "select", "the parameter below", PARAMETERS),
+    row(&[key(KeyCode::Home), char('g')], EXPLORE, Command::SelectEnd(false), "", "the first parameter", PARAMETERS),
+    row(&[key(KeyCode::End), char('G')], EXPLORE, Command::SelectEnd(true), "", "the last parameter", PARAMETERS),
+    row(&[key(KeyCode::Left), char('h')], EXPLORE, FINER, "", "a small step down", PARAMETERS),
+    row(&[key(KeyCode::Right), char('l')], EXPLORE, FINE, "change", "a small step up", PARAMETERS),
+    row(&[shift(KeyCode::Left), char('H')], EXPLORE, COARSER, "", "a large step down", PARAMETERS),
+    row(&[shift(KeyCode::Right), char('L')], EXPLORE, COARSE, "", "a large step up", PARAMETERS),
+    row(
+        &[key(KeyCode::Enter), char('e')],
+        EXPLORE,
+        Command::EditValue,
+        "type",
+        "type a value, with a prefix and unit if you like: 2.5 MPa, 10 µm, 50m",
+        PARAMETERS,
+    ),
+    row(&[char('R')], EXPLORE, Command::Reseed, "reseed", "another random line", PARAMETERS),
+    row(&[char('u')], EXPLORE, Command::Undo, "undo", "take back the last edit", PARAMETERS),
+    row(&[char('U'), control('r')], EXPLORE, Command::Redo, "", "do it again", PARAMETERS),
+    row(&[char('n')], EXPLORE, Command::Fragment(1), "fragment", "close-up of the next fragment", LOOK),
+    row(&[char('p')], EXPLORE, Command::Fragment(-1), "", "close-up of the previous fragment", LOOK),
+    row(&[char('f')], EXPLORE, Command::FocusSummit, "", "close-up of where the bodies touch first", LOOK),
+    row(&[char('+'), char('=')], EXPLORE, Command::Zoom(1), "", "closer in the close-up", LOOK),
+    row(&[char('-')], EXPLORE, Command::Zoom(-1), "", "further away in the close-up", LOOK),
+    row(&[key(KeyCode::Tab)], EXPLORE, Command::NextPane, "", "choose the next pane", LOOK),
+    row(&[char('z')], EXPLORE, Command::ZoomPane, "zoom", "the chosen pane on the whole screen, or all panes", LOOK),
+    row(&[char('1')], EXPLORE, Command::Preset(0), "", "first built-in scene; 2 to 9: the others", SCENE),
+    row(&[char('2')], EXPLORE, Command::Preset(1), "", "", SCENE),
+    row(&[char('3')], EXPLORE, Command::Preset(2), "", "", SCENE),
+    row(&[char('4')], EXPLORE, Command::Preset(3), "", "", SCENE),
+    row(&[char('5')], EXPLORE, Command::Preset(4), "", "", SCENE),
+    row(&[char('6')], EXPLORE, Command::Preset(5), "", "", SCENE),
+    row(&[char('7')], EXPLORE, Command::Preset(6), "", "", SCENE),
+    row(&[char('8')], EXPLORE, Command::Preset(7), "", "", SCENE),
+    row(&[char('9')], EXPLORE, Command::Preset(8), "", "", SCENE),
+    row(&[char('s')], EXPLORE, Command::Save, "save", "save the scene to a file", SCENE),
+    row(&[char('?'), key(KeyCode::F(1))], EXPLORE, Command::Help, "help", "this help", SCENE),
+    row(&[char('q'), control('c')], EXPLORE, Command::Quit, "quit", "leave", SCENE),
+    row(&[key(KeyCode::Down), char('j'), char(' ')], HELP, Command::Select(1), "scroll", "further down", TEXT),
+    row(&[key(KeyCode::Up), char('k')], HELP, Command::Select(-1), "", "further up", TEXT),
+    row(
+        &[key(KeyCode::Esc), char('?'), char('q'), key(KeyCode::F(1)), control('c')],
+        HELP,
+        Command::Help,
+        "back",
+        "back from the help",
+        TEXT,
+    ),
+    row(&[key(KeyCode::Enter)], LINE, Command::Accept, "accept", "accept what is typed", TEXT),
+    row(&[key(KeyCode::Esc), control('c')], LINE, Command::Cancel, "cancel", "leave it as it was", TEXT),
+    row(&[key(KeyCode::Left), control('b')], LINE, Command::Move(Motion::Left), "", "left", TEXT),
+    row(&[key(KeyCode::Right), control('f')], LINE, Command::Move(Motion::Right), "", "right", TEXT),
+    row(&[key(KeyCode::Home), control('a')], LINE, Command::Move(Motion::Start), "", "to the start", TEXT),
+    row(&[key(KeyCode::End), control('e')], LINE, Command::Move(Motion::End), "", "to the end", TEXT),
+    row(
+        &[key(KeyCode::Backspace), control('h')],
+        LINE,
+        Command::Delete { backwards: true },
+        "",
+        "remove the character before the cursor",
+        TEXT,
+    ),
+    row(
+        &[key(KeyCode::Delete), control('d')],
+        LINE,
+        Command::Delete { backwards: false },
+        "",
+        "remove the character under the cursor",
+        TEXT,
+    ),
+    row(&[control('u')], LINE, Command::Clear, "clear", "empty the line", TEXT),
+    row(&[char('y')], ASK, Command::Accept, "overwrite", "overwrite the file", TEXT),
+    row(&[char('n'), key(KeyCode::Esc), control('c')], ASK, Command::Cancel, "keep it", "keep the file", TEXT),
+    row(&[char('s')], LEAVE, Command::Save, "save", "save, then leave", TEXT),
+    row(&[char('q'), char('y'), control('c')], LEAVE, Command::QuitAnyway, "quit", "leave without saving", TEXT),
+    row(&[char('n'), key(KeyCode::Esc)], LEAVE, Command::Cancel, "stay", "stay", TEXT),
+];
+
+/// The command of a key in a mode.
+#[must_use]
+pub fn command(event: &KeyEvent, mode: ModeKind) -> Option<Command> {
+    valid_in(mode).find(|row| row.keys.iter().any(|key| key.matches(event))).map(|row| row.command)
+}
+
+/// The rows of the table that are valid in a mode.
+pub fn valid_in(mode: ModeKind) -> impl Iterator<Item = &'static Binding> {
+    BINDINGS.iter().filter(move |row| row.modes.contains(&mode))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_mode_gives_a_key_two_meanings() {
+        for mode in ModeKind::ALL {
+            let mut seen: Vec<Key> = Vec::new();
+            for key in valid_in(mode).flat_map(|row| row.keys) {
+                assert!(!seen.contains(key), "{} twice in {mode:?}", key.name());
+                seen.push(*key);
+            }
+        }
+    }
+
+    #[test]
+    fn every_mode_can_be_left() {
+        for mode in ModeKind::ALL {
+            let leaves = |command| {
+                matches!(command, Command::Quit | Command::QuitAnyway | Command::Help | Command::Cancel)
+            };
+            let interrupt = KeyEvent::new(KeyCode::Char('c'), KeyModifiers::CONTROL);
+            assert!(command(&interrupt, mode).is_some_and(leaves), "Ctrl+C in {mode:?}");
+        }
+    }
+}

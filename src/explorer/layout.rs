@@ -1,0 +1,118 @@
+//! Where the panes stand: all four in a large window, fewer in a small one.
+
+use super::model::{Model, Pane};
+use ratatui::layout::Rect;
+
+/// Columns of the histogram beside the profile, its frame line included.
+const HISTOGRAM_COLUMNS: u16 = 14;
+
+/// The parts of the screen.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Layout {
+    /// The name of the scene and what to look at.
+    pub title: Option<Rect>,
+    /// The panes that are shown.
+    pub panes: Vec<(Pane, Rect)>,
+    /// One line with the headline figures, or what is typed.
+    pub status: Rect,
+    /// One line with the keys.
+    pub footer: Option<Rect>,
+}
+
+impl Layout {
+    /// The layout of a model in its window.
+    #[must_use]
+    pub fn of(model: &Model) -> Self {
+        let (width, height) = model.size;
+        let row = |y: u16| Rect::new(0, y, width, 1).intersection(Rect::new(0, 0, width, height));
+        // What frames the panes gives way before they do.
+        let footer = height >= 6;
+        let top = if height >= 32 { 2 } else { u16::from(height >= 8) };
+        let bottom = 1 + u16::from(footer);
+        let body = Rect::new(0, top, width, height.saturating_sub(top + bottom));
+        Layout {
+            title: (top > 0).then(|| Rect { height: top, ..row(0) }),
+            panes: panes(model, body),
+            status: row(height.saturating_sub(bottom)),
+            footer: footer.then(|| row(height - 1)),
+        }
+    }
+
+    /// The place of a pane, frame included.
+    #[must_use]
+    pub fn pane(&self, wanted: Pane) -> Option<Rect> {
+        self.panes.iter().find(|(pane, _)| *pane == wanted).map(|(_, area)| *area)
+    }
+
+    /// Columns of dots of the profile, without its histogram.
+    #[must_use]
+    pub fn profile_columns(&self) -> usize {
+        self.pane(Pane::Profile).map_or(0, |area| 2 * usize::from(split_profile(inside(area)).0.width))
+    }
+
+    /// Columns of dots of the close-up.
+    #[must_use]
+    pub fn close_up_columns(&self) -> usize {
+        self.pane(Pane::CloseUp).map_or(0, |area| 2 * usize::from(inside(area).width))
+    }
+}
+
+/// A pane without its frame; a pane too small for a frame has none.
+#[must_use]
+pub fn inside(area: Rect) -> Rect {
+    if is_framed(area) { area.inner(ratatui::layout::Margin::new(1, 1)) } else { area }
+}
+
+/// Whether a pane is large enough for a frame.
+#[must_use]
+pub fn is_framed(area: Rect) -> bool {
+    area.height >= 6 && area.width >= 16
+}
+
+/// Parts a profile pane into the profile and the histogram beside it.
+#[must_use]
+pub fn split_profile(area: Rect) -> (Rect, Option<Rect>) {
+    if area.width < 3 * HISTOGRAM_COLUMNS {
+        return (area, None);
+    }
+    let width = area.width - HISTOGRAM_COLUMNS;
+    let histogram = Rect { x: area.x + width, width: HISTOGRAM_COLUMNS, ..area };
+    (Rect { width, ..area }, Some(histogram))
+}
+
+fn panes(model: &Model, body: Rect) -> Vec<(Pane, Rect)> {
+    if body.is_empty() {
+        return Vec::new();
+    }
+    if model.zoomed {
+        return vec![(model.pane, body)];
+    }
+    if body.width >= 72 && body.height >= 14 {
+        let left = body.width * 58 / 100;
+        let upper = body.height / 2;
+        let part = |x: u16, y: u16, width: u16, height: u16| Rect::new(body.x + x, body.y + y, width, height);
+        return vec![
+            (Pane::Profile, part(0, 0, left, upper)),
+            (Pane::Force, part(left, 0, body.width - left, upper)),
+            (Pane::CloseUp, part(0, upper, left, body.height - upper)),
+            (Pane::Parameters, part(left, upper, body.width - left, body.height - upper)),
+        ];
+    }
+    // Too small for four: the most important ones, side by side or one above the other.
+    let second = if model.pane == Pane::Force { Pane::Profile } else { model.pane };
+    if body.width >= 36 && body.height >= 6 {
+        let left = body.width / 2;
+        return vec![
+            (Pane::Force, Rect { width: left, ..body }),
+            (second, Rect { x: body.x + left, width: body.width - left, ..body }),
+        ];
+    }
+    if body.height >= 12 {
+        let upper = body.height / 2;
+        return vec![
+            (Pane::Force, Rect { height: upper, ..body }),
+            (second, Rect { y: body.y + upper, height: body.height - upper, ..body }),
+        ];
+    }
+    vec![(model.pane, body)]
+}

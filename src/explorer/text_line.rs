@@ -1,0 +1,96 @@
+//! A line of text that is being typed.
+
+use super::action::Motion;
+
+/// Longest line, characters.
+const LONGEST: usize = 4096;
+
+/// A line of text with a cursor.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct TextLine {
+    characters: Vec<char>,
+    cursor: usize,
+}
+
+impl TextLine {
+    /// A line with this text, the cursor at its end.
+    #[must_use]
+    pub fn new(text: &str) -> Self {
+        let characters: Vec<char> = text.chars().filter(|c| !c.is_control()).take(LONGEST).collect();
+        TextLine { cursor: characters.len(), characters }
+    }
+
+    /// The text.
+    #[must_use]
+    pub fn text(&self) -> String {
+        self.characters.iter().collect()
+    }
+
+    /// The text before the cursor, under it and after it.
+    #[must_use]
+    pub fn parts(&self) -> (String, String, String) {
+        let (before, rest) = self.characters.split_at(self.cursor);
+        let (under, after) = rest.split_at(rest.len().min(1));
+        (before.iter().collect(), under.iter().collect(), after.iter().collect())
+    }
+
+    /// Inserts a character before the cursor.
+    pub fn insert(&mut self, character: char) {
+        if !character.is_control() && self.characters.len() < LONGEST {
+            self.characters.insert(self.cursor, character);
+            self.cursor += 1;
+        }
+    }
+
+    /// Removes the character before the cursor, or the one under it.
+    pub fn delete(&mut self, backwards: bool) {
+        if backwards && self.cursor > 0 {
+            self.cursor -= 1;
+        } else if backwards {
+            return;
+        }
+        if self.cursor < self.characters.len() {
+            self.characters.remove(self.cursor);
+        }
+    }
+
+    /// Moves the cursor.
+    pub fn go(&mut self, motion: Motion) {
+        self.cursor = match motion {
+            Motion::Left => self.cursor.saturating_sub(1),
+            Motion::Right => (self.cursor + 1).min(self.characters.len()),
+            Motion::Start => 0,
+            Motion::End => self.characters.len(),
+        };
+    }
+
+    /// Empties the line.
+    pub fn clear(&mut self) {
+        *self = TextLine::default();
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn edits_anywhere_in_the_line() {
+        let mut line = TextLine::new("1.5 µm");
+        line.go(Motion::Start);
+        line.insert('2');
+        line.delete(false);
+        assert_eq!(line.text(), "2.5 µm");
+        line.go(Motion::End);
+        line.delete(true);
+        line.delete(true);
+        assert_eq!(line.parts(), ("2.5 ".to_owned(), String::new(), String::new()));
+        line.go(Motion::Start);
+        line.delete(true);
+        line.insert('\n');
+        assert_eq!(line.text(), "2.5 ");
+        line.clear();
+        line.delete(false);
+        assert_eq!(line.text(), "");
+    }
+}

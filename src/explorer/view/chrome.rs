@@ -1,0 +1,108 @@
+//! The lines around the panes: title, status, footer.
+
+use crate::explorer::action::Command;
+use crate::explorer::keys;
+use crate::explorer::model::{Mode, Model, Notice};
+use crate::explorer::theme::Meaning;
+use crate::scene::format_quantity;
+use ratatui::Frame;
+use ratatui::layout::Rect;
+use ratatui::style::Modifier;
+use ratatui::text::{Line, Span};
+use ratatui::widgets::{Paragraph, Wrap};
+
+/// Name of the scene, whether it has changed, and what to look at.
+pub fn title(frame: &mut Frame<'_>, area: Rect, model: &Model) {
+    let scene = model.document.scene();
+    let name = if scene.title.is_empty() { model.document.name() } else { &scene.title };
+    let changed = if model.is_unsaved() { " [changed]" } else { "" };
+    let notice = scene.notice.split_whitespace().collect::<Vec<_>>().join(" ");
+    let line = Line::from(vec![
+        Span::styled(format!("{name}{changed}  "), model.theme.style(Meaning::Title)),
+        Span::styled(notice, model.theme.style(Meaning::Quiet)),
+    ]);
+    frame.render_widget(Paragraph::new(line).wrap(Wrap { trim: true }), area);
+}
+
+/// The headline figures, or a question, an error, or what is being typed.
+pub fn status(frame: &mut Frame<'_>, area: Rect, model: &Model) {
+    let error = |text: String| Line::styled(text, model.theme.style(Meaning::Error));
+    let line = match (&model.mode, &model.notice) {
+        (Mode::SaveAs { line, .. }, _) => {
+            let (before, under, after) = line.parts();
+            let under = if under.is_empty() { " ".to_owned() } else { under };
+            let cursor = Span::styled(under, model.theme.style(Meaning::Text).add_modifier(Modifier::REVERSED));
+            Line::from(vec![Span::raw("Save as: "), Span::raw(before), cursor, Span::raw(after)])
+        }
+        (Mode::Overwrite { path, .. }, _) => error(format!("{} exists. Overwrite it?", path.display())),
+        (Mode::Quit, _) => error("The scene has unsaved changes. Leave?".to_owned()),
+        (_, Some(Notice::Error(text))) => error(format!("! {}", text.replace('\n', " · "))),
+        (Mode::Explore, None) if model.refused.is_some() => {
+            let text = model.refused.as_ref().map_or("", |(_, text)| text);
+            error(format!("! {text}"))
+        }
+        (_, Some(Notice::Done(text))) => Line::raw(text.clone()),
+        _ => headline(model),
+    };
+    frame.render_widget(Paragraph::new(line), area);
+}
+
+/// F_a, regime, κ, the moment shown and what it cost, the most important first.
+fn headline(model: &Model) -> Line<'static> {
+    let Some(computed) = &model.computed else { return Line::raw("computing…") };
+    let outcome = &computed.outcome;
+    let mut parts = Vec::new();
+    if let Some(adhesion) = outcome.figures.adhesion_force {
+        parts.push(format!("F_a {}", format_quantity(adhesion, "N")));
+    }
+    if let Some(regime) = outcome.regime {
+        parts.push(regime.name().to_owned());
+    }
+    if let Some(coefficient) = outcome.figures.adhesion_coefficient {
+        parts.push(format!("F_a/F_n {}", format_quantity(coefficient, "1")));
+    }
+    let style = model.theme.style(Meaning::Title);
+    let mut spans = vec![Span::styled(parts.join(" · "), style)];
+    if let Some(moment) = model.moment.as_ref().filter(|moment| moment.generation == model.generation) {
+        let point = moment.point;
+        spans.push(Span::raw(format!(
+            "   d {} F {} · {} springs in {} fragments",
+            format_quantity(point.indentation, "m"),
+            format_quantity(point.force, "N"),
+            point.springs,
+            point.fragments,
+        )));
+    }
+    let time = if model.is_computing() {
+        let legs = model.document.scene().loading.len();
+        format!("   computing, leg {} of {legs}", model.progress.unwrap_or(0) + 1)
+    } else {
+        let timings = &outcome.timings;
+        let loops = timings.passes + timings.curve + timings.zero_load;
+        let [line, tree, loops] = [timings.line, timings.tree, loops].map(|time| format_quantity(time, "s"));
+        format!("   line {line} tree {tree} loop {loops}")
+    };
+    spans.push(Span::styled(time, model.theme.style(Meaning::Quiet)));
+    Line::from(spans)
+}
+
+/// The keys that are valid now.
+pub fn footer(frame: &mut Frame<'_>, area: Rect, model: &Model) {
+    let mut spans = Vec::new();
+    let mut room = usize::from(area.width);
+    let labelled = || keys::valid_in(model.mode.kind()).filter(|row| !row.label.is_empty());
+    // The way to all the others and the way out show in the smallest window.
+    let first = |row: &&keys::Binding| matches!(row.command, Command::Help | Command::Quit);
+    for row in labelled().filter(first).chain(labelled().filter(|row| !first(row))) {
+        let Some(key) = row.keys.first() else { continue };
+        let name = key.name();
+        let width = name.chars().count() + row.label.chars().count() + 3;
+        if width > room {
+            break;
+        }
+        room -= width;
+        spans.push(Span::styled(name, model.theme.style(Meaning::Key)));
+        spans.push(Span::raw(format!(" {}  ", row.label)));
+    }
+    frame.render_widget(Paragraph::new(Line::from(spans)), area);
+}

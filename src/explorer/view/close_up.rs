@@ -1,0 +1,74 @@
+//! The close-up of contact fragments, with their boundary points as the paper's white circles.
+
+use super::plot::Span;
+use super::profile::draw_section;
+use crate::explorer::model::Model;
+use crate::explorer::snapshot::{FragmentFacts, Section};
+use crate::explorer::theme::Meaning;
+use crate::scene::format_quantity;
+use ratatui::Frame;
+use ratatui::layout::Rect;
+use ratatui::text::Line;
+use ratatui::widgets::Paragraph;
+
+/// Title of the pane.
+pub fn title(model: &Model) -> String {
+    let Some((moment, computed)) = model.moment.as_ref().zip(model.computed.as_ref()) else {
+        return " Fragments ".to_owned();
+    };
+    let section = &moment.close_up.section;
+    let facts = computed.outcome.line;
+    let from = (facts.first + section.first) as f64 * facts.spacing;
+    let width = section.springs as f64 * facts.spacing;
+    format!(" Fragments, {} from x = {} ", format_quantity(width, "m"), format_quantity(from, "m"))
+}
+
+/// Draws the close-up and what is known of its fragment.
+pub fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
+    let Some(moment) = model.moment.as_ref() else { return };
+    let close_up = &moment.close_up;
+    let section = &close_up.section;
+    let text_rows = u16::from(area.height >= 4) + u16::from(area.height >= 7);
+    let plot = Rect { height: area.height - text_rows, ..area };
+    let z = heights(section);
+    draw_section(frame, plot, section, z, model.theme);
+    let buffer = frame.buffer_mut();
+    for &(spring, height) in &close_up.boundaries {
+        // The middle of the columns of dots that this spring fills.
+        let along = ((spring - section.first) as f64 + 0.5) / section.springs as f64;
+        let down = (z.high - height) / (z.high - z.low);
+        if (0.0..1.0).contains(&along) && (0.0..1.0).contains(&down) {
+            let x = plot.x + (along * f64::from(plot.width)) as u16;
+            let y = plot.y + (down * f64::from(plot.height)) as u16;
+            buffer.set_string(x, y, "○", model.theme.style(Meaning::Contact));
+        }
+    }
+    let lines = describe(close_up.fragment, moment.point.fragments, area.width);
+    for (row, line) in (area.bottom() - text_rows..area.bottom()).zip(lines) {
+        frame.render_widget(Paragraph::new(line), Rect { y: row, height: 1, ..area });
+    }
+}
+
+/// The axis of heights: the line, and the surface where it is not far above or below.
+fn heights(section: &Section) -> Span {
+    let (low, high) = section.heights;
+    let room = 0.4 * (high - low);
+    Span::around([low, high, section.level.clamp(low - room, high + room)].into_iter(), 0.05)
+}
+
+/// The fragment in words: where it stands, and how near its most stretched spring is to letting go.
+fn describe(fragment: Option<FragmentFacts>, fragments: u64, width: u16) -> [Line<'static>; 2] {
+    let Some(facts) = fragment else { return [Line::raw("○ nothing is in contact"), Line::default()] };
+    let length = format_quantity(facts.length, "m");
+    let springs = facts.springs.1 + 1 - facts.springs.0;
+    let first = format!("○ fragment {} of {fragments}: {springs} springs, δx {length}", facts.number + 1);
+    let margin = facts.largest_stretch - facts.most_stretched;
+    let [bears, stretched, margin] =
+        [facts.largest_stretch, facts.most_stretched, margin].map(|value| format_quantity(value, "m"));
+    let second = if width >= 60 {
+        format!("  Δl_max {bears} · most stretched {stretched} · lets go after {margin} more")
+    } else {
+        format!("  Δl {stretched} of {bears}")
+    };
+    [Line::raw(first), Line::raw(second)]
+}

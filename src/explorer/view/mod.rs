@@ -1,0 +1,64 @@
+//! Draws the model. Nothing here changes it or computes anything.
+
+mod chrome;
+mod close_up;
+mod force;
+mod help;
+mod histogram;
+mod parameters;
+mod plot;
+mod profile;
+
+use super::layout::{Layout, inside, is_framed};
+use super::model::{Mode, Model, Pane};
+use super::theme::Meaning;
+use ratatui::Frame;
+use ratatui::layout::Rect;
+use ratatui::widgets::Block;
+
+/// Draws the whole screen.
+pub fn draw(frame: &mut Frame<'_>, model: &Model) {
+    let layout = Layout::of(model);
+    if let Some(area) = layout.title {
+        chrome::title(frame, area, model);
+    }
+    if let Mode::Help { scroll } = model.mode {
+        let body = layout.panes.iter().map(|(_, area)| *area).reduce(Rect::union);
+        if let Some(body) = body {
+            help::draw(frame, body, model.theme, scroll);
+        }
+    } else {
+        for &(pane, area) in &layout.panes {
+            draw_pane(frame, area, model, pane);
+        }
+    }
+    chrome::status(frame, layout.status, model);
+    if let Some(area) = layout.footer {
+        chrome::footer(frame, area, model);
+    }
+}
+
+fn draw_pane(frame: &mut Frame<'_>, area: Rect, model: &Model, pane: Pane) {
+    if is_framed(area) {
+        let chosen = model.pane == pane;
+        let name = match pane {
+            Pane::Force => force::title(model),
+            Pane::Profile => profile::title(model),
+            Pane::CloseUp => close_up::title(model),
+            Pane::Parameters => " Parameters ".to_owned(),
+        };
+        let style = model.theme.style(if chosen { Meaning::Title } else { Meaning::Quiet });
+        let mark = if chosen { "▸" } else { "" };
+        let block = Block::bordered()
+            .border_style(model.theme.style(Meaning::Quiet))
+            .title(ratatui::text::Span::styled(format!("{mark}{name}"), style));
+        frame.render_widget(block, area);
+    }
+    let area = inside(area);
+    match pane {
+        Pane::Force => force::draw(frame, area, model),
+        Pane::Profile => profile::draw(frame, area, model),
+        Pane::CloseUp => close_up::draw(frame, area, model),
+        Pane::Parameters => parameters::draw(frame, area, model),
+    }
+}

@@ -1,0 +1,124 @@
+//! What the plots share: ranges, polylines and columns of dots.
+
+use crate::explorer::snapshot::Section;
+use ratatui::style::Color;
+use ratatui::widgets::canvas::{Painter, Shape};
+
+/// A range of values with a little room at both ends.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Span {
+    /// Lower end.
+    pub low: f64,
+    /// Upper end.
+    pub high: f64,
+}
+
+impl Span {
+    /// The range of finite values with a share `room` of it added at each end; a range around a single
+    /// value, and one around zero where there is none.
+    pub fn around(values: impl Iterator<Item = f64>, room: f64) -> Self {
+        let (low, high) = values
+            .filter(|value| value.is_finite())
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(value), high.max(value)));
+        if low > high {
+            return Span { low: -1.0, high: 1.0 };
+        }
+        let width = high - low;
+        // A single value, or two that differ by rounding only.
+        let least = 1e-9 * low.abs().max(high.abs());
+        let margin = if width > least { room * width } else if least > 0.0 { 1e6 * least } else { 1.0 };
+        Span { low: low - margin, high: high + margin }
+    }
+
+    /// The ends, as a canvas wants them.
+    pub fn bounds(self) -> [f64; 2] {
+        [self.low, self.high]
+    }
+}
+
+/// A line through points. Dotted ones leave out every other pair of dots.
+pub struct Polyline<'a> {
+    pub points: &'a [(f64, f64)],
+    pub colour: Color,
+    pub dotted: bool,
+}
+
+impl Shape for Polyline<'_> {
+    fn draw(&self, painter: &mut Painter<'_, '_>) {
+        let mut painted = 0_usize;
+        let mut last = None;
+        let dots = self.points.iter().filter_map(|&(x, y)| painter.get_point(x, y)).collect::<Vec<_>>();
+        for &(x, y) in &dots {
+            for (x, y) in between(last.unwrap_or((x, y)), (x, y)) {
+                if !self.dotted || painted % 4 < 2 {
+                    painter.paint(x, y, self.colour);
+                }
+                painted += 1;
+            }
+            last = Some((x, y));
+        }
+    }
+}
+
+/// The dots from one to another, without the first unless they are the same.
+fn between(from: (usize, usize), to: (usize, usize)) -> impl Iterator<Item = (usize, usize)> {
+    let (dx, dy) = (to.0 as f64 - from.0 as f64, to.1 as f64 - from.1 as f64);
+    let steps = dx.abs().max(dy.abs()).max(1.0) as usize;
+    (1..=steps).map(move |step| {
+        let share = step as f64 / steps as f64;
+        ((from.0 as f64 + dx * share).round() as usize, (from.1 as f64 + dy * share).round() as usize)
+    })
+}
+
+/// Which part of a section's columns is drawn.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum Part {
+    /// The rigid line.
+    Line,
+    /// The elastic surface.
+    Surface,
+    /// The line where it is in contact.
+    Contact,
+}
+
+/// A part of a section, one vertical bar for each column of dots; neighbours are joined.
+pub struct Columns<'a> {
+    pub section: &'a Section,
+    pub part: Part,
+    pub colour: Color,
+}
+
+impl Shape for Columns<'_> {
+    fn draw(&self, painter: &mut Painter<'_, '_>) {
+        let [bottom, top] = *painter.bounds().1;
+        let mut before: Option<(f64, f64)> = None;
+        for (column, values) in self.section.columns.iter().enumerate() {
+            let ends = match self.part {
+                Part::Line => Some(values.line),
+                Part::Surface => Some(values.surface),
+                Part::Contact => values.contact,
+            };
+            let Some((mut low, mut high)) = ends else {
+                before = None;
+                continue;
+            };
+            // Up to where the neighbour ends, so that steep flanks do not tear.
+            if let Some((other_low, other_high)) = before.filter(|_| self.part != Part::Contact) {
+                (low, high) = (low.min(other_high), high.max(other_low));
+            }
+            before = ends;
+            if high < bottom || low > top {
+                continue;
+            }
+            let ends = (low.clamp(bottom, top), high.clamp(bottom, top));
+            let (Some((_, y_low)), Some((_, y_high))) =
+                (painter.get_point(0.0, ends.0), painter.get_point(0.0, ends.1))
+            else {
+                continue;
+            };
+            for y in y_high..=y_low {
+                painter.paint(column, y, self.colour);
+            }
+        }
+    }
+}

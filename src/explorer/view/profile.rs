@@ -1,0 +1,80 @@
+//! The profile: the rigid line, the elastic surface above it, and where they touch.
+
+use super::histogram;
+use super::plot::{Columns, Part, Span};
+use crate::explorer::layout::split_profile;
+use crate::explorer::model::Model;
+use crate::explorer::snapshot::Section;
+use crate::explorer::theme::{Meaning, Theme};
+use crate::scene::format_quantity;
+use ratatui::Frame;
+use ratatui::layout::Rect;
+use ratatui::symbols::Marker;
+use ratatui::text::Line;
+use ratatui::widgets::Paragraph;
+use ratatui::widgets::canvas::Canvas;
+
+/// Title of the pane.
+pub fn title(model: &Model) -> String {
+    let length = format_quantity(model.document.scene().length, "m");
+    format!(" Profile z(x), x to {length} ")
+}
+
+/// Draws the profile with the histogram of its heights on the same axis.
+pub fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
+    let Some(moment) = model.moment.as_ref() else {
+        frame.render_widget(Paragraph::new("…").style(model.theme.style(Meaning::Quiet)), area);
+        return;
+    };
+    let (area, beside) = split_profile(area);
+    let strip_rows = u16::from(area.height >= 5);
+    let plot = Rect { height: area.height - strip_rows, ..area };
+    let section = &moment.profile;
+    let z = heights(section);
+    draw_section(frame, plot, section, z, model.theme);
+    if strip_rows > 0 {
+        let row = Rect { y: area.bottom() - 1, height: 1, ..area };
+        contact_strip(frame, row, section, model.theme);
+    }
+    if let (Some(beside), Some(computed)) = (beside, &model.computed) {
+        let beside = Rect { height: plot.height, ..beside };
+        histogram::draw(frame, beside, computed.outcome.histogram.as_ref(), z, model.theme);
+    }
+}
+
+/// The axis of heights: the whole line and the surface, though not where it is far away.
+fn heights(section: &Section) -> Span {
+    let (low, high) = section.heights;
+    let far = high + 0.5 * (high - low);
+    Span::around([low, high, section.level.min(far)].into_iter(), 0.05)
+}
+
+/// Draws rigid line, elastic surface and contact of a section.
+pub fn draw_section(frame: &mut Frame<'_>, area: Rect, section: &Section, z: Span, theme: Theme) {
+    let canvas = Canvas::default()
+        .marker(Marker::Braille)
+        .x_bounds([0.0, 1.0])
+        .y_bounds(z.bounds())
+        .paint(|ctx| {
+            for (part, meaning) in
+                [(Part::Surface, Meaning::Surface), (Part::Line, Meaning::Line), (Part::Contact, Meaning::Contact)]
+            {
+                ctx.draw(&Columns { section, part, colour: theme.colour(meaning) });
+            }
+        });
+    frame.render_widget(canvas, area);
+}
+
+/// One row that shows by its glyphs where along the line there is contact.
+fn contact_strip(frame: &mut Frame<'_>, row: Rect, section: &Section, theme: Theme) {
+    let glyphs: String = section
+        .columns
+        .chunks(2)
+        .map(|pair| match pair.iter().filter(|column| column.contact.is_some()).count() {
+            0 => '·',
+            1 if pair.len() > 1 => '▪',
+            _ => '■',
+        })
+        .collect();
+    frame.render_widget(Paragraph::new(Line::styled(glyphs, theme.style(Meaning::Contact))), row);
+}

@@ -1,0 +1,291 @@
+//! Writing a file whole or not at all, and never over another one unasked.
+
+use std::fs::{self, File, OpenOptions, Permissions};
+use std::io::{self, BufWriter, Write};
+use std::path::{Path, PathBuf};
+use thiserror::Error;
+
+/// Bytes gathered before they go to a file.
+const BUFFER: usize = 1 << 18;
+
+/// Names tried for the temporary file; those of processes that were ended are in the way of few.
+const MOST_NAMES: u32 = 1000;
+
+/// Why a file was not written.
+#[derive(Debug, Error)]
+pub enum WriteError {
+    /// There is a file of that name, and it was not asked to overwrite it.
+    #[error("{}: there is a file of that name already", path.display())]
+    Exists {
+        /// The file.
+        path: PathBuf,
+    },
+    /// The name is that of a folder, or of none.
+    #[error("{}: this is not the name of a file", path.display())]
+    NoFileName {
+        /// The name.
+        path: PathBuf,
+    },
+    /// The folder the file should stand in is not there.
+    #[error("{}: there is no folder {}", path.display(), folder.display())]
+    NoFolder {
+        /// The file.
+        path: PathBuf,
+        /// Its folder.
+        folder: PathBuf,
+    },
+    /// The file may only be read.
+    #[error("{}: this file may not be written", path.display())]
+    ReadOnly {
+        /// The file.
+        path: PathBuf,
+    },
+    /// The system refused.
+    #[error("{}: cannot be written: {reason}", path.display())]
+    Failed {
+        /// The file.
+        path: PathBuf,
+        /// What the system says.
+        reason: io::Error,
+    },
+}
+
+/// Checks whether [`write_new`] could write a file now, and leaves nothing behind: for before a long
+/// computation.
+///
+/// # Errors
+/// What [`write_new`] would say.
+pub fn check_writable(path: &Path, overwrite: bool) -> Result<(), WriteError> {
+    match Target::of(path, overwrite)? {
+        Target::Stream => Ok(()),
+        Target::File { path, .. } => Unfinished::beside(&path).map(drop),
+    }
+}
+
+/// Writes a file through a temporary one in the same folder: whoever looks sees the old file or the
+/// whole new one, and after a failure nothing is left behind.
+///
+/// An existing file is replaced only when `overwrite` says so; what is no file that could be
+/// overwritten, a pipe or a device, is written to as it stands.
+///
+/// # Errors
+/// [`WriteError`]; one of `write` itself comes as [`WriteError::Failed`].
+pub fn write_new(
+    path: &Path,
+    overwrite: bool,
+    write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+) -> Result<(), WriteError> {
+    let failed = |reason| WriteError::Failed { path: path.to_path_buf(), reason };
+    match Target::of(path, overwrite)? {
+        Target::Stream => {
+            let stream = OpenOptions::new().write(true).open(path).map_err(failed)?;
+            fill(&stream, write).map_err(failed)
+        }
+        Target::File { path: place, permissions } => {
+            let unfinished = Unfinished::beside(&place)?;
+            let file = &unfinished.file;
+            fill(file, write).map_err(failed)?;
+            if let Some(permissions) = permissions {
+                file.set_permissions(permissions).map_err(failed)?;
+            }
+            file.sync_all().map_err(failed)?;
+            unfinished.publish(&place, overwrite).map_err(|reason| match reason.kind() {
+                io::ErrorKind::AlreadyExists => WriteError::Exists { path: path.to_path_buf() },
+                _ => failed(reason),
+            })
+        }
+    }
+}
+
+fn fill(file: &File, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
+    let mut buffered = BufWriter::with_capacity(BUFFER, file);
+    write(&mut buffered)?;
+    buffered.flush()
+}
+
+/// What a name stands for.
+enum Target {
+    /// A pipe or a device.
+    Stream,
+    /// A file, there or not, with the permissions of the one it replaces.
+    File { path: PathBuf, permissions: Option<Permissions> },
+}
+
+impl Target {
+    fn of(path: &Path, overwrite: bool) -> Result<Target, WriteError> {
+        let own = || path.to_path_buf();
+        let ends_as_folder = path.to_string_lossy().ends_with(std::path::is_separator);
+        if path.file_name().is_none() || ends_as_folder {
+            return Err(WriteError::NoFileName { path: own() });
+        }
+        match fs::metadata(path) {
+            Ok(found) if found.is_dir() => Err(WriteError::NoFileName { path: own() }),
+            Ok(found) if !found.is_file() => Ok(Target::Stream),
+            Ok(_) if !overwrite => Err(WriteError::Exists { path: own() }),
+            Ok(found) if found.permissions().readonly() => Err(WriteError::ReadOnly { path: own() }),
+            // Through a link to the file it names: the link itself stays.
+            Ok(found) => Ok(Target::File {
+                path: fs::canonicalize(path).map_err(|reason| WriteError::Failed { path: own(), reason })?,
+                permissions: Some(found.permissions()),
+            }),
+            // A link that leads nowhere is there all the same.
+            Err(_) if !overwrite && fs::symlink_metadata(path).is_ok() => {
+                Err(WriteError::Exists { path: own() })
+            }
+            Err(reason) if reason.kind() == io::ErrorKind::NotFound => {
+                Ok(Target::File { path: own(), permissions: None })
+            }
+            Err(reason) => Err(WriteError::Failed { path: own(), reason }),
+        }
+    }
+}
+
+/// A temporary file, which goes away unless it is published.
+struct Unfinished {
+    path: PathBuf,
+    file: File,
+}
+
+impl Unfinished {
+    /// A new file in the folder of `target`.
+    fn beside(target: &Path) -> Result<Unfinished, WriteError> {
+        let folder = match target.parent() {
+            Some(folder) if folder != Path::new("") => folder,
+            _ => Path::new("."),
+        };
+        let mut number = 0;
+        loop {
+            // Its name does not depend on the target's, which may be as long as names can be.
+            let path = folder.join(format!(".asperity-{}-{number}.tmp", std::process::id()));
+            match File::create_new(&path) {
+                Ok(file) => return Ok(Unfinished { path, file }),
+                Err(error) if error.kind() == io::ErrorKind::AlreadyExists && number < MOST_NAMES => {
+                    number += 1;
+                }
+                Err(_) if !folder.is_dir() => {
+                    return Err(WriteError::NoFolder { path: target.into(), folder: folder.into() });
+                }
+                Err(reason) => return Err(WriteError::Failed { path: target.into(), reason }),
+            }
+        }
+    }
+
+    /// Gives the file its name.
+    fn publish(self, path: &Path, overwrite: bool) -> io::Result<()> {
+        if overwrite {
+            return fs::rename(&self.path, path);
+        }
+        // A link cannot be made where there is a file by now, while a renaming would replace it.
+        match fs::hard_link(&self.path, path) {
+            Err(error) if error.kind() != io::ErrorKind::AlreadyExists => {
+                // Some file systems have no links: there an empty file claims the name.
+                drop(File::create_new(path)?);
+                fs::rename(&self.path, path).inspect_err(|_| drop(fs::remove_file(path)))
+            }
+            done => done,
+        }
+    }
+}
+
+impl Drop for Unfinished {
+    fn drop(&mut self) {
+        // After a renaming there is nothing left to remove.
+        let _ = fs::remove_file(&self.path);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn names(folder: &Path) -> Vec<String> {
+        let entries = fs::read_dir(folder).unwrap();
+        entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect()
+    }
+
+    #[test]
+    fn a_file_is_written_once_and_overwritten_only_when_asked() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("curve.csv");
+        write_new(&path, false, |out| out.write_all(b"one")).unwrap();
+        let again = write_new(&path, false, |out| out.write_all(b"two"));
+        assert!(matches!(again, Err(WriteError::Exists { .. })), "{again:?}");
+        assert!(matches!(check_writable(&path, false), Err(WriteError::Exists { .. })));
+        assert_eq!(fs::read(&path).unwrap(), b"one");
+        check_writable(&path, true).unwrap();
+        write_new(&path, true, |out| out.write_all(b"two")).unwrap();
+        assert_eq!(fs::read(&path).unwrap(), b"two");
+        assert_eq!(names(folder.path()), ["curve.csv"]);
+    }
+
+    #[test]
+    fn a_failure_leaves_nothing_behind() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("curve.csv");
+        let broken = |out: &mut dyn Write| {
+            out.write_all(&[b'x'; 2 * BUFFER])?;
+            Err(io::Error::other("no more"))
+        };
+        assert!(write_new(&path, false, broken).unwrap_err().to_string().contains("no more"));
+        assert_eq!(names(folder.path()), Vec::<String>::new());
+        write_new(&path, false, |out| out.write_all(b"one")).unwrap();
+        assert!(write_new(&path, true, broken).is_err());
+        assert_eq!(names(folder.path()), ["curve.csv"]);
+        assert_eq!(fs::read(&path).unwrap(), b"one");
+    }
+
+    #[test]
+    fn a_file_that_appears_meanwhile_is_not_overwritten() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("curve.csv");
+        let late = write_new(&path, false, |out| {
+            fs::write(&path, "theirs")?;
+            out.write_all(b"ours")
+        });
+        assert!(matches!(late, Err(WriteError::Exists { .. })), "{late:?}");
+        assert_eq!(fs::read(&path).unwrap(), b"theirs");
+        assert_eq!(names(folder.path()), ["curve.csv"]);
+    }
+
+    #[test]
+    fn what_is_no_file_name_is_told() {
+        let folder = tempfile::tempdir().unwrap();
+        for (path, expected) in [
+            (folder.path().to_path_buf(), "not the name of a file"),
+            (folder.path().join("new/"), "not the name of a file"),
+            (folder.path().join(".."), "not the name of a file"),
+            (PathBuf::new(), "not the name of a file"),
+            (folder.path().join("none/curve.csv"), "there is no folder"),
+            (folder.path().join("x".repeat(1000)), "cannot be written"),
+        ] {
+            let told = check_writable(&path, true).unwrap_err().to_string();
+            assert!(told.contains(expected), "{told}");
+        }
+        assert_eq!(names(folder.path()), Vec::<String>::new());
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn links_lead_to_the_file_they_name() {
+        let folder = tempfile::tempdir().unwrap();
+        let (file, link, lost) =
+            (folder.path().join("file"), folder.path().join("link"), folder.path().join("lost"));
+        std::os::unix::fs::symlink(&file, &link).unwrap();
+        std::os::unix::fs::symlink(folder.path().join("nothing"), &lost).unwrap();
+        fs::write(&file, "one").unwrap();
+        assert!(matches!(check_writable(&link, false), Err(WriteError::Exists { .. })));
+        assert!(matches!(check_writable(&lost, false), Err(WriteError::Exists { .. })));
+        write_new(&link, true, |out| out.write_all(b"two")).unwrap();
+        assert_eq!(fs::read(&file).unwrap(), b"two");
+        assert!(fs::symlink_metadata(&link).unwrap().is_symlink());
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn devices_are_written_to_and_stay_devices() {
+        let null = Path::new("/dev/null");
+        check_writable(null, false).unwrap();
+        write_new(null, true, |out| out.write_all(b"gone")).unwrap();
+        assert!(!fs::metadata(null).unwrap().is_file());
+    }
+}

@@ -1,0 +1,129 @@
+//! A computed scene as one JSON object: SI units, numbers that are finite or null.
+
+use super::lines::write_lines;
+use crate::analysis::Regime;
+use crate::contact::Work;
+use crate::scene::{Observer, Scene};
+use crate::simulation::{Outcome, Timings};
+use serde::{Serialize, Serializer};
+use std::io::{self, Write};
+
+/// Writes what a scene gave, the scene itself with its defaults filled in first.
+///
+/// # Errors
+/// Those of `out`.
+pub fn write_json(out: &mut (impl Write + ?Sized), scene: &Scene, outcome: &Outcome) -> io::Result<()> {
+    write_lines(out, &Report::of(scene, outcome))
+}
+
+/// The object; its keys stand in the order of these fields.
+#[derive(Serialize)]
+struct Report<'a> {
+    scene: &'a Scene,
+    line: LineReport,
+    effective_modulus: f64,
+    work_of_adhesion: Option<f64>,
+    kappa: Option<f64>,
+    regime: Option<Regime>,
+    ideal_adhesion_force: Option<f64>,
+    smooth_adhesion_force: Option<f64>,
+    zero_load_adhesion_force: Option<f64>,
+    preload: Option<f64>,
+    preload_indentation: Option<f64>,
+    adhesion_force: Option<f64>,
+    adhesion_coefficient: Option<f64>,
+    pull_off_indentation: Option<f64>,
+    dissipated_energy: Option<f64>,
+    #[serde(serialize_with = "curve")]
+    curve: &'a Outcome,
+    contacts: &'a [(usize, usize)],
+    /// Those of each leg, where they are observed.
+    fragments: Option<&'a [Vec<(usize, usize)>]>,
+    histogram: Option<HistogramReport<'a>>,
+    work: Work,
+    timings: Timings,
+}
+
+#[derive(Serialize)]
+struct LineReport {
+    points: usize,
+    length: f64,
+    spacing: f64,
+    rms_height: Option<f64>,
+    rms_gradient: Option<f64>,
+    modes: Option<(u64, u64)>,
+    seed: Option<u64>,
+}
+
+#[derive(Serialize)]
+struct HistogramReport<'a> {
+    low: f64,
+    high: f64,
+    counts: &'a [u64],
+}
+
+#[derive(Serialize)]
+struct CurveReport {
+    leg: usize,
+    indentation: f64,
+    force: f64,
+    contact_length: f64,
+    fragments: u64,
+}
+
+impl<'a> Report<'a> {
+    fn of(scene: &'a Scene, outcome: &'a Outcome) -> Report<'a> {
+        let Outcome { line, governing, figures, history, .. } = outcome;
+        let amplitude = governing.amplitude;
+        Report {
+            scene,
+            line: LineReport {
+                points: line.points,
+                length: line.length,
+                spacing: line.spacing,
+                rms_height: amplitude.map(|amplitude| amplitude.rms_height),
+                rms_gradient: amplitude.map(|amplitude| amplitude.rms_gradient),
+                modes: line.modes,
+                seed: line.seed,
+            },
+            effective_modulus: governing.effective_modulus,
+            work_of_adhesion: governing.work_of_adhesion,
+            kappa: governing.kappa,
+            regime: outcome.regime,
+            ideal_adhesion_force: outcome.ideal_adhesion_force,
+            smooth_adhesion_force: outcome.smooth_adhesion_force,
+            zero_load_adhesion_force: outcome.zero_load_adhesion_force,
+            preload: figures.preload,
+            preload_indentation: figures.preload_indentation,
+            adhesion_force: figures.adhesion_force,
+            adhesion_coefficient: figures.adhesion_coefficient,
+            pull_off_indentation: figures.pull_off_indentation,
+            dissipated_energy: figures.dissipated_energy,
+            curve: outcome,
+            contacts: &history.contacts,
+            fragments: scene.observe.contains(&Observer::Fragments).then_some(outcome.fragments.as_slice()),
+            histogram: outcome.histogram.as_ref().map(|histogram| HistogramReport {
+                low: histogram.low,
+                high: histogram.high,
+                counts: &histogram.counts,
+            }),
+            work: history.work,
+            timings: outcome.timings,
+        }
+    }
+}
+
+/// The points of all legs, one after the other, without a copy of them all.
+fn curve<S: Serializer>(outcome: &&Outcome, serializer: S) -> Result<S::Ok, S::Error> {
+    let spacing = outcome.line.spacing;
+    let legs = outcome.history.legs.iter().enumerate();
+    serializer.collect_seq(legs.flat_map(|(leg, record)| {
+        record.curve.iter().map(move |point| CurveReport {
+            leg,
+            indentation: point.indentation,
+            force: point.force,
+            contact_length: point.springs as f64 * spacing,
+            fragments: point.fragments,
+        })
+    }))
+}

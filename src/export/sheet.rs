@@ -1,0 +1,146 @@
+//! Plain text in aligned columns, at most a hundred wide.
+
+/// Characters on a line.
+pub(crate) const WIDTH: usize = 100;
+
+/// Characters before the values of rows.
+const LABEL: usize = 26;
+
+/// Text under headings: rows of a label and a value, and paragraphs.
+#[derive(Default)]
+pub(crate) struct Sheet {
+    text: String,
+}
+
+impl Sheet {
+    /// The text so far.
+    pub(crate) fn into_text(self) -> String {
+        self.text
+    }
+
+    /// A heading, with an empty line before it.
+    pub(crate) fn heading(&mut self, heading: &str) {
+        self.text.push('\n');
+        self.line(heading);
+    }
+
+    /// Text as long as it may be.
+    pub(crate) fn paragraph(&mut self, text: &str) {
+        for line in text.lines().flat_map(|line| wrap(line, WIDTH)) {
+            self.line(&line);
+        }
+    }
+
+    /// A row; a value too long for one line goes on below itself.
+    pub(crate) fn row(&mut self, label: &str, value: impl AsRef<str>) {
+        let mut label = label;
+        for line in wrap(value.as_ref(), WIDTH - LABEL) {
+            self.line(&format!("  {}{line}", padded(label, LABEL - 2)));
+            label = "";
+        }
+    }
+
+    /// A row, where there is a value.
+    pub(crate) fn row_of(&mut self, label: &str, value: Option<String>) {
+        if let Some(value) = value {
+            self.row(label, value);
+        }
+    }
+
+    /// Lines of cells below each other, all but the last column as wide as its widest cell; a last
+    /// cell too long for its line goes on below itself.
+    pub(crate) fn table<const COLUMNS: usize>(&mut self, rows: &[[String; COLUMNS]]) {
+        let width = |column: usize| rows.iter().map(|row| row[column].chars().count()).max().unwrap_or(0);
+        for row in rows {
+            let mut before: String =
+                (0..COLUMNS - 1).map(|column| padded(&row[column], width(column) + 2)).collect();
+            let room = WIDTH.saturating_sub(before.chars().count()).max(1);
+            for line in wrap(&row[COLUMNS - 1], room) {
+                self.line(&format!("{before}{line}"));
+                before = " ".repeat(before.chars().count());
+            }
+        }
+    }
+
+    fn line(&mut self, line: &str) {
+        self.text.push_str(line.trim_end());
+        self.text.push('\n');
+    }
+}
+
+/// A whole number with its thousands apart.
+pub(crate) fn grouped(count: u64) -> String {
+    let digits = count.to_string();
+    let mut grouped = String::new();
+    for (index, digit) in digits.chars().enumerate() {
+        if index > 0 && (digits.len() - index).is_multiple_of(3) {
+            grouped.push(' ');
+        }
+        grouped.push(digit);
+    }
+    grouped
+}
+
+fn padded(text: &str, width: usize) -> String {
+    let blanks = width.saturating_sub(text.chars().count());
+    format!("{text}{}", " ".repeat(blanks))
+}
+
+/// Lines of at most `width` characters, broken between words and within those that are longer.
+fn wrap(text: &str, width: usize) -> Vec<String> {
+    let mut lines = vec![String::new()];
+    let mut room = width;
+    for word in text.split_whitespace() {
+        let length = word.chars().count();
+        let blank = usize::from(room < width);
+        if length + blank > room && room < width {
+            lines.push(String::new());
+            room = width;
+        }
+        let blank = usize::from(room < width);
+        for (index, character) in " ".repeat(blank).chars().chain(word.chars()).enumerate() {
+            if index > 0 && room == 0 {
+                lines.push(String::new());
+                room = width;
+            }
+            if let Some(line) = lines.last_mut() {
+                line.push(character);
+            }
+            room -= 1;
+        }
+    }
+    lines
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lines_break_between_words() {
+        assert_eq!(wrap("one two three", 7), ["one two", "three"]);
+        assert_eq!(wrap("one two three", 5), ["one", "two", "three"]);
+        assert_eq!(wrap("a  longword b", 4), ["a", "long", "word", "b"]);
+        assert_eq!(wrap("µµµµ µµµµ", 4), ["µµµµ", "µµµµ"]);
+        assert_eq!(wrap("", 4), [""]);
+    }
+
+    #[test]
+    fn thousands_stand_apart() {
+        let counts = [0, 999, 1000, 16_384, 1_048_576];
+        assert_eq!(counts.map(grouped), ["0", "999", "1 000", "16 384", "1 048 576"]);
+    }
+
+    #[test]
+    fn columns_are_as_wide_as_their_cells() {
+        let mut sheet = Sheet::default();
+        sheet.table(&[["a", "b", &"c ".repeat(60)], ["aaa", "", "d"]].map(|row| row.map(String::from)));
+        let text = sheet.into_text();
+        let lines: Vec<_> = text.lines().collect();
+        assert_eq!(lines.len(), 3, "{text}");
+        assert!(lines[0].starts_with("a    b  c c"), "{text}");
+        assert!(lines[1].starts_with("        c c"), "{text}");
+        assert_eq!(lines[2], "aaa     d");
+        assert!(lines.iter().all(|line| line.len() <= WIDTH));
+    }
+}

@@ -1,0 +1,197 @@
+//! A computed scene for a person to read.
+
+use super::sheet::{Sheet, grouped};
+use super::verdict;
+use crate::contact::Work;
+use crate::scene::{Leg, Scene, format_quantity};
+use crate::simulation::{Outcome, Timings};
+
+/// Legs of a loading that are named; further ones are counted.
+const MOST_LEGS: usize = 8;
+
+/// What a scene gave, in plain text of at most a hundred columns that ends in a line break.
+#[must_use]
+pub fn summary(scene: &Scene, outcome: &Outcome) -> String {
+    let mut sheet = Sheet::default();
+    for text in [&scene.title, &scene.notice].into_iter().filter(|text| !text.is_empty()) {
+        sheet.paragraph(text);
+    }
+    line(&mut sheet, outcome);
+    bodies(&mut sheet, outcome);
+    adhesion(&mut sheet, scene, outcome);
+    contact(&mut sheet, outcome);
+    cost(&mut sheet, &outcome.history.work, &outcome.timings);
+    sheet.into_text().trim_start_matches('\n').to_string()
+}
+
+fn quantity(value: Option<f64>, unit: &str) -> Option<String> {
+    value.map(|value| format_quantity(value, unit))
+}
+
+fn line(sheet: &mut Sheet, outcome: &Outcome) {
+    let (facts, amplitude) = (&outcome.line, outcome.governing.amplitude);
+    sheet.heading("Line");
+    sheet.row("springs N", grouped(facts.points as u64));
+    let under_body = outcome.history.work.springs;
+    if under_body != facts.points as u64 {
+        sheet.row("under the body", grouped(under_body));
+    }
+    sheet.row("length L", format_quantity(facts.length, "m"));
+    sheet.row("spacing Δx", format_quantity(facts.spacing, "m"));
+    sheet.row_of("modes", facts.modes.map(|(first, last)| format!("{} to {}", first, grouped(last))));
+    sheet.row_of("seed", facts.seed.map(|seed| seed.to_string()));
+    match amplitude {
+        None => sheet.row("roughness", "none"),
+        Some(amplitude) => {
+            sheet.row("rms height h", format_quantity(amplitude.rms_height, "m"));
+            let dense = facts.continuum_rms_gradient.filter(|&gradient| gradient > 0.0);
+            let dense = quantity(dense, "1").map_or_else(String::new, |gradient| {
+                format!(", of the modes as they are (were they dense: {gradient})")
+            });
+            sheet.row("rms gradient ⟨∇z⟩", format_quantity(amplitude.rms_gradient, "1") + &dense);
+        }
+    }
+}
+
+fn bodies(sheet: &mut Sheet, outcome: &Outcome) {
+    let governing = &outcome.governing;
+    sheet.heading("Bodies");
+    sheet.row("effective modulus E*", format_quantity(governing.effective_modulus, "Pa"));
+    let work = quantity(governing.work_of_adhesion, "J/m²");
+    sheet.row("work of adhesion γ", work.unwrap_or_else(|| "none".into()));
+    let kappa = quantity(governing.kappa, "1");
+    sheet.row_of("κ = √(h⟨∇z⟩E*/γ)", kappa);
+}
+
+fn adhesion(sheet: &mut Sheet, scene: &Scene, outcome: &Outcome) {
+    let figures = &outcome.figures;
+    let at = |force: Option<f64>, indentation: Option<f64>| {
+        let (force, indentation) = (quantity(force, "N")?, quantity(indentation, "m"));
+        Some(indentation.map_or(force.clone(), |indentation| format!("{force} at d = {indentation}")))
+    };
+    sheet.heading("Adhesion");
+    sheet.row("loading", loading(&scene.loading));
+    verdict::rows(sheet, outcome);
+    sheet.row_of("preload F_n", at(figures.preload, figures.preload_indentation));
+    match at(figures.adhesion_force, figures.pull_off_indentation) {
+        Some(force) => sheet.row("adhesion force F_a", force),
+        None => sheet.row("adhesion force F_a", "none: no leg back pulls"),
+    }
+    sheet.row_of("coefficient F_a/F_n", quantity(figures.adhesion_coefficient, "1"));
+    sheet.row_of("pull-off indentation", quantity(figures.pull_off_indentation, "m"));
+    sheet.row_of("at first touch F_a(0)", quantity(outcome.zero_load_adhesion_force, "N"));
+    sheet.row_of("smooth body F_smooth", quantity(outcome.smooth_adhesion_force, "N"));
+    sheet.row_of("ideal F_a,max", quantity(outcome.ideal_adhesion_force, "N"));
+    sheet.row_of("dissipated energy", quantity(figures.dissipated_energy, "J"));
+}
+
+fn loading(legs: &[Leg]) -> String {
+    let words = |leg: &Leg| match *leg {
+        Leg::ToForce(force) => format!("to {}", format_quantity(force, "N")),
+        Leg::ToIndentation(indentation) => format!("to d = {}", format_quantity(indentation, "m")),
+        Leg::ToTouch => "to first touch".into(),
+        Leg::ToZeroForce => "to zero force".into(),
+        Leg::ToSeparation => "to separation".into(),
+    };
+    let mut named: Vec<String> = legs.iter().take(MOST_LEGS).map(words).collect();
+    if legs.len() > MOST_LEGS {
+        named.push(format!("and {} more legs", legs.len() - MOST_LEGS));
+    }
+    named.join(", ")
+}
+
+fn contact(sheet: &mut Sheet, outcome: &Outcome) {
+    let Some(end) = outcome.history.legs.last().and_then(|leg| leg.curve.last()) else { return };
+    sheet.heading("At the end");
+    sheet.row("indentation d", format_quantity(end.indentation, "m"));
+    sheet.row("force F", format_quantity(end.force, "N"));
+    if end.springs == 0 {
+        return sheet.row("contact", "separated");
+    }
+    let length = end.springs as f64 * outcome.line.spacing;
+    let share = format_quantity(100.0 * length / outcome.line.length, "1");
+    sheet.row("contact length", format!("{}, {share} % of L", format_quantity(length, "m")));
+    sheet.row("fragments", grouped(end.fragments));
+}
+
+fn cost(sheet: &mut Sheet, work: &Work, timings: &Timings) {
+    // All fields by name: a new one cannot be forgotten here.
+    let Work {
+        springs,
+        random_phases,
+        transforms,
+        tree_nodes,
+        loading_passes,
+        unloading_passes,
+        hess_evaluations,
+        springs_tallied,
+        events_sorted,
+        joins,
+        leaves,
+        steps,
+        relaxation_sweeps,
+        spring_updates,
+        heights_binned,
+    } = *work;
+    sheet.heading("Work");
+    for (label, count) in [
+        ("springs", springs),
+        ("random phases", random_phases),
+        ("Fourier transforms", transforms),
+        ("tree nodes", tree_nodes),
+        ("loading passes", loading_passes),
+        ("unloading passes", unloading_passes),
+        ("uses of the rule of Hess", hess_evaluations),
+        ("springs tallied", springs_tallied),
+        ("events sorted", events_sorted),
+        ("springs joined", joins),
+        ("springs left", leaves),
+        ("steps", steps),
+        ("relaxation sweeps", relaxation_sweeps),
+        ("spring updates", spring_updates),
+        ("heights binned", heights_binned),
+    ] {
+        sheet.row_of(label, (count > 0).then(|| grouped(count)));
+    }
+    let Timings { line, tree, passes, curve, zero_load } = *timings;
+    let stages = [("line", line), ("tree", tree), ("loop", passes), ("curve", curve), ("F_a(0)", zero_load)];
+    let stages = stages.map(|(stage, seconds)| format!("{stage} {}", format_quantity(seconds, "s")));
+    let total = format_quantity(timings.total(), "s");
+    sheet.row("time", format!("{total}: {}", stages.join(", ")));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::open;
+    use crate::simulation::Simulation;
+
+    fn summary_of(preset: &str, overrides: &[(&str, &str)]) -> String {
+        let overrides: Vec<_> =
+            overrides.iter().map(|(path, value)| (path.to_string(), value.to_string())).collect();
+        let document = open(preset).unwrap().set_all(&overrides).unwrap();
+        let mut outcome =
+            Simulation::default().run(document.scene(), &|| false, &mut |_, _, _| Ok(())).unwrap();
+        outcome.timings = Timings::default();
+        summary(document.scene(), &outcome)
+    }
+
+    #[test]
+    fn summaries_read_as_these() {
+        insta::assert_snapshot!("rough", summary_of("pressure-sensitive", &[("numerics.points", "4096")]));
+        insta::assert_snapshot!("punch", summary_of("kendall-punch", &[("numerics.points", "1000")]));
+        let held = [("loading", "[ToForce(1e-5)]"), ("adhesion", "None")];
+        insta::assert_snapshot!("held", summary_of("pressure-sensitive", &held));
+    }
+
+    #[test]
+    fn long_scenes_stay_within_their_columns() {
+        let title = format!("\"{}\"", "title ".repeat(30));
+        let notice = format!("\"{}\\n\\n{}\"", "x".repeat(300), "notice ".repeat(60));
+        let loading = format!("[{}ToSeparation]", "ToForce(1.2345e-5), ToZeroForce, ".repeat(20));
+        let overrides = [("title", &*title), ("notice", &notice), ("loading", &loading)];
+        let text = summary_of("pressure-sensitive", &overrides);
+        assert!(text.lines().all(|line| line.chars().count() <= 100), "{text}");
+        assert!(text.contains("and 33 more legs"), "{text}");
+    }
+}

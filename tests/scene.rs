@@ -1,0 +1,356 @@
+//! The room of scenes from outside: whatever text comes in, an answer comes out, and a change to
+//! one field is a change to that field alone.
+
+use asperity::scene::{
+    DEFAULT, Document, FIELDS, Form, LONGEST_TEXT, Range, Scene, line_column, locate, open, presets, to_ron,
+};
+use proptest::prelude::*;
+
+fn message(text: &str) -> String {
+    Document::parse(text, "scene.ron").unwrap_err().to_string()
+}
+
+/// A scene whose third line is given.
+fn with_line(line: &str) -> String {
+    format!(
+        "(\n    version: 1,\n    {line}\n    material: (effective_modulus: 1.0e6),\n    length: 1.0e-4,\n)\n"
+    )
+}
+
+fn comments(text: &str) -> Vec<&str> {
+    text.lines().filter_map(|line| line.split_once("// ").map(|(_, comment)| comment)).collect()
+}
+
+#[test]
+fn an_unknown_field_is_pointed_at() {
+    assert!(Document::parse(&with_line(""), "scene.ron").is_ok());
+    let said = message(&with_line("ruoghness: None,"));
+    assert!(said.starts_with("scene.ron:3:5: ruoghness: no such field; did you mean roughness?"), "{said}");
+    let said = message(&with_line("numerics: (point: 64),"));
+    assert!(
+        said.starts_with("scene.ron:3:16: numerics.point: no such field; did you mean points?"),
+        "{said}"
+    );
+}
+
+#[test]
+fn numbers_that_are_none_are_refused() {
+    for value in ["NaN", "inf", "-inf", "NaNf64", "1e999"] {
+        for line in [
+            format!("adhesion: (work: {value}),"),
+            format!("form: Paraboloid(radius: {value}),"),
+            format!("loading: [ToForce({value})],"),
+            format!("numerics: (solver: Stepwise(step: {value})),"),
+        ] {
+            let said = message(&with_line(&line));
+            assert!(said.contains("scene.ron:3:") && said.contains(": allowed: "), "{line}: {said}");
+        }
+    }
+}
+
+#[test]
+fn a_scene_that_asks_for_too_much_is_refused_at_once() {
+    for (line, said) in [
+        ("numerics: (points: 268435457),", "numerics.points = 268435457: allowed: a whole number from 1 to"),
+        ("numerics: (points: 18446744073709551615),", "numerics.points = 18446744073709551615: allowed"),
+        ("numerics: (points: 18446744073709551616),", "numerics.points = 18446744073709551616: allowed"),
+        ("numerics: (samples: 1000001),", "numerics.samples = 1000001: allowed: a whole number from 2 to"),
+    ] {
+        let all = message(&with_line(line));
+        assert!(all.contains(said), "{all}");
+    }
+    let line = format!("loading: [{}],", "ToTouch,".repeat(100_001));
+    assert!(
+        message(&with_line(&line)).contains("loading = a list of 100001: allowed: a list of 1 to 100000")
+    );
+    assert!(message(&" ".repeat(LONGEST_TEXT + 1)).contains("bytes long"));
+}
+
+#[test]
+fn nesting_does_not_overflow_the_stack() {
+    for (open, close) in [("(", ")"), ("[", "]"), ("Some(", ")"), ("{", "}"), ("/*", "*/")] {
+        let deep = format!("{}{}", open.repeat(100_000), close.repeat(100_000));
+        let _ = Document::parse(&deep, "scene.ron");
+        let _ = Document::parse(&with_line(&format!("form: {deep},")), "scene.ron");
+        let _ = locate(&with_line(&format!("form: {deep},")), "form.0.0.0.0");
+        assert!(open_default().set("form", &deep).is_err());
+    }
+}
+
+fn open_default() -> Document {
+    open(DEFAULT).unwrap()
+}
+
+#[test]
+fn the_table_names_every_field_of_the_model_and_no_other() {
+    // A scene as JSON has every field of the model, those left out included.
+    let mut found = Vec::new();
+    for (form, rough, solver) in [
+        ("Paraboloid(radius: 1.0)", "Measured(file: \"x\")", "Stepwise(step: 1.0)"),
+        ("Cone(angle: 0.1)", "SelfAffine(hurst: 0.5, modes: (1, 2), seed: 1, rms_height: 1.0e-9)", "Exact"),
+        (
+            "Power(coefficient: 1.0, exponent: 1.0)",
+            "SelfAffine(hurst: 0.5, modes: (1, 2), seed: 1, rms_gradient: 1.0)",
+            "Exact",
+        ),
+        ("Punch(radius: 1.0e-5)", "None", "Exact"),
+    ] {
+        for (material, adhesion) in [
+            ("(effective_modulus: 1.0e6)", "(work: 0.1)"),
+            ("(youngs_modulus: 1.0e6, poisson_ratio: 0.5)", "None"),
+        ] {
+            let text = format!(
+                "(version: 1, material: {material}, length: 1.0e-4, form: {form}, roughness: {rough}, \
+                 adhesion: {adhesion}, numerics: (solver: {solver}))"
+            );
+            let document = Document::parse(&text, "x").unwrap_or_else(|errors| panic!("{errors}"));
+            paths_of(&serde_json::to_value(document.scene()).unwrap(), String::new(), &mut found);
+        }
+    }
+    found.push("adhesion.kappa".into());
+    let table: Vec<_> = FIELDS.iter().map(|field| field.path).collect();
+    for path in &found {
+        assert!(table.contains(&path.as_str()), "{path} is not in the table");
+    }
+    for path in table {
+        assert!(found.iter().any(|found| found == path), "{path} is not in the model");
+    }
+}
+
+fn paths_of(value: &serde_json::Value, path: String, found: &mut Vec<String>) {
+    let Some(fields) = value.as_object() else {
+        return;
+    };
+    for (name, value) in fields {
+        // A variant's name is not part of a path.
+        let inside = match (path.as_str(), name.starts_with(char::is_uppercase)) {
+            (_, true) => path.clone(),
+            ("", false) => name.clone(),
+            (_, false) => format!("{path}.{name}"),
+        };
+        if !name.starts_with(char::is_uppercase) {
+            found.push(inside.clone());
+        }
+        paths_of(value, inside, found);
+    }
+}
+
+#[test]
+fn the_choices_of_the_table_can_be_set() {
+    let smooth = "(version: 1, material: (effective_modulus: 1.0e6), length: 1.0e-4)";
+    let document = Document::parse(smooth, "x").unwrap();
+    for field in FIELDS {
+        match field.range {
+            Range::Choice(choices) => {
+                for choice in choices {
+                    let roughness = "SelfAffine(hurst: 0.7, rms_height: 1.0e-7, modes: (1, 512), seed: 1)";
+                    let document = match *choice {
+                        "(kappa: 2.0)" => document.set("roughness", roughness).unwrap(),
+                        _ => document.clone(),
+                    };
+                    document.set(field.path, choice).unwrap_or_else(|errors| panic!("{choice}: {errors}"));
+                }
+            }
+            Range::List { of, .. } => {
+                let all = format!("[{}]", of.join(", "));
+                document.set(field.path, &all).unwrap_or_else(|errors| panic!("{all}: {errors}"));
+            }
+            _ => {}
+        }
+    }
+}
+
+#[test]
+fn what_the_table_says_of_left_out_fields_is_so() {
+    let smooth = "(version: 1, material: (effective_modulus: 1.0e6), length: 1.0e-4)";
+    let document = Document::parse(smooth, "x").unwrap();
+    let left_out = |path: &str| locate(smooth, path).is_none();
+    let fields = FIELDS.iter().filter(|field| field.variant.is_none() && !field.default.is_empty());
+    for field in fields.filter(|field| left_out(field.path)) {
+        let written = document.set(field.path, field.default).unwrap_or_else(|errors| panic!("{errors}"));
+        assert_eq!(written.scene(), document.scene(), "{}", field.path);
+    }
+    for field in FIELDS.iter().filter(|field| field.parent().is_empty() && field.default.is_empty()) {
+        let place = locate(smooth, field.path).unwrap();
+        let without = smooth.replace(&smooth[place.entry], "").replace("(,", "(").replace(", ,", ",");
+        assert!(message(&without.replace(", )", ")")).contains("missing"), "{}", field.path);
+    }
+}
+
+#[test]
+fn presets_are_written_in_canonical_values_and_lose_nothing() {
+    for preset in presets() {
+        let document = open(preset.name).unwrap();
+        let again = Document::parse(&to_ron(document.scene()), preset.name).unwrap();
+        assert_eq!(again.scene(), document.scene());
+        // The canonical text is the preset's own without its comments.
+        let bare: String = preset
+            .text
+            .lines()
+            .map(|line| line.split(" // ").next().unwrap_or(line).to_string() + "\n")
+            .collect();
+        assert_eq!(bare, to_ron(document.scene()), "{}", preset.name);
+    }
+}
+
+#[test]
+fn an_adhesion_free_sphere_is_made_from_a_preset_by_overrides() {
+    let document = open("jkr-sphere").unwrap();
+    let overrides = [("adhesion", "None"), ("form.radius", "2.0e-4"), ("numerics.points", "1024")];
+    let overrides = overrides.map(|(path, value)| (path.to_string(), value.to_string()));
+    let changed = document.set_all(&overrides).unwrap();
+    assert_eq!(changed.scene().adhesion, None);
+    assert_eq!(changed.scene().form, Some(Form::Paraboloid { radius: 2e-4 }));
+    assert_eq!(changed.scene().numerics.points, 1024);
+    assert_eq!(comments(changed.text()), comments(document.text()));
+    assert!(changed.text().contains("\n    numerics: (points: 1024),\n)"), "{}", changed.text());
+}
+
+/// Values to set: plausible ones, and ones that try to escape.
+fn values() -> impl Strategy<Value = String> {
+    prop_oneof![
+        "-?[0-9]{1,3}(\\.[0-9]{0,2})?(e-?[0-9]{1,2})?",
+        prop::sample::select(
+            FIELDS
+                .iter()
+                .flat_map(|field| match field.range {
+                    Range::Choice(choices) => choices.iter().map(|choice| choice.to_string()).collect(),
+                    _ => vec![field.default.to_string()],
+                })
+                .collect::<Vec<_>>()
+        ),
+        "[\\[\\](){},:\"'/*#a-z0-9 .\\\\\n-]{0,12}",
+        any::<String>(),
+    ]
+}
+
+fn paths() -> impl Strategy<Value = String> {
+    let known = prop::sample::select(FIELDS.iter().map(|field| field.path.to_string()).collect::<Vec<_>>());
+    prop_oneof![
+        6 => known.clone(),
+        2 => (known, 0..4_usize).prop_map(|(path, index)| format!("{path}.{index}")),
+        1 => "[a-z._0-9]{0,20}",
+        1 => any::<String>(),
+    ]
+}
+
+/// A preset with a few bytes exchanged, doubled or left out.
+fn mutated() -> impl Strategy<Value = String> {
+    let pieces = prop::sample::select(vec![
+        "",
+        "(",
+        ")",
+        "[",
+        "]",
+        "{",
+        "}",
+        "\"",
+        "'",
+        ",",
+        ":",
+        "//",
+        "/*",
+        "*/",
+        "r#\"",
+        "\\",
+        "Some(",
+        "None",
+        "NaN",
+        "-",
+        "1e999",
+        "κ",
+        "\u{feff}",
+        "#![enable(unwrap_variant_newtypes)]",
+        "\n",
+    ]);
+    let edits = prop::collection::vec((any::<prop::sample::Index>(), 0..6_usize, pieces), 1..6);
+    (prop::sample::select(presets().to_vec()), edits).prop_map(|(preset, edits)| {
+        edits.into_iter().fold(preset.text.to_string(), |text, (index, length, piece)| {
+            let characters: Vec<char> = text.chars().collect();
+            let start = index.index(characters.len() + 1);
+            let end = (start + length).min(characters.len());
+            let (before, after) = (&characters[..start], &characters[end..]);
+            before.iter().chain(piece.chars().collect::<Vec<_>>().iter()).chain(after).collect()
+        })
+    })
+}
+
+fn everything_about(text: &str) {
+    for field in FIELDS {
+        if let Some(place) = locate(text, field.path) {
+            assert!(text.get(place.value.clone()).is_some() && text.get(place.entry.clone()).is_some());
+            assert!(place.entry.start <= place.value.start && place.value.end == place.entry.end);
+            line_column(text, place.value.start);
+        }
+    }
+    match Document::parse(text, "x") {
+        Ok(document) => assert_eq!(document.scene(), &scene_of(&to_ron(document.scene()))),
+        Err(errors) => assert!(errors.iter().all(|error| !error.to_string().contains(char::is_control))),
+    }
+}
+
+fn scene_of(text: &str) -> Scene {
+    Document::parse(text, "x").unwrap().scene().clone()
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(1000))]
+
+    #[test]
+    fn no_text_makes_the_room_panic(text in any::<String>(), path in any::<String>(), offset in any::<usize>()) {
+        everything_about(&text);
+        locate(&text, &path);
+        line_column(&text, offset);
+    }
+
+    #[test]
+    fn no_ron_like_text_makes_the_room_panic(text in "[()\\[\\]{},:\"'/*#!rb a-cSome0-9.\\\\\n-]{0,60}", path in "[a-c.0-9]{0,8}") {
+        everything_about(&text);
+        locate(&text, &path);
+    }
+
+    #[test]
+    fn no_mutation_of_a_preset_makes_the_room_panic(text in mutated(), path in paths(), value in values()) {
+        everything_about(&text);
+        if let Ok(document) = Document::parse(&text, "x") {
+            let _ = document.set(&path, &value);
+        }
+    }
+
+    #[test]
+    fn a_change_of_one_field_changes_no_other(
+        preset in prop::sample::select(presets().to_vec()),
+        path in paths(),
+        value in values(),
+    ) {
+        let document = open(preset.name).unwrap();
+        if let Ok(changed) = document.set(&path, &value) {
+            prop_assert_eq!(comments(changed.text()), comments(document.text()));
+            let parts = path.split('.').next().unwrap_or("").to_string();
+            let (before, after) = (scene_json(&document), scene_json(&changed));
+            for (name, part) in before.as_object().unwrap() {
+                prop_assert!(*name == parts || after[name] == *part, "{path}={value} changed {name}");
+            }
+            // The overrides say how to come from the opened scene to this one.
+            prop_assert_eq!(document.set_all(changed.overrides()).unwrap(), changed);
+        }
+    }
+
+    #[test]
+    fn overrides_lead_back_to_the_scene(
+        changes in prop::collection::vec((paths(), values()), 1..12),
+        preset in prop::sample::select(presets().to_vec()),
+    ) {
+        let opened = open(preset.name).unwrap();
+        let mut document = opened.clone();
+        for (path, value) in changes {
+            document = document.set(&path, &value).unwrap_or(document);
+        }
+        let again = opened.set_all(document.overrides()).unwrap();
+        prop_assert_eq!(again.scene(), document.scene());
+    }
+}
+
+fn scene_json(document: &Document) -> serde_json::Value {
+    serde_json::to_value(document.scene()).unwrap()
+}
