@@ -174,7 +174,7 @@ fn check_amplitude(scene: &Scene, found: &mut Found) {
         &["roughness", "roughness.rms_height", "roughness.rms_gradient", "adhesion.work", "adhesion.kappa"];
     match (amplitude, work, kappa) {
         (true, Some(_), true) => {
-            let reason = "the roughness with work or kappa determines the third: leave one of them out";
+            let reason = "roughness amplitude, work and kappa: two determine the third, so leave one out or set it to None";
             found.add(disagreement("adhesion", "", reason, involves));
         }
         (false, Some(0.0), true) => {
@@ -287,7 +287,7 @@ mod tests {
         for (scene, field, said) in [
             (set(true, true, None), "roughness", "determine each other"),
             (set(true, true, Some((work, kappa))), "roughness", "determine each other"),
-            (set(true, false, Some((work, kappa))), "adhesion", "determines the third"),
+            (set(true, false, Some((work, kappa))), "adhesion", "determine the third"),
             (set(false, false, None), "roughness", "the amplitude is missing"),
             (set(false, false, Some((work, None))), "roughness", "the amplitude is missing"),
             (set(false, false, Some((None, kappa))), "roughness", "the amplitude is missing"),

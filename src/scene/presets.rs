@@ -74,7 +74,8 @@ pub fn open(name_or_path: &str) -> Result<Document, SceneErrors> {
     let near = nearest(name_or_path, names.iter().copied());
     let near = near.map_or_else(String::new, |near| format!("; did you mean {near}?"));
     let no_file = if path.is_dir() { "it is a directory" } else { "there is no such file" };
-    let message = format!("{no_file} and no built-in scene{near} Built-in scenes: {}", names.join(", "));
+    let message =
+        format!("{no_file} and no such built-in scene{near} (built-in scenes: {})", names.join(", "));
     Err(whole(name_or_path, message))
 }
 

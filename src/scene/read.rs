@@ -76,19 +76,16 @@ fn explain_at(text: &str, outline: &Outline, offset: usize, error: &ron::Error) 
     let field = outline.path_at(offset);
     let at = Unread { offset, field, ..Unread::nowhere() };
     match error {
-        Error::NoSuchStructField { expected, found, .. } => {
-            let near = nearest(found, expected.iter().copied());
-            let near = near.map_or_else(String::new, |near| format!("; did you mean {near}?"));
-            Unread { message: format!("no such field{near} Fields here: {}", expected.join(", ")), ..at }
-        }
         Error::MissingStructField { field: name, .. } => {
             let field =
                 if at.field.is_empty() { (*name).to_string() } else { format!("{}.{name}", at.field) };
-            let allowed =
-                known(outline, &field).map_or_else(String::new, |field| format!(": {}", field.allowed()));
+            let allowed = known(outline, &field)
+                .map_or_else(String::new, |field| format!("; allowed: {}", field.allowed()));
             Unread { field, message: format!("missing{allowed}"), ..at }
         }
-        Error::DuplicateStructField { .. } => Unread { message: "given twice".into(), ..at },
+        Error::NoSuchStructField { .. } | Error::DuplicateStructField { .. } => {
+            Unread { message: plain(error), ..at }
+        }
         Error::NoSuchEnumVariant { expected, found, .. } => {
             let near = nearest(found, expected.iter().copied());
             let message = near.map_or_else(String::new, |near| format!("did you mean {near}?"));
@@ -151,6 +148,13 @@ fn plain(error: &ron::Error) -> String {
         Error::ExpectedArray => "a list in [ ] is expected here",
         Error::ExpectedStructLike | Error::ExpectedNamedStructLike(_) => "an opening ( is expected here",
         Error::ExpectedStructLikeEnd | Error::ExpectedOptionEnd => "a closing ) is expected here",
+        Error::ExpectedDifferentStructName { .. } => "a group of fields in ( ) is expected here",
+        Error::DuplicateStructField { .. } => "given twice",
+        Error::NoSuchStructField { expected, found, .. } => {
+            let near = nearest(found, expected.iter().copied());
+            let near = near.map_or_else(String::new, |near| format!("; did you mean {near}?"));
+            return format!("no such field{near} (fields here: {})", expected.join(", "));
+        }
         Error::ExpectedMapColon => "a colon is expected here",
         Error::ExceededRecursionLimit => "nested too deeply",
         Error::TrailingCharacters => "nothing may follow the scene",
@@ -207,7 +211,13 @@ mod tests {
             (scene("    numerics: (points: 1e3),"), (5, 24), "numerics.points", "1e3", "from 1 to 268435456"),
             (scene("    title: Hello,"), (5, 12), "title", "Hello", "text in quotes"),
             (scene("    adhesion: 0.5,"), (5, 15), "adhesion", "0.5", "(work: 0.05) or (kappa: 2.0)"),
-            (rough("hurst: 0.7, modes: (1, 2)"), (5, 52), "roughness.seed", "", "missing: a whole number"),
+            (
+                rough("hurst: 0.7, modes: (1, 2)"),
+                (5, 52),
+                "roughness.seed",
+                "",
+                "missing; allowed: a whole number",
+            ),
             (rough("hurst: \"x\""), (5, 34), "roughness.hurst", "\"x\"", "above 0 and below 1"),
             (rough("hurst: 0.7 seed: 1"), (5, 38), "roughness", "", "a comma is expected"),
             ("(version: 1)".into(), (1, 12), "material", "", "missing"),

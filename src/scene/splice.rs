@@ -67,7 +67,7 @@ fn fields_at(path: &str) -> Result<Vec<&'static Field>, String> {
     names.dedup();
     let near = nearest(path, names.iter().copied());
     let near = near.map_or_else(String::new, |near| format!("; did you mean {near}?"));
-    Err(format!("no such field{near} Fields: {}", names.join(", ")))
+    Err(format!("no such field{near} (fields: {})", names.join(", ")))
 }
 
 fn insert(
@@ -313,7 +313,7 @@ mod tests {
         for (path, said) in [
             ("roughness.hurts", "did you mean roughness.hurst?"),
             ("hurst", "did you mean roughness.hurst?"),
-            ("nothing", "Fields: adhesion, adhesion.kappa"),
+            ("nothing", "no such field (fields: adhesion, adhesion.kappa"),
             ("", "no such field"),
             ("loading.", "no such field"),
             ("..", "no such field"),
