@@ -3,14 +3,17 @@
 //! different machines comparable.
 //!
 //! `cargo bench --bench stages` prints the table; `-- --quick` stops at 2^16 springs, `-- --largest 18`
-//! at 2^18; `-- --runs 9` repeats each measurement so often, of which the shortest counts. Without
+//! at 2^18, `-- --smallest 20` begins at 2^20; `-- --runs 9` repeats each measurement so often, of which the shortest counts. Without
 //! `--bench`, as `cargo test --benches` starts it, it only shows that it runs.
 
 use asperity::analysis::ideal_adhesion_force;
 use asperity::contact::{ContactTree, Foundation, GridEdges, HessRule, LegRecord, Solver, Work, exact};
 use asperity::scene::Leg;
 use asperity::surface::{Line, SelfAffine, UnitRoughness};
+use realfft::{RealFftPlanner, RealToComplex};
+use rustfft::num_complex::Complex64;
 use std::hint::black_box;
+use std::sync::Arc;
 use std::time::Instant;
 
 /// A whole loop at this length may cost at most so many transforms.
@@ -69,7 +72,7 @@ impl Options {
         }
         let largest = number("--largest").unwrap_or(if has("--quick") { 16 } else { 22 });
         let runs = number("--runs").map_or(if has("--quick") { 5 } else { 9 }, |runs| runs as usize);
-        Options { smallest: 12, largest, runs: runs.max(1) }
+        Options { smallest: number("--smallest").unwrap_or(12), largest, runs: runs.max(1) }
     }
 }
 
@@ -107,7 +110,7 @@ fn synthesize(spectrum: SelfAffine, points: usize) -> Line {
     Line::new(LENGTH, points, None, Some(&rough.heights), RMS_HEIGHT).expect("a finite line")
 }
 
-/// Seconds of each stage and what came out of the loop.
+/// Shortest seconds of each stage, and what came out of the loop.
 struct Measured {
     transform: f64,
     synthesis: f64,
@@ -119,54 +122,72 @@ struct Measured {
     work: Work,
 }
 
+/// Measures all stages in turn, round after round: what else the machine does in the meantime then
+/// meets all of them alike.
 fn measure(rough: &Rough, runs: usize) -> Measured {
-    let transform = transform_seconds(&rough.line.gaps, runs);
-    let synthesis = shortest(runs, || {
-        black_box(synthesize(black_box(rough.spectrum), rough.points));
-    });
-    let tree = shortest(runs, || {
-        black_box(ContactTree::build(black_box(&rough.line.gaps)).expect("memory for the tree"));
-    });
-    let (mut passes, mut curves, mut whole) = (f64::INFINITY, f64::INFINITY, f64::INFINITY);
-    let mut records = Vec::new();
-    let mut work = Work::default();
+    let mut transform = Transform::planned(rough.points);
+    let mut best = Measured {
+        transform: f64::INFINITY,
+        synthesis: f64::INFINITY,
+        tree: f64::INFINITY,
+        passes: f64::INFINITY,
+        curves: f64::INFINITY,
+        whole: f64::INFINITY,
+        records: Vec::new(),
+        work: Work::default(),
+    };
     for _ in 0..runs {
+        best.transform = best.transform.min(transform.seconds(&rough.line.gaps));
+        let clock = Instant::now();
+        black_box(synthesize(black_box(rough.spectrum), rough.points));
+        best.synthesis = best.synthesis.min(seconds_since(clock));
+
         let clock = Instant::now();
         let tree = ContactTree::build(black_box(&rough.line.gaps)).expect("memory for the tree");
+        let tree_seconds = seconds_since(clock);
         let mut solver = exact::adhesive(&tree, rough.rule(), rough.foundation, SAMPLES).expect("memory");
         let legs_clock = Instant::now();
-        records = rough.legs().map(|leg| solver.advance(leg).expect("a reachable leg")).to_vec();
-        let legs = legs_clock.elapsed().as_secs_f64();
-        whole = whole.min(clock.elapsed().as_secs_f64());
-        curves = curves.min(solver.curve_seconds());
-        passes = passes.min(legs - solver.curve_seconds());
-        work = solver.work();
+        best.records = rough.legs().map(|leg| solver.advance(leg).expect("a reachable leg")).to_vec();
+        let legs_seconds = seconds_since(legs_clock);
+        best.whole = best.whole.min(seconds_since(clock));
+        best.tree = best.tree.min(tree_seconds);
+        best.curves = best.curves.min(solver.curve_seconds());
+        best.passes = best.passes.min(legs_seconds - solver.curve_seconds());
+        best.work = solver.work();
     }
-    Measured { transform, synthesis, tree, passes, curves, whole, records, work }
+    best
 }
 
-fn transform_seconds(values: &[f64], runs: usize) -> f64 {
-    let plan = realfft::RealFftPlanner::<f64>::new().plan_fft_forward(values.len());
-    let mut input = plan.make_input_vec();
-    let (mut output, mut scratch) = (plan.make_output_vec(), plan.make_scratch_vec());
-    let mut seconds = f64::INFINITY;
-    for _ in 0..runs.max(3) {
+/// A real Fourier transform, planned, with its buffers.
+struct Transform {
+    plan: Arc<dyn RealToComplex<f64>>,
+    input: Vec<f64>,
+    output: Vec<Complex64>,
+    scratch: Vec<Complex64>,
+}
+
+impl Transform {
+    fn planned(points: usize) -> Self {
+        let plan = RealFftPlanner::<f64>::new().plan_fft_forward(points);
+        let (input, output, scratch) =
+            (plan.make_input_vec(), plan.make_output_vec(), plan.make_scratch_vec());
+        Transform { plan, input, output, scratch }
+    }
+
+    fn seconds(&mut self, values: &[f64]) -> f64 {
         // The transform uses its input up.
-        input.copy_from_slice(values);
+        self.input.copy_from_slice(values);
         let clock = Instant::now();
-        plan.process_with_scratch(&mut input, &mut output, &mut scratch).expect("lengths fit");
-        black_box(&output);
-        seconds = seconds.min(clock.elapsed().as_secs_f64());
+        self.plan
+            .process_with_scratch(&mut self.input, &mut self.output, &mut self.scratch)
+            .expect("buffers of its length");
+        black_box(&self.output);
+        seconds_since(clock)
     }
-    seconds
 }
 
-fn shortest(runs: usize, mut stage: impl FnMut()) -> f64 {
-    (0..runs).fold(f64::INFINITY, |seconds, _| {
-        let clock = Instant::now();
-        stage();
-        seconds.min(clock.elapsed().as_secs_f64())
-    })
+fn seconds_since(clock: Instant) -> f64 {
+    clock.elapsed().as_secs_f64()
 }
 
 impl Measured {

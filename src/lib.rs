@@ -2,6 +2,35 @@
 #![warn(missing_docs)]
 //! Asperity: how strongly two rough elastic bodies stick, and whether pressing them together makes
 //! them stick more.
+//!
+//! It implements the model of Popov and Filippov (2012): a rigid self-affine line on a foundation of
+//! springs, the method of dimensionality reduction, with the rule of Hess for adhesion. The hysteresis
+//! of any loading history is exact and takes time proportional to the number of springs.
+//!
+//! Data flows one way:
+//!
+//! | from | by | to |
+//! | --- | --- | --- |
+//! | a file | [`scene::open`] | [`scene::Scene`], checked |
+//! | its form and roughness | [`surface`] | [`surface::Line`], gaps c at a distance Δx |
+//! | the gaps | [`contact::ContactTree::build`] | the tree of all fragments there can be |
+//! | tree, E\*, γ, loading | [`contact::exact`] or [`contact::stepwise`] | [`contact::History`], legs and curves |
+//! | the history | [`analysis`] | figures and the regime |
+//!
+//! [`simulation::Simulation`] runs these stages, only those a scene calls for, and repeats only those
+//! whose input has changed:
+//!
+//! ```
+//! use asperity::{scene, simulation::Simulation};
+//!
+//! let document = scene::open("jkr-sphere")?;
+//! let mut simulation = Simulation::new(document.resolve(""));
+//! let outcome = simulation.run(document.scene(), &|| false, &mut |_, _, _| Ok(()))?;
+//! // Johnson, Kendall and Roberts: (3/2)πγR.
+//! let pull_off = outcome.figures.adhesion_force.ok_or("no leg back")?;
+//! assert!((pull_off / (1.5 * std::f64::consts::PI * 0.05 * 1.0e-4) - 1.0).abs() < 2e-3);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 pub mod analysis;
 pub mod cli;

@@ -16,16 +16,16 @@ Examples:
 
 Exit codes: 0 done, 1 the input or the run failed, 2 wrong usage.";
 
-/// How strongly two rough elastic bodies stick, and whether pressing them together makes them stick
-/// more.
+/// How strongly rough elastic bodies stick, and whether pressing them makes them stick more.
 ///
 /// Computes the adhesive contact of a rough body on an elastic half-space by the method of
-/// dimensionality reduction with the rule of Hess: the whole loop of force against indentation,
-/// exactly, for any loading history. Without a command the explorer opens in the terminal.
+/// dimensionality reduction with the rule of Hess: the whole loop of force against
+/// indentation, exactly, for any loading history. Without a command the explorer opens.
 #[derive(Debug, Parser)]
 #[command(
     name = "asperity",
     version,
+    verbatim_doc_comment,
     after_help = EXAMPLES,
     args_conflicts_with_subcommands = true,
     subcommand_negates_reqs = true
@@ -42,9 +42,9 @@ pub struct Arguments {
 /// The commands.
 #[derive(Debug, Subcommand)]
 pub enum Command {
-    /// Compute a scene and print what came out: a summary, JSON, or the curve as CSV
+    /// Compute a scene: a summary, JSON, or the curve as CSV
     Run(RunArguments),
-    /// Tell which stages a scene runs, which it skips and why, and what they cost
+    /// Tell which stages a scene runs and which it skips, why, and what they cost
     Plan(PlanArguments),
     /// Print the rigid line of a scene as CSV: x,z in m
     Line(LineArguments),

@@ -15,6 +15,7 @@ mod plan_legs;
 mod presets;
 mod run;
 mod scene;
+mod usage;
 
 pub use arguments::{Arguments, Command};
 pub use completions::CompletionsArguments;
@@ -43,9 +44,11 @@ const WRONG_USAGE: u8 = 2;
 
 /// Runs the program with these arguments, the first of them its own name.
 pub fn main(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
-    let arguments = match Arguments::try_parse_from(arguments) {
+    let typed: Vec<OsString> = arguments.into_iter().collect();
+    let arguments = match Arguments::try_parse_from(&typed) {
         Ok(arguments) => arguments,
         Err(error) => {
+            let error = usage::explained(error, &typed);
             // Help and version come this way as well. Where nobody reads them, that is all right.
             let _ = error.print();
             return if error.use_stderr() { ExitCode::from(WRONG_USAGE) } else { ExitCode::SUCCESS };

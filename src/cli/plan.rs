@@ -3,7 +3,7 @@
 use super::plan_cost::{Cost, StageCost};
 use super::{CliError, SceneArguments};
 use crate::export::sheet::{Sheet, grouped};
-use crate::export::write_lines;
+use crate::export::write_json_value;
 use crate::simulation::{Plan, PlannedStage};
 use clap::{Args, ValueEnum};
 use serde::Serialize;
@@ -64,7 +64,7 @@ pub(super) fn plan(arguments: &PlanArguments, stdout: &mut dyn Write) -> Result<
         PlanFormat::Json => {
             let stages = plan.stages.iter().map(|planned| StageReport { planned, cost: cost.stage(planned) });
             let stages = stages.collect();
-            write_lines(
+            write_json_value(
                 stdout,
                 &Report { springs: cost.springs, peak_bytes: cost.peak_bytes(&plan), stages },
             )?;
@@ -89,7 +89,7 @@ fn text(plan: &Plan, cost: &Cost) -> String {
     let mut sheet = Sheet::default();
     sheet.table(&rows);
     let (springs, peak) = (grouped(cost.springs), memory(cost.peak_bytes(plan)));
-    sheet.heading(&format!("{springs} springs under the body, about {peak} at most at any one time"));
+    sheet.heading(&format!("{springs} springs under the body; arrays of about {peak} at any one time"));
     sheet.into_text()
 }
 

@@ -8,9 +8,8 @@ use serde::Serialize;
 
 /// Bytes for each spring: a height of the roughness, or a gap of the line.
 const HEIGHT: u64 = 8;
-/// Bytes for each spring while a line is synthesized, beside its heights: half as many complex
-/// coefficients, scratch space and twiddle factors of the transform.
-const TRANSFORM: u64 = 28;
+/// Largest prime factor of a number of springs that the Fourier transform takes in its stride.
+const LARGEST_FACTOR: u64 = 11;
 /// Bytes for each spring: a node of the tree.
 const NODE: u64 = 20;
 /// Bytes for each spring: the indentation at which it joins or leaves.
@@ -60,7 +59,7 @@ impl Cost {
         let on_line = |passes, per_spring: u64| StageCost { passes, bytes: per_spring * self.springs };
         match planned.stage {
             Stage::Form | Stage::HeightHistogram => on_line(Some(1), 0),
-            Stage::Synthesis => StageCost { passes: Some(1), bytes: (HEIGHT + TRANSFORM) * self.points },
+            Stage::Synthesis => StageCost { passes: Some(1), bytes: self.synthesis_bytes() },
             Stage::MeasuredProfile => StageCost { passes: Some(1), bytes: HEIGHT * self.points },
             Stage::Tree => on_line(Some(1), NODE),
             Stage::RuleOfHess => on_line(Some(0), 0),
@@ -73,7 +72,8 @@ impl Cost {
         }
     }
 
-    /// About the most memory the arrays of a run take at any one time, bytes.
+    /// About the most memory the arrays of a run take at any one time, bytes, but for the springs that
+    /// are sorted where the force may have an extreme: how many, only the run can tell.
     pub(super) fn peak_bytes(&self, plan: &Plan) -> u64 {
         let kept = if self.rough { HEIGHT * self.points } else { 0 };
         let of_contact = match (self.exact, plan.runs(Stage::Tree)) {
@@ -83,9 +83,31 @@ impl Cost {
         };
         let curves = self.curve_points * size_of::<CurvePoint>() as u64;
         let contact = kept + (HEIGHT + of_contact) * self.springs + curves;
-        let synthesis = if plan.runs(Stage::Synthesis) { (HEIGHT + TRANSFORM) * self.points } else { 0 };
-        contact.max(synthesis)
+        if plan.runs(Stage::Synthesis) { contact.max(self.synthesis_bytes()) } else { contact }
     }
+
+    /// Bytes of a synthesis: heights, and as measured the transform's coefficients, scratch space and
+    /// twiddle factors. Odd numbers of springs transform at twice the length, those with a large prime
+    /// factor by way of a much longer convolution.
+    fn synthesis_bytes(&self) -> u64 {
+        let even = self.points.is_multiple_of(2);
+        let transform = match (even, has_small_factors(self.points)) {
+            (true, true) => 20,
+            (false, true) => 56,
+            (true, false) => 96,
+            (false, false) => 176,
+        };
+        (HEIGHT + transform) * self.points
+    }
+}
+
+fn has_small_factors(mut number: u64) -> bool {
+    for factor in 2..=LARGEST_FACTOR {
+        while number > 1 && number.is_multiple_of(factor) {
+            number /= factor;
+        }
+    }
+    number <= 1
 }
 
 /// Springs of the foundation that stand under the body: all of them but those beside a punch.

@@ -2,7 +2,7 @@
 
 use super::CliError;
 use crate::export::sheet::Sheet;
-use crate::export::write_lines;
+use crate::export::write_json_value;
 use crate::scene::{self, Document, LONGEST_TEXT, Roughness, SceneErrors, line_column, locate};
 use crate::surface::MeasuredProfile;
 use clap::{Subcommand, ValueEnum};
@@ -80,7 +80,7 @@ fn list(format: ListFormat, stdout: &mut dyn Write) -> Result<(), CliError> {
         presets.push(Listed { name: preset.name, title, notice });
     }
     match format {
-        ListFormat::Json => write_lines(stdout, &presets)?,
+        ListFormat::Json => write_json_value(stdout, &presets)?,
         ListFormat::Text => {
             let rows: Vec<_> = presets.into_iter().map(|preset| [preset.name.into(), preset.title]).collect();
             let mut sheet = Sheet::default();

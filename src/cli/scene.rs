@@ -18,9 +18,11 @@ pub struct SceneArguments {
 /// Overrides of a scene's fields.
 #[derive(Args, Debug)]
 pub struct Overrides {
-    /// Override a field of the scene, VALUE written as in a scene file; may be repeated:
-    /// --set roughness.seed=7 --set "loading=[ToForce(2e-3), ToSeparation]"
-    #[arg(long = "set", value_name = "PATH=VALUE", value_parser = path_and_value)]
+    /// Change a field of the scene; may be repeated
+    ///
+    /// The value is written as in a scene file, None takes an optional part away:
+    ///   --set roughness.seed=7 --set form=None --set "loading=[ToForce(2e-3), ToSeparation]"
+    #[arg(long = "set", value_name = "PATH=VALUE", value_parser = path_and_value, verbatim_doc_comment)]
     pub set: Vec<(String, String)>,
 }
 

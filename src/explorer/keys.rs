@@ -203,6 +203,20 @@ pub fn valid_in(mode: ModeKind) -> impl Iterator<Item = &'static Binding> {
     BINDINGS.iter().filter(move |row| row.modes.contains(&mode))
 }
 
+/// The table as Markdown, for the README: keys and what they do, by section.
+#[must_use]
+pub fn markdown() -> String {
+    let mut text = String::from("| | key | does |\n| --- | --- | --- |\n");
+    let mut section = "";
+    for row in BINDINGS.iter().filter(|row| !row.help.is_empty()) {
+        let shown = if row.section == section { "" } else { row.section };
+        section = row.section;
+        let keys: Vec<String> = row.keys.iter().map(|key| format!("`{}`", key.name())).collect();
+        text += &format!("| {shown} | {} | {} |\n", keys.join(" "), row.help);
+    }
+    text
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -1,6 +1,6 @@
 //! A computed scene as one JSON object: SI units, numbers that are finite or null.
 
-use super::lines::write_lines;
+use super::json_text::write_json_value;
 use crate::analysis::Regime;
 use crate::contact::Work;
 use crate::scene::{Observer, Scene};
@@ -13,7 +13,7 @@ use std::io::{self, Write};
 /// # Errors
 /// Those of `out`.
 pub fn write_json(out: &mut (impl Write + ?Sized), scene: &Scene, outcome: &Outcome) -> io::Result<()> {
-    write_lines(out, &Report::of(scene, outcome))
+    write_json_value(out, &Report::of(scene, outcome))
 }
 
 /// The object; its keys stand in the order of these fields.

@@ -6,7 +6,7 @@
 pub mod atomic;
 mod csv;
 mod json;
-mod lines;
+mod json_text;
 pub(crate) mod sheet;
 mod summary;
 mod verdict;
@@ -14,5 +14,5 @@ mod verdict;
 pub use atomic::{WriteError, check_writable, write_new};
 pub use csv::{write_curve, write_line};
 pub use json::write_json;
-pub use lines::write_lines;
+pub use json_text::write_json_value;
 pub use summary::summary;

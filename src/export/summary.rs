@@ -65,20 +65,15 @@ fn bodies(sheet: &mut Sheet, outcome: &Outcome) {
 
 fn adhesion(sheet: &mut Sheet, scene: &Scene, outcome: &Outcome) {
     let figures = &outcome.figures;
-    let at = |force: Option<f64>, indentation: Option<f64>| {
-        let (force, indentation) = (quantity(force, "N")?, quantity(indentation, "m"));
-        Some(indentation.map_or(force.clone(), |indentation| format!("{force} at d = {indentation}")))
-    };
     sheet.heading("Adhesion");
     sheet.row("loading", loading(&scene.loading));
     verdict::rows(sheet, outcome);
-    sheet.row_of("preload F_n", at(figures.preload, figures.preload_indentation));
-    match at(figures.adhesion_force, figures.pull_off_indentation) {
-        Some(force) => sheet.row("adhesion force F_a", force),
-        None => sheet.row("adhesion force F_a", "none: no leg back pulls"),
-    }
-    sheet.row_of("coefficient F_a/F_n", quantity(figures.adhesion_coefficient, "1"));
+    sheet.row_of("preload F_n", quantity(figures.preload, "N"));
+    sheet.row_of("at indentation", quantity(figures.preload_indentation, "m"));
+    let adhesion_force = quantity(figures.adhesion_force, "N");
+    sheet.row("adhesion force F_a", adhesion_force.unwrap_or_else(|| "none: no leg back pulls".into()));
     sheet.row_of("pull-off indentation", quantity(figures.pull_off_indentation, "m"));
+    sheet.row_of("coefficient F_a/F_n", quantity(figures.adhesion_coefficient, "1"));
     sheet.row_of("at first touch F_a(0)", quantity(outcome.zero_load_adhesion_force, "N"));
     sheet.row_of("smooth body F_smooth", quantity(outcome.smooth_adhesion_force, "N"));
     sheet.row_of("ideal F_a,max", quantity(outcome.ideal_adhesion_force, "N"));
@@ -104,10 +99,10 @@ fn contact(sheet: &mut Sheet, outcome: &Outcome) {
     let Some(end) = outcome.history.legs.last().and_then(|leg| leg.curve.last()) else { return };
     sheet.heading("At the end");
     sheet.row("indentation d", format_quantity(end.indentation, "m"));
-    sheet.row("force F", format_quantity(end.force, "N"));
     if end.springs == 0 {
-        return sheet.row("contact", "separated");
+        return sheet.row("contact", "none: separated");
     }
+    sheet.row("force F", format_quantity(end.force, "N"));
     let length = end.springs as f64 * outcome.line.spacing;
     let share = format_quantity(100.0 * length / outcome.line.length, "1");
     sheet.row("contact length", format!("{}, {share} % of L", format_quantity(length, "m")));
@@ -141,7 +136,7 @@ fn cost(sheet: &mut Sheet, work: &Work, timings: &Timings) {
         ("tree nodes", tree_nodes),
         ("loading passes", loading_passes),
         ("unloading passes", unloading_passes),
-        ("uses of the rule of Hess", hess_evaluations),
+        ("rule of Hess applied", hess_evaluations),
         ("springs tallied", springs_tallied),
         ("events sorted", events_sorted),
         ("springs joined", joins),

@@ -84,12 +84,6 @@ impl<'t> Outline<'t> {
         self.value_end(0) == Some(self.tokens.len())
     }
 
-    /// Whether anything, even a comment, stands before the first or after the last token.
-    pub(super) fn has_outer_comments(&self) -> bool {
-        let (first, last) = (self.tokens.first(), self.tokens.last());
-        first.is_none_or(|token| token.start > 0) || last.is_none_or(|token| token.end < self.text.len())
-    }
-
     /// Where a field stands.
     pub(super) fn find(&self, path: &str) -> Option<Place> {
         self.entry(path).map(|entry| entry.place)

@@ -2,6 +2,18 @@
 //!
 //! [`open`] gives a [`Document`]: a checked [`Scene`] with the text it came from. [`FIELDS`] is the
 //! table of everything a scene can say; the checks, overrides and the explorer read it.
+//!
+//! ```
+//! use asperity::scene;
+//!
+//! let sphere = scene::open("jkr-sphere")?;
+//! let stickier = sphere.set("adhesion.work", "0.1")?;
+//! assert_eq!(stickier.value("adhesion.work"), Some("0.1"));
+//!
+//! let refused = sphere.set("adhesion.work", "-0.1").unwrap_err();
+//! assert_eq!(refused.first().allowed, "from 0 to 1e6 J/m²");
+//! # Ok::<(), scene::SceneErrors>(())
+//! ```
 
 mod agree;
 mod blame;

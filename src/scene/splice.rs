@@ -8,6 +8,8 @@ use super::range::choice_name;
 use super::scan::comment_end;
 use super::suggest::nearest;
 
+const NOT_ONE_VALUE: &str = "not one RON value by itself, such as 1.0e-3 or (1, 512)";
+
 /// Gives the field at `path` the value `value`, written as RON, and returns the new text.
 ///
 /// A field that is not there is inserted, with the group around it where that is missing too; a part
@@ -27,9 +29,10 @@ pub(super) fn set(text: &str, path: &str, value: &str) -> Result<String, String>
     } else {
         insert(text, &outline, path, value, &fields)?
     };
-    // Whatever was spliced in must now be the value of that field, and of nothing else.
+    // Whatever was spliced in must now be the value of that field, all of it and nothing else: a
+    // comment in it must not swallow what follows.
     let stands = Outline::of(&new).ok().and_then(|outline| outline.find(path)).map(|place| &new[place.value]);
-    if stands == Some(value) { Ok(new) } else { Err("this value does not stay in its place".into()) }
+    if stands == Some(value) { Ok(new) } else { Err(NOT_ONE_VALUE.into()) }
 }
 
 /// The value without blanks around it, if it is one RON value and nothing else.
@@ -40,12 +43,7 @@ fn one_value(value: &str) -> Result<&str, String> {
     }
     let outline =
         Outline::of(value).map_err(|unreadable| format!("not one RON value: {}", unreadable.reason))?;
-    let bare = !outline.has_outer_comments();
-    if outline.is_one_value() && bare {
-        Ok(value)
-    } else {
-        Err("not one RON value, such as 1.0e-3 or (1, 512)".into())
-    }
+    if outline.is_one_value() { Ok(value) } else { Err(NOT_ONE_VALUE.into()) }
 }
 
 /// The fields a path may mean: more than one where variants of a choice share a name. A position in
@@ -306,6 +304,12 @@ mod tests {
             assert!(set(SCENE, "length", value).is_err(), "{value}");
             assert!(set(SCENE, "adhesion.work", value).is_err(), "{value}");
         }
+    }
+
+    #[test]
+    fn a_value_does_not_become_a_comment_with_what_follows() {
+        assert!(set("(length: 1.0// c\n)", "length", "/").is_err());
+        assert!(set("(length: 1.0/* c */)", "length", "/").is_err());
     }
 
     #[test]

@@ -40,7 +40,7 @@ pub fn to_ron(scene: &Scene) -> String {
 /// point, with an exponent where it is much smaller or larger than one.
 pub fn ron_float(value: f64) -> String {
     let size = value.abs();
-    if !value.is_finite() || size == 0.0 || (1e-2..1e5).contains(&size) {
+    if !value.is_finite() || size == 0.0 || (size > 1e-3 && size < 1e5) {
         return format!("{value:?}");
     }
     let text = format!("{value:e}");
@@ -185,7 +185,7 @@ mod tests {
             (0.5, "0.5"),
             (-40.0, "-40.0"),
             (0.001, "1.0e-3"),
-            (0.01, "0.01"),
+            (0.005, "0.005"),
             (99_999.0, "99999.0"),
             (0.0, "0.0"),
             (-0.0, "-0.0"),

@@ -47,6 +47,11 @@ pub fn status(frame: &mut Frame<'_>, area: Rect, model: &Model) {
     frame.render_widget(Paragraph::new(line), area);
 }
 
+/// A time to two digits.
+fn short(seconds: f64) -> f64 {
+    format!("{seconds:.1e}").parse().unwrap_or(seconds)
+}
+
 /// F_a, regime, κ, the moment shown and what it cost, the most important first.
 fn headline(model: &Model) -> Line<'static> {
     let Some(computed) = &model.computed else { return Line::raw("computing…") };
@@ -65,8 +70,9 @@ fn headline(model: &Model) -> Line<'static> {
     let mut spans = vec![Span::styled(parts.join(" · "), style)];
     if let Some(moment) = model.moment.as_ref().filter(|moment| moment.generation == model.generation) {
         let point = moment.point;
+        let plural = if point.fragments == 1 { "" } else { "s" };
         spans.push(Span::raw(format!(
-            "   d {} F {} · {} springs in {} fragments",
+            "  d {} F {} · {} springs in {} fragment{plural}",
             format_quantity(point.indentation, "m"),
             format_quantity(point.force, "N"),
             point.springs,
@@ -75,12 +81,11 @@ fn headline(model: &Model) -> Line<'static> {
     }
     let time = if model.is_computing() {
         let legs = model.document.scene().loading.len();
-        format!("   computing, leg {} of {legs}", model.progress.unwrap_or(0) + 1)
+        format!("  computing, leg {} of {legs}", model.progress.unwrap_or(0) + 1)
     } else {
         let timings = &outcome.timings;
-        let loops = timings.passes + timings.curve + timings.zero_load;
-        let [line, tree, loops] = [timings.line, timings.tree, loops].map(|time| format_quantity(time, "s"));
-        format!("   line {line} tree {tree} loop {loops}")
+        // What the last run made anew: a kept line and tree cost nothing.
+        format!("  · {}", format_quantity(short(timings.total()), "s"))
     };
     spans.push(Span::styled(time, model.theme.style(Meaning::Quiet)));
     Line::from(spans)

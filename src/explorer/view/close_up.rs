@@ -66,7 +66,7 @@ fn describe(fragment: Option<FragmentFacts>, fragments: u64, width: u16) -> [Lin
     let [bears, stretched, margin] =
         [facts.largest_stretch, facts.most_stretched, margin].map(|value| format_quantity(value, "m"));
     let second = if width >= 60 {
-        format!("  Δl_max {bears} · most stretched {stretched} · lets go after {margin} more")
+        format!("  Δl_max {bears} · most stretched {stretched} · margin {margin}")
     } else {
         format!("  Δl {stretched} of {bears}")
     };

@@ -13,6 +13,9 @@ use ratatui::text::{Line, Span as Text};
 use ratatui::widgets::Paragraph;
 use ratatui::widgets::canvas::{Canvas, Context};
 
+/// Columns for the forces beside the plot.
+const GUTTER: u16 = 9;
+
 /// Title of the pane.
 pub fn title(model: &Model) -> String {
     if model.is_computing() { " Force F(d) · computing ".to_owned() } else { " Force F(d) ".to_owned() }
@@ -29,7 +32,13 @@ pub fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
     }
     let axis_rows = u16::from(area.height >= 5);
     let legend_rows = u16::from(area.height >= 8);
-    let plot = Rect { height: area.height - axis_rows - legend_rows, y: area.y + legend_rows, ..area };
+    let gutter = if area.width >= 30 && area.height >= 6 { GUTTER } else { 0 };
+    let plot = Rect {
+        x: area.x + gutter,
+        y: area.y + legend_rows,
+        width: area.width - gutter,
+        height: area.height - axis_rows - legend_rows,
+    };
     let x = Span::around(points().map(|point| point.indentation), 0.06);
     let y = Span::around(points().map(|point| point.force).chain([0.0]), 0.08);
     let stale = model.computed.as_ref().is_some_and(|computed| computed.generation != model.generation);
@@ -67,18 +76,37 @@ pub fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
             Text::styled("⠒⠒⠒ ", Style::new().fg(colour(Meaning::Retraction))),
             Text::raw("retraction  "),
             Text::styled("◆", theme.style(Meaning::Cursor)),
-            Text::raw(format!(" now   F up to {}", format_quantity(y_top(legs), "N"))),
+            Text::raw(" now"),
         ]);
         frame.render_widget(Paragraph::new(legend), Rect { height: 1, ..area });
     }
     if axis_rows > 0 {
         let row = Rect { y: area.bottom() - 1, height: 1, ..area };
-        x_axis(frame, row, x, theme);
+        x_axis(frame, Rect { x: plot.x, width: plot.width, ..row }, x, theme);
+    }
+    if gutter > 0 {
+        y_axis(frame, Rect { x: area.x, width: gutter, ..plot }, y, theme);
     }
 }
 
-fn y_top(legs: &[LegRecord]) -> f64 {
-    legs.iter().flat_map(|leg| &leg.curve).map(|point| point.force).fold(0.0, f64::max)
+/// Both ends of the axis of forces, and zero where it fits between them.
+fn y_axis(frame: &mut Frame<'_>, column: Rect, y: Span, theme: Theme) {
+    let zero = (y.high / (y.high - y.low) * f64::from(column.height)) as u16;
+    let last = column.height - 1;
+    let mut label = |row: u16, text: String| {
+        let place = Rect { y: column.y + row, height: 1, width: column.width - 1, ..column };
+        frame.render_widget(Paragraph::new(text).right_aligned().style(theme.style(Meaning::Quiet)), place);
+    };
+    label(0, format_quantity(short(y.high), "N"));
+    label(last, format_quantity(short(y.low), "N"));
+    if (2..last.saturating_sub(1)).contains(&zero) {
+        label(zero, "F = 0".to_owned());
+    }
+}
+
+/// The value to three digits: an axis needs no more.
+fn short(value: f64) -> f64 {
+    format!("{value:.2e}").parse().unwrap_or(value)
 }
 
 /// Marks preload and pull-off.
@@ -99,7 +127,7 @@ fn mark_figures(ctx: &mut Context<'_>, legs: &[LegRecord], theme: Theme) {
 /// Both ends of the axis of indentations, and zero where it fits between them.
 fn x_axis(frame: &mut Frame<'_>, row: Rect, x: Span, theme: Theme) {
     let quiet = theme.style(Meaning::Quiet);
-    let ends = [format_quantity(x.low, "m"), format_quantity(x.high, "m")];
+    let ends = [format_quantity(short(x.low), "m"), format_quantity(short(x.high), "m")];
     let width = |text: &str| text.chars().count() as u16;
     let zero = (-x.low / (x.high - x.low) * f64::from(row.width)).floor();
     let right = Rect { x: row.right().saturating_sub(width(&ends[1])), width: width(&ends[1]), ..row };

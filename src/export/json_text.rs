@@ -11,7 +11,7 @@ const BROKEN_LEVELS: usize = 2;
 ///
 /// # Errors
 /// Those of `out`.
-pub fn write_lines(out: &mut (impl Write + ?Sized), value: &impl Serialize) -> io::Result<()> {
+pub fn write_json_value(out: &mut (impl Write + ?Sized), value: &impl Serialize) -> io::Result<()> {
     let mut serializer = Serializer::with_formatter(&mut *out, Lines::default());
     value.serialize(&mut serializer)?;
     writeln!(out)
@@ -98,7 +98,7 @@ mod tests {
     fn outer_entries_have_lines_of_their_own() {
         let value = json!({"a": [[1, 2], [3]], "b": {}, "c": {"d": [], "e": {"f": [1]}}, "g": []});
         let mut text = Vec::new();
-        write_lines(&mut text, &value).unwrap();
+        write_json_value(&mut text, &value).unwrap();
         let text = String::from_utf8(text).unwrap();
         let expected = r#"{
   "a": [

@@ -1,0 +1,32 @@
+//! What to say about arguments that mean nothing together.
+
+use super::Arguments;
+use clap::error::{ContextKind, ErrorKind};
+use clap::{CommandFactory, Error};
+use std::ffi::OsString;
+
+/// The error, or a plainer one where a scene and a command got in each other's way: the parser takes
+/// a misspelt command for a scene, and what follows it for another command or for options of none.
+pub(super) fn explained(error: Error, typed: &[OsString]) -> Error {
+    let mut command = Arguments::command();
+    let names: Vec<String> = command.get_subcommands().map(|command| command.get_name().into()).collect();
+    let is_command = |word: &str| names.iter().any(|name| name == word);
+    let words: Vec<_> = typed.iter().skip(1).map(|word| word.to_string_lossy()).collect();
+    let Some(first) = words.first().filter(|first| !is_command(first)) else { return error };
+    let misplaced = words.iter().find(|word| is_command(word));
+    let no_command = format!("'{first}' is not a command; the commands are {}", names.join(", "));
+    let message = match (error.kind(), misplaced) {
+        (ErrorKind::ArgumentConflict, Some(misplaced)) => {
+            format!("the command '{misplaced}' stands first, its scene and options follow it")
+        }
+        (ErrorKind::ArgumentConflict, None) if !first.starts_with('-') => no_command,
+        (ErrorKind::UnknownArgument, _) if !first.starts_with('-') => {
+            match error.get(ContextKind::InvalidArg) {
+                Some(unknown) => format!("unexpected argument '{unknown}': {no_command}"),
+                None => no_command,
+            }
+        }
+        _ => return error,
+    };
+    command.error(ErrorKind::InvalidSubcommand, message)
+}
