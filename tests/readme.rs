@@ -22,7 +22,8 @@ fn check(name: &str, expected: &str) {
 #[test]
 fn tables_are_those_of_the_program() {
     check("keys", &keys::markdown());
-    let mut fields = String::from("| field | symbol | allowed | left out | means |\n| --- | --- | --- | --- | --- |\n");
+    let mut fields =
+        String::from("| field | symbol | allowed | left out | means |\n| --- | --- | --- | --- | --- |\n");
     let legs = [&LEG_FORCE, &LEG_INDENTATION];
     for field in FIELDS.iter().chain(legs).filter(|field| field.range != Range::Group) {
         let of = field.variant.map_or(String::new(), |variant| format!(" ({variant})"));

@@ -1,6 +1,6 @@
 //! The governing parameter κ and what it ties together, eqs. (11) and (14).
 
-use crate::scene::{Adhesion, Material, Roughness, Scene};
+use crate::scene::{Adhesion, Roughness, Scene};
 
 /// Roughness amplitude of a line: root mean square height and gradient.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -31,7 +31,7 @@ impl Governing {
     /// Given κ alone, γ = h⟨∇z⟩E*/κ²; given γ and κ, h = κ √(γ/(E* ⟨∇z⟩/h)).
     #[must_use]
     pub fn of(scene: &Scene, gradient_per_height: Option<f64>, measured: Option<Amplitude>) -> Self {
-        let effective_modulus = modulus(&scene.material);
+        let effective_modulus = scene.material.effective_modulus();
         let Adhesion { work, kappa } = scene.adhesion.unwrap_or(Adhesion { work: None, kappa: None });
         let amplitude = measured.or_else(|| {
             let ratio = gradient_per_height?;
@@ -57,14 +57,6 @@ impl Governing {
     pub fn adhesive_work(&self) -> Option<f64> {
         self.work_of_adhesion.filter(|&work| work > 0.0)
     }
-}
-
-/// E* = E/(1 − ν²), eq. (2), unless given.
-fn modulus(material: &Material) -> f64 {
-    material.effective_modulus.unwrap_or_else(|| {
-        let poisson = material.poisson_ratio.unwrap_or(0.0);
-        material.youngs_modulus.unwrap_or(0.0) / (1.0 - poisson * poisson)
-    })
 }
 
 /// Ideal adhesion force F_a,max = √(π γ E* L³), N, of a flat face of length L, eq. (14).

@@ -24,7 +24,7 @@ pub struct PlanArguments {
     /// The scene.
     #[command(flatten)]
     pub scene: SceneArguments,
-    /// How
+    /// A table for people or an object for programs
     #[arg(long, value_enum, default_value_t = PlanFormat::Text)]
     pub format: PlanFormat,
 }
@@ -32,9 +32,9 @@ pub struct PlanArguments {
 /// How a plan is printed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum PlanFormat {
-    /// A table
+    /// A table.
     Text,
-    /// One object
+    /// One object.
     Json,
 }
 

@@ -26,7 +26,7 @@ Example:
 pub enum PresetsCommand {
     /// List the built-in scenes
     List {
-        /// How
+        /// Columns for people or objects for programs
         #[arg(long, value_enum, default_value_t = ListFormat::Text)]
         format: ListFormat,
     },
@@ -48,9 +48,9 @@ pub enum PresetsCommand {
 /// How scenes are listed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum ListFormat {
-    /// Name and title in columns
+    /// Name and title in columns.
     Text,
-    /// Objects with name, title and notice
+    /// Objects with name, title and notice.
     Json,
 }
 

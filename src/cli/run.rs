@@ -21,8 +21,11 @@ pub struct RunArguments {
     /// The scene.
     #[command(flatten)]
     pub scene: SceneArguments,
-    /// What to print [default: by the ending of FILE, else summary]
-    #[arg(long, value_enum)]
+    /// summary, json or csv; left out: by the ending of FILE, else summary
+    ///
+    /// A summary is text for a person. JSON is one object with everything: scene, line, figures,
+    /// curve, contacts, work. CSV is the curve: leg,indentation,force,contact_length,fragments.
+    #[arg(long, value_enum, hide_possible_values = true, verbatim_doc_comment)]
     pub format: Option<RunFormat>,
     /// Where it goes.
     #[command(flatten)]
@@ -32,11 +35,11 @@ pub struct RunArguments {
 /// What a run prints.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum RunFormat {
-    /// Text for a person: line, regime and why, forces, work and time
+    /// Text for a person: line, regime and why, forces, work and time.
     Summary,
-    /// One object with everything: scene, figures, curve, contacts, work
+    /// One object with everything: scene, line, figures, curve, contacts, work.
     Json,
-    /// The force curve: leg,indentation,force,contact_length,fragments
+    /// The force curve.
     Csv,
 }
 

@@ -58,10 +58,6 @@ impl Grid {
         &self.points
     }
 
-    pub fn low(&self) -> f64 {
-        self.points[0]
-    }
-
     pub fn high(&self) -> f64 {
         self.points[self.points.len() - 1]
     }
@@ -134,10 +130,14 @@ impl Ledger {
     }
 
     /// The springs whose thresholds lie in the chosen intervals (interval k is above point k, up to
-    /// and including point k + 1), in ascending order of interval and threshold.
+    /// and including point k + 1), interval by interval.
     pub fn events(&self, springs: &impl Springs, chosen: &[bool]) -> Vec<Event> {
         let scale = *springs.scale();
-        let (low, high) = (self.grid.low(), self.grid.high());
+        let points = self.grid.points();
+        let first = chosen.iter().position(|&chosen| chosen);
+        let last = chosen.iter().rposition(|&chosen| chosen);
+        let (Some(first), Some(last)) = (first, last) else { return Vec::new() };
+        let (low, high) = (points[first], points[last + 1]);
         let mut events = Vec::new();
         springs.each(|spring| {
             if spring.threshold > low && spring.threshold <= high {
@@ -147,7 +147,7 @@ impl Ledger {
                 }
             }
         });
-        events.sort_unstable_by(|a, b| a.threshold.total_cmp(&b.threshold));
+        events.sort_unstable_by_key(|event| event.interval);
         events
     }
 }
@@ -156,7 +156,9 @@ impl Ledger {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Event {
     pub threshold: f64,
+    /// What it adds to the tally.
     pub joins: Tally,
+    /// Number of the interval in which its threshold lies.
     pub interval: usize,
 }
 

@@ -64,7 +64,9 @@ pub fn open_with(document: Document, engine: Box<dyn Engine>) -> io::Result<Docu
     let (requests, outbox) = channel();
     let newest = worker::Newest::new(AtomicU64::new(0));
     let reports = messages.clone();
-    worker::start(engine, Arc::clone(&newest), outbox, move |report| reports.send(Message::Report(report)).is_ok())?;
+    worker::start(engine, Arc::clone(&newest), outbox, move |report| {
+        reports.send(Message::Report(report)).is_ok()
+    })?;
     read_input(messages)?;
     let worker = Worker::new(requests, newest);
     let mut terminal = Terminal::new(CrosstermBackend::new(FrameWriter::new()))?;
@@ -113,11 +115,12 @@ fn explore<W: Write>(
             moved = Instant::now();
         }
         let wait = playing.then(|| frame_time.saturating_sub(moved.elapsed()));
-        let first = match wait.map_or_else(|| inbox.recv().map_err(Into::into), |wait| inbox.recv_timeout(wait)) {
-            Ok(message) => Some(message),
-            Err(RecvTimeoutError::Timeout) => None,
-            Err(RecvTimeoutError::Disconnected) => break,
-        };
+        let first =
+            match wait.map_or_else(|| inbox.recv().map_err(Into::into), |wait| inbox.recv_timeout(wait)) {
+                Ok(message) => Some(message),
+                Err(RecvTimeoutError::Timeout) => None,
+                Err(RecvTimeoutError::Disconnected) => break,
+            };
         for message in first.into_iter().chain(inbox.try_iter()) {
             let action = match message {
                 Message::InputEnded => return Ok(model),

@@ -1,8 +1,7 @@
 //! The list of parameters: the fields of the scene that can be changed as it stands.
 
 use crate::scene::{
-    Document, FIELDS, Field, Form, LEG_FORCE, LEG_INDENTATION, Leg, Range, Roughness, Solver,
-    format_quantity, locate, parse_quantity, ron_float,
+    Document, Field, LEG_FORCE, LEG_INDENTATION, Leg, Range, format_quantity, parse_quantity, ron_float,
 };
 
 /// A parameter as the list shows it.
@@ -10,6 +9,8 @@ use crate::scene::{
 pub struct Parameter {
     /// What the table of fields says of it.
     pub field: &'static Field,
+    /// Where it stands in the scene.
+    pub path: String,
     /// The leg it belongs to, where it is the target of a leg.
     pub leg: Option<usize>,
     /// Its value as written in the scene file.
@@ -26,23 +27,9 @@ impl Parameter {
     #[must_use]
     pub fn name(&self) -> String {
         match self.leg {
-            Some(leg) => format!("leg {} {}", leg + 1, self.field.name),
+            Some(leg) => format!("{} {}", self.field.name, leg + 1),
             None => self.field.name.to_owned(),
         }
-    }
-
-    /// The override that gives this parameter the value `written` (as in a scene file).
-    #[must_use]
-    pub fn change(&self, document: &Document, written: &str) -> (String, String) {
-        let Some(changed) = self.leg else { return (self.field.path.to_owned(), written.to_owned()) };
-        let legs = document.scene().loading.iter().enumerate().map(|(index, leg)| match leg {
-            Leg::ToForce(_) if index == changed => format!("ToForce({written})"),
-            Leg::ToIndentation(_) if index == changed => format!("ToIndentation({written})"),
-            Leg::ToForce(force) => format!("ToForce({})", ron_float(*force)),
-            Leg::ToIndentation(indentation) => format!("ToIndentation({})", ron_float(*indentation)),
-            other => format!("{other:?}"),
-        });
-        ("loading".to_owned(), format!("[{}]", legs.collect::<Vec<_>>().join(", ")))
     }
 
     /// What was typed, as it is written in a scene file: numbers may have prefix and unit.
@@ -74,21 +61,18 @@ impl Parameter {
 #[must_use]
 pub fn parameters(document: &Document) -> Vec<Parameter> {
     let mut parameters = Vec::new();
-    for field in FIELDS {
-        let listed = !NOT_LISTED.contains(&field.path) && field.range != Range::Group;
-        if !listed || !applies(field, document) {
+    for field in document.fields() {
+        if NOT_LISTED.contains(&field.path) || field.range == Range::Group {
             continue;
         }
-        let text = document.text();
-        let written = locate(text, field.path).map(|place| text[place.value].to_owned());
-        let optional_alternative = field.parent() != "" && field.default == "None";
-        let written = match written {
-            Some(written) => written,
-            None if optional_alternative => continue,
-            None => field.default.to_owned(),
-        };
-        let shown = shown(field, &written);
-        parameters.push(Parameter { field, leg: None, written, shown });
+        let Some(written) = document.value(field.path) else { continue };
+        // One of several ways to say the same, and not the one taken.
+        if written == "None" && !field.parent().is_empty() {
+            continue;
+        }
+        let shown = shown(field, written);
+        let path = field.path.to_owned();
+        parameters.push(Parameter { field, path, leg: None, written: written.to_owned(), shown });
         if field.path == "loading" {
             parameters.extend(leg_targets(&document.scene().loading));
         }
@@ -104,32 +88,9 @@ fn leg_targets(loading: &[Leg]) -> impl Iterator<Item = Parameter> {
             _ => return None,
         };
         let shown = format_quantity(value, field.unit);
-        Some(Parameter { field, leg: Some(index), written: ron_float(value), shown })
+        let path = format!("loading.{index}.0");
+        Some(Parameter { field, path, leg: Some(index), written: ron_float(value), shown })
     })
-}
-
-/// Whether a field belongs to the choices the scene has made.
-fn applies(field: &Field, document: &Document) -> bool {
-    let scene = document.scene();
-    let chosen = match field.parent() {
-        "form" => scene.form.map(|form| match form {
-            Form::Paraboloid { .. } => "Paraboloid",
-            Form::Cone { .. } => "Cone",
-            Form::Power { .. } => "Power",
-            Form::Punch { .. } => "Punch",
-        }),
-        "roughness" => scene.roughness.as_ref().map(|roughness| match roughness {
-            Roughness::SelfAffine { .. } => "SelfAffine",
-            Roughness::Measured { .. } => "Measured",
-        }),
-        "numerics.solver" => match scene.numerics.solver {
-            Solver::Exact => Some("Exact"),
-            Solver::Stepwise { .. } => Some("Stepwise"),
-        },
-        "adhesion" => scene.adhesion.map(|_| ""),
-        _ => Some(""),
-    };
-    chosen.is_some_and(|chosen| field.variant.is_none_or(|variant| variant == chosen))
 }
 
 /// A written value as people read it.

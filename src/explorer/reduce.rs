@@ -39,7 +39,8 @@ impl Contact<'_> {
         if springs == 0 {
             return section;
         }
-        let start = |column: usize| first + (column as u128 * springs as u128 / columns.max(1) as u128) as usize;
+        let start =
+            |column: usize| first + (column as u128 * springs as u128 / columns.max(1) as u128) as usize;
         section.columns = (0..columns)
             .map(|column| {
                 let from = start(column);
@@ -48,7 +49,8 @@ impl Contact<'_> {
             })
             .collect();
         let ends = section.columns.iter().map(|column| column.line);
-        section.heights = ends.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), (a, b)| (low.min(a), high.max(b)));
+        section.heights =
+            ends.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), (a, b)| (low.min(a), high.max(b)));
         section
     }
 

@@ -84,7 +84,9 @@ pub fn update(model: &mut Model, action: Action) -> Vec<Effect> {
             Vec::new()
         }
         // Stale: of a scene that has been changed since.
-        Action::Computed(_) | Action::Shown(_) | Action::Progress { .. } | Action::Failed { .. } => Vec::new(),
+        Action::Computed(_) | Action::Shown(_) | Action::Progress { .. } | Action::Failed { .. } => {
+            Vec::new()
+        }
         Action::Saved(result) => {
             saved(model, result);
             Vec::new()
@@ -189,7 +191,11 @@ fn explore(model: &mut Model, command: Command) -> Vec<Effect> {
         }
         Command::Step(steps) => {
             model.player.playing = false;
-            advance(&mut model.player, f64::from(steps) / STEPS, model.computed.as_ref().map_or(0, |c| c.outcome.history.legs.len()));
+            advance(
+                &mut model.player,
+                f64::from(steps) / STEPS,
+                model.computed.as_ref().map_or(0, |c| c.outcome.history.legs.len()),
+            );
             return vec![Effect::Show];
         }
         Command::Restart => {
@@ -274,16 +280,16 @@ fn step_value(model: &mut Model, steps: i32, coarse: bool) -> Vec<Effect> {
         model.refused = Some((model.selected, format!("no further step; allowed: {allowed}")));
         return Vec::new();
     };
-    let (path, value) = parameter.change(&model.document, &next);
-    change(model, &path, &value)
+    let path = parameter.path.clone();
+    change(model, &path, &next)
 }
 
 fn accept_value(model: &mut Model, typed: &str) -> Vec<Effect> {
     let Some(parameter) = model.parameter() else { return Vec::new() };
     match parameter.read_typed(typed) {
         Ok(written) => {
-            let (path, value) = parameter.change(&model.document, &written);
-            change(model, &path, &value)
+            let path = parameter.path.clone();
+            change(model, &path, &written)
         }
         Err(error) => {
             model.refused = Some((model.selected, error));
@@ -316,7 +322,8 @@ fn adopt(model: &mut Model, document: Document) -> Vec<Effect> {
 }
 
 fn undo(model: &mut Model, back: bool) -> Vec<Effect> {
-    let (from, to) = if back { (&mut model.undo, &mut model.redo) } else { (&mut model.redo, &mut model.undo) };
+    let (from, to) =
+        if back { (&mut model.undo, &mut model.redo) } else { (&mut model.redo, &mut model.undo) };
     let Some(document) = from.pop() else { return Vec::new() };
     to.push(std::mem::replace(&mut model.document, document));
     renew(model)
@@ -324,10 +331,10 @@ fn undo(model: &mut Model, back: bool) -> Vec<Effect> {
 
 /// Asks for the scene as it is now.
 fn renew(model: &mut Model) -> Vec<Effect> {
-    let selected = model.parameter().map(|parameter| (parameter.field, parameter.leg));
+    let selected = model.parameter().map(|parameter| parameter.path.clone());
     model.parameters = parameters(&model.document);
     // The selection stays on its field when rows come and go.
-    let place = model.parameters.iter().position(|p| Some((p.field, p.leg)) == selected);
+    let place = model.parameters.iter().position(|parameter| Some(&parameter.path) == selected.as_ref());
     model.selected = place.unwrap_or(model.selected).min(model.parameters.len().saturating_sub(1));
     model.refused = None;
     model.generation += 1;

@@ -251,12 +251,12 @@ impl Playback {
         let thresholds = self.thresholds.get(request.leg)?.as_ref()?;
         let indentation = request.indentation;
         let contact = Contact { gaps: &line.gaps, thresholds, summit: line.summit, indentation };
-        let before = self.last.filter(|&(generation, leg, _)| (generation, leg) == (request.generation, request.leg));
+        let before =
+            self.last.filter(|&(generation, leg, _)| (generation, leg) == (request.generation, request.leg));
         let tally = tally(&contact, before.map_or(indentation, |(_, _, last)| last));
         self.last = Some((request.generation, request.leg, indentation));
         let governing = computed.outcome.governing;
-        let foundation =
-            Foundation { spacing: line.spacing, effective_modulus: governing.effective_modulus };
+        let foundation = Foundation { spacing: line.spacing, effective_modulus: governing.effective_modulus };
         let force = foundation.spring_stiffness() * tally.contact.compression(indentation, &tally.scale);
         let profile = contact.section(0, line.gaps.len(), request.profile_columns);
         let hess = governing.adhesive_work().map(|work| HessRule::new(foundation, work));
@@ -319,7 +319,8 @@ fn close_up(
     let summit = || (0..count).find(|&spring| contact.gaps[spring] == 0.0).unwrap_or(count / 2);
     let middle = |(first, last): (usize, usize)| first + (last - first) / 2;
     let nearest = |spring: usize| {
-        let distance = |&(first, last): &(usize, usize)| first.saturating_sub(spring).max(spring.saturating_sub(last));
+        let distance =
+            |&(first, last): &(usize, usize)| first.saturating_sub(spring).max(spring.saturating_sub(last));
         (0..fragments.len()).min_by_key(|&number| distance(&fragments[number]))
     };
     let centre = match request.focus {

@@ -158,25 +158,59 @@ fn cost(sheet: &mut Sheet, work: &Work, timings: &Timings) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::open;
+    use crate::scene::Document;
     use crate::simulation::Simulation;
 
-    fn summary_of(preset: &str, overrides: &[(&str, &str)]) -> String {
+    const ROUGH: &str = r#"(
+    version: 1,
+    title: "Rough",
+    notice: "Look here.",
+    material: (youngs_modulus: 2.0e6, poisson_ratio: 0.5),
+    length: 1.0e-4,
+    roughness: SelfAffine(hurst: 0.7, rms_height: 2.0e-7, modes: (1, 512), seed: 1),
+    adhesion: (kappa: 3.0),
+    loading: [ToForce(1.0e-5), ToSeparation],
+    numerics: (points: 4096),
+)"#;
+    const PUNCH: &str = "(
+    version: 1,
+    material: (effective_modulus: 1.0e6),
+    length: 1.0e-4,
+    form: Punch(radius: 2.0e-5),
+    adhesion: (work: 0.05),
+    numerics: (points: 1000),
+)";
+
+    fn summary_of(text: &str, overrides: &[(&str, &str)]) -> String {
         let overrides: Vec<_> =
             overrides.iter().map(|(path, value)| (path.to_string(), value.to_string())).collect();
-        let document = open(preset).unwrap().set_all(&overrides).unwrap();
-        let mut outcome =
-            Simulation::default().run(document.scene(), &|| false, &mut |_, _, _| Ok(())).unwrap();
+        let document = Document::parse(text, "test").unwrap().set_all(&overrides).unwrap();
+        let scene = document.scene();
+        let mut outcome = Simulation::default().run(scene, &|| false, &mut |_, _, _| Ok(())).unwrap();
         outcome.timings = Timings::default();
-        summary(document.scene(), &outcome)
+        summary(scene, &outcome)
     }
 
     #[test]
     fn summaries_read_as_these() {
-        insta::assert_snapshot!("rough", summary_of("pressure-sensitive", &[("numerics.points", "4096")]));
-        insta::assert_snapshot!("punch", summary_of("kendall-punch", &[("numerics.points", "1000")]));
+        insta::assert_snapshot!("rough", summary_of(ROUGH, &[]));
+        insta::assert_snapshot!("smooth_punch", summary_of(PUNCH, &[]));
         let held = [("loading", "[ToForce(1e-5)]"), ("adhesion", "None")];
-        insta::assert_snapshot!("held", summary_of("pressure-sensitive", &held));
+        insta::assert_snapshot!("pressed_and_held_without_adhesion", summary_of(ROUGH, &held));
+    }
+
+    #[test]
+    fn a_regime_is_named_only_where_something_pulls() {
+        for (overrides, said) in [
+            (&[("loading", "[ToTouch]")][..], "not known: no leg back pulls"),
+            (&[("adhesion", "None")], "non-adhesive: the scene has no adhesion"),
+            (&[("adhesion", "None"), ("loading", "[ToTouch]")], "none: neither adhesion nor"),
+            (&[("adhesion.kappa", "0.1")], "pressure-insensitive: adhesion is there"),
+            (&[("adhesion.kappa", "100.0")], "non-adhesive: almost no adhesion"),
+        ] {
+            let text = summary_of(ROUGH, overrides);
+            assert!(text.contains(said), "{said}: {text}");
+        }
     }
 
     #[test]
@@ -184,8 +218,7 @@ mod tests {
         let title = format!("\"{}\"", "title ".repeat(30));
         let notice = format!("\"{}\\n\\n{}\"", "x".repeat(300), "notice ".repeat(60));
         let loading = format!("[{}ToSeparation]", "ToForce(1.2345e-5), ToZeroForce, ".repeat(20));
-        let overrides = [("title", &*title), ("notice", &notice), ("loading", &loading)];
-        let text = summary_of("pressure-sensitive", &overrides);
+        let text = summary_of(ROUGH, &[("title", &title), ("notice", &notice), ("loading", &loading)]);
         assert!(text.lines().all(|line| line.chars().count() <= 100), "{text}");
         assert!(text.contains("and 33 more legs"), "{text}");
     }

@@ -31,7 +31,8 @@ pub fn status(frame: &mut Frame<'_>, area: Rect, model: &Model) {
         (Mode::SaveAs { line, .. }, _) => {
             let (before, under, after) = line.parts();
             let under = if under.is_empty() { " ".to_owned() } else { under };
-            let cursor = Span::styled(under, model.theme.style(Meaning::Text).add_modifier(Modifier::REVERSED));
+            let cursor =
+                Span::styled(under, model.theme.style(Meaning::Text).add_modifier(Modifier::REVERSED));
             Line::from(vec![Span::raw("Save as: "), Span::raw(before), cursor, Span::raw(after)])
         }
         (Mode::Overwrite { path, .. }, _) => error(format!("{} exists. Overwrite it?", path.display())),

@@ -45,29 +45,31 @@ pub fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
     // A curve of a scene that has been changed since stands back until the new one is there.
     let colour = |meaning| model.theme.colour(if stale { Meaning::Quiet } else { meaning });
     let theme = model.theme;
-    let canvas = Canvas::default().marker(Marker::Braille).x_bounds(x.bounds()).y_bounds(y.bounds()).paint(|ctx| {
-        let zero = [(x.low, 0.0), (x.high, 0.0)];
-        ctx.draw(&Polyline { points: &zero, colour: theme.colour(Meaning::Quiet), dotted: true });
-        for (direction, meaning) in
-            [(Direction::Loading, Meaning::Approach), (Direction::Unloading, Meaning::Retraction)]
-        {
-            ctx.layer();
-            for leg in legs.iter().filter(|leg| leg.direction == direction) {
-                let points: Vec<(f64, f64)> = leg.curve.iter().map(|p| (p.indentation, p.force)).collect();
-                let dotted = direction == Direction::Loading;
-                ctx.draw(&Polyline { points: &points, colour: colour(meaning), dotted });
+    let canvas =
+        Canvas::default().marker(Marker::Braille).x_bounds(x.bounds()).y_bounds(y.bounds()).paint(|ctx| {
+            let zero = [(x.low, 0.0), (x.high, 0.0)];
+            ctx.draw(&Polyline { points: &zero, colour: theme.colour(Meaning::Quiet), dotted: true });
+            for (direction, meaning) in
+                [(Direction::Loading, Meaning::Approach), (Direction::Unloading, Meaning::Retraction)]
+            {
+                ctx.layer();
+                for leg in legs.iter().filter(|leg| leg.direction == direction) {
+                    let points: Vec<(f64, f64)> =
+                        leg.curve.iter().map(|p| (p.indentation, p.force)).collect();
+                    let dotted = direction == Direction::Loading;
+                    ctx.draw(&Polyline { points: &points, colour: colour(meaning), dotted });
+                }
             }
-        }
-        if !stale {
-            mark_figures(ctx, legs, theme);
-        }
-        let moment = model.moment.as_ref().filter(|moment| moment.generation == model.generation);
-        if let Some(moment) = moment {
-            let at = moment.point.indentation.clamp(x.low, x.high);
-            let style = theme.style(Meaning::Cursor);
-            ctx.print(at, moment.point.force.clamp(y.low, y.high), Line::styled("◆", style));
-        }
-    });
+            if !stale {
+                mark_figures(ctx, legs, theme);
+            }
+            let moment = model.moment.as_ref().filter(|moment| moment.generation == model.generation);
+            if let Some(moment) = moment {
+                let at = moment.point.indentation.clamp(x.low, x.high);
+                let style = theme.style(Meaning::Cursor);
+                ctx.print(at, moment.point.force.clamp(y.low, y.high), Line::styled("◆", style));
+            }
+        });
     frame.render_widget(canvas, plot);
     if legend_rows > 0 {
         let legend = Line::from(vec![

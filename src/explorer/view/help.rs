@@ -8,8 +8,14 @@ use ratatui::text::{Line, Span};
 use ratatui::widgets::{Block, Paragraph};
 
 const PANES: &[(&str, &str)] = &[
-    ("Force", "F over indentation d: dotted while pressing, solid while pulling; ▲ preload, ▼ pull-off, ◆ now"),
-    ("Profile", "rigid line below, elastic surface above it, ■ below where they touch; beside it the heights"),
+    (
+        "Force",
+        "F over indentation d: dotted while pressing, solid while pulling; ▲ preload, ▼ pull-off, ◆ now",
+    ),
+    (
+        "Profile",
+        "rigid line below, elastic surface above it, ■ below where they touch; beside it the heights",
+    ),
     ("Fragments", "close-up; ○ are the boundary points of contact fragments"),
     ("Parameters", "everything the scene says; the curve follows each change"),
 ];

@@ -42,7 +42,11 @@ fn parameter_line(model: &Model, index: usize, width: usize) -> Line<'static> {
         (false, true) => "›",
         (false, false) => " ",
     };
-    let symbol = if parameter.field.symbol.is_empty() { String::new() } else { format!(" {}", parameter.field.symbol) };
+    let symbol = if parameter.field.symbol.is_empty() {
+        String::new()
+    } else {
+        format!(" {}", parameter.field.symbol)
+    };
     // Groups and choices stand out, what belongs to them is set in.
     let indent = if parameter.field.parent().is_empty() && parameter.leg.is_none() { "" } else { " " };
     let name = format!("{mark} {indent}{}{symbol}", parameter.name());

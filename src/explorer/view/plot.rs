@@ -26,7 +26,13 @@ impl Span {
         let width = high - low;
         // A single value, or two that differ by rounding only.
         let least = 1e-9 * low.abs().max(high.abs());
-        let margin = if width > least { room * width } else if least > 0.0 { 1e6 * least } else { 1.0 };
+        let margin = if width > least {
+            room * width
+        } else if least > 0.0 {
+            1e6 * least
+        } else {
+            1.0
+        };
         Span { low: low - margin, high: high + margin }
     }
 

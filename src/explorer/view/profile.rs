@@ -51,14 +51,13 @@ fn heights(section: &Section) -> Span {
 
 /// Draws rigid line, elastic surface and contact of a section.
 pub fn draw_section(frame: &mut Frame<'_>, area: Rect, section: &Section, z: Span, theme: Theme) {
-    let canvas = Canvas::default()
-        .marker(Marker::Braille)
-        .x_bounds([0.0, 1.0])
-        .y_bounds(z.bounds())
-        .paint(|ctx| {
-            for (part, meaning) in
-                [(Part::Surface, Meaning::Surface), (Part::Line, Meaning::Line), (Part::Contact, Meaning::Contact)]
-            {
+    let canvas =
+        Canvas::default().marker(Marker::Braille).x_bounds([0.0, 1.0]).y_bounds(z.bounds()).paint(|ctx| {
+            for (part, meaning) in [
+                (Part::Surface, Meaning::Surface),
+                (Part::Line, Meaning::Line),
+                (Part::Contact, Meaning::Contact),
+            ] {
                 ctx.draw(&Columns { section, part, colour: theme.colour(meaning) });
             }
         });

@@ -1,0 +1,571 @@
+//! The command line as its users have it: the program itself, what it prints and how it ends.
+
+use serde_json::Value;
+use std::fs;
+use std::io::{BufRead, BufReader, Read, Write};
+use std::path::Path;
+use std::process::{Command, Stdio};
+
+/// Keys of `run --format json`, in their order.
+const KEYS: &[&str] = &[
+    "scene",
+    "line",
+    "kappa",
+    "regime",
+    "ideal_adhesion_force",
+    "preload",
+    "preload_indentation",
+    "adhesion_force",
+    "adhesion_coefficient",
+    "pull_off_indentation",
+    "dissipated_energy",
+    "curve",
+    "contacts",
+    "work",
+    "timings",
+];
+const LINE_KEYS: &[&str] = &["points", "length", "spacing", "rms_height", "rms_gradient", "modes", "seed"];
+const CURVE_KEYS: &[&str] = &["leg", "indentation", "force", "contact_length", "fragments"];
+
+struct Finished {
+    code: Option<i32>,
+    stdout: String,
+    stderr: String,
+}
+
+fn program() -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_asperity"));
+    command.stdin(Stdio::null());
+    command
+}
+
+fn asperity(arguments: &[&str]) -> Finished {
+    let output = program().args(arguments).output().unwrap();
+    Finished {
+        code: output.status.code(),
+        stdout: String::from_utf8(output.stdout).unwrap(),
+        stderr: String::from_utf8(output.stderr).unwrap(),
+    }
+}
+
+/// Standard output of a command that does what it should.
+fn done(arguments: &[&str]) -> String {
+    let Finished { code, stdout, stderr } = asperity(arguments);
+    assert_eq!((code, stderr.as_str()), (Some(0), ""), "{arguments:?}");
+    stdout
+}
+
+/// Standard error of a command that fails with this code and prints no results.
+fn failed(code: i32, arguments: &[&str]) -> String {
+    let finished = asperity(arguments);
+    assert_eq!((finished.code, finished.stdout.as_str()), (Some(code), ""), "{arguments:?}");
+    assert!(!finished.stderr.is_empty() && !finished.stderr.contains("panicked"), "{}", finished.stderr);
+    finished.stderr
+}
+
+fn json(arguments: &[&str]) -> Value {
+    serde_json::from_str(&done(arguments)).unwrap()
+}
+
+fn number(value: &Value) -> f64 {
+    value.as_f64().unwrap_or_else(|| panic!("{value} is no number"))
+}
+
+fn presets() -> Vec<String> {
+    let listed = json(&["presets", "list", "--format", "json"]);
+    let names = listed.as_array().unwrap().iter();
+    names.map(|preset| preset["name"].as_str().unwrap().to_string()).collect()
+}
+
+/// Keys of an object whose entries stand on lines of their own, indented by `indent`.
+fn keys_in_order(text: &str, indent: usize) -> Vec<&str> {
+    let opening = format!("{}\"", " ".repeat(indent));
+    text.lines().filter_map(|line| line.strip_prefix(&opening)?.split_once('"')).map(|(key, _)| key).collect()
+}
+
+#[test]
+fn every_scene_gives_the_documented_json() {
+    let mut scenes: Vec<Vec<String>> = presets().into_iter().map(|name| vec![name]).collect();
+    for overrides in [
+        &["loading=[ToForce(1e-5)]", "observe=[Fragments, HeightHistogram]"][..],
+        &["adhesion=None", "roughness=None", "numerics.points=1", "form=None"],
+        &["numerics.solver=Stepwise(step: 1e-9)", "numerics.points=1024"],
+        &["loading=[ToIndentation(-1e-9)]"],
+        &["loading=[ToTouch, ToZeroForce, ToSeparation, ToForce(1e-6)]", "numerics.samples=2"],
+    ] {
+        let sets = overrides.iter().flat_map(|set| ["--set".to_string(), (*set).to_string()]);
+        scenes.push(std::iter::once("pressure-sensitive".to_string()).chain(sets).collect());
+    }
+    for scene in scenes {
+        let mut arguments = vec!["run", "--format", "json"];
+        arguments.extend(scene.iter().map(String::as_str));
+        let text = done(&arguments);
+        let found = keys_in_order(&text, 2);
+        let contract: Vec<&str> = found.iter().copied().filter(|key| KEYS.contains(key)).collect();
+        assert_eq!(contract, KEYS, "{scene:?}");
+        let object: Value = serde_json::from_str(&text).unwrap();
+        for key in LINE_KEYS {
+            assert!(object["line"].get(key).is_some(), "{scene:?}: line.{key}");
+        }
+        for stage in ["line", "tree", "loop", "curve"] {
+            assert!(number(&object["timings"][stage]) >= 0.0);
+        }
+        let curve = object["curve"].as_array().unwrap();
+        assert!(!curve.is_empty());
+        let spacing = number(&object["line"]["spacing"]);
+        for point in curve {
+            assert!(CURVE_KEYS.iter().all(|key| point[key].is_number()), "{scene:?}: {point}");
+            let springs = number(&point["contact_length"]) / spacing;
+            assert!((springs - springs.round()).abs() < 1e-6, "{scene:?}: {point}");
+        }
+        // What stands in contact at the end is what the curve ends with.
+        let end = curve.last().unwrap();
+        let contacts = object["contacts"].as_array().unwrap();
+        assert_eq!(contacts.len() as f64, number(&end["fragments"]), "{scene:?}");
+        let springs: f64 = contacts.iter().map(|run| number(&run[1]) - number(&run[0]) + 1.0).sum();
+        assert!(
+            (springs * spacing - number(&end["contact_length"])).abs() < 1e-6 * spacing * springs.max(1.0)
+        );
+    }
+}
+
+#[test]
+fn figures_follow_from_the_curve() {
+    let object = json(&["run", "pressure-sensitive", "--format", "json"]);
+    let forces: Vec<f64> =
+        object["curve"].as_array().unwrap().iter().map(|point| number(&point["force"])).collect();
+    let smallest = forces.iter().copied().fold(f64::INFINITY, f64::min);
+    assert_eq!(number(&object["adhesion_force"]), -smallest);
+    let largest = forces.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    assert_eq!(number(&object["preload"]), largest);
+    let coefficient = number(&object["adhesion_coefficient"]);
+    assert!((coefficient * largest + smallest).abs() < 1e-12 * largest);
+    assert_eq!(object["scene"]["numerics"]["samples"], 512, "defaults are filled in");
+    // The number of samples is no matter of the figures.
+    let coarse = json(&["run", "pressure-sensitive", "--format", "json", "--set", "numerics.samples=7"]);
+    for key in ["adhesion_force", "preload", "pull_off_indentation", "dissipated_energy"] {
+        let (one, other) = (number(&object[key]), number(&coarse[key]));
+        assert!((one - other).abs() <= 1e-9 * one.abs(), "{key}: {one} {other}");
+    }
+}
+
+/// The numbers of a point of the curve, read from its line of the JSON to the last digit.
+fn point(line: &str) -> Option<Vec<f64>> {
+    let entries = line.strip_prefix("    {\"leg\"")?.trim_end_matches(['}', ',']);
+    Some(entries.split(", ").map(|entry| entry.rsplit(": ").next().unwrap().parse().unwrap()).collect())
+}
+
+#[test]
+fn csv_is_the_curve_of_the_json() {
+    for scene in ["rough-sphere", "non-adhesive"] {
+        let object = done(&["run", scene, "--format", "json"]);
+        let curve: Vec<Vec<f64>> = object.lines().filter_map(point).collect();
+        let text = done(&["run", scene, "--format", "csv"]);
+        let mut lines = text.lines();
+        assert_eq!(lines.next().unwrap(), CURVE_KEYS.join(","));
+        let rows = lines.map(|line| line.split(',').map(|cell| cell.parse().unwrap()).collect());
+        assert_eq!(rows.collect::<Vec<Vec<f64>>>(), curve);
+        assert!(curve.len() > 1000);
+    }
+}
+
+#[test]
+fn a_summary_says_what_came_out_and_why() {
+    let text = done(&["run", "pressure-sensitive"]);
+    for said in [
+        "Pressure-sensitive adhesion",
+        "16 384",
+        "100 µm",
+        "κ = √(h⟨∇z⟩E*/γ)",
+        "pressure-sensitive: adhesion appears",
+        "F_a(0)/F_a",
+        "below 0.5",
+        "preload F_n",
+        "adhesion force F_a",
+        "pull-off indentation",
+        "ideal F_a,max",
+        "dissipated energy",
+        "none: separated",
+        "tree nodes",
+        "time",
+    ] {
+        assert!(text.contains(said), "{said}: {text}");
+    }
+    for preset in presets() {
+        let text = done(&["run", &preset]);
+        assert!(text.lines().all(|line| line.chars().count() <= 100), "{text}");
+        assert!(!text.contains('\u{1b}') && !text.contains("NaN"), "{text}");
+    }
+}
+
+#[test]
+fn the_same_command_prints_the_same_bytes() {
+    let without_timings = || {
+        let text = done(&["run", "fragment-closeup", "--format", "json"]);
+        let (before, timings) = text.split_once("  \"timings\": {").unwrap();
+        assert_eq!(timings.matches('}').count(), 2, "timings stand last");
+        before.to_string()
+    };
+    assert_eq!(without_timings(), without_timings());
+    for arguments in [
+        &["run", "rough-sphere", "--format", "csv"][..],
+        &["line", "profile-hurst-025"],
+        &["plan", "million-springs", "--format", "json"],
+    ] {
+        assert_eq!(done(arguments), done(arguments));
+    }
+}
+
+#[test]
+fn overrides_reach_the_run() {
+    let sphere = |work: &str| {
+        let work = format!("adhesion.work={work}");
+        let sets = ["--set", &work, "--set", "numerics.points=65536"];
+        let object = json(&[&["run", "jkr-sphere", "--format", "json"], &sets[..]].concat());
+        assert_eq!(object["line"]["points"], 65536);
+        number(&object["adhesion_force"])
+    };
+    // Pull-off is in proportion to the work of adhesion.
+    let ratio = sphere("0.1") / sphere("0.05");
+    assert!((ratio - 2.0).abs() < 0.02, "{ratio}");
+}
+
+#[test]
+fn wrong_overrides_are_told_with_field_value_and_range() {
+    let run = |set: &str| failed(1, &["run", "pressure-sensitive", "--set", set]);
+    let told = run("roughness.hurst=1.4");
+    for said in ["roughness.hurst", "1.4", "above 0 and below 1"] {
+        assert!(told.contains(said), "{said}: {told}");
+    }
+    assert!(run("numerics.pionts=64").contains("numerics.points"));
+    assert!(run("numerics.points=many").contains("many"));
+    // Several errors, each on a line of its own; the same on every command.
+    for command in ["run", "plan", "line"] {
+        let told = failed(1, &[command, "jkr-sphere", "--set", "length=-1.0", "--set", "numerics.samples=1"]);
+        let lines: Vec<_> = told.lines().collect();
+        assert_eq!(lines.len(), 2, "{told}");
+        assert!(lines[0].contains("length") && lines[1].contains("numerics.samples"), "{told}");
+    }
+    // Also without a command, where there is no terminal to explore in.
+    assert!(failed(1, &["--set", "roughness.hurst=1.4"]).contains("above 0 and below 1"));
+}
+
+#[test]
+fn what_cannot_be_computed_is_told() {
+    let told = failed(1, &["run", "jkr-sphere", "--set", "loading=[ToTouch, ToForce(-1.0)]"]);
+    assert!(told.starts_with("jkr-sphere: loading.1"), "{told}");
+    assert!(told.contains("allowed"), "{told}");
+    for command in ["run", "plan", "line"] {
+        let told = failed(1, &[command, "no-such-scene"]);
+        assert!(told.contains("no-such-scene") && told.contains("jkr-sphere"), "{told}");
+        assert!(failed(1, &[command, "no/such/scene.ron"]).contains("no/such/scene.ron"));
+    }
+}
+
+fn write(folder: &Path, name: &str, text: &str) -> String {
+    let path = folder.join(name);
+    fs::write(&path, text).unwrap();
+    path.to_str().unwrap().to_string()
+}
+
+const SMALL: &str = "(
+    version: 1,
+    material: (effective_modulus: 1.0e6),
+    length: 1.0e-4,
+    numerics: (points: 64),
+)
+";
+
+#[test]
+fn errors_in_files_have_line_and_column() {
+    let folder = tempfile::tempdir().unwrap();
+    let unknown = write(folder.path(), "unknown.ron", &SMALL.replace("length:", "lenght:"));
+    for command in [&["run"][..], &["plan"], &["line"], &["presets", "check"]] {
+        let told = failed(1, &[command, &[unknown.as_str()]].concat());
+        assert!(told.starts_with(&format!("{unknown}:4:5: lenght")), "{told}");
+        assert!(told.contains("did you mean length?"), "{told}");
+    }
+}
+
+#[test]
+fn checking_tells_every_error_of_every_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let good = write(folder.path(), "good.ron", SMALL);
+    let wrong = write(
+        folder.path(),
+        "wrong.ron",
+        &SMALL.replace("length: 1.0e-4", "length: -1.0").replace("points: 64", "points: 0, samples: 1"),
+    );
+    let broken = write(folder.path(), "broken.ron", "(version: 1");
+    let missing = folder.path().join("missing.ron").to_str().unwrap().to_string();
+    let profile = write(
+        folder.path(),
+        "profile.ron",
+        &SMALL.replace("numerics", "roughness: Measured(file: \"none.csv\"),\n    numerics"),
+    );
+
+    assert_eq!(done(&["presets", "check", &good]), format!("{good}: ok\n"));
+    let folder_name = folder.path().to_str().unwrap();
+    let finished = asperity(&[
+        "presets",
+        "check",
+        &wrong,
+        &good,
+        &broken,
+        &missing,
+        &profile,
+        folder_name,
+        "jkr-sphere",
+    ]);
+    assert_eq!((finished.code, finished.stdout), (Some(1), format!("{good}: ok\n")));
+    let lines: Vec<_> = finished.stderr.lines().collect();
+    let expected = [
+        format!("{wrong}:4:13: length = -1.0: allowed"),
+        format!("{wrong}:5:24: numerics.points = 0: allowed"),
+        format!("{wrong}:5:36: numerics.samples = 1: allowed"),
+        format!("{broken}:1:1: "),
+        format!("{missing}: there is no such file"),
+        format!("{profile}:5:31: roughness.file"),
+        format!("{folder_name}: "),
+        "jkr-sphere: there is no such file".to_string(),
+    ];
+    assert_eq!(lines.len(), expected.len(), "{lines:#?}");
+    for (line, expected) in lines.iter().zip(&expected) {
+        assert!(line.starts_with(expected), "{line} is not {expected}");
+    }
+}
+
+#[test]
+fn built_in_scenes_are_listed_shown_and_sound() {
+    let names = presets();
+    assert!(names.contains(&"pressure-sensitive".to_string()));
+    let list = done(&["presets", "list"]);
+    assert_eq!(list.lines().count(), names.len());
+    for name in names {
+        assert!(list.lines().any(|line| line.starts_with(&name)), "{name}");
+        let text = done(&["presets", "show", &name]);
+        let mut child = program()
+            .args(["presets", "check", "-"])
+            .stdin(Stdio::piped())
+            .stdout(Stdio::piped())
+            .spawn()
+            .unwrap();
+        child.stdin.take().unwrap().write_all(text.as_bytes()).unwrap();
+        let output = child.wait_with_output().unwrap();
+        assert_eq!(String::from_utf8(output.stdout).unwrap(), "standard input: ok\n", "{name}");
+    }
+    let told = failed(1, &["presets", "show", "no-such-scene"]);
+    assert!(told.contains("no-such-scene") && told.contains("kendall-punch"), "{told}");
+}
+
+#[test]
+fn a_plan_is_what_the_run_then_does() {
+    for preset in presets() {
+        let plan = json(&["plan", &preset, "--format", "json"]);
+        let object = json(&["run", &preset, "--format", "json"]);
+        let passes = |stage: &str| {
+            let stages = plan["stages"].as_array().unwrap();
+            let found = stages.iter().find(|planned| planned["stage"] == stage).unwrap();
+            assert!(!found["because"].as_str().unwrap().is_empty());
+            (found["runs"].as_bool().unwrap(), found["passes"].as_u64())
+        };
+        let work = |key: &str| object["work"][key].as_u64();
+        assert_eq!(plan["springs"].as_u64(), work("springs"), "{preset}");
+        assert_eq!(passes("loading-pass").1, work("loading_passes"), "{preset}");
+        assert_eq!(passes("unloading-pass").1, work("unloading_passes"), "{preset}");
+        assert_eq!(passes("synthesis").1, work("transforms"), "{preset}");
+        assert_eq!(passes("tree").0, work("tree_nodes") > Some(0), "{preset}");
+        assert_eq!(passes("relaxation").0, work("steps") > Some(0), "{preset}");
+        assert_eq!(passes("height-histogram").0, !object["histogram"].is_null(), "{preset}");
+        assert_eq!(passes("fragments").0, !object["fragments"].is_null(), "{preset}");
+    }
+    let text = done(&["plan", "pressure-sensitive", "--set", "adhesion=None"]);
+    let line = |stage: &str| text.lines().find(|line| line.starts_with(stage)).unwrap();
+    assert!(
+        line("contact tree").contains("skipped") && line("contact tree").contains("no adhesion"),
+        "{text}"
+    );
+    assert!(line("random line").contains("runs"), "{text}");
+    assert!(text.lines().all(|line| line.chars().count() <= 100), "{text}");
+}
+
+#[test]
+fn springs_under_a_punch_are_counted_beforehand() {
+    for points in ["7", "10", "1000", "1001"] {
+        let set = format!("numerics.points={points}");
+        let plan = json(&["plan", "kendall-punch", "--set", &set, "--format", "json"]);
+        let line = done(&["line", "kendall-punch", "--set", &set]);
+        assert_eq!(plan["springs"].as_u64(), Some(line.lines().count() as u64 - 1), "{points}");
+    }
+}
+
+/// Positions and heights of the line of a scene.
+fn line(scene: &str, points: usize) -> Vec<(f64, f64)> {
+    let set = format!("numerics.points={points}");
+    let text = done(&["line", scene, "--set", &set]);
+    let mut rows = text.lines();
+    assert_eq!(rows.next(), Some("x,z"));
+    rows.map(|row| {
+        let (x, z) = row.split_once(',').unwrap();
+        (x.parse().unwrap(), z.parse().unwrap())
+    })
+    .collect()
+}
+
+#[test]
+fn a_line_refines_to_the_same_line() {
+    let coarse = line("profile-hurst-025", 9000);
+    let fine = line("profile-hurst-025", 27_000);
+    assert_eq!((coarse.len(), fine.len()), (9000, 27_000));
+    let spacing = 1.0e-4 / 9000.0;
+    for (index, &(x, z)) in coarse.iter().enumerate() {
+        assert!((x - (index as f64 + 0.5) * spacing).abs() < 1e-12 * 1.0e-4);
+        // With three times the springs, the middle one of each three stands where one stood.
+        let (fine_x, fine_z) = fine[3 * index + 1];
+        assert!((x - fine_x).abs() < 1e-12 * 1.0e-4);
+        assert!((z - fine_z).abs() < 1e-10 * 2.0e-7, "{index}: {z} {fine_z}");
+    }
+}
+
+#[test]
+fn a_line_holds_only_what_stands_under_the_body() {
+    let punch = line("kendall-punch", 1000);
+    assert_eq!(punch.len(), 400);
+    assert!(punch.iter().all(|&(x, z)| (x - 0.5e-4).abs() <= 2.0e-5 && z == 0.0));
+}
+
+#[test]
+fn measured_lines_are_found_beside_their_scene() {
+    let folder = tempfile::tempdir().unwrap();
+    write(folder.path(), "line.csv", "x,z\n0,0\n0.5e-4,1e-7\n1e-4,0\n");
+    let scene = write(
+        folder.path(),
+        "measured.ron",
+        &SMALL.replace("numerics", "roughness: Measured(file: \"line.csv\"),\n    numerics"),
+    );
+    assert_eq!(done(&["presets", "check", &scene]), format!("{scene}: ok\n"));
+    assert_eq!(done(&["line", &scene]).lines().count(), 65);
+    assert!(number(&json(&["run", &scene, "--format", "json"])["line"]["rms_height"]) > 0.0);
+}
+
+#[test]
+fn files_are_not_overwritten_unasked() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("out.csv");
+    let file = path.to_str().unwrap();
+    for (command, header) in [("run", "leg,"), ("line", "x,z")] {
+        let arguments = [command, "jkr-sphere", "-o", file];
+        assert_eq!(done(&arguments), "");
+        let written = fs::read_to_string(&path).unwrap();
+        assert!(written.starts_with(header), "the ending .csv says what to write");
+        let told = failed(1, &arguments);
+        assert!(told.contains(file) && told.contains("--force"), "{told}");
+        assert_eq!(fs::read_to_string(&path).unwrap(), written);
+        fs::write(&path, "old").unwrap();
+        assert_eq!(done(&[&arguments[..], &["--force"]].concat()), "");
+        assert_eq!(fs::read_to_string(&path).unwrap(), written);
+        fs::remove_file(&path).unwrap();
+    }
+    // A failed run leaves neither a file nor anything beside it.
+    failed(1, &["run", "jkr-sphere", "--set", "loading=[ToTouch, ToForce(-1.0)]", "-o", file]);
+    let nowhere = folder.path().join("none/out.csv");
+    assert!(failed(1, &["run", "jkr-sphere", "-o", nowhere.to_str().unwrap()]).contains("no folder"));
+    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
+    let csv = done(&["run", "jkr-sphere", "--format", "csv"]);
+    assert_eq!(done(&["run", "jkr-sphere", "--format", "csv", "-o", "-"]), csv);
+}
+
+#[test]
+fn a_file_that_cannot_be_written_is_told_before_anything_is_computed() {
+    // The run itself would fail as well, and later.
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().to_str().unwrap();
+    let told = failed(1, &["run", "jkr-sphere", "--set", "loading=[ToTouch, ToForce(-1.0)]", "-o", file]);
+    assert!(told.contains("not the name of a file") && !told.contains("loading"), "{told}");
+}
+
+#[test]
+fn wrong_usage_is_exit_code_two() {
+    for arguments in [
+        &["run"][..],
+        &["run", "jkr-sphere", "--no-such-option"],
+        &["run", "jkr-sphere", "--format", "xml"],
+        &["run", "jkr-sphere", "--set", "adhesion.work"],
+        &["run", "jkr-sphere", "--set", "=1"],
+        &["line", "jkr-sphere", "--force"],
+        &["presets"],
+        &["presets", "check"],
+        &["completions", "no-such-shell"],
+        &["--set"],
+        &["rough-sphere", "jkr-sphere"],
+    ] {
+        failed(2, arguments);
+    }
+    let told = failed(2, &["rnu", "jkr-sphere", "--format", "json"]);
+    assert!(told.contains("'rnu' is not a command") && told.contains("run, plan"), "{told}");
+    assert!(failed(2, &["--set", "length=1", "run", "jkr-sphere"]).contains("stands first"));
+}
+
+#[test]
+fn a_word_that_is_no_scene_may_be_meant_as_a_command() {
+    let told = failed(1, &["rnu"]);
+    for said in ["rnu", "pressure-sensitive", "presets", "asperity --help"] {
+        assert!(told.contains(said), "{said}: {told}");
+    }
+}
+
+#[test]
+fn the_explorer_asks_for_a_terminal() {
+    let told = failed(1, &["rough-sphere"]);
+    assert!(told.contains("needs a terminal") && told.contains("asperity run rough-sphere"), "{told}");
+}
+
+#[test]
+fn help_is_for_reading() {
+    for command in [&[][..], &["run"], &["line"], &["plan"], &["presets", "check"], &["completions"]] {
+        for flag in ["-h", "--help"] {
+            let text = done(&[command, &[flag]].concat());
+            assert!(text.contains("Usage: asperity") && text.contains("Examples:"), "{text}");
+            assert!(text.lines().all(|line| line.chars().count() <= 100), "{text}");
+        }
+    }
+    assert_eq!(done(&["--version"]), format!("asperity {}\n", env!("CARGO_PKG_VERSION")));
+}
+
+#[test]
+fn every_shell_has_completions() {
+    for shell in ["bash", "zsh", "fish", "elvish", "powershell"] {
+        let script = done(&["completions", shell]);
+        assert!(script.contains("asperity") && script.contains("presets"), "{shell}");
+    }
+}
+
+#[test]
+fn a_reader_may_leave_at_any_time() {
+    for arguments in [
+        &["line", "million-springs"][..],
+        &["run", "million-springs", "--format", "json", "--set", "numerics.samples=20000"],
+        &["run", "jkr-sphere"],
+        &["--help"],
+    ] {
+        let mut child =
+            program().args(arguments).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+        let mut first = String::new();
+        BufReader::new(child.stdout.take().unwrap()).read_line(&mut first).unwrap();
+        let mut stderr = String::new();
+        child.stderr.take().unwrap().read_to_string(&mut stderr).unwrap();
+        assert_eq!((child.wait().unwrap().code(), stderr.as_str()), (Some(0), ""), "{arguments:?}");
+    }
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_disk_is_told() {
+    for arguments in [&["run", "jkr-sphere"][..], &["line", "jkr-sphere"], &["completions", "zsh"]] {
+        let full = fs::OpenOptions::new().write(true).open("/dev/full").unwrap();
+        let output = program().args(arguments).stdout(full).output().unwrap();
+        assert_eq!(output.status.code(), Some(1), "{arguments:?}");
+        let told = String::from_utf8(output.stderr).unwrap();
+        assert!(told.starts_with("standard output: cannot be written"), "{told}");
+    }
+}
