@@ -9,11 +9,11 @@ mod common {
 use asperity::contact::{ContactError, CurvePoint};
 use asperity::explorer::snapshot::{Loop, Moment};
 use asperity::explorer::worker::{self, Engine, Focus, MomentRequest, Newest, Report, Request, Worker};
-use asperity::scene::{Document, Leg, Observer, Scene};
+use asperity::scene::{Document, Observer, Scene};
 use asperity::simulation::{AfterLeg, Outcome, RunError, Simulation};
 use asperity::surface::Line;
 use common::deadline::within;
-use common::scenes::{built_in, changed, one_spring, punch, small, sphere, without_adhesion};
+use common::scenes::{changed, one_spring, punch, rough, smooth, without_adhesion};
 use std::cell::RefCell;
 use std::sync::Arc;
 use std::sync::atomic::Ordering;
@@ -162,12 +162,12 @@ fn seed(document: &Document, seed: u64) -> Document {
 fn a_scene_is_computed_leg_by_leg_and_then_whole() {
     within(30, || {
         let served = Served::by(Simulation::default());
-        served.compute(7, &small());
+        served.compute(7, &rough());
         for done in 1..=2 {
             assert!(matches!(served.report(), Report::Progress { generation: 7, legs } if legs == done));
         }
         let Report::Computed(computed) = served.report() else { panic!("not computed") };
-        let mut scene = small().scene().clone();
+        let mut scene = rough().scene().clone();
         scene.observe.push(Observer::HeightHistogram);
         let alone = Simulation::default().run(&scene, &|| false, &mut |_, _, _| Ok(())).unwrap();
         let timings = computed.outcome.timings;
@@ -180,7 +180,7 @@ fn a_scene_is_computed_leg_by_leg_and_then_whole() {
 fn of_all_that_wait_only_the_newest_is_done() {
     within(30, || {
         let show = |leg| Request::Show(MomentRequest { generation: 5, ..moment(leg, 0.0) });
-        let mut requests: Vec<_> = (1..=5).map(|number| compute(number, &seed(&small(), number))).collect();
+        let mut requests: Vec<_> = (1..=5).map(|number| compute(number, &seed(&rough(), number))).collect();
         requests.extend([show(0), show(0), show(1)]);
         let reports = serve_all(Simulation::default(), 5, requests);
         assert_eq!(generations(&reports), (vec![5], vec![5]));
@@ -196,13 +196,13 @@ fn moments_of_another_scene_are_not_shown() {
     within(30, || {
         let show = |generation| Request::Show(MomentRequest { generation, ..moment(0, 0.0) });
         for generation in [1, 3] {
-            let requests = vec![compute(2, &small()), show(generation)];
+            let requests = vec![compute(2, &rough()), show(generation)];
             assert_eq!(generations(&serve_all(Simulation::default(), 2, requests)), (vec![2], vec![]));
         }
         // Before any scene there is nothing to show.
         assert!(serve_all(Simulation::default(), 0, vec![show(0)]).is_empty());
         let past_the_end = Request::Show(MomentRequest { generation: 2, ..moment(2, 0.0) });
-        let requests = vec![compute(2, &small()), past_the_end];
+        let requests = vec![compute(2, &rough()), past_the_end];
         assert_eq!(generations(&serve_all(Simulation::default(), 2, requests)), (vec![2], vec![]));
     });
 }
@@ -211,7 +211,7 @@ fn moments_of_another_scene_are_not_shown() {
 fn a_scene_that_is_no_longer_wanted_is_not_computed() {
     within(30, || {
         let show = Request::Show(moment(0, 0.0));
-        let reports = serve_all(Simulation::default(), 2, vec![compute(1, &small()), show]);
+        let reports = serve_all(Simulation::default(), 2, vec![compute(1, &rough()), show]);
         assert!(reports.is_empty(), "{reports:?}");
     });
 }
@@ -228,9 +228,9 @@ fn a_newer_scene_stops_the_one_that_is_being_computed() {
             started.send(()).unwrap();
             stopped(stop)
         }));
-        served.compute(1, &small().set("title", "\"endless\"").unwrap());
+        served.compute(1, &rough().set("title", "\"endless\"").unwrap());
         wait.recv_timeout(PATIENCE).expect("the first scene is begun");
-        served.compute(2, &small());
+        served.compute(2, &rough());
         go_on.send(()).unwrap();
         let reports: Vec<_> = std::iter::from_fn(|| Some(served.report()))
             .take_while(|report| !matches!(report, Report::Computed(_)))
@@ -256,12 +256,12 @@ fn stop_when_told() -> (Sender<()>, impl FnMut(&dyn Fn() -> bool) -> Option<RunE
 fn the_worker_ends_with_the_explorer() {
     within(30, || {
         let served = Served::by(Simulation::default());
-        served.computed(1, &small());
+        served.computed(1, &rough());
         drop(served.worker);
         assert_eq!(served.reports.recv_timeout(PATIENCE).unwrap_err(), RecvTimeoutError::Disconnected);
         // Nobody listens: no second report is tried.
         let (sender, receiver) = channel();
-        sender.send(compute(1, &small())).unwrap();
+        sender.send(compute(1, &rough())).unwrap();
         let generation = Newest::default();
         generation.store(1, Ordering::Relaxed);
         let told = RefCell::new(0);
@@ -270,7 +270,7 @@ fn the_worker_ends_with_the_explorer() {
             false
         });
         assert_eq!(told.into_inner(), 1);
-        assert!(sender.send(compute(2, &small())).is_ok(), "the queue itself is still there");
+        assert!(sender.send(compute(2, &rough())).is_ok(), "the queue itself is still there");
     });
 }
 
@@ -285,13 +285,13 @@ fn a_panic_is_told_and_the_next_scene_is_computed() {
         let mut generation = 0;
         for (title, said) in [("\"text\"", "no such spring"), ("\"formatted\"", "no spring 1024")] {
             generation += 1;
-            served.compute(generation, &small().set("title", title).unwrap());
+            served.compute(generation, &rough().set("title", title).unwrap());
             let Report::Failed { generation: of, error } = served.answer() else { panic!("not failed") };
             assert_eq!(of, generation);
             assert!(error.contains("internal error") && error.contains(said), "{error}");
             assert_eq!(error.lines().count(), 1, "{error}");
             generation += 1;
-            assert_eq!(served.computed(generation, &small()).generation, generation);
+            assert_eq!(served.computed(generation, &rough()).generation, generation);
             served.shown(MomentRequest { generation, ..moment(1, 0.0) });
         }
     });
@@ -301,7 +301,7 @@ fn a_panic_is_told_and_the_next_scene_is_computed() {
 fn a_leg_that_cannot_be_gone_is_told_in_one_line() {
     within(30, || {
         let served = Served::by(Simulation::default());
-        let beyond = small().set("loading", "[ToForce(1.0e-5), ToForce(-1.0)]").unwrap();
+        let beyond = rough().set("loading", "[ToForce(1.0e-5), ToForce(-1.0)]").unwrap();
         served.compute(1, &beyond);
         let Report::Failed { generation: 1, error } = served.answer() else { panic!("not failed") };
         assert!(error.starts_with("loading.1 = ToForce(-1.0): the contact lets go before"), "{error}");
@@ -310,23 +310,28 @@ fn a_leg_that_cannot_be_gone_is_told_in_one_line() {
         assert_eq!(error, alone.unwrap_err().to_string());
         // Nothing of it can be shown, and the next scene is computed.
         served.worker.ask(Request::Show(moment(0, 0.0)));
-        served.computed(2, &small());
+        served.computed(2, &rough());
     });
+}
+
+/// A rough sphere under adhesion.
+fn rough_sphere() -> Document {
+    changed(&rough(), &[("form", "Paraboloid(radius: 1.0e-3)"), ("loading", "[ToForce(1.0e-5), ToSeparation]")])
 }
 
 /// Scenes whose moments are looked at, with a name.
 fn scenes() -> Vec<(&'static str, Document)> {
     let several = "[ToForce(1.0e-5), ToZeroForce, ToForce(2.0e-5), ToIndentation(-1.0e-8), ToSeparation]";
     vec![
-        ("default", small()),
-        ("several legs", small().set("loading", several).unwrap()),
-        ("sphere", sphere()),
-        ("smooth", changed("jkr-sphere", &[("numerics.points", "1024")])),
+        ("rough", rough()),
+        ("several legs", rough().set("loading", several).unwrap()),
+        ("rough sphere", rough_sphere()),
+        ("smooth", smooth()),
         ("no adhesion", without_adhesion()),
         ("punch", punch()),
         ("one spring", one_spring()),
-        ("stepwise", small().set("numerics.solver", "Stepwise(step: 2.0e-9)").unwrap()),
-        ("never touches", small().set("loading", "[ToIndentation(-1.0e-7)]").unwrap()),
+        ("stepwise", rough().set("numerics.solver", "Stepwise(step: 2.0e-9)").unwrap()),
+        ("never touches", rough().set("loading", "[ToIndentation(-1.0e-7)]").unwrap()),
     ]
 }
 
@@ -349,6 +354,10 @@ fn a_moment_at_a_sample_is_the_sample() {
             let computed = served.computed(1, &document);
             for (leg, record) in computed.outcome.history.legs.iter().enumerate() {
                 for sample in some(&record.curve) {
+                    if name == "stepwise" && sample.springs == 0 && sample.indentation == 0.0 {
+                        // Its curve begins before the touch, and may not keep the point after it.
+                        continue;
+                    }
                     let shown = served.shown(moment(leg, sample.indentation)).point;
                     // Where the contact forms or ends at once two samples stand at one place.
                     let same = record.curve.iter().filter(|one| one.indentation == sample.indentation);
@@ -367,7 +376,7 @@ fn a_moment_at_a_sample_is_the_sample() {
 fn a_moment_between_samples_is_the_one_a_finer_curve_has() {
     within(60, || {
         for (name, document) in
-            [("default", small()), ("sphere", sphere()), ("no adhesion", without_adhesion())]
+            [("rough", rough()), ("rough sphere", rough_sphere()), ("no adhesion", without_adhesion())]
         {
             let served = Served::by(Simulation::default());
             let coarse = served.computed(1, &document.set("numerics.samples", "17").unwrap());
@@ -395,7 +404,7 @@ fn a_moment_between_samples_is_the_one_a_finer_curve_has() {
 fn above_the_foundation_nothing_touches() {
     within(30, || {
         let served = Served::by(Simulation::default());
-        served.computed(1, &small());
+        served.computed(1, &rough());
         let shown = served.shown(MomentRequest { close_up_springs: 1024, ..moment(0, -1e-8) });
         assert_eq!((shown.point.springs, shown.point.fragments, shown.point.force), (0, 0, 0.0));
         assert!(shown.profile.columns.iter().all(|column| column.contact.is_none()));
@@ -475,10 +484,11 @@ fn picture_counts_and_boundaries_say_the_same() {
 fn at_the_end_of_a_leg_the_fragments_are_those_observed() {
     within(30, || {
         let served = Served::by(Simulation::default());
-        let document = sphere().set("loading", "[ToForce(1.0e-4), ToZeroForce]").unwrap();
+        let fields = [("loading", "[ToForce(2.0e-5), ToZeroForce]"), ("observe", "[Fragments]")];
+        let document = changed(&rough(), &fields);
         let computed = served.computed(1, &document);
         for (leg, record) in computed.outcome.history.legs.iter().enumerate() {
-            let request = MomentRequest { profile_columns: 2048, ..moment(leg, record.end()) };
+            let request = MomentRequest { profile_columns: 1024, ..moment(leg, record.end()) };
             let found = fragments(&served.shown(request));
             assert!(found.len() > 1, "{found:?}");
             assert_eq!(found, computed.outcome.fragments[leg]);
@@ -490,7 +500,7 @@ fn at_the_end_of_a_leg_the_fragments_are_those_observed() {
 fn springs_that_changed_since_the_moment_before_are_counted() {
     within(30, || {
         let served = Served::by(Simulation::default());
-        let computed = served.computed(1, &small());
+        let computed = served.computed(1, &rough());
         let curve = &computed.outcome.history.legs[0].curve;
         let springs = |index: usize| curve[index].springs;
         assert_eq!(served.shown(moment(0, curve[20].indentation)).changed, 0);
@@ -506,7 +516,7 @@ fn springs_that_changed_since_the_moment_before_are_counted() {
 fn next_and_previous_fragment_go_round() {
     within(60, || {
         let served = Served::by(Simulation::default());
-        let computed = served.computed(1, &small());
+        let computed = served.computed(1, &rough());
         let leg = &computed.outcome.history.legs[0];
         let request = MomentRequest { close_up_springs: 16, ..moment(0, leg.end()) };
         let count = leg.curve.last().unwrap().fragments as usize;
@@ -540,7 +550,7 @@ fn next_and_previous_fragment_go_round() {
 fn the_close_up_stays_on_the_line() {
     within(30, || {
         let served = Served::by(Simulation::default());
-        let computed = served.computed(1, &small());
+        let computed = served.computed(1, &rough());
         let end = computed.outcome.history.legs[0].end();
         for focus in [Focus::Spring(0), Focus::Spring(1023), Focus::Spring(usize::MAX), Focus::Summit] {
             for close_up_springs in [0, 1, 2, 1023, 1024, usize::MAX] {
@@ -564,7 +574,7 @@ fn the_close_up_stays_on_the_line() {
 fn a_section_knows_its_heights_without_a_column_to_show_them() {
     within(30, || {
         let served = Served::by(Simulation::default());
-        served.computed(1, &small());
+        served.computed(1, &rough());
         let wide = served.shown(MomentRequest { profile_columns: 1024, ..moment(0, 0.0) });
         let none = served.shown(MomentRequest { profile_columns: 0, close_up_columns: 0, ..moment(0, 0.0) });
         for section in [&none.profile, &none.close_up.section] {
@@ -579,7 +589,7 @@ fn a_section_knows_its_heights_without_a_column_to_show_them() {
 fn a_fragment_bears_what_the_rule_of_hess_allows() {
     within(30, || {
         let served = Served::by(Simulation::default());
-        let computed = served.computed(1, &small());
+        let computed = served.computed(1, &rough());
         let spacing = computed.outcome.line.spacing;
         let governing = computed.outcome.governing;
         let range = governing.work_of_adhesion.unwrap() / governing.effective_modulus;
@@ -602,18 +612,16 @@ fn a_fragment_bears_what_the_rule_of_hess_allows() {
 }
 
 #[test]
-fn what_a_scene_observes_is_kept_beside_the_histogram() {
+fn the_histogram_is_there_whatever_a_scene_observes() {
     within(30, || {
         let served = Served::by(Simulation::default());
-        for document in [sphere(), built_in("profile-hurst-025")] {
-            let document = document.set("numerics.points", "8192").unwrap();
+        for observe in ["[]", "[Fragments]", "[HeightHistogram]", "[Fragments, HeightHistogram]"] {
+            let document = rough().set("observe", observe).unwrap();
             let computed = served.computed(1, &document);
             let histogram = computed.outcome.histogram.as_ref().expect("the heights are observed");
-            assert_eq!(histogram.counts.iter().sum::<u64>(), 8192);
+            assert_eq!(histogram.counts.iter().sum::<u64>(), 1024);
             let observed = document.scene().observe.contains(&Observer::Fragments);
             assert_eq!(computed.outcome.fragments.len(), if observed { 2 } else { 0 });
-            assert_eq!(computed.outcome.history.legs[0].leg, document.scene().loading[0]);
-            assert_eq!(computed.outcome.history.legs[1].leg, Leg::ToSeparation);
         }
     });
 }

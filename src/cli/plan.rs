@@ -24,7 +24,7 @@ pub struct PlanArguments {
     /// The scene.
     #[command(flatten)]
     pub scene: SceneArguments,
-    /// A table for people or an object for programs
+    /// How it is printed
     #[arg(long, value_enum, default_value_t = PlanFormat::Text)]
     pub format: PlanFormat,
 }

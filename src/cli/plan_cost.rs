@@ -2,7 +2,7 @@
 
 use super::plan_legs::Legs;
 use crate::contact::CurvePoint;
-use crate::scene::{Form, Roughness, Scene, Solver};
+use crate::scene::{Form, Scene, Solver};
 use crate::simulation::{Plan, PlannedStage, Stage};
 use serde::Serialize;
 
@@ -48,7 +48,7 @@ impl Cost {
             curve_points: scene.numerics.samples * loading.len() as u64,
             legs: Legs::of(loading),
             exact: scene.numerics.solver == Solver::Exact,
-            rough: matches!(scene.roughness, Some(Roughness::SelfAffine { .. } | Roughness::Measured { .. })),
+            rough: scene.roughness.is_some(),
         }
     }
 

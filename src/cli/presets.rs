@@ -26,7 +26,7 @@ Example:
 pub enum PresetsCommand {
     /// List the built-in scenes
     List {
-        /// Columns for people or objects for programs
+        /// How they are printed
         #[arg(long, value_enum, default_value_t = ListFormat::Text)]
         format: ListFormat,
     },

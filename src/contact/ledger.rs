@@ -14,14 +14,6 @@ pub struct Spring {
     pub fragments: i64,
 }
 
-impl Spring {
-    /// What this spring adds to a tally.
-    #[inline]
-    fn tally(&self, scale: &GapScale) -> Tally {
-        Tally { springs: 1, fragments: self.fragments, quanta: i128::from(scale.quanta(self.gap)) }
-    }
-}
-
 /// The springs of a leg, in any fixed order.
 pub trait Springs {
     /// Calls `see` once for each spring.
@@ -93,30 +85,27 @@ pub(crate) struct Ledger {
 impl Ledger {
     /// Sorts `springs` into the intervals of `grid`.
     pub fn new(springs: &impl Springs, grid: Grid) -> Self {
-        let scale = *springs.scale();
+        let mut bins = vec![Bin::default(); grid.points.len()];
         let high = grid.high();
-        let mut tallies = vec![Tally::default(); grid.points.len()];
-        let mut stretches = vec![CompensatedSum::default(); grid.points.len()];
-        springs.each(|spring| {
-            if spring.threshold <= high {
-                let index = grid.first_at_least(spring.threshold);
-                tallies[index] += spring.tally(&scale);
-                let stretch = spring.gap - spring.threshold;
-                if stretch < f64::INFINITY {
-                    stretches[index].add(stretch * stretch);
-                }
+        each_run(springs, |run| {
+            if run.threshold <= high {
+                let bin = &mut bins[grid.first_at_least(run.threshold)];
+                bin.tally += run.joins;
+                bin.squared_stretch.add_sum(run.squared_stretch);
             }
         });
+        let mut below = CompensatedSum::default();
+        let mut above = CompensatedSum::default();
+        for (index, bin) in bins.iter().enumerate() {
+            let sum = if index == 0 { &mut below } else { &mut above };
+            sum.add_sum(bin.squared_stretch);
+        }
+        let mut tallies: Vec<Tally> = bins.into_iter().map(|bin| bin.tally).collect();
         for index in 1..tallies.len() {
             let before = tallies[index - 1];
             tallies[index] += before;
         }
-        let mut above = CompensatedSum::default();
-        for sum in &stretches[1..] {
-            above.add(sum.value);
-            above.add(sum.error);
-        }
-        Ledger { grid, tallies, squared_stretch: above.total(), squared_stretch_below: stretches[0].total() }
+        Ledger { grid, tallies, squared_stretch: above.total(), squared_stretch_below: below.total() }
     }
 
     /// Number of intervals between grid points.
@@ -132,18 +121,17 @@ impl Ledger {
     /// The springs whose thresholds lie in the chosen intervals (interval k is above point k, up to
     /// and including point k + 1), interval by interval.
     pub fn events(&self, springs: &impl Springs, chosen: &[bool]) -> Vec<Event> {
-        let scale = *springs.scale();
         let points = self.grid.points();
         let first = chosen.iter().position(|&chosen| chosen);
         let last = chosen.iter().rposition(|&chosen| chosen);
         let (Some(first), Some(last)) = (first, last) else { return Vec::new() };
         let (low, high) = (points[first], points[last + 1]);
         let mut events = Vec::new();
-        springs.each(|spring| {
-            if spring.threshold > low && spring.threshold <= high {
-                let interval = self.grid.first_at_least(spring.threshold) - 1;
+        each_run(springs, |Run { threshold, joins, .. }| {
+            if threshold > low && threshold <= high {
+                let interval = self.grid.first_at_least(threshold) - 1;
                 if chosen[interval] {
-                    events.push(Event { threshold: spring.threshold, joins: spring.tally(&scale), interval });
+                    events.push(Event { threshold, joins, interval });
                 }
             }
         });
@@ -152,7 +140,47 @@ impl Ledger {
     }
 }
 
-/// A spring that joins or leaves inside an interval of the grid.
+/// Springs that stand together and join or leave together.
+struct Run {
+    threshold: f64,
+    joins: Tally,
+    /// Σ (c − threshold)² where the threshold is finite, m².
+    squared_stretch: CompensatedSum,
+}
+
+/// Calls `see` for each run of springs with one threshold. What joins or leaves as one fragment stands
+/// together in the order of the tree, so most runs of an adhesive contact are long.
+fn each_run(springs: &impl Springs, mut see: impl FnMut(Run)) {
+    let scale = *springs.scale();
+    let mut threshold = f64::INFINITY;
+    let (mut joins, mut squared_stretch) = (Tally::default(), CompensatedSum::default());
+    springs.each(|spring| {
+        if spring.threshold != threshold {
+            if joins.springs > 0 {
+                see(Run { threshold, joins, squared_stretch });
+            }
+            threshold = spring.threshold;
+            (joins, squared_stretch) = (Tally::default(), CompensatedSum::default());
+        }
+        joins.springs += 1;
+        joins.fragments += spring.fragments;
+        joins.quanta += i128::from(scale.quanta(spring.gap));
+        let stretch = spring.gap - spring.threshold;
+        squared_stretch.add(if stretch < f64::INFINITY { stretch * stretch } else { 0.0 });
+    });
+    if joins.springs > 0 {
+        see(Run { threshold, joins, squared_stretch });
+    }
+}
+
+/// What joins in one interval of the grid.
+#[derive(Clone, Copy, Debug, Default)]
+struct Bin {
+    tally: Tally,
+    squared_stretch: CompensatedSum,
+}
+
+/// A run of springs that joins or leaves inside an interval of the grid.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Event {
     pub threshold: f64,
@@ -177,6 +205,11 @@ impl CompensatedSum {
         let added = sum - self.value;
         self.error += (self.value - (sum - added)) + (term - added);
         self.value = sum;
+    }
+
+    fn add_sum(&mut self, other: CompensatedSum) {
+        self.add(other.value);
+        self.error += other.error;
     }
 
     fn total(self) -> f64 {

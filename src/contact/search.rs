@@ -275,22 +275,26 @@ impl<S: Springs> Search<'_, S> {
         if !goal.may_lie(interval.bounds(&scale)) {
             return ControlFlow::Continue(());
         }
-        let width = (interval.high - interval.low) / PARTS as f64;
-        // Where numbers lie too close to part them they are sorted, however many they are.
-        let too_close = interval.low + width <= interval.low || interval.high - width >= interval.high;
-        if events.len() <= FEW || too_close {
+        if events.len() <= FEW {
             return self.walk(goal, order, interval, events);
         }
-        let point = |part: usize| {
-            if part == PARTS {
-                interval.high
-            } else {
-                (interval.low + width * part as f64).min(interval.high)
-            }
+        let ends = |(low, high): (f64, f64), event: &Event| (low.min(event.threshold), high.max(event.threshold));
+        let (first, last) = events.iter().fold((f64::INFINITY, f64::NEG_INFINITY), ends);
+        let width = (last - first) / (PARTS - 2) as f64;
+        // Where numbers lie too close to part them they are sorted, however many they are.
+        if first + width <= first || last - width >= last {
+            return self.walk(goal, order, interval, events);
+        }
+        // One part up to the first event, one after the last, the others even between them.
+        let point = |part: usize| match part {
+            0 => interval.low,
+            PARTS => interval.high,
+            _ if part == PARTS - 1 => last,
+            _ => (first + width * (part - 1) as f64).min(last),
         };
         for event in events.iter_mut() {
-            let guess = ((event.threshold - interval.low) / width) as usize;
-            let mut part = guess.min(PARTS - 1);
+            let guess = ((event.threshold - first) / width) as usize + 1;
+            let mut part = guess.min(PARTS - 2);
             while part > 0 && event.threshold <= point(part) {
                 part -= 1;
             }

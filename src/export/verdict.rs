@@ -9,8 +9,8 @@ use crate::simulation::Outcome;
 pub(super) fn rows(sheet: &mut Sheet, outcome: &Outcome) {
     let adhesive = outcome.governing.adhesive_work().is_some();
     let meaning = match outcome.regime {
-        None if adhesive => return sheet.row("regime", "not known: no leg back pulls"),
-        None => return sheet.row("regime", "none: neither adhesion nor a leg back that pulls"),
+        None if adhesive => return sheet.row("regime", "not known: no leg pulls"),
+        None => return sheet.row("regime", "none: there is no adhesion, and no leg pulls"),
         Some(Regime::NonAdhesive) if !adhesive => "the scene has no adhesion",
         Some(Regime::PressureInsensitive) => {
             "adhesion is there at first touch and hardly depends on the preload"
@@ -21,39 +21,29 @@ pub(super) fn rows(sheet: &mut Sheet, outcome: &Outcome) {
     let name = outcome.regime.map_or("", Regime::name);
     sheet.row("regime", format!("{name}: {meaning}"));
 
-    let zero_load = outcome.zero_load_adhesion_force;
-    let adhesion = outcome.figures.adhesion_force;
-    let shares = [
-        (
-            "  F_a(0)/F_a",
-            zero_load,
-            adhesion,
-            INSENSITIVE_SHARE,
-            "it sticks unpressed",
-            "pressing makes most of it",
-        ),
-        (
-            "  F_a(0)/F_smooth",
-            zero_load,
-            outcome.smooth_adhesion_force,
-            VANISHING_SHARE,
-            "there at first touch",
-            "vanished at first touch",
-        ),
-        (
-            "  F_a/F_n",
-            adhesion,
-            outcome.figures.preload,
-            NEGLIGIBLE_COEFFICIENT,
-            "not negligible",
-            "negligible",
-        ),
-    ];
-    for (label, part, whole, threshold, above, below) in shares {
-        // Products, as the regime itself compares them; a share of nothing decides nothing.
-        let (Some(part), Some(whole)) = (part, whole.filter(|&whole| whole > 0.0)) else { continue };
-        let (side, says) = if part >= threshold * whole { ("at least", above) } else { ("below", below) };
-        let share = format_quantity(part / whole, "1");
-        sheet.row(label, format!("{share}, {side} {threshold}: {says}"));
-    }
+    let (zero_load, adhesion) = (outcome.zero_load_adhesion_force, outcome.figures.adhesion_force);
+    let (smooth, preload) = (outcome.smooth_adhesion_force, outcome.figures.preload);
+    let says = ["it sticks unpressed", "pressing makes most of it"];
+    share(sheet, "  F_a(0)/F_a", zero_load, adhesion, INSENSITIVE_SHARE, says);
+    let says = ["there at first touch", "vanished at first touch"];
+    share(sheet, "  F_a(0)/F_smooth", zero_load, smooth, VANISHING_SHARE, says);
+    let says = ["not negligible", "negligible"];
+    share(sheet, "  F_a/F_n", adhesion, preload, NEGLIGIBLE_COEFFICIENT, says);
+}
+
+/// One share, on which side of its threshold it lies, and what that says: from the threshold on, below.
+fn share(
+    sheet: &mut Sheet,
+    label: &str,
+    part: Option<f64>,
+    whole: Option<f64>,
+    threshold: f64,
+    [from_on, below]: [&str; 2],
+) {
+    // A share of nothing decides nothing.
+    let (Some(part), Some(whole)) = (part, whole.filter(|&whole| whole > 0.0)) else { return };
+    // Products, as the regime itself compares them.
+    let (side, says) = if part >= threshold * whole { ("at least", from_on) } else { ("below", below) };
+    let share = format_quantity(part / whole, "1");
+    sheet.row(label, format!("{share}, {side} {threshold}: {says}"));
 }

@@ -1,43 +1,72 @@
-//! Scenes that the tests explore.
+//! Scenes that the tests explore: small ones, and not those that come with the program, which may
+//! change.
 
-use asperity::scene::{Document, open};
+use asperity::scene::Document;
 
-/// A smooth sphere with adhesion: no roughness, no random line.
-pub const SMOOTH: &str = "jkr-sphere";
+/// A rough line under weak adhesion, pressed until several fragments touch, then pulled off.
+const ROUGH: &str = r#"(
+    version: 1,
+    title: "Rough line",
+    notice: "Several fragments.",
+    material: (youngs_modulus: 2.0e6, poisson_ratio: 0.5), // soft
+    length: 1.0e-4,
+    roughness: SelfAffine(hurst: 0.7, rms_height: 2.0e-7, modes: (8, 256), seed: 1),
+    adhesion: (kappa: 8.0),
+    loading: [ToForce(2.0e-5), ToSeparation],
+    numerics: (points: 1024, samples: 64),
+)
+"#;
 
-/// A built-in scene.
-pub fn built_in(name: &str) -> Document {
-    open(name).unwrap_or_else(|errors| panic!("{errors}"))
-}
-
-/// A built-in scene with fields changed, all at once.
-pub fn changed(name: &str, fields: &[(&str, &str)]) -> Document {
+/// A scene with fields changed, all at once.
+pub fn changed(document: &Document, fields: &[(&str, &str)]) -> Document {
     let fields: Vec<_> = fields.iter().map(|(path, value)| (path.to_string(), value.to_string())).collect();
-    built_in(name).set_all(&fields).unwrap_or_else(|errors| panic!("{errors}"))
+    document.set_all(&fields).unwrap_or_else(|errors| panic!("{errors}"))
 }
 
-/// The scene the explorer opens on, on fewer springs.
-pub fn small() -> Document {
-    changed("pressure-sensitive", &[("numerics.points", "1024"), ("numerics.samples", "64")])
+/// A scene as a file of that name would hold it.
+fn as_file(document: &Document, name: &str) -> Document {
+    Document::parse(document.text(), name).unwrap_or_else(|errors| panic!("{errors}"))
 }
 
-/// A rough sphere under adhesion, its fragments observed.
-pub fn sphere() -> Document {
-    changed("rough-sphere", &[("numerics.points", "2048"), ("numerics.samples", "64")])
+fn based_on_rough(name: &str, fields: &[(&str, &str)]) -> Document {
+    let title = format!("\"{name}\"");
+    as_file(&changed(&rough(), fields).set("title", &title).unwrap(), name)
+}
+
+/// A rough line under weak adhesion, with several fragments.
+pub fn rough() -> Document {
+    Document::parse(ROUGH, "rough-line").unwrap_or_else(|errors| panic!("{errors}"))
+}
+
+/// A smooth sphere with adhesion: no random line.
+pub fn smooth() -> Document {
+    let fields = [
+        ("roughness", "None"),
+        ("form", "Paraboloid(radius: 1.0e-4)"),
+        ("adhesion", "(work: 0.05)"),
+        ("loading", "[ToForce(1.0e-4), ToSeparation]"),
+    ];
+    based_on_rough("smooth-sphere", &fields)
 }
 
 /// A rough line that nothing attracts.
 pub fn without_adhesion() -> Document {
-    changed("pressure-sensitive", &[("adhesion", "None"), ("numerics.points", "1024")])
+    based_on_rough("without-adhesion", &[("adhesion", "None")])
 }
 
 /// A flat punch with adhesion: only the springs under it take part.
 pub fn punch() -> Document {
-    changed("kendall-punch", &[("numerics.points", "1024")])
+    let fields = [
+        ("roughness", "None"),
+        ("form", "Punch(radius: 2.0e-5)"),
+        ("adhesion", "(work: 0.05)"),
+        ("loading", "[ToForce(1.0e-4), ToSeparation]"),
+    ];
+    based_on_rough("punch", &fields)
 }
 
 /// A line of one spring.
 pub fn one_spring() -> Document {
-    let one = [("roughness", "None"), ("adhesion", "(work: 0.05)"), ("numerics.points", "1")];
-    changed("pressure-sensitive", &one)
+    let fields = [("roughness", "None"), ("adhesion", "(work: 0.05)"), ("numerics.points", "1")];
+    based_on_rough("one-spring", &fields)
 }

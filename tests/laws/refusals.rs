@@ -1,0 +1,91 @@
+//! Legs that cannot be done are errors that say why, and leave the body where it stood; legs without
+//! anything to do are done at once.
+
+use super::*;
+use asperity::contact::{ContactError, Direction};
+
+proptest! {
+    #![proptest_config(cases(400))]
+
+    #[test]
+    fn a_refused_leg_leaves_everything_as_it_was(
+        body in body(),
+        turns in indentations(8),
+        refused in prop::collection::vec(prop_oneof![Just(1e300), Just(-1e300), Just(-1e30)], 8),
+        bare in any::<bool>(),
+    ) {
+        let tree = body.tree();
+        let [mut asked, mut spared]: [Box<dyn Solver>; 2] = [(), ()].map(|()| -> Box<dyn Solver> {
+            if bare {
+                Box::new(exact::bare(&body.gaps, body.foundation, 9))
+            } else {
+                Box::new(body.on(&tree, 9))
+            }
+        });
+        let mut separated = true;
+        for (leg, (&force, index)) in
+            to_indentations(&turns).into_iter().chain([Leg::ToSeparation]).zip(refused.iter().zip(0..))
+        {
+            let error = asked.advance(Leg::ToForce(force)).unwrap_err();
+            let expected = match (force > 0.0, separated) {
+                (true, _) => ContactError::OutOfReach { index, leg: Leg::ToForce(force) },
+                (false, true) => ContactError::NothingToPull { index, force },
+                (false, false) => match error {
+                    // How small it gets is judged elsewhere; that it is said, here.
+                    ContactError::LetsGoBefore { smallest, .. } if smallest > force => error.clone(),
+                    _ => ContactError::LetsGoBefore { index, leg: Leg::ToForce(force), smallest: f64::NAN },
+                },
+            };
+            prop_assert_eq!(&error, &expected);
+            if let ContactError::LetsGoBefore { index: told, leg, .. } = error {
+                prop_assert_eq!((told, leg), (index, Leg::ToForce(force)));
+            }
+            let (one, other) = (asked.advance(leg).unwrap(), spared.advance(leg).unwrap());
+            prop_assert_eq!(&one, &other, "{:?} after a refused leg", leg);
+            let end = one.curve.last().unwrap();
+            prop_assert_eq!(asked.fragments(end.indentation), spared.fragments(end.indentation));
+            separated = end.springs == 0;
+        }
+    }
+
+    #[test]
+    fn where_nothing_touches_nothing_acts(body in body(), heights in prop::collection::vec(0.0..2.0_f64, 1..6)) {
+        let tree = body.tree();
+        let (mut flown, mut fresh) = (body.on(&tree, 17), body.on(&tree, 17));
+        let mut below = 0.0;
+        for height in heights.iter().map(|height| height + 1e-9) {
+            let record = flown.advance(Leg::ToIndentation(-height)).unwrap();
+            let direction = if -height > below { Direction::Loading } else { Direction::Unloading };
+            prop_assert_eq!(record.direction, direction);
+            prop_assert_eq!((record.start(), record.end()), (below, -height));
+            prop_assert_eq!((record.joins, record.leaves, record.dissipated_energy), (0, 0, 0.0));
+            prop_assert!(record.curve.iter().all(|point| point.springs == 0 && point.force == 0.0));
+            prop_assert!(flown.fragments(-height).is_empty() && flown.fragments(1.0).is_empty());
+            below = -height;
+        }
+        // Separation is where it is already.
+        let record = flown.advance(Leg::ToSeparation).unwrap();
+        prop_assert_eq!(record.curve.len(), 1);
+        prop_assert_eq!((record.start(), record.leaves, record.dissipated_energy), (below, 0, 0.0));
+        // From up there the first touch is the first touch; the way there is one more point.
+        let (touch, expected) = (flown.advance(Leg::ToTouch).unwrap(), fresh.advance(Leg::ToTouch).unwrap());
+        prop_assert_eq!(&curve_bits(&touch)[1..], &curve_bits(&expected)[..]);
+        prop_assert_eq!((touch.start(), touch.joins), (below, expected.joins));
+        let [one, other] = [&mut flown, &mut fresh].map(|solver| solver.advance(Leg::ToSeparation).unwrap());
+        prop_assert_eq!(one, other);
+    }
+
+    #[test]
+    fn a_leg_to_where_the_body_stands_does_nothing(body in body(), to in 0.0..1.0_f64) {
+        let tree = body.tree();
+        let mut solver = body.on(&tree, 17);
+        let there = *solver.advance(Leg::ToIndentation(to)).unwrap().curve.last().unwrap();
+        let before = solver.work();
+        for leg in [Leg::ToIndentation(to), Leg::ToForce(there.force)] {
+            let record = solver.advance(leg).unwrap();
+            prop_assert_eq!(record.curve.iter().map(bits).collect::<Vec<_>>(), [bits(&there)], "{:?}", leg);
+            prop_assert_eq!((record.joins, record.leaves, record.dissipated_energy), (0, 0, 0.0));
+        }
+        prop_assert_eq!(solver.work(), before);
+    }
+}
