@@ -72,8 +72,7 @@ impl Cost {
         }
     }
 
-    /// About the most memory the arrays of a run take at any one time, bytes, but for the springs that
-    /// are sorted where the force may have an extreme: how many, only the run can tell.
+    /// About the most memory the arrays of a run take at any one time, bytes.
     pub(super) fn peak_bytes(&self, plan: &Plan) -> u64 {
         let kept = if self.rough { HEIGHT * self.points } else { 0 };
         let of_contact = match (self.exact, plan.runs(Stage::Tree)) {

@@ -278,7 +278,8 @@ impl<S: Springs> Search<'_, S> {
         if events.len() <= FEW {
             return self.walk(goal, order, interval, events);
         }
-        let ends = |(low, high): (f64, f64), event: &Event| (low.min(event.threshold), high.max(event.threshold));
+        let ends =
+            |(low, high): (f64, f64), event: &Event| (low.min(event.threshold), high.max(event.threshold));
         let (first, last) = events.iter().fold((f64::INFINITY, f64::NEG_INFINITY), ends);
         let width = (last - first) / (PARTS - 2) as f64;
         // Where numbers lie too close to part them they are sorted, however many they are.

@@ -3,6 +3,7 @@
 //! Each spring gets one threshold, whatever the direction of the leg: it is in contact at indentation
 //! d exactly when its threshold is at most d.
 
+use super::tree::Shape;
 use super::{ContactTree, EdgeRule};
 
 /// Thresholds of a loading leg, overwriting those of the leg before.
@@ -40,14 +41,8 @@ pub(crate) fn load<R: EdgeRule>(
         thresholds[node] = closes;
     }
     for node in (0..thresholds.len()).rev() {
-        let shape = shapes[node];
         let joins = thresholds[node];
-        if shape.right > 0 {
-            let child = node - 1;
-            thresholds[child] = thresholds[child].min(joins);
-        }
-        if shape.left() > 0 {
-            let child = node - 1 - shape.right as usize;
+        for child in children_or_self(node, shapes[node]) {
             thresholds[child] = thresholds[child].min(joins);
         }
     }
@@ -74,21 +69,27 @@ pub(crate) fn unload<R: EdgeRule>(tree: &ContactTree, rule: &R, thresholds: &mut
         // A node in contact whose parent is not is the root of one whole fragment.
         let start = end - shapes[root].size as usize;
         // What was in contact is so here, also where rounding puts joining and leaving at one number.
-        thresholds[root] = rule.holds_to(tree, root).min(from);
+        thresholds[root] = from;
         for node in (start..end).rev() {
-            let shape = shapes[node];
-            let leaves = thresholds[node];
-            if shape.right > 0 {
-                let child = node - 1;
-                thresholds[child] = leaves.min(rule.holds_to(tree, child));
-            }
-            if shape.left() > 0 {
-                let child = node - 1 - shape.right as usize;
-                thresholds[child] = leaves.min(rule.holds_to(tree, child));
+            // Handed down to it: when the subtree around its own opens.
+            let leaves = thresholds[node].min(rule.holds_to(tree, node));
+            thresholds[node] = leaves;
+            for child in children_or_self(node, shapes[node]) {
+                thresholds[child] = leaves;
             }
             separates = separates.min(leaves);
         }
         end = start;
     }
     separates
+}
+
+/// Right and left child of a node; the node itself in place of one it does not have, to which the passes
+/// from parents to children do no harm. A branch on whether there is a child would often be mispredicted
+/// on a rough line.
+#[inline]
+fn children_or_self(node: usize, shape: Shape) -> [usize; 2] {
+    let right = usize::from(shape.right > 0);
+    let left = if shape.left() > 0 { 1 + shape.right as usize } else { 0 };
+    [node - right, node - left]
 }

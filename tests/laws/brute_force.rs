@@ -47,8 +47,7 @@ impl Steps {
         for &(threshold, gap) in &springs {
             let last = steps[steps.len() - 1];
             let (high, low) = two_sum(last.gaps.0, gap);
-            let next =
-                Step { from: threshold, springs: last.springs + 1.0, gaps: (high, last.gaps.1 + low) };
+            let next = Step { from: threshold, springs: last.springs + 1.0, gaps: (high, last.gaps.1 + low) };
             if last.from == threshold {
                 steps.pop();
             }

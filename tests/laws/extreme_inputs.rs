@@ -3,8 +3,8 @@
 use super::*;
 use asperity::contact::{ContactError, Direction, Stepwise};
 use asperity::scene::{
-    Adhesion, Edges, Form, Material, Numerics, Observer, Range, Roughness, Scene, Solver as Choice,
-    check, field,
+    Adhesion, Edges, Form, Material, Numerics, Observer, Range, Roughness, Scene, Solver as Choice, check,
+    field,
 };
 use asperity::simulation::{RunError, Simulation};
 
@@ -59,7 +59,12 @@ fn check_leg(record: &LegRecord, before: u64, springs: u64) -> Result<(), TestCa
     prop_assert_eq!(before + record.joins - record.leaves, after);
     if record.direction == Direction::Unloading {
         let least = record.curve.iter().map(|point| point.force).fold(f64::INFINITY, f64::min);
-        prop_assert!(record.smallest.force <= least || record.curve.len() < 3, "{:?} {}", record.smallest, least);
+        prop_assert!(
+            record.smallest.force <= least || record.curve.len() < 3,
+            "{:?} {}",
+            record.smallest,
+            least
+        );
     }
     Ok(())
 }

@@ -41,7 +41,8 @@ impl Move {
 
 /// Rounding of a force on this body at indentation d, N.
 fn rounding(body: &Body, d: f64, force: f64) -> f64 {
-    let largest_sum = body.gaps.len() as f64 * body.foundation.spring_stiffness() * (d.abs() + body.deepest());
+    let largest_sum =
+        body.gaps.len() as f64 * body.foundation.spring_stiffness() * (d.abs() + body.deepest());
     4.0 * f64::EPSILON * force.abs() + 1e-18 * largest_sum
 }
 

@@ -1,0 +1,150 @@
+//! Scripts for an explorer without a terminal: keys in, a screen out. Every request is answered before
+//! the next key counts, so that a script gives the same screens always.
+
+use super::driver::Driver;
+use asperity::explorer::action::Action;
+use asperity::explorer::keys;
+use asperity::explorer::model::Model;
+use asperity::explorer::update::{Effect, update};
+use asperity::explorer::view;
+use asperity::scene::Document;
+use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
+use ratatui::Terminal;
+use ratatui::backend::TestBackend;
+use ratatui::buffer::{Buffer, Cell};
+use std::time::Duration;
+
+impl Driver {
+    /// The explorer with its scene computed and the first moment shown.
+    pub fn start(document: Document) -> Self {
+        let mut driver = Driver::open(document);
+        driver.perform(vec![Effect::Compute]);
+        driver
+    }
+
+    /// Lets something happen, and all that follows from it. Gives what it asked for by itself.
+    pub fn act(&mut self, action: Action) -> Vec<Effect> {
+        let effects = update(&mut self.model, action);
+        self.perform(effects.clone());
+        effects
+    }
+
+    /// Does what an action asks for.
+    pub fn perform(&mut self, effects: Vec<Effect>) {
+        for effect in effects {
+            for action in self.answer(effect) {
+                self.act(action);
+            }
+        }
+    }
+
+    /// Presses keys, their names separated by blanks: `j`, `Ctrl+c`, `Enter`, `Shift+Left`. Gives what
+    /// the last of them asked for.
+    pub fn press(&mut self, names: &str) -> Vec<Effect> {
+        let mut effects = Vec::new();
+        for name in names.split_whitespace() {
+            let event = key_event(name);
+            effects = match (keys::command(&event, self.model.mode.kind()), event.code) {
+                (Some(command), _) => self.act(Action::Command(command)),
+                (None, KeyCode::Char(character)) => self.act(Action::Type(character)),
+                (None, _) => Vec::new(),
+            };
+        }
+        effects
+    }
+
+    /// Types a text, character by character.
+    pub fn type_text(&mut self, text: &str) {
+        text.chars().for_each(|character| drop(self.act(Action::Type(character))));
+    }
+
+    /// Types a value for the selected parameter in place of the one it has.
+    pub fn enter(&mut self, value: &str) {
+        self.press("e Ctrl+u");
+        self.type_text(value);
+        self.press("Enter");
+    }
+
+    /// Selects the parameter of a field, by keys.
+    pub fn select(&mut self, path: &str) {
+        self.press("g");
+        for _ in 0..self.model.parameters.len() {
+            if self.model.parameter().is_some_and(|parameter| parameter.field.path == path) {
+                return;
+            }
+            self.press("j");
+        }
+        panic!("no parameter {path}: {:?}", self.model.parameters);
+    }
+
+    /// Lets time go by.
+    pub fn elapse(&mut self, seconds: f64) -> Vec<Effect> {
+        self.act(Action::Elapse(Duration::from_secs_f64(seconds)))
+    }
+
+    /// Gives the window another size.
+    pub fn resize(&mut self, (columns, rows): (u16, u16)) {
+        self.act(Action::Resize(columns, rows));
+    }
+
+    /// What is on the screen.
+    pub fn screen(&self) -> Buffer {
+        draw(&self.model)
+    }
+
+    /// The rows of the screen.
+    pub fn rows(&self) -> Vec<String> {
+        rows(&self.screen())
+    }
+
+    /// The screen as one text.
+    pub fn text(&self) -> String {
+        self.rows().join("\n")
+    }
+}
+
+/// Draws a model.
+pub fn draw(model: &Model) -> Buffer {
+    let (columns, rows) = model.size;
+    let mut terminal = Terminal::new(TestBackend::new(columns, rows)).unwrap();
+    terminal.draw(|frame| view::draw(frame, model)).unwrap();
+    terminal.backend().buffer().clone()
+}
+
+/// The rows of a screen, without the blanks at their ends.
+pub fn rows(screen: &Buffer) -> Vec<String> {
+    let width = usize::from(screen.area.width).max(1);
+    let row = |cells: &[Cell]| {
+        let text: String = cells.iter().map(Cell::symbol).collect();
+        text.trim_end().to_owned()
+    };
+    screen.content.chunks(width).map(row).collect()
+}
+
+/// The event of a key by its name.
+fn key_event(name: &str) -> KeyEvent {
+    let (modifiers, name) = match name.split_once('+') {
+        Some(("Ctrl", rest)) => (KeyModifiers::CONTROL, rest),
+        Some(("Shift", rest)) => (KeyModifiers::SHIFT, rest),
+        _ => (KeyModifiers::NONE, name),
+    };
+    let code = match name {
+        "Space" => KeyCode::Char(' '),
+        "Enter" => KeyCode::Enter,
+        "Esc" => KeyCode::Esc,
+        "Tab" => KeyCode::Tab,
+        "Left" => KeyCode::Left,
+        "Right" => KeyCode::Right,
+        "Up" => KeyCode::Up,
+        "Down" => KeyCode::Down,
+        "Home" => KeyCode::Home,
+        "End" => KeyCode::End,
+        "Backspace" => KeyCode::Backspace,
+        "Delete" => KeyCode::Delete,
+        _ => match (name.chars().next(), name.chars().nth(1)) {
+            (Some(character), None) => KeyCode::Char(character),
+            _ => panic!("no key is called {name}"),
+        },
+    };
+    KeyEvent::new(code, modifiers)
+}

@@ -1,0 +1,284 @@
+//! A program in a pseudo-terminal: what it writes is kept byte by byte and shown on a screen, and it is
+//! waited for with a deadline.
+
+use portable_pty::{Child, ChildKiller, CommandBuilder, ExitStatus, MasterPty, PtySize, native_pty_system};
+use std::ffi::OsStr;
+use std::io::{Read, Write};
+use std::num::NonZeroU16;
+use std::path::Path;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
+use std::thread::{self, JoinHandle};
+use std::time::{Duration, Instant};
+
+/// Longest time anything may take.
+const PATIENCE: Duration = Duration::from_secs(20);
+
+/// Time without a byte after which a screen is taken for finished: several frames.
+const QUIET: Duration = Duration::from_millis(200);
+
+/// Something the program does.
+enum Event {
+    Wrote(Vec<u8>),
+    Closed,
+    Ended(ExitStatus),
+}
+
+/// A program about to be started in a terminal of its own.
+pub struct Program {
+    command: CommandBuilder,
+    size: (u16, u16),
+}
+
+impl Program {
+    /// A program in a window of 120 × 40 that knows of the environment no more than its terminal.
+    pub fn new(path: impl AsRef<OsStr>) -> Self {
+        let mut command = CommandBuilder::new(path);
+        command.env_clear();
+        command.env("TERM", "xterm-256color");
+        Program { command, size: (120, 40) }
+    }
+
+    pub fn argument(mut self, argument: impl AsRef<OsStr>) -> Self {
+        self.command.arg(argument);
+        self
+    }
+
+    pub fn env(mut self, name: &str, value: &str) -> Self {
+        self.command.env(name, value);
+        self
+    }
+
+    pub fn without_env(mut self, name: &str) -> Self {
+        self.command.env_remove(name);
+        self
+    }
+
+    pub fn folder(mut self, folder: &Path) -> Self {
+        self.command.cwd(folder);
+        self
+    }
+
+    pub fn size(mut self, columns: u16, rows: u16) -> Self {
+        self.size = (columns, rows);
+        self
+    }
+
+    /// Starts it.
+    pub fn start(self) -> Terminal {
+        let pty = native_pty_system().openpty(size(self.size)).unwrap();
+        let before = attributes(pty.master.as_ref());
+        let child = pty.slave.spawn_command(self.command).unwrap();
+        // The terminal closes with the program.
+        drop(pty.slave);
+        let (sender, events) = channel();
+        let killer = child.clone_killer();
+        let pid = child.process_id().expect("a process has a number");
+        await_end(child, sender.clone());
+        let closing = Arc::new(AtomicBool::new(false));
+        let reader = pty.master.try_clone_reader().unwrap();
+        let reader = read(reader, sender, Arc::clone(&closing));
+        let (columns, rows) = self.size;
+        Terminal {
+            parser: vt100::Parser::new(nonzero(rows), nonzero(columns), 0),
+            written: Vec::new(),
+            keyboard: Some(pty.master.take_writer().unwrap()),
+            master: Some(pty.master),
+            before,
+            events,
+            reader: Some(reader),
+            closing,
+            killer,
+            pid,
+            closed: false,
+            ended: None,
+        }
+    }
+}
+
+fn size((cols, rows): (u16, u16)) -> PtySize {
+    PtySize { rows, cols, pixel_width: 0, pixel_height: 0 }
+}
+
+fn nonzero(value: u16) -> NonZeroU16 {
+    NonZeroU16::new(value).expect("a window has columns and rows")
+}
+
+/// How the terminal treats what is typed and written: raw or line by line, with echo or without.
+fn attributes(master: &dyn MasterPty) -> String {
+    format!("{:?}", master.get_termios().expect("a terminal has attributes"))
+}
+
+fn await_end(mut child: Box<dyn Child + Send + Sync>, events: Sender<Event>) {
+    thread::spawn(move || {
+        let status = child.wait().unwrap();
+        let _ = events.send(Event::Ended(status));
+    });
+}
+
+fn read(mut reader: Box<dyn Read + Send>, events: Sender<Event>, closing: Arc<AtomicBool>) -> JoinHandle<()> {
+    thread::spawn(move || {
+        let mut bytes = [0; 1 << 16];
+        loop {
+            let event = match reader.read(&mut bytes) {
+                Ok(count) if count > 0 => Event::Wrote(bytes[..count].to_vec()),
+                _ => Event::Closed,
+            };
+            let done = matches!(event, Event::Closed) || closing.load(Ordering::SeqCst);
+            if events.send(event).is_err() || done {
+                return;
+            }
+        }
+    })
+}
+
+/// A program in a terminal.
+pub struct Terminal {
+    parser: vt100::Parser,
+    written: Vec<u8>,
+    keyboard: Option<Box<dyn Write + Send>>,
+    master: Option<Box<dyn MasterPty + Send>>,
+    /// The attributes before the program started.
+    before: String,
+    events: Receiver<Event>,
+    reader: Option<JoinHandle<()>>,
+    closing: Arc<AtomicBool>,
+    killer: Box<dyn ChildKiller + Send + Sync>,
+    pid: u32,
+    closed: bool,
+    ended: Option<ExitStatus>,
+}
+
+impl Terminal {
+    /// The screen.
+    pub fn screen(&self) -> &vt100::Screen {
+        self.parser.screen()
+    }
+
+    /// The rows of the screen, without the blanks at their ends.
+    pub fn rows(&self) -> Vec<String> {
+        rows(self.screen())
+    }
+
+    /// The screen as one text.
+    pub fn text(&self) -> String {
+        self.rows().join("\n")
+    }
+
+    /// All bytes written so far.
+    pub fn written(&self) -> &[u8] {
+        &self.written
+    }
+
+    /// Number of the process.
+    pub fn pid(&self) -> u32 {
+        self.pid
+    }
+
+    /// Types: one write, as a terminal sends it.
+    pub fn send(&mut self, keys: &str) {
+        let keyboard = self.keyboard.as_mut().expect("the terminal is open");
+        keyboard.write_all(keys.as_bytes()).unwrap();
+        keyboard.flush().unwrap();
+    }
+
+    /// Gives the window another size. What was on it goes, as it may in a terminal.
+    pub fn resize(&mut self, columns: u16, rows: u16) {
+        self.parser = vt100::Parser::new(nonzero(rows), nonzero(columns), 0);
+        self.master.as_ref().expect("the terminal is open").resize(size((columns, rows))).unwrap();
+    }
+
+    /// Whether what is typed is echoed and read line by line, as before the program started.
+    pub fn is_as_before(&self) -> bool {
+        let master = self.master.as_ref().expect("the terminal is open");
+        attributes(master.as_ref()) == self.before
+    }
+
+    /// Waits until the rows of the screen are as they should be.
+    #[track_caller]
+    pub fn wait(&mut self, what: &str, is_there: impl Fn(&[String]) -> bool) {
+        let deadline = Instant::now() + PATIENCE;
+        while !is_there(&self.rows()) {
+            let gone = self.closed && self.ended.is_some();
+            if gone || !self.take(deadline.saturating_duration_since(Instant::now())) {
+                panic!("no {what} on the screen (ended: {:?}):\n{}", self.ended, self.text());
+            }
+        }
+    }
+
+    /// Waits until a text is on the screen.
+    #[track_caller]
+    pub fn wait_for(&mut self, text: &str) {
+        self.wait(text, |rows| rows.iter().any(|row| row.contains(text)));
+    }
+
+    /// Waits until a text is no longer on the screen.
+    #[track_caller]
+    pub fn wait_without(&mut self, text: &str) {
+        self.wait(&format!("screen without {text}"), |rows| !rows.iter().any(|row| row.contains(text)));
+    }
+
+    /// Waits until nothing more is written for a while.
+    #[track_caller]
+    pub fn settle(&mut self) {
+        let deadline = Instant::now() + PATIENCE;
+        while self.take(QUIET) {
+            assert!(Instant::now() < deadline, "it never stops writing:\n{}", self.text());
+        }
+    }
+
+    /// Whether nothing is written for a time.
+    pub fn is_silent_for(&mut self, time: Duration) -> bool {
+        !self.take(time)
+    }
+
+    /// Waits until the program has ended and all it wrote has come.
+    #[track_caller]
+    pub fn wait_end(&mut self) -> ExitStatus {
+        let deadline = Instant::now() + PATIENCE;
+        while self.ended.is_none() || !(self.closed || self.reader.is_none()) {
+            let time = deadline.saturating_duration_since(Instant::now());
+            assert!(self.take(time), "it does not end:\n{}", self.text());
+        }
+        self.ended.clone().expect("it has ended")
+    }
+
+    /// Closes the terminal, as a window that is shut or a connection that drops.
+    pub fn hang_up(&mut self) {
+        self.closing.store(true, Ordering::SeqCst);
+        // The reader lets go with the next byte that is written: that of a key.
+        self.send("?");
+        self.reader.take().expect("the terminal is open").join().unwrap();
+        self.keyboard = None;
+        self.master = None;
+    }
+
+    /// Takes one event, and tells whether there was one in time.
+    fn take(&mut self, time: Duration) -> bool {
+        match self.events.recv_timeout(time) {
+            Ok(Event::Wrote(bytes)) => {
+                self.parser.process(&bytes);
+                self.written.extend_from_slice(&bytes);
+            }
+            Ok(Event::Closed) => self.closed = true,
+            Ok(Event::Ended(status)) => self.ended = Some(status),
+            Err(RecvTimeoutError::Timeout | RecvTimeoutError::Disconnected) => return false,
+        }
+        true
+    }
+}
+
+impl Drop for Terminal {
+    fn drop(&mut self) {
+        if self.ended.is_none() {
+            let _ = self.killer.kill();
+        }
+    }
+}
+
+/// The rows of a screen, without the blanks at their ends.
+fn rows(screen: &vt100::Screen) -> Vec<String> {
+    let (_, columns) = screen.size();
+    screen.rows(0, columns.get()).map(|row| row.trim_end().to_owned()).collect()
+}

@@ -1,0 +1,299 @@
+//! Whatever happens to the explorer, in whatever order, in a window of whatever size: it does not
+//! panic, it draws, and its scene is one that may be computed.
+
+mod common {
+    pub mod deadline;
+    pub mod driver;
+    pub mod scenes;
+}
+
+use asperity::explorer::action::{Action, Command};
+use asperity::explorer::keys::BINDINGS;
+use asperity::explorer::model::Mode;
+use asperity::explorer::parameters::parameters;
+use asperity::explorer::update::{Effect, update};
+use asperity::explorer::view;
+use asperity::scene::{Document, Solver, check};
+use common::deadline::within;
+use common::driver::{Driver, REFUSED};
+use common::scenes::{changed, one_spring, punch, rough, smooth, without_adhesion};
+use proptest::prelude::*;
+use proptest::test_runner::{Config, TestRunner};
+use ratatui::Terminal;
+use ratatui::backend::TestBackend;
+use std::collections::VecDeque;
+use std::time::Duration;
+
+const CASES: u32 = 1200;
+const LONGEST: usize = 60;
+
+/// Scenes with more springs or samples are not computed, but reported as failed.
+const MOST: u64 = 2048;
+
+/// Something that happens.
+#[derive(Clone, Debug)]
+enum Event {
+    Command(Command),
+    Type(char),
+    Paste(String),
+    /// A value typed for the selected parameter.
+    Enter(String),
+    /// The scene saved under a name.
+    Save(String),
+    Resize(u16, u16),
+    /// The window has another size by now, and nobody has told the explorer.
+    Shrunk(u16, u16),
+    Elapse(f64),
+    /// The oldest request that waits is answered.
+    Answer,
+    /// A report that came earlier comes again.
+    Stale(usize),
+}
+
+fn size() -> impl Strategy<Value = (u16, u16)> {
+    prop_oneof![
+        4 => (0..=4_u16, 0..=4_u16),
+        8 => (0..=80_u16, 0..=26_u16),
+        4 => (60..=130_u16, 12..=42_u16),
+        1 => (0..=4_u16, 0..=400_u16),
+        1 => (0..=400_u16, 0..=4_u16),
+    ]
+}
+
+fn value() -> impl Strategy<Value = String> {
+    let values = [
+        "0",
+        "1",
+        "-1",
+        "2",
+        "64",
+        "1e-7",
+        "1e400",
+        "NaN",
+        "inf",
+        "50m",
+        "2.5 MPa",
+        "10 µm",
+        "None",
+        "()",
+        "",
+        "(work: 0.05)",
+        "(kappa: 3.0)",
+        "Punch(radius: 1.0e-5)",
+        "Cone(angle: 0.1)",
+        "Stepwise(step: 1.0e-9)",
+        "(effective_modulus: 2.0e6)",
+        "(1, 8)",
+        "(9, 2)",
+        "[]",
+        "[ToTouch]",
+        "[ToForce(1.0e-5), ToForce(-1.0)]",
+        "[ToIndentation(-1.0e-7)]",
+        "[ToTouch, ToForce(1.0e-5), ToZeroForce, ToSeparation, ToTouch]",
+        "Measured(file: \"nowhere.csv\")",
+        "[",
+        "\"",
+        "1 /*",
+        "𝟙",
+        "18446744073709551616",
+    ];
+    prop_oneof![4 => prop::sample::select(values.to_vec()).prop_map(str::to_owned), 1 => ".{0,12}"]
+}
+
+fn command() -> impl Strategy<Value = Command> {
+    let bound: Vec<Command> = BINDINGS.iter().map(|row| row.command).collect();
+    let extreme = vec![
+        Command::Step(i32::MAX),
+        Command::Step(i32::MIN),
+        Command::Leg(i32::MAX),
+        Command::Leg(i32::MIN),
+        Command::Select(i32::MAX),
+        Command::Select(i32::MIN),
+        Command::StepValue { steps: i32::MAX, coarse: true },
+        Command::StepValue { steps: i32::MIN, coarse: false },
+        Command::StepValue { steps: 0, coarse: false },
+        Command::Zoom(i32::MIN),
+        Command::Fragment(i32::MIN),
+        Command::Preset(usize::MAX),
+    ];
+    prop_oneof![8 => prop::sample::select(bound), 1 => prop::sample::select(extreme)]
+}
+
+fn event() -> impl Strategy<Value = Event> {
+    let stepped =
+        (-3..=3_i32, any::<bool>()).prop_map(|(steps, coarse)| Command::StepValue { steps, coarse });
+    let names = prop_oneof![Just("a.ron".to_owned()), Just(REFUSED.to_owned()), Just("b/c.ron".to_owned())];
+    prop_oneof![
+        12 => command().prop_map(Event::Command),
+        3 => stepped.prop_map(Event::Command),
+        3 => (-30..30_i32).prop_map(|rows| Event::Command(Command::Select(rows))),
+        2 => any::<char>().prop_map(Event::Type),
+        1 => ".{0,80}".prop_map(Event::Paste),
+        4 => value().prop_map(Event::Enter),
+        1 => names.prop_map(Event::Save),
+        3 => size().prop_map(|(columns, rows)| Event::Resize(columns, rows)),
+        2 => size().prop_map(|(columns, rows)| Event::Shrunk(columns, rows)),
+        4 => (0.0..9.0).prop_map(Event::Elapse),
+        12 => Just(Event::Answer),
+        1 => any::<usize>().prop_map(Event::Stale),
+    ]
+}
+
+/// Small scenes of each kind, and one that cannot be computed.
+fn scenes() -> Vec<Document> {
+    let few = [("numerics.points", "64"), ("numerics.samples", "16")];
+    let small = changed(&rough(), &[("roughness.modes", "(2, 16)"), few[0], few[1]]);
+    let beyond = small.set("loading", "[ToForce(1.0e-5), ToForce(-1.0)]").unwrap();
+    vec![
+        small.clone(),
+        small.set("loading", "[ToForce(1.0e-5), ToZeroForce, ToForce(2.0e-5), ToSeparation]").unwrap(),
+        changed(&smooth(), &few),
+        changed(&punch(), &few),
+        changed(&without_adhesion(), &[("roughness.modes", "(2, 16)"), few[0], few[1]]),
+        one_spring(),
+        beyond,
+    ]
+}
+
+/// An explorer whose worker answers only when it is let.
+struct Explorer {
+    driver: Driver,
+    waiting: VecDeque<Effect>,
+    /// All that has been reported.
+    reports: Vec<Action>,
+    /// The generation that has been looked at.
+    judged: u64,
+}
+
+impl Explorer {
+    fn new(document: Document) -> Self {
+        let driver = Driver::open(document);
+        Explorer { driver, waiting: VecDeque::from([Effect::Compute]), reports: Vec::new(), judged: 0 }
+    }
+
+    fn act(&mut self, action: Action) {
+        let effects = update(&mut self.driver.model, action);
+        self.waiting.extend(effects);
+        self.judge();
+    }
+
+    fn happen(&mut self, event: &Event) {
+        match event {
+            Event::Command(command) => self.act(Action::Command(*command)),
+            Event::Type(character) => self.act(Action::Type(*character)),
+            Event::Paste(text) => self.act(Action::Paste(text.clone())),
+            Event::Enter(value) => {
+                self.act(Action::Command(Command::EditValue));
+                self.act(Action::Command(Command::Clear));
+                self.act(Action::Paste(value.clone()));
+                self.act(Action::Command(Command::Accept));
+            }
+            Event::Save(name) => {
+                self.act(Action::Command(Command::Save));
+                self.act(Action::Command(Command::Clear));
+                self.act(Action::Paste(name.clone()));
+                self.act(Action::Command(Command::Accept));
+            }
+            Event::Resize(columns, rows) => self.act(Action::Resize(*columns, *rows)),
+            Event::Shrunk(columns, rows) => self.draw((*columns, *rows)),
+            Event::Elapse(seconds) => self.act(Action::Elapse(Duration::from_secs_f64(*seconds))),
+            Event::Answer => self.answer(),
+            Event::Stale(which) => {
+                if !self.reports.is_empty() {
+                    self.act(self.reports[which % self.reports.len()].clone());
+                }
+            }
+        }
+    }
+
+    fn answer(&mut self) {
+        let Some(effect) = self.waiting.pop_front() else { return };
+        let scene = self.driver.model.document.scene();
+        let numerics = scene.numerics;
+        let is_cheap =
+            numerics.points <= MOST && numerics.samples <= MOST && numerics.solver == Solver::Exact;
+        let actions = if effect == Effect::Compute && !(is_cheap && scene.loading.len() <= 16) {
+            let generation = self.driver.model.generation;
+            vec![Action::Failed { generation, error: "too large for a test\nin two lines".to_owned() }]
+        } else {
+            self.driver.answer(effect)
+        };
+        self.reports.extend(actions.iter().cloned());
+        actions.into_iter().for_each(|action| self.act(action));
+    }
+
+    /// Draws into a window of this size.
+    fn draw(&self, (columns, rows): (u16, u16)) {
+        let mut terminal = Terminal::new(TestBackend::new(columns, rows)).unwrap();
+        terminal.draw(|frame| view::draw(frame, &self.driver.model)).unwrap();
+    }
+
+    /// What holds whatever has happened.
+    fn judge(&mut self) {
+        let model = &self.driver.model;
+        assert!(model.generation >= self.judged, "generations only grow");
+        if model.generation > self.judged {
+            self.judged = model.generation;
+            let document = &model.document;
+            assert_eq!(check(document.scene()), []);
+            let again = Document::parse(document.text(), document.name()).expect("the text is a scene");
+            assert_eq!(again.scene(), document.scene());
+            assert_eq!(model.parameters, parameters(document));
+            assert!(model.refused.is_none(), "a changed scene is not refused");
+        }
+        assert!(model.selected < model.parameters.len());
+        assert!(model.refused.as_ref().is_none_or(|(row, _)| *row < model.parameters.len()));
+        assert!((0.0..=1.0).contains(&model.player.done), "{:?}", model.player);
+        assert!(model.indentation().is_finite());
+        if model.computed.as_ref().is_some_and(|computed| computed.generation == model.generation) {
+            assert!(model.player.leg < model.legs().len(), "{:?}", model.player);
+            assert!(!model.is_computing());
+        }
+        if let Mode::Edit(line) | Mode::SaveAs { line, .. } = &model.mode {
+            assert!(!line.text().contains(char::is_control));
+        }
+        self.draw(model.size);
+    }
+
+    /// Lets the worker catch up: what is shown is then what is explored, or it is told why not.
+    fn settle(&mut self) {
+        while !self.waiting.is_empty() {
+            self.answer();
+        }
+        let model = &self.driver.model;
+        assert!(!model.is_computing());
+        let current = |generation: u64| generation == model.generation;
+        if model.computed.as_ref().is_some_and(|computed| current(computed.generation)) {
+            assert!(model.moment.as_ref().is_some_and(|moment| current(moment.generation)));
+        } else {
+            assert!(
+                model.notice.is_some() || model.mode.kind() != asperity::explorer::model::ModeKind::Explore
+            );
+        }
+    }
+}
+
+#[test]
+fn whatever_happens_it_draws_and_its_scene_is_sound() {
+    within(60, || {
+        let scenes = scenes();
+        let cases = (0..scenes.len(), size(), prop::collection::vec(event(), 1..=LONGEST));
+        let mut runner = TestRunner::new(Config {
+            failure_persistence: None,
+            max_shrink_time: 20_000,
+            ..Config::with_cases(CASES)
+        });
+        let outcome = runner.run(&cases, |(scene, (columns, rows), events)| {
+            let mut explorer = Explorer::new(scenes[scene].clone());
+            explorer.act(Action::Resize(columns, rows));
+            for event in &events {
+                explorer.happen(event);
+            }
+            explorer.settle();
+            Ok(())
+        });
+        if let Err(failure) = outcome {
+            panic!("{failure}");
+        }
+    });
+}

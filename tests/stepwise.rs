@@ -1,0 +1,315 @@
+//! The stepwise solver against the exact one, and what each of them does, counted.
+
+use asperity::contact::{
+    ContactError, ContactTree, Direction, Foundation, GridEdges, HessRule, LegRecord, Solver, Stepwise, Work,
+    exact,
+};
+use asperity::scene::{Document, Leg};
+use asperity::simulation::{Outcome, Simulation};
+use asperity::surface::{SelfAffine, UnitRoughness};
+use proptest::prelude::*;
+use std::f64::consts::PI;
+
+const FOUNDATION: Foundation = Foundation { spacing: 0.01, effective_modulus: 1.0 };
+
+/// Gaps of a self-affine line about 1 m deep.
+fn rough(points: usize, seed: u64) -> Vec<f64> {
+    let spectrum = SelfAffine { hurst: 0.7, first: 1, last: points as u64 / 4 };
+    let heights = UnitRoughness::synthesize(spectrum, seed, points).unwrap().heights;
+    let summit = heights.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    heights.iter().map(|height| 0.2 * (summit - height)).collect()
+}
+
+fn stepwise(gaps: &[f64], hess: Option<HessRule>, step: f64) -> Stepwise<'_> {
+    Stepwise::new(gaps, hess, FOUNDATION, step, 64, &|| false).unwrap()
+}
+
+/// Runs legs with the stepwise solver and with the exact one.
+fn both(gaps: &[f64], work: f64, step: f64, legs: &[Leg]) -> [Vec<LegRecord>; 2] {
+    let hess = HessRule::new(FOUNDATION, work);
+    let tree = ContactTree::build(gaps).unwrap();
+    let mut exact = exact::adhesive(&tree, GridEdges::new(hess), FOUNDATION, 64).unwrap();
+    let mut stepwise = stepwise(gaps, (work > 0.0).then_some(hess), step);
+    let run = |solver: &mut dyn Solver| legs.iter().map(|&leg| solver.advance(leg).unwrap()).collect();
+    [run(&mut stepwise), run(&mut exact)]
+}
+
+/// Slope of ln(error) over ln(step) by least squares.
+fn observed_order(steps: &[f64], errors: &[f64]) -> f64 {
+    let mean = |values: &mut dyn Iterator<Item = f64>| values.sum::<f64>() / steps.len() as f64;
+    let x = mean(&mut steps.iter().map(|step| step.ln()));
+    let y = mean(&mut errors.iter().map(|error| error.ln()));
+    let pairs = || steps.iter().zip(errors).map(|(step, error)| (step.ln() - x, error.ln() - y));
+    pairs().map(|(a, b)| a * b).sum::<f64>() / pairs().map(|(a, _)| a * a).sum::<f64>()
+}
+
+#[test]
+fn pull_off_force_and_energy_converge_with_the_step() {
+    // One number of one line comes nearer by leaps; the mean error of several lines, evenly.
+    let lines: Vec<Vec<f64>> = (1..=12).map(|seed| rough(128, seed)).collect();
+    let legs = [Leg::ToIndentation(0.4), Leg::ToSeparation];
+    let steps: Vec<f64> = (0..7).map(|halvings| 0.02 * 0.5_f64.powi(halvings)).collect();
+    let mut force_errors = Vec::new();
+    let mut energy_errors = Vec::new();
+    for &step in &steps {
+        let (mut force_error, mut energy_error) = (0.0, 0.0);
+        for gaps in &lines {
+            let [found, expected] = both(gaps, 0.05, step, &legs);
+            let energy = |legs: &[LegRecord]| legs.iter().map(|leg| leg.dissipated_energy).sum::<f64>();
+            let force = |legs: &[LegRecord]| legs[1].smallest.force;
+            // A step may miss the smallest force; it cannot find a smaller one.
+            assert!(force(&found) >= force(&expected) && force(&expected) < 0.0);
+            force_error += (force(&found) / force(&expected) - 1.0).abs() / lines.len() as f64;
+            energy_error += (energy(&found) / energy(&expected) - 1.0).abs() / lines.len() as f64;
+        }
+        force_errors.push(force_error);
+        energy_errors.push(energy_error);
+    }
+    for (what, errors) in [("pull-off force", force_errors), ("dissipated energy", energy_errors)] {
+        let order = observed_order(&steps, &errors);
+        println!("{what}: errors {errors:?}, order {order:.2}");
+        assert!((0.8..=1.2).contains(&order), "{what}: order {order}, errors {errors:?}");
+        assert!(errors[steps.len() - 1] < 0.01, "{what}: {errors:?}");
+    }
+}
+
+#[test]
+fn contact_sets_on_the_way_converge_with_the_step() {
+    let gaps = rough(512, 5);
+    let hess = HessRule::new(FOUNDATION, 0.05);
+    let tree = ContactTree::build(&gaps).unwrap();
+    let steps: Vec<f64> = (0..7).map(|halvings| 0.02 * 0.5_f64.powi(halvings)).collect();
+    let mut differences = Vec::new();
+    for &step in &steps {
+        let mut exact = exact::adhesive(&tree, GridEdges::new(hess), FOUNDATION, 2).unwrap();
+        let mut stepwise = stepwise(&gaps, Some(hess), step);
+        let mut different = 0;
+        for leg in [Leg::ToIndentation(0.6), Leg::ToIndentation(-0.3)] {
+            exact.advance(leg).unwrap();
+            stepwise.advance(leg).unwrap();
+            for d in (0..60).map(|k| 0.6 - 0.9 / 59.0 * f64::from(k)) {
+                let held = |solver: &dyn Solver| {
+                    let mut held = vec![false; gaps.len()];
+                    for (first, last) in solver.fragments(d) {
+                        held[first..=last].fill(true);
+                    }
+                    held
+                };
+                different += held(&exact).iter().zip(held(&stepwise)).filter(|(a, b)| *a != b).count();
+            }
+        }
+        differences.push(different as f64);
+    }
+    let order = observed_order(&steps, &differences);
+    println!("springs that differ: {differences:?}, order {order:.2}");
+    assert!((0.8..=1.2).contains(&order), "order {order}, {differences:?}");
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 400, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn each_spring_joins_and_leaves_within_one_step_of_its_threshold(
+        seed in any::<u64>(),
+        points in 1_usize..120,
+        range in -5.0..1.0_f64,
+        step in 0.003..0.1_f64,
+        turns in prop::collection::vec(-0.5..1.0_f64, 1..7),
+    ) {
+        let gaps = rough(points.max(4), seed);
+        let hess = HessRule::new(FOUNDATION, 10_f64.powf(range));
+        let tree = ContactTree::build(&gaps).unwrap();
+        let mut exact = exact::adhesive(&tree, GridEdges::new(hess), FOUNDATION, 2).unwrap();
+        let mut stepwise = stepwise(&gaps, Some(hess), step);
+        let (mut found, mut expected) = (Vec::new(), Vec::new());
+        for leg in turns.into_iter().map(Leg::ToIndentation) {
+            let (one, other) = (stepwise.advance(leg).unwrap(), exact.advance(leg).unwrap());
+            // Where a leg ends, the step is forgotten: the same springs and, bit for bit, the same force.
+            prop_assert_eq!(one.curve.last(), other.curve.last());
+            prop_assert_eq!((one.joins, one.leaves), (other.joins, other.leaves));
+            prop_assert_eq!(one.direction, other.direction);
+            if other.curve.last().unwrap().springs == 0 && other.leaves == 0 {
+                continue;
+            }
+            stepwise.thresholds_along_line(&mut found);
+            exact.thresholds_along_line(&mut expected);
+            let moved = (other.start(), other.end());
+            let (low, high) = (moved.0.min(moved.1), moved.0.max(moved.1));
+            for (found, expected) in found.iter().zip(&expected) {
+                // The stepwise solver knows only what happens on the way.
+                let on_the_way = low < *expected && *expected <= high;
+                if on_the_way && found.is_finite() {
+                    let late = found - expected;
+                    prop_assert!((-1e-12..=step + 1e-12).contains(&late), "{} after {}", late, expected);
+                }
+                if other.direction == Direction::Loading {
+                    prop_assert_eq!(found.is_finite() || *found < 0.0, *expected <= high);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_refused_leg_leaves_the_body_where_it_stood(
+        seed in any::<u64>(),
+        range in -4.0..0.0_f64,
+        to in 0.0..0.5_f64,
+        back in -0.1..0.5_f64,
+    ) {
+        let gaps = rough(32, seed);
+        let hess = HessRule::new(FOUNDATION, 10_f64.powf(range));
+        let (mut asked, mut spared) = (stepwise(&gaps, Some(hess), 0.01), stepwise(&gaps, Some(hess), 0.01));
+        for leg in [to, back].map(Leg::ToIndentation).into_iter().chain([Leg::ToSeparation]) {
+            let (one, other) = (asked.advance(leg).unwrap(), spared.advance(leg).unwrap());
+            prop_assert_eq!(one, other, "{:?} after a refused leg", leg);
+            let refused = asked.advance(Leg::ToForce(-1e30));
+            let because = matches!(
+                refused,
+                Err(ContactError::LetsGoBefore { .. } | ContactError::NothingToPull { .. })
+            );
+            prop_assert!(because);
+        }
+    }
+
+    #[test]
+    fn legs_without_motion_are_told_alike(seed in any::<u64>(), to in 0.0..0.5_f64, below in 0.1..1.0_f64) {
+        let gaps = rough(32, seed);
+        let legs = [
+            Leg::ToSeparation,
+            Leg::ToIndentation(-below),
+            Leg::ToIndentation(-below),
+            Leg::ToIndentation(-0.5 * below),
+            Leg::ToIndentation(to),
+            Leg::ToIndentation(to),
+            Leg::ToSeparation,
+            Leg::ToSeparation,
+        ];
+        let [found, expected] = both(&gaps, 0.01, 0.01, &legs);
+        for (index, (one, other)) in found.iter().zip(&expected).enumerate() {
+            prop_assert_eq!(one.direction, other.direction, "{} {:?}", index, one.leg);
+            if ![4, 6].contains(&index) {
+                prop_assert_eq!(one.curve.len(), other.curve.len());
+                prop_assert_eq!((one.largest.force, one.smallest.force), (other.largest.force, other.smallest.force));
+            }
+        }
+    }
+}
+
+#[test]
+fn one_spring_has_a_closed_form() {
+    // Touches at d = 0 and lets go at d = −√(πΔxγ/E*).
+    let work = 0.3;
+    let stretch = (PI * FOUNDATION.spacing * work / FOUNDATION.effective_modulus).sqrt();
+    let legs = [Leg::ToIndentation(0.1), Leg::ToSeparation];
+    for step in [0.03, 0.003, 0.000_3] {
+        let [found, expected] = both(&[0.0], work, step, &legs);
+        for (records, allowed) in [(&found, step), (&expected, 1e-15)] {
+            assert_eq!(records[0].largest.force, 0.1 * FOUNDATION.spring_stiffness());
+            let late = records[1].smallest.indentation + stretch;
+            assert!((0.0..=allowed).contains(&late), "step {step}: let go {late} early");
+            let smallest = FOUNDATION.spring_stiffness() * records[1].smallest.indentation;
+            assert!((records[1].smallest.force - smallest).abs() < 1e-17);
+            assert_eq!(records.iter().map(|leg| leg.joins + leg.leaves).sum::<u64>(), 2);
+            let lost = 0.5 * FOUNDATION.spring_stiffness() * stretch * stretch;
+            let slack = FOUNDATION.spring_stiffness() * (stretch + allowed) * allowed;
+            assert!((records[1].dissipated_energy - lost).abs() <= slack, "step {step}");
+        }
+    }
+    // Without adhesion nothing is held or lost.
+    for records in both(&[0.0], 0.0, 0.003, &legs) {
+        assert_eq!((records[1].smallest.force, records[1].dissipated_energy), (0.0, 0.0));
+    }
+}
+
+#[test]
+fn it_gives_up_when_told_to_or_when_steps_are_too_many() {
+    let gaps = rough(16, 1);
+    let stop = || true;
+    let mut solver = Stepwise::new(&gaps, None, FOUNDATION, 0.01, 9, &stop).unwrap();
+    assert_eq!(solver.advance(Leg::ToIndentation(1.0)), Err(ContactError::Interrupted));
+    let single = [0.0];
+    let mut solver = stepwise(&single, None, 1e-9);
+    let refused = solver.advance(Leg::ToIndentation(1.0));
+    let limit = asperity::contact::stepwise::STEP_LIMIT;
+    assert_eq!(refused, Err(ContactError::TooManySteps { index: 0, step: 1e-9, limit }));
+}
+
+/// A rough rubber face; each scene of these tests differs from it by its overrides.
+const SCENE: &str = r#"(
+    version: 1,
+    material: (youngs_modulus: 2.0e6, poisson_ratio: 0.5),
+    length: 1.0e-4,
+    roughness: SelfAffine(hurst: 0.7, rms_height: 2.0e-7, modes: (1, 64), seed: 1),
+    adhesion: (kappa: 2.2),
+    loading: [ToForce(2.0e-5), ToSeparation],
+    numerics: (points: 1024, solver: Exact, edges: Grid, samples: 64),
+)"#;
+
+fn outcome(overrides: &[(&str, &str)]) -> Outcome {
+    let overrides: Vec<_> =
+        overrides.iter().map(|&(path, value)| (path.to_string(), value.to_string())).collect();
+    let document = Document::parse(SCENE, "scene").unwrap().set_all(&overrides).unwrap();
+    Simulation::default().run(document.scene(), &|| false, &mut |_, _, _| Ok(())).unwrap()
+}
+
+fn work(overrides: &[(&str, &str)]) -> Work {
+    outcome(overrides).history.work
+}
+
+const STEPS: (&str, &str) = ("numerics.solver", "Stepwise(step: 2.0e-9)");
+const BARE: (&str, &str) = ("adhesion", "None");
+
+#[test]
+fn work_is_what_it_was() {
+    let smooth =
+        [("roughness", "None"), ("form", "Paraboloid(radius: 1.0e-4)"), ("adhesion", "(work: 0.05)")];
+    let scenes: [(&str, &[(&str, &str)]); 8] = [
+        ("exact", &[]),
+        ("exact, no adhesion", &[BARE]),
+        ("exact, loading only", &[("loading", "[ToForce(2.0e-5)]")]),
+        ("exact, smooth sphere", &smooth),
+        ("exact, minor loops", &[("loading", MINOR_LOOPS)]),
+        ("stepwise", &[STEPS]),
+        ("stepwise, no adhesion", &[STEPS, BARE]),
+        ("stepwise, minor loops", &[STEPS, ("loading", MINOR_LOOPS)]),
+    ];
+    let works: Vec<_> = scenes.iter().map(|&(name, overrides)| (name, work(overrides))).collect();
+    insta::assert_debug_snapshot!(works);
+}
+
+const MINOR_LOOPS: &str = "[ToForce(2.0e-5), ToZeroForce, ToForce(1.0e-5), ToIndentation(1.0e-7), ToTouch, \
+                           ToForce(3.0e-5), ToSeparation]";
+
+#[test]
+fn nothing_is_done_that_a_scene_does_not_call_for() {
+    for solver in [("numerics.solver", "Exact"), STEPS] {
+        let whole = work(&[solver]);
+        assert!(whole.hess_evaluations > 0 || solver == STEPS);
+        assert_eq!((whole.random_phases, whole.transforms, whole.heights_binned), (64, 1, 0));
+
+        let bare = work(&[solver, BARE]);
+        assert_eq!((bare.hess_evaluations, bare.tree_nodes), (0, 0));
+        assert_eq!((bare.loading_passes, bare.unloading_passes), (0, 0));
+        // A work of zero is no adhesion either.
+        assert_eq!(work(&[solver, ("adhesion", "(work: 0.0)")]), bare);
+
+        let loading =
+            work(&[solver, ("loading", "[ToForce(1.0e-5), ToForce(2.0e-5), ToIndentation(1.0e-6)]")]);
+        assert_eq!((loading.unloading_passes, loading.leaves), (0, 0));
+        assert!(loading.joins > 0);
+
+        let smooth = [solver, ("roughness", "None"), ("adhesion", "(work: 0.05)")];
+        let smooth = work(&smooth);
+        assert_eq!((smooth.random_phases, smooth.transforms), (0, 0));
+
+        let observed = outcome(&[solver, ("observe", "[HeightHistogram]")]);
+        assert_eq!(observed.history.work, Work { heights_binned: 1024, ..whole });
+        assert_eq!(observed.histogram.unwrap().total(), 1024);
+    }
+    let exact = work(&[]);
+    assert_eq!((exact.steps, exact.relaxation_sweeps, exact.spring_updates), (0, 0, 0));
+    assert_eq!((exact.tree_nodes, exact.loading_passes, exact.unloading_passes), (1024, 1, 1));
+    let stepwise = work(&[STEPS]);
+    assert_eq!((stepwise.tree_nodes, stepwise.loading_passes, stepwise.unloading_passes), (0, 0, 0));
+    assert_eq!((stepwise.springs_tallied, stepwise.events_sorted), (0, 0));
+}
