@@ -14,7 +14,7 @@ use asperity::explorer::keys::{self, BINDINGS};
 use asperity::explorer::layout::Layout;
 use asperity::explorer::model::{Mode, ModeKind, Model, Notice, Pane};
 use asperity::explorer::theme::Theme;
-use asperity::explorer::update::Effect;
+use asperity::explorer::update::{Effect, update};
 use asperity::explorer::worker::Engine;
 use asperity::scene::{Document, Leg, Scene, format_quantity, open, presets};
 use asperity::simulation::{AfterLeg, Outcome, RunError, Simulation};
@@ -486,6 +486,26 @@ fn what_is_typed_can_be_edited_pasted_and_left() {
 }
 
 #[test]
+fn what_is_chosen_and_typed_is_seen_in_the_smallest_window() {
+    within(30, || {
+        for size in SIZES {
+            for pane in ["", "Tab", "Tab Tab", "Tab Tab Tab"] {
+                for zoom in ["", "z"] {
+                    let mut driver = pressed(pane);
+                    driver.resize(size);
+                    driver.press(zoom);
+                    driver.press("j");
+                    assert!(driver.text().contains('›'), "{size:?} {pane} {zoom}\n{}", driver.text());
+                    driver.press("Tab e Ctrl+u");
+                    driver.type_text("31415");
+                    assert!(driver.text().contains("31415"), "{size:?} {pane} {zoom}\n{}", driver.text());
+                }
+            }
+        }
+    });
+}
+
+#[test]
 fn the_cursor_of_what_is_typed_is_on_the_screen() {
     within(30, || {
         let long =
@@ -737,6 +757,21 @@ fn a_scene_that_ends_in_separation_is_shown_separated() {
 }
 
 #[test]
+fn nothing_is_played_while_there_is_no_curve() {
+    within(30, || {
+        let mut driver = pressed("");
+        driver.select("loading");
+        driver.enter("[ToForce(2.0e-5), ToForce(-1.0)]");
+        driver.press("r");
+        for _ in 0..3 {
+            assert!(driver.elapse(0.1).is_empty(), "that of another scene is not played");
+        }
+        driver.press("u");
+        assert_eq!(driver.elapse(0.1), [Effect::Show]);
+    });
+}
+
+#[test]
 fn the_animation_is_paused_stepped_and_begun_again() {
     within(30, || {
         let mut driver = Driver::start(rough());
@@ -819,6 +854,24 @@ fn the_close_up_goes_round_all_fragments() {
                 assert_eq!(seen, (0..count).collect::<Vec<_>>(), "{key}");
             }
         }
+    });
+}
+
+#[test]
+fn a_moment_on_its_way_does_not_take_the_chosen_fragment_away() {
+    within(30, || {
+        let mut driver = pressed("f");
+        let number = |driver: &Driver| driver.model.moment.as_ref().unwrap().close_up.fragment.unwrap().number;
+        let before = driver.model.moment.clone().unwrap();
+        let first = number(&driver);
+        // The fragment is asked for while the animation has asked for a moment just before.
+        let effects = update(&mut driver.model, Action::Command(Command::Fragment(1)));
+        assert_eq!(effects, [Effect::Show]);
+        driver.act(Action::Shown(before));
+        driver.perform(effects);
+        assert_eq!(number(&driver), first + 1);
+        driver.press(". ,");
+        assert_eq!(number(&driver), first + 1);
     });
 }
 

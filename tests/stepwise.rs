@@ -73,32 +73,37 @@ fn pull_off_force_and_energy_converge_with_the_step() {
     }
 }
 
+/// Which springs are in contact at an indentation of the present leg.
+fn held(solver: &dyn Solver, springs: usize, d: f64) -> Vec<bool> {
+    let mut held = vec![false; springs];
+    for (first, last) in solver.fragments(d) {
+        held[first..=last].fill(true);
+    }
+    held
+}
+
 #[test]
 fn contact_sets_on_the_way_converge_with_the_step() {
-    let gaps = rough(512, 5);
-    let hess = HessRule::new(FOUNDATION, 0.05);
-    let tree = ContactTree::build(&gaps).unwrap();
     let steps: Vec<f64> = (0..7).map(|halvings| 0.02 * 0.5_f64.powi(halvings)).collect();
-    let mut differences = Vec::new();
-    for &step in &steps {
-        let mut exact = exact::adhesive(&tree, GridEdges::new(hess), FOUNDATION, 2).unwrap();
-        let mut stepwise = stepwise(&gaps, Some(hess), step);
-        let mut different = 0;
-        for leg in [Leg::ToIndentation(0.6), Leg::ToIndentation(-0.3)] {
-            exact.advance(leg).unwrap();
-            stepwise.advance(leg).unwrap();
-            for d in (0..60).map(|k| 0.6 - 0.9 / 59.0 * f64::from(k)) {
-                let held = |solver: &dyn Solver| {
-                    let mut held = vec![false; gaps.len()];
-                    for (first, last) in solver.fragments(d) {
-                        held[first..=last].fill(true);
-                    }
-                    held
-                };
-                different += held(&exact).iter().zip(held(&stepwise)).filter(|(a, b)| *a != b).count();
+    let mut differences = vec![0.0; steps.len()];
+    for gaps in (1..=12).map(|seed| rough(128, seed)) {
+        let hess = HessRule::new(FOUNDATION, 0.05);
+        let tree = ContactTree::build(&gaps).unwrap();
+        for (&step, differences) in steps.iter().zip(&mut differences) {
+            let mut exact = exact::adhesive(&tree, GridEdges::new(hess), FOUNDATION, 2).unwrap();
+            let mut stepwise = stepwise(&gaps, Some(hess), step);
+            for (leg, from, to) in
+                [(Leg::ToIndentation(0.6), 0.0, 0.6), (Leg::ToIndentation(-0.3), 0.6, -0.3)]
+            {
+                exact.advance(leg).unwrap();
+                stepwise.advance(leg).unwrap();
+                for share in (1..1000).map(|k| (f64::from(k) * 0.618_033_988_75).fract()) {
+                    let d = from + share * (to - from);
+                    let (one, other) = (held(&stepwise, gaps.len(), d), held(&exact, gaps.len(), d));
+                    *differences += one.iter().zip(&other).filter(|(one, other)| one != other).count() as f64;
+                }
             }
         }
-        differences.push(different as f64);
     }
     let order = observed_order(&steps, &differences);
     println!("springs that differ: {differences:?}, order {order:.2}");
@@ -240,7 +245,7 @@ const SCENE: &str = r#"(
     material: (youngs_modulus: 2.0e6, poisson_ratio: 0.5),
     length: 1.0e-4,
     roughness: SelfAffine(hurst: 0.7, rms_height: 2.0e-7, modes: (1, 64), seed: 1),
-    adhesion: (kappa: 2.2),
+    adhesion: (kappa: 5.0),
     loading: [ToForce(2.0e-5), ToSeparation],
     numerics: (points: 1024, solver: Exact, edges: Grid, samples: 64),
 )"#;

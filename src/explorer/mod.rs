@@ -25,6 +25,7 @@ use model::Model;
 use ratatui::Terminal;
 use ratatui::backend::CrosstermBackend;
 use std::io::{self, Write};
+use std::mem::ManuallyDrop;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::AtomicU64;
@@ -67,9 +68,15 @@ pub fn open_with(document: Document, engine: Box<dyn Engine>) -> io::Result<Docu
     worker::start(engine, Arc::clone(&newest), outbox, move |report| {
         reports.send(Message::Report(report)).is_ok()
     })?;
+    terminal::watch_for_hang_up({
+        let messages = messages.clone();
+        move || drop(messages.send(Message::InputEnded))
+    })?;
     read_input(messages)?;
     let worker = Worker::new(requests, newest);
-    let mut terminal = Terminal::new(CrosstermBackend::new(FrameWriter::new()))?;
+    // The guard gives everything back; ratatui's own drop would complain on standard error, and panic
+    // where that is gone together with the terminal.
+    let mut terminal = ManuallyDrop::new(Terminal::new(CrosstermBackend::new(FrameWriter::new()))?);
     let size = terminal.size()?;
     let model = Model::new(document, (size.width, size.height), Theme::of_environment());
     let model = explore(&mut terminal, model, &worker, &inbox)?;

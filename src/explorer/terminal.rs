@@ -52,6 +52,39 @@ fn give_back() -> io::Result<()> {
     raw
 }
 
+/// Calls `gone` when the terminal hangs up.
+///
+/// The signal that tells of it may be ignored (`nohup`), and crossterm then reads the end of its input
+/// for ever, at full speed. A thread that waits for nothing but the hang-up costs nothing.
+///
+/// # Errors
+/// When the system gives no thread.
+#[cfg(unix)]
+pub fn watch_for_hang_up(gone: impl FnOnce() + Send + 'static) -> io::Result<()> {
+    use rustix::event::{PollFd, PollFlags, poll};
+    std::thread::Builder::new()
+        .name("hang-up".to_owned())
+        .spawn(move || {
+            let input = rustix::stdio::stdin();
+            loop {
+                let mut waited = [PollFd::new(&input, PollFlags::empty())];
+                match poll(&mut waited, None) {
+                    Err(rustix::io::Errno::INTR) => {}
+                    Err(_) => return,
+                    Ok(_) if waited[0].revents().is_empty() => {}
+                    Ok(_) => return gone(),
+                }
+            }
+        })
+        .map(drop)
+}
+
+/// Elsewhere the end of input is an error of its own.
+#[cfg(not(unix))]
+pub fn watch_for_hang_up(_: impl FnOnce() + Send + 'static) -> io::Result<()> {
+    Ok(())
+}
+
 /// Collects a whole frame and writes it at once, as a synchronized update. Nothing drawn, nothing
 /// written.
 pub struct FrameWriter {

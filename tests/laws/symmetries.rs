@@ -2,10 +2,11 @@
 
 use super::*;
 
-/// All numbers of a leg, bit for bit, and its energy.
-fn leg_bits(record: &LegRecord) -> (Vec<[u64; 4]>, [[u64; 4]; 2], [u64; 2], u64) {
-    let ends = [bits(&record.largest), bits(&record.smallest)];
-    (curve_bits(record), ends, [record.joins, record.leaves], (record.dissipated_energy + 0.0).to_bits())
+/// All numbers of a leg, bit for bit; energies of 0 and −0 are the same.
+fn leg_bits(record: &LegRecord) -> Vec<u64> {
+    let points = record.curve.iter().chain([&record.largest, &record.smallest]);
+    let energy = (record.dissipated_energy + 0.0).to_bits();
+    points.flat_map(bits).chain([record.joins, record.leaves, energy]).collect()
 }
 
 fn scaled(point: &CurvePoint, length: f64, force: f64) -> [u64; 4] {

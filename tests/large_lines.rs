@@ -1,0 +1,158 @@
+//! A million springs in the shapes that are hardest on a tree: it becomes a chain, all gaps tie, or
+//! every fragment is like every other. All have answers that are known.
+
+use asperity::contact::{ContactTree, CurvePoint, Foundation, GridEdges, HessRule, LegRecord, Solver, exact};
+use asperity::scene::Leg;
+use std::f64::consts::PI;
+
+const SPRINGS: usize = 1 << 20;
+
+/// A line of 1 m with E* = 1 Pa.
+fn foundation(springs: usize) -> Foundation {
+    Foundation { spacing: 1.0 / springs as f64, effective_modulus: 1.0 }
+}
+
+/// The legs of a line on springs of this foundation, with the fragments in contact after the first.
+fn legs(gaps: &[f64], foundation: Foundation, work: f64, deepest: f64) -> ([LegRecord; 2], usize) {
+    let tree = ContactTree::build(gaps).unwrap();
+    assert_eq!(tree.len(), gaps.len());
+    let rule = GridEdges::new(HessRule::new(foundation, work));
+    let mut solver = exact::adhesive(&tree, rule, foundation, 64).unwrap();
+    let loading = solver.advance(Leg::ToIndentation(deepest)).unwrap();
+    let fragments = solver.fragments(deepest).len();
+    let unloading = solver.advance(Leg::ToSeparation).unwrap();
+    assert_eq!((loading.joins, unloading.joins), (unloading.leaves, 0));
+    ([loading, unloading], fragments)
+}
+
+fn near(found: f64, expected: f64, relative: f64) {
+    assert!((found - expected).abs() <= relative * expected.abs(), "{found} against {expected}");
+}
+
+#[test]
+fn a_flat_line_is_kendalls_punch() {
+    let work = 0.3;
+    let ([loading, unloading], fragments) = legs(&vec![0.0; SPRINGS], foundation(SPRINGS), work, 0.1);
+    let stretch = (PI * work).sqrt();
+    assert_eq!((loading.joins, fragments), (SPRINGS as u64, 1));
+    near(loading.largest.force, 0.1, 1e-15);
+    near(unloading.smallest.force, -stretch, 1e-14);
+    near(unloading.end(), -stretch, 1e-14);
+    near(unloading.dissipated_energy, 0.5 * stretch * stretch, 1e-14);
+    assert_eq!(loading.dissipated_energy, 0.0);
+}
+
+#[test]
+fn a_ramp_is_a_wedge_that_peels_from_one_side() {
+    // c = mx, one fragment [0, a]: d(a) = ma − √(πaγ/E*), F = E*(d a − m a²/2).
+    let (slope, work, deepest) = (1.0, 0.01, 0.5);
+    let indentation = |a: f64| slope * a - (PI * a * work).sqrt();
+    let force = |a: f64| indentation(a) * a - 0.5 * slope * a * a;
+    // dd/da = 0 where it lets go; dF/da = 0 where the force is smallest.
+    let last = PI * work / (4.0 * slope * slope);
+    let smallest = 9.0 * PI * work / (4.0 * slope * slope);
+    let rising: Vec<f64> = (0..SPRINGS).map(|i| slope * i as f64 / SPRINGS as f64).collect();
+    let falling: Vec<f64> = rising.iter().rev().copied().collect();
+    let (one, fragments) = legs(&rising, foundation(SPRINGS), work, deepest);
+    let (other, fragments_of_other) = legs(&falling, foundation(SPRINGS), work, deepest);
+    assert_eq!((fragments, fragments_of_other), (1, 1));
+    for (one, other) in one.iter().zip(&other) {
+        assert_eq!(one.curve, other.curve);
+        assert_eq!((one.largest, one.smallest), (other.largest, other.smallest));
+        near(one.dissipated_energy, other.dissipated_energy, 1e-12);
+    }
+    let [_, unloading] = &one;
+    near(unloading.smallest.force, force(smallest), 1e-4);
+    near(unloading.smallest.indentation, indentation(smallest), 1e-2);
+    near(unloading.end(), indentation(last), 3e-4);
+    for point in one.iter().flat_map(|leg| &leg.curve).filter(|point| point.springs > 0) {
+        // Each point of the curve has the length at which the rule of Hess just holds.
+        let length = point.springs as f64 / SPRINGS as f64;
+        assert!((point.indentation - indentation(length)).abs() < 1e-5, "{point:?}");
+        assert!((point.force - force(length)).abs() < 1e-5, "{point:?}");
+    }
+}
+
+#[test]
+fn a_staircase_goes_down_step_by_step() {
+    // 1024 treads of 1024 springs. A tread touches or leaves at once, so every state is the first k
+    // treads, held to c_k − √(π k γ/(1024 E*)) where c_k is the deepest of them.
+    let treads = 1024;
+    let rise = 1.0 / treads as f64;
+    let work = 0.02;
+    let gaps: Vec<f64> = (0..SPRINGS).map(|i| rise * (i / (SPRINGS / treads)) as f64).collect();
+    let ([loading, unloading], fragments) = legs(&gaps, foundation(SPRINGS), work, 0.5);
+    assert_eq!(fragments, 1);
+    let stretch = |treads_held: usize| (PI * work * treads_held as f64 / treads as f64).sqrt();
+    let gap = |tread: usize| rise * tread as f64;
+    // Tread k is taken in by the k before it where d ≥ c_k − Δl(k); what comes before follows first.
+    let mut joins_at = vec![0.0_f64];
+    for tread in 1..treads {
+        let taken_in = joins_at[tread - 1].max(gap(tread) - stretch(tread));
+        joins_at.push(taken_in.min(gap(tread)));
+    }
+    let held_to = |count: usize| gap(count - 1) - stretch(count);
+    let expect = |point: &CurvePoint, count: usize| {
+        assert_eq!(point.springs, (count * SPRINGS / treads) as u64, "at {}", point.indentation);
+        let sum: f64 = (0..count).map(|tread| point.indentation - gap(tread)).sum();
+        assert!((point.force - rise * sum).abs() < 1e-12, "{} against {}", point.force, rise * sum);
+    };
+    for point in loading.curve.iter().filter(|point| point.springs > 0) {
+        expect(point, joins_at.partition_point(|&at| at <= point.indentation));
+    }
+    // On the way back the count falls while the outermost tread of what is left is not held.
+    let mut count = (loading.joins as usize) / (SPRINGS / treads);
+    for point in unloading.curve.iter().filter(|point| point.springs > 0) {
+        while held_to(count) > point.indentation + 1e-12 && gap(count - 1) > point.indentation {
+            count -= 1;
+        }
+        expect(point, count);
+    }
+    assert!(count > 1, "it lets go with {count} treads at once");
+}
+
+#[test]
+fn teeth_that_do_not_know_of_each_other_add_up() {
+    // 2^14 equal teeth of 64 springs, pressed so little that none reaches the next.
+    let (teeth, springs_each) = (SPRINGS / 64, 64);
+    let rise = 1.0 / SPRINGS as f64;
+    let tooth: Vec<f64> = (0..springs_each).map(|i| 64.0 * rise * i as f64).collect();
+    let comb: Vec<f64> = tooth.iter().copied().cycle().take(SPRINGS).collect();
+    let work = 40.0 * rise;
+    let deepest = 1000.0 * rise;
+    let (whole, fragments) = legs(&comb, foundation(SPRINGS), work, deepest);
+    let (single, _) = legs(&tooth, foundation(SPRINGS), work, deepest);
+    assert!(single[0].joins < springs_each as u64 - 1, "a tooth touches the next");
+    assert_eq!(fragments, teeth);
+    // A power of two of equal sums: bit for bit.
+    let times = |point: &CurvePoint| CurvePoint {
+        force: teeth as f64 * point.force,
+        springs: teeth as u64 * point.springs,
+        fragments: teeth as u64 * point.fragments,
+        ..*point
+    };
+    for (whole, single) in whole.iter().zip(&single) {
+        let expected: Vec<CurvePoint> = single.curve.iter().map(times).collect();
+        assert_eq!(whole.curve, expected);
+        assert_eq!(whole.smallest, times(&single.smallest));
+        assert_eq!(whole.joins, teeth as u64 * single.joins);
+        near(whole.dissipated_energy, teeth as f64 * single.dissipated_energy, 1e-12);
+    }
+    assert!(whole[1].smallest.force < 0.0);
+}
+
+#[test]
+fn teeth_pressed_together_are_one_fragment() {
+    let rise = 1.0 / SPRINGS as f64;
+    let comb: Vec<f64> = (0..SPRINGS).map(|i| 64.0 * rise * (i % 64) as f64).collect();
+    let deepest = 64.0 * 64.0 * rise;
+    let work = 0.5;
+    let ([loading, unloading], fragments) = legs(&comb, foundation(SPRINGS), work, deepest);
+    assert_eq!((loading.joins, fragments), (SPRINGS as u64, 1));
+    // It holds as one face until its deepest springs leave, all at once and everything with them.
+    let lets_go = 63.0 * 64.0 * rise - (PI * work).sqrt();
+    near(unloading.end(), lets_go, 1e-14);
+    near(unloading.smallest.indentation, lets_go, 1e-14);
+    near(unloading.smallest.force, lets_go - 31.5 * 64.0 * rise, 1e-12);
+    assert_eq!(unloading.curve[unloading.curve.len() - 2].springs, SPRINGS as u64);
+}

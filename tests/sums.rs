@@ -1,0 +1,203 @@
+//! Sums of gaps and forces against exact arithmetic: the documented bound holds also where nearly all
+//! of a force cancels, and no order of the springs shows.
+
+use asperity::contact::{ContactTree, Foundation, GapScale, GridEdges, HessRule, Solver, Tally, exact};
+use asperity::scene::Leg;
+use dashu_float::{FBig, round::mode::HalfEven};
+use proptest::prelude::*;
+
+/// A binary number without a limit to its digits: sums and products are exact.
+type Unrounded = FBig<HalfEven, 2>;
+
+fn unrounded(value: f64) -> Unrounded {
+    Unrounded::try_from(value).unwrap().with_precision(0).value()
+}
+
+/// Unit roundoff u = 2⁻⁵³.
+const UNIT_ROUNDOFF: f64 = 0.5 * f64::EPSILON;
+
+fn scale_of(gaps: &[f64]) -> GapScale {
+    GapScale::for_gaps_up_to(gaps.iter().copied().fold(0.0, f64::max))
+}
+
+fn tally(gaps: &[f64], scale: &GapScale) -> Tally {
+    let mut tally = Tally::default();
+    for &gap in gaps {
+        tally += Tally { springs: 1, fragments: 0, quanta: i128::from(scale.quanta(gap)) };
+    }
+    tally
+}
+
+/// Σ c, exactly.
+fn sum(gaps: &[f64]) -> Unrounded {
+    gaps.iter().fold(Unrounded::ZERO, |sum, &gap| sum + unrounded(gap))
+}
+
+/// Σ (d − c), exactly, of so many springs with this sum of gaps.
+fn compression(springs: usize, sum: &Unrounded, d: f64) -> Unrounded {
+    unrounded(springs as f64) * unrounded(d) - sum
+}
+
+fn magnitude(value: Unrounded) -> Unrounded {
+    if value < Unrounded::ZERO { -value } else { value }
+}
+
+/// What [`Tally::compression`] promises: 2u |result| + n 2^(e − 62), a quantum for each gap.
+fn bound(exact: &Unrounded, springs: usize, scale: &GapScale) -> Unrounded {
+    unrounded(2.0 * UNIT_ROUNDOFF) * magnitude(exact.clone())
+        + unrounded(springs as f64) * unrounded(scale.quantum())
+}
+
+/// Whether the compressions of these gaps are within their bound, at these indentations and where the
+/// gaps nearly balance; tells what is not.
+fn check(gaps: &[f64], indentations: &[f64]) -> Result<(), String> {
+    let scale = scale_of(gaps);
+    let (tally, sum) = (tally(gaps, &scale), sum(gaps));
+    let balances = [-3, -1, 0, 1, 2].map(|places| balance(gaps.len(), &sum, places));
+    for &d in indentations.iter().chain(&balances) {
+        let found = tally.compression(d, &scale);
+        let exact = compression(gaps.len(), &sum, d);
+        let error = magnitude(unrounded(found) - exact.clone());
+        if error > bound(&exact, gaps.len(), &scale) {
+            let [exact, error] = [exact, error].map(|value| value.to_f64().value());
+            return Err(format!("at {d:e}: {found:e} against {exact:e}, error {error:e}"));
+        }
+    }
+    Ok(())
+}
+
+/// An indentation at which these gaps nearly balance: their mean, rounded, and so many places beside.
+fn balance(springs: usize, sum: &Unrounded, places: i64) -> f64 {
+    let mean = (sum.clone().with_precision(200).value() / Unrounded::from(springs)).to_f64().value();
+    f64::from_bits(mean.to_bits().saturating_add_signed(places))
+}
+
+fn shuffled(gaps: &[f64], mut state: u64) -> Vec<f64> {
+    let mut gaps = gaps.to_vec();
+    for last in (1..gaps.len()).rev() {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+        gaps.swap(last, (state >> 33) as usize % (last + 1));
+    }
+    gaps
+}
+
+/// Gaps of one size, of all sizes, and on a large offset with differences in the last places.
+fn gaps(most: usize) -> impl Strategy<Value = Vec<f64>> {
+    let alike = (-150.0..150.0_f64, prop::collection::vec(0.0..1.0_f64, 1..most))
+        .prop_map(|(power, gaps)| gaps.iter().map(|gap| gap * 10_f64.powf(power)).collect());
+    let all_sizes = prop::collection::vec(-40.0..0.0_f64, 1..most)
+        .prop_map(|powers| powers.iter().map(|power| 10_f64.powf(*power)).collect());
+    let offset =
+        (0.5..2.0_f64, prop::collection::vec(0_u64..1 << 20, 1..most)).prop_map(|(offset, places)| {
+            places.iter().map(|place| f64::from_bits(offset.to_bits() + place)).collect::<Vec<f64>>()
+        });
+    prop_oneof![alike, all_sizes, offset]
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 600, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn compressions_keep_their_bound(gaps in gaps(600), share in -3.0..3.0_f64) {
+        let largest = gaps.iter().copied().fold(0.0, f64::max);
+        check(&gaps, &[share * largest, 0.0, 1e12 * largest, -largest]).map_err(TestCaseError::fail)?;
+    }
+
+    #[test]
+    fn the_indentation_of_a_compression_gives_that_compression(
+        gaps in gaps(300),
+        share in -3.0..3.0_f64,
+        places in -3_i64..4,
+    ) {
+        let scale = scale_of(&gaps);
+        let tally = tally(&gaps, &scale);
+        let largest = gaps.iter().copied().fold(0.0, f64::max);
+        for d in [share * largest, balance(gaps.len(), &sum(&gaps), places)] {
+            let wanted = tally.compression(d, &scale);
+            let found = tally.indentation(wanted, &scale).unwrap();
+            // Three roundings: of the sums, and of the quotient.
+            let size = d.abs() + found.abs() + wanted.abs() / gaps.len() as f64;
+            prop_assert!((found - d).abs() <= 3.0 * UNIT_ROUNDOFF * size + 2.0 * scale.quantum(),
+                "{} against {}", found, d);
+        }
+        prop_assert_eq!(Tally::default().indentation(share, &scale), None);
+    }
+
+    #[test]
+    fn no_order_shows(gaps in gaps(600), seed in any::<u64>(), share in 0.0..1.5_f64) {
+        let scale = scale_of(&gaps);
+        let other = shuffled(&gaps, seed);
+        prop_assert_eq!(tally(&gaps, &scale), tally(&other, &scale));
+        // Without adhesion a force does not depend on where the springs stand.
+        let lowest = gaps.iter().copied().fold(f64::INFINITY, f64::min);
+        let largest = gaps.iter().copied().fold(0.0, f64::max);
+        let forces = [gaps, other].map(|gaps| {
+            let gaps: Vec<f64> = gaps.iter().map(|gap| gap - lowest).collect();
+            let foundation = Foundation { spacing: 1e-3, effective_modulus: 3.0 };
+            let mut solver = exact::bare(&gaps, foundation, 40);
+            let leg = solver.advance(Leg::ToIndentation(share * (largest - lowest))).unwrap();
+            leg.curve.iter().map(|point| (point.force.to_bits(), point.springs)).collect::<Vec<_>>()
+        });
+        prop_assert_eq!(&forces[0], &forces[1]);
+    }
+
+    #[test]
+    fn quanta_are_rounded_down(largest in (-307.0..300.0_f64).prop_map(|p| 10_f64.powf(p)), share in 0.0..=1.0_f64) {
+        let scale = GapScale::for_gaps_up_to(largest);
+        for gap in [largest, share * largest, 0.0] {
+            let quanta = scale.quanta(gap);
+            prop_assert!((0..1_i64 << 62).contains(&quanta));
+            let left = unrounded(gap) - Unrounded::from(quanta) * unrounded(scale.quantum());
+            prop_assert!(left >= Unrounded::ZERO && left < unrounded(scale.quantum()), "{} of {}", gap, largest);
+        }
+    }
+}
+
+/// 2^20 numbers in [0, 1) without a pattern.
+fn noise() -> Vec<f64> {
+    (1..=1_u32 << 20).map(|k| (f64::from(k) * 0.618_033_988_749_894_9).fract()).collect()
+}
+
+#[test]
+fn a_million_terms_keep_the_bound() {
+    let noise = noise();
+    let offset = noise.iter().map(|gap| 1.0e3 + 1.0e-9 * gap).collect();
+    // One term as large as all others together.
+    let mut lopsided = noise.clone();
+    lopsided[77] = 5.0e5;
+    // All digits of the smaller ones lie below the quantum of the largest.
+    let drowned = noise.iter().enumerate().map(|(k, gap)| if k == 3 { 1.0 } else { 1e-25 * gap }).collect();
+    for (name, gaps) in [("noise", noise), ("offset", offset), ("lopsided", lopsided), ("drowned", drowned)] {
+        check(&gaps, &[1e9, -1.0]).unwrap_or_else(|error| panic!("{name} {error}"));
+    }
+}
+
+#[test]
+fn forces_at_full_contact_keep_the_bound_where_they_vanish() {
+    let mut gaps = noise();
+    gaps[1000] = 0.0;
+    let foundation = Foundation { spacing: 1e-6, effective_modulus: 2.0e6 };
+    let stiffness = foundation.spring_stiffness();
+    let tree = ContactTree::build(&gaps).unwrap();
+    // Adhesion enough to hold everything when hardly pressed.
+    let rule = GridEdges::new(HessRule::new(foundation, 4.0e6));
+    let mut solver = exact::adhesive(&tree, rule, foundation, 20).unwrap();
+    let (scale, sum) = (scale_of(&gaps), sum(&gaps));
+    let balanced = balance(gaps.len(), &sum, 2);
+    for leg in [Leg::ToIndentation(1.0), Leg::ToZeroForce, Leg::ToIndentation(balanced)] {
+        let record = solver.advance(leg).unwrap();
+        let end = record.curve.last().unwrap();
+        assert_eq!(end.springs, 1 << 20, "{leg:?}");
+        let exact = compression(gaps.len(), &sum, end.indentation) * unrounded(stiffness);
+        // One rounding more, of the product with the stiffness.
+        let allowed = unrounded(3.0 * UNIT_ROUNDOFF) * magnitude(exact.clone())
+            + unrounded(gaps.len() as f64 * scale.quantum() * stiffness);
+        let error = magnitude(unrounded(end.force) - exact);
+        assert!(error <= allowed, "{leg:?}: error {:e} of {:e}", error.to_f64().value(), end.force);
+        // Pressed at d = 1 m, what is left at balance is the rounding of the indentation.
+        if leg != Leg::ToIndentation(1.0) {
+            let rounding = f64::EPSILON * stiffness * gaps.len() as f64;
+            assert!(end.force.abs() <= 2.0 * rounding, "{leg:?}: {:e}", end.force);
+        }
+    }
+}
