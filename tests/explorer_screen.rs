@@ -356,7 +356,8 @@ fn the_help_loses_no_word_in_a_narrow_window() {
     within(60, || {
         let words = |lines: Vec<String>| -> Vec<String> {
             let clean = |word: &str| word.trim_matches(['│', '─', '┌', '┐', '└', '┘']).to_owned();
-            lines.iter().flat_map(|line| line.split_whitespace()).map(clean).collect()
+            let inside = lines.iter().filter(|line| line.starts_with('│'));
+            inside.flat_map(|line| line.split_whitespace()).map(clean).collect()
         };
         let narrow = words(help((80, 24)));
         for word in words(help((160, 40))) {
@@ -861,7 +862,8 @@ fn the_close_up_goes_round_all_fragments() {
 fn a_moment_on_its_way_does_not_take_the_chosen_fragment_away() {
     within(30, || {
         let mut driver = pressed("f");
-        let number = |driver: &Driver| driver.model.moment.as_ref().unwrap().close_up.fragment.unwrap().number;
+        let number =
+            |driver: &Driver| driver.model.moment.as_ref().unwrap().close_up.fragment.unwrap().number;
         let before = driver.model.moment.clone().unwrap();
         let first = number(&driver);
         // The fragment is asked for while the animation has asked for a moment just before.

@@ -310,7 +310,7 @@ impl Thinned {
     }
 
     fn push(&mut self, point: CurvePoint) {
-        if self.seen % self.stride == 0 {
+        if self.seen.is_multiple_of(self.stride) {
             if self.points.len() >= 2 * self.wanted {
                 let mut index = 0;
                 self.points.retain(|_| {
@@ -319,7 +319,7 @@ impl Thinned {
                 });
                 self.stride *= 2;
             }
-            if self.seen % self.stride == 0 {
+            if self.seen.is_multiple_of(self.stride) {
                 self.points.push(point);
             }
         }

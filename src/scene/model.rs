@@ -1,6 +1,6 @@
 //! The types of a scene: what its author may choose, in SI units.
 //!
-//! These types hold values as written; [`super::check`] says which of them are allowed.
+//! These types hold values as written; [`super::check()`] says which of them are allowed.
 
 use serde::{Deserialize, Serialize};
 

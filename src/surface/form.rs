@@ -43,7 +43,8 @@ mod tests {
     fn transforms_follow_their_definition() {
         let x = 0.7;
         let (radius, angle) = (2.5, 0.3_f64);
-        let cases: [(Form, Box<dyn Fn(f64) -> f64>); 4] = [
+        type Slope = Box<dyn Fn(f64) -> f64>;
+        let cases: [(Form, Slope); 4] = [
             (Form::Paraboloid { radius }, Box::new(move |r| r / radius)),
             (Form::Cone { angle }, Box::new(move |_| angle.tan())),
             (Form::Power { coefficient: 0.4, exponent: 3.7 }, Box::new(|r: f64| 0.4 * 3.7 * r.powf(2.7))),

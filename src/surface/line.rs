@@ -38,7 +38,7 @@ impl Line {
             Some(Form::Punch { radius }) => {
                 let under = |index: &usize| distance(*index).abs() <= *radius;
                 let first = (0..points).find(under).ok_or_else(|| {
-                    let least = if points % 2 == 0 { spacing / 2.0 } else { 0.0 };
+                    let least = if points.is_multiple_of(2) { spacing / 2.0 } else { 0.0 };
                     SurfaceError::NoSprings { least }
                 })?;
                 (first, points - first)

@@ -185,7 +185,8 @@ impl Terminal {
 
     /// Gives the window another size. What was on it goes, as it may in a terminal.
     pub fn resize(&mut self, columns: u16, rows: u16) {
-        self.parser = vt100::Parser::new(nonzero(rows), nonzero(columns), 0);
+        self.parser.process(b"\x1b[2J");
+        self.parser.set_size(nonzero(rows), nonzero(columns));
         self.master.as_ref().expect("the terminal is open").resize(size((columns, rows))).unwrap();
     }
 
