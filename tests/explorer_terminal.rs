@@ -277,7 +277,7 @@ fn keys_typed_before_the_first_frame_are_not_lost() {
         terminal.wait_without("What you see");
         let rows = terminal.rows();
         let place = |text: &str| rows.iter().position(|row| row.contains(text)).expect("it is in the list");
-        assert_eq!(place("›"), place("  material") + 3, "{}", terminal.text());
+        assert_eq!(place("›"), place("effective modulus") + 2, "{}", terminal.text());
         quit(&mut terminal);
     });
 }
@@ -314,6 +314,27 @@ fn a_window_of_one_cell_is_survived() {
         }
         terminal.resize(120, 40);
         terminal.wait_for("F_a ");
+        quit(&mut terminal);
+    });
+}
+
+#[test]
+fn keys_and_changes_of_the_window_that_come_together_all_count() {
+    within(60, || {
+        let (program, _folder) = explorer();
+        let mut terminal = paused(program);
+        let marked = |rows: &[String]| rows.iter().find(|row| row.contains('›')).cloned();
+        for round in 0..60 {
+            let before = marked(&terminal.rows()).expect("a parameter is selected");
+            let name: String = before.split('›').nth(1).expect("it has a name").chars().take(16).collect();
+            // The width of this window tells on the screen that the size has come.
+            terminal.resize(100 + round % 2, 40);
+            terminal.send(if round / 10 % 2 == 0 { "j" } else { "k" });
+            terminal.wait("other row selected", |rows| marked(rows).is_some_and(|row| !row.contains(&name)));
+            let right = 99 + usize::from(round % 2);
+            terminal
+                .wait("frame at the edge", |rows| rows.iter().any(|row| row.chars().nth(right) == Some('┐')));
+        }
         quit(&mut terminal);
     });
 }

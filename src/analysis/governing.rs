@@ -47,7 +47,8 @@ impl Governing {
         let work_of_adhesion = work.or_else(|| Some(stiff? / kappa?.powi(2)));
         let kappa = kappa.or_else(|| {
             let work = work_of_adhesion.filter(|&work| work > 0.0)?;
-            Some((stiff? / work).sqrt())
+            // So little adhesion that κ is beyond all numbers is none.
+            Some((stiff? / work).sqrt()).filter(|kappa| kappa.is_finite())
         });
         Governing { effective_modulus, work_of_adhesion, amplitude, kappa }
     }

@@ -114,8 +114,8 @@ impl<C: Contact> Exact<C> {
             }
         };
         let to_force = |force: f64| {
-            let wanted = force / self.foundation.spring_stiffness();
-            let target = Target::Compression(wanted);
+            let stiffness = self.foundation.spring_stiffness();
+            let target = Target::Compression(force / stiffness);
             if separated {
                 return if force < 0.0 {
                     Err(ContactError::NothingToPull { index: self.legs, force })
@@ -123,8 +123,8 @@ impl<C: Contact> Exact<C> {
                     Ok(Some((Loading, target)))
                 };
             }
-            let compression = self.compression();
-            Ok(match wanted.partial_cmp(&compression) {
+            // As forces: the division may miss the compression the force came from.
+            Ok(match force.partial_cmp(&(stiffness * self.compression())) {
                 Some(std::cmp::Ordering::Greater) => Some((Loading, target)),
                 Some(std::cmp::Ordering::Less) => Some((Unloading, target)),
                 _ => None,
@@ -185,32 +185,11 @@ impl<C: Contact> Exact<C> {
     fn fly(&mut self, leg: Leg, to: f64) -> LegRecord {
         let from = self.state.indentation;
         self.state.indentation = to;
-        let [start, end] = [from, to].map(|d| self.curve_point(d, Tally::default()));
-        let direction = if to > from { Direction::Loading } else { Direction::Unloading };
-        LegRecord {
-            leg,
-            direction,
-            curve: vec![start, end],
-            largest: end,
-            smallest: end,
-            joins: 0,
-            leaves: 0,
-            dissipated_energy: 0.0,
-        }
+        LegRecord::free(leg, from, to)
     }
 
     fn stay(&self, leg: Leg) -> LegRecord {
-        let here = self.curve_point(self.state.indentation, self.state.tally);
-        LegRecord {
-            leg,
-            direction: Direction::Loading,
-            curve: vec![here],
-            largest: here,
-            smallest: here,
-            joins: 0,
-            leaves: 0,
-            dissipated_energy: 0.0,
-        }
+        LegRecord::still(leg, self.curve_point(self.state.indentation, self.state.tally))
     }
 
     fn load(&mut self, leg: Leg, target: Target) -> Result<LegRecord, ContactError> {

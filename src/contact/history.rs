@@ -50,6 +50,28 @@ pub struct LegRecord {
 }
 
 impl LegRecord {
+    /// A leg to where the body stands already.
+    pub(crate) fn still(leg: Leg, here: CurvePoint) -> Self {
+        LegRecord {
+            leg,
+            direction: Direction::Loading,
+            curve: vec![here],
+            largest: here,
+            smallest: here,
+            joins: 0,
+            leaves: 0,
+            dissipated_energy: 0.0,
+        }
+    }
+
+    /// A leg of a separated body that does not touch.
+    pub(crate) fn free(leg: Leg, from: f64, to: f64) -> Self {
+        let [start, end] =
+            [from, to].map(|indentation| CurvePoint { indentation, force: 0.0, springs: 0, fragments: 0 });
+        let direction = if to > from { Direction::Loading } else { Direction::Unloading };
+        LegRecord { direction, curve: vec![start, end], ..LegRecord::still(leg, end) }
+    }
+
     /// Where the leg began.
     #[must_use]
     pub fn start(&self) -> f64 {

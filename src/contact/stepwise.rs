@@ -86,7 +86,8 @@ impl<'a> Stepwise<'a> {
         self.thresholds[index] = held_until;
         self.tally.springs -= 1;
         self.tally.quanta -= i128::from(self.scale.quanta(self.gaps[index]));
-        let stretch = self.gaps[index] - self.indentation;
+        // As far as it was held: how far the step went beyond is no property of the contact.
+        let stretch = (self.gaps[index] - held_until).max(0.0);
         self.squared_stretch += stretch * stretch;
     }
 
@@ -365,24 +366,20 @@ impl Solver for Stepwise<'_> {
             Goal::Indentation(end) if separated && end < 0.0 => Some(end),
             _ => None,
         };
-        let record = if done || free_to.is_some() {
-            let mut curve = vec![here];
-            if let Some(end) = free_to.filter(|_| !done) {
+        let record = match free_to {
+            _ if done => LegRecord::still(leg, here),
+            Some(end) => {
                 self.indentation = end;
-                curve.push(self.point());
+                LegRecord::free(leg, here.indentation, end)
             }
-            LegRecord {
-                leg,
-                direction,
-                curve,
-                largest: here,
-                smallest: here,
-                joins: 0,
-                leaves: 0,
-                dissipated_energy: 0.0,
+            None => {
+                let (contact, thresholds) = (self.contact.clone(), self.thresholds.clone());
+                let tally = self.tally;
+                self.walk(leg, direction, goal).inspect_err(|_| {
+                    (self.contact, self.thresholds) = (contact, thresholds);
+                    (self.indentation, self.tally) = (here.indentation, tally);
+                })?
             }
-        } else {
-            self.walk(leg, direction, goal)?
         };
         self.legs += 1;
         Ok(record)

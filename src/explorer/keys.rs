@@ -49,6 +49,7 @@ impl Key {
             KeyCode::Left => "←".to_owned(),
             KeyCode::Right => "→".to_owned(),
             KeyCode::BackTab => "Shift+Tab".to_owned(),
+            KeyCode::F(number) => format!("F{number}"),
             other => format!("{other:?}"),
         };
         let mut prefix = String::new();

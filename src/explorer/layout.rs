@@ -20,10 +20,15 @@ pub struct Layout {
 }
 
 impl Layout {
-    /// The layout of a model in its window.
+    /// The layout of a model in the window it knows of.
     #[must_use]
     pub fn of(model: &Model) -> Self {
-        let (width, height) = model.size;
+        Layout::within(model, model.size)
+    }
+
+    /// The layout of a model in a window of so many columns and rows.
+    #[must_use]
+    pub fn within(model: &Model, (width, height): (u16, u16)) -> Self {
         let row = |y: u16| Rect::new(0, y, width, 1).intersection(Rect::new(0, 0, width, height));
         // What frames the panes gives way before they do.
         let footer = height >= 6;

@@ -22,8 +22,8 @@ use crate::simulation::Simulation;
 use action::{Action, SaveError};
 use crossterm::event::{Event, KeyCode, KeyEventKind, KeyModifiers};
 use model::Model;
-use ratatui::Terminal;
 use ratatui::backend::CrosstermBackend;
+use ratatui::{Frame, Terminal};
 use std::io::{self, Write};
 use std::mem::ManuallyDrop;
 use std::path::{Path, PathBuf};
@@ -52,14 +52,17 @@ enum Message {
 /// # Errors
 /// When the terminal refuses.
 pub fn open(document: Document, folder: PathBuf) -> io::Result<Document> {
-    open_with(document, Box::new(Simulation::new(folder)))
+    open_with(document, Box::new(Simulation::new(folder)), view::draw)
 }
 
-/// Opens the explorer on a scene with another engine behind it.
+/// Draws a model: [`view::draw`] does.
+pub type Draw = fn(&mut Frame<'_>, &Model);
+
+/// Opens the explorer on a scene with another engine behind it and another view before it.
 ///
 /// # Errors
 /// When the terminal refuses.
-pub fn open_with(document: Document, engine: Box<dyn Engine>) -> io::Result<Document> {
+pub fn open_with(document: Document, engine: Box<dyn Engine>, draw: Draw) -> io::Result<Document> {
     let guard = TerminalGuard::take()?;
     let (messages, inbox) = channel();
     let (requests, outbox) = channel();
@@ -79,7 +82,7 @@ pub fn open_with(document: Document, engine: Box<dyn Engine>) -> io::Result<Docu
     let mut terminal = ManuallyDrop::new(Terminal::new(CrosstermBackend::new(FrameWriter::new()))?);
     let size = terminal.size()?;
     let model = Model::new(document, (size.width, size.height), Theme::of_environment());
-    let model = explore(&mut terminal, model, &worker, &inbox)?;
+    let model = explore(&mut terminal, model, &worker, &inbox, draw)?;
     drop(guard);
     Ok(model.document)
 }
@@ -106,6 +109,7 @@ fn explore<W: Write>(
     mut model: Model,
     worker: &Worker,
     inbox: &Receiver<Message>,
+    draw: Draw,
 ) -> io::Result<Model> {
     let remote = ["SSH_CONNECTION", "SSH_TTY"].iter().any(|name| std::env::var_os(name).is_some());
     let frame_time = Duration::from_secs(1) / if remote { REMOTE_FRAMES } else { LOCAL_FRAMES };
@@ -114,10 +118,10 @@ fn explore<W: Write>(
     let mut changed = true;
     while !model.finished {
         if changed {
-            terminal.draw(|frame| view::draw(frame, &model))?;
+            terminal.draw(|frame| draw(frame, &model))?;
             changed = false;
         }
-        let playing = model.player.playing && !model.is_computing() && model.computed.is_some();
+        let playing = model.player.playing && model.is_current();
         if !playing {
             moved = Instant::now();
         }

@@ -7,6 +7,7 @@ use super::theme::Theme;
 use super::worker::Focus;
 use crate::contact::LegRecord;
 use crate::scene::Document;
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -144,8 +145,8 @@ pub enum Notice {
 pub struct Model {
     /// The scene as edited.
     pub document: Document,
-    /// The text that is on disk or was opened.
-    pub saved_text: String,
+    /// The text that is on disk or was opened, for each scene by its name.
+    pub saved_texts: BTreeMap<String, String>,
     /// Documents before each edit, and those taken back.
     pub undo: Vec<Document>,
     /// See `undo`.
@@ -193,7 +194,7 @@ impl Model {
     pub fn new(document: Document, size: (u16, u16), theme: Theme) -> Self {
         let springs = Look::springs_shown(&document);
         Model {
-            saved_text: document.text().to_owned(),
+            saved_texts: BTreeMap::from([(document.name().to_owned(), document.text().to_owned())]),
             parameters: parameters(&document),
             document,
             undo: Vec::new(),
@@ -219,7 +220,18 @@ impl Model {
     /// Whether the scene differs from what is saved.
     #[must_use]
     pub fn is_unsaved(&self) -> bool {
-        self.document.text() != self.saved_text
+        self.saved_texts.get(self.document.name()).is_none_or(|saved| saved != self.document.text())
+    }
+
+    /// Takes the scene as it stands for saved.
+    pub fn set_saved(&mut self) {
+        self.saved_texts.insert(self.document.name().to_owned(), self.document.text().to_owned());
+    }
+
+    /// Whether what has been computed is the scene as it stands: neither computing nor failed.
+    #[must_use]
+    pub fn is_current(&self) -> bool {
+        self.computed.as_ref().is_some_and(|computed| computed.generation == self.generation)
     }
 
     /// Whether a newer scene than the one shown is being computed.
@@ -257,6 +269,11 @@ impl Model {
         let (low, high) = self.indentations().unwrap_or((0.0, 0.0));
         let lift = if self.player.leg == 0 { LIFT * (high - low) } else { 0.0 };
         let start = leg.start() - lift;
-        if self.player.done >= 1.0 { leg.end() } else { start + (leg.end() - start) * self.player.done }
+        match leg.curve.last() {
+            // There the contact is still held, and below it gone.
+            Some(end) if self.player.done >= 1.0 && end.springs == 0 => end.indentation.next_down(),
+            _ if self.player.done >= 1.0 => leg.end(),
+            _ => start + (leg.end() - start) * self.player.done,
+        }
     }
 }

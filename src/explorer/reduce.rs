@@ -49,8 +49,10 @@ impl Contact<'_> {
             })
             .collect();
         let ends = section.columns.iter().map(|column| column.line);
-        section.heights =
-            ends.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), (a, b)| (low.min(a), high.max(b)));
+        section.heights = ends
+            .reduce(|(low, high), (a, b)| (low.min(a), high.max(b)))
+            // A pane that is not shown has no columns, and may be shown before its next picture comes.
+            .unwrap_or_else(|| self.column(first, first + springs, level).line);
         section
     }
 

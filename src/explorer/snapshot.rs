@@ -1,6 +1,7 @@
 //! What the worker publishes: immutable, stamped with the generation of the scene it belongs to, and
 //! already reduced to what a pane can show.
 
+use super::worker::Focus;
 use crate::contact::CurvePoint;
 use crate::simulation::Outcome;
 
@@ -20,6 +21,8 @@ pub struct Moment {
     pub generation: u64,
     /// Index of the leg.
     pub leg: usize,
+    /// Where the close-up was asked to look.
+    pub focus: Focus,
     /// Indentation, force, springs in contact and fragments.
     pub point: CurvePoint,
     /// Springs that changed state since the moment before.
@@ -80,4 +83,13 @@ pub struct FragmentFacts {
     pub largest_stretch: f64,
     /// Stretch of its most stretched spring, m; negative when all are compressed.
     pub most_stretched: f64,
+}
+
+impl FragmentFacts {
+    /// The spring in its middle.
+    #[must_use]
+    pub fn middle(&self) -> usize {
+        let (first, last) = self.springs;
+        first + (last - first) / 2
+    }
 }

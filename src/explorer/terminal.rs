@@ -9,9 +9,6 @@ use crossterm::terminal::{
 use crossterm::{execute, queue};
 use std::io::{self, Stdout, Write};
 
-/// Name of the thread that draws; only its panic gives the terminal back.
-const DRAWING_THREAD: &str = "main";
-
 /// The terminal in the explorer's hands; dropping it gives it back.
 pub struct TerminalGuard(());
 
@@ -24,9 +21,10 @@ impl TerminalGuard {
         // NO_COLOR is read by the theme; left to crossterm it would drop reverse and bold as well.
         crossterm::style::force_color_output(true);
         let before = std::panic::take_hook();
+        let drawing = std::thread::current().id();
         std::panic::set_hook(Box::new(move |panic| {
             // A panic of the worker becomes a line in the explorer, which goes on.
-            if std::thread::current().name() == Some(DRAWING_THREAD) {
+            if std::thread::current().id() == drawing {
                 let _ = give_back();
                 before(panic);
             }
@@ -42,7 +40,10 @@ impl Drop for TerminalGuard {
     fn drop(&mut self) {
         // Nothing can be done about a terminal that is gone.
         let _ = give_back();
-        let _ = std::panic::take_hook();
+        // While a panic unwinds, the hook cannot be taken and is needed no more.
+        if !std::thread::panicking() {
+            let _ = std::panic::take_hook();
+        }
     }
 }
 

@@ -6,8 +6,9 @@ use super::layout::Layout;
 use super::model::{Look, Mode, Model, Notice, Pane, Player};
 use super::parameters::parameters;
 use super::text_line::TextLine;
+use super::view::help_end;
 use super::worker::{Focus, MomentRequest};
-use crate::scene::{Document, presets};
+use crate::scene::{Document, Roughness, presets};
 use std::path::PathBuf;
 use std::time::Duration;
 
@@ -53,7 +54,13 @@ pub fn update(model: &mut Model, action: Action) -> Vec<Effect> {
             vec![Effect::Show]
         }
         Action::Elapse(time) => elapse(model, time),
-        Action::SetSeed(seed) => change(model, "roughness.seed", &seed.to_string()),
+        Action::SetSeed(seed) => match model.document.scene().roughness {
+            Some(Roughness::SelfAffine { .. }) => change(model, "roughness.seed", &seed.to_string()),
+            _ => {
+                model.notice = Some(Notice::Error("the scene has no random line to draw anew".to_owned()));
+                Vec::new()
+            }
+        },
         Action::Computed(computed) if computed.generation == model.generation => {
             model.progress = None;
             let last = computed.outcome.history.legs.len().saturating_sub(1);
@@ -67,9 +74,11 @@ pub fn update(model: &mut Model, action: Action) -> Vec<Effect> {
             vec![Effect::Show]
         }
         Action::Shown(moment) if moment.generation == model.generation => {
-            let section = &moment.close_up.section;
-            if matches!(model.look.focus, Focus::After(_) | Focus::Before(_)) {
-                model.look.focus = Focus::Spring(section.first + section.springs / 2);
+            // Another moment may have been on its way when the fragment was asked for.
+            let is_answer = moment.focus == model.look.focus;
+            if is_answer && matches!(model.look.focus, Focus::After(_) | Focus::Before(_)) {
+                let middle = moment.close_up.fragment.map(|fragment| fragment.middle());
+                model.look.focus = middle.map_or(Focus::Summit, Focus::Spring);
             }
             model.moment = Some(moment);
             Vec::new()
@@ -97,7 +106,9 @@ pub fn update(model: &mut Model, action: Action) -> Vec<Effect> {
 /// What the worker is asked to show for this model.
 #[must_use]
 pub fn moment_request(model: &Model) -> Option<MomentRequest> {
-    model.computed.as_ref().filter(|computed| computed.generation == model.generation)?;
+    if !model.is_current() {
+        return None;
+    }
     let layout = Layout::of(model);
     Some(MomentRequest {
         generation: model.generation,
@@ -114,10 +125,15 @@ fn obey(model: &mut Model, command: Command) -> Vec<Effect> {
     match &mut model.mode {
         Mode::Explore => explore(model, command),
         Mode::Help { scroll } => {
-            match command {
-                Command::Select(lines) => *scroll = scroll.saturating_add_signed(lines.signum() as i16),
-                _ => model.mode = Mode::Explore,
-            }
+            let scroll = *scroll;
+            model.mode = match command {
+                Command::Select(lines) => {
+                    let last = help_end(model);
+                    let lines = lines.signum() as i16;
+                    Mode::Help { scroll: scroll.min(last).saturating_add_signed(lines).min(last) }
+                }
+                _ => Mode::Explore,
+            };
             Vec::new()
         }
         Mode::Edit(line) => match command {
@@ -175,7 +191,10 @@ fn edit_line(model: &mut Model, command: Command) -> Vec<Effect> {
 }
 
 fn explore(model: &mut Model, command: Command) -> Vec<Effect> {
-    model.notice = model.notice.take().filter(|notice| matches!(notice, Notice::Error(_)));
+    // Why there is no curve stays to be read; all else goes with the next key.
+    if model.is_current() || model.is_computing() {
+        model.notice = None;
+    }
     match command {
         Command::Quit if model.is_unsaved() => model.mode = Mode::Quit,
         Command::Quit | Command::QuitAnyway => model.finished = true,
@@ -210,20 +229,31 @@ fn explore(model: &mut Model, command: Command) -> Vec<Effect> {
             model.player.done = 0.0;
             return vec![Effect::Show];
         }
-        Command::Select(rows) => select(model, model.selected.saturating_add_signed(rows as isize)),
-        Command::SelectEnd(last) => select(model, if last { usize::MAX } else { 0 }),
-        Command::StepValue { steps, coarse } => return step_value(model, steps, coarse),
+        Command::Select(rows) => {
+            select(model, model.selected.saturating_add_signed(rows as isize));
+            return show_parameters(model);
+        }
+        Command::SelectEnd(last) => {
+            select(model, if last { usize::MAX } else { 0 });
+            return show_parameters(model);
+        }
+        Command::StepValue { steps, coarse } => {
+            let mut effects = show_parameters(model);
+            effects.extend(step_value(model, steps, coarse));
+            return effects;
+        }
         Command::EditValue => {
             if let Some(parameter) = model.parameter() {
                 model.mode = Mode::Edit(TextLine::new(&parameter.written));
             }
+            return show_parameters(model);
         }
         Command::Reseed => return vec![Effect::DrawSeed],
         Command::Undo | Command::Redo => return undo(model, command == Command::Undo),
         Command::Save => model.mode = save_as(&model.document, false),
         Command::Fragment(step) => {
-            let section = model.moment.as_ref().map(|moment| &moment.close_up.section);
-            let middle = section.map(|section| section.first + section.springs / 2);
+            let fragment = model.moment.as_ref().and_then(|moment| moment.close_up.fragment);
+            let middle = fragment.map(|fragment| fragment.middle());
             model.look.focus = if step > 0 { Focus::After(middle) } else { Focus::Before(middle) };
             return vec![Effect::Show];
         }
@@ -245,10 +275,11 @@ fn explore(model: &mut Model, command: Command) -> Vec<Effect> {
                             let kept = "the changed scene is kept: undo brings it back";
                             model.notice = Some(Notice::Done(kept.to_owned()));
                         }
-                        model.saved_text = document.text().to_owned();
                         model.player = Player { leg: 0, done: 0.0, playing: true };
                         model.look = Look { focus: Focus::Summit, springs: Look::springs_shown(&document) };
-                        return adopt(model, document);
+                        let effects = adopt(model, document);
+                        model.set_saved();
+                        return effects;
                     }
                     Err(errors) => model.notice = Some(Notice::Error(errors.to_string())),
                 }
@@ -271,6 +302,15 @@ fn explore(model: &mut Model, command: Command) -> Vec<Effect> {
 fn select(model: &mut Model, row: usize) {
     model.selected = row.min(model.parameters.len().saturating_sub(1));
     model.refused = None;
+}
+
+/// Chooses the list of parameters where a small window does not show it: nothing is changed unseen.
+fn show_parameters(model: &mut Model) -> Vec<Effect> {
+    if Layout::of(model).pane(Pane::Parameters).is_some() {
+        return Vec::new();
+    }
+    model.pane = Pane::Parameters;
+    vec![Effect::Show]
 }
 
 fn step_value(model: &mut Model, steps: i32, coarse: bool) -> Vec<Effect> {
@@ -343,7 +383,7 @@ fn renew(model: &mut Model) -> Vec<Effect> {
 }
 
 fn elapse(model: &mut Model, time: Duration) -> Vec<Effect> {
-    if !model.player.playing || model.legs().is_empty() || model.is_computing() {
+    if !model.player.playing || model.legs().is_empty() || !model.is_current() {
         return Vec::new();
     }
     let legs = model.legs().len();
@@ -378,7 +418,7 @@ fn saved(model: &mut Model, result: Result<PathBuf, SaveError>) {
     let then_quit = matches!(model.mode, Mode::Overwrite { then_quit: true, .. });
     match result {
         Ok(path) => {
-            model.saved_text = model.document.text().to_owned();
+            model.set_saved();
             model.notice = Some(Notice::Done(format!("saved to {}", path.display())));
             model.mode = Mode::Explore;
             model.finished = then_quit;

@@ -264,6 +264,7 @@ impl Playback {
         Some(Report::Shown(Arc::new(Moment {
             generation: request.generation,
             leg: request.leg,
+            focus: request.focus,
             point: CurvePoint {
                 indentation,
                 force,

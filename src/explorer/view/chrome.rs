@@ -1,5 +1,6 @@
 //! The lines around the panes: title, status, footer.
 
+use super::typed::typed;
 use crate::explorer::action::Command;
 use crate::explorer::keys;
 use crate::explorer::model::{Mode, Model, Notice};
@@ -7,7 +8,6 @@ use crate::explorer::theme::Meaning;
 use crate::scene::format_quantity;
 use ratatui::Frame;
 use ratatui::layout::Rect;
-use ratatui::style::Modifier;
 use ratatui::text::{Line, Span};
 use ratatui::widgets::{Paragraph, Wrap};
 
@@ -29,11 +29,9 @@ pub fn status(frame: &mut Frame<'_>, area: Rect, model: &Model) {
     let error = |text: String| Line::styled(text, model.theme.style(Meaning::Error));
     let line = match (&model.mode, &model.notice) {
         (Mode::SaveAs { line, .. }, _) => {
-            let (before, under, after) = line.parts();
-            let under = if under.is_empty() { " ".to_owned() } else { under };
-            let cursor =
-                Span::styled(under, model.theme.style(Meaning::Text).add_modifier(Modifier::REVERSED));
-            Line::from(vec![Span::raw("Save as: "), Span::raw(before), cursor, Span::raw(after)])
+            let prompt = Span::raw("Save as: ");
+            let room = usize::from(area.width).saturating_sub(prompt.width());
+            Line::from_iter([prompt].into_iter().chain(typed(line, room, model.theme)))
         }
         (Mode::Overwrite { path, .. }, _) => error(format!("{} exists. Overwrite it?", path.display())),
         (Mode::Quit, _) => error("The scene has unsaved changes. Leave?".to_owned()),

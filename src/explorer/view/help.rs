@@ -1,9 +1,9 @@
 //! The help: the table of keys by section, and what the panes show.
 
-use crate::explorer::keys::BINDINGS;
+use crate::explorer::keys::{BINDINGS, Key};
 use crate::explorer::theme::{Meaning, Theme};
 use ratatui::Frame;
-use ratatui::layout::Rect;
+use ratatui::layout::{Margin, Rect};
 use ratatui::text::{Line, Span};
 use ratatui::widgets::{Block, Paragraph};
 
@@ -20,29 +20,65 @@ const PANES: &[(&str, &str)] = &[
     ("Parameters", "everything the scene says; the curve follows each change"),
 ];
 
+/// Columns for the keys.
+const KEYS: usize = 18;
+
 /// Draws the help.
 pub fn draw(frame: &mut Frame<'_>, area: Rect, theme: Theme, scroll: u16) {
-    let mut lines = vec![Line::styled("What you see", theme.style(Meaning::Title))];
+    let lines = lines(inside(area).width, theme);
+    let last = end(lines.len(), area);
+    let block = Block::bordered().border_style(theme.style(Meaning::Quiet)).title(" Help ");
+    frame.render_widget(Paragraph::new(lines).block(block).scroll((scroll.min(last), 0)), area);
+}
+
+/// Lines it can be scrolled down in this area.
+pub fn last_scroll(area: Rect) -> u16 {
+    end(lines(inside(area).width, Theme::Plain).len(), area)
+}
+
+fn inside(area: Rect) -> Rect {
+    area.inner(Margin::new(1, 1))
+}
+
+fn end(lines: usize, area: Rect) -> u16 {
+    (lines as u16).saturating_sub(inside(area).height)
+}
+
+/// All lines, none of them wider than so many columns.
+fn lines(width: u16, theme: Theme) -> Vec<Line<'static>> {
+    let title = |text| Line::styled(text, theme.style(Meaning::Title));
+    let mut lines = vec![title("What you see")];
     for (name, meaning) in PANES {
-        lines.push(Line::from(vec![
-            Span::styled(format!("  {name:<14}"), theme.style(Meaning::Key)),
-            Span::raw(*meaning),
-        ]));
+        entry(&mut lines, name, meaning, width, theme);
     }
     let mut section = "";
     for row in BINDINGS.iter().filter(|row| !row.help.is_empty()) {
         if row.section != section {
             section = row.section;
             lines.push(Line::default());
-            lines.push(Line::styled(section, theme.style(Meaning::Title)));
+            lines.push(title(section));
         }
-        let keys: Vec<String> = row.keys.iter().map(super::super::keys::Key::name).collect();
-        lines.push(Line::from(vec![
-            Span::styled(format!("  {:<14}", keys.join(" ")), theme.style(Meaning::Key)),
-            Span::raw(row.help),
-        ]));
+        let keys: Vec<String> = row.keys.iter().map(Key::name).collect();
+        entry(&mut lines, &keys.join(" "), row.help, width, theme);
     }
-    let last = (lines.len() as u16).saturating_sub(area.height.saturating_sub(2));
-    let block = Block::bordered().border_style(theme.style(Meaning::Quiet)).title(" Help ");
-    frame.render_widget(Paragraph::new(lines).block(block).scroll((scroll.min(last), 0)), area);
+    lines
+}
+
+/// Adds keys and what they do, in as many lines as it takes.
+fn entry(lines: &mut Vec<Line<'static>>, keys: &str, help: &str, width: u16, theme: Theme) {
+    let room = usize::from(width).saturating_sub(KEYS + 2);
+    let mut texts = vec![String::new()];
+    for word in help.split(' ') {
+        let text = texts.last_mut().filter(|text| text.chars().count() + 1 + word.chars().count() <= room);
+        match text {
+            Some(text) if text.is_empty() => text.push_str(word),
+            Some(text) => *text += &format!(" {word}"),
+            None => texts.push(word.to_owned()),
+        }
+    }
+    for (number, text) in texts.into_iter().enumerate() {
+        let keys = if number == 0 { keys } else { "" };
+        let keys = Span::styled(format!("  {keys:<KEYS$}"), theme.style(Meaning::Key));
+        lines.push(Line::from(vec![keys, Span::raw(text)]));
+    }
 }

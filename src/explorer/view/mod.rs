@@ -8,6 +8,7 @@ mod histogram;
 mod parameters;
 mod plot;
 mod profile;
+mod typed;
 
 use super::layout::{Layout, inside, is_framed};
 use super::model::{Mode, Model, Pane};
@@ -18,15 +19,14 @@ use ratatui::widgets::Block;
 
 /// Draws the whole screen.
 pub fn draw(frame: &mut Frame<'_>, model: &Model) {
-    let layout = Layout::of(model);
+    // The window may have another size by now than the model has been told.
+    let area = frame.area();
+    let layout = Layout::within(model, (area.width, area.height));
     if let Some(area) = layout.title {
         chrome::title(frame, area, model);
     }
     if let Mode::Help { scroll } = model.mode {
-        let body = layout.panes.iter().map(|(_, area)| *area).reduce(Rect::union);
-        if let Some(body) = body {
-            help::draw(frame, body, model.theme, scroll);
-        }
+        help::draw(frame, body(&layout), model.theme, scroll);
     } else {
         for &(pane, area) in &layout.panes {
             draw_pane(frame, area, model, pane);
@@ -36,6 +36,17 @@ pub fn draw(frame: &mut Frame<'_>, model: &Model) {
     if let Some(area) = layout.footer {
         chrome::footer(frame, area, model);
     }
+}
+
+/// Where the panes are.
+fn body(layout: &Layout) -> Rect {
+    layout.panes.iter().map(|(_, area)| *area).reduce(Rect::union).unwrap_or_default()
+}
+
+/// Lines the help can be scrolled down.
+#[must_use]
+pub fn help_end(model: &Model) -> u16 {
+    help::last_scroll(body(&Layout::of(model)))
 }
 
 fn draw_pane(frame: &mut Frame<'_>, area: Rect, model: &Model, pane: Pane) {

@@ -1,11 +1,11 @@
 //! The list of parameters and what the selected one means.
 
+use super::typed::typed;
 use crate::explorer::model::{Mode, Model};
 use crate::explorer::theme::Meaning;
 use crate::scene::format_quantity;
 use ratatui::Frame;
 use ratatui::layout::Rect;
-use ratatui::style::Modifier;
 use ratatui::text::{Line, Span};
 use ratatui::widgets::{Paragraph, Wrap};
 
@@ -51,10 +51,9 @@ fn parameter_line(model: &Model, index: usize, width: usize) -> Line<'static> {
     let indent = if parameter.field.parent().is_empty() && parameter.leg.is_none() { "" } else { " " };
     let name = format!("{mark} {indent}{}{symbol}", parameter.name());
     if let (true, Mode::Edit(line)) = (selected, &model.mode) {
-        let (before, under, after) = line.parts();
-        let under = if under.is_empty() { " ".to_owned() } else { under };
-        let cursor = Span::styled(under, model.theme.style(Meaning::Text).add_modifier(Modifier::REVERSED));
-        return Line::from(vec![Span::raw(format!("{mark} ")), Span::raw(before), cursor, Span::raw(after)]);
+        let mark = Span::raw(format!("{mark} "));
+        let room = width.saturating_sub(mark.width());
+        return Line::from_iter([mark].into_iter().chain(typed(line, room, model.theme)));
     }
     let value = &parameter.shown;
     let room = width.saturating_sub(name.chars().count() + 1);

@@ -97,6 +97,10 @@ pub struct Columns<'a> {
 impl Shape for Columns<'_> {
     fn draw(&self, painter: &mut Painter<'_, '_>) {
         let [bottom, top] = *painter.bounds().1;
+        // A section made for another window is stretched until the one for this window comes.
+        let ([_, right], count) = (*painter.bounds().0, self.section.columns.len());
+        let Some((last, _)) = painter.get_point(right, bottom) else { return };
+        let place = |column: usize| column * (last + 1) / count;
         let mut before: Option<(f64, f64)> = None;
         for (column, values) in self.section.columns.iter().enumerate() {
             let ends = match self.part {
@@ -122,8 +126,8 @@ impl Shape for Columns<'_> {
             else {
                 continue;
             };
-            for y in y_high..=y_low {
-                painter.paint(column, y, self.colour);
+            for x in place(column)..place(column + 1).max(place(column) + 1) {
+                (y_high..=y_low).for_each(|y| painter.paint(x, y, self.colour));
             }
         }
     }

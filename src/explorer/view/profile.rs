@@ -66,13 +66,19 @@ pub fn draw_section(frame: &mut Frame<'_>, area: Rect, section: &Section, z: Spa
 
 /// One row that shows by its glyphs where along the line there is contact.
 fn contact_strip(frame: &mut Frame<'_>, row: Rect, section: &Section, theme: Theme) {
-    let glyphs: String = section
-        .columns
-        .chunks(2)
-        .map(|pair| match pair.iter().filter(|column| column.contact.is_some()).count() {
-            0 => '·',
-            1 if pair.len() > 1 => '▪',
-            _ => '■',
+    let (count, cells) = (section.columns.len(), usize::from(row.width));
+    if count == 0 {
+        return;
+    }
+    let glyphs: String = (0..cells)
+        .map(|cell| {
+            let from = cell * count / cells;
+            let part = &section.columns[from..((cell + 1) * count / cells).max(from + 1)];
+            match part.iter().filter(|column| column.contact.is_some()).count() {
+                0 => '·',
+                held if held < part.len() => '▪',
+                _ => '■',
+            }
         })
         .collect();
     frame.render_widget(Paragraph::new(Line::styled(glyphs, theme.style(Meaning::Contact))), row);
