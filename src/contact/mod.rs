@@ -38,7 +38,12 @@ pub use tree::ContactTree;
 
 /// An empty vector with room for `count` values, or an error instead of an abort.
 pub(crate) fn reserve<T>(count: usize) -> Result<Vec<T>, ContactError> {
-    let mut values = Vec::new();
+    cleared(Vec::new(), count)
+}
+
+/// This vector, emptied, with room for `count` values, or an error instead of an abort.
+fn cleared<T>(mut values: Vec<T>, count: usize) -> Result<Vec<T>, ContactError> {
+    values.clear();
     values.try_reserve_exact(count).map_err(|_| ContactError::OutOfMemory { springs: count })?;
     Ok(values)
 }

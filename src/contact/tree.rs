@@ -56,12 +56,21 @@ impl ContactTree {
     /// # Errors
     /// [`ContactError::OutOfMemory`] when the arrays cannot be had.
     pub fn build(gaps: &[f64]) -> Result<Self, ContactError> {
+        ContactTree { gap: Vec::new(), shape: Vec::new(), position: Vec::new() }.rebuild(gaps)
+    }
+
+    /// Builds the tree of other gaps in the memory of this one: fresh memory costs about as much as the
+    /// tree itself.
+    ///
+    /// # Errors
+    /// [`ContactError::OutOfMemory`] when the arrays must grow and cannot.
+    pub fn rebuild(self, gaps: &[f64]) -> Result<Self, ContactError> {
         debug_assert!(u32::try_from(gaps.len()).is_ok(), "lines are bounded to 2^28 springs");
         let count = gaps.len();
         let mut tree = ContactTree {
-            gap: super::reserve(count)?,
-            shape: super::reserve(count)?,
-            position: super::reserve(count)?,
+            gap: super::cleared(self.gap, count)?,
+            shape: super::cleared(self.shape, count)?,
+            position: super::cleared(self.position, count)?,
         };
         let mut pending: Vec<Pending> = Vec::new();
         for (position, &gap) in gaps.iter().enumerate() {

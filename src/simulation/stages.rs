@@ -23,6 +23,8 @@ pub struct Simulation {
     roughness: Option<(RoughnessKey, Rough)>,
     line: Option<(LineKey, Line)>,
     tree: Option<ContactTree>,
+    /// Whether the tree is that of the line, rather than of one before.
+    tree_is_current: bool,
 }
 
 /// What the heights of the roughness depend on.
@@ -97,7 +99,7 @@ impl Simulation {
         let (key, line) = match kept {
             Some(line) => line,
             None => {
-                self.tree = None;
+                self.tree_is_current = false;
                 let heights = rough.map(|rough| rough.heights.as_slice());
                 let line = Line::new(scene.length, points, scene.form.as_ref(), heights, scale)?;
                 (key, line)
@@ -164,8 +166,12 @@ impl Simulation {
 
         let Some((_, line)) = &self.line else { return Err(ContactError::Interrupted.into()) };
         let clock = Instant::now();
-        if plan.runs(Stage::Tree) && self.tree.is_none() {
-            self.tree = Some(ContactTree::build(&line.gaps)?);
+        if plan.runs(Stage::Tree) && !self.tree_is_current {
+            self.tree = Some(match self.tree.take() {
+                Some(before) => before.rebuild(&line.gaps)?,
+                None => ContactTree::build(&line.gaps)?,
+            });
+            self.tree_is_current = true;
         }
         timings.tree = clock.elapsed().as_secs_f64();
         interrupted()?;

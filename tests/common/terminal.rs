@@ -18,6 +18,10 @@ const PATIENCE: Duration = Duration::from_secs(20);
 /// Time without a byte after which a screen is taken for finished: several frames.
 const QUIET: Duration = Duration::from_millis(200);
 
+/// What a program writes before and after a frame that is to be shown at once.
+pub const BEGIN_FRAME: &[u8] = b"\x1b[?2026h";
+pub const END_FRAME: &[u8] = b"\x1b[?2026l";
+
 /// Something the program does.
 enum Event {
     Wrote(Vec<u8>),
@@ -200,12 +204,18 @@ impl Terminal {
     #[track_caller]
     pub fn wait(&mut self, what: &str, is_there: impl Fn(&[String]) -> bool) {
         let deadline = Instant::now() + PATIENCE;
-        while !is_there(&self.rows()) {
+        while self.is_within_frame() || !is_there(&self.rows()) {
             let gone = self.closed && self.ended.is_some();
             if gone || !self.take(deadline.saturating_duration_since(Instant::now())) {
                 panic!("no {what} on the screen (ended: {:?}):\n{}", self.ended, self.text());
             }
         }
+    }
+
+    /// Whether the last byte so far stands between the beginning of a frame and its end.
+    fn is_within_frame(&self) -> bool {
+        let place = |mark: &[u8]| self.written.windows(mark.len()).rposition(|window| window == mark);
+        place(BEGIN_FRAME) > place(END_FRAME)
     }
 
     /// Waits until a text is on the screen.
