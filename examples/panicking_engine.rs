@@ -1,11 +1,14 @@
-//! The explorer with an engine that panics on the seed 13. The tests open it to see that the explorer
-//! says so and goes on.
+//! The explorer with an engine that panics on the seed 13, or with the argument `draw` one whose view
+//! does. The tests open it to see that the explorer says so and goes on, or else gives the terminal
+//! back.
 
-use asperity::explorer::open_with;
+use asperity::explorer::model::Model;
 use asperity::explorer::worker::Engine;
+use asperity::explorer::{open_with, view};
 use asperity::scene::{DEFAULT, Roughness, Scene, open};
 use asperity::simulation::{AfterLeg, Outcome, RunError, Simulation};
 use asperity::surface::Line;
+use ratatui::Frame;
 use std::process::ExitCode;
 
 /// An engine that panics on the seed 13, and simulates otherwise.
@@ -18,15 +21,25 @@ impl Engine for Superstitious {
         stop: &dyn Fn() -> bool,
         after: &mut AfterLeg<'_>,
     ) -> Result<Outcome, RunError> {
-        if let Some(Roughness::SelfAffine { seed: 13, .. }) = scene.roughness {
-            panic!("thirteen is unlucky");
-        }
+        beware(scene);
         self.0.run(scene, stop, after)
     }
 
     fn line(&self) -> Option<&Line> {
         self.0.line()
     }
+}
+
+/// Panics on the seed 13.
+fn beware(scene: &Scene) {
+    if let Some(Roughness::SelfAffine { seed: 13, .. }) = scene.roughness {
+        panic!("thirteen is unlucky");
+    }
+}
+
+fn draw(frame: &mut Frame<'_>, model: &Model) {
+    beware(model.document.scene());
+    view::draw(frame, model);
 }
 
 fn main() -> ExitCode {
@@ -37,7 +50,12 @@ fn main() -> ExitCode {
             return ExitCode::FAILURE;
         }
     };
-    match open_with(document, Box::new(Superstitious(Simulation::default()))) {
+    let opened = if std::env::args().nth(1).as_deref() == Some("draw") {
+        open_with(document, Box::new(Simulation::default()), draw)
+    } else {
+        open_with(document, Box::new(Superstitious(Simulation::default())), view::draw)
+    };
+    match opened {
         Ok(_) => ExitCode::SUCCESS,
         Err(error) => {
             eprintln!("{error}");

@@ -1245,19 +1245,23 @@ fn taking_back_all_edits_leaves_nothing_to_save() {
 }
 
 #[test]
-fn the_worst_notice_and_title_fit_on_the_screen() {
-    within(30, || {
-        let long =
-            format!("\"{}\"", "wörter 漢字 e\u{301} ".repeat(20).chars().take(200).collect::<String>());
-        let document = changed(&rough(), &[("title", &long), ("notice", &long)]);
+fn wide_and_combining_characters_are_drawn_in_windows_of_any_width() {
+    within(60, || {
+        // A mark without a letter to stand on, and words that no window is as wide as.
+        let odd = "\u{301}e wörter 漢字 e\u{301}\u{301} a漢字b ".repeat(6) + &"漢".repeat(60);
+        let quoted = format!("\"{odd}\"");
+        let document = changed(&rough(), &[("title", &quoted), ("notice", &quoted)]);
         let mut driver = mid_retraction(document);
-        for size in SIZES {
-            driver.resize(size);
+        driver.press("Tab Tab");
+        for columns in (1..20).chain([33, 60, 79, 80, 119, 120]) {
+            driver.resize((columns, 40));
+            driver.press("e Ctrl+u");
+            driver.type_text(&odd);
             driver.screen();
-            driver.press("e");
-            driver.type_text("漢字 e\u{301} 漢字 漢字 漢字 漢字 漢字");
+            // What is wrong with it is told with the value itself.
+            driver.press("Enter");
+            assert!(driver.model.refused.is_some());
             driver.screen();
-            driver.press("Esc");
         }
     });
 }

@@ -741,3 +741,21 @@ fn a_panic_of_the_engine_is_a_line_and_the_explorer_goes_on() {
         quit(&mut terminal);
     });
 }
+
+#[test]
+fn a_panic_while_drawing_gives_the_terminal_back_and_tells_why() {
+    within(60, || {
+        let mut terminal = paused(panicking().argument("draw"));
+        select(&mut terminal, "seed");
+        terminal.send("e");
+        terminal.wait_for("Esc cancel");
+        terminal.send(CLEAR_LINE);
+        terminal.send("13");
+        terminal.send(ENTER);
+        assert_eq!(terminal.wait_end().exit_code(), 101);
+        assert_given_back(&terminal);
+        // Told below one another: the terminal starts each line at its left again.
+        let told = terminal.rows();
+        assert!(told.iter().any(|row| row.starts_with("thirteen is unlucky")), "{}", terminal.text());
+    });
+}

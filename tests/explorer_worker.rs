@@ -17,7 +17,7 @@ use common::scenes::{changed, one_spring, punch, rough, smooth, without_adhesion
 use std::cell::RefCell;
 use std::sync::Arc;
 use std::sync::atomic::Ordering;
-use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
 use std::time::Duration;
 
 /// Longest time an answer may take.
@@ -220,13 +220,13 @@ fn a_scene_that_is_no_longer_wanted_is_not_computed() {
 fn a_newer_scene_stops_the_one_that_is_being_computed() {
     within(30, || {
         let (started, wait) = channel();
-        let (go_on, mut stopped) = stop_when_told();
+        let (go_on, words) = channel();
         let served = Served::by(Double::new(move |scene, stop| {
             if scene.title != "endless" {
                 return None;
             }
             started.send(()).unwrap();
-            stopped(stop)
+            Some(stop_when_told(&words, stop))
         }));
         served.compute(1, &rough().set("title", "\"endless\"").unwrap());
         wait.recv_timeout(PATIENCE).expect("the first scene is begun");
@@ -242,14 +242,10 @@ fn a_newer_scene_stops_the_one_that_is_being_computed() {
 }
 
 /// A run that waits for a word, and then gives up if it is told to stop.
-fn stop_when_told() -> (Sender<()>, impl FnMut(&dyn Fn() -> bool) -> Option<RunError> + Send) {
-    let (word, words) = channel();
-    let run = move |stop: &dyn Fn() -> bool| {
-        words.recv_timeout(PATIENCE).expect("a word to go on");
-        assert!(stop(), "the run is told to stop");
-        Some(ContactError::Interrupted.into())
-    };
-    (word, run)
+fn stop_when_told(words: &Receiver<()>, stop: &dyn Fn() -> bool) -> RunError {
+    words.recv_timeout(PATIENCE).expect("a word to go on");
+    assert!(stop(), "the run is told to stop");
+    ContactError::Interrupted.into()
 }
 
 #[test]

@@ -1,6 +1,7 @@
 //! The lines around the panes: title, status, footer.
 
 use super::typed::typed;
+use super::wrap::wrapped;
 use crate::explorer::action::Command;
 use crate::explorer::keys;
 use crate::explorer::model::{Mode, Model, Notice};
@@ -9,7 +10,7 @@ use crate::scene::format_quantity;
 use ratatui::Frame;
 use ratatui::layout::Rect;
 use ratatui::text::{Line, Span};
-use ratatui::widgets::{Paragraph, Wrap};
+use ratatui::widgets::Paragraph;
 
 /// Name of the scene, whether it has changed, and what to look at.
 pub fn title(frame: &mut Frame<'_>, area: Rect, model: &Model) {
@@ -21,7 +22,7 @@ pub fn title(frame: &mut Frame<'_>, area: Rect, model: &Model) {
         Span::styled(format!("{name}{changed}  "), model.theme.style(Meaning::Title)),
         Span::styled(notice, model.theme.style(Meaning::Quiet)),
     ]);
-    frame.render_widget(Paragraph::new(line).wrap(Wrap { trim: true }), area);
+    frame.render_widget(Paragraph::new(wrapped(&line, area.width)), area);
 }
 
 /// The headline figures, or a question, an error, or what is being typed.

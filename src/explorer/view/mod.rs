@@ -9,6 +9,7 @@ mod parameters;
 mod plot;
 mod profile;
 mod typed;
+mod wrap;
 
 use super::layout::{Layout, inside, is_framed};
 use super::model::{Mode, Model, Pane};

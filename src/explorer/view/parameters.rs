@@ -1,13 +1,14 @@
 //! The list of parameters and what the selected one means.
 
 use super::typed::typed;
+use super::wrap::wrapped;
 use crate::explorer::model::{Mode, Model};
 use crate::explorer::theme::Meaning;
 use crate::scene::format_quantity;
 use ratatui::Frame;
 use ratatui::layout::Rect;
 use ratatui::text::{Line, Span};
-use ratatui::widgets::{Paragraph, Wrap};
+use ratatui::widgets::Paragraph;
 
 /// Draws the list, scrolled so that the selected row shows, derived values, and a line or two of
 /// explanation below.
@@ -30,7 +31,7 @@ pub fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
         frame.render_widget(Paragraph::new(line), Rect { y: row, height: 1, ..area });
     }
     let help = Rect { y: area.bottom() - help_rows, height: help_rows, ..area };
-    frame.render_widget(explanation(model), help);
+    frame.render_widget(Paragraph::new(wrapped(&explanation(model), help.width)), help);
 }
 
 fn parameter_line(model: &Model, index: usize, width: usize) -> Line<'static> {
@@ -95,12 +96,11 @@ fn derived(model: &Model) -> Vec<(&'static str, String)> {
 }
 
 /// What is wrong with the selected value, or what it means and what is allowed.
-fn explanation(model: &Model) -> Paragraph<'static> {
+fn explanation(model: &Model) -> Line<'static> {
     if let Some((_, error)) = &model.refused {
-        let line = Line::styled(format!("! {error}"), model.theme.style(Meaning::Error));
-        return Paragraph::new(line).wrap(Wrap { trim: true });
+        return Line::styled(format!("! {error}"), model.theme.style(Meaning::Error));
     }
-    let Some(parameter) = model.parameter() else { return Paragraph::default() };
+    let Some(parameter) = model.parameter() else { return Line::default() };
     let text = format!("{}. Allowed: {}", parameter.field.meaning, parameter.field.allowed());
-    Paragraph::new(Line::styled(text, model.theme.style(Meaning::Quiet))).wrap(Wrap { trim: true })
+    Line::styled(text, model.theme.style(Meaning::Quiet))
 }

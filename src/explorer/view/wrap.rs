@@ -1,0 +1,97 @@
+//! Breaks a line between words.
+//!
+//! ratatui does so as well, but overruns its area, and panics, where a word has wide characters or
+//! begins with a combining mark; titles and typed values may.
+
+use ratatui::style::Style;
+use ratatui::text::{Line, Span};
+
+/// A line in as many lines as it takes, none of them wider than so many columns. A word wider than that
+/// is broken anywhere.
+pub fn wrapped(line: &Line<'_>, columns: u16) -> Vec<Line<'static>> {
+    let mut page = Page { lines: Vec::new(), line: Line::default(), left: columns, columns };
+    let graphemes: Vec<_> = line.styled_graphemes(Style::default()).collect();
+    for word in graphemes.split_inclusive(|grapheme| grapheme.symbol.trim().is_empty()) {
+        let letters = word.iter().filter(|grapheme| !grapheme.symbol.trim().is_empty());
+        let width: usize = letters.map(|grapheme| Span::raw(grapheme.symbol).width()).sum();
+        if width > usize::from(page.left) {
+            page.turn();
+        }
+        for grapheme in word {
+            page.push(grapheme.symbol, grapheme.style);
+        }
+    }
+    page.turn();
+    page.lines
+}
+
+/// The lines so far, the last of them unfinished.
+struct Page {
+    lines: Vec<Line<'static>>,
+    line: Line<'static>,
+    /// Columns left on it.
+    left: u16,
+    columns: u16,
+}
+
+impl Page {
+    /// Begins a new line, unless this one is empty.
+    fn turn(&mut self) {
+        if !self.line.spans.is_empty() {
+            self.lines.push(std::mem::take(&mut self.line));
+        }
+        self.left = self.columns;
+    }
+
+    fn push(&mut self, symbol: &str, style: Style) {
+        let is_blank = symbol.trim().is_empty();
+        let width = Span::raw(symbol).width() as u16;
+        if width > self.columns || (is_blank && (width > self.left || self.line.spans.is_empty())) {
+            return;
+        }
+        if width > self.left {
+            self.turn();
+        }
+        self.left -= width;
+        match self.line.spans.last_mut() {
+            Some(span) if span.style == style => span.content.to_mut().push_str(symbol),
+            _ => self.line.push_span(Span::styled(symbol.to_owned(), style)),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn texts(text: &'static str, columns: u16) -> Vec<String> {
+        wrapped(&Line::raw(text), columns).iter().map(ToString::to_string).collect()
+    }
+
+    #[test]
+    fn lines_break_between_words_and_long_words_anywhere() {
+        assert_eq!(texts("one two  three", 7), ["one two", "three"]);
+        assert_eq!(texts("one two three", 8), ["one two ", "three"]);
+        assert_eq!(texts("unbreakable", 4), ["unbr", "eaka", "ble"]);
+        assert_eq!(texts("", 4), Vec::<String>::new());
+        assert_eq!(texts("a b", 0), Vec::<String>::new());
+    }
+
+    #[test]
+    fn no_line_is_wider_than_the_columns() {
+        for text in ["a漢b 漢 漢漢a", "\u{301}a \u{301} bcd\u{301}ef", "漢 \u{200b}a"] {
+            for columns in 0..8 {
+                for line in wrapped(&Line::raw(text), columns) {
+                    assert!(line.width() <= usize::from(columns), "{text} {columns}: {line}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn styles_stay_with_their_words() {
+        let line = Line::from(vec![Span::raw("one "), Span::styled("two", Style::new().bold())]);
+        let lines = wrapped(&line, 4);
+        assert_eq!(lines[1].spans, [Span::styled("two", Style::new().bold())]);
+    }
+}
