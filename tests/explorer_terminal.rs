@@ -302,6 +302,21 @@ fn another_size_of_the_window_is_filled() {
 }
 
 #[test]
+fn a_window_that_shrinks_and_grows_back_at_once_is_drawn_anew() {
+    within(40, || {
+        let (program, _folder) = explorer();
+        let mut terminal = paused(program);
+        let before = terminal.text();
+        for _ in 0..30 {
+            terminal.resize(40, 12);
+            terminal.resize(120, 40);
+            terminal.wait("screen as before", |rows| rows.join("\n") == before);
+        }
+        quit(&mut terminal);
+    });
+}
+
+#[test]
 fn a_window_of_one_cell_is_survived() {
     within(40, || {
         let (program, _folder) = explorer();

@@ -23,6 +23,7 @@ use action::{Action, SaveError};
 use crossterm::event::{Event, KeyCode, KeyEventKind, KeyModifiers};
 use model::Model;
 use ratatui::backend::CrosstermBackend;
+use ratatui::layout::{Position, Rect};
 use ratatui::{Frame, Terminal};
 use std::io::{self, Write};
 use std::mem::ManuallyDrop;
@@ -115,8 +116,14 @@ fn explore<W: Write>(
     let frame_time = Duration::from_secs(1) / if remote { REMOTE_FRAMES } else { LOCAL_FRAMES };
     perform(&mut model, worker, vec![Effect::Compute]);
     let mut moved = Instant::now();
-    let mut changed = true;
+    let (mut changed, mut resized) = (true, false);
     while !model.finished {
+        if std::mem::take(&mut resized) {
+            // Unlike `clear` this does not ask the terminal where its cursor is, on the input that the
+            // other thread reads.
+            let size = terminal.size()?;
+            terminal.resize(Rect::from((Position::ORIGIN, size)))?;
+        }
         if changed {
             terminal.draw(|frame| draw(frame, &model))?;
             changed = false;
@@ -141,6 +148,9 @@ fn explore<W: Write>(
             };
             if let Some(action) = action {
                 changed = true;
+                // A window that shrank and grew back between two frames has lost what stood there,
+                // though its size is that of the last frame.
+                resized |= matches!(action, Action::Resize(..));
                 act(&mut model, worker, action);
             }
         }
