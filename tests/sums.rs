@@ -10,7 +10,12 @@ use proptest::prelude::*;
 type Unrounded = FBig<HalfEven, 2>;
 
 fn unrounded(value: f64) -> Unrounded {
-    Unrounded::try_from(value).unwrap().with_precision(0).value()
+    without_limit(Unrounded::try_from(value).unwrap())
+}
+
+/// A number whose sums and products with others without a limit have none either.
+fn without_limit(value: Unrounded) -> Unrounded {
+    value.with_precision(0).value()
 }
 
 /// Unit roundoff u = 2⁻⁵³.
@@ -35,7 +40,9 @@ fn sum(gaps: &[f64]) -> Unrounded {
 
 /// Σ (d − c), exactly, of so many springs with this sum of gaps.
 fn compression(springs: usize, sum: &Unrounded, d: f64) -> Unrounded {
-    unrounded(springs as f64) * unrounded(d) - sum
+    let exact = unrounded(springs as f64) * unrounded(d) - sum;
+    assert_eq!(exact.precision(), 0, "a limit to the digits");
+    exact
 }
 
 fn magnitude(value: Unrounded) -> Unrounded {

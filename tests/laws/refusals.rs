@@ -2,6 +2,7 @@
 //! anything to do are done at once.
 
 use super::*;
+use asperity::analysis::Figures;
 use asperity::contact::{ContactError, Direction};
 
 proptest! {
@@ -73,6 +74,22 @@ proptest! {
         prop_assert_eq!((touch.start(), touch.joins), (below, expected.joins));
         let [one, other] = [&mut flown, &mut fresh].map(|solver| solver.advance(Leg::ToSeparation).unwrap());
         prop_assert_eq!(one, other);
+    }
+
+    #[test]
+    fn what_a_separated_body_does_changes_no_figure(
+        body in body(),
+        to in 0.0..1.0_f64,
+        heights in prop::collection::vec(0.0..2.0_f64, 1..5),
+    ) {
+        let mut legs = vec![Leg::ToIndentation(to), Leg::ToSeparation];
+        let figures = Figures::of(&body.history(&legs, 17));
+        prop_assert!(figures.adhesion_force.is_some() && figures.dissipated_energy.is_some());
+        // High enough not to be moved towards the body from where it let go.
+        let low = body.largest_stretch() + 1.0;
+        legs.extend(heights.iter().map(|height| Leg::ToIndentation(-low - height)));
+        legs.push(Leg::ToSeparation);
+        prop_assert_eq!(Figures::of(&body.history(&legs, 17)), figures);
     }
 
     #[test]
