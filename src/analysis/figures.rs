@@ -25,13 +25,13 @@ impl Figures {
     /// The figures of `history`.
     #[must_use]
     pub fn of(history: &History) -> Self {
-        let preload = history
-            .legs
-            .iter()
+        // What a separated body does on its way says nothing of the contact.
+        let legs = || history.legs.iter().filter(|leg| leg.curve.iter().any(|point| point.springs > 0));
+        let preload = legs()
             .filter(|leg| leg.direction == Direction::Loading)
             .map(|leg| leg.largest)
             .max_by(|a, b| a.force.total_cmp(&b.force));
-        let pull = history.legs.iter().rev().find(|leg| leg.direction == Direction::Unloading);
+        let pull = legs().rfind(|leg| leg.direction == Direction::Unloading);
         let smallest = pull.map(|leg| leg.smallest).filter(|point| point.force <= 0.0);
         // Not −F: that would make a force of zero negative.
         let adhesion_force = smallest.map(|point| 0.0 - point.force);
