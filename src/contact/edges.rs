@@ -46,3 +46,19 @@ impl EdgeRule for GridEdges {
         leaves_at.next_up().min(gap)
     }
 }
+
+/// No adhesion: nothing is stretched, each spring touches and leaves at its own gap.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct NoAdhesion;
+
+impl EdgeRule for NoAdhesion {
+    #[inline]
+    fn grows_at(&self, tree: &ContactTree, _: usize, wall: usize) -> f64 {
+        tree.gap(wall)
+    }
+
+    #[inline]
+    fn holds_to(&self, tree: &ContactTree, node: usize) -> f64 {
+        tree.gap(node)
+    }
+}

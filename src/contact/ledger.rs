@@ -193,26 +193,26 @@ pub(crate) struct Event {
 /// Sum of non-negative terms that keeps its rounding errors (Neumaier): relative error below
 /// 2u + O(n u²).
 #[derive(Clone, Copy, Debug, Default)]
-struct CompensatedSum {
+pub(super) struct CompensatedSum {
     value: f64,
     error: f64,
 }
 
 impl CompensatedSum {
     #[inline]
-    fn add(&mut self, term: f64) {
+    pub fn add(&mut self, term: f64) {
         let sum = self.value + term;
         let added = sum - self.value;
         self.error += (self.value - (sum - added)) + (term - added);
         self.value = sum;
     }
 
-    fn add_sum(&mut self, other: CompensatedSum) {
+    pub fn add_sum(&mut self, other: CompensatedSum) {
         self.add(other.value);
         self.error += other.error;
     }
 
-    fn total(self) -> f64 {
+    pub fn total(self) -> f64 {
         self.value + self.error
     }
 }

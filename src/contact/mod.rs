@@ -10,13 +10,16 @@
 //!   not while its gap is closed.
 //!
 //! [`exact`] solves them for any loading history in one pass over a tree for each leg; [`stepwise`]
-//! moves by small steps and relaxes, as the paper does.
+//! moves by small steps and relaxes, as the paper does; [`Incremental`] holds the body in hand and does, for
+//! each small move either way, only the work that changes.
 
 mod edges;
 mod error;
 pub mod exact;
 mod foundation;
+mod fragment_set;
 mod history;
+mod incremental;
 mod ledger;
 mod search;
 mod solver;
@@ -24,13 +27,15 @@ mod springs;
 pub mod stepwise;
 mod tally;
 mod thresholds;
+mod tournament;
 mod tree;
 
-pub use edges::{EdgeRule, GridEdges};
+pub use edges::{EdgeRule, GridEdges, NoAdhesion};
 pub use error::ContactError;
 pub use exact::Exact;
 pub use foundation::{Foundation, HessRule};
 pub use history::{CurvePoint, Direction, History, LegRecord, Work};
+pub use incremental::{HandError, HandHeld, Incremental, Move};
 pub use solver::{Solver, run};
 pub use stepwise::Stepwise;
 pub use tally::{GapScale, Tally};

@@ -1,0 +1,162 @@
+//! A queue of slots by key in which any slot can be given another key.
+
+use super::{ContactError, reserve};
+
+/// Slots 0, 1, … with a key each; the one with the smallest key is known at any time.
+///
+/// Each node of a complete binary tree over the slots knows the winner below it. Unlike in a heap a slot
+/// is found by its number, so nothing outdated ever stands in the queue and has to be thrown out later.
+#[derive(Clone, Debug)]
+pub(super) struct Tournament {
+    keys: Vec<f64>,
+    /// Slot with the smallest key below nodes 1 … `width` − 1; the children of node i are 2i and 2i + 1.
+    winners: Vec<u32>,
+    /// Number of places in the lowest row, a power of two; slot s stands there as node `width` + s.
+    width: usize,
+}
+
+impl Tournament {
+    /// A tournament of slots with these keys; one with the key +∞ is empty.
+    ///
+    /// # Errors
+    /// [`ContactError::OutOfMemory`].
+    pub fn new(keys: Vec<f64>) -> Result<Self, ContactError> {
+        let width = keys.len().next_power_of_two();
+        let mut winners = reserve(width)?;
+        winners.resize(width, 0);
+        let mut tournament = Tournament { keys, winners, width };
+        for node in (1..width).rev() {
+            tournament.winners[node] = tournament.decide(node);
+        }
+        Ok(tournament)
+    }
+
+    #[inline]
+    fn key(&self, slot: u32) -> f64 {
+        // The lowest row is wider than there are slots.
+        self.keys.get(slot as usize).copied().unwrap_or(f64::INFINITY)
+    }
+
+    #[inline]
+    fn winner(&self, node: usize) -> u32 {
+        if node < self.width { self.winners[node] } else { (node - self.width) as u32 }
+    }
+
+    #[inline]
+    fn decide(&self, node: usize) -> u32 {
+        let (left, right) = (self.winner(2 * node), self.winner(2 * node + 1));
+        if self.key(right) < self.key(left) { right } else { left }
+    }
+
+    fn is_occupied(&self, node: usize) -> bool {
+        self.key(self.winner(node)) < f64::INFINITY
+    }
+
+    /// The slot with the smallest key, and that key; `None` when all are empty.
+    #[inline]
+    pub fn first(&self) -> Option<(usize, f64)> {
+        let slot = self.winner(1);
+        let key = self.key(slot);
+        (key < f64::INFINITY).then_some((slot as usize, key))
+    }
+
+    /// Gives a slot another key. It counts only after [`Tournament::settle`].
+    #[inline]
+    pub fn set(&mut self, slot: usize, key: f64) {
+        self.keys[slot] = key;
+    }
+
+    /// Decides anew above the slots `first ..= last`. Returns the number of nodes looked at: at most
+    /// about twice the number of slots and two for each row.
+    pub fn settle(&mut self, first: usize, last: usize) -> u64 {
+        let (mut low, mut high) = (self.width + first, self.width + last);
+        let mut looked_at = 0;
+        while low > 1 {
+            (low, high) = (low / 2, high / 2);
+            let mut changed = false;
+            for node in low..=high {
+                let winner = self.decide(node);
+                // The same slot with another key is a change for those above.
+                changed |= winner != self.winners[node] || (first..=last).contains(&(winner as usize));
+                self.winners[node] = winner;
+            }
+            looked_at += (high - low + 1) as u64;
+            if !changed {
+                break;
+            }
+        }
+        looked_at
+    }
+
+    /// The first slot from `slot` on that is not empty.
+    pub fn occupied_from(&self, slot: usize) -> Option<usize> {
+        if slot >= self.keys.len() {
+            return None;
+        }
+        let mut node = self.width + slot;
+        // Up to where something stands on the right, and down to the leftmost of it.
+        while !self.is_occupied(node) {
+            while node % 2 == 1 {
+                node /= 2;
+            }
+            if node == 0 {
+                return None;
+            }
+            node += 1;
+        }
+        while node < self.width {
+            node = if self.is_occupied(2 * node) { 2 * node } else { 2 * node + 1 };
+        }
+        Some(node - self.width)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn key() -> impl Strategy<Value = f64> {
+        prop_oneof![4 => (0_u8..20).prop_map(f64::from), 1 => Just(f64::INFINITY), 1 => -1.0..1.0_f64]
+    }
+
+    /// What all questions must give.
+    fn check(tournament: &Tournament, keys: &[f64]) -> Result<(), TestCaseError> {
+        let smallest = keys.iter().copied().fold(f64::INFINITY, f64::min);
+        match tournament.first() {
+            Some((slot, key)) => prop_assert_eq!((keys[slot], key), (smallest, smallest)),
+            None => prop_assert_eq!(smallest, f64::INFINITY),
+        }
+        for from in 0..keys.len() + 2 {
+            let expected = (from..keys.len()).find(|&slot| keys[slot] < f64::INFINITY);
+            prop_assert_eq!(tournament.occupied_from(from), expected, "from {}", from);
+        }
+        Ok(())
+    }
+
+    proptest! {
+        #[test]
+        fn knows_the_smallest_key_after_any_change(
+            mut keys in prop::collection::vec(key(), 0..70),
+            changes in prop::collection::vec((any::<prop::sample::Index>(), prop::collection::vec(key(), 1..9)), 0..20),
+        ) {
+            let mut tournament = Tournament::new(keys.clone()).unwrap();
+            check(&tournament, &keys)?;
+            for (place, new) in changes {
+                if keys.is_empty() {
+                    break;
+                }
+                let first = place.index(keys.len());
+                let last = (first + new.len() - 1).min(keys.len() - 1);
+                for (slot, key) in (first..=last).zip(new) {
+                    keys[slot] = key;
+                    tournament.set(slot, key);
+                }
+                let rows = tournament.width.ilog2() as usize;
+                let looked_at = tournament.settle(first, last) as usize;
+                prop_assert!(looked_at <= 2 * (last - first + 1) + 2 * rows);
+                check(&tournament, &keys)?;
+            }
+        }
+    }
+}

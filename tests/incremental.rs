@@ -1,0 +1,457 @@
+//! The body in hand against the exact solver: the same contact, bit for bit, at the cost of what changes.
+
+use asperity::contact::{
+    ContactError, ContactTree, CurvePoint, Foundation, GridEdges, HandError, HandHeld, HessRule, Incremental,
+    LegRecord, Move, NoAdhesion, Solver, exact,
+};
+use asperity::scene::Leg;
+use asperity::surface::{SelfAffine, UnitRoughness};
+use proptest::prelude::*;
+use std::sync::Arc;
+
+/// Springs, with a work of adhesion unless there is none.
+#[derive(Clone, Debug)]
+struct Body {
+    /// m, the smallest 0.
+    gaps: Vec<f64>,
+    foundation: Foundation,
+    /// γ, J/m².
+    work: Option<f64>,
+}
+
+impl Body {
+    fn tree(&self) -> Arc<ContactTree> {
+        Arc::new(ContactTree::build(&self.gaps).unwrap())
+    }
+
+    fn rule(&self, work: f64) -> GridEdges {
+        GridEdges::new(HessRule::new(self.foundation, work))
+    }
+
+    fn exact<'a>(&'a self, tree: &'a ContactTree) -> Box<dyn Solver + 'a> {
+        match self.work {
+            Some(work) => Box::new(exact::adhesive(tree, self.rule(work), self.foundation, 2).unwrap()),
+            None => Box::new(exact::bare(&self.gaps, self.foundation, 2)),
+        }
+    }
+
+    /// In hand, as it is before first touch.
+    fn in_hand(&self, tree: &Arc<ContactTree>) -> Box<dyn HandHeld + Send> {
+        let tree = Arc::clone(tree);
+        match self.work {
+            Some(work) => Box::new(Incremental::new(tree, self.rule(work), self.foundation).unwrap()),
+            None => Box::new(Incremental::new(tree, NoAdhesion, self.foundation).unwrap()),
+        }
+    }
+
+    /// In hand, in this contact.
+    fn standing(
+        &self,
+        tree: &Arc<ContactTree>,
+        indentation: f64,
+        contacts: &[(usize, usize)],
+    ) -> Box<dyn HandHeld + Send> {
+        let (tree, foundation) = (Arc::clone(tree), self.foundation);
+        match self.work {
+            Some(work) => Box::new(
+                Incremental::standing(tree, self.rule(work), foundation, indentation, contacts).unwrap(),
+            ),
+            None => {
+                Box::new(Incremental::standing(tree, NoAdhesion, foundation, indentation, contacts).unwrap())
+            }
+        }
+    }
+
+    /// m
+    fn deepest(&self) -> f64 {
+        self.gaps.iter().copied().fold(0.0, f64::max)
+    }
+
+    /// Largest stretch of a fragment that is the whole line, m.
+    fn largest_stretch(&self) -> f64 {
+        let length = self.gaps.len() as f64 * self.foundation.spacing;
+        let range = self.work.unwrap_or(0.0) / self.foundation.effective_modulus;
+        (std::f64::consts::PI * length * range).sqrt()
+    }
+
+    /// A force of the order of those that act, N.
+    fn force_scale(&self) -> f64 {
+        let springs = self.gaps.len() as f64 * self.foundation.spring_stiffness();
+        springs * (self.deepest() + self.largest_stretch()).max(1e-3)
+    }
+}
+
+/// Gaps of a line of one of several kinds, up to 300 springs.
+fn gaps() -> impl Strategy<Value = Vec<f64>> {
+    let walk = prop::collection::vec(-1.0..1.0_f64, 1..300).prop_map(|steps| {
+        let mut height = 0.0;
+        let heights = steps.iter().map(|step| {
+            height += 0.1 * step;
+            height
+        });
+        heights.collect::<Vec<f64>>()
+    });
+    let noise = prop::collection::vec(0.0..1.0_f64, 1..120);
+    let few = prop::collection::vec(0.0..1.0_f64, 1..5);
+    let levels = prop::collection::vec(0_u8..5, 1..120)
+        .prop_map(|levels| levels.iter().map(|&level| 0.25 * f64::from(level)).collect());
+    let flat = (1_usize..50).prop_map(|count| vec![0.0; count]);
+    let ramp = (1_usize..100, any::<bool>()).prop_map(|(count, falls)| {
+        let rising = (0..count).map(|k| (k as f64 / 50.0).powi(2));
+        if falls { rising.rev().collect() } else { rising.collect() }
+    });
+    // The last places of neighbours: joining and leaving come to lie at one number.
+    let fine = prop::collection::vec(0_u64..9, 1..60).prop_map(|places| {
+        let mut gaps: Vec<f64> = places.iter().map(|p| f64::from_bits(0.5_f64.to_bits() + p)).collect();
+        gaps[0] = 0.0;
+        gaps
+    });
+    prop_oneof![6 => walk, 2 => noise, 2 => few, 3 => levels, 1 => flat, 2 => ramp, 1 => fine].prop_map(
+        |heights: Vec<f64>| {
+            let lowest = heights.iter().copied().fold(f64::INFINITY, f64::min);
+            heights.iter().map(|height| height - lowest).collect()
+        },
+    )
+}
+
+/// Bodies about 1 m deep, without adhesion, with hardly any, and with far more than it takes.
+fn body() -> impl Strategy<Value = Body> {
+    let range = prop_oneof![
+        3 => (-5.0..2.0_f64).prop_map(|power| Some(10_f64.powf(power))),
+        1 => (-32.0..-5.0_f64).prop_map(|power| Some(10_f64.powf(power))),
+        1 => Just(Some(0.0)),
+        1 => Just(None),
+    ];
+    (gaps(), range, 0.003..0.03_f64, 0.3..3.0_f64).prop_map(|(gaps, range, spacing, effective_modulus)| {
+        let work = range.map(|range| range * effective_modulus);
+        Body { gaps, foundation: Foundation { spacing, effective_modulus }, work }
+    })
+}
+
+/// Where a move goes; forces in units of those that act.
+#[derive(Clone, Copy, Debug)]
+enum Goal {
+    Indentation(f64),
+    Force(f64),
+    Separation,
+}
+
+impl Goal {
+    fn leg(self, body: &Body) -> Leg {
+        match self {
+            Goal::Indentation(indentation) => Leg::ToIndentation(indentation),
+            Goal::Force(share) => Leg::ToForce(share * body.force_scale()),
+            Goal::Separation => Leg::ToSeparation,
+        }
+    }
+}
+
+fn indentation() -> impl Strategy<Value = f64> {
+    prop_oneof![4 => -0.8..1.2_f64, 2 => (-3_i8..6).prop_map(|l| 0.25 * f64::from(l))]
+}
+
+fn goals() -> impl Strategy<Value = Vec<Goal>> {
+    let force = prop_oneof![
+        4 => -0.5..1.0_f64, 2 => -0.02..0.02_f64, 1 => Just(0.0), 1 => Just(1e9), 1 => Just(-1e9)
+    ];
+    let goal = prop_oneof![
+        5 => indentation().prop_map(Goal::Indentation),
+        5 => force.prop_map(Goal::Force),
+        1 => Just(Goal::Separation),
+    ];
+    prop::collection::vec(goal, 1..14)
+}
+
+fn go(hand: &mut dyn HandHeld, leg: Leg) -> Result<Move, HandError> {
+    match leg {
+        Leg::ToIndentation(indentation) => hand.move_to_indentation(indentation),
+        Leg::ToForce(force) => hand.move_to_force(force),
+        _ => Ok(hand.separate()),
+    }
+}
+
+fn cases(cases: u32) -> ProptestConfig {
+    ProptestConfig { cases, failure_persistence: None, ..ProptestConfig::default() }
+}
+
+/// All of a point, bit for bit.
+fn bits(point: &CurvePoint) -> [u64; 4] {
+    [point.indentation.to_bits(), point.force.to_bits(), point.springs, point.fragments]
+}
+
+fn fragments(hand: &dyn HandHeld) -> Vec<(usize, usize)> {
+    hand.fragments().collect()
+}
+
+/// Where a body stands: all of its point and its fragments.
+fn state(hand: &dyn HandHeld) -> ([u64; 4], Vec<(usize, usize)>) {
+    (bits(&hand.point()), fragments(hand))
+}
+
+/// The fragments a solver has at the end of a leg.
+fn fragments_after(solver: &dyn Solver, record: &LegRecord) -> Vec<(usize, usize)> {
+    let end = record.curve.last().unwrap();
+    if end.springs == 0 { Vec::new() } else { solver.fragments(end.indentation) }
+}
+
+/// To 1e-12 of the sum of its terms, ½ Δk e² for each spring that moved.
+fn check_energy(found: f64, expected: f64) -> Result<(), TestCaseError> {
+    // On one leg they all have one sign.
+    prop_assert!((found - expected).abs() <= 1e-12 * expected.abs(), "{} J against {} J", found, expected);
+    Ok(())
+}
+
+proptest! {
+    #![proptest_config(cases(3000))]
+
+    #[test]
+    fn it_stands_where_the_exact_solver_stands(body in body(), goals in goals()) {
+        let tree = body.tree();
+        let (mut solver, mut hand) = (body.exact(&tree), body.in_hand(&tree));
+        for (index, goal) in goals.iter().enumerate() {
+            let leg = goal.leg(&body);
+            let before = state(&*hand);
+            let (found, expected) = (go(&mut *hand, leg), solver.advance(leg));
+            match (found, expected) {
+                (Ok(found), Ok(record)) => {
+                    let end = record.curve.last().unwrap();
+                    prop_assert_eq!(bits(&hand.point()), bits(end), "{} {:?}: {:?} against {:?}",
+                        index, leg, hand.point(), end);
+                    prop_assert_eq!(fragments(&*hand), fragments_after(&*solver, &record));
+                    prop_assert_eq!((found.joins, found.leaves), (record.joins, record.leaves));
+                    check_energy(found.dissipated_energy, record.dissipated_energy)?;
+                }
+                (Err(found), Err(expected)) => {
+                    prop_assert_eq!(state(&*hand), before);
+                    let alike = match (&found, &expected) {
+                        (HandError::NothingToPull { .. }, ContactError::NothingToPull { .. })
+                        | (HandError::OutOfReach { .. }, ContactError::OutOfReach { .. }) => true,
+                        (
+                            HandError::LetsGoBefore { smallest: one, .. },
+                            ContactError::LetsGoBefore { smallest: other, .. },
+                        ) => one.to_bits() == other.to_bits(),
+                        _ => false,
+                    };
+                    prop_assert!(alike, "{:?} against {:?}", found, expected);
+                }
+                (found, expected) => prop_assert!(false, "{:?} against {:?}", found, expected),
+            }
+        }
+    }
+
+    #[test]
+    fn a_move_in_many_parts_is_one_move(
+        body in body(),
+        goals in goals(),
+        to in indentation(),
+        parts in prop::collection::vec(0.0..1.0_f64, 1..40),
+    ) {
+        let tree = body.tree();
+        let (mut whole, mut split) = (body.in_hand(&tree), body.in_hand(&tree));
+        for goal in goals {
+            let leg = goal.leg(&body);
+            prop_assert_eq!(go(&mut *whole, leg).is_ok(), go(&mut *split, leg).is_ok());
+        }
+        let from = whole.point().indentation;
+        let mut stops: Vec<f64> = parts.iter().map(|part| from + part * (to - from)).collect();
+        stops.sort_by(|a, b| if to < from { b.total_cmp(a) } else { a.total_cmp(b) });
+        stops.push(to);
+        let once = whole.move_to_indentation(to).unwrap();
+        let mut sum = Move::default();
+        for stop in stops {
+            let part = split.move_to_indentation(stop).unwrap();
+            sum.joins += part.joins;
+            sum.leaves += part.leaves;
+            sum.events += part.events;
+            sum.dissipated_energy += part.dissipated_energy;
+        }
+        prop_assert_eq!(state(&*whole), state(&*split));
+        prop_assert_eq!((once.joins, once.leaves, once.events), (sum.joins, sum.leaves, sum.events));
+        check_energy(sum.dissipated_energy, once.dissipated_energy)?;
+    }
+
+    #[test]
+    fn minor_loops_close(body in body(), deepest in 0.0..1.2_f64, shares in [0.0..1.0_f64, 0.0..1.0]) {
+        let tree = body.tree();
+        let mut hand = body.in_hand(&tree);
+        let outer = -0.5 + shares[0] * (deepest + 0.5);
+        let inner = outer + shares[1] * (deepest - outer);
+        let mut states = Vec::new();
+        for to in [deepest, outer, inner, outer, deepest] {
+            hand.move_to_indentation(to).unwrap();
+            states.push(state(&*hand));
+        }
+        prop_assert_eq!(&states[1], &states[3]);
+        prop_assert_eq!(&states[0], &states[4]);
+    }
+
+    #[test]
+    fn taken_in_hand_anywhere_it_goes_on_as_if_it_had_come_there(
+        body in body(),
+        history in prop::collection::vec(indentation(), 1..6),
+        share in 0.0..=1.0_f64,
+        goals in goals(),
+    ) {
+        let tree = body.tree();
+        let (mut solver, mut came) = (body.exact(&tree), body.in_hand(&tree));
+        let mut last = None;
+        for &to in &history {
+            last = Some(solver.advance(Leg::ToIndentation(to)).unwrap());
+        }
+        // A moment of the last leg.
+        let last = last.unwrap();
+        let moment = last.start() + share * (last.end() - last.start());
+        for &to in &history[..history.len() - 1] {
+            came.move_to_indentation(to).unwrap();
+        }
+        came.move_to_indentation(moment).unwrap();
+        let mut taken = body.standing(&tree, moment, &solver.fragments(moment));
+        prop_assert_eq!(state(&*taken), state(&*came));
+        for goal in goals {
+            let leg = goal.leg(&body);
+            let (one, other) = (go(&mut *taken, leg), go(&mut *came, leg));
+            prop_assert_eq!(one.map(|one| Move { touched: 0, ..one }), other.map(|other| Move { touched: 0, ..other }));
+            prop_assert_eq!(state(&*taken), state(&*came));
+        }
+    }
+
+    #[test]
+    fn of_any_contact_the_whole_subtrees_are_taken(
+        body in body(),
+        runs in prop::collection::vec((0_usize..310, 0_usize..40), 0..12),
+    ) {
+        let tree = body.tree();
+        let runs: Vec<_> = runs.iter().map(|&(first, more)| (first, first + more)).collect();
+        let held = |index| runs.iter().any(|&(first, last)| (first..=last).contains(&index));
+        let mut expected: Vec<(usize, usize)> = (0..tree.len())
+            .map(|node| tree.interval(node))
+            .filter(|&(first, last)| (first..=last).all(held))
+            .collect();
+        let all = expected.clone();
+        let within = |one: &(usize, usize), other: &(usize, usize)| other.0 <= one.0 && one.1 <= other.1;
+        expected.retain(|one| !all.iter().any(|other| one != other && within(one, other)));
+        expected.sort_unstable();
+        let mut hand = body.standing(&tree, 0.1, &runs);
+        prop_assert_eq!(fragments(&*hand), expected.clone());
+        let springs: usize = expected.iter().map(|&(first, last)| last + 1 - first).sum();
+        let point = hand.point();
+        prop_assert_eq!((point.springs, point.fragments), (springs as u64, expected.len() as u64));
+        let force: f64 = expected.iter().flat_map(|&(first, last)| &body.gaps[first..=last])
+            .map(|gap| body.foundation.spring_stiffness() * (0.1 - gap)).sum();
+        prop_assert!((point.force - force).abs() <= 1e-12 * body.force_scale());
+        // Out of equilibrium or not: pressed beyond all gaps everything touches, pulled apart nothing does.
+        hand.move_to_indentation(body.deepest().max(0.2)).unwrap();
+        prop_assert_eq!(hand.point().springs, tree.len() as u64);
+        prop_assert_eq!(hand.separate().leaves, tree.len() as u64);
+        prop_assert_eq!(fragments(&*hand), vec![]);
+    }
+
+    #[test]
+    fn numbers_that_are_none_are_refused(body in body(), goals in goals()) {
+        let tree = body.tree();
+        let mut hand = body.in_hand(&tree);
+        for goal in goals {
+            let _ = go(&mut *hand, goal.leg(&body));
+            let before = state(&*hand);
+            for value in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+                let refused = |moved| matches!(moved, Err(HandError::NotFinite { .. }));
+                prop_assert!(refused(hand.move_to_indentation(value)));
+                prop_assert!(refused(hand.move_to_force(value)));
+                let taken = Incremental::standing(Arc::clone(&tree), NoAdhesion, body.foundation, value, &[]);
+                let is_refused = matches!(taken, Err(HandError::NotFinite { .. }));
+                prop_assert!(is_refused);
+            }
+            prop_assert_eq!(state(&*hand), before);
+        }
+    }
+}
+
+/// A self-affine line about 1 m deep.
+fn rough(springs: usize, work: Option<f64>) -> Body {
+    let spectrum = SelfAffine { hurst: 0.7, first: 1, last: springs as u64 / 4 };
+    let heights = UnitRoughness::synthesize(spectrum, 1, springs).unwrap().heights;
+    let summit = heights.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let gaps = heights.iter().map(|height| 0.2 * (summit - height)).collect();
+    Body { gaps, foundation: Foundation { spacing: 1.0 / springs as f64, effective_modulus: 1.0 }, work }
+}
+
+/// Numbers in [0, 1) without a pattern.
+fn shares() -> impl Iterator<Item = f64> {
+    (1_u32..).map(|k| (f64::from(k) * 0.618_033_988_749_894_9).fract())
+}
+
+/// Most entries looked at for each spring that changes, and once more, in units of log₂ N.
+const MOST_TOUCHED: f64 = 4.0;
+
+#[test]
+fn a_step_costs_what_changes() {
+    const SPRINGS: usize = 1 << 16;
+    let rows = SPRINGS.ilog2();
+    let mut largest = 0.0_f64;
+    for work in [None, Some(1e-6), Some(1e-3), Some(0.02), Some(0.3), Some(1e3)] {
+        let body = rough(SPRINGS, work);
+        let tree = body.tree();
+        let (mut solver, mut hand) = (body.exact(&tree), body.in_hand(&tree));
+        let mut check = |moved: Move| {
+            let changed = moved.joins + moved.leaves;
+            assert!(moved.events <= changed, "{moved:?}");
+            let touched = moved.touched as f64 / (changed + 1) as f64 / f64::from(rows);
+            largest = largest.max(touched);
+            assert!(touched <= MOST_TOUCHED, "γ = {work:?}: {moved:?}");
+            if changed == 0 {
+                assert_eq!((moved.touched, moved.dissipated_energy), (0, 0.0), "γ = {work:?}");
+            }
+            changed
+        };
+        // Small steps to and fro about some turning points, and jumps between them.
+        let mut still = 0;
+        for (turn, share) in shares().take(12).enumerate() {
+            let middle = 1.1 * share - 0.2;
+            for (step, share) in shares().skip(100 * turn).take(300).enumerate() {
+                let size = 10_f64.powi(-(step as i32 % 7) - 1);
+                let changed = check(hand.move_to_indentation(middle + size * (share - 0.5)).unwrap());
+                still += usize::from(changed == 0);
+            }
+            // The history in between, as the exact solver sees it.
+            let runs = fragments(&*hand);
+            let at = hand.point();
+            let mut taken = body.standing(&tree, at.indentation, &runs);
+            assert_eq!(state(&*taken), state(&*hand));
+            for leg in [Leg::ToIndentation(middle), Leg::ToForce(0.01), Leg::ToSeparation] {
+                let one = go(&mut *hand, leg);
+                assert_eq!(one.is_ok(), go(&mut *taken, leg).is_ok());
+                if let Ok(moved) = one {
+                    check(moved);
+                }
+                assert_eq!(state(&*taken), state(&*hand));
+            }
+            if hand.point().springs == 0 {
+                solver.advance(Leg::ToSeparation).unwrap();
+            }
+            for leg in [Leg::ToIndentation(1.0 - share), Leg::ToIndentation(0.3 * share)] {
+                let record = solver.advance(leg).unwrap();
+                check(go(&mut *hand, leg).unwrap());
+                assert_eq!(bits(&hand.point()), bits(record.curve.last().unwrap()));
+                assert_eq!(fragments(&*hand), fragments_after(&*solver, &record));
+            }
+        }
+        assert!(still > 20, "γ = {work:?}: {still} steps without a change");
+    }
+    println!("at most {largest:.2} (k + 1) log2 N entries");
+}
+
+#[test]
+fn a_line_of_no_springs_is_never_touched() {
+    let body = Body {
+        gaps: Vec::new(),
+        foundation: Foundation { spacing: 1.0, effective_modulus: 1.0 },
+        work: None,
+    };
+    let mut hand = body.in_hand(&body.tree());
+    hand.move_to_indentation(3.0).unwrap();
+    assert_eq!(hand.move_to_force(1.0), Err(HandError::OutOfReach { force: 1.0 }));
+    assert_eq!(hand.move_to_force(-1.0), Err(HandError::NothingToPull { force: -1.0 }));
+    assert_eq!(hand.separate(), Move::default());
+    assert_eq!(state(&*hand).1, vec![]);
+    assert_eq!(hand.point().indentation, 3.0);
+}
