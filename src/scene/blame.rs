@@ -70,7 +70,7 @@ pub(super) fn remember(overrides: &mut Vec<(String, String)>, path: &str, value:
 }
 
 /// Whether a path is another path or inside it.
-fn within(path: &str, other: &str) -> bool {
+pub(super) fn within(path: &str, other: &str) -> bool {
     path.strip_prefix(other).is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
 }
 

@@ -25,13 +25,13 @@ pub fn to_ron(scene: &Scene) -> String {
         line("adhesion", adhesion(part));
     }
     if scene.loading != super::model::default_loading() {
-        line("loading", list(scene.loading.iter().map(leg)));
+        line("loading", legs(&scene.loading));
     }
     if scene.numerics != Numerics::default() {
         line("numerics", numerics(&scene.numerics));
     }
     if !scene.observe.is_empty() {
-        line("observe", list(scene.observe.iter().map(observer)));
+        line("observe", observers(&scene.observe));
     }
     format!("(\n{})\n", lines.concat())
 }
@@ -67,6 +67,16 @@ pub fn ron_string(text: &str) -> String {
     }
     string.push('"');
     string
+}
+
+/// A loading history.
+pub(super) fn legs(legs: &[Leg]) -> String {
+    list(legs.iter().map(leg))
+}
+
+/// What is observed.
+pub(super) fn observers(observers: &[Observer]) -> String {
+    list(observers.iter().map(|observer| format!("{observer:?}")))
 }
 
 fn list(items: impl Iterator<Item = String>) -> String {
@@ -118,7 +128,8 @@ fn adhesion(part: &Adhesion) -> String {
     group(&[("work", part.work.map(ron_float)), ("kappa", part.kappa.map(ron_float))])
 }
 
-fn leg(leg: &Leg) -> String {
+/// One leg.
+pub(super) fn leg(leg: &Leg) -> String {
     match *leg {
         Leg::ToForce(force) => format!("ToForce({})", ron_float(force)),
         Leg::ToIndentation(indentation) => format!("ToIndentation({})", ron_float(indentation)),
@@ -140,10 +151,6 @@ fn numerics(part: &Numerics) -> String {
         ("edges", (part.edges != default.edges).then(|| format!("{:?}", part.edges))),
         ("samples", (part.samples != default.samples).then(|| part.samples.to_string())),
     ])
-}
-
-fn observer(observer: &Observer) -> String {
-    format!("{observer:?}")
 }
 
 #[cfg(test)]

@@ -1,0 +1,497 @@
+//! Switching the effects of a document off and on, and the two ways of giving adhesion.
+//!
+//! Amplitude of the roughness, work of adhesion and κ determine each other, so taking one away may
+//! take another with it. What then stands in its place follows from the line, which this room does
+//! not know; it comes from whoever computed the scene.
+
+use super::blame::within;
+use super::document::Document;
+use super::effects::{Effect, pressing};
+use super::errors::{Origin, SceneError, SceneErrors};
+use super::locate::Outline;
+use super::model::{Adhesion, Leg, Observer, Roughness, Scene};
+use super::write::{legs, observers, ron_float, to_ron};
+
+/// What a scene determines through its line, known once it has been computed.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Computed {
+    /// Work of adhesion γ, J/m².
+    pub work_of_adhesion: Option<f64>,
+    /// Root mean square height h of the roughness, m.
+    pub rms_height: Option<f64>,
+}
+
+/// Paths and values to set together.
+type Overrides = Vec<(String, String)>;
+
+impl Document {
+    /// This document without an effect; the same where it is off already.
+    ///
+    /// Where roughness goes, adhesion by κ becomes adhesion by work, and where adhesion goes that
+    /// sets the amplitude of the roughness, the amplitude stays as an rms height: `computed` has
+    /// these values for this scene. Where unloading goes, the legs that may pull go, and those that
+    /// are certain to be passed on the way to a larger force.
+    ///
+    /// # Errors
+    ///
+    /// A value that must stand in for what goes is not in `computed`, or is not allowed.
+    pub fn without(&self, effect: Effect, computed: &Computed) -> Result<Document, SceneErrors> {
+        let scene = self.scene();
+        if !effect.is_on(scene) {
+            return Ok(self.clone());
+        }
+        match effect {
+            Effect::Form => self.set("form", "None"),
+            Effect::Roughness => self.without_roughness(computed),
+            Effect::Adhesion => self.without_adhesion(computed),
+            Effect::Unloading => self.set("loading", &legs(&pressing(&scene.loading))),
+            Effect::Fragments => self.set("observe", &observers(&others(scene, Observer::Fragments))),
+            Effect::HeightHistogram => {
+                self.set("observe", &observers(&others(scene, Observer::HeightHistogram)))
+            }
+        }
+    }
+
+    /// This document with an effect; the same where it is on already.
+    ///
+    /// It comes back as it stood in `from`, an earlier document that had it, together with what its
+    /// absence had changed elsewhere and nobody has changed since. Where that does not fit this scene
+    /// any more, or there is no `from`, it comes as it suits this scene.
+    ///
+    /// # Errors
+    ///
+    /// The scene leaves no room for it, such as roughness on a single spring.
+    pub fn with(&self, effect: Effect, from: Option<&Document>) -> Result<Document, SceneErrors> {
+        if effect.is_on(self.scene()) {
+            return Ok(self.clone());
+        }
+        let from = from.filter(|from| effect.is_on(from.scene()));
+        let remembered = from.map_or_else(Vec::new, |from| match effect {
+            Effect::Form => ways_back(from, "form", &[]),
+            Effect::Roughness => self.roughness_of(from),
+            Effect::Adhesion => self.adhesion_of(from),
+            Effect::Unloading => self.unloading_of(from),
+            Effect::Fragments => self.observers_of(from, Observer::Fragments),
+            Effect::HeightHistogram => self.observers_of(from, Observer::HeightHistogram),
+        });
+        let fitting = remembered.iter().filter_map(|overrides| self.set_all(overrides).ok());
+        match fitting.into_iter().find(|document| effect.is_on(document.scene())) {
+            Some(document) => Ok(document),
+            None => self.set(effect.path(), &self.suited(effect)),
+        }
+    }
+
+    /// This document with adhesion of this work, J/m². The field is set where adhesion is given by
+    /// work; adhesion by κ, and none, become adhesion by work.
+    ///
+    /// # Errors
+    ///
+    /// The work is not allowed.
+    pub fn with_work_of_adhesion(&self, work: f64) -> Result<Document, SceneErrors> {
+        match self.scene().adhesion {
+            Some(Adhesion { work: Some(_), .. }) => self.set("adhesion.work", &ron_float(work)),
+            _ => self.set("adhesion", &by_work(work)),
+        }
+    }
+
+    /// This document with adhesion of this κ. The field is set where adhesion is given by κ; adhesion
+    /// by work, and none, become adhesion by κ.
+    ///
+    /// # Errors
+    ///
+    /// The κ is not allowed, or there is no roughness.
+    pub fn with_kappa(&self, kappa: f64) -> Result<Document, SceneErrors> {
+        match self.scene().adhesion {
+            Some(Adhesion { kappa: Some(_), .. }) => self.set("adhesion.kappa", &ron_float(kappa)),
+            _ => self.set("adhesion", &by_kappa(kappa)),
+        }
+    }
+
+    fn without_roughness(&self, computed: &Computed) -> Result<Document, SceneErrors> {
+        let Some(Adhesion { work, kappa: Some(_) }) = self.scene().adhesion else {
+            return self.set("roughness", "None");
+        };
+        let work = work.or(computed.work_of_adhesion).ok_or_else(|| {
+            self.unknown("adhesion", "κ needs roughness, and the work it stands for is not known yet")
+        })?;
+        self.set_all(&[pair("adhesion", by_work(work)), pair("roughness", "None")])
+    }
+
+    fn without_adhesion(&self, computed: &Computed) -> Result<Document, SceneErrors> {
+        let amplitude = self.scene().roughness.as_ref().is_none_or(has_amplitude);
+        if amplitude {
+            return self.set("adhesion", "None");
+        }
+        let height = computed.rms_height.ok_or_else(|| {
+            self.unknown("roughness", "adhesion sets its amplitude, and the rms height is not known yet")
+        })?;
+        self.set_all(&[pair("roughness.rms_height", ron_float(height)), pair("adhesion", "None")])
+    }
+
+    fn unknown(&self, field: &str, message: &str) -> SceneErrors {
+        let value = self.value(field).unwrap_or_default().to_string();
+        let (field, message) = (field.to_string(), format!("{message}: compute the scene first"));
+        SceneError { origin: Origin::Scene, field, value, allowed: String::new(), message }.into()
+    }
+
+    /// Ways to bring roughness back, the best first.
+    fn roughness_of(&self, from: &Document) -> Vec<Overrides> {
+        let Some(roughness) = &from.scene().roughness else { return Vec::new() };
+        let mut ways = Vec::new();
+        if let Some(Adhesion { work, kappa: Some(kappa) }) = from.scene().adhesion {
+            if self.stands_in("adhesion", "roughness") {
+                for adhesion in values(from, "adhesion") {
+                    ways.extend(ways_back(from, "roughness", &[pair("adhesion", adhesion)]));
+                }
+            }
+            if work.is_some() && !has_amplitude(roughness) {
+                // κ sets the amplitude again, with whatever work of adhesion there is now.
+                ways.extend(ways_back(from, "roughness", &[pair("adhesion.kappa", ron_float(kappa))]));
+            }
+        }
+        ways.extend(ways_back(from, "roughness", &[]));
+        if !has_amplitude(roughness) {
+            let height = pair("roughness.rms_height", ron_float(suited_height(self.scene())));
+            ways.extend(ways_back(from, "roughness", &[]).into_iter().map(|way| and(&way, &height)));
+        }
+        if let Roughness::SelfAffine { modes: (first, last), .. } = *roughness {
+            // As it stood but for waves that are too short for the springs there are now.
+            let last = last.min(self.scene().numerics.points / 2);
+            let carried = pair("roughness.modes", format!("({}, {last})", first.min(last)));
+            ways = ways.into_iter().flat_map(|way| [and(&way, &carried), way].into_iter().rev()).collect();
+        }
+        ways
+    }
+
+    /// Ways to bring adhesion back, the best first.
+    fn adhesion_of(&self, from: &Document) -> Vec<Overrides> {
+        let mut ways = Vec::new();
+        if self.stands_in("roughness.rms_height", "adhesion") {
+            let mut before = self.scene().roughness.clone();
+            if let Some(Roughness::SelfAffine { rms_height, .. }) = &mut before {
+                *rms_height = None;
+            }
+            if before == from.scene().roughness {
+                for roughness in values(from, "roughness") {
+                    ways.extend(ways_back(from, "adhesion", &[pair("roughness", roughness)]));
+                }
+            }
+            ways.extend(ways_back(from, "adhesion", &[pair("roughness.rms_height", "None")]));
+        }
+        ways.extend(ways_back(from, "adhesion", &[]));
+        if let Some(Adhesion { work: Some(work), kappa: Some(_) }) = from.scene().adhesion {
+            ways.push(vec![pair("adhesion", by_work(work))]);
+        }
+        ways
+    }
+
+    /// Ways to bring the legs that pull back: the whole loading, or after other legs that press.
+    fn unloading_of(&self, from: &Document) -> Vec<Overrides> {
+        let (loading, before) = (&self.scene().loading, &from.scene().loading);
+        let left = pressing(before);
+        if left == *loading {
+            return ways_back(from, "loading", &[]);
+        }
+        let last = before.iter().rposition(|leg| Some(leg) == left.last());
+        let pulling = before.iter().skip(last.map_or(0, |last| last + 1));
+        let all: Vec<Leg> = loading.iter().chain(pulling).copied().collect();
+        vec![vec![pair("loading", legs(&all))]]
+    }
+
+    /// Ways to bring an observer back: in its old place, if the others are those there were.
+    fn observers_of(&self, from: &Document, observer: Observer) -> Vec<Overrides> {
+        let same = others(from.scene(), observer) == self.scene().observe;
+        if same { ways_back(from, "observe", &[]) } else { Vec::new() }
+    }
+
+    /// Whether what was set in place of an effect, when it was switched off, still stands.
+    fn stands_in(&self, substitute: &str, effect: &str) -> bool {
+        let overrides = self.overrides();
+        let off = overrides.iter().rposition(|(path, value)| path == effect && value == "None");
+        off.is_some_and(|off| {
+            let set = off > 0 && overrides[off - 1].0 == substitute;
+            let mut later = overrides[off..].iter();
+            set && !later.any(|(path, _)| within(path, substitute) || within(substitute, path))
+        })
+    }
+
+    /// The value of an effect's field that switches it on where nothing is known of an earlier one.
+    fn suited(&self, effect: Effect) -> String {
+        let scene = self.scene();
+        match effect {
+            // At the ends of the line it is an eighth of its length high.
+            Effect::Form => format!("Paraboloid(radius: {})", ron_float(scene.length)),
+            Effect::Roughness => {
+                // Smooth on the scale of a spring and, under a form, on that of the contact.
+                let last = (scene.numerics.points / 8).clamp(1, 512);
+                let first = if scene.form.is_some() { last.min(4) } else { 1 };
+                let height = ron_float(suited_height(scene));
+                format!("SelfAffine(hurst: 0.7, rms_height: {height}, modes: ({first}, {last}), seed: 1)")
+            }
+            Effect::Adhesion if scene.roughness.is_some() => by_kappa(2.0),
+            Effect::Adhesion => by_work(0.05),
+            Effect::Unloading => legs(&[&scene.loading[..], &[Leg::ToSeparation]].concat()),
+            Effect::Fragments => observers(&observing(scene, Observer::Fragments)),
+            Effect::HeightHistogram => observers(&observing(scene, Observer::HeightHistogram)),
+        }
+    }
+}
+
+/// An rms height that suits the length of a scene, to two digits: a five-hundredth of it.
+fn suited_height(scene: &Scene) -> f64 {
+    let height = scene.length / 500.0;
+    format!("{height:.1e}").parse().unwrap_or(height)
+}
+
+fn has_amplitude(roughness: &Roughness) -> bool {
+    !matches!(roughness, Roughness::SelfAffine { rms_height: None, rms_gradient: None, .. })
+}
+
+fn others(scene: &Scene, observer: Observer) -> Vec<Observer> {
+    scene.observe.iter().copied().filter(|other| *other != observer).collect()
+}
+
+fn observing(scene: &Scene, observer: Observer) -> Vec<Observer> {
+    let all = [Observer::Fragments, Observer::HeightHistogram];
+    all.into_iter().filter(|one| *one == observer || scene.observe.contains(one)).collect()
+}
+
+fn by_work(work: f64) -> String {
+    format!("(work: {})", ron_float(work))
+}
+
+fn by_kappa(kappa: f64) -> String {
+    format!("(kappa: {})", ron_float(kappa))
+}
+
+fn pair(path: &str, value: impl Into<String>) -> (String, String) {
+    (path.to_string(), value.into())
+}
+
+fn and(way: &[(String, String)], more: &(String, String)) -> Overrides {
+    [way, std::slice::from_ref(more)].concat()
+}
+
+/// Overrides that set a field as it stands in another document, after others.
+fn ways_back(from: &Document, path: &str, others: &[(String, String)]) -> Vec<Overrides> {
+    values(from, path).into_iter().map(|value| and(others, &pair(path, value))).collect()
+}
+
+/// A field as it is written, with the comments in it, and in canonical form: a text that enables an
+/// extension of RON may write what another one cannot.
+fn values(from: &Document, path: &str) -> Vec<String> {
+    let text = to_ron(from.scene());
+    let canonical = Outline::of(&text).ok().and_then(|outline| outline.inner(path).map(str::to_string));
+    from.value(path).map(str::to_string).into_iter().chain(canonical).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::super::model::Form;
+    use super::super::samples::sound_scenes;
+    use super::*;
+
+    const SCENE: &str = "(
+    version: 1, // the first
+    material: (effective_modulus: 1.0e6), // soft
+    length: 1.0e-4,
+    form: Punch(
+        radius: 2.0e-5, // flat
+    ), // under it
+    roughness: SelfAffine(hurst: 0.70, rms_height: 2.0e-7, modes: (1, 512), seed: 1), // rough
+    adhesion: (kappa: 6.0), // sticky
+    loading: [ToForce(1.0e-5), /* and back */ ToSeparation], // history
+    observe: [HeightHistogram, Fragments], // both
+)
+";
+
+    const COMPUTED: Computed = Computed { work_of_adhesion: Some(0.0123), rms_height: Some(1.5e-7) };
+
+    fn document() -> Document {
+        Document::parse(SCENE, "scene").unwrap()
+    }
+
+    fn adhesion(document: &Document) -> (Option<f64>, Option<f64>) {
+        document.scene().adhesion.map_or((None, None), |adhesion| (adhesion.work, adhesion.kappa))
+    }
+
+    fn off(document: &Document, effect: Effect) -> Document {
+        document.without(effect, &COMPUTED).unwrap()
+    }
+
+    #[test]
+    fn an_effect_goes_and_comes_back_as_it_was_written() {
+        for effect in Effect::ALL {
+            let without = off(&document(), effect);
+            assert!(!effect.is_on(without.scene()));
+            for comment in
+                ["// the first", "// soft", "// under it", "// rough", "// sticky", "// history", "// both"]
+            {
+                assert!(without.text().contains(comment), "{effect:?}: {comment}");
+            }
+            assert_eq!(off(&without, effect), without);
+            let with = without.with(effect, Some(&document())).unwrap();
+            assert_eq!(with.text(), SCENE, "{effect:?}");
+            assert_eq!(with.with(effect, None).unwrap(), with);
+        }
+    }
+
+    #[test]
+    fn effects_come_anew_as_they_suit_the_scene() {
+        let bare = Effect::ALL.into_iter().fold(document(), |document, effect| off(&document, effect));
+        let value = |document: &Document, effect: Effect| {
+            document.with(effect, None).unwrap().value(effect.path()).unwrap().to_string()
+        };
+        assert_eq!(value(&bare, Effect::Form), "Paraboloid(radius: 1.0e-4)");
+        let rough = "SelfAffine(hurst: 0.7, rms_height: 2.0e-7, modes: (1, 512), seed: 1)";
+        assert_eq!(value(&bare, Effect::Roughness), rough);
+        assert_eq!(value(&bare, Effect::Adhesion), "(work: 0.05)");
+        assert_eq!(value(&bare, Effect::Unloading), "[ToForce(1.0e-5), ToSeparation]");
+        assert_eq!(value(&bare, Effect::Fragments), "[Fragments]");
+        let observed = bare.with(Effect::HeightHistogram, None).unwrap();
+        assert_eq!(value(&observed, Effect::Fragments), "[Fragments, HeightHistogram]");
+        assert_eq!(value(&bare.set("roughness", rough).unwrap(), Effect::Adhesion), "(kappa: 2.0)");
+        let sphere = bare.with(Effect::Form, None).unwrap().set("numerics.points", "40").unwrap();
+        assert!(value(&sphere, Effect::Roughness).contains("modes: (4, 5)"));
+        // An observer that stands there twice makes room.
+        let twice = bare.set("observe", "[Fragments, Fragments]").unwrap();
+        assert_eq!(value(&twice, Effect::HeightHistogram), "[Fragments, HeightHistogram]");
+        // One spring carries no wave at all.
+        let one = bare.set("numerics.points", "1").unwrap().with(Effect::Roughness, None).unwrap_err();
+        assert!(one.to_string().contains("points/2 = 0"), "{one}");
+    }
+
+    #[test]
+    fn without_roughness_kappa_becomes_the_work_it_stood_for() {
+        assert_eq!(adhesion(&off(&document(), Effect::Roughness)), (Some(0.0123), None));
+        let unknown = document().without(Effect::Roughness, &Computed::default()).unwrap_err();
+        assert_eq!(
+            unknown.to_string(),
+            "adhesion = (kappa: 6.0): κ needs roughness, and the work it stands for is not known yet: \
+             compute the scene first"
+        );
+        let too_much = Computed { work_of_adhesion: Some(f64::INFINITY), rms_height: None };
+        assert!(document().without(Effect::Roughness, &too_much).is_err());
+        // Given work is used as it is.
+        let both = document().set("roughness.rms_height", "None").unwrap_err();
+        assert!(both.to_string().contains("the amplitude is missing"));
+        let set = [pair("roughness.rms_height", "None"), pair("adhesion.work", "0.1")];
+        let both = document().set_all(&set).unwrap();
+        let smooth = both.without(Effect::Roughness, &Computed::default()).unwrap();
+        assert_eq!(adhesion(&smooth), (Some(0.1), None));
+        assert_eq!(smooth.with(Effect::Roughness, Some(&both)).unwrap().scene(), both.scene());
+    }
+
+    #[test]
+    fn what_was_changed_meanwhile_stays_changed() {
+        let document = document();
+        let back = |smooth: &Document, from: &Document| smooth.with(Effect::Roughness, Some(from)).unwrap();
+        let smooth = off(&document, Effect::Roughness);
+        let stickier = smooth.with_work_of_adhesion(0.2).unwrap();
+        assert_eq!(adhesion(&back(&stickier, &document)), (Some(0.2), None));
+        let typed = smooth.set("adhesion", "(work: 0.3)").unwrap();
+        assert_eq!(adhesion(&back(&typed, &document)), (Some(0.3), None));
+        let unrelated = smooth.set("length", "2.0e-4").unwrap();
+        assert_eq!(adhesion(&back(&unrelated, &document)), (None, Some(6.0)));
+        // Where κ had set the amplitude, it sets it again.
+        let set = [pair("roughness.rms_height", "None"), pair("adhesion.work", "0.1")];
+        let both = document.set_all(&set).unwrap();
+        let stickier = off(&both, Effect::Roughness).with_work_of_adhesion(0.2).unwrap();
+        assert_eq!(adhesion(&back(&stickier, &both)), (Some(0.2), Some(6.0)));
+        let none = off(&stickier, Effect::Adhesion);
+        let rough = back(&none, &both);
+        assert_eq!((adhesion(&rough), rough.value("roughness.rms_height")), ((None, None), Some("2.0e-7")));
+        // Other legs that press are kept.
+        let held = off(&document, Effect::Unloading).set("loading.0", "ToForce(3.0e-5)").unwrap();
+        let pulled = held.with(Effect::Unloading, Some(&document)).unwrap();
+        assert_eq!(pulled.scene().loading, [Leg::ToForce(3e-5), Leg::ToSeparation]);
+        let touched = document.set("loading", "[ToForce(1.0e-5), ToZeroForce, ToTouch]").unwrap();
+        let pulled = held.with(Effect::Unloading, Some(&touched)).unwrap();
+        assert_eq!(pulled.scene().loading, [Leg::ToForce(3e-5), Leg::ToZeroForce, Leg::ToTouch]);
+    }
+
+    #[test]
+    fn what_no_longer_fits_is_fitted() {
+        let coarse = off(&document(), Effect::Roughness).set("numerics.points", "64").unwrap();
+        let rough = coarse.with(Effect::Roughness, Some(&document())).unwrap();
+        assert_eq!(rough.value("roughness.modes"), Some("(1, 32)"));
+        assert_eq!((rough.value("roughness.hurst"), adhesion(&rough)), (Some("0.70"), (None, Some(6.0))));
+        let short = off(&document(), Effect::Form).set("length", "1.0e-5").unwrap();
+        let formed = short.with(Effect::Form, Some(&document())).unwrap();
+        assert_eq!(formed.scene().form, Some(Form::Paraboloid { radius: 1e-5 }));
+        let smooth = off(&document(), Effect::Roughness);
+        let sticky = off(&smooth, Effect::Adhesion).with(Effect::Adhesion, Some(&document())).unwrap();
+        assert_eq!(adhesion(&sticky), (Some(0.05), None));
+    }
+
+    #[test]
+    fn without_adhesion_the_amplitude_it_set_stays() {
+        let set = [pair("roughness.rms_height", "None"), pair("adhesion.work", "0.1")];
+        let both = document().set_all(&set).unwrap();
+        let unknown = both.without(Effect::Adhesion, &Computed::default()).unwrap_err();
+        assert!(unknown.to_string().contains("the rms height is not known yet"), "{unknown}");
+        let without = off(&both, Effect::Adhesion);
+        assert_eq!(without.value("roughness.rms_height"), Some("1.5e-7"));
+        assert_eq!(without.with(Effect::Adhesion, Some(&both)).unwrap().scene(), both.scene());
+        let other_line = without.set("roughness.seed", "2").unwrap();
+        let back = other_line.with(Effect::Adhesion, Some(&both)).unwrap();
+        assert_eq!(
+            (adhesion(&back), back.value("roughness.rms_height")),
+            ((Some(0.1), Some(6.0)), Some("None"))
+        );
+        let rougher = without.set("roughness.rms_height", "3.0e-7").unwrap();
+        let back = rougher.with(Effect::Adhesion, Some(&both)).unwrap();
+        assert_eq!(
+            (adhesion(&back), back.value("roughness.rms_height")),
+            ((Some(0.1), None), Some("3.0e-7"))
+        );
+    }
+
+    #[test]
+    fn adhesion_is_given_one_way_or_the_other() {
+        let document = document();
+        assert_eq!(adhesion(&document.with_kappa(3.0).unwrap()), (None, Some(3.0)));
+        let work = document.with_work_of_adhesion(0.1).unwrap();
+        assert_eq!(adhesion(&work), (Some(0.1), None));
+        assert!(work.text().contains("adhesion: (work: 0.1), // sticky"));
+        assert_eq!(adhesion(&work.with_kappa(3.0).unwrap()), (None, Some(3.0)));
+        assert_eq!(adhesion(&off(&work, Effect::Adhesion).with_kappa(3.0).unwrap()), (None, Some(3.0)));
+        // Where both are given, because they set the amplitude, both stay.
+        let set = [pair("roughness.rms_height", "None"), pair("adhesion.work", "0.1")];
+        let both = document.set_all(&set).unwrap();
+        assert_eq!(adhesion(&both.with_kappa(3.0).unwrap()), (Some(0.1), Some(3.0)));
+        assert_eq!(adhesion(&both.with_work_of_adhesion(0.2).unwrap()), (Some(0.2), Some(6.0)));
+        assert!(
+            off(&work, Effect::Roughness).with_kappa(3.0).unwrap_err().to_string().contains("there is none")
+        );
+        assert!(document.with_work_of_adhesion(-1.0).is_err() && document.with_kappa(f64::NAN).is_err());
+    }
+
+    proptest! {
+        #[test]
+        fn every_switch_of_every_scene_goes_both_ways(
+            scene in sound_scenes(),
+            other in sound_scenes(),
+            work in 0.0..1e6,
+            rms_height in 1e-30..100.0,
+        ) {
+            let document = Document::of_scene(&scene, "scene").unwrap();
+            let other = Document::of_scene(&other, "other").unwrap();
+            let computed = Computed { work_of_adhesion: Some(work), rms_height: Some(rms_height) };
+            for effect in Effect::ALL {
+                let without = document.without(effect, &computed).unwrap();
+                prop_assert!(!effect.is_on(without.scene()));
+                for also in Effect::ALL.into_iter().filter(|also| *also != effect) {
+                    prop_assert!(also.is_on(without.scene()) == also.is_on(&scene) || work == 0.0, "{effect:?} {also:?}");
+                }
+                let back = without.with(effect, Some(&document)).unwrap();
+                prop_assert_eq!(back.scene() == &scene, effect.is_on(&scene), "{:?}", effect);
+                for from in [None, Some(&other)] {
+                    prop_assert!(effect.is_on(without.with(effect, from).unwrap().scene()));
+                }
+            }
+        }
+    }
+}
