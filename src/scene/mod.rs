@@ -17,6 +17,7 @@
 
 mod agree;
 mod blame;
+mod bring_back;
 mod check;
 mod derived;
 mod document;
@@ -25,6 +26,7 @@ mod errors;
 mod fields;
 mod locate;
 mod model;
+mod overrides;
 mod presets;
 mod quantity;
 mod range;
@@ -45,6 +47,7 @@ pub use errors::{Origin, SceneError, SceneErrors};
 pub use fields::{FIELDS, Field, LEG_FORCE, LEG_INDENTATION, field};
 pub use locate::{Place, line_column, locate};
 pub use model::*;
+pub use overrides::command_line;
 pub use presets::{DEFAULT, Preset, find, open, presets};
 pub use quantity::{QuantityError, format_quantity, parse_quantity};
 pub use range::{End, Range};

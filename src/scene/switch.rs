@@ -4,13 +4,12 @@
 //! take another with it. What then stands in its place follows from the line, which this room does
 //! not know; it comes from whoever computed the scene.
 
-use super::blame::within;
+use super::bring_back::ways_back;
 use super::document::Document;
 use super::effects::{Effect, pressing};
 use super::errors::{Origin, SceneError, SceneErrors};
-use super::locate::Outline;
 use super::model::{Adhesion, Leg, Observer, Roughness, Scene};
-use super::write::{legs, observers, ron_float, to_ron};
+use super::write::{legs, observers, ron_float};
 
 /// What a scene determines through its line, known once it has been computed.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -20,9 +19,6 @@ pub struct Computed {
     /// Root mean square height h of the roughness, m.
     pub rms_height: Option<f64>,
 }
-
-/// Paths and values to set together.
-type Overrides = Vec<(String, String)>;
 
 impl Document {
     /// This document without an effect; the same where it is off already.
@@ -66,16 +62,9 @@ impl Document {
             return Ok(self.clone());
         }
         let from = from.filter(|from| effect.is_on(from.scene()));
-        let remembered = from.map_or_else(Vec::new, |from| match effect {
-            Effect::Form => ways_back(from, "form", &[]),
-            Effect::Roughness => self.roughness_of(from),
-            Effect::Adhesion => self.adhesion_of(from),
-            Effect::Unloading => self.unloading_of(from),
-            Effect::Fragments => self.observers_of(from, Observer::Fragments),
-            Effect::HeightHistogram => self.observers_of(from, Observer::HeightHistogram),
-        });
-        let fitting = remembered.iter().filter_map(|overrides| self.set_all(overrides).ok());
-        match fitting.into_iter().find(|document| effect.is_on(document.scene())) {
+        let ways = from.map_or_else(Vec::new, |from| ways_back(self, effect, from));
+        let mut fitting = ways.iter().filter_map(|overrides| self.set_all(overrides).ok());
+        match fitting.find(|document| effect.is_on(document.scene())) {
             Some(document) => Ok(document),
             None => self.set(effect.path(), &self.suited(effect)),
         }
@@ -134,87 +123,6 @@ impl Document {
         SceneError { origin: Origin::Scene, field, value, allowed: String::new(), message }.into()
     }
 
-    /// Ways to bring roughness back, the best first.
-    fn roughness_of(&self, from: &Document) -> Vec<Overrides> {
-        let Some(roughness) = &from.scene().roughness else { return Vec::new() };
-        let mut ways = Vec::new();
-        if let Some(Adhesion { work, kappa: Some(kappa) }) = from.scene().adhesion {
-            if self.stands_in("adhesion", "roughness") {
-                for adhesion in values(from, "adhesion") {
-                    ways.extend(ways_back(from, "roughness", &[pair("adhesion", adhesion)]));
-                }
-            }
-            if work.is_some() && !has_amplitude(roughness) {
-                // κ sets the amplitude again, with whatever work of adhesion there is now.
-                ways.extend(ways_back(from, "roughness", &[pair("adhesion.kappa", ron_float(kappa))]));
-            }
-        }
-        ways.extend(ways_back(from, "roughness", &[]));
-        if !has_amplitude(roughness) {
-            let height = pair("roughness.rms_height", ron_float(suited_height(self.scene())));
-            ways.extend(ways_back(from, "roughness", &[]).into_iter().map(|way| and(&way, &height)));
-        }
-        if let Roughness::SelfAffine { modes: (first, last), .. } = *roughness {
-            // As it stood but for waves that are too short for the springs there are now.
-            let last = last.min(self.scene().numerics.points / 2);
-            let carried = pair("roughness.modes", format!("({}, {last})", first.min(last)));
-            ways = ways.into_iter().flat_map(|way| [and(&way, &carried), way].into_iter().rev()).collect();
-        }
-        ways
-    }
-
-    /// Ways to bring adhesion back, the best first.
-    fn adhesion_of(&self, from: &Document) -> Vec<Overrides> {
-        let mut ways = Vec::new();
-        if self.stands_in("roughness.rms_height", "adhesion") {
-            let mut before = self.scene().roughness.clone();
-            if let Some(Roughness::SelfAffine { rms_height, .. }) = &mut before {
-                *rms_height = None;
-            }
-            if before == from.scene().roughness {
-                for roughness in values(from, "roughness") {
-                    ways.extend(ways_back(from, "adhesion", &[pair("roughness", roughness)]));
-                }
-            }
-            ways.extend(ways_back(from, "adhesion", &[pair("roughness.rms_height", "None")]));
-        }
-        ways.extend(ways_back(from, "adhesion", &[]));
-        if let Some(Adhesion { work: Some(work), kappa: Some(_) }) = from.scene().adhesion {
-            ways.push(vec![pair("adhesion", by_work(work))]);
-        }
-        ways
-    }
-
-    /// Ways to bring the legs that pull back: the whole loading, or after other legs that press.
-    fn unloading_of(&self, from: &Document) -> Vec<Overrides> {
-        let (loading, before) = (&self.scene().loading, &from.scene().loading);
-        let left = pressing(before);
-        if left == *loading {
-            return ways_back(from, "loading", &[]);
-        }
-        let last = before.iter().rposition(|leg| Some(leg) == left.last());
-        let pulling = before.iter().skip(last.map_or(0, |last| last + 1));
-        let all: Vec<Leg> = loading.iter().chain(pulling).copied().collect();
-        vec![vec![pair("loading", legs(&all))]]
-    }
-
-    /// Ways to bring an observer back: in its old place, if the others are those there were.
-    fn observers_of(&self, from: &Document, observer: Observer) -> Vec<Overrides> {
-        let same = others(from.scene(), observer) == self.scene().observe;
-        if same { ways_back(from, "observe", &[]) } else { Vec::new() }
-    }
-
-    /// Whether what was set in place of an effect, when it was switched off, still stands.
-    fn stands_in(&self, substitute: &str, effect: &str) -> bool {
-        let overrides = self.overrides();
-        let off = overrides.iter().rposition(|(path, value)| path == effect && value == "None");
-        off.is_some_and(|off| {
-            let set = off > 0 && overrides[off - 1].0 == substitute;
-            let mut later = overrides[off..].iter();
-            set && !later.any(|(path, _)| within(path, substitute) || within(substitute, path))
-        })
-    }
-
     /// The value of an effect's field that switches it on where nothing is known of an earlier one.
     fn suited(&self, effect: Effect) -> String {
         let scene = self.scene();
@@ -238,16 +146,16 @@ impl Document {
 }
 
 /// An rms height that suits the length of a scene, to two digits: a five-hundredth of it.
-fn suited_height(scene: &Scene) -> f64 {
+pub(super) fn suited_height(scene: &Scene) -> f64 {
     let height = scene.length / 500.0;
     format!("{height:.1e}").parse().unwrap_or(height)
 }
 
-fn has_amplitude(roughness: &Roughness) -> bool {
+pub(super) fn has_amplitude(roughness: &Roughness) -> bool {
     !matches!(roughness, Roughness::SelfAffine { rms_height: None, rms_gradient: None, .. })
 }
 
-fn others(scene: &Scene, observer: Observer) -> Vec<Observer> {
+pub(super) fn others(scene: &Scene, observer: Observer) -> Vec<Observer> {
     scene.observe.iter().copied().filter(|other| *other != observer).collect()
 }
 
@@ -256,7 +164,7 @@ fn observing(scene: &Scene, observer: Observer) -> Vec<Observer> {
     all.into_iter().filter(|one| *one == observer || scene.observe.contains(one)).collect()
 }
 
-fn by_work(work: f64) -> String {
+pub(super) fn by_work(work: f64) -> String {
     format!("(work: {})", ron_float(work))
 }
 
@@ -264,25 +172,8 @@ fn by_kappa(kappa: f64) -> String {
     format!("(kappa: {})", ron_float(kappa))
 }
 
-fn pair(path: &str, value: impl Into<String>) -> (String, String) {
+pub(super) fn pair(path: &str, value: impl Into<String>) -> (String, String) {
     (path.to_string(), value.into())
-}
-
-fn and(way: &[(String, String)], more: &(String, String)) -> Overrides {
-    [way, std::slice::from_ref(more)].concat()
-}
-
-/// Overrides that set a field as it stands in another document, after others.
-fn ways_back(from: &Document, path: &str, others: &[(String, String)]) -> Vec<Overrides> {
-    values(from, path).into_iter().map(|value| and(others, &pair(path, value))).collect()
-}
-
-/// A field as it is written, with the comments in it, and in canonical form: a text that enables an
-/// extension of RON may write what another one cannot.
-fn values(from: &Document, path: &str) -> Vec<String> {
-    let text = to_ron(from.scene());
-    let canonical = Outline::of(&text).ok().and_then(|outline| outline.inner(path).map(str::to_string));
-    from.value(path).map(str::to_string).into_iter().chain(canonical).collect()
 }
 
 #[cfg(test)]

@@ -1,0 +1,363 @@
+//! What must be overridden in one scene to make it another, and the command that does it.
+
+use super::document::Document;
+use super::fields::{FIELDS, Field};
+use super::locate::Outline;
+use super::model::Leg;
+use super::read::read;
+use super::splice;
+use super::write::{leg, ron_float, to_ron};
+
+/// Paths and values to set together.
+type Overrides = Vec<(String, String)>;
+
+impl Document {
+    /// The overrides that make `base` this scene: `base.set_all` of them gives a scene equal to this
+    /// document's, whatever way either text is written.
+    ///
+    /// Fields are set one by one where both scenes make the same choices, else the group or choice
+    /// they belong to; legs one by one where that is shorter than the whole list. Values are on one
+    /// line each and read back to the last digit. Empty where the scenes are equal.
+    pub fn overrides_from(&self, base: &Document) -> Vec<(String, String)> {
+        if self.scene() == base.scene() {
+            return Vec::new();
+        }
+        let (mine, theirs) = (to_ron(self.scene()), to_ron(base.scene()));
+        let (mine, theirs) = (Values::of(&mine), Values::of(&theirs));
+        let legs = (&self.scene().loading[..], &base.scene().loading[..]);
+        let mut overrides = Vec::new();
+        for field in top_level() {
+            let whole = vec![pair(field.path, mine.value(field))];
+            let fine = match field.path {
+                "loading" => different_legs(legs.0, legs.1).filter(|fine| length(fine) < length(&whole)),
+                _ => Some(differences(field, &mine, &theirs)),
+            };
+            // What the base's text leaves out cannot always be set by itself.
+            let led = |fine: &Overrides| fine.is_empty() || leads_to(base, fine, field, &mine.value(field));
+            overrides.extend(fine.filter(led).unwrap_or(whole));
+        }
+        let equal = |overrides: &Overrides| {
+            base.set_all(overrides).is_ok_and(|document| document.scene() == self.scene())
+        };
+        if !equal(&overrides) {
+            overrides = top_level().map(|field| pair(field.path, mine.value(field))).collect();
+        }
+        overrides
+    }
+}
+
+fn top_level() -> impl Iterator<Item = &'static Field> {
+    FIELDS.iter().filter(|field| field.parent().is_empty())
+}
+
+fn pair(path: &str, value: impl Into<String>) -> (String, String) {
+    (path.to_string(), value.into())
+}
+
+/// The values of a scene in canonical form.
+struct Values<'t> {
+    outline: Option<Outline<'t>>,
+}
+
+impl<'t> Values<'t> {
+    fn of(text: &'t str) -> Values<'t> {
+        Values { outline: Outline::of(text).ok() }
+    }
+
+    /// A field's value, that of its default where it is left out.
+    fn value(&self, field: &Field) -> String {
+        let written = self.outline.as_ref().and_then(|outline| outline.inner(field.path));
+        written.unwrap_or(field.default).to_string()
+    }
+
+    /// The fields inside a field, of the choice that is made there.
+    fn inside(&self, field: &Field) -> Vec<&'static Field> {
+        let head = self.outline.as_ref().and_then(|outline| outline.head(field.path));
+        let inside = FIELDS.iter().filter(|one| one.parent() == field.path);
+        inside.filter(|one| one.variant.is_none() || one.variant == head).collect()
+    }
+}
+
+/// The fields that differ, each by itself where both scenes have the same fields there, else the
+/// group around them.
+fn differences(field: &Field, mine: &Values, theirs: &Values) -> Overrides {
+    let (value, other) = (mine.value(field), theirs.value(field));
+    if value == other {
+        return Vec::new();
+    }
+    let inside = mine.inside(field);
+    let absent = |values: &Values, field: &Field| values.value(field) == "None";
+    let same =
+        inside == theirs.inside(field) && inside.iter().all(|one| absent(mine, one) == absent(theirs, one));
+    if inside.is_empty() || !same || absent(mine, field) || absent(theirs, field) {
+        return vec![pair(field.path, value)];
+    }
+    inside.into_iter().flat_map(|one| differences(one, mine, theirs)).collect()
+}
+
+/// The legs that differ, or the number in them, where there are as many of them.
+fn different_legs(mine: &[Leg], theirs: &[Leg]) -> Option<Overrides> {
+    let different = |(index, (mine, theirs)): (usize, (&Leg, &Leg))| match (mine, theirs) {
+        (mine, theirs) if mine == theirs => None,
+        (Leg::ToForce(value), Leg::ToForce(_)) | (Leg::ToIndentation(value), Leg::ToIndentation(_)) => {
+            Some((format!("loading.{index}.0"), ron_float(*value)))
+        }
+        (mine, _) => Some((format!("loading.{index}"), leg(mine))),
+    };
+    let pairs = || mine.iter().zip(theirs).enumerate();
+    (mine.len() == theirs.len()).then(|| pairs().filter_map(different).collect())
+}
+
+/// How long overrides are to type.
+fn length(overrides: &[(String, String)]) -> usize {
+    overrides.iter().map(|(path, value)| " --set =".len() + path.len() + value.len()).sum()
+}
+
+/// Whether overrides of one field's parts give that field this value.
+fn leads_to(base: &Document, overrides: &[(String, String)], field: &Field, value: &str) -> bool {
+    let set = |text: String, (path, value): &(String, String)| splice::set(&text, path, value).ok();
+    let text = overrides.iter().try_fold(base.text().to_string(), set);
+    let scene = text.and_then(|text| read(&text).ok());
+    scene.is_some_and(|scene| Values::of(&to_ron(&scene)).value(field) == value)
+}
+
+/// The command that opens a scene with overrides, to be pasted into a POSIX shell: every word is
+/// quoted where it must be, and only there.
+///
+/// ```
+/// let overrides = [("form".to_string(), "Cone(angle: 0.1)".to_string())];
+/// let command = asperity::scene::command_line("jkr-sphere", &overrides);
+/// assert_eq!(command, "asperity jkr-sphere --set 'form=Cone(angle: 0.1)'");
+/// ```
+pub fn command_line(name: &str, overrides: &[(String, String)]) -> String {
+    let set = |(path, value): &(String, String)| format!(" --set {}", quoted(&format!("{path}={value}")));
+    let sets: String = overrides.iter().map(set).collect();
+    // A name that looks like an option stands behind all options.
+    if name.starts_with('-') {
+        format!("asperity{sets} -- {}", quoted(name))
+    } else {
+        format!("asperity {}{sets}", quoted(name))
+    }
+}
+
+/// A word as a shell reads it.
+fn quoted(word: &str) -> String {
+    let plain = |c: char| c.is_alphanumeric() || "_-./:,+@%=".contains(c);
+    // zsh takes a word that starts with = for the place of a command.
+    if !word.is_empty() && !word.starts_with('=') && word.chars().all(plain) {
+        word.to_string()
+    } else {
+        format!("'{}'", word.replace('\'', r"'\''"))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::super::presets::presets;
+    use super::super::samples::sound_scenes;
+    use super::*;
+
+    const SCENE: &str = "(
+    version: 1,
+    title: \"A\",
+    material: (youngs_modulus: 2.0e6, poisson_ratio: 0.5), // soft
+    length: 1.0e-4,
+    roughness: SelfAffine(hurst: 0.7, rms_height: 2.0e-7, modes: (1, 512), seed: 1),
+    adhesion: (kappa: 6.0),
+    loading: [ToForce(1.0e-5), ToTouch, ToSeparation],
+)
+";
+
+    fn document() -> Document {
+        Document::parse(SCENE, "scene").unwrap()
+    }
+
+    fn pairs(overrides: &[(&str, &str)]) -> Overrides {
+        overrides.iter().map(|(path, value)| pair(path, *value)).collect()
+    }
+
+    #[test]
+    fn what_was_set_is_found_again() {
+        for overrides in [
+            &[][..],
+            &[("length", "2.0e-4")],
+            &[("title", "\"it's \\\"b\\\"\""), ("notice", "\"one\\ntwo\"")],
+            &[("material.youngs_modulus", "0.1e7"), ("material.poisson_ratio", "0.25")],
+            &[("roughness.modes", "(2, 512)"), ("roughness.seed", "18446744073709551615")],
+            &[("roughness", "None"), ("adhesion", "(work: 0.05)")],
+            &[("roughness", "None"), ("adhesion", "None")],
+            &[("form", "Cone(angle: 0.1)"), ("adhesion.kappa", "0.30000000000000004")],
+            &[("material", "(effective_modulus: 2.7e6)"), ("observe", "[Fragments]")],
+            &[("roughness", "Measured(file: \"a b.csv\")")],
+            &[("loading.0.0", "2.0e-5"), ("numerics.points", "1024"), ("numerics.samples", "64")],
+            &[("loading.1", "ToZeroForce"), ("numerics.solver", "Stepwise(step: 1.0e-9)")],
+            &[("loading", "[ToForce(1.0e-5)]")],
+            &[("loading", "[ToTouch, ToForce(1.0), ToZeroForce]")],
+        ] {
+            let changed = document().set_all(&pairs(overrides)).unwrap();
+            let canonical = Document::of_scene(changed.scene(), "other").unwrap();
+            let expected =
+                pairs(overrides).into_iter().map(|(path, value)| (path, value.replace("0.1e7", "1.0e6")));
+            let expected: Overrides = expected.collect();
+            assert_eq!(changed.overrides_from(&document()), expected);
+            assert_eq!(canonical.overrides_from(&document()), expected);
+        }
+    }
+
+    #[test]
+    fn inside_what_differs_only_what_differs_is_set() {
+        let base = document().set_all(&pairs(&[
+            ("form", "Power(coefficient: 1.0e7, exponent: 3.0)"),
+            ("numerics.solver", "Stepwise(step: 1.0e-9)"),
+        ]));
+        let base = base.unwrap();
+        let step = base.set("numerics.solver.step", "2.0e-9").unwrap().set("form.exponent", "2.5").unwrap();
+        let expected = [("form.exponent", "2.5"), ("numerics.solver.step", "2.0e-9")];
+        assert_eq!(step.overrides_from(&base), pairs(&expected));
+        let gradient = pairs(&[("roughness.rms_height", "None"), ("roughness.rms_gradient", "0.1")]);
+        let gradient = base.set_all(&gradient).unwrap();
+        let whole = "SelfAffine(hurst: 0.7, rms_gradient: 0.1, modes: (1, 512), seed: 1)";
+        assert_eq!(gradient.overrides_from(&base), pairs(&[("roughness", whole)]));
+        let sphere = base.set("form", "Paraboloid(radius: 2.0e-5)").unwrap();
+        let punch = base.set("form", "Punch(radius: 2.0e-5)").unwrap();
+        assert_eq!(punch.overrides_from(&sphere), pairs(&[("form", "Punch(radius: 2.0e-5)")]));
+    }
+
+    #[test]
+    fn what_the_base_leaves_out_is_set_whole() {
+        let text = SCENE.replace("    loading: [ToForce(1.0e-5), ToTouch, ToSeparation],\n", "");
+        let base = Document::parse(&text, "scene").unwrap();
+        let changed = base.set("loading", "[ToTouch, ToSeparation]").unwrap();
+        let expected = [("loading", "[ToTouch, ToSeparation]")];
+        assert_eq!(changed.overrides_from(&base), pairs(&expected));
+    }
+
+    #[test]
+    fn words_are_quoted_where_a_shell_would_read_something_else() {
+        for (word, expected) in [
+            ("jkr-sphere", "jkr-sphere"),
+            ("./a/b_c.ron", "./a/b_c.ron"),
+            ("C:/κ,1+2@3%4=5", "C:/κ,1+2@3%4=5"),
+            ("", "''"),
+            ("a b", "'a b'"),
+            ("it's", r"'it'\''s'"),
+            ("'", r"''\'''"),
+            ("=ls", "'=ls'"),
+            ("~/a", "'~/a'"),
+            ("a*", "'a*'"),
+            ("$HOME", "'$HOME'"),
+            ("[Fragments]", "'[Fragments]'"),
+            ("a\nb", "'a\nb'"),
+            (r"a\b", r"'a\b'"),
+        ] {
+            assert_eq!(quoted(word), expected);
+        }
+        let sets = pairs(&[("form", "None"), ("title", "\"it's\"")]);
+        assert_eq!(command_line("a.ron", &sets), r#"asperity a.ron --set form=None --set 'title="it'\''s"'"#);
+        assert_eq!(command_line("-a.ron", &sets[..1]), "asperity --set form=None -- -a.ron");
+    }
+
+    /// The words a shell makes of a command, by the rules of POSIX for quotes and backslashes.
+    fn words(command: &str) -> Vec<String> {
+        let (mut words, mut word, mut characters) = (Vec::new(), None::<String>, command.chars());
+        while let Some(c) = characters.next() {
+            match c {
+                ' ' | '\t' | '\n' => words.extend(word.take()),
+                '\\' => word.get_or_insert_default().extend(characters.next()),
+                '\'' => {
+                    let quoted = characters.by_ref().take_while(|c| *c != '\'');
+                    word.get_or_insert_default().extend(quoted);
+                }
+                c => {
+                    assert!(!"|&;<>()$`\"*?[#~!{}^".contains(c), "{c} is not quoted: {command}");
+                    word.get_or_insert_default().push(c);
+                }
+            }
+        }
+        words.into_iter().chain(word).collect()
+    }
+
+    fn expected_words(name: &str, overrides: &[(String, String)]) -> Vec<String> {
+        let sets = overrides.iter().flat_map(|(path, value)| ["--set".into(), format!("{path}={value}")]);
+        if name.starts_with('-') {
+            let end = ["--".to_string(), name.to_string()];
+            return std::iter::once("asperity".to_string()).chain(sets).chain(end).collect();
+        }
+        ["asperity".to_string(), name.to_string()].into_iter().chain(sets).collect()
+    }
+
+    #[cfg(unix)]
+    fn words_of_the_shell(command: &str) -> Vec<String> {
+        let script = format!("printf '%s\\0' {command}");
+        let output = std::process::Command::new("sh").arg("-c").arg(script).output().unwrap();
+        let text = String::from_utf8(output.stdout).unwrap();
+        text.split_terminator('\0').map(str::to_string).collect()
+    }
+
+    fn assert_leads(base: &Document, target: &Document) -> Overrides {
+        let overrides = target.overrides_from(base);
+        let reached = base.set_all(&overrides).unwrap_or_else(|errors| panic!("{errors}"));
+        assert_eq!(reached.scene(), target.scene());
+        assert!(overrides.iter().all(|(_, value)| !value.contains(['\n', '\r'])));
+        // No field is set twice, and a field that is equal in both not at all.
+        let top = |path: &str| path.split('.').next().unwrap_or_default().to_string();
+        for (path, _) in &overrides {
+            let others = overrides.iter().filter(|(other, _)| other == path || top(path) == *other);
+            assert_eq!(others.count(), 1, "{overrides:?}");
+        }
+        overrides
+    }
+
+    proptest! {
+        #[test]
+        fn overrides_lead_from_any_scene_to_any_other(
+            base in sound_scenes(),
+            target in sound_scenes(),
+            mixed in prop::collection::vec(any::<bool>(), 9),
+            preset in prop::sample::select(presets().to_vec()),
+            name in "[^\0]{0,12}",
+        ) {
+            // Take some of the parts of the base, so that the pair also shares some.
+            let mut near = target.clone();
+            if mixed[0] { near.title.clone_from(&base.title); }
+            if mixed[1] { near.notice.clone_from(&base.notice); }
+            if mixed[2] { near.material = base.material; }
+            if mixed[3] { (near.length, near.form) = (base.length, base.form); }
+            if mixed[4] { (near.roughness, near.adhesion) = (base.roughness.clone(), base.adhesion); }
+            if mixed[5] { near.loading.clone_from(&base.loading); }
+            if mixed[6] { near.numerics.solver = base.numerics.solver; }
+            if mixed[7] { near.numerics.samples = base.numerics.samples; }
+            if mixed[8] { near.observe.clone_from(&base.observe); }
+            let preset = Document::parse(preset.text, preset.name).unwrap();
+            let base = Document::of_scene(&base, "base").unwrap();
+            let target = Document::of_scene(&target, "target").unwrap();
+            let mut lists = vec![assert_leads(&preset, &target), assert_leads(&base, &target)];
+            assert_leads(&target, &preset);
+            if let Ok(near) = Document::of_scene(&near, "near") {
+                lists.push(assert_leads(&base, &near));
+                lists.push(assert_leads(&near, &target));
+            }
+            for overrides in lists {
+                let command = command_line(&name, &overrides);
+                prop_assert_eq!(words(&command), expected_words(&name, &overrides));
+            }
+        }
+    }
+
+    #[cfg(unix)]
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(64))]
+
+        #[test]
+        fn a_shell_reads_the_words_that_were_meant(
+            name in "[^\0]{0,20}|[ -~\n]{0,20}",
+            values in prop::collection::vec("[^\0]{0,20}|[ -~\n]{0,20}", 0..4),
+        ) {
+            let overrides: Overrides = values.into_iter().map(|value| pair("title", value)).collect();
+            let command = command_line(&name, &overrides);
+            prop_assert_eq!(words_of_the_shell(&command), expected_words(&name, &overrides));
+        }
+    }
+}
