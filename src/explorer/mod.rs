@@ -7,6 +7,7 @@ pub mod keys;
 pub mod layout;
 pub mod model;
 pub mod parameters;
+pub mod picture;
 pub mod reduce;
 pub mod snapshot;
 mod terminal;

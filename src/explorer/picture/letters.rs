@@ -1,0 +1,132 @@
+//! The letters of a picture, set in runs that keep to the grid of cells.
+
+use super::Glyph;
+use super::outline::{HEIGHT, WIDTH};
+use super::palette::{Rgb, hex};
+use ratatui::style::Modifier;
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+
+/// Height of the line that letters stand on, in its cell.
+const BASE: u32 = 12;
+/// Fonts of one width that come with the common systems.
+pub const FONTS: &str =
+    "ui-monospace,SFMono-Regular,Menlo,Consolas,'DejaVu Sans Mono','Liberation Mono',monospace";
+/// Letters of these fonts are about 0.6 times as wide.
+const FONT_SIZE: &str = "13.3";
+
+/// How letters look.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+struct Face {
+    colour: Rgb,
+    bold: bool,
+    italic: bool,
+}
+
+/// Letters on one row that are set as one.
+struct Run {
+    column: u16,
+    row: u16,
+    face: Face,
+    text: String,
+    columns: u16,
+    /// Cells since its last letter.
+    blanks: u16,
+    /// Whether it may go on.
+    open: bool,
+}
+
+/// All letters, by their look.
+#[derive(Default)]
+pub struct Letters {
+    texts: BTreeMap<Face, String>,
+    run: Option<Run>,
+}
+
+impl Letters {
+    /// Sets a glyph, behind others of the same look if there is no gap.
+    pub fn set(&mut self, glyph: &Glyph<'_>, colour: Rgb) {
+        let modifier = glyph.cell.modifier;
+        let face = Face {
+            colour,
+            bold: modifier.contains(Modifier::BOLD),
+            italic: modifier.contains(Modifier::ITALIC),
+        };
+        let symbol = glyph.symbol();
+        // Others come from another font, whose width is another.
+        let open = glyph.width == 1 && symbol.chars().all(is_common);
+        let row = glyph.row;
+        if let Some(run) =
+            self.run.as_mut().filter(|run| open && run.open && (run.row, run.face) == (row, face))
+        {
+            if run.blanks == 1 {
+                run.text.push(' ');
+            }
+            run.text.push_str(symbol);
+            run.columns += run.blanks + 1;
+            run.blanks = 0;
+            return;
+        }
+        self.end();
+        let (text, columns) = (symbol.to_owned(), glyph.width);
+        self.run = Some(Run { column: glyph.column, row, face, text, columns, blanks: 0, open });
+    }
+
+    /// Leaves so many cells without letters.
+    pub fn leave_blank(&mut self, width: u16) {
+        if let Some(run) = &mut self.run {
+            run.blanks += width;
+            // Gaps are cheaper to leave out, and each run begins anew on the grid.
+            if run.blanks > 1 {
+                self.end();
+            }
+        }
+    }
+
+    /// Ends the run: what comes next does not belong to it.
+    pub fn end(&mut self) {
+        let Some(run) = self.run.take() else { return };
+        let x = u32::from(run.column) * WIDTH;
+        let y = u32::from(run.row) * HEIGHT + BASE;
+        let length = u32::from(run.columns) * WIDTH;
+        let text = escaped(&run.text);
+        let texts = self.texts.entry(run.face).or_default();
+        let _ = writeln!(texts, "<text x=\"{x}\" y=\"{y}\" textLength=\"{length}\">{text}</text>");
+    }
+
+    /// The elements that set them.
+    pub fn elements(mut self) -> String {
+        self.end();
+        let mut elements =
+            format!("<g font-family=\"{FONTS}\" font-size=\"{FONT_SIZE}\" xml:space=\"preserve\">\n");
+        for (face, texts) in self.texts {
+            let bold = if face.bold { " font-weight=\"bold\"" } else { "" };
+            let italic = if face.italic { " font-style=\"italic\"" } else { "" };
+            let _ = writeln!(elements, "<g fill=\"{}\"{bold}{italic}>\n{texts}</g>", hex(face.colour));
+        }
+        elements + "</g>\n"
+    }
+}
+
+/// Whether a character is in the common fonts of one width.
+fn is_common(character: char) -> bool {
+    matches!(character, ' '..='~' | '\u{a1}'..='ſ' | 'Α'..='ω' | '–' | '—' | '‘'..='”' | '…' | '−')
+}
+
+/// A text in which nothing is taken for markup.
+pub fn escaped(text: &str) -> String {
+    let mut escaped = String::with_capacity(text.len());
+    for character in text.chars() {
+        match character {
+            '&' => escaped.push_str("&amp;"),
+            '<' => escaped.push_str("&lt;"),
+            '>' => escaped.push_str("&gt;"),
+            '"' => escaped.push_str("&quot;"),
+            // These may not stand in XML at all.
+            '\0'..=' ' if character != ' ' => escaped.push('\u{fffd}'),
+            '\u{fffe}' | '\u{ffff}' => escaped.push('\u{fffd}'),
+            _ => escaped.push(character),
+        }
+    }
+    escaped
+}

@@ -1,0 +1,422 @@
+//! The screen as a picture that can be scaled, for slides and for pages on the web.
+//!
+//! Only letters need a font. Dots, blocks, lines and marks are drawn, so that they meet from cell to
+//! cell whatever the font, and text is stretched to the grid of cells.
+
+pub use super::palette::{Palette, Rgb};
+
+use super::letters::{Letters, escaped};
+use super::outline::{Area, Dots, HEIGHT, Lines, WIDTH};
+use super::palette::{hex, mixed};
+use super::raster::{Raster, blocks, dots, shade};
+use super::strokes::{Weight, strokes};
+use super::{Glyph, glyphs};
+use ratatui::buffer::Buffer;
+use ratatui::style::Modifier;
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+
+/// Room around the screen.
+const MARGIN: u32 = 8;
+/// Height of a line under letters, in its cell.
+const UNDER: i32 = 14;
+/// Share of a colour that stays when it is dimmed, percent.
+const DIMMED: u8 = 60;
+
+/// A picture of the screen: a document of SVG 1.1 that needs nothing else. The same screen gives the same
+/// bytes.
+#[must_use]
+pub fn svg(buffer: &Buffer, palette: &Palette, title: &str) -> String {
+    let mut sheet = Sheet::new(palette);
+    for glyph in glyphs(buffer) {
+        sheet.draw(&glyph);
+    }
+    let width = u32::from(buffer.area.width) * WIDTH + 2 * MARGIN;
+    let height = u32::from(buffer.area.height) * HEIGHT + 2 * MARGIN;
+    sheet.write(width, height, title)
+}
+
+/// Lines of one kind are drawn with one pen.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Pen {
+    /// For whole lines, whose ends meet in corners.
+    Whole(Weight),
+    /// For dashes, whose ends must not.
+    Dashed(Weight),
+    /// For lines under and through letters.
+    Rule,
+}
+
+impl Pen {
+    fn width(self) -> &'static str {
+        match self {
+            Pen::Whole(Weight::Light) | Pen::Dashed(Weight::Light) => "1.2",
+            Pen::Whole(Weight::Heavy) | Pen::Dashed(Weight::Heavy) => "2.6",
+            _ => "1",
+        }
+    }
+
+    fn end(self) -> &'static str {
+        if matches!(self, Pen::Whole(_)) { "square" } else { "butt" }
+    }
+}
+
+/// All that is on the screen, by what it is drawn with.
+struct Sheet<'a> {
+    palette: &'a Palette,
+    grounds: BTreeMap<Rgb, Area>,
+    blocks: BTreeMap<Rgb, Area>,
+    marks: BTreeMap<Rgb, String>,
+    lines: BTreeMap<(Pen, Rgb), Lines>,
+    dots: BTreeMap<Rgb, Dots>,
+    letters: Letters,
+}
+
+impl<'a> Sheet<'a> {
+    fn new(palette: &'a Palette) -> Self {
+        Sheet {
+            palette,
+            grounds: BTreeMap::new(),
+            blocks: BTreeMap::new(),
+            marks: BTreeMap::new(),
+            lines: BTreeMap::new(),
+            dots: BTreeMap::new(),
+            letters: Letters::default(),
+        }
+    }
+
+    fn draw(&mut self, glyph: &Glyph<'_>) {
+        let Glyph { column, row, width, cell } = *glyph;
+        let (ink, ground) = self.colours(glyph);
+        if ground != self.palette.background {
+            let grounds = self.grounds.entry(ground).or_default();
+            (column..column + width).for_each(|column| grounds.fill(column, row, Raster::FULL));
+        }
+        if cell.modifier.contains(Modifier::UNDERLINED) {
+            let colour = self.palette.rgb(cell.underline_color, ink);
+            self.lines.entry((Pen::Rule, colour)).or_default().across(column, row, width, UNDER);
+        }
+        if cell.modifier.contains(Modifier::CROSSED_OUT) {
+            self.lines.entry((Pen::Rule, ink)).or_default().across(column, row, width, HEIGHT as i32 / 2);
+        }
+        if glyph.symbol().trim().is_empty() || cell.modifier.contains(Modifier::HIDDEN) {
+            return self.letters.leave_blank(width);
+        }
+        let shape = glyph.character().filter(|_| width == 1);
+        if !shape.is_some_and(|character| self.draw_shape(glyph, character, ink, ground)) {
+            return self.letters.set(glyph, ink);
+        }
+        self.letters.end();
+    }
+
+    /// Colours of a symbol and of what is behind it.
+    fn colours(&self, glyph: &Glyph<'_>) -> (Rgb, Rgb) {
+        let (cell, modifier) = (glyph.cell, glyph.cell.modifier);
+        let mut ink = self.palette.rgb(cell.fg, self.palette.foreground);
+        let mut ground = self.palette.rgb(cell.bg, self.palette.background);
+        if modifier.contains(Modifier::DIM) {
+            ink = mixed(ink, ground, DIMMED);
+        }
+        if modifier.contains(Modifier::REVERSED) {
+            std::mem::swap(&mut ink, &mut ground);
+        }
+        (ink, ground)
+    }
+
+    /// Draws a character that is no letter; `false` for a letter.
+    fn draw_shape(&mut self, glyph: &Glyph<'_>, character: char, ink: Rgb, ground: Rgb) -> bool {
+        let (column, row) = (glyph.column, glyph.row);
+        if let Some(dots) = dots(character) {
+            self.dots.entry(ink).or_default().add(column, row, dots);
+        } else if let Some(raster) = blocks(character) {
+            self.blocks.entry(ink).or_default().fill(column, row, raster);
+        } else if let Some(quarters) = shade(character) {
+            let colour = mixed(ink, ground, 25 * quarters);
+            self.blocks.entry(colour).or_default().fill(column, row, Raster::FULL);
+        } else if let Some(strokes) = strokes(character) {
+            for weight in [Weight::Light, Weight::Heavy, Weight::Double] {
+                if strokes.arms.contains(&Some(weight)) {
+                    let pen = if strokes.pieces > 1 { Pen::Dashed } else { Pen::Whole };
+                    let lines = self.lines.entry((pen(weight), ink)).or_default();
+                    lines.add(column, row, &strokes, weight);
+                }
+            }
+        } else if let Some(mark) = mark(character) {
+            let (x, y) = (u32::from(column) * WIDTH, u32::from(row) * HEIGHT);
+            let _ = write!(self.marks.entry(ink).or_default(), "M{x} {y}{mark}");
+        } else {
+            return false;
+        }
+        true
+    }
+
+    fn write(self, width: u32, height: u32, title: &str) -> String {
+        let title = escaped(title);
+        let ground = hex(self.palette.background);
+        let mut svg = format!(
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
+             viewBox=\"0 0 {width} {height}\" role=\"img\" aria-label=\"{title}\">\n\
+             <title>{title}</title>\n\
+             <rect width=\"{width}\" height=\"{height}\" rx=\"6\" fill=\"{ground}\"/>\n\
+             <g transform=\"translate({MARGIN} {MARGIN})\">\n"
+        );
+        for (colour, area) in self.grounds.into_iter().chain(self.blocks) {
+            let _ = writeln!(svg, "<path fill=\"{}\" d=\"{}\"/>", hex(colour), area.path());
+        }
+        for ((pen, colour), lines) in self.lines {
+            let (colour, width, end, path) = (hex(colour), pen.width(), pen.end(), lines.path());
+            let _ = writeln!(
+                svg,
+                "<path fill=\"none\" stroke=\"{colour}\" stroke-width=\"{width}\" stroke-linecap=\"{end}\" \
+                 d=\"{path}\"/>"
+            );
+        }
+        for (colour, dots) in self.dots {
+            let (colour, path) = (hex(colour), dots.path());
+            if !path.is_empty() {
+                let _ = writeln!(
+                    svg,
+                    "<path fill=\"none\" stroke=\"{colour}\" stroke-width=\"2.8\" stroke-linecap=\"round\" \
+                     stroke-linejoin=\"round\" d=\"{path}\"/>"
+                );
+            }
+        }
+        for (colour, path) in self.marks {
+            let _ = writeln!(svg, "<path fill=\"{}\" d=\"{path}\"/>", hex(colour));
+        }
+        svg + &self.letters.elements() + "</g>\n</svg>\n"
+    }
+}
+
+/// The outline of a mark, from the upper left corner of its cell.
+fn mark(character: char) -> Option<&'static str> {
+    Some(match character {
+        '▲' => "m4 4.4l3.6 7.2h-7.2z",
+        '▼' => "m4 11.6l3.6-7.2h-7.2z",
+        '◆' => "m4 3.8l3.8 4.2-3.8 4.2-3.8-4.2z",
+        '■' => "m.5 4.5h7v7h-7z",
+        '▪' => "m2 6h4v4h-4z",
+        '▸' => "m1.8 4.5l5 3.5-5 3.5z",
+        '•' => "m1.8 8a2.2 2.2 0 1 0 4.4 0a2.2 2.2 0 1 0-4.4 0z",
+        '●' => "m.5 8a3.5 3.5 0 1 0 7 0a3.5 3.5 0 1 0-7 0z",
+        // The inner circle goes round the other way and so is left out.
+        '○' => "m.5 8a3.5 3.5 0 1 0 7 0a3.5 3.5 0 1 0-7 0zm1.2 0a2.3 2.3 0 1 1 4.6 0a2.3 2.3 0 1 1-4.6 0z",
+        _ => return None,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::letters::FONTS;
+    use super::*;
+    use ratatui::Terminal;
+    use ratatui::backend::TestBackend;
+    use ratatui::layout::{Constraint, Layout, Rect};
+    use ratatui::style::{Color, Style};
+    use ratatui::symbols::Marker;
+    use ratatui::widgets::Block;
+    use ratatui::widgets::canvas::{Canvas, Line};
+
+    /// The elements of a document, names and attributes, and its text. Panics where it is not well-formed.
+    fn parsed(svg: &str) -> (Vec<String>, String) {
+        let (mut elements, mut open, mut text) = (Vec::new(), Vec::new(), String::new());
+        let mut rest = svg;
+        while let Some((before, behind)) = rest.split_once('<') {
+            assert!(!before.contains('>'), "{before}");
+            text += &unescaped(before);
+            let (tag, behind) = behind.split_once('>').expect("a tag ends");
+            rest = behind;
+            if let Some(name) = tag.strip_prefix('/') {
+                assert_eq!(open.pop(), Some(name), "{tag}");
+                continue;
+            }
+            let (tag, empty) = tag.strip_suffix('/').map_or((tag, false), |tag| (tag, true));
+            let (name, attributes) = tag.split_once(' ').unwrap_or((tag, ""));
+            assert!(name.chars().all(char::is_alphabetic), "{tag}");
+            // Names and values in turns; values in quotes.
+            let mut pieces = attributes.split('"');
+            while let Some(name) = pieces.next().filter(|name| !name.is_empty()) {
+                let name = name.trim_start().strip_suffix('=').expect(tag);
+                assert!(name.chars().all(|one| one.is_ascii_alphabetic() || "-:".contains(one)), "{tag}");
+                let _ = unescaped(pieces.next().expect("a value"));
+            }
+            elements.push(tag.to_owned());
+            if !empty {
+                open.push(name);
+            }
+        }
+        assert!(open.is_empty() && rest.trim().is_empty(), "{open:?} {rest}");
+        (elements, text)
+    }
+
+    fn unescaped(text: &str) -> String {
+        assert!(!text.chars().any(|one| one.is_control() && one != '\n'), "{text:?}");
+        for entity in text.split('&').skip(1) {
+            let known = ["amp;", "lt;", "gt;", "quot;"];
+            assert!(known.iter().any(|name| entity.starts_with(name)), "{text}");
+        }
+        text.replace("&lt;", "<").replace("&gt;", ">").replace("&quot;", "\"").replace("&amp;", "&")
+    }
+
+    /// The elements between the background and the end, of a screen of one row.
+    fn drawn(buffer: &Buffer) -> Vec<String> {
+        let svg = svg(buffer, &Palette::DARK, "");
+        parsed(&svg);
+        let inner = svg.split_once("translate(8 8)\">\n").unwrap().1.replace(FONTS, "FONTS");
+        inner
+            .lines()
+            .filter(|line| !line.starts_with("</") && !line.contains("FONTS"))
+            .map(str::to_owned)
+            .collect()
+    }
+
+    fn styled(text: &str, style: Style) -> Vec<String> {
+        let mut buffer = Buffer::empty(Rect::new(0, 0, 12, 1));
+        buffer.set_string(1, 0, text, style);
+        drawn(&buffer)
+    }
+
+    #[test]
+    fn the_document_says_what_it_is() {
+        let svg = svg(&Buffer::empty(Rect::new(5, 5, 120, 40)), &Palette::LIGHT, "κ < 6 & \"h\" > 0\u{1}");
+        let (elements, text) = parsed(&svg);
+        assert_eq!(text.trim(), "κ < 6 & \"h\" > 0\u{fffd}");
+        assert!(
+            elements[0].contains(r#"width="976" height="656" viewBox="0 0 976 656" role="img""#),
+            "{svg}"
+        );
+        assert_eq!(elements[1], "title");
+        assert_eq!(elements[2], r##"rect width="976" height="656" rx="6" fill="#ffffff""##);
+        assert_eq!(elements.len(), 5, "{svg}");
+        parsed(&super::svg(&Buffer::empty(Rect::ZERO), &Palette::LIGHT, ""));
+    }
+
+    #[test]
+    fn letters_of_one_look_are_one_text_on_the_grid() {
+        let face = r##"<g fill="#e1e6eb">"##;
+        let one = [face, r#"<text x="8" y="12" textLength="64">F_a = µN</text>"#];
+        assert_eq!(styled("F_a = µN", Style::new()), one);
+        let two = [
+            face,
+            r#"<text x="8" y="12" textLength="24">a&lt;b</text>"#,
+            r#"<text x="48" y="12" textLength="8">c</text>"#,
+        ];
+        assert_eq!(styled("a<b  c", Style::new()), two);
+        // Rare and wide characters take their place by themselves.
+        let alone = [
+            face,
+            r#"<text x="8" y="12" textLength="8">⟨</text>"#,
+            r#"<text x="16" y="12" textLength="8">z</text>"#,
+            r#"<text x="24" y="12" textLength="16">漢</text>"#,
+            r#"<text x="40" y="12" textLength="8">y</text>"#,
+        ];
+        assert_eq!(styled("⟨z漢y", Style::new()), alone);
+    }
+
+    #[test]
+    fn looks_are_kept() {
+        let text = r#"<text x="8" y="12" textLength="8">x</text>"#;
+        let [foreground, background] = ["#e1e6eb", "#10151b"];
+        assert_eq!(
+            styled("x", Style::new().bold().italic().red()),
+            [r##"<g fill="#ff6b3d" font-weight="bold" font-style="italic">"##, text]
+        );
+        // Three fifths of the foreground over the background.
+        assert_eq!(styled("x", Style::new().dim()), [r##"<g fill="#8d9297">"##, text]);
+        let reversed = [
+            format!(r#"<path fill="{foreground}" d="M8 0H16V16H8z"/>"#),
+            format!(r#"<g fill="{background}">"#),
+            text.to_owned(),
+        ];
+        assert_eq!(styled("x", Style::new().reversed()), reversed);
+        let ground = r##"<path fill="#0000ff" d="M8 0H24V16H8z"/>"##;
+        assert_eq!(styled("  ", Style::new().bg(Color::Indexed(21))), [ground]);
+        assert_eq!(styled("x", Style::new().hidden()), [""; 0]);
+        let line = |colour: &str, height: u32| {
+            format!(
+                r#"<path fill="none" stroke="{colour}" stroke-width="1" stroke-linecap="butt" d="M8 {height}H32"/>"#
+            )
+        };
+        assert_eq!(styled("   ", Style::new().underlined()), [line(foreground, 14)]);
+        assert_eq!(styled("   ", Style::new().crossed_out()), [line(foreground, 8)]);
+        let coloured = Style::new().underlined().underline_color(Color::Rgb(1, 2, 3));
+        assert_eq!(styled("   ", coloured), [line("#010203", 14)]);
+    }
+
+    #[test]
+    fn shapes_are_drawn_whatever_the_font() {
+        let blocks = styled("▌█▀", Style::new());
+        assert_eq!(blocks, [r##"<path fill="#e1e6eb" d="M8 0H12V16H8zM16 0H32V8H16zM16 8H24V16H16z"/>"##]);
+        // A quarter of the way from the background to the foreground.
+        assert_eq!(styled("░░", Style::new()), [r##"<path fill="#44494f" d="M8 0H24V16H8z"/>"##]);
+        let line = r##"<path fill="none" stroke="#e1e6eb" stroke-width="1.2" stroke-linecap="square" d="M8 8H28M28 8V16"/>"##;
+        assert_eq!(styled("──┐", Style::new()), [line]);
+        for mark in "▲▼◆■▪▸•●○".chars() {
+            let drawn = styled(&mark.to_string(), Style::new());
+            assert!(drawn.len() == 1 && drawn[0].contains("d=\"M8 0m"), "{drawn:?}");
+        }
+    }
+
+    #[test]
+    fn every_dot_is_a_point_of_the_path_of_its_colour() {
+        let mut buffer = Buffer::empty(Rect::new(0, 0, 32, 8));
+        let mut expected = BTreeMap::new();
+        for (pattern, cell) in (0_u8..=255).zip(&mut buffer.content) {
+            let colour = if pattern % 3 == 0 { Color::Red } else { Color::Blue };
+            cell.set_char(char::from_u32(0x2800 + u32::from(pattern)).unwrap()).set_fg(colour);
+            *expected.entry(colour == Color::Red).or_insert(0) += pattern.count_ones();
+        }
+        let paths = drawn(&buffer);
+        assert_eq!(paths.len(), 2);
+        for (is_red, colour) in [(true, "#ff6b3d"), (false, "#3b94f5")] {
+            let path = paths.iter().find(|path| path.contains(colour)).unwrap();
+            assert_eq!(path.matches("h.1z").count() as u32, expected[&is_red]);
+        }
+    }
+
+    /// Four framed panes full of curves and filled bars.
+    fn screen(marker: Marker) -> Buffer {
+        let mut terminal = Terminal::new(TestBackend::new(120, 40)).unwrap();
+        terminal
+            .draw(|frame| {
+                let rows = Layout::vertical([Constraint::Fill(1); 2]).split(frame.area());
+                for (row, area) in rows.iter().enumerate() {
+                    for (column, area) in
+                        Layout::horizontal([Constraint::Fill(1); 2]).split(*area).iter().enumerate()
+                    {
+                        let canvas = Canvas::default()
+                            .marker(marker)
+                            .block(Block::bordered().title("Force F(d), µN"))
+                            .x_bounds([0.0, 200.0])
+                            .y_bounds([-1.5, 1.5])
+                            .paint(|context| {
+                                for x in 0..200 {
+                                    let x = f64::from(x);
+                                    let y = (0.05 * x + row as f64).sin();
+                                    let other = 0.2 * (0.9 * x).sin() - column as f64;
+                                    context.draw(&Line::new(x, y, x + 1.0, y, Color::Green));
+                                    context.draw(&Line::new(x, other, x, other + 0.4, Color::Magenta));
+                                }
+                                context.print(20.0, 1.2, "◆ now");
+                            });
+                        frame.render_widget(canvas, *area);
+                    }
+                }
+            })
+            .unwrap();
+        terminal.backend().buffer().clone()
+    }
+
+    #[test]
+    fn a_full_screen_stays_small_and_the_same() {
+        for marker in [Marker::Braille, Marker::Octant, Marker::HalfBlock, Marker::Sextant, Marker::Quadrant]
+        {
+            let screen = screen(marker);
+            let svg = svg(&screen, &Palette::DARK, "Asperity");
+            let (elements, text) = parsed(&svg);
+            assert!(svg.len() < 60_000 && elements.len() < 60, "{marker} {} {}", svg.len(), elements.len());
+            assert_eq!(text.matches("Force F(d), µN").count(), 4);
+            assert_eq!(svg, super::svg(&screen, &Palette::DARK, "Asperity"));
+        }
+    }
+}

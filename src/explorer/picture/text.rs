@@ -1,0 +1,60 @@
+//! The screen as plain text.
+
+use super::glyphs;
+use ratatui::buffer::Buffer;
+
+/// The rows of a screen without the blanks at their ends, each closed by a line feed.
+#[must_use]
+pub fn text(buffer: &Buffer) -> String {
+    let mut rows = vec![String::new(); usize::from(buffer.area.height)];
+    for glyph in glyphs(buffer) {
+        let Some(row) = rows.get_mut(usize::from(glyph.row)) else { break };
+        match glyph.symbol() {
+            " " => row.extend(std::iter::repeat_n(' ', usize::from(glyph.width))),
+            symbol => row.push_str(symbol),
+        }
+    }
+    rows.iter().map(|row| row.trim_end().to_owned() + "\n").collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use ratatui::buffer::CellDiffOption;
+    use ratatui::layout::Rect;
+    use ratatui::style::Style;
+    use std::num::NonZeroU16;
+
+    #[test]
+    fn rows_lose_the_blanks_at_their_ends() {
+        let buffer = Buffer::with_lines(["  a b  ", "", "⠒ ⠒▌ "]);
+        assert_eq!(text(&buffer), "  a b\n\n⠒ ⠒▌\n");
+    }
+
+    #[test]
+    fn wide_characters_and_marks_stand_once() {
+        let mut buffer = Buffer::empty(Rect::new(3, 2, 8, 1));
+        buffer.set_string(3, 2, "漢字e\u{301}x", Style::new());
+        assert_eq!(text(&buffer), "漢字e\u{301}x\n");
+        // What is left behind a wide character is not seen.
+        buffer[(4, 2)].set_symbol("?");
+        assert_eq!(text(&buffer), "漢字e\u{301}x\n");
+    }
+
+    #[test]
+    fn what_has_no_shape_leaves_its_place_blank() {
+        let mut buffer = Buffer::with_lines(["abcdef"]);
+        buffer[(0, 0)].set_symbol("\n");
+        buffer[(1, 0)].set_symbol("");
+        buffer[(2, 0)].set_symbol("\u{301}");
+        let two = CellDiffOption::ForcedWidth(NonZeroU16::new(2).unwrap());
+        buffer[(3, 0)].set_symbol("\u{1b}[7mlink").set_diff_option(two);
+        assert_eq!(text(&buffer), "     f\n");
+    }
+
+    #[test]
+    fn an_empty_screen_has_no_rows() {
+        assert_eq!(text(&Buffer::empty(Rect::ZERO)), "");
+        assert_eq!(text(&Buffer::empty(Rect::new(0, 0, 0, 2))), "\n\n");
+    }
+}
