@@ -35,7 +35,8 @@ struct Finished {
 
 fn program() -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_asperity"));
-    command.stdin(Stdio::null());
+    // Whoever runs the tests may have scenes of their own.
+    command.stdin(Stdio::null()).env("XDG_CONFIG_HOME", concat!(env!("CARGO_TARGET_TMPDIR"), "/nothing"));
     command
 }
 
@@ -356,6 +357,39 @@ fn built_in_scenes_are_listed_shown_and_sound() {
     }
     let told = failed(1, &["presets", "show", "no-such-scene"]);
     assert!(told.contains("no-such-scene") && told.contains("kendall-punch"), "{told}");
+}
+
+/// Elsewhere the configuration folder is not named by a variable.
+#[cfg(unix)]
+#[test]
+fn own_scenes_are_listed_and_opened() {
+    let config = tempfile::tempdir().unwrap();
+    let folder = config.path().join("asperity/presets");
+    let asperity = |arguments: &[&str]| {
+        let output = program().args(arguments).env("XDG_CONFIG_HOME", config.path()).output().unwrap();
+        (output.status.code(), String::from_utf8([output.stdout, output.stderr].concat()).unwrap())
+    };
+    let (code, told) = asperity(&["line", "my-tape"]);
+    assert_eq!(code, Some(1));
+    assert!(told.starts_with("my-tape: ") && told.contains(folder.to_str().unwrap()), "{told}");
+    fs::create_dir_all(&folder).unwrap();
+    let scene = SMALL.replace("version: 1,", "version: 1, title: \"My tape\",");
+    let path = write(&folder, "my-tape.ron", &scene);
+    write(&folder, "wrong.ron", "(version: 1");
+    let (code, list) = asperity(&["presets", "list"]);
+    let mut lines = list.lines().skip(presets().len());
+    assert_eq!(code, Some(0));
+    let line = lines.next().unwrap();
+    assert!(line.starts_with("my-tape ") && line.ends_with(" My tape"), "{list}");
+    assert!(lines.next().unwrap().contains("line 1, column 1: this bracket is not closed"), "{list}");
+    assert_eq!(lines.next(), None);
+    let (_, list) = asperity(&["presets", "list", "--format", "json"]);
+    let list: Value = serde_json::from_str(&list).unwrap();
+    let tape = list.as_array().unwrap().iter().find(|scene| scene["name"] == "my-tape").unwrap();
+    assert_eq!((&tape["title"], &tape["path"]), (&Value::from("My tape"), &Value::from(path)));
+    let (code, line) = asperity(&["line", "my-tape"]);
+    assert_eq!((code, line.lines().count()), (Some(0), 65));
+    assert_eq!(asperity(&["presets", "show", "my-tape"]), (Some(0), scene));
 }
 
 #[test]

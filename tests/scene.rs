@@ -2,8 +2,10 @@
 //! one field is a change to that field alone.
 
 use asperity::scene::{
-    DEFAULT, Document, FIELDS, Form, LONGEST_TEXT, Range, Scene, line_column, locate, open, presets, to_ron,
+    DEFAULT, Document, Effect, FIELDS, Form, LONGEST_TEXT, Leg, Range, Scene, line_column, locate, open,
+    presets, to_ron,
 };
+use asperity::simulation::{Plan, Stage};
 use proptest::prelude::*;
 
 fn message(text: &str) -> String {
@@ -74,6 +76,56 @@ fn nesting_does_not_overflow_the_stack() {
         let _ = Document::parse(&with_line(&format!("form: {deep},")), "scene.ron");
         let _ = locate(&with_line(&format!("form: {deep},")), "form.0.0.0.0");
         assert!(open_default().set("form", &deep).is_err());
+    }
+}
+
+#[test]
+fn effects_are_on_where_their_stages_run() {
+    let document = open_default();
+    let legs = [
+        Leg::ToForce(1e-6),
+        Leg::ToForce(1e-5),
+        Leg::ToIndentation(-1e-9),
+        Leg::ToIndentation(1e-8),
+        Leg::ToTouch,
+        Leg::ToZeroForce,
+        Leg::ToSeparation,
+    ];
+    let mut loadings: Vec<Vec<Leg>> = legs.iter().map(|leg| vec![*leg]).collect();
+    for length in 1..3 {
+        let longer = loadings.iter().filter(|loading| loading.len() == length);
+        let longer: Vec<_> =
+            longer.flat_map(|loading| legs.iter().map(|leg| [&loading[..], &[*leg]].concat())).collect();
+        loadings.extend(longer);
+    }
+    assert_eq!(loadings.len(), 7 + 49 + 343);
+    for loading in loadings {
+        let mut scene = document.scene().clone();
+        scene.loading = loading;
+        let runs = Plan::of(&scene).runs(Stage::UnloadingPass);
+        assert_eq!(Effect::Unloading.is_on(&scene), runs, "{:?}", scene.loading);
+    }
+    for (path, value) in [
+        ("form", "Cone(angle: 0.1)"),
+        ("adhesion", "None"),
+        ("adhesion", "(work: 0.0)"),
+        ("adhesion", "(work: 0.1)"),
+        ("observe", "[Fragments]"),
+        ("observe", "[HeightHistogram]"),
+        ("roughness", "Measured(file: \"line.csv\")"),
+    ] {
+        let document = document.set(path, value).unwrap();
+        let plan = Plan::of(document.scene());
+        let runs = |stages: &[Stage]| stages.iter().any(|stage| plan.runs(*stage));
+        for (effect, stages) in [
+            (Effect::Form, &[Stage::Form][..]),
+            (Effect::Roughness, &[Stage::Synthesis, Stage::MeasuredProfile]),
+            (Effect::Adhesion, &[Stage::RuleOfHess]),
+            (Effect::Fragments, &[Stage::Fragments]),
+            (Effect::HeightHistogram, &[Stage::HeightHistogram]),
+        ] {
+            assert_eq!(effect.is_on(document.scene()), runs(stages), "{path}={value}: {effect:?}");
+        }
     }
 }
 

@@ -1,9 +1,11 @@
-//! `asperity presets`: the built-in scenes, and checking scene files.
+//! `asperity presets`: the built-in scenes and the user's own, and checking scene files.
 
 use super::CliError;
 use crate::export::sheet::Sheet;
 use crate::export::write_json_value;
-use crate::scene::{self, Document, LONGEST_TEXT, Roughness, SceneErrors, line_column, locate};
+use crate::scene::{
+    self, Document, Entry, LONGEST_TEXT, Library, Roughness, SceneErrors, Source, line_column, locate,
+};
 use crate::surface::MeasuredProfile;
 use clap::{Subcommand, ValueEnum};
 use serde::Serialize;
@@ -24,13 +26,13 @@ Example:
 /// What is done with scenes.
 #[derive(Debug, Subcommand)]
 pub enum PresetsCommand {
-    /// List the built-in scenes
+    /// List the built-in scenes and one's own
     List {
         /// How they are printed
         #[arg(long, value_enum, default_value_t = ListFormat::Text)]
         format: ListFormat,
     },
-    /// Print the text of a built-in scene, to start one's own from
+    /// Print the text of a listed scene, to start one's own from
     #[command(after_help = SHOW_EXAMPLES)]
     Show {
         /// Its name
@@ -50,16 +52,20 @@ pub enum PresetsCommand {
 pub enum ListFormat {
     /// Name and title in columns.
     Text,
-    /// Objects with name, title and notice.
+    /// Objects with name, title and notice; one's own scenes have a path, and an error if wrong.
     Json,
 }
 
-/// A built-in scene in the list.
+/// A scene in the list.
 #[derive(Serialize)]
 struct Listed {
-    name: &'static str,
+    name: String,
     title: String,
     notice: String,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    path: Option<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    error: Option<String>,
 }
 
 /// Does one of the commands.
@@ -72,17 +78,16 @@ pub(super) fn presets(command: &PresetsCommand, stdout: &mut dyn Write) -> Resul
 }
 
 fn list(format: ListFormat, stdout: &mut dyn Write) -> Result<(), CliError> {
-    let mut presets = Vec::new();
-    for preset in scene::presets() {
-        let document = Document::parse(preset.text, preset.name)?;
-        let scene = document.scene();
-        let (title, notice) = (scene.title.clone(), scene.notice.clone());
-        presets.push(Listed { name: preset.name, title, notice });
-    }
+    let library = Library::of_environment();
+    let entries = [Source::BuiltIn, Source::Own].map(|origin| library.list_of(origin)).concat();
     match format {
-        ListFormat::Json => write_json_value(stdout, &presets)?,
+        ListFormat::Json => {
+            let listed: Vec<_> = entries.into_iter().map(Listed::from).collect();
+            write_json_value(stdout, &listed)?;
+        }
         ListFormat::Text => {
-            let rows: Vec<_> = presets.into_iter().map(|preset| [preset.name.into(), preset.title]).collect();
+            let row = |entry: Entry| [entry.name, entry.error.unwrap_or(entry.title)];
+            let rows: Vec<_> = entries.into_iter().map(row).collect();
             let mut sheet = Sheet::default();
             sheet.table(&rows);
             stdout.write_all(sheet.into_text().as_bytes())?;
@@ -91,12 +96,24 @@ fn list(format: ListFormat, stdout: &mut dyn Write) -> Result<(), CliError> {
     Ok(())
 }
 
+impl From<Entry> for Listed {
+    fn from(entry: Entry) -> Listed {
+        let path = entry.path.map(|path| path.display().to_string());
+        let Entry { name, title, notice, error, .. } = entry;
+        Listed { name, title, notice, path, error }
+    }
+}
+
 fn show(name: &str, stdout: &mut dyn Write) -> Result<(), CliError> {
-    let preset = scene::find(name).ok_or_else(|| {
-        let names: Vec<_> = scene::presets().iter().map(|preset| preset.name).collect();
-        CliError::NoPreset { name: name.into(), allowed: names.join(", ") }
-    })?;
-    Ok(stdout.write_all(preset.text.as_bytes())?)
+    if let Some(preset) = scene::find(name) {
+        return Ok(stdout.write_all(preset.text.as_bytes())?);
+    }
+    if let Some(path) = Library::of_environment().own_scene(name) {
+        let document = scene::open(&path.display().to_string())?;
+        return Ok(stdout.write_all(document.text().as_bytes())?);
+    }
+    let names: Vec<_> = scene::presets().iter().map(|preset| preset.name).collect();
+    Err(CliError::NoPreset { name: name.into(), allowed: names.join(", ") })
 }
 
 fn check(files: &[String], stdout: &mut dyn Write) -> Result<(), CliError> {

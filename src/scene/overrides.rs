@@ -235,6 +235,18 @@ mod tests {
     }
 
     #[test]
+    fn ways_of_writing_do_not_matter() {
+        let text = SCENE
+            .replace("(kappa: 6.0)", "Some((kappa: Some(6.0)))")
+            .replace("(\n    version: 1", "#![enable(implicit_some)]\nScene(r#version: 1");
+        let base = Document::parse(&text, "scene").unwrap();
+        assert_eq!(base.overrides_from(&document()), []);
+        assert_eq!(document().overrides_from(&base), []);
+        let changed = document().set("adhesion.kappa", "2.0").unwrap();
+        assert_eq!(assert_leads(&base, &changed), pairs(&[("adhesion.kappa", "2.0")]));
+    }
+
+    #[test]
     fn words_are_quoted_where_a_shell_would_read_something_else() {
         for (word, expected) in [
             ("jkr-sphere", "jkr-sphere"),

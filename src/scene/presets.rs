@@ -6,6 +6,7 @@ use std::path::Path;
 
 use super::document::{Document, LONGEST_TEXT};
 use super::errors::{Origin, SceneError, SceneErrors};
+use super::library::{Library, printable};
 use super::suggest::nearest;
 
 /// Name of the scene that is opened where none is named.
@@ -53,30 +54,46 @@ pub fn find(name: &str) -> Option<&'static Preset> {
 }
 
 /// Opens a scene: a file, where one of that name exists or the name looks like one (it ends in
-/// `.ron` or has a path separator), else a built-in scene.
+/// `.ron` or has a path separator), else a built-in scene, else one of the user's own scenes, see
+/// [`Library::own_folder`].
 ///
 /// # Errors
 ///
 /// No such scene, a file that cannot be read, or what is wrong with the scene in it.
 pub fn open(name_or_path: &str) -> Result<Document, SceneErrors> {
+    open_in(name_or_path, &Library::of_environment())
+}
+
+fn open_in(name_or_path: &str, library: &Library) -> Result<Document, SceneErrors> {
     let path = Path::new(name_or_path);
     let looks_like_file = name_or_path.ends_with(".ron") || name_or_path.chars().any(std::path::is_separator);
     if looks_like_file || path.is_file() {
-        return Document::parse(
-            &read_file(path).map_err(|message| whole(name_or_path, message))?,
-            name_or_path,
-        );
+        return open_file(path, name_or_path);
     }
     if let Some(preset) = find(name_or_path) {
         return Document::parse(preset.text, preset.name);
     }
+    if let Some(path) = library.own_scene(name_or_path) {
+        return open_file(&path, &path.display().to_string());
+    }
     let names: Vec<_> = PRESETS.iter().map(|preset| preset.name).collect();
-    let near = nearest(name_or_path, names.iter().copied());
-    let near = near.map_or_else(String::new, |near| format!("; did you mean {near}?"));
+    let own = library.own_names();
+    let near = nearest(name_or_path, names.iter().copied().chain(own.iter().map(String::as_str)));
+    let near = near.map_or_else(String::new, |near| format!("; did you mean {}?", printable(near)));
     let no_file = if path.is_dir() { "it is a directory" } else { "there is no such file" };
-    let message =
-        format!("{no_file} and no such built-in scene{near} (built-in scenes: {})", names.join(", "));
+    let nowhere = match library.own_folder() {
+        Some(folder) => {
+            let folder = printable(&folder.display().to_string());
+            format!(", no such built-in scene and none of this name in {folder}")
+        }
+        None => " and no such built-in scene".into(),
+    };
+    let message = format!("{no_file}{nowhere}{near} (built-in scenes: {})", names.join(", "));
     Err(whole(name_or_path, message))
+}
+
+fn open_file(path: &Path, name: &str) -> Result<Document, SceneErrors> {
+    Document::parse(&read_file(path).map_err(|message| whole(name, message))?, name)
 }
 
 fn whole(name: &str, message: String) -> SceneErrors {
@@ -84,7 +101,7 @@ fn whole(name: &str, message: String) -> SceneErrors {
 }
 
 /// The text of a file, of which no more than a scene can be long is read.
-fn read_file(path: &Path) -> Result<String, String> {
+pub(super) fn read_file(path: &Path) -> Result<String, String> {
     if path.is_dir() {
         return Err("this is a directory, not a scene file".into());
     }
@@ -125,9 +142,38 @@ mod tests {
 
     #[test]
     fn unknown_names_get_the_list_and_a_suggestion() {
-        let message = open("jkr-spere").unwrap_err().to_string();
-        assert!(message.starts_with("jkr-spere: there is no such file"), "{message}");
-        assert!(message.contains("did you mean jkr-sphere?") && message.contains("million-springs"));
+        let library = Library::of(None, "".into());
+        let message = open_in("jkr-spere", &library).unwrap_err().to_string();
+        let said = "jkr-spere: there is no such file and no such built-in scene; did you mean jkr-sphere? (";
+        assert!(message.starts_with(said) && message.contains("million-springs"), "{message}");
+    }
+
+    #[test]
+    fn own_scenes_open_by_their_names() {
+        let config = tempfile::tempdir().unwrap();
+        let library = Library::of(Some(config.path().to_path_buf()), "".into());
+        let folder = library.own_folder().unwrap();
+        let message = open_in("tape", &library).unwrap_err().to_string();
+        let said = format!(
+            "tape: there is no such file, no such built-in scene and none of this name in {}",
+            folder.display()
+        );
+        assert!(message.starts_with(&said), "{message}");
+        fs::create_dir_all(&folder).unwrap();
+        let path = folder.join("tape.ron");
+        fs::write(&path, PRESETS[0].text).unwrap();
+        fs::write(folder.join("jkr-sphere.ron"), PRESETS[0].text).unwrap();
+        let tape = open_in("tape", &library).unwrap();
+        assert_eq!((tape.text(), tape.name()), (PRESETS[0].text, path.to_str().unwrap()));
+        assert_eq!(tape.resolve("line.csv"), folder.join("line.csv"));
+        assert_eq!(
+            open_in("jkr-sphere", &library).unwrap().name(),
+            "jkr-sphere",
+            "built-in scenes come first"
+        );
+        assert!(open_in("tapes", &library).unwrap_err().to_string().contains("did you mean tape?"));
+        fs::write(&path, "(version: 2)").unwrap();
+        assert!(open_in("tape", &library).unwrap_err().to_string().contains("tape.ron:1:11: version = 2"));
     }
 
     #[test]

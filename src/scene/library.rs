@@ -1,0 +1,401 @@
+//! Where scenes are found: in the program, in a folder of one's own, and in the working folder.
+
+use std::fs;
+use std::io;
+use std::path::{Component, Path, PathBuf};
+
+use etcetera::{BaseStrategy, choose_base_strategy};
+
+use super::document::{Document, LONGEST_TEXT};
+use super::errors::{Origin, SceneError, SceneErrors, shown};
+use super::presets::{Preset, presets, read_file};
+
+/// Scene files that are read in one folder; the rest is counted.
+pub const MOST_FILES: usize = 500;
+
+/// Bytes of scene files that are read in one folder. Scenes are a few hundred bytes.
+pub const MOST_BYTES: usize = 16 * LONGEST_TEXT;
+
+/// Entries of a folder that are looked at.
+const MOST_LOOKED_AT: usize = 100_000;
+
+/// Where a scene comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Source {
+    /// It comes with the program.
+    BuiltIn,
+    /// The user's own folder of scenes.
+    Own,
+    /// The working folder.
+    Working,
+}
+
+/// A scene of the library, or a file that looked like one.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Entry {
+    /// Its name: of a built-in scene, of an own one without `.ron`, of a file in the working folder
+    /// with it.
+    pub name: String,
+    /// Where it comes from.
+    pub origin: Source,
+    /// Its file; `None` for what comes with the program.
+    pub path: Option<PathBuf>,
+    /// The scene's title; empty where it has none.
+    pub title: String,
+    /// The scene's notice; empty where it has none.
+    pub notice: String,
+    /// Its text; empty where it cannot be read.
+    pub text: String,
+    /// Why it is no scene, on one line.
+    pub error: Option<String>,
+}
+
+/// The folders in which scenes are looked for, beside those that come with the program.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Library {
+    own: Option<PathBuf>,
+    working: PathBuf,
+}
+
+impl Library {
+    /// The library of this process: the user's configuration folder and the working folder.
+    ///
+    /// The configuration folder is `$XDG_CONFIG_HOME`, by default `~/.config`, and on Windows the
+    /// roaming application data.
+    pub fn of_environment() -> Library {
+        let config = choose_base_strategy().ok().map(|strategy| strategy.config_dir());
+        Library::of(config, PathBuf::from("."))
+    }
+
+    /// The library of a configuration folder, where there is one, and of a working folder.
+    pub fn of(config: Option<PathBuf>, working: PathBuf) -> Library {
+        Library { own: config.map(|config| config.join("asperity").join("presets")), working }
+    }
+
+    /// The folder of the user's own scenes, `asperity/presets` in the configuration folder, whether
+    /// or not it is there yet. A scene saved here opens by its name.
+    pub fn own_folder(&self) -> Option<PathBuf> {
+        self.own.clone()
+    }
+
+    /// The file of an own scene of this name, where there is one.
+    pub fn own_scene(&self, name: &str) -> Option<PathBuf> {
+        let mut components = Path::new(name).components();
+        let (Some(Component::Normal(_)), None) = (components.next(), components.next()) else {
+            return None;
+        };
+        let path = self.own.as_ref()?.join(format!("{name}.ron"));
+        path.is_file().then_some(path)
+    }
+
+    /// The names of one's own scenes.
+    pub(super) fn own_names(&self) -> Vec<String> {
+        let paths = self.own.as_ref().and_then(|own| scene_files(own).ok()).unwrap_or_default();
+        paths.iter().map(|path| name_of(path, Source::Own)).collect()
+    }
+
+    /// Everything there is: the built-in scenes in their order, then one's own, then those of the
+    /// working folder, each by name.
+    ///
+    /// Files ending in `.ron` are listed, folders inside these folders are not looked into. What is
+    /// no scene or cannot be read is listed with its error. In each folder at most [`MOST_FILES`]
+    /// files and [`MOST_BYTES`] bytes are read, and only regular files are opened.
+    pub fn list(&self) -> Vec<Entry> {
+        [Source::BuiltIn, Source::Own, Source::Working].map(|origin| self.list_of(origin)).concat()
+    }
+
+    /// What comes from one place. A working folder that is one's own folder has nothing more.
+    pub fn list_of(&self, origin: Source) -> Vec<Entry> {
+        match origin {
+            Source::BuiltIn => {
+                let entry =
+                    |preset: &Preset| Entry::of_text(preset.name.into(), origin, None, preset.text.into());
+                presets().iter().map(entry).collect()
+            }
+            Source::Own => self.own.as_ref().map_or_else(Vec::new, |own| list_folder(own, origin)),
+            Source::Working if self.own.as_ref().is_some_and(|own| is_same(own, &self.working)) => Vec::new(),
+            Source::Working => list_folder(&self.working, origin),
+        }
+    }
+}
+
+impl Entry {
+    /// The scene as a document. Files that a scene of a file names are relative to that file.
+    ///
+    /// # Errors
+    ///
+    /// All that is wrong with it.
+    pub fn document(&self) -> Result<Document, SceneErrors> {
+        let name = self.document_name();
+        match &self.error {
+            Some(error) if self.text.is_empty() => {
+                Err(SceneError::whole(Origin::File { name }, error.as_str()).into())
+            }
+            _ => Document::parse(&self.text, &name),
+        }
+    }
+
+    fn document_name(&self) -> String {
+        self.path.as_ref().map_or_else(|| self.name.clone(), |path| path.display().to_string())
+    }
+
+    fn of_text(name: String, origin: Source, path: Option<PathBuf>, text: String) -> Entry {
+        let (title, notice, error) = (String::new(), String::new(), None);
+        let mut entry = Entry { name, origin, path, title, notice, text, error };
+        match Document::parse(&entry.text, &entry.document_name()) {
+            Ok(document) => {
+                entry.title.clone_from(&document.scene().title);
+                entry.notice.clone_from(&document.scene().notice);
+            }
+            Err(errors) => entry.error = Some(in_one_line(&errors)),
+        }
+        entry
+    }
+
+    fn unread(name: String, origin: Source, path: PathBuf, error: String) -> Entry {
+        let (title, notice, text) = (String::new(), String::new(), String::new());
+        Entry { name, origin, path: Some(path), title, notice, text, error: Some(error) }
+    }
+}
+
+/// The first of a file's errors with its place, and how many more there are.
+fn in_one_line(errors: &SceneErrors) -> String {
+    let first = errors.first();
+    let place = match &first.origin {
+        Origin::Place { line, column, .. } => format!("line {line}, column {column}: "),
+        _ => String::new(),
+    };
+    let more = match errors.iter().count() - 1 {
+        0 => String::new(),
+        more => format!(" (and {more} more)"),
+    };
+    format!("{place}{}{more}", first.what())
+}
+
+/// Whether two folders are one.
+fn is_same(one: &Path, other: &Path) -> bool {
+    matches!((one.canonicalize(), other.canonicalize()), (Ok(one), Ok(other)) if one == other)
+}
+
+/// The scene files of a folder by name; none where there is no folder.
+fn list_folder(folder: &Path, origin: Source) -> Vec<Entry> {
+    let about_folder = |error: String| {
+        let name = printable(&folder.display().to_string());
+        Entry::unread(name, origin, folder.to_path_buf(), error)
+    };
+    let mut paths = match scene_files(folder) {
+        Ok(paths) => paths,
+        Err(error) if error.kind() == io::ErrorKind::NotFound => return Vec::new(),
+        Err(error) => return vec![about_folder(format!("cannot be read: {error}"))],
+    };
+    paths.sort_by_cached_key(|path| name_of(path, origin));
+    let left = paths.len().saturating_sub(MOST_FILES);
+    paths.truncate(MOST_FILES);
+    let mut room = MOST_BYTES;
+    let mut entries: Vec<Entry> = paths.into_iter().map(|path| entry_of(path, origin, &mut room)).collect();
+    if left > 0 {
+        entries
+            .push(about_folder(format!("{left} more scene files are not listed: at most {MOST_FILES} are")));
+    }
+    entries
+}
+
+/// The files of a folder that end in `.ron`, unread.
+fn scene_files(folder: &Path) -> io::Result<Vec<PathBuf>> {
+    let paths = fs::read_dir(folder)?.take(MOST_LOOKED_AT).filter_map(|entry| Some(entry.ok()?.path()));
+    let is_scene = |path: &PathBuf| path.extension().is_some_and(|extension| extension == "ron");
+    // What lies behind a link decides; a link that leads nowhere is no folder.
+    let is_folder = |path: &PathBuf| fs::metadata(path).is_ok_and(|found| found.is_dir());
+    Ok(paths.filter(is_scene).filter(|path| !is_folder(path)).collect())
+}
+
+fn name_of(path: &Path, origin: Source) -> String {
+    let name = match origin {
+        Source::Own => path.file_stem(),
+        Source::BuiltIn | Source::Working => path.file_name(),
+    };
+    name.unwrap_or(path.as_os_str()).to_string_lossy().into_owned()
+}
+
+fn entry_of(path: PathBuf, origin: Source, room: &mut usize) -> Entry {
+    let name = printable(&name_of(&path, origin));
+    match read_regular(&path, *room) {
+        Ok(text) => {
+            *room -= text.len().min(*room);
+            Entry::of_text(name, origin, Some(path), text)
+        }
+        Err(error) => Entry::unread(name, origin, path, error),
+    }
+}
+
+/// The text of a regular file; nothing else is opened, since opening a pipe waits for its writer.
+fn read_regular(path: &Path, room: usize) -> Result<String, String> {
+    let found = fs::metadata(path).map_err(|error| format!("cannot be read: {error}"))?;
+    if !found.is_file() {
+        return Err("this is not a regular file".into());
+    }
+    if found.len() > LONGEST_TEXT as u64 {
+        return Err(format!("the scene is too long: at most {LONGEST_TEXT} bytes are read"));
+    }
+    if found.len() > room as u64 {
+        return Err(format!(
+            "not read: the scene files of this folder are more than {MOST_BYTES} bytes long"
+        ));
+    }
+    read_file(path)
+}
+
+/// A name that does not control the terminal.
+pub(super) fn printable(name: &str) -> String {
+    if name.contains(char::is_control) { shown(name) } else { name.to_string() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SCENE: &str = "(version: 1, title: \"A title\", notice: \"A notice\", \
+                         material: (effective_modulus: 1.0e6), length: 1.0e-4)";
+
+    /// A library with both folders, empty, and its folders.
+    fn library() -> (tempfile::TempDir, Library, PathBuf, PathBuf) {
+        let root = tempfile::tempdir().unwrap();
+        let working = root.path().join("working");
+        fs::create_dir(&working).unwrap();
+        let library = Library::of(Some(root.path().join("config")), working.clone());
+        let own = library.own_folder().unwrap();
+        assert_eq!(own, root.path().join("config/asperity/presets"));
+        fs::create_dir_all(&own).unwrap();
+        (root, library, own, working)
+    }
+
+    fn listed(library: &Library) -> Vec<(String, Source)> {
+        let entries = library.list();
+        assert!(entries[..presets().len()].iter().all(|entry| entry.origin == Source::BuiltIn));
+        entries[presets().len()..].iter().map(|entry| (entry.name.clone(), entry.origin)).collect()
+    }
+
+    fn error_of(library: &Library, name: &str) -> String {
+        let entry = library.list().into_iter().find(|entry| entry.name == name).unwrap();
+        let error = entry.error.clone().unwrap();
+        assert!(!error.contains('\n'), "{error}");
+        assert!(
+            entry.document().unwrap_err().to_string().contains(&entry.path.unwrap().display().to_string())
+        );
+        error
+    }
+
+    #[test]
+    fn scenes_are_listed_where_they_are() {
+        let (_root, library, own, working) = library();
+        let preset = |(entry, preset): (&Entry, &Preset)| {
+            entry.name == preset.name
+                && entry.text == preset.text
+                && entry.error.is_none()
+                && entry.path.is_none()
+        };
+        assert!(library.list().iter().zip(presets()).all(preset));
+        assert_eq!(listed(&library), []);
+        for name in ["b-c.ron", "b.ron", "a.ron", ".hidden.ron", "notes.txt", "ron"] {
+            fs::write(own.join(name), SCENE).unwrap();
+            fs::write(working.join(name), SCENE).unwrap();
+        }
+        fs::create_dir(working.join("folder.ron")).unwrap();
+        fs::write(working.join("folder.ron/inside.ron"), SCENE).unwrap();
+        let own_names = [".hidden", "a", "b", "b-c"].map(|name| (name.to_string(), Source::Own));
+        let names =
+            [".hidden.ron", "a.ron", "b-c.ron", "b.ron"].map(|name| (name.to_string(), Source::Working));
+        assert_eq!(listed(&library), [own_names, names].concat());
+        let entry = &library.list()[presets().len() + 1];
+        assert_eq!(
+            (entry.title.as_str(), entry.notice.as_str(), entry.text.as_str()),
+            ("A title", "A notice", SCENE)
+        );
+        assert_eq!(entry.path, Some(own.join("a.ron")));
+        let document = entry.document().unwrap();
+        assert_eq!(document.resolve("line.csv"), own.join("line.csv"));
+        // One folder that is both is listed once; missing folders are empty.
+        let both = Library { own: Some(own.clone()), working: own.join("../presets") };
+        assert_eq!(listed(&both).len(), 4);
+        assert_eq!(listed(&Library::of(None, own.join("missing"))), []);
+        assert_eq!(Library::of(None, own).own_folder(), None);
+    }
+
+    #[test]
+    fn what_is_no_scene_is_listed_with_its_error() {
+        let (_root, library, _, working) = library();
+        fs::write(working.join("other.ron"), "Config(colour: 1)").unwrap();
+        fs::write(working.join("two.ron"), SCENE.replace("1.0e6", "0.0").replace("1.0e-4", "0.0")).unwrap();
+        fs::write(working.join("empty.ron"), "").unwrap();
+        fs::write(working.join("binary.ron"), [b'(', 0xff]).unwrap();
+        fs::write(working.join("long.ron"), " ".repeat(LONGEST_TEXT + 1)).unwrap();
+        assert!(error_of(&library, "other.ron").starts_with("line 1, column "));
+        let two = error_of(&library, "two.ron");
+        assert!(
+            two.contains("material.effective_modulus = 0.0: allowed") && two.ends_with("(and 1 more)"),
+            "{two}"
+        );
+        assert!(!error_of(&library, "empty.ron").is_empty());
+        assert_eq!(error_of(&library, "binary.ron"), "this is not UTF-8 text: byte 1 is not");
+        assert!(error_of(&library, "long.ron").contains("too long"));
+        // A folder that is none.
+        let library = Library::of(None, working.join("other.ron"));
+        assert!(
+            error_of(&library, &working.join("other.ron").display().to_string()).contains("cannot be read")
+        );
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn nothing_is_opened_but_regular_files() {
+        use std::os::unix::fs::symlink;
+
+        let (_root, library, own, working) = library();
+        let made = std::process::Command::new("mkfifo").arg(working.join("pipe.ron")).status().unwrap();
+        assert!(made.success());
+        symlink("loop.ron", working.join("loop.ron")).unwrap();
+        symlink("missing", working.join("nowhere.ron")).unwrap();
+        symlink(".", working.join("self.ron")).unwrap();
+        symlink("/dev/zero", working.join("zero.ron")).unwrap();
+        symlink(own.join("scene.ron"), working.join("linked.ron")).unwrap();
+        fs::write(own.join("scene.ron"), SCENE).unwrap();
+        fs::write(working.join("\u{1b}[2J.ron"), SCENE).unwrap();
+        let names =
+            ["scene", "\\u{1b}[2J.ron", "linked.ron", "loop.ron", "nowhere.ron", "pipe.ron", "zero.ron"];
+        assert_eq!(listed(&library).into_iter().map(|(name, _)| name).collect::<Vec<_>>(), names);
+        for (name, said) in [
+            ("pipe.ron", "not a regular file"),
+            ("zero.ron", "not a regular file"),
+            ("loop.ron", "cannot be read"),
+            ("nowhere.ron", "cannot be read"),
+        ] {
+            assert!(error_of(&library, name).contains(said), "{name}");
+        }
+        assert_eq!(library.own_scene("scene"), Some(own.join("scene.ron")));
+        symlink(working.join("pipe.ron"), own.join("pipe.ron")).unwrap();
+        for name in ["pipe", "missing", "", ".", "..", "../presets/scene", "/scene"] {
+            assert_eq!(library.own_scene(name), None, "{name}");
+        }
+    }
+
+    #[test]
+    fn no_more_is_read_than_is_said() {
+        let (_root, library, own, working) = library();
+        for index in 0..MOST_FILES + 3 {
+            fs::write(working.join(format!("{index:04}.ron")), SCENE).unwrap();
+        }
+        let long = SCENE.to_string() + &" ".repeat(LONGEST_TEXT - SCENE.len());
+        for index in 0..18 {
+            fs::write(own.join(format!("{index:02}.ron")), &long).unwrap();
+        }
+        let entries = library.list();
+        let of = |origin| entries.iter().filter(move |entry| entry.origin == origin).collect::<Vec<_>>();
+        let (own, working) = (of(Source::Own), of(Source::Working));
+        assert_eq!(working.len(), MOST_FILES + 1);
+        assert!(working[..MOST_FILES].iter().all(|entry| entry.error.is_none()));
+        let said = working[MOST_FILES].error.as_deref().unwrap();
+        assert!(said.starts_with("3 more scene files"), "{said}");
+        assert_eq!(own.iter().map(|entry| entry.text.len()).sum::<usize>(), MOST_BYTES);
+        assert!(own[16..].iter().all(|entry| entry.error.as_deref().unwrap().starts_with("not read")));
+    }
+}
