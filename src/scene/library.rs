@@ -177,7 +177,7 @@ fn is_same(one: &Path, other: &Path) -> bool {
     matches!((one.canonicalize(), other.canonicalize()), (Ok(one), Ok(other)) if one == other)
 }
 
-/// The scene files of a folder by name; none where there is no folder.
+/// The scene files of a folder by name; none where there is none.
 fn list_folder(folder: &Path, origin: Source) -> Vec<Entry> {
     let about_folder = |error: String| {
         let name = printable(&folder.display().to_string());
@@ -338,7 +338,6 @@ mod tests {
         assert!(!error_of(&library, "empty.ron").is_empty());
         assert_eq!(error_of(&library, "binary.ron"), "this is not UTF-8 text: byte 1 is not");
         assert!(error_of(&library, "long.ron").contains("too long"));
-        // A folder that is none.
         let library = Library::of(None, working.join("other.ron"));
         assert!(
             error_of(&library, &working.join("other.ron").display().to_string()).contains("cannot be read")
