@@ -2,14 +2,16 @@
 //! does. The tests open it to see that the explorer says so and goes on, or else gives the terminal
 //! back.
 
+use asperity::contact::ContactTree;
 use asperity::explorer::model::Model;
 use asperity::explorer::worker::Engine;
-use asperity::explorer::{open_with, view};
+use asperity::explorer::{Options, open_with, view};
 use asperity::scene::{DEFAULT, Roughness, Scene, open};
 use asperity::simulation::{AfterLeg, Outcome, RunError, Simulation};
 use asperity::surface::Line;
 use ratatui::Frame;
 use std::process::ExitCode;
+use std::sync::Arc;
 
 /// An engine that panics on the seed 13, and simulates otherwise.
 struct Superstitious(Simulation);
@@ -27,6 +29,10 @@ impl Engine for Superstitious {
 
     fn line(&self) -> Option<&Line> {
         self.0.line()
+    }
+
+    fn tree(&self) -> Option<&Arc<ContactTree>> {
+        self.0.tree()
     }
 }
 
@@ -51,9 +57,10 @@ fn main() -> ExitCode {
         }
     };
     let opened = if std::env::args().nth(1).as_deref() == Some("draw") {
-        open_with(document, Box::new(Simulation::default()), draw)
+        open_with(document, Options::default(), Box::new(Simulation::default()), draw)
     } else {
-        open_with(document, Box::new(Superstitious(Simulation::default())), view::draw)
+        let engine = Box::new(Superstitious(Simulation::default()));
+        open_with(document, Options::default(), engine, view::draw)
     };
     match opened {
         Ok(_) => ExitCode::SUCCESS,

@@ -113,7 +113,9 @@ fn command() -> impl Strategy<Value = Command> {
         Command::StepValue { steps: -1000, coarse: false },
         Command::StepValue { steps: 0, coarse: false },
         Command::Zoom(i32::MIN),
-        Command::Fragment(i32::MIN),
+        Command::Pan(i32::MAX),
+        Command::Push { steps: i32::MIN, coarse: true },
+        Command::Push { steps: i32::MAX, coarse: true },
         Command::Preset(usize::MAX),
     ];
     prop_oneof![8 => prop::sample::select(bound), 1 => prop::sample::select(extreme)]
@@ -249,7 +251,9 @@ impl Explorer {
             assert!(model.player.leg < model.legs().len(), "{:?}", model.player);
             assert!(!model.is_computing());
         }
-        if let Mode::Edit(line) | Mode::SaveAs { line, .. } = &model.mode {
+        if let Mode::Edit(line) | Mode::Force(line) | Mode::Export(line) | Mode::SaveAs { line, .. } =
+            &model.mode
+        {
             assert!(!line.text().contains(char::is_control));
         }
         self.draw(model.size);

@@ -8,8 +8,8 @@ mod common {
     pub mod script;
 }
 
-use asperity::contact::ContactError;
-use asperity::explorer::action::{Action, Command};
+use asperity::contact::{ContactError, ContactTree};
+use asperity::explorer::action::{Action, Command, Content, Jump};
 use asperity::explorer::keys::{self, BINDINGS};
 use asperity::explorer::layout::Layout;
 use asperity::explorer::model::{Mode, ModeKind, Model, Notice, Pane};
@@ -26,6 +26,7 @@ use common::script::{draw, rows};
 use ratatui::buffer::{Buffer, Cell};
 use ratatui::style::{Color, Modifier};
 use std::path::Path;
+use std::sync::Arc;
 
 /// Windows, columns and rows.
 const SIZES: [(u16, u16); 5] = [(120, 40), (80, 24), (60, 20), (40, 12), (20, 5)];
@@ -53,9 +54,9 @@ fn screens(driver: &mut Driver) -> String {
     let mut all = String::new();
     for size in SIZES {
         driver.resize(size);
-        driver.model.theme = Theme::Plain;
+        driver.model.appearance.theme = Theme::Plain;
         let plain = driver.text();
-        driver.model.theme = Theme::Colours;
+        driver.model.appearance.theme = Theme::Neutral;
         let coloured = driver.text();
         assert_eq!(plain, coloured, "{size:?}");
         let (columns, rows) = size;
@@ -158,12 +159,12 @@ fn the_plain_theme_has_no_colours_and_the_other_only_the_sixteen() {
         for mut driver in everywhere() {
             for size in SIZES {
                 driver.resize(size);
-                driver.model.theme = Theme::Plain;
+                driver.model.appearance.theme = Theme::Plain;
                 let colours = |cell: &Cell| [cell.fg, cell.bg, cell.underline_color];
                 for colour in driver.screen().content.iter().flat_map(colours) {
                     assert_eq!(colour, Color::Reset, "{:?}", driver.model.mode);
                 }
-                driver.model.theme = Theme::Colours;
+                driver.model.appearance.theme = Theme::Neutral;
                 for colour in driver.screen().content.iter().flat_map(colours) {
                     assert!(!matches!(colour, Color::Rgb(..) | Color::Indexed(_)), "{colour:?}");
                     // Neither white nor black can be read on every background.
@@ -181,9 +182,9 @@ fn the_plain_theme_has_no_colours_and_the_other_only_the_sixteen() {
 #[test]
 fn the_selected_row_is_marked_by_a_glyph_and_by_style() {
     within(30, || {
-        for theme in [Theme::Plain, Theme::Colours] {
+        for theme in [Theme::Plain, Theme::Neutral] {
             let mut driver = pressed("");
-            driver.model.theme = theme;
+            driver.model.appearance.theme = theme;
             for path in ["length", "roughness.hurst", "numerics.samples"] {
                 driver.select(path);
                 let name = driver.model.parameter().unwrap().field.name;
@@ -200,9 +201,9 @@ fn the_selected_row_is_marked_by_a_glyph_and_by_style() {
 #[test]
 fn a_value_that_is_refused_says_so_beside_its_field_and_leaves_the_scene() {
     within(30, || {
-        for theme in [Theme::Plain, Theme::Colours] {
+        for theme in [Theme::Plain, Theme::Neutral] {
             let mut driver = pressed("");
-            driver.model.theme = theme;
+            driver.model.appearance.theme = theme;
             let before = driver.model.document.clone();
             let of_before = generation(&driver);
             driver.select("roughness.hurst");
@@ -867,7 +868,7 @@ fn a_moment_on_its_way_does_not_take_the_chosen_fragment_away() {
         let before = driver.model.moment.clone().unwrap();
         let first = number(&driver);
         // The fragment is asked for while the animation has asked for a moment just before.
-        let effects = update(&mut driver.model, Action::Command(Command::Fragment(1)));
+        let effects = update(&mut driver.model, Action::Command(Command::Fragment(Jump::Next)));
         assert_eq!(effects, [Effect::Show]);
         driver.act(Action::Shown(before));
         driver.perform(effects);
@@ -1083,6 +1084,10 @@ impl Engine for Superstitious {
     fn line(&self) -> Option<&Line> {
         self.0.line()
     }
+
+    fn tree(&self) -> Option<&Arc<ContactTree>> {
+        self.0.tree()
+    }
 }
 
 #[test]
@@ -1130,7 +1135,7 @@ fn a_saved_scene_is_read_back_as_it_stands() {
         driver.type_text("folder/mine.ron");
         assert_eq!(
             driver.press("Enter"),
-            [Effect::Save { path: "folder/mine.ron".into(), overwrite: false }]
+            [Effect::Write { path: "folder/mine.ron".into(), content: Content::Scene, overwrite: false }]
         );
         let text = &driver.files[Path::new("folder/mine.ron")];
         let again = Document::parse(text, "mine.ron").unwrap();

@@ -6,9 +6,11 @@ mod common {
     pub mod scenes;
 }
 
-use asperity::contact::{ContactError, CurvePoint};
-use asperity::explorer::snapshot::{Loop, Moment};
-use asperity::explorer::worker::{self, Engine, Focus, MomentRequest, Newest, Report, Request, Worker};
+use asperity::contact::{ContactError, ContactTree, CurvePoint};
+use asperity::explorer::snapshot::{Drive, Loop, Moment};
+use asperity::explorer::worker::{
+    self, Engine, Focus, LineView, MomentRequest, Newest, Report, Request, Worker,
+};
 use asperity::scene::{Document, Observer, Scene};
 use asperity::simulation::{AfterLeg, Outcome, RunError, Simulation};
 use asperity::surface::Line;
@@ -40,7 +42,7 @@ impl Served {
     }
 
     fn compute(&self, generation: u64, document: &Document) {
-        let scene = Box::new(document.scene().clone());
+        let scene = Arc::new(document.scene().clone());
         self.worker.ask(Request::Compute { generation, scene });
     }
 
@@ -79,17 +81,20 @@ impl Served {
 fn moment(leg: usize, indentation: f64) -> MomentRequest {
     MomentRequest {
         generation: 1,
-        leg,
+        drive: Drive::Leg(leg),
         indentation,
         profile_columns: 100,
+        profile: LineView::WHOLE,
         close_up_columns: 100,
+        strip_cells: 50,
         focus: Focus::Summit,
         close_up_springs: 64,
+        lengths: false,
     }
 }
 
 fn compute(generation: u64, document: &Document) -> Request {
-    Request::Compute { generation, scene: Box::new(document.scene().clone()) }
+    Request::Compute { generation, scene: Arc::new(document.scene().clone()) }
 }
 
 /// Hands all requests to a worker at once and gives all its reports.
@@ -115,7 +120,7 @@ fn generations(reports: &[Report]) -> (Vec<u64>, Vec<u64>) {
             Report::Computed(one) => computed.push(one.generation),
             Report::Shown(one) => shown.push(one.generation),
             Report::Progress { .. } => {}
-            Report::Failed { .. } => panic!("{report:?}"),
+            Report::Failed { .. } | Report::Previewed(_) => panic!("{report:?}"),
         }
     }
     (computed, shown)
@@ -152,6 +157,10 @@ impl Engine for Double {
     fn line(&self) -> Option<&Line> {
         self.simulation.line()
     }
+
+    fn tree(&self) -> Option<&Arc<ContactTree>> {
+        self.simulation.tree()
+    }
 }
 
 fn seed(document: &Document, seed: u64) -> Document {
@@ -185,7 +194,7 @@ fn of_all_that_wait_only_the_newest_is_done() {
         let reports = serve_all(Simulation::default(), 5, requests);
         assert_eq!(generations(&reports), (vec![5], vec![5]));
         let Some(Report::Shown(shown)) = reports.last() else { panic!("{reports:?}") };
-        assert_eq!(shown.leg, 1);
+        assert_eq!(shown.drive, Drive::Leg(1));
         let Some(Report::Computed(computed)) = reports.iter().rev().nth(1) else { panic!("{reports:?}") };
         assert_eq!(computed.outcome.line.seed, Some(5));
     });

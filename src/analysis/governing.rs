@@ -45,12 +45,29 @@ impl Governing {
         });
         let stiff = amplitude.map(|a| a.rms_height * a.rms_gradient * effective_modulus);
         let work_of_adhesion = work.or_else(|| Some(stiff? / kappa?.powi(2)));
-        let kappa = kappa.or_else(|| {
-            let work = work_of_adhesion.filter(|&work| work > 0.0)?;
-            // So little adhesion that κ is beyond all numbers is none.
-            Some((stiff? / work).sqrt()).filter(|kappa| kappa.is_finite())
-        });
+        let kappa = kappa.or_else(|| kappa_of(stiff?, work_of_adhesion?));
         Governing { effective_modulus, work_of_adhesion, amplitude, kappa }
+    }
+
+    /// The same line under another adhesion.
+    #[must_use]
+    pub fn with_adhesion(self, adhesion: Option<Adhesion>) -> Self {
+        let Adhesion { work, kappa } = adhesion.unwrap_or(Adhesion { work: None, kappa: None });
+        let stiff = self.stiffness();
+        let work_of_adhesion = work.or_else(|| kappa.and_then(|kappa| self.work_for_kappa(kappa)));
+        let kappa = kappa.or_else(|| kappa_of(stiff?, work_of_adhesion?));
+        Governing { work_of_adhesion, kappa, ..self }
+    }
+
+    /// The work of adhesion γ = h⟨∇z⟩E*/κ² that gives a κ, J/m²; `None` without roughness.
+    #[must_use]
+    pub fn work_for_kappa(&self, kappa: f64) -> Option<f64> {
+        Some(self.stiffness()? / kappa.powi(2))
+    }
+
+    /// h⟨∇z⟩E*, J/m².
+    fn stiffness(&self) -> Option<f64> {
+        self.amplitude.map(|a| a.rms_height * a.rms_gradient * self.effective_modulus)
     }
 
     /// The work of adhesion where there is any, J/m².
@@ -64,4 +81,9 @@ impl Governing {
 #[must_use]
 pub fn ideal_adhesion_force(work_of_adhesion: f64, effective_modulus: f64, length: f64) -> f64 {
     (std::f64::consts::PI * work_of_adhesion * effective_modulus * length.powi(3)).sqrt()
+}
+
+/// κ of a line with h⟨∇z⟩E* = `stiffness`. So little adhesion that κ is beyond all numbers is none.
+fn kappa_of(stiffness: f64, work: f64) -> Option<f64> {
+    Some((stiffness / work).sqrt()).filter(|kappa| work > 0.0 && kappa.is_finite())
 }

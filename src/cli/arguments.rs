@@ -1,7 +1,8 @@
 //! What may be typed after `asperity`.
 
 use super::{
-    CompletionsArguments, ExploreArguments, LineArguments, PlanArguments, PresetsCommand, RunArguments,
+    CompletionsArguments, DemoArguments, ExploreArguments, LineArguments, PlanArguments, PresetsCommand,
+    RunArguments,
 };
 use clap::{Parser, Subcommand};
 
@@ -44,6 +45,8 @@ pub struct Arguments {
 pub enum Command {
     /// Compute a scene: a summary, JSON, or the curve as CSV
     Run(RunArguments),
+    /// Watch the explorer play by itself, print it or record it
+    Demo(DemoArguments),
     /// Tell which stages a scene runs and which it skips, why, and what they cost
     Plan(PlanArguments),
     /// Print the rigid line of a scene as CSV: x,z in m

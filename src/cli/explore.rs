@@ -1,10 +1,12 @@
 //! `asperity [SCENE]`: opens the explorer.
 
 use super::{Arguments, CliError, Overrides};
-use crate::explorer;
+use crate::explorer::theme::{Marker, Theme};
+use crate::explorer::{self, Options};
+use crate::export::summary;
 use crate::scene::{DEFAULT, Document, open};
 use clap::{Args, CommandFactory};
-use std::io::{IsTerminal, stdin, stdout};
+use std::io::{IsTerminal, Write, stdin, stdout};
 
 /// Arguments of the explorer.
 #[derive(Args, Debug)]
@@ -14,16 +16,32 @@ pub struct ExploreArguments {
     /// What is changed in it.
     #[command(flatten)]
     pub overrides: Overrides,
+    /// Colours; left out, by NO_COLOR and COLORFGBG
+    #[arg(long, value_enum)]
+    pub theme: Option<Theme>,
+    /// What plots are made of; left out, braille
+    #[arg(long, value_enum)]
+    pub marker: Option<Marker>,
+    /// Leave the mouse to the terminal
+    #[arg(long)]
+    pub no_mouse: bool,
 }
 
 /// Opens the explorer on a scene.
-pub(super) fn explore(arguments: &ExploreArguments) -> Result<(), CliError> {
+///
+/// When it is left, the summary of its last scene stays to be read.
+pub(super) fn explore(arguments: &ExploreArguments, out: &mut dyn Write) -> Result<(), CliError> {
     let document = document(arguments)?;
     if !stdin().is_terminal() || !stdout().is_terminal() {
         return Err(CliError::NoTerminal { scene: document.name().into() });
     }
-    let folder = document.resolve("");
-    explorer::open(document, folder).map(drop).map_err(|error| CliError::Explorer(error.to_string()))
+    let &ExploreArguments { theme, marker, no_mouse, .. } = arguments;
+    let left = explorer::open(document, Options { theme, marker, no_mouse })
+        .map_err(|error| CliError::Explorer(error.to_string()))?;
+    if let Some(computed) = &left.computed {
+        out.write_all(summary(left.document.scene(), &computed.outcome).as_bytes())?;
+    }
+    Ok(())
 }
 
 fn document(arguments: &ExploreArguments) -> Result<Document, CliError> {

@@ -5,6 +5,7 @@
 
 mod arguments;
 mod completions;
+mod demo;
 mod error;
 mod explore;
 mod line;
@@ -19,6 +20,7 @@ mod usage;
 
 pub use arguments::{Arguments, Command};
 pub use completions::CompletionsArguments;
+pub use demo::DemoArguments;
 pub use error::CliError;
 pub use explore::ExploreArguments;
 pub use line::LineArguments;
@@ -70,8 +72,9 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
 
 fn dispatch(arguments: &Arguments, stdout: &mut dyn Write) -> Result<(), CliError> {
     match &arguments.command {
-        None => explore::explore(&arguments.explore),
+        None => explore::explore(&arguments.explore, stdout),
         Some(Command::Run(arguments)) => run::run(arguments, stdout),
+        Some(Command::Demo(arguments)) => demo::demo(arguments, stdout),
         Some(Command::Plan(arguments)) => plan::plan(arguments, stdout),
         Some(Command::Line(arguments)) => line::line(arguments, stdout),
         Some(Command::Presets(command)) => presets::presets(command, stdout),

@@ -1,6 +1,9 @@
 //! Everything that can happen to the explorer.
 
-use super::snapshot::{Loop, Moment};
+use super::model::Traffic;
+use super::snapshot::{Loop, Moment, Preview};
+use crate::scene::Entry;
+use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -37,17 +40,89 @@ pub enum Action {
         /// Why, in one line.
         error: String,
     },
-    /// The scene has been saved, or not.
-    Saved(Result<std::path::PathBuf, SaveError>),
+    /// A file has been written, or not.
+    Written(Result<Written, WriteFailure>),
+    /// The scenes that can be opened.
+    Listed(Vec<Entry>),
+    /// The curve of the scene chosen in the library.
+    Previewed(Arc<Preview>),
+    /// What the connection carries.
+    Traffic(Traffic),
+    /// The mouse did something.
+    Mouse(Mouse),
 }
 
-/// Why a scene was not saved.
+/// A file that has been written.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum SaveError {
+pub struct Written {
+    /// Where it is.
+    pub path: PathBuf,
+    /// What is in it.
+    pub content: Content,
+}
+
+/// Why a file was not written.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum WriteFailure {
     /// A file of that name is there already.
-    Exists(std::path::PathBuf),
-    /// The system refused.
+    Exists(PathBuf, Content),
+    /// The system refused, or what was asked for is not there to be written.
     Refused(String),
+}
+
+/// What is written to a file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Content {
+    /// The scene, in RON.
+    Scene,
+    /// The force curve, as comma-separated values.
+    Curve,
+    /// Everything that was computed, in JSON.
+    Outcome,
+    /// The panes as a picture, in SVG.
+    Picture,
+    /// The panes as plain text.
+    Text,
+}
+
+impl Content {
+    /// What can be exported, by the ending of the file's name.
+    pub const EXPORTS: [(&'static str, Content); 4] = [
+        ("csv", Content::Curve),
+        ("json", Content::Outcome),
+        ("svg", Content::Picture),
+        ("txt", Content::Text),
+    ];
+
+    /// What belongs into a file of this name; `None` for an ending that says nothing.
+    #[must_use]
+    pub fn of_file(path: &std::path::Path) -> Option<Self> {
+        let ending = path.extension()?.to_str()?;
+        let known = |(name, _): &&(&str, Content)| ending.eq_ignore_ascii_case(name);
+        Self::EXPORTS.iter().find(known).map(|(_, content)| *content)
+    }
+}
+
+/// What the mouse does, at a cell of the screen.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Mouse {
+    /// Column, from 0 at the left.
+    pub column: u16,
+    /// Row, from 0 at the top.
+    pub row: u16,
+    /// What it does there.
+    pub gesture: Gesture,
+}
+
+/// What a mouse can do.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Gesture {
+    /// Its left button goes down.
+    Press,
+    /// It moves while the button is down.
+    Drag,
+    /// Its wheel turns: up is positive.
+    Wheel(i32),
 }
 
 /// A command of the user. Keys are bound to commands in [`super::keys`] alone.
@@ -57,6 +132,8 @@ pub enum Command {
     Quit,
     /// Leave it without asking.
     QuitAnyway,
+    /// Hand the terminal back to the shell until it continues the explorer.
+    Suspend,
     /// Show or leave the help.
     Help,
     /// Play or pause the animation.
@@ -67,9 +144,22 @@ pub enum Command {
     Restart,
     /// Go to the next or previous leg.
     Leg(i32),
-    /// Move the selection in the list of parameters.
+    /// Take the body in hand, or give it back to the scene's loading.
+    ToggleHand,
+    /// Press (positive) or pull the body by so many steps of the hand.
+    Push {
+        /// How often and which way.
+        steps: i32,
+        /// By the large step.
+        coarse: bool,
+    },
+    /// Type the force to go to.
+    TypeForce,
+    /// Pull the body until nothing touches.
+    Separate,
+    /// Move the selection in a list.
     Select(i32),
-    /// Select the first or last parameter.
+    /// Select the first or last of a list.
     SelectEnd(bool),
     /// Step the selected value.
     StepValue {
@@ -80,26 +170,56 @@ pub enum Command {
     },
     /// Type the selected value.
     EditValue,
+    /// Switch the effect of the selected row on or off.
+    ToggleEffect,
     /// Another random line.
     Reseed,
-    /// Take back the last edit, or do it again.
+    /// Take back the last edit.
     Undo,
     /// Do again what was taken back.
     Redo,
+    /// Keep the present loop as a ghost.
+    Pin,
+    /// Exchange the scene with that of the newest ghost.
+    Swap,
+    /// Let all ghosts go.
+    ClearGhosts,
     /// Save the scene to a file.
     Save,
-    /// Look at the next fragment (or the previous one) in the close-up.
-    Fragment(i32),
-    /// Look closer in the close-up, or from further away.
-    Zoom(i32),
-    /// Let the close-up look where the bodies touch first.
-    FocusSummit,
+    /// Export curve or panes to a file.
+    Export,
+    /// Copy the command that opens the scene as it stands.
+    CopyCommand,
+    /// Choose a scene from the library.
+    OpenLibrary,
     /// Open a built-in scene by its number.
     Preset(usize),
+    /// Look at another fragment in the close-up.
+    Fragment(Jump),
+    /// Show the distribution of fragment lengths in place of the close-up, or the other way round.
+    ToggleLengths,
+    /// Look closer in the chosen pane, or from further away.
+    Zoom(i32),
+    /// Move along the line by so many quarters of what is seen.
+    Pan(i32),
+    /// See the whole line, and the close-up as it was.
+    ResetZoom,
+    /// Let the profile follow the fragment of the close-up.
+    ToggleFollow,
+    /// Show other quantities in the pane of the curve.
+    NextCurve,
+    /// Show the curve in units of F_a,max and h, or in SI units.
+    ToggleNormalised,
+    /// Shade the loss.
+    ToggleLoss,
     /// Give one pane the whole screen, or all of them again.
     ZoomPane,
     /// Choose the next pane.
     NextPane,
+    /// Other colours.
+    NextTheme,
+    /// Other markers in the plots.
+    NextMarker,
     /// Accept the line of text or the question.
     Accept,
     /// Leave the line of text or the question.
@@ -113,6 +233,21 @@ pub enum Command {
     },
     /// Empty a line of text.
     Clear,
+}
+
+/// Which fragment to look at.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Jump {
+    /// The one to the right.
+    Next,
+    /// The one to the left.
+    Previous,
+    /// The longest one.
+    Largest,
+    /// The one that carries the largest force, pressing or pulling.
+    MostLoaded,
+    /// Where the bodies touch first.
+    Summit,
 }
 
 /// A motion in a line of text.

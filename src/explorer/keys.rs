@@ -1,7 +1,7 @@
 //! The one table of keys: it feeds dispatch, footer, help and the README.
 
-use super::action::{Command, Motion};
-use super::model::ModeKind;
+use super::action::{Command, Jump, Motion};
+use super::mode::ModeKind;
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 
 /// A row of the table: keys, where they are valid, and what they do.
@@ -81,15 +81,21 @@ const fn shift(code: KeyCode) -> Key {
 
 const EXPLORE: &[ModeKind] = &[ModeKind::Explore];
 const HELP: &[ModeKind] = &[ModeKind::Help];
-const LINE: &[ModeKind] = &[ModeKind::Edit, ModeKind::SaveAs];
+const LINE: &[ModeKind] = &[ModeKind::Edit, ModeKind::Force, ModeKind::SaveAs, ModeKind::Export];
+const TYPED: &[ModeKind] =
+    &[ModeKind::Edit, ModeKind::Force, ModeKind::SaveAs, ModeKind::Export, ModeKind::Library];
+const LIBRARY: &[ModeKind] = &[ModeKind::Library];
 const ASK: &[ModeKind] = &[ModeKind::Overwrite];
 const LEAVE: &[ModeKind] = &[ModeKind::Quit];
+const ANY: &[ModeKind] = &ModeKind::ALL;
 
 const ANIMATION: &str = "Animation";
+const HAND: &str = "Body in hand";
 const PARAMETERS: &str = "Parameters";
+const COMPARE: &str = "Comparing";
 const LOOK: &str = "Looking";
 const SCENE: &str = "Scene";
-const TEXT: &str = "Typing";
+const TEXT: &str = "Typing and lists";
 
 const fn row(
     keys: &'static [Key],
@@ -102,12 +108,16 @@ const fn row(
     Binding { keys, modes, command, label, help, section }
 }
 
-const FINER: Command = Command::StepValue { steps: -1, coarse: false };
-const FINE: Command = Command::StepValue { steps: 1, coarse: false };
-const COARSER: Command = Command::StepValue { steps: -1, coarse: true };
-const COARSE: Command = Command::StepValue { steps: 1, coarse: true };
+const fn step(steps: i32, coarse: bool) -> Command {
+    Command::StepValue { steps, coarse }
+}
 
-/// All keys. Where two rows of one mode share a key the first counts; a test forbids it.
+const fn push(steps: i32, coarse: bool) -> Command {
+    Command::Push { steps, coarse }
+}
+
+/// All keys. No mode gives a key two meanings; a test sees to it.
+#[rustfmt::skip]
 pub const BINDINGS: &[Binding] = &[
     row(&[char(' ')], EXPLORE, Command::TogglePlay, "play/pause", "play or pause", ANIMATION),
     row(&[char('.')], EXPLORE, Command::Step(1), "step", "one step forwards", ANIMATION),
@@ -115,60 +125,54 @@ pub const BINDINGS: &[Binding] = &[
     row(&[char('r')], EXPLORE, Command::Restart, "restart", "play from the beginning", ANIMATION),
     row(&[char('>')], EXPLORE, Command::Leg(1), "", "to the start of the next leg", ANIMATION),
     row(&[char('<')], EXPLORE, Command::Leg(-1), "", "to the start of this leg or the one before", ANIMATION),
+
+    row(&[char('d')], EXPLORE, Command::ToggleHand, "hand", "take the body in hand where it stands, or give it back", HAND),
+    row(&[char(']')], EXPLORE, push(1, false), "", "press by a small step", HAND),
+    row(&[char('[')], EXPLORE, push(-1, false), "", "pull by a small step", HAND),
+    row(&[char('}')], EXPLORE, push(1, true), "", "press by a large step", HAND),
+    row(&[char('{')], EXPLORE, push(-1, true), "", "pull by a large step", HAND),
+    row(&[char('F')], EXPLORE, Command::TypeForce, "", "type the force to go to", HAND),
+    row(&[char('S')], EXPLORE, Command::Separate, "", "pull until nothing touches", HAND),
+
     row(&[key(KeyCode::Up), char('k')], EXPLORE, Command::Select(-1), "", "the parameter above", PARAMETERS),
-    row(
-        &[key(KeyCode::Down), char('j')],
-        EXPLORE,
-        Command::Select(1),
-        "select",
-        "the parameter below",
-        PARAMETERS,
-    ),
-    row(
-        &[key(KeyCode::Home), char('g')],
-        EXPLORE,
-        Command::SelectEnd(false),
-        "",
-        "the first parameter",
-        PARAMETERS,
-    ),
-    row(
-        &[key(KeyCode::End), char('G')],
-        EXPLORE,
-        Command::SelectEnd(true),
-        "",
-        "the last parameter",
-        PARAMETERS,
-    ),
-    row(&[key(KeyCode::Left), char('h')], EXPLORE, FINER, "", "a small step down", PARAMETERS),
-    row(&[key(KeyCode::Right), char('l')], EXPLORE, FINE, "change", "a small step up", PARAMETERS),
-    row(&[shift(KeyCode::Left), char('H')], EXPLORE, COARSER, "", "a large step down", PARAMETERS),
-    row(&[shift(KeyCode::Right), char('L')], EXPLORE, COARSE, "", "a large step up", PARAMETERS),
-    row(
-        &[key(KeyCode::Enter), char('e')],
-        EXPLORE,
-        Command::EditValue,
-        "type",
-        "type a value, with a prefix and unit if you like: 2.5 MPa, 10 µm, 50m",
-        PARAMETERS,
-    ),
+    row(&[key(KeyCode::Down), char('j')], EXPLORE, Command::Select(1), "select", "the parameter below", PARAMETERS),
+    row(&[key(KeyCode::Home), char('g')], EXPLORE, Command::SelectEnd(false), "", "the first parameter", PARAMETERS),
+    row(&[key(KeyCode::End), char('G')], EXPLORE, Command::SelectEnd(true), "", "the last parameter", PARAMETERS),
+    row(&[key(KeyCode::Left), char('h')], EXPLORE, step(-1, false), "", "a small step down", PARAMETERS),
+    row(&[key(KeyCode::Right), char('l')], EXPLORE, step(1, false), "change", "a small step up", PARAMETERS),
+    row(&[shift(KeyCode::Left), char('H')], EXPLORE, step(-1, true), "", "a large step down", PARAMETERS),
+    row(&[shift(KeyCode::Right), char('L')], EXPLORE, step(1, true), "", "a large step up", PARAMETERS),
+    row(&[key(KeyCode::Enter), char('e')], EXPLORE, Command::EditValue, "type", "type a value, with a prefix and unit if you like: 2.5 MPa, 10 µm, 50m", PARAMETERS),
+    row(&[char('t')], EXPLORE, Command::ToggleEffect, "on/off", "switch the effect of the selected row on or off", PARAMETERS),
     row(&[char('R')], EXPLORE, Command::Reseed, "reseed", "another random line", PARAMETERS),
     row(&[char('u')], EXPLORE, Command::Undo, "undo", "take back the last edit", PARAMETERS),
     row(&[char('U'), control('r')], EXPLORE, Command::Redo, "", "do it again", PARAMETERS),
-    row(&[char('n')], EXPLORE, Command::Fragment(1), "fragment", "close-up of the next fragment", LOOK),
-    row(&[char('p')], EXPLORE, Command::Fragment(-1), "", "close-up of the previous fragment", LOOK),
-    row(&[char('f')], EXPLORE, Command::FocusSummit, "", "close-up of where the bodies touch first", LOOK),
-    row(&[char('+'), char('=')], EXPLORE, Command::Zoom(1), "", "closer in the close-up", LOOK),
-    row(&[char('-')], EXPLORE, Command::Zoom(-1), "", "further away in the close-up", LOOK),
+
+    row(&[char('c')], EXPLORE, Command::Pin, "compare", "keep this loop as a ghost beside the next ones", COMPARE),
+    row(&[char('x')], EXPLORE, Command::Swap, "", "exchange the scene with the newest ghost", COMPARE),
+    row(&[char('C')], EXPLORE, Command::ClearGhosts, "", "let all ghosts go", COMPARE),
+
+    row(&[char('v')], EXPLORE, Command::NextCurve, "", "the curve: force, contact length or fragments", LOOK),
+    row(&[char('N')], EXPLORE, Command::ToggleNormalised, "", "the curve in units of F_a,max and h, or in SI units", LOOK),
+    row(&[char('a')], EXPLORE, Command::ToggleLoss, "", "shade the area of the loop: the energy lost", LOOK),
+    row(&[char('n')], EXPLORE, Command::Fragment(Jump::Next), "fragment", "close-up of the next fragment", LOOK),
+    row(&[char('p')], EXPLORE, Command::Fragment(Jump::Previous), "", "close-up of the previous fragment", LOOK),
+    row(&[char('b')], EXPLORE, Command::Fragment(Jump::Largest), "", "close-up of the longest fragment", LOOK),
+    row(&[char('B')], EXPLORE, Command::Fragment(Jump::MostLoaded), "", "close-up of the fragment that carries the largest force", LOOK),
+    row(&[char('f')], EXPLORE, Command::Fragment(Jump::Summit), "", "close-up of where the bodies touch first", LOOK),
+    row(&[char('D')], EXPLORE, Command::ToggleLengths, "", "the distribution of fragment lengths in place of the close-up", LOOK),
+    row(&[char('+'), char('=')], EXPLORE, Command::Zoom(1), "", "closer, in the profile where it is chosen, else in the close-up", LOOK),
+    row(&[char('-')], EXPLORE, Command::Zoom(-1), "", "further away", LOOK),
+    row(&[char('(')], EXPLORE, Command::Pan(-1), "", "to the left along the line", LOOK),
+    row(&[char(')')], EXPLORE, Command::Pan(1), "", "to the right along the line", LOOK),
+    row(&[char('w')], EXPLORE, Command::ToggleFollow, "", "let the profile follow the fragment of the close-up", LOOK),
+    row(&[char('0')], EXPLORE, Command::ResetZoom, "", "the whole line again", LOOK),
     row(&[key(KeyCode::Tab)], EXPLORE, Command::NextPane, "", "choose the next pane", LOOK),
-    row(
-        &[char('z')],
-        EXPLORE,
-        Command::ZoomPane,
-        "zoom",
-        "the chosen pane on the whole screen, or all panes",
-        LOOK,
-    ),
+    row(&[char('z')], EXPLORE, Command::ZoomPane, "zoom", "the chosen pane on the whole screen, or all panes", LOOK),
+    row(&[char('T')], EXPLORE, Command::NextTheme, "", "other colours", LOOK),
+    row(&[char('M')], EXPLORE, Command::NextMarker, "", "other markers: braille, octants, half blocks, ASCII", LOOK),
+
+    row(&[char('o')], EXPLORE, Command::OpenLibrary, "open", "choose a scene: built-in ones and your own", SCENE),
     row(&[char('1')], EXPLORE, Command::Preset(0), "", "first built-in scene; 2 to 9: the others", SCENE),
     row(&[char('2')], EXPLORE, Command::Preset(1), "", "", SCENE),
     row(&[char('3')], EXPLORE, Command::Preset(2), "", "", SCENE),
@@ -179,66 +183,31 @@ pub const BINDINGS: &[Binding] = &[
     row(&[char('8')], EXPLORE, Command::Preset(7), "", "", SCENE),
     row(&[char('9')], EXPLORE, Command::Preset(8), "", "", SCENE),
     row(&[char('s')], EXPLORE, Command::Save, "save", "save the scene to a file", SCENE),
+    row(&[char('E')], EXPLORE, Command::Export, "export", "export the curve (.csv), all figures (.json) or the panes (.svg, .txt)", SCENE),
+    row(&[char('y')], EXPLORE, Command::CopyCommand, "copy", "copy the command that opens this scene as it stands", SCENE),
     row(&[char('?'), key(KeyCode::F(1))], EXPLORE, Command::Help, "help", "this help", SCENE),
     row(&[char('q'), control('c')], EXPLORE, Command::Quit, "quit", "leave", SCENE),
-    row(
-        &[key(KeyCode::Down), char('j'), char(' ')],
-        HELP,
-        Command::Select(1),
-        "scroll",
-        "further down",
-        TEXT,
-    ),
+    row(&[control('z')], ANY, Command::Suspend, "", "back to the shell for a while; fg comes back", SCENE),
+
+    row(&[key(KeyCode::Down), char('j'), char(' ')], HELP, Command::Select(1), "scroll", "further down", TEXT),
     row(&[key(KeyCode::Up), char('k')], HELP, Command::Select(-1), "", "further up", TEXT),
-    row(
-        &[key(KeyCode::Esc), char('?'), char('q'), key(KeyCode::F(1)), control('c')],
-        HELP,
-        Command::Help,
-        "back",
-        "back from the help",
-        TEXT,
-    ),
+    row(&[key(KeyCode::Esc), char('?'), char('q'), key(KeyCode::F(1)), control('c')], HELP, Command::Help, "back", "back from the help", TEXT),
+    row(&[key(KeyCode::Down), control('n')], LIBRARY, Command::Select(1), "select", "the scene below", TEXT),
+    row(&[key(KeyCode::Up), control('p')], LIBRARY, Command::Select(-1), "", "the scene above", TEXT),
+    row(&[key(KeyCode::Enter)], LIBRARY, Command::Accept, "open", "open the scene", TEXT),
     row(&[key(KeyCode::Enter)], LINE, Command::Accept, "accept", "accept what is typed", TEXT),
-    row(&[key(KeyCode::Esc), control('c')], LINE, Command::Cancel, "cancel", "leave it as it was", TEXT),
-    row(&[key(KeyCode::Left), control('b')], LINE, Command::Move(Motion::Left), "", "left", TEXT),
-    row(&[key(KeyCode::Right), control('f')], LINE, Command::Move(Motion::Right), "", "right", TEXT),
-    row(&[key(KeyCode::Home), control('a')], LINE, Command::Move(Motion::Start), "", "to the start", TEXT),
-    row(&[key(KeyCode::End), control('e')], LINE, Command::Move(Motion::End), "", "to the end", TEXT),
-    row(
-        &[key(KeyCode::Backspace), control('h')],
-        LINE,
-        Command::Delete { backwards: true },
-        "",
-        "remove the character before the cursor",
-        TEXT,
-    ),
-    row(
-        &[key(KeyCode::Delete), control('d')],
-        LINE,
-        Command::Delete { backwards: false },
-        "",
-        "remove the character under the cursor",
-        TEXT,
-    ),
-    row(&[control('u')], LINE, Command::Clear, "clear", "empty the line", TEXT),
+    row(&[key(KeyCode::Esc), control('c')], TYPED, Command::Cancel, "cancel", "leave it as it was", TEXT),
+    row(&[key(KeyCode::Left), control('b')], TYPED, Command::Move(Motion::Left), "", "left", TEXT),
+    row(&[key(KeyCode::Right), control('f')], TYPED, Command::Move(Motion::Right), "", "right", TEXT),
+    row(&[key(KeyCode::Home), control('a')], TYPED, Command::Move(Motion::Start), "", "to the start", TEXT),
+    row(&[key(KeyCode::End), control('e')], TYPED, Command::Move(Motion::End), "", "to the end", TEXT),
+    row(&[key(KeyCode::Backspace), control('h')], TYPED, Command::Delete { backwards: true }, "", "remove the character before the cursor", TEXT),
+    row(&[key(KeyCode::Delete), control('d')], TYPED, Command::Delete { backwards: false }, "", "remove the character under the cursor", TEXT),
+    row(&[control('u')], TYPED, Command::Clear, "clear", "empty the line", TEXT),
     row(&[char('y')], ASK, Command::Accept, "overwrite", "overwrite the file", TEXT),
-    row(
-        &[char('n'), key(KeyCode::Esc), control('c')],
-        ASK,
-        Command::Cancel,
-        "keep it",
-        "keep the file",
-        TEXT,
-    ),
+    row(&[char('n'), key(KeyCode::Esc), control('c')], ASK, Command::Cancel, "keep it", "keep the file", TEXT),
     row(&[char('s')], LEAVE, Command::Save, "save", "save, then leave", TEXT),
-    row(
-        &[char('q'), char('y'), control('c')],
-        LEAVE,
-        Command::QuitAnyway,
-        "quit",
-        "leave without saving",
-        TEXT,
-    ),
+    row(&[char('q'), char('y'), control('c')], LEAVE, Command::QuitAnyway, "quit", "leave without saving", TEXT),
     row(&[char('n'), key(KeyCode::Esc)], LEAVE, Command::Cancel, "stay", "stay", TEXT),
 ];
 

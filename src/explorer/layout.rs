@@ -49,16 +49,16 @@ impl Layout {
         self.panes.iter().find(|(pane, _)| *pane == wanted).map(|(_, area)| *area)
     }
 
-    /// Columns of dots of the profile, without its histogram.
+    /// Cells across the profile, without its histogram.
     #[must_use]
-    pub fn profile_columns(&self) -> usize {
-        self.pane(Pane::Profile).map_or(0, |area| 2 * usize::from(split_profile(inside(area)).0.width))
+    pub fn profile_cells(&self) -> usize {
+        self.pane(Pane::Profile).map_or(0, |area| usize::from(split_profile(inside(area)).0.width))
     }
 
-    /// Columns of dots of the close-up.
+    /// Cells across the close-up.
     #[must_use]
-    pub fn close_up_columns(&self) -> usize {
-        self.pane(Pane::CloseUp).map_or(0, |area| 2 * usize::from(inside(area).width))
+    pub fn close_up_cells(&self) -> usize {
+        self.pane(Pane::CloseUp).map_or(0, |area| usize::from(inside(area).width))
     }
 }
 

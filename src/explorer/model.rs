@@ -1,89 +1,15 @@
 //! The state of the explorer: changed by `update` alone, drawn by the views.
 
-use super::parameters::{Parameter, parameters};
-use super::snapshot::{Loop, Moment};
-use super::text_line::TextLine;
-use super::theme::Theme;
-use super::worker::Focus;
-use crate::contact::LegRecord;
-use crate::scene::Document;
+pub use super::mode::{Library, Mode, ModeKind};
+use super::parameters::{Parameter, Setting, parameters};
+use super::snapshot::{Drive, Loop, Moment, Preview};
+use super::theme::Appearance;
+use super::worker::{Focus, LineView};
+use crate::analysis::Governing;
+use crate::contact::{CurvePoint, LegRecord};
+use crate::scene::{Document, Scene, ron_float};
 use std::collections::BTreeMap;
-use std::path::PathBuf;
 use std::sync::Arc;
-
-/// What the keys mean at the moment.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Mode {
-    /// Exploring.
-    Explore,
-    /// Typing the value of the selected parameter.
-    Edit(TextLine),
-    /// Typing the name of the file to save to.
-    SaveAs {
-        /// The name.
-        line: TextLine,
-        /// Whether to leave afterwards.
-        then_quit: bool,
-    },
-    /// Asked whether to overwrite a file.
-    Overwrite {
-        /// The file.
-        path: PathBuf,
-        /// Whether to leave afterwards.
-        then_quit: bool,
-    },
-    /// Reading the help.
-    Help {
-        /// Lines scrolled down.
-        scroll: u16,
-    },
-    /// Asked whether to leave with unsaved changes.
-    Quit,
-}
-
-/// A mode without what it holds: what the table of keys refers to.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum ModeKind {
-    /// See [`Mode::Explore`].
-    Explore,
-    /// See [`Mode::Edit`].
-    Edit,
-    /// See [`Mode::SaveAs`].
-    SaveAs,
-    /// See [`Mode::Overwrite`].
-    Overwrite,
-    /// See [`Mode::Help`].
-    Help,
-    /// See [`Mode::Quit`].
-    Quit,
-}
-
-impl ModeKind {
-    /// All modes.
-    pub const ALL: [ModeKind; 6] = [
-        ModeKind::Explore,
-        ModeKind::Edit,
-        ModeKind::SaveAs,
-        ModeKind::Overwrite,
-        ModeKind::Help,
-        ModeKind::Quit,
-    ];
-}
-
-impl Mode {
-    /// Which mode it is.
-    #[must_use]
-    pub fn kind(&self) -> ModeKind {
-        match self {
-            Mode::Explore => ModeKind::Explore,
-            Mode::Edit(_) => ModeKind::Edit,
-            Mode::SaveAs { .. } => ModeKind::SaveAs,
-            Mode::Overwrite { .. } => ModeKind::Overwrite,
-            Mode::Help { .. } => ModeKind::Help,
-            Mode::Quit => ModeKind::Quit,
-        }
-    }
-}
 
 /// The panes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -131,6 +57,74 @@ impl Look {
     }
 }
 
+/// The body in the user's hand.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Hand {
+    /// Where it has been, the newest last.
+    pub path: Vec<CurvePoint>,
+    /// Springs that joined or left on the last move.
+    pub changed: u64,
+    /// Entries looked at for it.
+    pub touched: u64,
+    /// Energy lost since it was taken, J.
+    pub dissipated_energy: f64,
+}
+
+/// What the pane of the curve shows.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct CurveLook {
+    /// Which quantities.
+    pub quantities: Quantities,
+    /// In units of F_a,max, h and the whole line rather than in SI units.
+    pub normalised: bool,
+    /// Whether the loss is shaded.
+    pub loss: bool,
+}
+
+/// Two quantities, one over the other.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Quantities {
+    /// Force over indentation.
+    #[default]
+    ForceIndentation,
+    /// Contact length over force.
+    LengthForce,
+    /// Number of fragments over indentation.
+    FragmentsIndentation,
+}
+
+impl Quantities {
+    /// The next ones.
+    #[must_use]
+    pub fn next(self) -> Self {
+        match self {
+            Quantities::ForceIndentation => Quantities::LengthForce,
+            Quantities::LengthForce => Quantities::FragmentsIndentation,
+            Quantities::FragmentsIndentation => Quantities::ForceIndentation,
+        }
+    }
+}
+
+/// A loop that was kept to be compared with.
+#[derive(Clone, Debug)]
+pub struct Ghost {
+    /// Its scene.
+    pub document: Document,
+    /// What was computed for it.
+    pub computed: Arc<Loop>,
+    /// Where its scene differs from the present one.
+    pub differs: String,
+}
+
+/// What a connection carries.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Traffic {
+    /// Most frames in a second.
+    pub frames: u32,
+    /// Bytes written in the last second.
+    pub bytes: u64,
+}
+
 /// A line for the user, below the panes.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Notice {
@@ -169,16 +163,32 @@ pub struct Model {
     pub progress: Option<usize>,
     /// Where the animation stands.
     pub player: Player,
+    /// The body, while it is in hand.
+    pub hand: Option<Hand>,
     /// What the close-up looks at.
     pub look: Look,
+    /// Whether its pane shows the distribution of lengths instead.
+    pub lengths: bool,
+    /// What part of the line the profile shows.
+    pub profile: LineView,
+    /// What the pane of the curve shows.
+    pub curve: CurveLook,
+    /// Loops kept to be compared with, the newest last.
+    pub ghosts: Vec<Ghost>,
+    /// The curve of the scene selected in the library.
+    pub preview: Option<Arc<Preview>>,
     /// The chosen pane.
     pub pane: Pane,
     /// Whether it has the whole screen.
     pub zoomed: bool,
     /// Columns and rows of the terminal.
     pub size: (u16, u16),
-    /// Colours.
-    pub theme: Theme,
+    /// Colours and markers.
+    pub appearance: Appearance,
+    /// What the connection carries, over SSH.
+    pub traffic: Option<Traffic>,
+    /// Whether times are shown: they differ from run to run.
+    pub shows_times: bool,
     /// A line for the user.
     pub notice: Option<Notice>,
     /// Whether the explorer is to end.
@@ -191,7 +201,7 @@ const LIFT: f64 = 0.12;
 impl Model {
     /// The explorer as it opens on a scene.
     #[must_use]
-    pub fn new(document: Document, size: (u16, u16), theme: Theme) -> Self {
+    pub fn new(document: Document, size: (u16, u16), appearance: Appearance) -> Self {
         let springs = Look::springs_shown(&document);
         Model {
             saved_texts: BTreeMap::from([(document.name().to_owned(), document.text().to_owned())]),
@@ -207,11 +217,19 @@ impl Model {
             moment: None,
             progress: Some(0),
             player: Player { leg: 0, done: 0.0, playing: true },
+            hand: None,
             look: Look { focus: Focus::Summit, springs },
+            lengths: false,
+            profile: LineView::WHOLE,
+            curve: CurveLook::default(),
+            ghosts: Vec::new(),
+            preview: None,
             pane: Pane::Force,
             zoomed: false,
             size,
-            theme,
+            appearance,
+            traffic: None,
+            shows_times: true,
             notice: None,
             finished: false,
         }
@@ -221,6 +239,32 @@ impl Model {
     #[must_use]
     pub fn is_unsaved(&self) -> bool {
         self.saved_texts.get(self.document.name()).is_none_or(|saved| saved != self.document.text())
+    }
+
+    /// Takes the scene as it stands for saved to a file, and goes on with that file.
+    pub fn set_saved_as(&mut self, path: &std::path::Path) {
+        if let Ok(document) = Document::parse(self.document.text(), &path.to_string_lossy()) {
+            self.document = document;
+        }
+        self.set_saved();
+    }
+
+    /// What governs the scene as it stands, as far as the newest computation tells: its line must be that
+    /// of the scene, its adhesion may be another.
+    #[must_use]
+    pub fn governing(&self) -> Option<Governing> {
+        let computed = self.computed.as_ref()?;
+        let (before, now) = (computed.scene.as_ref(), self.document.scene());
+        let same_line = before.roughness == now.roughness
+            && before.length == now.length
+            && before.form == now.form
+            && before.material == now.material;
+        // An rms height that follows from κ and γ changes with them.
+        let both = |scene: &Scene| scene.adhesion.is_some_and(|a| a.work.is_some() && a.kappa.is_some());
+        if !same_line || ((both(before) || both(now)) && before.adhesion != now.adhesion) {
+            return None;
+        }
+        Some(computed.outcome.governing.with_adhesion(now.adhesion))
     }
 
     /// Takes the scene as it stands for saved.
@@ -240,10 +284,38 @@ impl Model {
         self.progress.is_some()
     }
 
+    /// What moves the body.
+    #[must_use]
+    pub fn drive(&self) -> Drive {
+        if self.hand.is_some() { Drive::Hand } else { Drive::Leg(self.player.leg) }
+    }
+
+    /// The newest moment, where it belongs to the scene as it stands and to what moves the body.
+    #[must_use]
+    pub fn present(&self) -> Option<&Moment> {
+        let moment = self.moment.as_deref()?;
+        (moment.generation == self.generation && moment.drive == self.drive()).then_some(moment)
+    }
+
     /// The legs of the scene that is shown.
     #[must_use]
     pub fn legs(&self) -> &[LegRecord] {
         self.computed.as_ref().map_or(&[], |computed| &computed.outcome.history.legs)
+    }
+
+    /// A parameter's value as it would be written in the scene: where it follows from others, it is the
+    /// one that was computed.
+    #[must_use]
+    pub fn written(&self, parameter: &Parameter) -> Option<String> {
+        if !parameter.written.is_empty() {
+            return Some(parameter.written.clone());
+        }
+        let governing = self.governing()?;
+        match parameter.setting {
+            Setting::Kappa => governing.kappa.map(ron_float),
+            Setting::WorkOfAdhesion => governing.work_of_adhesion.map(ron_float),
+            Setting::Field | Setting::Switch(_) => None,
+        }
     }
 
     /// The selected parameter.

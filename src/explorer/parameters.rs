@@ -1,7 +1,8 @@
 //! The list of parameters: the fields of the scene that can be changed as it stands.
 
 use crate::scene::{
-    Document, Field, LEG_FORCE, LEG_INDENTATION, Leg, Range, format_quantity, parse_quantity, ron_float,
+    Document, Effect, Field, LEG_FORCE, LEG_INDENTATION, Leg, Range, field, format_quantity, parse_quantity,
+    ron_float,
 };
 
 /// A parameter as the list shows it.
@@ -15,20 +16,38 @@ pub struct Parameter {
     pub leg: Option<usize>,
     /// Its value as written in the scene file.
     pub written: String,
-    /// Its value as people read it.
+    /// Its value as people read it; empty where it follows from others and has to be computed.
     pub shown: String,
+    /// The effect it belongs to.
+    pub effect: Option<Effect>,
+    /// How it is set.
+    pub setting: Setting,
+}
+
+/// How a parameter is set.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Setting {
+    /// As a field of the scene.
+    Field,
+    /// It is the switch of an effect.
+    Switch(Effect),
+    /// κ, whichever of γ and κ the scene gives.
+    Kappa,
+    /// γ, whichever of γ and κ the scene gives.
+    WorkOfAdhesion,
 }
 
 /// Fields that describe the scene rather than the contact.
-const NOT_LISTED: &[&str] = &["version", "title", "notice", "observe"];
+const NOT_LISTED: &[&str] = &["version", "title", "notice"];
 
 impl Parameter {
     /// Name with the number of its leg.
     #[must_use]
     pub fn name(&self) -> String {
-        match self.leg {
-            Some(leg) => format!("{} {}", self.field.name, leg + 1),
-            None => self.field.name.to_owned(),
+        match (self.leg, self.setting) {
+            (Some(leg), _) => format!("{} {}", self.field.name, leg + 1),
+            (None, Setting::Switch(effect)) => effect.name().to_owned(),
+            (None, _) => self.field.name.to_owned(),
         }
     }
 
@@ -65,6 +84,10 @@ pub fn parameters(document: &Document) -> Vec<Parameter> {
         if NOT_LISTED.contains(&field.path) || field.range == Range::Group {
             continue;
         }
+        if field.path == "observe" {
+            parameters.extend(observers(document, field));
+            continue;
+        }
         let Some(written) = document.value(field.path) else { continue };
         // One of several ways to say the same, and not the one taken.
         if written == "None" && !field.parent().is_empty() {
@@ -72,12 +95,71 @@ pub fn parameters(document: &Document) -> Vec<Parameter> {
         }
         let shown = shown(field, written);
         let path = field.path.to_owned();
-        parameters.push(Parameter { field, path, leg: None, written: written.to_owned(), shown });
+        let (effect, setting) = (effect_of(&path), setting_of(&path));
+        let written = written.to_owned();
+        parameters.push(Parameter { field, path, leg: None, written, shown, effect, setting });
         if field.path == "loading" {
             parameters.extend(leg_targets(&document.scene().loading));
         }
     }
+    insert_other_adhesion(&mut parameters);
     parameters
+}
+
+/// The effect that a field belongs to.
+fn effect_of(path: &str) -> Option<Effect> {
+    Effect::ALL
+        .into_iter()
+        .filter(|effect| effect.path() != "observe")
+        .find(|effect| path == effect.path() || path.starts_with(&format!("{}.", effect.path())))
+}
+
+fn setting_of(path: &str) -> Setting {
+    match path {
+        "adhesion.kappa" => Setting::Kappa,
+        "adhesion.work" => Setting::WorkOfAdhesion,
+        _ => Setting::Field,
+    }
+}
+
+/// A scene gives γ or κ; the other one follows, and can be set as well.
+fn insert_other_adhesion(parameters: &mut Vec<Parameter>) {
+    let place = |path| parameters.iter().position(|parameter| parameter.path == path);
+    let (at, path) = match (place("adhesion.work"), place("adhesion.kappa")) {
+        (Some(work), None) => (work + 1, "adhesion.kappa"),
+        (None, Some(kappa)) => (kappa, "adhesion.work"),
+        _ => return,
+    };
+    let Some(field) = field(path, None) else { return };
+    parameters.insert(
+        at,
+        Parameter {
+            field,
+            path: path.to_owned(),
+            leg: None,
+            written: String::new(),
+            shown: String::new(),
+            effect: Some(Effect::Adhesion),
+            setting: setting_of(path),
+        },
+    );
+}
+
+/// A switch for each observer.
+fn observers(document: &Document, field: &'static Field) -> impl Iterator<Item = Parameter> {
+    let observers = Effect::ALL.into_iter().filter(|effect| effect.path() == "observe");
+    observers.map(move |effect| {
+        let is_on = effect.is_on(document.scene());
+        Parameter {
+            field,
+            path: format!("observe.{}", effect.name()),
+            leg: None,
+            written: is_on.to_string(),
+            shown: if is_on { "on" } else { "off" }.to_owned(),
+            effect: Some(effect),
+            setting: Setting::Switch(effect),
+        }
+    })
 }
 
 fn leg_targets(loading: &[Leg]) -> impl Iterator<Item = Parameter> {
@@ -87,9 +169,15 @@ fn leg_targets(loading: &[Leg]) -> impl Iterator<Item = Parameter> {
             Leg::ToIndentation(indentation) => (&LEG_INDENTATION, indentation),
             _ => return None,
         };
-        let shown = format_quantity(value, field.unit);
-        let path = format!("loading.{index}.0");
-        Some(Parameter { field, path, leg: Some(index), written: ron_float(value), shown })
+        Some(Parameter {
+            field,
+            path: format!("loading.{index}.0"),
+            leg: Some(index),
+            written: ron_float(value),
+            shown: format_quantity(value, field.unit),
+            effect: Some(Effect::Unloading),
+            setting: Setting::Field,
+        })
     })
 }
 

@@ -3,34 +3,68 @@
 
 use super::worker::Focus;
 use crate::contact::CurvePoint;
+use crate::scene::Scene;
 use crate::simulation::Outcome;
+use std::sync::Arc;
 
 /// A computed scene.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Loop {
     /// Generation of the scene.
     pub generation: u64,
+    /// The scene.
+    pub scene: Arc<Scene>,
     /// What was computed.
     pub outcome: Outcome,
 }
 
-/// The contact at one moment of the animation.
+/// What moves the body.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Drive {
+    /// A leg of the scene's loading, by its index.
+    Leg(usize),
+    /// The user's hand.
+    Hand,
+}
+
+/// The contact at one moment.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Moment {
     /// Generation of the scene.
     pub generation: u64,
-    /// Index of the leg.
-    pub leg: usize,
+    /// What moves the body.
+    pub drive: Drive,
     /// Where the close-up was asked to look.
     pub focus: Focus,
     /// Indentation, force, springs in contact and fragments.
     pub point: CurvePoint,
     /// Springs that changed state since the moment before.
     pub changed: u64,
-    /// The whole line.
+    /// The line, or a part of it.
     pub profile: Section,
     /// The neighbourhood of one fragment.
     pub close_up: CloseUp,
+    /// How much of the whole line touches, in as many parts as the close-up has cells.
+    pub strip: Vec<Share>,
+    /// How long the fragments are, where that was asked for.
+    pub lengths: Option<Vec<LengthBin>>,
+    /// How the hand came here.
+    pub hand: Option<Travel>,
+}
+
+/// The way of the hand since the moment before.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Travel {
+    /// Points of the curve on the way, the one it began at left out.
+    pub path: Vec<CurvePoint>,
+    /// Springs that joined or left.
+    pub changed: u64,
+    /// Entries of lists and trees that had to be looked at for it.
+    pub touched: u64,
+    /// Energy lost since the body was taken in hand, J.
+    pub dissipated_energy: f64,
+    /// Why the hand could not go where it was told.
+    pub refused: Option<String>,
 }
 
 /// A part of the line, reduced to one column for each column of dots.
@@ -59,6 +93,17 @@ pub struct Column {
     pub contact: Option<(f64, f64)>,
 }
 
+/// How much of a part of the line touches.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Share {
+    /// No spring.
+    Nothing,
+    /// Some springs.
+    Something,
+    /// All springs.
+    Everything,
+}
+
 /// The neighbourhood of one contact fragment.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct CloseUp {
@@ -83,6 +128,8 @@ pub struct FragmentFacts {
     pub largest_stretch: f64,
     /// Stretch of its most stretched spring, m; negative when all are compressed.
     pub most_stretched: f64,
+    /// Force it carries, N; compression positive.
+    pub force: f64,
 }
 
 impl FragmentFacts {
@@ -92,4 +139,24 @@ impl FragmentFacts {
         let (first, last) = self.springs;
         first + (last - first) / 2
     }
+}
+
+/// Fragments of about one length.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct LengthBin {
+    /// Shortest length, springs.
+    pub from: u64,
+    /// The shortest length that is too long, springs.
+    pub to: u64,
+    /// Fragments of these lengths.
+    pub fragments: u64,
+}
+
+/// The curve of a scene in the library.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Preview {
+    /// The scene's text, which tells it from all others.
+    pub text: String,
+    /// What was computed, or why nothing was.
+    pub outcome: Result<Outcome, String>,
 }

@@ -2,22 +2,32 @@
 
 use crossterm::cursor::Show;
 use crossterm::event::{DisableBracketedPaste, EnableBracketedPaste};
+use crossterm::style::Print;
 use crossterm::terminal::{
     BeginSynchronizedUpdate, EndSynchronizedUpdate, EnterAlternateScreen, LeaveAlternateScreen,
     disable_raw_mode, enable_raw_mode,
 };
 use crossterm::{execute, queue};
-use std::io::{self, Stdout, Write};
+use std::cell::Cell;
+use std::io::{self, Write};
+use std::rc::Rc;
+
+/// Asks for presses, drags and the wheel of the mouse. What crossterm asks for includes every motion, and
+/// each would travel and wake the explorer for nothing.
+const MOUSE_ON: &str = "\x1b[?1000h\x1b[?1002h\x1b[?1006h";
+const MOUSE_OFF: &str = "\x1b[?1006l\x1b[?1002l\x1b[?1000l";
 
 /// The terminal in the explorer's hands; dropping it gives it back.
-pub struct TerminalGuard(());
+pub struct TerminalGuard {
+    mouse: bool,
+}
 
 impl TerminalGuard {
-    /// Takes the terminal over.
+    /// Takes the terminal over, with the mouse or without.
     ///
     /// # Errors
     /// When the terminal refuses.
-    pub fn take() -> io::Result<Self> {
+    pub fn take(mouse: bool) -> io::Result<Self> {
         // NO_COLOR is read by the theme; left to crossterm it would drop reverse and bold as well.
         crossterm::style::force_color_output(true);
         let before = std::panic::take_hook();
@@ -29,10 +39,26 @@ impl TerminalGuard {
                 before(panic);
             }
         }));
-        enable_raw_mode()?;
-        let guard = TerminalGuard(());
-        execute!(io::stdout(), EnterAlternateScreen, EnableBracketedPaste)?;
+        let guard = TerminalGuard { mouse };
+        guard.enter()?;
         Ok(guard)
+    }
+
+    fn enter(&self) -> io::Result<()> {
+        enable_raw_mode()?;
+        let mouse = if self.mouse { MOUSE_ON } else { "" };
+        execute!(io::stdout(), EnterAlternateScreen, EnableBracketedPaste, Print(mouse))
+    }
+
+    /// Gives the terminal to the shell, as Ctrl-Z does elsewhere, and takes it again when the shell
+    /// continues the explorer.
+    ///
+    /// # Errors
+    /// When the terminal refuses.
+    pub fn suspend(&self) -> io::Result<()> {
+        give_back()?;
+        stop_until_continued();
+        self.enter()
     }
 }
 
@@ -49,9 +75,20 @@ impl Drop for TerminalGuard {
 
 fn give_back() -> io::Result<()> {
     let raw = disable_raw_mode();
-    execute!(io::stdout(), DisableBracketedPaste, LeaveAlternateScreen, Show)?;
+    execute!(io::stdout(), Print(MOUSE_OFF), DisableBracketedPaste, LeaveAlternateScreen, Show)?;
     raw
 }
+
+/// Stops all processes of this job, as the terminal does when it turns Ctrl-Z into a signal. Where no
+/// shell could continue them the system goes on at once.
+#[cfg(unix)]
+fn stop_until_continued() {
+    let _ = rustix::process::kill_current_process_group(rustix::process::Signal::TSTP);
+}
+
+/// Elsewhere there are no jobs.
+#[cfg(not(unix))]
+fn stop_until_continued() {}
 
 /// Calls `gone` when the terminal hangs up.
 ///
@@ -88,26 +125,27 @@ pub fn watch_for_hang_up(_: impl FnOnce() + Send + 'static) -> io::Result<()> {
 
 /// Collects a whole frame and writes it at once, as a synchronized update. Nothing drawn, nothing
 /// written.
-pub struct FrameWriter {
+pub struct FrameWriter<W: Write> {
     frame: Vec<u8>,
-    out: Stdout,
+    out: W,
+    written: Rc<Cell<u64>>,
 }
 
-impl FrameWriter {
-    /// A writer of frames to standard output.
+impl<W: Write> FrameWriter<W> {
+    /// A writer of frames to `out`.
     #[must_use]
-    pub fn new() -> Self {
-        FrameWriter { frame: Vec::with_capacity(64 * 1024), out: io::stdout() }
+    pub fn new(out: W) -> Self {
+        FrameWriter { frame: Vec::with_capacity(64 * 1024), out, written: Rc::default() }
+    }
+
+    /// A counter of the bytes written so far.
+    #[must_use]
+    pub fn written(&self) -> Rc<Cell<u64>> {
+        Rc::clone(&self.written)
     }
 }
 
-impl Default for FrameWriter {
-    fn default() -> Self {
-        FrameWriter::new()
-    }
-}
-
-impl Write for FrameWriter {
+impl<W: Write> Write for FrameWriter<W> {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
         if self.frame.is_empty() {
             queue!(self.frame, BeginSynchronizedUpdate)?;
@@ -122,6 +160,7 @@ impl Write for FrameWriter {
         }
         queue!(self.frame, EndSynchronizedUpdate)?;
         let written = self.out.write_all(&self.frame).and_then(|()| self.out.flush());
+        self.written.set(self.written.get() + self.frame.len() as u64);
         self.frame.clear();
         written
     }

@@ -1,14 +1,44 @@
 //! What each meaning looks like; a glyph carries it as well.
 
+use clap::ValueEnum;
 use ratatui::style::{Color, Modifier, Style};
+use ratatui::symbols::Marker as Symbols;
+
+/// How the explorer looks.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Appearance {
+    /// Its colours.
+    pub theme: Theme,
+    /// What its plots are made of.
+    pub marker: Marker,
+}
 
 /// Colours and modifiers.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Theme {
-    /// Sixteen colours that read on dark and on light backgrounds.
-    Colours,
-    /// No colours at all (`NO_COLOR`), only bold, dim and reverse.
+    /// Colours that read on dark and on light backgrounds
+    Neutral,
+    /// Bright colours for a dark background
+    Dark,
+    /// Dark colours for a light background
+    Light,
+    /// Few strong colours, everything bold, nothing dim
+    HighContrast,
+    /// No colours, only bold, dim and reverse
     Plain,
+}
+
+/// What plots are made of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Marker {
+    /// Braille dots, 2 × 4 in a cell
+    Braille,
+    /// Solid eighths of a cell, 2 × 4; few fonts have them yet
+    Octant,
+    /// Half cells: coarse, and in every font
+    HalfBlock,
+    /// Nothing but ASCII, in the text too
+    Ascii,
 }
 
 /// Something that is shown.
@@ -24,6 +54,10 @@ pub enum Meaning {
     Approach,
     /// Forces while unloading.
     Retraction,
+    /// Where the hand has been.
+    Hand,
+    /// Loops kept for comparison.
+    Ghost,
     /// The moment shown.
     Cursor,
     /// Frames, axes, what stands back.
@@ -40,28 +74,71 @@ pub enum Meaning {
     Text,
 }
 
-impl Theme {
-    /// The theme that the environment asks for.
+impl Appearance {
+    /// What the environment asks for: `NO_COLOR`, and `COLORFGBG` where the terminal tells its colours.
     #[must_use]
     pub fn of_environment() -> Self {
-        let no_colour = std::env::var_os("NO_COLOR").is_some_and(|value| !value.is_empty());
-        if no_colour { Theme::Plain } else { Theme::Colours }
+        let value = |name| std::env::var_os(name).filter(|value| !value.is_empty());
+        let theme = match value("COLORFGBG") {
+            _ if value("NO_COLOR").is_some() => Theme::Plain,
+            Some(colours) => Theme::on_background(&colours.to_string_lossy()),
+            None => Theme::Neutral,
+        };
+        Appearance { theme, marker: Marker::Braille }
+    }
+}
+
+impl Theme {
+    /// The theme for a background as `COLORFGBG` gives it: the number of its colour comes last.
+    fn on_background(colours: &str) -> Self {
+        match colours.rsplit(';').next().map(str::parse::<u8>) {
+            Some(Ok(7 | 9..=15)) => Theme::Light,
+            Some(Ok(0..=6 | 8)) => Theme::Dark,
+            _ => Theme::Neutral,
+        }
+    }
+
+    /// The next theme.
+    #[must_use]
+    pub fn next(self) -> Self {
+        next(self)
+    }
+
+    /// Its name, as the command line has it.
+    #[must_use]
+    pub fn name(self) -> String {
+        name(&self)
     }
 
     /// The colour of a meaning.
     #[must_use]
     pub fn colour(self, meaning: Meaning) -> Color {
-        if self == Theme::Plain {
-            return Color::Reset;
-        }
-        match meaning {
-            Meaning::Line | Meaning::Text | Meaning::Selected | Meaning::Title => Color::Reset,
-            Meaning::Surface => Color::Blue,
-            Meaning::Contact | Meaning::Error => Color::Red,
-            Meaning::Approach => Color::Green,
-            Meaning::Retraction | Meaning::Key => Color::Magenta,
-            Meaning::Cursor => Color::Red,
-            Meaning::Quiet => Color::DarkGray,
+        use Meaning::{
+            Approach, Contact, Cursor, Error, Ghost, Hand, Key, Line, Quiet, Retraction, Selected, Surface,
+            Text, Title,
+        };
+        match (self, meaning) {
+            (Theme::Plain, _) | (_, Line | Text | Selected | Title) => Color::Reset,
+            (Theme::Neutral, Quiet | Ghost) => Color::DarkGray,
+            (Theme::Neutral, Surface) => Color::Blue,
+            (Theme::Neutral, Contact | Error | Cursor) => Color::Red,
+            (Theme::Neutral, Approach) => Color::Green,
+            (Theme::Neutral, Retraction | Key) => Color::Magenta,
+            (Theme::Neutral, Hand) => Color::Cyan,
+            (Theme::Dark, Quiet | Ghost) => Color::Gray,
+            (Theme::Dark, Surface) => Color::LightBlue,
+            (Theme::Dark, Contact | Error | Cursor) => Color::LightRed,
+            (Theme::Dark, Approach) => Color::LightGreen,
+            (Theme::Dark, Retraction | Key) => Color::LightMagenta,
+            (Theme::Dark, Hand) => Color::LightYellow,
+            (Theme::Light, Quiet | Ghost) => Color::DarkGray,
+            (Theme::Light, Surface | Key) => Color::Blue,
+            (Theme::Light, Contact | Error | Cursor) => Color::Red,
+            (Theme::Light, Approach) => Color::Green,
+            (Theme::Light, Retraction) => Color::Magenta,
+            (Theme::Light, Hand) => Color::Cyan,
+            (Theme::HighContrast, Quiet | Ghost | Surface | Approach | Key) => Color::Reset,
+            (Theme::HighContrast, Contact | Error | Cursor | Retraction | Hand) => Color::LightRed,
         }
     }
 
@@ -72,8 +149,77 @@ impl Theme {
         match meaning {
             Meaning::Title | Meaning::Key | Meaning::Error => style.add_modifier(Modifier::BOLD),
             Meaning::Selected => style.add_modifier(Modifier::REVERSED),
-            Meaning::Quiet if self == Theme::Plain => style.add_modifier(Modifier::DIM),
+            Meaning::Quiet | Meaning::Ghost if self == Theme::Plain => style.add_modifier(Modifier::DIM),
+            _ if self == Theme::HighContrast => style.add_modifier(Modifier::BOLD),
             _ => style,
         }
+    }
+}
+
+impl Marker {
+    /// The next marker.
+    #[must_use]
+    pub fn next(self) -> Self {
+        next(self)
+    }
+
+    /// Its name, as the command line has it.
+    #[must_use]
+    pub fn name(self) -> String {
+        name(&self)
+    }
+
+    /// What a canvas draws with. ASCII is made from dots when everything is drawn.
+    #[must_use]
+    pub fn symbols(self) -> Symbols {
+        match self {
+            Marker::Braille | Marker::Ascii => Symbols::Braille,
+            Marker::Octant => Symbols::Octant,
+            Marker::HalfBlock => Symbols::HalfBlock,
+        }
+    }
+
+    /// Columns of dots in a cell.
+    #[must_use]
+    pub fn columns(self) -> usize {
+        match self {
+            Marker::Braille | Marker::Octant | Marker::Ascii => 2,
+            Marker::HalfBlock => 1,
+        }
+    }
+}
+
+fn next<T: ValueEnum + PartialEq + Copy>(one: T) -> T {
+    let all = T::value_variants();
+    let place = all.iter().position(|other| *other == one).unwrap_or(0);
+    all[(place + 1) % all.len()]
+}
+
+fn name(one: &impl ValueEnum) -> String {
+    one.to_possible_value().map_or_else(String::new, |value| value.get_name().to_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_background_is_read_from_its_number() {
+        assert_eq!(Theme::on_background("0;15"), Theme::Light);
+        assert_eq!(Theme::on_background("15;0"), Theme::Dark);
+        assert_eq!(Theme::on_background("12;default;8"), Theme::Dark);
+        assert_eq!(Theme::on_background("default"), Theme::Neutral);
+    }
+
+    #[test]
+    fn all_themes_and_markers_come_round() {
+        let mut theme = Theme::Neutral;
+        let seen = std::iter::from_fn(|| {
+            theme = theme.next();
+            Some(theme)
+        });
+        assert_eq!(seen.take(5).last(), Some(Theme::Neutral));
+        assert_eq!(Marker::Ascii.next(), Marker::Braille);
+        assert_eq!(Theme::HighContrast.name(), "high-contrast");
     }
 }

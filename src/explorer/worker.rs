@@ -1,9 +1,9 @@
 //! The worker: one thread that owns the simulation, does the newest request and publishes snapshots.
 
-use super::reduce::Contact;
-use super::snapshot::{CloseUp, FragmentFacts, Loop, Moment};
-use crate::contact::{ContactError, CurvePoint, Foundation, GapScale, HessRule, LegRecord, Solver, Tally};
-use crate::scene::{Observer, Scene};
+use super::playback::Playback;
+use super::snapshot::{Drive, Loop, Moment, Preview};
+use crate::contact::ContactTree;
+use crate::scene::Scene;
 use crate::simulation::{AfterLeg, Outcome, RunError, Simulation};
 use crate::surface::Line;
 use std::any::Any;
@@ -11,10 +11,6 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::mpsc::{Receiver, Sender};
-
-/// Legs whose thresholds are kept: beyond this many values, older legs are computed again when the
-/// animation comes to them.
-const VALUES_KEPT: usize = 1 << 26;
 
 /// What computes scenes. [`Simulation`] does; tests put others in its place.
 pub trait Engine: Send {
@@ -31,6 +27,9 @@ pub trait Engine: Send {
 
     /// The line of the last scene.
     fn line(&self) -> Option<&Line>;
+
+    /// The tree of that line, where the scene called for one.
+    fn tree(&self) -> Option<&Arc<ContactTree>>;
 }
 
 impl Engine for Simulation {
@@ -46,6 +45,10 @@ impl Engine for Simulation {
     fn line(&self) -> Option<&Line> {
         Simulation::line(self)
     }
+
+    fn tree(&self) -> Option<&Arc<ContactTree>> {
+        Simulation::tree(self)
+    }
 }
 
 /// What the explorer asks of the worker.
@@ -56,10 +59,46 @@ pub enum Request {
         /// Its generation.
         generation: u64,
         /// The scene.
-        scene: Box<Scene>,
+        scene: Arc<Scene>,
+    },
+    /// Move the body by hand, in the scene that was computed last.
+    Hand {
+        /// Generation of the scene it belongs to.
+        generation: u64,
+        /// Where to.
+        order: HandOrder,
     },
     /// Show a moment of the scene that was computed last.
     Show(MomentRequest),
+    /// Compute a scene of the library to look at its curve.
+    Preview {
+        /// The scene's text.
+        text: String,
+        /// The scene.
+        scene: Arc<Scene>,
+    },
+}
+
+/// What the hand does with the body.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum HandOrder {
+    /// Takes it where a leg of the loading has it at this indentation, m.
+    Take {
+        /// Index of the leg.
+        leg: usize,
+        /// Indentation, m.
+        indentation: f64,
+    },
+    /// Gives it back.
+    Give,
+    /// Moves it to an indentation, m.
+    To(f64),
+    /// Moves it by so much, m; pressing is positive.
+    By(f64),
+    /// Moves it until its force is this one, N.
+    ToForce(f64),
+    /// Pulls until nothing touches.
+    Separate,
 }
 
 /// Which moment to show, and how large.
@@ -67,18 +106,40 @@ pub enum Request {
 pub struct MomentRequest {
     /// Generation of the scene it belongs to.
     pub generation: u64,
-    /// Index of the leg.
-    pub leg: usize,
-    /// Indentation, m.
+    /// What moves the body.
+    pub drive: Drive,
+    /// Indentation, m; the hand knows its own.
     pub indentation: f64,
     /// Columns of dots of the profile pane.
     pub profile_columns: usize,
+    /// What part of the line it shows.
+    pub profile: LineView,
     /// Columns of dots of the close-up pane.
     pub close_up_columns: usize,
+    /// Cells across it.
+    pub strip_cells: usize,
     /// Where the close-up looks.
     pub focus: Focus,
     /// Springs it shows.
     pub close_up_springs: usize,
+    /// Whether the distribution of fragment lengths is shown.
+    pub lengths: bool,
+}
+
+/// What part of the line the profile shows.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LineView {
+    /// Its middle, as a share of the line.
+    pub centre: f64,
+    /// How much of the line it shows, above 0 to 1.
+    pub share: f64,
+    /// Whether its middle follows the close-up instead.
+    pub follow: bool,
+}
+
+impl LineView {
+    /// The whole line.
+    pub const WHOLE: LineView = LineView { centre: 0.5, share: 1.0, follow: false };
 }
 
 /// Where the close-up looks.
@@ -92,6 +153,18 @@ pub enum Focus {
     After(Option<usize>),
     /// The fragment before the one nearest to a spring.
     Before(Option<usize>),
+    /// The longest fragment.
+    Largest,
+    /// The fragment that carries the largest force, pressing or pulling.
+    MostLoaded,
+}
+
+impl Focus {
+    /// Whether it is a question, to which a spring is the answer.
+    #[must_use]
+    pub fn is_question(self) -> bool {
+        !matches!(self, Focus::Summit | Focus::Spring(_))
+    }
 }
 
 /// What the worker reports.
@@ -115,48 +188,97 @@ pub enum Report {
         /// Why, in one line.
         error: String,
     },
+    /// A scene of the library has been computed, or could not be.
+    Previewed(Arc<Preview>),
 }
 
 /// The generation the explorer waits for; a run for an older one stops.
 pub type Newest = Arc<AtomicU64>;
 
-/// Serves requests until the explorer is gone: of all that wait, only the newest scene and the newest
-/// moment are done.
-pub fn serve(
-    mut engine: Box<dyn Engine>,
-    newest: &Newest,
-    requests: &Receiver<Request>,
-    report: &dyn Fn(Report) -> bool,
-) {
-    let mut stage = Playback::default();
-    while let Ok(first) = requests.recv() {
-        let (mut compute, mut show) = (None, None);
-        for request in std::iter::once(first).chain(requests.try_iter()) {
+/// The place where requests are done, one after the other.
+pub struct Desk {
+    engine: Box<dyn Engine>,
+    playback: Playback,
+    /// The library's scenes have an engine of their own: the one shown keeps its line.
+    previews: Simulation,
+}
+
+/// Requests that wait together: of each kind the newest counts, but each order of the hand.
+#[derive(Default)]
+struct Batch {
+    compute: Option<(u64, Arc<Scene>)>,
+    orders: Vec<(u64, HandOrder)>,
+    show: Option<MomentRequest>,
+    preview: Option<(String, Arc<Scene>)>,
+}
+
+impl Batch {
+    fn of(requests: impl Iterator<Item = Request>) -> Self {
+        let mut batch = Batch::default();
+        for request in requests {
             match request {
-                Request::Compute { generation, scene } => compute = Some((generation, scene)),
-                Request::Show(moment) => show = Some(moment),
+                Request::Compute { generation, scene } => batch.compute = Some((generation, scene)),
+                Request::Hand { generation, order } => batch.orders.push((generation, order)),
+                Request::Show(moment) => batch.show = Some(moment),
+                Request::Preview { text, scene } => batch.preview = Some((text, scene)),
             }
         }
-        let mut reports = Vec::new();
-        let generation = compute.as_ref().map_or(stage.generation, |(generation, _)| *generation);
-        // A panic ends the request, not the explorer.
-        let outcome = catch_unwind(AssertUnwindSafe(|| {
-            if let Some((generation, scene)) = compute {
-                reports.extend(stage.compute(engine.as_mut(), generation, *scene, newest, report));
-            }
-            if let Some(request) = show.filter(|request| request.generation == stage.generation) {
-                reports.extend(stage.show(engine.as_mut(), &request));
-            }
-        }));
-        if let Err(panic) = outcome {
-            stage = Playback::default();
-            let error = format!("internal error, please report it: {}", panic_text(panic.as_ref()));
-            reports.push(Report::Failed { generation, error });
+        batch
+    }
+}
+
+impl Desk {
+    /// A desk with an engine.
+    #[must_use]
+    pub fn new(engine: Box<dyn Engine>) -> Self {
+        Desk { engine, playback: Playback::default(), previews: Simulation::default() }
+    }
+
+    /// Does the requests that wait together, and reports.
+    ///
+    /// A panic ends the requests, not the explorer.
+    pub fn serve(
+        &mut self,
+        requests: impl Iterator<Item = Request>,
+        newest: &Newest,
+        report: &dyn Fn(Report) -> bool,
+    ) {
+        let batch = Batch::of(requests);
+        let generation =
+            batch.compute.as_ref().map_or(self.playback.generation(), |(generation, _)| *generation);
+        let previewed = batch.preview.as_ref().map(|(text, _)| text.clone());
+        let outcome = catch_unwind(AssertUnwindSafe(|| self.do_all(batch, newest, report)));
+        let Err(panic) = outcome else { return };
+        let error = format!("internal error, please report it: {}", panic_text(panic.as_ref()));
+        self.playback = Playback::default();
+        self.previews = Simulation::default();
+        if let Some(text) = previewed {
+            report(Report::Previewed(Arc::new(Preview { text, outcome: Err(error.clone()) })));
         }
-        for one in reports {
-            if !report(one) {
-                return;
+        report(Report::Failed { generation, error });
+    }
+
+    fn do_all(&mut self, batch: Batch, newest: &Newest, report: &dyn Fn(Report) -> bool) {
+        let Desk { engine, playback, .. } = self;
+        if let Some((generation, scene)) = batch.compute {
+            if let Some(one) = playback.compute(engine.as_mut(), generation, scene, newest, report) {
+                report(one);
             }
+        }
+        for (generation, order) in batch.orders {
+            if generation == playback.generation() {
+                playback.obey(engine.as_mut(), order);
+            }
+        }
+        if let Some(request) = batch.show.filter(|request| request.generation == playback.generation()) {
+            if let Some(moment) = playback.show(engine.as_mut(), &request) {
+                report(Report::Shown(Arc::new(moment)));
+            }
+        }
+        if let Some((text, scene)) = batch.preview {
+            let outcome = self.previews.run(&scene, &|| false, &mut |_, _, _| Ok(()));
+            let outcome = outcome.map_err(|error| error.to_string());
+            report(Report::Previewed(Arc::new(Preview { text, outcome })));
         }
     }
 }
@@ -169,198 +291,22 @@ fn panic_text(panic: &(dyn Any + Send)) -> &str {
         .unwrap_or("unknown cause")
 }
 
-/// The scene that was computed last, ready to be played.
-#[derive(Default)]
-struct Playback {
-    generation: u64,
-    scene: Option<Scene>,
-    outcome: Option<Arc<Loop>>,
-    thresholds: Vec<Option<Vec<f64>>>,
-    /// Springs in contact at the moment shown last, to tell how many changed.
-    last: Option<(u64, usize, f64)>,
-}
-
-impl Playback {
-    fn compute(
-        &mut self,
-        engine: &mut dyn Engine,
-        generation: u64,
-        mut scene: Scene,
-        newest: &Newest,
-        report: &dyn Fn(Report) -> bool,
-    ) -> Option<Report> {
-        *self = Playback { generation, ..Playback::default() };
-        // The pane beside the profile observes the heights.
-        if !scene.observe.contains(&Observer::HeightHistogram) {
-            scene.observe.push(Observer::HeightHistogram);
-        }
-        let stop = || newest.load(Ordering::Relaxed) != generation;
-        let mut kept = 0;
-        let mut thresholds = Vec::new();
-        let result = engine.run(&scene, &stop, &mut |leg, _, solver| {
-            let mut values = Vec::new();
-            solver.thresholds_along_line(&mut values);
-            kept += values.len();
-            thresholds.push((kept <= VALUES_KEPT).then_some(values));
-            report(Report::Progress { generation, legs: leg + 1 });
-            Ok(())
-        });
-        match result {
-            Ok(outcome) => {
-                let computed = Arc::new(Loop { generation, outcome });
-                self.thresholds = thresholds;
-                self.scene = Some(scene);
-                self.outcome = Some(Arc::clone(&computed));
-                Some(Report::Computed(computed))
-            }
-            Err(error) if error.is_interruption() => None,
-            Err(error) => Some(Report::Failed { generation, error: error.to_string() }),
-        }
-    }
-
-    /// Computes the thresholds of a leg that were not kept.
-    fn recall(&mut self, engine: &mut dyn Engine, wanted: usize) {
-        let Some(scene) = &self.scene else { return };
-        let mut found = None;
-        let mut after = |leg: usize, _: &LegRecord, solver: &dyn Solver| {
-            if leg < wanted {
-                return Ok(());
-            }
-            let mut values = Vec::new();
-            solver.thresholds_along_line(&mut values);
-            found = Some(values);
-            // Nothing after this leg is needed.
-            Err(ContactError::Interrupted)
-        };
-        if engine.run(scene, &|| false, &mut after).is_ok() || found.is_some() {
-            // Only one recalled leg is kept at a time.
-            let firsts = VALUES_KEPT / found.as_ref().map_or(1, |values: &Vec<f64>| values.len().max(1));
-            self.thresholds.iter_mut().skip(firsts).for_each(|leg| *leg = None);
-            if let Some(leg) = self.thresholds.get_mut(wanted) {
-                *leg = found;
-            }
-        }
-    }
-
-    fn show(&mut self, engine: &mut dyn Engine, request: &MomentRequest) -> Option<Report> {
-        if self.thresholds.get(request.leg)?.is_none() {
-            self.recall(engine, request.leg);
-        }
-        let computed = self.outcome.clone()?;
-        let line = engine.line()?;
-        let thresholds = self.thresholds.get(request.leg)?.as_ref()?;
-        let indentation = request.indentation;
-        let contact = Contact { gaps: &line.gaps, thresholds, summit: line.summit, indentation };
-        let before =
-            self.last.filter(|&(generation, leg, _)| (generation, leg) == (request.generation, request.leg));
-        let tally = tally(&contact, before.map_or(indentation, |(_, _, last)| last));
-        self.last = Some((request.generation, request.leg, indentation));
-        let governing = computed.outcome.governing;
-        let foundation = Foundation { spacing: line.spacing, effective_modulus: governing.effective_modulus };
-        let force = foundation.spring_stiffness() * tally.contact.compression(indentation, &tally.scale);
-        let profile = contact.section(0, line.gaps.len(), request.profile_columns);
-        let hess = governing.adhesive_work().map(|work| HessRule::new(foundation, work));
-        let close_up = close_up(&contact, &tally.fragments, request, foundation, hess);
-        Some(Report::Shown(Arc::new(Moment {
-            generation: request.generation,
-            leg: request.leg,
-            focus: request.focus,
-            point: CurvePoint {
-                indentation,
-                force,
-                springs: tally.contact.springs.unsigned_abs(),
-                fragments: tally.fragments.len() as u64,
-            },
-            changed: tally.changed,
-            profile,
-            close_up,
-        })))
-    }
-}
-
-/// What is in contact at a moment, found in one look at the line.
-struct MomentTally {
-    contact: Tally,
-    scale: GapScale,
-    fragments: Vec<(usize, usize)>,
-    /// Springs that are in another state than at the moment before.
-    changed: u64,
-}
-
-fn tally(contact: &Contact<'_>, before: f64) -> MomentTally {
-    let reached = contact.indentation;
-    let largest = contact.gaps.iter().copied().fold(0.0, f64::max);
-    let scale = GapScale::for_gaps_up_to(largest);
-    let mut tally = Tally::default();
-    let mut fragments: Vec<(usize, usize)> = Vec::new();
-    let mut changed = 0;
-    for (index, (&gap, &threshold)) in contact.gaps.iter().zip(contact.thresholds).enumerate() {
-        changed += u64::from((threshold <= reached) != (threshold <= before));
-        if threshold <= reached {
-            tally.springs += 1;
-            tally.quanta += i128::from(scale.quanta(gap));
-            match fragments.last_mut() {
-                Some((_, last)) if *last + 1 == index => *last = index,
-                _ => fragments.push((index, index)),
-            }
-        }
-    }
-    tally.fragments = fragments.len() as i64;
-    MomentTally { contact: tally, scale, fragments, changed }
-}
-
-fn close_up(
-    contact: &Contact<'_>,
-    fragments: &[(usize, usize)],
-    request: &MomentRequest,
-    foundation: Foundation,
-    hess: Option<HessRule>,
-) -> CloseUp {
-    let count = contact.gaps.len();
-    let summit = || (0..count).find(|&spring| contact.gaps[spring] == 0.0).unwrap_or(count / 2);
-    let middle = |(first, last): (usize, usize)| first + (last - first) / 2;
-    let nearest = |spring: usize| {
-        let distance =
-            |&(first, last): &(usize, usize)| first.saturating_sub(spring).max(spring.saturating_sub(last));
-        (0..fragments.len()).min_by_key(|&number| distance(&fragments[number]))
+/// Serves requests until the explorer is gone.
+pub fn serve(
+    engine: Box<dyn Engine>,
+    newest: &Newest,
+    requests: &Receiver<Request>,
+    report: &dyn Fn(Report) -> bool,
+) {
+    let mut desk = Desk::new(engine);
+    let is_heard = std::cell::Cell::new(true);
+    let report = |one| {
+        is_heard.set(is_heard.get() && report(one));
+        is_heard.get()
     };
-    let centre = match request.focus {
-        Focus::Summit => summit(),
-        Focus::Spring(spring) => spring.min(count.saturating_sub(1)),
-        Focus::After(spring) | Focus::Before(spring) => {
-            let from = spring.unwrap_or_else(summit);
-            let forward = matches!(request.focus, Focus::After(_));
-            nearest(from)
-                .map(|number| {
-                    let next = if forward { number + 1 } else { number + fragments.len() - 1 };
-                    middle(fragments[next % fragments.len()])
-                })
-                .unwrap_or(from)
-        }
-    };
-    let springs = request.close_up_springs.clamp(1, count.max(1));
-    let first = centre.saturating_sub(springs / 2).min(count.saturating_sub(springs));
-    let section = contact.section(first, springs, request.close_up_columns);
-    let shown = first..first + springs;
-    let boundaries = fragments
-        .iter()
-        .flat_map(|&(start, end)| if start == end { vec![start] } else { vec![start, end] })
-        .filter(|spring| shown.contains(spring))
-        .map(|spring| (spring, contact.height(spring)))
-        .collect();
-    let fragment = nearest(centre).map(|number| {
-        let (start, end) = fragments[number];
-        let length = end + 1 - start;
-        let deepest = contact.gaps[start..=end].iter().copied().fold(0.0, f64::max);
-        FragmentFacts {
-            number,
-            springs: (start, end),
-            length: length as f64 * foundation.spacing,
-            largest_stretch: hess.map_or(0.0, |hess| hess.largest_stretch(length as u32)),
-            most_stretched: deepest - request.indentation,
-        }
-    });
-    CloseUp { section, boundaries, fragment }
+    while let (true, Ok(first)) = (is_heard.get(), requests.recv()) {
+        desk.serve(std::iter::once(first).chain(requests.try_iter()), newest, &report);
+    }
 }
 
 /// Starts the worker on a thread of its own. Its reports go through `report`, which says whether

@@ -10,6 +10,7 @@ use crate::reference::smooth_adhesion_force;
 use crate::scene::{Form, Leg, Roughness, Scene, Solver as SolverChoice};
 use crate::surface::{Histogram, Line, MeasuredProfile, SelfAffine, UnitRoughness};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::time::Instant;
 
 /// Bins of the height histogram.
@@ -22,7 +23,7 @@ pub struct Simulation {
     folder: PathBuf,
     roughness: Option<(RoughnessKey, Rough)>,
     line: Option<(LineKey, Line)>,
-    tree: Option<ContactTree>,
+    tree: Option<Arc<ContactTree>>,
     /// Whether the tree is that of the line, rather than of one before.
     tree_is_current: bool,
 }
@@ -69,6 +70,12 @@ impl Simulation {
     #[must_use]
     pub fn line(&self) -> Option<&Line> {
         self.line.as_ref().map(|(_, line)| line)
+    }
+
+    /// The tree of that line, where its scene called for one.
+    #[must_use]
+    pub fn tree(&self) -> Option<&Arc<ContactTree>> {
+        self.tree.as_ref().filter(|_| self.tree_is_current)
     }
 
     /// Makes the line of a checked scene, unless the last one was the same, and tells what is known
@@ -167,10 +174,10 @@ impl Simulation {
         let Some((_, line)) = &self.line else { return Err(ContactError::Interrupted.into()) };
         let clock = Instant::now();
         if plan.runs(Stage::Tree) && !self.tree_is_current {
-            self.tree = Some(match self.tree.take() {
+            self.tree = Some(Arc::new(match self.tree.take().and_then(Arc::into_inner) {
                 Some(before) => before.rebuild(&line.gaps)?,
                 None => ContactTree::build(&line.gaps)?,
-            });
+            }));
             self.tree_is_current = true;
         }
         timings.tree = clock.elapsed().as_secs_f64();
@@ -181,7 +188,7 @@ impl Simulation {
             .adhesive_work()
             .filter(|_| plan.runs(Stage::RuleOfHess))
             .map(|work| HessRule::new(foundation, work));
-        let contact = ContactStage { line, tree: self.tree.as_ref(), foundation, hess, scene, stop };
+        let contact = ContactStage { line, tree: self.tree.as_deref(), foundation, hess, scene, stop };
 
         let clock = Instant::now();
         let mut fragments = Vec::new();

@@ -1,13 +1,13 @@
 //! An explorer without a terminal. Its worker is the real one, and is waited for: what happens does not
 //! depend on how fast it is.
 
-use asperity::explorer::action::{Action, SaveError};
+use asperity::explorer::action::{Action, Content, WriteFailure, Written};
 use asperity::explorer::model::Model;
 use asperity::explorer::snapshot::Loop;
-use asperity::explorer::theme::Theme;
+use asperity::explorer::theme::{Appearance, Marker, Theme};
 use asperity::explorer::update::{Effect, moment_request};
 use asperity::explorer::worker::{self, Engine, Newest, Report, Request, Worker};
-use asperity::scene::Document;
+use asperity::scene::{Document, Library};
 use asperity::simulation::{Simulation, Timings};
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -18,14 +18,21 @@ use std::time::Duration;
 /// The name of a file that cannot be saved.
 pub const REFUSED: &str = "refused.ron";
 
+/// How it looks.
+pub const APPEARANCE: Appearance = Appearance { theme: Theme::Neutral, marker: Marker::Braille };
+
 /// Longest time a request may take.
 const PATIENCE: Duration = Duration::from_secs(20);
 
 /// An explorer without a terminal.
 pub struct Driver {
     pub model: Model,
+    /// The working folder of the library.
+    pub folder: PathBuf,
     /// What has been saved, by name.
     pub files: BTreeMap<PathBuf, String>,
+    /// What has been copied.
+    pub copied: Vec<String>,
     /// The seed that is drawn next.
     pub seed: u64,
     worker: Worker,
@@ -45,8 +52,10 @@ impl Driver {
         let newest = Newest::default();
         worker::start(engine, Arc::clone(&newest), outbox, move |one| report.send(one).is_ok()).unwrap();
         Driver {
-            model: Model::new(document, (120, 40), Theme::Colours),
+            model: Model::new(document, (120, 40), APPEARANCE),
             files: BTreeMap::new(),
+            copied: Vec::new(),
+            folder: PathBuf::from("no such folder"),
             seed: 4711,
             worker: Worker::new(requests, newest),
             reports,
@@ -58,24 +67,43 @@ impl Driver {
         match effect {
             Effect::Compute => {
                 let generation = self.model.generation;
-                let scene = Box::new(self.model.document.scene().clone());
+                let scene = Arc::new(self.model.document.scene().clone());
                 self.ask(Request::Compute { generation, scene })
             }
             Effect::Show => {
                 moment_request(&self.model).map_or(Vec::new(), |one| self.ask(Request::Show(one)))
             }
-            Effect::DrawSeed => vec![Action::SetSeed(self.seed)],
-            Effect::Save { path, .. } if path.ends_with(REFUSED) => {
-                vec![Action::Saved(Err(SaveError::Refused("no room".to_owned())))]
+            Effect::Hand(order) => {
+                // Answered with the next moment.
+                self.worker.ask(Request::Hand { generation: self.model.generation, order });
+                Vec::new()
             }
-            Effect::Save { path, overwrite } => {
+            Effect::Preview(document) => {
+                let scene = Arc::new(document.scene().clone());
+                self.ask(Request::Preview { text: document.text().to_owned(), scene })
+            }
+            Effect::List => vec![Action::Listed(Library::of(None, self.folder.clone()).list())],
+            Effect::Copy(text) => {
+                self.copied.push(text);
+                Vec::new()
+            }
+            Effect::Suspend => Vec::new(),
+            Effect::DrawSeed => vec![Action::SetSeed(self.seed)],
+            Effect::Write { path, .. } if path.ends_with(REFUSED) => {
+                vec![Action::Written(Err(WriteFailure::Refused("no room".to_owned())))]
+            }
+            Effect::Write { path, content, overwrite } => {
                 let result = if self.files.contains_key(&path) && !overwrite {
-                    Err(SaveError::Exists(path))
+                    Err(WriteFailure::Exists(path, content))
                 } else {
-                    self.files.insert(path.clone(), self.model.document.text().to_owned());
-                    Ok(path)
+                    let text = match content {
+                        Content::Scene => self.model.document.text().to_owned(),
+                        other => format!("{other:?}"),
+                    };
+                    self.files.insert(path.clone(), text);
+                    Ok(Written { path, content })
                 };
-                vec![Action::Saved(result)]
+                vec![Action::Written(result)]
             }
         }
     }
@@ -101,8 +129,10 @@ fn action_of(report: Report) -> Action {
         Report::Computed(computed) => {
             let mut outcome = computed.outcome.clone();
             outcome.timings = Timings::default();
-            Action::Computed(Arc::new(Loop { generation: computed.generation, outcome }))
+            let scene = Arc::clone(&computed.scene);
+            Action::Computed(Arc::new(Loop { generation: computed.generation, scene, outcome }))
         }
+        Report::Previewed(preview) => Action::Previewed(preview),
         Report::Shown(moment) => Action::Shown(moment),
         Report::Progress { generation, legs } => Action::Progress { generation, legs },
         Report::Failed { generation, error } => Action::Failed { generation, error },

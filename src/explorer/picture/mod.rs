@@ -1,15 +1,20 @@
 //! What is drawn on a screen, in forms that leave the terminal: plain text, ASCII, a picture, a
 //! recording. Nothing here knows what the screen shows.
 
-pub mod ascii;
-pub mod cast;
+mod ascii;
+mod cast;
 mod letters;
 mod outline;
 mod palette;
 mod raster;
 mod strokes;
-pub mod svg;
-pub mod text;
+mod svg;
+mod text;
+
+pub use ascii::to_ascii;
+pub use cast::Cast;
+pub use svg::{Palette, svg};
+pub use text::text;
 
 use ratatui::buffer::{Buffer, Cell, CellDiffOption, CellWidth};
 

@@ -4,7 +4,8 @@ use super::typed::typed;
 use super::wrap::wrapped;
 use crate::explorer::action::Command;
 use crate::explorer::keys;
-use crate::explorer::model::{Mode, Model, Notice};
+use crate::explorer::model::{Mode, Model, Notice, Traffic};
+use crate::explorer::text_line::TextLine;
 use crate::explorer::theme::Meaning;
 use crate::scene::format_quantity;
 use ratatui::Frame;
@@ -19,21 +20,26 @@ pub fn title(frame: &mut Frame<'_>, area: Rect, model: &Model) {
     let changed = if model.is_unsaved() { " [changed]" } else { "" };
     let notice = scene.notice.split_whitespace().collect::<Vec<_>>().join(" ");
     let line = Line::from(vec![
-        Span::styled(format!("{name}{changed}  "), model.theme.style(Meaning::Title)),
-        Span::styled(notice, model.theme.style(Meaning::Quiet)),
+        Span::styled(format!("{name}{changed}  "), model.appearance.theme.style(Meaning::Title)),
+        Span::styled(notice, model.appearance.theme.style(Meaning::Quiet)),
     ]);
     frame.render_widget(Paragraph::new(wrapped(&line, area.width)), area);
 }
 
 /// The headline figures, or a question, an error, or what is being typed.
 pub fn status(frame: &mut Frame<'_>, area: Rect, model: &Model) {
-    let error = |text: String| Line::styled(text, model.theme.style(Meaning::Error));
+    let theme = model.appearance.theme;
+    let error = |text: String| Line::styled(text, theme.style(Meaning::Error));
+    let prompted = |prompt: &'static str, line: &TextLine| {
+        let prompt = Span::raw(prompt);
+        let room = usize::from(area.width).saturating_sub(prompt.width());
+        Line::from_iter([prompt].into_iter().chain(typed(line, room, theme)))
+    };
     let line = match (&model.mode, &model.notice) {
-        (Mode::SaveAs { line, .. }, _) => {
-            let prompt = Span::raw("Save as: ");
-            let room = usize::from(area.width).saturating_sub(prompt.width());
-            Line::from_iter([prompt].into_iter().chain(typed(line, room, model.theme)))
-        }
+        (Mode::SaveAs { line, .. }, _) => prompted("Save as: ", line),
+        (Mode::Export(line), _) => prompted("Export to (.csv .json .svg .txt): ", line),
+        (Mode::Force(line), _) => prompted("Go to the force: ", line),
+        (Mode::Library(library), _) => prompted("Search: ", &library.query),
         (Mode::Overwrite { path, .. }, _) => error(format!("{} exists. Overwrite it?", path.display())),
         (Mode::Quit, _) => error("The scene has unsaved changes. Leave?".to_owned()),
         (_, Some(Notice::Error(text))) => error(format!("! {}", text.replace('\n', " · "))),
@@ -52,9 +58,10 @@ fn short(seconds: f64) -> f64 {
     format!("{seconds:.1e}").parse().unwrap_or(seconds)
 }
 
-/// F_a, regime, κ, the moment shown and what it cost, the most important first.
+/// F_a, regime, the moment shown and what it cost, the most important first.
 fn headline(model: &Model) -> Line<'static> {
     let Some(computed) = &model.computed else { return Line::raw("computing…") };
+    let theme = model.appearance.theme;
     let outcome = &computed.outcome;
     let mut parts = Vec::new();
     if let Some(adhesion) = outcome.figures.adhesion_force {
@@ -66,28 +73,37 @@ fn headline(model: &Model) -> Line<'static> {
     if let Some(coefficient) = outcome.figures.adhesion_coefficient {
         parts.push(format!("F_a/F_n {}", format_quantity(coefficient, "1")));
     }
-    let style = model.theme.style(Meaning::Title);
-    let mut spans = vec![Span::styled(parts.join(" · "), style)];
-    if let Some(moment) = model.moment.as_ref().filter(|moment| moment.generation == model.generation) {
+    let mut spans = vec![Span::styled(parts.join(" · "), theme.style(Meaning::Title))];
+    if let Some(moment) = model.present() {
         let point = moment.point;
         let plural = if point.fragments == 1 { "" } else { "s" };
-        spans.push(Span::raw(format!(
-            "  d {} F {} · {} springs in {} fragment{plural}",
-            format_quantity(point.indentation, "m"),
-            format_quantity(point.force, "N"),
-            point.springs,
-            point.fragments,
-        )));
+        let d = format_quantity(point.indentation, "m");
+        let force = format_quantity(point.force, "N");
+        spans.push(match &model.hand {
+            // What the move cost comes before what it led to.
+            Some(hand) => Span::raw(format!(
+                "  in hand: d {d} F {force} · {} springs changed, {} looked at · {} in {} fragment{plural}",
+                hand.changed, hand.touched, point.springs, point.fragments,
+            )),
+            None => Span::raw(format!(
+                "  d {d} F {force} · {} springs in {} fragment{plural}",
+                point.springs, point.fragments,
+            )),
+        });
     }
-    let time = if model.is_computing() {
+    let mut rest = String::new();
+    if model.is_computing() {
         let legs = model.document.scene().loading.len();
-        format!("  computing, leg {} of {legs}", model.progress.unwrap_or(0) + 1)
-    } else {
+        rest += &format!("  computing, leg {} of {legs}", model.progress.unwrap_or(0) + 1);
+    } else if model.shows_times {
         let timings = &outcome.timings;
         // What the last run made anew: a kept line and tree cost nothing.
-        format!("  · {}", format_quantity(short(timings.total()), "s"))
-    };
-    spans.push(Span::styled(time, model.theme.style(Meaning::Quiet)));
+        rest += &format!("  · {}", format_quantity(short(timings.total()), "s"));
+    }
+    if let Some(Traffic { frames, bytes }) = model.traffic {
+        rest += &format!("  · {} at most {frames} frames/s", format_quantity(short(bytes as f64), "B/s"));
+    }
+    spans.push(Span::styled(rest, theme.style(Meaning::Quiet)));
     Line::from(spans)
 }
 
@@ -106,7 +122,7 @@ pub fn footer(frame: &mut Frame<'_>, area: Rect, model: &Model) {
             break;
         }
         room -= width;
-        spans.push(Span::styled(name, model.theme.style(Meaning::Key)));
+        spans.push(Span::styled(name, model.appearance.theme.style(Meaning::Key)));
         spans.push(Span::raw(format!(" {}  ", row.label)));
     }
     frame.render_widget(Paragraph::new(Line::from(spans)), area);

@@ -1,14 +1,15 @@
-//! The close-up of contact fragments, with their boundary points as the paper's white circles.
+//! The close-up of contact fragments, with their boundary points as the paper's white circles, and a strip
+//! of the whole contact.
 
 use super::plot::Span;
-use super::profile::draw_section;
+use super::profile::{draw_section, short};
 use crate::explorer::model::Model;
-use crate::explorer::snapshot::{FragmentFacts, Section};
-use crate::explorer::theme::Meaning;
+use crate::explorer::snapshot::{FragmentFacts, Section, Share};
+use crate::explorer::theme::{Meaning, Theme};
 use crate::scene::format_quantity;
 use ratatui::Frame;
 use ratatui::layout::Rect;
-use ratatui::text::Line;
+use ratatui::text::{Line, Span as Text};
 use ratatui::widgets::Paragraph;
 
 /// Title of the pane.
@@ -20,18 +21,21 @@ pub fn title(model: &Model) -> String {
     let facts = computed.outcome.line;
     let from = (facts.first + section.first) as f64 * facts.spacing;
     let width = section.springs as f64 * facts.spacing;
-    format!(" Fragments, {} from x = {} ", format_quantity(width, "m"), format_quantity(from, "m"))
+    let [width, from] = [width, from].map(|x| format_quantity(short(x), "m"));
+    format!(" Fragments, {width} from x = {from} ")
 }
 
 /// Draws the close-up and what is known of its fragment.
 pub fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
     let Some(moment) = model.moment.as_ref() else { return };
+    let theme = model.appearance.theme;
     let close_up = &moment.close_up;
     let section = &close_up.section;
+    let strip_rows = u16::from(area.height >= 9);
     let text_rows = u16::from(area.height >= 4) + u16::from(area.height >= 7);
-    let plot = Rect { height: area.height - text_rows, ..area };
+    let plot = Rect { height: area.height - text_rows - strip_rows, ..area };
     let z = heights(section);
-    draw_section(frame, plot, section, z, model.theme);
+    draw_section(frame, plot, section, z, model.appearance);
     let buffer = frame.buffer_mut();
     for &(spring, height) in &close_up.boundaries {
         // The middle of the columns of dots that this spring fills.
@@ -40,8 +44,13 @@ pub fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
         if (0.0..1.0).contains(&along) && (0.0..1.0).contains(&down) {
             let x = plot.x + (along * f64::from(plot.width)) as u16;
             let y = plot.y + (down * f64::from(plot.height)) as u16;
-            buffer.set_string(x, y, "○", model.theme.style(Meaning::Contact));
+            buffer.set_string(x, y, "○", theme.style(Meaning::Contact));
         }
+    }
+    if strip_rows > 0 {
+        let springs = model.computed.as_ref().map_or(1, |computed| computed.outcome.history.work.springs);
+        let line = strip(&moment.strip, section, springs as usize, theme);
+        frame.render_widget(Paragraph::new(line), Rect { y: plot.bottom(), height: 1, ..area });
     }
     let lines = describe(close_up.fragment, moment.point.fragments, area.width);
     for (row, line) in (area.bottom() - text_rows..area.bottom()).zip(lines) {
@@ -56,15 +65,44 @@ fn heights(section: &Section) -> Span {
     Span::around([low, high, section.level.clamp(low - room, high + room)].into_iter(), 0.05)
 }
 
-/// The fragment in words: where it stands, and how near its most stretched spring is to letting go.
+/// The whole contact in one row; the brackets hold what the close-up shows.
+fn strip(strip: &[Share], section: &Section, springs: usize, theme: Theme) -> Line<'static> {
+    let glyph = |share: &Share| match share {
+        Share::Nothing => '·',
+        Share::Something => '▪',
+        Share::Everything => '■',
+    };
+    let (count, springs) = (strip.len(), springs.max(1));
+    if count < 4 {
+        return Line::default();
+    }
+    let cell = |spring: usize| (spring * count / springs).min(count - 1);
+    let open = cell(section.first).min(count - 2);
+    let close = cell((section.first + section.springs).saturating_sub(1)).max(open + 1);
+    let part = |from: usize, to: usize| -> Text<'static> {
+        let glyphs: String = strip.get(from..to).unwrap_or_default().iter().map(glyph).collect();
+        Text::styled(glyphs, theme.style(Meaning::Contact))
+    };
+    let bracket = |text: &'static str| Text::styled(text, theme.style(Meaning::Title));
+    Line::from(vec![part(0, open), bracket("["), part(open + 1, close), bracket("]"), part(close + 1, count)])
+}
+
+/// The fragment in words: where it stands, what it carries, and how near its most stretched spring is to
+/// letting go.
 fn describe(fragment: Option<FragmentFacts>, fragments: u64, width: u16) -> [Line<'static>; 2] {
     let Some(facts) = fragment else { return [Line::raw("○ nothing is in contact"), Line::default()] };
-    let length = format_quantity(facts.length, "m");
+    let length = format_quantity(short(facts.length), "m");
     let springs = facts.springs.1 + 1 - facts.springs.0;
-    let first = format!("○ fragment {} of {fragments}: {springs} springs, δx {length}", facts.number + 1);
+    let plural = if springs == 1 { "" } else { "s" };
+    let mut first =
+        format!("○ fragment {} of {fragments}: {springs} spring{plural}, δx {length}", facts.number + 1);
+    let force = format!(", F {}", format_quantity(short(facts.force), "N"));
+    if first.chars().count() + force.chars().count() <= usize::from(width) {
+        first += &force;
+    }
     let margin = facts.largest_stretch - facts.most_stretched;
     let [bears, stretched, margin] =
-        [facts.largest_stretch, facts.most_stretched, margin].map(|value| format_quantity(value, "m"));
+        [facts.largest_stretch, facts.most_stretched, margin].map(|value| format_quantity(short(value), "m"));
     let second = if width >= 60 {
         format!("  Δl_max {bears} · most stretched {stretched} · margin {margin}")
     } else {

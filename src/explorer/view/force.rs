@@ -1,149 +1,292 @@
-//! The force curve: the hysteresis loop with its two branches.
+//! The curve: the hysteresis loop with its two branches, what is compared with it, and the hand.
 
-use super::plot::{Polyline, Span};
+use super::axes::{Axis, Places};
+use super::plot::{Inside, Polyline, Span, Stroke};
 use crate::contact::{CurvePoint, Direction, LegRecord};
-use crate::explorer::model::Model;
+use crate::explorer::model::{Ghost, Model, Quantities};
+use crate::explorer::snapshot::Loop;
 use crate::explorer::theme::{Meaning, Theme};
 use crate::scene::format_quantity;
 use ratatui::Frame;
 use ratatui::layout::Rect;
 use ratatui::style::Style;
-use ratatui::symbols::Marker;
 use ratatui::text::{Line, Span as Text};
 use ratatui::widgets::Paragraph;
 use ratatui::widgets::canvas::{Canvas, Context};
 
-/// Columns for the forces beside the plot.
-const GUTTER: u16 = 9;
-
 /// Title of the pane.
 pub fn title(model: &Model) -> String {
-    if model.is_computing() { " Force F(d) · computing ".to_owned() } else { " Force F(d) ".to_owned() }
+    let units = model.computed.as_ref().map(|computed| Units::of(model, computed));
+    let normalised = units.is_some_and(|units| units.is_normalised());
+    let name = match (model.curve.quantities, normalised) {
+        (Quantities::ForceIndentation, false) => "Force F(d)",
+        (Quantities::ForceIndentation, true) => "Force F/F_a,max over d/h",
+        (Quantities::LengthForce, false) => "Contact length l(F)",
+        (Quantities::LengthForce, true) => "Contact length l/L over F/F_a,max",
+        (Quantities::FragmentsIndentation, false) => "Fragments n(d)",
+        (Quantities::FragmentsIndentation, true) => "Fragments n over d/h",
+    };
+    let loss = if model.curve.loss && model.curve.quantities == Quantities::ForceIndentation {
+        match model.computed.as_ref().and_then(|computed| computed.outcome.figures.dissipated_energy) {
+            Some(energy) => format!(" · loss {}", format_quantity(short(energy), "J")),
+            None => " · loss open".to_owned(),
+        }
+    } else {
+        String::new()
+    };
+    let computing = if model.is_computing() { " · computing" } else { "" };
+    format!(" {name}{loss}{computing} ")
+}
+
+/// In what the axes count: metres and newtons, or what governs the scene.
+#[derive(Clone, Copy)]
+struct Units {
+    quantities: Quantities,
+    indentation: Option<f64>,
+    force: Option<f64>,
+    /// Contact length of one spring.
+    spring: f64,
+    in_lengths: bool,
+}
+
+impl Units {
+    fn of(model: &Model, computed: &Loop) -> Self {
+        let outcome = &computed.outcome;
+        let normalised = model.curve.normalised;
+        let positive = |value: f64| Some(value).filter(|value| normalised && *value > 0.0);
+        let height = outcome.governing.amplitude.map(|amplitude| amplitude.rms_height);
+        Units {
+            quantities: model.curve.quantities,
+            indentation: height.and_then(positive),
+            force: outcome.ideal_adhesion_force.and_then(positive),
+            spring: outcome.line.spacing / if normalised { outcome.line.length } else { 1.0 },
+            in_lengths: normalised,
+        }
+    }
+
+    /// Whether any axis counts in other units than SI.
+    fn is_normalised(&self) -> bool {
+        match self.quantities {
+            Quantities::ForceIndentation => self.indentation.is_some() || self.force.is_some(),
+            Quantities::LengthForce => self.in_lengths,
+            Quantities::FragmentsIndentation => self.indentation.is_some(),
+        }
+    }
+
+    fn place(&self, point: &CurvePoint) -> (f64, f64) {
+        let indentation = point.indentation / self.indentation.unwrap_or(1.0);
+        let force = point.force / self.force.unwrap_or(1.0);
+        match self.quantities {
+            Quantities::ForceIndentation => (indentation, force),
+            Quantities::LengthForce => (force, point.springs as f64 * self.spring),
+            Quantities::FragmentsIndentation => (indentation, point.fragments as f64),
+        }
+    }
+
+    fn axes(&self, x: Span, y: Span) -> (Axis, Axis) {
+        let axis = |span, symbol, unit, normalised: bool| Axis {
+            span,
+            symbol,
+            unit: if normalised { "1" } else { unit },
+        };
+        let indentation = |span| axis(span, "d", "m", self.indentation.is_some());
+        let force = |span| axis(span, "F", "N", self.force.is_some());
+        match self.quantities {
+            Quantities::ForceIndentation => (indentation(x), force(y)),
+            Quantities::LengthForce => (force(x), axis(y, "l", "m", self.in_lengths)),
+            Quantities::FragmentsIndentation => (indentation(x), axis(y, "n", "1", false)),
+        }
+    }
+}
+
+/// What the pane spans: the curve, its ghosts and the way of the hand.
+fn spans(model: &Model, units: Units) -> (Span, Span) {
+    let ghosts = model.ghosts.iter().flat_map(|ghost| &ghost.computed.outcome.history.legs);
+    let points = model.legs().iter().chain(ghosts).flat_map(|leg| &leg.curve);
+    let hand = model.hand.iter().flat_map(|hand| &hand.path);
+    let places: Vec<(f64, f64)> = points.chain(hand).map(|point| units.place(point)).collect();
+    let x = Span::around(places.iter().map(|place| place.0), 0.06);
+    let y = Span::around(places.iter().map(|place| place.1).chain([0.0]), 0.08);
+    (x, y)
+}
+
+/// Rows of text above the plot.
+fn rows_above(model: &Model, area: Rect) -> u16 {
+    match area.height {
+        0..8 => 0,
+        8..12 => 1,
+        height => 2 + (model.ghosts.len() as u16).min(height / 5),
+    }
+}
+
+/// The indentation under a column of the pane, m; `None` where that axis is not shown.
+pub fn indentation_at(model: &Model, area: Rect, column: u16) -> Option<f64> {
+    let computed = model.computed.as_ref()?;
+    if model.curve.quantities == Quantities::LengthForce || model.indentations().is_none() {
+        return None;
+    }
+    let units = Units::of(model, computed);
+    let plot = Places::within(area, rows_above(model, area)).plot;
+    let (x, _) = spans(model, units);
+    let along = (f64::from(column) + 0.5 - f64::from(plot.x)) / f64::from(plot.width.max(1));
+    let at = x.low + along.clamp(0.0, 1.0) * (x.high - x.low);
+    Some(at * units.indentation.unwrap_or(1.0))
 }
 
 /// Draws the curve with its axes.
 pub fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
-    let legs = model.legs();
-    let points = || legs.iter().flat_map(|leg| &leg.curve);
-    if points().next().is_none() {
+    let theme = model.appearance.theme;
+    let shown = model.computed.as_ref().filter(|_| model.indentations().is_some());
+    let Some(computed) = shown else {
         let text = if model.is_computing() { "computing…" } else { "no curve" };
-        frame.render_widget(Paragraph::new(text).style(model.theme.style(Meaning::Quiet)), area);
+        frame.render_widget(Paragraph::new(text).style(theme.style(Meaning::Quiet)), area);
         return;
-    }
-    let axis_rows = u16::from(area.height >= 5);
-    let legend_rows = u16::from(area.height >= 8);
-    let gutter = if area.width >= 30 && area.height >= 6 { GUTTER } else { 0 };
-    let plot = Rect {
-        x: area.x + gutter,
-        y: area.y + legend_rows,
-        width: area.width - gutter,
-        height: area.height - axis_rows - legend_rows,
     };
-    let x = Span::around(points().map(|point| point.indentation), 0.06);
-    let y = Span::around(points().map(|point| point.force).chain([0.0]), 0.08);
-    let stale = model.computed.as_ref().is_some_and(|computed| computed.generation != model.generation);
+    let legs = model.legs();
+    let above = rows_above(model, area);
+    let places = Places::within(area, above);
+    let units = Units::of(model, computed);
+    let (x, y) = spans(model, units);
+    let stale = !model.is_current();
     // A curve of a scene that has been changed since stands back until the new one is there.
-    let colour = |meaning| model.theme.colour(if stale { Meaning::Quiet } else { meaning });
-    let theme = model.theme;
-    let canvas =
-        Canvas::default().marker(Marker::Braille).x_bounds(x.bounds()).y_bounds(y.bounds()).paint(|ctx| {
+    let colour = |meaning| theme.colour(if stale { Meaning::Quiet } else { meaning });
+    let along =
+        |points: &[CurvePoint]| -> Vec<(f64, f64)> { points.iter().map(|p| units.place(p)).collect() };
+    let canvas = Canvas::default()
+        .marker(model.appearance.marker.symbols())
+        .x_bounds(x.bounds())
+        .y_bounds(y.bounds())
+        .paint(|ctx| {
             let zero = [(x.low, 0.0), (x.high, 0.0)];
-            ctx.draw(&Polyline { points: &zero, colour: theme.colour(Meaning::Quiet), dotted: true });
-            for (direction, meaning) in
-                [(Direction::Loading, Meaning::Approach), (Direction::Unloading, Meaning::Retraction)]
-            {
-                ctx.layer();
-                for leg in legs.iter().filter(|leg| leg.direction == direction) {
-                    let points: Vec<(f64, f64)> =
-                        leg.curve.iter().map(|p| (p.indentation, p.force)).collect();
-                    let dotted = direction == Direction::Loading;
-                    ctx.draw(&Polyline { points: &points, colour: colour(meaning), dotted });
+            ctx.draw(&Polyline {
+                points: &zero,
+                colour: theme.colour(Meaning::Quiet),
+                stroke: Stroke::Dotted,
+            });
+            if model.curve.loss && units.quantities == Quantities::ForceIndentation {
+                let border: Vec<_> = legs.iter().flat_map(|leg| along(&leg.curve)).collect();
+                ctx.draw(&Inside { border: &border, colour: theme.colour(Meaning::Quiet) });
+            }
+            for ghost in &model.ghosts {
+                for leg in &ghost.computed.outcome.history.legs {
+                    let points = along(&leg.curve);
+                    ctx.draw(&Polyline {
+                        points: &points,
+                        colour: theme.colour(Meaning::Ghost),
+                        stroke: Stroke::Sparse,
+                    });
                 }
             }
-            if !stale {
-                mark_figures(ctx, legs, theme);
+            for (direction, meaning, stroke) in [
+                (Direction::Loading, Meaning::Approach, Stroke::Dotted),
+                (Direction::Unloading, Meaning::Retraction, Stroke::Solid),
+            ] {
+                ctx.layer();
+                for leg in legs.iter().filter(|leg| leg.direction == direction) {
+                    ctx.draw(&Polyline { points: &along(&leg.curve), colour: colour(meaning), stroke });
+                }
             }
-            let moment = model.moment.as_ref().filter(|moment| moment.generation == model.generation);
-            if let Some(moment) = moment {
-                let at = moment.point.indentation.clamp(x.low, x.high);
+            if let Some(hand) = &model.hand {
+                ctx.layer();
+                let colour = theme.colour(Meaning::Hand);
+                ctx.draw(&Polyline { points: &along(&hand.path), colour, stroke: Stroke::Dashed });
+            }
+            for (number, ghost) in model.ghosts.iter().enumerate() {
+                mark_ghost(ctx, number, ghost, units, theme);
+            }
+            if !stale {
+                for (point, glyph, _) in marks(legs) {
+                    let (x, y) = units.place(&point);
+                    ctx.print(x, y, Line::styled(glyph, theme.style(Meaning::Title)));
+                }
+            }
+            if let Some(moment) = model.present() {
+                let (at, value) = units.place(&moment.point);
                 let style = theme.style(Meaning::Cursor);
-                ctx.print(at, moment.point.force.clamp(y.low, y.high), Line::styled("◆", style));
+                let (at, value) = (at.clamp(x.low, x.high), value.clamp(y.low, y.high));
+                ctx.print(at, value, Line::styled("◆", style));
             }
         });
-    frame.render_widget(canvas, plot);
-    if legend_rows > 0 {
-        let legend = Line::from(vec![
-            Text::styled("⠒ ⠒ ", Style::new().fg(colour(Meaning::Approach))),
-            Text::raw("approach  "),
-            Text::styled("⠒⠒⠒ ", Style::new().fg(colour(Meaning::Retraction))),
-            Text::raw("retraction  "),
-            Text::styled("◆", theme.style(Meaning::Cursor)),
-            Text::raw(" now"),
-        ]);
-        frame.render_widget(Paragraph::new(legend), Rect { height: 1, ..area });
+    frame.render_widget(canvas, places.plot);
+    let rows = legend(model, &colour).into_iter().chain((!stale).then(|| values(legs, area.width, theme)));
+    let ghosts = model.ghosts.iter().enumerate().rev().map(|(number, ghost)| {
+        Line::styled(format!("{} {}", letter(number), ghost.differs), theme.style(Meaning::Ghost))
+    });
+    for (y, line) in (area.y..area.y + above).zip(rows.chain(ghosts)) {
+        frame.render_widget(Paragraph::new(line), Rect { y, height: 1, ..area });
     }
-    if axis_rows > 0 {
-        let row = Rect { y: area.bottom() - 1, height: 1, ..area };
-        x_axis(frame, Rect { x: plot.x, width: plot.width, ..row }, x, theme);
-    }
-    if gutter > 0 {
-        y_axis(frame, Rect { x: area.x, width: gutter, ..plot }, y, theme);
-    }
+    let (x, y) = units.axes(x, y);
+    places.draw(frame, x, y, theme);
 }
 
-/// Both ends of the axis of forces, and zero where it fits between them.
-fn y_axis(frame: &mut Frame<'_>, column: Rect, y: Span, theme: Theme) {
-    let zero = (y.high / (y.high - y.low) * f64::from(column.height)) as u16;
-    let last = column.height - 1;
-    let mut label = |row: u16, text: String| {
-        let place = Rect { y: column.y + row, height: 1, width: column.width - 1, ..column };
-        frame.render_widget(Paragraph::new(text).right_aligned().style(theme.style(Meaning::Quiet)), place);
+/// How the branches are told apart.
+fn legend(model: &Model, colour: &dyn Fn(Meaning) -> ratatui::style::Color) -> Option<Line<'static>> {
+    let theme = model.appearance.theme;
+    let mut spans = vec![
+        Text::styled("⠒ ⠒ ", Style::new().fg(colour(Meaning::Approach))),
+        Text::raw("approach  "),
+        Text::styled("⠒⠒⠒ ", Style::new().fg(colour(Meaning::Retraction))),
+        Text::raw("retraction  "),
+        Text::styled("◆", theme.style(Meaning::Cursor)),
+    ];
+    if model.hand.is_some() {
+        spans.push(Text::raw(" in hand "));
+        spans.push(Text::styled("⠒⠂⠒⠂", theme.style(Meaning::Hand)));
+    } else {
+        spans.push(Text::raw(" now"));
+    }
+    Some(Line::from(spans))
+}
+
+/// Jump-in, preload and pull-off: where, with which glyph, and what it is called.
+fn marks(legs: &[LegRecord]) -> Vec<(CurvePoint, &'static str, &'static str)> {
+    let mut marks = Vec::new();
+    let loading = || legs.iter().filter(|leg| leg.direction == Direction::Loading);
+    let touch = loading().find(|leg| leg.curve.iter().any(|point| point.springs > 0));
+    // Where the contact forms at once, under a pull.
+    let jump = touch.and_then(|leg| {
+        let pairs = leg.curve.windows(2).find(|pair| pair[0].springs == 0 && pair[1].springs > 0)?;
+        Some(pairs[1]).filter(|point| point.force < 0.0)
+    });
+    marks.extend(jump.map(|point| (point, "◇", "jump-in")));
+    let preload = loading().map(|leg| leg.largest).max_by(|a, b| a.force.total_cmp(&b.force));
+    marks.extend(preload.filter(|point| point.springs > 0).map(|point| (point, "▲", "preload")));
+    let unloading = legs.iter().rev().find(|leg| leg.direction == Direction::Unloading);
+    let pull_off = unloading.map(|leg| leg.smallest).filter(|point| point.force < 0.0);
+    marks.extend(pull_off.map(|point| (point, "▼", "pull-off")));
+    marks
+}
+
+/// The marked forces with their values, in words where there is room.
+fn values(legs: &[LegRecord], width: u16, theme: Theme) -> Line<'static> {
+    let texts = |words: bool| -> Vec<Text<'static>> {
+        let text = |(point, glyph, name): (CurvePoint, &'static str, &'static str)| {
+            let force = format_quantity(short(point.force), "N");
+            let name = if words { format!(" {name}") } else { String::new() };
+            [Text::styled(glyph, theme.style(Meaning::Title)), Text::raw(format!("{name} {force}  "))]
+        };
+        marks(legs).into_iter().flat_map(text).collect()
     };
-    label(0, format_quantity(short(y.high), "N"));
-    label(last, format_quantity(short(y.low), "N"));
-    if (2..last.saturating_sub(1)).contains(&zero) {
-        label(zero, "F = 0".to_owned());
+    let long = Line::from(texts(true));
+    if long.width() <= usize::from(width) { long } else { Line::from(texts(false)) }
+}
+
+/// The letter of a ghost, beside its pull-off force.
+fn mark_ghost(ctx: &mut Context<'_>, number: usize, ghost: &Ghost, units: Units, theme: Theme) {
+    let legs = &ghost.computed.outcome.history.legs;
+    let at = marks(legs).into_iter().next_back().map(|(point, ..)| point);
+    if let Some(point) = at.or_else(|| legs.last().and_then(|leg| leg.curve.last().copied())) {
+        let (x, y) = units.place(&point);
+        ctx.print(x, y, Line::styled(letter(number), theme.style(Meaning::Ghost)));
     }
 }
 
-/// The value to three digits: an axis needs no more.
+fn letter(number: usize) -> &'static str {
+    const LETTERS: [&str; 8] = ["A", "B", "C", "D", "E", "F", "G", "H"];
+    LETTERS[number % LETTERS.len()]
+}
+
+/// The value to three digits.
 fn short(value: f64) -> f64 {
     format!("{value:.2e}").parse().unwrap_or(value)
-}
-
-/// Marks preload and pull-off.
-fn mark_figures(ctx: &mut Context<'_>, legs: &[LegRecord], theme: Theme) {
-    let mut mark = |point: CurvePoint, glyph: &'static str| {
-        ctx.print(point.indentation, point.force, Line::styled(glyph, theme.style(Meaning::Title)));
-    };
-    let loading = legs.iter().filter(|leg| leg.direction == Direction::Loading).map(|leg| leg.largest);
-    if let Some(preload) = loading.max_by(|a, b| a.force.total_cmp(&b.force)) {
-        mark(preload, "▲");
-    }
-    let unloading = legs.iter().rev().find(|leg| leg.direction == Direction::Unloading);
-    if let Some(pull_off) = unloading.map(|leg| leg.smallest).filter(|point| point.force < 0.0) {
-        mark(pull_off, "▼");
-    }
-}
-
-/// Both ends of the axis of indentations, and zero where it fits between them.
-fn x_axis(frame: &mut Frame<'_>, row: Rect, x: Span, theme: Theme) {
-    let quiet = theme.style(Meaning::Quiet);
-    let ends = [format_quantity(short(x.low), "m"), format_quantity(short(x.high), "m")];
-    let width = |text: &str| text.chars().count() as u16;
-    let zero = (-x.low / (x.high - x.low) * f64::from(row.width)).floor();
-    let right = Rect { x: row.right().saturating_sub(width(&ends[1])), width: width(&ends[1]), ..row };
-    if right.x > row.x + width(&ends[0]) {
-        frame.render_widget(Paragraph::new(ends[1].clone()).style(quiet), right.intersection(row));
-    }
-    frame.render_widget(
-        Paragraph::new(ends[0].clone()).style(quiet),
-        Rect { width: width(&ends[0]).min(row.width), ..row },
-    );
-    let label = "d = 0";
-    let start = f64::from(row.x) + zero - 2.0;
-    if start > f64::from(row.x + width(&ends[0]) + 1) && start + 6.0 < f64::from(right.x) {
-        let place = Rect { x: start as u16, width: width(label), ..row };
-        frame.render_widget(Paragraph::new(label).style(quiet), place.intersection(row));
-    }
 }

@@ -9,15 +9,24 @@ use ratatui::widgets::{Block, Paragraph};
 
 const PANES: &[(&str, &str)] = &[
     (
-        "Force",
-        "F over indentation d: dotted while pressing, solid while pulling; ▲ preload, ▼ pull-off, ◆ now",
+        "Curve",
+        "F over indentation d: dotted while pressing, solid while pulling; ◇ jump-in, ▲ preload, ▼ pull-off, \
+         ◆ now; letters are ghosts, dashes are where the hand has been",
     ),
     (
         "Profile",
-        "rigid line below, elastic surface above it, ■ below where they touch; beside it the heights",
+        "rigid line below, elastic surface above it, ■ below where they touch; beside it the heights, and ¦ \
+         the bell curve of the same rms height",
     ),
-    ("Fragments", "close-up; ○ are the boundary points of contact fragments"),
-    ("Parameters", "everything the scene says; the curve follows each change"),
+    (
+        "Fragments",
+        "close-up; ○ are the boundary points of contact fragments; below it the whole contact, [ ] around \
+         what is seen",
+    ),
+    (
+        "Parameters",
+        "everything the scene says; ● is an effect that is on, = a value that follows from others",
+    ),
 ];
 
 /// Columns for the keys.

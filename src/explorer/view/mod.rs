@@ -1,19 +1,26 @@
 //! Draws the model. Nothing here changes it or computes anything.
 
+mod axes;
 mod chrome;
 mod close_up;
 mod force;
 mod help;
 mod histogram;
+mod lengths;
+mod library;
 mod parameters;
 mod plot;
 mod profile;
 mod typed;
 mod wrap;
 
+pub use force::indentation_at;
+pub use parameters::parameter_at;
+
 use super::layout::{Layout, inside, is_framed};
 use super::model::{Mode, Model, Pane};
-use super::theme::Meaning;
+use super::picture::to_ascii;
+use super::theme::{Marker, Meaning};
 use ratatui::Frame;
 use ratatui::layout::Rect;
 use ratatui::widgets::Block;
@@ -26,16 +33,21 @@ pub fn draw(frame: &mut Frame<'_>, model: &Model) {
     if let Some(area) = layout.title {
         chrome::title(frame, area, model);
     }
-    if let Mode::Help { scroll } = model.mode {
-        help::draw(frame, body(&layout), model.theme, scroll);
-    } else {
-        for &(pane, area) in &layout.panes {
-            draw_pane(frame, area, model, pane);
+    match &model.mode {
+        Mode::Help { scroll } => help::draw(frame, body(&layout), model.appearance.theme, *scroll),
+        Mode::Library(library) => library::draw(frame, body(&layout), model, library),
+        _ => {
+            for &(pane, area) in &layout.panes {
+                draw_pane(frame, area, model, pane);
+            }
         }
     }
     chrome::status(frame, layout.status, model);
     if let Some(area) = layout.footer {
         chrome::footer(frame, area, model);
+    }
+    if model.appearance.marker == Marker::Ascii {
+        to_ascii(frame.buffer_mut());
     }
 }
 
@@ -56,13 +68,14 @@ fn draw_pane(frame: &mut Frame<'_>, area: Rect, model: &Model, pane: Pane) {
         let name = match pane {
             Pane::Force => force::title(model),
             Pane::Profile => profile::title(model),
+            Pane::CloseUp if model.lengths => lengths::TITLE.to_owned(),
             Pane::CloseUp => close_up::title(model),
             Pane::Parameters => " Parameters ".to_owned(),
         };
-        let style = model.theme.style(if chosen { Meaning::Title } else { Meaning::Quiet });
+        let style = model.appearance.theme.style(if chosen { Meaning::Title } else { Meaning::Quiet });
         let mark = if chosen { "▸" } else { "" };
         let block = Block::bordered()
-            .border_style(model.theme.style(Meaning::Quiet))
+            .border_style(model.appearance.theme.style(Meaning::Quiet))
             .title(ratatui::text::Span::styled(format!("{mark}{name}"), style));
         frame.render_widget(block, area);
     }
@@ -70,6 +83,7 @@ fn draw_pane(frame: &mut Frame<'_>, area: Rect, model: &Model, pane: Pane) {
     match pane {
         Pane::Force => force::draw(frame, area, model),
         Pane::Profile => profile::draw(frame, area, model),
+        Pane::CloseUp if model.lengths => lengths::draw(frame, area, model),
         Pane::CloseUp => close_up::draw(frame, area, model),
         Pane::Parameters => parameters::draw(frame, area, model),
     }

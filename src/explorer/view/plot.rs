@@ -42,11 +42,35 @@ impl Span {
     }
 }
 
-/// A line through points. Dotted ones leave out every other pair of dots.
+/// A line through points.
 pub struct Polyline<'a> {
     pub points: &'a [(f64, f64)],
     pub colour: Color,
-    pub dotted: bool,
+    pub stroke: Stroke,
+}
+
+/// Which dots of a line are painted: lines are told apart without colours.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum Stroke {
+    /// All.
+    Solid,
+    /// Two of four.
+    Dotted,
+    /// One of four.
+    Sparse,
+    /// Six of eight.
+    Dashed,
+}
+
+impl Stroke {
+    fn paints(self, dot: usize) -> bool {
+        match self {
+            Stroke::Solid => true,
+            Stroke::Dotted => dot % 4 < 2,
+            Stroke::Sparse => dot.is_multiple_of(4),
+            Stroke::Dashed => dot % 8 < 6,
+        }
+    }
 }
 
 impl Shape for Polyline<'_> {
@@ -56,7 +80,7 @@ impl Shape for Polyline<'_> {
         let dots = self.points.iter().filter_map(|&(x, y)| painter.get_point(x, y)).collect::<Vec<_>>();
         for &(x, y) in &dots {
             for (x, y) in between(last.unwrap_or((x, y)), (x, y)) {
-                if !self.dotted || painted % 4 < 2 {
+                if self.stroke.paints(painted) {
                     painter.paint(x, y, self.colour);
                 }
                 painted += 1;
@@ -74,6 +98,40 @@ fn between(from: (usize, usize), to: (usize, usize)) -> impl Iterator<Item = (us
         let share = step as f64 / steps as f64;
         ((from.0 as f64 + dx * share).round() as usize, (from.1 as f64 + dy * share).round() as usize)
     })
+}
+
+/// The inside of a closed line, every other dot of it: where a vertical line meets the border an odd
+/// number of times below.
+pub struct Inside<'a> {
+    pub border: &'a [(f64, f64)],
+    pub colour: Color,
+}
+
+impl Shape for Inside<'_> {
+    fn draw(&self, painter: &mut Painter<'_, '_>) {
+        let ([left, right], [bottom, top]) = (*painter.bounds().0, *painter.bounds().1);
+        let Some((last, _)) = painter.get_point(right, bottom) else { return };
+        let ends = self.border.iter().zip(self.border.iter().cycle().skip(1));
+        for column in 0..=last {
+            let x = left + (right - left) * column as f64 / last.max(1) as f64;
+            let mut crossings: Vec<f64> = ends
+                .clone()
+                .filter(|(a, b)| (a.0 <= x) != (b.0 <= x))
+                .map(|(a, b)| a.1 + (b.1 - a.1) * (x - a.0) / (b.0 - a.0))
+                .filter(|y| y.is_finite())
+                .collect();
+            crossings.sort_unstable_by(f64::total_cmp);
+            for pair in crossings.chunks_exact(2) {
+                let clamped = |y: f64| y.clamp(bottom, top);
+                let low = painter.get_point(x.clamp(left, right), clamped(pair[0]));
+                let high = painter.get_point(x.clamp(left, right), clamped(pair[1]));
+                let (Some((_, low)), Some((_, high))) = (low, high) else { continue };
+                (high..=low)
+                    .filter(|y| (column + y).is_multiple_of(2))
+                    .for_each(|y| painter.paint(column, y, self.colour));
+            }
+        }
+    }
 }
 
 /// Which part of a section's columns is drawn.

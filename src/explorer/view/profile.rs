@@ -5,11 +5,10 @@ use super::plot::{Columns, Part, Span};
 use crate::explorer::layout::split_profile;
 use crate::explorer::model::Model;
 use crate::explorer::snapshot::Section;
-use crate::explorer::theme::{Meaning, Theme};
+use crate::explorer::theme::{Appearance, Meaning, Theme};
 use crate::scene::format_quantity;
 use ratatui::Frame;
 use ratatui::layout::Rect;
-use ratatui::symbols::Marker;
 use ratatui::text::Line;
 use ratatui::widgets::Paragraph;
 use ratatui::widgets::canvas::Canvas;
@@ -17,13 +16,30 @@ use ratatui::widgets::canvas::Canvas;
 /// Title of the pane.
 pub fn title(model: &Model) -> String {
     let length = format_quantity(model.document.scene().length, "m");
-    format!(" Profile z(x), x to {length} ")
+    let follows = if model.profile.follow { " · follows" } else { "" };
+    match (model.moment.as_ref(), model.computed.as_ref()) {
+        (Some(moment), Some(computed)) if model.profile.share < 1.0 => {
+            let facts = computed.outcome.line;
+            let section = &moment.profile;
+            let from = (facts.first + section.first) as f64 * facts.spacing;
+            let to = from + section.springs as f64 * facts.spacing;
+            let [from, to] = [from, to].map(|x| format_quantity(short(x), "m"));
+            format!(" Profile z(x), x from {from} to {to} of {length}{follows} ")
+        }
+        _ => format!(" Profile z(x), x to {length}{follows} "),
+    }
+}
+
+/// To four digits: enough to find the place again.
+pub fn short(value: f64) -> f64 {
+    format!("{value:.3e}").parse().unwrap_or(value)
 }
 
 /// Draws the profile with the histogram of its heights on the same axis.
 pub fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
+    let theme = model.appearance.theme;
     let Some(moment) = model.moment.as_ref() else {
-        frame.render_widget(Paragraph::new("…").style(model.theme.style(Meaning::Quiet)), area);
+        frame.render_widget(Paragraph::new("…").style(theme.style(Meaning::Quiet)), area);
         return;
     };
     let (area, beside) = split_profile(area);
@@ -31,14 +47,14 @@ pub fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
     let plot = Rect { height: area.height - strip_rows, ..area };
     let section = &moment.profile;
     let z = heights(section);
-    draw_section(frame, plot, section, z, model.theme);
+    draw_section(frame, plot, section, z, model.appearance);
     if strip_rows > 0 {
         let row = Rect { y: area.bottom() - 1, height: 1, ..area };
-        contact_strip(frame, row, section, model.theme);
+        contact_strip(frame, row, section, theme);
     }
     if let (Some(beside), Some(computed)) = (beside, &model.computed) {
         let beside = Rect { height: plot.height, ..beside };
-        histogram::draw(frame, beside, computed.outcome.histogram.as_ref(), z, model.theme);
+        histogram::draw(frame, beside, computed.outcome.histogram.as_ref(), z, theme);
     }
 }
 
@@ -50,21 +66,24 @@ fn heights(section: &Section) -> Span {
 }
 
 /// Draws rigid line, elastic surface and contact of a section.
-pub fn draw_section(frame: &mut Frame<'_>, area: Rect, section: &Section, z: Span, theme: Theme) {
-    let canvas =
-        Canvas::default().marker(Marker::Braille).x_bounds([0.0, 1.0]).y_bounds(z.bounds()).paint(|ctx| {
+pub fn draw_section(frame: &mut Frame<'_>, area: Rect, section: &Section, z: Span, appearance: Appearance) {
+    let canvas = Canvas::default()
+        .marker(appearance.marker.symbols())
+        .x_bounds([0.0, 1.0])
+        .y_bounds(z.bounds())
+        .paint(|ctx| {
             for (part, meaning) in [
                 (Part::Surface, Meaning::Surface),
                 (Part::Line, Meaning::Line),
                 (Part::Contact, Meaning::Contact),
             ] {
-                ctx.draw(&Columns { section, part, colour: theme.colour(meaning) });
+                ctx.draw(&Columns { section, part, colour: appearance.theme.colour(meaning) });
             }
         });
     frame.render_widget(canvas, area);
 }
 
-/// One row that shows by its glyphs where along the line there is contact.
+/// One row that shows by its glyphs where along the section there is contact.
 fn contact_strip(frame: &mut Frame<'_>, row: Rect, section: &Section, theme: Theme) {
     let (count, cells) = (section.columns.len(), usize::from(row.width));
     if count == 0 {

@@ -1,0 +1,152 @@
+//! `asperity demo`: the explorer plays by itself.
+
+use super::{CliError, Overrides};
+use crate::explorer::demo::{Demo, ONE_SCENE, TOUR, play};
+use crate::explorer::picture::{Cast, text};
+use crate::explorer::theme::{Appearance, Marker, Theme};
+use crate::explorer::{FrameBytes, Screen, picture_of, svg_of};
+use crate::export::{check_writable, write_new};
+use crate::scene::{open, presets};
+use clap::Args;
+use std::io::{self, IsTerminal, Write, stdout};
+use std::path::PathBuf;
+
+const EXAMPLES: &str = "\
+Examples:
+  asperity demo                             Watch the tour over the built-in scenes; any key ends it
+  asperity demo rough-sphere                Watch one scene, pressed and pulled off
+  asperity demo --frames --ascii | less     Read it, frame by frame
+  asperity demo --cast tour.cast            Record it; asciinema play tour.cast plays it
+  asperity demo my-scene.ron --at 8 --svg screen.svg
+                                            Take a picture of the screen after 8 seconds
+
+The same command gives the same frames, whenever and wherever it runs.";
+
+/// Frames in a second, where they are looked at and where they are read.
+const WATCHED: f64 = 12.0;
+const READ: f64 = 1.0;
+
+/// Arguments of `demo`.
+#[derive(Args, Debug)]
+#[command(after_help = EXAMPLES)]
+pub struct DemoArguments {
+    /// Scene file or built-in scene; left out, a tour over the built-in scenes
+    pub scene: Option<String>,
+    /// What is changed in it.
+    #[command(flatten)]
+    pub overrides: Overrides,
+    /// Print plain frames, as into a pipe, also where there is a terminal
+    #[arg(long)]
+    pub frames: bool,
+    /// Frames in a second, from 0.1 to 60; left out, 12, and 1 for plain frames
+    #[arg(long, value_name = "N", value_parser = frames_per_second)]
+    pub fps: Option<f64>,
+    /// Columns and rows of the screen; left out, those of the terminal, else 120x40
+    #[arg(long, value_name = "COLUMNSxROWS", value_parser = size)]
+    pub size: Option<(u16, u16)>,
+    /// Nothing but ASCII: no Braille, no lines, no Greek
+    #[arg(long, conflicts_with = "marker")]
+    pub ascii: bool,
+    /// What plots are made of
+    #[arg(long, value_enum)]
+    pub marker: Option<Marker>,
+    /// Colours, of a recording, a picture and in a terminal
+    #[arg(long, value_enum)]
+    pub theme: Option<Theme>,
+    /// Record to FILE, an asciicast of version 2
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["frames", "at"])]
+    pub cast: Option<PathBuf>,
+    /// Print only the frame at so many seconds
+    #[arg(long, value_name = "SECONDS", value_parser = seconds)]
+    pub at: Option<f64>,
+    /// Draw it to FILE, in SVG
+    #[arg(long, value_name = "FILE", requires = "at")]
+    pub svg: Option<PathBuf>,
+    /// Overwrite FILE where it exists
+    #[arg(long)]
+    pub force: bool,
+}
+
+fn number(text: &str, low: f64, high: f64) -> Result<f64, String> {
+    let allowed = || format!("allowed: a number from {low} to {high}");
+    let value: f64 = text.parse().map_err(|_| allowed())?;
+    if (low..=high).contains(&value) { Ok(value) } else { Err(allowed()) }
+}
+
+fn frames_per_second(text: &str) -> Result<f64, String> {
+    number(text, 0.1, 60.0)
+}
+
+fn seconds(text: &str) -> Result<f64, String> {
+    number(text, 0.0, 3600.0)
+}
+
+fn size(text: &str) -> Result<(u16, u16), String> {
+    let allowed = || "allowed: columns x rows, each from 1 to 1000, such as 120x40".to_owned();
+    let (columns, rows) = text.split_once(['x', '×']).ok_or_else(allowed)?;
+    let side = |text: &str| text.parse().ok().filter(|side| (1..=1000).contains(side)).ok_or_else(allowed);
+    Ok((side(columns)?, side(rows)?))
+}
+
+/// Plays the demo to where it is to go.
+pub(super) fn demo(arguments: &DemoArguments, stdout_: &mut dyn Write) -> Result<(), CliError> {
+    let first = presets().first().map_or("", |preset| preset.name);
+    let document = arguments.overrides.apply(open(arguments.scene.as_deref().unwrap_or(first))?)?;
+    for file in arguments.cast.iter().chain(&arguments.svg) {
+        check_writable(file, arguments.force)?;
+    }
+    let name = arguments.scene.clone().unwrap_or_else(|| "tour".to_owned());
+    let script = if arguments.scene.is_some() { ONE_SCENE } else { TOUR };
+    let watched = !arguments.frames
+        && arguments.at.is_none()
+        && arguments.cast.is_none()
+        && stdout().is_terminal()
+        && io::stdin().is_terminal();
+    let recorded = arguments.cast.is_some() || arguments.svg.is_some();
+    let environment = Appearance::of_environment();
+    let appearance = Appearance {
+        // A file does not depend on where it was made.
+        theme: arguments.theme.unwrap_or(if recorded { Theme::Dark } else { environment.theme }),
+        marker: match arguments.marker {
+            _ if arguments.ascii => Marker::Ascii,
+            marker => marker.unwrap_or(environment.marker),
+        },
+    };
+    let of_terminal = if watched { crossterm::terminal::size().ok() } else { None };
+    let size = arguments.size.or(of_terminal).unwrap_or((120, 40));
+    let is_read = !watched && !recorded && arguments.at.is_none();
+    let fps = arguments.fps.unwrap_or(if is_read { READ } else { WATCHED });
+    let mut demo = Demo::new(document, script, size, appearance, fps);
+    if let Some(at) = arguments.at {
+        while demo.advance().is_some_and(|seconds| seconds + 1e-9 < at) {}
+        let model = demo.model();
+        return match &arguments.svg {
+            Some(file) => {
+                Ok(write_new(file, arguments.force, |out| out.write_all(svg_of(model).as_bytes()))?)
+            }
+            None => Ok(stdout_.write_all(text(&picture_of(model)).as_bytes())?),
+        };
+    }
+    if let Some(file) = &arguments.cast {
+        return Ok(write_new(file, arguments.force, |out| record(out, &mut demo, size, &name))?);
+    }
+    if watched {
+        return play(&mut demo, fps).map_err(|error| CliError::Explorer(error.to_string()));
+    }
+    while let Some(seconds) = demo.advance() {
+        writeln!(stdout_, "== {seconds:.2} s ==")?;
+        stdout_.write_all(text(&picture_of(demo.model())).as_bytes())?;
+    }
+    Ok(())
+}
+
+/// Records the demo as a terminal would have received it.
+fn record(out: &mut dyn Write, demo: &mut Demo, size: (u16, u16), name: &str) -> io::Result<()> {
+    let mut cast = Cast::new(out, size.0, size.1, &format!("Asperity: {name}"))?;
+    let mut screen = Screen::new(size)?;
+    while let Some(seconds) = demo.advance() {
+        let FrameBytes(bytes) = screen.draw(demo.model())?;
+        cast.frame(seconds, &bytes)?;
+    }
+    cast.finish().map(drop)
+}

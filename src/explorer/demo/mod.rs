@@ -1,0 +1,124 @@
+//! The explorer plays by itself: the same frames always, for a terminal, a pipe or a recording.
+
+mod script;
+mod watch;
+
+pub use script::{Cue, ONE_SCENE, TOUR};
+pub use watch::play;
+
+use super::action::{Action, Command};
+use super::headless::Headless;
+use super::mode::Mode;
+use super::model::Model;
+use super::theme::Appearance;
+use crate::scene::Document;
+use crate::simulation::Simulation;
+use std::collections::VecDeque;
+use std::time::Duration;
+
+/// Seconds between characters that are typed.
+const TYPING: f64 = 0.15;
+
+/// A demo as it plays, frame by frame.
+pub struct Demo {
+    explorer: Headless,
+    cues: VecDeque<Cue>,
+    /// What is still to be typed.
+    typing: VecDeque<char>,
+    /// Seconds until the next cue.
+    pause: f64,
+    /// Seconds since the demo began, and between frames.
+    seconds: f64,
+    frame: f64,
+    begun: bool,
+}
+
+impl Demo {
+    /// A demo that begins on a scene and follows a script, with so many frames in a second.
+    #[must_use]
+    pub fn new(
+        document: Document,
+        script: &[Cue],
+        size: (u16, u16),
+        appearance: Appearance,
+        frames_per_second: f64,
+    ) -> Self {
+        Demo {
+            explorer: Headless::open(document, size, appearance, Box::new(Simulation::default())),
+            cues: script.iter().copied().collect(),
+            typing: VecDeque::new(),
+            pause: 0.0,
+            seconds: 0.0,
+            frame: frames_per_second.recip(),
+            begun: false,
+        }
+    }
+
+    /// Goes on to the next frame and gives its time in seconds; `None` when the demo is over.
+    pub fn advance(&mut self) -> Option<f64> {
+        let mut left = if std::mem::replace(&mut self.begun, true) { self.frame } else { 0.0 };
+        while self.pause <= left {
+            left -= self.pause;
+            self.play(self.pause);
+            self.pause = 0.0;
+            if let Some(character) = self.typing.pop_front() {
+                self.explorer.act(Action::Type(character));
+                self.pause = TYPING;
+            } else if matches!(self.explorer.model.mode, Mode::Edit(_)) {
+                self.explorer.command(Command::Accept);
+            } else {
+                let cue = self.cues.pop_front()?;
+                self.follow(cue);
+            }
+        }
+        self.pause -= left;
+        self.play(left);
+        let now = self.seconds;
+        Some(now)
+    }
+
+    /// The explorer as it stands.
+    #[must_use]
+    pub fn model(&self) -> &Model {
+        &self.explorer.model
+    }
+
+    /// Gives the window another size.
+    pub fn resize(&mut self, columns: u16, rows: u16) {
+        self.explorer.act(Action::Resize(columns, rows));
+    }
+
+    /// Lets time go by.
+    fn play(&mut self, seconds: f64) {
+        self.seconds += seconds;
+        if seconds > 0.0 && self.explorer.model.hand.is_none() {
+            self.explorer.act(Action::Elapse(Duration::from_secs_f64(seconds)));
+        }
+    }
+
+    fn follow(&mut self, cue: Cue) {
+        match cue {
+            Cue::Wait(seconds) => self.pause = seconds,
+            Cue::Do(command) => self.explorer.command(command),
+            Cue::Repeat(0, ..) => {}
+            Cue::Repeat(times, seconds, command) => {
+                self.explorer.command(command);
+                self.pause = seconds;
+                self.cues.push_front(Cue::Repeat(times - 1, seconds, command));
+            }
+            Cue::Select(path) => {
+                self.explorer.command(Command::SelectEnd(false));
+                let place = self.explorer.model.parameters.iter().position(|one| one.path == path);
+                for _ in 0..place.unwrap_or(0) {
+                    self.explorer.command(Command::Select(1));
+                }
+            }
+            Cue::Enter(value) => {
+                self.explorer.command(Command::EditValue);
+                self.explorer.command(Command::Clear);
+                self.typing = value.chars().collect();
+                self.pause = TYPING;
+            }
+        }
+    }
+}

@@ -1,0 +1,43 @@
+//! The demo in a terminal, in real time.
+
+use super::Demo;
+use crate::explorer::input;
+use crate::explorer::terminal::{FrameWriter, TerminalGuard};
+use crate::explorer::view;
+use crossterm::event::{Event, KeyEventKind};
+use ratatui::Terminal;
+use ratatui::backend::CrosstermBackend;
+use std::io;
+use std::mem::ManuallyDrop;
+use std::sync::mpsc::{RecvTimeoutError, channel};
+use std::time::{Duration, Instant};
+
+/// Plays a demo with so many frames in a second until it is over or a key is pressed.
+///
+/// # Errors
+/// When the terminal refuses.
+pub fn play(demo: &mut Demo, frames_per_second: f64) -> io::Result<()> {
+    let _guard = TerminalGuard::take(false)?;
+    let (sender, inbox) = channel();
+    input::read(move |event| sender.send(event).is_ok())?;
+    let backend = CrosstermBackend::new(FrameWriter::new(io::stdout()));
+    let mut terminal = ManuallyDrop::new(Terminal::new(backend)?);
+    let frame = Duration::from_secs_f64(frames_per_second.recip());
+    let begun = Instant::now();
+    let mut frames = 0;
+    while demo.advance().is_some() {
+        terminal.draw(|area| view::draw(area, demo.model()))?;
+        frames += 1;
+        let due = begun + frame * frames;
+        loop {
+            match inbox.recv_timeout(due.saturating_duration_since(Instant::now())) {
+                Ok(Some(Event::Key(key))) if key.kind == KeyEventKind::Press => return Ok(()),
+                Ok(Some(Event::Resize(columns, rows))) => demo.resize(columns, rows),
+                Ok(Some(_)) => {}
+                Err(RecvTimeoutError::Timeout) => break,
+                Ok(None) | Err(RecvTimeoutError::Disconnected) => return Ok(()),
+            }
+        }
+    }
+    Ok(())
+}

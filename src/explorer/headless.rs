@@ -1,0 +1,89 @@
+//! An explorer without terminal and threads: each thing that happens is done, and all that follows from
+//! it, before the next. The same actions give the same screens.
+
+use super::action::{Action, Command};
+use super::model::Model;
+use super::session::{action_of, scene_of};
+use super::theme::Appearance;
+use super::update::{Effect, moment_request, update};
+use super::worker::{Desk, Engine, Newest, Report, Request};
+use crate::scene::Document;
+use std::cell::RefCell;
+use std::collections::VecDeque;
+use std::sync::atomic::Ordering;
+
+/// See the module.
+pub struct Headless {
+    /// The model.
+    pub model: Model,
+    desk: Desk,
+    newest: Newest,
+    /// Seeds drawn so far: chance would not be the same twice.
+    seeds: u64,
+}
+
+impl Headless {
+    /// An explorer on a scene, computed and with its first moment shown.
+    #[must_use]
+    pub fn open(
+        document: Document,
+        size: (u16, u16),
+        appearance: Appearance,
+        engine: Box<dyn Engine>,
+    ) -> Self {
+        let mut model = Model::new(document, size, appearance);
+        // Times differ from run to run.
+        model.shows_times = false;
+        let mut headless = Headless { model, desk: Desk::new(engine), newest: Newest::default(), seeds: 0 };
+        headless.perform(vec![Effect::Compute]);
+        headless
+    }
+
+    /// Obeys a command.
+    pub fn command(&mut self, command: Command) {
+        self.act(Action::Command(command));
+    }
+
+    /// Lets something happen.
+    pub fn act(&mut self, action: Action) {
+        let effects = update(&mut self.model, action);
+        self.perform(effects);
+    }
+
+    fn perform(&mut self, effects: Vec<Effect>) {
+        let mut waiting = VecDeque::from(effects);
+        while let Some(effect) = waiting.pop_front() {
+            for action in self.answer(effect) {
+                waiting.extend(update(&mut self.model, action));
+            }
+        }
+    }
+
+    /// What comes back when an effect is done. Nothing leaves the program.
+    fn answer(&mut self, effect: Effect) -> Vec<Action> {
+        let generation = self.model.generation;
+        let request = match effect {
+            Effect::Compute => Request::Compute { generation, scene: scene_of(&self.model.document) },
+            Effect::Show => match moment_request(&self.model) {
+                Some(request) => Request::Show(request),
+                None => return Vec::new(),
+            },
+            Effect::Hand(order) => Request::Hand { generation, order },
+            Effect::Preview(document) => {
+                Request::Preview { text: document.text().to_owned(), scene: scene_of(&document) }
+            }
+            Effect::DrawSeed => {
+                self.seeds += 1;
+                return vec![Action::SetSeed(self.seeds)];
+            }
+            Effect::Write { .. } | Effect::List | Effect::Copy(_) | Effect::Suspend => return Vec::new(),
+        };
+        self.newest.store(generation, Ordering::Relaxed);
+        let reports: RefCell<Vec<Report>> = RefCell::default();
+        self.desk.serve(std::iter::once(request), &self.newest, &|report| {
+            reports.borrow_mut().push(report);
+            true
+        });
+        reports.into_inner().into_iter().map(action_of).collect()
+    }
+}

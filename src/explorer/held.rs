@@ -1,0 +1,132 @@
+//! The body in the user's hand: moved by small steps, each of which costs what it changes.
+
+use super::snapshot::Travel;
+use super::worker::HandOrder;
+use crate::analysis::Governing;
+use crate::contact::{
+    ContactTree, CurvePoint, Foundation, GridEdges, HandError, HandHeld, HessRule, Incremental, Move,
+    NoAdhesion,
+};
+use crate::surface::Line;
+use std::sync::Arc;
+
+/// Points of the curve that are taken on the way of one order.
+const POINTS: u32 = 16;
+/// Most moves of one order.
+const MOST_STEPS: u32 = 512;
+
+/// See the module.
+pub struct Held {
+    body: Box<dyn HandHeld + Send>,
+    travel: Travel,
+    /// A small part of the range of indentations, m.
+    step: f64,
+}
+
+impl Held {
+    /// Takes the body where these fragments are in contact. The tree is that of the line; a scene
+    /// without adhesion has called for none, so it is built. `step` is how far apart the points of a pull
+    /// are, m.
+    pub fn take(
+        tree: Option<&Arc<ContactTree>>,
+        line: &Line,
+        governing: &Governing,
+        indentation: f64,
+        contact: &[(usize, usize)],
+        step: f64,
+    ) -> Option<Self> {
+        let foundation = Foundation { spacing: line.spacing, effective_modulus: governing.effective_modulus };
+        let tree = match tree {
+            Some(tree) => Arc::clone(tree),
+            None => Arc::new(ContactTree::build(&line.gaps).ok()?),
+        };
+        let body: Box<dyn HandHeld + Send> = match governing.adhesive_work() {
+            Some(work) => {
+                let rule = GridEdges::new(HessRule::new(foundation, work));
+                Box::new(Incremental::standing(tree, rule, foundation, indentation, contact).ok()?)
+            }
+            None => Box::new(Incremental::standing(tree, NoAdhesion, foundation, indentation, contact).ok()?),
+        };
+        Some(Held { body, travel: Travel::default(), step })
+    }
+
+    /// Where it stands.
+    pub fn point(&self) -> CurvePoint {
+        self.body.point()
+    }
+
+    /// First and last spring of each fragment, in ascending order.
+    pub fn fragments(&self) -> Vec<(usize, usize)> {
+        self.body.fragments().collect()
+    }
+
+    /// Its way since this was asked last.
+    pub fn travel(&mut self) -> Travel {
+        let dissipated_energy = self.travel.dissipated_energy;
+        std::mem::replace(&mut self.travel, Travel { dissipated_energy, ..Travel::default() })
+    }
+
+    /// Moves it.
+    pub fn obey(&mut self, order: HandOrder) {
+        let from = self.body.point();
+        let went = match order {
+            HandOrder::Take { .. } | HandOrder::Give => Ok(()),
+            HandOrder::To(indentation) => self.go(from.indentation, indentation),
+            HandOrder::By(way) => self.go(from.indentation, from.indentation + way),
+            HandOrder::ToForce(force) => self.find(force),
+            HandOrder::Separate => self.separate(),
+        };
+        self.travel.refused = went.err().map(|error| error.to_string());
+    }
+
+    /// Goes to an indentation, by as many moves as the curve gets points.
+    fn go(&mut self, from: f64, to: f64) -> Result<(), HandError> {
+        for step in 1..=POINTS {
+            let share = f64::from(step) / f64::from(POINTS);
+            // The last one exactly.
+            let at = if step == POINTS { to } else { from + (to - from) * share };
+            let moved = self.body.move_to_indentation(at)?;
+            self.count(moved);
+            self.travel.path.push(self.body.point());
+        }
+        Ok(())
+    }
+
+    /// Goes to a force, by as many moves as the curve gets points: each is passed on the way to the
+    /// next. Where the contact does not bear it, the body stands as near as it came.
+    fn find(&mut self, force: f64) -> Result<(), HandError> {
+        let from = self.body.point().force;
+        for step in 1..=POINTS {
+            let share = f64::from(step) / f64::from(POINTS);
+            let wanted = if step == POINTS { force } else { from + (force - from) * share };
+            let moved = self.body.move_to_force(wanted)?;
+            self.count(moved);
+            self.travel.path.push(self.body.point());
+        }
+        Ok(())
+    }
+
+    /// Pulls in steps of the curve until nothing touches; however far that is, it takes no more than so
+    /// many steps.
+    fn separate(&mut self) -> Result<(), HandError> {
+        let start = self.body.point();
+        for step in 1..=MOST_STEPS {
+            if self.body.point().springs == 0 {
+                return Ok(());
+            }
+            let moved = self.body.move_to_indentation(start.indentation - self.step * f64::from(step))?;
+            self.count(moved);
+            self.travel.path.push(self.body.point());
+        }
+        let moved = self.body.separate();
+        self.count(moved);
+        self.travel.path.push(self.body.point());
+        Ok(())
+    }
+
+    fn count(&mut self, moved: Move) {
+        self.travel.changed += moved.joins + moved.leaves;
+        self.travel.touched += moved.touched;
+        self.travel.dissipated_energy += moved.dissipated_energy;
+    }
+}

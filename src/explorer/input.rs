@@ -1,0 +1,61 @@
+//! What comes in: keys and mouse on a thread of their own, and the actions they mean.
+
+use super::action::{Action, Gesture, Mouse};
+use super::keys;
+use super::mode::ModeKind;
+use crossterm::event::{Event, KeyCode, KeyEventKind, KeyModifiers, MouseButton, MouseEvent, MouseEventKind};
+
+/// Reads input on a thread of its own, which ends with the terminal or the explorer. `send` says whether
+/// anyone still listens; it is given `None` at the end of the input.
+///
+/// # Errors
+/// When the system gives no thread.
+pub fn read(send: impl Fn(Option<Event>) -> bool + Send + 'static) -> std::io::Result<()> {
+    std::thread::Builder::new()
+        .name("input".to_owned())
+        .spawn(move || {
+            loop {
+                let event = crossterm::event::read().ok();
+                let ended = event.is_none();
+                // A dropped connection must not leave a process behind that reads nothing for ever.
+                if !send(event) || ended {
+                    return;
+                }
+            }
+        })
+        .map(drop)
+}
+
+/// The action of an input event in a mode; `None` for one that means nothing.
+pub fn action_of(event: &Event, mode: ModeKind) -> Option<Action> {
+    match event {
+        Event::Key(key) if key.kind == KeyEventKind::Press => {
+            if let Some(command) = keys::command(key, mode) {
+                return Some(Action::Command(command));
+            }
+            match key.code {
+                KeyCode::Char(character)
+                    if !key.modifiers.intersects(KeyModifiers::CONTROL | KeyModifiers::ALT) =>
+                {
+                    Some(Action::Type(character))
+                }
+                _ => None,
+            }
+        }
+        Event::Paste(text) => Some(Action::Paste(text.clone())),
+        Event::Resize(columns, rows) => Some(Action::Resize(*columns, *rows)),
+        Event::Mouse(mouse) => gesture_of(mouse),
+        _ => None,
+    }
+}
+
+fn gesture_of(&MouseEvent { kind, column, row, .. }: &MouseEvent) -> Option<Action> {
+    let gesture = match kind {
+        MouseEventKind::Down(MouseButton::Left) => Gesture::Press,
+        MouseEventKind::Drag(MouseButton::Left) => Gesture::Drag,
+        MouseEventKind::ScrollUp => Gesture::Wheel(1),
+        MouseEventKind::ScrollDown => Gesture::Wheel(-1),
+        _ => return None,
+    };
+    Some(Action::Mouse(Mouse { column, row, gesture }))
+}

@@ -1,0 +1,238 @@
+//! The scene that was computed last, ready to be played leg by leg or moved by hand.
+
+use super::close_up::close_up;
+use super::held::Held;
+use super::reduce::{self, Contact, LineColumns, Part};
+use super::snapshot::{Drive, Loop, Moment};
+use super::worker::{Engine, HandOrder, LineView, MomentRequest, Newest, Report};
+use crate::contact::{ContactError, CurvePoint, Foundation, GapScale, HessRule, LegRecord, Solver, Tally};
+use crate::scene::{Observer, Scene};
+use std::sync::Arc;
+use std::sync::atomic::Ordering;
+
+/// Legs whose thresholds are kept: beyond this many values, older legs are computed again when the
+/// animation comes to them.
+const VALUES_KEPT: usize = 1 << 26;
+
+/// Points of the curve over the range of indentations, when the body is pulled off by hand.
+const STEPS_OF_A_PULL: f64 = 200.0;
+
+/// First and last spring of each fragment, in ascending order.
+type Fragments = Vec<(usize, usize)>;
+
+/// See the module.
+#[derive(Default)]
+pub struct Playback {
+    generation: u64,
+    scene: Option<Arc<Scene>>,
+    computed: Option<Arc<Loop>>,
+    thresholds: Vec<Option<Vec<f64>>>,
+    held: Option<Held>,
+    /// The contact at the moment shown last, to tell how many springs changed.
+    last: Option<(Drive, Fragments)>,
+    /// What the panes show of the line whatever touches.
+    profile: LineColumns,
+    close_up: LineColumns,
+}
+
+impl Playback {
+    /// Generation of the scene.
+    pub fn generation(&self) -> u64 {
+        self.generation
+    }
+
+    /// Computes a scene; `None` when a newer one is waited for.
+    pub fn compute(
+        &mut self,
+        engine: &mut dyn Engine,
+        generation: u64,
+        scene: Arc<Scene>,
+        newest: &Newest,
+        report: &dyn Fn(Report) -> bool,
+    ) -> Option<Report> {
+        *self = Playback { generation, ..Playback::default() };
+        // The pane beside the profile observes the heights.
+        let mut observed = scene.as_ref().clone();
+        if !observed.observe.contains(&Observer::HeightHistogram) {
+            observed.observe.push(Observer::HeightHistogram);
+        }
+        let stop = || newest.load(Ordering::Relaxed) != generation;
+        let mut kept = 0;
+        let mut thresholds = Vec::new();
+        let result = engine.run(&observed, &stop, &mut |leg, _, solver| {
+            let mut values = Vec::new();
+            solver.thresholds_along_line(&mut values);
+            kept += values.len();
+            thresholds.push((kept <= VALUES_KEPT).then_some(values));
+            report(Report::Progress { generation, legs: leg + 1 });
+            Ok(())
+        });
+        match result {
+            Ok(outcome) => {
+                let computed = Arc::new(Loop { generation, scene, outcome });
+                self.thresholds = thresholds;
+                self.scene = Some(Arc::new(observed));
+                self.computed = Some(Arc::clone(&computed));
+                Some(Report::Computed(computed))
+            }
+            Err(error) if error.is_interruption() => None,
+            Err(error) => Some(Report::Failed { generation, error: error.to_string() }),
+        }
+    }
+
+    /// Moves the body by hand.
+    pub fn obey(&mut self, engine: &mut dyn Engine, order: HandOrder) {
+        match order {
+            HandOrder::Take { leg, indentation } => {
+                self.held = None;
+                let Some(contact) = self.contact_on_leg(engine, leg, indentation) else { return };
+                let Some((computed, line)) = self.computed.as_ref().zip(engine.line()) else { return };
+                let governing = &computed.outcome.governing;
+                let step = range_of(computed) / STEPS_OF_A_PULL;
+                self.held = Held::take(engine.tree(), line, governing, indentation, &contact, step);
+                self.last = None;
+            }
+            HandOrder::Give => {
+                self.held = None;
+                self.last = None;
+            }
+            order => {
+                if let Some(held) = &mut self.held {
+                    held.obey(order);
+                }
+            }
+        }
+    }
+
+    /// The moment asked for; `None` where there is no such leg, or nothing in hand.
+    pub fn show(&mut self, engine: &mut dyn Engine, request: &MomentRequest) -> Option<Moment> {
+        let (fragments, at) = match request.drive {
+            Drive::Leg(leg) => {
+                let fragments = self.contact_on_leg(engine, leg, request.indentation)?;
+                (fragments, None)
+            }
+            Drive::Hand => {
+                let held = self.held.as_ref()?;
+                (held.fragments(), Some(held.point()))
+            }
+        };
+        let line = engine.line()?;
+        let outcome = &self.computed.as_ref()?.outcome;
+        let (governing, deepest) = (outcome.governing, outcome.line.deepest);
+        let foundation = Foundation { spacing: line.spacing, effective_modulus: governing.effective_modulus };
+        let point = at.unwrap_or_else(|| {
+            let scale = GapScale::for_gaps_up_to(deepest);
+            point(&line.gaps, &scale, request.indentation, &fragments, foundation)
+        });
+        let changed = match &self.last {
+            Some((drive, before)) if *drive == request.drive => reduce::changed(before, &fragments),
+            _ => 0,
+        };
+        let contact = Contact {
+            gaps: &line.gaps,
+            summit: line.summit,
+            indentation: point.indentation,
+            fragments: &fragments,
+        };
+        let hess = governing.adhesive_work().map(|work| HessRule::new(foundation, work));
+        let close_up = close_up(&contact, request, foundation, hess, &mut self.close_up);
+        let middle = close_up.section.first + close_up.section.springs / 2;
+        let profile = profile_part(request, line.gaps.len(), middle);
+        let moment = Moment {
+            generation: request.generation,
+            drive: request.drive,
+            focus: request.focus,
+            point,
+            changed,
+            profile: contact.section(profile, &mut self.profile),
+            close_up,
+            strip: reduce::strip(&fragments, line.gaps.len(), request.strip_cells),
+            lengths: request.lengths.then(|| reduce::lengths(&fragments)),
+            hand: match request.drive {
+                Drive::Leg(_) => None,
+                Drive::Hand => self.held.as_mut().map(Held::travel),
+            },
+        };
+        self.last = Some((request.drive, fragments));
+        Some(moment)
+    }
+
+    /// What is in contact on a leg.
+    fn contact_on_leg(&mut self, engine: &mut dyn Engine, leg: usize, indentation: f64) -> Option<Fragments> {
+        if self.thresholds.get(leg)?.is_none() {
+            self.recall(engine, leg);
+        }
+        let thresholds = self.thresholds.get(leg)?.as_ref()?;
+        let mut fragments = Fragments::new();
+        for spring in (0..thresholds.len()).filter(|&spring| thresholds[spring] <= indentation) {
+            match fragments.last_mut() {
+                Some((_, last)) if *last + 1 == spring => *last = spring,
+                _ => fragments.push((spring, spring)),
+            }
+        }
+        Some(fragments)
+    }
+
+    /// Computes the thresholds of a leg that were not kept.
+    fn recall(&mut self, engine: &mut dyn Engine, wanted: usize) {
+        let Some(scene) = &self.scene else { return };
+        let mut found = None;
+        let mut after = |leg: usize, _: &LegRecord, solver: &dyn Solver| {
+            if leg < wanted {
+                return Ok(());
+            }
+            let mut values = Vec::new();
+            solver.thresholds_along_line(&mut values);
+            found = Some(values);
+            // Nothing after this leg is needed.
+            Err(ContactError::Interrupted)
+        };
+        if engine.run(scene, &|| false, &mut after).is_ok() || found.is_some() {
+            // Only one recalled leg is kept at a time.
+            let firsts = VALUES_KEPT / found.as_ref().map_or(1, |values: &Vec<f64>| values.len().max(1));
+            self.thresholds.iter_mut().skip(firsts).for_each(|leg| *leg = None);
+            if let Some(leg) = self.thresholds.get_mut(wanted) {
+                *leg = found;
+            }
+        }
+    }
+}
+
+/// How far the curves of a scene reach, m.
+fn range_of(computed: &Loop) -> f64 {
+    let points = computed.outcome.history.legs.iter().flat_map(|leg| &leg.curve);
+    let (low, high) = points.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), point| {
+        (low.min(point.indentation), high.max(point.indentation))
+    });
+    (high - low).max(0.0)
+}
+
+/// The springs that the profile shows: a part of the line that never leaves it.
+fn profile_part(request: &MomentRequest, count: usize, close_up: usize) -> Part {
+    let LineView { centre, share, follow } = request.profile;
+    let springs = ((count as f64 * share).round() as usize).clamp(1, count.max(1));
+    let middle = if follow { close_up } else { (count as f64 * centre) as usize };
+    let first = middle.saturating_sub(springs / 2).min(count.saturating_sub(springs));
+    Part { first, springs, columns: request.profile_columns }
+}
+
+/// The point of the curve with these fragments in contact.
+fn point(
+    gaps: &[f64],
+    scale: &GapScale,
+    indentation: f64,
+    fragments: &[(usize, usize)],
+    foundation: Foundation,
+) -> CurvePoint {
+    let mut tally = Tally { fragments: fragments.len() as i64, ..Tally::default() };
+    for &(first, last) in fragments {
+        tally.springs += (last - first + 1) as i64;
+        tally.quanta += gaps[first..=last].iter().map(|&gap| i128::from(scale.quanta(gap))).sum::<i128>();
+    }
+    CurvePoint {
+        indentation,
+        force: foundation.spring_stiffness() * tally.compression(indentation, scale),
+        springs: tally.springs.unsigned_abs(),
+        fragments: fragments.len() as u64,
+    }
+}

@@ -1,0 +1,297 @@
+//! A session: input, worker and terminal around one model.
+
+use super::action::{Action, WriteFailure, Written};
+use super::input;
+use super::model::{Model, Traffic};
+use super::snapshot::Loop;
+use super::terminal::{self, FrameWriter, TerminalGuard};
+use super::theme::{Appearance, Marker, Theme};
+use super::update::{Effect, moment_request, update};
+use super::view;
+use super::worker::{self, Engine, Report, Request, Worker};
+use super::writing;
+use crate::scene::{Document, Library, Roughness, Scene};
+use crate::simulation::Simulation;
+use crossterm::clipboard::CopyToClipboard;
+use crossterm::event::Event;
+use crossterm::queue;
+use ratatui::backend::CrosstermBackend;
+use ratatui::layout::{Position, Rect};
+use ratatui::{Frame, Terminal};
+use std::cell::Cell;
+use std::io::{self, Write};
+use std::mem::ManuallyDrop;
+use std::path::PathBuf;
+use std::rc::Rc;
+use std::sync::Arc;
+use std::sync::atomic::AtomicU64;
+use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
+use std::time::{Duration, Instant};
+
+/// Frames in a second: fewer over SSH, where each has to travel.
+const LOCAL_FRAMES: u32 = 30;
+const REMOTE_FRAMES: u32 = 12;
+
+/// How the explorer opens.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Options {
+    /// Colours, where the environment is not to be asked.
+    pub theme: Option<Theme>,
+    /// Markers; left out, Braille dots.
+    pub marker: Option<Marker>,
+    /// Whether to leave the mouse to the terminal.
+    pub no_mouse: bool,
+}
+
+/// What is left when the explorer has ended.
+pub struct Left {
+    /// The scene as it was left.
+    pub document: Document,
+    /// What was computed for it.
+    pub computed: Option<Arc<Loop>>,
+}
+
+/// Draws a model: [`view::draw`] does.
+pub type Draw = fn(&mut Frame<'_>, &Model);
+
+/// Something from outside: input of the user, or its end, or a report of the worker.
+enum Message {
+    Input(Event),
+    InputEnded,
+    Report(Report),
+}
+
+/// Opens the explorer on a scene and returns what it leaves.
+///
+/// # Errors
+/// When the terminal refuses.
+pub fn open(document: Document, options: Options) -> io::Result<Left> {
+    open_with(document, options, Box::new(Simulation::default()), view::draw)
+}
+
+/// Opens the explorer on a scene with another engine behind it and another view before it.
+///
+/// # Errors
+/// When the terminal refuses.
+pub fn open_with(
+    document: Document,
+    options: Options,
+    engine: Box<dyn Engine>,
+    draw: Draw,
+) -> io::Result<Left> {
+    let guard = TerminalGuard::take(!options.no_mouse)?;
+    let (messages, inbox) = channel();
+    let (requests, outbox) = channel();
+    let newest = worker::Newest::new(AtomicU64::new(0));
+    let reports = messages.clone();
+    worker::start(engine, Arc::clone(&newest), outbox, move |report| {
+        reports.send(Message::Report(report)).is_ok()
+    })?;
+    terminal::watch_for_hang_up({
+        let messages = messages.clone();
+        move || drop(messages.send(Message::InputEnded))
+    })?;
+    read_input(messages)?;
+    // The guard gives everything back; ratatui's own drop would complain on standard error, and panic
+    // where that is gone together with the terminal.
+    let writer = FrameWriter::new(io::stdout());
+    let written = writer.written();
+    let backend = CrosstermBackend::new(writer);
+    let mut terminal = ManuallyDrop::new(Terminal::new(backend)?);
+    let size = terminal.size()?;
+    let environment = Appearance::of_environment();
+    let appearance = Appearance {
+        theme: options.theme.unwrap_or(environment.theme),
+        marker: options.marker.unwrap_or(environment.marker),
+    };
+    let mut session = Session {
+        terminal: &mut terminal,
+        guard,
+        model: Model::new(document, (size.width, size.height), appearance),
+        worker: Worker::new(requests, newest),
+        draw,
+        remote: ["SSH_CONNECTION", "SSH_TTY"].iter().any(|name| std::env::var_os(name).is_some()),
+        redraw: false,
+        written,
+        traffic: (Instant::now(), 0),
+    };
+    session.run(&inbox)?;
+    let model = session.model;
+    let computed = model.computed.clone().filter(|_| model.is_current());
+    Ok(Left { document: model.document, computed })
+}
+
+fn read_input(messages: Sender<Message>) -> io::Result<()> {
+    input::read(move |event| messages.send(event.map_or(Message::InputEnded, Message::Input)).is_ok())
+}
+
+/// The scene as the worker gets it: files it names are found wherever the explorer was started.
+pub(super) fn scene_of(document: &Document) -> Arc<Scene> {
+    let mut scene = document.scene().clone();
+    if let Some(Roughness::Measured { file }) = &mut scene.roughness {
+        *file = document.resolve(file).to_string_lossy().into_owned();
+    }
+    Arc::new(scene)
+}
+
+struct Session<'a, W: Write> {
+    terminal: &'a mut Terminal<CrosstermBackend<FrameWriter<W>>>,
+    guard: TerminalGuard,
+    model: Model,
+    worker: Worker,
+    draw: Draw,
+    remote: bool,
+    /// Whether nothing that stands on the screen can be relied on.
+    redraw: bool,
+    /// Bytes written so far.
+    written: Rc<Cell<u64>>,
+    /// When the traffic was last told, and how many bytes had been written by then.
+    traffic: (Instant, u64),
+}
+
+impl<W: Write> Session<'_, W> {
+    fn run(&mut self, inbox: &Receiver<Message>) -> io::Result<()> {
+        let frames = if self.remote { REMOTE_FRAMES } else { LOCAL_FRAMES };
+        let frame_time = Duration::from_secs(1) / frames;
+        self.perform(vec![Effect::Compute])?;
+        let mut moved = Instant::now();
+        let mut changed = true;
+        while !self.model.finished {
+            if std::mem::take(&mut self.redraw) {
+                // Unlike `clear` this does not ask the terminal where its cursor is, on the input that
+                // the other thread reads.
+                let size = self.terminal.size()?;
+                self.terminal.resize(Rect::from((Position::ORIGIN, size)))?;
+            }
+            if changed {
+                if self.remote {
+                    self.measure_traffic(frames);
+                }
+                let Session { terminal, model, draw, .. } = self;
+                terminal.draw(|frame| draw(frame, model))?;
+                changed = false;
+            }
+            let playing = self.model.player.playing && self.model.is_current() && self.model.hand.is_none();
+            if !playing {
+                moved = Instant::now();
+            }
+            let wait = playing.then(|| frame_time.saturating_sub(moved.elapsed()));
+            let first = match wait
+                .map_or_else(|| inbox.recv().map_err(Into::into), |wait| inbox.recv_timeout(wait))
+            {
+                Ok(message) => Some(message),
+                Err(RecvTimeoutError::Timeout) => None,
+                Err(RecvTimeoutError::Disconnected) => break,
+            };
+            for message in first.into_iter().chain(inbox.try_iter()) {
+                let action = match message {
+                    Message::InputEnded => return Ok(()),
+                    // In the mode that holds by now: the key before may have changed it.
+                    Message::Input(event) => input::action_of(&event, self.model.mode.kind()),
+                    Message::Report(report) => Some(action_of(report)),
+                };
+                if let Some(action) = action {
+                    changed = true;
+                    // A window that shrank and grew back between two frames has lost what stood there,
+                    // though its size is that of the last frame.
+                    self.redraw |= matches!(action, Action::Resize(..));
+                    self.act(action)?;
+                }
+            }
+            if playing && moved.elapsed() >= frame_time {
+                // Time by itself shows nothing: the moment it asks for does.
+                let elapsed = moved.elapsed().min(4 * frame_time);
+                moved = Instant::now();
+                self.act(Action::Elapse(elapsed))?;
+            }
+        }
+        Ok(())
+    }
+
+    fn act(&mut self, action: Action) -> io::Result<()> {
+        let effects = update(&mut self.model, action);
+        self.perform(effects)
+    }
+
+    /// Tells once in a second of drawing how much was written.
+    fn measure_traffic(&mut self, frames: u32) {
+        let (since, before) = self.traffic;
+        let elapsed = since.elapsed();
+        if self.model.traffic.is_some() && elapsed < Duration::from_secs(1) {
+            return;
+        }
+        let written = self.written.get();
+        let bytes = (written - before) as f64 / elapsed.as_secs_f64().max(1.0);
+        self.traffic = (Instant::now(), written);
+        let traffic = Traffic { frames, bytes: bytes as u64 };
+        update(&mut self.model, Action::Traffic(traffic));
+    }
+
+    /// Does what an update asks for.
+    fn perform(&mut self, effects: Vec<Effect>) -> io::Result<()> {
+        for effect in effects {
+            let generation = self.model.generation;
+            match effect {
+                Effect::Compute => {
+                    let scene = scene_of(&self.model.document);
+                    self.worker.ask(Request::Compute { generation, scene });
+                }
+                Effect::Show => {
+                    if let Some(request) = moment_request(&self.model) {
+                        self.worker.ask(Request::Show(request));
+                    }
+                }
+                Effect::Hand(order) => self.worker.ask(Request::Hand { generation, order }),
+                Effect::DrawSeed => {
+                    // Six digits are enough for another line and can be read out to a colleague.
+                    let seed = rand::random_range(0..1_000_000);
+                    self.act(Action::SetSeed(seed))?;
+                }
+                Effect::Write { path, content, overwrite } => {
+                    let result = self.write(path, content, overwrite);
+                    self.act(Action::Written(result))?;
+                }
+                Effect::List => {
+                    let entries = Library::of_environment().list();
+                    self.act(Action::Listed(entries))?;
+                }
+                Effect::Preview(document) => {
+                    let (scene, text) = (scene_of(&document), document.text().to_owned());
+                    self.worker.ask(Request::Preview { text, scene });
+                }
+                Effect::Copy(text) => {
+                    // With the next frame; whether the terminal takes it, it does not say.
+                    queue!(self.terminal.backend_mut(), CopyToClipboard::to_clipboard_from(text))?;
+                }
+                Effect::Suspend => {
+                    self.guard.suspend()?;
+                    // The window may have become another one meanwhile.
+                    let size = self.terminal.size()?;
+                    self.redraw = true;
+                    self.act(Action::Resize(size.width, size.height))?;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn write(
+        &self,
+        path: PathBuf,
+        content: super::action::Content,
+        overwrite: bool,
+    ) -> Result<Written, WriteFailure> {
+        writing::write(&self.model, path, content, overwrite)
+    }
+}
+
+/// What a report does.
+pub(super) fn action_of(report: Report) -> Action {
+    match report {
+        Report::Computed(computed) => Action::Computed(computed),
+        Report::Shown(moment) => Action::Shown(moment),
+        Report::Progress { generation, legs } => Action::Progress { generation, legs },
+        Report::Failed { generation, error } => Action::Failed { generation, error },
+        Report::Previewed(preview) => Action::Previewed(preview),
+    }
+}

@@ -1,0 +1,82 @@
+//! Loops kept beside the present one.
+
+use super::{Effect, edit};
+use crate::explorer::action::Command;
+use crate::explorer::model::{Ghost, Model, Notice};
+use crate::scene::{Document, field, format_quantity};
+use std::sync::Arc;
+
+/// Ghosts that are kept; more could not be told apart.
+const MOST_GHOSTS: usize = 8;
+
+/// Obeys a command on ghosts.
+pub fn obey(model: &mut Model, command: Command) -> Vec<Effect> {
+    match command {
+        Command::Pin => pin(model),
+        Command::Swap => return swap(model),
+        _ => model.ghosts.clear(),
+    }
+    Vec::new()
+}
+
+fn ghost(model: &Model) -> Option<Ghost> {
+    let computed = model.computed.as_ref().filter(|_| model.is_current())?;
+    Some(Ghost { document: model.document.clone(), computed: Arc::clone(computed), differs: String::new() })
+}
+
+fn pin(model: &mut Model) {
+    let Some(ghost) = ghost(model) else {
+        model.notice = Some(Notice::Error("there is no curve yet to keep".to_owned()));
+        return;
+    };
+    if model.ghosts.iter().any(|kept| kept.document.scene() == ghost.document.scene()) {
+        model.notice = Some(Notice::Done("this loop is kept already".to_owned()));
+        return;
+    }
+    if model.ghosts.len() == MOST_GHOSTS {
+        model.ghosts.remove(0);
+    }
+    model.ghosts.push(ghost);
+    name_ghosts(model);
+    model.notice = Some(Notice::Done("kept; now change something, x exchanges the two".to_owned()));
+}
+
+/// The scene and the newest ghost change places.
+fn swap(model: &mut Model) -> Vec<Effect> {
+    let Some(present) = ghost(model) else { return Vec::new() };
+    let Some(last) = model.ghosts.pop() else {
+        model.notice = Some(Notice::Error("nothing to exchange with: c keeps a loop".to_owned()));
+        return Vec::new();
+    };
+    model.ghosts.push(present);
+    edit::adopt(model, last.document)
+}
+
+/// Says anew where the ghosts differ from the present scene.
+pub fn name_ghosts(model: &mut Model) {
+    let document = &model.document;
+    for ghost in &mut model.ghosts {
+        ghost.differs = differences(&ghost.document, document);
+    }
+}
+
+/// What a scene has that another has not: `κ 4, H 0.25`.
+fn differences(scene: &Document, other: &Document) -> String {
+    let told = |(path, value): &(String, String)| {
+        if ["title", "notice", "version"].contains(&path.as_str()) {
+            return None;
+        }
+        let known = field(path, None);
+        let name = known.map_or(path.as_str(), |field| match field.symbol {
+            "" => field.name,
+            symbol => symbol,
+        });
+        let value = match (value.parse::<f64>(), known) {
+            (Ok(number), Some(field)) => format_quantity(number, field.unit),
+            _ => value.split_whitespace().collect::<Vec<_>>().join(" "),
+        };
+        Some(format!("{name} {value}"))
+    };
+    let told: Vec<String> = scene.overrides_from(other).iter().filter_map(told).collect();
+    if told.is_empty() { "the same scene".to_owned() } else { told.join(", ") }
+}

@@ -1,0 +1,225 @@
+//! Edits of the scene. Each gives a document of its own; the one before can be brought back.
+
+use super::Effect;
+use super::compare::name_ghosts;
+use crate::explorer::action::Command;
+use crate::explorer::layout::Layout;
+use crate::explorer::mode::Mode;
+use crate::explorer::model::{Look, Model, Notice, Pane, Player};
+use crate::explorer::parameters::{Setting, parameters};
+use crate::explorer::text_line::TextLine;
+use crate::explorer::worker::{Focus, LineView};
+use crate::scene::{Computed, Document, SceneErrors, presets};
+
+/// Edits that can be taken back.
+const UNDO_DEPTH: usize = 1000;
+
+/// Obeys a command that has to do with the list of parameters or replaces the scene.
+pub fn obey(model: &mut Model, command: Command) -> Vec<Effect> {
+    match command {
+        Command::Select(rows) => {
+            select(model, model.selected.saturating_add_signed(rows as isize));
+            show_parameters(model)
+        }
+        Command::SelectEnd(last) => {
+            select(model, if last { usize::MAX } else { 0 });
+            show_parameters(model)
+        }
+        Command::StepValue { steps, coarse } => {
+            let mut effects = show_parameters(model);
+            effects.extend(step_value(model, steps, coarse));
+            effects
+        }
+        Command::EditValue => {
+            if let Some(parameter) = model.parameter() {
+                if let Setting::Switch(_) = parameter.setting {
+                    return toggle(model);
+                }
+                let written = model.written(parameter).unwrap_or_default();
+                model.mode = Mode::Edit(TextLine::new(&written));
+            }
+            show_parameters(model)
+        }
+        Command::ToggleEffect => {
+            let mut effects = show_parameters(model);
+            effects.extend(toggle(model));
+            effects
+        }
+        Command::Preset(index) => {
+            let Some(preset) = presets().get(index) else { return Vec::new() };
+            match Document::parse(preset.text, preset.name) {
+                Ok(document) => open(model, document),
+                Err(errors) => {
+                    model.notice = Some(Notice::Error(errors.to_string()));
+                    Vec::new()
+                }
+            }
+        }
+        _ => Vec::new(),
+    }
+}
+
+/// Explores another scene from its beginning.
+pub fn open(model: &mut Model, document: Document) -> Vec<Effect> {
+    if model.is_unsaved() {
+        let kept = "the changed scene is kept: undo brings it back";
+        model.notice = Some(Notice::Done(kept.to_owned()));
+    }
+    model.player = Player { leg: 0, done: 0.0, playing: true };
+    model.look = Look { focus: Focus::Summit, springs: Look::springs_shown(&document) };
+    model.profile = LineView::WHOLE;
+    let effects = adopt(model, document);
+    model.set_saved();
+    effects
+}
+
+/// Selects a row, or the last one.
+pub fn select(model: &mut Model, row: usize) {
+    model.selected = row.min(model.parameters.len().saturating_sub(1));
+    model.refused = None;
+}
+
+/// Chooses the list of parameters where a small window does not show it: nothing is changed unseen.
+fn show_parameters(model: &mut Model) -> Vec<Effect> {
+    if Layout::of(model).pane(Pane::Parameters).is_some() {
+        return Vec::new();
+    }
+    model.pane = Pane::Parameters;
+    vec![Effect::Show]
+}
+
+fn step_value(model: &mut Model, steps: i32, coarse: bool) -> Vec<Effect> {
+    let Some(parameter) = model.parameter() else { return Vec::new() };
+    if let Setting::Switch(_) = parameter.setting {
+        return toggle(model);
+    }
+    let Some(written) = model.written(parameter) else {
+        return refuse(model, "not before the scene is computed".to_owned());
+    };
+    let Some(next) = parameter.field.stepped(&written, steps, coarse) else {
+        let allowed = parameter.field.allowed();
+        return refuse(model, format!("no further step; allowed: {allowed}"));
+    };
+    set_selected(model, &next)
+}
+
+/// Takes over the value that was typed for the selected parameter.
+pub fn accept_value(model: &mut Model, typed: &str) -> Vec<Effect> {
+    let Some(parameter) = model.parameter() else { return Vec::new() };
+    match parameter.read_typed(typed) {
+        Ok(written) => set_selected(model, &written),
+        Err(error) => refuse(model, error),
+    }
+}
+
+/// Sets the selected parameter to a value as it is written in a scene.
+fn set_selected(model: &mut Model, written: &str) -> Vec<Effect> {
+    let Some(parameter) = model.parameter() else { return Vec::new() };
+    let document = &model.document;
+    let changed = match parameter.setting {
+        Setting::Field | Setting::Switch(_) => document.set(&parameter.path, written),
+        Setting::WorkOfAdhesion => match written.parse() {
+            Ok(work) => document.with_work_of_adhesion(work),
+            Err(_) => return refuse(model, format!("{written} is no number")),
+        },
+        Setting::Kappa => {
+            let Ok(kappa) = written.parse::<f64>() else {
+                return refuse(model, format!("{written} is no number"));
+            };
+            match (document.scene().adhesion.and_then(|adhesion| adhesion.work), model.governing()) {
+                // The scene gives γ: κ is solved for it.
+                (Some(_), Some(governing)) => match governing.work_for_kappa(kappa) {
+                    Some(work) => document.with_work_of_adhesion(work),
+                    None => return refuse(model, "κ says nothing without roughness".to_owned()),
+                },
+                (Some(_), None) => return refuse(model, "not before the scene is computed".to_owned()),
+                (None, _) => document.with_kappa(kappa),
+            }
+        }
+    };
+    take_over(model, changed)
+}
+
+/// Switches the effect of the selected row.
+fn toggle(model: &mut Model) -> Vec<Effect> {
+    let Some(effect) = model.parameter().and_then(|parameter| parameter.effect) else {
+        return refuse(model, "no effect to switch; form, roughness, adhesion, loading have one".to_owned());
+    };
+    let document = &model.document;
+    let changed = if effect.is_on(document.scene()) {
+        document.without(effect, &computed(model))
+    } else {
+        let had_it = model.undo.iter().rev().find(|before| effect.is_on(before.scene()));
+        document.with(effect, had_it)
+    };
+    take_over(model, changed)
+}
+
+/// What a switched-off effect may leave to another.
+fn computed(model: &Model) -> Computed {
+    let governing = model.governing();
+    Computed {
+        work_of_adhesion: governing.and_then(|governing| governing.work_of_adhesion),
+        rms_height: governing.and_then(|governing| governing.amplitude).map(|amplitude| amplitude.rms_height),
+    }
+}
+
+fn refuse(model: &mut Model, why: String) -> Vec<Effect> {
+    model.refused = Some((model.selected, why));
+    Vec::new()
+}
+
+/// Sets a field; a value that is not allowed leaves the scene as it is.
+pub fn change(model: &mut Model, path: &str, value: &str) -> Vec<Effect> {
+    let changed = model.document.set(path, value);
+    take_over(model, changed)
+}
+
+fn take_over(model: &mut Model, changed: Result<Document, SceneErrors>) -> Vec<Effect> {
+    match changed {
+        Ok(document) => adopt(model, document),
+        Err(errors) => {
+            let what: Vec<String> = errors.iter().map(|error| error.what().to_string()).collect();
+            refuse(model, what.join("; "))
+        }
+    }
+}
+
+/// Makes a document the one that is explored; the one before can be brought back.
+pub fn adopt(model: &mut Model, document: Document) -> Vec<Effect> {
+    let before = std::mem::replace(&mut model.document, document);
+    model.undo.push(before);
+    if model.undo.len() > UNDO_DEPTH {
+        model.undo.remove(0);
+    }
+    model.redo.clear();
+    renew(model)
+}
+
+/// Takes back the last edit, or does it again.
+pub fn undo(model: &mut Model, back: bool) -> Vec<Effect> {
+    let (from, to) =
+        if back { (&mut model.undo, &mut model.redo) } else { (&mut model.redo, &mut model.undo) };
+    let Some(document) = from.pop() else { return Vec::new() };
+    to.push(std::mem::replace(&mut model.document, document));
+    renew(model)
+}
+
+/// Asks for the scene as it is now.
+fn renew(model: &mut Model) -> Vec<Effect> {
+    let selected = model.parameter().map(|parameter| parameter.path.clone());
+    model.parameters = parameters(&model.document);
+    // The selection stays on its field when rows come and go.
+    let place = model.parameters.iter().position(|parameter| Some(&parameter.path) == selected.as_ref());
+    model.selected = place.unwrap_or(model.selected).min(model.parameters.len().saturating_sub(1));
+    model.refused = None;
+    model.generation += 1;
+    model.progress = Some(0);
+    // What was in hand was pressed on another line, or under another force.
+    if model.hand.take().is_some() {
+        let back = "the body is back on the scene's loading".to_owned();
+        model.notice = Some(Notice::Done(back));
+    }
+    name_ghosts(model);
+    vec![Effect::Compute]
+}

@@ -1,0 +1,84 @@
+//! Looking through the library.
+
+use super::{Effect, edit, edit_line};
+use crate::explorer::action::Command;
+use crate::explorer::mode::{Library, Mode};
+use crate::explorer::model::{Model, Notice};
+use crate::explorer::text_line::TextLine;
+use crate::scene::{Entry, search as search_entries};
+
+/// Scenes with more springs are not computed to look at.
+const MOST_SPRINGS_PREVIEWED: u64 = 1 << 17;
+
+/// Opens the library.
+pub fn open(model: &mut Model) -> Vec<Effect> {
+    let library = Library { entries: None, query: TextLine::new(""), found: Vec::new(), selected: 0 };
+    model.mode = Mode::Library(library);
+    vec![Effect::List]
+}
+
+/// Takes in what the library holds.
+pub fn listed(model: &mut Model, entries: Vec<Entry>) -> Vec<Effect> {
+    if let Mode::Library(library) = &mut model.mode {
+        library.entries = Some(entries);
+    }
+    search(model)
+}
+
+/// Finds what is searched for, once more.
+pub fn search(model: &mut Model) -> Vec<Effect> {
+    let Mode::Library(library) = &mut model.mode else { return Vec::new() };
+    let Some(entries) = &library.entries else { return Vec::new() };
+    library.found = search_entries(entries, &library.query.text());
+    library.selected = 0;
+    preview(model)
+}
+
+/// Obeys a command while the library is open.
+pub fn obey(model: &mut Model, command: Command) -> Vec<Effect> {
+    let Mode::Library(library) = &mut model.mode else { return Vec::new() };
+    match command {
+        Command::Select(rows) => {
+            let last = library.found.len().saturating_sub(1);
+            library.selected = library.selected.saturating_add_signed(rows as isize).min(last);
+            preview(model)
+        }
+        Command::Accept => {
+            let Some(entry) = library.entry() else { return Vec::new() };
+            match entry.document() {
+                Ok(document) => {
+                    model.mode = Mode::Explore;
+                    edit::open(model, document)
+                }
+                Err(errors) => {
+                    model.notice = Some(Notice::Error(errors.to_string()));
+                    model.mode = Mode::Explore;
+                    Vec::new()
+                }
+            }
+        }
+        Command::Delete { .. } | Command::Clear => {
+            edit_line(model, command);
+            search(model)
+        }
+        _ => {
+            edit_line(model, command);
+            Vec::new()
+        }
+    }
+}
+
+/// Asks for the curve of the selected scene.
+fn preview(model: &mut Model) -> Vec<Effect> {
+    let Mode::Library(library) = &model.mode else { return Vec::new() };
+    let Some(entry) = library.entry() else { return Vec::new() };
+    if model.preview.as_ref().is_some_and(|preview| preview.text == entry.text) {
+        return Vec::new();
+    }
+    match entry.document() {
+        Ok(document) if document.scene().numerics.points <= MOST_SPRINGS_PREVIEWED => {
+            vec![Effect::Preview(Box::new(document))]
+        }
+        _ => Vec::new(),
+    }
+}

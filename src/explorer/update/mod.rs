@@ -1,0 +1,250 @@
+//! What each action does to the model. Nothing here touches terminal, files or worker: what is to be
+//! done outside is returned.
+
+mod compare;
+mod edit;
+mod files;
+mod library;
+mod look;
+mod mouse;
+mod movement;
+
+use super::action::{Action, Command, Content};
+use super::layout::Layout;
+use super::mode::Mode;
+use super::model::{Model, Notice};
+use super::view::help_end;
+use super::worker::{HandOrder, MomentRequest};
+use crate::scene::{Document, Roughness};
+use std::path::PathBuf;
+
+/// Something to be done outside the model.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Effect {
+    /// Compute the scene.
+    Compute,
+    /// Show the moment at which the body stands.
+    Show,
+    /// Move the body by hand.
+    Hand(HandOrder),
+    /// Draw a random seed and give it back as an action.
+    DrawSeed,
+    /// Write a file.
+    Write {
+        /// The file.
+        path: PathBuf,
+        /// What is written to it.
+        content: Content,
+        /// Whether to overwrite it.
+        overwrite: bool,
+    },
+    /// List the scenes of the library.
+    List,
+    /// Compute a scene of the library to look at its curve.
+    Preview(Box<Document>),
+    /// Copy a text.
+    Copy(String),
+    /// Hand the terminal back to the shell for a while.
+    Suspend,
+}
+
+/// Applies an action and tells what is to be done outside.
+pub fn update(model: &mut Model, action: Action) -> Vec<Effect> {
+    match action {
+        Action::Command(Command::Suspend) => return vec![Effect::Suspend],
+        Action::Command(command) => return obey(model, command),
+        Action::Type(character) => return typed(model, &character.to_string()),
+        Action::Paste(text) => return typed(model, &text),
+        Action::Resize(columns, rows) => {
+            model.size = (columns, rows);
+            return vec![Effect::Show];
+        }
+        Action::Elapse(time) => return movement::elapse(model, time),
+        Action::SetSeed(seed) => match model.document.scene().roughness {
+            Some(Roughness::SelfAffine { .. }) => {
+                return edit::change(model, "roughness.seed", &seed.to_string());
+            }
+            _ => model.notice = Some(Notice::Error("the scene has no random line to draw anew".to_owned())),
+        },
+        Action::Computed(computed) if computed.generation == model.generation => {
+            model.progress = None;
+            let last = computed.outcome.history.legs.len().saturating_sub(1);
+            model.computed = Some(computed);
+            movement::stay_on_legs(model, last);
+            if matches!(model.notice, Some(Notice::Error(_))) {
+                model.notice = None;
+            }
+            return vec![Effect::Show];
+        }
+        Action::Shown(moment) if moment.generation == model.generation => movement::shown(model, moment),
+        Action::Progress { generation, legs } if generation == model.generation => {
+            model.progress = model.progress.map(|_| legs);
+        }
+        Action::Failed { generation, error } if generation == model.generation => {
+            model.progress = None;
+            model.notice = Some(Notice::Error(error));
+        }
+        // Stale: of a scene that has been changed since.
+        Action::Computed(_) | Action::Shown(_) | Action::Progress { .. } | Action::Failed { .. } => {}
+        Action::Written(result) => files::written(model, result),
+        Action::Listed(entries) => return library::listed(model, entries),
+        Action::Previewed(preview) => model.preview = Some(preview),
+        Action::Traffic(traffic) => model.traffic = Some(traffic),
+        Action::Mouse(mouse) => return mouse::act(model, mouse),
+    }
+    Vec::new()
+}
+
+/// What the worker is asked to show for this model.
+#[must_use]
+pub fn moment_request(model: &Model) -> Option<MomentRequest> {
+    if !model.is_current() {
+        return None;
+    }
+    let layout = Layout::of(model);
+    let dots = model.appearance.marker.columns();
+    Some(MomentRequest {
+        generation: model.generation,
+        drive: model.drive(),
+        indentation: model.indentation(),
+        profile_columns: dots * layout.profile_cells(),
+        profile: model.profile,
+        close_up_columns: dots * layout.close_up_cells(),
+        strip_cells: layout.close_up_cells(),
+        focus: model.look.focus,
+        close_up_springs: model.look.springs,
+        lengths: model.lengths,
+    })
+}
+
+fn obey(model: &mut Model, command: Command) -> Vec<Effect> {
+    match &mut model.mode {
+        Mode::Explore => return explore(model, command),
+        Mode::Help { scroll } => {
+            let scroll = *scroll;
+            model.mode = match command {
+                Command::Select(lines) => {
+                    let last = help_end(model);
+                    let lines = lines.signum() as i16;
+                    Mode::Help { scroll: scroll.min(last).saturating_add_signed(lines).min(last) }
+                }
+                _ => Mode::Explore,
+            };
+        }
+        Mode::Library(_) => return library::obey(model, command),
+        Mode::Edit(line) => match command {
+            Command::Accept => {
+                let typed = line.text();
+                model.mode = Mode::Explore;
+                return edit::accept_value(model, &typed);
+            }
+            _ => edit_line(model, command),
+        },
+        Mode::Force(line) => match command {
+            Command::Accept => {
+                let typed = line.text();
+                model.mode = Mode::Explore;
+                return movement::accept_force(model, &typed);
+            }
+            _ => edit_line(model, command),
+        },
+        Mode::SaveAs { line, then_quit } => match command {
+            Command::Accept => {
+                let (path, then_quit) = (PathBuf::from(line.text().trim()), *then_quit);
+                return files::write(model, path, Content::Scene, then_quit);
+            }
+            _ => edit_line(model, command),
+        },
+        Mode::Export(line) => match command {
+            Command::Accept => {
+                let path = PathBuf::from(line.text().trim());
+                return files::export(model, path);
+            }
+            _ => edit_line(model, command),
+        },
+        Mode::Overwrite { path, content, .. } => match command {
+            Command::Accept => {
+                return vec![Effect::Write { path: path.clone(), content: *content, overwrite: true }];
+            }
+            _ => model.mode = Mode::Explore,
+        },
+        Mode::Quit => match command {
+            Command::QuitAnyway => model.finished = true,
+            Command::Save => model.mode = files::save_as(&model.document, true),
+            _ => model.mode = Mode::Explore,
+        },
+    }
+    Vec::new()
+}
+
+/// Text typed or pasted into the line there is.
+fn typed(model: &mut Model, text: &str) -> Vec<Effect> {
+    if let Some(line) = model.mode.line_mut() {
+        text.chars().for_each(|character| line.insert(character));
+    }
+    library::search(model)
+}
+
+/// A command within the line that is being typed; any other leaves it.
+fn edit_line(model: &mut Model, command: Command) {
+    let Some(line) = model.mode.line_mut() else { return };
+    match command {
+        Command::Move(motion) => line.go(motion),
+        Command::Delete { backwards } => line.delete(backwards),
+        Command::Clear => line.clear(),
+        _ => model.mode = Mode::Explore,
+    }
+}
+
+fn explore(model: &mut Model, command: Command) -> Vec<Effect> {
+    // Why there is no curve stays to be read; all else goes with the next key.
+    if model.is_current() || model.is_computing() {
+        model.notice = None;
+    }
+    match command {
+        Command::Quit if model.is_unsaved() => model.mode = Mode::Quit,
+        Command::Quit | Command::QuitAnyway => model.finished = true,
+        Command::Help => model.mode = Mode::Help { scroll: 0 },
+        Command::TogglePlay
+        | Command::Step(_)
+        | Command::Restart
+        | Command::Leg(_)
+        | Command::ToggleHand
+        | Command::Push { .. }
+        | Command::TypeForce
+        | Command::Separate => return movement::obey(model, command),
+        Command::Select(_)
+        | Command::SelectEnd(_)
+        | Command::StepValue { .. }
+        | Command::EditValue
+        | Command::ToggleEffect
+        | Command::Preset(_) => return edit::obey(model, command),
+        Command::Reseed => return vec![Effect::DrawSeed],
+        Command::Undo | Command::Redo => return edit::undo(model, command == Command::Undo),
+        Command::Pin | Command::Swap | Command::ClearGhosts => return compare::obey(model, command),
+        Command::Save => model.mode = files::save_as(&model.document, false),
+        Command::Export => files::ask_export(model),
+        Command::CopyCommand => return files::copy_command(model),
+        Command::OpenLibrary => return library::open(model),
+        Command::Fragment(_)
+        | Command::ToggleLengths
+        | Command::Zoom(_)
+        | Command::Pan(_)
+        | Command::ResetZoom
+        | Command::ToggleFollow
+        | Command::NextCurve
+        | Command::ToggleNormalised
+        | Command::ToggleLoss
+        | Command::ZoomPane
+        | Command::NextPane
+        | Command::NextTheme
+        | Command::NextMarker => return look::obey(model, command),
+        Command::Suspend
+        | Command::Accept
+        | Command::Cancel
+        | Command::Move(_)
+        | Command::Delete { .. }
+        | Command::Clear => {}
+    }
+    Vec::new()
+}

@@ -1,0 +1,57 @@
+//! The mouse: it chooses panes and rows, drags the load and scrolls. Everything it does a key does too.
+
+use super::{Effect, edit, explore, look, movement};
+use crate::explorer::action::{Command, Gesture, Mouse};
+use crate::explorer::layout::{Layout, inside};
+use crate::explorer::mode::Mode;
+use crate::explorer::model::{Model, Pane};
+use crate::explorer::view::{indentation_at, parameter_at};
+use crate::explorer::worker::HandOrder;
+use ratatui::layout::Position;
+
+/// Does what the mouse asks for.
+pub fn act(model: &mut Model, mouse: Mouse) -> Vec<Effect> {
+    match (&model.mode, mouse.gesture) {
+        (Mode::Explore, _) => {}
+        (Mode::Help { .. } | Mode::Library(_), Gesture::Wheel(turns)) => {
+            return super::obey(model, Command::Select(-turns));
+        }
+        _ => return Vec::new(),
+    }
+    let layout = Layout::of(model);
+    let here = Position::new(mouse.column, mouse.row);
+    let Some((pane, area)) = layout.panes.iter().copied().find(|(_, area)| area.contains(here)) else {
+        return Vec::new();
+    };
+    match (mouse.gesture, pane) {
+        (Gesture::Press, _) => {
+            model.pane = pane;
+            match pane {
+                Pane::Parameters => {
+                    if let Some(row) = parameter_at(model, inside(area), mouse.row) {
+                        edit::select(model, row);
+                    }
+                    vec![Effect::Show]
+                }
+                Pane::Force => drag(model, inside(area), mouse.column),
+                Pane::Profile | Pane::CloseUp => vec![Effect::Show],
+            }
+        }
+        (Gesture::Drag, Pane::Force) => drag(model, inside(area), mouse.column),
+        (Gesture::Wheel(turns), Pane::Parameters) => explore(model, Command::Select(-turns)),
+        (Gesture::Wheel(turns), Pane::Profile | Pane::CloseUp) => {
+            model.pane = pane;
+            look::zoom(model, turns);
+            vec![Effect::Show]
+        }
+        (Gesture::Drag | Gesture::Wheel(_), _) => Vec::new(),
+    }
+}
+
+/// Drags the body to the indentation under the mouse.
+fn drag(model: &mut Model, area: ratatui::layout::Rect, column: u16) -> Vec<Effect> {
+    match indentation_at(model, area, column) {
+        Some(indentation) => movement::take(model, Some(HandOrder::To(indentation))),
+        None => vec![Effect::Show],
+    }
+}

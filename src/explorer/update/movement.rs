@@ -1,0 +1,160 @@
+//! What moves the body: the animation of the scene's loading, or the user's hand.
+
+use super::Effect;
+use crate::explorer::action::Command;
+use crate::explorer::mode::Mode;
+use crate::explorer::model::{Hand, Model, Notice, Player};
+use crate::explorer::snapshot::Moment;
+use crate::explorer::text_line::TextLine;
+use crate::explorer::worker::{Focus, HandOrder};
+use crate::scene::parse_quantity;
+use std::sync::Arc;
+use std::time::Duration;
+
+/// Time the animation takes for one leg.
+const LEG_TIME: Duration = Duration::from_secs(6);
+/// Steps of the animation in one leg.
+const STEPS: f64 = 120.0;
+/// Small and large steps of the hand in the whole range of indentations.
+const HAND_STEPS: (f64, f64) = (400.0, 40.0);
+/// Points that are kept of the way of the hand.
+const PATH_KEPT: usize = 20_000;
+
+/// Obeys a command that moves the body.
+pub fn obey(model: &mut Model, command: Command) -> Vec<Effect> {
+    match command {
+        Command::ToggleHand if model.hand.is_some() => return give_back(model),
+        Command::ToggleHand => return take(model, None),
+        Command::Push { steps, coarse } => {
+            let (low, high) = model.indentations().unwrap_or_default();
+            let step = (high - low) / if coarse { HAND_STEPS.1 } else { HAND_STEPS.0 };
+            return take(model, Some(HandOrder::By(f64::from(steps) * step)));
+        }
+        Command::Separate => return take(model, Some(HandOrder::Separate)),
+        Command::TypeForce => {
+            model.mode = Mode::Force(TextLine::new(""));
+            return Vec::new();
+        }
+        _ => {}
+    }
+    // What plays is the scene's loading.
+    let mut effects = Vec::new();
+    if model.hand.take().is_some() {
+        effects.push(Effect::Hand(HandOrder::Give));
+    }
+    match command {
+        Command::TogglePlay => {
+            let at_end = model.player.done >= 1.0 && model.player.leg + 1 >= model.legs().len();
+            if at_end && !model.player.playing {
+                model.player = Player { leg: 0, done: 0.0, playing: true };
+            } else {
+                model.player.playing = !model.player.playing;
+            }
+        }
+        Command::Step(steps) => {
+            model.player.playing = false;
+            let legs = model.legs().len();
+            advance(&mut model.player, f64::from(steps) / STEPS, legs);
+        }
+        Command::Restart => model.player = Player { leg: 0, done: 0.0, playing: true },
+        Command::Leg(legs) => {
+            // Back from inside a leg goes to its start.
+            let back = legs < 0 && model.player.done > 0.0;
+            let leg = model.player.leg.saturating_add_signed(if back { 0 } else { legs as isize });
+            model.player.leg = leg.min(model.legs().len().saturating_sub(1));
+            model.player.done = 0.0;
+        }
+        _ => {}
+    }
+    effects.push(Effect::Show);
+    effects
+}
+
+/// Lets the animation go on by a time.
+pub fn elapse(model: &mut Model, time: Duration) -> Vec<Effect> {
+    if !model.player.playing || model.legs().is_empty() || !model.is_current() {
+        return Vec::new();
+    }
+    let legs = model.legs().len();
+    advance(&mut model.player, time.as_secs_f64() / LEG_TIME.as_secs_f64(), legs);
+    if model.player.done >= 1.0 && model.player.leg + 1 >= legs {
+        model.player.playing = false;
+    }
+    vec![Effect::Show]
+}
+
+/// Moves the animation by a share of a leg, from leg to leg.
+fn advance(player: &mut Player, share: f64, legs: usize) {
+    player.done += share;
+    if player.done > 1.0 && player.leg + 1 < legs {
+        player.leg += 1;
+        player.done = 0.0;
+    } else if player.done < 0.0 && player.leg > 0 {
+        player.leg -= 1;
+        player.done = 1.0;
+    }
+    player.done = player.done.clamp(0.0, 1.0);
+}
+
+/// Keeps the animation on the legs there are.
+pub fn stay_on_legs(model: &mut Model, last: usize) {
+    if model.player.leg > last {
+        model.player = Player { leg: last, done: 1.0, playing: false };
+    }
+}
+
+/// Takes a moment in.
+pub fn shown(model: &mut Model, moment: Arc<Moment>) {
+    // Another moment may have been on its way when the fragment was asked for.
+    if moment.focus == model.look.focus && model.look.focus.is_question() {
+        let middle = moment.close_up.fragment.map(|fragment| fragment.middle());
+        model.look.focus = middle.map_or(Focus::Summit, Focus::Spring);
+    }
+    if let Some((hand, travel)) = model.hand.as_mut().zip(moment.hand.as_ref()) {
+        hand.path.extend(&travel.path);
+        let old = hand.path.len().saturating_sub(PATH_KEPT);
+        hand.path.drain(..old);
+        if !travel.path.is_empty() {
+            (hand.changed, hand.touched) = (travel.changed, travel.touched);
+        }
+        hand.dissipated_energy = travel.dissipated_energy;
+        if let Some(error) = &travel.refused {
+            model.notice = Some(Notice::Error(error.clone()));
+        }
+    }
+    model.moment = Some(moment);
+}
+
+/// Takes the body in hand, unless it is already, and moves it.
+pub fn take(model: &mut Model, order: Option<HandOrder>) -> Vec<Effect> {
+    if !model.is_current() || model.legs().is_empty() {
+        return Vec::new();
+    }
+    let mut effects = Vec::new();
+    if model.hand.is_none() {
+        let (leg, indentation) = (model.player.leg, model.indentation());
+        let start = model.present().map(|moment| moment.point);
+        model.player.playing = false;
+        model.hand = Some(Hand { path: start.into_iter().collect(), ..Hand::default() });
+        effects.push(Effect::Hand(HandOrder::Take { leg, indentation }));
+    }
+    effects.extend(order.map(Effect::Hand));
+    effects.push(Effect::Show);
+    effects
+}
+
+fn give_back(model: &mut Model) -> Vec<Effect> {
+    model.hand = None;
+    vec![Effect::Hand(HandOrder::Give), Effect::Show]
+}
+
+/// Moves the body to a force that was typed.
+pub fn accept_force(model: &mut Model, typed: &str) -> Vec<Effect> {
+    match parse_quantity(typed.trim(), "N") {
+        Ok(force) => take(model, Some(HandOrder::ToForce(force))),
+        Err(error) => {
+            model.notice = Some(Notice::Error(format!("{error}; for example 10 µN, or -2e-6 to pull")));
+            Vec::new()
+        }
+    }
+}

@@ -1,0 +1,129 @@
+//! The library: scenes to choose from on the left, the selected one on the right.
+
+use super::plot::{Polyline, Span, Stroke};
+use super::wrap::wrapped;
+use crate::contact::Direction;
+use crate::explorer::mode::Library;
+use crate::explorer::model::Model;
+use crate::explorer::theme::Meaning;
+use crate::scene::{Entry, Source, format_quantity};
+use ratatui::Frame;
+use ratatui::layout::Rect;
+use ratatui::text::{Line, Span as Text};
+use ratatui::widgets::canvas::Canvas;
+use ratatui::widgets::{Block, Paragraph};
+
+/// Draws the library.
+pub fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model, library: &Library) {
+    let theme = model.appearance.theme;
+    let count = library.entries.as_ref().map_or(0, Vec::len);
+    let block = Block::bordered()
+        .border_style(theme.style(Meaning::Quiet))
+        .title(format!(" Scenes, {} of {count} ", library.found.len()));
+    let inner = block.inner(area);
+    frame.render_widget(block, area);
+    let beside = inner.width >= 60;
+    let list = Rect { width: if beside { inner.width * 2 / 5 } else { inner.width }, ..inner };
+    draw_list(frame, list, model, library);
+    if beside && let Some(entry) = library.entry() {
+        let right = Rect { x: list.right() + 2, width: inner.width - list.width - 2, ..inner };
+        draw_entry(frame, right, model, entry);
+    }
+}
+
+fn draw_list(frame: &mut Frame<'_>, area: Rect, model: &Model, library: &Library) {
+    let theme = model.appearance.theme;
+    let Some(entries) = &library.entries else {
+        return frame.render_widget(Paragraph::new("reading…").style(theme.style(Meaning::Quiet)), area);
+    };
+    if library.found.is_empty() {
+        return frame.render_widget(Paragraph::new("no scene fits").style(theme.style(Meaning::Quiet)), area);
+    }
+    let first = (library.selected + 1).saturating_sub(usize::from(area.height));
+    for (row, place) in (area.y..area.bottom()).zip(first..library.found.len()) {
+        let Some(entry) = library.found.get(place).and_then(|index| entries.get(*index)) else { continue };
+        let selected = place == library.selected;
+        let mark = match (&entry.error, selected) {
+            (Some(_), _) => "!",
+            (None, true) => "›",
+            (None, false) => " ",
+        };
+        let style = if selected { Meaning::Selected } else { Meaning::Text };
+        let spans = vec![
+            Text::styled(format!("{mark} {}", entry.name), theme.style(style)),
+            Text::styled(format!("  {}", place_of(entry.origin)), theme.style(Meaning::Quiet)),
+        ];
+        frame.render_widget(Paragraph::new(Line::from(spans)), Rect { y: row, height: 1, ..area });
+    }
+}
+
+/// Where a scene comes from, in words.
+fn place_of(source: Source) -> &'static str {
+    match source {
+        Source::BuiltIn => "built-in",
+        Source::Own => "own",
+        Source::Working => "here",
+    }
+}
+
+/// Title, what to look at, the curve, and the text of a scene.
+fn draw_entry(frame: &mut Frame<'_>, area: Rect, model: &Model, entry: &Entry) {
+    let theme = model.appearance.theme;
+    let mut lines = wrapped(&Line::styled(entry.title.clone(), theme.style(Meaning::Title)), area.width);
+    let notice = entry.notice.split_whitespace().collect::<Vec<_>>().join(" ");
+    lines.extend(wrapped(&Line::raw(notice), area.width));
+    if let Some(error) = &entry.error {
+        lines.extend(wrapped(&Line::styled(format!("! {error}"), theme.style(Meaning::Error)), area.width));
+    }
+    let rows = (lines.len() as u16).min(area.height);
+    frame.render_widget(Paragraph::new(lines), Rect { height: rows, ..area });
+    let mut rest = Rect { y: area.y + rows, height: area.height - rows, ..area };
+    let curve_rows = if rest.height >= 12 { rest.height / 2 } else { 0 };
+    if curve_rows > 0 {
+        draw_curve(frame, Rect { height: curve_rows, ..rest }, model, entry);
+        rest = Rect { y: rest.y + curve_rows, height: rest.height - curve_rows, ..rest };
+    }
+    let text: Vec<Line<'_>> = entry.text.lines().map(Line::raw).collect();
+    frame.render_widget(Paragraph::new(text).style(theme.style(Meaning::Quiet)), rest);
+}
+
+fn draw_curve(frame: &mut Frame<'_>, area: Rect, model: &Model, entry: &Entry) {
+    let theme = model.appearance.theme;
+    let Some(preview) = model.preview.as_ref().filter(|preview| preview.text == entry.text) else { return };
+    let outcome = match &preview.outcome {
+        Ok(outcome) => outcome,
+        Err(error) => {
+            let lines = wrapped(&Line::styled(format!("! {error}"), theme.style(Meaning::Error)), area.width);
+            return frame.render_widget(Paragraph::new(lines), area);
+        }
+    };
+    let legs = &outcome.history.legs;
+    let points = || legs.iter().flat_map(|leg| &leg.curve);
+    let x = Span::around(points().map(|point| point.indentation), 0.06);
+    let y = Span::around(points().map(|point| point.force).chain([0.0]), 0.08);
+    let plot = Rect { height: area.height - 1, ..area };
+    let canvas = Canvas::default()
+        .marker(model.appearance.marker.symbols())
+        .x_bounds(x.bounds())
+        .y_bounds(y.bounds())
+        .paint(|ctx| {
+            for (direction, meaning, stroke) in [
+                (Direction::Loading, Meaning::Approach, Stroke::Dotted),
+                (Direction::Unloading, Meaning::Retraction, Stroke::Solid),
+            ] {
+                ctx.layer();
+                for leg in legs.iter().filter(|leg| leg.direction == direction) {
+                    let points: Vec<_> = leg.curve.iter().map(|p| (p.indentation, p.force)).collect();
+                    ctx.draw(&Polyline { points: &points, colour: theme.colour(meaning), stroke });
+                }
+            }
+        });
+    frame.render_widget(canvas, plot);
+    let mut text = Vec::new();
+    if let Some(force) = outcome.figures.adhesion_force {
+        text.push(format!("F_a {}", format_quantity(force, "N")));
+    }
+    text.extend(outcome.regime.map(|regime| regime.name().to_owned()));
+    let row = Rect { y: plot.bottom(), height: 1, ..area };
+    frame.render_widget(Paragraph::new(text.join(" · ")).style(theme.style(Meaning::Title)), row);
+}

@@ -1,0 +1,72 @@
+//! What the explorer writes to files: scenes, curves, pictures of its screen.
+
+use super::action::{Content, WriteFailure, Written};
+use super::model::{Mode, Model, Notice};
+use super::picture::{Palette, svg, text};
+use super::theme::Theme;
+use super::view;
+use crate::export::{WriteError, write_curve, write_json, write_new};
+use ratatui::Terminal;
+use ratatui::backend::TestBackend;
+use ratatui::buffer::Buffer;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+/// Writes what is asked for.
+///
+/// # Errors
+/// When the file is there and is not to be overwritten, or the system refuses.
+pub fn write(
+    model: &Model,
+    path: PathBuf,
+    content: Content,
+    overwrite: bool,
+) -> Result<Written, WriteFailure> {
+    let written = write_new(&path, overwrite, |file| write_content(file, model, content));
+    match written {
+        Ok(()) => Ok(Written { path, content }),
+        Err(WriteError::Exists { .. }) => Err(WriteFailure::Exists(path, content)),
+        Err(other) => Err(WriteFailure::Refused(other.to_string())),
+    }
+}
+
+fn write_content(file: &mut dyn Write, model: &Model, content: Content) -> io::Result<()> {
+    let no_curve = || io::Error::other("the scene has no curve yet");
+    let computed = || model.computed.as_ref().filter(|_| model.is_current()).ok_or_else(no_curve);
+    match content {
+        Content::Scene => file.write_all(model.document.text().as_bytes()),
+        Content::Curve => write_curve(file, &computed()?.outcome),
+        Content::Outcome => write_json(file, model.document.scene(), &computed()?.outcome),
+        Content::Picture => file.write_all(svg_of(model).as_bytes()),
+        Content::Text => file.write_all(text(&picture_of(model)).as_bytes()),
+    }
+}
+
+/// The screen as a picture in SVG, on a background that suits its colours.
+#[must_use]
+pub fn svg_of(model: &Model) -> String {
+    let name = Path::new(model.document.name()).file_stem().unwrap_or_default();
+    let title = format!("Asperity: {}", name.to_string_lossy());
+    let palette = if model.appearance.theme == Theme::Light { Palette::LIGHT } else { Palette::DARK };
+    svg(&picture_of(model), &palette, &title)
+}
+
+/// The screen as it is without any question or line of text.
+#[must_use]
+pub fn picture_of(model: &Model) -> Buffer {
+    let mut model = model.clone();
+    model.mode = Mode::Explore;
+    if !matches!(model.notice, Some(Notice::Error(_))) {
+        model.notice = None;
+    }
+    let (columns, rows) = model.size;
+    let mut terminal = match Terminal::new(TestBackend::new(columns, rows)) {
+        Ok(terminal) => terminal,
+        Err(never) => match never {},
+    };
+    match terminal.draw(|frame| view::draw(frame, &model)) {
+        Ok(_) => {}
+        Err(never) => match never {},
+    }
+    terminal.backend().buffer().clone()
+}
