@@ -260,20 +260,20 @@ impl Desk {
 
     fn do_all(&mut self, batch: Batch, newest: &Newest, report: &dyn Fn(Report) -> bool) {
         let Desk { engine, playback, .. } = self;
-        if let Some((generation, scene)) = batch.compute {
-            if let Some(one) = playback.compute(engine.as_mut(), generation, scene, newest, report) {
-                report(one);
-            }
+        if let Some((generation, scene)) = batch.compute
+            && let Some(one) = playback.compute(engine.as_mut(), generation, scene, newest, report)
+        {
+            report(one);
         }
         for (generation, order) in batch.orders {
             if generation == playback.generation() {
                 playback.obey(engine.as_mut(), order);
             }
         }
-        if let Some(request) = batch.show.filter(|request| request.generation == playback.generation()) {
-            if let Some(moment) = playback.show(engine.as_mut(), &request) {
-                report(Report::Shown(Arc::new(moment)));
-            }
+        if let Some(request) = batch.show.filter(|request| request.generation == playback.generation())
+            && let Some(moment) = playback.show(engine.as_mut(), &request)
+        {
+            report(Report::Shown(Arc::new(moment)));
         }
         if let Some((text, scene)) = batch.preview {
             let outcome = self.previews.run(&scene, &|| false, &mut |_, _, _| Ok(()));

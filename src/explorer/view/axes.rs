@@ -47,7 +47,7 @@ impl Places {
         Places {
             plot,
             row: (row_height > 0).then(|| Rect { y: plot.bottom(), height: 1, ..plot }),
-            column: (gutter > 0).then(|| Rect { x: area.x, width: gutter, ..plot }),
+            column: (gutter > 0).then_some(Rect { x: area.x, width: gutter, ..plot }),
         }
     }
 
