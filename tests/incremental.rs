@@ -202,7 +202,7 @@ fn check_energy(found: f64, expected: f64) -> Result<(), TestCaseError> {
 }
 
 proptest! {
-    #![proptest_config(cases(3000))]
+    #![proptest_config(cases(1000))]
 
     #[test]
     fn it_stands_where_the_exact_solver_stands(body in body(), goals in goals()) {
@@ -454,4 +454,23 @@ fn a_line_of_no_springs_is_never_touched() {
     assert_eq!(hand.separate(), Move::default());
     assert_eq!(state(&*hand).1, vec![]);
     assert_eq!(hand.point().indentation, 3.0);
+}
+
+#[test]
+fn a_force_no_indentation_reaches_is_refused() {
+    let foundation = Foundation { spacing: 1e-3, effective_modulus: 1.0 };
+    for work in [None, Some(0.1)] {
+        let body = Body { gaps: vec![0.3, 0.0, 0.9, 0.2, 0.5], foundation, work };
+        let tree = body.tree();
+        let (mut solver, mut hand) = (body.exact(&tree), body.in_hand(&tree));
+        for leg in [Leg::ToIndentation(0.25), Leg::ToSeparation] {
+            solver.advance(leg).unwrap();
+            go(&mut *hand, leg).unwrap();
+            let before = state(&*hand);
+            let refused = solver.advance(Leg::ToForce(1e308));
+            assert!(matches!(refused, Err(ContactError::OutOfReach { .. })), "{refused:?}");
+            assert_eq!(hand.move_to_force(1e308), Err(HandError::OutOfReach { force: 1e308 }));
+            assert_eq!(state(&*hand), before);
+        }
+    }
 }

@@ -236,7 +236,8 @@ impl<R: EdgeRule> Incremental<R> {
     }
 
     fn pressed(&self, course: &Course) -> Move {
-        let dissipated_energy = -self.energy(course);
+        // Not −0 where nothing joined with a stretch.
+        let dissipated_energy = 0.0 - self.energy(course);
         Move { joins: course.springs, dissipated_energy, ..self.still(course) }
     }
 
