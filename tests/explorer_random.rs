@@ -174,8 +174,18 @@ impl Explorer {
     }
 
     fn act(&mut self, action: Action) {
-        let effects = update(&mut self.driver.model, action);
-        self.waiting.extend(effects);
+        for effect in update(&mut self.driver.model, action) {
+            // The hand waits for no answer: its orders are on their way at once.
+            match effect {
+                Effect::Hand(_) => drop(self.driver.answer(effect)),
+                // Of all scenes that wait, only the newest is computed.
+                Effect::Compute => {
+                    self.waiting.retain(|one| *one != Effect::Compute);
+                    self.waiting.push_back(Effect::Compute);
+                }
+                other => self.waiting.push_back(other),
+            }
+        }
         self.judge();
     }
 

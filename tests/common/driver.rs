@@ -110,10 +110,11 @@ impl Driver {
 
     /// Asks the worker, and waits for all it reports.
     fn ask(&mut self, request: Request) -> Vec<Action> {
-        self.worker.ask(request);
+        self.worker.ask(request.clone());
         let mut actions = Vec::new();
         loop {
-            let report = self.reports.recv_timeout(PATIENCE).expect("the worker answers");
+            let report = self.reports.recv_timeout(PATIENCE);
+            let report = report.unwrap_or_else(|_| panic!("the worker does not answer {request:?}"));
             let last = !matches!(report, Report::Progress { .. });
             actions.push(action_of(report));
             if last {
