@@ -37,6 +37,8 @@ pub mod cli;
 pub mod contact;
 pub mod explorer;
 pub mod export;
+mod memory;
+mod parallel;
 pub mod reference;
 pub mod scene;
 pub mod simulation;

@@ -66,7 +66,10 @@ impl Cost {
             Stage::LoadingPass => on_line(self.legs.loading(), THRESHOLD),
             Stage::UnloadingPass => on_line(self.legs.unloading(), 0),
             Stage::Relaxation => on_line(None, RELAXED),
-            Stage::ZeroLoadAdhesion if self.exact => on_line(Some(2), THRESHOLD),
+            Stage::ZeroLoadAdhesion if self.exact => {
+                // What first touches is known from the first leg that touches, if there is one.
+                on_line(Some(if self.legs.loading() == Some(0) { 2 } else { 1 }), THRESHOLD)
+            }
             Stage::ZeroLoadAdhesion => on_line(None, RELAXED),
             Stage::Fragments => on_line(Some(self.legs.all()), 0),
         }

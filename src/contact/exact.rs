@@ -1,15 +1,17 @@
 //! The exact solver: any loading history, leg by leg, in linear time and without a step error.
 
-use super::ledger::{Grid, Ledger};
+use super::ledger::{Grid, Ledger, SquaredStretch};
 use super::search::{self, Extreme};
 use super::springs::{AdhesiveSprings, BareSprings, Contact};
 use super::tally::Tally;
-use super::{ContactError, ContactTree, CurvePoint, Direction, EdgeRule, Foundation, LegRecord, Work};
+use super::{
+    ContactError, ContactTree, CurvePoint, Direction, EdgeRule, Foundation, LegContact, LegRecord, Work,
+};
 use crate::scene::Leg;
 use std::time::{Duration, Instant};
 
 /// Intervals in which extremes are searched when the curve has fewer samples.
-const SEARCH_INTERVALS: usize = 1024;
+pub(super) const SEARCH_INTERVALS: usize = 1024;
 
 /// A body on its foundation, moved leg by leg.
 pub struct Exact<C> {
@@ -65,7 +67,21 @@ pub fn adhesive<R: EdgeRule>(
     foundation: Foundation,
     samples: usize,
 ) -> Result<Adhesive<'_, R>, ContactError> {
-    let mut exact = Exact::new(AdhesiveSprings::new(tree, rule)?, foundation, samples);
+    adhesive_in(Vec::new(), tree, rule, foundation, samples)
+}
+
+/// The same in the memory that [`Exact::into_memory`] gave back: fresh memory costs about as much as a pass.
+///
+/// # Errors
+/// [`ContactError::OutOfMemory`].
+pub fn adhesive_in<R: EdgeRule>(
+    memory: Vec<f64>,
+    tree: &ContactTree,
+    rule: R,
+    foundation: Foundation,
+    samples: usize,
+) -> Result<Adhesive<'_, R>, ContactError> {
+    let mut exact = Exact::new(AdhesiveSprings::new(tree, rule, memory)?, foundation, samples);
     exact.work.springs = tree.len() as u64;
     exact.work.tree_nodes = tree.len() as u64;
     Ok(exact)
@@ -77,6 +93,19 @@ pub fn bare(gaps: &[f64], foundation: Foundation, samples: usize) -> Bare<'_> {
     let mut exact = Exact::new(BareSprings::new(gaps), foundation, samples);
     exact.work.springs = gaps.len() as u64;
     exact
+}
+
+impl<R: EdgeRule> Adhesive<'_, R> {
+    /// The memory it worked in, for the next body.
+    #[must_use]
+    pub fn into_memory(self) -> Vec<f64> {
+        self.contact.into_memory()
+    }
+
+    /// Roots of the fragments in contact at first touch, on the leg that forms the contact.
+    pub(crate) fn roots_at_touch(&self) -> Option<Vec<usize>> {
+        self.contact.roots_at_touch().filter(|_| self.touching)
+    }
 }
 
 impl<C: Contact> Exact<C> {
@@ -145,6 +174,11 @@ impl<C: Contact> Exact<C> {
         Ledger::new(&self.contact, grid)
     }
 
+    fn ledger_with_stretches(&mut self, grid: Grid) -> (Ledger, SquaredStretch) {
+        self.work.springs_tallied += self.work.springs;
+        Ledger::with_stretches(&self.contact, grid)
+    }
+
     /// Grid of a leg's curve: every `stride`-th point is a sample, those between sharpen the search.
     fn grid(&self, low: f64, high: f64) -> (Grid, usize) {
         let intervals = self.samples - 1;
@@ -206,7 +240,7 @@ impl<C: Contact> Exact<C> {
             Target::Separation => low,
         };
         let (grid, stride) = self.grid(low, high);
-        let ledger = self.ledger(grid);
+        let (ledger, joined) = self.ledger_with_stretches(grid);
         let mut curve = self.samples(&ledger, stride);
         if separated {
             curve.insert(0, self.curve_point(low, Tally::default()));
@@ -237,7 +271,7 @@ impl<C: Contact> Exact<C> {
             smallest,
             joins,
             leaves: 0,
-            dissipated_energy: -self.energy(ledger.squared_stretch + ledger.squared_stretch_below),
+            dissipated_energy: -self.energy(joined.inside + joined.below),
         })
     }
 
@@ -276,7 +310,7 @@ impl<C: Contact> Exact<C> {
             }
         };
         let (grid, stride) = self.grid(low, high);
-        let ledger = self.ledger(grid);
+        let (ledger, left) = self.ledger_with_stretches(grid);
         let extreme = search::smallest(&ledger, &self.contact, &mut self.work.events_sorted);
         let smallest = self.point(extreme);
         let mut curve = self.samples(&ledger, stride);
@@ -288,9 +322,9 @@ impl<C: Contact> Exact<C> {
         let (tally, left_with) = match target {
             Target::Separation => {
                 curve.push(self.curve_point(low, Tally::default()));
-                (Tally::default(), ledger.squared_stretch + ledger.squared_stretch_below)
+                (Tally::default(), left.inside + left.below)
             }
-            _ => (ledger.tallies[0], ledger.squared_stretch),
+            _ => (ledger.tallies[0], left.inside),
         };
         let largest = curve.first().copied().unwrap_or(smallest);
         let leaves = (before.tally.springs - tally.springs).unsigned_abs();
@@ -352,6 +386,15 @@ impl<C: Contact> super::Solver for Exact<C> {
         self.contact.thresholds_along_line(out);
         if !self.touching {
             out.fill(f64::INFINITY);
+        }
+    }
+
+    fn copy_leg(&self, copy: &mut LegContact) -> Result<(), ContactError> {
+        if self.touching {
+            self.contact.copy_leg(copy)
+        } else {
+            copy.keep_nothing();
+            Ok(())
         }
     }
 

@@ -111,15 +111,17 @@ pub struct Work {
     pub loading_passes: u64,
     /// Passes over the tree for unloading legs.
     pub unloading_passes: u64,
+    /// Passes over what touches first, for F_a(0).
+    pub zero_load_passes: u64,
     /// Evaluations of the rule of Hess.
     pub hess_evaluations: u64,
     /// Springs sorted into the intervals of a curve.
     pub springs_tallied: u64,
     /// Springs sorted by threshold in the intervals that may hold an extreme of the force.
     pub events_sorted: u64,
-    /// Springs that came into contact.
+    /// Springs that came into contact on the legs of the loading.
     pub joins: u64,
-    /// Springs that left contact.
+    /// Springs that left contact on the legs of the loading.
     pub leaves: u64,
     /// Steps of the stepwise solver.
     pub steps: u64,
@@ -129,4 +131,39 @@ pub struct Work {
     pub spring_updates: u64,
     /// Heights counted into the histogram.
     pub heights_binned: u64,
+}
+
+impl Work {
+    /// Adds what was done beside the legs of the loading; what joined and left there is no part of it.
+    pub(crate) fn add_effort(&mut self, beside: &Work) {
+        // All fields by name: a new one cannot be forgotten here.
+        let Work {
+            springs: _,
+            random_phases,
+            transforms,
+            tree_nodes: _,
+            loading_passes: _,
+            unloading_passes: _,
+            zero_load_passes,
+            hess_evaluations,
+            springs_tallied,
+            events_sorted,
+            joins: _,
+            leaves: _,
+            steps,
+            relaxation_sweeps,
+            spring_updates,
+            heights_binned,
+        } = *beside;
+        self.random_phases += random_phases;
+        self.transforms += transforms;
+        self.zero_load_passes += zero_load_passes;
+        self.hess_evaluations += hess_evaluations;
+        self.springs_tallied += springs_tallied;
+        self.events_sorted += events_sorted;
+        self.steps += steps;
+        self.relaxation_sweeps += relaxation_sweeps;
+        self.spring_updates += spring_updates;
+        self.heights_binned += heights_binned;
+    }
 }

@@ -21,12 +21,14 @@ mod fragment_set;
 mod history;
 mod incremental;
 mod ledger;
+mod leg_contact;
 mod search;
 mod solver;
 mod springs;
 pub mod stepwise;
 mod tally;
 mod thresholds;
+pub(crate) mod touch;
 mod tournament;
 mod tree;
 
@@ -36,6 +38,7 @@ pub use exact::Exact;
 pub use foundation::{Foundation, HessRule};
 pub use history::{CurvePoint, Direction, History, LegRecord, Work};
 pub use incremental::{HandError, HandHeld, Incremental, Move};
+pub use leg_contact::LegContact;
 pub use solver::{Solver, run};
 pub use stepwise::Stepwise;
 pub use tally::{GapScale, Tally};
@@ -43,12 +46,10 @@ pub use tree::ContactTree;
 
 /// An empty vector with room for `count` values, or an error instead of an abort.
 pub(crate) fn reserve<T>(count: usize) -> Result<Vec<T>, ContactError> {
-    cleared(Vec::new(), count)
+    crate::memory::emptied(Vec::new(), count).map_err(|_| ContactError::OutOfMemory { springs: count })
 }
 
-/// This vector, emptied, with room for `count` values, or an error instead of an abort.
-fn cleared<T>(mut values: Vec<T>, count: usize) -> Result<Vec<T>, ContactError> {
-    values.clear();
-    values.try_reserve_exact(count).map_err(|_| ContactError::OutOfMemory { springs: count })?;
-    Ok(values)
+/// `count` values in this memory; see [`crate::memory::resized`].
+fn resized<T: Clone>(values: Vec<T>, count: usize, fill: T) -> Result<Vec<T>, ContactError> {
+    crate::memory::resized(values, count, fill).map_err(|_| ContactError::OutOfMemory { springs: count })
 }

@@ -1,6 +1,6 @@
 //! What every solver offers: a body moved leg by leg.
 
-use super::{ContactError, History, LegRecord, Work};
+use super::{ContactError, History, LegContact, LegRecord, Work};
 use crate::scene::Leg;
 
 /// A body on its foundation that can be moved leg by leg. It begins separated, at d = 0 just before
@@ -20,6 +20,13 @@ pub trait Solver {
     /// contact on the present leg (−∞ always, +∞ never).
     fn thresholds_along_line(&self, out: &mut Vec<f64>);
 
+    /// Copies what tells the contact at any indentation of the present leg, in the memory of `copy`: far
+    /// cheaper than [`Solver::thresholds_along_line`] and enough to replay the leg.
+    ///
+    /// # Errors
+    /// [`ContactError::OutOfMemory`]; the copy then tells of no contact.
+    fn copy_leg(&self, copy: &mut LegContact) -> Result<(), ContactError>;
+
     /// What has been done so far.
     fn work(&self) -> Work;
 
@@ -32,10 +39,10 @@ pub trait Solver {
 ///
 /// # Errors
 /// The first leg that fails ends the run.
-pub fn run(
-    solver: &mut dyn Solver,
+pub fn run<S: Solver + ?Sized>(
+    solver: &mut S,
     legs: &[Leg],
-    mut after: impl FnMut(&LegRecord, &dyn Solver) -> Result<(), ContactError>,
+    mut after: impl FnMut(&LegRecord, &S) -> Result<(), ContactError>,
 ) -> Result<History, ContactError> {
     let mut history = History::default();
     for &leg in legs {

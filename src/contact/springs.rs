@@ -3,7 +3,7 @@
 use super::ledger::{Spring, Springs};
 use super::tally::GapScale;
 use super::thresholds;
-use super::{ContactError, ContactTree, EdgeRule, Work};
+use super::{ContactError, ContactTree, EdgeRule, LegContact, Work};
 
 /// A set of springs that can be loaded and unloaded leg by leg.
 pub trait Contact: Springs {
@@ -15,6 +15,11 @@ pub trait Contact: Springs {
     /// Smallest indentation at which each spring is in contact on the present leg, in their order on
     /// the line.
     fn thresholds_along_line(&self, out: &mut Vec<f64>);
+    /// Copies what tells the contact at any indentation of the present leg.
+    ///
+    /// # Errors
+    /// [`ContactError::OutOfMemory`].
+    fn copy_leg(&self, copy: &mut LegContact) -> Result<(), ContactError>;
     /// First and last spring of each fragment in contact at `indentation`, in ascending order.
     fn fragments(&self, indentation: f64) -> Vec<(usize, usize)>;
 }
@@ -25,40 +30,30 @@ pub struct AdhesiveSprings<'a, R> {
     rule: R,
     thresholds: Vec<f64>,
     scale: GapScale,
-    /// Springs in contact and their fragments when the present leg began.
-    held: (u64, u64),
+    /// Whether the present leg presses a body that was separated before.
+    forms: bool,
 }
 
 impl<'a, R: EdgeRule> AdhesiveSprings<'a, R> {
-    pub fn new(tree: &'a ContactTree, rule: R) -> Result<Self, ContactError> {
-        let mut thresholds = super::reserve(tree.len())?;
-        thresholds.resize(tree.len(), f64::INFINITY);
-        // The root is the largest gap.
-        let largest = tree.gaps().last().copied().unwrap_or(0.0);
-        Ok(AdhesiveSprings { tree, rule, thresholds, scale: GapScale::for_gaps_up_to(largest), held: (0, 0) })
+    /// Keeps its thresholds in this memory; what it holds does not matter, as nothing asks for them before
+    /// the first pass has written them.
+    pub fn new(tree: &'a ContactTree, rule: R, memory: Vec<f64>) -> Result<Self, ContactError> {
+        let thresholds = super::resized(memory, tree.len(), f64::INFINITY)?;
+        Ok(AdhesiveSprings { tree, rule, thresholds, scale: tree.gap_scale(), forms: false })
     }
 
-    fn count_held(&mut self, indentation: f64) {
-        let (mut springs, mut fragments) = (0, 0);
-        self.each_fragment(indentation, |node| {
-            springs += u64::from(self.tree.size(node));
-            fragments += 1;
-        });
-        self.held = (springs, fragments);
+    pub fn into_memory(self) -> Vec<f64> {
+        self.thresholds
     }
 
-    /// Calls `see` with the root of each fragment in contact, from the end of the post-order.
-    fn each_fragment(&self, indentation: f64, mut see: impl FnMut(usize)) {
-        let mut end = self.thresholds.len();
-        while end > 0 {
-            let node = end - 1;
-            if self.thresholds[node] <= indentation {
-                see(node);
-                end -= self.tree.size(node) as usize;
-            } else {
-                end = node;
-            }
-        }
+    /// Roots of the fragments in contact at first touch, from the end of the post-order, on the leg that
+    /// forms the contact.
+    pub fn roots_at_touch(&self) -> Option<Vec<usize>> {
+        self.forms.then(|| {
+            let mut roots = Vec::new();
+            self.tree.each_fragment(&self.thresholds, 0.0, |root| roots.push(root));
+            roots
+        })
     }
 }
 
@@ -81,6 +76,7 @@ impl<R: EdgeRule> Contact for AdhesiveSprings<'_, R> {
     fn load(&mut self, from: Option<f64>, work: &mut Work) -> f64 {
         let nodes = self.tree.len() as u64;
         work.loading_passes += 1;
+        self.forms = from.is_none();
         match from {
             None => {
                 work.hess_evaluations += nodes.saturating_sub(1);
@@ -88,8 +84,11 @@ impl<R: EdgeRule> Contact for AdhesiveSprings<'_, R> {
             }
             Some(from) => {
                 // Each part of a subtree that is still open asks the rule once.
-                self.count_held(from);
-                let (springs, fragments) = self.held;
+                let (mut springs, mut fragments) = (0, 0);
+                self.tree.each_fragment(&self.thresholds, from, |root| {
+                    springs += u64::from(self.tree.size(root));
+                    fragments += 1;
+                });
                 work.hess_evaluations += (nodes - springs + fragments).saturating_sub(1);
                 thresholds::load(self.tree, &self.rule, &mut self.thresholds, |threshold| threshold <= from)
             }
@@ -98,9 +97,10 @@ impl<R: EdgeRule> Contact for AdhesiveSprings<'_, R> {
 
     fn unload(&mut self, from: f64, work: &mut Work) -> f64 {
         work.unloading_passes += 1;
-        self.count_held(from);
-        work.hess_evaluations += self.held.0;
-        thresholds::unload(self.tree, &self.rule, &mut self.thresholds, from)
+        self.forms = false;
+        let held = thresholds::unload(self.tree, &self.rule, &mut self.thresholds, from);
+        work.hess_evaluations += held.springs;
+        held.separates
     }
 
     fn thresholds_along_line(&self, out: &mut Vec<f64>) {
@@ -111,11 +111,12 @@ impl<R: EdgeRule> Contact for AdhesiveSprings<'_, R> {
         }
     }
 
+    fn copy_leg(&self, copy: &mut LegContact) -> Result<(), ContactError> {
+        copy.keep_tree_order(&self.thresholds)
+    }
+
     fn fragments(&self, indentation: f64) -> Vec<(usize, usize)> {
-        let mut fragments = Vec::new();
-        self.each_fragment(indentation, |node| fragments.push(self.tree.interval(node)));
-        fragments.sort_unstable();
-        fragments
+        self.tree.fragments(&self.thresholds, indentation)
     }
 }
 
@@ -166,6 +167,11 @@ impl Contact for BareSprings<'_> {
     fn thresholds_along_line(&self, out: &mut Vec<f64>) {
         out.clear();
         out.extend_from_slice(self.gaps);
+    }
+
+    fn copy_leg(&self, copy: &mut LegContact) -> Result<(), ContactError> {
+        copy.keep_gaps();
+        Ok(())
     }
 
     fn fragments(&self, indentation: f64) -> Vec<(usize, usize)> {

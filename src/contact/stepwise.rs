@@ -4,8 +4,8 @@
 //! with the exact solver but the rules and the sums.
 
 use super::{
-    ContactError, CurvePoint, Direction, Foundation, GapScale, HessRule, LegRecord, Solver, Tally, Work,
-    reserve,
+    ContactError, CurvePoint, Direction, Foundation, GapScale, HessRule, LegContact, LegRecord, Solver,
+    Tally, Work, reserve,
 };
 use crate::scene::Leg;
 
@@ -392,6 +392,10 @@ impl Solver for Stepwise<'_> {
     fn thresholds_along_line(&self, out: &mut Vec<f64>) {
         out.clear();
         out.extend_from_slice(&self.thresholds);
+    }
+
+    fn copy_leg(&self, copy: &mut LegContact) -> Result<(), ContactError> {
+        copy.keep_line_order(&self.thresholds)
     }
 
     fn work(&self) -> Work {

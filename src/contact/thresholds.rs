@@ -24,40 +24,49 @@ pub(crate) fn load<R: EdgeRule>(
     let shapes = &tree.shapes()[..thresholds.len()];
     let gaps = &tree.gaps()[..thresholds.len()];
     for node in 0..thresholds.len() {
-        let shape = shapes[node];
-        let mut closes = gaps[node];
-        if already(thresholds[node]) {
-            closes = f64::NEG_INFINITY;
-        } else {
-            if shape.right > 0 {
-                let child = node - 1;
-                closes = closes.min(thresholds[child].max(rule.grows_at(tree, child, node)));
-            }
-            if shape.left() > 0 {
-                let child = node - 1 - shape.right as usize;
-                closes = closes.min(thresholds[child].max(rule.grows_at(tree, child, node)));
-            }
+        let own = if already(thresholds[node]) { f64::NEG_INFINITY } else { gaps[node] };
+        thresholds[node] = own;
+        let mut closes = own;
+        // In place of a child that is not there the node takes itself in no earlier than on its own.
+        for child in children_or_self(node, shapes[node]) {
+            let takes_in = greater(thresholds[child], rule.grows_at(tree, child, node));
+            closes = lesser(closes, takes_in);
         }
         thresholds[node] = closes;
     }
     for node in (0..thresholds.len()).rev() {
         let joins = thresholds[node];
         for child in children_or_self(node, shapes[node]) {
-            thresholds[child] = thresholds[child].min(joins);
+            thresholds[child] = lesser(thresholds[child], joins);
         }
     }
     thresholds.last().copied().unwrap_or(f64::NEG_INFINITY)
 }
 
+/// What an unloading leg begins with and where it ends at the latest.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Held {
+    /// Springs in contact when it begins.
+    pub springs: u64,
+    /// The smallest threshold: below it nothing is in contact.
+    pub separates: f64,
+}
+
+impl Held {
+    /// Nothing in contact.
+    pub const NOTHING: Held = Held { springs: 0, separates: f64::INFINITY };
+
+    /// This and what else is in contact.
+    pub fn and(self, other: Held) -> Held {
+        Held { springs: self.springs + other.springs, separates: lesser(self.separates, other.separates) }
+    }
+}
+
 /// Thresholds of an unloading leg that begins at indentation `from`, overwriting those of the leg
-/// before.
-///
-/// A subtree opens, and its largest spring leaves, as soon as one that contains it has opened or its
-/// own rule no longer holds it: t_v = min(t_parent, `holds_to`(v)). Springs that are not in contact
-/// get +∞. Returns the smallest threshold: below it nothing is in contact.
-pub(crate) fn unload<R: EdgeRule>(tree: &ContactTree, rule: &R, thresholds: &mut [f64], from: f64) -> f64 {
+/// before. Springs that are not in contact get +∞.
+pub(crate) fn unload<R: EdgeRule>(tree: &ContactTree, rule: &R, thresholds: &mut [f64], from: f64) -> Held {
     let shapes = &tree.shapes()[..thresholds.len()];
-    let mut separates = f64::INFINITY;
+    let mut held = Held::NOTHING;
     let mut end = thresholds.len();
     while end > 0 {
         let root = end - 1;
@@ -68,25 +77,57 @@ pub(crate) fn unload<R: EdgeRule>(tree: &ContactTree, rule: &R, thresholds: &mut
         }
         // A node in contact whose parent is not is the root of one whole fragment.
         let start = end - shapes[root].size as usize;
-        // What was in contact is so here, also where rounding puts joining and leaving at one number.
-        thresholds[root] = from;
-        for node in (start..end).rev() {
-            // Handed down to it: when the subtree around its own opens.
-            let leaves = thresholds[node].min(rule.holds_to(tree, node));
-            thresholds[node] = leaves;
-            for child in children_or_self(node, shapes[node]) {
-                thresholds[child] = leaves;
-            }
-            separates = separates.min(leaves);
-        }
+        held = held.and(open(tree, rule, root, &mut thresholds[start..end], from));
         end = start;
     }
-    separates
+    held
+}
+
+/// Thresholds at which the fragment that fills the subtree of `root` opens, on a leg from indentation
+/// `from`; `thresholds` has one value for each node of this subtree and what it held does not matter.
+///
+/// A subtree opens, and its largest spring leaves, as soon as one that contains it has opened or its
+/// own rule no longer holds it: t_v = min(t_parent, `holds_to`(v)).
+pub(crate) fn open<R: EdgeRule>(
+    tree: &ContactTree,
+    rule: &R,
+    root: usize,
+    thresholds: &mut [f64],
+    from: f64,
+) -> Held {
+    let start = root + 1 - thresholds.len();
+    let shapes = &tree.shapes()[start..=root];
+    let mut separates = f64::INFINITY;
+    // What was in contact is so here, also where rounding puts joining and leaving at one number.
+    if let Some(last) = thresholds.last_mut() {
+        *last = from;
+    }
+    for node in (0..thresholds.len()).rev() {
+        // Handed down to it: when the subtree around its own opens.
+        let leaves = lesser(thresholds[node], rule.holds_to(tree, start + node));
+        thresholds[node] = leaves;
+        for child in children_or_self(node, shapes[node]) {
+            thresholds[child] = leaves;
+        }
+        separates = lesser(separates, leaves);
+    }
+    Held { springs: thresholds.len() as u64, separates }
+}
+
+/// The smaller of two numbers, neither of which is NaN: `f64::min` would look for that.
+#[inline]
+fn lesser(a: f64, b: f64) -> f64 {
+    if b < a { b } else { a }
+}
+
+/// The larger of two numbers, neither of which is NaN.
+#[inline]
+fn greater(a: f64, b: f64) -> f64 {
+    if b > a { b } else { a }
 }
 
 /// Right and left child of a node; the node itself in place of one it does not have, to which the passes
-/// from parents to children do no harm. A branch on whether there is a child would often be mispredicted
-/// on a rough line.
+/// do no harm. A branch on whether there is a child would often be mispredicted on a rough line.
 #[inline]
 fn children_or_self(node: usize, shape: Shape) -> [usize; 2] {
     let right = usize::from(shape.right > 0);

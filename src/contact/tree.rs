@@ -1,6 +1,6 @@
 //! The max-Cartesian tree of the gaps: every fragment that can stand in equilibrium is one subtree.
 
-use super::ContactError;
+use super::{ContactError, GapScale};
 
 /// The max-Cartesian tree of the gaps c₀ … c₍N−1₎, in post-order.
 ///
@@ -67,33 +67,33 @@ impl ContactTree {
     pub fn rebuild(self, gaps: &[f64]) -> Result<Self, ContactError> {
         debug_assert!(u32::try_from(gaps.len()).is_ok(), "lines are bounded to 2^28 springs");
         let count = gaps.len();
-        let mut tree = ContactTree {
-            gap: super::cleared(self.gap, count)?,
-            shape: super::cleared(self.shape, count)?,
-            position: super::cleared(self.position, count)?,
+        let nothing = Shape { size: 0, right: 0 };
+        let mut gap = super::resized(self.gap, count, 0.0)?;
+        let mut shape = super::resized(self.shape, count, nothing)?;
+        let mut position = super::resized(self.position, count, 0)?;
+        let mut end: u32 = 0;
+        let mut finish = |node: &Pending| {
+            let index = end as usize;
+            gap[index] = node.gap;
+            shape[index] = Shape { size: end + 1 - node.start, right: end - node.right_start };
+            position[index] = node.position;
+            end += 1;
+            end
         };
+        let mut finished = 0;
         let mut pending: Vec<Pending> = Vec::new();
-        for (position, &gap) in gaps.iter().enumerate() {
-            let mut start = tree.gap.len() as u32;
+        for (place, &gap) in gaps.iter().enumerate() {
+            let mut start = finished;
             while let Some(top) = pending.pop_if(|top| top.gap < gap) {
-                tree.push(&top);
+                finished = finish(&top);
                 start = top.start;
             }
-            let right_start = tree.gap.len() as u32;
-            pending.push(Pending { gap, position: position as u32, start, right_start });
+            pending.push(Pending { gap, position: place as u32, start, right_start: finished });
         }
         while let Some(top) = pending.pop() {
-            tree.push(&top);
+            finish(&top);
         }
-        Ok(tree)
-    }
-
-    #[inline]
-    fn push(&mut self, node: &Pending) {
-        let end = self.gap.len() as u32;
-        self.gap.push(node.gap);
-        self.shape.push(Shape { size: end + 1 - node.start, right: end - node.right_start });
-        self.position.push(node.position);
+        Ok(ContactTree { gap, shape, position })
     }
 
     /// Number of nodes, one for each spring.
@@ -148,6 +148,36 @@ impl ContactTree {
         let shape = self.shape[node];
         let left = (shape.left() > 0).then(|| node - 1 - shape.right as usize);
         (left, (shape.right > 0).then(|| node - 1))
+    }
+
+    /// The scale on which these gaps are summed.
+    pub(crate) fn gap_scale(&self) -> GapScale {
+        // The root is the largest gap.
+        GapScale::for_gaps_up_to(self.gap.last().copied().unwrap_or(0.0))
+    }
+
+    /// Calls `see` with the root of each fragment in contact at `indentation`, from the end of the
+    /// post-order; `thresholds` stand in post-order. Takes as long as there are free springs and fragments.
+    pub(crate) fn each_fragment(&self, thresholds: &[f64], indentation: f64, mut see: impl FnMut(usize)) {
+        let mut end = thresholds.len();
+        while end > 0 {
+            let node = end - 1;
+            if thresholds[node] <= indentation {
+                see(node);
+                end -= self.shape[node].size as usize;
+            } else {
+                end = node;
+            }
+        }
+    }
+
+    /// First and last spring of each fragment in contact at `indentation`, in ascending order.
+    pub(crate) fn fragments(&self, thresholds: &[f64], indentation: f64) -> Vec<(usize, usize)> {
+        let mut fragments = Vec::new();
+        self.each_fragment(thresholds, indentation, |root| fragments.push(self.interval(root)));
+        // Subtrees none of which contains another stand in post-order as they stand on the line.
+        fragments.reverse();
+        fragments
     }
 
     #[inline]

@@ -60,14 +60,14 @@ pub struct LineFacts {
 pub struct Timings {
     /// Making the line.
     pub line: f64,
-    /// Building the tree.
+    /// Building the tree and counting heights into the histogram.
     pub tree: f64,
     /// Thresholds of all legs, or the steps of the stepwise solver.
     #[serde(rename = "loop")]
     pub passes: f64,
     /// Curves and exact extremes of all legs.
     pub curve: f64,
-    /// F_a(0) for the regime.
+    /// F_a(0) for the regime, as far as it was not worked out while the loading went on.
     pub zero_load: f64,
 }
 

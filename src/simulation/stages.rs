@@ -1,31 +1,37 @@
 //! Runs the stages of a scene, and only those whose input has changed since the last run.
 
+use super::contact_stage::{ContactMemory, ContactStage};
 use super::{LineFacts, Outcome, Plan, RunError, Stage, Timings};
 use crate::analysis::{Amplitude, Figures, Governing, Regime, RegimeEvidence, ideal_adhesion_force};
-use crate::contact::{
-    ContactError, ContactTree, Foundation, GridEdges, HessRule, History, LegRecord, Solver, Stepwise, exact,
-    run,
-};
+use crate::contact::{ContactError, ContactTree, Foundation, HessRule, LegRecord, Solver};
+use crate::parallel::in_parallel;
 use crate::reference::smooth_adhesion_force;
-use crate::scene::{Form, Leg, Roughness, Scene, Solver as SolverChoice};
-use crate::surface::{Histogram, Line, MeasuredProfile, SelfAffine, UnitRoughness};
+use crate::scene::{Form, Roughness, Scene};
+use crate::surface::{Histogram, Line, MeasuredProfile, SelfAffine, SurfaceError, Synthesizer};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Instant;
 
 /// Bins of the height histogram.
 const HISTOGRAM_BINS: usize = 64;
+/// With fewer springs than these another thread takes longer to begin than it saves.
+pub(super) const MANY_SPRINGS: usize = 1 << 15;
 
 /// The line, the tree and what they were made from: kept from run to run, so that a changed parameter
-/// repeats the stages from the first one it touches and no other.
+/// repeats the stages from the first one it touches and no other. Those that are repeated work in the memory
+/// they had before.
 #[derive(Default)]
 pub struct Simulation {
     folder: PathBuf,
+    synthesizer: Synthesizer,
     roughness: Option<(RoughnessKey, Rough)>,
     line: Option<(LineKey, Line)>,
+    /// That of the line's heights, once it has been observed.
+    histogram: Option<Histogram>,
     tree: Option<Arc<ContactTree>>,
     /// Whether the tree is that of the line, rather than of one before.
     tree_is_current: bool,
+    memory: ContactMemory,
 }
 
 /// What the heights of the roughness depend on.
@@ -72,7 +78,7 @@ impl Simulation {
         self.line.as_ref().map(|(_, line)| line)
     }
 
-    /// The tree of that line, where its scene called for one.
+    /// The tree of this line, if the last scene run has adhesion and the exact solver.
     #[must_use]
     pub fn tree(&self) -> Option<&Arc<ContactTree>> {
         self.tree.as_ref().filter(|_| self.tree_is_current)
@@ -88,9 +94,10 @@ impl Simulation {
         let spectrum = spectrum(scene);
         let key = self.roughness_key(scene, spectrum, points);
         if self.roughness.as_ref().map(|(key, _)| key) != key.as_ref() {
-            self.roughness = None;
+            let before = self.roughness.take().map(|(_, rough)| rough.heights);
             if let Some(key) = &key {
-                self.roughness = Some((key.clone(), make_roughness(key)?));
+                let rough = make_roughness(key, &mut self.synthesizer, before.unwrap_or_default())?;
+                self.roughness = Some((key.clone(), rough));
             }
         }
         let rough = self.roughness.as_ref().map(|(_, rough)| rough);
@@ -102,14 +109,15 @@ impl Simulation {
             _ => governing.amplitude.map_or(0.0, |amplitude| amplitude.rms_height),
         };
         let key = LineKey { roughness: key, scale, length: scene.length, points, form: scene.form };
-        let kept = self.line.take().filter(|(kept, _)| *kept == key);
-        let (key, line) = match kept {
-            Some(line) => line,
-            None => {
+        let (key, line) = match self.line.take() {
+            Some(kept) if kept.0 == key => kept,
+            before => {
                 self.tree_is_current = false;
+                self.histogram = None;
+                let memory = before.map(|(_, line)| line.gaps).unwrap_or_default();
                 let heights = rough.map(|rough| rough.heights.as_slice());
-                let line = Line::new(scene.length, points, scene.form.as_ref(), heights, scale)?;
-                (key, line)
+                let form = scene.form.as_ref();
+                (key, Line::new_in(memory, scene.length, points, form, heights, scale)?)
             }
         };
         let facts = LineFacts {
@@ -173,11 +181,18 @@ impl Simulation {
 
         let Some((_, line)) = &self.line else { return Err(ContactError::Interrupted.into()) };
         let clock = Instant::now();
-        if plan.runs(Stage::Tree) && !self.tree_is_current {
-            self.tree = Some(Arc::new(match self.tree.take().and_then(Arc::into_inner) {
-                Some(before) => before.rebuild(&line.gaps)?,
-                None => ContactTree::build(&line.gaps)?,
-            }));
+        let count = plan.runs(Stage::HeightHistogram) && self.histogram.is_none();
+        let build = plan.runs(Stage::Tree) && !self.tree_is_current;
+        let tree_before = if build { self.tree.take() } else { None };
+        let (counted, built) = in_parallel(
+            count && build && line.gaps.len() >= MANY_SPRINGS,
+            || count.then(|| Histogram::new(line.heights(), line.lowest(), line.summit, HISTOGRAM_BINS)),
+            || build.then(|| build_tree(tree_before, &line.gaps)),
+        );
+        let heights_binned = if count { line.gaps.len() as u64 } else { 0 };
+        self.histogram = counted.or(self.histogram.take());
+        if let Some(tree) = built {
+            self.tree = Some(tree?);
             self.tree_is_current = true;
         }
         timings.tree = clock.elapsed().as_secs_f64();
@@ -188,7 +203,8 @@ impl Simulation {
             .adhesive_work()
             .filter(|_| plan.runs(Stage::RuleOfHess))
             .map(|work| HessRule::new(foundation, work));
-        let contact = ContactStage { line, tree: self.tree.as_deref(), foundation, hess, scene, stop };
+        let tree = self.tree.as_deref();
+        let contact = ContactStage { line, tree, foundation, hess, scene, stop };
 
         let clock = Instant::now();
         let mut fragments = Vec::new();
@@ -198,23 +214,21 @@ impl Simulation {
             }
             after(leg, record, solver)
         };
-        let (mut history, curve) =
-            contact.run(&scene.loading, scene.numerics.samples as usize, &mut observe)?;
-        timings.curve = curve;
-        timings.passes = (clock.elapsed().as_secs_f64() - curve).max(0.0);
+        let contacted = contact.run(plan.runs(Stage::ZeroLoadAdhesion), &mut self.memory, &mut observe)?;
+        timings.curve = contacted.curve_seconds;
+        timings.zero_load = contacted.zero_load_seconds;
+        timings.passes = (clock.elapsed().as_secs_f64() - timings.curve - timings.zero_load).max(0.0);
+        let mut history = contacted.history;
         history.work.random_phases = random_phases;
         history.work.transforms = u64::from(random_phases > 0);
+        history.work.heights_binned = heights_binned;
 
         let figures = Figures::of(&history);
-        let clock = Instant::now();
         let zero_load_adhesion_force = if plan.runs(Stage::ZeroLoadAdhesion) {
-            let legs = [Leg::ToTouch, Leg::ToSeparation];
-            let (touch, _) = contact.run(&legs, 2, &mut |_, _, _| Ok(()))?;
-            Figures::of(&touch).adhesion_force
+            contacted.zero_load_adhesion_force
         } else {
             figures.adhesion_force.filter(|_| hess.is_some() && Figures::is_touch_protocol(scene))
         };
-        timings.zero_load = clock.elapsed().as_secs_f64();
 
         let form = scene.form.as_ref();
         let modulus = governing.effective_modulus;
@@ -228,11 +242,7 @@ impl Simulation {
             }
             _ => None,
         };
-        let histogram = plan.runs(Stage::HeightHistogram).then(|| {
-            history.work.heights_binned = line.gaps.len() as u64;
-            let low = line.summit - facts.deepest;
-            Histogram::new(line.heights(), low, line.summit, HISTOGRAM_BINS)
-        });
+        let histogram = self.histogram.as_ref().filter(|_| plan.runs(Stage::HeightHistogram)).cloned();
         Ok(Outcome {
             line: facts,
             governing,
@@ -249,65 +259,6 @@ impl Simulation {
     }
 }
 
-/// The contact stage of one run, for any loading.
-struct ContactStage<'a> {
-    line: &'a Line,
-    tree: Option<&'a ContactTree>,
-    foundation: Foundation,
-    hess: Option<HessRule>,
-    scene: &'a Scene,
-    stop: &'a dyn Fn() -> bool,
-}
-
-impl ContactStage<'_> {
-    /// Runs a loading with the solver of the scene; also gives the seconds spent on curves.
-    fn run(
-        &self,
-        loading: &[Leg],
-        samples: usize,
-        after: &mut AfterLeg<'_>,
-    ) -> Result<(History, f64), ContactError> {
-        let gaps = self.line.gaps.as_slice();
-        let mut solver: Box<dyn Solver + '_> = match (self.scene.numerics.solver, self.hess, self.tree) {
-            (SolverChoice::Stepwise { step }, hess, _) => {
-                Box::new(Stepwise::new(gaps, hess, self.foundation, step, samples, self.stop)?)
-            }
-            (SolverChoice::Exact, Some(hess), Some(tree)) => {
-                Box::new(exact::adhesive(tree, GridEdges::new(hess), self.foundation, samples)?)
-            }
-            (SolverChoice::Exact, _, _) => Box::new(exact::bare(gaps, self.foundation, samples)),
-        };
-        let mut leg = 0;
-        let mut history = run(solver.as_mut(), loading, |record, solver| {
-            if (self.stop)() {
-                return Err(ContactError::Interrupted);
-            }
-            after(leg, record, solver)?;
-            leg += 1;
-            Ok(())
-        })?;
-        for contact in &mut history.contacts {
-            *contact = self.on_foundation(*contact);
-        }
-        Ok((history, solver.curve_seconds()))
-    }
-
-    /// The fragments in contact where a leg ended.
-    fn fragments_after(&self, record: &LegRecord, solver: &dyn Solver) -> Vec<(usize, usize)> {
-        match record.curve.last() {
-            Some(end) if end.springs > 0 => {
-                solver.fragments(end.indentation).into_iter().map(|run| self.on_foundation(run)).collect()
-            }
-            _ => Vec::new(),
-        }
-    }
-
-    /// Springs under the body counted from the first spring of the foundation.
-    fn on_foundation(&self, (first, last): (usize, usize)) -> (usize, usize) {
-        (first + self.line.first, last + self.line.first)
-    }
-}
-
 fn spectrum(scene: &Scene) -> Option<(SelfAffine, u64)> {
     match scene.roughness {
         Some(Roughness::SelfAffine { hurst, modes: (first, last), seed, .. }) => {
@@ -317,23 +268,37 @@ fn spectrum(scene: &Scene) -> Option<(SelfAffine, u64)> {
     }
 }
 
-fn make_roughness(key: &RoughnessKey) -> Result<Rough, RunError> {
+/// The tree of these gaps, in the memory of one before unless somebody else holds it still.
+fn build_tree(before: Option<Arc<ContactTree>>, gaps: &[f64]) -> Result<Arc<ContactTree>, ContactError> {
+    match before.and_then(Arc::into_inner) {
+        Some(before) => before.rebuild(gaps),
+        None => ContactTree::build(gaps),
+    }
+    .map(Arc::new)
+}
+
+/// The heights of a roughness; those that are synthesized, in this memory.
+fn make_roughness(
+    key: &RoughnessKey,
+    synthesizer: &mut Synthesizer,
+    memory: Vec<f64>,
+) -> Result<Rough, RunError> {
     match key {
         RoughnessKey::SelfAffine { spectrum, seed, points } => {
-            let unit = UnitRoughness::synthesize(*spectrum, *seed, *points)?;
+            let unit = synthesizer.synthesize(*spectrum, *seed, *points, memory)?;
             Ok(Rough {
                 heights: unit.heights,
                 random_phases: unit.random_phases,
-                gradient_per_height: Some(spectrum.gradient_per_height(1.0)),
+                gradient_per_height: Some(unit.gradient_per_height),
                 measured: None,
             })
         }
         RoughnessKey::Measured { file, length, points } => {
             let profile = MeasuredProfile::read(file)?;
             let (rms_height, rms_gradient) = profile.rms_height_and_gradient();
-            let heights = profile.sample(*length, *points).map_err(|reason| {
-                crate::surface::SurfaceError::Measured { file: file.display().to_string(), reason }
-            })?;
+            let heights = profile
+                .sample(*length, *points)
+                .map_err(|reason| SurfaceError::Measured { file: file.display().to_string(), reason })?;
             let measured = Some(Amplitude { rms_height, rms_gradient });
             Ok(Rough { heights, random_phases: 0, gradient_per_height: None, measured })
         }

@@ -1,6 +1,7 @@
 //! The rigid line as the contact sees it: gaps below its highest point.
 
 use super::{SurfaceError, mdr_profile};
+use crate::memory;
 use crate::scene::Form;
 
 /// The rigid line under which springs stand at x = (i + ½)Δx.
@@ -16,6 +17,7 @@ pub struct Line {
     pub spacing: f64,
     /// Height of the highest point, m, above the apex of the form and the mean of the roughness.
     pub summit: f64,
+    deepest: f64,
 }
 
 impl Line {
@@ -25,6 +27,21 @@ impl Line {
     /// # Errors
     /// [`SurfaceError::OutOfMemory`], [`SurfaceError::NotFinite`], [`SurfaceError::NoSprings`].
     pub fn new(
+        length: f64,
+        points: usize,
+        form: Option<&Form>,
+        roughness: Option<&[f64]>,
+        scale: f64,
+    ) -> Result<Self, SurfaceError> {
+        Line::new_in(Vec::new(), length, points, form, roughness, scale)
+    }
+
+    /// The same with the gaps in this memory.
+    ///
+    /// # Errors
+    /// Those of [`Line::new`].
+    pub fn new_in(
+        memory: Vec<f64>,
         length: f64,
         points: usize,
         form: Option<&Form>,
@@ -45,8 +62,8 @@ impl Line {
             }
             _ => (0, points),
         };
-        let mut heights: Vec<f64> = Vec::new();
-        heights.try_reserve_exact(end - first).map_err(|_| SurfaceError::OutOfMemory { points })?;
+        let mut heights =
+            memory::emptied(memory, end - first).map_err(|_| SurfaceError::OutOfMemory { points })?;
         let depth = |index: usize| form.and_then(|form| mdr_profile(form, distance(index)));
         match (form, roughness) {
             (None, None) => heights.resize(points, 0.0),
@@ -56,21 +73,11 @@ impl Line {
                 heights.extend((first..end).map(|i| scale * rough[i] - depth(i).unwrap_or(0.0)));
             }
         }
-        let mut summit = f64::NEG_INFINITY;
-        for (index, &height) in heights.iter().enumerate() {
-            if !height.is_finite() {
-                return Err(SurfaceError::NotFinite { index: first + index });
-            }
-            summit = summit.max(height);
-        }
+        let summit = largest(&heights).map_err(|index| SurfaceError::NotFinite { index: first + index })?;
         let mut gaps = heights;
-        for (index, height) in gaps.iter_mut().enumerate() {
-            *height = summit - *height;
-            if !height.is_finite() {
-                return Err(SurfaceError::NotFinite { index: first + index });
-            }
-        }
-        Ok(Line { gaps, first, points, spacing, summit })
+        gaps.iter_mut().for_each(|height| *height = summit - *height);
+        let deepest = largest(&gaps).map_err(|index| SurfaceError::NotFinite { index: first + index })?;
+        Ok(Line { gaps, first, points, spacing, summit, deepest })
     }
 
     /// Heights z, m, of the points under the body.
@@ -84,11 +91,37 @@ impl Line {
         ((self.first + index) as f64 + 0.5) * self.spacing
     }
 
+    /// Height of the lowest point, m.
+    #[must_use]
+    pub fn lowest(&self) -> f64 {
+        self.summit - self.deepest
+    }
+
     /// Largest gap, m.
     #[must_use]
     pub fn deepest(&self) -> f64 {
-        self.gaps.iter().copied().fold(0.0, f64::max)
+        self.deepest
     }
+}
+
+/// The largest of finite numbers, or where the first stands that is not finite.
+fn largest(values: &[f64]) -> Result<f64, usize> {
+    // Side by side: one after the other, each comparison would wait for the one before.
+    let mut largest = [f64::NEG_INFINITY; 8];
+    let mut all_finite = true;
+    let mut take = |values: &[f64]| {
+        for (largest, &value) in largest.iter_mut().zip(values) {
+            *largest = if value > *largest { value } else { *largest };
+            all_finite &= value.is_finite();
+        }
+    };
+    let (whole, rest) = values.as_chunks::<8>();
+    whole.iter().for_each(|eight| take(eight));
+    take(rest);
+    if !all_finite {
+        return Err(values.iter().position(|value| !value.is_finite()).unwrap_or(0));
+    }
+    Ok(largest.into_iter().fold(f64::NEG_INFINITY, f64::max))
 }
 
 #[cfg(test)]
@@ -126,5 +159,17 @@ mod tests {
     fn heights_that_are_not_finite_are_refused() {
         let result = Line::new(1.0, 3, None, Some(&[0.0, 1e300, 0.0]), 1e300);
         assert_eq!(result, Err(SurfaceError::NotFinite { index: 1 }));
+        for points in 1..40 {
+            for bad in 0..points {
+                let mut rough: Vec<f64> = (0..points).map(|i| (i * i % 7) as f64).collect();
+                let expected = rough.iter().copied().fold(0.0, f64::max);
+                let line = Line::new(1.0, points, None, Some(&rough), 1.0).unwrap();
+                assert_eq!((line.summit, line.gaps[bad]), (expected, expected - rough[bad]));
+                assert_eq!(line.deepest(), line.gaps.iter().copied().fold(0.0, f64::max));
+                rough[bad..].fill(f64::NAN);
+                let result = Line::new(1.0, points, None, Some(&rough), 1.0);
+                assert_eq!(result, Err(SurfaceError::NotFinite { index: bad }));
+            }
+        }
     }
 }

@@ -15,5 +15,5 @@ pub use histogram::Histogram;
 pub use line::Line;
 pub use measured::MeasuredProfile;
 pub use phases::phases;
-pub use roughness::UnitRoughness;
+pub use roughness::{Synthesizer, UnitRoughness};
 pub use spectrum::SelfAffine;

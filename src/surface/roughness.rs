@@ -1,8 +1,16 @@
 //! Random-phase synthesis of a self-affine line of rms height 1 by one inverse real Fourier transform.
 
+use super::spectrum::{MANY_MODES, MeanSquares};
 use super::{SelfAffine, SurfaceError, phases};
-use realfft::RealFftPlanner;
+use crate::memory;
+use crate::parallel::in_parallel;
+use realfft::{ComplexToReal, RealFftPlanner};
 use rustfft::num_complex::Complex64;
+use std::sync::Arc;
+
+/// Longest line whose transform is kept for the next one: it takes 20 bytes for each spring, while on
+/// longer ones memory is dearer than the time it saves.
+const LONGEST_KEPT: usize = 1 << 22;
 
 /// Heights of a self-affine line of rms height 1 at x = (i + ½)L/N, eqs. (8) and (9).
 ///
@@ -13,6 +21,8 @@ pub struct UnitRoughness {
     pub heights: Vec<f64>,
     /// Random phases drawn.
     pub random_phases: u64,
+    /// Rms gradient over rms height of the line on a length of 1 m: [`SelfAffine::gradient_per_height`].
+    pub gradient_per_height: f64,
 }
 
 impl UnitRoughness {
@@ -25,34 +35,116 @@ impl UnitRoughness {
     /// # Errors
     /// [`SurfaceError::OutOfMemory`], [`SurfaceError::Transform`].
     pub fn synthesize(spectrum: SelfAffine, seed: u64, points: usize) -> Result<Self, SurfaceError> {
-        let reserve = |_| SurfaceError::OutOfMemory { points };
-        let mut coefficients: Vec<Complex64> = Vec::new();
-        coefficients.try_reserve_exact(points / 2 + 1).map_err(reserve)?;
-        coefficients.resize(points / 2 + 1, Complex64::ZERO);
-        let mut heights: Vec<f64> = Vec::new();
-        heights.try_reserve_exact(points).map_err(reserve)?;
-        heights.resize(points, 0.0);
+        Synthesizer::default().synthesize(spectrum, seed, points, Vec::new())
+    }
+}
 
-        let scale = spectrum.relative_rms().recip();
-        let half_cell = std::f64::consts::PI / points as f64;
-        for (mode, phase) in (spectrum.first..=spectrum.last).zip(phases(seed, spectrum.first)) {
+/// Makes one line after the other, and keeps what the next can use: the planned transform with its memory,
+/// and the sums over the spectrum.
+#[derive(Default)]
+pub struct Synthesizer {
+    mean_squares: Option<(SelfAffine, MeanSquares)>,
+    transform: Option<Transform>,
+}
+
+/// An inverse transform, planned, with its memory.
+struct Transform {
+    points: usize,
+    plan: Arc<dyn ComplexToReal<f64>>,
+    coefficients: Vec<Complex64>,
+    scratch: Vec<Complex64>,
+}
+
+impl Transform {
+    fn planned(points: usize) -> Result<Self, SurfaceError> {
+        let plan = RealFftPlanner::<f64>::new().plan_fft_inverse(points);
+        let zeros = |count| memory::resized(Vec::new(), count, Complex64::ZERO);
+        let out_of_memory = |_| SurfaceError::OutOfMemory { points };
+        let coefficients = zeros(points / 2 + 1).map_err(out_of_memory)?;
+        let scratch = zeros(plan.get_scratch_len()).map_err(out_of_memory)?;
+        Ok(Transform { points, plan, coefficients, scratch })
+    }
+}
+
+impl Synthesizer {
+    /// [`UnitRoughness::synthesize`], bit for bit, with the heights in this memory.
+    ///
+    /// # Errors
+    /// [`SurfaceError::OutOfMemory`], [`SurfaceError::Transform`].
+    pub fn synthesize(
+        &mut self,
+        spectrum: SelfAffine,
+        seed: u64,
+        points: usize,
+        memory: Vec<f64>,
+    ) -> Result<UnitRoughness, SurfaceError> {
+        let many = spectrum.last - spectrum.first >= MANY_MODES;
+        let kept = self.transform.take().filter(|kept| kept.points == points);
+        let known = self.mean_squares.filter(|(known, _)| *known == spectrum);
+        let (transform, mean_squares) = in_parallel(
+            many && kept.is_none() && known.is_none(),
+            || kept.map_or_else(|| Transform::planned(points), Ok),
+            || known.map_or_else(|| spectrum.mean_squares(), |(_, mean_squares)| mean_squares),
+        );
+        self.mean_squares = Some((spectrum, mean_squares));
+        let mut transform = transform?;
+        let mut heights =
+            memory::resized(memory, points, 0.0).map_err(|_| SurfaceError::OutOfMemory { points })?;
+
+        // Of all modes there are, those from the middle on by another thread.
+        let scale = mean_squares.relative_rms.recip();
+        let coefficients = transform.coefficients.as_mut_slice();
+        let (first, end) = (spectrum.first as usize, (spectrum.last as usize).saturating_add(1));
+        let end = end.min(coefficients.len());
+        let first = first.min(end);
+        coefficients[..first].fill(Complex64::ZERO);
+        coefficients[end..].fill(Complex64::ZERO);
+        let middle = first + (end - first) / 2;
+        let (lower, upper) = coefficients[first..end].split_at_mut(middle - first);
+        let modes = Modes { spectrum, seed, points, scale };
+        in_parallel(many, || modes.draw(middle, upper), || modes.draw(first, lower));
+
+        transform
+            .plan
+            .process_with_scratch(&mut transform.coefficients, &mut heights, &mut transform.scratch)
+            .map_err(|error| SurfaceError::Transform(error.to_string()))?;
+        if points <= LONGEST_KEPT {
+            self.transform = Some(transform);
+        }
+        Ok(UnitRoughness {
+            heights,
+            random_phases: spectrum.last + 1 - spectrum.first,
+            gradient_per_height: mean_squares.gradient_per_height,
+        })
+    }
+}
+
+/// What the coefficients of a line depend on.
+#[derive(Clone, Copy)]
+struct Modes {
+    spectrum: SelfAffine,
+    seed: u64,
+    points: usize,
+    scale: f64,
+}
+
+impl Modes {
+    /// Fills in the coefficients of the modes from `first` on.
+    fn draw(&self, first: usize, coefficients: &mut [Complex64]) {
+        let half_cell = std::f64::consts::PI / self.points as f64;
+        let modes = first as u64..;
+        for ((mode, phase), coefficient) in modes.zip(phases(self.seed, first as u64)).zip(coefficients) {
             // x = (i + ½)Δx adds half a cell to the phase. Each cosine is a pair of exponentials, so a
             // coefficient is half its amplitude, save at the grid's Nyquist wave vector, where both of
             // the pair fall together.
-            let amplitude = scale * spectrum.relative_amplitude(mode);
+            let amplitude = self.scale * self.spectrum.relative_amplitude(mode);
             let angle = phase + half_cell * mode as f64;
-            let Some(coefficient) = coefficients.get_mut(mode as usize) else { break };
-            *coefficient = if 2 * mode == points as u64 {
+            *coefficient = if 2 * mode == self.points as u64 {
                 Complex64::new(amplitude * angle.cos(), 0.0)
             } else {
                 Complex64::from_polar(0.5 * amplitude, angle)
             };
         }
-        RealFftPlanner::<f64>::new()
-            .plan_fft_inverse(points)
-            .process(&mut coefficients, &mut heights)
-            .map_err(|error| SurfaceError::Transform(error.to_string()))?;
-        Ok(UnitRoughness { heights, random_phases: spectrum.last + 1 - spectrum.first })
     }
 }
 
@@ -80,6 +172,36 @@ mod tests {
                 let expected = direct(spectrum, 42, (i as f64 + 0.5) / points as f64);
                 assert!((height - expected).abs() < 1e-12, "N = {points}, i = {i}: {height} {expected}");
             }
+        }
+    }
+
+    #[test]
+    fn what_is_kept_changes_no_bit() {
+        let mut synthesizer = Synthesizer::default();
+        let mut memory = Vec::new();
+        let many = 2 * MANY_MODES + 3;
+        for (points, hurst, first, last, seed) in [
+            (100, 0.6, 3, 50, 1),
+            (100, 0.6, 3, 50, 2),
+            (100, 0.6, 3, 20, 2),
+            (101, 0.6, 5, 20, 2),
+            (100_000, 0.7, 2, many, 3),
+            (100_000, 0.8, 2, many, 3),
+            (2 * many as usize, 0.8, 1, many, 3),
+            (64, 0.8, 1, 32, 3),
+        ] {
+            let spectrum = SelfAffine { hurst, first, last };
+            let kept = synthesizer.synthesize(spectrum, seed, points, memory).unwrap();
+            assert_eq!(kept, UnitRoughness::synthesize(spectrum, seed, points).unwrap());
+            assert_eq!(kept.gradient_per_height, spectrum.gradient_per_height(1.0));
+            // As on one thread, mode by mode, and by another plan.
+            let modes = Modes { spectrum, seed, points, scale: spectrum.relative_rms().recip() };
+            let mut transform = Transform::planned(points).unwrap();
+            modes.draw(first as usize, &mut transform.coefficients[first as usize..=last as usize]);
+            let mut heights = vec![0.0; points];
+            transform.plan.process(&mut transform.coefficients, &mut heights).unwrap();
+            assert_eq!(kept.heights, heights);
+            memory = kept.heights;
         }
     }
 

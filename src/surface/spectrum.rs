@@ -1,5 +1,10 @@
 //! The self-affine spectrum of the equivalent line, eqs. (4)–(9), and its mean squares.
 
+use crate::parallel::in_parallel;
+
+/// With fewer modes than these another thread takes longer to begin than it saves.
+pub(super) const MANY_MODES: u64 = 1 << 14;
+
 /// A self-affine spectrum over the modes k = `first` … `last`, wave vectors q_k = 2πk/L:
 /// A_k ∝ k^(−H−1/2).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -23,7 +28,7 @@ impl SelfAffine {
     /// Root mean square of the sum of cosines with these relative amplitudes: √(Σ A_k²/2).
     #[must_use]
     pub fn relative_rms(&self) -> f64 {
-        (self.moment(0) / 2.0).sqrt()
+        relative_rms(self.moment(0))
     }
 
     /// Rms gradient over rms height, 1/m, of a line of length L in m:
@@ -33,7 +38,18 @@ impl SelfAffine {
     /// eqs. (12) and (13) change their form.
     #[must_use]
     pub fn gradient_per_height(&self, length: f64) -> f64 {
-        std::f64::consts::TAU / length * (self.moment(2) / self.moment(0)).sqrt()
+        gradient_per_height(self.moment(0), self.moment(2), length)
+    }
+
+    /// [`Self::relative_rms`] and [`Self::gradient_per_height`] on a length of 1 m, with each sum made once,
+    /// on two threads where there are many modes.
+    pub(super) fn mean_squares(&self) -> MeanSquares {
+        let many = self.last - self.first >= MANY_MODES;
+        let (zeroth, second) = in_parallel(many, || self.moment(0), || self.moment(2));
+        MeanSquares {
+            relative_rms: relative_rms(zeroth),
+            gradient_per_height: gradient_per_height(zeroth, second, 1.0),
+        }
     }
 
     /// The same ratio by the integrals of eqs. (5)–(7) and (12), in which modes are dense:
@@ -71,6 +87,23 @@ impl SelfAffine {
         }
         sum + lost
     }
+}
+
+/// What the sums over all modes of a spectrum give.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct MeanSquares {
+    /// [`SelfAffine::relative_rms`].
+    pub relative_rms: f64,
+    /// [`SelfAffine::gradient_per_height`] on a length of 1 m.
+    pub gradient_per_height: f64,
+}
+
+fn relative_rms(zeroth_moment: f64) -> f64 {
+    (zeroth_moment / 2.0).sqrt()
+}
+
+fn gradient_per_height(zeroth_moment: f64, second_moment: f64, length: f64) -> f64 {
+    std::f64::consts::TAU / length * (second_moment / zeroth_moment).sqrt()
 }
 
 /// ∫ q^power dq from `low` to `high`, accurate also where power → −1, eqs. (12) and (13).

@@ -1,0 +1,89 @@
+//! Adhesion at first touch, F_a(0): the contact that forms at d = 0 on the way in, pulled off from there.
+
+use super::exact::SEARCH_INTERVALS;
+use super::ledger::{Grid, Ledger, Spring, Springs};
+use super::tally::GapScale;
+use super::thresholds::{self, Held};
+use super::{ContactError, ContactTree, EdgeRule, Foundation, Work, search};
+
+/// Pulls off the contact of first touch, of which these are the roots of all fragments, and gives the
+/// smallest force, N, exact to rounding.
+///
+/// Only springs in contact are looked at. `memory` holds their thresholds and serves for the next body.
+///
+/// # Errors
+/// [`ContactError::OutOfMemory`].
+pub(crate) fn smallest_force<R: EdgeRule>(
+    tree: &ContactTree,
+    rule: &R,
+    foundation: Foundation,
+    roots: &[usize],
+    memory: &mut Vec<f64>,
+) -> Result<(f64, Work), ContactError> {
+    let count = roots.iter().map(|&root| tree.size(root) as usize).sum();
+    let mut springs = super::resized(std::mem::take(memory), count, 0.0)?;
+    let mut held = Held::NOTHING;
+    let mut rest = springs.as_mut_slice();
+    for &root in roots {
+        let (fragment, after) = rest.split_at_mut(tree.size(root) as usize);
+        held = held.and(thresholds::open(tree, rule, root, fragment, 0.0));
+        rest = after;
+    }
+    let contact = Touching { tree, roots, thresholds: &springs, scale: tree.gap_scale() };
+    let ledger = Ledger::new(&contact, Grid::new(held.separates.min(0.0), 0.0, SEARCH_INTERVALS));
+    let mut work = Work {
+        zero_load_passes: 1,
+        hess_evaluations: held.springs,
+        springs_tallied: held.springs,
+        ..Work::default()
+    };
+    let smallest = search::smallest(&ledger, &contact, &mut work.events_sorted);
+    *memory = springs;
+    Ok((foundation.spring_stiffness() * smallest.compression, work))
+}
+
+/// Roots of the fragments in contact at first touch, for a loading on which nothing touches.
+///
+/// # Errors
+/// [`ContactError::OutOfMemory`].
+pub(crate) fn roots<R: EdgeRule>(
+    tree: &ContactTree,
+    rule: &R,
+    memory: &mut Vec<f64>,
+) -> Result<(Vec<usize>, Work), ContactError> {
+    let mut springs = super::resized(std::mem::take(memory), tree.len(), 0.0)?;
+    thresholds::load(tree, rule, &mut springs, |_| false);
+    let mut roots = Vec::new();
+    tree.each_fragment(&springs, 0.0, |root| roots.push(root));
+    *memory = springs;
+    let hess_evaluations = (tree.len() as u64).saturating_sub(1);
+    Ok((roots, Work { zero_load_passes: 1, hess_evaluations, ..Work::default() }))
+}
+
+/// The springs in contact at first touch, fragment by fragment.
+struct Touching<'a> {
+    tree: &'a ContactTree,
+    roots: &'a [usize],
+    thresholds: &'a [f64],
+    scale: GapScale,
+}
+
+impl Springs for Touching<'_> {
+    #[inline]
+    fn each(&self, mut see: impl FnMut(Spring)) {
+        let mut rest = self.thresholds;
+        for &root in self.roots {
+            let (fragment, after) = rest.split_at(self.tree.size(root) as usize);
+            let nodes = root + 1 - fragment.len()..=root;
+            let nodes = self.tree.gaps()[nodes.clone()].iter().zip(&self.tree.shapes()[nodes]);
+            for (&threshold, (&gap, shape)) in fragment.iter().zip(nodes) {
+                see(Spring { threshold, gap, fragments: shape.fragments() });
+            }
+            rest = after;
+        }
+    }
+
+    fn scale(&self) -> &GapScale {
+        &self.scale
+    }
+}
