@@ -1,6 +1,6 @@
-//! What each stage of an exact loop costs, in seconds, in nanoseconds for each spring, and in units of
-//! one real Fourier transform of the same length measured in the same run: the unit makes runs on
-//! different machines comparable.
+//! What each stage of an exact loop costs, and what a whole edit of a scene does: in milliseconds, in
+//! nanoseconds for each spring, and in units of one real Fourier transform of the same length measured in the
+//! same run, which makes runs on different machines comparable.
 //!
 //! `cargo bench --bench stages` prints the table. After `--`: `--quick` stops at 2^16 springs,
 //! `--smallest 20` begins at 2^20, `--largest 18` stops at 2^18, and `--runs 9` repeats each measurement
@@ -8,8 +8,11 @@
 //! shows that it runs.
 
 use asperity::analysis::ideal_adhesion_force;
-use asperity::contact::{ContactTree, Foundation, GridEdges, HessRule, LegRecord, Solver, Work, exact};
-use asperity::scene::Leg;
+use asperity::contact::{
+    ContactTree, Foundation, GridEdges, HessRule, LegContact, LegRecord, Solver, Work, exact,
+};
+use asperity::scene::{Adhesion, Document, Leg, Roughness, Scene};
+use asperity::simulation::Simulation;
 use asperity::surface::{Line, SelfAffine, UnitRoughness};
 use realfft::{RealFftPlanner, RealToComplex};
 use rustfft::num_complex::Complex64;
@@ -34,11 +37,13 @@ const LOAD: f64 = 0.4;
 fn main() {
     let options = Options::from_arguments(std::env::args().skip(1));
     println!(
-        "self-affine line, H = {HURST}, modes up to N/4, {SAMPLES} samples on each leg; one thread, shortest \
-         of {} runs",
+        "self-affine line, H = {HURST}, modes up to N/4, {SAMPLES} samples on each leg; shortest of {} runs",
         options.runs
     );
-    println!("one FFT: a real transform of N points, planned beforehand, its memory kept\n");
+    println!(
+        "Memory is kept from run to run, also that of the transform, which is planned beforehand. The loops"
+    );
+    println!("take one thread; line and edits two, where the system has them.\n");
     let mut verdict = Vec::new();
     for exponent in (options.smallest..=options.largest).step_by(2) {
         let rough = Rough::new(exponent);
@@ -78,12 +83,14 @@ impl Options {
     }
 }
 
-/// A rough line.
+/// A rough line, and a scene that has it.
 struct Rough {
     spectrum: SelfAffine,
     points: usize,
     line: Line,
     foundation: Foundation,
+    rms_gradient: f64,
+    scene: Scene,
 }
 
 impl Rough {
@@ -92,13 +99,25 @@ impl Rough {
         let spectrum = SelfAffine { hurst: HURST, first: 1, last: points as u64 / 4 };
         let line = synthesize(spectrum, points);
         let foundation = Foundation { spacing: line.spacing, effective_modulus: EFFECTIVE_MODULUS };
-        Rough { spectrum, points, line, foundation }
+        let last = spectrum.last;
+        let force = LOAD * EFFECTIVE_MODULUS * LENGTH * RMS_HEIGHT;
+        let scene = format!(
+            "(version: 1, material: (youngs_modulus: {:e}, poisson_ratio: 0.5), length: {LENGTH:e}, \
+             roughness: SelfAffine(hurst: {HURST}, rms_height: {RMS_HEIGHT:e}, modes: (1, {last}), seed: 1), \
+             adhesion: (kappa: {}), loading: [ToForce({force:e}), ToSeparation], \
+             numerics: (points: {points}, samples: {SAMPLES}), observe: [HeightHistogram])",
+            0.75 * EFFECTIVE_MODULUS,
+            KAPPAS[0],
+        );
+        let scene = Document::parse(&scene, "bench").expect("a valid scene").scene().clone();
+        // Two sums over all modes: not to be made while a loop is measured.
+        let rms_gradient = RMS_HEIGHT * spectrum.gradient_per_height(LENGTH);
+        Rough { spectrum, points, line, foundation, rms_gradient, scene }
     }
 
     /// γ = h⟨∇z⟩E*/κ², eq. (11).
     fn work_of_adhesion(&self, kappa: f64) -> f64 {
-        let rms_gradient = RMS_HEIGHT * self.spectrum.gradient_per_height(LENGTH);
-        RMS_HEIGHT * rms_gradient * EFFECTIVE_MODULUS / (kappa * kappa)
+        RMS_HEIGHT * self.rms_gradient * EFFECTIVE_MODULUS / (kappa * kappa)
     }
 }
 
@@ -114,6 +133,7 @@ struct Measured {
     fresh_tree: f64,
     tree: f64,
     loops: Vec<Loop>,
+    edits: Edits,
 }
 
 /// Shortest seconds of a whole loop under one κ, and what came out of it.
@@ -135,8 +155,11 @@ fn measure(rough: &Rough, runs: usize) -> Measured {
     let mut tree = ContactTree::build(gaps).expect("memory for the tree");
     let never = f64::INFINITY;
     let loops = KAPPAS.map(Loop::under).into();
-    let mut best = Measured { transform: never, synthesis: never, fresh_tree: never, tree: never, loops };
-    for _ in 0..runs {
+    let edits = Edits::of(&rough.scene);
+    let mut best =
+        Measured { transform: never, synthesis: never, fresh_tree: never, tree: never, loops, edits };
+    let mut thresholds = Vec::new();
+    for run in 0..runs {
         best.transform = best.transform.min(transform.seconds(gaps));
 
         let clock = Instant::now();
@@ -151,11 +174,61 @@ fn measure(rough: &Rough, runs: usize) -> Measured {
             let clock = Instant::now();
             tree = tree.rebuild(black_box(gaps)).expect("memory for the tree");
             best.tree = best.tree.min(seconds_since(clock));
-            one.measure_legs(rough, &tree);
+            thresholds = one.measure_legs(thresholds, rough, &tree);
             one.whole = one.whole.min(seconds_since(clock));
         }
+        best.edits.measure(&rough.scene, run);
     }
     best
+}
+
+/// A simulation whose scene is edited as in the explorer: with the histogram of heights, and with a copy of the
+/// contact of each leg.
+struct Edits {
+    simulation: Simulation,
+    copies: [LegContact; 2],
+    /// Shortest seconds from an edit to the outcome: under each κ with the line kept, and for another seed
+    /// under each κ.
+    kappa: [f64; 2],
+    seed: [f64; 2],
+}
+
+impl Edits {
+    fn of(scene: &Scene) -> Self {
+        let (kappa, seed) = ([f64::INFINITY; 2], [f64::INFINITY; 2]);
+        let copies = [LegContact::default(), LegContact::default()];
+        let mut edits = Edits { simulation: Simulation::default(), copies, kappa, seed };
+        edits.seconds(scene);
+        edits
+    }
+
+    fn measure(&mut self, scene: &Scene, run: usize) {
+        for (index, kappa) in KAPPAS.into_iter().enumerate() {
+            let mut scene = scene.clone();
+            scene.adhesion = Some(Adhesion { work: None, kappa: Some(kappa) });
+            let Some(Roughness::SelfAffine { seed, .. }) = &mut scene.roughness else { return };
+            *seed = 2 + (2 * run + index) as u64;
+            self.seed[index] = self.seed[index].min(self.seconds(&scene));
+        }
+        // The line of the last seed is kept.
+        for (index, kappa) in KAPPAS.into_iter().enumerate() {
+            let mut scene = scene.clone();
+            scene.adhesion = Some(Adhesion { work: None, kappa: Some(kappa) });
+            let Some(Roughness::SelfAffine { seed, .. }) = &mut scene.roughness else { return };
+            *seed = 3 + 2 * run as u64;
+            self.kappa[index] = self.kappa[index].min(self.seconds(&scene));
+        }
+    }
+
+    fn seconds(&mut self, scene: &Scene) -> f64 {
+        let clock = Instant::now();
+        let copies = &mut self.copies;
+        let outcome = self.simulation.run(scene, &|| false, &mut |leg, _, solver| {
+            copies.get_mut(leg).map_or(Ok(()), |copy| solver.copy_leg(copy))
+        });
+        black_box(outcome.expect("a scene that can be computed"));
+        seconds_since(clock)
+    }
 }
 
 impl Loop {
@@ -166,9 +239,9 @@ impl Loop {
     }
 
     /// Loads to a force and pulls off.
-    fn measure_legs(&mut self, rough: &Rough, tree: &ContactTree) {
+    fn measure_legs(&mut self, memory: Vec<f64>, rough: &Rough, tree: &ContactTree) -> Vec<f64> {
         let rule = GridEdges::new(HessRule::new(rough.foundation, rough.work_of_adhesion(self.kappa)));
-        let mut solver = exact::adhesive(tree, rule, rough.foundation, SAMPLES).expect("memory");
+        let mut solver = exact::adhesive_in(memory, tree, rule, rough.foundation, SAMPLES).expect("memory");
         let legs = [Leg::ToForce(LOAD * EFFECTIVE_MODULUS * LENGTH * RMS_HEIGHT), Leg::ToSeparation];
         let clock = Instant::now();
         self.records = legs.map(|leg| solver.advance(leg).expect("a reachable leg")).into();
@@ -176,6 +249,7 @@ impl Loop {
         self.curves = self.curves.min(solver.curve_seconds());
         self.passes = self.passes.min(legs_seconds - solver.curve_seconds());
         self.work = solver.work();
+        solver.into_memory()
     }
 }
 
@@ -220,7 +294,7 @@ impl Measured {
             println!("  {name:<34} {:>11.4} {ffts:>10.2} {each:>10.2}", 1e3 * seconds);
         };
         row("one real FFT", self.transform);
-        row("line: phases, synthesis, gaps", self.synthesis);
+        row("line, in fresh memory", self.synthesis);
         row("tree, in fresh memory", self.fresh_tree);
         row("tree", self.tree);
         for one in &self.loops {
@@ -229,6 +303,11 @@ impl Measured {
             row("curves, extremes, force search", one.curves);
             row("whole loop: tree, passes, curves", one.whole);
             one.print_outcome(rough);
+        }
+        println!("  edits: the whole outcome with F_a(0) and histogram, legs copied");
+        for (index, kappa) in KAPPAS.into_iter().enumerate() {
+            row(&format!("of kappa, to {kappa}"), self.edits.kappa[index]);
+            row(&format!("of the seed, kappa = {kappa}"), self.edits.seed[index]);
         }
         println!();
     }

@@ -407,6 +407,7 @@ fn a_plan_is_what_the_run_then_does() {
         assert_eq!(plan["springs"].as_u64(), work("springs"), "{preset}");
         assert_eq!(passes("loading-pass").1, work("loading_passes"), "{preset}");
         assert_eq!(passes("unloading-pass").1, work("unloading_passes"), "{preset}");
+        assert_eq!(passes("zero-load-adhesion").1, work("zero_load_passes"), "{preset}");
         assert_eq!(passes("synthesis").1, work("transforms"), "{preset}");
         assert_eq!(passes("tree").0, work("tree_nodes") > Some(0), "{preset}");
         assert_eq!(passes("relaxation").0, work("steps") > Some(0), "{preset}");

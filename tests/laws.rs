@@ -9,6 +9,8 @@ mod extreme_inputs;
 mod memory;
 #[path = "laws/refusals.rs"]
 mod refusals;
+#[path = "laws/reuse.rs"]
+mod reuse;
 #[path = "laws/search.rs"]
 mod search;
 #[path = "laws/symmetries.rs"]

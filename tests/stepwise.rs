@@ -294,7 +294,7 @@ fn nothing_is_done_that_a_scene_does_not_call_for() {
 
         let bare = work(&[solver, BARE]);
         assert_eq!((bare.hess_evaluations, bare.tree_nodes), (0, 0));
-        assert_eq!((bare.loading_passes, bare.unloading_passes), (0, 0));
+        assert_eq!((bare.loading_passes, bare.unloading_passes, bare.zero_load_passes), (0, 0, 0));
         // A work of zero is no adhesion either.
         assert_eq!(work(&[solver, ("adhesion", "(work: 0.0)")]), bare);
 
@@ -314,6 +314,10 @@ fn nothing_is_done_that_a_scene_does_not_call_for() {
     let exact = work(&[]);
     assert_eq!((exact.steps, exact.relaxation_sweeps, exact.spring_updates), (0, 0, 0));
     assert_eq!((exact.tree_nodes, exact.loading_passes, exact.unloading_passes), (1024, 1, 1));
+    // F_a(0) takes another pass, and none where the loading turns at first touch.
+    assert_eq!(exact.zero_load_passes, 1);
+    let touch = work(&[("loading", "[ToTouch, ToSeparation]")]);
+    assert_eq!((touch.loading_passes, touch.unloading_passes, touch.zero_load_passes), (1, 1, 0));
     let stepwise = work(&[STEPS]);
     assert_eq!((stepwise.tree_nodes, stepwise.loading_passes, stepwise.unloading_passes), (0, 0, 0));
     assert_eq!((stepwise.springs_tallied, stepwise.events_sorted), (0, 0));

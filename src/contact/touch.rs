@@ -87,3 +87,47 @@ impl Springs for Touching<'_> {
         &self.scale
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::contact::{GridEdges, HessRule, Solver, exact};
+    use crate::scene::Leg;
+    use proptest::prelude::*;
+
+    const FOUNDATION: Foundation = Foundation { spacing: 0.01, effective_modulus: 2.0 };
+
+    proptest! {
+        #[test]
+        fn is_what_the_touch_protocol_gives(
+            levels in prop::collection::vec(0_u16..400, 1..120),
+            work in 0.0..2.0_f64,
+            deep in 0.0..1.0_f64,
+        ) {
+            let lowest = levels.iter().copied().min().unwrap_or(0);
+            let gaps: Vec<f64> = levels.iter().map(|&level| f64::from(level - lowest) / 300.0).collect();
+            let tree = ContactTree::build(&gaps).unwrap();
+            let rule = GridEdges::new(HessRule::new(FOUNDATION, work));
+            let mut protocol = exact::adhesive(&tree, rule, FOUNDATION, 2).unwrap();
+            let touch = protocol.advance(Leg::ToTouch).unwrap();
+            let back = protocol.advance(Leg::ToSeparation).unwrap();
+
+            let mut body = exact::adhesive(&tree, rule, FOUNDATION, 7).unwrap();
+            prop_assert_eq!(body.roots_at_touch(), None);
+            body.advance(Leg::ToIndentation(-1.0)).unwrap();
+            prop_assert_eq!(body.roots_at_touch(), None);
+            body.advance(Leg::ToIndentation(deep)).unwrap();
+            let known = body.roots_at_touch().unwrap();
+            // What memory holds does not matter.
+            let mut memory = vec![f64::NAN; gaps.len() / 2];
+            let (found, effort) = roots(&tree, &rule, &mut memory).unwrap();
+            prop_assert_eq!(&found, &known);
+            prop_assert_eq!(effort.zero_load_passes, 1);
+            let (force, effort) = smallest_force(&tree, &rule, FOUNDATION, &known, &mut memory).unwrap();
+            prop_assert_eq!(force.to_bits(), back.smallest.force.to_bits());
+            prop_assert_eq!(effort.springs_tallied, touch.joins);
+            body.advance(Leg::ToSeparation).unwrap();
+            prop_assert_eq!(body.roots_at_touch(), None);
+        }
+    }
+}

@@ -8,8 +8,8 @@ use realfft::{ComplexToReal, RealFftPlanner};
 use rustfft::num_complex::Complex64;
 use std::sync::Arc;
 
-/// Longest line whose transform is kept for the next one: it takes 20 bytes for each spring, while on
-/// longer ones memory is dearer than the time it saves.
+/// Longest line whose transform is kept for the next one. It takes 20 bytes for each spring, which on longer
+/// lines is dearer than the time it saves.
 const LONGEST_KEPT: usize = 1 << 22;
 
 /// Heights of a self-affine line of rms height 1 at x = (i + ½)L/N, eqs. (8) and (9).
@@ -39,8 +39,8 @@ impl UnitRoughness {
     }
 }
 
-/// Makes one line after the other, and keeps what the next can use: the planned transform with its memory,
-/// and the sums over the spectrum.
+/// Makes one line after the other, and keeps what the next can use: the sums over the spectrum and, once there
+/// has been a second line, the planned transform with its memory.
 #[derive(Default)]
 pub struct Synthesizer {
     mean_squares: Option<(SelfAffine, MeanSquares)>,
@@ -80,6 +80,7 @@ impl Synthesizer {
     ) -> Result<UnitRoughness, SurfaceError> {
         let many = spectrum.last - spectrum.first >= MANY_MODES;
         let kept = self.transform.take().filter(|kept| kept.points == points);
+        let is_first = self.mean_squares.is_none();
         let known = self.mean_squares.filter(|(known, _)| *known == spectrum);
         let (transform, mean_squares) = in_parallel(
             many && kept.is_none() && known.is_none(),
@@ -108,7 +109,7 @@ impl Synthesizer {
             .plan
             .process_with_scratch(&mut transform.coefficients, &mut heights, &mut transform.scratch)
             .map_err(|error| SurfaceError::Transform(error.to_string()))?;
-        if points <= LONGEST_KEPT {
+        if !is_first && points <= LONGEST_KEPT {
             self.transform = Some(transform);
         }
         Ok(UnitRoughness {

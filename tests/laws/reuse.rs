@@ -1,0 +1,177 @@
+//! What is kept, copied or worked out beside the loading is what it would be alone.
+
+use super::*;
+use asperity::analysis::Figures;
+use asperity::contact::{LegContact, Stepwise, Work};
+use asperity::scene::{Document, Scene};
+use asperity::simulation::{Outcome, Simulation, Timings};
+use std::sync::Arc;
+
+proptest! {
+    #![proptest_config(cases(300))]
+
+    #[test]
+    fn a_copied_leg_tells_its_contact_after_the_body_has_gone_on(
+        bodies in prop::collection::vec(body(), 2),
+        turns in indentations(5),
+        kind in 0..3,
+        probes in prop::collection::vec(-1.0..1.5_f64, 8),
+    ) {
+        // Its memory serves for all legs of one body, then of the other.
+        let mut copies: Vec<LegContact> = Vec::new();
+        for body in &bodies {
+            let tree = body.tree();
+            let stop = || false;
+            let hess = Some(HessRule::new(body.foundation, body.work));
+            let mut solver: Box<dyn Solver> = match kind {
+                0 => Box::new(body.on(&tree, 3)),
+                1 => Box::new(exact::bare(&body.gaps, body.foundation, 3)),
+                _ => Box::new(Stepwise::new(&body.gaps, hess, body.foundation, 0.05, 3, &stop).unwrap()),
+            };
+            let tree = (kind == 0).then_some(&tree);
+            let mut expected = Vec::new();
+            let fly = [Leg::ToSeparation, Leg::ToIndentation(-0.5)];
+            copies.resize_with(turns.len() + 2, LegContact::default);
+            for (leg, copy) in to_indentations(&turns).into_iter().chain(fly).zip(&mut copies) {
+                solver.advance(leg).unwrap();
+                solver.copy_leg(copy).unwrap();
+                let told: Vec<_> = probes.iter().map(|&probe| solver.fragments(probe)).collect();
+                expected.push(told);
+            }
+            for (copy, expected) in copies.iter().zip(&expected) {
+                for (&probe, expected) in probes.iter().zip(expected) {
+                    prop_assert_eq!(&copy.fragments_at(probe, &body.gaps, tree), expected, "at {}", probe);
+                }
+            }
+        }
+    }
+}
+
+const SCENE: &str = r#"(
+    version: 1,
+    material: (youngs_modulus: 2.0e6, poisson_ratio: 0.5),
+    length: 1.0e-4,
+    roughness: SelfAffine(hurst: 0.7, rms_height: 2.0e-7, modes: (1, 400), seed: 1),
+    adhesion: (kappa: 2.0),
+    loading: [ToForce(2.0e-5), ToSeparation],
+    numerics: (points: 40000, solver: Exact, edges: Grid, samples: 64),
+    observe: [Fragments, HeightHistogram],
+)"#;
+
+fn scene(overrides: &[(&str, &str)]) -> Scene {
+    let overrides: Vec<_> =
+        overrides.iter().map(|&(path, value)| (path.to_string(), value.to_string())).collect();
+    Document::parse(SCENE, "scene").unwrap().set_all(&overrides).unwrap().scene().clone()
+}
+
+fn outcome(simulation: &mut Simulation, scene: &Scene) -> Outcome {
+    let outcome = simulation.run(scene, &|| false, &mut |_, _, _| Ok(())).unwrap();
+    Outcome { timings: Timings::default(), ..outcome }
+}
+
+#[test]
+fn what_a_simulation_keeps_changes_no_bit() {
+    let mut kept = Simulation::default();
+    let twenty = ("adhesion.kappa", "20.0");
+    let edits: [&[(&str, &str)]; 16] = [
+        &[],
+        &[twenty],
+        &[twenty, ("loading", "[ToForce(1.0e-5), ToZeroForce, ToForce(3.0e-5), ToSeparation]")],
+        &[("material.youngs_modulus", "1.0e6")],
+        &[("roughness.seed", "2")],
+        &[("roughness.seed", "3"), twenty],
+        &[("roughness.modes", "(1, 20000)")],
+        &[("roughness.modes", "(1, 20000)"), ("roughness.seed", "2"), twenty],
+        &[("roughness.hurst", "0.9"), ("roughness.rms_height", "1.0e-7")],
+        &[("adhesion", "None")],
+        &[("form", "Punch(radius: 2.0e-5)")],
+        &[("form", "Paraboloid(radius: 1.0e-3)"), ("adhesion", "(work: 0.01)")],
+        &[("roughness", "None"), ("form", "Paraboloid(radius: 1.0e-4)"), ("adhesion", "(work: 0.05)")],
+        &[("numerics.points", "1000")],
+        &[("loading", "[ToIndentation(-1.0e-8), ToIndentation(-1.0e-7)]")],
+        &[],
+    ];
+    for edit in edits {
+        let scene = scene(edit);
+        let found = outcome(&mut kept, &scene);
+        let mut expected = outcome(&mut Simulation::default(), &scene);
+        // What is kept is not done again.
+        let Work { random_phases, transforms, heights_binned, .. } = found.history.work;
+        assert!([0, expected.history.work.random_phases].contains(&random_phases), "{edit:?}");
+        expected.history.work = Work { random_phases, transforms, heights_binned, ..expected.history.work };
+        assert_eq!(found, expected, "{edit:?}");
+
+        let mut touch = scene.clone();
+        touch.loading = vec![Leg::ToTouch, Leg::ToSeparation];
+        let touch = outcome(&mut Simulation::default(), &touch);
+        assert_eq!(found.zero_load_adhesion_force, touch.zero_load_adhesion_force, "{edit:?}");
+        assert_eq!(touch.zero_load_adhesion_force.is_some(), scene.adhesion.is_some());
+    }
+}
+
+#[test]
+fn what_was_made_for_one_scene_is_made_once() {
+    let mut simulation = Simulation::default();
+    let work = |simulation: &mut Simulation, overrides: &[(&str, &str)]| {
+        let work = outcome(simulation, &scene(overrides)).history.work;
+        (work.random_phases, work.transforms, work.heights_binned)
+    };
+    let unobserved = [("observe", "[]")];
+    assert_eq!(work(&mut simulation, &unobserved), (400, 1, 0));
+    assert_eq!(work(&mut simulation, &[]), (0, 0, 40_000));
+    assert_eq!(work(&mut simulation, &[("adhesion.kappa", "3.0")]), (0, 0, 0));
+    assert_eq!(work(&mut simulation, &unobserved), (0, 0, 0));
+    assert_eq!(work(&mut simulation, &[]), (0, 0, 0));
+    assert_eq!(work(&mut simulation, &[("roughness.rms_height", "1.0e-7")]), (0, 0, 40_000));
+    assert_eq!(work(&mut simulation, &[("roughness.seed", "2")]), (400, 1, 40_000));
+}
+
+#[test]
+fn a_tree_held_by_somebody_else_stays_as_it_is() {
+    let mut simulation = Simulation::default();
+    assert!(simulation.tree().is_none());
+    outcome(&mut simulation, &scene(&[]));
+    let held = Arc::clone(simulation.tree().unwrap());
+    let before = ContactTree::clone(&held);
+    outcome(&mut simulation, &scene(&[("adhesion.kappa", "3.0")]));
+    assert!(Arc::ptr_eq(&held, simulation.tree().unwrap()));
+    outcome(&mut simulation, &scene(&[("roughness.seed", "2")]));
+    assert_eq!(*held, before);
+    let line = simulation.line().unwrap().gaps.clone();
+    assert_eq!(**simulation.tree().unwrap(), ContactTree::build(&line).unwrap());
+    // The tree of another line is none of this one.
+    outcome(&mut simulation, &scene(&[("adhesion", "None"), ("roughness.seed", "2")]));
+    assert!(simulation.tree().is_some());
+    outcome(&mut simulation, &scene(&[("adhesion", "None"), ("roughness.seed", "3")]));
+    assert!(simulation.tree().is_none());
+}
+
+#[test]
+fn a_run_told_to_stop_stops_beside_other_threads_and_leaves_all_fit_for_the_next() {
+    let scene = scene(&[]);
+    let expected = outcome(&mut Simulation::default(), &scene);
+    let mut simulation = Simulation::default();
+    for allowed in 0.. {
+        let asked = std::cell::Cell::new(0);
+        let stop = || asked.replace(asked.get() + 1) >= allowed;
+        match simulation.run(&scene, &stop, &mut |_, _, _| Ok(())) {
+            Err(error) => assert!(error.is_interruption()),
+            Ok(found) => {
+                assert!(allowed > 2);
+                assert_eq!(found.history.legs, expected.history.legs);
+                assert_eq!(found.zero_load_adhesion_force, expected.zero_load_adhesion_force);
+                assert_eq!(found.histogram, expected.histogram);
+                return;
+            }
+        }
+    }
+}
+
+#[test]
+fn figures_of_first_touch_are_those_of_its_protocol() {
+    let touch = scene(&[("loading", "[ToTouch, ToSeparation]")]);
+    assert!(Figures::is_touch_protocol(&touch));
+    let outcome = outcome(&mut Simulation::default(), &touch);
+    assert_eq!(outcome.zero_load_adhesion_force, outcome.figures.adhesion_force);
+    assert_eq!(outcome.history.work.zero_load_passes, 0);
+}
