@@ -5,14 +5,15 @@ use super::held::Held;
 use super::reduce::{self, Contact, LineColumns, Part};
 use super::snapshot::{Drive, Loop, Moment};
 use super::worker::{Engine, HandOrder, LineView, MomentRequest, Newest, Report};
-use crate::contact::{ContactError, CurvePoint, Foundation, GapScale, HessRule, LegRecord, Solver, Tally};
+use crate::contact::{
+    ContactError, CurvePoint, Foundation, GapScale, HessRule, LegContact, LegRecord, Solver, Tally,
+};
 use crate::scene::{Observer, Scene};
 use std::sync::Arc;
 use std::sync::atomic::Ordering;
 
-/// Legs whose thresholds are kept: beyond this many values, older legs are computed again when the
-/// animation comes to them.
-const VALUES_KEPT: usize = 1 << 26;
+/// Bytes of legs that are kept: beyond them, legs are computed again when the animation comes to them.
+const BYTES_KEPT: usize = 1 << 29;
 
 /// Points of the curve over the range of indentations, when the body is pulled off by hand.
 const STEPS_OF_A_PULL: f64 = 200.0;
@@ -26,7 +27,10 @@ pub struct Playback {
     generation: u64,
     scene: Option<Arc<Scene>>,
     computed: Option<Arc<Loop>>,
-    thresholds: Vec<Option<Vec<f64>>>,
+    /// What was in contact on each leg, as far as it is kept.
+    legs: Vec<Option<LegContact>>,
+    /// Memory for the legs of the next scene.
+    spare: Vec<LegContact>,
     held: Option<Held>,
     /// The contact at the moment shown last, to tell how many springs changed.
     last: Option<(Drive, Fragments)>,
@@ -50,6 +54,8 @@ impl Playback {
         newest: &Newest,
         report: &dyn Fn(Report) -> bool,
     ) -> Option<Report> {
+        let mut spare = std::mem::take(&mut self.spare);
+        spare.extend(self.legs.drain(..).flatten());
         *self = Playback { generation, ..Playback::default() };
         // The pane beside the profile observes the heights.
         let mut observed = scene.as_ref().clone();
@@ -57,20 +63,31 @@ impl Playback {
             observed.observe.push(Observer::HeightHistogram);
         }
         let stop = || newest.load(Ordering::Relaxed) != generation;
-        let mut kept = 0;
-        let mut thresholds = Vec::new();
+        let mut bytes = 0;
+        let mut legs = Vec::new();
         let result = engine.run(&observed, &stop, &mut |leg, _, solver| {
-            let mut values = Vec::new();
-            solver.thresholds_along_line(&mut values);
-            kept += values.len();
-            thresholds.push((kept <= VALUES_KEPT).then_some(values));
+            let copy = if bytes <= BYTES_KEPT {
+                let mut copy = spare.pop().unwrap_or_default();
+                solver.copy_leg(&mut copy)?;
+                bytes += copy.bytes();
+                Some(copy)
+            } else {
+                None
+            };
+            legs.push(copy);
             report(Report::Progress { generation, legs: leg + 1 });
             Ok(())
         });
+        if result.is_err() {
+            spare.extend(legs.drain(..).flatten());
+        }
+        // Other scenes have about as many legs; memory for more is given back.
+        spare.truncate(legs.len().max(2));
+        self.spare = spare;
         match result {
             Ok(outcome) => {
                 let computed = Arc::new(Loop { generation, scene, outcome });
-                self.thresholds = thresholds;
+                self.legs = legs;
                 self.scene = Some(Arc::new(observed));
                 self.computed = Some(Arc::clone(&computed));
                 Some(Report::Computed(computed))
@@ -159,21 +176,15 @@ impl Playback {
 
     /// What is in contact on a leg.
     fn contact_on_leg(&mut self, engine: &mut dyn Engine, leg: usize, indentation: f64) -> Option<Fragments> {
-        if self.thresholds.get(leg)?.is_none() {
+        if self.legs.get(leg)?.is_none() {
             self.recall(engine, leg);
         }
-        let thresholds = self.thresholds.get(leg)?.as_ref()?;
-        let mut fragments = Fragments::new();
-        for spring in (0..thresholds.len()).filter(|&spring| thresholds[spring] <= indentation) {
-            match fragments.last_mut() {
-                Some((_, last)) if *last + 1 == spring => *last = spring,
-                _ => fragments.push((spring, spring)),
-            }
-        }
-        Some(fragments)
+        let contact = self.legs.get(leg)?.as_ref()?;
+        let tree = engine.tree().map(AsRef::as_ref);
+        Some(contact.fragments_at(indentation, &engine.line()?.gaps, tree))
     }
 
-    /// Computes the thresholds of a leg that were not kept.
+    /// Computes a leg that was not kept.
     fn recall(&mut self, engine: &mut dyn Engine, wanted: usize) {
         let Some(scene) = &self.scene else { return };
         let mut found = None;
@@ -181,18 +192,20 @@ impl Playback {
             if leg < wanted {
                 return Ok(());
             }
-            let mut values = Vec::new();
-            solver.thresholds_along_line(&mut values);
-            found = Some(values);
+            let mut copy = LegContact::default();
+            solver.copy_leg(&mut copy)?;
+            found = Some(copy);
             // Nothing after this leg is needed.
             Err(ContactError::Interrupted)
         };
-        if engine.run(scene, &|| false, &mut after).is_ok() || found.is_some() {
+        // It ends as soon as the leg is found.
+        let _ = engine.run(scene, &|| false, &mut after);
+        if let Some(found) = found {
             // Only one recalled leg is kept at a time.
-            let firsts = VALUES_KEPT / found.as_ref().map_or(1, |values: &Vec<f64>| values.len().max(1));
-            self.thresholds.iter_mut().skip(firsts).for_each(|leg| *leg = None);
-            if let Some(leg) = self.thresholds.get_mut(wanted) {
-                *leg = found;
+            let firsts = BYTES_KEPT / found.bytes().max(1);
+            self.legs.iter_mut().skip(firsts + 1).for_each(|leg| *leg = None);
+            if let Some(leg) = self.legs.get_mut(wanted) {
+                *leg = Some(found);
             }
         }
     }
