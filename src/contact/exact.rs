@@ -4,6 +4,7 @@ use super::ledger::{Grid, Ledger, SquaredStretch};
 use super::search::{self, Extreme};
 use super::springs::{AdhesiveSprings, BareSprings, Contact};
 use super::tally::Tally;
+use super::targets::{Standing, Target};
 use super::{
     ContactError, ContactTree, CurvePoint, Direction, EdgeRule, Foundation, LegContact, LegRecord, Work,
 };
@@ -39,15 +40,6 @@ impl State {
     fn is_separated(&self) -> bool {
         self.tally.springs == 0
     }
-}
-
-/// Where a leg ends.
-#[derive(Clone, Copy, Debug)]
-enum Target {
-    Indentation(f64),
-    /// Σ (d − c), m.
-    Compression(f64),
-    Separation,
 }
 
 /// A body under adhesion; build one with [`adhesive`].
@@ -129,44 +121,13 @@ impl<C: Contact> Exact<C> {
 
     /// Which way a leg goes and where it ends; `None` when it ends where the body stands.
     fn plan(&self, leg: Leg) -> Result<Option<(Direction, Target)>, ContactError> {
-        use Direction::{Loading, Unloading};
-        let separated = self.state.is_separated();
-        let stands_at = self.state.indentation;
-        let to_indentation = |wanted: f64| {
-            // From separation at d = 0 a leg to d = 0 is the touch itself.
-            if wanted > stands_at || (separated && wanted >= 0.0) {
-                Some((Loading, Target::Indentation(wanted)))
-            } else if wanted < stands_at {
-                Some((Unloading, Target::Indentation(wanted)))
-            } else {
-                None
-            }
+        let stiffness = self.foundation.spring_stiffness();
+        let standing = Standing {
+            indentation: self.state.indentation,
+            force: stiffness * self.compression(),
+            separated: self.state.is_separated(),
         };
-        let to_force = |force: f64| {
-            let stiffness = self.foundation.spring_stiffness();
-            let target = Target::Compression(force / stiffness);
-            if separated {
-                return if force < 0.0 {
-                    Err(ContactError::NothingToPull { index: self.legs, force })
-                } else {
-                    Ok(Some((Loading, target)))
-                };
-            }
-            // As forces: the division may miss the compression the force came from.
-            Ok(match force.partial_cmp(&(stiffness * self.compression())) {
-                Some(std::cmp::Ordering::Greater) => Some((Loading, target)),
-                Some(std::cmp::Ordering::Less) => Some((Unloading, target)),
-                _ => None,
-            })
-        };
-        match leg {
-            Leg::ToIndentation(wanted) => Ok(to_indentation(wanted)),
-            Leg::ToTouch => Ok(to_indentation(0.0)),
-            Leg::ToForce(force) => to_force(force),
-            Leg::ToZeroForce => to_force(0.0),
-            Leg::ToSeparation if separated => Ok(None),
-            Leg::ToSeparation => Ok(Some((Unloading, Target::Separation))),
-        }
+        standing.plan(leg, stiffness, self.legs)
     }
 
     fn ledger(&mut self, grid: Grid) -> Ledger {
@@ -195,6 +156,7 @@ impl<C: Contact> Exact<C> {
         CurvePoint {
             indentation,
             force: self.foundation.spring_stiffness() * compression,
+            contact_length: tally.springs as f64 * self.foundation.spacing,
             springs: tally.springs.unsigned_abs(),
             fragments: tally.fragments.unsigned_abs(),
         }

@@ -14,12 +14,14 @@ pub enum Direction {
 }
 
 /// One point of a force curve.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct CurvePoint {
     /// Indentation d, m; 0 at first touch.
     pub indentation: f64,
     /// Force F, N; compression positive.
     pub force: f64,
+    /// Length in contact, m.
+    pub contact_length: f64,
     /// Springs in contact.
     pub springs: u64,
     /// Contact fragments.
@@ -66,8 +68,7 @@ impl LegRecord {
 
     /// A leg of a separated body that does not touch.
     pub(crate) fn free(leg: Leg, from: f64, to: f64) -> Self {
-        let [start, end] =
-            [from, to].map(|indentation| CurvePoint { indentation, force: 0.0, springs: 0, fragments: 0 });
+        let [start, end] = [from, to].map(|indentation| CurvePoint { indentation, ..CurvePoint::default() });
         let direction = if to > from { Direction::Loading } else { Direction::Unloading };
         LegRecord { direction, curve: vec![start, end], ..LegRecord::still(leg, end) }
     }

@@ -312,6 +312,7 @@ impl<R: EdgeRule> HandHeld for Incremental<R> {
         CurvePoint {
             indentation: self.indentation,
             force: self.foundation.spring_stiffness() * self.compression_at(self.indentation),
+            contact_length: tally.springs as f64 * self.foundation.spacing,
             springs: tally.springs.unsigned_abs(),
             fragments: tally.fragments.unsigned_abs(),
         }

@@ -59,7 +59,7 @@ impl LegContact {
     }
 
     /// Nothing touches on the leg.
-    pub(super) fn keep_nothing(&mut self) {
+    pub(in crate::contact) fn keep_nothing(&mut self) {
         self.order = Order::Apart;
     }
 

@@ -42,6 +42,11 @@ impl<'a, R: EdgeRule> AdhesiveSprings<'a, R> {
         Ok(AdhesiveSprings { tree, rule, thresholds, scale: tree.gap_scale(), forms: false })
     }
 
+    /// Thresholds of the present leg, in post-order, m.
+    pub fn thresholds(&self) -> &[f64] {
+        &self.thresholds
+    }
+
     pub fn into_memory(self) -> Vec<f64> {
         self.thresholds
     }

@@ -245,6 +245,7 @@ fn point(
     CurvePoint {
         indentation,
         force: foundation.spring_stiffness() * tally.compression(indentation, scale),
+        contact_length: tally.springs as f64 * foundation.spacing,
         springs: tally.springs.unsigned_abs(),
         fragments: fragments.len() as u64,
     }

@@ -14,7 +14,7 @@ pub fn write_curve(out: &mut (impl Write + ?Sized), outcome: &Outcome) -> io::Re
     for (index, leg) in outcome.history.legs.iter().enumerate() {
         for point in &leg.curve {
             let (indentation, force) = (point.indentation, point.force);
-            let contact_length = point.springs as f64 * outcome.line.spacing;
+            let contact_length = point.contact_length;
             writeln!(out, "{index},{indentation:?},{force:?},{contact_length:?},{}", point.fragments)?;
         }
     }

@@ -115,14 +115,13 @@ impl<'a> Report<'a> {
 
 /// The points of all legs, one after the other, without a copy of them all.
 fn curve<S: Serializer>(outcome: &&Outcome, serializer: S) -> Result<S::Ok, S::Error> {
-    let spacing = outcome.line.spacing;
     let legs = outcome.history.legs.iter().enumerate();
     serializer.collect_seq(legs.flat_map(|(leg, record)| {
         record.curve.iter().map(move |point| CurveReport {
             leg,
             indentation: point.indentation,
             force: point.force,
-            contact_length: point.springs as f64 * spacing,
+            contact_length: point.contact_length,
             fragments: point.fragments,
         })
     }))

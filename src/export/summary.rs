@@ -102,7 +102,7 @@ fn contact(sheet: &mut Sheet, outcome: &Outcome) {
         return sheet.row("contact", "none: separated");
     }
     sheet.row("force F", format_quantity(end.force, "N"));
-    let length = end.springs as f64 * outcome.line.spacing;
+    let length = end.contact_length;
     let share = format_quantity(100.0 * length / outcome.line.length, "1");
     sheet.row("contact length", format!("{}, {share} % of L", format_quantity(length, "m")));
     sheet.row("fragments", grouped(end.fragments));
