@@ -80,6 +80,8 @@ impl Cost {
         let kept = if self.rough { HEIGHT * self.points } else { 0 };
         let of_contact = match (self.exact, plan.runs(Stage::Tree)) {
             (false, _) => RELAXED,
+            // At the most, where all that touches under load touches at first touch as well.
+            (true, true) if plan.runs(Stage::ZeroLoadAdhesion) => NODE + 2 * THRESHOLD,
             (true, true) => NODE + THRESHOLD,
             (true, false) => 0,
         };
