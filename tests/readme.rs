@@ -2,7 +2,9 @@
 //!
 //! After a change of the tables, `UPDATE_README=1 cargo test --test readme` writes them anew.
 
-use asperity::explorer::keys;
+use asperity::explorer::demo::{Demo, ONE_SCENE};
+use asperity::explorer::theme::{Appearance, Marker, Theme};
+use asperity::explorer::{keys, svg_of};
 use asperity::scene::{FIELDS, LEG_FORCE, LEG_INDENTATION, Range, presets};
 use std::path::Path;
 
@@ -47,4 +49,20 @@ fn tables_are_those_of_the_program() {
         scenes += &format!("| `{}` | {} |\n", preset.name, document.scene().notice);
     }
     check("scenes", &scenes);
+}
+
+#[test]
+fn the_picture_is_that_of_the_program() {
+    let document = asperity::scene::open("pressure-sensitive").unwrap();
+    let appearance = Appearance { theme: Theme::Dark, marker: Marker::Braille };
+    let mut demo = Demo::new(document, ONE_SCENE, (120, 36), appearance, 12.0);
+    while demo.advance().is_some_and(|seconds| seconds + 1e-9 < 9.0) {}
+    let picture = svg_of(demo.model());
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/explorer.svg");
+    if std::env::var_os("UPDATE_README").is_some() {
+        std::fs::write(&path, picture).unwrap();
+    } else {
+        let found = std::fs::read_to_string(&path).unwrap();
+        assert!(found == picture, "docs/explorer.svg is not the program's: the README says how to make it");
+    }
 }
