@@ -4,14 +4,15 @@ use asperity::contact::subcell::{LevelSets, SubCell};
 use asperity::contact::{ContactTree, Foundation, HessRule, History, LegRecord, run};
 use asperity::scene::{Form, Leg};
 use asperity::surface::Line;
+use std::sync::Arc;
 
 fn history(form: Form, length: f64, points: usize, work: f64, legs: &[Leg]) -> History {
     let line = Line::new(length, points, Some(&form), None, 0.0).unwrap();
     let foundation = Foundation { spacing: line.spacing, effective_modulus: 1.0 };
-    let tree = ContactTree::build(&line.gaps).unwrap();
-    let sets = LevelSets::new(&tree, &line.gaps).unwrap();
+    let tree = Arc::new(ContactTree::build(&line.gaps).unwrap());
+    let sets = Arc::new(LevelSets::new(tree, &line.gaps).unwrap());
     let hess = (work > 0.0).then(|| HessRule::new(foundation, work));
-    let mut body = SubCell::new(&sets, &line.gaps, hess, foundation, 512, Vec::new()).unwrap();
+    let mut body = SubCell::new(&sets, hess, foundation, 512, Vec::new()).unwrap();
     run(&mut body, legs, |_, _| Ok(())).unwrap()
 }
 

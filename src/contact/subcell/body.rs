@@ -13,13 +13,13 @@ use crate::contact::{
     ContactError, CurvePoint, Direction, Foundation, HessRule, LegContact, LegRecord, Solver, Work,
 };
 use crate::scene::Leg;
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 /// A body on its foundation, moved leg by leg.
 pub struct SubCell<'a> {
-    springs: AdhesiveSprings<'a, SubCellEdges<'a>>,
-    edges: SubCellEdges<'a>,
-    gaps: &'a [f64],
+    springs: AdhesiveSprings<'a, SubCellEdges>,
+    edges: SubCellEdges,
     foundation: Foundation,
     samples: usize,
     indentation: f64,
@@ -65,27 +65,25 @@ impl Sampled {
 }
 
 impl<'a> SubCell<'a> {
-    /// A body over the line of `sets`, whose gaps these are, separated, at d = 0 just before first touch.
+    /// A body over the line of `sets`, separated, at d = 0 just before first touch.
     /// `hess` is the rule of Hess, `None` without adhesion; `samples` (at least 2) points are taken on each
     /// leg.
     ///
     /// # Errors
     /// [`ContactError::OutOfMemory`].
     pub fn new(
-        sets: &'a LevelSets<'a>,
-        gaps: &'a [f64],
+        sets: &'a Arc<LevelSets>,
         hess: Option<HessRule>,
         foundation: Foundation,
         samples: usize,
         memory: Vec<f64>,
     ) -> Result<Self, ContactError> {
-        let edges = SubCellEdges::new(sets, hess);
-        let springs = AdhesiveSprings::new(sets.tree(), edges, memory)?;
-        let count = gaps.len() as u64;
+        let edges = SubCellEdges::new(Arc::clone(sets), hess);
+        let springs = AdhesiveSprings::new(sets.tree(), edges.clone(), memory)?;
+        let count = sets.tree().len() as u64;
         Ok(SubCell {
             springs,
             edges,
-            gaps,
             foundation,
             samples: samples.max(2),
             indentation: 0.0,
@@ -108,8 +106,8 @@ impl<'a> SubCell<'a> {
         self.standing.springs == 0
     }
 
-    fn search(&self) -> Search<'a> {
-        Search { edges: self.edges }
+    fn search(&self) -> Search<'_> {
+        Search { edges: &self.edges }
     }
 
     fn curve_point(&self, Found { indentation, sums }: Found) -> CurvePoint {
@@ -366,7 +364,7 @@ impl<'a> SubCell<'a> {
 
     /// Energy in J of what joins or leaves between two indentations of the present leg.
     fn energy(&self, low: f64, high: f64) -> f64 {
-        let squared = squared_stretch(&self.edges, self.gaps, self.springs.thresholds(), low, high);
+        let squared = squared_stretch(&self.edges, self.springs.thresholds(), low, high);
         0.5 * self.foundation.spring_stiffness() * squared
     }
 }

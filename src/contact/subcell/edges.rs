@@ -2,6 +2,7 @@
 
 use super::level_sets::{Component, LevelSets, Levels};
 use crate::contact::{ContactTree, EdgeRule, HessRule};
+use std::sync::Arc;
 
 /// Edges between grid points: a fragment at level t is in equilibrium with the indentation
 /// φ(t) = t − Δl_max(ℓ(t)).
@@ -9,22 +10,22 @@ use crate::contact::{ContactTree, EdgeRule, HessRule};
 /// It grows while φ(t) ≤ d and recedes while φ(t) ≥ d. Between the gap of its largest spring and that of
 /// its parent ℓ is linear in t, so φ is convex: it falls to its lowest value and then rises, and only
 /// where it rises does a fragment rest.
-#[derive(Clone, Copy)]
-pub struct SubCellEdges<'a> {
-    sets: &'a LevelSets<'a>,
+#[derive(Clone, Debug)]
+pub struct SubCellEdges {
+    sets: Arc<LevelSets>,
     /// Largest stretch of a fragment of one cell, m: Δl_max = `stretch` √ℓ.
     stretch: f64,
 }
 
-impl<'a> SubCellEdges<'a> {
+impl SubCellEdges {
     /// Edges under the rule of Hess; `None`: without adhesion.
-    pub fn new(sets: &'a LevelSets<'a>, hess: Option<HessRule>) -> Self {
+    pub fn new(sets: Arc<LevelSets>, hess: Option<HessRule>) -> Self {
         SubCellEdges { sets, stretch: hess.map_or(0.0, |hess| hess.largest_stretch(1)) }
     }
 
     /// The level sets.
-    pub fn sets(&self) -> &'a LevelSets<'a> {
-        self.sets
+    pub fn sets(&self) -> &LevelSets {
+        &self.sets
     }
 
     /// φ at a level of a node, m.
@@ -102,7 +103,7 @@ impl<'a> SubCellEdges<'a> {
     }
 }
 
-impl EdgeRule for SubCellEdges<'_> {
+impl EdgeRule for SubCellEdges {
     #[inline]
     fn grows_at(&self, tree: &ContactTree, fragment: usize, _: usize) -> f64 {
         let levels = self.sets.levels(fragment);

@@ -7,14 +7,8 @@ use crate::contact::ledger::CompensatedSum;
 /// cells times m².
 ///
 /// Between the threshold of a node and that of its parent its edges slide; at either of them they jump.
-pub fn squared_stretch(
-    edges: &SubCellEdges<'_>,
-    gaps: &[f64],
-    thresholds: &[f64],
-    low: f64,
-    high: f64,
-) -> f64 {
-    let tree = edges.sets().tree();
+pub fn squared_stretch(edges: &SubCellEdges, thresholds: &[f64], low: f64, high: f64) -> f64 {
+    let (tree, gaps) = (edges.sets().tree(), edges.sets().gaps());
     let mut sum = CompensatedSum::default();
     let mut part = |node: usize, closes: f64| {
         let opens = thresholds[node];

@@ -2,6 +2,7 @@
 
 use crate::contact::tally::{GapScale, Tally};
 use crate::contact::{ContactError, ContactTree, reserve};
+use std::sync::Arc;
 
 /// The level sets {x : c(x) ≤ t} of the line that runs straight from spring to spring, and level for half a
 /// cell beyond the first and the last.
@@ -9,9 +10,10 @@ use crate::contact::{ContactError, ContactTree, reserve};
 /// A component that holds the springs of a subtree, but not that of its parent, has its level t between
 /// the largest gap of the subtree and the gap of the parent; there its two edges move within one cell
 /// each, so that its length is linear in t.
-pub struct LevelSets<'a> {
-    tree: &'a ContactTree,
-    gaps: &'a [f64],
+#[derive(Debug)]
+pub struct LevelSets {
+    tree: Arc<ContactTree>,
+    gaps: Vec<f64>,
     scale: GapScale,
     nodes: Vec<Levels>,
     /// Twice the trapezoid sum of the gaps from the first spring to each, in quanta.
@@ -40,12 +42,12 @@ pub struct Component {
     pub compression: f64,
 }
 
-impl<'a> LevelSets<'a> {
+impl LevelSets {
     /// Those of the line of a tree, `gaps` in their order along the line.
     ///
     /// # Errors
     /// [`ContactError::OutOfMemory`].
-    pub fn new(tree: &'a ContactTree, gaps: &'a [f64]) -> Result<Self, ContactError> {
+    pub fn new(tree: Arc<ContactTree>, gaps: &[f64]) -> Result<Self, ContactError> {
         let scale = tree.gap_scale();
         let mut trapezoids = reserve(gaps.len())?;
         let mut sum = 0_i128;
@@ -57,14 +59,16 @@ impl<'a> LevelSets<'a> {
         }));
         let mut nodes = reserve(tree.len())?;
         nodes.resize(tree.len(), Levels { length: 0.0, growth: 0.0, top: f64::INFINITY });
-        let mut sets = LevelSets { tree, gaps, scale, nodes, trapezoids };
-        for node in 0..tree.len() {
-            let gap = tree.gap(node);
-            let (left, right) = tree.children(node);
+        let mut kept = reserve(gaps.len())?;
+        kept.extend_from_slice(gaps);
+        let mut sets = LevelSets { tree, gaps: kept, scale, nodes, trapezoids };
+        for node in 0..sets.tree.len() {
+            let gap = sets.tree.gap(node);
+            let (left, right) = sets.tree.children(node);
             for child in [left, right].into_iter().flatten() {
                 sets.nodes[child].top = gap;
             }
-            let (first, last) = tree.interval(node);
+            let (first, last) = sets.tree.interval(node);
             let [left, right] = sets.cells(first, last);
             let levels = &mut sets.nodes[node];
             levels.length = (last - first) as f64 + left.share(gap) + right.share(gap);
@@ -74,8 +78,13 @@ impl<'a> LevelSets<'a> {
     }
 
     /// The tree of the line.
-    pub fn tree(&self) -> &'a ContactTree {
-        self.tree
+    pub fn tree(&self) -> &ContactTree {
+        &self.tree
+    }
+
+    /// The gaps along the line, m.
+    pub fn gaps(&self) -> &[f64] {
+        &self.gaps
     }
 
     /// Levels of a node.

@@ -21,7 +21,7 @@ pub struct Found {
 /// The fragments that matter on an interval, and what they come to.
 #[derive(Clone, Copy)]
 pub struct Search<'a> {
-    pub edges: SubCellEdges<'a>,
+    pub edges: &'a SubCellEdges,
 }
 
 impl Search<'_> {
@@ -29,7 +29,7 @@ impl Search<'_> {
     pub fn at(&self, pieces: &[Piece], indentation: f64) -> Sums {
         let mut sums = Sums::default();
         for piece in pieces.iter().filter(|piece| piece.is_at(indentation)) {
-            sums.add(&self.edges, piece.node as usize, indentation);
+            sums.add(self.edges, piece.node as usize, indentation);
         }
         sums
     }
@@ -38,7 +38,7 @@ impl Search<'_> {
     fn below(&self, pieces: &[Piece], low: f64, indentation: f64) -> f64 {
         let mut sums = Sums::default();
         for piece in pieces.iter().filter(|piece| piece.is_at(low)) {
-            sums.add(&self.edges, piece.node as usize, indentation);
+            sums.add(self.edges, piece.node as usize, indentation);
         }
         sums.compression()
     }

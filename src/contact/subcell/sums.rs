@@ -15,7 +15,7 @@ pub struct Sums {
 impl Sums {
     /// Adds the fragment of a node.
     #[inline]
-    pub fn add(&mut self, edges: &SubCellEdges<'_>, node: usize, indentation: f64) {
+    pub fn add(&mut self, edges: &SubCellEdges, node: usize, indentation: f64) {
         let fragment = edges.fragment(node, indentation);
         self.springs += i64::from(edges.sets().tree().size(node));
         self.fragments += 1;
@@ -50,7 +50,7 @@ impl Piece {
 }
 
 /// The fragments of a leg: every node of the tree is one between its own threshold and that of its parent.
-pub fn each_piece(edges: &SubCellEdges<'_>, thresholds: &[f64], mut see: impl FnMut(Piece)) {
+pub fn each_piece(edges: &SubCellEdges, thresholds: &[f64], mut see: impl FnMut(Piece)) {
     let tree = edges.sets().tree();
     let mut piece = |node: usize, to: f64| {
         let from = thresholds[node];
@@ -72,7 +72,7 @@ pub fn each_piece(edges: &SubCellEdges<'_>, thresholds: &[f64], mut see: impl Fn
 /// The sums at each of some indentations in ascending order.
 ///
 /// This takes O(N) time and one evaluation for each fragment at each indentation.
-pub fn sums_at(edges: &SubCellEdges<'_>, thresholds: &[f64], indentations: &[f64]) -> Vec<Sums> {
+pub fn sums_at(edges: &SubCellEdges, thresholds: &[f64], indentations: &[f64]) -> Vec<Sums> {
     let mut sums = vec![Sums::default(); indentations.len()];
     let (Some(&low), Some(&high)) = (indentations.first(), indentations.last()) else { return sums };
     let per_metre = (indentations.len() - 1) as f64 / (high - low);
