@@ -12,6 +12,8 @@ const HEIGHT: u64 = 8;
 const LARGEST_FACTOR: u64 = 11;
 /// Bytes for each spring: a node of the tree.
 const NODE: u64 = 20;
+/// Bytes for each spring: its gap, the levels of its node and the integral up to it.
+const LEVELS: u64 = 48;
 /// Bytes for each spring: the indentation at which it joins or leaves.
 const THRESHOLD: u64 = 8;
 /// Bytes for each spring of the stepwise solver: its threshold and whether it touches.
@@ -62,6 +64,7 @@ impl Cost {
             Stage::Synthesis => StageCost { passes: Some(1), bytes: self.synthesis_bytes() },
             Stage::MeasuredProfile => StageCost { passes: Some(1), bytes: HEIGHT * self.points },
             Stage::Tree => on_line(Some(1), NODE),
+            Stage::LevelSets => on_line(Some(1), LEVELS),
             Stage::RuleOfHess => on_line(Some(0), 0),
             Stage::LoadingPass => on_line(self.legs.loading(), THRESHOLD),
             Stage::UnloadingPass => on_line(self.legs.unloading(), 0),
@@ -85,8 +88,9 @@ impl Cost {
             (true, true) => NODE + THRESHOLD,
             (true, false) => 0,
         };
+        let of_levels = if plan.runs(Stage::LevelSets) { LEVELS } else { 0 };
         let curves = self.curve_points * size_of::<CurvePoint>() as u64;
-        let contact = kept + (HEIGHT + of_contact) * self.springs + curves;
+        let contact = kept + (HEIGHT + of_contact + of_levels) * self.springs + curves;
         if plan.runs(Stage::Synthesis) { contact.max(self.synthesis_bytes()) } else { contact }
     }
 

@@ -38,16 +38,16 @@ impl Standing {
         index: usize,
     ) -> Result<Option<(Direction, Target)>, ContactError> {
         match leg {
-            Leg::ToIndentation(wanted) => Ok(self.to_indentation(wanted)),
-            Leg::ToTouch => Ok(self.to_indentation(0.0)),
-            Leg::ToForce(force) => self.to_force(force, stiffness, index),
-            Leg::ToZeroForce => self.to_force(0.0, stiffness, index),
+            Leg::ToIndentation(wanted) => Ok(self.plan_indentation(wanted)),
+            Leg::ToTouch => Ok(self.plan_indentation(0.0)),
+            Leg::ToForce(force) => self.plan_force(force, stiffness, index),
+            Leg::ToZeroForce => self.plan_force(0.0, stiffness, index),
             Leg::ToSeparation if self.separated => Ok(None),
             Leg::ToSeparation => Ok(Some((Direction::Unloading, Target::Separation))),
         }
     }
 
-    fn to_indentation(&self, wanted: f64) -> Option<(Direction, Target)> {
+    fn plan_indentation(&self, wanted: f64) -> Option<(Direction, Target)> {
         // From separation at d = 0 a leg to d = 0 is the touch itself.
         if wanted > self.indentation || (self.separated && wanted >= 0.0) {
             Some((Direction::Loading, Target::Indentation(wanted)))
@@ -58,7 +58,7 @@ impl Standing {
         }
     }
 
-    fn to_force(
+    fn plan_force(
         &self,
         force: f64,
         stiffness: f64,

@@ -3,7 +3,7 @@
 
 use super::check::{Found, Violation};
 use super::fields::{LEG_INDENTATION, field};
-use super::model::{Adhesion, Form, Leg, Material, Roughness, Scene};
+use super::model::{Adhesion, Edges, Form, Leg, Material, Roughness, Scene, Solver};
 use super::write::ron_float;
 
 /// Most samples of all legs together; a curve of this size still fits the memory of a small machine.
@@ -15,6 +15,14 @@ pub(super) fn check_agreement(scene: &Scene, found: &mut Found) {
     check_modes(scene, found);
     check_amplitude(scene, found);
     check_loading(scene, found);
+    check_edges(scene, found);
+}
+
+fn check_edges(scene: &Scene, found: &mut Found) {
+    if matches!(scene.numerics.solver, Solver::Stepwise { .. }) && scene.numerics.edges == Edges::SubCell {
+        let reason = "the stepwise solver moves whole springs: edges: Grid";
+        found.add(disagreement("numerics.edges", "SubCell", reason, &["numerics.solver"]));
+    }
 }
 
 fn disagreement(

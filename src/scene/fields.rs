@@ -372,10 +372,10 @@ pub const FIELDS: &[Field] = &[
     Field {
         path: "numerics.edges",
         name: "edges",
-        range: Range::Choice(&["Grid"]),
+        range: Range::Choice(&["Grid", "SubCell"]),
         step: Step::Choice,
         default: "Grid",
-        meaning: "how the edges of a fragment are counted: Grid counts whole springs",
+        meaning: "where a fragment ends: Grid counts whole springs, SubCell finds its edges between them",
         ..TEXT
     },
     Field {

@@ -178,6 +178,9 @@ pub enum Solver {
 pub enum Edges {
     /// The paper's rule: a fragment of n springs is n Δx long.
     Grid,
+    /// The line runs straight from spring to spring, and a fragment ends where it crosses the fragment's
+    /// level: the error falls with Δx².
+    SubCell,
 }
 
 /// Something observed beside the force curve.

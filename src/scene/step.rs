@@ -213,7 +213,7 @@ mod tests {
             ("form", "Cone(angle: 0.3)", -1, false, Some("Paraboloid(radius: 1.0e-3)")),
             ("form", "Punch(radius: 0.3)", 1, false, Some("None")),
             ("numerics.solver", "Exact", 1, false, Some("Stepwise(step: 1.0e-9)")),
-            ("numerics.edges", "Grid", 1, false, Some("Grid")),
+            ("numerics.edges", "Grid", 1, false, Some("SubCell")),
             ("title", "\"a\"", 1, false, None),
         ] {
             let next = next.filter(|next| *next != value).map(str::to_string);

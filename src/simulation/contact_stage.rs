@@ -3,6 +3,7 @@
 use super::AfterLeg;
 use super::stages::MANY_SPRINGS;
 use crate::analysis::Figures;
+use crate::contact::subcell::{LevelSets, SubCell};
 use crate::contact::{
     ContactError, ContactTree, Foundation, GridEdges, HessRule, History, LegRecord, Solver, Stepwise, Work,
     exact, run, touch,
@@ -11,12 +12,15 @@ use crate::parallel::Beside;
 use crate::scene::{Leg, Scene, Solver as SolverChoice};
 use crate::surface::Line;
 use std::mem::take;
+use std::sync::Arc;
 use std::time::Instant;
 
 /// What the contact of one run depends on.
 pub(super) struct ContactStage<'a> {
     pub line: &'a Line,
     pub tree: Option<&'a ContactTree>,
+    /// The level sets of the line, where edges lie between springs.
+    pub levels: Option<&'a Arc<LevelSets>>,
     pub foundation: Foundation,
     pub hess: Option<HessRule>,
     pub scene: &'a Scene,
@@ -71,6 +75,9 @@ impl ContactStage<'_> {
                 }
                 Ok(contacted)
             }
+            (SolverChoice::Exact, hess, _) if self.levels.is_some() => {
+                self.run_between_springs(hess, zero_load, memory, after)
+            }
             (SolverChoice::Exact, Some(hess), Some(tree)) => {
                 let rule = GridEdges::new(hess);
                 let thresholds = take(&mut memory.thresholds);
@@ -85,6 +92,31 @@ impl ContactStage<'_> {
             }
             (SolverChoice::Exact, _, _) => self.load(&mut exact::bare(gaps, self.foundation, samples), after),
         }
+    }
+
+    /// Runs the loading with edges between springs.
+    fn run_between_springs(
+        &self,
+        hess: Option<HessRule>,
+        zero_load: bool,
+        memory: &mut ContactMemory,
+        after: &mut AfterLeg<'_>,
+    ) -> Result<Contacted, ContactError> {
+        let Some(levels) = self.levels else { return Err(ContactError::Interrupted) };
+        let samples = self.scene.numerics.samples as usize;
+        let mut body = SubCell::new(levels, hess, self.foundation, samples, take(&mut memory.thresholds))?;
+        let mut contacted = self.load(&mut body, after)?;
+        memory.thresholds = body.into_memory();
+        if zero_load {
+            let clock = Instant::now();
+            let mut body = SubCell::new(levels, hess, self.foundation, 2, take(&mut memory.touch))?;
+            let touch = run(&mut body, &[Leg::ToTouch, Leg::ToSeparation], |_, _| Ok(()))?;
+            memory.touch = body.into_memory();
+            contacted.zero_load_adhesion_force = Figures::of(&touch).adhesion_force;
+            contacted.history.work.add_effort(&touch.work);
+            contacted.zero_load_seconds = clock.elapsed().as_secs_f64();
+        }
+        Ok(contacted)
     }
 
     /// Runs the loading of the scene.

@@ -1,7 +1,7 @@
 //! Which stages a scene calls for, and by which of its fields. The run follows this plan.
 
 use crate::analysis::Figures;
-use crate::scene::{Adhesion, Form, Leg, Observer, Roughness, Scene, Solver};
+use crate::scene::{Adhesion, Edges, Form, Leg, Observer, Roughness, Scene, Solver};
 use serde::Serialize;
 
 /// A stage on the way from a scene to its curve.
@@ -16,6 +16,8 @@ pub enum Stage {
     MeasuredProfile,
     /// Building the tree of the gaps.
     Tree,
+    /// Measuring the level sets of the line that runs straight from spring to spring.
+    LevelSets,
     /// Evaluating the rule of Hess.
     RuleOfHess,
     /// Thresholds of loading legs.
@@ -41,6 +43,7 @@ impl Stage {
             Stage::Synthesis => "random line (phases, Fourier transform)",
             Stage::MeasuredProfile => "measured profile",
             Stage::Tree => "contact tree",
+            Stage::LevelSets => "level sets of the line",
             Stage::RuleOfHess => "rule of Hess",
             Stage::LoadingPass => "loading passes",
             Stage::UnloadingPass => "unloading passes",
@@ -106,13 +109,17 @@ impl Plan {
         let no_adhesion = "no adhesion: each spring touches and leaves at its own gap";
         let stepwise = "solver: Stepwise";
         let tree = if adhesive { stepwise } else { no_adhesion };
-        plan(Stage::Tree, adhesive && exact, "adhesion with the exact solver", tree);
+        let sub_cell = exact && scene.numerics.edges == Edges::SubCell;
+        let between = "edges: SubCell";
+        let calls = if adhesive { "adhesion with the exact solver" } else { between };
+        plan(Stage::Tree, exact && (adhesive || sub_cell), calls, tree);
+        plan(Stage::LevelSets, sub_cell, between, if exact { "edges: Grid" } else { stepwise });
         plan(Stage::RuleOfHess, adhesive, "adhesion", no_adhesion);
-        plan(Stage::LoadingPass, adhesive && exact, "adhesion with the exact solver", tree);
+        plan(Stage::LoadingPass, exact && (adhesive || sub_cell), calls, tree);
         let never = "loading never goes back";
         plan(
             Stage::UnloadingPass,
-            adhesive && exact && pulls,
+            exact && (adhesive || sub_cell) && pulls,
             "loading goes back",
             if pulls { tree } else { never },
         );

@@ -3,6 +3,7 @@
 use super::contact_stage::{ContactMemory, ContactStage};
 use super::{LineFacts, Outcome, Plan, RunError, Stage, Timings};
 use crate::analysis::{Amplitude, Figures, Governing, Regime, RegimeEvidence, ideal_adhesion_force};
+use crate::contact::subcell::LevelSets;
 use crate::contact::{ContactError, ContactTree, Foundation, HessRule, LegRecord, Solver};
 use crate::parallel::in_parallel;
 use crate::reference::smooth_adhesion_force;
@@ -29,8 +30,12 @@ pub struct Simulation {
     /// That of the line's heights, once it has been observed.
     histogram: Option<Histogram>,
     tree: Option<Arc<ContactTree>>,
+    /// The level sets of the line, where a scene has called for them.
+    levels: Option<Arc<LevelSets>>,
     /// Whether the tree is that of the line, rather than of one before.
     tree_is_current: bool,
+    /// Whether the last scene has edges between springs.
+    finds_edges: bool,
     memory: ContactMemory,
 }
 
@@ -82,6 +87,12 @@ impl Simulation {
     #[must_use]
     pub fn tree(&self) -> Option<&Arc<ContactTree>> {
         self.tree.as_ref().filter(|_| self.tree_is_current)
+    }
+
+    /// The level sets of this line, if the last scene run has edges between springs.
+    #[must_use]
+    pub fn levels(&self) -> Option<&Arc<LevelSets>> {
+        self.levels.as_ref().filter(|_| self.tree_is_current && self.finds_edges)
     }
 
     /// Makes the line of a checked scene, unless the last one was the same, and tells what is known
@@ -179,10 +190,15 @@ impl Simulation {
         let made_roughness = self.roughness.as_ref().filter(|(key, _)| Some(key) != had_roughness.as_ref());
         let random_phases = made_roughness.map_or(0, |(_, rough)| rough.random_phases);
 
+        self.finds_edges = plan.runs(Stage::LevelSets);
         let Some((_, line)) = &self.line else { return Err(ContactError::Interrupted.into()) };
         let clock = Instant::now();
         let count = plan.runs(Stage::HeightHistogram) && self.histogram.is_none();
         let build = plan.runs(Stage::Tree) && !self.tree_is_current;
+        if build {
+            // They hold on to the tree before.
+            self.levels = None;
+        }
         let tree_before = if build { self.tree.take() } else { None };
         let (counted, built) = in_parallel(
             count && build && line.gaps.len() >= MANY_SPRINGS,
@@ -195,6 +211,9 @@ impl Simulation {
             self.tree = Some(tree?);
             self.tree_is_current = true;
         }
+        if let (true, None, Some(tree)) = (plan.runs(Stage::LevelSets), &self.levels, &self.tree) {
+            self.levels = Some(Arc::new(LevelSets::new(Arc::clone(tree), &line.gaps)?));
+        }
         timings.tree = clock.elapsed().as_secs_f64();
         interrupted()?;
 
@@ -204,7 +223,8 @@ impl Simulation {
             .filter(|_| plan.runs(Stage::RuleOfHess))
             .map(|work| HessRule::new(foundation, work));
         let tree = self.tree.as_deref();
-        let contact = ContactStage { line, tree, foundation, hess, scene, stop };
+        let levels = self.levels.as_ref().filter(|_| plan.runs(Stage::LevelSets));
+        let contact = ContactStage { line, tree, levels, foundation, hess, scene, stop };
 
         let clock = Instant::now();
         let mut fragments = Vec::new();
