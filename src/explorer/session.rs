@@ -156,16 +156,20 @@ impl<W: Write> Session<'_, W> {
         self.perform(vec![Effect::Compute])?;
         let mut moved = Instant::now();
         let mut changed = true;
+        // Over SSH nothing is drawn before this, whatever happens: a held key or a dragged mouse would
+        // fill the line with frames that nobody sees in time.
+        let mut due = moved;
         while !self.model.finished {
-            if std::mem::take(&mut self.redraw) {
-                // Unlike `clear` this does not ask the terminal where its cursor is, on the input that
-                // the other thread reads.
-                let size = self.terminal.size()?;
-                self.terminal.resize(Rect::from((Position::ORIGIN, size)))?;
-            }
-            if changed {
+            if changed && Instant::now() >= due {
+                if std::mem::take(&mut self.redraw) {
+                    // Unlike `clear` this does not ask the terminal where its cursor is, on the input
+                    // that the other thread reads.
+                    let size = self.terminal.size()?;
+                    self.terminal.resize(Rect::from((Position::ORIGIN, size)))?;
+                }
                 if self.remote {
                     self.measure_traffic(frames);
+                    due = Instant::now() + frame_time;
                 }
                 let Session { terminal, model, draw, .. } = self;
                 terminal.draw(|frame| draw(frame, model))?;
@@ -175,7 +179,9 @@ impl<W: Write> Session<'_, W> {
             if !playing {
                 moved = Instant::now();
             }
-            let wait = playing.then(|| frame_time.saturating_sub(moved.elapsed()));
+            let step = playing.then(|| frame_time.saturating_sub(moved.elapsed()));
+            let frame = changed.then(|| due.saturating_duration_since(Instant::now()));
+            let wait = step.into_iter().chain(frame).min();
             let first = match wait
                 .map_or_else(|| inbox.recv().map_err(Into::into), |wait| inbox.recv_timeout(wait))
             {
