@@ -35,7 +35,7 @@ impl TerminalGuard {
         std::panic::set_hook(Box::new(move |panic| {
             // A panic of the worker becomes a line in the explorer, which goes on.
             if std::thread::current().id() == drawing {
-                let _ = give_back();
+                let _ = give_back(mouse);
                 before(panic);
             }
         }));
@@ -56,7 +56,7 @@ impl TerminalGuard {
     /// # Errors
     /// When the terminal refuses.
     pub fn suspend(&self) -> io::Result<()> {
-        give_back()?;
+        give_back(self.mouse)?;
         stop_until_continued();
         self.enter()
     }
@@ -65,7 +65,7 @@ impl TerminalGuard {
 impl Drop for TerminalGuard {
     fn drop(&mut self) {
         // Nothing can be done about a terminal that is gone.
-        let _ = give_back();
+        let _ = give_back(self.mouse);
         // While a panic unwinds, the hook cannot be taken and is needed no more.
         if !std::thread::panicking() {
             let _ = std::panic::take_hook();
@@ -73,9 +73,10 @@ impl Drop for TerminalGuard {
     }
 }
 
-fn give_back() -> io::Result<()> {
+fn give_back(mouse: bool) -> io::Result<()> {
     let raw = disable_raw_mode();
-    execute!(io::stdout(), Print(MOUSE_OFF), DisableBracketedPaste, LeaveAlternateScreen, Show)?;
+    let mouse = if mouse { MOUSE_OFF } else { "" };
+    execute!(io::stdout(), Print(mouse), DisableBracketedPaste, LeaveAlternateScreen, Show)?;
     raw
 }
 
