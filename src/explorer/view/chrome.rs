@@ -100,17 +100,22 @@ fn headline(model: &Model) -> Line<'static> {
         // What the last run made anew: a kept line and tree cost nothing.
         rest += &format!("  · {}", format_quantity(short(timings.total()), "s"));
     }
-    if let Some(Traffic { frames, bytes }) = model.traffic {
-        rest += &format!("  · {} at most {frames} frames/s", format_quantity(short(bytes as f64), "B/s"));
-    }
     spans.push(Span::styled(rest, theme.style(Meaning::Quiet)));
     Line::from(spans)
 }
 
-/// The keys that are valid now.
+/// Narrower windows have no room for what the connection carries.
+const TRAFFIC_FROM: u16 = 80;
+
+/// The keys that are valid now, and what the connection carries: the line above is full.
 pub fn footer(frame: &mut Frame<'_>, area: Rect, model: &Model) {
+    let traffic = model.traffic.filter(|_| area.width >= TRAFFIC_FROM).map(|Traffic { frames, bytes }| {
+        let bytes = format_quantity(short(bytes as f64), "B/s");
+        let text = format!("{bytes}, at most {frames} frames/s");
+        Line::styled(text, model.appearance.theme.style(Meaning::Quiet)).right_aligned()
+    });
     let mut spans = Vec::new();
-    let mut room = usize::from(area.width);
+    let mut room = usize::from(area.width) - traffic.as_ref().map_or(0, Line::width);
     let labelled = || keys::valid_in(model.mode.kind()).filter(|row| !row.label.is_empty());
     // The way to all the others and the way out show in the smallest window.
     let first = |row: &&keys::Binding| matches!(row.command, Command::Help | Command::Quit);
@@ -126,4 +131,8 @@ pub fn footer(frame: &mut Frame<'_>, area: Rect, model: &Model) {
         spans.push(Span::raw(format!(" {}  ", row.label)));
     }
     frame.render_widget(Paragraph::new(Line::from(spans)), area);
+    if let Some(traffic) = traffic {
+        let width = traffic.width() as u16;
+        frame.render_widget(traffic, Rect { x: area.right() - width, width, ..area });
+    }
 }
