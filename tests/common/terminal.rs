@@ -1,7 +1,10 @@
 //! A program in a pseudo-terminal: what it writes is kept byte by byte and shown on a screen, and it is
 //! waited for with a deadline.
 
+#![allow(dead_code, reason = "no test uses all of it")]
+
 use portable_pty::{Child, ChildKiller, CommandBuilder, ExitStatus, MasterPty, PtySize, native_pty_system};
+use std::collections::VecDeque;
 use std::ffi::OsStr;
 use std::io::{Read, Write};
 use std::num::NonZeroU16;
@@ -24,9 +27,18 @@ pub const END_FRAME: &[u8] = b"\x1b[?2026l";
 
 /// Something the program does.
 enum Event {
-    Wrote(Vec<u8>),
+    Wrote(Vec<u8>, Instant),
     Closed,
     Ended(ExitStatus),
+}
+
+/// A frame that has come.
+#[derive(Clone, Copy, Debug)]
+pub struct Frame {
+    /// When its last byte came.
+    pub arrived: Instant,
+    /// Its bytes, with the marks around them.
+    pub bytes: usize,
 }
 
 /// A program about to be started in a terminal of its own.
@@ -87,6 +99,10 @@ impl Program {
         Terminal {
             parser: vt100::Parser::new(nonzero(rows), nonzero(columns), 0),
             written: Vec::new(),
+            waiting: VecDeque::new(),
+            arrived: Instant::now(),
+            begun: None,
+            frames: Vec::new(),
             keyboard: Some(pty.master.take_writer().unwrap()),
             master: Some(pty.master),
             before,
@@ -126,7 +142,7 @@ fn read(mut reader: Box<dyn Read + Send>, events: Sender<Event>, closing: Arc<At
         let mut bytes = [0; 1 << 16];
         loop {
             let event = match reader.read(&mut bytes) {
-                Ok(count) if count > 0 => Event::Wrote(bytes[..count].to_vec()),
+                Ok(count) if count > 0 => Event::Wrote(bytes[..count].to_vec(), Instant::now()),
                 _ => Event::Closed,
             };
             let done = matches!(event, Event::Closed) || closing.load(Ordering::SeqCst);
@@ -141,6 +157,13 @@ fn read(mut reader: Box<dyn Read + Send>, events: Sender<Event>, closing: Arc<At
 pub struct Terminal {
     parser: vt100::Parser,
     written: Vec<u8>,
+    /// What has come and is not shown yet, frame by frame.
+    waiting: VecDeque<Vec<u8>>,
+    /// When the newest byte came.
+    arrived: Instant,
+    /// Where the frame begins that has not ended.
+    begun: Option<usize>,
+    frames: Vec<Frame>,
     keyboard: Option<Box<dyn Write + Send>>,
     master: Option<Box<dyn MasterPty + Send>>,
     /// The attributes before the program started.
@@ -173,6 +196,16 @@ impl Terminal {
     /// All bytes written so far.
     pub fn written(&self) -> &[u8] {
         &self.written
+    }
+
+    /// All frames so far.
+    pub fn frames(&self) -> &[Frame] {
+        &self.frames
+    }
+
+    /// When the newest byte on the screen came, however long it took to show it.
+    pub fn arrived(&self) -> Instant {
+        self.arrived
     }
 
     /// Number of the process.
@@ -214,8 +247,7 @@ impl Terminal {
 
     /// Whether the last byte so far stands between the beginning of a frame and its end.
     fn is_within_frame(&self) -> bool {
-        let place = |mark: &[u8]| self.written.windows(mark.len()).rposition(|window| window == mark);
-        place(BEGIN_FRAME) > place(END_FRAME)
+        self.begun.is_some()
     }
 
     /// Waits until a text is on the screen.
@@ -233,15 +265,41 @@ impl Terminal {
     /// Waits until nothing more is written for a while.
     #[track_caller]
     pub fn settle(&mut self) {
+        self.settle_for(QUIET);
+    }
+
+    /// Waits until nothing more is written for this time.
+    #[track_caller]
+    pub fn settle_for(&mut self, quiet: Duration) {
         let deadline = Instant::now() + PATIENCE;
-        while self.take(QUIET) {
+        while self.take(quiet) {
             assert!(Instant::now() < deadline, "it never stops writing:\n{}", self.text());
+        }
+    }
+
+    /// Waits for something that is not on the screen.
+    #[track_caller]
+    pub fn wait_until(&mut self, what: &str, is_so: impl Fn() -> bool) {
+        let deadline = Instant::now() + PATIENCE;
+        while !is_so() {
+            assert!(Instant::now() < deadline, "not {what}:\n{}", self.text());
+            self.take(Duration::from_millis(5));
         }
     }
 
     /// Whether nothing is written for a time.
     pub fn is_silent_for(&mut self, time: Duration) -> bool {
         !self.take(time)
+    }
+
+    /// Shows what comes until a moment.
+    pub fn take_until(&mut self, moment: Instant) {
+        loop {
+            let time = moment.saturating_duration_since(Instant::now());
+            if time.is_zero() || !self.take(time) {
+                return;
+            }
+        }
     }
 
     /// Waits until the program has ended and all it wrote has come.
@@ -265,18 +323,57 @@ impl Terminal {
         self.master = None;
     }
 
-    /// Takes one event, and tells whether there was one in time.
+    /// Takes one event, of what is written one frame, and tells whether there was one in time.
     fn take(&mut self, time: Duration) -> bool {
+        if let Some(part) = self.waiting.pop_front() {
+            self.show(&part);
+            return true;
+        }
         match self.events.recv_timeout(time) {
-            Ok(Event::Wrote(bytes)) => {
-                self.parser.process(&bytes);
-                self.written.extend_from_slice(&bytes);
+            Ok(Event::Wrote(bytes, at)) => {
+                self.arrived = at;
+                self.waiting = self.frame_by_frame(&bytes);
+                return self.take(time);
             }
             Ok(Event::Closed) => self.closed = true,
             Ok(Event::Ended(status)) => self.ended = Some(status),
             Err(RecvTimeoutError::Timeout | RecvTimeoutError::Disconnected) => return false,
         }
         true
+    }
+
+    /// Parts what has come behind the end of each frame, also of one whose end came in two pieces.
+    fn frame_by_frame(&self, bytes: &[u8]) -> VecDeque<Vec<u8>> {
+        let before = &self.written[self.written.len().saturating_sub(END_FRAME.len() - 1)..];
+        let joined = [before, bytes].concat();
+        let ends = joined.windows(END_FRAME.len()).enumerate().filter(|(_, window)| *window == END_FRAME);
+        let mut from = before.len();
+        let mut parts = VecDeque::new();
+        for to in ends.map(|(place, _)| place + END_FRAME.len()).chain([joined.len()]) {
+            if to > from {
+                parts.push_back(joined[from..to].to_vec());
+                from = to;
+            }
+        }
+        parts
+    }
+
+    /// Shows what has come of one frame.
+    fn show(&mut self, part: &[u8]) {
+        self.parser.process(part);
+        let from = self.written.len().saturating_sub(END_FRAME.len() - 1);
+        self.written.extend_from_slice(part);
+        let place = |mark: &[u8]| {
+            let found = self.written[from..].windows(mark.len()).position(|window| window == mark);
+            found.map(|place| from + place)
+        };
+        let (begin, end) = (place(BEGIN_FRAME), place(END_FRAME));
+        self.begun = begin.or(self.begun);
+        if let Some((begun, end)) = self.begun.zip(end) {
+            let bytes = end + END_FRAME.len() - begun;
+            self.frames.push(Frame { arrived: self.arrived, bytes });
+            self.begun = None;
+        }
     }
 }
 

@@ -1,0 +1,123 @@
+//! The body is moved by hand.
+
+use crate::common::deadline::within;
+use crate::common::terminal::Terminal;
+use crate::driving::{CLEAR_LINE, ENTER, ESCAPE, answer, explorer, paused, quantity, quit, select};
+
+/// Indentation and force of the body in hand, m and N.
+fn stands(rows: &[String]) -> Option<(f64, f64)> {
+    let row: Vec<String> = rows.iter().filter(|row| row.contains("in hand: d ")).cloned().collect();
+    Some((quantity(&row, "d", "m")?, quantity(&row, "F", "N")?))
+}
+
+/// Numbers of springs that changed on the last move, and of entries looked at for it.
+fn cost(rows: &[String]) -> Option<(u64, u64)> {
+    let row = rows.iter().find(|row| row.contains("in hand: d "))?;
+    let number = |words: &str| row.split(words).next()?.rsplit(' ').next()?.parse().ok();
+    Some((number(" springs changed,")?, number(" looked at")?))
+}
+
+/// Moves the body by a key, and gives where it stands then.
+#[track_caller]
+fn push(terminal: &mut Terminal, key: &str) -> (f64, f64) {
+    let before = stands(&terminal.rows());
+    terminal.send(key);
+    terminal.wait("moved body", |rows| stands(rows).is_some_and(|now| Some(now) != before));
+    stands(&terminal.rows()).unwrap()
+}
+
+#[test]
+fn the_body_is_pressed_and_pulled_by_keys() {
+    within(60, || {
+        let (program, _folder) = explorer();
+        let mut terminal = paused(program);
+        assert_eq!(stands(&terminal.rows()), None);
+        terminal.send("d");
+        terminal.wait("body in hand", |rows| stands(rows).is_some());
+        let (start, _) = stands(&terminal.rows()).unwrap();
+        let (coarse, _) = push(&mut terminal, "}");
+        let (fine, _) = push(&mut terminal, "]");
+        let ratio = (coarse - start) / (fine - coarse);
+        assert!(fine > coarse && (8.0..12.5).contains(&ratio), "{start} {coarse} {fine}: {ratio}");
+        let (pulled, _) = push(&mut terminal, "[");
+        assert!((pulled - coarse).abs() < 0.3 * (fine - coarse), "{pulled} {coarse}");
+        assert!(push(&mut terminal, "{").0 < pulled);
+
+        // In contact the line below says what a move changed and what it cost.
+        terminal.send("F");
+        answer(&mut terminal, "Go to the force: ", "10 µN");
+        let at_force =
+            |rows: &[String]| stands(rows).is_some_and(|(_, force)| (force / 1e-5 - 1.0).abs() < 1e-3);
+        terminal.wait("force of 10 µN", at_force);
+        let (pressed, force) = stands(&terminal.rows()).unwrap();
+        let (changed, looked_at) = cost(&terminal.rows()).expect("it tells the cost");
+        assert!(changed > 10 && looked_at >= changed, "{changed} springs changed, {looked_at} looked at");
+        let (deeper, larger) = push(&mut terminal, "}");
+        assert!(deeper > pressed && larger > force);
+        // A held line: a small step costs no more than what changes, not the line's thousand springs.
+        push(&mut terminal, "]");
+        let (changed, looked_at) = cost(&terminal.rows()).unwrap();
+        assert!(changed < 100 && looked_at < 1024, "{changed} springs changed, {looked_at} looked at");
+
+        terminal.send("S");
+        terminal.wait("separated body", |rows| stands(rows).is_some_and(|(d, f)| d < pressed && f == 0.0));
+        terminal.send("d");
+        terminal.wait("body given back", |rows| stands(rows).is_none());
+        quit(&mut terminal);
+    });
+}
+
+#[test]
+fn a_force_that_is_none_or_out_of_reach_is_told() {
+    within(40, || {
+        let (program, _folder) = explorer();
+        let mut terminal = paused(program);
+        terminal.send("F");
+        answer(&mut terminal, "Go to the force: ", "ten");
+        terminal.wait_for("! \"ten\": allowed: a number, with or without SI prefix and N");
+        terminal.send("F");
+        answer(&mut terminal, "Go to the force: ", "5u");
+        terminal
+            .wait("force of 5 µN", |rows| stands(rows).is_some_and(|(_, f)| (f / 5e-6 - 1.0).abs() < 1e-3));
+        terminal.send("F");
+        answer(&mut terminal, "Go to the force: ", "-1");
+        terminal.wait_for("the contact lets go before");
+        // A key takes the line away, and the body is still in hand where it stood.
+        terminal.send("k");
+        terminal.wait("body in hand", |rows| stands(rows).is_some());
+        let (_, force) = stands(&terminal.rows()).unwrap();
+        assert!((force / 5e-6 - 1.0).abs() < 1e-3, "{force} N");
+        terminal.send("F");
+        terminal.wait_for("Go to the force:");
+        terminal.send(CLEAR_LINE);
+        terminal.send(ESCAPE);
+        terminal.wait_without("Go to the force:");
+        assert_eq!(stands(&terminal.rows()).unwrap().1, force, "nothing was asked for");
+        quit(&mut terminal);
+    });
+}
+
+#[test]
+fn an_edit_puts_the_body_back_on_the_loading() {
+    within(40, || {
+        let (program, _folder) = explorer();
+        let mut terminal = paused(program);
+        select(&mut terminal, "κ");
+        push(&mut terminal, "}");
+        terminal.send("h");
+        terminal.wait_for("the body is back on the scene's loading");
+        terminal.send("u");
+        terminal.wait_without("[changed]");
+        terminal.settle();
+        assert_eq!(stands(&terminal.rows()), None, "{}", terminal.text());
+        // The animation takes it back, too.
+        push(&mut terminal, "}");
+        terminal.send(".");
+        terminal.wait("body given back", |rows| stands(rows).is_none());
+        terminal.send("F");
+        terminal.wait_for("Go to the force:");
+        terminal.send(ENTER);
+        terminal.wait_without("Go to the force:");
+        quit(&mut terminal);
+    });
+}

@@ -1,0 +1,93 @@
+//! Nothing is done while nothing happens.
+
+use crate::common::deadline::within;
+use crate::common::terminal::Terminal;
+use crate::driving::{explorer, paused, quit};
+use std::fs;
+use std::time::Duration;
+
+/// Ticks of processor time the process has used, and how often one of its threads was woken.
+fn activity(pid: u32) -> (u64, u64) {
+    let stat = fs::read_to_string(format!("/proc/{pid}/stat")).unwrap();
+    // The name of the program, in brackets, may hold anything.
+    let fields: Vec<&str> = stat.rsplit_once(')').unwrap().1.split_whitespace().collect();
+    let ticks = fields[11].parse::<u64>().unwrap() + fields[12].parse::<u64>().unwrap();
+    let mut switches = 0;
+    for thread in fs::read_dir(format!("/proc/{pid}/task")).unwrap() {
+        let status = fs::read_to_string(thread.unwrap().path().join("status")).unwrap();
+        for line in status.lines().filter(|line| line.contains("ctxt_switches")) {
+            switches += line.rsplit(char::is_whitespace).next().unwrap().parse::<u64>().unwrap();
+        }
+    }
+    (ticks, switches)
+}
+
+#[track_caller]
+pub fn assert_idle(terminal: &mut Terminal) {
+    terminal.settle();
+    let before = activity(terminal.pid());
+    assert!(terminal.is_silent_for(Duration::from_millis(400)), "it writes:\n{}", terminal.text());
+    assert_eq!(activity(terminal.pid()), before, "it is awake");
+}
+
+#[test]
+fn nothing_happens_while_nothing_happens() {
+    within(60, || {
+        let (program, _folder) = explorer();
+        let mut terminal = paused(program.env("SSH_CONNECTION", "192.0.2.1 50000 192.0.2.2 22"));
+        assert_idle(&mut terminal);
+        // With a window open above the panes, too.
+        terminal.send("?");
+        terminal.wait_for("What you see");
+        assert_idle(&mut terminal);
+        terminal.send("?");
+        terminal.wait_without("What you see");
+        // With the body in hand.
+        terminal.send("}}}");
+        terminal.wait_for("in hand: d ");
+        assert_idle(&mut terminal);
+        terminal.send("d");
+        terminal.wait_without("in hand: d ");
+        // While a scene is looked for, with its curve beside it.
+        terminal.send("o");
+        terminal.wait_for("built-in");
+        assert_idle(&mut terminal);
+        terminal.send("kendall");
+        terminal.wait_for("› kendall-punch");
+        assert_idle(&mut terminal);
+        terminal.send("\x1b");
+        terminal.wait_without("Search:");
+        // While something is typed.
+        terminal.send("F1");
+        terminal.wait_for("Go to the force: 1");
+        assert_idle(&mut terminal);
+        terminal.send("\x1b");
+        terminal.wait_without("Go to the force:");
+        // Played to its end it stops by itself: to the last leg, near its end, and on.
+        terminal.send(">");
+        terminal.settle();
+        terminal.send(&".".repeat(110));
+        terminal.settle();
+        let before = terminal.text();
+        terminal.send(" ");
+        terminal.wait("next moment", |rows| rows.join("\n") != before);
+        assert_idle(&mut terminal);
+        quit(&mut terminal);
+    });
+}
+
+#[test]
+fn the_animation_goes_on_while_it_plays() {
+    within(40, || {
+        let (program, _folder) = explorer();
+        let mut terminal = program.start();
+        terminal.wait_for("F_a ");
+        for _ in 0..5 {
+            let before = terminal.text();
+            terminal.wait("next moment", |rows| rows.join("\n") != before);
+        }
+        terminal.send(" ");
+        assert_idle(&mut terminal);
+        quit(&mut terminal);
+    });
+}

@@ -1,0 +1,169 @@
+//! How the explorer is left, and what is left of it.
+
+use crate::common::deadline::within;
+use crate::common::terminal::{Program, Terminal};
+use crate::driving::{
+    ASPERITY, CLEAR_LINE, ENTER, ESCAPE, INTERRUPT, LEAVE_ALTERNATE_SCREEN, SCENE, assert_given_back,
+    explorer, headline, last_place, paused, quit, select, wait_for_another,
+};
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+
+#[test]
+fn a_changed_scene_asks_before_it_is_left() {
+    within(40, || {
+        let (program, folder) = explorer();
+        let mut terminal = paused(program);
+        select(&mut terminal, "κ");
+        terminal.send("h");
+        terminal.wait_for("[changed]");
+        for (ask, stay) in [("q", "n"), (INTERRUPT, ESCAPE)] {
+            terminal.send(ask);
+            terminal.wait_for("unsaved changes");
+            terminal.send(stay);
+            terminal.wait_without("unsaved changes");
+        }
+        terminal.send("q");
+        terminal.wait_for("unsaved changes");
+        terminal.send("s");
+        terminal.wait_for("Save as: scene.ron");
+        terminal.send(ENTER);
+        terminal.wait_for("Overwrite");
+        terminal.send("y");
+        assert!(terminal.wait_end().success());
+        assert_given_back(&terminal);
+        assert_ne!(fs::read_to_string(folder.path().join("scene.ron")).unwrap(), SCENE);
+    });
+}
+
+#[test]
+fn a_changed_scene_can_be_left_as_it_is() {
+    within(40, || {
+        let (program, folder) = explorer();
+        let mut terminal = paused(program);
+        select(&mut terminal, "κ");
+        terminal.send("h");
+        terminal.wait_for("[changed]");
+        terminal.send("q");
+        terminal.wait_for("unsaved changes");
+        quit(&mut terminal);
+        assert_eq!(fs::read_to_string(folder.path().join("scene.ron")).unwrap(), SCENE);
+    });
+}
+
+#[test]
+fn an_interrupt_leaves_the_explorer_cleanly() {
+    within(40, || {
+        let (program, _folder) = explorer();
+        let mut terminal = paused(program);
+        terminal.send(INTERRUPT);
+        assert!(terminal.wait_end().success());
+        assert_given_back(&terminal);
+    });
+}
+
+#[test]
+fn a_terminal_that_goes_away_ends_the_explorer() {
+    within(60, || {
+        for keys in [".", ""] {
+            let (program, _folder) = explorer();
+            let mut terminal = program.start();
+            terminal.wait_for("F_a ");
+            terminal.send(keys);
+            terminal.hang_up();
+            terminal.wait_end();
+        }
+    });
+}
+
+#[test]
+fn a_terminal_that_goes_away_ends_the_explorer_even_if_hang_ups_are_ignored() {
+    within(60, || {
+        let folder = tempfile::tempdir().unwrap();
+        fs::write(folder.path().join("scene.ron"), SCENE).unwrap();
+        let mut terminal = Program::new("/bin/sh")
+            .argument("-c")
+            .argument(format!("trap '' HUP; exec '{ASPERITY}' scene.ron"))
+            .folder(folder.path())
+            .start();
+        terminal.wait_for("F_a ");
+        terminal.send(".");
+        terminal.settle();
+        terminal.hang_up();
+        terminal.wait_end();
+    });
+}
+
+#[test]
+fn a_hang_up_signal_ends_the_explorer() {
+    within(40, || {
+        let (program, _folder) = explorer();
+        let mut terminal = paused(program);
+        let kill = Command::new("/bin/sh").arg("-c").arg(format!("kill -HUP {}", terminal.pid())).status();
+        assert!(kill.unwrap().success());
+        assert!(!terminal.wait_end().success());
+    });
+}
+
+/// What stands below the last switch back to the terminal's own screen.
+fn left_behind(terminal: &Terminal) -> String {
+    let bytes = terminal.written();
+    let place = last_place(bytes, LEAVE_ALTERNATE_SCREEN).expect("the alternate screen is left");
+    String::from_utf8_lossy(&bytes[place + LEAVE_ALTERNATE_SCREEN.len()..]).replace("\r\n", "\n")
+}
+
+/// A summary but for its last part, which tells what the run cost.
+fn without_cost(summary: &str) -> &str {
+    summary.split("\nWork\n").next().expect("there is a first part").trim_end()
+}
+
+/// The summary that `asperity run` gives.
+fn summary(folder: &Path, arguments: &[&str]) -> String {
+    let mut command = Command::new(ASPERITY);
+    let output = command.current_dir(folder).arg("run").arg("scene.ron").args(arguments).output().unwrap();
+    assert!(output.status.success());
+    String::from_utf8(output.stdout).unwrap()
+}
+
+#[test]
+fn the_summary_of_the_last_scene_stays_to_be_read() {
+    within(60, || {
+        for (key, interrupts) in [("q", false), (INTERRUPT, true)] {
+            let (program, folder) = explorer();
+            let mut terminal = paused(program);
+            terminal.send(key);
+            assert!(terminal.wait_end().success());
+            assert_given_back(&terminal);
+            let left = left_behind(&terminal);
+            let wanted = summary(folder.path(), &[]);
+            assert!(without_cost(&wanted).contains("adhesion force F_a"), "{wanted}");
+            assert!(left.contains(without_cost(&wanted)), "by interrupt: {interrupts}\n{left}\n{wanted}");
+            assert!(!left[left.find("Rough line").unwrap()..].contains('\x1b'), "{left:?}");
+        }
+    });
+}
+
+#[test]
+fn the_summary_is_that_of_the_scene_as_edited() {
+    within(60, || {
+        let (program, folder) = explorer();
+        let mut terminal = paused(program);
+        select(&mut terminal, "κ");
+        let before = headline(&terminal.rows()).unwrap();
+        terminal.send("e");
+        terminal.wait_for("Esc cancel");
+        terminal.send(CLEAR_LINE);
+        terminal.send("5\r");
+        let force = wait_for_another(&mut terminal, &before);
+        terminal.settle();
+        terminal.send("q");
+        terminal.wait_for("unsaved changes");
+        terminal.send("q");
+        assert!(terminal.wait_end().success());
+        let left = left_behind(&terminal);
+        let wanted = summary(folder.path(), &["--set", "adhesion.kappa=5.0"]);
+        assert!(left.contains(without_cost(&wanted)), "{left}\n{wanted}");
+        assert!(left.contains(&force), "{left}\n{force}");
+    });
+}

@@ -1,0 +1,178 @@
+//! How the explorer opens, and when it does not.
+
+use crate::common::deadline::within;
+use crate::common::terminal::{BEGIN_FRAME, END_FRAME, Program};
+use crate::driving::{
+    ASPERITY, ESCAPE, SCENE, assert_given_back, count, explorer, headline, paused, place, quit, row_with,
+};
+use asperity::scene::{Document, presets};
+use std::fs;
+use std::process::{Command, Stdio};
+
+#[test]
+fn the_first_frame_has_all_panes_and_the_next_the_curve() {
+    within(40, || {
+        // Without a scene it opens one of its own.
+        let mut terminal = Program::new(ASPERITY).start();
+        for pane in ["Force", "Profile", "Fragments", "Parameters", "Young's modulus", "q quit"] {
+            terminal.wait_for(pane);
+        }
+        assert!(terminal.screen().alternate_screen() && terminal.screen().hide_cursor());
+        assert!(!terminal.is_as_before(), "keys come one by one");
+        terminal.wait_for("F_a ");
+        let bytes = terminal.written();
+        let computing = place(bytes, "computing".as_bytes()).expect("it says that it computes");
+        assert!(computing < place(bytes, b"F_a ").unwrap());
+        let frame = place(bytes, END_FRAME).unwrap();
+        assert!(place(&bytes[..frame], b"Parameters").is_some(), "the panes are in the first frame");
+        quit(&mut terminal);
+    });
+}
+
+#[test]
+fn whatever_is_drawn_is_drawn_in_whole_frames() {
+    within(40, || {
+        let (program, _folder) = explorer();
+        let mut terminal = paused(program);
+        terminal.send("?");
+        terminal.settle();
+        terminal.send(ESCAPE);
+        terminal.settle();
+        quit(&mut terminal);
+        let bytes = terminal.written();
+        let (mut rest, mut frames) = (&bytes[place(bytes, BEGIN_FRAME).unwrap()..], 0);
+        while let Some(after) = rest.strip_prefix(BEGIN_FRAME) {
+            let end = place(after, END_FRAME).expect("a frame ends");
+            assert_eq!(count(&after[..end], BEGIN_FRAME), 0);
+            rest = &after[end + END_FRAME.len()..];
+            frames += 1;
+        }
+        assert!(frames > 3, "{frames} frames");
+        // Behind them the terminal is given back, and the summary stands on its own screen.
+        let rest = String::from_utf8_lossy(rest);
+        let (given_back, summary) = rest.split_once("Rough line").expect("there is a summary");
+        assert!(given_back.len() < 64 && given_back.contains("\x1b[?1049l"), "{given_back:?}");
+        assert!(!summary.contains('\x1b'), "{summary:?}");
+    });
+}
+
+#[test]
+fn keys_typed_before_the_first_frame_are_not_lost() {
+    within(40, || {
+        let (program, _folder) = explorer();
+        let mut terminal = program.start();
+        terminal.send(".jjj?");
+        terminal.wait_for("What you see");
+        terminal.send("?");
+        terminal.wait_without("What you see");
+        let rows = terminal.rows();
+        let place = |text: &str| rows.iter().position(|row| row.contains(text)).expect("it is in the list");
+        assert_eq!(place("›"), place("effective modulus") + 2, "{}", terminal.text());
+        // Typed before the terminal was taken, they were echoed; that is all that is left.
+        terminal.send("q");
+        assert!(terminal.wait_end().success());
+        assert_given_back(&terminal);
+    });
+}
+
+#[test]
+fn number_keys_open_built_in_scenes() {
+    within(40, || {
+        let (program, _folder) = explorer();
+        let mut terminal = paused(program);
+        for (key, preset) in ["1", "2", "3"].iter().zip(presets()) {
+            let title = Document::parse(preset.text, preset.name).unwrap().scene().title.clone();
+            terminal.send(key);
+            terminal.wait("title", |rows| rows[0].starts_with(&title));
+            terminal.wait_without("computing");
+        }
+        quit(&mut terminal);
+    });
+}
+
+#[test]
+fn fields_are_overridden_from_the_command_line() {
+    within(40, || {
+        let (program, _folder) = explorer();
+        let mut terminal = paused(program.argument("--set").argument("roughness.hurst=0.61"));
+        assert!(row_with(&terminal, "Hurst exponent").contains("0.61"));
+        quit(&mut terminal);
+    });
+}
+
+#[test]
+fn a_misspelt_scene_is_told_without_taking_the_terminal() {
+    within(40, || {
+        for (name, said) in [("jkr-spere", "did you mean jkr-sphere?"), ("none.ron", "none.ron")] {
+            let home = tempfile::tempdir().unwrap();
+            let program = Program::new(ASPERITY).argument(name).env("HOME", home.path().to_str().unwrap());
+            let mut terminal = program.start();
+            let status = terminal.wait_end();
+            assert_eq!(status.exit_code(), 1);
+            let told = terminal.rows().concat();
+            assert!(told.contains(said), "{told}");
+            assert!(!terminal.written().contains(&0x1b), "{}", terminal.text());
+            assert!(terminal.is_as_before());
+        }
+    });
+}
+
+#[test]
+fn without_a_terminal_it_says_what_to_do() {
+    within(40, || {
+        let output = Command::new(ASPERITY).arg("jkr-sphere").stdin(Stdio::null()).output().unwrap();
+        assert_eq!(output.status.code(), Some(1));
+        let told = String::from_utf8(output.stderr).unwrap();
+        assert!(told.contains("asperity run jkr-sphere") && !told.contains('\x1b'), "{told}");
+        assert!(output.stdout.is_empty());
+        // One end alone is not enough.
+        for ends in ["</dev/null", ">written"] {
+            let folder = tempfile::tempdir().unwrap();
+            let mut terminal = Program::new("/bin/sh")
+                .argument("-c")
+                .argument(format!("'{ASPERITY}' jkr-sphere {ends}"))
+                .folder(folder.path())
+                .start();
+            assert_eq!(terminal.wait_end().exit_code(), 1);
+            assert!(terminal.text().contains("asperity run jkr-sphere"), "{}", terminal.text());
+            assert!(!terminal.written().contains(&0x1b), "{}", terminal.text());
+            assert!(fs::read(folder.path().join("written")).unwrap_or_default().is_empty());
+        }
+    });
+}
+
+#[test]
+fn over_a_connection_and_without_a_known_terminal_it_works_the_same() {
+    within(40, || {
+        let (program, _folder) = explorer();
+        let mut near = paused(program);
+        for far in [
+            explorer().0.env("SSH_CONNECTION", "192.0.2.1 50000 192.0.2.2 22"),
+            explorer().0.env("SSH_TTY", "/dev/pts/1"),
+            explorer().0.without_env("TERM"),
+            explorer().0.env("TERM", "linux").env("LANG", "C"),
+        ] {
+            // Its own folder is gone by now, and with it its scene.
+            let folder = tempfile::tempdir().unwrap();
+            fs::write(folder.path().join("scene.ron"), SCENE).unwrap();
+            let mut far = paused(far.folder(folder.path()));
+            assert_eq!(headline(&far.rows()), headline(&near.rows()));
+            quit(&mut far);
+        }
+        quit(&mut near);
+    });
+}
+
+#[test]
+fn over_a_connection_it_tells_what_it_sends() {
+    within(40, || {
+        let (program, _folder) = explorer();
+        let mut terminal = paused(program.env("SSH_CONNECTION", "192.0.2.1 50000 192.0.2.2 22"));
+        terminal.wait_for("B/s, at most 12 frames/s");
+        quit(&mut terminal);
+        let (program, _folder) = explorer();
+        let mut terminal = paused(program);
+        assert!(!terminal.text().contains("frames/s"), "{}", terminal.text());
+        quit(&mut terminal);
+    });
+}

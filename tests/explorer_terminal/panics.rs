@@ -1,0 +1,62 @@
+//! Panics of the engine and of the view.
+
+use crate::common::deadline::within;
+use crate::common::terminal::{Program, Terminal};
+use crate::driving::{
+    ASPERITY, CLEAR_LINE, ENTER, assert_given_back, headline, paused, quit, row_with, select,
+};
+use crate::idle::assert_idle;
+use std::path::{Path, PathBuf};
+
+/// The explorer with the engine that panics on the seed 13.
+fn panicking() -> Program {
+    let folder = Path::new(ASPERITY).parent().expect("the program stands in a folder");
+    let path: PathBuf = folder.join("examples").join("panicking_engine");
+    assert!(path.exists(), "{} is not built: cargo build --examples", path.display());
+    Program::new(path)
+}
+
+#[test]
+fn a_panic_of_the_engine_is_a_line_and_the_explorer_goes_on() {
+    within(60, || {
+        let mut terminal = paused(panicking());
+        let before = headline(&terminal.rows()).unwrap();
+        let seed = |terminal: &mut Terminal, seed: &str| {
+            terminal.send("e");
+            terminal.wait_for("Esc cancel");
+            terminal.send(CLEAR_LINE);
+            terminal.send(seed);
+            terminal.send(ENTER);
+        };
+        select(&mut terminal, "seed");
+        seed(&mut terminal, "13");
+        terminal.wait_for("thirteen is unlucky");
+        assert!(row_with(&terminal, "thirteen").contains("internal error"), "{}", terminal.text());
+        assert!(terminal.screen().alternate_screen(), "the explorer is still there");
+        assert!(!terminal.text().contains("panicked at"), "{}", terminal.text());
+        terminal.send("..");
+        assert_idle(&mut terminal);
+        seed(&mut terminal, "1");
+        terminal.wait_without("thirteen is unlucky");
+        terminal.wait("force as before", |rows| headline(rows).as_ref() == Some(&before));
+        quit(&mut terminal);
+    });
+}
+
+#[test]
+fn a_panic_while_drawing_gives_the_terminal_back_and_tells_why() {
+    within(60, || {
+        let mut terminal = paused(panicking().argument("draw"));
+        select(&mut terminal, "seed");
+        terminal.send("e");
+        terminal.wait_for("Esc cancel");
+        terminal.send(CLEAR_LINE);
+        terminal.send("13");
+        terminal.send(ENTER);
+        assert_eq!(terminal.wait_end().exit_code(), 101);
+        assert_given_back(&terminal);
+        // Told below one another: the terminal starts each line at its left again.
+        let told = terminal.rows();
+        assert!(told.iter().any(|row| row.starts_with("thirteen is unlucky")), "{}", terminal.text());
+    });
+}
