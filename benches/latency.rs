@@ -1,0 +1,244 @@
+//! How long the explorer takes from a key to the frame that shows what it did, at 2^20 springs, and what
+//! its animation writes. The program itself is measured, in a pseudo-terminal of 120 x 40.
+//!
+//! `cargo bench --bench latency` prints the tables; `-- --quick` repeats each key less often and plays no
+//! loop to its end, `-- --runs 100` repeats each key so often. Without `--bench`, as `cargo test --benches`
+//! starts it, it only shows that it runs, on a small scene.
+
+#[cfg(unix)]
+#[path = "../tests/common/terminal.rs"]
+mod terminal;
+
+#[cfg(unix)]
+fn main() {
+    measure::main();
+}
+
+#[cfg(not(unix))]
+fn main() {
+    println!("not measured: only a Unix system has the terminals this needs");
+}
+
+#[cfg(unix)]
+mod measure {
+    use super::terminal::{Frame, Program, Terminal};
+    use std::time::{Duration, Instant};
+
+    const ASPERITY: &str = env!("CARGO_BIN_EXE_asperity");
+    const SPRINGS: &str = "million-springs";
+    const SMALL: &str = "pressure-sensitive";
+
+    /// Longest times, in milliseconds: a key is seen to be taken; a change that leaves the line; one that
+    /// makes it anew.
+    const ECHO: f64 = 16.0;
+    const EDIT: f64 = 50.0;
+    const NEW_LINE: f64 = 150.0;
+
+    /// Time in which nothing comes before the next key: the one before is done with.
+    const QUIET: Duration = Duration::from_millis(120);
+
+    /// What is typed where, and what it may take.
+    struct Case {
+        what: &'static str,
+        /// The row of the list it is done in.
+        row: &'static str,
+        /// Keys that change it, in turn: the scene walks there and back and seldom meets one it has seen.
+        keys: [&'static str; 2],
+        bar: f64,
+    }
+
+    const CASES: [Case; 7] = [
+        Case { what: "E, small step", row: "Young's modulus", keys: ["l", "h"], bar: EDIT },
+        Case { what: "work of adhesion, small step", row: "work of adhesion", keys: ["l", "h"], bar: EDIT },
+        Case { what: "kappa, small step", row: "roughness parameter", keys: ["h", "l"], bar: EDIT },
+        Case {
+            what: "force of the first leg, small step",
+            row: "force of a leg",
+            keys: ["h", "l"],
+            bar: EDIT,
+        },
+        Case { what: "Hurst exponent, small step", row: "Hurst exponent", keys: ["l", "h"], bar: NEW_LINE },
+        Case { what: "seed, next", row: "seed", keys: ["l", "h"], bar: NEW_LINE },
+        Case { what: "points N, halved and doubled", row: "points", keys: ["h", "l"], bar: NEW_LINE },
+    ];
+
+    struct Options {
+        runs: usize,
+        plays: bool,
+        scene: &'static str,
+    }
+
+    impl Options {
+        fn from_arguments() -> Self {
+            let arguments: Vec<String> = std::env::args().skip(1).collect();
+            let has = |flag: &str| arguments.iter().any(|argument| argument == flag);
+            if has("--test") || !has("--bench") {
+                return Options { runs: 2, plays: false, scene: SMALL };
+            }
+            let quick = has("--quick");
+            let place = arguments.iter().position(|argument| argument == "--runs");
+            let runs = place.and_then(|place| arguments.get(place + 1)?.parse().ok());
+            let runs: usize = runs.unwrap_or(if quick { 8 } else { 40 });
+            Options { runs: runs.max(2), plays: !quick, scene: SPRINGS }
+        }
+    }
+
+    pub fn main() {
+        let options = Options::from_arguments();
+        println!(
+            "{}, 120 x 40, paused; {} keys each; ms from the key to the end of the frame",
+            options.scene, options.runs
+        );
+        println!("{:<36} {:>8} {:>8} {:>8} {:>6}", "key", "p50", "p99", "max", "bar");
+        let mut terminal = opened(options.scene);
+        tell("selecting: the key is seen", &echoes(&mut terminal, options.runs), ECHO);
+        for case in &CASES {
+            let (echo, done) = edits(&mut terminal, case, options.runs);
+            tell(case.what, &done, case.bar);
+            tell("  the key is seen", &echo, ECHO);
+        }
+        terminal.send("q");
+        terminal.wait_for("unsaved changes");
+        terminal.send("q");
+        terminal.wait_end();
+        if options.plays {
+            println!();
+            play(None);
+            play(Some(("SSH_CONNECTION", "192.0.2.1 50000 192.0.2.2 22")));
+        }
+    }
+
+    /// The explorer once it has computed a scene, its animation paused.
+    fn opened(scene: &str) -> Terminal {
+        let mut terminal = Program::new(ASPERITY).argument(scene).start();
+        terminal.wait_for("F_a ");
+        terminal.send(".");
+        terminal.settle_for(2 * QUIET);
+        terminal
+    }
+
+    /// Times from a key that selects to the frame in which another row is selected, ms.
+    fn echoes(terminal: &mut Terminal, runs: usize) -> Vec<f64> {
+        let mut times = Vec::new();
+        for run in 0..runs {
+            let before = selected(&terminal.rows());
+            let key = if run / 10 % 2 == 0 { "j" } else { "k" };
+            times.push(time(terminal, key, |rows| selected(rows) != before));
+            terminal.settle_for(QUIET);
+        }
+        times
+    }
+
+    /// Times from a key that edits to the first frame after it, and to the one with the new loop, ms.
+    fn edits(terminal: &mut Terminal, case: &Case, runs: usize) -> (Vec<f64>, Vec<f64>) {
+        select(terminal, case.row);
+        let (mut echo, mut done) = (Vec::new(), Vec::new());
+        for run in 0..runs {
+            // N goes back at once: far from it the line is another.
+            let leaves = if case.row == "points" { run % 2 == 0 } else { run < runs / 2 };
+            let key = case.keys[usize::from(!leaves)];
+            let before = headline(&terminal.rows());
+            let frames = terminal.frames().len();
+            let start = Instant::now();
+            let time = time(terminal, key, |rows| {
+                let now = headline(rows);
+                now.is_some() && now != before && !rows.iter().any(|row| row.contains("computing"))
+            });
+            echo.push(milliseconds(start, terminal.frames()[frames].arrived));
+            done.push(time);
+            terminal.settle_for(QUIET);
+        }
+        (echo, done)
+    }
+
+    /// Milliseconds from a key to the end of the first frame that is as it should be.
+    fn time(terminal: &mut Terminal, key: &str, is_there: impl Fn(&[String]) -> bool) -> f64 {
+        let start = Instant::now();
+        terminal.send(key);
+        terminal.wait("outcome of a key", is_there);
+        milliseconds(start, terminal.arrived())
+    }
+
+    fn milliseconds(start: Instant, end: Instant) -> f64 {
+        1e3 * end.duration_since(start).as_secs_f64()
+    }
+
+    /// The row that is selected.
+    fn selected(rows: &[String]) -> Option<String> {
+        rows.iter().find(|row| row.contains('›')).cloned()
+    }
+
+    /// The headline: adhesion force, regime and coefficient, of which each edit changes one.
+    fn headline(rows: &[String]) -> Option<String> {
+        let row = rows.iter().find(|row| row.starts_with("F_a "))?;
+        row.split("  ").next().map(str::to_owned)
+    }
+
+    /// Selects a parameter by its name, by keys.
+    fn select(terminal: &mut Terminal, name: &str) {
+        terminal.send("g");
+        terminal.settle_for(QUIET);
+        loop {
+            let before = selected(&terminal.rows());
+            let label = before.as_deref().and_then(|row| row.split('›').nth(1)).unwrap_or_default();
+            if label.contains(name) {
+                return;
+            }
+            terminal.send("j");
+            terminal.wait("other row selected", |rows| selected(rows) != before);
+        }
+    }
+
+    /// The value below which so much of the sorted values lies.
+    fn quantile(sorted: &[f64], share: f64) -> f64 {
+        let place = (share * sorted.len() as f64).ceil() as usize;
+        sorted[place.clamp(1, sorted.len()) - 1]
+    }
+
+    fn sorted(values: &[f64]) -> Vec<f64> {
+        let mut values = values.to_vec();
+        values.sort_by(f64::total_cmp);
+        values
+    }
+
+    fn tell(what: &str, times: &[f64], bar: f64) {
+        let times = sorted(times);
+        let (median, p99, most) = (quantile(&times, 0.5), quantile(&times, 0.99), quantile(&times, 1.0));
+        let holds = if p99 <= bar { "holds" } else { "does NOT hold" };
+        println!("{what:<36} {median:>8.1} {p99:>8.1} {most:>8.1} {bar:>6.0}  {holds}");
+    }
+
+    /// Plays a whole loop of the default scene and tells what was written for it.
+    fn play(connection: Option<(&str, &str)>) {
+        let mut program = Program::new(ASPERITY);
+        if let Some((name, value)) = connection {
+            program = program.env(name, value);
+        }
+        let mut terminal = program.start();
+        terminal.wait_for("F_a ");
+        terminal.send(".");
+        terminal.settle_for(2 * QUIET);
+        let (start, first) = (terminal.written().len(), terminal.frames().len());
+        let begun = Instant::now();
+        terminal.send("r");
+        terminal.settle_for(Duration::from_millis(1500));
+        let frames: Vec<Frame> = terminal.frames()[first..].to_vec();
+        let bytes = terminal.written().len() - start;
+        terminal.send("q");
+        terminal.wait_end();
+        let Some(last) = frames.last() else { return println!("nothing was played") };
+        let seconds = last.arrived.duration_since(begun).as_secs_f64();
+        let sizes = sorted(&frames.iter().map(|frame| frame.bytes as f64).collect::<Vec<_>>());
+        println!(
+            "approach and retraction of {SMALL}, {}: {} frames in {seconds:.1} s ({:.1}/s); bytes in a frame: \
+             median {:.0}, p99 {:.0}, max {:.0}; {:.0} B/s",
+            if connection.is_some() { "over SSH" } else { "locally" },
+            frames.len(),
+            frames.len() as f64 / seconds,
+            quantile(&sizes, 0.5),
+            quantile(&sizes, 0.99),
+            quantile(&sizes, 1.0),
+            bytes as f64 / seconds
+        );
+    }
+}
