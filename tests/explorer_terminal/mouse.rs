@@ -37,6 +37,15 @@ fn in_hand(rows: &[String]) -> Option<f64> {
     quantity(&row, "d", "m")
 }
 
+/// The column, counted from 1, of the mark where the body stands on the curve. The legend has it, too.
+#[track_caller]
+fn cursor(terminal: &Terminal) -> usize {
+    let rows = terminal.rows();
+    let place = |row: &String| row.chars().position(|character| character == '◆');
+    let found = rows.iter().filter(|row| !row.contains("◆ in hand")).find_map(place);
+    found.unwrap_or_else(|| panic!("no ◆:\n{}", terminal.text())) + 1
+}
+
 #[test]
 fn the_terminal_is_asked_for_presses_and_drags_but_not_for_every_motion() {
     within(40, || {
@@ -109,18 +118,14 @@ fn the_body_is_dragged_along_the_curve() {
         let (left, row) = (column + 20, row + 8);
         terminal.send(&report(LEFT, left, row));
         terminal.wait("body in hand", |rows| in_hand(rows).is_some());
-        // The axis reaches to where the body was taken from now on.
-        let before = in_hand(&terminal.rows()).unwrap();
-        terminal.send(&report(DRAGGED, left + 1, row));
-        terminal.wait("moved body", |rows| in_hand(rows).is_some_and(|now| now != before));
-        terminal.send(&report(DRAGGED, left, row));
-        terminal.settle();
+        assert!(cursor(&terminal).abs_diff(left) <= 1, "{left}:\n{}", terminal.text());
         let mut last = in_hand(&terminal.rows()).unwrap();
         let start = last;
         for column in (left + 4..left + 20).step_by(4) {
             terminal.send(&report(DRAGGED, column, row));
             terminal.wait("deeper body", |rows| in_hand(rows).is_some_and(|now| now > last));
             last = in_hand(&terminal.rows()).unwrap();
+            assert!(cursor(&terminal).abs_diff(column) <= 1, "{column}:\n{}", terminal.text());
         }
         // Back to where it began; every cell is as wide as every other.
         terminal.send(&report(DRAGGED, left, row));

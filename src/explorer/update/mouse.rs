@@ -50,8 +50,15 @@ pub fn act(model: &mut Model, mouse: Mouse) -> Vec<Effect> {
 
 /// Drags the body to the indentation under the mouse.
 fn drag(model: &mut Model, area: ratatui::layout::Rect, column: u16) -> Vec<Effect> {
-    match indentation_at(model, area, column) {
-        Some(indentation) => movement::take(model, Some(HandOrder::To(indentation))),
-        None => vec![Effect::Show],
+    if indentation_at(model, area, column).is_none() {
+        return vec![Effect::Show];
     }
+    // Taken first: its axis may reach further than that of the loading, and the body is to come to stand
+    // under the mouse.
+    let mut effects = if model.hand.is_none() { movement::take(model, None) } else { Vec::new() };
+    effects.retain(|effect| *effect != Effect::Show);
+    if let Some(indentation) = indentation_at(model, area, column) {
+        effects.extend(movement::take(model, Some(HandOrder::To(indentation))));
+    }
+    effects
 }
