@@ -40,6 +40,10 @@ fn output_of(command: &mut Command) -> String {
     String::from_utf8(output.stdout).unwrap().trim().to_owned()
 }
 
+/// Runs a program until its own input ends: with the process that holds the other end of it, whatever
+/// becomes of that.
+const WHILE_WANTED: &str = r#""$@" & read -r _; kill $!; wait"#;
+
 /// A server that ends with the test, however that ends.
 struct Server {
     sshd: Child,
@@ -53,7 +57,8 @@ struct Server {
 
 impl Drop for Server {
     fn drop(&mut self) {
-        let _ = self.sshd.kill();
+        // It is told by the end of its input, and waited for.
+        drop(self.sshd.stdin.take());
         let _ = self.sshd.wait();
     }
 }
@@ -96,10 +101,10 @@ impl Server {
         let host = fs::read_to_string(file("host.pub")).unwrap();
         fs::write(file("known"), format!("[127.0.0.1]:{port} {host}")).unwrap();
 
-        let mut command = Command::new(sshd);
-        command.args(["-D", "-e", "-f"]).arg(file("config"));
-        let mut sshd =
-            command.stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap();
+        let mut command = Command::new("/bin/sh");
+        command.args(["-c", WHILE_WANTED, "sh"]).arg(sshd).args(["-D", "-e", "-f"]).arg(file("config"));
+        command.stdin(Stdio::piped()).stdout(Stdio::null()).stderr(Stdio::piped());
+        let mut sshd = command.spawn().unwrap();
         let lines = BufReader::new(sshd.stderr.take().unwrap()).lines();
         let (told, log) = channel();
         std::thread::spawn(move || lines.map_while(Result::ok).try_for_each(|line| told.send(line)));

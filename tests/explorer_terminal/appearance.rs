@@ -75,12 +75,15 @@ fn is_half_block(character: char) -> bool {
     "▀▄█".contains(character)
 }
 
+/// A marker and whether a character is made of it.
+type Made = (&'static str, fn(char) -> bool);
+
+const MARKERS: [Made; 3] = [("braille", is_braille), ("octant", is_octant), ("half-block", is_half_block)];
+
 #[test]
 fn plots_are_made_of_the_marker_that_is_wanted() {
     within(60, || {
-        let markers: [(&str, fn(char) -> bool); 3] =
-            [("braille", is_braille), ("octant", is_octant), ("half-block", is_half_block)];
-        for (name, is_of_it) in markers {
+        for (name, is_of_it) in MARKERS {
             let (mut terminal, _folder) = opened(&["--marker", name], &[]);
             // The bars of the histogram are blocks with every marker, so the force curve is looked at.
             let curve = |terminal: &Terminal| {
@@ -90,7 +93,7 @@ fn plots_are_made_of_the_marker_that_is_wanted() {
             };
             let curve = curve(&terminal);
             assert!(curve.chars().any(is_of_it), "{name}:\n{curve}");
-            let others = markers.iter().filter(|(other, _)| *other != name);
+            let others = MARKERS.iter().filter(|(other, _)| *other != name);
             for (other, is_of_other) in others {
                 // The legend of the branches and full blocks are what they are.
                 let found = curve.chars().filter(|c| is_of_other(*c) && !"⠒⠂█▀▄".contains(*c)).count();
@@ -162,21 +165,21 @@ fn colours_suit_the_background_and_the_wishes_of_the_user() {
         let light = (false, true);
         let dark = (true, true);
         let none = (false, false);
-        let cases: [(&[&str], &[(&str, &str)], (bool, bool)); 8] = [
-            (&[], &[("COLORFGBG", "15;0")], dark),
-            (&[], &[("COLORFGBG", "0;15")], light),
-            (&["--theme", "dark"], &[("COLORFGBG", "0;15")], dark),
-            (&["--theme", "light"], &[("COLORFGBG", "15;0")], light),
-            (&["--theme", "plain"], &[("COLORFGBG", "15;0")], none),
-            // Who asks for no colours means it, and who asks on the command line means it more.
-            (&[], &[("COLORFGBG", "15;0"), ("NO_COLOR", "1")], none),
-            (&["--theme", "dark"], &[("NO_COLOR", "1")], dark),
-            (&["--theme", "high-contrast"], &[], dark),
-        ];
-        for (arguments, environment, wanted) in cases {
+        let (to_light, to_dark) = (("COLORFGBG", "0;15"), ("COLORFGBG", "15;0"));
+        let without = ("NO_COLOR", "1");
+        let check = |arguments: &[&str], environment: &[(&str, &str)], wanted: (bool, bool)| {
             let (mut terminal, _folder) = opened(arguments, environment);
             quit(&mut terminal);
             assert_eq!(brightness(&terminal), wanted, "{arguments:?} {environment:?}");
-        }
+        };
+        check(&[], &[to_dark], dark);
+        check(&[], &[to_light], light);
+        check(&["--theme", "dark"], &[to_light], dark);
+        check(&["--theme", "light"], &[to_dark], light);
+        check(&["--theme", "plain"], &[to_dark], none);
+        check(&["--theme", "high-contrast"], &[], dark);
+        // Who asks for no colours means it, and who asks on the command line means it more.
+        check(&[], &[to_dark, without], none);
+        check(&["--theme", "dark"], &[without], dark);
     });
 }
