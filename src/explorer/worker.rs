@@ -304,7 +304,10 @@ pub fn serve(
         is_heard.set(is_heard.get() && report(one));
         is_heard.get()
     };
-    while let (true, Ok(first)) = (is_heard.get(), requests.recv()) {
+    // Once nobody listens no further request is waited for.
+    while is_heard.get()
+        && let Ok(first) = requests.recv()
+    {
         desk.serve(std::iter::once(first).chain(requests.try_iter()), newest, &report);
     }
 }
