@@ -1,7 +1,8 @@
 //! The lines around the panes: title, status, footer.
 
 use super::typed::typed;
-use super::wrap::wrapped;
+use super::wrap::{fitting, wrapped};
+use crate::contact::CurvePoint;
 use crate::explorer::action::Command;
 use crate::explorer::keys;
 use crate::explorer::model::{Mode, Model, Notice, Traffic};
@@ -37,6 +38,8 @@ pub fn status(frame: &mut Frame<'_>, area: Rect, model: &Model) {
     };
     let line = match (&model.mode, &model.notice) {
         (Mode::SaveAs { line, .. }, _) => prompted("Save as: ", line),
+        // What is typed is to be seen in the smallest window too.
+        (Mode::Export(line), _) if area.width < 60 => prompted("Export to: ", line),
         (Mode::Export(line), _) => prompted("Export to (.csv .json .svg .txt): ", line),
         (Mode::Force(line), _) => prompted("Go to the force: ", line),
         (Mode::Library(library), _) => prompted("Search: ", &library.query),
@@ -48,7 +51,7 @@ pub fn status(frame: &mut Frame<'_>, area: Rect, model: &Model) {
             error(format!("! {text}"))
         }
         (_, Some(Notice::Done(text))) => Line::raw(text.clone()),
-        _ => headline(model),
+        _ => headline(model, area.width),
     };
     frame.render_widget(Paragraph::new(line), area);
 }
@@ -58,50 +61,56 @@ fn short(seconds: f64) -> f64 {
     format!("{seconds:.1e}").parse().unwrap_or(seconds)
 }
 
-/// F_a, regime, the moment shown and what it cost, the most important first.
-fn headline(model: &Model) -> Line<'static> {
+/// F_a, regime, the moment shown and what it cost, the most important first, as far as there is room.
+fn headline(model: &Model, width: u16) -> Line<'static> {
     let Some(computed) = &model.computed else { return Line::raw("computing…") };
     let theme = model.appearance.theme;
     let outcome = &computed.outcome;
     let mut parts = Vec::new();
+    let mut part = |apart: &'static str, text: String, meaning: Meaning| {
+        let apart = if parts.is_empty() { "" } else { apart };
+        parts.push(vec![Span::raw(apart), Span::styled(text, theme.style(meaning))]);
+    };
     if let Some(adhesion) = outcome.figures.adhesion_force {
-        parts.push(format!("F_a {}", format_quantity(adhesion, "N")));
+        part("  ", format!("F_a {}", format_quantity(adhesion, "N")), Meaning::Title);
     }
-    if let Some(regime) = outcome.regime {
-        parts.push(regime.name().to_owned());
-    }
-    if let Some(coefficient) = outcome.figures.adhesion_coefficient {
-        parts.push(format!("F_a/F_n {}", format_quantity(coefficient, "1")));
-    }
-    let mut spans = vec![Span::styled(parts.join(" · "), theme.style(Meaning::Title))];
-    if let Some(moment) = model.present() {
+    if let (Some(moment), Some(hand)) = (model.present(), &model.hand) {
+        // What the move cost comes before what it led to.
         let point = moment.point;
-        let plural = if point.fragments == 1 { "" } else { "s" };
         let d = format_quantity(point.indentation, "m");
-        let force = format_quantity(point.force, "N");
-        spans.push(match &model.hand {
-            // What the move cost comes before what it led to.
-            Some(hand) => Span::raw(format!(
-                "  in hand: d {d} F {force} · {} springs changed, {} looked at · {} in {} fragment{plural}",
-                hand.changed, hand.touched, point.springs, point.fragments,
-            )),
-            None => Span::raw(format!(
-                "  d {d} F {force} · {} springs in {} fragment{plural}",
-                point.springs, point.fragments,
-            )),
-        });
+        part("  ", format!("in hand: d {d} F {}", format_quantity(point.force, "N")), Meaning::Text);
+        part(" · ", format!("{} springs changed", hand.changed), Meaning::Text);
+        part(" · ", format!("{} looked at", hand.touched), Meaning::Text);
+        part(" · ", contact(point), Meaning::Text);
+    } else {
+        if let Some(regime) = outcome.regime {
+            part(" · ", regime.name().to_owned(), Meaning::Title);
+        }
+        if let Some(coefficient) = outcome.figures.adhesion_coefficient {
+            part(" · ", format!("F_a/F_n {}", format_quantity(coefficient, "1")), Meaning::Title);
+        }
+        if let Some(moment) = model.present() {
+            let point = moment.point;
+            let d = format_quantity(point.indentation, "m");
+            part("  ", format!("d {d} F {}", format_quantity(point.force, "N")), Meaning::Text);
+            part(" · ", contact(point), Meaning::Text);
+        }
     }
-    let mut rest = String::new();
     if model.is_computing() {
         let legs = model.document.scene().loading.len();
-        rest += &format!("  computing, leg {} of {legs}", model.progress.unwrap_or(0) + 1);
+        part("  ", format!("computing, leg {} of {legs}", model.progress.unwrap_or(0) + 1), Meaning::Quiet);
     } else if model.shows_times {
-        let timings = &outcome.timings;
         // What the last run made anew: a kept line and tree cost nothing.
-        rest += &format!("  · {}", format_quantity(short(timings.total()), "s"));
+        let seconds = format_quantity(short(outcome.timings.total()), "s");
+        part(" · ", seconds, Meaning::Quiet);
     }
-    spans.push(Span::styled(rest, theme.style(Meaning::Quiet)));
-    Line::from(spans)
+    fitting(parts, "", usize::from(width))
+}
+
+/// How much touches.
+fn contact(point: CurvePoint) -> String {
+    let plural = if point.fragments == 1 { "" } else { "s" };
+    format!("{} springs in {} fragment{plural}", point.springs, point.fragments)
 }
 
 /// Narrower windows have no room for what the connection carries.

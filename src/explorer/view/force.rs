@@ -2,10 +2,11 @@
 
 use super::axes::{Axis, Places};
 use super::plot::{Inside, Polyline, Span, Stroke};
+use super::wrap::fitting;
 use crate::contact::{CurvePoint, Direction, LegRecord};
 use crate::explorer::model::{Ghost, Model, Quantities};
 use crate::explorer::snapshot::Loop;
-use crate::explorer::theme::{Meaning, Theme};
+use crate::explorer::theme::{Marker, Meaning, Theme};
 use crate::scene::format_quantity;
 use ratatui::Frame;
 use ratatui::layout::Rect;
@@ -17,14 +18,13 @@ use ratatui::widgets::canvas::{Canvas, Context};
 /// Title of the pane.
 pub fn title(model: &Model) -> String {
     let units = model.computed.as_ref().map(|computed| Units::of(model, computed));
-    let normalised = units.is_some_and(|units| units.is_normalised());
-    let name = match (model.curve.quantities, normalised) {
-        (Quantities::ForceIndentation, false) => "Force F(d)",
-        (Quantities::ForceIndentation, true) => "Force F/F_a,max over d/h",
-        (Quantities::LengthForce, false) => "Contact length l(F)",
-        (Quantities::LengthForce, true) => "Contact length l/L over F/F_a,max",
-        (Quantities::FragmentsIndentation, false) => "Fragments n(d)",
-        (Quantities::FragmentsIndentation, true) => "Fragments n over d/h",
+    let name = match units.filter(Units::is_normalised) {
+        Some(units) => units.title(),
+        None => match model.curve.quantities {
+            Quantities::ForceIndentation => "Force F(d)".to_owned(),
+            Quantities::LengthForce => "Contact length l(F)".to_owned(),
+            Quantities::FragmentsIndentation => "Fragments n(d)".to_owned(),
+        },
     };
     let loss = if model.curve.loss && model.curve.quantities == Quantities::ForceIndentation {
         match model.computed.as_ref().and_then(|computed| computed.outcome.figures.dissipated_energy) {
@@ -73,6 +73,17 @@ impl Units {
         }
     }
 
+    /// What stands over what, each in the unit it counts in: not every scene has an h or an F_a,max.
+    fn title(&self) -> String {
+        let indentation = if self.indentation.is_some() { "d/h" } else { "d" };
+        let force = if self.force.is_some() { "F/F_a,max" } else { "F" };
+        match self.quantities {
+            Quantities::ForceIndentation => format!("Force {force} over {indentation}"),
+            Quantities::LengthForce => format!("Contact length l/L over {force}"),
+            Quantities::FragmentsIndentation => format!("Fragments n over {indentation}"),
+        }
+    }
+
     fn place(&self, point: &CurvePoint) -> (f64, f64) {
         let indentation = point.indentation / self.indentation.unwrap_or(1.0);
         let force = point.force / self.force.unwrap_or(1.0);
@@ -107,7 +118,11 @@ fn spans(model: &Model, units: Units) -> (Span, Span) {
     let places: Vec<(f64, f64)> = points.chain(hand).map(|point| units.place(point)).collect();
     let x = Span::around(places.iter().map(|place| place.0), 0.06);
     let y = Span::around(places.iter().map(|place| place.1).chain([0.0]), 0.08);
-    (x, y)
+    match units.quantities {
+        Quantities::ForceIndentation => (x, y),
+        // There is no negative length or number.
+        Quantities::LengthForce | Quantities::FragmentsIndentation => (x, Span { low: 0.0, ..y }),
+    }
 }
 
 /// Rows of text above the plot.
@@ -208,7 +223,8 @@ pub fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
             }
         });
     frame.render_widget(canvas, places.plot);
-    let rows = legend(model, &colour).into_iter().chain((!stale).then(|| values(legs, area.width, theme)));
+    let rows = [legend(model, area.width, &colour)];
+    let rows = rows.into_iter().chain((!stale).then(|| values(legs, area.width, theme)));
     let ghosts = model.ghosts.iter().enumerate().rev().map(|(number, ghost)| {
         Line::styled(format!("{} {}", letter(number), ghost.differs), theme.style(Meaning::Ghost))
     });
@@ -219,23 +235,27 @@ pub fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
     places.draw(frame, x, y, theme);
 }
 
-/// How the branches are told apart.
-fn legend(model: &Model, colour: &dyn Fn(Meaning) -> ratatui::style::Color) -> Option<Line<'static>> {
+/// How the branches are told apart, as far as there is room.
+fn legend(model: &Model, width: u16, colour: &dyn Fn(Meaning) -> ratatui::style::Color) -> Line<'static> {
     let theme = model.appearance.theme;
-    let mut spans = vec![
-        Text::styled("⠒ ⠒ ", Style::new().fg(colour(Meaning::Approach))),
-        Text::raw("approach  "),
-        Text::styled("⠒⠒⠒ ", Style::new().fg(colour(Meaning::Retraction))),
-        Text::raw("retraction  "),
-        Text::styled("◆", theme.style(Meaning::Cursor)),
+    let cursor = || Text::styled("◆", theme.style(Meaning::Cursor));
+    let branch = |glyphs, meaning| Text::styled(glyphs, Style::new().fg(colour(meaning)));
+    // Of what the plot is made of; ASCII is made from dots.
+    let [approach, retraction, way] = match model.appearance.marker {
+        Marker::Braille | Marker::Ascii => ["⠒ ⠒ ", "⠒⠒⠒ ", "⠒⠂⠒⠂"],
+        Marker::Octant | Marker::HalfBlock => ["▄ ▄ ", "▄▄▄ ", "▄▖▄▖"],
+    };
+    let mut parts = vec![
+        vec![branch(approach, Meaning::Approach), Text::raw("approach")],
+        vec![branch(retraction, Meaning::Retraction), Text::raw("retraction")],
     ];
     if model.hand.is_some() {
-        spans.push(Text::raw(" in hand "));
-        spans.push(Text::styled("⠒⠂⠒⠂", theme.style(Meaning::Hand)));
+        let way = Text::styled(way, theme.style(Meaning::Hand));
+        parts.push(vec![way, cursor(), Text::raw(" in hand")]);
     } else {
-        spans.push(Text::raw(" now"));
+        parts.push(vec![cursor(), Text::raw(" now")]);
     }
-    Some(Line::from(spans))
+    fitting(parts, "  ", usize::from(width))
 }
 
 /// Jump-in, preload and pull-off: where, with which glyph, and what it is called.
@@ -257,18 +277,24 @@ fn marks(legs: &[LegRecord]) -> Vec<(CurvePoint, &'static str, &'static str)> {
     marks
 }
 
-/// The marked forces with their values, in words where there is room.
+/// The marked forces with their values, in words where there is room. Where there is none for all, the
+/// pull-off force stays longest.
 fn values(legs: &[LegRecord], width: u16, theme: Theme) -> Line<'static> {
-    let texts = |words: bool| -> Vec<Text<'static>> {
-        let text = |(point, glyph, name): (CurvePoint, &'static str, &'static str)| {
+    let marks = marks(legs);
+    let parts = |words: bool, from: usize| -> Vec<Vec<Text<'static>>> {
+        let text = |&(point, glyph, name): &(CurvePoint, &'static str, &'static str)| {
             let force = format_quantity(short(point.force), "N");
             let name = if words { format!(" {name}") } else { String::new() };
-            [Text::styled(glyph, theme.style(Meaning::Title)), Text::raw(format!("{name} {force}  "))]
+            vec![Text::styled(glyph, theme.style(Meaning::Title)), Text::raw(format!("{name} {force}"))]
         };
-        marks(legs).into_iter().flat_map(text).collect()
+        marks.iter().skip(from).map(text).collect()
     };
-    let long = Line::from(texts(true));
-    if long.width() <= usize::from(width) { long } else { Line::from(texts(false)) }
+    let forms = [(true, 0)].into_iter().chain((0..marks.len()).map(|from| (false, from)));
+    let width = usize::from(width);
+    forms
+        .map(|(words, from)| fitting(parts(words, from), "  ", usize::MAX))
+        .find(|line| line.width() <= width)
+        .unwrap_or_default()
 }
 
 /// The letter of a ghost, beside its pull-off force.

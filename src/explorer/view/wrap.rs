@@ -25,6 +25,21 @@ pub fn wrapped(line: &Line<'_>, columns: u16) -> Vec<Line<'static>> {
     page.lines
 }
 
+/// As many parts, from the first one on, as fit whole into so many columns, and what stands between them.
+pub fn fitting(parts: Vec<Vec<Span<'static>>>, between: &'static str, columns: usize) -> Line<'static> {
+    let mut line = Line::default();
+    for part in parts {
+        let apart = (!line.spans.is_empty()).then(|| Span::raw(between));
+        let width: usize = part.iter().chain(&apart).map(Span::width).sum();
+        if line.width().saturating_add(width) > columns {
+            break;
+        }
+        line.spans.extend(apart);
+        line.spans.extend(part);
+    }
+    line
+}
+
 /// The lines so far, the last of them unfinished.
 struct Page {
     lines: Vec<Line<'static>>,
@@ -85,6 +100,16 @@ mod tests {
                     assert!(line.width() <= usize::from(columns), "{text} {columns}: {line}");
                 }
             }
+        }
+    }
+
+    #[test]
+    fn parts_fit_whole_or_not_at_all() {
+        let parts = || ["one", "two", "漢字"].map(|text| vec![Span::raw(text)]).to_vec();
+        for (columns, text) in
+            [(2, ""), (3, "one"), (7, "one"), (8, "one, two"), (13, "one, two"), (14, "one, two, 漢字")]
+        {
+            assert_eq!(fitting(parts(), ", ", columns).to_string(), text);
         }
     }
 
