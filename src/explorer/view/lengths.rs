@@ -42,8 +42,9 @@ pub fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
     let places = Places::within(Rect { height: area.height - text_rows, ..area }, 0);
     let canvas = Canvas::default()
         .marker(model.appearance.marker.symbols())
-        .x_bounds(Span { low: x.low - 0.05, high: x.high + 0.05 }.bounds())
-        .y_bounds(Span { low: y.low - 0.1, high: y.high + 0.1 }.bounds())
+        // Without room at the ends: the values beside them stand for the first and last row.
+        .x_bounds(x.bounds())
+        .y_bounds(y.bounds())
         .paint(|ctx| {
             let colour = theme.colour(Meaning::Contact);
             ctx.draw(&Polyline { points: &logarithms, colour, stroke: Stroke::Dotted });
