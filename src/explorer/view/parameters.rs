@@ -122,6 +122,10 @@ fn derived(model: &Model) -> Vec<(&'static str, String)> {
         let gradient = quantity(amplitude.rms_gradient, "1");
         rows.push(("h, ⟨∇z⟩", format!("{}, {gradient}", quantity(amplitude.rms_height, "m"))));
     }
+    // Of a scene that failed nothing more is known.
+    if !model.is_current() && !model.is_computing() {
+        return rows;
+    }
     if let Some(force) = outcome.ideal_adhesion_force {
         rows.push(("F_a,max", quantity(force, "N")));
     }
