@@ -2,6 +2,7 @@
 
 use super::glyphs;
 use ratatui::buffer::Buffer;
+use ratatui::style::Color;
 
 /// The rows of a screen without the blanks at their ends, each closed by a line feed.
 #[must_use]
@@ -11,6 +12,8 @@ pub fn text(buffer: &Buffer) -> String {
         let Some(row) = rows.get_mut(usize::from(glyph.row)) else { break };
         match glyph.symbol() {
             " " => row.extend(std::iter::repeat_n(' ', usize::from(glyph.width))),
+            // Its other half is filled too, in the colour of the background, which a text does not have.
+            "▀" | "▄" if glyph.cell.bg != Color::Reset => row.push('█'),
             symbol => row.push_str(symbol),
         }
     }
@@ -39,6 +42,14 @@ mod tests {
         // What is left behind a wide character is not seen.
         buffer[(4, 2)].set_symbol("?");
         assert_eq!(text(&buffer), "漢字e\u{301}x\n");
+    }
+
+    #[test]
+    fn halves_in_two_colours_are_whole() {
+        let mut buffer = Buffer::with_lines(["▀▄▀"]);
+        buffer[(0, 0)].set_bg(Color::Red);
+        buffer[(1, 0)].set_bg(Color::Red);
+        assert_eq!(text(&buffer), "██▀\n");
     }
 
     #[test]

@@ -20,9 +20,10 @@ pub use parameters::parameter_at;
 use super::layout::{Layout, inside, is_framed};
 use super::model::{Mode, Model, Pane};
 use super::picture::to_ascii;
-use super::theme::{Marker, Meaning};
+use super::theme::{Marker, Meaning, Theme};
 use ratatui::Frame;
 use ratatui::layout::Rect;
+use ratatui::style::Modifier;
 use ratatui::widgets::Block;
 
 /// Draws the whole screen.
@@ -42,9 +43,13 @@ pub fn draw(frame: &mut Frame<'_>, model: &Model) {
             }
         }
     }
+    plot::dry(frame.buffer_mut());
     chrome::status(frame, layout.status, model);
     if let Some(area) = layout.footer {
         chrome::footer(frame, area, model);
+    }
+    if model.appearance.theme == Theme::HighContrast {
+        frame.buffer_mut().set_style(area, Modifier::BOLD);
     }
     if model.appearance.marker == Marker::Ascii {
         to_ascii(frame.buffer_mut());

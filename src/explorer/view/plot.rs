@@ -1,6 +1,7 @@
 //! What the plots share: ranges, polylines and columns of dots.
 
 use crate::explorer::snapshot::Section;
+use ratatui::buffer::Buffer;
 use ratatui::style::Color;
 use ratatui::widgets::canvas::{Painter, Shape};
 
@@ -39,6 +40,35 @@ impl Span {
     /// The ends, as a canvas wants them.
     pub fn bounds(self) -> [f64; 2] {
         [self.low, self.high]
+    }
+}
+
+/// Stands on a canvas for the colour of the terminal's text, which the grid of half blocks would take for
+/// that of its background where it meets another colour. No theme has it.
+const INK: Color = Color::Indexed(16);
+
+fn ink(colour: Color) -> Color {
+    if colour == Color::Reset { INK } else { colour }
+}
+
+/// Gives what was drawn on canvases the colour of the terminal's text, where it is to have that.
+pub fn dry(buffer: &mut Buffer) {
+    for cell in &mut buffer.content {
+        // Of a cell in two colours the one of the text can only be that of the foreground.
+        let other = match cell.symbol() {
+            "▀" => "▄",
+            "▄" => "▀",
+            _ => "",
+        };
+        if cell.bg == INK && !other.is_empty() {
+            cell.set_symbol(if cell.fg == INK { "█" } else { other });
+            std::mem::swap(&mut cell.fg, &mut cell.bg);
+        }
+        for colour in [&mut cell.fg, &mut cell.bg] {
+            if *colour == INK {
+                *colour = Color::Reset;
+            }
+        }
     }
 }
 
@@ -81,7 +111,7 @@ impl Shape for Polyline<'_> {
         for &(x, y) in &dots {
             for (x, y) in between(last.unwrap_or((x, y)), (x, y)) {
                 if self.stroke.paints(painted) {
-                    painter.paint(x, y, self.colour);
+                    painter.paint(x, y, ink(self.colour));
                 }
                 painted += 1;
             }
@@ -128,7 +158,7 @@ impl Shape for Inside<'_> {
                 let (Some((_, low)), Some((_, high))) = (low, high) else { continue };
                 (high..=low)
                     .filter(|y| (column + y).is_multiple_of(2))
-                    .for_each(|y| painter.paint(column, y, self.colour));
+                    .for_each(|y| painter.paint(column, y, ink(self.colour)));
             }
         }
     }
@@ -185,7 +215,7 @@ impl Shape for Columns<'_> {
                 continue;
             };
             for x in place(column)..place(column + 1).max(place(column) + 1) {
-                (y_high..=y_low).for_each(|y| painter.paint(x, y, self.colour));
+                (y_high..=y_low).for_each(|y| painter.paint(x, y, ink(self.colour)));
             }
         }
     }
