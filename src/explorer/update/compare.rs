@@ -3,7 +3,7 @@
 use super::{Effect, edit};
 use crate::explorer::action::Command;
 use crate::explorer::model::{Ghost, Model, Notice};
-use crate::scene::{Document, field, format_quantity};
+use crate::scene::{Document, Field, LEG_FORCE, LEG_INDENTATION, Leg, field, format_quantity};
 use std::sync::Arc;
 
 /// Ghosts that are kept; more could not be told apart.
@@ -66,11 +66,7 @@ fn differences(scene: &Document, other: &Document) -> String {
         if ["title", "notice", "version"].contains(&path.as_str()) {
             return None;
         }
-        let known = field(path, None);
-        let name = known.map_or(path.as_str(), |field| match field.symbol {
-            "" => field.name,
-            symbol => symbol,
-        });
+        let (name, known) = name_of(path, scene);
         let value = match (value.parse::<f64>(), known) {
             (Ok(number), Some(field)) => format_quantity(number, field.unit),
             _ => value.split_whitespace().collect::<Vec<_>>().join(" "),
@@ -79,4 +75,21 @@ fn differences(scene: &Document, other: &Document) -> String {
     };
     let told: Vec<String> = scene.overrides_from(other).iter().filter_map(told).collect();
     if told.is_empty() { "the same scene".to_owned() } else { told.join(", ") }
+}
+
+/// What a path is called, in the terms of the field, and its field where it has one.
+fn name_of(path: &str, scene: &Document) -> (String, Option<&'static Field>) {
+    let symbol = |field: &'static Field| if field.symbol.is_empty() { field.name } else { field.symbol };
+    let mut parts = path.strip_prefix("loading.").unwrap_or_default().split('.');
+    if let Some(index) = parts.next().and_then(|index| index.parse::<usize>().ok()) {
+        let target = match parts.next().and(scene.scene().loading.get(index)) {
+            Some(Leg::ToForce(_)) => Some(&LEG_FORCE),
+            Some(Leg::ToIndentation(_)) => Some(&LEG_INDENTATION),
+            _ => None,
+        };
+        let symbol = target.map(|field| format!(" {}", symbol(field))).unwrap_or_default();
+        return (format!("leg {}{symbol}", index + 1), target);
+    }
+    let known = field(path, None);
+    (known.map_or(path, symbol).to_owned(), known)
 }
