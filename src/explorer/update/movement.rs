@@ -76,14 +76,20 @@ pub fn elapse(model: &mut Model, time: Duration) -> Vec<Effect> {
         return Vec::new();
     }
     let legs = model.legs().len();
-    advance(&mut model.player, time.as_secs_f64() / LEG_TIME.as_secs_f64(), legs);
-    if model.player.done >= 1.0 && model.player.leg + 1 >= legs {
-        model.player.playing = false;
+    let player = &mut model.player;
+    player.done += time.as_secs_f64() / LEG_TIME.as_secs_f64();
+    // How far it is does not depend on how often it is drawn: what is left goes on in the next leg.
+    while player.done > 1.0 && player.leg + 1 < legs {
+        player.leg += 1;
+        player.done -= 1.0;
+    }
+    if player.done >= 1.0 && player.leg + 1 >= legs {
+        (player.done, player.playing) = (1.0, false);
     }
     vec![Effect::Show]
 }
 
-/// Moves the animation by a share of a leg, from leg to leg.
+/// Moves the animation by a share of a leg; on its way to another leg it stops between the two.
 fn advance(player: &mut Player, share: f64, legs: usize) {
     player.done += share;
     if player.done > 1.0 && player.leg + 1 < legs {
