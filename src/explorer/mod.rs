@@ -29,4 +29,4 @@ mod writing;
 
 pub use screen::{FrameBytes, Screen};
 pub use session::{Draw, Left, Options, open, open_with};
-pub use writing::{picture_of, svg_of};
+pub use writing::{picture_of, svg_of, write};

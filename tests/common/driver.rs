@@ -7,6 +7,7 @@ use asperity::explorer::snapshot::Loop;
 use asperity::explorer::theme::{Appearance, Marker, Theme};
 use asperity::explorer::update::{Effect, moment_request};
 use asperity::explorer::worker::{self, Engine, Newest, Report, Request, Worker};
+use asperity::explorer::write;
 use asperity::scene::{Document, Library};
 use asperity::simulation::{Simulation, Timings};
 use std::collections::BTreeMap;
@@ -91,6 +92,10 @@ impl Driver {
             Effect::DrawSeed => vec![Action::SetSeed(self.seed)],
             Effect::Write { path, .. } if path.ends_with(REFUSED) => {
                 vec![Action::Written(Err(WriteFailure::Refused("no room".to_owned())))]
+            }
+            // A file with a whole path is one on disk.
+            Effect::Write { path, content, overwrite } if path.is_absolute() => {
+                vec![Action::Written(write(&self.model, path, content, overwrite))]
             }
             Effect::Write { path, content, overwrite } => {
                 let result = if self.files.contains_key(&path) && !overwrite {

@@ -4,6 +4,7 @@
 use super::driver::Driver;
 use asperity::explorer::action::Action;
 use asperity::explorer::keys;
+use asperity::explorer::layout::Layout;
 use asperity::explorer::model::Model;
 use asperity::explorer::update::{Effect, update};
 use asperity::explorer::view;
@@ -100,6 +101,12 @@ impl Driver {
     /// The screen as one text.
     pub fn text(&self) -> String {
         self.rows().join("\n")
+    }
+
+    /// The row below the panes.
+    pub fn status(&self) -> String {
+        let row = Layout::of(&self.model).status.y;
+        self.rows()[usize::from(row)].clone()
     }
 }
 

@@ -1,0 +1,171 @@
+//! What stands around the panes: title, status, footer; and the help.
+
+use super::common::deadline::within;
+use super::common::driver::Driver;
+use super::common::scenes::{punch, rough, smooth};
+use super::{SIZES, default_scene, everywhere, mid_retraction, pressed};
+use asperity::explorer::action::Command;
+use asperity::explorer::keys::{self, BINDINGS};
+use asperity::explorer::layout::Layout;
+use asperity::explorer::model::{Mode, ModeKind};
+use asperity::scene::format_quantity;
+
+#[test]
+fn an_unfinished_scene_says_that_it_computes() {
+    within(30, || {
+        let driver = Driver::open(rough());
+        assert!(driver.text().contains("computing"), "{}", driver.text());
+        // Later the old curve stays until the new one is there.
+        let mut driver = pressed("");
+        let document = driver.model.document.set("roughness.seed", "2").unwrap();
+        let before = driver.text();
+        driver.model.document = document;
+        driver.model.generation += 1;
+        driver.model.progress = Some(0);
+        let text = driver.text();
+        assert!(text.contains("computing") && !before.contains("computing"), "{text}");
+        let curve = |text: &str| text.chars().filter(|c| ('\u{2801}'..='\u{28ff}').contains(c)).count();
+        assert!(2 * curve(&text) > curve(&before), "{text}");
+    });
+}
+
+#[test]
+fn the_headline_is_that_of_the_computed_curve() {
+    within(60, || {
+        for document in [default_scene(), rough(), smooth(), punch()] {
+            let mut driver = mid_retraction(document);
+            let outcome = driver.model.computed.clone().unwrap().outcome.clone();
+            let force = format_quantity(outcome.figures.adhesion_force.unwrap(), "N");
+            for size in &SIZES[..4] {
+                driver.resize(*size);
+                assert!(driver.text().contains(&format!("F_a {force}")), "{size:?}: {}", driver.text());
+            }
+            driver.resize(SIZES[0]);
+            let point = driver.model.moment.as_ref().unwrap().point;
+            for number in [format_quantity(point.force, "N"), point.springs.to_string()] {
+                assert!(driver.text().contains(&number), "{number}: {}", driver.text());
+            }
+            assert!(driver.text().contains(outcome.regime.unwrap().name()), "{}", driver.text());
+        }
+    });
+}
+
+/// The keys that the footer shows, each with its word.
+fn footer(driver: &Driver) -> Vec<String> {
+    let area = Layout::of(&driver.model).footer.expect("there is a footer");
+    let row = &driver.rows()[usize::from(area.y)];
+    row.split("  ").map(|one| one.trim().to_owned()).filter(|one| !one.is_empty()).collect()
+}
+
+#[test]
+fn the_footer_shows_keys_of_the_table_that_are_valid_now() {
+    within(30, || {
+        for mut driver in everywhere() {
+            let mode = driver.model.mode.kind();
+            let known: Vec<String> = keys::valid_in(mode)
+                .filter(|row| !row.label.is_empty())
+                .map(|row| format!("{} {}", row.keys[0].name(), row.label))
+                .collect();
+            for size in [(200, 40), (120, 40), (80, 24), (40, 12), (20, 6)] {
+                driver.resize(size);
+                let shown = footer(&driver);
+                assert!(!shown.is_empty(), "{mode:?} {size:?}");
+                assert!(shown.iter().all(|one| known.contains(one)), "{shown:?} {known:?}");
+                if mode == ModeKind::Explore {
+                    assert!(shown.iter().any(|one| one.contains("help")), "{size:?}: {shown:?}");
+                    assert!(shown.iter().any(|one| one.contains("quit")), "{size:?}: {shown:?}");
+                }
+                if size.0 == 200 {
+                    assert_eq!(shown.len(), known.len(), "{mode:?}: {shown:?}");
+                }
+            }
+        }
+    });
+}
+
+#[test]
+fn each_mode_has_its_own_footer() {
+    within(30, || {
+        let mut seen = Vec::new();
+        for keys in ["", "?", "e", "s Enter s Enter", "l q"] {
+            let shown = footer(&pressed(keys));
+            assert!(!seen.contains(&shown), "{shown:?}");
+            seen.push(shown);
+        }
+        assert_eq!(footer(&pressed("e")), footer(&pressed("s")), "both are lines that are typed");
+    });
+}
+
+/// All that the help says, scrolled to its end.
+fn help(size: (u16, u16)) -> Vec<String> {
+    let mut driver = pressed("");
+    driver.resize(size);
+    driver.press("?");
+    let mut seen: Vec<String> = Vec::new();
+    let mut before = Vec::new();
+    while driver.rows() != before {
+        before = driver.rows();
+        seen.extend(driver.rows());
+        driver.press("j");
+    }
+    seen
+}
+
+#[test]
+fn the_help_lists_every_binding() {
+    within(60, || {
+        for size in [(120, 40), (120, 10)] {
+            let lines = help(size);
+            for row in BINDINGS.iter().filter(|row| !row.help.is_empty()) {
+                let keys: Vec<String> = row.keys.iter().map(keys::Key::name).collect();
+                let listed = lines.iter().any(|line| {
+                    line.contains(row.help) && keys.iter().all(|key| line.contains(key.as_str()))
+                });
+                assert!(listed, "{keys:?}: {}\n{}", row.help, lines.join("\n"));
+            }
+            for section in BINDINGS.iter().map(|row| row.section) {
+                assert!(lines.iter().any(|line| line.contains(section)), "{section}");
+            }
+        }
+        // Those without a line of their own are spoken of in one beside them.
+        let silent: Vec<Command> =
+            BINDINGS.iter().filter(|row| row.help.is_empty()).map(|row| row.command).collect();
+        assert_eq!(silent, (1..9).map(Command::Preset).collect::<Vec<_>>());
+    });
+}
+
+#[test]
+fn the_help_loses_no_word_in_a_narrow_window() {
+    within(60, || {
+        let words = |lines: Vec<String>| -> Vec<String> {
+            let clean = |word: &str| word.trim_matches(['│', '─', '┌', '┐', '└', '┘']).to_owned();
+            let inside = lines.iter().filter(|line| line.starts_with('│'));
+            inside.flat_map(|line| line.split_whitespace()).map(clean).collect()
+        };
+        let narrow = words(help((80, 24)));
+        for word in words(help((160, 40))) {
+            assert!(narrow.contains(&word), "{word} is not to be read");
+        }
+    });
+}
+
+#[test]
+fn the_help_scrolls_to_its_end_and_no_further() {
+    within(30, || {
+        let mut driver = pressed("");
+        driver.resize((80, 24));
+        driver.press("?");
+        let top = driver.text();
+        driver.press("k");
+        assert_eq!(driver.text(), top);
+        (0..200).for_each(|_| drop(driver.press("j")));
+        let end = driver.text();
+        assert!(end != top && end.contains("stay"), "{end}");
+        driver.press("k");
+        assert_ne!(driver.text(), end, "one step up is one step up");
+        (0..200).for_each(|_| drop(driver.press("k")));
+        assert_eq!(driver.text(), top);
+        driver.press("Esc");
+        assert_eq!(driver.model.mode, Mode::Explore);
+    });
+}

@@ -1,0 +1,140 @@
+//! Loops kept as ghosts beside the present one.
+
+use super::common::deadline::within;
+use super::common::driver::Driver;
+use super::common::scenes::rough;
+use super::{is_up_to_date, pressed};
+use asperity::explorer::model::Notice;
+use asperity::explorer::snapshot::Loop;
+use asperity::scene::Document;
+use asperity::simulation::Outcome;
+
+/// The scenes of the ghosts, the newest last.
+fn kept(driver: &Driver) -> Vec<Document> {
+    driver.model.ghosts.iter().map(|ghost| ghost.document.clone()).collect()
+}
+
+/// What was computed for the scene.
+fn outcome(driver: &Driver) -> Outcome {
+    driver.model.computed.as_deref().map(|Loop { outcome, .. }| outcome.clone()).unwrap()
+}
+
+fn told(driver: &Driver) -> String {
+    match &driver.model.notice {
+        Some(Notice::Done(text) | Notice::Error(text)) => text.clone(),
+        None => String::new(),
+    }
+}
+
+#[test]
+fn ghosts_have_letters_and_say_where_they_differ() {
+    within(30, || {
+        let mut driver = pressed("c");
+        assert!(told(&driver).contains("x exchanges"), "{}", told(&driver));
+        assert!(driver.text().contains("A the same scene"), "{}", driver.text());
+        driver.press("L");
+        assert!(driver.text().contains("A H 0.7"), "{}", driver.text());
+        driver.press("c");
+        driver.select("adhesion.kappa");
+        driver.enter("4");
+        driver.select("loading");
+        driver.press("j");
+        driver.enter("10 µN");
+        let text = driver.text();
+        for said in ["A H 0.7, κ 8, leg 1 F 20 µN", "B κ 8, leg 1 F 20 µN"] {
+            assert!(text.contains(said), "{said}\n{text}");
+        }
+        driver.select("loading");
+        driver.enter("[ToForce(1.0e-5), ToIndentation(0.0)]");
+        let text = driver.text();
+        assert!(text.contains("B κ 8, loading [ToForce(2.0e-5), ToSeparation]"), "{text}");
+        driver.press("u");
+        // The letters stand in the plot too.
+        driver.press("z");
+        let plot = driver.rows()[8..36].join("\n");
+        for letter in ['A', 'B'] {
+            assert_eq!(plot.matches(letter).count(), 1, "{letter}\n{}", driver.text());
+        }
+        driver.press("C");
+        assert!(driver.model.ghosts.is_empty());
+        assert!(!driver.text().contains("κ 8"), "{}", driver.text());
+    });
+}
+
+#[test]
+fn the_plot_has_room_for_its_ghosts() {
+    within(30, || {
+        let mut driver = pressed("");
+        driver.select("loading");
+        driver.press("j c");
+        driver.enter("2 µN");
+        let high = |driver: &Driver| driver.text().contains("21.6 µN");
+        assert!(high(&driver), "the larger loop is seen as well: {}", driver.text());
+        driver.press("C");
+        assert!(!high(&driver), "{}", driver.text());
+    });
+}
+
+#[test]
+fn one_loop_is_kept_once_and_eight_at_most() {
+    within(60, || {
+        let mut driver = pressed("c c");
+        assert_eq!(driver.model.ghosts.len(), 1);
+        assert!(told(&driver).contains("kept already"), "{}", told(&driver));
+        // Also when it was left meanwhile.
+        driver.press("l c h c");
+        assert_eq!(driver.model.ghosts.len(), 2);
+        driver.press("C");
+        let mut scenes = Vec::new();
+        for _ in 0..10 {
+            driver.press("l c");
+            scenes.push(driver.model.document.clone());
+        }
+        assert_eq!(kept(&driver), scenes[2..], "the oldest are let go");
+        driver.screen();
+    });
+}
+
+#[test]
+fn two_exchanges_are_none() {
+    within(30, || {
+        let mut driver = pressed("c L");
+        driver.select("adhesion.kappa");
+        driver.press("c L L");
+        let (document, ghosts, computed) = (driver.model.document.clone(), kept(&driver), outcome(&driver));
+        driver.press("x");
+        assert_eq!(driver.model.document, ghosts[1]);
+        assert_eq!(kept(&driver), [ghosts[0].clone(), document.clone()]);
+        assert!(is_up_to_date(&driver.model));
+        assert_ne!(outcome(&driver).history, computed.history);
+        driver.press("x");
+        assert_eq!(driver.model.document, document);
+        assert_eq!(kept(&driver), ghosts);
+        assert_eq!(outcome(&driver).history, computed.history);
+        // An exchange is taken back like any other edit, and the ghosts stay.
+        driver.press("x u");
+        assert_eq!(driver.model.document, document);
+        assert_eq!(outcome(&driver).history, computed.history);
+        assert_eq!(driver.model.ghosts.len(), 2);
+        driver.press("U");
+        assert_eq!(driver.model.document, ghosts[1]);
+    });
+}
+
+#[test]
+fn what_cannot_be_kept_or_exchanged_says_why() {
+    within(30, || {
+        let mut driver = Driver::open(rough());
+        driver.press("c");
+        assert!(driver.model.ghosts.is_empty() && told(&driver).contains("no curve yet"));
+        let mut driver = pressed("");
+        let before = driver.model.document.clone();
+        driver.press("x");
+        assert!(told(&driver).contains("nothing to exchange"), "{}", told(&driver));
+        assert_eq!(driver.model.document, before);
+        driver.select("loading");
+        driver.enter("[ToForce(2.0e-5), ToForce(-1.0)]");
+        driver.press("c");
+        assert!(driver.model.ghosts.is_empty(), "a scene that failed has no loop");
+    });
+}

@@ -1,0 +1,225 @@
+//! Edits of the scene by keys, taken back and done again.
+
+use super::common::deadline::within;
+use super::common::driver::Driver;
+use super::common::scenes::{rough, smooth};
+use super::{SIZES, is_up_to_date, mid_retraction, pressed};
+use asperity::explorer::layout::Layout;
+use asperity::explorer::model::{Notice, Pane};
+use asperity::explorer::update::Effect;
+use asperity::scene::presets;
+
+#[test]
+fn keys_step_a_value_finely_and_coarsely() {
+    within(30, || {
+        let mut driver = pressed("");
+        driver.select("roughness.hurst");
+        let mut hurst = |keys: &str| {
+            driver.press(keys);
+            assert!(is_up_to_date(&driver.model));
+            driver.model.document.value("roughness.hurst").unwrap().to_owned()
+        };
+        for (keys, value) in [
+            ("l", "0.71"),
+            ("Right", "0.72"),
+            ("h", "0.71"),
+            ("Left", "0.7"),
+            ("L", "0.8"),
+            ("Shift+Right", "0.9"),
+            ("H", "0.8"),
+            ("Shift+Left", "0.7"),
+            ("l l l h", "0.72"),
+        ] {
+            assert_eq!(hurst(keys), value, "{keys}");
+        }
+    });
+}
+
+#[test]
+fn a_step_beyond_the_range_says_what_is_allowed() {
+    within(30, || {
+        let mut driver = pressed("");
+        driver.select("material.poisson_ratio");
+        let before = driver.model.document.clone();
+        assert!(driver.press("l").is_empty());
+        assert_eq!(driver.model.document, before);
+        assert!(driver.text().contains("0.5"), "{}", driver.text());
+        let (row, error) = driver.model.refused.clone().expect("it is refused");
+        assert_eq!(row, driver.model.selected);
+        assert!(error.contains("allowed"), "{error}");
+    });
+}
+
+#[test]
+fn edits_are_taken_back_and_done_again() {
+    within(30, || {
+        let mut driver = pressed("");
+        let mut texts = vec![driver.model.document.text().to_owned()];
+        let first = driver.model.computed.clone().unwrap().outcome.figures;
+        driver.select("roughness.hurst");
+        for keys in ["l", "L", "h"] {
+            driver.press(keys);
+            texts.push(driver.model.document.text().to_owned());
+        }
+        let last = driver.model.computed.clone().unwrap().outcome.figures;
+        assert_ne!(first, last);
+        for text in texts.iter().rev().skip(1) {
+            driver.press("u");
+            assert_eq!(driver.model.document.text(), text);
+            assert!(is_up_to_date(&driver.model));
+        }
+        assert!(!driver.model.is_unsaved());
+        assert_eq!(driver.model.computed.clone().unwrap().outcome.figures, first);
+        driver.press("u");
+        assert_eq!(driver.model.document.text(), texts[0], "there is no more to take back");
+        for (text, key) in texts.iter().skip(1).zip(["U", "Ctrl+r", "U"]) {
+            driver.press(key);
+            assert_eq!(driver.model.document.text(), text);
+        }
+        assert_eq!(driver.model.computed.clone().unwrap().outcome.figures, last);
+        // A new edit leaves nothing to do again.
+        driver.press("u l");
+        let text = driver.model.document.text().to_owned();
+        driver.press("U");
+        assert_eq!(driver.model.document.text(), text);
+        // A refused value is no edit.
+        driver.enter("7");
+        driver.press("u");
+        assert_eq!(driver.model.document.text(), texts[2]);
+    });
+}
+
+#[test]
+fn number_keys_open_the_built_in_scenes() {
+    within(60, || {
+        let mut driver = Driver::start(rough());
+        for (index, preset) in presets().iter().take(9).enumerate() {
+            driver.press(&(index + 1).to_string());
+            assert_eq!(driver.model.document.text(), preset.text, "{}", preset.name);
+            assert!(is_up_to_date(&driver.model));
+            let title = &driver.model.document.scene().title;
+            assert!(driver.rows()[0].contains(title.as_str()), "{title}: {}", driver.text());
+            assert!(!driver.model.is_unsaved());
+            assert!(
+                driver.model.player.playing && driver.model.player.done == 0.0,
+                "it plays from its start"
+            );
+        }
+    });
+}
+
+#[test]
+fn a_built_in_scene_can_be_taken_back_like_any_edit() {
+    within(30, || {
+        let mut driver = Driver::start(rough());
+        driver.select("roughness.hurst");
+        driver.press("l");
+        let text = driver.model.document.text().to_owned();
+        driver.press("4");
+        assert!(matches!(driver.model.notice, Some(Notice::Done(_))), "it is told that the change is kept");
+        driver.press("u");
+        assert_eq!(driver.model.document.text(), text);
+        assert!(driver.model.is_unsaved());
+        driver.press("u");
+        assert_eq!(driver.model.document.text(), rough().text());
+        assert!(!driver.model.is_unsaved(), "the scene is as it was opened");
+        driver.press("q");
+        assert!(driver.model.finished);
+    });
+}
+
+#[test]
+fn reseeding_gives_another_line_that_can_be_told() {
+    within(30, || {
+        let mut driver = pressed("");
+        let before = driver.model.computed.clone().unwrap();
+        driver.seed = 123_456;
+        driver.select("roughness.seed");
+        assert_eq!(driver.press("R"), [Effect::DrawSeed]);
+        assert!(driver.model.document.text().contains("seed: 123456"));
+        assert!(driver.text().contains("123456"), "{}", driver.text());
+        assert!(is_up_to_date(&driver.model));
+        assert_ne!(driver.model.computed.clone().unwrap().outcome.history, before.outcome.history);
+        driver.press("u");
+        assert_eq!(driver.model.computed.clone().unwrap().outcome.history, before.outcome.history);
+    });
+}
+
+#[test]
+fn a_smooth_scene_has_no_line_to_draw_anew() {
+    within(30, || {
+        let mut driver = mid_retraction(smooth());
+        let before = driver.model.document.clone();
+        driver.press("R");
+        assert_eq!(driver.model.document, before);
+        assert!(is_up_to_date(&driver.model));
+        // No other field is to blame for that.
+        assert_eq!(driver.model.refused, None);
+        let status = Layout::of(&driver.model).status;
+        let said = driver.rows()[usize::from(status.y)].clone();
+        assert!(said.contains("no random line"), "{said}");
+    });
+}
+
+#[test]
+fn the_selection_stays_on_its_field_when_rows_come_and_go() {
+    within(30, || {
+        let mut driver = pressed("");
+        driver.select("numerics.samples");
+        let path = |driver: &Driver| driver.model.parameter().unwrap().field.path;
+        let rows = |driver: &Driver| driver.model.parameters.len();
+        let before = rows(&driver);
+        for (field, value) in [("form", "Cone(angle: 0.1)"), ("adhesion", "None"), ("roughness", "None")] {
+            let count = rows(&driver);
+            driver.select(field);
+            driver.enter(value);
+            assert_ne!(rows(&driver), count, "{field}");
+            assert_eq!(path(&driver), field);
+        }
+        driver.select("numerics.samples");
+        driver.press("u");
+        assert_eq!(path(&driver), "numerics.samples");
+        driver.press("u u");
+        assert_eq!((path(&driver), rows(&driver)), ("numerics.samples", before));
+        driver.press("1");
+        assert_eq!(path(&driver), "numerics.samples");
+    });
+}
+
+#[test]
+fn a_field_that_goes_leaves_another_one_selected() {
+    within(30, || {
+        let mut driver = pressed("");
+        driver.select("roughness.seed");
+        driver.press("7");
+        assert!(driver.model.document.scene().roughness.is_none(), "the seventh scene is smooth");
+        assert!(driver.model.selected < driver.model.parameters.len());
+        let marked = driver.rows().iter().filter(|row| row.contains('›')).count();
+        assert_eq!(marked, 1, "{}", driver.text());
+    });
+}
+
+#[test]
+fn the_selection_stays_in_the_list() {
+    within(30, || {
+        let mut driver = pressed("");
+        driver.press("g k Up");
+        assert_eq!(driver.model.selected, 0);
+        driver.press("G j Down");
+        assert_eq!(driver.model.selected, driver.model.parameters.len() - 1);
+        for size in SIZES {
+            driver.resize(size);
+            driver.model.pane = Pane::Parameters;
+            for _ in 0..driver.model.parameters.len() {
+                let name: String = driver.model.parameter().unwrap().name().chars().take(8).collect();
+                assert!(
+                    driver.rows().iter().any(|row| row.contains('›') && row.contains(&name)),
+                    "{}",
+                    driver.text()
+                );
+                driver.press("k");
+            }
+            driver.press("End");
+        }
+    });
+}

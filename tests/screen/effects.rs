@@ -1,0 +1,194 @@
+//! Effects switched on and off, and the two ways of giving adhesion.
+
+use super::common::deadline::within;
+use super::common::driver::Driver;
+use super::common::scenes::{changed, one_spring, rough, smooth};
+use super::{generation, is_up_to_date, pressed};
+use asperity::scene::Effect;
+
+/// Selects a row by its path.
+fn select(driver: &mut Driver, path: &str) {
+    driver.press("g");
+    while driver.model.parameter().is_some_and(|parameter| parameter.path != path) {
+        let before = driver.model.selected;
+        driver.press("j");
+        assert_ne!(driver.model.selected, before, "no row {path}");
+    }
+}
+
+/// The row that is selected, as it is read.
+fn row(driver: &Driver) -> String {
+    driver.rows().iter().find(|row| row.contains('›')).cloned().unwrap_or_default()
+}
+
+fn is_on(driver: &Driver, effect: Effect) -> bool {
+    effect.is_on(driver.model.document.scene())
+}
+
+/// The scene with every effect, none of them as a switch would make it.
+fn full() -> Driver {
+    let fields = [
+        ("form", "Cone(angle: 0.01)"),
+        ("adhesion", "(kappa: 3.0)"),
+        ("loading", "[ToForce(1.0e-5), ToZeroForce, ToForce(2.0e-5), ToSeparation]"),
+        ("observe", "[Fragments, HeightHistogram]"),
+    ];
+    Driver::start(changed(&rough(), &fields))
+}
+
+const ROWS: [(&str, Effect); 6] = [
+    ("form", Effect::Form),
+    ("roughness", Effect::Roughness),
+    ("adhesion", Effect::Adhesion),
+    ("loading", Effect::Unloading),
+    ("observe.contact fragments", Effect::Fragments),
+    ("observe.height histogram", Effect::HeightHistogram),
+];
+
+#[test]
+fn an_effect_goes_and_comes_back_as_it_was() {
+    within(60, || {
+        for (path, effect) in ROWS {
+            let mut driver = full();
+            let before = driver.model.document.clone();
+            select(&mut driver, path);
+            assert!(is_on(&driver, effect) && row(&driver).contains('●'), "{path}: {}", row(&driver));
+            driver.press("t");
+            assert!(!is_on(&driver, effect) && is_up_to_date(&driver.model), "{path}");
+            assert!(row(&driver).contains('○'), "{path}: {}", row(&driver));
+            assert_eq!(driver.model.parameter().unwrap().path, path, "its row stays selected");
+            driver.press("t");
+            assert!(is_on(&driver, effect) && is_up_to_date(&driver.model), "{path}");
+            assert_eq!(driver.model.document.scene(), before.scene(), "{path}");
+            driver.press("u u");
+            assert_eq!(driver.model.document, before, "{path}");
+        }
+    });
+}
+
+#[test]
+fn an_effect_that_never_was_comes_as_it_suits() {
+    within(60, || {
+        let bare =
+            [("form", "None"), ("adhesion", "None"), ("roughness", "None"), ("loading", "[ToForce(1.0e-5)]")];
+        for (path, effect) in ROWS {
+            let mut driver = Driver::start(changed(&rough(), &bare));
+            select(&mut driver, path);
+            assert!(!is_on(&driver, effect) && row(&driver).contains('○'), "{path}: {}", row(&driver));
+            // Enter and steps do the same for a switch.
+            driver.press(if path.starts_with("observe") { "Enter" } else { "t" });
+            assert!(is_on(&driver, effect), "{path}");
+            assert!(is_up_to_date(&driver.model), "{path}: {:?}", driver.model.notice);
+        }
+    });
+}
+
+#[test]
+fn a_switch_that_cannot_be_made_says_why() {
+    within(30, || {
+        let mut driver = Driver::start(one_spring());
+        let before = driver.model.document.clone();
+        select(&mut driver, "roughness");
+        driver.press("t");
+        assert_eq!(driver.model.document, before);
+        let (_, why) = driver.model.refused.clone().expect("it is refused");
+        assert!(!why.is_empty() && driver.status().starts_with("! "), "{why}: {}", driver.status());
+        // Rows that belong to no effect have none to switch.
+        let mut driver = pressed("");
+        for path in ["length", "numerics.points", "material"] {
+            let of_before = generation(&driver);
+            select(&mut driver, path);
+            driver.press("t");
+            assert_eq!(generation(&driver), of_before);
+            assert!(driver.text().contains("no effect to switch"), "{path}: {}", driver.text());
+        }
+        // What belongs to an effect switches it.
+        select(&mut driver, "roughness.hurst");
+        driver.press("t");
+        assert!(!is_on(&driver, Effect::Roughness));
+    });
+}
+
+#[test]
+fn without_roughness_the_same_adhesion_is_left() {
+    within(30, || {
+        let mut driver = pressed("");
+        let work = driver.model.computed.as_ref().unwrap().outcome.governing.work_of_adhesion.unwrap();
+        select(&mut driver, "roughness");
+        driver.press("t");
+        let left = driver.model.document.scene().adhesion.unwrap();
+        assert_eq!((left.kappa, left.work), (None, Some(work)));
+    });
+}
+
+/// κ and γ of the scene as it was computed, and γ as eq. (11) gives it: h⟨∇z⟩E*/κ².
+fn governing(driver: &Driver) -> (f64, f64, f64) {
+    assert!(is_up_to_date(&driver.model), "{:?}", driver.model.notice);
+    let governing = driver.model.computed.as_ref().unwrap().outcome.governing;
+    let amplitude = governing.amplitude.unwrap();
+    let (kappa, work) = (governing.kappa.unwrap(), governing.work_of_adhesion.unwrap());
+    let stiffness = amplitude.rms_height * amplitude.rms_gradient * governing.effective_modulus;
+    (kappa, work, stiffness / kappa.powi(2))
+}
+
+fn near(one: f64, other: f64) -> bool {
+    (one / other - 1.0).abs() < 1e-12
+}
+
+#[test]
+fn kappa_is_solved_for_where_the_scene_gives_the_work() {
+    within(30, || {
+        let mut driver = Driver::start(changed(&rough(), &[("adhesion", "(work: 0.05)")]));
+        let (kappa, work, expected) = governing(&driver);
+        assert!(work == 0.05 && near(work, expected));
+        select(&mut driver, "adhesion.kappa");
+        assert!(row(&driver).contains("= "), "it follows from the work: {}", row(&driver));
+        driver.enter("2.8");
+        let (kappa_now, work_now, expected) = governing(&driver);
+        assert!(near(kappa_now, 2.8) && near(work_now, expected), "{kappa_now} {work_now}");
+        assert!(near(work_now, work * (kappa / 2.8).powi(2)));
+        let adhesion = driver.model.document.scene().adhesion.unwrap();
+        assert_eq!((adhesion.work, adhesion.kappa), (Some(work_now), None), "the scene still gives γ");
+        // Steps start from the value that follows.
+        driver.press("l");
+        assert!(near(governing(&driver).0, 3.15));
+        driver.press("h");
+        assert!(near(governing(&driver).0, 2.8), "{}", governing(&driver).0);
+    });
+}
+
+#[test]
+fn a_scene_that_gives_kappa_may_be_told_the_work() {
+    within(30, || {
+        let mut driver = pressed("");
+        let (kappa, work, expected) = governing(&driver);
+        assert!(kappa == 8.0 && near(work, expected));
+        select(&mut driver, "adhesion.work");
+        assert!(row(&driver).contains("= "), "it follows from κ: {}", row(&driver));
+        driver.enter("20 mJ/m²");
+        let (kappa, work, expected) = governing(&driver);
+        assert!(work == 0.02 && near(work, expected), "{kappa} {work} {expected}");
+        let adhesion = driver.model.document.scene().adhesion.unwrap();
+        assert_eq!((adhesion.work, adhesion.kappa), (Some(0.02), None), "now the scene gives γ");
+        driver.press("u");
+        assert_eq!(governing(&driver).0, 8.0);
+        for (path, typed) in [("adhesion.work", "-1"), ("adhesion.kappa", "0"), ("adhesion.kappa", "much")] {
+            select(&mut driver, path);
+            driver.enter(typed);
+            assert!(driver.model.refused.is_some(), "{path} {typed}");
+            assert_eq!(governing(&driver).0, 8.0);
+        }
+    });
+}
+
+#[test]
+fn kappa_says_nothing_of_a_smooth_body() {
+    within(30, || {
+        let mut driver = Driver::start(smooth());
+        let before = driver.model.document.clone();
+        select(&mut driver, "adhesion.kappa");
+        driver.enter("3");
+        assert_eq!(driver.model.document, before);
+        assert!(driver.text().contains("without roughness"), "{}", driver.text());
+    });
+}

@@ -1,0 +1,117 @@
+//! What fails, comes too late or panics.
+
+use super::common::deadline::within;
+use super::common::driver::Driver;
+use super::common::scenes::rough;
+use super::{generation, is_up_to_date, pressed};
+use asperity::contact::{ContactError, ContactTree};
+use asperity::explorer::action::Action;
+use asperity::explorer::update::Effect;
+use asperity::explorer::worker::Engine;
+use asperity::scene::Scene;
+use asperity::simulation::{AfterLeg, Outcome, RunError, Simulation};
+use asperity::surface::Line;
+use std::sync::Arc;
+
+#[test]
+fn reports_of_another_scene_change_nothing() {
+    within(30, || {
+        let mut driver = pressed("");
+        let (computed, moment) =
+            (driver.model.computed.clone().unwrap(), driver.model.moment.clone().unwrap());
+        driver.select("roughness.hurst");
+        driver.press("l");
+        let screen = driver.screen();
+        let generation = computed.generation;
+        for action in [
+            Action::Computed(computed),
+            Action::Shown(moment),
+            Action::Progress { generation, legs: 1 },
+            Action::Failed { generation, error: "old".to_owned() },
+        ] {
+            assert!(driver.act(action).is_empty());
+            assert_eq!(driver.screen(), screen);
+        }
+    });
+}
+
+#[test]
+fn a_scene_that_fails_is_told_and_the_next_edit_mends_it() {
+    within(30, || {
+        let mut driver = pressed("");
+        driver.select("loading");
+        driver.enter("[ToForce(2.0e-5), ToForce(-1.0)]");
+        assert!(!driver.model.is_computing());
+        let text = driver.text();
+        assert!(text.contains("the contact lets go before that force"), "{text}");
+        // Its numbers are not those of the scene any more.
+        assert!(!text.contains("F_a "), "{text}");
+        for keys in ["j", "k", ". .", "Tab", "n", "+"] {
+            driver.press(keys);
+        }
+        assert!(driver.text().contains("the contact lets go before that force"), "{}", driver.text());
+        driver.press("u");
+        let text = driver.text();
+        assert!(text.contains("F_a ") && !text.contains("lets go before"), "{text}");
+        assert!(is_up_to_date(&driver.model));
+    });
+}
+
+/// An engine that panics on the seed 13.
+struct Superstitious(Simulation);
+
+impl Engine for Superstitious {
+    fn run(
+        &mut self,
+        scene: &Scene,
+        stop: &dyn Fn() -> bool,
+        after: &mut AfterLeg<'_>,
+    ) -> Result<Outcome, RunError> {
+        let unlucky = format!("{:?}", scene.roughness).contains("seed: 13 ");
+        assert!(!unlucky, "thirteen");
+        self.0.run(scene, stop, after)
+    }
+
+    fn line(&self) -> Option<&Line> {
+        self.0.line()
+    }
+
+    fn tree(&self) -> Option<&Arc<ContactTree>> {
+        self.0.tree()
+    }
+}
+
+#[test]
+fn a_panic_of_the_worker_is_a_line_and_the_explorer_goes_on() {
+    within(30, || {
+        let mut driver = Driver::open_with(rough(), Box::new(Superstitious(Simulation::default())));
+        driver.perform(vec![Effect::Compute]);
+        driver.select("roughness.seed");
+        driver.enter("13");
+        assert!(
+            driver.text().contains("internal error") && driver.text().contains("thirteen"),
+            "{}",
+            driver.text()
+        );
+        for keys in [". ,", "n p f", "z z", "Tab", "Space", "r"] {
+            driver.press(keys);
+            driver.elapse(0.1);
+            driver.screen();
+        }
+        driver.enter("14");
+        assert!(is_up_to_date(&driver.model));
+        assert!(driver.text().contains("F_a "), "{}", driver.text());
+    });
+}
+
+#[test]
+fn an_interrupted_run_is_no_failure() {
+    assert!(RunError::from(ContactError::Interrupted).is_interruption());
+    within(30, || {
+        let mut driver = pressed("");
+        let of_before = generation(&driver);
+        driver.press("l l l");
+        assert_eq!(generation(&driver), of_before + 3);
+        assert!(driver.model.notice.is_none());
+    });
+}

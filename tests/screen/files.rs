@@ -1,0 +1,275 @@
+//! Exports and the command that opens the scene.
+
+use super::common::deadline::within;
+use super::common::driver::Driver;
+use super::common::scenes::rough;
+use super::pressed;
+use asperity::explorer::action::Content;
+use asperity::explorer::model::Mode;
+use asperity::explorer::theme::{Marker, Theme};
+use asperity::explorer::update::Effect;
+use asperity::explorer::{picture, svg_of};
+use asperity::export::{write_curve, write_json};
+use asperity::scene::{Document, open, presets};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// Exports to a file and gives what was asked for.
+fn export(driver: &mut Driver, path: &Path) -> Vec<Effect> {
+    driver.press("E Ctrl+u");
+    driver.type_text(&path.display().to_string());
+    driver.press("Enter")
+}
+
+/// Exports to a file of this name in a folder of its own, and reads it.
+fn exported(driver: &mut Driver, name: &str) -> String {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join(name);
+    export(driver, &path);
+    assert!(driver.status().starts_with("exported to "), "{}", driver.status());
+    fs::read_to_string(path).unwrap()
+}
+
+#[test]
+fn the_ending_of_a_name_tells_what_is_exported() {
+    within(30, || {
+        for (name, content) in [
+            ("a.csv", Content::Curve),
+            ("folder/b.JSON", Content::Outcome),
+            ("c.d.svg", Content::Picture),
+            ("e.txt", Content::Text),
+        ] {
+            let mut driver = pressed("");
+            let effects = export(&mut driver, Path::new(name));
+            assert_eq!(effects, [Effect::Write { path: PathBuf::from(name), content, overwrite: false }]);
+            assert_eq!(driver.model.mode, Mode::Explore);
+            assert!(driver.status().contains(&format!("exported to {name}")), "{}", driver.status());
+            assert!(!driver.model.is_unsaved() && !driver.model.finished);
+        }
+        for name in ["a", "a.ron", "csv", "a.csv.gz", "a.png"] {
+            let mut driver = pressed("");
+            assert!(export(&mut driver, Path::new(name)).is_empty(), "{name}");
+            assert!(driver.files.is_empty());
+            let said = format!("{name}: the name must end in .csv, .json, .svg, .txt");
+            assert!(driver.status().contains(&said), "{}", driver.status());
+        }
+        // The name that is proposed is that of the scene.
+        let mut driver = pressed("");
+        driver.press("E Enter");
+        assert_eq!(driver.files.keys().collect::<Vec<_>>(), [Path::new("rough-line.csv")]);
+        assert!(pressed("E Ctrl+u Enter").files.is_empty(), "no name is no file");
+    });
+}
+
+#[test]
+fn a_file_that_is_there_is_asked_about() {
+    within(30, || {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("curve.csv");
+        fs::write(&path, "theirs").unwrap();
+        let mut driver = pressed("");
+        export(&mut driver, &path);
+        assert!(driver.status().contains("Overwrite it?"), "{}", driver.status());
+        driver.press("n");
+        assert_eq!(fs::read_to_string(&path).unwrap(), "theirs");
+        export(&mut driver, &path);
+        driver.press("y");
+        assert!(fs::read_to_string(&path).unwrap().starts_with("leg,indentation"));
+        assert_eq!(driver.model.mode, Mode::Explore);
+        // What the system refuses is told.
+        export(&mut driver, &folder.path().join("no/such/folder/a.csv"));
+        assert!(driver.status().starts_with("! not written"), "{}", driver.status());
+    });
+}
+
+#[test]
+fn the_curve_and_the_figures_are_those_of_the_command_line() {
+    within(30, || {
+        let mut driver = pressed("");
+        let outcome = driver.model.computed.as_ref().unwrap().outcome.clone();
+        let scene = driver.model.document.scene().clone();
+        let mut curve = Vec::new();
+        write_curve(&mut curve, &outcome).unwrap();
+        assert_eq!(exported(&mut driver, "a.csv").into_bytes(), curve);
+        let mut figures = Vec::new();
+        write_json(&mut figures, &scene, &outcome).unwrap();
+        assert_eq!(exported(&mut driver, "a.json").into_bytes(), figures);
+        assert!(serde_json::from_slice::<serde_json::Value>(&figures).is_ok());
+        // A scene that failed has neither, but may be seen.
+        driver.select("loading");
+        driver.enter("[ToForce(2.0e-5), ToForce(-1.0)]");
+        let folder = tempfile::tempdir().unwrap();
+        for name in ["b.csv", "b.json"] {
+            export(&mut driver, &folder.path().join(name));
+            assert!(driver.status().contains("no curve yet"), "{}", driver.status());
+        }
+        export(&mut driver, &folder.path().join("b.txt"));
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
+    });
+}
+
+#[test]
+fn the_text_is_the_screen_without_the_prompt() {
+    within(30, || {
+        for marker in [Marker::Braille, Marker::HalfBlock, Marker::Ascii] {
+            let mut driver = pressed("c L d { j");
+            driver.model.appearance.marker = marker;
+            let seen = picture::text(&driver.screen());
+            let written = exported(&mut driver, "a.txt");
+            assert_eq!(written, seen);
+            assert!(written.contains("Force F(d)") && !written.contains("Export to"));
+            assert_eq!(written.lines().count(), 40);
+            assert_eq!(marker == Marker::Ascii, written.is_ascii());
+        }
+    });
+}
+
+/// The elements of an XML text in their order, each closed where it is to be, and the text in it.
+fn elements(xml: &str) -> (Vec<String>, String) {
+    let (mut open, mut names, mut text) = (Vec::new(), Vec::new(), String::new());
+    let mut rest = xml;
+    while let Some((before, after)) = rest.split_once('<') {
+        assert!(!before.contains('>'), "{before}");
+        text += before;
+        let (tag, behind) = after.split_once('>').expect("tags end");
+        rest = behind;
+        if tag.starts_with('?') || tag.starts_with('!') {
+            continue;
+        }
+        assert_eq!(tag.matches('"').count() % 2, 0, "{tag}");
+        match tag.strip_prefix('/') {
+            Some(name) => assert_eq!(open.pop().as_deref(), Some(name)),
+            None => {
+                let name = tag.trim_end_matches('/').split_whitespace().next().unwrap().to_owned();
+                names.push(name.clone());
+                if !tag.ends_with('/') {
+                    open.push(name);
+                }
+            }
+        }
+    }
+    assert!(open.is_empty() && rest.trim().is_empty(), "{open:?} {rest}");
+    for reference in text.split('&').skip(1) {
+        let name = reference.split(';').next().unwrap();
+        assert!(["amp", "lt", "gt", "quot", "apos"].contains(&name) || name.starts_with('#'), "{name}");
+    }
+    (names, text)
+}
+
+#[test]
+fn the_picture_is_sound_and_shows_the_panes_without_the_prompt() {
+    within(60, || {
+        for (marker, theme) in [
+            (Marker::Braille, Theme::Neutral),
+            (Marker::HalfBlock, Theme::Dark),
+            (Marker::Octant, Theme::Light),
+            (Marker::Ascii, Theme::Plain),
+        ] {
+            let mut driver = pressed("c L");
+            driver.model.appearance.marker = marker;
+            driver.model.appearance.theme = theme;
+            let written = exported(&mut driver, "a.svg");
+            let (names, text) = elements(&written);
+            assert_eq!(names[0], "svg");
+            assert!(names.len() > 20, "{names:?}");
+            for said in ["Asperity: rough-line", "Force F(d)", "Profile z(x)", "Parameters", "Fragments"] {
+                assert!(text.contains(said), "{marker:?}: {said}");
+            }
+            assert!(!text.contains("Export to") && !text.contains("cancel"), "{marker:?}");
+            driver.press("j k");
+            assert_eq!(written, svg_of(&driver.model), "the same screen gives the same file");
+        }
+    });
+}
+
+/// The words a shell makes of a command, by the rules of POSIX for quotes and backslashes.
+fn words(command: &str) -> Vec<String> {
+    let (mut words, mut word, mut characters) = (Vec::new(), None::<String>, command.chars());
+    while let Some(character) = characters.next() {
+        match character {
+            ' ' => words.extend(word.take()),
+            '\\' => word.get_or_insert_default().extend(characters.next()),
+            '\'' => {
+                let quoted = characters.by_ref().take_while(|other| *other != '\'');
+                word.get_or_insert_default().extend(quoted);
+            }
+            other => {
+                assert!(!"|&;<>()$`\"*?[#~!{}^\t\n".contains(other), "{other} is not quoted: {command}");
+                word.get_or_insert_default().push(other);
+            }
+        }
+    }
+    words.into_iter().chain(word).collect()
+}
+
+/// The scene that a command opens.
+fn opened(command: &str) -> Document {
+    let words = words(command);
+    assert_eq!(words[0], "asperity");
+    let overrides: Vec<(String, String)> = words[2..]
+        .chunks(2)
+        .map(|pair| {
+            assert_eq!(pair[0], "--set");
+            let (path, value) = pair[1].split_once('=').unwrap();
+            (path.to_owned(), value.to_owned())
+        })
+        .collect();
+    open(&words[1]).unwrap().set_all(&overrides).unwrap()
+}
+
+#[test]
+fn the_copied_command_opens_the_scene_as_it_stands() {
+    within(60, || {
+        for (index, preset) in presets().iter().take(9).enumerate() {
+            let mut driver = Driver::start(rough());
+            driver.press(&(index + 1).to_string());
+            let effects = driver.press("y");
+            assert_eq!(effects, [Effect::Copy(format!("asperity {}", preset.name))]);
+            for path in ["form", "adhesion", "observe.contact fragments"] {
+                driver.press("g");
+                while driver.model.parameter().is_some_and(|parameter| parameter.path != path) {
+                    driver.press("j");
+                }
+                driver.press("t y");
+                let command = driver.copied.last().unwrap();
+                assert_eq!(opened(command).scene(), driver.model.document.scene(), "{command}");
+                assert!(driver.status().starts_with("copy: asperity "), "{}", driver.status());
+            }
+            driver.select("loading");
+            driver.enter("[ToForce(1.0e-6), ToIndentation(-1.0e-9), ToSeparation]");
+            driver.select("length");
+            driver.press("L y");
+            let command = driver.copied.last().unwrap();
+            assert_eq!(opened(command).scene(), driver.model.document.scene(), "{command}");
+        }
+    });
+}
+
+#[test]
+fn a_saved_scene_goes_on_under_its_new_name() {
+    within(30, || {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("it's mine.ron");
+        let mut driver = pressed("l s Ctrl+u");
+        driver.type_text(&path.display().to_string());
+        driver.press("Enter");
+        assert_eq!(driver.model.document.name(), path.display().to_string());
+        assert!(!driver.model.is_unsaved());
+        // The command is that of the file, without what has been saved to it.
+        driver.press("y");
+        let command = driver.copied.last().unwrap().clone();
+        assert_eq!(words(&command), ["asperity".to_owned(), path.display().to_string()]);
+        assert_eq!(opened(&command).scene(), driver.model.document.scene());
+        driver.press("l y");
+        let command = driver.copied.last().unwrap().clone();
+        assert_eq!(opened(&command).scene(), driver.model.document.scene(), "{command}");
+        // Saved again it is proposed, and asked about.
+        driver.press("s Enter");
+        assert!(driver.status().contains("Overwrite it?"), "{}", driver.status());
+        driver.press("y");
+        assert_eq!(fs::read_to_string(&path).unwrap(), driver.model.document.text());
+        assert_eq!(opened(&command).scene(), driver.model.document.scene());
+        driver.press("q");
+        assert!(driver.model.finished);
+    });
+}

@@ -1,0 +1,247 @@
+//! The body in hand: taken where it stands, pressed and pulled by keys, given back.
+
+use super::common::deadline::within;
+use super::common::driver::Driver;
+use super::common::scenes::{changed, rough, smooth, without_adhesion};
+use super::{is_up_to_date, mid_retraction, pressed};
+use asperity::contact::CurvePoint;
+use asperity::explorer::model::{Hand, Notice};
+use asperity::explorer::snapshot::Drive;
+use asperity::explorer::update::Effect;
+use asperity::explorer::worker::HandOrder;
+
+fn point(driver: &Driver) -> CurvePoint {
+    driver.model.moment.as_ref().unwrap().point
+}
+
+fn hand(driver: &Driver) -> &Hand {
+    driver.model.hand.as_ref().expect("the body is in hand")
+}
+
+/// Types a force to go to.
+fn go(driver: &mut Driver, force: &str) {
+    driver.press("F");
+    driver.type_text(force);
+    driver.press("Enter");
+}
+
+#[test]
+fn the_body_is_taken_where_it_stands() {
+    within(60, || {
+        for document in [rough(), smooth(), without_adhesion()] {
+            let mut driver = mid_retraction(document);
+            for keys in ["", ". . . .", "<", "<"] {
+                driver.press(keys);
+                let stood = point(&driver);
+                driver.press("d");
+                assert_eq!(driver.model.moment.as_ref().unwrap().drive, Drive::Hand);
+                assert_eq!(point(&driver), stood, "{}", driver.model.document.name());
+                assert_eq!(hand(&driver).path, [stood]);
+                driver.press("d");
+                assert!(driver.model.hand.is_none());
+                assert_eq!(point(&driver), stood, "and given back there");
+            }
+        }
+    });
+}
+
+#[test]
+fn small_and_large_steps_press_and_pull() {
+    within(30, || {
+        let mut driver = pressed("d");
+        let (low, high) = driver.model.indentations().unwrap();
+        for (keys, share) in [("]", 1.0 / 400.0), ("[", -1.0 / 400.0), ("}", 1.0 / 40.0), ("{", -1.0 / 40.0)]
+        {
+            let before = point(&driver).indentation;
+            driver.press(keys);
+            let way = (point(&driver).indentation - before) / (high - low);
+            assert!((way - share).abs() < 1e-9, "{keys}: {way}");
+            assert_eq!(hand(&driver).path.last(), Some(&point(&driver)), "{keys}: the way ends there");
+        }
+        // They take the body in hand where it is not yet.
+        for keys in ["]", "[", "}", "{", "S"] {
+            let mut driver = pressed(keys);
+            assert!(driver.model.hand.is_some(), "{keys}");
+            driver.press("d");
+            assert!(driver.model.hand.is_none(), "{keys}");
+        }
+    });
+}
+
+#[test]
+fn a_minor_loop_closes_on_itself() {
+    within(60, || {
+        for document in [rough(), smooth(), without_adhesion()] {
+            let mut driver = mid_retraction(document);
+            driver.press("d } }");
+            // Once around, so that the steps are rounded as they are from then on.
+            driver.press("[ [ [ ] ] ]");
+            let (turn, energy) = (point(&driver), hand(&driver).dissipated_energy);
+            assert!(turn.springs > 0);
+            for _ in 0..3 {
+                driver.press("[ [ [");
+                assert!(point(&driver).indentation < turn.indentation);
+                driver.press("] ] ]");
+                assert_eq!(point(&driver), turn, "{}", driver.model.document.name());
+            }
+            assert!(hand(&driver).dissipated_energy >= energy, "no loop gives energy back");
+        }
+    });
+}
+
+#[test]
+fn the_status_tells_what_a_move_changed() {
+    within(30, || {
+        let mut driver = pressed("d");
+        let before = point(&driver).springs;
+        driver.press("{");
+        let (changed, now) = (hand(&driver).changed, point(&driver).springs);
+        assert!(changed > 0 && changed == before - now, "{changed}: {before} to {now}");
+        assert!(driver.status().contains(&format!("{changed} springs changed")), "{}", driver.status());
+        assert!(hand(&driver).touched > 0);
+        assert!(driver.text().contains("in hand"), "{}", driver.text());
+        // A look around is no move: what the last one changed is still told.
+        driver.press("n + z z");
+        assert_eq!(hand(&driver).changed, changed);
+    });
+}
+
+#[test]
+fn pulled_off_by_hand_it_loses_what_the_leg_loses() {
+    within(30, || {
+        let mut driver = mid_retraction(rough());
+        driver.press("< d S");
+        let leg = &driver.model.legs()[1];
+        let (lost, expected) = (hand(&driver).dissipated_energy, leg.dissipated_energy);
+        assert!(expected > 0.0 && (lost / expected - 1.0).abs() < 1e-9, "{lost}, not {expected}");
+        assert_eq!((point(&driver).springs, point(&driver).force), (0, 0.0));
+        let smallest = leg.smallest.force;
+        let path = &hand(&driver).path;
+        assert!(path.len() > 20, "the way down is seen");
+        let pulled = path.iter().map(|point| point.force).fold(f64::INFINITY, f64::min);
+        assert!(pulled >= smallest && pulled < 0.5 * smallest, "{pulled} {smallest}");
+        // From there it does not touch before the foundation is reached again.
+        while point(&driver).springs == 0 {
+            assert!(point(&driver).indentation < 0.0);
+            driver.press("}");
+        }
+        assert!(point(&driver).indentation >= 0.0);
+    });
+}
+
+#[test]
+fn a_force_is_gone_to() {
+    within(30, || {
+        let mut driver = mid_retraction(without_adhesion());
+        for (typed, force) in [("5 µN", 5e-6), ("1e-6", 1e-6), ("12 uN", 12e-6)] {
+            go(&mut driver, typed);
+            let reached = point(&driver).force;
+            assert!((reached / force - 1.0).abs() < 1e-9, "{typed}: {reached}");
+            assert!(driver.model.notice.is_none(), "{:?}", driver.model.notice);
+        }
+        // Under adhesion the contact may jump past it, but not stop short of it.
+        let mut driver = pressed("");
+        for (typed, force) in [("8 µN", 8e-6), ("-40 nN", -4e-8), ("2 µN", 2e-6)] {
+            let before = point(&driver).force;
+            go(&mut driver, typed);
+            let reached = point(&driver).force;
+            let past = if force > before { reached - force } else { force - reached };
+            assert!(past >= -1e-12 * force.abs(), "{typed}: {before} to {reached}");
+        }
+    });
+}
+
+#[test]
+fn a_force_out_of_reach_is_told_and_nothing_is_lost() {
+    within(30, || {
+        let mut driver = pressed("d");
+        let before = point(&driver);
+        go(&mut driver, "-1");
+        assert!(driver.status().contains("the contact lets go before"), "{}", driver.status());
+        let after = point(&driver);
+        assert!(driver.model.hand.is_some() && after.springs > 0 && after.force <= before.force);
+        // It can be moved as before.
+        driver.press("]");
+        assert!(driver.model.notice.is_none());
+        assert!(point(&driver).indentation > after.indentation);
+        driver.press("S");
+        go(&mut driver, "-1 µN");
+        assert!(driver.status().contains("nothing touches"), "{}", driver.status());
+        for nonsense in ["", "strong", "1 kg", "NaN"] {
+            let stood = point(&driver);
+            go(&mut driver, nonsense);
+            assert!(matches!(driver.model.notice, Some(Notice::Error(_))), "{nonsense}");
+            assert!(driver.status().contains("for example 10 µN"), "{nonsense}: {}", driver.status());
+            assert_eq!(point(&driver), stood);
+        }
+        driver.press("F Esc");
+        assert!(driver.model.notice.is_none());
+    });
+}
+
+#[test]
+fn an_edit_puts_the_body_back_and_says_so() {
+    within(30, || {
+        for keys in ["l", "u", "R"] {
+            let mut driver = pressed("l d { [");
+            driver.press(keys);
+            assert!(driver.model.hand.is_none(), "{keys}");
+            assert!(is_up_to_date(&driver.model));
+            assert_eq!(driver.model.drive(), Drive::Leg(1), "{keys}");
+            assert!(driver.status().contains("the body is back"), "{keys}: {}", driver.status());
+        }
+        // What changes only how it looks does not.
+        let mut driver = pressed("d {");
+        let stood = point(&driver);
+        driver.press("j n v N a D T M z Tab + 0");
+        assert!(driver.model.hand.is_some());
+        assert_eq!(point(&driver), stood);
+    });
+}
+
+#[test]
+fn playing_gives_it_back() {
+    within(30, || {
+        for keys in ["Space", ".", ",", "r", ">", "<"] {
+            let mut driver = pressed("");
+            let leg = driver.model.player.leg;
+            driver.press("d { [");
+            let effects = driver.press(keys);
+            assert_eq!(effects, [Effect::Hand(HandOrder::Give), Effect::Show], "{keys}");
+            assert!(driver.model.hand.is_none(), "{keys}");
+            assert!(matches!(driver.model.moment.as_ref().unwrap().drive, Drive::Leg(_)), "{keys}");
+            if keys == "Space" {
+                assert!(driver.model.player.playing && driver.model.player.leg == leg);
+                assert!(!driver.elapse(0.1).is_empty());
+            }
+        }
+    });
+}
+
+#[test]
+fn without_a_curve_there_is_nothing_to_take() {
+    within(30, || {
+        let mut driver = Driver::open(rough());
+        for keys in ["d", "]", "{", "S"] {
+            assert!(driver.press(keys).is_empty(), "{keys}");
+            assert!(driver.model.hand.is_none(), "{keys}");
+        }
+        let mut driver = pressed("");
+        driver.select("loading");
+        driver.enter("[ToForce(2.0e-5), ToForce(-1.0)]");
+        driver.press("d ]");
+        assert!(driver.model.hand.is_none());
+    });
+}
+
+#[test]
+fn time_does_not_move_what_is_in_hand() {
+    within(30, || {
+        let mut driver = Driver::start(changed(&rough(), &[("loading", "[ToForce(1.0e-5)]")]));
+        driver.elapse(2.0);
+        driver.press("d");
+        let stood = point(&driver);
+        assert!(driver.elapse(1.0).is_empty());
+        assert_eq!(point(&driver), stood);
+    });
+}

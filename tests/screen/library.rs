@@ -1,0 +1,153 @@
+//! Choosing a scene from the library.
+
+use super::common::deadline::within;
+use super::common::driver::Driver;
+use super::common::scenes::{rough, smooth};
+use super::{is_up_to_date, pressed};
+use asperity::explorer::model::{Library, Mode};
+use asperity::scene::{format_quantity, presets};
+use std::fs;
+use tempfile::TempDir;
+
+const BROKEN: &str = "(version: 1, title: \"Broken\", length: -1.0)";
+
+/// An explorer in a folder with a scene of one's own and a broken one, the library open.
+fn opened() -> (TempDir, Driver) {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("mine.ron"), smooth().text()).unwrap();
+    fs::write(folder.path().join("broken.ron"), BROKEN).unwrap();
+    fs::write(folder.path().join("notes.txt"), "no scene").unwrap();
+    let mut driver = pressed("");
+    driver.folder = folder.path().to_owned();
+    driver.press("o");
+    (folder, driver)
+}
+
+fn library(driver: &Driver) -> &Library {
+    match &driver.model.mode {
+        Mode::Library(library) => library,
+        other => panic!("{other:?}"),
+    }
+}
+
+/// Names of what is found, in their order.
+fn found(driver: &Driver) -> Vec<String> {
+    let library = library(driver);
+    let entries = library.entries.as_ref().unwrap();
+    library.found.iter().map(|index| entries[*index].name.clone()).collect()
+}
+
+#[test]
+fn all_scenes_are_listed_and_found_as_one_types() {
+    within(30, || {
+        let (_folder, mut driver) = opened();
+        let names: Vec<String> = presets().iter().map(|preset| preset.name.to_owned()).collect();
+        let own = ["broken.ron".to_owned(), "mine.ron".to_owned()];
+        assert_eq!(found(&driver), [names, own.to_vec()].concat());
+        for name in found(&driver) {
+            assert!(driver.text().contains(&name), "{name}\n{}", driver.text());
+        }
+        driver.type_text("sph");
+        assert!(found(&driver).iter().all(|name| name.contains("sphere") || name == "mine.ron"));
+        assert!(found(&driver).contains(&"mine.ron".to_owned()), "its title has it");
+        driver.type_text("ere-no-such");
+        assert!(found(&driver).is_empty());
+        assert!(driver.text().contains("no scene fits"), "{}", driver.text());
+        assert!(driver.press("Enter").is_empty(), "nothing is there to be opened");
+        driver.press("Ctrl+u");
+        assert_eq!(found(&driver).len(), presets().len() + 2);
+        driver.type_text("mine");
+        assert_eq!(found(&driver), ["mine.ron"]);
+        driver.press("Backspace Backspace Backspace Backspace");
+        assert_eq!(found(&driver).len(), presets().len() + 2);
+        // Letters are letters here, whatever they do elsewhere.
+        driver.press("q j ?");
+        assert_eq!(library(&driver).query.text(), "qj?");
+    });
+}
+
+#[test]
+fn the_selected_scene_is_seen_before_it_is_opened() {
+    within(30, || {
+        let (_folder, mut driver) = opened();
+        driver.type_text("mine");
+        let preview = driver.model.preview.clone().unwrap();
+        assert_eq!(preview.text, smooth().text());
+        let force = preview.outcome.as_ref().unwrap().figures.adhesion_force.unwrap();
+        let text = driver.text();
+        for said in [format!("F_a {}", format_quantity(force, "N")), "smooth-sphere".to_owned()] {
+            assert!(text.contains(&said), "{said}\n{text}");
+        }
+        assert_eq!(driver.model.document.scene(), rough().scene(), "looking is not opening");
+        // Opened, the curve is the one that was seen.
+        let seen = preview.outcome.clone().unwrap().history.legs;
+        driver.press("Enter");
+        assert_eq!(driver.model.computed.as_ref().unwrap().outcome.history.legs, seen);
+    });
+}
+
+#[test]
+fn enter_opens_and_escape_leaves() {
+    within(30, || {
+        let (folder, mut driver) = opened();
+        let before = driver.model.document.clone();
+        driver.press("Down Down Esc");
+        assert_eq!((&driver.model.mode, &driver.model.document), (&Mode::Explore, &before));
+        driver.press("o Down");
+        assert_eq!(library(&driver).entry().unwrap().name, presets()[1].name);
+        driver.press("Up Up");
+        assert_eq!(library(&driver).selected, 0, "the list has an end");
+        driver.type_text("mine");
+        driver.press("Enter");
+        assert_eq!(driver.model.mode, Mode::Explore);
+        assert!(is_up_to_date(&driver.model));
+        assert_eq!(driver.model.document.text(), smooth().text());
+        assert_eq!(driver.model.document.name(), folder.path().join("mine.ron").display().to_string());
+        assert!(!driver.model.is_unsaved() && driver.model.player.playing);
+        driver.press("u");
+        assert_eq!(driver.model.document, before);
+        // The whole list can be gone through in the smallest window.
+        driver.resize((20, 5));
+        driver.press("o");
+        for _ in 0..presets().len() + 1 {
+            driver.press("Down");
+            let name: String = library(&driver).entry().unwrap().name.chars().take(12).collect();
+            assert!(driver.text().contains(&name), "{name}\n{}", driver.text());
+        }
+    });
+}
+
+#[test]
+fn a_broken_file_is_listed_with_its_error_and_not_opened() {
+    within(30, || {
+        let (_folder, mut driver) = opened();
+        let before = driver.model.document.clone();
+        driver.type_text("broken");
+        let entry = library(&driver).entry().unwrap().clone();
+        let error = entry.error.expect("it is no scene");
+        let text = driver.text();
+        assert!(text.contains("! broken.ron"), "{text}");
+        let start: String = error.chars().take(30).collect();
+        assert!(text.contains(&start), "{start}\n{text}");
+        driver.press("Enter");
+        assert_eq!(driver.model.document, before);
+        assert!(
+            driver.status().starts_with("! ") && driver.status().contains("broken.ron"),
+            "{}",
+            driver.status()
+        );
+    });
+}
+
+#[test]
+fn a_file_that_has_changed_since_is_listed_anew() {
+    within(30, || {
+        let (folder, mut driver) = opened();
+        driver.press("Esc");
+        fs::write(folder.path().join("broken.ron"), rough().text()).unwrap();
+        driver.press("o");
+        driver.type_text("broken");
+        driver.press("Enter");
+        assert_eq!(driver.model.document.text(), rough().text());
+    });
+}

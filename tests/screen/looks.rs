@@ -1,0 +1,236 @@
+//! Colours and markers: what they show they show by glyphs as well.
+
+use super::common::deadline::within;
+use super::common::driver::Driver;
+use super::common::script::rows;
+use super::{SIZES, everywhere, pressed, reversed, row_with};
+use asperity::explorer::layout::Layout;
+use asperity::explorer::theme::{Appearance, Marker, Theme};
+use clap::ValueEnum;
+use ratatui::buffer::{Buffer, Cell};
+use ratatui::style::{Color, Modifier};
+use std::collections::HashSet;
+
+/// All colours on a screen, each once.
+fn colours(screen: &Buffer) -> Vec<Color> {
+    let mut used = Vec::new();
+    for colour in screen.content.iter().flat_map(|cell| [cell.fg, cell.bg, cell.underline_color]) {
+        if !used.contains(&colour) {
+            used.push(colour);
+        }
+    }
+    used
+}
+
+/// Colours that cannot be read on the background of a theme.
+fn unreadable(theme: Theme) -> Vec<Color> {
+    use Color::{Black, Blue, DarkGray, Gray, LightCyan, LightGreen, LightYellow, White, Yellow};
+    match theme {
+        // Neither white nor black can be read on every background.
+        Theme::Neutral | Theme::Plain | Theme::HighContrast => vec![White, Black, Gray, Yellow, LightYellow],
+        Theme::Dark => vec![Black, DarkGray, Blue],
+        Theme::Light => vec![White, Gray, Yellow, LightYellow, LightGreen, LightCyan],
+    }
+}
+
+#[test]
+fn the_plain_theme_has_no_colours_and_the_others_only_the_sixteen() {
+    within(120, || {
+        let mut used = [const { Vec::new() }; 5];
+        for mut driver in everywhere() {
+            for size in SIZES {
+                driver.resize(size);
+                for (theme, used) in Theme::value_variants().iter().zip(&mut used) {
+                    for marker in Marker::value_variants() {
+                        driver.model.appearance = Appearance { theme: *theme, marker: *marker };
+                        let found = colours(&driver.screen());
+                        let sixteen = |colour: &Color| !matches!(colour, Color::Rgb(..) | Color::Indexed(_));
+                        assert!(found.iter().all(sixteen), "{theme:?} {marker:?}: {found:?}");
+                        used.extend(found);
+                    }
+                }
+            }
+        }
+        for (theme, used) in Theme::value_variants().iter().zip(&used) {
+            let many = used.iter().collect::<HashSet<_>>().len();
+            match theme {
+                Theme::Plain => assert_eq!(many, 1, "{used:?}"),
+                Theme::HighContrast => assert_eq!(many, 2, "{used:?}"),
+                _ => assert!(many > 5, "{theme:?}: {used:?}"),
+            }
+            assert!(!unreadable(*theme).iter().any(|colour| used.contains(colour)), "{theme:?}");
+        }
+    });
+}
+
+#[test]
+fn strong_contrast_is_bold_and_nothing_in_it_is_dim() {
+    within(60, || {
+        for mut driver in everywhere() {
+            driver.model.appearance.theme = Theme::HighContrast;
+            let screen = driver.screen();
+            assert!(screen.content.iter().all(|cell| !cell.modifier.contains(Modifier::DIM)));
+            assert!(screen.content.iter().all(|cell| cell.modifier.contains(Modifier::BOLD)));
+        }
+        // Elsewhere only what stands back is dim, and without colours only.
+        let driver = pressed("T T T T");
+        assert_eq!(driver.model.appearance.theme, Theme::Plain);
+        let screen = driver.screen();
+        let dim = screen.content.iter().filter(|cell| cell.modifier.contains(Modifier::DIM));
+        assert!(dim.clone().any(|cell| cell.symbol() == "│") && dim.clone().all(|cell| cell.symbol() != "◆"));
+    });
+}
+
+#[test]
+fn in_ascii_every_cell_is_ascii() {
+    within(120, || {
+        for mut driver in everywhere() {
+            driver.model.appearance.marker = Marker::Ascii;
+            for size in SIZES {
+                driver.resize(size);
+                for cell in &driver.screen().content {
+                    let symbol = cell.symbol();
+                    let printable = symbol.bytes().all(|byte| (b' '..=b'~').contains(&byte));
+                    assert!(symbol.len() == 1 && printable, "{symbol} {size:?}\n{}", driver.text());
+                }
+            }
+        }
+    });
+}
+
+#[test]
+fn plots_are_made_of_the_marker_that_is_chosen() {
+    within(120, || {
+        for mut driver in everywhere() {
+            for size in SIZES {
+                driver.resize(size);
+                for marker in [Marker::Octant, Marker::HalfBlock] {
+                    driver.model.appearance.marker = marker;
+                    let text = driver.text();
+                    let braille = |character: char| ('\u{2800}'..='\u{28ff}').contains(&character);
+                    assert!(!text.contains(braille), "{marker:?} {size:?}\n{text}");
+                }
+            }
+        }
+        for (marker, range) in [
+            (Marker::Braille, '\u{2801}'..='\u{28ff}'),
+            (Marker::Octant, '\u{1cd00}'..='\u{1cde5}'),
+            (Marker::HalfBlock, '▀'..='▄'),
+        ] {
+            let mut driver = pressed("");
+            driver.model.appearance.marker = marker;
+            let dots = driver.text().chars().filter(|character| range.contains(character)).count();
+            assert!(dots > 100, "{marker:?}: {dots}\n{}", driver.text());
+        }
+    });
+}
+
+#[test]
+fn half_blocks_lose_no_half_where_two_colours_meet() {
+    within(60, || {
+        let mut driver = pressed("c L d {");
+        driver.model.appearance.marker = Marker::HalfBlock;
+        let halves = |driver: &Driver| -> Vec<[bool; 2]> {
+            let screen = driver.screen();
+            let filled = |cell: &Cell| match cell.symbol() {
+                "█" => [true, true],
+                "▀" => [true, cell.bg != Color::Reset],
+                "▄" => [cell.bg != Color::Reset, true],
+                _ => [false, false],
+            };
+            screen.content.iter().map(filled).collect()
+        };
+        driver.model.appearance.theme = Theme::Plain;
+        let plain = halves(&driver);
+        for theme in Theme::value_variants() {
+            driver.model.appearance.theme = *theme;
+            assert_eq!(halves(&driver), plain, "{theme:?}");
+        }
+    });
+}
+
+#[test]
+fn what_has_a_meaning_has_a_glyph() {
+    within(30, || {
+        let driver = pressed("c L");
+        let text = driver.text();
+        for (glyph, meaning) in [
+            ("▸", "the chosen pane"),
+            ("›", "the selected row"),
+            ("◆", "the moment shown"),
+            ("▲", "the preload"),
+            ("▼", "the pull-off"),
+            ("■", "contact along the line"),
+            ("○", "the ends of fragments"),
+            ("●", "an effect that is on"),
+            ("= ", "what follows from others"),
+            ("A H", "a ghost"),
+            ("[changed]", "unsaved changes"),
+        ] {
+            assert!(text.contains(glyph), "{meaning}\n{text}");
+        }
+        let mut driver = pressed("d");
+        driver.enter("2");
+        let text = driver.text();
+        for (glyph, meaning) in [("◆ in hand", "the hand"), ("! ", "what is wrong")] {
+            assert!(text.contains(glyph), "{meaning}\n{text}");
+        }
+    });
+}
+
+#[test]
+fn keys_change_colours_and_markers_and_say_so() {
+    within(30, || {
+        let mut driver = pressed("");
+        for theme in [Theme::Dark, Theme::Light, Theme::HighContrast, Theme::Plain, Theme::Neutral] {
+            driver.press("T");
+            assert_eq!(driver.model.appearance.theme, theme);
+            assert!(driver.status().contains(&theme.name()), "{}", driver.status());
+        }
+        for marker in [Marker::Octant, Marker::HalfBlock, Marker::Ascii, Marker::Braille] {
+            driver.press("M");
+            assert_eq!(driver.model.appearance.marker, marker);
+            assert!(driver.status().contains(&marker.name()), "{}", driver.status());
+            // The worker was asked for as many columns as there are now.
+            let cells = Layout::of(&driver.model).profile_cells();
+            let columns = driver.model.moment.as_ref().unwrap().profile.columns.len();
+            assert_eq!(columns, cells * marker.columns());
+        }
+    });
+}
+
+#[test]
+fn the_selected_row_is_marked_by_a_glyph_and_by_style() {
+    within(30, || {
+        for theme in Theme::value_variants() {
+            let mut driver = pressed("");
+            driver.model.appearance.theme = *theme;
+            for path in ["length", "roughness.hurst", "numerics.samples"] {
+                driver.select(path);
+                let name = driver.model.parameter().unwrap().field.name;
+                let screen = driver.screen();
+                let row = row_with(&screen, "›");
+                assert!(reversed(row).contains(name), "{name}: {:?}", reversed(row));
+                let marks = rows(&screen).iter().filter(|row| row.contains('›')).count();
+                assert_eq!(marks, 1, "{}", driver.text());
+            }
+        }
+    });
+}
+
+#[test]
+fn the_chosen_pane_is_marked_by_a_glyph() {
+    within(30, || {
+        let mut driver = pressed("");
+        let mut seen = Vec::new();
+        for _ in 0..4 {
+            let rows = driver.rows();
+            let marked: Vec<_> = rows.iter().filter(|row| row.contains('▸')).collect();
+            assert_eq!(marked.len(), 1, "{}", driver.text());
+            let title = marked[0].split('▸').nth(1).unwrap().split('─').next().unwrap().to_owned();
+            assert!(!seen.contains(&title), "{title}");
+            seen.push(title);
+            driver.press("Tab");
+        }
+    });
+}

@@ -1,0 +1,148 @@
+//! The animation of the scene's loading.
+
+use super::common::deadline::within;
+use super::common::driver::Driver;
+use super::common::scenes::rough;
+use super::{is_up_to_date, pressed};
+use asperity::explorer::update::Effect;
+
+#[test]
+fn the_animation_plays_to_its_end_and_stops() {
+    within(60, || {
+        let mut driver = Driver::start(rough());
+        assert!(driver.model.player.playing);
+        let ends: Vec<f64> = driver.model.legs().iter().map(|leg| leg.end()).collect();
+        let (mut last, mut elapsed) = (f64::NEG_INFINITY, 0);
+        while driver.model.player.playing {
+            let leg = driver.model.player.leg;
+            assert_eq!(driver.elapse(0.1), [Effect::Show]);
+            if driver.model.player.leg != leg {
+                last = ends[0];
+            }
+            let d = driver.model.moment.as_ref().unwrap().point.indentation;
+            // It turns where the first leg ends.
+            let forwards = if driver.model.player.leg == 0 { last <= d && d <= ends[0] } else { d <= last };
+            assert!(forwards, "{last} to {d}");
+            last = d;
+            elapsed += 1;
+            assert!(elapsed < 1000, "it never ends");
+        }
+        assert_eq!(driver.model.player.leg, 1);
+        assert!((last - ends[1]).abs() < 1e-12, "{last}");
+        // And then nothing happens any more.
+        let screen = driver.screen();
+        for _ in 0..3 {
+            assert!(driver.elapse(1.0).is_empty());
+        }
+        assert_eq!(driver.screen(), screen);
+        // Playing again begins at the beginning.
+        driver.press("Space");
+        assert!(driver.model.player.playing && driver.model.player.leg == 0);
+    });
+}
+
+#[test]
+fn a_scene_that_ends_in_separation_is_shown_separated() {
+    within(30, || {
+        let mut driver = pressed("");
+        while driver.model.player.done < 1.0 {
+            driver.press(".");
+        }
+        let point = driver.model.moment.as_ref().unwrap().point;
+        assert_eq!((point.springs, point.force), (0, 0.0), "{}", driver.text());
+    });
+}
+
+#[test]
+fn nothing_is_played_while_there_is_no_curve() {
+    within(30, || {
+        let mut driver = pressed("");
+        driver.select("loading");
+        driver.enter("[ToForce(2.0e-5), ToForce(-1.0)]");
+        driver.press("r");
+        for _ in 0..3 {
+            assert!(driver.elapse(0.1).is_empty(), "that of another scene is not played");
+        }
+        driver.press("u");
+        assert_eq!(driver.elapse(0.1), [Effect::Show]);
+    });
+}
+
+#[test]
+fn the_animation_is_paused_stepped_and_begun_again() {
+    within(30, || {
+        let mut driver = Driver::start(rough());
+        driver.elapse(1.0);
+        let before = driver.model.player;
+        assert!(before.done > 0.0);
+        driver.press("Space");
+        assert!(driver.elapse(1.0).is_empty(), "nothing moves while it is paused");
+        assert_eq!(driver.model.player.done, before.done);
+        let force = |driver: &Driver| driver.model.moment.as_ref().unwrap().point;
+        let here = force(&driver);
+        driver.press(".");
+        assert!(force(&driver).indentation > here.indentation);
+        driver.press(",");
+        assert!((force(&driver).indentation - here.indentation).abs() < 1e-15);
+        driver.press("Space .");
+        assert!(!driver.model.player.playing, "a step pauses");
+        driver.press("> >");
+        assert_eq!((driver.model.player.leg, driver.model.player.done), (1, 0.0));
+        driver.press("<");
+        assert_eq!((driver.model.player.leg, driver.model.player.done), (0, 0.0));
+        driver.press(". . <");
+        assert_eq!(
+            (driver.model.player.leg, driver.model.player.done),
+            (0, 0.0),
+            "first to the start of this leg"
+        );
+        driver.press(",");
+        assert_eq!((driver.model.player.leg, driver.model.player.done), (0, 0.0), "there is nothing before");
+        driver.press("> . r");
+        assert_eq!((driver.model.player.leg, driver.model.player.done), (0, 0.0));
+        assert!(driver.model.player.playing);
+        // Steps go from leg to leg in both directions.
+        driver.press("> ,");
+        assert_eq!((driver.model.player.leg, driver.model.player.done), (0, 1.0));
+        driver.press(".");
+        assert_eq!(driver.model.player.leg, 1);
+    });
+}
+
+#[test]
+fn an_edit_keeps_the_place_of_the_animation() {
+    within(30, || {
+        let mut driver = pressed("");
+        let before = driver.model.player;
+        driver.select("roughness.hurst");
+        driver.press("l");
+        assert_eq!(driver.model.player, before);
+        // Unless the leg is gone.
+        driver.select("loading");
+        driver.enter("[ToForce(2.0e-5)]");
+        assert_eq!((driver.model.player.leg, driver.model.player.playing), (0, false));
+        assert!(is_up_to_date(&driver.model));
+    });
+}
+
+#[test]
+fn the_animation_is_as_far_however_often_it_is_drawn() {
+    within(60, || {
+        let three = "[ToForce(1.0e-5), ToZeroForce, ToForce(2.0e-5)]";
+        let place = |steps: u32, seconds: f64| {
+            let mut driver = Driver::start(rough().set("loading", three).unwrap());
+            (0..steps).for_each(|_| drop(driver.elapse(seconds / f64::from(steps))));
+            (driver.model.player, driver.model.moment.clone().unwrap().point)
+        };
+        for seconds in [1.0, 5.9, 6.3, 11.0, 13.0, 17.9, 18.1, 100.0] {
+            let (player, point) = place(1, seconds);
+            let expected = (seconds / 6.0).min(3.0);
+            assert!((player.leg as f64 + player.done - expected).abs() < 1e-9, "{seconds}: {player:?}");
+            for steps in [3, 70, 211] {
+                let (other, there) = place(steps, seconds);
+                assert_eq!((other.leg, other.playing), (player.leg, player.playing), "{seconds}, {steps}");
+                assert!((there.indentation - point.indentation).abs() < 5e-14, "{seconds}, {steps}");
+            }
+        }
+    });
+}

@@ -1,0 +1,135 @@
+//! Saving the scene, and leaving with or without it.
+
+use super::common::deadline::within;
+use super::common::driver::{Driver, REFUSED};
+use super::common::scenes::rough;
+use super::pressed;
+use asperity::explorer::action::Content;
+use asperity::explorer::model::{Mode, ModeKind};
+use asperity::explorer::update::Effect;
+use asperity::scene::Document;
+use std::path::Path;
+
+#[test]
+fn a_saved_scene_is_read_back_as_it_stands() {
+    within(30, || {
+        let mut driver = pressed("");
+        driver.select("roughness.hurst");
+        driver.press("l s");
+        driver.press("Ctrl+u");
+        driver.type_text("folder/mine.ron");
+        assert_eq!(
+            driver.press("Enter"),
+            [Effect::Write { path: "folder/mine.ron".into(), content: Content::Scene, overwrite: false }]
+        );
+        let text = &driver.files[Path::new("folder/mine.ron")];
+        let again = Document::parse(text, "mine.ron").unwrap();
+        assert_eq!(again.scene(), driver.model.document.scene());
+        assert!(text.contains("// soft"), "the comments are kept");
+        assert!(driver.text().contains("saved to folder/mine.ron"), "{}", driver.text());
+        assert!(!driver.model.is_unsaved());
+        driver.press("q");
+        assert!(driver.model.finished, "nothing is left to be asked");
+    });
+}
+
+#[test]
+fn a_file_is_overwritten_only_when_asked() {
+    within(30, || {
+        let mut driver = pressed("s Enter l s Enter");
+        let name = driver.files.keys().next().unwrap().clone();
+        assert_eq!(name, Path::new("rough-line.ron"), "it is named after its scene");
+        assert_eq!(driver.files[&name], rough().text());
+        assert!(driver.text().contains("Overwrite"), "{}", driver.text());
+        driver.press("n");
+        assert_eq!(driver.files[&name], rough().text());
+        assert!(driver.model.is_unsaved());
+        driver.press("s Enter y");
+        assert_eq!(driver.files[&name], driver.model.document.text());
+        assert!(!driver.model.is_unsaved());
+    });
+}
+
+#[test]
+fn what_could_not_be_saved_is_told_and_not_forgotten() {
+    within(30, || {
+        let mut driver = pressed("l s Ctrl+u");
+        driver.type_text(REFUSED);
+        driver.press("Enter");
+        assert!(driver.text().contains("no room"), "{}", driver.text());
+        assert!(driver.model.is_unsaved());
+        // It goes with the next key, so that the figures can be read again.
+        driver.press("j");
+        assert!(!driver.text().contains("no room"), "{}", driver.text());
+        assert!(driver.text().contains("F_a "), "{}", driver.text());
+    });
+}
+
+#[test]
+fn an_empty_name_saves_nothing() {
+    within(30, || {
+        let mut driver = pressed("s Ctrl+u");
+        assert!(driver.press("Enter").is_empty() && driver.files.is_empty());
+        assert_eq!(driver.model.mode.kind(), ModeKind::SaveAs);
+        driver.press("Esc");
+        assert_eq!(driver.model.mode, Mode::Explore);
+    });
+}
+
+#[test]
+fn an_unchanged_scene_is_left_without_a_question() {
+    for key in ["q", "Ctrl+c"] {
+        within(30, move || {
+            let mut driver = Driver::start(rough());
+            driver.press(key);
+            assert!(driver.model.finished);
+        });
+    }
+}
+
+#[test]
+fn a_changed_scene_asks_before_it_is_left() {
+    within(30, || {
+        let asked = |keys: &str| {
+            let mut driver = pressed("l q");
+            assert_eq!(driver.model.mode, Mode::Quit);
+            assert!(!driver.model.finished);
+            assert!(driver.text().contains("unsaved"), "{}", driver.text());
+            assert!(driver.rows()[0].contains("changed"), "{}", driver.text());
+            driver.press(keys);
+            driver
+        };
+        for keys in ["n", "Esc"] {
+            let driver = asked(keys);
+            assert!(!driver.model.finished && driver.model.mode == Mode::Explore, "{keys}");
+        }
+        for keys in ["q", "y", "Ctrl+c"] {
+            let driver = asked(keys);
+            assert!(driver.model.finished && driver.files.is_empty(), "{keys}");
+        }
+        let driver = asked("s Enter");
+        assert!(driver.model.finished);
+        assert_eq!(driver.files.len(), 1);
+        // Whoever turns back from saving does not leave.
+        for keys in ["s Esc", "s Ctrl+u Enter Esc"] {
+            assert!(!asked(keys).model.finished, "{keys}");
+        }
+        let mut driver = asked("n");
+        driver.files.insert("rough-line.ron".into(), "theirs".to_owned());
+        driver.press("q s Enter");
+        assert!(!driver.model.finished, "first it is asked about the file");
+        driver.press("y");
+        assert!(driver.model.finished);
+        assert_ne!(driver.files[Path::new("rough-line.ron")], "theirs");
+    });
+}
+
+#[test]
+fn taking_back_all_edits_leaves_nothing_to_save() {
+    within(30, || {
+        let mut driver = pressed("l l u u q");
+        assert!(driver.model.finished);
+        driver = pressed("l l u q");
+        assert!(!driver.model.finished);
+    });
+}
