@@ -79,7 +79,7 @@ fn headline(model: &Model, width: u16) -> Line<'static> {
         let point = moment.point;
         let d = format_quantity(point.indentation, "m");
         part("  ", format!("in hand: d {d} F {}", format_quantity(point.force, "N")), Meaning::Text);
-        part(" · ", format!("{} springs changed", hand.changed), Meaning::Text);
+        part(" · ", format!("{} changed", counted(hand.changed, "spring")), Meaning::Text);
         part(" · ", format!("{} looked at", hand.touched), Meaning::Text);
         part(" · ", contact(point), Meaning::Text);
     } else {
@@ -109,8 +109,13 @@ fn headline(model: &Model, width: u16) -> Line<'static> {
 
 /// How much touches.
 fn contact(point: CurvePoint) -> String {
-    let plural = if point.fragments == 1 { "" } else { "s" };
-    format!("{} springs in {} fragment{plural}", point.springs, point.fragments)
+    format!("{} in {}", counted(point.springs, "spring"), counted(point.fragments, "fragment"))
+}
+
+/// A number of things.
+fn counted(number: u64, thing: &str) -> String {
+    let plural = if number == 1 { "" } else { "s" };
+    format!("{number} {thing}{plural}")
 }
 
 /// Narrower windows have no room for what the connection carries.

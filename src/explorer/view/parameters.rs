@@ -105,7 +105,12 @@ fn value(model: &Model, parameter: &Parameter) -> String {
         return parameter.shown.clone();
     }
     let written = model.written(parameter).and_then(|written| written.parse::<f64>().ok());
-    written.map_or_else(|| "= …".to_owned(), |value| format!("= {}", quantity(value, parameter.field.unit)))
+    match written {
+        Some(value) => format!("= {}", quantity(value, parameter.field.unit)),
+        // A smooth body has no κ; of a scene that is not computed yet it is not known.
+        None if model.governing().is_some() => "none".to_owned(),
+        None => "= …".to_owned(),
+    }
 }
 
 fn quantity(value: f64, unit: &str) -> String {
