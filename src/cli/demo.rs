@@ -38,19 +38,23 @@ pub struct DemoArguments {
     /// Print plain frames, as into a pipe, also where there is a terminal
     #[arg(long)]
     pub frames: bool,
-    /// Frames in a second, from 0.1 to 60; left out, 12, and 1 for plain frames
+    /// Frames in a second, 0.1 to 60; left out, 12, and 1 for plain frames
     #[arg(long, value_name = "N", value_parser = frames_per_second)]
     pub fps: Option<f64>,
-    /// Columns and rows of the screen; left out, those of the terminal, else 120x40
+    /// Size of the screen; left out, that of the terminal, else 120x40
     #[arg(long, value_name = "COLUMNSxROWS", value_parser = size)]
     pub size: Option<(u16, u16)>,
     /// Nothing but ASCII: no Braille, no lines, no Greek
     #[arg(long, conflicts_with = "marker")]
     pub ascii: bool,
-    /// What plots are made of
+    /// Markers
+    ///
+    /// What plots are made of; left out, braille.
     #[arg(long, value_enum)]
     pub marker: Option<Marker>,
-    /// Colours, of a recording, a picture and in a terminal
+    /// Colours
+    ///
+    /// Left out, dark for a recording and a picture; else NO_COLOR and COLORFGBG tell.
     #[arg(long, value_enum)]
     pub theme: Option<Theme>,
     /// Record to FILE, an asciicast of version 2

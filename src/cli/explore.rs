@@ -16,10 +16,14 @@ pub struct ExploreArguments {
     /// What is changed in it.
     #[command(flatten)]
     pub overrides: Overrides,
-    /// Colours; left out, by NO_COLOR and COLORFGBG
+    /// Colours
+    ///
+    /// Left out, NO_COLOR and COLORFGBG tell.
     #[arg(long, value_enum)]
     pub theme: Option<Theme>,
-    /// What plots are made of; left out, braille
+    /// Markers
+    ///
+    /// What plots are made of; left out, braille.
     #[arg(long, value_enum)]
     pub marker: Option<Marker>,
     /// Leave the mouse to the terminal
