@@ -1,5 +1,10 @@
 //! The command line as its users have it: the program itself, what it prints and how it ends.
 
+mod common {
+    pub mod deadline;
+}
+
+use common::deadline::within;
 use serde_json::Value;
 use std::fs;
 use std::io::{BufRead, BufReader, Read, Write};
@@ -537,7 +542,7 @@ fn wrong_usage_is_exit_code_two() {
         failed(2, arguments);
     }
     let told = failed(2, &["rnu", "jkr-sphere", "--format", "json"]);
-    assert!(told.contains("'rnu' is not a command") && told.contains("run, plan"), "{told}");
+    assert!(told.contains("'rnu' is not a command") && told.contains("run, demo, plan"), "{told}");
     assert!(failed(2, &["--set", "length=1", "run", "jkr-sphere"]).contains("stands first"));
 }
 
@@ -571,96 +576,108 @@ fn help_is_for_reading() {
 
 #[test]
 fn a_demo_into_a_pipe_is_text() {
-    let text = done(&["demo", "jkr-sphere", "--size", "100x30"]);
-    assert!(!text.contains(['\u{1b}', '\r']), "no terminal is spoken to");
-    let heads: Vec<&str> = text.lines().filter(|line| line.starts_with("== ")).collect();
-    assert_eq!(heads.len(), 13, "{heads:?}");
-    assert_eq!((heads[0], heads[12]), ("== 0.00 s ==", "== 12.00 s =="));
-    assert_eq!(text.lines().count(), 13 * 31);
-    assert!(text.lines().all(|line| line.chars().count() <= 100));
-    assert!(text.contains("Force F(d)") && text.contains('⠒'));
-    assert_eq!(text, done(&["demo", "jkr-sphere", "--size", "100x30", "--frames"]), "the same every time");
-    let ascii = done(&["demo", "jkr-sphere", "--size", "100x30", "--ascii", "--fps", "0.5"]);
-    assert!(ascii.bytes().all(|byte| byte == b'\n' || (b' '..=b'~').contains(&byte)));
-    assert!(ascii.contains("Force F(d)"));
-    let changed = done(&["demo", "jkr-sphere", "--set", "material.youngs_modulus=3e6", "--at", "1"]);
-    assert!(changed.contains("3 MPa"), "overrides hold here too");
+    within(60, || {
+        let text = done(&["demo", "jkr-sphere", "--size", "100x30"]);
+        assert!(!text.contains(['\u{1b}', '\r']), "no terminal is spoken to");
+        let heads: Vec<&str> = text.lines().filter(|line| line.starts_with("== ")).collect();
+        assert_eq!(heads.len(), 13, "{heads:?}");
+        assert_eq!((heads[0], heads[12]), ("== 0.00 s ==", "== 12.00 s =="));
+        assert_eq!(text.lines().count(), 13 * 31);
+        assert!(text.lines().all(|line| line.chars().count() <= 100));
+        assert!(text.contains("Force F(d)") && text.contains('⠒'));
+        assert_eq!(
+            text,
+            done(&["demo", "jkr-sphere", "--size", "100x30", "--frames"]),
+            "the same every time"
+        );
+        let ascii = done(&["demo", "jkr-sphere", "--size", "100x30", "--ascii", "--fps", "0.5"]);
+        assert!(ascii.bytes().all(|byte| byte == b'\n' || (b' '..=b'~').contains(&byte)));
+        assert!(ascii.contains("Force F(d)"));
+        let changed = done(&["demo", "jkr-sphere", "--set", "material.youngs_modulus=3e6", "--at", "1"]);
+        assert!(changed.contains("3 MPa"), "overrides hold here too");
+    });
 }
 
 #[test]
 fn one_moment_of_a_demo_is_printed_or_drawn() {
-    let text = done(&["demo", "jkr-sphere", "--at", "3"]);
-    assert_eq!(text.lines().count(), 40);
-    assert!(text.contains("F_a") && !text.contains("== "));
-    assert_ne!(text, done(&["demo", "jkr-sphere", "--at", "9"]));
-    let folder = tempfile::tempdir().unwrap();
-    let file = folder.path().join("screen.svg");
-    let path = file.to_str().unwrap();
-    assert_eq!(done(&["demo", "jkr-sphere", "--at", "3", "--svg", path]), "");
-    let first = fs::read_to_string(&file).unwrap();
-    assert!(first.contains("<svg") && first.trim_end().ends_with("</svg>"));
-    assert!(first.contains("Force F(d)") && first.contains("Asperity: jkr-sphere"));
-    let told = failed(1, &["demo", "jkr-sphere", "--at", "3", "--svg", path]);
-    assert!(told.contains("--force overwrites it"), "{told}");
-    done(&["demo", "jkr-sphere", "--at", "9", "--svg", path, "--force"]);
-    assert_ne!(fs::read_to_string(&file).unwrap(), first);
+    within(60, || {
+        let text = done(&["demo", "jkr-sphere", "--at", "3"]);
+        assert_eq!(text.lines().count(), 40);
+        assert!(text.contains("F_a") && !text.contains("== "));
+        assert_ne!(text, done(&["demo", "jkr-sphere", "--at", "9"]));
+        let folder = tempfile::tempdir().unwrap();
+        let file = folder.path().join("screen.svg");
+        let path = file.to_str().unwrap();
+        assert_eq!(done(&["demo", "jkr-sphere", "--at", "3", "--svg", path]), "");
+        let first = fs::read_to_string(&file).unwrap();
+        assert!(first.contains("<svg") && first.trim_end().ends_with("</svg>"));
+        assert!(first.contains("Force F(d)") && first.contains("Asperity: jkr-sphere"));
+        let told = failed(1, &["demo", "jkr-sphere", "--at", "3", "--svg", path]);
+        assert!(told.contains("--force overwrites it"), "{told}");
+        done(&["demo", "jkr-sphere", "--at", "9", "--svg", path, "--force"]);
+        assert_ne!(fs::read_to_string(&file).unwrap(), first);
+    });
 }
 
 #[test]
 fn a_demo_is_recorded_the_same_every_time() {
-    let folder = tempfile::tempdir().unwrap();
-    let recorded = |name: &str| {
-        let file = folder.path().join(name);
-        let path = file.to_str().unwrap();
-        assert_eq!(done(&["demo", "jkr-sphere", "--size", "80x24", "--fps", "4", "--cast", path]), "");
-        let told = failed(1, &["demo", "jkr-sphere", "--cast", path]);
-        assert!(told.contains("--force overwrites it"), "{told}");
-        fs::read_to_string(file).unwrap()
-    };
-    let text = recorded("a.cast");
-    assert_eq!(text, recorded("b.cast"));
-    let lines: Vec<Value> = text.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
-    let header = &lines[0];
-    assert_eq!(
-        (&header["version"], &header["width"], &header["height"]),
-        (&2.into(), &80.into(), &24.into())
-    );
-    let times: Vec<f64> = lines[1..].iter().map(|line| number(&line[0])).collect();
-    assert!(times.len() > 40 && times.is_sorted_by(|a, b| a < b), "{times:?}");
-    assert!(lines[1..].iter().all(|line| line[1] == "o"));
-    // Played back it shows the last frame.
-    let mut terminal = vt100::Parser::new(24.try_into().unwrap(), 80.try_into().unwrap(), 0);
-    lines[1..].iter().for_each(|line| terminal.process(line[2].as_str().unwrap().as_bytes()));
-    let last = done(&["demo", "jkr-sphere", "--size", "80x24", "--at", "100"]);
-    let shown: Vec<String> = terminal.screen().rows(0, 80).map(|row| row.trim_end().to_owned()).collect();
-    assert_eq!(shown, last.lines().collect::<Vec<_>>());
+    within(60, || {
+        let folder = tempfile::tempdir().unwrap();
+        let recorded = |name: &str| {
+            let file = folder.path().join(name);
+            let path = file.to_str().unwrap();
+            assert_eq!(done(&["demo", "jkr-sphere", "--size", "80x24", "--fps", "4", "--cast", path]), "");
+            let told = failed(1, &["demo", "jkr-sphere", "--cast", path]);
+            assert!(told.contains("--force overwrites it"), "{told}");
+            fs::read_to_string(file).unwrap()
+        };
+        let text = recorded("a.cast");
+        assert_eq!(text, recorded("b.cast"));
+        let lines: Vec<Value> = text.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
+        let header = &lines[0];
+        assert_eq!(
+            (&header["version"], &header["width"], &header["height"]),
+            (&2.into(), &80.into(), &24.into())
+        );
+        let times: Vec<f64> = lines[1..].iter().map(|line| number(&line[0])).collect();
+        assert!(times.len() > 40 && times.is_sorted_by(|a, b| a < b), "{times:?}");
+        assert!(lines[1..].iter().all(|line| line[1] == "o"));
+        // Played back it shows the last frame.
+        let mut terminal = vt100::Parser::new(24.try_into().unwrap(), 80.try_into().unwrap(), 0);
+        lines[1..].iter().for_each(|line| terminal.process(line[2].as_str().unwrap().as_bytes()));
+        let last = done(&["demo", "jkr-sphere", "--size", "80x24", "--at", "100"]);
+        let shown: Vec<String> = terminal.screen().rows(0, 80).map(|row| row.trim_end().to_owned()).collect();
+        assert_eq!(shown, last.lines().collect::<Vec<_>>());
+    });
 }
 
 #[test]
 fn wrong_words_for_a_demo_are_refused() {
-    for arguments in [
-        &["--size", "0x10"][..],
-        &["--size", "120"],
-        &["--size", "120x"],
-        &["--size", "1001x40"],
-        &["--size", "-1x40"],
-        &["--fps", "0"],
-        &["--fps", "61"],
-        &["--fps", "NaN"],
-        &["--fps", "many"],
-        &["--at", "-1"],
-        &["--at", "inf"],
-        &["--svg", "a.svg"],
-        &["--ascii", "--marker", "octant"],
-        &["--cast", "a.cast", "--at", "3"],
-        &["--theme", "blue"],
-    ] {
-        failed(2, &[&["demo", "jkr-sphere"], arguments].concat());
-    }
-    assert!(failed(2, &["demo", "--size", "big"]).contains("such as 120x40"));
-    failed(1, &["demo", "no-such-scene"]);
-    failed(1, &["demo", "jkr-sphere", "--set", "length=-1"]);
-    failed(1, &["demo", "jkr-sphere", "--cast", "/no/such/folder/a.cast"]);
+    within(60, || {
+        for arguments in [
+            &["--size", "0x10"][..],
+            &["--size", "120"],
+            &["--size", "120x"],
+            &["--size", "1001x40"],
+            &["--size", "-1x40"],
+            &["--fps", "0"],
+            &["--fps", "61"],
+            &["--fps", "NaN"],
+            &["--fps", "many"],
+            &["--at", "-1"],
+            &["--at", "inf"],
+            &["--svg", "a.svg"],
+            &["--ascii", "--marker", "octant"],
+            &["--cast", "a.cast", "--at", "3"],
+            &["--theme", "blue"],
+        ] {
+            failed(2, &[&["demo", "jkr-sphere"], arguments].concat());
+        }
+        assert!(failed(2, &["demo", "--size", "big"]).contains("such as 120x40"));
+        failed(1, &["demo", "no-such-scene"]);
+        failed(1, &["demo", "jkr-sphere", "--set", "length=-1"]);
+        failed(1, &["demo", "jkr-sphere", "--cast", "/no/such/folder/a.cast"]);
+    });
 }
 
 #[test]

@@ -187,6 +187,7 @@ fn kappa_says_nothing_of_a_smooth_body() {
         let mut driver = Driver::start(smooth());
         let before = driver.model.document.clone();
         select(&mut driver, "adhesion.kappa");
+        assert!(row(&driver).contains("none"), "it does not wait for a value: {}", row(&driver));
         driver.enter("3");
         assert_eq!(driver.model.document, before);
         assert!(driver.text().contains("without roughness"), "{}", driver.text());

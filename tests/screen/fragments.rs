@@ -5,6 +5,8 @@ use super::common::driver::Driver;
 use super::common::scenes::rough;
 use super::pressed;
 use asperity::explorer::action::{Action, Command, Jump};
+use asperity::explorer::model::Pane;
+use asperity::explorer::snapshot::FragmentFacts;
 use asperity::explorer::update::{Effect, update};
 
 #[test]
@@ -69,5 +71,102 @@ fn the_close_up_is_looked_at_from_near_and_from_far() {
         assert_eq!(springs(&driver), 1024);
         (0..20).for_each(|_| drop(driver.press("=")));
         assert!((1..=16).contains(&springs(&driver)));
+    });
+}
+
+/// First and last spring of each fragment, from a picture with a column for each spring.
+fn fragments(driver: &mut Driver) -> Vec<(usize, usize)> {
+    let (size, pane) = (driver.model.size, driver.model.pane);
+    driver.model.pane = Pane::Profile;
+    driver.press("z");
+    // So wide that every spring has columns of its own.
+    driver.resize((1100, 40));
+    let section = driver.model.moment.as_ref().unwrap().profile.clone();
+    driver.press("z");
+    driver.model.pane = pane;
+    driver.resize(size);
+    let touches: Vec<bool> = (0..section.springs)
+        .map(|spring| {
+            let column = (spring * section.columns.len()).div_ceil(section.springs);
+            section.columns[column].contact.is_some()
+        })
+        .collect();
+    let mut runs: Vec<(usize, usize)> = Vec::new();
+    for spring in (0..touches.len()).filter(|spring| touches[*spring]) {
+        match runs.last_mut() {
+            Some((_, last)) if *last + 1 == spring => *last = spring,
+            _ => runs.push((spring, spring)),
+        }
+    }
+    runs
+}
+
+fn facts(driver: &Driver) -> FragmentFacts {
+    driver.model.moment.as_ref().unwrap().close_up.fragment.unwrap()
+}
+
+#[test]
+fn the_close_up_goes_to_the_longest_and_the_most_loaded() {
+    within(30, || {
+        for keys in ["", ". . . . . . . .", "> . . ."] {
+            let mut driver = pressed(keys);
+            let all = fragments(&mut driver);
+            assert!(all.len() > 3, "{all:?}");
+            let length = |(first, last): (usize, usize)| last + 1 - first;
+            let longest = all.iter().copied().map(length).max().unwrap();
+            driver.press("b");
+            assert!(all.contains(&facts(&driver).springs), "{:?} of {all:?}", facts(&driver));
+            assert_eq!(length(facts(&driver).springs), longest);
+            // What each carries is told when one looks at it.
+            let mut forces = Vec::new();
+            for _ in 0..all.len() {
+                driver.press("n");
+                forces.push(facts(&driver).force);
+            }
+            let total: f64 = forces.iter().sum();
+            let force = driver.model.moment.as_ref().unwrap().point.force;
+            assert!((total / force - 1.0).abs() < 1e-9, "together they carry all: {total} {force}");
+            let most = forces.iter().map(|force| force.abs()).fold(0.0, f64::max);
+            driver.press("B");
+            assert_eq!(facts(&driver).force.abs(), most);
+            driver.press("f");
+            let summit = driver.model.moment.as_ref().unwrap().close_up.section.clone();
+            let highest = summit.columns.iter().map(|column| column.line.1).fold(f64::MIN, f64::max);
+            assert_eq!(highest, driver.model.moment.as_ref().unwrap().profile.heights.1);
+        }
+    });
+}
+
+#[test]
+fn the_distribution_of_lengths_counts_every_fragment() {
+    within(30, || {
+        let mut driver = pressed("");
+        assert!(driver.model.moment.as_ref().unwrap().lengths.is_none(), "it is not made unseen");
+        driver.press("D");
+        for keys in ["", ". . . .", "d { {", "Space"] {
+            driver.press(keys);
+            let all = fragments(&mut driver);
+            let moment = driver.model.moment.clone().unwrap();
+            let bins = moment.lengths.clone().unwrap();
+            let counted: u64 = bins.iter().map(|bin| bin.fragments).sum();
+            assert_eq!((counted, all.len() as u64), (moment.point.fragments, moment.point.fragments));
+            for bin in &bins {
+                let inside = |&(first, last): &(usize, usize)| {
+                    (bin.from..bin.to).contains(&((last + 1 - first) as u64))
+                };
+                let found = all.iter().filter(|run| inside(run)).count() as u64;
+                assert_eq!(bin.fragments, found, "{bin:?} of {all:?}");
+            }
+            let text = driver.text();
+            assert!(text.contains(&format!("{counted} in all")), "{counted}: {text}");
+            let filled = bins.iter().filter(|bin| bin.fragments > 0).count();
+            assert!(text.matches('○').count() > filled.min(2), "{text}");
+        }
+        driver.press("D");
+        assert!(driver.text().contains("Δl_max"), "{}", driver.text());
+        let mut driver = pressed("D S");
+        assert!(driver.text().contains("nothing is in contact"), "{}", driver.text());
+        driver.press("d D");
+        assert!(!driver.text().contains("nothing is in contact"), "{}", driver.text());
     });
 }

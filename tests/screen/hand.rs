@@ -98,6 +98,8 @@ fn the_status_tells_what_a_move_changed() {
         let (changed, now) = (hand(&driver).changed, point(&driver).springs);
         assert!(changed > 0 && changed == before - now, "{changed}: {before} to {now}");
         assert!(driver.status().contains(&format!("{changed} springs changed")), "{}", driver.status());
+        driver.resize((80, 24));
+        assert!(driver.status().contains("springs changed"), "in a common window too: {}", driver.status());
         assert!(hand(&driver).touched > 0);
         assert!(driver.text().contains("in hand"), "{}", driver.text());
         // A look around is no move: what the last one changed is still told.
