@@ -127,6 +127,7 @@ fn teeth_that_do_not_know_of_each_other_add_up() {
     // A power of two of equal sums: bit for bit.
     let times = |point: &CurvePoint| CurvePoint {
         force: teeth as f64 * point.force,
+        contact_length: teeth as f64 * point.contact_length,
         springs: teeth as u64 * point.springs,
         fragments: teeth as u64 * point.fragments,
         ..*point

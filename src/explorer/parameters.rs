@@ -102,7 +102,7 @@ pub fn parameters(document: &Document) -> Vec<Parameter> {
             parameters.extend(leg_targets(&document.scene().loading));
         }
     }
-    insert_other_adhesion(&mut parameters, document.scene().roughness.is_some());
+    insert_other_adhesion(&mut parameters);
     parameters
 }
 
@@ -122,11 +122,11 @@ fn setting_of(path: &str) -> Setting {
     }
 }
 
-/// A scene gives γ or κ; the other one follows, and can be set as well. A smooth body has no κ.
-fn insert_other_adhesion(parameters: &mut Vec<Parameter>, is_rough: bool) {
+/// A scene gives γ or κ; the other one follows, and can be set as well.
+fn insert_other_adhesion(parameters: &mut Vec<Parameter>) {
     let place = |path| parameters.iter().position(|parameter| parameter.path == path);
     let (at, path) = match (place("adhesion.work"), place("adhesion.kappa")) {
-        (Some(work), None) if is_rough => (work + 1, "adhesion.kappa"),
+        (Some(work), None) => (work + 1, "adhesion.kappa"),
         (None, Some(kappa)) => (kappa, "adhesion.work"),
         _ => return,
     };

@@ -14,7 +14,7 @@ fn stands(rows: &[String]) -> Option<(f64, f64)> {
 fn cost(rows: &[String]) -> Option<(u64, u64)> {
     let row = rows.iter().find(|row| row.contains("in hand: d "))?;
     let number = |words: &str| row.split(words).next()?.rsplit(' ').next()?.parse().ok();
-    Some((number(" springs changed,")?, number(" looked at")?))
+    Some((number(" springs changed")?, number(" looked at")?))
 }
 
 /// Moves the body by a key, and gives where it stands then.
