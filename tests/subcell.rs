@@ -1,42 +1,104 @@
-//! Edges between grid points: second order against closed forms.
+//! Edges between grid points: against brute force, closed forms, and laws that hold for every line.
+
+#[path = "subcell/brute_force.rs"]
+mod brute_force;
+#[path = "subcell/rule.rs"]
+mod rule;
 
 use asperity::contact::subcell::{LevelSets, SubCell};
-use asperity::contact::{ContactTree, Foundation, HessRule, History, LegRecord, run};
-use asperity::scene::{Form, Leg};
-use asperity::surface::Line;
+use asperity::contact::{ContactTree, CurvePoint, Foundation, HessRule, History, LegRecord, Solver, run};
+use asperity::scene::Leg;
+use proptest::prelude::*;
 use std::sync::Arc;
 
-fn history(form: Form, length: f64, points: usize, work: f64, legs: &[Leg]) -> History {
-    let line = Line::new(length, points, Some(&form), None, 0.0).unwrap();
-    let foundation = Foundation { spacing: line.spacing, effective_modulus: 1.0 };
-    let tree = Arc::new(ContactTree::build(&line.gaps).unwrap());
-    let sets = Arc::new(LevelSets::new(tree, &line.gaps).unwrap());
-    let hess = (work > 0.0).then(|| HessRule::new(foundation, work));
-    let mut body = SubCell::new(&sets, hess, foundation, 512, Vec::new()).unwrap();
-    run(&mut body, legs, |_, _| Ok(())).unwrap()
+/// Springs under adhesion.
+#[derive(Clone, Debug)]
+struct Body {
+    /// m, the smallest 0.
+    gaps: Vec<f64>,
+    foundation: Foundation,
+    /// γ, J/m².
+    work: f64,
 }
 
-fn area(legs: &[LegRecord]) -> f64 {
-    let points: Vec<_> = legs.iter().flat_map(|leg| &leg.curve).collect();
-    points.windows(2).map(|p| 0.5 * (p[0].force + p[1].force) * (p[1].indentation - p[0].indentation)).sum()
-}
-
-#[test]
-fn look() {
-    let exact = 1.5 * std::f64::consts::PI;
-    for points in [100, 300, 1000, 3000, 10_000] {
-        let form = Form::Paraboloid { radius: 1.0 };
-        let legs = [Leg::ToIndentation(1.5), Leg::ToSeparation];
-        let history = history(form, 12.0, points, 1.0, &legs);
-        let smallest = history.legs[1].smallest;
-        let energy: f64 = history.legs.iter().map(|leg| leg.dissipated_energy).sum();
-        println!(
-            "{points}: F {} error {:.2e} at {} l {} energy {energy} area {}",
-            smallest.force,
-            -smallest.force / exact - 1.0,
-            smallest.indentation,
-            smallest.contact_length,
-            area(&history.legs)
-        );
+impl Body {
+    fn sets(&self) -> Arc<LevelSets> {
+        let tree = Arc::new(ContactTree::build(&self.gaps).unwrap());
+        Arc::new(LevelSets::new(tree, &self.gaps).unwrap())
     }
+
+    fn hess(&self) -> Option<HessRule> {
+        (self.work > 0.0).then(|| HessRule::new(self.foundation, self.work))
+    }
+
+    fn on<'a>(&self, sets: &'a Arc<LevelSets>, samples: usize) -> SubCell<'a> {
+        SubCell::new(sets, self.hess(), self.foundation, samples, Vec::new()).unwrap()
+    }
+
+    fn history(&self, legs: &[Leg], samples: usize) -> History {
+        run(&mut self.on(&self.sets(), samples), legs, |_, _| Ok(())).unwrap()
+    }
+
+    fn deepest(&self) -> f64 {
+        self.gaps.iter().copied().fold(0.0, f64::max)
+    }
+
+    /// Largest stretch of a fragment that is the whole line, m.
+    fn largest_stretch(&self) -> f64 {
+        let length = self.gaps.len() as f64 * self.foundation.spacing;
+        (std::f64::consts::PI * length * self.work / self.foundation.effective_modulus).sqrt()
+    }
+
+    /// A force of the order of those that act, N.
+    fn force_scale(&self) -> f64 {
+        let springs = self.gaps.len() as f64 * self.foundation.spring_stiffness();
+        springs * (self.deepest() + self.largest_stretch()).max(1e-3)
+    }
+}
+
+/// Gaps of a line of one of several kinds: random walk, noise, few springs, a few levels, flat, a ramp.
+fn gaps(most: usize) -> impl Strategy<Value = Vec<f64>> {
+    let walk = prop::collection::vec(-1.0..1.0_f64, 1..most).prop_map(|steps| {
+        let mut height = 0.0;
+        let heights = steps.iter().map(|step| {
+            height += 0.1 * step;
+            height
+        });
+        heights.collect::<Vec<f64>>()
+    });
+    let noise = prop::collection::vec(0.0..1.0_f64, 1..most);
+    let few = prop::collection::vec(0.0..1.0_f64, 1..5);
+    let levels = prop::collection::vec(0_u8..5, 1..most)
+        .prop_map(|levels| levels.iter().map(|&level| 0.25 * f64::from(level)).collect());
+    let flat = (1_usize..most).prop_map(|count| vec![0.0; count]);
+    let ramp = (1_usize..most, any::<bool>(), 1_usize..4).prop_map(|(count, falls, step)| {
+        let rising = (0..count).map(|k| ((k / step) as f64 / 50.0).powi(2));
+        if falls { rising.rev().collect() } else { rising.collect() }
+    });
+    prop_oneof![6 => walk, 2 => noise, 2 => few, 3 => levels, 1 => flat, 2 => ramp].prop_map(
+        |heights: Vec<f64>| {
+            let lowest = heights.iter().copied().fold(f64::INFINITY, f64::min);
+            heights.iter().map(|height| height - lowest).collect()
+        },
+    )
+}
+
+/// Bodies about 1 m deep, without adhesion, with hardly any, and with far more than it takes.
+fn body(most: usize) -> impl Strategy<Value = Body> {
+    let range = prop_oneof![
+        5 => (-5.0..2.0_f64).prop_map(|power| 10_f64.powf(power)),
+        1 => (-32.0..-5.0_f64).prop_map(|power| 10_f64.powf(power)),
+        1 => Just(0.0),
+    ];
+    (gaps(most), range, 0.003..0.03_f64, 0.3..3.0_f64).prop_map(
+        |(gaps, range, spacing, effective_modulus)| Body {
+            gaps,
+            foundation: Foundation { spacing, effective_modulus },
+            work: range * effective_modulus,
+        },
+    )
+}
+
+fn cases(cases: u32) -> ProptestConfig {
+    ProptestConfig { cases, failure_persistence: None, ..ProptestConfig::default() }
 }

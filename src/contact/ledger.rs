@@ -56,7 +56,7 @@ impl Grid {
 
     /// Index of the first point that is at least `indentation`, which must not exceed the last.
     #[inline]
-    fn first_at_least(&self, indentation: f64) -> usize {
+    pub fn first_at_least(&self, indentation: f64) -> usize {
         // The guess is off by one at the most where the grid is even; the loops make it exact.
         let guess = ((indentation - self.points[0]) * self.intervals_per_metre) as usize;
         let mut index = guess.min(self.points.len() - 1);

@@ -1,10 +1,9 @@
 //! A body whose contact has its edges between grid points, moved leg by leg.
 
 use super::edges::SubCellEdges;
-use super::energy::squared_stretch;
 use super::level_sets::LevelSets;
 use super::search::{Found, Search};
-use super::sums::{Piece, Sums, each_piece, sums_at};
+use super::sums::{Piece, Sums, each_node, sums_and_stretches, sums_at};
 use crate::contact::exact::SEARCH_INTERVALS;
 use crate::contact::ledger::Grid;
 use crate::contact::springs::{AdhesiveSprings, Contact};
@@ -123,8 +122,16 @@ impl<'a> SubCell<'a> {
     fn sample(&mut self, low: f64, high: f64, intervals: usize) -> Sampled {
         self.work.springs_tallied += self.work.springs;
         let grid = Grid::new(low, high, intervals);
-        let sums = sums_at(&self.edges, self.springs.thresholds(), grid.points());
+        let sums = sums_at(&self.edges, self.springs.thresholds(), &grid);
         Sampled { grid, sums }
+    }
+
+    /// The same on the grid of a leg's curve, and the energy in J of what joins or leaves above `from`.
+    fn sample_leg(&mut self, low: f64, high: f64, intervals: usize, from: f64) -> (Sampled, f64) {
+        self.work.springs_tallied += self.work.springs;
+        let grid = Grid::new(low, high, intervals);
+        let (sums, squared) = sums_and_stretches(&self.edges, self.springs.thresholds(), &grid, from);
+        (Sampled { grid, sums }, 0.5 * self.foundation.spring_stiffness() * squared)
     }
 
     /// Intervals of a leg's grid, and how many of them lie between two samples of its curve.
@@ -139,14 +146,21 @@ impl<'a> SubCell<'a> {
         let points = sampled.grid.points();
         let mut pieces = vec![Vec::new(); chosen.len()];
         let mut count = 0;
-        if chosen.contains(&true) {
-            each_piece(&self.edges, self.springs.thresholds(), |piece| {
+        let first = chosen.iter().position(|&chosen| chosen);
+        let last = chosen.iter().rposition(|&chosen| chosen);
+        if let (Some(first), Some(last)) = (first, last) {
+            let (low, high) = (points[first], points[last + 1]);
+            each_node(&self.edges, self.springs.thresholds(), |node, from, to| {
+                if from >= to || from > high || to <= low {
+                    return;
+                }
                 // Intervals that reach from below `to` to `from` and above.
-                let first = points.partition_point(|&point| point < piece.from).saturating_sub(1);
-                let end = points.partition_point(|&point| point < piece.to).min(chosen.len());
-                for interval in (first..end).filter(|&interval| chosen[interval]) {
-                    pieces[interval].push(piece);
-                    count += 1;
+                let above = |value: f64| sampled.grid.first_at_least(value.min(high));
+                for interval in above(from).saturating_sub(1).max(first)..above(to).min(last + 1) {
+                    if chosen[interval] {
+                        pieces[interval].push(Piece { node: node as u32, from, to });
+                        count += 1;
+                    }
                 }
             });
         }
@@ -272,7 +286,9 @@ impl<'a> SubCell<'a> {
             Target::Separation => low,
         };
         let (intervals, stride) = self.intervals();
-        let sampled = self.sample(low, high, intervals);
+        // What touches at once when the contact forms joins at the first point itself.
+        let from = if separated { f64::NEG_INFINITY } else { stood };
+        let (sampled, energy) = self.sample_leg(low, high, intervals, from);
         let mut curve = self.samples(&sampled, stride);
         if separated {
             let free = |indentation| CurvePoint { indentation, ..CurvePoint::default() };
@@ -295,8 +311,6 @@ impl<'a> SubCell<'a> {
         let joins = (end.sums.springs - before.springs).unsigned_abs();
         self.work.joins += joins;
         (self.indentation, self.standing) = (high, end.sums);
-        // What touches at once when the contact forms joins at the first point itself.
-        let from = if separated { f64::NEG_INFINITY } else { stood };
         Ok(LegRecord {
             leg,
             direction: Direction::Loading,
@@ -305,7 +319,8 @@ impl<'a> SubCell<'a> {
             smallest,
             joins,
             leaves: 0,
-            dissipated_energy: -self.energy(from, high),
+            // Not −0 where nothing joined with a stretch.
+            dissipated_energy: 0.0 - energy,
         })
     }
 
@@ -322,7 +337,10 @@ impl<'a> SubCell<'a> {
             }
         };
         let (intervals, stride) = self.intervals();
-        let sampled = self.sample(low, high, intervals);
+        let separates = matches!(target, Target::Separation);
+        // What is held to the last point leaves just below it.
+        let from = if separates { f64::NEG_INFINITY } else { low };
+        let (sampled, energy) = self.sample_leg(low, high, intervals, from);
         let smallest = self.smallest(&sampled);
         let smallest = self.curve_point(smallest);
         let mut curve = self.samples(&sampled, stride);
@@ -331,13 +349,11 @@ impl<'a> SubCell<'a> {
             curve.insert(place, smallest);
         }
         curve.reverse();
-        let (end, from) = match target {
-            Target::Separation => {
-                curve.push(CurvePoint { indentation: low, ..CurvePoint::default() });
-                // What is held to the last point leaves just below it.
-                (Sums::default(), f64::NEG_INFINITY)
-            }
-            _ => (sampled.sums[0], low),
+        let end = if separates {
+            curve.push(CurvePoint { indentation: low, ..CurvePoint::default() });
+            Sums::default()
+        } else {
+            sampled.sums[0]
         };
         let largest = curve.first().copied().unwrap_or(smallest);
         let leaves = (before.springs - end.springs).unsigned_abs();
@@ -351,7 +367,7 @@ impl<'a> SubCell<'a> {
             smallest,
             joins: 0,
             leaves,
-            dissipated_energy: self.energy(from, high),
+            dissipated_energy: energy,
         })
     }
 
@@ -360,12 +376,6 @@ impl<'a> SubCell<'a> {
         let last = sampled.intervals();
         let wanted = (0..=last).filter(|index| index % stride == 0 || *index == last);
         wanted.map(|index| self.curve_point(sampled.found(index))).collect()
-    }
-
-    /// Energy in J of what joins or leaves between two indentations of the present leg.
-    fn energy(&self, low: f64, high: f64) -> f64 {
-        let squared = squared_stretch(&self.edges, self.springs.thresholds(), low, high);
-        0.5 * self.foundation.spring_stiffness() * squared
     }
 }
 

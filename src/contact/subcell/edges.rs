@@ -1,6 +1,6 @@
 //! The rule of Hess read with the length between edges that lie anywhere in their cells.
 
-use super::level_sets::{Component, LevelSets, Levels};
+use super::level_sets::{LevelSets, Levels};
 use crate::contact::{ContactTree, EdgeRule, HessRule};
 use std::sync::Arc;
 
@@ -43,63 +43,129 @@ impl SubCellEdges {
         if excess > 0.0 && levels.growth > 0.0 { (gap + excess / levels.growth).min(levels.top) } else { gap }
     }
 
-    /// The level at which the fragment of a node rests under an indentation, m: where φ rises through it.
+    /// How the fragment of a node slides.
     #[inline]
-    pub fn level(&self, node: usize, indentation: f64) -> f64 {
+    pub fn slider(&self, node: usize) -> Slider {
         let (gap, levels) = (self.sets.tree().gap(node), self.sets.levels(node));
-        if levels.growth <= 0.0 {
-            return gap;
-        }
-        // With y = √ℓ the level is d + stretch y, and ℓ = length + growth (level − gap) is quadratic in y.
-        let root = self.root(gap, levels, indentation);
-        (indentation + self.stretch * root).clamp(gap, levels.top)
-    }
-
-    /// √ℓ of the fragment of a node that rests under an indentation.
-    #[inline]
-    fn root(&self, gap: f64, levels: Levels, indentation: f64) -> f64 {
         let half = 0.5 * self.stretch * levels.growth;
-        let square = half * half + (levels.length + levels.growth * (indentation - gap));
-        half + square.max(0.0).sqrt()
+        Slider { gap, levels, stretch: self.stretch, half, square: half * half + levels.length }
+    }
+}
+
+/// The fragment of a node as its edges slide with the indentation.
+///
+/// With y = √ℓ its level is d + stretch y, and ℓ = length + growth (level − gap) is quadratic in y.
+#[derive(Clone, Copy, Debug)]
+pub struct Slider {
+    gap: f64,
+    levels: Levels,
+    stretch: f64,
+    /// ½ stretch × growth.
+    half: f64,
+    /// half² + length.
+    square: f64,
+}
+
+/// A fragment at one indentation.
+#[derive(Clone, Copy, Debug)]
+pub struct Fragment {
+    /// Its length in cells.
+    pub length: f64,
+    /// The compression ∫ (d − c) dx over it, in cells times metres: the force in units of the stiffness of
+    /// one spring.
+    pub compression: f64,
+}
+
+impl Slider {
+    /// √ℓ at an indentation that lies so far above the gap.
+    #[inline]
+    fn root(&self, above: f64) -> f64 {
+        let square = self.square + self.levels.growth * above;
+        // A square that is not a number comes of growth without bound, and then nothing but `half` counts.
+        self.half + if square > 0.0 { square.sqrt() } else { 0.0 }
     }
 
-    /// The fragment of a node under an indentation.
-    pub fn fragment(&self, node: usize, indentation: f64) -> Component {
-        self.sets.component(node, self.level(node, indentation), indentation)
+    /// How far the level lies above the gap.
+    #[inline]
+    fn rise(&self, above: f64) -> f64 {
+        let rise = above + self.stretch * self.root(above);
+        let most = self.levels.top - self.gap;
+        let rise = if rise > 0.0 { rise } else { 0.0 };
+        if rise < most { rise } else { most }
     }
 
-    /// By how much the compression of the fragment of a node grows with the indentation, in cells: its length
-    /// times (2y − 3k)/(2y − k) with y = √ℓ and k = stretch × growth, since its edges move with it.
+    /// The level at which the fragment rests under an indentation, m, where φ rises through it.
+    #[inline]
+    pub fn level(&self, indentation: f64) -> f64 {
+        if self.levels.growth > 0.0 { self.gap + self.rise(indentation - self.gap) } else { self.gap }
+    }
+
+    /// The fragment under an indentation.
+    #[inline]
+    pub fn at(&self, indentation: f64) -> Fragment {
+        let above = indentation - self.gap;
+        let rise = self.rise(above);
+        // Nothing is lost in these sums but a rounding of the largest term.
+        let grown = self.levels.growth * rise;
+        Fragment {
+            length: self.levels.length + grown,
+            compression: (self.levels.length * above + self.levels.depth) + grown * (above - 0.5 * rise),
+        }
+    }
+
+    /// By how much the compression grows with the indentation, in cells: the length times (2y − 3k)/(2y − k)
+    /// with y = √ℓ and k = stretch × growth, since its edges move with it.
     ///
     /// It only grows with the indentation: between events the force is convex.
-    pub fn stiffness(&self, node: usize, indentation: f64) -> f64 {
-        let (gap, levels) = (self.sets.tree().gap(node), self.sets.levels(node));
-        let level = self.level(node, indentation);
-        let length = self.sets.component(node, level, indentation).length;
-        if levels.growth <= 0.0 || level <= gap || level >= levels.top {
+    pub fn stiffness(&self, indentation: f64) -> f64 {
+        let above = indentation - self.gap;
+        let rise = self.rise(above);
+        let length = self.levels.length + self.levels.growth * rise;
+        if self.levels.growth <= 0.0 || rise <= 0.0 || rise >= self.levels.top - self.gap {
             return length;
         }
-        let root = self.root(gap, levels, indentation);
-        let fall = self.stretch * levels.growth;
+        let (root, fall) = (self.root(above), 2.0 * self.half);
         let rises = 2.0 * root - fall;
         // Where it is about to let go the edges run away at once.
         if rises > 0.0 { length * (2.0 * root - 3.0 * fall) / rises } else { f64::NEG_INFINITY }
     }
 
-    /// ∫ (c − θ)² dx over the part of the line that the fragment of a node takes in between two levels, in
-    /// cells times m²: at once at the indentation `at`.
-    pub fn squared_stretch_at_once(&self, node: usize, from: f64, to: f64, at: f64) -> f64 {
-        let growth = self.sets.levels(node).growth;
-        let cube = |level: f64| (level - at).powi(3);
-        (growth * (cube(to) - cube(from)) / 3.0).max(0.0)
+    /// ∫ (c − θ)² dx over the part of the line that is taken in or left between two levels, in cells times
+    /// m²: at once at the indentation `at`.
+    #[inline]
+    pub fn squared_stretch_at_once(&self, from: f64, to: f64, at: f64) -> f64 {
+        let (a, b) = (from - at, to - at);
+        self.levels.growth * (to - from) * (a * a + a * b + b * b) / 3.0
     }
 
-    /// The same while its edges slide from one level to another, each place at its own indentation.
-    pub fn squared_stretch_sliding(&self, node: usize, from: f64, to: f64) -> f64 {
-        let (gap, levels) = (self.sets.tree().gap(node), self.sets.levels(node));
-        let length = |level: f64| levels.length + levels.growth * (level - gap);
-        let square = length(to) * length(to) - length(from) * length(from);
-        (0.5 * self.stretch * self.stretch * square).max(0.0)
+    /// The same while the edges slide from one level to another, each place at its own indentation.
+    #[inline]
+    pub fn squared_stretch_sliding(&self, from: f64, to: f64) -> f64 {
+        let length = |level: f64| self.levels.length + self.levels.growth * (level - self.gap);
+        let slides = self.levels.growth * (to - from);
+        0.5 * self.stretch * self.stretch * slides * (length(from) + length(to))
+    }
+
+    /// What joins or leaves between the indentations `low` (not itself) and `high` around the springs of the
+    /// node, which form a fragment of their own at `opens` and become part of a larger one at `closes`.
+    #[inline]
+    pub fn squared_stretch(&self, (opens, closes): (f64, f64), (low, high): (f64, f64)) -> f64 {
+        let (gap, top) = (self.gap, self.levels.top);
+        if opens > high || closes <= low || self.levels.growth <= 0.0 {
+            return 0.0;
+        }
+        if opens >= closes {
+            return self.squared_stretch_at_once(gap, top, opens);
+        }
+        let (from, to) = (self.level(opens.max(low)), self.level(closes.min(high)));
+        let mut sum = self.squared_stretch_sliding(from, to.max(from));
+        if opens > low {
+            sum += self.squared_stretch_at_once(gap, from, opens);
+        }
+        if closes <= high {
+            sum += self.squared_stretch_at_once(to.max(from), top, closes);
+        }
+        sum
     }
 }
 

@@ -1,6 +1,6 @@
-//! The piecewise-linear line through the springs, and how long its fragments are at each level.
+//! The piecewise-linear line through the springs, how long its fragments are at each level, and how deep.
 
-use crate::contact::tally::{GapScale, Tally};
+use crate::contact::ledger::CompensatedSum;
 use crate::contact::{ContactError, ContactTree, reserve};
 use std::sync::Arc;
 
@@ -13,11 +13,8 @@ use std::sync::Arc;
 #[derive(Debug)]
 pub struct LevelSets {
     tree: Arc<ContactTree>,
-    gaps: Vec<f64>,
-    scale: GapScale,
     nodes: Vec<Levels>,
-    /// Twice the trapezoid sum of the gaps from the first spring to each, in quanta.
-    trapezoids: Vec<i128>,
+    steps: Vec<Step>,
 }
 
 /// How long the component of a subtree is: `length + growth (t − c)` cells at level t, from its largest
@@ -30,16 +27,17 @@ pub struct Levels {
     pub growth: f64,
     /// Gap of the parent, m; infinite at the root.
     pub top: f64,
+    /// ∫ (c − c(x)) dx over it at level c, in cells times metres.
+    pub depth: f64,
 }
 
-/// A component at one level.
+/// What of the line lies level with a spring and comes into contact together with it.
 #[derive(Clone, Copy, Debug)]
-pub struct Component {
+pub struct Step {
+    /// The spring's node.
+    pub node: u32,
     /// Its length in cells.
     pub length: f64,
-    /// The compression ∫ (d − c) dx over it, in cells times metres: the force in units of the stiffness of
-    /// one spring.
-    pub compression: f64,
 }
 
 impl LevelSets {
@@ -48,33 +46,43 @@ impl LevelSets {
     /// # Errors
     /// [`ContactError::OutOfMemory`].
     pub fn new(tree: Arc<ContactTree>, gaps: &[f64]) -> Result<Self, ContactError> {
-        let scale = tree.gap_scale();
-        let mut trapezoids = reserve(gaps.len())?;
-        let mut sum = 0_i128;
-        let mut before: Option<i64> = None;
-        trapezoids.extend(gaps.iter().map(|&gap| {
-            let quanta = scale.quanta(gap);
-            sum += before.replace(quanta).map_or(0, |before| i128::from(before) + i128::from(quanta));
-            sum
-        }));
         let mut nodes = reserve(tree.len())?;
-        nodes.resize(tree.len(), Levels { length: 0.0, growth: 0.0, top: f64::INFINITY });
-        let mut kept = reserve(gaps.len())?;
-        kept.extend_from_slice(gaps);
-        let mut sets = LevelSets { tree, gaps: kept, scale, nodes, trapezoids };
-        for node in 0..sets.tree.len() {
-            let gap = sets.tree.gap(node);
-            let (left, right) = sets.tree.children(node);
-            for child in [left, right].into_iter().flatten() {
-                sets.nodes[child].top = gap;
+        nodes.resize(tree.len(), Levels { length: 0.0, growth: 0.0, top: f64::INFINITY, depth: 0.0 });
+        let mut steps = Vec::new();
+        // Depths of the subtrees whose parents are still to come: each is a sum of what is not negative,
+        // compensated, so that it is exact but for a few roundings however many springs there are.
+        let mut depths: Vec<CompensatedSum> = Vec::new();
+        for node in 0..tree.len() {
+            let gap = tree.gap(node);
+            let (left, right) = tree.children(node);
+            let mut depth = CompensatedSum::default();
+            for child in [right, left].into_iter().flatten() {
+                let levels = &mut nodes[child];
+                levels.top = gap;
+                let rise = gap - tree.gap(child);
+                depth.add_sum(depths.pop().unwrap_or_default());
+                depth.add(rise * (levels.length + 0.5 * levels.growth * rise));
             }
-            let (first, last) = sets.tree.interval(node);
-            let [left, right] = sets.cells(first, last);
-            let levels = &mut sets.nodes[node];
-            levels.length = (last - first) as f64 + left.share(gap) + right.share(gap);
-            levels.growth = left.growth() + right.growth();
+            let (first, last) = tree.interval(node);
+            let outside = |spring: Option<usize>| spring.and_then(|spring| gaps.get(spring)).copied();
+            let cells = [
+                EdgeCell { inside: gaps[first], outside: outside(first.checked_sub(1)) },
+                EdgeCell { inside: gaps[last], outside: outside(last.checked_add(1)) },
+            ];
+            nodes[node] = Levels {
+                length: (last - first) as f64 + cells[0].share(gap) + cells[1].share(gap),
+                growth: cells[0].growth() + cells[1].growth(),
+                top: f64::INFINITY,
+                depth: depth.total(),
+            };
+            depths.push(depth);
+            let length = level_length(gaps, tree.positions()[node] as usize);
+            if length > 0.0 {
+                steps.try_reserve(1).map_err(|_| ContactError::OutOfMemory { springs: gaps.len() })?;
+                steps.push(Step { node: node as u32, length });
+            }
         }
-        Ok(sets)
+        Ok(LevelSets { tree, nodes, steps })
     }
 
     /// The tree of the line.
@@ -82,9 +90,9 @@ impl LevelSets {
         &self.tree
     }
 
-    /// The gaps along the line, m.
-    pub fn gaps(&self) -> &[f64] {
-        &self.gaps
+    /// The tree of the line, to share.
+    pub fn shared_tree(&self) -> Arc<ContactTree> {
+        Arc::clone(&self.tree)
     }
 
     /// Levels of a node.
@@ -93,36 +101,19 @@ impl LevelSets {
         self.nodes[node]
     }
 
-    /// The cells left and right of an interval of springs.
-    #[inline]
-    fn cells(&self, first: usize, last: usize) -> [EdgeCell; 2] {
-        let outside = |spring: Option<usize>| spring.and_then(|spring| self.gaps.get(spring)).copied();
-        [
-            EdgeCell { inside: self.gaps[first], outside: outside(first.checked_sub(1)) },
-            EdgeCell { inside: self.gaps[last], outside: outside(last.checked_add(1)) },
-        ]
+    /// All that lies level, in the order of the nodes.
+    pub fn steps(&self) -> &[Step] {
+        &self.steps
     }
+}
 
-    /// The component of a node at level `level`, under indentation `indentation`, m.
-    ///
-    /// The springs between its edges are summed as exactly as in [`Tally::compression`]; each edge adds one
-    /// rounding of its own cell.
-    pub fn component(&self, node: usize, level: f64, indentation: f64) -> Component {
-        let (first, last) = self.tree.interval(node);
-        let twice = Tally {
-            springs: 2 * (last - first) as i64,
-            fragments: 1,
-            quanta: self.trapezoids[last] - self.trapezoids[first],
-        };
-        let mut length = (last - first) as f64;
-        let mut compression = 0.5 * twice.compression(indentation, &self.scale);
-        for cell in self.cells(first, last) {
-            let share = cell.share(level);
-            length += share;
-            compression += share * (indentation - cell.mean(level));
-        }
-        Component { length, compression }
-    }
+/// Cells that lie level with a spring: half of one at an end of the foundation, and the one to its left
+/// if that spring's gap is the same.
+fn level_length(gaps: &[f64], position: usize) -> f64 {
+    let half = |is_end: bool| if is_end { 0.5 } else { 0.0 };
+    let before = position.checked_sub(1).and_then(|before| gaps.get(before));
+    let is_level = before.is_some_and(|before| *before == gaps[position]);
+    half(position == 0) + half(position + 1 == gaps.len()) + f64::from(u8::from(is_level))
 }
 
 /// The cell in which an edge moves: from the last spring that is held to the first that is not.
@@ -144,15 +135,6 @@ impl EdgeCell {
                 // 0/0 where the cell is level.
                 if share < 1.0 { share.max(0.0) } else { 1.0 }
             }
-        }
-    }
-
-    /// Mean gap of that share.
-    #[inline]
-    fn mean(self, level: f64) -> f64 {
-        match self.outside {
-            None => self.inside,
-            Some(outside) => 0.5 * (self.inside + level.min(outside).max(self.inside)),
         }
     }
 

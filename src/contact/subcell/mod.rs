@@ -7,7 +7,6 @@
 
 mod body;
 mod edges;
-mod energy;
 mod level_sets;
 mod search;
 mod sums;

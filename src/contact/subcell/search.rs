@@ -46,7 +46,7 @@ impl Search<'_> {
     /// By how much the compression grows with the indentation, for what is in contact at `low`.
     fn stiffness(&self, pieces: &[Piece], low: f64, indentation: f64) -> f64 {
         let standing = pieces.iter().filter(|piece| piece.is_at(low));
-        standing.map(|piece| self.edges.stiffness(piece.node as usize, indentation)).sum()
+        standing.map(|piece| self.edges.slider(piece.node as usize).stiffness(indentation)).sum()
     }
 
     /// Parts an interval at an event inside it, the middle one of all.

@@ -1,7 +1,7 @@
 //! What all fragments of a leg come to at given indentations.
 
-use super::edges::SubCellEdges;
-use crate::contact::ledger::CompensatedSum;
+use super::edges::{Slider, SubCellEdges};
+use crate::contact::ledger::{CompensatedSum, Grid};
 
 /// What is in contact at one indentation.
 #[derive(Clone, Copy, Debug, Default)]
@@ -16,9 +16,14 @@ impl Sums {
     /// Adds the fragment of a node.
     #[inline]
     pub fn add(&mut self, edges: &SubCellEdges, node: usize, indentation: f64) {
-        let fragment = edges.fragment(node, indentation);
         self.springs += i64::from(edges.sets().tree().size(node));
         self.fragments += 1;
+        self.add_fragment(&edges.slider(node), indentation);
+    }
+
+    #[inline]
+    fn add_fragment(&mut self, slider: &Slider, indentation: f64) {
+        let fragment = slider.at(indentation);
         self.length.add(fragment.length);
         self.compression.add(fragment.compression);
     }
@@ -49,52 +54,103 @@ impl Piece {
     }
 }
 
-/// The fragments of a leg: every node of the tree is one between its own threshold and that of its parent.
-pub fn each_piece(edges: &SubCellEdges, thresholds: &[f64], mut see: impl FnMut(Piece)) {
+/// Each node of the tree with its own threshold and that of its parent; it is a fragment between them.
+#[inline]
+pub fn each_node(edges: &SubCellEdges, thresholds: &[f64], mut see: impl FnMut(usize, f64, f64)) {
     let tree = edges.sets().tree();
-    let mut piece = |node: usize, to: f64| {
-        let from = thresholds[node];
-        if from < to {
-            see(Piece { node: node as u32, from, to });
-        }
-    };
     for parent in 0..tree.len() {
+        let to = thresholds[parent];
         let (left, right) = tree.children(parent);
         for child in [left, right].into_iter().flatten() {
-            piece(child, thresholds[parent]);
+            see(child, thresholds[child], to);
         }
     }
     if let Some(root) = tree.len().checked_sub(1) {
-        piece(root, f64::INFINITY);
+        see(root, thresholds[root], f64::INFINITY);
     }
 }
 
-/// The sums at each of some indentations in ascending order.
+/// The sums at each point of a grid.
 ///
-/// This takes O(N) time and one evaluation for each fragment at each indentation.
-pub fn sums_at(edges: &SubCellEdges, thresholds: &[f64], indentations: &[f64]) -> Vec<Sums> {
-    let mut sums = vec![Sums::default(); indentations.len()];
-    let (Some(&low), Some(&high)) = (indentations.first(), indentations.last()) else { return sums };
-    let per_metre = (indentations.len() - 1) as f64 / (high - low);
-    let first_at_least = |value: f64| {
-        // A guess that is exact on an even grid but for rounding, and then made exact.
-        let guess = (value - low) * per_metre;
-        let mut index = if guess > 0.0 { (guess as usize).min(indentations.len()) } else { 0 };
-        while index < indentations.len() && indentations[index] < value {
-            index += 1;
-        }
-        while index > 0 && indentations[index - 1] >= value {
-            index -= 1;
-        }
-        index
-    };
-    each_piece(edges, thresholds, |piece| {
-        if piece.from > high || piece.to <= low {
-            return;
-        }
-        for index in first_at_least(piece.from)..first_at_least(piece.to) {
-            sums[index].add(edges, piece.node as usize, indentations[index]);
+/// This takes O(N) time and one evaluation for each fragment at each point.
+pub fn sums_at(edges: &SubCellEdges, thresholds: &[f64], grid: &Grid) -> Vec<Sums> {
+    let mut sums = vec![Sums::default(); grid.points().len()];
+    let mut adder = Adder { edges, grid, sums: &mut sums };
+    each_node(edges, thresholds, |node, from, to| adder.add(node, from, to));
+    adder.finish();
+    sums
+}
+
+/// The same, and ∫ (c − θ)² dx over what joins or leaves between `low` and the end of the grid, θ being the
+/// indentation at which it does so, in cells times m².
+///
+/// Between the threshold of a node and that of its parent its edges slide; at either of them they jump.
+pub fn sums_and_stretches(
+    edges: &SubCellEdges,
+    thresholds: &[f64],
+    grid: &Grid,
+    low: f64,
+) -> (Vec<Sums>, f64) {
+    let high = grid.high();
+    let mut sums = vec![Sums::default(); grid.points().len()];
+    let mut squared = CompensatedSum::default();
+    let mut adder = Adder { edges, grid, sums: &mut sums };
+    each_node(edges, thresholds, |node, from, to| {
+        adder.add(node, from, to);
+        if from <= high && to > low {
+            squared.add(edges.slider(node).squared_stretch((from, to), (low, high)));
         }
     });
-    sums
+    adder.finish();
+    for step in edges.sets().steps() {
+        let at = thresholds[step.node as usize];
+        if at > low && at <= high {
+            let stretch = edges.sets().tree().gap(step.node as usize) - at;
+            squared.add(step.length * stretch * stretch);
+        }
+    }
+    (sums, squared.total())
+}
+
+/// Adds the fragments up along a grid.
+struct Adder<'a> {
+    edges: &'a SubCellEdges,
+    grid: &'a Grid,
+    sums: &'a mut [Sums],
+}
+
+impl Adder<'_> {
+    #[inline]
+    fn add(&mut self, node: usize, from: f64, to: f64) {
+        let points = self.grid.points();
+        if from >= to || from > self.grid.high() || to <= points[0] {
+            return;
+        }
+        let first = self.grid.first_at_least(from);
+        let end = if to > self.grid.high() { points.len() } else { self.grid.first_at_least(to) };
+        if first == end {
+            return;
+        }
+        let slider = self.edges.slider(node);
+        // Numbers of springs and fragments as steps, to be summed up at the end.
+        let springs = i64::from(self.edges.sets().tree().size(node));
+        self.sums[first].springs += springs;
+        self.sums[first].fragments += 1;
+        if let Some(after) = self.sums.get_mut(end) {
+            after.springs -= springs;
+            after.fragments -= 1;
+        }
+        for (sums, &point) in self.sums[first..end].iter_mut().zip(&points[first..end]) {
+            sums.add_fragment(&slider, point);
+        }
+    }
+
+    fn finish(self) {
+        let (mut springs, mut fragments) = (0, 0);
+        for sums in self.sums {
+            springs += sums.springs;
+            fragments += sums.fragments;
+            (sums.springs, sums.fragments) = (springs, fragments);
+        }
+    }
 }

@@ -1,0 +1,262 @@
+//! The rule on the line that runs straight from spring to spring, step by step along the levels: no tree, no
+//! threshold, no formula of the solver.
+
+use asperity::contact::Foundation;
+
+/// Points of a stretch of levels at which the rule is looked at before it is bisected.
+const POINTS: usize = 24;
+
+/// A fragment: the component of {c ≤ level} that holds a spring.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Fragment {
+    spring: usize,
+    level: f64,
+}
+
+/// A part of the line, in cells from the first spring.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Part {
+    from: f64,
+    to: f64,
+    first: usize,
+    last: usize,
+}
+
+impl Part {
+    fn length(&self) -> f64 {
+        self.to - self.from
+    }
+}
+
+/// A body that relaxes level by level.
+#[derive(Clone)]
+pub struct Relaxed<'a> {
+    gaps: &'a [f64],
+    foundation: Foundation,
+    /// Largest stretch of a fragment one cell long, m.
+    stretch: f64,
+    indentation: f64,
+    fragments: Vec<Fragment>,
+}
+
+impl<'a> Relaxed<'a> {
+    pub fn new(gaps: &'a [f64], foundation: Foundation, work: f64) -> Self {
+        let stretch =
+            (std::f64::consts::PI * foundation.spacing * work / foundation.effective_modulus).sqrt();
+        Relaxed { gaps, foundation, stretch, indentation: 0.0, fragments: Vec::new() }
+    }
+
+    /// The component of {c ≤ level} (`closed`) or {c < level} around a spring in it.
+    fn part(&self, spring: usize, level: f64, closed: bool) -> Part {
+        let is_in = |gap: f64| if closed { gap <= level } else { gap < level };
+        let edge = |inside: usize, outside: usize| {
+            let (low, high) = (self.gaps[inside], self.gaps[outside]);
+            ((level - low) / (high - low)).clamp(0.0, 1.0)
+        };
+        let (mut first, mut last) = (spring, spring);
+        while first > 0 && is_in(self.gaps[first - 1]) {
+            first -= 1;
+        }
+        while last + 1 < self.gaps.len() && is_in(self.gaps[last + 1]) {
+            last += 1;
+        }
+        let from = first as f64 - if first == 0 { 0.5 } else { edge(first, first - 1) };
+        let to = last as f64 + if last + 1 == self.gaps.len() { 0.5 } else { edge(last, last + 1) };
+        Part { from, to, first, last }
+    }
+
+    /// φ at a level.
+    fn rest(&self, spring: usize, level: f64, closed: bool) -> f64 {
+        level - self.stretch * self.part(spring, level, closed).length().sqrt()
+    }
+
+    /// Springs' gaps next above and below a level.
+    fn next_gap(&self, level: f64) -> Option<f64> {
+        self.gaps.iter().copied().filter(|&gap| gap > level).min_by(f64::total_cmp)
+    }
+
+    fn last_gap(&self, level: f64, closed: bool) -> f64 {
+        let is_in = |gap: f64| if closed { gap <= level } else { gap < level };
+        self.gaps.iter().copied().filter(|&gap| is_in(gap)).max_by(f64::total_cmp).unwrap_or(0.0)
+    }
+
+    pub fn move_to(&mut self, indentation: f64) {
+        let from = std::mem::replace(&mut self.indentation, indentation);
+        if indentation > from || (self.fragments.is_empty() && indentation >= 0.0) {
+            self.press();
+        } else if indentation < from {
+            self.pull();
+        }
+    }
+
+    fn press(&mut self) {
+        let d = self.indentation;
+        for fragment in &mut self.fragments {
+            fragment.level = fragment.level.max(d);
+        }
+        for (spring, &gap) in self.gaps.iter().enumerate() {
+            if gap <= d {
+                self.fragments.push(Fragment { spring, level: d });
+            }
+        }
+        self.merge();
+        loop {
+            let before = self.fragments.clone();
+            for index in 0..self.fragments.len() {
+                let Fragment { spring, mut level } = self.fragments[index];
+                while let Some(next) = self.next_gap(level) {
+                    let grown = self.grow(spring, level, next);
+                    if grown == level {
+                        break;
+                    }
+                    level = grown;
+                    if level < next {
+                        break;
+                    }
+                }
+                self.fragments[index].level = level;
+            }
+            self.merge();
+            if self.fragments == before {
+                return;
+            }
+        }
+    }
+
+    /// The level to which a fragment grows, up to the next spring's gap.
+    fn grow(&self, spring: usize, level: f64, next: f64) -> f64 {
+        let holds = |at: f64| self.rest(spring, at, at < next) <= self.indentation;
+        let point =
+            |k: usize| if k == POINTS { next } else { level + (next - level) * k as f64 / POINTS as f64 };
+        let mut reached = level;
+        for k in 1..=POINTS {
+            let at = point(k).min(next);
+            if !holds(at) {
+                return bisect(reached, at, |at| !holds(at)).0;
+            }
+            reached = at;
+        }
+        next
+    }
+
+    /// Drops what lies within another fragment.
+    fn merge(&mut self) {
+        let parts: Vec<Part> = self.parts().map(|(_, part)| part).collect();
+        let is_within = |a: usize, b: usize| {
+            let (inner, outer) = (parts[a], parts[b]);
+            if (inner.first, inner.last) == (outer.first, outer.last) {
+                let (inner, outer) = (self.fragments[a].level, self.fragments[b].level);
+                return outer > inner || (outer == inner && b < a);
+            }
+            outer.first <= inner.first && inner.last <= outer.last
+        };
+        let stays = |a: usize| !(0..parts.len()).any(|b| a != b && is_within(a, b));
+        self.fragments = (0..parts.len()).filter(|&a| stays(a)).map(|a| self.fragments[a]).collect();
+    }
+
+    fn pull(&mut self) {
+        // A part that a spring has just left does not reach up to that spring's gap any more.
+        let mut waiting: Vec<_> = self.fragments.drain(..).map(|fragment| (fragment, true)).collect();
+        while let Some((Fragment { spring, level }, closed)) = waiting.pop() {
+            let below = self.last_gap(level, closed);
+            let stop = below.max(self.indentation);
+            match self.sink(spring, level, stop, closed) {
+                Some(level) => self.fragments.push(Fragment { spring, level }),
+                // What is not stretched stays.
+                None if below <= self.indentation => {
+                    let part = self.part(spring, level, closed);
+                    let held = (part.first..=part.last).find(|&spring| self.gaps[spring] <= stop);
+                    self.fragments.extend(held.map(|spring| Fragment { spring, level: stop }));
+                }
+                None => {
+                    // Springs of this gap leave, and each part that lies lower goes on by itself.
+                    let part = self.part(spring, level, closed);
+                    let lower = |spring: usize| self.gaps[spring] < below;
+                    let starts =
+                        |spring: usize| lower(spring) && (spring == part.first || !lower(spring - 1));
+                    let starts = (part.first..=part.last).filter(|&spring| starts(spring));
+                    waiting.extend(starts.map(|spring| (Fragment { spring, level: below }, false)));
+                }
+            }
+        }
+    }
+
+    /// The level down to which a fragment sinks, above `stop`; `None` when it sinks to there.
+    fn sink(&self, spring: usize, level: f64, stop: f64, closed: bool) -> Option<f64> {
+        let rest = |at: f64| self.rest(spring, at, closed || at < level);
+        if rest(level) < self.indentation {
+            return Some(level);
+        }
+        // φ is convex between springs' gaps: its smallest value there.
+        let just_above = stop.next_up().min(level);
+        let (mut low, mut high) = (just_above, level);
+        for _ in 0..200 {
+            let (a, b) = (low + (high - low) / 3.0, high - (high - low) / 3.0);
+            if rest(a) < rest(b) { high = b } else { low = a }
+        }
+        let lowest = [low, high, just_above].into_iter().min_by(|&a, &b| rest(a).total_cmp(&rest(b)))?;
+        if rest(lowest) >= self.indentation {
+            return None;
+        }
+        Some(bisect(lowest, level, |at| rest(at) >= self.indentation).0)
+    }
+
+    /// First and last spring of each fragment.
+    pub fn contacts(&self) -> Vec<(usize, usize)> {
+        let mut contacts: Vec<_> = self.parts().map(|(_, part)| (part.first, part.last)).collect();
+        contacts.sort_unstable();
+        contacts
+    }
+
+    fn parts(&self) -> impl Iterator<Item = (f64, Part)> {
+        self.fragments.iter().map(|one| (one.level, self.part(one.spring, one.level, true)))
+    }
+
+    /// m
+    pub fn contact_length(&self) -> f64 {
+        self.parts().map(|(_, part)| part.length()).sum::<f64>() * self.foundation.spacing
+    }
+
+    /// N
+    pub fn force(&self) -> f64 {
+        self.integral(|d, a, b, share| share * (d - 0.5 * (a + b)))
+    }
+
+    /// Energy stored in the springs, J.
+    pub fn stored_energy(&self) -> f64 {
+        // Simpson's rule is exact for a square.
+        let square = |x: f64| x * x;
+        let simpson = |a: f64, b: f64| (square(a) + square(a + b) + square(b)) / 6.0;
+        0.5 * self.integral(|d, a, b, share| share * simpson(d - a, d - b))
+    }
+
+    /// The sum over all cells in contact, of which the share from gap a to gap b is held.
+    fn integral(&self, cell: impl Fn(f64, f64, f64, f64) -> f64) -> f64 {
+        let mut sum = 0.0;
+        for (level, part) in self.parts() {
+            let edges = [
+                (part.first as f64 - part.from, self.gaps[part.first], part.first == 0),
+                (part.to - part.last as f64, self.gaps[part.last], part.last + 1 == self.gaps.len()),
+            ];
+            for (share, gap, is_end) in edges {
+                sum += cell(self.indentation, gap, if is_end { gap } else { level }, share);
+            }
+            for pair in self.gaps[part.first..=part.last].windows(2) {
+                sum += cell(self.indentation, pair[0], pair[1], 1.0);
+            }
+        }
+        sum * self.foundation.effective_modulus * self.foundation.spacing
+    }
+}
+
+/// Two neighbours between `low`, of which `is_past` does not say so, and `high`, of which it does.
+fn bisect(mut low: f64, mut high: f64, is_past: impl Fn(f64) -> bool) -> (f64, f64) {
+    for _ in 0..200 {
+        let middle = low + 0.5 * (high - low);
+        if middle <= low || middle >= high {
+            break;
+        }
+        if is_past(middle) { high = middle } else { low = middle }
+    }
+    (low, high)
+}
