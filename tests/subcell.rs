@@ -2,11 +2,19 @@
 
 #[path = "subcell/brute_force.rs"]
 mod brute_force;
+#[path = "subcell/closed_forms.rs"]
+mod closed_forms;
+#[path = "subcell/hand.rs"]
+mod hand;
+#[path = "subcell/laws.rs"]
+mod laws;
 #[path = "subcell/rule.rs"]
 mod rule;
 
 use asperity::contact::subcell::{LevelSets, SubCell};
-use asperity::contact::{ContactTree, CurvePoint, Foundation, HessRule, History, LegRecord, Solver, run};
+use asperity::contact::{
+    ContactError, ContactTree, CurvePoint, Foundation, HessRule, History, LegRecord, Solver, run,
+};
 use asperity::scene::Leg;
 use proptest::prelude::*;
 use std::sync::Arc;
@@ -101,4 +109,9 @@ fn body(most: usize) -> impl Strategy<Value = Body> {
 
 fn cases(cases: u32) -> ProptestConfig {
     ProptestConfig { cases, failure_persistence: None, ..ProptestConfig::default() }
+}
+
+/// Where a leg ended.
+fn end(record: &LegRecord) -> CurvePoint {
+    *record.curve.last().unwrap()
 }

@@ -54,6 +54,15 @@ pub(super) struct Event {
     pub squared_stretch: CompensatedSum,
 }
 
+/// What becomes part of a fragment.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Joined {
+    /// The spring of a node; the last of all is the root of the fragment.
+    Spring(usize),
+    /// The fragment that filled the subtree of a node.
+    Fragment(usize),
+}
+
 impl<R: EdgeRule> FragmentSet<R> {
     /// The largest whole subtrees all of whose springs are in these runs, given by first and last
     /// spring; O(N). What lies beyond the line is not looked at.
@@ -159,10 +168,15 @@ impl<R: EdgeRule> FragmentSet<R> {
 
     /// First and last spring of each fragment, in ascending order along the line.
     pub fn intervals(&self) -> impl Iterator<Item = (usize, usize)> {
+        self.roots().map(|root| self.tree.interval(root))
+    }
+
+    /// Root of the subtree that each fragment fills, in ascending order along the line.
+    pub fn roots(&self) -> impl Iterator<Item = usize> {
         let slots =
             std::iter::successors(self.leaving.occupied_from(0), |slot| self.leaving.occupied_from(slot + 1));
         slots.filter_map(|slot| match self.slots[slot] {
-            Slot::Fragment(root) => Some(self.tree.interval(root as usize)),
+            Slot::Fragment(root) => Some(root as usize),
             Slot::Free | Slot::Inside => None,
         })
     }
@@ -182,6 +196,11 @@ impl<R: EdgeRule> FragmentSet<R> {
     /// Lets join what joins next, at indentation `level`: a free leaf, or the parent of a fragment with
     /// the whole of its subtree, no gap of which is larger.
     pub fn join(&mut self, level: f64) -> Option<Event> {
+        self.join_seen(level, |_| {})
+    }
+
+    /// The same, and tells of each node that joins and each fragment that is taken in, in post-order.
+    pub fn join_seen(&mut self, level: f64, see: impl FnMut(Joined)) -> Option<Event> {
         let (slot, _) = self.joining.first()?;
         let root = match self.slots[slot] {
             Slot::Free => self.leaves[slot],
@@ -189,10 +208,10 @@ impl<R: EdgeRule> FragmentSet<R> {
             // Neither has a key.
             Slot::Inside => return None,
         };
-        Some(self.fill(root as usize, level))
+        Some(self.fill(root as usize, level, see))
     }
 
-    fn fill(&mut self, root: usize, level: f64) -> Event {
+    fn fill(&mut self, root: usize, level: f64, mut see: impl FnMut(Joined)) -> Event {
         let start = root + 1 - self.tree.size(root) as usize;
         let mut event = Event { springs: 0, squared_stretch: CompensatedSum::default() };
         let mut joins = Tally { springs: 0, fragments: 1, quanta: 0 };
@@ -215,10 +234,12 @@ impl<R: EdgeRule> FragmentSet<R> {
                 if let Slot::Fragment(part) = self.set(slot, becomes) {
                     (follows, is_free) = (part as usize + 1, false);
                     joins.fragments -= 1;
+                    see(Joined::Fragment(part as usize));
                 }
                 becomes = Slot::Inside;
             }
             if is_free {
+                see(Joined::Spring(node));
                 joins.springs += 1;
                 joins.quanta += self.quanta(node);
                 event.squared_stretch.add(squared_stretch(self.tree.gap(node), level));
@@ -229,6 +250,20 @@ impl<R: EdgeRule> FragmentSet<R> {
         self.tally += joins;
         event.springs = joins.springs.unsigned_abs();
         event
+    }
+
+    /// Root of the fragment whose spring leaves next: that spring's node.
+    pub fn leaves_from(&self) -> Option<usize> {
+        let (slot, _) = self.leaving.first()?;
+        match self.slots[slot] {
+            Slot::Fragment(root) => Some(root as usize),
+            Slot::Free | Slot::Inside => None,
+        }
+    }
+
+    /// The rule for the edges.
+    pub fn rule(&self) -> &R {
+        &self.rule
     }
 
     /// Lets the next spring leave, at indentation `level`: the most stretched one of a fragment, of which

@@ -355,6 +355,6 @@ impl Course {
     }
 }
 
-fn finite(value: f64) -> Result<f64, HandError> {
+pub(super) fn finite(value: f64) -> Result<f64, HandError> {
     if value.is_finite() { Ok(value) } else { Err(HandError::NotFinite { value }) }
 }

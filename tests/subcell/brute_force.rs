@@ -222,14 +222,6 @@ impl<'a> Relaxed<'a> {
         self.integral(|d, a, b, share| share * (d - 0.5 * (a + b)))
     }
 
-    /// Energy stored in the springs, J.
-    pub fn stored_energy(&self) -> f64 {
-        // Simpson's rule is exact for a square.
-        let square = |x: f64| x * x;
-        let simpson = |a: f64, b: f64| (square(a) + square(a + b) + square(b)) / 6.0;
-        0.5 * self.integral(|d, a, b, share| share * simpson(d - a, d - b))
-    }
-
     /// The sum over all cells in contact, of which the share from gap a to gap b is held.
     fn integral(&self, cell: impl Fn(f64, f64, f64, f64) -> f64) -> f64 {
         let mut sum = 0.0;

@@ -77,6 +77,24 @@ pub struct Fragment {
 }
 
 impl Slider {
+    /// Gap of its node, m: its lowest level.
+    #[inline]
+    pub fn gap(&self) -> f64 {
+        self.gap
+    }
+
+    /// Gap of the parent, m: its highest level.
+    #[inline]
+    pub fn top(&self) -> f64 {
+        self.levels.top
+    }
+
+    /// By how much it grows with its level, cells per metre.
+    #[inline]
+    pub fn growth(&self) -> f64 {
+        self.levels.growth
+    }
+
     /// √ℓ at an indentation that lies so far above the gap.
     #[inline]
     fn root(&self, above: f64) -> f64 {
@@ -121,9 +139,10 @@ impl Slider {
         let above = indentation - self.gap;
         let rise = self.rise(above);
         let length = self.levels.length + self.levels.growth * rise;
-        if self.levels.growth <= 0.0 || rise <= 0.0 || rise >= self.levels.top - self.gap {
+        if self.levels.growth <= 0.0 {
             return length;
         }
+        // Also at the ends of its levels its edges slide, to the one side at least.
         let (root, fall) = (self.root(above), 2.0 * self.half);
         let rises = 2.0 * root - fall;
         // Where it is about to let go the edges run away at once.

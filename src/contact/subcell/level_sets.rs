@@ -105,6 +105,12 @@ impl LevelSets {
     pub fn steps(&self) -> &[Step] {
         &self.steps
     }
+
+    /// Cells that lie level with the spring of a node and come into contact together with it.
+    pub fn step(&self, node: usize) -> f64 {
+        let place = self.steps.binary_search_by_key(&node, |step| step.node as usize);
+        place.ok().and_then(|place| self.steps.get(place)).map_or(0.0, |step| step.length)
+    }
 }
 
 /// Cells that lie level with a spring: half of one at an end of the foundation, and the one to its left

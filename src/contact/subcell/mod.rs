@@ -7,10 +7,12 @@
 
 mod body;
 mod edges;
+mod hand;
 mod level_sets;
 mod search;
 mod sums;
 
 pub use body::SubCell;
 pub use edges::SubCellEdges;
+pub use hand::SubCellHand;
 pub use level_sets::LevelSets;

@@ -205,7 +205,7 @@ impl Search<'_> {
 }
 
 /// The smallest number above `low`, up to `high`, of which `is_past` says so; it says so of `high`.
-fn bisect(mut low: f64, mut high: f64, is_past: impl Fn(f64) -> bool) -> f64 {
+pub fn bisect(mut low: f64, mut high: f64, is_past: impl Fn(f64) -> bool) -> f64 {
     for _ in 0..HALVINGS {
         let middle = low + 0.5 * (high - low);
         if middle <= low || middle >= high {

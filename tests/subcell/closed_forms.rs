@@ -1,0 +1,175 @@
+//! Smooth bodies against their closed forms: second order in the distance between springs.
+
+use super::*;
+use asperity::reference::PowerLaw;
+use asperity::scene::Form;
+use asperity::surface::{Line, SelfAffine, UnitRoughness};
+use std::f64::consts::PI;
+
+fn smooth(form: Option<Form>, length: f64, points: usize, modulus: f64, work: f64) -> Body {
+    let line = Line::new(length, points, form.as_ref(), None, 0.0).unwrap();
+    let foundation = Foundation { spacing: line.spacing, effective_modulus: modulus };
+    Body { gaps: line.gaps, foundation, work }
+}
+
+/// Slope of ln(error) over −ln(N) by least squares.
+fn order(grids: &[usize], errors: &[f64]) -> f64 {
+    let xs: Vec<f64> = grids.iter().map(|&points| -(points as f64).ln()).collect();
+    let ys: Vec<f64> = errors.iter().map(|error| error.ln()).collect();
+    let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len() as f64;
+    let (x, y) = (mean(&xs), mean(&ys));
+    let covariance: f64 = xs.iter().zip(&ys).map(|(a, b)| (a - x) * (b - y)).sum();
+    covariance / xs.iter().map(|a| (a - x) * (a - x)).sum::<f64>()
+}
+
+/// Odd and without a pattern that a form shares: 101 to 31 623.
+fn grids() -> Vec<usize> {
+    (0..11).map(|k| (100.0 * 10_f64.powf(f64::from(k) / 4.0)) as usize | 1).collect()
+}
+
+/// Where a rising function takes a value between `low` and `high`.
+fn invert(function: impl Fn(f64) -> f64, value: f64, mut low: f64, mut high: f64) -> f64 {
+    for _ in 0..200 {
+        let middle = 0.5 * (low + high);
+        *(if function(middle) < value { &mut low } else { &mut high }) = middle;
+    }
+    0.5 * (low + high)
+}
+
+/// ∫ f(x) dx by Simpson's rule.
+fn integral(f: impl Fn(f64) -> f64, from: f64, to: f64) -> f64 {
+    let steps = 2000;
+    let width = (to - from) / f64::from(steps);
+    let weight = |k| if k == 0 || k == steps { 1.0 } else { f64::from(2 + 2 * (k % 2)) };
+    (0..=steps).map(|k| weight(k) * f(from + width * f64::from(k))).sum::<f64>() * width / 3.0
+}
+
+#[test]
+fn a_sphere_of_a_thousand_springs_is_exact_to_a_hundred_thousandth() {
+    let legs = [Leg::ToIndentation(1.5), Leg::ToSeparation];
+    let form = Some(Form::Paraboloid { radius: 1.0 });
+    let smallest = smooth(form, 12.0, 1000, 1.0, 1.0).history(&legs, 512).legs[1].smallest;
+    let error = smallest.force / (-1.5 * PI) - 1.0;
+    assert!(error.abs() < 1e-5, "{error:e}");
+}
+
+#[test]
+fn power_laws_converge_with_the_square_of_the_distance() {
+    for (name, form, length) in [
+        ("sphere", Form::Paraboloid { radius: 1.0 }, 12.0),
+        ("cone", Form::Cone { angle: 0.6 }, 26.0),
+        ("n = 1.5", Form::Power { coefficient: 0.5, exponent: 1.5 }, 14.0),
+        ("n = 3", Form::Power { coefficient: 0.4, exponent: 3.0 }, 12.0),
+    ] {
+        let body = PowerLaw::of(&form, 1.0, 1.0).unwrap();
+        let (pull_off, last) = (body.force_controlled_pull_off(), body.displacement_controlled_pull_off());
+        let radius = |d: f64| invert(|a| body.indentation(a), d, last.0, 1e3 * last.0);
+        let slope = |a: f64| {
+            let n = body.exponent;
+            n * body.line_coefficient * a.powf(n - 1.0) - (2.0 * PI * a).sqrt() / (2.0 * a)
+        };
+        let lost = -integral(|a| body.force(a) * slope(a), last.0, radius(0.0));
+        let turns_at = body.indentation(pull_off.0);
+        let mut errors: [Vec<f64>; 3] = Default::default();
+        for &points in &grids() {
+            let legs = [Leg::ToIndentation(1.5), Leg::ToSeparation];
+            let history = smooth(Some(form), length, points, 1.0, 1.0).history(&legs, 257);
+            let [loading, unloading] = &history.legs[..] else { panic!() };
+            assert!(loading.largest.springs < points as u64, "{name}: the line is too short");
+            let curve = loading.curve.iter().chain(&unloading.curve).filter(|point| point.springs > 0);
+            let curve = curve.filter(|point| point.indentation >= turns_at);
+            let of_curve = curve.map(|point| (point.force - body.force(radius(point.indentation))).abs());
+            let energy = loading.dissipated_energy + unloading.dissipated_energy;
+            errors[0].push((unloading.smallest.force / pull_off.1 - 1.0).abs());
+            errors[1].push(of_curve.fold(0.0, f64::max) / loading.largest.force.abs().max(-pull_off.1));
+            errors[2].push((energy / lost - 1.0).abs());
+        }
+        for (what, errors) in ["pull-off", "curve", "energy"].iter().zip(&errors) {
+            let order = order(&grids(), errors);
+            println!("{name}: {what}: {:.1e} falls to {:.1e}, order {order:.2}", errors[0], errors[10]);
+            assert!(order >= 1.8, "{name}: {what}: order {order}, errors {errors:?}");
+        }
+    }
+}
+
+#[test]
+fn flat_faces_and_punches_are_exact_to_rounding() {
+    for points in [1, 2, 3, 10, 1001] {
+        let body = smooth(None, 0.7, points, 3.0, 0.2);
+        let record = body.history(&[Leg::ToTouch, Leg::ToSeparation], 2);
+        let expected = -(PI * 0.2 * 3.0 * 0.7_f64.powi(3)).sqrt();
+        let found = record.legs[1].smallest.force;
+        assert!((found / expected - 1.0).abs() < 2e-15, "{points}: {found} for {expected}");
+    }
+}
+
+#[test]
+fn without_adhesion_loading_and_unloading_agree_bit_for_bit_with_order_two() {
+    let (n, c) = (2.0_f64, 0.5);
+    let mut errors = Vec::new();
+    for &points in &grids() {
+        let body = smooth(Some(Form::Paraboloid { radius: 2.0 }), 8.0, points, 5.0, 0.0);
+        let history = body.history(&[Leg::ToIndentation(1.0), Leg::ToIndentation(0.0)], 65);
+        let [up, down] = &history.legs[..] else { panic!() };
+        let bits = |curve: &[CurvePoint]| -> Vec<[u64; 2]> {
+            curve.iter().map(|point| [point.indentation.to_bits(), point.force.to_bits()]).collect()
+        };
+        let mut back = bits(&down.curve);
+        back.reverse();
+        // The first point of the way in is the one before anything touches.
+        assert_eq!(bits(&up.curve[1..]), back);
+        assert_eq!(up.dissipated_energy + down.dissipated_energy, 0.0);
+        let exact = |d: f64| 10.0 * n / (n + 1.0) * d * (d / c).powf(n.recip());
+        let error = down.curve.iter().map(|point| (point.force - exact(point.indentation)).abs());
+        errors.push(error.fold(0.0, f64::max) / exact(1.0));
+    }
+    let order = order(&grids(), &errors);
+    println!("Hertz: {:.1e} falls to {:.1e}, order {order:.2}", errors[0], errors[10]);
+    assert!(order >= 1.8, "order {order}, errors {errors:?}");
+}
+
+#[test]
+fn rough_lines_of_few_modes_converge_with_the_square_of_the_distance_in_the_median() {
+    let exponents = [7, 8, 9, 10, 11, 12, 13];
+    let mut medians: [Vec<f64>; 2] = Default::default();
+    let figures = |hurst: f64, kappa: f64, seed: u64, points: usize| {
+        let spectrum = SelfAffine { hurst, first: 1, last: 24 };
+        let rough = UnitRoughness::synthesize(spectrum, seed, points).unwrap();
+        let line = Line::new(1.0, points, None, Some(&rough.heights), 0.01).unwrap();
+        let foundation = Foundation { spacing: line.spacing, effective_modulus: 1.0 };
+        let work = 1e-4 * spectrum.gradient_per_height(1.0) / (kappa * kappa);
+        let body = Body { gaps: line.gaps, foundation, work };
+        let history = body.history(&[Leg::ToForce(4e-3), Leg::ToSeparation], 64);
+        let energy: f64 = history.legs.iter().map(|leg| leg.dissipated_energy).sum();
+        [history.legs[1].smallest.force, energy]
+    };
+    let cases: Vec<_> = [0.2, 0.5, 0.8]
+        .into_iter()
+        .flat_map(|hurst| [1.0, 3.0, 8.0].map(|kappa| (hurst, kappa)))
+        .flat_map(|(hurst, kappa)| [1, 2, 3, 4, 5, 6, 7, 8, 9, 10].map(|seed| (hurst, kappa, seed)))
+        .collect();
+    let finest: Vec<_> = cases.iter().map(|&(h, k, s)| figures(h, k, s, 1 << 15)).collect();
+    for exponent in exponents {
+        let found: Vec<_> = cases.iter().map(|&(h, k, s)| figures(h, k, s, 1 << exponent)).collect();
+        for (index, medians) in medians.iter_mut().enumerate() {
+            let mut errors: Vec<f64> = found
+                .iter()
+                .zip(&finest)
+                .map(|(found, finest)| (found[index] / finest[index] - 1.0).abs())
+                .collect();
+            errors.sort_by(f64::total_cmp);
+            println!(
+                "2^{exponent}: median {:.1e}, most {:.1e}",
+                errors[errors.len() / 2],
+                errors[errors.len() - 1]
+            );
+            medians.push(errors[errors.len() / 2]);
+        }
+    }
+    let grids = exponents.map(|exponent| 1_usize << exponent);
+    for (what, medians) in ["pull-off", "energy"].iter().zip(&medians) {
+        let order = order(&grids, medians);
+        println!("rough, {what}: order {order:.2}");
+        assert!(order >= 1.8, "{what}: order {order}, medians {medians:?}");
+    }
+}

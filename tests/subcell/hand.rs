@@ -1,0 +1,74 @@
+//! The body in hand and the body moved leg by leg stand in the same place.
+
+use super::*;
+use asperity::contact::subcell::SubCellHand;
+use asperity::contact::{HandError, HandHeld};
+
+/// Where a move goes; forces in units of those that act.
+#[derive(Clone, Copy, Debug)]
+enum Goal {
+    Indentation(f64),
+    Force(f64),
+    Separation,
+}
+
+fn goals() -> impl Strategy<Value = Vec<Goal>> {
+    let goal = prop_oneof![
+        6 => (-0.9..1.3_f64).prop_map(Goal::Indentation),
+        3 => (-0.5..1.0_f64).prop_map(|force| Goal::Force(force.powi(3))),
+        1 => Just(Goal::Separation),
+    ];
+    prop::collection::vec(goal, 1..12)
+}
+
+proptest! {
+    #![proptest_config(cases(1500))]
+
+    #[test]
+    fn the_hand_goes_as_the_legs_do(body in body(120), goals in goals()) {
+        let sets = body.sets();
+        let mut legs = body.on(&sets, 2);
+        let mut hand: Box<dyn HandHeld + Send> =
+            Box::new(SubCellHand::new(Arc::clone(&sets), body.hess(), body.foundation).unwrap());
+        let scale = body.gaps.len() as f64 * body.foundation.spring_stiffness();
+        let depth = 1.3 + body.largest_stretch();
+        for goal in goals {
+            let (leg, moved) = match goal {
+                Goal::Indentation(to) => (Leg::ToIndentation(to), hand.move_to_indentation(to)),
+                Goal::Force(force) => {
+                    let force = force * body.force_scale();
+                    (Leg::ToForce(force), hand.move_to_force(force))
+                }
+                Goal::Separation => (Leg::ToSeparation, Ok(hand.separate())),
+            };
+            let record = match (legs.advance(leg), moved.clone()) {
+                (Ok(record), Ok(moved)) => {
+                    prop_assert_eq!((record.joins, record.leaves), (moved.joins, moved.leaves), "{:?}", leg);
+                    let lost = (record.dissipated_energy, moved.dissipated_energy);
+                    let slack = 1e-12 * scale * depth * depth;
+                    prop_assert!((lost.0 - lost.1).abs() <= slack, "{:?}: lost {:?}", leg, lost);
+                    record
+                }
+                (Err(ContactError::LetsGoBefore { smallest: a, .. }), Err(HandError::LetsGoBefore { smallest: b, .. })) => {
+                    prop_assert!((a - b).abs() <= 1e-12 * scale * depth, "{:?}: {} {}", leg, a, b);
+                    continue;
+                }
+                (Err(ContactError::NothingToPull { .. }), Err(HandError::NothingToPull { .. })) => continue,
+                other => panic!("{leg:?}: {other:?}"),
+            };
+            let (there, here) = (end(&record), hand.point());
+            prop_assert!((there.indentation - here.indentation).abs() <= 1e-12 * depth, "{leg:?}: {there:?} {here:?}");
+            if there.indentation == here.indentation {
+                prop_assert_eq!((there.springs, there.fragments), (here.springs, here.fragments));
+                prop_assert!((there.force - here.force).abs() <= 1e-13 * scale * depth, "{leg:?}: {there:?} {here:?}");
+                if there.springs > 0 {
+                    prop_assert_eq!(hand.fragments().collect::<Vec<_>>(), legs.fragments(here.indentation));
+                }
+            } else {
+                // Rounding of a crossing: both go on from the same place.
+                hand.move_to_indentation(there.indentation).unwrap();
+                prop_assume!(hand.point().springs == there.springs);
+            }
+        }
+    }
+}

@@ -1,0 +1,190 @@
+//! Laws that hold for every line: energy, memory, order, symmetries, and that extremes and crossings of the
+//! force are found exactly.
+
+use super::*;
+
+fn bits(point: &CurvePoint) -> [u64; 5] {
+    let CurvePoint { indentation, force, contact_length, springs, fragments } = *point;
+    [indentation.to_bits(), force.to_bits(), contact_length.to_bits(), springs, fragments]
+}
+
+fn to(turns: &[f64]) -> Vec<Leg> {
+    turns.iter().map(|&to| Leg::ToIndentation(to)).collect()
+}
+
+proptest! {
+    #![proptest_config(cases(400))]
+
+    #[test]
+    fn what_is_lost_is_the_work_less_what_is_stored(
+        body in body(40),
+        turns in prop::collection::vec(-0.9..1.3_f64, 1..7),
+    ) {
+        // From event to event and between them on fine steps: Simpson's rule on a curve that is smooth but for
+        // jumps, where the steps are.
+        let history = body.history(&[to(&turns), vec![Leg::ToSeparation]].concat(), 30_000);
+        let lost: f64 = history.legs.iter().map(|leg| leg.dissipated_energy).sum();
+        let work: f64 = history.legs.iter().flat_map(|leg| leg.curve.windows(2)).map(|p| {
+            0.5 * (p[0].force + p[1].force) * (p[1].indentation - p[0].indentation)
+        }).sum();
+        let scale = body.gaps.len() as f64 * body.foundation.spring_stiffness();
+        let depth = 1.3 + body.largest_stretch();
+        // Each jump may lie anywhere in its step.
+        prop_assert!((lost - work).abs() <= 2e-4 * scale * depth * depth, "{} for {}", lost, work);
+        prop_assert!(lost >= -1e-14 * scale * depth * depth, "{}", lost);
+    }
+
+    #[test]
+    fn minor_loops_close_bit_for_bit(body in body(60), deep in 0.0..1.3_f64, back in 0.0..1.0_f64) {
+        let low = -body.largest_stretch();
+        let back = low + back * (deep - low);
+        let (once, again) = (body.history(&to(&[deep]), 2), body.history(&to(&[deep, back, deep]), 2));
+        let (once_end, again_end) = (end(&once.legs[0]), end(&again.legs[2]));
+        prop_assert_eq!(bits(&once_end), bits(&again_end));
+        prop_assert_eq!(once.contacts, again.contacts);
+        let again = body.history(&to(&[deep, back, deep, back]), 2);
+        let once = body.history(&to(&[deep, back]), 2);
+        prop_assert_eq!(bits(&end(&once.legs[1])), bits(&end(&again.legs[3])));
+        prop_assert_eq!(once.contacts, again.contacts);
+    }
+
+    #[test]
+    fn deeper_loads_leave_more_in_contact(
+        body in body(60), a in 0.0..1.2_f64, b in 0.0..1.2_f64, probe in 0.0..1.0_f64,
+    ) {
+        let (shallow, deep) = (a.min(b), a.max(b));
+        let (_, low) = (0, -body.largest_stretch());
+        let probe = low + probe * (shallow - low);
+        let (less, more) = (body.history(&to(&[shallow, probe]), 2), body.history(&to(&[deep, probe]), 2));
+        let indices = |contacts: &[(usize, usize)]| -> Vec<usize> {
+            contacts.iter().flat_map(|&(first, last)| first..=last).collect()
+        };
+        let held = indices(&more.contacts);
+        prop_assert!(indices(&less.contacts).iter().all(|index| held.contains(index)));
+        let most = |turn: f64| body.history(&[Leg::ToIndentation(turn), Leg::ToSeparation], 2).legs[1].smallest;
+        let slack = 1e-14 * body.force_scale();
+        let (more, less) = (most(deep), most(shallow));
+        prop_assert!(more.force <= less.force + slack, "{more:?} {less:?}");
+    }
+
+    #[test]
+    fn powers_of_two_scale_every_bit(body in body(60), turns in prop::collection::vec(-0.9..1.3_f64, 1..6)) {
+        let scaled = Body {
+            gaps: body.gaps.iter().map(|gap| 4.0 * gap).collect(),
+            work: 16.0 * body.work,
+            ..body.clone()
+        };
+        let four_turns: Vec<f64> = turns.iter().map(|turn| 4.0 * turn).collect();
+        let (one, four) = (body.history(&to(&turns), 9), scaled.history(&to(&four_turns), 9));
+        for (one, four) in one.legs.iter().zip(&four.legs) {
+            prop_assert_eq!(16.0 * one.dissipated_energy, four.dissipated_energy);
+            for (one, four) in one.curve.iter().zip(&four.curve) {
+                let one =
+                    CurvePoint { indentation: 4.0 * one.indentation, force: 4.0 * one.force, ..*one };
+                prop_assert_eq!(bits(&one), bits(four));
+            }
+        }
+    }
+
+    #[test]
+    fn mirrored_lines_differ_by_rounding(body in body(60), turns in prop::collection::vec(-0.9..1.3_f64, 1..6)) {
+        let mirrored = Body { gaps: body.gaps.iter().rev().copied().collect(), ..body.clone() };
+        let (one, other) = (body.history(&to(&turns), 9), mirrored.history(&to(&turns), 9));
+        let scale = body.gaps.len() as f64 * body.foundation.spring_stiffness() * (1.3 + body.largest_stretch());
+        for (one, other) in one.legs.iter().zip(&other.legs) {
+            let (one, other) = (end(one), end(other));
+            prop_assert_eq!((one.springs, one.fragments), (other.springs, other.fragments));
+            prop_assert!((one.force - other.force).abs() <= 1e-13 * scale);
+        }
+    }
+
+    #[test]
+    fn extremes_are_those_of_very_many_points_whatever_the_samples(
+        body in body(60), deep in 0.0..1.2_f64, samples in 2_usize..40,
+    ) {
+        let legs = [Leg::ToIndentation(deep), Leg::ToSeparation];
+        let (few, many) = (body.history(&legs, samples), body.history(&legs, 20_011));
+        let slack = 4e-15 * body.gaps.len() as f64 * body.foundation.spring_stiffness()
+            * (1.3 + body.largest_stretch());
+        for history in [&few, &many] {
+            for (leg, curve) in history.legs.iter().zip(&many.legs) {
+                for point in curve.curve.iter().filter(|point| point.springs > 0) {
+                    let (least, most) = (leg.smallest.force, leg.largest.force);
+                    if leg.direction == asperity::contact::Direction::Loading {
+                        prop_assert!(point.force <= most + slack, "{point:?} above {:?}", leg.largest);
+                    } else {
+                        prop_assert!(point.force >= least - slack, "{point:?} below {:?}", leg.smallest);
+                    }
+                }
+            }
+        }
+        prop_assert!((few.legs[1].smallest.force - many.legs[1].smallest.force).abs() <= slack);
+        prop_assert!((few.legs[0].dissipated_energy - many.legs[0].dissipated_energy).abs() <= slack);
+    }
+
+    #[test]
+    fn forces_are_reached_there_and_not_before(body in body(60), first in 0.0..1.0_f64, then in -0.3..1.0_f64) {
+        let sets = body.sets();
+        let mut solver = body.on(&sets, 5000);
+        let slack = 1e-14 * body.gaps.len() as f64 * body.foundation.spring_stiffness()
+            * (1.3 + body.largest_stretch());
+        for share in [first, then] {
+            let wanted = share * body.force_scale();
+            let Ok(record) = solver.advance(Leg::ToForce(wanted)) else { continue };
+            let (last, before) = record.curve.split_last().unwrap();
+            let presses = record.direction == asperity::contact::Direction::Loading;
+            let past = |point: &CurvePoint| if presses { point.force - wanted } else { wanted - point.force };
+            prop_assert!(past(last) >= -slack, "{last:?} for {wanted}");
+            for point in before.iter().filter(|point| point.springs > 0) {
+                let same = (point.indentation - last.indentation).abs() <= 1e-14 * (1.3 + body.largest_stretch());
+                prop_assert!(same || past(point) <= slack, "{point:?} for {wanted}");
+            }
+        }
+    }
+}
+
+#[test]
+fn extreme_values_give_numbers() {
+    let lines: [&[f64]; 8] = [
+        &[0.0],
+        &[0.0, 0.0],
+        &[0.0, 1.0],
+        &[1.0, 0.0, 1.0],
+        &[0.0, 5e-324, 1e-310, 0.0],
+        &[0.0, 1e-300, 1.0, 1e300],
+        &[3.0, 2.0, 1.0, 0.0, 0.0, 1.0, f64::MIN_POSITIVE],
+        &[0.5, 0.0, 0.5_f64.next_up(), 0.5_f64.next_down(), 0.0],
+    ];
+    for gaps in lines {
+        for length in [1e-9, 1e-3, 1.0] {
+            for work in [0.0, 1e-30, 1e-3, 1e30] {
+                let foundation = Foundation { spacing: length, effective_modulus: 1e6 };
+                let gaps: Vec<f64> = gaps.iter().map(|gap| gap * length.min(1.0)).collect();
+                let body = Body { gaps, foundation, work };
+                let sets = body.sets();
+                let mut solver = body.on(&sets, 17);
+                let legs = [
+                    Leg::ToTouch,
+                    Leg::ToIndentation(length),
+                    Leg::ToIndentation(-length),
+                    Leg::ToForce(1e3 * length),
+                    Leg::ToZeroForce,
+                    Leg::ToSeparation,
+                    Leg::ToForce(1.0),
+                    Leg::ToSeparation,
+                ];
+                for leg in legs {
+                    let Ok(record) = solver.advance(leg) else { continue };
+                    for point in &record.curve {
+                        assert!(
+                            point.force.is_finite() && point.indentation.is_finite(),
+                            "{body:?} {point:?}"
+                        );
+                        assert!(point.contact_length >= 0.0, "{body:?} {point:?}");
+                    }
+                    assert!(record.dissipated_energy.is_finite(), "{body:?} {leg:?}");
+                }
+            }
+        }
+    }
+}
