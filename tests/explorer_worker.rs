@@ -331,6 +331,7 @@ fn rough_sphere() -> Document {
 fn scenes() -> Vec<(&'static str, Document)> {
     let several = "[ToForce(1.0e-5), ToZeroForce, ToForce(2.0e-5), ToIndentation(-1.0e-8), ToSeparation]";
     vec![
+        ("edges between springs", rough().set("numerics.edges", "SubCell").unwrap()),
         ("rough", rough()),
         ("several legs", rough().set("loading", several).unwrap()),
         ("rough sphere", rough_sphere()),

@@ -142,6 +142,24 @@ impl ContactTree {
         (position - shape.left() as usize, position + shape.right as usize)
     }
 
+    /// The node whose subtree fills this interval of springs; `None` where none does.
+    #[must_use]
+    pub fn root_of(&self, (first, last): (usize, usize)) -> Option<usize> {
+        let mut node = self.len().checked_sub(1)?;
+        loop {
+            if self.interval(node) == (first, last) {
+                return Some(node);
+            }
+            let position = self.position[node] as usize;
+            let (left, right) = self.children(node);
+            node = match () {
+                () if last < position => left?,
+                () if first > position => right?,
+                () => return None,
+            };
+        }
+    }
+
     /// Left and right child of a node.
     #[must_use]
     pub fn children(&self, node: usize) -> (Option<usize>, Option<usize>) {
@@ -216,6 +234,7 @@ mod tests {
                 prop_assert_eq!(tree.gap(j), gaps[tree.position[j] as usize]);
                 let (first, last) = tree.interval(j);
                 prop_assert_eq!(last + 1 - first, tree.size(j) as usize);
+                prop_assert_eq!(tree.root_of((first, last)), Some(j));
                 let (left, right) = tree.children(j);
                 if let Some(left) = left {
                     prop_assert_eq!(tree.interval(left), (first, tree.position[j] as usize - 1));

@@ -3,14 +3,66 @@
 use super::reduce::{Contact, LineColumns, Part};
 use super::snapshot::{CloseUp, FragmentFacts};
 use super::worker::{Focus, MomentRequest};
+use crate::contact::subcell::SubCellEdges;
 use crate::contact::{Foundation, HessRule};
+
+/// How the edges of fragments are read, and what they bear.
+#[derive(Clone, Copy)]
+pub enum EdgeLaw<'a> {
+    /// A fragment of n springs is n cells long.
+    WholeSprings(Option<HessRule>),
+    /// Its edges lie between springs.
+    BetweenSprings(&'a SubCellEdges),
+}
+
+/// What a fragment bears.
+struct Bearing {
+    /// Its length in cells.
+    cells: f64,
+    /// Largest stretch, m.
+    largest_stretch: f64,
+    /// Stretch at its edge, or of its most stretched spring, m.
+    most_stretched: f64,
+    /// In cells times metres.
+    compression: f64,
+}
+
+impl EdgeLaw<'_> {
+    fn bearing(self, contact: &Contact<'_>, (first, last): (usize, usize)) -> Bearing {
+        let deepest = || contact.gaps[first..=last].iter().copied().fold(0.0, f64::max);
+        let between = match self {
+            EdgeLaw::WholeSprings(_) => None,
+            EdgeLaw::BetweenSprings(edges) => edges.slider_of((first, last)).map(|slider| (edges, slider)),
+        };
+        if let Some((edges, slider)) = between {
+            let fragment = slider.at(contact.indentation);
+            return Bearing {
+                cells: fragment.length,
+                largest_stretch: edges.largest_stretch(fragment.length),
+                most_stretched: slider.level(contact.indentation) - contact.indentation,
+                compression: fragment.compression,
+            };
+        }
+        let springs = last + 1 - first;
+        let largest_stretch = match self {
+            EdgeLaw::WholeSprings(Some(hess)) => hess.largest_stretch(springs as u32),
+            _ => 0.0,
+        };
+        Bearing {
+            cells: springs as f64,
+            largest_stretch,
+            most_stretched: deepest() - contact.indentation,
+            compression: compression(contact, (first, last)),
+        }
+    }
+}
 
 /// The part of the line that a request asks to see from near.
 pub fn close_up(
     contact: &Contact<'_>,
     request: &MomentRequest,
     foundation: Foundation,
-    hess: Option<HessRule>,
+    law: EdgeLaw<'_>,
     line: &mut LineColumns,
 ) -> CloseUp {
     let count = contact.gaps.len();
@@ -29,17 +81,15 @@ pub fn close_up(
         .map(|spring| (spring, contact.height(spring)))
         .collect();
     let fragment = nearest(contact.fragments, centre).map(|number| {
-        let (start, end) = contact.fragments[number];
-        let length = end + 1 - start;
-        let gaps = &contact.gaps[start..=end];
-        let deepest = gaps.iter().copied().fold(0.0, f64::max);
+        let springs = contact.fragments[number];
+        let Bearing { cells, largest_stretch, most_stretched, compression } = law.bearing(contact, springs);
         FragmentFacts {
             number,
-            springs: (start, end),
-            length: length as f64 * foundation.spacing,
-            largest_stretch: hess.map_or(0.0, |hess| hess.largest_stretch(length as u32)),
-            most_stretched: deepest - contact.indentation,
-            force: foundation.spring_stiffness() * compression(contact, (start, end)),
+            springs,
+            length: cells * foundation.spacing,
+            largest_stretch,
+            most_stretched,
+            force: foundation.spring_stiffness() * compression,
         }
     });
     CloseUp { section, boundaries, fragment }

@@ -3,6 +3,7 @@
 use super::snapshot::Travel;
 use super::worker::HandOrder;
 use crate::analysis::Governing;
+use crate::contact::subcell::{LevelSets, SubCellHand};
 use crate::contact::{
     ContactTree, CurvePoint, Foundation, GridEdges, HandError, HandHeld, HessRule, Incremental, Move,
     NoAdhesion,
@@ -24,11 +25,11 @@ pub struct Held {
 }
 
 impl Held {
-    /// Takes the body where these fragments are in contact. The tree is that of the line; a scene
+    /// Takes the body where these fragments are in contact, with the edges that the scene has. The tree is that of the line; a scene
     /// without adhesion has called for none, so it is built. `step` is how far apart the points of a pull
     /// are, m.
     pub fn take(
-        tree: Option<&Arc<ContactTree>>,
+        (levels, tree): (Option<&Arc<LevelSets>>, Option<&Arc<ContactTree>>),
         line: &Line,
         governing: &Governing,
         indentation: f64,
@@ -36,6 +37,12 @@ impl Held {
         step: f64,
     ) -> Option<Self> {
         let foundation = Foundation { spacing: line.spacing, effective_modulus: governing.effective_modulus };
+        if let Some(levels) = levels {
+            let hess = governing.adhesive_work().map(|work| HessRule::new(foundation, work));
+            let body =
+                SubCellHand::standing(Arc::clone(levels), hess, foundation, indentation, contact).ok()?;
+            return Some(Held { body: Box::new(body), travel: Travel::default(), step });
+        }
         let tree = match tree {
             Some(tree) => Arc::clone(tree),
             None => Arc::new(ContactTree::build(&line.gaps).ok()?),

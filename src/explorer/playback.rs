@@ -1,10 +1,11 @@
 //! The scene that was computed last, ready to be played leg by leg or moved by hand.
 
-use super::close_up::close_up;
+use super::close_up::{EdgeLaw, close_up};
 use super::held::Held;
 use super::reduce::{self, Contact, LineColumns, Part};
 use super::snapshot::{Drive, Loop, Moment};
 use super::worker::{Engine, HandOrder, LineView, MomentRequest, Newest, Report};
+use crate::contact::subcell::SubCellEdges;
 use crate::contact::{
     ContactError, CurvePoint, Foundation, GapScale, HessRule, LegContact, LegRecord, Solver, Tally,
 };
@@ -106,7 +107,8 @@ impl Playback {
                 let Some((computed, line)) = self.computed.as_ref().zip(engine.line()) else { return };
                 let governing = &computed.outcome.governing;
                 let step = range_of(computed) / STEPS_OF_A_PULL;
-                self.held = Held::take(engine.tree(), line, governing, indentation, &contact, step);
+                let trees = (engine.levels(), engine.tree());
+                self.held = Held::take(trees, line, governing, indentation, &contact, step);
                 self.last = None;
             }
             HandOrder::Give => {
@@ -137,7 +139,12 @@ impl Playback {
         let outcome = &self.computed.as_ref()?.outcome;
         let (governing, deepest) = (outcome.governing, outcome.line.deepest);
         let foundation = Foundation { spacing: line.spacing, effective_modulus: governing.effective_modulus };
+        let hess = governing.adhesive_work().map(|work| HessRule::new(foundation, work));
+        let edges = engine.levels().map(|levels| SubCellEdges::new(Arc::clone(levels), hess));
         let point = at.unwrap_or_else(|| {
+            if let Some(edges) = &edges {
+                return edges.point(foundation, request.indentation, &fragments);
+            }
             let scale = GapScale::for_gaps_up_to(deepest);
             point(&line.gaps, &scale, request.indentation, &fragments, foundation)
         });
@@ -151,8 +158,11 @@ impl Playback {
             indentation: point.indentation,
             fragments: &fragments,
         };
-        let hess = governing.adhesive_work().map(|work| HessRule::new(foundation, work));
-        let close_up = close_up(&contact, request, foundation, hess, &mut self.close_up);
+        let law = match &edges {
+            Some(edges) => EdgeLaw::BetweenSprings(edges),
+            None => EdgeLaw::WholeSprings(hess),
+        };
+        let close_up = close_up(&contact, request, foundation, law, &mut self.close_up);
         let middle = close_up.section.first + close_up.section.springs / 2;
         let profile = profile_part(request, line.gaps.len(), middle);
         let moment = Moment {

@@ -28,6 +28,11 @@ impl SubCellEdges {
         &self.sets
     }
 
+    /// Largest stretch of a fragment of one cell, m.
+    pub(super) fn stretch(&self) -> f64 {
+        self.stretch
+    }
+
     /// φ at a level of a node, m.
     #[inline]
     fn rest(&self, gap: f64, levels: Levels, level: f64) -> f64 {

@@ -9,10 +9,11 @@ mod body;
 mod edges;
 mod hand;
 mod level_sets;
+mod moment;
 mod search;
 mod sums;
 
 pub use body::SubCell;
-pub use edges::SubCellEdges;
+pub use edges::{Fragment, Slider, SubCellEdges};
 pub use hand::SubCellHand;
 pub use level_sets::LevelSets;
