@@ -8,6 +8,7 @@
 //! shows that it runs.
 
 use asperity::analysis::ideal_adhesion_force;
+use asperity::contact::subcell::{LevelSets, SubCell};
 use asperity::contact::{
     ContactTree, Foundation, GridEdges, HessRule, LegContact, LegRecord, Solver, Work, exact,
 };
@@ -142,6 +143,8 @@ struct Loop {
     passes: f64,
     curves: f64,
     whole: f64,
+    /// With edges between springs, over the same tree: level sets, passes, curves.
+    between: [f64; 3],
     records: Vec<LegRecord>,
     work: Work,
 }
@@ -179,6 +182,10 @@ fn measure(rough: &Rough, runs: usize) -> Measured {
             best.tree = best.tree.min(seconds_since(clock));
             thresholds = one.measure_legs(thresholds, rough, &tree);
             one.whole = one.whole.min(seconds_since(clock));
+        }
+        let shared = Arc::new(tree.clone());
+        for one in &mut best.loops {
+            one.measure_between(rough, &shared);
         }
         best.edits.measure(&rough.scene, run);
     }
@@ -238,7 +245,28 @@ impl Loop {
     /// A loop not yet measured.
     fn under(kappa: f64) -> Self {
         let [passes, curves, whole] = [f64::INFINITY; 3];
-        Loop { kappa, passes, curves, whole, records: Vec::new(), work: Work::default() }
+        let between = [f64::INFINITY; 3];
+        Loop { kappa, passes, curves, whole, between, records: Vec::new(), work: Work::default() }
+    }
+
+    /// The same legs with edges between springs.
+    fn measure_between(&mut self, rough: &Rough, tree: &Arc<ContactTree>) {
+        let clock = Instant::now();
+        let sets = LevelSets::new(Arc::clone(tree), black_box(&rough.line.gaps)).expect("memory");
+        let sets_seconds = seconds_since(clock);
+        let sets = Arc::new(sets);
+        let hess = HessRule::new(rough.foundation, rough.work_of_adhesion(self.kappa));
+        let mut solver =
+            SubCell::new(&sets, Some(hess), rough.foundation, SAMPLES, Vec::new()).expect("memory");
+        let clock = Instant::now();
+        for leg in [Leg::ToForce(LOAD * EFFECTIVE_MODULUS * LENGTH * RMS_HEIGHT), Leg::ToSeparation] {
+            black_box(solver.advance(leg).expect("a reachable leg"));
+        }
+        let curves = solver.curve_seconds();
+        let passes = seconds_since(clock) - curves;
+        for (best, seconds) in self.between.iter_mut().zip([sets_seconds, passes, curves]) {
+            *best = best.min(seconds);
+        }
     }
 
     /// Loads to a force and pulls off.
@@ -305,6 +333,11 @@ impl Measured {
             row("passes, loading and unloading", one.passes);
             row("curves, extremes, force search", one.curves);
             row("whole loop: tree, passes, curves", one.whole);
+            let [sets, passes, curves] = one.between;
+            row("level sets, in fresh memory", sets);
+            row("edges between springs: passes", passes);
+            row("edges between springs: curves", curves);
+            row("edges between springs: whole loop", self.tree + sets + passes + curves);
             one.print_outcome(rough);
         }
         println!("  edits: the whole outcome with F_a(0) and histogram, legs copied");

@@ -57,7 +57,7 @@ fn a_sphere_of_a_thousand_springs_is_exact_to_a_hundred_thousandth() {
 fn power_laws_converge_with_the_square_of_the_distance() {
     for (name, form, length) in [
         ("sphere", Form::Paraboloid { radius: 1.0 }, 12.0),
-        ("cone", Form::Cone { angle: 0.6 }, 26.0),
+        ("cone", Form::Cone { angle: 1.35 }, 1.2),
         ("n = 1.5", Form::Power { coefficient: 0.5, exponent: 1.5 }, 14.0),
         ("n = 3", Form::Power { coefficient: 0.4, exponent: 3.0 }, 12.0),
     ] {

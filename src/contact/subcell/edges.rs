@@ -48,6 +48,15 @@ impl SubCellEdges {
         if excess > 0.0 && levels.growth > 0.0 { (gap + excess / levels.growth).min(levels.top) } else { gap }
     }
 
+    /// ∫ (c − θ)² dx over what is around the springs of a node, up to those of its parent, and joins or leaves
+    /// at once at the indentation θ = `at`, in cells times m².
+    #[inline]
+    pub fn squared_stretch_at_once(&self, node: usize, at: f64) -> f64 {
+        let (gap, levels) = (self.sets.tree().gap(node), self.sets.levels(node));
+        // The root's edges do not move.
+        if levels.growth > 0.0 { at_once(levels.growth, gap, levels.top, at) } else { 0.0 }
+    }
+
     /// How the fragment of a node slides.
     #[inline]
     pub fn slider(&self, node: usize) -> Slider {
@@ -158,8 +167,7 @@ impl Slider {
     /// m²: at once at the indentation `at`.
     #[inline]
     pub fn squared_stretch_at_once(&self, from: f64, to: f64, at: f64) -> f64 {
-        let (a, b) = (from - at, to - at);
-        self.levels.growth * (to - from) * (a * a + a * b + b * b) / 3.0
+        at_once(self.levels.growth, from, to, at)
     }
 
     /// The same while the edges slide from one level to another, each place at its own indentation.
@@ -178,9 +186,6 @@ impl Slider {
         if opens > high || closes <= low || self.levels.growth <= 0.0 {
             return 0.0;
         }
-        if opens >= closes {
-            return self.squared_stretch_at_once(gap, top, opens);
-        }
         let (from, to) = (self.level(opens.max(low)), self.level(closes.min(high)));
         let mut sum = self.squared_stretch_sliding(from, to.max(from));
         if opens > low {
@@ -191,6 +196,14 @@ impl Slider {
         }
         sum
     }
+}
+
+/// growth ∫ (t − at)² dt from one level to another.
+#[inline]
+fn at_once(growth: f64, from: f64, to: f64, at: f64) -> f64 {
+    const THIRD: f64 = 1.0 / 3.0;
+    let (a, b) = (from - at, to - at);
+    THIRD * growth * (to - from) * (a * a + a * b + b * b)
 }
 
 impl EdgeRule for SubCellEdges {

@@ -58,11 +58,14 @@ impl Piece {
 #[inline]
 pub fn each_node(edges: &SubCellEdges, thresholds: &[f64], mut see: impl FnMut(usize, f64, f64)) {
     let tree = edges.sets().tree();
-    for parent in 0..tree.len() {
-        let to = thresholds[parent];
-        let (left, right) = tree.children(parent);
-        for child in [left, right].into_iter().flatten() {
-            see(child, thresholds[child], to);
+    let shapes = &tree.shapes()[..thresholds.len()];
+    for (parent, (&shape, &to)) in shapes.iter().zip(thresholds).enumerate() {
+        if shape.right > 0 {
+            see(parent - 1, thresholds[parent - 1], to);
+        }
+        if shape.left() > 0 {
+            let left = parent - 1 - shape.right as usize;
+            see(left, thresholds[left], to);
         }
     }
     if let Some(root) = tree.len().checked_sub(1) {
@@ -96,6 +99,13 @@ pub fn sums_and_stretches(
     let mut squared = CompensatedSum::default();
     let mut adder = Adder { edges, grid, sums: &mut sums };
     each_node(edges, thresholds, |node, from, to| {
+        if from >= to {
+            // No fragment of its own: all around its springs joins or leaves with them.
+            if from > low && from <= high {
+                squared.add(edges.squared_stretch_at_once(node, from));
+            }
+            return;
+        }
         adder.add(node, from, to);
         if from <= high && to > low {
             squared.add(edges.slider(node).squared_stretch((from, to), (low, high)));
