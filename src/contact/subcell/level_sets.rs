@@ -1,7 +1,7 @@
 //! The piecewise-linear line through the springs, how long its fragments are at each level, and how deep.
 
 use crate::contact::ledger::CompensatedSum;
-use crate::contact::{ContactError, ContactTree, reserve};
+use crate::contact::{ContactError, ContactTree, resized};
 use std::sync::Arc;
 
 /// The level sets {x : c(x) ≤ t} of the line that runs straight from spring to spring, and level for half a
@@ -46,9 +46,19 @@ impl LevelSets {
     /// # Errors
     /// [`ContactError::OutOfMemory`].
     pub fn new(tree: Arc<ContactTree>, gaps: &[f64]) -> Result<Self, ContactError> {
-        let mut nodes = reserve(tree.len())?;
-        nodes.resize(tree.len(), Levels { length: 0.0, growth: 0.0, top: f64::INFINITY, depth: 0.0 });
-        let mut steps = Vec::new();
+        LevelSets { tree: Arc::clone(&tree), nodes: Vec::new(), steps: Vec::new() }.rebuild(tree, gaps)
+    }
+
+    /// Those of another line in the memory of these: fresh memory costs about as much as the level sets
+    /// themselves.
+    ///
+    /// # Errors
+    /// [`ContactError::OutOfMemory`].
+    pub fn rebuild(self, tree: Arc<ContactTree>, gaps: &[f64]) -> Result<Self, ContactError> {
+        let nothing = Levels { length: 0.0, growth: 0.0, top: f64::INFINITY, depth: 0.0 };
+        let mut nodes = resized(self.nodes, tree.len(), nothing)?;
+        let mut steps = self.steps;
+        steps.clear();
         // Depths of the subtrees whose parents are still to come: each is a sum of what is not negative,
         // compensated, so that it is exact but for a few roundings however many springs there are.
         let mut depths: Vec<CompensatedSum> = Vec::new();
