@@ -62,7 +62,11 @@ proptest! {
                 prop_assert_eq!((there.springs, there.fragments), (here.springs, here.fragments));
                 prop_assert!((there.force - here.force).abs() <= 1e-13 * scale * depth, "{leg:?}: {there:?} {here:?}");
                 if there.springs > 0 {
-                    prop_assert_eq!(hand.fragments().collect::<Vec<_>>(), legs.fragments(here.indentation));
+                    let contacts: Vec<_> = hand.fragments().collect();
+                    prop_assert_eq!(&contacts, &legs.fragments(here.indentation));
+                    let (sets, at) = (Arc::clone(&sets), here.indentation);
+                    let taken = SubCellHand::standing(sets, body.hess(), body.foundation, at, &contacts);
+                    prop_assert_eq!(taken.unwrap().point(), here);
                 }
             } else {
                 // Rounding of a crossing: both go on from the same place.
