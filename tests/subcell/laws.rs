@@ -53,7 +53,7 @@ proptest! {
         body in body(60), a in 0.0..1.2_f64, b in 0.0..1.2_f64, probe in 0.0..1.0_f64,
     ) {
         let (shallow, deep) = (a.min(b), a.max(b));
-        let (_, low) = (0, -body.largest_stretch());
+        let low = -body.largest_stretch();
         let probe = low + probe * (shallow - low);
         let (less, more) = (body.history(&to(&[shallow, probe]), 2), body.history(&to(&[deep, probe]), 2));
         let indices = |contacts: &[(usize, usize)]| -> Vec<usize> {
