@@ -1,8 +1,8 @@
 //! What may be typed after `asperity`.
 
 use super::{
-    CompletionsArguments, DemoArguments, ExploreArguments, LineArguments, PlanArguments, PresetsCommand,
-    RunArguments,
+    CompletionsArguments, CostArguments, DemoArguments, ExploreArguments, LineArguments, PlanArguments,
+    PresetsCommand, RunArguments,
 };
 use clap::{Parser, Subcommand};
 
@@ -14,6 +14,7 @@ Examples:
   asperity run my-scene.ron                 Compute a scene and print what came out
   asperity run jkr-sphere --format csv -o jkr.csv
                                             ... and keep its force curve
+  asperity cost my-scene.ron                How many springs one per cent takes, and how long
 
 Exit codes: 0 done, 1 the input or the run failed, 2 wrong usage.";
 
@@ -49,6 +50,8 @@ pub enum Command {
     Demo(DemoArguments),
     /// Tell which stages a scene runs and which it skips, why, and what they cost
     Plan(PlanArguments),
+    /// Measure what accuracy costs: errors against time, for everything that buys accuracy
+    Cost(CostArguments),
     /// Print the rigid line of a scene as CSV: x,z in m
     Line(LineArguments),
     /// List, show and check scenes

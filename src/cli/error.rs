@@ -1,5 +1,6 @@
 //! Why a command failed.
 
+use crate::accuracy::CostError;
 use crate::export::WriteError;
 use crate::scene::SceneErrors;
 use crate::simulation::RunError;
@@ -38,6 +39,14 @@ pub enum CliError {
         scene: String,
         /// Why not.
         error: RunError,
+    },
+    /// What accuracy costs could not be measured.
+    #[error("{scene}: {error}")]
+    Cost {
+        /// Name of the scene.
+        scene: String,
+        /// Why not.
+        error: CostError,
     },
     /// A file could not be written.
     #[error("{0}{hint}", hint = hint(.0))]

@@ -5,6 +5,7 @@
 
 mod arguments;
 mod completions;
+mod cost;
 mod demo;
 mod error;
 mod explore;
@@ -20,6 +21,7 @@ mod usage;
 
 pub use arguments::{Arguments, Command};
 pub use completions::CompletionsArguments;
+pub use cost::{CostArguments, CostFormat};
 pub use demo::DemoArguments;
 pub use error::CliError;
 pub use explore::ExploreArguments;
@@ -75,6 +77,7 @@ fn dispatch(arguments: &Arguments, stdout: &mut dyn Write) -> Result<(), CliErro
         None => explore::explore(&arguments.explore, stdout),
         Some(Command::Run(arguments)) => run::run(arguments, stdout),
         Some(Command::Demo(arguments)) => demo::demo(arguments, stdout),
+        Some(Command::Cost(arguments)) => cost::cost(arguments, stdout),
         Some(Command::Plan(arguments)) => plan::plan(arguments, stdout),
         Some(Command::Line(arguments)) => line::line(arguments, stdout),
         Some(Command::Presets(command)) => presets::presets(command, stdout),

@@ -4,15 +4,19 @@
 //! Numbers are written in SI units and in the shortest form that reads back as the same number.
 
 pub mod atomic;
+mod cost;
 mod csv;
 mod json;
 mod json_text;
 pub(crate) mod sheet;
 mod summary;
 mod verdict;
+mod work_precision;
 
 pub use atomic::{WriteError, check_writable, write_new};
+pub use cost::{cost_text, write_cost_csv, write_cost_json};
 pub use csv::{write_curve, write_line};
 pub use json::write_json;
 pub use json_text::write_json_value;
 pub use summary::summary;
+pub use work_precision::work_precision_svg;

@@ -1,0 +1,105 @@
+//! The answer in a sentence or two: how many springs, and how long.
+
+use super::convergence::first_within;
+use super::{CostTable, Knob, Row};
+use crate::export::sheet::grouped;
+use crate::scene::format_quantity;
+
+/// Relative errors that are answered for.
+const TARGETS: [(f64, &str); 2] = [(0.01, "1 %"), (0.001, "0.1 %")];
+
+impl CostTable {
+    /// What one per cent and one per mille of the adhesion force take, or of the force curve where nothing
+    /// pulls: one sentence for each.
+    #[must_use]
+    pub fn answer(&self) -> Vec<String> {
+        let (what, error): (_, fn(&Row) -> Option<f64>) = if self.reference.adhesion_force.is_some() {
+            ("the adhesion force", |row| Some(row.errors.adhesion_force?.error))
+        } else {
+            ("the force curve", |row| Some(row.errors.curve?.error))
+        };
+        let row_within = |knob, bound| {
+            let rows: Vec<_> = self.rows_of(knob).collect();
+            first_within(rows.iter().map(|row| error(row)), bound).map(|index| rows[index])
+        };
+        let needs = |row: &Row| {
+            let time = row.seconds.map_or_else(String::new, |time| {
+                format!(", {}", format_quantity(three_digits(time.minimum), "s"))
+            });
+            format!("{} springs{time}", grouped(row.springs))
+        };
+        let sentence = |&(bound, percent): &(f64, &str)| {
+            let found = [(Knob::SubCellSprings, "SubCell"), (Knob::GridSprings, "Grid")].map(
+                |(knob, edges)| match (row_within(knob, bound), self.rows_of(knob).next_back()) {
+                    (Some(row), _) => format!("{} with edges {edges}", needs(row)),
+                    (None, Some(finest)) => {
+                        format!("more than {} springs with edges {edges}", grouped(finest.springs))
+                    }
+                    (None, None) => format!("edges {edges} were not affordable"),
+                },
+            );
+            format!("{percent} of {what}: {}.", found.join("; "))
+        };
+        TARGETS.iter().map(sentence).collect()
+    }
+}
+
+/// Times are not known to more digits than these.
+fn three_digits(value: f64) -> f64 {
+    format!("{value:.2e}").parse().unwrap_or(value)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::accuracy::{ErrorFigure, Measures, Reference, Timing};
+
+    fn row(knob: Knob, springs: u64, error: f64) -> Row {
+        let figure = Some(ErrorFigure { error, resolved: true, order: None });
+        Row {
+            knob,
+            setting: springs as f64,
+            springs,
+            seconds: Timing::of(vec![1.0e-6 * springs as f64]),
+            transforms: None,
+            errors: Measures { adhesion_force: figure, curve: figure, ..Measures::default() },
+        }
+    }
+
+    #[test]
+    fn the_first_row_that_stays_good_answers() {
+        let sub_cell = [(16, 0.3), (32, 1e-4), (64, 0.02), (128, 0.005), (256, 9e-4)];
+        let grid = [(16, 0.3), (2048, 0.009), (4096, 0.0045)];
+        let rows = |knob, of: &[(u64, f64)]| -> Vec<Row> {
+            of.iter().map(|&(springs, error)| row(knob, springs, error)).collect()
+        };
+        let mut table = CostTable {
+            budget: 1.0,
+            spent: 0.5,
+            transform_seconds: 1e-3,
+            reference: Reference {
+                springs: 256,
+                adhesion_force: Some(1.0),
+                closed_form: true,
+                errors: Measures::default(),
+            },
+            rows: [rows(Knob::SubCellSprings, &sub_cell), rows(Knob::GridSprings, &grid)].concat(),
+            left_out: Vec::new(),
+        };
+        assert_eq!(
+            table.answer(),
+            [
+                "1 % of the adhesion force: 128 springs, 128 µs with edges SubCell; 2 048 springs, 2.05 ms with \
+                 edges Grid.",
+                "0.1 % of the adhesion force: 256 springs, 256 µs with edges SubCell; more than 4 096 springs \
+                 with edges Grid.",
+            ]
+        );
+        table.reference.adhesion_force = None;
+        table.rows.retain(|row| row.knob == Knob::SubCellSprings);
+        assert_eq!(
+            table.answer()[0],
+            "1 % of the force curve: 128 springs, 128 µs with edges SubCell; edges Grid were not affordable."
+        );
+    }
+}

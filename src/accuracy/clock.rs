@@ -1,0 +1,75 @@
+//! Time: a budget, repeated runs, and the unit they are counted in.
+
+use super::Timing;
+use realfft::RealFftPlanner;
+use std::time::{Duration, Instant};
+
+/// Points of the transform that is the unit of time.
+const TRANSFORM_POINTS: usize = 1 << 20;
+/// Most runs of one setting.
+const MOST_RUNS: usize = 9;
+/// Share of a budget that the runs of one setting may take.
+const SHARE_OF_RUNS: f64 = 0.02;
+
+/// A time that must not be exceeded.
+#[derive(Clone, Copy)]
+pub(super) struct Budget {
+    begun: Instant,
+    seconds: f64,
+}
+
+impl Budget {
+    pub(super) fn begin(budget: Duration) -> Self {
+        Budget { begun: Instant::now(), seconds: budget.as_secs_f64() }
+    }
+
+    /// Seconds since it began.
+    pub(super) fn spent(&self) -> f64 {
+        self.begun.elapsed().as_secs_f64()
+    }
+
+    /// Seconds until so large a share of it has passed; negative after that.
+    pub(super) fn left_of(&self, share: f64) -> f64 {
+        share * self.seconds - self.spent()
+    }
+
+    /// Whether it is over.
+    pub(super) fn is_over(&self) -> bool {
+        self.left_of(1.0) <= 0.0
+    }
+
+    /// Runs something a few times, at least once, and tells how long it took each time; `None` where it
+    /// does not come to its end.
+    pub(super) fn time(&self, mut run: impl FnMut() -> bool) -> Option<Timing> {
+        let (began, mut seconds) = (Instant::now(), Vec::new());
+        while seconds.len() < MOST_RUNS
+            && (seconds.is_empty()
+                || (began.elapsed().as_secs_f64() < SHARE_OF_RUNS * self.seconds && !self.is_over()))
+        {
+            let clock = Instant::now();
+            if !run() {
+                break;
+            }
+            seconds.push(clock.elapsed().as_secs_f64());
+        }
+        Timing::of(seconds)
+    }
+
+    /// The shortest time of one real Fourier transform of 2^20 points, planned beforehand, s.
+    pub(super) fn of_one_transform(&self) -> Option<f64> {
+        let transform = RealFftPlanner::<f64>::new().plan_fft_forward(TRANSFORM_POINTS);
+        let mut points = transform.make_input_vec();
+        let (mut modes, mut scratch) = (transform.make_output_vec(), transform.make_scratch_vec());
+        let mut run = || {
+            for (index, point) in points.iter_mut().enumerate() {
+                *point = (index % 17) as f64;
+            }
+            let clock = Instant::now();
+            transform.process_with_scratch(&mut points, &mut modes, &mut scratch).ok()?;
+            Some(clock.elapsed().as_secs_f64())
+        };
+        run()?;
+        let times: Option<Vec<f64>> = (0..MOST_RUNS).map(|_| run()).collect();
+        Some(Timing::of(times?)?.minimum)
+    }
+}

@@ -1,0 +1,22 @@
+//! How large the errors of a scene are, and what it takes to make them smaller.
+//!
+//! [`measure`] tries everything that buys accuracy, from coarse to fine, and sets errors against times. Errors
+//! are relative and counted from a [`Reference`]: the adhesion force in closed form where the scene has one,
+//! otherwise the finest solution with edges between springs, of which the last refinements tell how good it
+//! is itself. Runs that are timed are others than those that are compared.
+
+mod answer;
+mod clock;
+mod convergence;
+mod distance;
+mod measure;
+mod others;
+mod single;
+mod solution;
+mod table;
+
+pub use convergence::{error_of_finest, first_within, observed_order};
+pub use distance::ForceCurve;
+pub use measure::{CostError, measure};
+pub use solution::{Measures, Solution, closed_form_adhesion};
+pub use table::{CostTable, ErrorFigure, Knob, Reference, Row, Timing};

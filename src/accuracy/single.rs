@@ -1,0 +1,32 @@
+//! What a line kept in single precision would lose.
+
+use super::Measures;
+use super::solution::Solution;
+use crate::contact::subcell::{LevelSets, SubCell};
+use crate::contact::{ContactTree, Foundation, HessRule, run};
+use crate::scene::Scene;
+use crate::simulation::{RunError, Simulation};
+use std::path::Path;
+use std::sync::Arc;
+
+/// Relative errors of a scene whose gaps are rounded to single precision and then solved in double, against
+/// the same with gaps in double precision.
+pub(super) fn errors_of_single_precision(
+    scene: &Scene,
+    folder: &Path,
+) -> Result<Measures<Option<f64>>, RunError> {
+    let mut simulation = Simulation::new(folder.to_path_buf());
+    let (line, _, governing) = simulation.make_line(scene)?;
+    let foundation = Foundation { spacing: line.spacing, effective_modulus: governing.effective_modulus };
+    let hess = governing.adhesive_work().map(|work| HessRule::new(foundation, work));
+    let solve = |gaps: &[f64]| -> Result<Solution, RunError> {
+        let sets = Arc::new(LevelSets::new(Arc::new(ContactTree::build(gaps)?), gaps)?);
+        let samples = scene.numerics.samples as usize;
+        let mut body = SubCell::new(&sets, hess, foundation, samples, Vec::new())?;
+        let history = run(&mut body, &scene.loading, |_, _| Ok(()))?;
+        Ok(Solution::of_history(&history, scene.numerics.points))
+    };
+    let double = solve(&line.gaps)?;
+    let rounded: Vec<f64> = line.gaps.iter().map(|&gap| f64::from(gap as f32)).collect();
+    Ok(solve(&rounded)?.errors(&double))
+}

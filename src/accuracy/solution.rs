@@ -1,0 +1,230 @@
+//! What is compared of two solutions of one scene.
+
+use super::ForceCurve;
+use crate::analysis::Figures;
+use crate::contact::{ContactError, Direction, History};
+use crate::reference::{PowerLaw, smooth_adhesion_force};
+use crate::scene::{Edges, Form, Numerics, Scene, Solver, check};
+use crate::simulation::{Outcome, RunError, Simulation};
+use crate::surface::SurfaceError;
+use serde::Serialize;
+use std::f64::consts::PI;
+
+/// Fewest springs anything is solved with.
+const FEWEST: u64 = 16;
+
+/// One value for each thing that has an error.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+pub struct Measures<T> {
+    /// The adhesion force F_a.
+    pub adhesion_force: T,
+    /// The whole force curve, see [`ForceCurve::distance`].
+    pub curve: T,
+    /// The energy lost.
+    pub dissipated_energy: T,
+    /// The largest length in contact.
+    pub contact_length: T,
+}
+
+impl<T> Measures<T> {
+    /// All four, in their order.
+    pub fn each(&self) -> [&T; 4] {
+        [&self.adhesion_force, &self.curve, &self.dissipated_energy, &self.contact_length]
+    }
+
+    /// What a function makes of each pair.
+    pub fn zip<U, V>(&self, other: &Measures<U>, make: impl Fn(&T, &U) -> V) -> Measures<V> {
+        Measures {
+            adhesion_force: make(&self.adhesion_force, &other.adhesion_force),
+            curve: make(&self.curve, &other.curve),
+            dissipated_energy: make(&self.dissipated_energy, &other.dissipated_energy),
+            contact_length: make(&self.contact_length, &other.contact_length),
+        }
+    }
+
+    /// What a function makes of each.
+    pub fn map<V>(&self, make: impl Fn(&T) -> V) -> Measures<V> {
+        self.zip(self, |value, _| make(value))
+    }
+}
+
+/// Figures and curve of one solution; a figure that is zero has no relative error and is left out.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Solution {
+    /// Springs N.
+    pub points: u64,
+    /// Adhesion force, N.
+    pub adhesion_force: Option<f64>,
+    /// Energy lost, J.
+    pub dissipated_energy: Option<f64>,
+    /// Largest length in contact, m.
+    pub contact_length: Option<f64>,
+    /// The force curve.
+    pub curve: ForceCurve,
+}
+
+impl Solution {
+    /// What is compared of a scene's outcome.
+    #[must_use]
+    pub fn of(outcome: &Outcome) -> Self {
+        Solution::of_history(&outcome.history, outcome.line.points as u64)
+    }
+
+    /// What is compared of a history on so many springs.
+    #[must_use]
+    pub fn of_history(history: &History, points: u64) -> Self {
+        let some = |value: f64| (value != 0.0 && value.is_finite()).then_some(value);
+        let figures = Figures::of(history);
+        let lengths = history.legs.iter().flat_map(|leg| &leg.curve).map(|point| point.contact_length);
+        Solution {
+            points,
+            adhesion_force: figures.adhesion_force.and_then(some),
+            dissipated_energy: figures.dissipated_energy.and_then(some),
+            contact_length: some(lengths.fold(0.0, f64::max)),
+            curve: ForceCurve::of(history),
+        }
+    }
+
+    /// Relative differences from a reference; `None` where the reference has no such figure.
+    #[must_use]
+    pub fn errors(&self, reference: &Solution) -> Measures<Option<f64>> {
+        let relative = |value: Option<f64>, reference: Option<f64>| {
+            reference.map(|reference| relative_error(value.unwrap_or(0.0), reference))
+        };
+        Measures {
+            adhesion_force: relative(self.adhesion_force, reference.adhesion_force),
+            curve: self.curve.distance(&reference.curve),
+            dissipated_energy: relative(self.dissipated_energy, reference.dissipated_energy),
+            contact_length: relative(self.contact_length, reference.contact_length),
+        }
+    }
+}
+
+/// |value − reference|/|reference|.
+pub(super) fn relative_error(value: f64, reference: f64) -> f64 {
+    ((value - reference) / reference).abs()
+}
+
+/// This scene, solved exactly on so many springs with these edges.
+pub(super) fn refined(scene: &Scene, points: u64, edges: Edges) -> Scene {
+    let mut scene = scene.clone();
+    scene.numerics = Numerics { points, edges, solver: Solver::Exact, ..scene.numerics };
+    scene
+}
+
+/// Powers of two that a scene allows as its number of springs, ascending.
+pub(super) fn allowed_points(scene: &Scene) -> impl Iterator<Item = u64> {
+    let powers = std::iter::successors(Some(FEWEST), |points| points.checked_mul(2));
+    let allowed = |points| check(&refined(scene, points, scene.numerics.edges)).is_empty();
+    // Too few for the modes first, too many for the field last.
+    powers.take(40).skip_while(move |&points| !allowed(points)).take_while(move |&points| allowed(points))
+}
+
+/// Runs a scene with everything made anew.
+///
+/// # Errors
+/// All but too few springs for the form, and too little time or memory.
+pub(super) fn solve(
+    scene: &Scene,
+    folder: &std::path::Path,
+    stop: &dyn Fn() -> bool,
+) -> Result<Solved, RunError> {
+    let mut simulation = Simulation::new(folder.to_path_buf());
+    match simulation.run(scene, stop, &mut |_, _, _| Ok(())) {
+        Ok(outcome) => Ok(Solved::Outcome(Box::new(outcome))),
+        Err(RunError::Surface(SurfaceError::NoSprings { .. })) => Ok(Solved::TooCoarse),
+        Err(error) if error.is_interruption() || is_out_of_memory(&error) => Ok(Solved::TooMuch),
+        Err(error) => Err(error),
+    }
+}
+
+/// What came of an attempt.
+pub(super) enum Solved {
+    /// A solution.
+    Outcome(Box<Outcome>),
+    /// No spring stands under the body.
+    TooCoarse,
+    /// There is no time or memory for it.
+    TooMuch,
+}
+
+fn is_out_of_memory(error: &RunError) -> bool {
+    matches!(
+        error,
+        RunError::Surface(SurfaceError::OutOfMemory { .. })
+            | RunError::Contact(ContactError::OutOfMemory { .. })
+    )
+}
+
+/// The adhesion force of a scene in closed form, N, where it has one: a smooth body that is pulled over the
+/// indentation of its smallest force, on a line longer than its contact. `outcome` tells whether it is.
+#[must_use]
+pub fn closed_form_adhesion(scene: &Scene, outcome: &Outcome) -> Option<f64> {
+    let work = outcome.governing.adhesive_work()?;
+    outcome.figures.adhesion_force?;
+    if scene.roughness.is_some() {
+        return None;
+    }
+    let (length, modulus) = (scene.length, outcome.governing.effective_modulus);
+    let flat_pull_off = |width: f64| -(PI * width * work / modulus).sqrt();
+    let form = scene.form.as_ref();
+    let (pull_off, widest) = match form {
+        None => (flat_pull_off(length), length),
+        Some(Form::Punch { radius }) if 2.0 * radius <= length => (flat_pull_off(2.0 * radius), length),
+        Some(form) => {
+            let body = PowerLaw::of(form, modulus, work)?;
+            let (radius, _) = body.force_controlled_pull_off();
+            // An edge of the contact that has come to the edge of the line is no longer the body's own.
+            (body.indentation(radius), length - 2.0 * outcome.line.spacing)
+        }
+    };
+    let legs = &outcome.history.legs;
+    let contact =
+        legs.iter().flat_map(|leg| &leg.curve).map(|point| point.contact_length).fold(0.0, f64::max);
+    let pulled = legs.iter().rfind(|leg| {
+        leg.direction == Direction::Unloading && leg.curve.iter().any(|point| point.springs > 0)
+    })?;
+    let passes = pulled.start() >= pull_off && pulled.curve.last()?.springs == 0;
+    // Lengths are sums.
+    (passes && contact <= widest * (1.0 + 1e-9)).then(|| smooth_adhesion_force(form, length, modulus, work))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::open;
+
+    fn closed_form(scene: &str, overrides: &[(&str, &str)]) -> Option<f64> {
+        let overrides: Vec<_> =
+            overrides.iter().map(|(path, value)| (path.to_string(), value.to_string())).collect();
+        let document = open(scene).unwrap().set_all(&overrides).unwrap();
+        let Solved::Outcome(outcome) = solve(document.scene(), &document.resolve(""), &|| false).unwrap()
+        else {
+            panic!("{scene} has no solution")
+        };
+        closed_form_adhesion(document.scene(), &outcome)
+    }
+
+    #[test]
+    fn closed_forms_are_given_where_they_hold() {
+        let sphere = closed_form("jkr-sphere", &[]).unwrap();
+        assert!((sphere / (1.5 * PI * 0.05 * 1e-4) - 1.0).abs() < 1e-12, "{sphere}");
+        assert!(closed_form("jkr-sphere", &[("loading", "[ToTouch, ToSeparation]")]).is_some());
+        assert!(closed_form("kendall-punch", &[]).is_some());
+        // Not pulled off, too short a line, no adhesion, rough.
+        let held = "[ToForce(1e-4), ToIndentation(0.0)]";
+        assert_eq!(closed_form("jkr-sphere", &[("loading", held)]), None);
+        assert_eq!(closed_form("jkr-sphere", &[("length", "2.0e-5")]), None);
+        assert_eq!(closed_form("jkr-sphere", &[("adhesion", "None")]), None);
+        assert_eq!(closed_form("rough-sphere", &[]), None);
+    }
+
+    #[test]
+    fn springs_are_powers_of_two_that_the_scene_allows() {
+        let fewest = |scene: &str| allowed_points(open(scene).unwrap().scene()).next();
+        assert_eq!(fewest("jkr-sphere"), Some(16));
+        assert_eq!(fewest("pressure-sensitive"), Some(1024));
+        assert_eq!(fewest("million-springs"), Some(1 << 19));
+        assert_eq!(allowed_points(open("jkr-sphere").unwrap().scene()).last(), Some(1 << 28));
+    }
+}

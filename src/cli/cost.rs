@@ -1,0 +1,147 @@
+//! `asperity cost`: what accuracy costs for a scene.
+
+use super::{CliError, OutputArguments, SceneArguments};
+use crate::accuracy::{Knob, measure};
+use crate::export::{
+    check_writable, cost_text, work_precision_svg, write_cost_csv, write_cost_json, write_new,
+};
+use crate::scene::parse_quantity;
+use clap::{Args, ValueEnum};
+use std::io::{self, IsTerminal, Write};
+use std::path::PathBuf;
+use std::time::Duration;
+
+const EXAMPLES: &str = "\
+Examples:
+  asperity cost jkr-sphere
+  asperity cost my-scene.ron --budget 30s --svg my-scene.svg
+  asperity cost rough-sphere --set adhesion.work=0.1 --format csv -o rough.csv
+
+Errors are relative. They are counted from the closed form of the adhesion force where the scene has
+one, else from the finest solution within the budget, whose own error is estimated and shown.";
+
+/// Longest budget, s.
+const LONGEST: f64 = 86_400.0;
+
+/// Arguments of `cost`.
+#[derive(Args, Debug)]
+#[command(after_help = EXAMPLES)]
+pub struct CostArguments {
+    /// The scene.
+    #[command(flatten)]
+    pub scene: SceneArguments,
+    /// Time for the whole of it: 500ms, 30s, 2min
+    #[arg(long, value_name = "TIME", default_value = "10s", value_parser = budget)]
+    pub budget: Duration,
+    /// How it is printed; left out: by the ending of FILE, else text
+    #[arg(long, value_enum)]
+    pub format: Option<CostFormat>,
+    /// Draw errors over times to FILE, in SVG
+    #[arg(long, value_name = "FILE")]
+    pub svg: Option<PathBuf>,
+    /// Write to FILE, whole or not at all; `-` is standard output
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Option<PathBuf>,
+    /// Overwrite files that exist
+    #[arg(long)]
+    pub force: bool,
+}
+
+/// How costs are printed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum CostFormat {
+    /// The answer, then tables.
+    Text,
+    /// One object.
+    Json,
+    /// One row for each setting.
+    Csv,
+}
+
+/// A time as people write it.
+fn budget(text: &str) -> Result<Duration, String> {
+    let allowed = || "allowed: a time from 1ms to 24h, such as 500ms, 30s or 2min".to_owned();
+    let minutes = [("min", 60.0), ("h", 3600.0)].into_iter().find_map(|(unit, seconds)| {
+        Some(text.trim().strip_suffix(unit)?.trim().parse::<f64>().ok()? * seconds)
+    });
+    let seconds = minutes.or_else(|| parse_quantity(text, "s").ok()).ok_or_else(allowed)?;
+    if (1e-3..=LONGEST).contains(&seconds) { Ok(Duration::from_secs_f64(seconds)) } else { Err(allowed()) }
+}
+
+/// Measures what accuracy costs and writes it.
+pub(super) fn cost(arguments: &CostArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
+    let document = arguments.scene.open()?;
+    let scene = document.scene();
+    let output = OutputArguments { output: arguments.output.clone(), force: arguments.force };
+    output.check()?;
+    if let Some(svg) = &arguments.svg {
+        check_writable(svg, arguments.force)?;
+    }
+    let mut progress = Progress::default();
+    let measured = measure(scene, &document.resolve(""), arguments.budget, &mut |knob, setting| {
+        progress.tell(knob, setting);
+    });
+    progress.end();
+    let table = measured.map_err(|error| CliError::Cost { scene: document.name().into(), error })?;
+    if let Some(svg) = &arguments.svg {
+        let title = if scene.title.is_empty() { document.name() } else { &scene.title };
+        let picture = work_precision_svg(title, &table);
+        write_new(svg, arguments.force, |out| out.write_all(picture.as_bytes()))?;
+    }
+    let by_ending = match output.file().and_then(|path| path.extension()?.to_str()) {
+        Some("json") => CostFormat::Json,
+        Some("csv") => CostFormat::Csv,
+        _ => CostFormat::Text,
+    };
+    output.write(stdout, |out| match arguments.format.unwrap_or(by_ending) {
+        CostFormat::Text => out.write_all(cost_text(&table).as_bytes()),
+        CostFormat::Json => write_cost_json(out, scene, &table),
+        CostFormat::Csv => write_cost_csv(out, &table),
+    })
+}
+
+/// What is being tried: on a terminal one line that changes, elsewhere one line for each knob.
+#[derive(Default)]
+struct Progress {
+    knob: Option<Knob>,
+}
+
+impl Progress {
+    fn tell(&mut self, knob: Knob, setting: &str) {
+        let mut stderr = io::stderr();
+        // Who cannot be told does without.
+        let _ = if stderr.is_terminal() {
+            write!(stderr, "\r\x1b[K{}: {setting}", knob.name()).and_then(|()| stderr.flush())
+        } else if self.knob != Some(knob) {
+            writeln!(stderr, "{}", knob.name())
+        } else {
+            Ok(())
+        };
+        self.knob = Some(knob);
+    }
+
+    fn end(&self) {
+        let mut stderr = io::stderr();
+        if self.knob.is_some() && stderr.is_terminal() {
+            let _ = write!(stderr, "\r\x1b[K").and_then(|()| stderr.flush());
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn budgets_are_times() {
+        let seconds = |text| budget(text).ok().map(|budget| budget.as_secs_f64());
+        for (text, expected) in
+            [("10s", 10.0), ("500ms", 0.5), ("2min", 120.0), ("1 h", 3600.0), ("3", 3.0), ("0.5 s", 0.5)]
+        {
+            assert_eq!(seconds(text), Some(expected), "{text}");
+        }
+        for wrong in ["", "s", "-1s", "0", "10m/s", "25h", "nan", "1us", "infs", "naNmin"] {
+            assert_eq!(seconds(wrong), None, "{wrong}");
+        }
+    }
+}
