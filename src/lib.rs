@@ -36,6 +36,7 @@ pub mod accuracy;
 pub mod analysis;
 pub mod cli;
 pub mod contact;
+pub mod ensemble;
 pub mod explorer;
 pub mod export;
 mod memory;

@@ -17,6 +17,8 @@ const GROWTH: f64 = 2.2;
 const COMPARED_POINTS: u64 = 1 << 16;
 /// Samples of a leg that is compared, at most.
 const MOST_COMPARED: u64 = 4096;
+/// Errors below this are not told from rounding.
+const ROUNDING: f64 = 1e-14;
 /// Shares of the budget by the end of which the ladders have ended.
 const SUB_CELL_BY: f64 = 0.35;
 const GRID_BY: f64 = 0.65;
@@ -103,8 +105,7 @@ pub fn measure(
     let closed_form = closed_form_adhesion(scene, &finest.outcome);
     if let Some(force) = closed_form {
         target.adhesion_force = Some(force);
-        // That of a few roundings.
-        errors.adhesion_force = Some(4.0 * f64::EPSILON);
+        errors.adhesion_force = Some(ROUNDING);
     }
     let reference = Reference {
         springs: target.points,
@@ -204,7 +205,7 @@ impl Bench<'_> {
         let before = rows.last().filter(|row| row.knob == knob);
         let ratio = before.map_or(1.0, |row| (setting / row.setting).max(row.setting / setting));
         let figures = errors.zip(floors, |&error, &floor| {
-            let (error, floor) = (error?, floor.unwrap_or(0.0));
+            let (error, floor) = (error?, floor.unwrap_or(0.0).max(ROUNDING));
             let resolved = error > floor;
             Some(ErrorFigure { error: error.max(floor), resolved, order: None })
         });

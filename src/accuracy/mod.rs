@@ -6,6 +6,7 @@
 //! is itself. Runs that are timed are others than those that are compared.
 
 mod answer;
+mod choose;
 mod clock;
 mod convergence;
 mod distance;
@@ -15,6 +16,7 @@ mod single;
 mod solution;
 mod table;
 
+pub use choose::{Choice, ChoiceError, Target, choose};
 pub use convergence::{error_of_finest, first_within, observed_order};
 pub use distance::ForceCurve;
 pub use measure::{CostError, measure};

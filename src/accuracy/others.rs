@@ -22,6 +22,8 @@ const MOST_HALVINGS: i32 = 20;
 /// Fewest samples, and how many of them the reference has.
 const FEWEST_SAMPLES: u64 = 8;
 const REFERENCE_SAMPLES: u64 = 1 << 16;
+/// Springs on which samples are tried, where the scene has more and fewer are good enough.
+const MOST_SAMPLED: u64 = 1 << 14;
 /// Fewest lines that make a mean, and most that are tried.
 const FEWEST_LINES: u64 = 4;
 const MOST_LINES: u64 = 1 << 14;
@@ -36,7 +38,8 @@ pub(super) fn measure(
     progress: &mut Progress<'_>,
 ) -> Result<(), CostError> {
     steps(bench, rows, progress)?;
-    samples(bench, points, rows, progress)?;
+    let own = bench.scene.numerics.points.min(MOST_SAMPLED).max(points);
+    samples(bench, own, rows, progress)?;
     single_precision(bench, points, rows, progress)?;
     lines(bench, points, rows, progress)
 }

@@ -1,6 +1,7 @@
 //! Why a command failed.
 
-use crate::accuracy::CostError;
+use crate::accuracy::{ChoiceError, CostError};
+use crate::ensemble::EnsembleError;
 use crate::export::WriteError;
 use crate::scene::SceneErrors;
 use crate::simulation::RunError;
@@ -47,6 +48,22 @@ pub enum CliError {
         scene: String,
         /// Why not.
         error: CostError,
+    },
+    /// No number of springs was chosen for a tolerance.
+    #[error("{scene}: {error}")]
+    Choice {
+        /// Name of the scene.
+        scene: String,
+        /// Why not.
+        error: ChoiceError,
+    },
+    /// The scene could not be computed on several lines.
+    #[error("{scene}: {error}")]
+    Lines {
+        /// Name of the scene.
+        scene: String,
+        /// Why not.
+        error: EnsembleError,
     },
     /// A file could not be written.
     #[error("{0}{hint}", hint = hint(.0))]

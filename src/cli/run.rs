@@ -2,15 +2,24 @@
 
 use super::scene::simulation_of;
 use super::{CliError, OutputArguments, SceneArguments};
-use crate::export::{summary, write_curve, write_json};
+use crate::accuracy::{Choice, choose};
+use crate::ensemble;
+use crate::export::{
+    ensemble_text, summary, write_chosen_json, write_curve, write_ensemble_csv, write_ensemble_json,
+    write_json,
+};
+use crate::scene::{Document, Scene};
 use clap::{Args, ValueEnum};
-use std::io::Write;
+use std::io::{self, Write};
+use std::thread::available_parallelism;
 
 const EXAMPLES: &str = "\
 Examples:
   asperity run pressure-sensitive
   asperity run my-scene.ron --set adhesion.work=0.1 --format json | jq .adhesion_force
   asperity run jkr-sphere --set numerics.points=65536 -o jkr.csv
+  asperity run jkr-sphere --tolerance 0.1%
+  asperity run pressure-sensitive --lines 32 --format csv
 
 JSON and CSV are in SI units. Compression is positive, indentation counts from first touch.";
 
@@ -27,9 +36,40 @@ pub struct RunArguments {
     /// curve, contacts, work. CSV is the curve: leg,indentation,force,contact_length,fragments.
     #[arg(long, value_enum, hide_possible_values = true, verbatim_doc_comment)]
     pub format: Option<RunFormat>,
+    /// Choose springs and edges so that the adhesion force is within T, such as 1e-3 or 0.1%
+    ///
+    /// They are doubled until the estimated error, or that from the closed form where there is one,
+    /// is small enough; where nothing pulls it is the error of the force curve. What is chosen
+    /// stands in place of the scene's own numerics.points and numerics.edges.
+    #[arg(long, value_name = "T", value_parser = tolerance, verbatim_doc_comment)]
+    pub tolerance: Option<f64>,
+    /// Compute so many random lines, of this seed and those that follow: mean, spread, confidence
+    ///
+    /// CSV then has one row for each seed. A tolerance is kept on the first line.
+    #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u32).range(2..=MOST_LINES), verbatim_doc_comment)]
+    pub lines: Option<u32>,
+    /// Threads that share the lines; left out, one for each core. No result depends on it
+    #[arg(long, value_name = "COUNT", requires = "lines", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub jobs: Option<u16>,
     /// Where it goes.
     #[command(flatten)]
     pub output: OutputArguments,
+}
+
+/// Most random lines.
+const MOST_LINES: i64 = 1_000_000;
+
+/// A relative error: `1e-3` or `0.1%`.
+fn tolerance(text: &str) -> Result<f64, String> {
+    let allowed = || "allowed: a relative error above 0 and below 1, such as 1e-3 or 0.1%".to_owned();
+    let text = text.trim();
+    let (number, hundredths) = match text.strip_suffix('%') {
+        Some(number) => (number.trim_end(), true),
+        None => (text, false),
+    };
+    let number: f64 = number.parse().map_err(|_| allowed())?;
+    let tolerance = if hundredths { number / 100.0 } else { number };
+    if tolerance > 0.0 && tolerance < 1.0 { Ok(tolerance) } else { Err(allowed()) }
 }
 
 /// What a run prints.
@@ -56,14 +96,70 @@ impl RunArguments {
 /// Computes a scene and writes what it gave.
 pub(super) fn run(arguments: &RunArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
     let document = arguments.scene.open()?;
-    let scene = document.scene();
     arguments.output.check()?;
+    let choice = arguments.tolerance.map(|tolerance| choice(&document, tolerance)).transpose()?;
+    let chosen = choice.as_ref().map(|choice| choice.apply(document.scene()));
+    let scene = chosen.as_ref().unwrap_or(document.scene());
+    if let Some(lines) = arguments.lines {
+        return on_lines(arguments, &document, scene, choice.as_ref(), lines, stdout);
+    }
     let outcome = simulation_of(&document)
         .run(scene, &|| false, &mut |_, _, _| Ok(()))
         .map_err(|error| CliError::Run { scene: document.name().into(), error })?;
-    arguments.output.write(stdout, |out| match arguments.chosen_format() {
-        RunFormat::Summary => out.write_all(summary(scene, &outcome).as_bytes()),
-        RunFormat::Json => write_json(out, scene, &outcome),
-        RunFormat::Csv => write_curve(out, &outcome),
+    arguments.output.write(stdout, |out| match (arguments.chosen_format(), &choice) {
+        (RunFormat::Summary, choice) => {
+            out.write_all(summary(scene, &outcome).as_bytes())?;
+            choice.as_ref().map_or(Ok(()), |choice| writeln!(out, "\n{}", choice.sentence()))
+        }
+        (RunFormat::Json, None) => write_json(out, scene, &outcome),
+        (RunFormat::Json, Some(choice)) => write_chosen_json(out, scene, &outcome, choice),
+        (RunFormat::Csv, _) => write_curve(out, &outcome),
     })
+}
+
+/// The springs and edges for a tolerance, told on standard error.
+fn choice(document: &Document, tolerance: f64) -> Result<Choice, CliError> {
+    let choice = choose(document.scene(), &document.resolve(""), tolerance)
+        .map_err(|error| CliError::Choice { scene: document.name().into(), error })?;
+    // Who cannot be told does without.
+    let _ = writeln!(io::stderr(), "{}", choice.sentence());
+    Ok(choice)
+}
+
+/// Computes a scene on several lines and writes what they gave.
+fn on_lines(
+    arguments: &RunArguments,
+    document: &Document,
+    scene: &Scene,
+    choice: Option<&Choice>,
+    lines: u32,
+    stdout: &mut dyn Write,
+) -> Result<(), CliError> {
+    let jobs =
+        arguments.jobs.map_or_else(|| available_parallelism().map_or(1, std::num::NonZero::get), usize::from);
+    let results = ensemble::run(scene, &document.resolve(""), lines as usize, jobs)
+        .map_err(|error| CliError::Lines { scene: document.name().into(), error })?;
+    arguments.output.write(stdout, |out| match arguments.chosen_format() {
+        RunFormat::Summary => {
+            out.write_all(ensemble_text(scene, &results).as_bytes())?;
+            choice.map_or(Ok(()), |choice| writeln!(out, "\n{}", choice.sentence()))
+        }
+        RunFormat::Json => write_ensemble_json(out, scene, choice, &results),
+        RunFormat::Csv => write_ensemble_csv(out, &results),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn tolerances_are_numbers_or_per_cent() {
+        for (text, expected) in [("1e-3", 1e-3), ("0.1%", 1e-3), (" 10 % ", 0.1), ("0.5", 0.5)] {
+            assert!((tolerance(text).unwrap() / expected - 1.0).abs() < 1e-15, "{text}");
+        }
+        for wrong in ["0", "-1", "1", "100%", "nan", "inf", "", "%", "1e-3 %%", "abc"] {
+            assert!(tolerance(wrong).is_err(), "{wrong}");
+        }
+    }
 }

@@ -31,8 +31,9 @@ pub fn cost_text(table: &CostTable) -> String {
         lines.extend(rows.iter().map(|row| cells(row)));
         sheet.table(&lines);
     }
-    sheet.heading(&format!(
-        "Time: whole runs with everything made anew, of which the least and the median; one FFT is a real \
+    sheet.heading("Time");
+    sheet.paragraph(&format!(
+        "Whole runs with everything made anew, of which the least and the median; one FFT is a real \
          one of 2^20 points, {}.",
         seconds(table.transform_seconds)
     ));
@@ -83,7 +84,7 @@ fn note(knob: Knob) -> &'static str {
         Knob::Samples => "The curve between its samples; no figure depends on their number.",
         Knob::SinglePrecision => {
             "Gaps rounded to single precision, solved in double, counted from gaps in double. Storage of the \
-             line would be halved; no time would be gained, for the tree and the sums stay as they are."
+             line would be halved; no gain of time is claimed, for everything is still computed in double."
         }
         Knob::Lines => "Standard error of the mean of F_a over so many seeds, one line after the other.",
     }
@@ -118,7 +119,6 @@ fn cells(row: &Row) -> [String; 8] {
 
 fn error_cell(figure: ErrorFigure) -> String {
     match (figure.resolved, figure.order) {
-        _ if figure.error == 0.0 => "0".into(),
         (false, _) => format!("<{:.0e}", figure.error),
         (true, None) => format!("{:.1e}", figure.error),
         (true, Some(order)) => format!("{:.1e} ({order:.1})", figure.error),

@@ -1,6 +1,7 @@
 //! A computed scene as one JSON object: SI units, numbers that are finite or null.
 
 use super::json_text::write_json_value;
+use crate::accuracy::Choice;
 use crate::analysis::Regime;
 use crate::contact::Work;
 use crate::scene::{Observer, Scene};
@@ -13,13 +14,28 @@ use std::io::{self, Write};
 /// # Errors
 /// Those of `out`.
 pub fn write_json(out: &mut (impl Write + ?Sized), scene: &Scene, outcome: &Outcome) -> io::Result<()> {
-    write_json_value(out, &Report::of(scene, outcome))
+    write_json_value(out, &Report::of(scene, outcome, None))
+}
+
+/// Writes the same of a scene whose springs were chosen for a tolerance, and the choice beside it.
+///
+/// # Errors
+/// Those of `out`.
+pub fn write_chosen_json(
+    out: &mut (impl Write + ?Sized),
+    scene: &Scene,
+    outcome: &Outcome,
+    choice: &Choice,
+) -> io::Result<()> {
+    write_json_value(out, &Report::of(scene, outcome, Some(choice)))
 }
 
 /// The object; its keys stand in the order of these fields.
 #[derive(Serialize)]
 struct Report<'a> {
     scene: &'a Scene,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    choice: Option<&'a Choice>,
     line: LineReport,
     effective_modulus: f64,
     work_of_adhesion: Option<f64>,
@@ -72,11 +88,12 @@ struct CurveReport {
 }
 
 impl<'a> Report<'a> {
-    fn of(scene: &'a Scene, outcome: &'a Outcome) -> Report<'a> {
+    fn of(scene: &'a Scene, outcome: &'a Outcome, choice: Option<&'a Choice>) -> Report<'a> {
         let Outcome { line, governing, figures, history, .. } = outcome;
         let amplitude = governing.amplitude;
         Report {
             scene,
+            choice,
             line: LineReport {
                 points: line.points,
                 length: line.length,

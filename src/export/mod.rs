@@ -6,6 +6,7 @@
 pub mod atomic;
 mod cost;
 mod csv;
+mod ensemble;
 mod json;
 mod json_text;
 pub(crate) mod sheet;
@@ -16,7 +17,8 @@ mod work_precision;
 pub use atomic::{WriteError, check_writable, write_new};
 pub use cost::{cost_text, write_cost_csv, write_cost_json};
 pub use csv::{write_curve, write_line};
-pub use json::write_json;
+pub use ensemble::{ensemble_text, write_ensemble_csv, write_ensemble_json};
+pub use json::{write_chosen_json, write_json};
 pub use json_text::write_json_value;
 pub use summary::summary;
 pub use work_precision::work_precision_svg;

@@ -1,0 +1,276 @@
+//! The fewest springs that reach a tolerance.
+
+use super::convergence::{error_of_finest, first_within};
+use super::solution::{
+    Solution, Solved, allowed_points, closed_form_adhesion, refined, relative_error, solve,
+};
+use crate::export::sheet::grouped;
+use crate::scene::{Edges, Scene, Solver};
+use crate::simulation::RunError;
+use serde::Serialize;
+use std::path::Path;
+use thiserror::Error;
+
+/// Most springs tried, unless the scene needs more for its modes: then four times as many as it needs.
+const MOST_SPRINGS: u64 = 1 << 21;
+/// Solutions it takes to believe an estimate.
+const FEWEST_SOLUTIONS: usize = 3;
+
+/// What a tolerance is about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Target {
+    /// The adhesion force.
+    AdhesionForce,
+    /// The force curve, where nothing pulls; see [`super::ForceCurve::distance`].
+    Curve,
+}
+
+impl Target {
+    /// Its name in words.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Target::AdhesionForce => "adhesion force",
+            Target::Curve => "force curve",
+        }
+    }
+}
+
+/// Springs and edges that reach a tolerance.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Choice {
+    /// The relative error allowed.
+    pub tolerance: f64,
+    /// What it is the error of.
+    pub target: Target,
+    /// Springs N.
+    pub points: u64,
+    /// How edges are counted.
+    pub edges: Edges,
+    /// Relative error reached; with a closed form the error itself, else an estimate that includes the
+    /// estimated error of the finest solution.
+    pub error: f64,
+    /// Whether the error is counted from a closed form.
+    pub closed_form: bool,
+    /// Springs of the finest solution that was tried for it.
+    pub finest: u64,
+}
+
+impl Choice {
+    /// The scene with these springs and edges.
+    #[must_use]
+    pub fn apply(&self, scene: &Scene) -> Scene {
+        refined(scene, self.points, self.edges)
+    }
+
+    /// What was picked and why, in a sentence.
+    #[must_use]
+    pub fn sentence(&self) -> String {
+        let edges = name_of(self.edges);
+        let from = if self.closed_form {
+            "from the closed form".to_owned()
+        } else {
+            format!("estimated from up to {} springs", grouped(self.finest))
+        };
+        format!(
+            "{} springs with edges {edges}: the fewest whose {} is within {:e} ({:.1e}, {from}).",
+            grouped(self.points),
+            self.target.name(),
+            self.tolerance,
+            self.error
+        )
+    }
+}
+
+fn name_of(edges: Edges) -> &'static str {
+    match edges {
+        Edges::Grid => "Grid",
+        Edges::SubCell => "SubCell",
+    }
+}
+
+/// Why no springs were chosen.
+#[derive(Clone, Debug, PartialEq, Error)]
+pub enum ChoiceError {
+    /// The scene could not be computed.
+    #[error(transparent)]
+    Run(#[from] RunError),
+    /// The stepwise solver has an error of its own, which more springs do not change.
+    #[error(
+        "a tolerance goes with numerics.solver: Exact; the step of the stepwise solver is an error of its own"
+    )]
+    Stepwise,
+    /// Not with as many springs as are tried.
+    #[error("{}", unreached(.tolerance, .best))]
+    Unreached {
+        /// The relative error asked for.
+        tolerance: f64,
+        /// The best there is, with a tolerance that it reaches; `None` where nothing is known.
+        best: Option<Box<Choice>>,
+    },
+}
+
+fn unreached(tolerance: &f64, best: &Option<Box<Choice>>) -> String {
+    match best {
+        None => {
+            format!("a tolerance of {tolerance:e} cannot be checked: too few numbers of springs are allowed")
+        }
+        Some(best) => format!(
+            "a tolerance of {tolerance:e} is not reached with at most {} springs; what is reached is {:.1e} of \
+             the {}, with {} springs and edges {}",
+            grouped(best.finest),
+            best.error,
+            best.target.name(),
+            grouped(best.points),
+            name_of(best.edges)
+        ),
+    }
+}
+
+/// Springs and edges with which a checked scene, whose files lie in `folder`, reaches a relative error of at
+/// most `tolerance` of its adhesion force, or of its force curve where nothing pulls.
+///
+/// Springs are doubled until the estimate of the error, that of the finest solution included, has come below
+/// the tolerance; then the fewest are taken from which on it stays there. With as many springs edges at the
+/// springs are cheaper, so they are taken where they reach it with no more springs than edges between them.
+/// The choice depends on the scene alone, not on the time anything takes.
+///
+/// # Errors
+/// [`ChoiceError`].
+pub fn choose(scene: &Scene, folder: &Path, tolerance: f64) -> Result<Choice, ChoiceError> {
+    if scene.numerics.solver != Solver::Exact {
+        return Err(ChoiceError::Stepwise);
+    }
+    let most = allowed_points(scene).next().map_or(0, |fewest| MOST_SPRINGS.max(4 * fewest));
+    let mut tried: [Vec<Solution>; 2] = [Vec::new(), Vec::new()];
+    let mut best: Option<Box<Choice>> = None;
+    for points in allowed_points(scene).take_while(|&points| points <= most) {
+        let mut closed_form = None;
+        let mut solved = 0;
+        for (edges, solutions) in EDGES.into_iter().zip(&mut tried) {
+            if let Solved::Outcome(outcome) = solve(&refined(scene, points, edges), folder, &|| false)? {
+                closed_form = closed_form_adhesion(scene, &outcome);
+                solutions.push(Solution::of(&outcome));
+                solved += 1;
+            }
+        }
+        if solved < EDGES.len() {
+            continue;
+        }
+        if let Some(choice) = judge(&tried, closed_form, tolerance) {
+            if choice.error <= tolerance {
+                return Ok(choice);
+            }
+            if best.as_ref().is_none_or(|best| choice.error < best.error) {
+                best = Some(Box::new(choice.clone()));
+            }
+        }
+        if let (Some(best), Some(finest)) = (&mut best, tried[0].last()) {
+            best.finest = finest.points;
+        }
+    }
+    Err(ChoiceError::Unreached { tolerance, best })
+}
+
+/// In the order in which they are preferred at the same number of springs.
+const EDGES: [Edges; 2] = [Edges::Grid, Edges::SubCell];
+
+/// The choice among solutions with edges at and between springs, of as many springs each; if none is good
+/// enough, the best of them. `None` where too few are there to tell.
+fn judge([grid, sub_cell]: &[Vec<Solution>; 2], closed_form: Option<f64>, tolerance: f64) -> Option<Choice> {
+    let finest = sub_cell.last()?;
+    let target = if finest.adhesion_force.is_some() { Target::AdhesionForce } else { Target::Curve };
+    let differ = |one: &Solution, other: &Solution| {
+        let errors = one.errors(other);
+        if target == Target::Curve { errors.curve } else { errors.adhesion_force }
+    };
+    let of_finest = match (closed_form, sub_cell.as_slice()) {
+        (Some(_), _) => 0.0,
+        (None, [.., one, other, last]) if sub_cell.len() >= FEWEST_SOLUTIONS => {
+            error_of_finest(differ(one, other), differ(other, last)?)
+        }
+        (None, _) => return None,
+    };
+    let error = |solution: &Solution| match closed_form {
+        Some(force) => Some(relative_error(solution.adhesion_force.unwrap_or(0.0), force)),
+        None => Some(differ(solution, finest)? + of_finest),
+    };
+    let candidates = EDGES.into_iter().zip([grid, sub_cell]).filter_map(|(edges, solutions)| {
+        let errors: Vec<_> = solutions.iter().map(error).collect();
+        // Where none is good enough, the finest is offered.
+        let index = first_within(errors.iter().copied(), tolerance).unwrap_or(errors.len() - 1);
+        let (error, points) = ((*errors.get(index)?)?, solutions.get(index)?.points);
+        Some(Choice {
+            tolerance,
+            target,
+            points,
+            edges,
+            error,
+            closed_form: closed_form.is_some(),
+            finest: finest.points,
+        })
+    });
+    let (good, others): (Vec<_>, Vec<_>) = candidates.partition(|choice| choice.error <= tolerance);
+    // The first of equals: edges at the springs.
+    let fewest = good.into_iter().min_by_key(|choice| choice.points);
+    fewest.or_else(|| others.into_iter().min_by(|one, other| one.error.total_cmp(&other.error)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Solutions whose adhesion force converges to 1 with an order.
+    fn solutions(count: u32, error: f64, order: i32) -> Vec<Solution> {
+        let solution = |k: u32| Solution {
+            points: 16 << k,
+            adhesion_force: Some(1.0 + error * f64::from(1 << k).powi(-order)),
+            dissipated_energy: None,
+            contact_length: None,
+            curve: crate::accuracy::ForceCurve::default(),
+        };
+        (0..count).map(solution).collect()
+    }
+
+    #[test]
+    fn the_fewest_springs_are_chosen() {
+        // Grid: 0.5, 0.25, …; SubCell: 0.1, 0.025, 0.00625, …
+        let tried = |count| [solutions(count, 0.5, 1), solutions(count, 0.1, 2)];
+        let choice = judge(&tried(5), Some(1.0), 0.01).unwrap();
+        assert_eq!((choice.points, choice.edges), (64, Edges::SubCell));
+        assert!((choice.error - 0.00625).abs() < 1e-12);
+        // Estimated: as good as the closed form where the order is known.
+        let choice = judge(&tried(5), None, 0.01).unwrap();
+        assert_eq!((choice.points, choice.edges), (64, Edges::SubCell));
+        assert!((choice.error / 0.00625 - 1.0).abs() < 0.15, "{choice:?}");
+        assert_eq!(judge(&tried(2), None, 0.01), None);
+        // Edges at the springs where they are as good with as many.
+        let choice = judge(&[solutions(5, 0.1, 2), solutions(5, 0.1, 2)], Some(1.0), 0.01).unwrap();
+        assert_eq!((choice.points, choice.edges), (64, Edges::Grid));
+        // The best where none will do.
+        let choice = judge(&tried(3), Some(1.0), 1e-6).unwrap();
+        assert_eq!((choice.points, choice.edges), (64, Edges::SubCell));
+        assert!(choice.error > 1e-6);
+    }
+
+    #[test]
+    fn a_tolerance_is_kept_or_refused() {
+        let document = crate::scene::open("jkr-sphere").unwrap();
+        let (scene, folder) = (document.scene(), document.resolve(""));
+        let choice = choose(scene, &folder, 1e-3).unwrap();
+        assert_eq!(
+            (choice.target, choice.edges, choice.closed_form),
+            (Target::AdhesionForce, Edges::SubCell, true)
+        );
+        let chosen = choice.apply(scene);
+        let Solved::Outcome(outcome) = solve(&chosen, &folder, &|| false).unwrap() else {
+            panic!("no solution")
+        };
+        let exact = 1.5 * std::f64::consts::PI * 0.05 * 1e-4;
+        assert!((outcome.figures.adhesion_force.unwrap() / exact - 1.0).abs() <= 1e-3);
+        let mut stepwise = scene.clone();
+        stepwise.numerics.solver = Solver::Stepwise { step: 1e-9 };
+        assert_eq!(choose(&stepwise, &folder, 1e-3), Err(ChoiceError::Stepwise));
+    }
+}

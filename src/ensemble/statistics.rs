@@ -1,0 +1,115 @@
+//! Mean, spread and confidence of a sample.
+
+use serde::Serialize;
+use std::f64::consts::FRAC_2_PI;
+
+/// Share of samples whose confidence interval holds the true mean.
+const CONFIDENCE: f64 = 0.95;
+
+/// What a sample tells of what it was drawn from.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Statistics {
+    /// Number of values; those a line does not have are left out.
+    pub count: usize,
+    /// Mean.
+    pub mean: f64,
+    /// Standard deviation, with n − 1.
+    pub standard_deviation: f64,
+    /// Standard error of the mean.
+    pub standard_error: f64,
+    /// Lower and upper end of the 95 % confidence interval of the mean, by Student's t.
+    pub confidence_interval: (f64, f64),
+}
+
+impl Statistics {
+    /// Of these values; `None` for fewer than two.
+    #[must_use]
+    pub fn of(values: &[f64]) -> Option<Self> {
+        if values.len() < 2 {
+            return None;
+        }
+        let count = values.len() as f64;
+        // In units of the largest, so that no square is lost at either end of the numbers.
+        let scale = values.iter().fold(0.0, |largest: f64, value| largest.max(value.abs()));
+        let unit = if scale > 0.0 { scale } else { 1.0 };
+        let mean = values.iter().map(|value| value / unit).sum::<f64>() / count;
+        let squares = values.iter().map(|value| (value / unit - mean).powi(2)).sum::<f64>();
+        let (mean, standard_deviation) = (mean * unit, (squares / (count - 1.0)).sqrt() * unit);
+        let standard_error = standard_deviation / count.sqrt();
+        let half = student_t(values.len() as u32 - 1) * standard_error;
+        let confidence_interval = (mean - half, mean + half);
+        Some(Statistics {
+            count: values.len(),
+            mean,
+            standard_deviation,
+            standard_error,
+            confidence_interval,
+        })
+    }
+}
+
+/// The t that Student's distribution with so many degrees of freedom exceeds either way with a probability of
+/// 5 %.
+fn student_t(freedom: u32) -> f64 {
+    let (mut low, mut high) = (0.0, 16.0);
+    for _ in 0..200 {
+        let middle = f64::midpoint(low, high);
+        if share_within(middle, freedom) < CONFIDENCE {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    f64::midpoint(low, high)
+}
+
+/// Probability that |t| is at most this with so many degrees of freedom (Abramowitz and Stegun, 26.7.3 and
+/// 26.7.4).
+fn share_within(t: f64, freedom: u32) -> f64 {
+    let angle = (t / f64::from(freedom).sqrt()).atan();
+    let (sine, cosine) = angle.sin_cos();
+    let odd = freedom % 2 == 1;
+    // Of cosines to the powers 1, 3, … up to freedom − 2, or 0, 2, …
+    let (mut term, mut power) = if odd { (cosine, 1) } else { (1.0, 0) };
+    let mut sum = 0.0;
+    while power + 2 <= freedom {
+        sum += term;
+        power += 2;
+        term *= cosine * cosine * f64::from(power - 1) / f64::from(power);
+    }
+    if odd { FRAC_2_PI * (angle + sine * sum) } else { sine * sum }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn quantiles_are_those_of_the_tables() {
+        for (freedom, expected) in [
+            (1, 12.706_204_736),
+            (2, 4.302_652_730),
+            (3, 3.182_446_305),
+            (4, 2.776_445_105),
+            (9, 2.262_157_163),
+            (31, 2.039_513_446),
+            (100, 1.983_971_519),
+            (1000, 1.962_339_081),
+        ] {
+            let t = student_t(freedom);
+            assert!((t - expected).abs() < 2e-9 * expected, "{freedom}: {t}");
+        }
+    }
+
+    #[test]
+    fn a_small_sample() {
+        let of = Statistics::of(&[1e-200, 3e-200, 5e-200]).unwrap();
+        let near = |value: f64, expected: f64| (value / expected - 1.0).abs() < 1e-9;
+        assert!(near(of.mean, 3e-200) && near(of.standard_deviation, 2e-200), "{of:?}");
+        assert!(near(of.standard_error, 2e-200 / 3.0_f64.sqrt()));
+        assert!(near(of.confidence_interval.1, 3e-200 + 4.302_652_730 * 2e-200 / 3.0_f64.sqrt()));
+        assert_eq!(Statistics::of(&[1.0]), None);
+        let zeros = Statistics::of(&[0.0; 4]).unwrap();
+        assert_eq!((zeros.mean, zeros.confidence_interval), (0.0, (0.0, 0.0)));
+    }
+}

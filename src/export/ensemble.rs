@@ -1,0 +1,120 @@
+//! What many random lines gave, as text, JSON and CSV.
+
+use super::json_text::write_json_value;
+use super::sheet::{Sheet, grouped};
+use crate::accuracy::Choice;
+use crate::ensemble::{HeightShape, LineResult, Statistics, Summary};
+use crate::scene::{Scene, format_quantity};
+use serde::Serialize;
+use std::io::{self, Write};
+
+/// Statistics over the lines in plain text of at most a hundred columns.
+#[must_use]
+pub fn ensemble_text(scene: &Scene, lines: &[LineResult]) -> String {
+    let summary = Summary::of(lines);
+    let mut sheet = Sheet::default();
+    if !scene.title.is_empty() {
+        sheet.paragraph(&scene.title);
+    }
+    let seeds = lines.first().zip(lines.last());
+    let seeds =
+        seeds.map_or_else(String::new, |(first, last)| format!(", seeds {} to {}", first.seed, last.seed));
+    let (count, springs) = (grouped(lines.len() as u64), grouped(scene.numerics.points));
+    sheet.heading(&format!("{count} random lines of {springs} springs{seeds}"));
+    let mut rows = vec![
+        ["", "mean", "standard deviation", "standard error", "95 % confidence", "lines"].map(String::from),
+    ];
+    for (name, unit, statistics) in [
+        ("adhesion force F_a", "N", summary.adhesion_force),
+        ("preload indentation", "m", summary.preload_indentation),
+        ("dissipated energy", "J", summary.dissipated_energy),
+        ("contact fraction", "1", summary.contact_fraction),
+    ] {
+        rows.extend(statistics.map(|statistics| cells(name, unit, &statistics)));
+    }
+    sheet.table(&rows);
+    sheet.heading("Regimes");
+    let regimes = summary.regimes;
+    for (name, count) in [
+        ("pressure-insensitive", regimes.pressure_insensitive),
+        ("pressure-sensitive", regimes.pressure_sensitive),
+        ("non-adhesive", regimes.non_adhesive),
+        ("not known", regimes.none),
+    ] {
+        sheet.row_of(name, (count > 0).then(|| grouped(count as u64)));
+    }
+    sheet.heading("Heights of single lines; both would be 0 if they averaged themselves");
+    let number = |value: Option<f64>| value.map(|value| format_quantity(value, "1"));
+    sheet.row_of("rms skewness", number(summary.rms_skewness));
+    sheet.row_of("rms excess kurtosis", number(summary.rms_excess_kurtosis));
+    sheet.into_text().trim_start_matches('\n').to_string()
+}
+
+fn cells(name: &str, unit: &str, statistics: &Statistics) -> [String; 6] {
+    let quantity = |value| format_quantity(value, unit);
+    let Statistics { count, mean, standard_deviation, standard_error, confidence_interval: (low, high) } =
+        *statistics;
+    [
+        name.into(),
+        quantity(mean),
+        quantity(standard_deviation),
+        quantity(standard_error),
+        format!("{} to {}", quantity(low), quantity(high)),
+        grouped(count as u64),
+    ]
+}
+
+/// The object; its keys stand in the order of these fields.
+#[derive(Serialize)]
+struct Report<'a> {
+    scene: &'a Scene,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    choice: Option<&'a Choice>,
+    #[serde(flatten)]
+    summary: Summary,
+    lines: &'a [LineResult],
+}
+
+/// Writes statistics and lines as one JSON object, the scene with its defaults filled in first, and what was
+/// chosen for a tolerance where there is one.
+///
+/// # Errors
+/// Those of `out`.
+pub fn write_ensemble_json(
+    out: &mut (impl Write + ?Sized),
+    scene: &Scene,
+    choice: Option<&Choice>,
+    lines: &[LineResult],
+) -> io::Result<()> {
+    write_json_value(out, &Report { scene, choice, summary: Summary::of(lines), lines })
+}
+
+/// Writes one row for each line, in SI units; what a line does not have is empty.
+///
+/// # Errors
+/// Those of `out`.
+pub fn write_ensemble_csv(out: &mut (impl Write + ?Sized), lines: &[LineResult]) -> io::Result<()> {
+    writeln!(
+        out,
+        "seed,adhesion_force,preload_indentation,dissipated_energy,contact_fraction,regime,skewness,\
+         excess_kurtosis"
+    )?;
+    let number = |value: Option<f64>| value.map_or_else(String::new, |value| format!("{value:?}"));
+    for line in lines {
+        let regime = serde_json::to_value(line.regime)?;
+        let shape = |figure: fn(HeightShape) -> f64| number(line.heights.map(figure));
+        writeln!(
+            out,
+            "{},{},{},{},{:?},{},{},{}",
+            line.seed,
+            number(line.adhesion_force),
+            number(line.preload_indentation),
+            number(line.dissipated_energy),
+            line.contact_fraction,
+            regime.as_str().unwrap_or_default(),
+            shape(|shape| shape.skewness),
+            shape(|shape| shape.excess_kurtosis)
+        )?;
+    }
+    Ok(())
+}
