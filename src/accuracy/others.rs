@@ -13,12 +13,15 @@ const STEPS_BY: f64 = 0.8;
 const SAMPLES_BY: f64 = 0.88;
 const LINES_BY: f64 = 1.0;
 
+/// Coarse settings of a knob that may take what is left of the budget, so that there is something to see.
+const COARSE: usize = 4;
+
 /// Springs of the stepwise solver, unless the scene needs more.
 const STEPWISE_SPRINGS: u64 = 256;
 /// Steps that the coarsest run takes over the range of its indentations.
 const FEWEST_STEPS: f64 = 16.0;
 /// Halvings of the step, at most.
-const MOST_HALVINGS: i32 = 20;
+const MOST_HALVINGS: u32 = 20;
 /// Fewest samples, and how many of them the reference has.
 const FEWEST_SAMPLES: u64 = 8;
 const REFERENCE_SAMPLES: u64 = 1 << 16;
@@ -55,7 +58,7 @@ fn steps(bench: &mut Bench<'_>, rows: &mut Vec<Row>, progress: &mut Progress<'_>
         return Ok(());
     };
     let mut scene = bench.compared(&refined(bench.scene, points, Edges::Grid));
-    if bench.budget.left_of(STEPS_BY) <= 0.0 {
+    if bench.budget.is_over() {
         left_out(bench, knob, "all steps");
         return Ok(());
     }
@@ -75,7 +78,8 @@ fn steps(bench: &mut Bench<'_>, rows: &mut Vec<Row>, progress: &mut Progress<'_>
             break;
         }
         let named = format_quantity(step, "m");
-        let out_of_time = bench.budget.left_of(STEPS_BY) <= guess;
+        let share = if (halving as usize) < COARSE { 1.0 } else { STEPS_BY };
+        let out_of_time = bench.budget.left_of(share) <= guess;
         if !out_of_time {
             progress(knob, &named);
         }
@@ -115,7 +119,7 @@ fn samples(
     let most = REFERENCE_SAMPLES / legs;
     let mut scene = refined(bench.scene, points, Edges::SubCell);
     scene.numerics.samples = most.max(2);
-    if bench.budget.left_of(SAMPLES_BY) <= 0.0 || most < 8 * FEWEST_SAMPLES {
+    if bench.budget.is_over() || most < 8 * FEWEST_SAMPLES {
         left_out(bench, knob, "all numbers");
         return Ok(());
     }
@@ -124,11 +128,14 @@ fn samples(
         return Ok(());
     };
     let finest = Solution::of(&outcome);
-    for samples in std::iter::successors(Some(FEWEST_SAMPLES), |samples| Some(4 * samples)) {
+    for (index, samples) in
+        std::iter::successors(Some(FEWEST_SAMPLES), |samples| Some(4 * samples)).enumerate()
+    {
         if samples > most / 8 {
             break;
         }
-        if bench.budget.left_of(SAMPLES_BY) <= 0.0 {
+        let share = if index < COARSE { 1.0 } else { SAMPLES_BY };
+        if bench.budget.left_of(share) <= 0.0 {
             left_out(bench, knob, &format!("{samples} and more"));
             break;
         }
