@@ -69,12 +69,12 @@ impl Choice {
     pub fn sentence(&self) -> String {
         let edges = name_of(self.edges);
         let from = if self.closed_form {
-            "from the closed form".to_owned()
+            "by the closed form".to_owned()
         } else {
-            format!("estimated from up to {} springs", grouped(self.finest))
+            format!("estimated from solutions with up to {} springs", grouped(self.finest))
         };
         format!(
-            "{} springs with edges {edges}: the fewest whose {} is within {:e} ({:.1e}, {from}).",
+            "{} springs with edges {edges}: the first found to keep the {} within {:e}; its error is {:.1e}, {from}.",
             grouped(self.points),
             self.target.name(),
             self.tolerance,
