@@ -3,9 +3,9 @@
 use crate::accuracy::{CostTable, ErrorFigure, Knob, Row};
 use std::fmt::Write;
 
-const SIZE: (f64, f64) = (760.0, 480.0);
+const SIZE: (f64, f64) = (820.0, 480.0);
 /// Left, top, right, bottom.
-const MARGINS: (f64, f64, f64, f64) = (76.0, 56.0, 210.0, 52.0);
+const MARGINS: (f64, f64, f64, f64) = (76.0, 56.0, 270.0, 52.0);
 /// Colours that people with any colour vision tell apart on white (Okabe and Ito).
 const COLOURS: [&str; 6] = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#000000", "#e69f00"];
 
@@ -124,7 +124,7 @@ fn draw(
     let side = f64::midpoint(up.from, up.to);
     writeln!(
         svg,
-        "<text x=\"20\" y=\"{side}\" text-anchor=\"middle\" transform=\"rotate(-90 20 {side})\">relative error</text>"
+        "<text x=\"20\" y=\"{side}\" text-anchor=\"middle\" transform=\"rotate(-90 20 {side})\">relative error of F_a, else of the curve</text>"
     )?;
     for (index, (knob, points)) in series.iter().enumerate() {
         let colour = COLOURS[index % COLOURS.len()];
