@@ -4,7 +4,7 @@ use super::action::{Action, WriteFailure, Written};
 use super::input;
 use super::model::{Model, Traffic};
 use super::snapshot::Loop;
-use super::terminal::{self, FrameWriter, TerminalGuard};
+use super::terminal::{self, FrameWriter, TerminalGuard, Told};
 use super::theme::{Appearance, Marker, Theme};
 use super::update::{Effect, moment_request, update};
 use super::view;
@@ -58,6 +58,8 @@ pub type Draw = fn(&mut Frame<'_>, &Model);
 enum Message {
     Input(Event),
     InputEnded,
+    /// The process was stopped and goes on: another program may have had the terminal.
+    Continued,
     Report(Report),
 }
 
@@ -90,6 +92,16 @@ pub fn open_with(
     terminal::watch_for_hang_up({
         let messages = messages.clone();
         move || drop(messages.send(Message::InputEnded))
+    })?;
+    terminal::watch_for_signals({
+        let messages = messages.clone();
+        move |told| {
+            let message = match told {
+                Told::End => Message::InputEnded,
+                Told::Continue => Message::Continued,
+            };
+            messages.send(message).is_ok()
+        }
     })?;
     read_input(messages)?;
     // The guard gives everything back; ratatui's own drop would complain on standard error, and panic
@@ -192,6 +204,11 @@ impl<W: Write> Session<'_, W> {
             for message in first.into_iter().chain(inbox.try_iter()) {
                 let action = match message {
                     Message::InputEnded => return Ok(()),
+                    Message::Continued => {
+                        self.guard.take_again()?;
+                        let size = self.terminal.size()?;
+                        Some(Action::Resize(size.width, size.height))
+                    }
                     // In the mode that holds by now: the key before may have changed it.
                     Message::Input(event) => input::action_of(&event, self.model.mode.kind()),
                     Message::Report(report) => Some(action_of(report)),

@@ -50,6 +50,16 @@ impl TerminalGuard {
         execute!(io::stdout(), EnterAlternateScreen, EnableBracketedPaste, Print(mouse))
     }
 
+    /// Takes the terminal once more, after another program may have had it.
+    ///
+    /// # Errors
+    /// When the terminal refuses.
+    pub fn take_again(&self) -> io::Result<()> {
+        // Only what has been given back can be taken.
+        disable_raw_mode()?;
+        self.enter()
+    }
+
     /// Gives the terminal to the shell, as Ctrl-Z does elsewhere, and takes it again when the shell
     /// continues the explorer.
     ///
@@ -90,6 +100,41 @@ fn stop_until_continued() {
 /// Elsewhere there are no jobs.
 #[cfg(not(unix))]
 fn stop_until_continued() {}
+
+/// A signal that the explorer answers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Told {
+    /// It is to end.
+    End,
+    /// It has been stopped, and goes on.
+    Continue,
+}
+
+/// Calls `told` when the system tells the process to end or to go on; it says whether anyone still listens.
+///
+/// # Errors
+/// When the system refuses.
+#[cfg(unix)]
+pub fn watch_for_signals(told: impl Fn(Told) -> bool + Send + 'static) -> io::Result<()> {
+    use signal_hook::consts::{SIGCONT, SIGTERM};
+    let mut signals = signal_hook::iterator::Signals::new([SIGTERM, SIGCONT])?;
+    std::thread::Builder::new()
+        .name("signals".to_owned())
+        .spawn(move || {
+            for signal in signals.forever() {
+                if !told(if signal == SIGTERM { Told::End } else { Told::Continue }) {
+                    return;
+                }
+            }
+        })
+        .map(drop)
+}
+
+/// Elsewhere there are no signals.
+#[cfg(not(unix))]
+pub fn watch_for_signals(_: impl Fn(Told) -> bool + Send + 'static) -> io::Result<()> {
+    Ok(())
+}
 
 /// Calls `gone` when the terminal hangs up.
 ///
@@ -146,6 +191,21 @@ impl<W: Write> FrameWriter<W> {
     }
 }
 
+/// Whether a frame changes the screen: ratatui resets styles and hides the cursor also where it has nothing
+/// to draw.
+fn shows_something(frame: &[u8]) -> bool {
+    let mut rest = frame;
+    while let Some(sequence) = rest.strip_prefix(b"\x1b[") {
+        let Some(end) = sequence.iter().position(|byte| (0x40..0x7f).contains(byte)) else { return true };
+        let (sequence, after) = sequence.split_at(end + 1);
+        if !(sequence.ends_with(b"m") || sequence == b"?25l" || sequence == b"?2026h") {
+            return true;
+        }
+        rest = after;
+    }
+    !rest.is_empty()
+}
+
 impl<W: Write> Write for FrameWriter<W> {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
         if self.frame.is_empty() {
@@ -156,7 +216,8 @@ impl<W: Write> Write for FrameWriter<W> {
     }
 
     fn flush(&mut self) -> io::Result<()> {
-        if self.frame.is_empty() {
+        if !shows_something(&self.frame) {
+            self.frame.clear();
             return Ok(());
         }
         queue!(self.frame, EndSynchronizedUpdate)?;
@@ -164,5 +225,28 @@ impl<W: Write> Write for FrameWriter<W> {
         self.written.set(self.written.get() + self.frame.len() as u64);
         self.frame.clear();
         written
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn frames_that_show_nothing_are_not_written() {
+        let mut out = Vec::new();
+        let mut writer = FrameWriter::new(&mut out);
+        writer.write_all(b"\x1b[39m\x1b[49m\x1b[59m\x1b[0m\x1b[?25l").unwrap();
+        writer.flush().unwrap();
+        assert_eq!(writer.written().get(), 0);
+        writer.write_all(b"\x1b[0m\x1b[3;4Hx").unwrap();
+        writer.flush().unwrap();
+        let written = writer.written().get();
+        drop(writer);
+        assert_eq!(out.len() as u64, written);
+        assert_eq!(out, b"\x1b[?2026h\x1b[0m\x1b[3;4Hx\x1b[?2026l");
+        for shown in [b"\x1b[2J".as_slice(), b"\x1b]52;c;eA==\x07", b"\x1b[0", b"x"] {
+            assert!(shows_something(shown), "{shown:?}");
+        }
     }
 }

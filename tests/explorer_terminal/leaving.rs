@@ -106,6 +106,40 @@ fn a_hang_up_signal_ends_the_explorer() {
     });
 }
 
+fn signal(terminal: &Terminal, name: &str) {
+    let kill = Command::new("/bin/sh").arg("-c").arg(format!("kill -{name} {}", terminal.pid())).status();
+    assert!(kill.unwrap().success());
+}
+
+#[test]
+fn a_signal_to_end_gives_the_terminal_back() {
+    within(40, || {
+        let (program, _folder) = explorer();
+        let mut terminal = paused(program);
+        signal(&terminal, "TERM");
+        terminal.wait_end();
+        assert_given_back(&terminal);
+    });
+}
+
+#[test]
+fn stopped_and_continued_from_outside_it_draws_everything_anew() {
+    within(40, || {
+        let (program, _folder) = explorer();
+        let mut terminal = paused(program);
+        let before = terminal.rows();
+        let entered = terminal.written().len();
+        signal(&terminal, "STOP");
+        signal(&terminal, "CONT");
+        while !String::from_utf8_lossy(&terminal.written()[entered..]).contains("\x1b[?1049h") {
+            terminal.settle();
+        }
+        terminal.settle();
+        assert_eq!(terminal.rows(), before);
+        quit(&mut terminal);
+    });
+}
+
 /// What stands below the last switch back to the terminal's own screen.
 fn left_behind(terminal: &Terminal) -> String {
     let bytes = terminal.written();
