@@ -158,6 +158,17 @@ fn wrong_costs_are_refused() {
 }
 
 #[test]
+fn help_is_for_reading() {
+    for command in ["cost", "run"] {
+        for flag in ["-h", "--help"] {
+            let text = done(&[command, flag]);
+            assert!(text.contains("Usage: asperity") && text.contains("Examples:"), "{text}");
+            assert!(text.lines().all(|line| line.chars().count() <= 100), "{text}");
+        }
+    }
+}
+
+#[test]
 fn tolerances_are_kept() {
     let (code, stdout, stderr) = asperity(&["run", "jkr-sphere", "--tolerance", "0.1%", "--format", "json"]);
     let run: Value = serde_json::from_str(&stdout).unwrap();

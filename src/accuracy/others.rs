@@ -18,6 +18,8 @@ const COARSE: usize = 4;
 
 /// Springs of the stepwise solver, unless the scene needs more.
 const STEPWISE_SPRINGS: u64 = 256;
+/// Times as many samples for comparing steps as for comparing springs.
+const BLURRED: u64 = 4;
 /// Steps that the coarsest run takes over the range of its indentations.
 const FEWEST_STEPS: f64 = 16.0;
 /// Halvings of the step, at most.
@@ -57,7 +59,13 @@ fn steps(bench: &mut Bench<'_>, rows: &mut Vec<Row>, progress: &mut Progress<'_>
     let Some(points) = allowed_points(bench.scene).find(|&points| points >= STEPWISE_SPRINGS) else {
         return Ok(());
     };
-    let mut scene = bench.compared(&refined(bench.scene, points, Edges::Grid));
+    let mut timed = refined(bench.scene, points, Edges::Grid);
+    let mut scene = bench.compared(&timed);
+    // With few springs each of them is a jump, which samples on either side of it blur: by up to one distance
+    // of samples here, and by up to four where steps are thinned out to samples.
+    scene.numerics.samples *= BLURRED;
+    let floors =
+        Measures { curve: Some((1 + BLURRED) as f64 / scene.numerics.samples as f64), ..Measures::default() };
     if bench.budget.is_over() {
         left_out(bench, knob, "all steps");
         return Ok(());
@@ -74,6 +82,7 @@ fn steps(bench: &mut Bench<'_>, rows: &mut Vec<Row>, progress: &mut Progress<'_>
     for halving in 0..MOST_HALVINGS {
         let step = (high - low) / FEWEST_STEPS * (-f64::from(halving)).exp2();
         scene.numerics.solver = Solver::Stepwise { step };
+        timed.numerics.solver = scene.numerics.solver;
         if !check(&scene).is_empty() {
             break;
         }
@@ -92,7 +101,7 @@ fn steps(bench: &mut Bench<'_>, rows: &mut Vec<Row>, progress: &mut Progress<'_>
         let took = clock.elapsed().as_secs_f64();
         // Nothing is gained by another run of one that takes seconds already.
         let seconds = if took < bench.budget.left_of(STEPS_BY) / 4.0 {
-            bench.time(&scene)
+            bench.time(&timed)
         } else {
             Timing::of(vec![took])
         };

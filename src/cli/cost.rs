@@ -33,8 +33,8 @@ pub struct CostArguments {
     /// Time for the whole of it: 500ms, 30s, 2min
     #[arg(long, value_name = "TIME", default_value = "10s", value_parser = budget)]
     pub budget: Duration,
-    /// How it is printed; left out: by the ending of FILE, else text
-    #[arg(long, value_enum)]
+    /// text, json or csv; left out: by the ending of FILE, else text
+    #[arg(long, value_enum, hide_possible_values = true)]
     pub format: Option<CostFormat>,
     /// Draw errors over times to FILE, in SVG
     #[arg(long, value_name = "FILE")]

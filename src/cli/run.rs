@@ -36,19 +36,19 @@ pub struct RunArguments {
     /// curve, contacts, work. CSV is the curve: leg,indentation,force,contact_length,fragments.
     #[arg(long, value_enum, hide_possible_values = true, verbatim_doc_comment)]
     pub format: Option<RunFormat>,
-    /// Choose springs and edges so that the adhesion force is within T, such as 1e-3 or 0.1%
+    /// Choose springs and edges for an adhesion force within T, as 1e-3 or 0.1%
     ///
-    /// They are doubled until the estimated error, or that from the closed form where there is one,
-    /// is small enough; where nothing pulls it is the error of the force curve. What is chosen
-    /// stands in place of the scene's own numerics.points and numerics.edges.
+    /// Springs are doubled until the error is small enough: that from the closed form where
+    /// there is one, else an estimate; where nothing pulls, that of the force curve. What is
+    /// chosen stands in place of the scene's own numerics.points and numerics.edges.
     #[arg(long, value_name = "T", value_parser = tolerance, verbatim_doc_comment)]
     pub tolerance: Option<f64>,
-    /// Compute so many random lines, of this seed and those that follow: mean, spread, confidence
+    /// Compute random lines, this seed and those after it: mean and spread
     ///
     /// CSV then has one row for each seed. A tolerance is kept on the first line.
     #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u32).range(2..=MOST_LINES), verbatim_doc_comment)]
     pub lines: Option<u32>,
-    /// Threads that share the lines; left out, one for each core. No result depends on it
+    /// Threads that share the lines; left out, one for each core
     #[arg(long, value_name = "COUNT", requires = "lines", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub jobs: Option<u16>,
     /// Where it goes.
