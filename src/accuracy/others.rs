@@ -107,11 +107,7 @@ fn steps(bench: &mut Bench<'_>, rows: &mut Vec<Row>, progress: &mut Progress<'_>
         };
         guess = 2.0 * took;
         let errors = Solution::of(&outcome).errors(&exact);
-        bench.push(
-            rows,
-            Tried { knob, setting: step, springs: points, seconds, errors },
-            &Measures::default(),
-        );
+        bench.push(rows, Tried { knob, setting: step, springs: points, seconds, errors }, &floors);
     }
     Ok(())
 }
