@@ -57,7 +57,17 @@ fn order(errors: &[(f64, f64)], most: f64) -> f64 {
 
 #[test]
 fn a_sphere_is_reached_with_the_orders_of_its_edges() {
-    let table = json(&["cost", "jkr-sphere", "--format", "json", "--budget", "8s"]);
+    // A machine busy with other things gets no further in the shorter time.
+    let has_enough = |table: &Value| {
+        let rows = |knob, figure| errors(table, knob, figure).iter().filter(|row| row.0 <= 1024.0).count();
+        let springs = ["sub-cell-springs", "grid-springs"];
+        springs.iter().all(|knob| rows(knob, "adhesion_force") >= 6 && rows(knob, "dissipated_energy") >= 6)
+            && ["step", "samples"].iter().all(|knob| errors(table, knob, "curve").len() >= 4)
+            && errors(table, "single-precision", "adhesion_force").len() == 1
+    };
+    let tables = ["8s", "60s"]
+        .map(|budget| move || json(&["cost", "jkr-sphere", "--format", "json", "--budget", budget]));
+    let table = tables.iter().map(|table| table()).find(has_enough).expect("enough rows within a minute");
     let reference = &table["reference"];
     assert_eq!(reference["closed_form"], true);
     let exact = 1.5 * std::f64::consts::PI * 0.05 * 1e-4;
