@@ -9,6 +9,7 @@ use super::fields::{FIELDS, Field};
 use super::locate::Outline;
 use super::model::Scene;
 use super::read::{Unread, read, wrong_version};
+use super::scan::comments;
 use super::splice;
 use super::write::to_ron;
 
@@ -159,6 +160,12 @@ impl Document {
     /// the opened text they give this document's scene.
     pub fn overrides(&self) -> &[(String, String)] {
         &self.overrides
+    }
+
+    /// How many comments the text has: where one fewer is left after a change, it stood inside what was
+    /// replaced.
+    pub fn comments(&self) -> usize {
+        comments(&self.text)
     }
 
     /// Whether the text differs from the one that was opened.

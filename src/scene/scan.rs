@@ -88,6 +88,26 @@ pub(super) fn tokens(text: &str) -> Result<Vec<Token>, Unreadable> {
     }
 }
 
+/// How many comments a text has; none where it cannot be read.
+pub(super) fn comments(text: &str) -> usize {
+    let Ok(tokens) = tokens(text) else { return 0 };
+    let starts = tokens.iter().map(|token| token.start).chain([text.len()]);
+    let ends = [0].into_iter().chain(tokens.iter().map(|token| token.end));
+    ends.zip(starts).map(|(from, to)| comments_between(text, from, to)).sum()
+}
+
+/// Comments in a part of a text that holds nothing else but white space.
+fn comments_between(text: &str, from: usize, to: usize) -> usize {
+    let (mut at, mut count) = (from, 0);
+    while let Some(next) = text.get(at..to).and_then(|part| part.chars().next()) {
+        match comment_end(text, at) {
+            Ok(Some(end)) => (at, count) = (end.max(at + 1), count + 1),
+            _ => at += next.len_utf8(),
+        }
+    }
+    count
+}
+
 fn bracket(c: char) -> Bracket {
     match c {
         '(' | ')' => Bracket::Round,
@@ -212,6 +232,13 @@ mod tests {
     fn comments_and_white_space_are_between_tokens() {
         let text = "a // b (\n: /* c /* d */ ) */ (e\u{2028},-1.0e-3)";
         assert_eq!(words(text), ["a", ":", "(", "e", ",", "-1.0e-3", ")"]);
+    }
+
+    #[test]
+    fn comments_are_counted_wherever_they_stand() {
+        let text = "// one\n( /* two /* within */ */ a: \"// no\", // three\n// four\n) /* five */";
+        assert_eq!(comments(text), 5);
+        assert_eq!((comments(""), comments("(a: 1)"), comments("(")), (0, 0, 0));
     }
 
     #[test]

@@ -133,3 +133,22 @@ fn taking_back_all_edits_leaves_nothing_to_save() {
         assert!(!driver.model.finished);
     });
 }
+
+#[test]
+fn a_comment_that_goes_with_what_is_replaced_is_told() {
+    within(30, || {
+        let text = rough().text().replace("loading: [", "loading: [ // as in the experiment\n");
+        let document = Document::parse(&text, "mine.ron").unwrap();
+        let comments = document.comments();
+        let mut driver = Driver::start(document);
+        driver.select("loading");
+        driver.enter("[ToForce(1.0e-5), ToSeparation]");
+        assert_eq!(driver.model.document.comments(), comments - 1);
+        assert!(driver.text().contains("a comment is gone"), "{}", driver.text());
+        driver.press("u");
+        assert_eq!(driver.model.document.text(), text);
+        driver.select("roughness.hurst");
+        driver.press("l");
+        assert!(!driver.text().contains("gone"), "{}", driver.text());
+    });
+}

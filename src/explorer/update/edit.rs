@@ -177,7 +177,16 @@ pub fn change(model: &mut Model, path: &str, value: &str) -> Vec<Effect> {
 
 fn take_over(model: &mut Model, changed: Result<Document, SceneErrors>) -> Vec<Effect> {
     match changed {
-        Ok(document) => adopt(model, document),
+        Ok(document) => {
+            let lost = model.document.comments().saturating_sub(document.comments());
+            let effects = adopt(model, document);
+            if lost > 0 {
+                let gone = if lost == 1 { "a comment is" } else { "comments are" };
+                let told = format!("{gone} gone with what was replaced: undo brings it all back");
+                model.notice = Some(Notice::Done(told));
+            }
+            effects
+        }
         Err(errors) => {
             let what: Vec<String> = errors.iter().map(|error| error.what().to_string()).collect();
             refuse(model, what.join("; "))
