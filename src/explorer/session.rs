@@ -124,6 +124,7 @@ pub fn open_with(
         draw,
         remote: ["SSH_CONNECTION", "SSH_TTY"].iter().any(|name| std::env::var_os(name).is_some()),
         redraw: false,
+        own_stops: 0,
         written,
         traffic: (Instant::now(), 0),
     };
@@ -155,6 +156,8 @@ struct Session<'a, W: Write> {
     remote: bool,
     /// Whether nothing that stands on the screen can be relied on.
     redraw: bool,
+    /// Times it has stopped itself and has not been told yet that it goes on.
+    own_stops: u32,
     /// Bytes written so far.
     written: Rc<Cell<u64>>,
     /// When the traffic was last told, and how many bytes had been written by then.
@@ -204,6 +207,11 @@ impl<W: Write> Session<'_, W> {
             for message in first.into_iter().chain(inbox.try_iter()) {
                 let action = match message {
                     Message::InputEnded => return Ok(()),
+                    // The terminal has been taken again already.
+                    Message::Continued if self.own_stops > 0 => {
+                        self.own_stops -= 1;
+                        None
+                    }
                     Message::Continued => {
                         self.guard.take_again()?;
                         let size = self.terminal.size()?;
@@ -287,6 +295,7 @@ impl<W: Write> Session<'_, W> {
                     queue!(self.terminal.backend_mut(), CopyToClipboard::to_clipboard_from(text))?;
                 }
                 Effect::Suspend => {
+                    self.own_stops += 1;
                     self.guard.suspend()?;
                     // The window may have become another one meanwhile.
                     let size = self.terminal.size()?;
