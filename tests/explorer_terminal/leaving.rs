@@ -100,8 +100,7 @@ fn a_hang_up_signal_ends_the_explorer() {
     within(40, || {
         let (program, _folder) = explorer();
         let mut terminal = paused(program);
-        let kill = Command::new("/bin/sh").arg("-c").arg(format!("kill -HUP {}", terminal.pid())).status();
-        assert!(kill.unwrap().success());
+        signal(&terminal, "HUP");
         assert!(!terminal.wait_end().success());
     });
 }
