@@ -8,7 +8,7 @@
 //! shows that it runs.
 
 use asperity::analysis::ideal_adhesion_force;
-use asperity::contact::subcell::{LevelSets, SubCell};
+use asperity::contact::subcell::{self, LevelSets};
 use asperity::contact::{
     ContactTree, Foundation, GridEdges, HessRule, LegContact, LegRecord, Solver, Work, exact,
 };
@@ -253,12 +253,13 @@ impl Loop {
     /// The same legs with edges between springs.
     fn measure_between(&mut self, sets: LevelSets, rough: &Rough, tree: &Arc<ContactTree>) -> LevelSets {
         let clock = Instant::now();
-        let sets = sets.rebuild(Arc::clone(tree), black_box(&rough.line.gaps)).expect("memory");
+        let memory = sets.into_memory();
+        let sets = LevelSets::new_in(memory, Arc::clone(tree), black_box(&rough.line.gaps)).expect("memory");
         let sets_seconds = seconds_since(clock);
         let sets = Arc::new(sets);
         let hess = HessRule::new(rough.foundation, rough.work_of_adhesion(self.kappa));
         let mut solver =
-            SubCell::new(&sets, Some(hess), rough.foundation, SAMPLES, Vec::new()).expect("memory");
+            subcell::adhesive_in(Vec::new(), &sets, Some(hess), rough.foundation, SAMPLES).expect("memory");
         let clock = Instant::now();
         for leg in [Leg::ToForce(LOAD * EFFECTIVE_MODULUS * LENGTH * RMS_HEIGHT), Leg::ToSeparation] {
             black_box(solver.advance(leg).expect("a reachable leg"));

@@ -11,7 +11,7 @@ mod laws;
 #[path = "subcell/rule.rs"]
 mod rule;
 
-use asperity::contact::subcell::{LevelSets, SubCell};
+use asperity::contact::subcell::{self, LevelSets};
 use asperity::contact::{
     ContactError, ContactTree, CurvePoint, Foundation, HessRule, History, LegRecord, Solver, run,
 };
@@ -39,8 +39,8 @@ impl Body {
         (self.work > 0.0).then(|| HessRule::new(self.foundation, self.work))
     }
 
-    fn on<'a>(&self, sets: &'a Arc<LevelSets>, samples: usize) -> SubCell<'a> {
-        SubCell::new(sets, self.hess(), self.foundation, samples, Vec::new()).unwrap()
+    fn on<'a>(&self, sets: &'a Arc<LevelSets>, samples: usize) -> subcell::Adhesive<'a> {
+        subcell::adhesive_in(Vec::new(), sets, self.hess(), self.foundation, samples).unwrap()
     }
 
     fn history(&self, legs: &[Leg], samples: usize) -> History {

@@ -2,7 +2,7 @@
 
 use super::Measures;
 use super::solution::Solution;
-use crate::contact::subcell::{LevelSets, SubCell};
+use crate::contact::subcell::{self, LevelSets};
 use crate::contact::{ContactTree, Foundation, HessRule, run};
 use crate::scene::Scene;
 use crate::simulation::{RunError, Simulation};
@@ -22,7 +22,7 @@ pub(super) fn errors_of_single_precision(
     let solve = |gaps: &[f64]| -> Result<Solution, RunError> {
         let sets = Arc::new(LevelSets::new(Arc::new(ContactTree::build(gaps)?), gaps)?);
         let samples = scene.numerics.samples as usize;
-        let mut body = SubCell::new(&sets, hess, foundation, samples, Vec::new())?;
+        let mut body = subcell::adhesive_in(Vec::new(), &sets, hess, foundation, samples)?;
         let history = run(&mut body, &scene.loading, |_, _| Ok(()))?;
         Ok(Solution::of_history(&history, scene.numerics.points))
     };

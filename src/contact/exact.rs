@@ -1,10 +1,13 @@
 //! The exact solver: any loading history, leg by leg, in linear time and without a step error.
+//!
+//! How a leg goes is the same for whole springs and for edges between them; what the springs come to is
+//! their [`Contact`].
 
-use super::ledger::{Grid, Ledger, SquaredStretch};
-use super::search::{self, Extreme};
-use super::springs::{AdhesiveSprings, BareSprings, Contact};
-use super::tally::Tally;
-use super::targets::{Standing, Target};
+use super::law::{Contact, Standing};
+use super::ledger::Grid;
+use super::springs::{AdhesiveSprings, BareSprings};
+use super::targets::{self, Target};
+use super::whole::WholeSprings;
 use super::{
     ContactError, ContactTree, CurvePoint, Direction, EdgeRule, Foundation, LegContact, LegRecord, Work,
 };
@@ -19,7 +22,7 @@ pub struct Exact<C> {
     contact: C,
     foundation: Foundation,
     samples: usize,
-    state: State,
+    standing: Standing,
     /// Whether the present leg touches at all, so that its thresholds hold.
     touching: bool,
     legs: usize,
@@ -29,25 +32,43 @@ pub struct Exact<C> {
     pass_time: Duration,
 }
 
-/// Where the body stands and what touches.
-#[derive(Clone, Copy, Debug)]
-struct State {
-    indentation: f64,
-    tally: Tally,
+/// A contact of springs under adhesion.
+pub trait OverTree<'a>: Contact + Sized {
+    /// The rule for its edges.
+    type Rule: EdgeRule;
+
+    /// The contact of these springs.
+    fn over(springs: AdhesiveSprings<'a, Self::Rule>) -> Self;
+
+    /// Its springs.
+    fn springs(&self) -> &AdhesiveSprings<'a, Self::Rule>;
+
+    /// Its springs, to be looked at otherwise.
+    fn into_springs(self) -> AdhesiveSprings<'a, Self::Rule>;
 }
 
-impl State {
-    fn is_separated(&self) -> bool {
-        self.tally.springs == 0
+impl<'a, R: EdgeRule> OverTree<'a> for WholeSprings<AdhesiveSprings<'a, R>> {
+    type Rule = R;
+
+    fn over(springs: AdhesiveSprings<'a, R>) -> Self {
+        WholeSprings(springs)
+    }
+
+    fn springs(&self) -> &AdhesiveSprings<'a, R> {
+        &self.0
+    }
+
+    fn into_springs(self) -> AdhesiveSprings<'a, R> {
+        self.0
     }
 }
 
-/// A body under adhesion; build one with [`adhesive`].
-pub type Adhesive<'a, R> = Exact<AdhesiveSprings<'a, R>>;
-/// A body without adhesion; build one with [`bare`].
-pub type Bare<'a> = Exact<BareSprings<'a>>;
+/// A body of whole springs under adhesion; build one with [`adhesive`].
+pub type Adhesive<'a, R> = Exact<WholeSprings<AdhesiveSprings<'a, R>>>;
+/// A body of whole springs without adhesion; build one with [`bare`].
+pub type Bare<'a> = Exact<WholeSprings<BareSprings<'a>>>;
 
-/// A body under adhesion, separated, at d = 0 just before first touch.
+/// A body of whole springs under adhesion, separated, at d = 0 just before first touch.
 ///
 /// `samples` (at least 2) curve points are taken on each leg.
 ///
@@ -73,71 +94,74 @@ pub fn adhesive_in<R: EdgeRule>(
     foundation: Foundation,
     samples: usize,
 ) -> Result<Adhesive<'_, R>, ContactError> {
-    let mut exact = Exact::new(AdhesiveSprings::new(tree, rule, memory)?, foundation, samples);
-    exact.work.springs = tree.len() as u64;
-    exact.work.tree_nodes = tree.len() as u64;
-    Ok(exact)
+    Exact::over_tree(AdhesiveSprings::new(tree, rule, memory)?, foundation, samples)
 }
 
-/// A body without adhesion on springs of these gaps (m, the smallest 0), separated.
+/// A body of whole springs without adhesion, over springs of these gaps (m, the smallest 0), separated.
 #[must_use]
 pub fn bare(gaps: &[f64], foundation: Foundation, samples: usize) -> Bare<'_> {
-    let mut exact = Exact::new(BareSprings::new(gaps), foundation, samples);
-    exact.work.springs = gaps.len() as u64;
-    exact
+    Exact::new(WholeSprings(BareSprings::new(gaps)), foundation, samples)
 }
 
-impl<R: EdgeRule> Adhesive<'_, R> {
+impl<'a, C: OverTree<'a>> Exact<C> {
+    /// A body over these springs, separated, at d = 0 just before first touch.
+    pub(super) fn over_tree(
+        springs: AdhesiveSprings<'a, C::Rule>,
+        foundation: Foundation,
+        samples: usize,
+    ) -> Result<Self, ContactError> {
+        let mut exact = Exact::new(C::over(springs), foundation, samples);
+        exact.work.tree_nodes = exact.work.springs;
+        Ok(exact)
+    }
+
     /// The memory it worked in, for the next body.
     #[must_use]
     pub fn into_memory(self) -> Vec<f64> {
-        self.contact.into_memory()
+        self.contact.into_springs().into_memory()
+    }
+
+    /// The springs under adhesion.
+    pub(crate) fn springs(&self) -> &AdhesiveSprings<'a, C::Rule> {
+        self.contact.springs()
     }
 
     /// Roots of the fragments in contact at first touch, on the leg that forms the contact.
     pub(crate) fn roots_at_touch(&self) -> Option<Vec<usize>> {
-        self.contact.roots_at_touch().filter(|_| self.touching)
+        self.springs().roots_at_touch().filter(|_| self.touching)
     }
 }
 
 impl<C: Contact> Exact<C> {
-    fn new(contact: C, foundation: Foundation, samples: usize) -> Self {
+    /// A body over these springs, separated, at d = 0 just before first touch.
+    pub(super) fn new(contact: C, foundation: Foundation, samples: usize) -> Self {
+        let work = Work { springs: contact.count(), ..Work::default() };
         Exact {
             contact,
             foundation,
             samples: samples.max(2),
-            state: State { indentation: 0.0, tally: Tally::default() },
+            standing: Standing::free(0.0),
             touching: false,
             legs: 0,
-            work: Work::default(),
+            work,
             leg_time: Duration::ZERO,
             pass_time: Duration::ZERO,
         }
     }
 
-    fn compression(&self) -> f64 {
-        self.state.tally.compression(self.state.indentation, self.contact.scale())
+    fn is_separated(&self) -> bool {
+        self.standing.springs == 0
     }
 
     /// Which way a leg goes and where it ends; `None` when it ends where the body stands.
     fn plan(&self, leg: Leg) -> Result<Option<(Direction, Target)>, ContactError> {
         let stiffness = self.foundation.spring_stiffness();
-        let standing = Standing {
-            indentation: self.state.indentation,
-            force: stiffness * self.compression(),
-            separated: self.state.is_separated(),
+        let standing = targets::Standing {
+            indentation: self.standing.indentation,
+            force: stiffness * self.standing.compression,
+            separated: self.is_separated(),
         };
         standing.plan(leg, stiffness, self.legs)
-    }
-
-    fn ledger(&mut self, grid: Grid) -> Ledger {
-        self.work.springs_tallied += self.work.springs;
-        Ledger::new(&self.contact, grid)
-    }
-
-    fn ledger_with_stretches(&mut self, grid: Grid) -> (Ledger, SquaredStretch) {
-        self.work.springs_tallied += self.work.springs;
-        Ledger::with_stretches(&self.contact, grid)
     }
 
     /// Grid of a leg's curve: every `stride`-th point is a sample, those between sharpen the search.
@@ -147,28 +171,22 @@ impl<C: Contact> Exact<C> {
         (Grid::new(low, high, intervals * stride), stride)
     }
 
-    fn point(&self, extreme: Extreme) -> CurvePoint {
-        self.curve_point(extreme.indentation, extreme.tally)
+    /// What is in contact along the grid of a search.
+    fn sample(&mut self, low: f64, high: f64) -> C::Leg {
+        self.work.springs_tallied += self.work.springs;
+        self.contact.sample(Grid::new(low, high, SEARCH_INTERVALS))
     }
 
-    fn curve_point(&self, indentation: f64, tally: Tally) -> CurvePoint {
-        let compression = tally.compression(indentation, self.contact.scale());
-        CurvePoint {
-            indentation,
-            force: self.foundation.spring_stiffness() * compression,
-            contact_length: tally.springs as f64 * self.foundation.spacing,
-            springs: tally.springs.unsigned_abs(),
-            fragments: tally.fragments.unsigned_abs(),
-        }
+    fn curve_point(&self, standing: Standing) -> CurvePoint {
+        standing.point(self.foundation)
     }
 
     /// The samples of a leg in ascending order of indentation.
-    fn samples(&self, ledger: &Ledger, stride: usize) -> Vec<CurvePoint> {
-        let points = ledger.grid.points();
-        let last = points.len() - 1;
+    fn samples(&self, sampled: &C::Leg, stride: usize) -> Vec<CurvePoint> {
+        let last = self.contact.grid(sampled).points().len() - 1;
         (0..=last)
             .filter(|index| index % stride == 0 || *index == last)
-            .map(|index| self.curve_point(points[index], ledger.tallies[index]))
+            .map(|index| self.curve_point(self.contact.at(sampled, index)))
             .collect()
     }
 
@@ -179,18 +197,18 @@ impl<C: Contact> Exact<C> {
 
     /// A leg of a separated body that does not touch.
     fn fly(&mut self, leg: Leg, to: f64) -> LegRecord {
-        let from = self.state.indentation;
-        self.state.indentation = to;
+        let from = self.standing.indentation;
+        self.standing = Standing::free(to);
         LegRecord::free(leg, from, to)
     }
 
     fn stay(&self, leg: Leg) -> LegRecord {
-        LegRecord::still(leg, self.curve_point(self.state.indentation, self.state.tally))
+        LegRecord::still(leg, self.curve_point(self.standing))
     }
 
     fn load(&mut self, leg: Leg, target: Target) -> Result<LegRecord, ContactError> {
-        let before = self.state;
-        let separated = before.is_separated();
+        let before = self.standing;
+        let separated = self.is_separated();
         let clock = Instant::now();
         let complete = self.contact.load((!separated).then_some(before.indentation), &mut self.work);
         self.pass_time += clock.elapsed();
@@ -202,38 +220,36 @@ impl<C: Contact> Exact<C> {
             Target::Separation => low,
         };
         let (grid, stride) = self.grid(low, high);
-        let (ledger, joined) = self.ledger_with_stretches(grid);
-        let mut curve = self.samples(&ledger, stride);
+        self.work.springs_tallied += self.work.springs;
+        let (sampled, joined) = self.contact.sample_joins(grid, separated);
+        let mut curve = self.samples(&sampled, stride);
         if separated {
-            curve.insert(0, self.curve_point(low, Tally::default()));
+            curve.insert(0, self.curve_point(Standing::free(low)));
             if before.indentation < low {
-                curve.insert(0, self.curve_point(before.indentation, Tally::default()));
+                curve.insert(0, self.curve_point(before));
             }
         }
-        let end = ledger.intervals();
-        let tally = ledger.tallies[end];
-        let at_end = self.curve_point(high, tally);
+        let end = self.contact.at(&sampled, self.contact.grid(&sampled).points().len() - 1);
         let largest = match target {
             // The force has been below its target all the way.
-            Target::Compression(_) => at_end,
-            _ => {
-                let extreme = search::largest(&ledger, &self.contact, &mut self.work.events_sorted);
-                self.point(extreme)
-            }
+            Target::Compression(_) => end,
+            _ => self.contact.largest(&sampled, &mut self.work.events_sorted),
         };
+        let at_end = self.curve_point(end);
         let smallest = curve.iter().copied().min_by(|a, b| a.force.total_cmp(&b.force)).unwrap_or(at_end);
-        let joins = (tally.springs - before.tally.springs).unsigned_abs();
+        let joins = (end.springs - before.springs).unsigned_abs();
         self.work.joins += joins;
-        self.state = State { indentation: high, tally };
+        self.standing = end;
         Ok(LegRecord {
             leg,
             direction: Direction::Loading,
             curve,
-            largest,
+            largest: self.curve_point(largest),
             smallest,
             joins,
             leaves: 0,
-            dissipated_energy: -self.energy(joined.inside + joined.below),
+            // Not −0 where nothing joined with a stretch.
+            dissipated_energy: 0.0 - self.energy(joined),
         })
     }
 
@@ -244,22 +260,20 @@ impl<C: Contact> Exact<C> {
         low: f64,
         complete: f64,
     ) -> Result<f64, ContactError> {
-        let ledger = self.ledger(Grid::new(low, complete, SEARCH_INTERVALS));
-        if let Some(found) =
-            search::first_at_least(&ledger, &self.contact, wanted, &mut self.work.events_sorted)
-        {
+        let sampled = self.sample(low, complete);
+        let sorted = &mut self.work.events_sorted;
+        if let Some(found) = self.contact.first_at_least(&sampled, wanted, sorted) {
             return Ok(found);
         }
         // Everything is in contact and the force rises with all springs.
-        ledger.tallies[ledger.intervals()]
-            .indentation(wanted, self.contact.scale())
-            .filter(|indentation| indentation.is_finite())
+        let found = self.contact.beyond(&sampled, wanted).filter(|indentation| indentation.is_finite());
+        found
             .map(|indentation| indentation.max(complete))
             .ok_or(ContactError::OutOfReach { index: self.legs, leg })
     }
 
     fn unload(&mut self, leg: Leg, target: Target) -> Result<LegRecord, ContactError> {
-        let before = self.state;
+        let before = self.standing;
         let high = before.indentation;
         let clock = Instant::now();
         let separates = self.contact.unload(high, &mut self.work);
@@ -272,26 +286,27 @@ impl<C: Contact> Exact<C> {
             }
         };
         let (grid, stride) = self.grid(low, high);
-        let (ledger, left) = self.ledger_with_stretches(grid);
-        let extreme = search::smallest(&ledger, &self.contact, &mut self.work.events_sorted);
-        let smallest = self.point(extreme);
-        let mut curve = self.samples(&ledger, stride);
+        let separates = matches!(target, Target::Separation);
+        self.work.springs_tallied += self.work.springs;
+        let (sampled, left) = self.contact.sample_leaves(grid, separates);
+        let smallest = self.contact.smallest(&sampled, &mut self.work.events_sorted);
+        let smallest = self.curve_point(smallest);
+        let mut curve = self.samples(&sampled, stride);
         let place = curve.partition_point(|point| point.indentation < smallest.indentation);
         if curve.get(place) != Some(&smallest) {
             curve.insert(place, smallest);
         }
         curve.reverse();
-        let (tally, left_with) = match target {
-            Target::Separation => {
-                curve.push(self.curve_point(low, Tally::default()));
-                (Tally::default(), left.inside + left.below)
-            }
-            _ => (ledger.tallies[0], left.inside),
+        let end = if separates {
+            curve.push(self.curve_point(Standing::free(low)));
+            Standing::free(low)
+        } else {
+            self.contact.at(&sampled, 0)
         };
         let largest = curve.first().copied().unwrap_or(smallest);
-        let leaves = (before.tally.springs - tally.springs).unsigned_abs();
+        let leaves = (before.springs - end.springs).unsigned_abs();
         self.work.leaves += leaves;
-        self.state = State { indentation: low, tally };
+        self.standing = end;
         Ok(LegRecord {
             leg,
             direction: Direction::Unloading,
@@ -300,7 +315,7 @@ impl<C: Contact> Exact<C> {
             smallest,
             joins: 0,
             leaves,
-            dissipated_energy: self.energy(left_with),
+            dissipated_energy: self.energy(left),
         })
     }
 
@@ -311,14 +326,14 @@ impl<C: Contact> Exact<C> {
         low: f64,
         high: f64,
     ) -> Result<f64, ContactError> {
-        let ledger = self.ledger(Grid::new(low, high, SEARCH_INTERVALS));
+        let sampled = self.sample(low, high);
         let sorted = &mut self.work.events_sorted;
-        if let Some(found) = search::last_at_most(&ledger, &self.contact, wanted, sorted) {
+        if let Some(found) = self.contact.last_at_most(&sampled, wanted, sorted) {
             return Ok(found);
         }
-        let smallest = search::smallest(&ledger, &self.contact, sorted);
         // The thresholds of this leg still say what is in contact where the body stands.
-        let smallest = self.foundation.spring_stiffness() * smallest.compression;
+        let smallest = self.contact.smallest(&sampled, sorted).compression;
+        let smallest = self.foundation.spring_stiffness() * smallest;
         Err(ContactError::LetsGoBefore { index: self.legs, leg, smallest })
     }
 }
@@ -327,7 +342,7 @@ impl<C: Contact> super::Solver for Exact<C> {
     fn advance(&mut self, leg: Leg) -> Result<LegRecord, ContactError> {
         let clock = Instant::now();
         let plan = self.plan(leg)?;
-        let separated = self.state.is_separated();
+        let separated = self.is_separated();
         let (touching, record) = match plan {
             None => (!separated, self.stay(leg)),
             Some((_, Target::Indentation(to))) if separated && to < 0.0 => (false, self.fly(leg, to)),

@@ -24,7 +24,7 @@ pub trait Springs {
 
 /// An evenly spaced grid of indentations, both ends exact.
 #[derive(Clone, Debug)]
-pub(crate) struct Grid {
+pub struct Grid {
     points: Vec<f64>,
     intervals_per_metre: f64,
 }
@@ -72,7 +72,7 @@ impl Grid {
 
 /// What is in contact at each point of a grid.
 #[derive(Clone, Debug)]
-pub(crate) struct Ledger {
+pub struct Ledger {
     pub grid: Grid,
     /// Springs in contact at each grid point.
     pub tallies: Vec<Tally>,
@@ -80,7 +80,7 @@ pub(crate) struct Ledger {
 
 /// What the joins of a leg cost.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(crate) struct SquaredStretch {
+pub struct SquaredStretch {
     /// Σ (c − threshold)² over the springs whose thresholds lie on the grid, above its lowest point, m².
     pub inside: f64,
     /// The same for the springs whose thresholds are finite and at or below the lowest grid point.
@@ -216,7 +216,7 @@ fn each_run<S: StretchSum>(
 
 /// A run of springs that joins or leaves inside an interval of the grid.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Event {
+pub struct Event {
     pub threshold: f64,
     /// What it adds to the tally.
     pub joins: Tally,

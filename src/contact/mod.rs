@@ -20,6 +20,7 @@ mod foundation;
 mod fragment_set;
 mod history;
 mod incremental;
+mod law;
 mod ledger;
 mod leg_contact;
 mod search;
@@ -33,6 +34,7 @@ mod thresholds;
 pub(crate) mod touch;
 mod tournament;
 mod tree;
+mod whole;
 
 pub use edges::{EdgeRule, GridEdges, NoAdhesion};
 pub use error::ContactError;

@@ -2,11 +2,13 @@
 
 use super::ledger::{Spring, Springs};
 use super::tally::GapScale;
-use super::thresholds;
+use super::thresholds::{self, Held};
 use super::{ContactError, ContactTree, EdgeRule, LegContact, Work};
 
-/// A set of springs that can be loaded and unloaded leg by leg.
-pub trait Contact: Springs {
+/// Springs whose thresholds are those of the present leg.
+pub trait Thresholds: Springs {
+    /// Springs, in contact or not.
+    fn count(&self) -> u64;
     /// Prepares a loading leg from indentation `from`, or from separation. Returns the indentation from
     /// which on everything is in contact.
     fn load(&mut self, from: Option<f64>, work: &mut Work) -> f64;
@@ -28,27 +30,66 @@ pub trait Contact: Springs {
 pub struct AdhesiveSprings<'a, R> {
     tree: &'a ContactTree,
     rule: R,
+    /// Roots of the subtrees looked at: of the whole tree, or of the fragments of first touch.
+    roots: Vec<usize>,
+    /// Those of the springs of each subtree, one subtree after the other, each in post-order, m.
     thresholds: Vec<f64>,
     scale: GapScale,
     /// Whether the present leg presses a body that was separated before.
     forms: bool,
 }
 
+/// One of the subtrees looked at.
+#[derive(Clone, Copy)]
+pub struct Part<'s> {
+    /// Its first node.
+    pub start: usize,
+    /// Thresholds of its nodes from there on, m.
+    pub thresholds: &'s [f64],
+}
+
 impl<'a, R: EdgeRule> AdhesiveSprings<'a, R> {
     /// Keeps its thresholds in this memory; what it holds does not matter, as nothing asks for them before
     /// the first pass has written them.
     pub fn new(tree: &'a ContactTree, rule: R, memory: Vec<f64>) -> Result<Self, ContactError> {
-        let thresholds = super::resized(memory, tree.len(), f64::INFINITY)?;
-        Ok(AdhesiveSprings { tree, rule, thresholds, scale: tree.gap_scale(), forms: false })
+        let roots = tree.len().checked_sub(1).into_iter().collect();
+        Self::of(tree, rule, roots, memory)
     }
 
-    /// Thresholds of the present leg, in post-order, m.
-    pub fn thresholds(&self) -> &[f64] {
-        &self.thresholds
+    /// Only the springs of these subtrees, whole in contact when their unloading leg begins.
+    pub fn of(
+        tree: &'a ContactTree,
+        rule: R,
+        roots: Vec<usize>,
+        memory: Vec<f64>,
+    ) -> Result<Self, ContactError> {
+        let count = roots.iter().map(|&root| tree.size(root) as usize).sum();
+        let thresholds = super::resized(memory, count, f64::INFINITY)?;
+        Ok(AdhesiveSprings { tree, rule, roots, thresholds, scale: tree.gap_scale(), forms: false })
+    }
+
+    /// The tree of the line.
+    pub fn tree(&self) -> &'a ContactTree {
+        self.tree
+    }
+
+    /// The rule for the edges.
+    pub fn rule(&self) -> &R {
+        &self.rule
     }
 
     pub fn into_memory(self) -> Vec<f64> {
         self.thresholds
+    }
+
+    /// The subtrees looked at.
+    pub fn parts(&self) -> impl Iterator<Item = Part<'_>> {
+        let mut rest = self.thresholds.as_slice();
+        self.roots.iter().map(move |&root| {
+            let (thresholds, after) = rest.split_at(self.tree.size(root) as usize);
+            rest = after;
+            Part { start: root + 1 - thresholds.len(), thresholds }
+        })
     }
 
     /// Roots of the fragments in contact at first touch, from the end of the post-order, on the leg that
@@ -60,15 +101,29 @@ impl<'a, R: EdgeRule> AdhesiveSprings<'a, R> {
             roots
         })
     }
+
+    /// Begins the unloading leg of subtrees that are whole in contact at an indentation, m.
+    pub fn open(&mut self, from: f64) -> Held {
+        let mut held = Held::NOTHING;
+        let mut rest = self.thresholds.as_mut_slice();
+        for &root in &self.roots {
+            let (fragment, after) = rest.split_at_mut(self.tree.size(root) as usize);
+            held = held.and(thresholds::open(self.tree, &self.rule, root, fragment, from));
+            rest = after;
+        }
+        held
+    }
 }
 
 impl<R: EdgeRule> Springs for AdhesiveSprings<'_, R> {
     #[inline]
     fn each(&self, mut see: impl FnMut(Spring)) {
-        for ((&threshold, &gap), &shape) in
-            self.thresholds.iter().zip(self.tree.gaps()).zip(self.tree.shapes())
-        {
-            see(Spring { threshold, gap, fragments: shape.fragments() });
+        for Part { start, thresholds } in self.parts() {
+            let nodes = start..start + thresholds.len();
+            let nodes = self.tree.gaps()[nodes.clone()].iter().zip(&self.tree.shapes()[nodes]);
+            for (&threshold, (&gap, &shape)) in thresholds.iter().zip(nodes) {
+                see(Spring { threshold, gap, fragments: shape.fragments() });
+            }
         }
     }
 
@@ -77,7 +132,11 @@ impl<R: EdgeRule> Springs for AdhesiveSprings<'_, R> {
     }
 }
 
-impl<R: EdgeRule> Contact for AdhesiveSprings<'_, R> {
+impl<R: EdgeRule> Thresholds for AdhesiveSprings<'_, R> {
+    fn count(&self) -> u64 {
+        self.thresholds.len() as u64
+    }
+
     fn load(&mut self, from: Option<f64>, work: &mut Work) -> f64 {
         let nodes = self.tree.len() as u64;
         work.loading_passes += 1;
@@ -138,6 +197,11 @@ impl<'a> BareSprings<'a> {
         let largest = gaps.iter().copied().fold(0.0, f64::max);
         BareSprings { gaps, largest, scale: GapScale::for_gaps_up_to(largest) }
     }
+
+    /// Gaps along the line, m.
+    pub fn gaps(&self) -> &'a [f64] {
+        self.gaps
+    }
 }
 
 impl Springs for BareSprings<'_> {
@@ -159,7 +223,11 @@ impl Springs for BareSprings<'_> {
     }
 }
 
-impl Contact for BareSprings<'_> {
+impl Thresholds for BareSprings<'_> {
+    fn count(&self) -> u64 {
+        self.gaps.len() as u64
+    }
+
     fn load(&mut self, _: Option<f64>, _: &mut Work) -> f64 {
         self.largest
     }

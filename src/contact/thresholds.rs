@@ -45,7 +45,7 @@ pub(crate) fn load<R: EdgeRule>(
 
 /// What an unloading leg begins with and where it ends at the latest.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Held {
+pub struct Held {
     /// Springs in contact when it begins.
     pub springs: u64,
     /// The smallest threshold: below it nothing is in contact.
@@ -129,7 +129,7 @@ fn greater(a: f64, b: f64) -> f64 {
 /// Right and left child of a node; the node itself in place of one it does not have, to which the passes
 /// do no harm. A branch on whether there is a child would often be mispredicted on a rough line.
 #[inline]
-fn children_or_self(node: usize, shape: Shape) -> [usize; 2] {
+pub(crate) fn children_or_self(node: usize, shape: Shape) -> [usize; 2] {
     let right = usize::from(shape.right > 0);
     let left = if shape.left() > 0 { 1 + shape.right as usize } else { 0 };
     [node - right, node - left]

@@ -1,10 +1,10 @@
 //! Adhesion at first touch, F_a(0): the contact that forms at d = 0 on the way in, pulled off from there.
 
-use super::exact::SEARCH_INTERVALS;
-use super::ledger::{Grid, Ledger, Spring, Springs};
-use super::tally::GapScale;
-use super::thresholds::{self, Held};
-use super::{ContactError, ContactTree, EdgeRule, Foundation, Work, search};
+use super::exact::{OverTree, SEARCH_INTERVALS};
+use super::ledger::Grid;
+use super::springs::AdhesiveSprings;
+use super::thresholds;
+use super::{ContactError, ContactTree, EdgeRule, Foundation, Work};
 
 /// Pulls off the contact of first touch, of which these are the roots of all fragments, and gives the
 /// smallest force, N, exact to rounding.
@@ -13,32 +13,25 @@ use super::{ContactError, ContactTree, EdgeRule, Foundation, Work, search};
 ///
 /// # Errors
 /// [`ContactError::OutOfMemory`].
-pub(crate) fn smallest_force<R: EdgeRule>(
-    tree: &ContactTree,
-    rule: &R,
+pub(crate) fn smallest_force<'a, C: OverTree<'a>>(
+    tree: &'a ContactTree,
+    rule: C::Rule,
     foundation: Foundation,
-    roots: &[usize],
+    roots: Vec<usize>,
     memory: &mut Vec<f64>,
 ) -> Result<(f64, Work), ContactError> {
-    let count = roots.iter().map(|&root| tree.size(root) as usize).sum();
-    let mut springs = super::resized(std::mem::take(memory), count, 0.0)?;
-    let mut held = Held::NOTHING;
-    let mut rest = springs.as_mut_slice();
-    for &root in roots {
-        let (fragment, after) = rest.split_at_mut(tree.size(root) as usize);
-        held = held.and(thresholds::open(tree, rule, root, fragment, 0.0));
-        rest = after;
-    }
-    let contact = Touching { tree, roots, thresholds: &springs, scale: tree.gap_scale() };
-    let ledger = Ledger::new(&contact, Grid::new(held.separates.min(0.0), 0.0, SEARCH_INTERVALS));
+    let mut springs = AdhesiveSprings::of(tree, rule, roots, std::mem::take(memory))?;
+    let held = springs.open(0.0);
+    let contact = C::over(springs);
+    let leg = contact.sample(Grid::new(held.separates.min(0.0), 0.0, SEARCH_INTERVALS));
     let mut work = Work {
         zero_load_passes: 1,
         hess_evaluations: held.springs,
         springs_tallied: held.springs,
         ..Work::default()
     };
-    let smallest = search::smallest(&ledger, &contact, &mut work.events_sorted);
-    *memory = springs;
+    let smallest = contact.smallest(&leg, &mut work.events_sorted);
+    *memory = contact.into_springs().into_memory();
     Ok((foundation.spring_stiffness() * smallest.compression, work))
 }
 
@@ -60,37 +53,10 @@ pub(crate) fn roots<R: EdgeRule>(
     Ok((roots, Work { zero_load_passes: 1, hess_evaluations, ..Work::default() }))
 }
 
-/// The springs in contact at first touch, fragment by fragment.
-struct Touching<'a> {
-    tree: &'a ContactTree,
-    roots: &'a [usize],
-    thresholds: &'a [f64],
-    scale: GapScale,
-}
-
-impl Springs for Touching<'_> {
-    #[inline]
-    fn each(&self, mut see: impl FnMut(Spring)) {
-        let mut rest = self.thresholds;
-        for &root in self.roots {
-            let (fragment, after) = rest.split_at(self.tree.size(root) as usize);
-            let nodes = root + 1 - fragment.len()..=root;
-            let nodes = self.tree.gaps()[nodes.clone()].iter().zip(&self.tree.shapes()[nodes]);
-            for (&threshold, (&gap, shape)) in fragment.iter().zip(nodes) {
-                see(Spring { threshold, gap, fragments: shape.fragments() });
-            }
-            rest = after;
-        }
-    }
-
-    fn scale(&self) -> &GapScale {
-        &self.scale
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::contact::whole::WholeSprings;
     use crate::contact::{GridEdges, HessRule, Solver, exact};
     use crate::scene::Leg;
     use proptest::prelude::*;
@@ -123,7 +89,7 @@ mod tests {
             let (found, effort) = roots(&tree, &rule, &mut memory).unwrap();
             prop_assert_eq!(&found, &known);
             prop_assert_eq!(effort.zero_load_passes, 1);
-            let (force, effort) = smallest_force(&tree, &rule, FOUNDATION, &known, &mut memory).unwrap();
+            let (force, effort) = smallest_force::<WholeSprings<_>>(&tree, rule, FOUNDATION, known, &mut memory).unwrap();
             prop_assert_eq!(force.to_bits(), back.smallest.force.to_bits());
             prop_assert_eq!(effort.springs_tallied, touch.joins);
             body.advance(Leg::ToSeparation).unwrap();

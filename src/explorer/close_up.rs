@@ -3,7 +3,7 @@
 use super::reduce::{Contact, LineColumns, Part};
 use super::snapshot::{CloseUp, FragmentFacts};
 use super::worker::{Focus, MomentRequest};
-use crate::contact::subcell::SubCellEdges;
+use crate::contact::subcell::SubCellMoment;
 use crate::contact::{Foundation, HessRule};
 
 /// How the edges of fragments are read, and what they bear.
@@ -12,7 +12,7 @@ pub enum EdgeLaw<'a> {
     /// A fragment of n springs is n cells long.
     WholeSprings(Option<HessRule>),
     /// Its edges lie between springs.
-    BetweenSprings(&'a SubCellEdges),
+    BetweenSprings(SubCellMoment<'a>),
 }
 
 /// What a fragment bears.
@@ -30,17 +30,15 @@ struct Bearing {
 impl EdgeLaw<'_> {
     fn bearing(self, contact: &Contact<'_>, (first, last): (usize, usize)) -> Bearing {
         let deepest = || contact.gaps[first..=last].iter().copied().fold(0.0, f64::max);
-        let between = match self {
-            EdgeLaw::WholeSprings(_) => None,
-            EdgeLaw::BetweenSprings(edges) => edges.slider_of((first, last)).map(|slider| (edges, slider)),
-        };
-        if let Some((edges, slider)) = between {
-            let fragment = slider.at(contact.indentation);
+        if let EdgeLaw::BetweenSprings(moment) = self {
+            let slider = moment.slider((first, last));
+            let cells = slider.length(contact.indentation);
+            let edges = slider.edges(contact.indentation);
             return Bearing {
-                cells: fragment.length,
-                largest_stretch: edges.largest_stretch(fragment.length),
+                cells,
+                largest_stretch: moment.largest_stretch(cells),
                 most_stretched: slider.level(contact.indentation) - contact.indentation,
-                compression: fragment.compression,
+                compression: compression(contact, (first, last)) + edges.compression,
             };
         }
         let springs = last + 1 - first;

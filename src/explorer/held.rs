@@ -24,35 +24,50 @@ pub struct Held {
     step: f64,
 }
 
+/// What is known of the line of a scene.
+#[derive(Clone, Copy)]
+pub struct Known<'a> {
+    /// Its level sets, if the scene calls for them.
+    pub levels: Option<&'a Arc<LevelSets>>,
+    /// Its tree, if the scene calls for it.
+    pub tree: Option<&'a Arc<ContactTree>>,
+    /// The line itself.
+    pub line: &'a Line,
+}
+
 impl Held {
-    /// Takes the body where these fragments are in contact, with the edges that the scene has. The tree is that of the line; a scene
-    /// without adhesion has called for none, so it is built. `step` is how far apart the points of a pull
-    /// are, m.
+    /// Takes the body where these fragments are in contact at this indentation, m, with edges between springs
+    /// or not. What the scene has not called for is built. `step` is how far apart the points of a pull are,
+    /// m.
     pub fn take(
-        (levels, tree): (Option<&Arc<LevelSets>>, Option<&Arc<ContactTree>>),
-        line: &Line,
+        known: Known<'_>,
+        between: bool,
         governing: &Governing,
-        indentation: f64,
-        contact: &[(usize, usize)],
+        (indentation, contact): (f64, &[(usize, usize)]),
         step: f64,
     ) -> Option<Self> {
+        let line = known.line;
         let foundation = Foundation { spacing: line.spacing, effective_modulus: governing.effective_modulus };
-        if let Some(levels) = levels {
-            let hess = governing.adhesive_work().map(|work| HessRule::new(foundation, work));
-            let body =
-                SubCellHand::standing(Arc::clone(levels), hess, foundation, indentation, contact).ok()?;
-            return Some(Held { body: Box::new(body), travel: Travel::default(), step });
-        }
-        let tree = match tree {
+        let hess = governing.adhesive_work().map(|work| HessRule::new(foundation, work));
+        let tree = match known.tree {
             Some(tree) => Arc::clone(tree),
             None => Arc::new(ContactTree::build(&line.gaps).ok()?),
         };
-        let body: Box<dyn HandHeld + Send> = match governing.adhesive_work() {
-            Some(work) => {
-                let rule = GridEdges::new(HessRule::new(foundation, work));
+        let body: Box<dyn HandHeld + Send> = match (between, hess) {
+            (true, hess) => {
+                let levels = match known.levels {
+                    Some(levels) => Arc::clone(levels),
+                    None => Arc::new(LevelSets::new(tree, &line.gaps).ok()?),
+                };
+                Box::new(SubCellHand::standing(levels, hess, foundation, indentation, contact).ok()?)
+            }
+            (false, Some(hess)) => {
+                let rule = GridEdges::new(hess);
                 Box::new(Incremental::standing(tree, rule, foundation, indentation, contact).ok()?)
             }
-            None => Box::new(Incremental::standing(tree, NoAdhesion, foundation, indentation, contact).ok()?),
+            (false, None) => {
+                Box::new(Incremental::standing(tree, NoAdhesion, foundation, indentation, contact).ok()?)
+            }
         };
         Some(Held { body, travel: Travel::default(), step })
     }

@@ -1,15 +1,15 @@
 //! The scene that was computed last, ready to be played leg by leg or moved by hand.
 
 use super::close_up::{EdgeLaw, close_up};
-use super::held::Held;
+use super::held::{Held, Known};
 use super::reduce::{self, Contact, LineColumns, Part};
 use super::snapshot::{Drive, Loop, Moment};
 use super::worker::{Engine, HandOrder, LineView, MomentRequest, Newest, Report};
-use crate::contact::subcell::SubCellEdges;
+use crate::contact::subcell::SubCellMoment;
 use crate::contact::{
     ContactError, CurvePoint, Foundation, GapScale, HessRule, LegContact, LegRecord, Solver, Tally,
 };
-use crate::scene::{Observer, Scene};
+use crate::scene::{Edges, Observer, Scene};
 use std::sync::Arc;
 use std::sync::atomic::Ordering;
 
@@ -41,6 +41,11 @@ pub struct Playback {
 }
 
 impl Playback {
+    /// Whether the edges of the scene's fragments lie between springs.
+    fn finds_edges(&self) -> bool {
+        self.scene.as_ref().is_some_and(|scene| scene.numerics.edges == Edges::SubCell)
+    }
+
     /// Generation of the scene.
     pub fn generation(&self) -> u64 {
         self.generation
@@ -107,8 +112,9 @@ impl Playback {
                 let Some((computed, line)) = self.computed.as_ref().zip(engine.line()) else { return };
                 let governing = &computed.outcome.governing;
                 let step = range_of(computed) / STEPS_OF_A_PULL;
-                let trees = (engine.levels(), engine.tree());
-                self.held = Held::take(trees, line, governing, indentation, &contact, step);
+                let known = Known { levels: engine.levels(), tree: engine.tree(), line };
+                let between = self.finds_edges();
+                self.held = Held::take(known, between, governing, (indentation, &contact), step);
                 self.last = None;
             }
             HandOrder::Give => {
@@ -140,10 +146,10 @@ impl Playback {
         let (governing, deepest) = (outcome.governing, outcome.line.deepest);
         let foundation = Foundation { spacing: line.spacing, effective_modulus: governing.effective_modulus };
         let hess = governing.adhesive_work().map(|work| HessRule::new(foundation, work));
-        let edges = engine.levels().map(|levels| SubCellEdges::new(Arc::clone(levels), hess));
+        let between = self.finds_edges().then(|| SubCellMoment::new(&line.gaps, deepest, hess));
         let point = at.unwrap_or_else(|| {
-            if let Some(edges) = &edges {
-                return edges.point(foundation, request.indentation, &fragments);
+            if let Some(moment) = &between {
+                return moment.point(foundation, request.indentation, &fragments);
             }
             let scale = GapScale::for_gaps_up_to(deepest);
             point(&line.gaps, &scale, request.indentation, &fragments, foundation)
@@ -158,8 +164,8 @@ impl Playback {
             indentation: point.indentation,
             fragments: &fragments,
         };
-        let law = match &edges {
-            Some(edges) => EdgeLaw::BetweenSprings(edges),
+        let law = match between {
+            Some(moment) => EdgeLaw::BetweenSprings(moment),
             None => EdgeLaw::WholeSprings(hess),
         };
         let close_up = close_up(&contact, request, foundation, law, &mut self.close_up);

@@ -7,7 +7,7 @@ use super::check::check;
 use super::errors::{Origin, SceneError, SceneErrors};
 use super::fields::{FIELDS, Field};
 use super::locate::Outline;
-use super::model::Scene;
+use super::model::{Edges, Scene};
 use super::read::{Unread, read, wrong_version};
 use super::scan::comments;
 use super::splice;
@@ -141,7 +141,12 @@ impl Document {
         let outline = Outline::of(&self.text).ok()?;
         outline.inner(path).or_else(|| {
             let field = fields_of(&outline).find(|field| field.path == path)?;
-            (!field.default.is_empty()).then_some(field.default)
+            let default = match (field.path, self.scene.numerics.edges) {
+                // The stepwise solver has others as usual.
+                ("numerics.edges", Edges::Grid) => "Grid",
+                _ => field.default,
+            };
+            (!default.is_empty()).then_some(default)
         })
     }
 

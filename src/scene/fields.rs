@@ -374,8 +374,8 @@ pub const FIELDS: &[Field] = &[
         name: "edges",
         range: Range::Choice(&["Grid", "SubCell"]),
         step: Step::Choice,
-        default: "Grid",
-        meaning: "where a fragment ends: Grid counts whole springs, SubCell finds its edges between them",
+        default: "SubCell",
+        meaning: "where a fragment ends: SubCell finds its edges between springs, Grid counts whole ones, as the paper and the stepwise solver do",
         ..TEXT
     },
     Field {

@@ -142,7 +142,7 @@ pub enum Leg {
 
 /// How finely the scene is computed.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, default)]
+#[serde(from = "NumericsText")]
 pub struct Numerics {
     /// Number of springs N.
     pub points: u64,
@@ -156,7 +156,29 @@ pub struct Numerics {
 
 impl Default for Numerics {
     fn default() -> Self {
-        Numerics { points: 16_384, solver: Solver::Exact, edges: Edges::Grid, samples: 512 }
+        NumericsText::default().into()
+    }
+}
+
+/// The same as it is written: what is left out stands as usual.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields, default, rename = "Numerics")]
+struct NumericsText {
+    points: u64,
+    solver: Solver,
+    edges: Option<Edges>,
+    samples: u64,
+}
+
+impl Default for NumericsText {
+    fn default() -> Self {
+        NumericsText { points: 16_384, solver: Solver::Exact, edges: None, samples: 512 }
+    }
+}
+
+impl From<NumericsText> for Numerics {
+    fn from(NumericsText { points, solver, edges, samples }: NumericsText) -> Self {
+        Numerics { points, solver, edges: edges.unwrap_or(solver.usual_edges()), samples }
     }
 }
 
@@ -171,6 +193,16 @@ pub enum Solver {
         /// Step Δd of the indentation, m.
         step: f64,
     },
+}
+
+impl Solver {
+    /// The edges of a scene that does not say which: between springs where the solver can find them there.
+    pub fn usual_edges(self) -> Edges {
+        match self {
+            Solver::Exact => Edges::SubCell,
+            Solver::Stepwise { .. } => Edges::Grid,
+        }
+    }
 }
 
 /// How the edges of a contact fragment are counted.

@@ -148,7 +148,7 @@ fn numerics(part: &Numerics) -> String {
     group(&[
         ("points", (part.points != default.points).then(|| part.points.to_string())),
         ("solver", (part.solver != default.solver).then_some(solver)),
-        ("edges", (part.edges != default.edges).then(|| format!("{:?}", part.edges))),
+        ("edges", (part.edges != part.solver.usual_edges()).then(|| format!("{:?}", part.edges))),
         ("samples", (part.samples != default.samples).then(|| part.samples.to_string())),
     ])
 }

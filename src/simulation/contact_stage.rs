@@ -3,13 +3,14 @@
 use super::AfterLeg;
 use super::stages::MANY_SPRINGS;
 use crate::analysis::Figures;
-use crate::contact::subcell::{LevelSets, SubCell};
+use crate::contact::exact::OverTree;
+use crate::contact::subcell::{self, LevelSets};
 use crate::contact::{
-    ContactError, ContactTree, Foundation, GridEdges, HessRule, History, LegRecord, Solver, Stepwise, Work,
-    exact, run, touch,
+    ContactError, ContactTree, Exact, Foundation, GridEdges, HessRule, History, LegRecord, Solver, Stepwise,
+    Work, exact, run, touch,
 };
 use crate::parallel::Beside;
-use crate::scene::{Leg, Scene, Solver as SolverChoice};
+use crate::scene::{Edges, Leg, Scene, Solver as SolverChoice};
 use crate::surface::Line;
 use std::mem::take;
 use std::sync::Arc;
@@ -75,48 +76,42 @@ impl ContactStage<'_> {
                 }
                 Ok(contacted)
             }
-            (SolverChoice::Exact, hess, _) if self.levels.is_some() => {
-                self.run_between_springs(hess, zero_load, memory, after)
-            }
             (SolverChoice::Exact, Some(hess), Some(tree)) => {
-                let rule = GridEdges::new(hess);
                 let thresholds = take(&mut memory.thresholds);
-                let mut body = exact::adhesive_in(thresholds, tree, rule, self.foundation, samples)?;
-                let contacted = if zero_load {
-                    self.load_and_touch(&mut body, tree, rule, &mut memory.touch, after)
-                } else {
-                    self.load(&mut body, after)
-                };
-                memory.thresholds = body.into_memory();
-                contacted
+                if let Some(levels) = self.levels {
+                    let body =
+                        subcell::adhesive_in(thresholds, levels, Some(hess), self.foundation, samples)?;
+                    return self.load_over_tree(body, zero_load, memory, after);
+                }
+                let rule = GridEdges::new(hess);
+                let body = exact::adhesive_in(thresholds, tree, rule, self.foundation, samples)?;
+                self.load_over_tree(body, zero_load, memory, after)
+            }
+            (SolverChoice::Exact, _, _) if self.scene.numerics.edges == Edges::SubCell => {
+                self.load(&mut subcell::bare(gaps, self.foundation, samples), after)
             }
             (SolverChoice::Exact, _, _) => self.load(&mut exact::bare(gaps, self.foundation, samples), after),
         }
     }
 
-    /// Runs the loading with edges between springs.
-    fn run_between_springs(
+    /// Runs the loading of an adhesive body.
+    fn load_over_tree<'t, C: OverTree<'t>>(
         &self,
-        hess: Option<HessRule>,
+        mut body: Exact<C>,
         zero_load: bool,
         memory: &mut ContactMemory,
         after: &mut AfterLeg<'_>,
-    ) -> Result<Contacted, ContactError> {
-        let Some(levels) = self.levels else { return Err(ContactError::Interrupted) };
-        let samples = self.scene.numerics.samples as usize;
-        let mut body = SubCell::new(levels, hess, self.foundation, samples, take(&mut memory.thresholds))?;
-        let mut contacted = self.load(&mut body, after)?;
+    ) -> Result<Contacted, ContactError>
+    where
+        C::Rule: Clone + Send + Sync,
+    {
+        let contacted = if zero_load {
+            self.load_and_touch(&mut body, &mut memory.touch, after)
+        } else {
+            self.load(&mut body, after)
+        };
         memory.thresholds = body.into_memory();
-        if zero_load {
-            let clock = Instant::now();
-            let mut body = SubCell::new(levels, hess, self.foundation, 2, take(&mut memory.touch))?;
-            let touch = run(&mut body, &[Leg::ToTouch, Leg::ToSeparation], |_, _| Ok(()))?;
-            memory.touch = body.into_memory();
-            contacted.zero_load_adhesion_force = Figures::of(&touch).adhesion_force;
-            contacted.history.work.add_effort(&touch.work);
-            contacted.zero_load_seconds = clock.elapsed().as_secs_f64();
-        }
-        Ok(contacted)
+        contacted
     }
 
     /// Runs the loading of the scene.
@@ -151,18 +146,20 @@ impl ContactStage<'_> {
 
     /// Runs the loading of the scene and, as soon as its first touch is known, pulls that contact off on
     /// another thread while the loading goes on.
-    fn load_and_touch(
+    fn load_and_touch<'t, C: OverTree<'t>>(
         &self,
-        body: &mut exact::Adhesive<'_, GridEdges>,
-        tree: &ContactTree,
-        rule: GridEdges,
+        body: &mut Exact<C>,
         memory: &mut Vec<f64>,
         after: &mut AfterLeg<'_>,
-    ) -> Result<Contacted, ContactError> {
+    ) -> Result<Contacted, ContactError>
+    where
+        C::Rule: Clone + Send + Sync,
+    {
         // Not `self`: `stop` need not be fit for other threads.
         let foundation = self.foundation;
+        let (tree, rule) = (body.springs().tree(), body.springs().rule().clone());
         let pull_off = |roots: Vec<usize>, mut memory: Vec<f64>| {
-            let pulled = touch::smallest_force(tree, &rule, foundation, &roots, &mut memory);
+            let pulled = touch::smallest_force::<C>(tree, rule.clone(), foundation, roots, &mut memory);
             let (smallest_force, work) = match pulled {
                 Ok((force, work)) => (Ok(force), work),
                 Err(error) => (Err(error), Work::default()),

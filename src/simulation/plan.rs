@@ -109,17 +109,17 @@ impl Plan {
         let no_adhesion = "no adhesion: each spring touches and leaves at its own gap";
         let stepwise = "solver: Stepwise";
         let tree = if adhesive { stepwise } else { no_adhesion };
-        let sub_cell = exact && scene.numerics.edges == Edges::SubCell;
-        let between = "edges: SubCell";
-        let calls = if adhesive { "adhesion with the exact solver" } else { between };
-        plan(Stage::Tree, exact && (adhesive || sub_cell), calls, tree);
-        plan(Stage::LevelSets, sub_cell, between, if exact { "edges: Grid" } else { stepwise });
+        let calls = "adhesion with the exact solver";
+        plan(Stage::Tree, exact && adhesive, calls, tree);
+        let at_springs = if exact && adhesive { "edges: Grid" } else { tree };
+        let between = scene.numerics.edges == Edges::SubCell;
+        plan(Stage::LevelSets, exact && adhesive && between, "edges: SubCell", at_springs);
         plan(Stage::RuleOfHess, adhesive, "adhesion", no_adhesion);
-        plan(Stage::LoadingPass, exact && (adhesive || sub_cell), calls, tree);
+        plan(Stage::LoadingPass, exact && adhesive, calls, tree);
         let never = "loading never goes back";
         plan(
             Stage::UnloadingPass,
-            exact && (adhesive || sub_cell) && pulls,
+            exact && adhesive && pulls,
             "loading goes back",
             if pulls { tree } else { never },
         );

@@ -3,7 +3,7 @@
 use super::contact_stage::{ContactMemory, ContactStage};
 use super::{LineFacts, Outcome, Plan, RunError, Stage, Timings};
 use crate::analysis::{Amplitude, Figures, Governing, Regime, RegimeEvidence, ideal_adhesion_force};
-use crate::contact::subcell::LevelSets;
+use crate::contact::subcell::{LevelMemory, LevelSets};
 use crate::contact::{ContactError, ContactTree, Foundation, HessRule, LegRecord, Solver};
 use crate::parallel::in_parallel;
 use crate::reference::smooth_adhesion_force;
@@ -32,6 +32,8 @@ pub struct Simulation {
     tree: Option<Arc<ContactTree>>,
     /// The level sets of the line, where a scene has called for them.
     levels: Option<Arc<LevelSets>>,
+    /// Memory of the level sets of the line before.
+    level_memory: LevelMemory,
     /// Whether the tree is that of the line, rather than of one before.
     tree_is_current: bool,
     /// Whether the last scene has edges between springs.
@@ -195,9 +197,9 @@ impl Simulation {
         let clock = Instant::now();
         let count = plan.runs(Stage::HeightHistogram) && self.histogram.is_none();
         let build = plan.runs(Stage::Tree) && !self.tree_is_current;
-        if build {
+        if build && let Some(levels) = self.levels.take() {
             // They hold on to the tree before.
-            self.levels = None;
+            self.level_memory = Arc::into_inner(levels).map(LevelSets::into_memory).unwrap_or_default();
         }
         let tree_before = if build { self.tree.take() } else { None };
         let (counted, built) = in_parallel(
@@ -212,7 +214,8 @@ impl Simulation {
             self.tree_is_current = true;
         }
         if let (true, None, Some(tree)) = (plan.runs(Stage::LevelSets), &self.levels, &self.tree) {
-            self.levels = Some(Arc::new(LevelSets::new(Arc::clone(tree), &line.gaps)?));
+            let memory = std::mem::take(&mut self.level_memory);
+            self.levels = Some(Arc::new(LevelSets::new_in(memory, Arc::clone(tree), &line.gaps)?));
         }
         timings.tree = clock.elapsed().as_secs_f64();
         interrupted()?;

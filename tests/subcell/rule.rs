@@ -26,7 +26,8 @@ proptest! {
             for (index, point) in record.curve.iter().enumerate() {
                 // Where it lets go or forms at once, the point before and the point after.
                 let moved_on = record.curve.get(index + 1).is_some_and(|p| p.indentation == point.indentation);
-                if moved_on || before == 0 {
+                // Nor does the brute force tell levels apart that are 0 but for the rounding of any gap.
+                if moved_on || before == 0 || point.indentation.abs() < 1e-16 {
                     continue;
                 }
                 relaxed.iter_mut().for_each(|one| one.move_to(point.indentation));

@@ -1,6 +1,6 @@
 //! The rule of Hess read with the length between edges that lie anywhere in their cells.
 
-use super::level_sets::{LevelSets, Levels};
+use super::level_sets::{LevelSets, Levels, levels_between};
 use crate::contact::{ContactTree, EdgeRule, HessRule};
 use std::sync::Arc;
 
@@ -28,9 +28,9 @@ impl SubCellEdges {
         &self.sets
     }
 
-    /// Largest stretch of a fragment of one cell, m.
-    pub(super) fn stretch(&self) -> f64 {
-        self.stretch
+    /// Whether nothing is stretched at all.
+    pub(super) fn is_without_adhesion(&self) -> bool {
+        self.stretch == 0.0
     }
 
     /// φ at a level of a node, m.
@@ -48,21 +48,18 @@ impl SubCellEdges {
         if excess > 0.0 && levels.growth > 0.0 { (gap + excess / levels.growth).min(levels.top) } else { gap }
     }
 
-    /// ∫ (c − θ)² dx over what is around the springs of a node, up to those of its parent, and joins or leaves
-    /// at once at the indentation θ = `at`, in cells times m².
-    #[inline]
-    pub fn squared_stretch_at_once(&self, node: usize, at: f64) -> f64 {
-        let (gap, levels) = (self.sets.tree().gap(node), self.sets.levels(node));
-        // The root's edges do not move.
-        if levels.growth > 0.0 { at_once(levels.growth, gap, levels.top, at) } else { 0.0 }
-    }
-
     /// How the fragment of a node slides.
     #[inline]
     pub fn slider(&self, node: usize) -> Slider {
-        let (gap, levels) = (self.sets.tree().gap(node), self.sets.levels(node));
-        let half = 0.5 * self.stretch * levels.growth;
-        Slider { gap, levels, stretch: self.stretch, half, square: half * half + levels.length }
+        let tree = self.sets.tree();
+        let compression = self.sets.edge_compression(node);
+        Slider::new(
+            tree.gap(node),
+            f64::from(tree.size(node)),
+            self.sets.levels(node),
+            compression,
+            self.stretch,
+        )
     }
 }
 
@@ -73,6 +70,10 @@ impl SubCellEdges {
 pub struct Slider {
     gap: f64,
     levels: Levels,
+    /// By how much it is longer than its springs at its lowest level, in cells.
+    excess: f64,
+    /// What its edges carry there at the indentation of its gap.
+    compression: f64,
     stretch: f64,
     /// ½ stretch × growth.
     half: f64,
@@ -80,17 +81,34 @@ pub struct Slider {
     square: f64,
 }
 
-/// A fragment at one indentation.
-#[derive(Clone, Copy, Debug)]
-pub struct Fragment {
-    /// Its length in cells.
+/// What the edges of a fragment add to its whole springs at one indentation: each of its two outermost
+/// springs stands for half a cell beyond itself, and the edge lies elsewhere.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Edges {
+    /// By how much the fragment is longer than its springs, in cells.
     pub length: f64,
-    /// The compression ∫ (d − c) dx over it, in cells times metres: the force in units of the stiffness of
-    /// one spring.
+    /// By how much the compression ∫ (d − c) dx over it is larger than the sum Σ (d − c) over its springs, in
+    /// cells times metres.
     pub compression: f64,
 }
 
 impl Slider {
+    /// The slider of the fragment of these springs (first and last) among `gaps` along the line; `stretch` is
+    /// the largest stretch of a fragment of one cell, m.
+    #[must_use]
+    pub(super) fn of_springs(gaps: &[f64], (first, last): (usize, usize), stretch: f64) -> Self {
+        let gap = gaps[first..=last].iter().copied().fold(0.0, f64::max);
+        let (levels, compression) = levels_between(gaps, (first, last), gap);
+        Slider::new(gap, (last + 1 - first) as f64, levels, compression, stretch)
+    }
+
+    #[inline]
+    fn new(gap: f64, springs: f64, levels: Levels, compression: f64, stretch: f64) -> Self {
+        let half = 0.5 * stretch * levels.growth;
+        let square = half * half + levels.length;
+        Slider { gap, levels, excess: levels.length - springs, compression, stretch, half, square }
+    }
+
     /// Gap of its node, m: its lowest level.
     #[inline]
     pub fn gap(&self) -> f64 {
@@ -132,17 +150,28 @@ impl Slider {
         if self.levels.growth > 0.0 { self.gap + self.rise(indentation - self.gap) } else { self.gap }
     }
 
-    /// The fragment under an indentation.
+    /// What its edges add under an indentation.
     #[inline]
-    pub fn at(&self, indentation: f64) -> Fragment {
+    pub fn edges(&self, indentation: f64) -> Edges {
         let above = indentation - self.gap;
         let rise = self.rise(above);
-        // Nothing is lost in these sums but a rounding of the largest term.
         let grown = self.levels.growth * rise;
-        Fragment {
-            length: self.levels.length + grown,
-            compression: (self.levels.length * above + self.levels.depth) + grown * (above - 0.5 * rise),
+        Edges {
+            length: self.excess + grown,
+            compression: (self.excess * above + self.compression) + grown * (above - 0.5 * rise),
         }
+    }
+
+    /// Springs it has.
+    #[inline]
+    pub(super) fn springs(&self) -> f64 {
+        self.levels.length - self.excess
+    }
+
+    /// Its length under an indentation, in cells.
+    #[must_use]
+    pub fn length(&self, indentation: f64) -> f64 {
+        self.levels.length + self.levels.growth * self.rise(indentation - self.gap)
     }
 
     /// By how much the compression grows with the indentation, in cells: the length times (2y − 3k)/(2y − k)
@@ -195,6 +224,17 @@ impl Slider {
             sum += self.squared_stretch_at_once(to.max(from), top, closes);
         }
         sum
+    }
+}
+
+impl Levels {
+    /// ∫ (c − θ)² dx over what is around the springs of a node of this gap, m, up to those of its parent, and
+    /// joins or leaves at once at the indentation θ = `at`, in cells times m².
+    #[inline]
+    pub(super) fn squared_stretch_at_once(&self, gap: f64, at: f64) -> f64 {
+        let squared = at_once(self.growth, gap, self.top, at);
+        // The root's edges do not move, however high its level.
+        if self.growth > 0.0 { squared } else { 0.0 }
     }
 }
 

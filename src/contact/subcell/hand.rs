@@ -6,10 +6,10 @@
 
 use super::edges::{Slider, SubCellEdges};
 use super::level_sets::LevelSets;
-use super::search::bisect;
-use super::sums::Sums;
+use super::search::{bisect, crossing, last_before};
 use crate::contact::fragment_set::{FragmentSet, Joined};
 use crate::contact::incremental::finite;
+use crate::contact::law::Standing;
 use crate::contact::ledger::CompensatedSum;
 use crate::contact::{ContactError, CurvePoint, Foundation, HandError, HandHeld, HessRule, Move};
 use std::collections::HashMap;
@@ -63,14 +63,25 @@ impl SubCellHand {
     }
 
     /// What is in contact, were it at this indentation.
-    fn sums_at(&self, indentation: f64) -> Sums {
-        let mut sums = Sums::default();
-        self.set.roots().for_each(|root| sums.add(self.edges(), root, indentation));
-        sums
+    fn standing_at(&self, indentation: f64) -> Standing {
+        let tally = self.set.tally();
+        let (mut length, mut compression) = (CompensatedSum::default(), CompensatedSum::default());
+        for root in self.set.roots() {
+            let edges = self.edges().slider(root).edges(indentation);
+            length.add(edges.length);
+            compression.add(edges.compression);
+        }
+        Standing {
+            indentation,
+            springs: tally.springs,
+            fragments: tally.fragments,
+            length: tally.springs as f64 + length.total(),
+            compression: tally.compression(indentation, self.set.scale()) + compression.total(),
+        }
     }
 
     fn compression_at(&self, indentation: f64) -> f64 {
-        self.sums_at(indentation).compression()
+        self.standing_at(indentation).compression
     }
 
     fn stiffness_at(&self, indentation: f64) -> f64 {
@@ -124,7 +135,7 @@ impl SubCellHand {
             let Some(to) = self.set.joins_next() else { break };
             // Until the next spring joins the force is convex and below it at first: it gets there once.
             if self.compression_at(to) >= wanted {
-                let found = bisect(from, to, |at| self.compression_at(at) >= wanted);
+                let found = crossing(from, to, |at| self.compression_at(at) - wanted);
                 if found < to {
                     return Some(found);
                 }
@@ -135,8 +146,8 @@ impl SubCellHand {
             self.press(course, from);
         }
         // Everything is in contact, and the force rises with the whole line.
-        let end = self.sums_at(from);
-        let further = from + (wanted - end.compression()) / end.length();
+        let end = self.standing_at(from);
+        let further = from + (wanted - end.compression) / end.length;
         Some(further).filter(|indentation| indentation.is_finite())
     }
 
@@ -162,12 +173,8 @@ impl SubCellHand {
             };
             let compression = self.compression_at(flat);
             if compression <= wanted {
-                let passes = |at: f64| self.compression_at(at) > wanted;
-                return Ok(if passes(last) {
-                    bisect(flat, last, passes).next_down().max(flat)
-                } else {
-                    last
-                });
+                let passes = |at: f64| self.compression_at(at) - wanted;
+                return Ok(if passes(last) > 0.0 { last_before(flat, last, passes) } else { last });
             }
             smallest = smallest.min(compression);
             to = from;
@@ -269,14 +276,7 @@ impl HandHeld for SubCellHand {
     }
 
     fn point(&self) -> CurvePoint {
-        let sums = self.sums_at(self.indentation);
-        CurvePoint {
-            indentation: self.indentation,
-            force: self.foundation.spring_stiffness() * sums.compression(),
-            contact_length: sums.length() * self.foundation.spacing,
-            springs: sums.springs.unsigned_abs(),
-            fragments: sums.fragments.unsigned_abs(),
-        }
+        self.standing_at(self.indentation).point(self.foundation)
     }
 
     fn fragments(&self) -> Box<dyn Iterator<Item = (usize, usize)> + '_> {

@@ -1,8 +1,12 @@
-//! The piecewise-linear line through the springs, how long its fragments are at each level, and how deep.
+//! The piecewise-linear line through the springs, how long its fragments are at each level, and what their
+//! edges carry.
 
-use crate::contact::ledger::CompensatedSum;
 use crate::contact::{ContactError, ContactTree, resized};
+use crate::parallel::in_parallel;
 use std::sync::Arc;
+
+/// From so many springs on a second thread pays.
+const MANY_SPRINGS: usize = 1 << 15;
 
 /// The level sets {x : c(x) ≤ t} of the line that runs straight from spring to spring, and level for half a
 /// cell beyond the first and the last.
@@ -14,6 +18,15 @@ use std::sync::Arc;
 pub struct LevelSets {
     tree: Arc<ContactTree>,
     nodes: Vec<Levels>,
+    edge_compressions: Vec<f64>,
+    steps: Vec<Step>,
+}
+
+/// Memory of level sets that are no longer needed.
+#[derive(Debug, Default)]
+pub struct LevelMemory {
+    nodes: Vec<Levels>,
+    edge_compressions: Vec<f64>,
     steps: Vec<Step>,
 }
 
@@ -27,8 +40,6 @@ pub struct Levels {
     pub growth: f64,
     /// Gap of the parent, m; infinite at the root.
     pub top: f64,
-    /// ∫ (c − c(x)) dx over it at level c, in cells times metres.
-    pub depth: f64,
 }
 
 /// What of the line lies level with a spring and comes into contact together with it.
@@ -46,53 +57,49 @@ impl LevelSets {
     /// # Errors
     /// [`ContactError::OutOfMemory`].
     pub fn new(tree: Arc<ContactTree>, gaps: &[f64]) -> Result<Self, ContactError> {
-        LevelSets { tree: Arc::clone(&tree), nodes: Vec::new(), steps: Vec::new() }.rebuild(tree, gaps)
+        Self::new_in(LevelMemory::default(), tree, gaps)
     }
 
-    /// Those of another line in the memory of these: fresh memory costs about as much as the level sets
-    /// themselves.
+    /// The same in the memory that [`LevelSets::into_memory`] gave back: fresh memory costs about as much as
+    /// the level sets themselves.
     ///
     /// # Errors
     /// [`ContactError::OutOfMemory`].
-    pub fn rebuild(self, tree: Arc<ContactTree>, gaps: &[f64]) -> Result<Self, ContactError> {
-        let nothing = Levels { length: 0.0, growth: 0.0, top: f64::INFINITY, depth: 0.0 };
-        let mut nodes = resized(self.nodes, tree.len(), nothing)?;
-        let mut steps = self.steps;
+    pub fn new_in(memory: LevelMemory, tree: Arc<ContactTree>, gaps: &[f64]) -> Result<Self, ContactError> {
+        let nothing = Levels { length: 0.0, growth: 0.0, top: f64::INFINITY };
+        let mut nodes = resized(memory.nodes, tree.len(), nothing)?;
+        let mut edge_compressions = resized(memory.edge_compressions, tree.len(), 0.0)?;
+        let half = tree.len() / 2;
+        let (first_nodes, other_nodes) = nodes.split_at_mut(half);
+        let (first_edges, other_edges) = edge_compressions.split_at_mut(half);
+        let measure = |start: usize, nodes: &mut [Levels], edges: &mut [f64], mut steps: Vec<Step>| {
+            for (index, (levels, edge)) in nodes.iter_mut().zip(edges).enumerate() {
+                (*levels, *edge) = measure_node(&tree, gaps, start + index);
+                let length = level_length(gaps, tree.positions()[start + index] as usize);
+                if length > 0.0 {
+                    steps.try_reserve(1).map_err(|_| ContactError::OutOfMemory { springs: gaps.len() })?;
+                    steps.push(Step { node: (start + index) as u32, length });
+                }
+            }
+            Ok(steps)
+        };
+        let mut steps = memory.steps;
         steps.clear();
-        // Depths of the subtrees whose parents are still to come: each is a sum of what is not negative,
-        // compensated, so that it is exact but for a few roundings however many springs there are.
-        let mut depths: Vec<CompensatedSum> = Vec::new();
-        for node in 0..tree.len() {
-            let gap = tree.gap(node);
-            let (left, right) = tree.children(node);
-            let mut depth = CompensatedSum::default();
-            for child in [right, left].into_iter().flatten() {
-                let levels = &mut nodes[child];
-                levels.top = gap;
-                let rise = gap - tree.gap(child);
-                depth.add_sum(depths.pop().unwrap_or_default());
-                depth.add(rise * (levels.length + 0.5 * levels.growth * rise));
-            }
-            let (first, last) = tree.interval(node);
-            let outside = |spring: Option<usize>| spring.and_then(|spring| gaps.get(spring)).copied();
-            let cells = [
-                EdgeCell { inside: gaps[first], outside: outside(first.checked_sub(1)) },
-                EdgeCell { inside: gaps[last], outside: outside(last.checked_add(1)) },
-            ];
-            nodes[node] = Levels {
-                length: (last - first) as f64 + cells[0].share(gap) + cells[1].share(gap),
-                growth: cells[0].growth() + cells[1].growth(),
-                top: f64::INFINITY,
-                depth: depth.total(),
-            };
-            depths.push(depth);
-            let length = level_length(gaps, tree.positions()[node] as usize);
-            if length > 0.0 {
-                steps.try_reserve(1).map_err(|_| ContactError::OutOfMemory { springs: gaps.len() })?;
-                steps.push(Step { node: node as u32, length });
-            }
-        }
-        Ok(LevelSets { tree, nodes, steps })
+        let (first, others) = in_parallel(
+            tree.len() >= MANY_SPRINGS,
+            || measure(0, first_nodes, first_edges, steps),
+            || measure(half, other_nodes, other_edges, Vec::new()),
+        );
+        let (mut steps, others) = (first?, others?);
+        steps.try_reserve(others.len()).map_err(|_| ContactError::OutOfMemory { springs: gaps.len() })?;
+        steps.extend(others);
+        Ok(LevelSets { tree, nodes, edge_compressions, steps })
+    }
+
+    /// Their memory, without the tree, for those of the next line.
+    #[must_use]
+    pub fn into_memory(self) -> LevelMemory {
+        LevelMemory { nodes: self.nodes, edge_compressions: self.edge_compressions, steps: self.steps }
     }
 
     /// The tree of the line.
@@ -111,6 +118,18 @@ impl LevelSets {
         self.nodes[node]
     }
 
+    /// Levels of all nodes.
+    pub(super) fn all_levels(&self) -> &[Levels] {
+        &self.nodes
+    }
+
+    /// What the two edge cells of a node carry at the indentation and the level of its gap, less half a cell
+    /// each, which its outermost springs carry: ∫ (c − c(x)) dx, in cells times metres.
+    #[inline]
+    pub fn edge_compression(&self, node: usize) -> f64 {
+        self.edge_compressions[node]
+    }
+
     /// All that lies level, in the order of the nodes.
     pub fn steps(&self) -> &[Step] {
         &self.steps
@@ -121,6 +140,27 @@ impl LevelSets {
         let place = self.steps.binary_search_by_key(&node, |step| step.node as usize);
         place.ok().and_then(|place| self.steps.get(place)).map_or(0.0, |step| step.length)
     }
+}
+
+/// Levels of a node, and what its edges carry.
+#[inline]
+fn measure_node(tree: &ContactTree, gaps: &[f64], node: usize) -> (Levels, f64) {
+    levels_between(gaps, tree.interval(node), tree.gap(node))
+}
+
+/// Levels of the component that holds these springs, the largest of whose gaps is `gap`, and what its edges
+/// carry.
+#[inline]
+pub(super) fn levels_between(gaps: &[f64], (first, last): (usize, usize), gap: f64) -> (Levels, f64) {
+    let before = if first > 0 { gaps[first - 1] } else { f64::INFINITY };
+    let after = gaps.get(last + 1).copied().unwrap_or(f64::INFINITY);
+    let [left, right] = [EdgeCell::new(gaps[first], before, gap), EdgeCell::new(gaps[last], after, gap)];
+    let levels = Levels {
+        length: (last - first) as f64 + (left.share + right.share),
+        growth: left.growth + right.growth,
+        top: left.outside.min(right.outside),
+    };
+    (levels, 0.5 * (left.excess + right.excess))
 }
 
 /// Cells that lie level with a spring: half of one at an end of the foundation, and the one to its left
@@ -135,29 +175,29 @@ fn level_length(gaps: &[f64], position: usize) -> f64 {
 /// The cell in which an edge moves: from the last spring that is held to the first that is not.
 #[derive(Clone, Copy)]
 struct EdgeCell {
-    inside: f64,
-    /// `None` beyond the foundation's end, half a cell away.
-    outside: Option<f64>,
+    /// Gap of the first spring that is not held, m; infinite beyond the foundation's end, half a cell away.
+    outside: f64,
+    /// Share of the cell that lies at or below the level, which is not below the gap inside.
+    share: f64,
+    /// By how much the share grows with the level, 1/m; zero where it does not, or all at once.
+    growth: f64,
+    /// Twice what it carries at that level, less half a cell at the gap inside, m.
+    excess: f64,
 }
 
 impl EdgeCell {
-    /// Share of the cell that lies at or below a level not below `inside`; a level cell lies there whole.
     #[inline]
-    fn share(self, level: f64) -> f64 {
-        match self.outside {
-            None => 0.5,
-            Some(outside) => {
-                let share = (level - self.inside) / (outside - self.inside);
-                // 0/0 where the cell is level.
-                if share < 1.0 { share.max(0.0) } else { 1.0 }
-            }
+    fn new(inside: f64, outside: f64, level: f64) -> Self {
+        let (height, above) = (outside - inside, level - inside);
+        if height == f64::INFINITY {
+            // Half a cell as level as the spring it belongs to.
+            return EdgeCell { outside, share: 0.5, growth: 0.0, excess: 0.0 };
         }
-    }
-
-    /// By how much the share grows with the level, 1/m; zero where it does not, or all at once.
-    #[inline]
-    fn growth(self) -> f64 {
-        let growth = self.outside.map_or(0.0, |outside| (outside - self.inside).recip());
-        if growth.is_finite() { growth.max(0.0) } else { 0.0 }
+        let share = above / height;
+        // 0/0 where the cell is level: then it lies there whole.
+        let share = if share < 1.0 { share } else { 1.0 };
+        let growth = height.recip();
+        let growth = if growth < f64::INFINITY { growth } else { 0.0 };
+        EdgeCell { outside, share, growth, excess: above * (share - 1.0) }
     }
 }

@@ -1,19 +1,56 @@
 //! The exact solver of second order: the line runs straight from spring to spring, and the edges of a
 //! fragment lie where it crosses the fragment's level.
 //!
-//! The tree and the two passes over it are those of the solver with whole springs; only the length in the
-//! rule of Hess is another, and the force is an integral instead of a sum. Its error falls with the square
-//! of the distance between springs.
+//! The tree and the two passes over it are those of whole springs; only the length in the rule of Hess is
+//! another, and the force is an integral instead of a sum: that sum, and what the two cells at the edges of
+//! each fragment add to it. Its error falls with the square of the distance between springs.
 
-mod body;
+mod adhesive;
+mod bare;
+mod between;
 mod edges;
 mod hand;
 mod level_sets;
 mod moment;
 mod search;
-mod sums;
 
-pub use body::SubCell;
-pub use edges::{Fragment, Slider, SubCellEdges};
+pub use edges::{Edges, Slider, SubCellEdges};
 pub use hand::SubCellHand;
-pub use level_sets::LevelSets;
+pub use level_sets::{LevelMemory, LevelSets};
+pub use moment::SubCellMoment;
+
+use super::exact::Exact;
+use super::springs::{AdhesiveSprings, BareSprings};
+use super::{ContactError, Foundation, HessRule};
+use between::BetweenSprings;
+use std::sync::Arc;
+
+/// A body under adhesion; build one with [`adhesive_in`].
+pub type Adhesive<'a> = Exact<BetweenSprings<AdhesiveSprings<'a, SubCellEdges>>>;
+/// A body without adhesion; build one with [`bare`].
+pub type Bare<'a> = Exact<BetweenSprings<BareSprings<'a>>>;
+
+/// A body over the line of `sets`, separated, at d = 0 just before first touch, in the memory that
+/// [`Exact::into_memory`] gave back.
+///
+/// `hess` is the rule of Hess; with `None` nothing is stretched, and [`bare`] gives the same without a tree.
+/// `samples` (at least 2) curve points are taken on each leg.
+///
+/// # Errors
+/// [`ContactError::OutOfMemory`].
+pub fn adhesive_in(
+    memory: Vec<f64>,
+    sets: &Arc<LevelSets>,
+    hess: Option<HessRule>,
+    foundation: Foundation,
+    samples: usize,
+) -> Result<Adhesive<'_>, ContactError> {
+    let edges = SubCellEdges::new(Arc::clone(sets), hess);
+    Exact::over_tree(AdhesiveSprings::new(sets.tree(), edges, memory)?, foundation, samples)
+}
+
+/// A body without adhesion over the line through springs of these gaps (m, the smallest 0), separated.
+#[must_use]
+pub fn bare(gaps: &[f64], foundation: Foundation, samples: usize) -> Bare<'_> {
+    Exact::new(BetweenSprings(BareSprings::new(gaps)), foundation, samples)
+}

@@ -1,12 +1,30 @@
-//! What the fragments come to at one moment, given where they are.
+//! What fragments come to at one moment, given where they are: for a look at a contact that is not solved
+//! again.
 
-use super::edges::{Slider, SubCellEdges};
-use super::sums::Sums;
-use crate::contact::{CurvePoint, Foundation};
+use super::edges::Slider;
+use crate::contact::tally::GapScale;
+use crate::contact::{CurvePoint, Foundation, HessRule, Tally};
 
-impl SubCellEdges {
+/// A line with edges between its springs, looked at one contact at a time.
+#[derive(Clone, Copy, Debug)]
+pub struct SubCellMoment<'a> {
+    gaps: &'a [f64],
+    scale: GapScale,
+    /// Largest stretch of a fragment of one cell, m.
+    stretch: f64,
+}
+
+impl<'a> SubCellMoment<'a> {
+    /// A line of these gaps, the largest of which is `deepest`, m; `hess` is the rule of Hess, `None` without
+    /// adhesion.
+    #[must_use]
+    pub fn new(gaps: &'a [f64], deepest: f64, hess: Option<HessRule>) -> Self {
+        let stretch = hess.map_or(0.0, |hess| hess.largest_stretch(1));
+        SubCellMoment { gaps, scale: GapScale::for_gaps_up_to(deepest), stretch }
+    }
+
     /// The point of the curve at an indentation, m, at which these fragments, given by first and last
-    /// spring, are in contact.
+    /// spring, are in contact. Takes as long as there are springs in contact.
     #[must_use]
     pub fn point(
         &self,
@@ -14,31 +32,36 @@ impl SubCellEdges {
         indentation: f64,
         fragments: &[(usize, usize)],
     ) -> CurvePoint {
-        let mut sums = Sums::default();
-        for &fragment in fragments {
-            if let Some(root) = self.sets().tree().root_of(fragment) {
-                sums.add(self, root, indentation);
-            }
+        let mut tally = Tally::default();
+        let (mut length, mut compression) = (0.0, 0.0);
+        for &(first, last) in fragments {
+            tally.springs += (last + 1 - first) as i64;
+            tally.fragments += 1;
+            let quanta = self.gaps[first..=last].iter().map(|&gap| i128::from(self.scale.quanta(gap)));
+            tally.quanta += quanta.sum::<i128>();
+            let edges = self.slider((first, last)).edges(indentation);
+            length += edges.length;
+            compression += edges.compression;
         }
+        let compression = tally.compression(indentation, &self.scale) + compression;
         CurvePoint {
             indentation,
-            force: foundation.spring_stiffness() * sums.compression(),
-            contact_length: foundation.spacing * sums.length(),
-            springs: sums.springs.unsigned_abs(),
-            fragments: sums.fragments.unsigned_abs(),
+            force: foundation.spring_stiffness() * compression,
+            contact_length: foundation.spacing * (tally.springs as f64 + length),
+            springs: tally.springs.unsigned_abs(),
+            fragments: tally.fragments.unsigned_abs(),
         }
     }
 
     /// Largest stretch Δl_max, m, that a fragment of so many cells bears, eq. (10).
     #[must_use]
     pub fn largest_stretch(&self, cells: f64) -> f64 {
-        self.stretch() * cells.sqrt()
+        self.stretch * cells.sqrt()
     }
 
-    /// How the fragment with these first and last springs slides; `None` where there can be no such
-    /// fragment.
+    /// How the fragment with these first and last springs slides.
     #[must_use]
-    pub fn slider_of(&self, fragment: (usize, usize)) -> Option<Slider> {
-        self.sets().tree().root_of(fragment).map(|root| self.slider(root))
+    pub fn slider(&self, fragment: (usize, usize)) -> Slider {
+        Slider::of_springs(self.gaps, fragment, self.stretch)
     }
 }

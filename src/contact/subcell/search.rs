@@ -1,73 +1,113 @@
-//! Extremes and crossings of the force of a leg, exact to rounding.
+//! Extremes and crossings of the force inside one interval of a grid, where edges lie between springs.
 //!
-//! Between events, where a fragment forms, lets go or becomes part of a larger one, the force is convex
-//! in the indentation. On any interval it is bounded by its value at one end and the length in contact at
-//! the upper one, because what joins in between was stretched or is only just touched. So intervals are
-//! parted, at an event each time, until they cannot hold what is sought or hold no event.
+//! Between two events the force is convex; at an event, read upwards in d, it falls or stays. An interval is
+//! parted at its middle event until the bounds of a part tell that what is sought cannot lie there, or nothing
+//! happens inside it.
 
-use super::edges::SubCellEdges;
-use super::sums::{Piece, Sums};
+use super::between::Piece;
+use crate::contact::law::Standing;
+use crate::contact::tally::{GapScale, Tally};
 
-/// Halvings that tell neighbouring numbers apart wherever they lie.
-const HALVINGS: usize = 128;
+/// Halvings of an interval in which a crossing or a flat place is looked for: enough for any two numbers.
+const HALVINGS: usize = 1200;
+/// Guesses by interpolation before a crossing is halved down to neighbouring numbers.
+const GUESSES: usize = 20;
 
-/// A point of the curve.
+/// From this indentation on so much is in contact, until the next step.
 #[derive(Clone, Copy, Debug)]
-pub struct Found {
-    pub indentation: f64,
-    pub sums: Sums,
+pub struct Step {
+    pub threshold: f64,
+    pub tally: Tally,
 }
 
-/// The fragments that matter on an interval, and what they come to.
-#[derive(Clone, Copy)]
-pub struct Search<'a> {
-    pub edges: &'a SubCellEdges,
+/// What happens in an interval of indentations.
+pub struct Interval<P> {
+    scale: GapScale,
+    /// The first one at its lowest indentation; then, once they are sorted, its events.
+    steps: Vec<Step>,
+    /// Pieces that are one anywhere in it.
+    pub pieces: Vec<P>,
 }
 
-impl Search<'_> {
-    /// What is in contact at an indentation.
-    pub fn at(&self, pieces: &[Piece], indentation: f64) -> Sums {
-        let mut sums = Sums::default();
-        for piece in pieces.iter().filter(|piece| piece.is_at(indentation)) {
-            sums.add(self.edges, piece.node as usize, indentation);
+/// What is in contact at the lowest and the highest indentation of a part.
+type Ends<'s> = (&'s Standing, &'s Standing);
+/// A bound of the force between two ends.
+type Bound<'s> = &'s dyn Fn(&Standing, &Standing) -> f64;
+
+impl<P: Piece> Interval<P> {
+    /// An interval that begins with this step.
+    pub fn new(scale: GapScale, first: Step) -> Self {
+        Interval { scale, steps: vec![first], pieces: Vec::new() }
+    }
+
+    /// Springs join inside it.
+    pub fn joins(&mut self, threshold: f64, joins: Tally) {
+        self.steps.push(Step { threshold, tally: joins });
+    }
+
+    /// Sorts what has joined: each step then has the tally of all before it.
+    pub fn sort(&mut self) {
+        self.steps[1..].sort_unstable_by(|a, b| a.threshold.total_cmp(&b.threshold));
+        let mut total = Tally::default();
+        for step in &mut self.steps {
+            total += step.tally;
+            step.tally = total;
         }
-        sums
+    }
+
+    fn tally(&self, indentation: f64) -> Tally {
+        let above = self.steps.partition_point(|step| step.threshold <= indentation);
+        self.steps[above.saturating_sub(1)].tally
+    }
+
+    /// What is in contact at an indentation.
+    fn at(&self, pieces: &[P], indentation: f64) -> Standing {
+        self.standing(pieces, indentation, indentation)
+    }
+
+    /// What is in contact at `contact` as it stands at another indentation.
+    fn standing(&self, pieces: &[P], contact: f64, indentation: f64) -> Standing {
+        let tally = self.tally(contact);
+        let (mut length, mut compression) = (0.0, 0.0);
+        for piece in pieces.iter().filter(|piece| piece.is_at(contact)) {
+            let edges = piece.edges(indentation);
+            length += edges.length;
+            compression += edges.compression;
+        }
+        Standing {
+            indentation,
+            springs: tally.springs,
+            fragments: tally.fragments,
+            length: tally.springs as f64 + length,
+            compression: tally.compression(indentation, &self.scale) + compression,
+        }
     }
 
     /// The compression just below `indentation`, as that of what is in contact at `low`.
-    fn below(&self, pieces: &[Piece], low: f64, indentation: f64) -> f64 {
-        let mut sums = Sums::default();
-        for piece in pieces.iter().filter(|piece| piece.is_at(low)) {
-            sums.add(self.edges, piece.node as usize, indentation);
-        }
-        sums.compression()
+    fn below(&self, pieces: &[P], low: f64, indentation: f64) -> f64 {
+        self.standing(pieces, low, indentation).compression
     }
 
     /// By how much the compression grows with the indentation, for what is in contact at `low`.
-    fn stiffness(&self, pieces: &[Piece], low: f64, indentation: f64) -> f64 {
+    fn stiffness(&self, pieces: &[P], low: f64, indentation: f64) -> f64 {
         let standing = pieces.iter().filter(|piece| piece.is_at(low));
-        standing.map(|piece| self.edges.slider(piece.node as usize).stiffness(indentation)).sum()
+        self.tally(low).springs as f64 + standing.map(|piece| piece.stiffness(indentation)).sum::<f64>()
     }
 
-    /// Parts an interval at an event inside it, the middle one of all.
-    fn middle_event(pieces: &[Piece], low: f64, high: f64) -> Option<f64> {
-        let inside = |value: f64| value > low && value < high;
-        let ends = pieces.iter().flat_map(|piece| [piece.from, piece.to]);
-        let mut events: Vec<f64> = ends.filter(|&value| inside(value)).collect();
-        if events.is_empty() {
-            return None;
-        }
-        let middle = events.len() / 2;
-        Some(*events.select_nth_unstable_by(middle, f64::total_cmp).1)
+    /// An event inside a part of it, the middle one of all.
+    fn middle_event(&self, low: f64, high: f64) -> Option<f64> {
+        let first = self.steps.partition_point(|step| step.threshold <= low);
+        let end = self.steps.partition_point(|step| step.threshold < high);
+        (first < end).then(|| self.steps[first + (end - first) / 2].threshold)
     }
 
-    /// The pieces of an interval that matter on a part of it.
-    fn part(pieces: &[Piece], low: f64, high: f64) -> Vec<Piece> {
-        pieces.iter().copied().filter(|piece| piece.from <= high && piece.to > low).collect()
+    /// The pieces that matter on a part of it.
+    fn part(pieces: &[P], low: f64, high: f64) -> Vec<P> {
+        pieces.iter().copied().filter(|piece| piece.from() <= high && piece.to() > low).collect()
     }
 
     /// Where between `low` and `high` the convex force of what is in contact at `low` is smallest.
-    fn flat(&self, pieces: &[Piece], low: f64, high: f64) -> f64 {
+    fn flat(&self, pieces: &[P], low: f64, high: f64) -> f64 {
         if self.stiffness(pieces, low, low) >= 0.0 {
             return low;
         }
@@ -77,127 +117,121 @@ impl Search<'_> {
         bisect(low, high, |at| self.stiffness(pieces, low, at) >= 0.0)
     }
 
-    /// Makes `best` the smallest force between `low` and `high`, both of which it knows already.
-    pub fn smallest(&self, pieces: &[Piece], low: f64, high: f64, at_high: Sums, best: &mut Found) {
-        let bound = at_high.compression() - (high - low) * at_high.length();
-        if bound >= best.sums.compression() || low.next_up() >= high {
+    /// Makes `best` the smallest force between two ends, both of which it knows already.
+    pub fn smallest(&self, ends: Ends<'_>, bound: Bound<'_>, best: &mut Standing) {
+        self.smallest_of(&self.pieces, ends, bound, best);
+    }
+
+    fn smallest_of(&self, pieces: &[P], (low, high): Ends<'_>, bound: Bound<'_>, best: &mut Standing) {
+        let (from, to) = (low.indentation, high.indentation);
+        if bound(low, high) >= best.compression || from.next_up() >= to {
             return;
         }
-        match Self::middle_event(pieces, low, high) {
+        match self.middle_event(from, to) {
             None => {
-                let at = self.flat(pieces, low, high).min(high.next_down());
-                self.take_smaller(pieces, at, best);
+                let at = self.flat(pieces, from, to).min(to.next_down());
+                self.take(pieces, at, best, |a, b| a < b);
             }
             Some(event) => {
-                let at_event = self.take_smaller(pieces, event, best);
-                let upper = Self::part(pieces, event, high);
-                self.smallest(&upper, event, high, at_high, best);
-                let lower = Self::part(pieces, low, event);
-                self.smallest(&lower, low, event, at_event, best);
+                let middle = self.take(pieces, event, best, |a, b| a < b);
+                self.smallest_of(&Self::part(pieces, event, to), (&middle, high), bound, best);
+                self.smallest_of(&Self::part(pieces, from, event), (low, &middle), bound, best);
             }
         }
     }
 
-    fn take_smaller(&self, pieces: &[Piece], at: f64, best: &mut Found) -> Sums {
-        let sums = self.at(pieces, at);
-        if sums.compression() < best.sums.compression() {
-            *best = Found { indentation: at, sums };
-        }
-        sums
+    /// Makes `best` the largest force between two ends, both of which it knows already. Where the force falls
+    /// at once, the largest number before counts.
+    pub fn largest(&self, ends: Ends<'_>, bound: Bound<'_>, best: &mut Standing) {
+        self.largest_of(&self.pieces, ends, bound, best);
     }
 
-    /// Makes `best` the largest force between `low` and `high`, both of which it knows already. Where the
-    /// force falls at once, the largest number before counts.
-    pub fn largest(
+    fn largest_of(&self, pieces: &[P], (low, high): Ends<'_>, bound: Bound<'_>, best: &mut Standing) {
+        let (from, to) = (low.indentation, high.indentation);
+        if bound(low, high) <= best.compression || from.next_up() >= to {
+            return;
+        }
+        match self.middle_event(from, to) {
+            None => {
+                self.take(pieces, to.next_down(), best, |a, b| a > b);
+            }
+            Some(event) => {
+                let middle = self.take(pieces, event, best, |a, b| a > b);
+                self.largest_of(&Self::part(pieces, event, to), (&middle, high), bound, best);
+                self.largest_of(&Self::part(pieces, from, event), (low, &middle), bound, best);
+            }
+        }
+    }
+
+    fn take(
         &self,
-        pieces: &[Piece],
-        low: f64,
-        high: f64,
-        at_low: Sums,
-        at_high: Sums,
-        best: &mut Found,
-    ) {
-        let bound = at_low.compression() + (high - low) * at_high.length();
-        if bound <= best.sums.compression() || low.next_up() >= high {
-            return;
+        pieces: &[P],
+        at: f64,
+        best: &mut Standing,
+        is_better: impl Fn(f64, f64) -> bool,
+    ) -> Standing {
+        let standing = self.at(pieces, at);
+        if is_better(standing.compression, best.compression) {
+            *best = standing;
         }
-        match Self::middle_event(pieces, low, high) {
-            None => {
-                self.take_larger(pieces, high.next_down(), best);
-            }
-            Some(event) => {
-                let at_event = self.take_larger(pieces, event, best);
-                let upper = Self::part(pieces, event, high);
-                self.largest(&upper, event, high, at_event, at_high, best);
-                let lower = Self::part(pieces, low, event);
-                self.largest(&lower, low, event, at_low, at_event, best);
-            }
-        }
+        standing
     }
 
-    fn take_larger(&self, pieces: &[Piece], at: f64, best: &mut Found) -> Sums {
-        let sums = self.at(pieces, at);
-        if sums.compression() > best.sums.compression() {
-            *best = Found { indentation: at, sums };
-        }
-        sums
+    /// The smallest indentation above the lower end, up to the higher one, with at least this compression; at
+    /// the lower end it is smaller.
+    pub fn first_at_least(&self, ends: Ends<'_>, bound: Bound<'_>, wanted: f64) -> Option<f64> {
+        self.first_of(&self.pieces, ends, bound, wanted)
     }
 
-    /// The smallest indentation above `low`, up to `high`, with at least this compression; at `low` it is
-    /// smaller.
-    pub fn first_at_least(&self, pieces: &[Piece], low: f64, high: f64, wanted: f64) -> Option<f64> {
-        let (at_low, at_high) = (self.at(pieces, low), self.at(pieces, high));
-        if at_low.compression() + (high - low) * at_high.length() < wanted {
+    fn first_of(&self, pieces: &[P], (low, high): Ends<'_>, bound: Bound<'_>, wanted: f64) -> Option<f64> {
+        if bound(low, high) < wanted {
             return None;
         }
-        let reaches = |compression: f64| compression >= wanted;
-        match Self::middle_event(pieces, low, high) {
-            None if reaches(self.below(pieces, low, high)) => {
-                // Convex and below it at `low`: it gets there once.
-                let found = bisect(low, high, |at| reaches(self.below(pieces, low, at)));
-                Some(if found < high || reaches(at_high.compression()) { found } else { high.next_down() })
+        let (from, to) = (low.indentation, high.indentation);
+        match self.middle_event(from, to) {
+            None if self.below(pieces, from, to) >= wanted => {
+                // Convex and below it at first: it gets there once.
+                let found = crossing(from, to, |at| self.below(pieces, from, at) - wanted);
+                Some(if found < to || high.compression >= wanted { found } else { to.next_down() })
             }
-            None => reaches(at_high.compression()).then_some(high),
+            None => (high.compression >= wanted).then_some(to),
             Some(event) => {
-                let lower = Self::part(pieces, low, event);
-                self.first_at_least(&lower, low, event, wanted).or_else(|| {
-                    let upper = Self::part(pieces, event, high);
-                    self.first_at_least(&upper, event, high, wanted)
-                })
+                let middle = self.at(pieces, event);
+                let lower = Self::part(pieces, from, event);
+                self.first_of(&lower, (low, &middle), bound, wanted)
+                    .or_else(|| self.first_of(&Self::part(pieces, event, to), (&middle, high), bound, wanted))
             }
         }
     }
 
-    /// The largest indentation below `high`, down to `low`, with at most this compression; at `high` it is
-    /// larger.
-    pub fn last_at_most(&self, pieces: &[Piece], low: f64, high: f64, wanted: f64) -> Option<f64> {
-        let at_high = self.at(pieces, high);
-        if at_high.compression() - (high - low) * at_high.length() > wanted || low >= high {
+    /// The largest indentation below the higher end, down to the lower one, with at most this compression; at
+    /// the higher end it is larger.
+    pub fn last_at_most(&self, ends: Ends<'_>, bound: Bound<'_>, wanted: f64) -> Option<f64> {
+        self.last_of(&self.pieces, ends, bound, wanted)
+    }
+
+    fn last_of(&self, pieces: &[P], (low, high): Ends<'_>, bound: Bound<'_>, wanted: f64) -> Option<f64> {
+        let (from, to) = (low.indentation, high.indentation);
+        if bound(low, high) > wanted || from >= to {
             return None;
         }
-        let reaches = |compression: f64| compression <= wanted;
-        match Self::middle_event(pieces, low, high) {
+        match self.middle_event(from, to) {
             None => {
-                let flat = self.flat(pieces, low, high);
-                if reaches(self.below(pieces, low, flat)) {
+                let flat = self.flat(pieces, from, to);
+                if self.below(pieces, from, flat) <= wanted {
                     // It rises from there on: the last place where it has not passed.
-                    let passes = |at: f64| !reaches(self.below(pieces, low, at));
-                    return Some(if passes(high) {
-                        bisect(flat, high, passes).next_down().max(flat)
-                    } else {
-                        flat
-                    });
+                    let passes = |at: f64| self.below(pieces, from, at) - wanted;
+                    return Some(if passes(to) > 0.0 { last_before(flat, to, passes) } else { flat });
                 }
-                reaches(self.at(pieces, low).compression()).then_some(low)
+                (low.compression <= wanted).then_some(from)
             }
             Some(event) => {
-                let upper = Self::part(pieces, event, high);
-                self.last_at_most(&upper, event, high, wanted).or_else(|| {
-                    let lower = Self::part(pieces, low, event);
-                    if reaches(self.at(&lower, event).compression()) {
+                let middle = self.at(pieces, event);
+                self.last_of(&Self::part(pieces, event, to), (&middle, high), bound, wanted).or_else(|| {
+                    if middle.compression <= wanted {
                         return Some(event);
                     }
-                    self.last_at_most(&lower, low, event, wanted)
+                    self.last_of(&Self::part(pieces, from, event), (low, &middle), bound, wanted)
                 })
             }
         }
@@ -214,4 +248,55 @@ pub fn bisect(mut low: f64, mut high: f64, is_past: impl Fn(f64) -> bool) -> f64
         if is_past(middle) { high = middle } else { low = middle }
     }
     high
+}
+
+/// The smallest number above `low`, up to `high`, at which `value`, which rises through zero once, is at least
+/// zero; at `low` it is below.
+pub fn crossing(low: f64, high: f64, value: impl Fn(f64) -> f64) -> f64 {
+    let (low, high) = enclose(low, high, &value, |value| value >= 0.0);
+    bisect(low, high, |at| value(at) >= 0.0)
+}
+
+/// The largest number from `low` on, below `high`, at which `value`, which rises through zero once, is at most
+/// zero; at `high` it is above.
+pub fn last_before(low: f64, high: f64, value: impl Fn(f64) -> f64) -> f64 {
+    let (from, to) = enclose(low, high, &value, |value| value > 0.0);
+    bisect(from, to, |at| value(at) > 0.0).next_down().max(low)
+}
+
+/// Narrows an interval by interpolation: it is still not past at its lower end and past at its higher one.
+///
+/// The value at an end that has stayed is halved (the Illinois rule), so that both ends move; where this does
+/// not narrow the interval fast it is halved as well.
+fn enclose(
+    mut low: f64,
+    mut high: f64,
+    value: &impl Fn(f64) -> f64,
+    is_past: impl Fn(f64) -> bool,
+) -> (f64, f64) {
+    let (mut below, mut above) = (value(low), value(high));
+    let mut stayed = 0_i32;
+    for guess in 0..GUESSES {
+        let middle = low + 0.5 * (high - low);
+        let between = high - above * ((high - low) / (above - below));
+        let at = if guess % 4 != 3 && between > low && between < high { between } else { middle };
+        if at <= low || at >= high {
+            break;
+        }
+        let found = value(at);
+        if is_past(found) {
+            (high, above) = (at, found);
+            if stayed > 0 {
+                below *= 0.5;
+            }
+            stayed = 1;
+        } else {
+            (low, below) = (at, found);
+            if stayed < 0 {
+                above *= 0.5;
+            }
+            stayed = -1;
+        }
+    }
+    (low, high)
 }

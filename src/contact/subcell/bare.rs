@@ -1,0 +1,166 @@
+//! Edges without adhesion: each cell fills as the indentation passes it, on the way in as on the way out. No
+//! tree, no rule, no pass.
+
+use super::between::{EdgeSprings, Piece};
+use super::edges::Edges;
+use crate::contact::ledger::{CompensatedSum, Grid};
+use crate::contact::springs::BareSprings;
+
+/// A cell between two springs, in contact in part while the indentation lies between their gaps.
+#[derive(Clone, Copy, Debug)]
+pub struct Cell {
+    /// The smaller gap, m.
+    low: f64,
+    /// The larger one, m.
+    high: f64,
+    /// Share per metre, 1/m.
+    growth: f64,
+}
+
+impl Cell {
+    /// The cell between two springs; `None` where it is level and fills all at once.
+    #[inline]
+    fn between(left: f64, right: f64) -> Option<Cell> {
+        let (low, high) = if left < right { (left, right) } else { (right, left) };
+        let growth = (high - low).recip();
+        (growth < f64::INFINITY).then_some(Cell { low, high, growth })
+    }
+}
+
+impl Piece for Cell {
+    fn from(&self) -> f64 {
+        self.low
+    }
+
+    fn to(&self) -> f64 {
+        self.high
+    }
+
+    #[inline]
+    fn edges(&self, indentation: f64) -> Edges {
+        // Of the spring that touches half a cell counts already.
+        let above = indentation - self.low;
+        let share = above * self.growth;
+        Edges { length: share - 0.5, compression: 0.5 * above * (share - 1.0) }
+    }
+
+    fn stiffness(&self, indentation: f64) -> f64 {
+        self.edges(indentation).length
+    }
+}
+
+/// What cells add as a quadratic in the way from a point of the grid: `compression + length x + curvature x²`;
+/// the length is its derivative.
+#[derive(Clone, Copy, Default)]
+struct Quadratic {
+    compression: CompensatedSum,
+    length: CompensatedSum,
+    curvature: CompensatedSum,
+}
+
+impl Quadratic {
+    /// Adds a cell, or takes it away, at a point.
+    #[inline]
+    fn add(&mut self, cell: &Cell, point: f64, sign: f64) {
+        let Edges { length, compression } = cell.edges(point);
+        self.compression.add(sign * compression);
+        self.length.add(sign * length);
+        self.curvature.add(sign * 0.5 * cell.growth);
+    }
+
+    fn add_all(&mut self, other: Quadratic) {
+        self.compression.add_sum(other.compression);
+        self.length.add_sum(other.length);
+        self.curvature.add_sum(other.curvature);
+    }
+
+    /// The same from a point further on.
+    fn shift(&mut self, way: f64) {
+        let (length, bend) = (self.length.total(), way * self.curvature.total());
+        self.compression.add(way * (length + bend));
+        self.length.add(2.0 * bend);
+    }
+}
+
+impl BareSprings<'_> {
+    /// What the cells add at one indentation, whatever leg leads there.
+    fn edges_at(&self, indentation: f64) -> Edges {
+        let (mut length, mut compression) = (CompensatedSum::default(), CompensatedSum::default());
+        for cell in self.gaps().windows(2) {
+            let (left, right) = (cell[0], cell[1]);
+            if (left <= indentation) == (right <= indentation) {
+                continue;
+            }
+            if let Some(cell) = Cell::between(left, right) {
+                let edges = cell.edges(indentation);
+                length.add(edges.length);
+                compression.add(edges.compression);
+            }
+        }
+        Edges { length: length.total(), compression: compression.total() }
+    }
+}
+
+impl EdgeSprings for BareSprings<'_> {
+    type Piece = Cell;
+
+    fn each_piece(&self, low: f64, high: f64, mut see: impl FnMut(Cell)) {
+        for cell in self.gaps().windows(2) {
+            let (left, right) = (cell[0], cell[1]);
+            if (left <= high || right <= high)
+                && (left > low || right > low)
+                && let Some(cell) = Cell::between(left, right)
+            {
+                see(cell);
+            }
+        }
+    }
+
+    /// A cell enters at the first point it reaches and leaves at the first beyond it; between them the sum of
+    /// all is one quadratic, so that no cell is looked at more often however many points it passes.
+    fn edges_along(&self, grid: &Grid) -> Vec<Edges> {
+        let points = grid.points();
+        let last = points.len() - 1;
+        let place = |gap: f64| if gap > points[last] { points.len() } else { grid.first_at_least(gap) };
+        let mut changes = vec![Quadratic::default(); points.len()];
+        let mut before = self.gaps().first().map(|&gap| (gap, place(gap)));
+        for &gap in self.gaps() {
+            let here = (gap, place(gap));
+            if let Some(before) = before.replace(here)
+                && before.1 != here.1
+                && let Some(cell) = Cell::between(before.0, here.0)
+            {
+                let (enters, leaves) = (before.1.min(here.1), before.1.max(here.1));
+                changes[enters].add(&cell, points[enters], 1.0);
+                if leaves <= last {
+                    changes[leaves].add(&cell, points[leaves], -1.0);
+                }
+            }
+        }
+        let mut sum = Quadratic::default();
+        let mut from = points[0];
+        let mut edges: Vec<Edges> = points
+            .iter()
+            .zip(changes)
+            .map(|(&point, change)| {
+                sum.shift(point - from);
+                from = point;
+                sum.add_all(change);
+                Edges { length: sum.length.total(), compression: sum.compression.total() }
+            })
+            .collect();
+        // Where a leg begins and ends the next one goes on, so there the same is found whatever the grid.
+        for index in [0, last] {
+            edges[index] = self.edges_at(points[index]);
+        }
+        edges
+    }
+
+    fn edges_and_stretches(&self, grid: &Grid, _: f64) -> (Vec<Edges>, f64) {
+        (self.edges_along(grid), 0.0)
+    }
+
+    fn is_monotone(&self) -> bool {
+        true
+    }
+}
