@@ -100,7 +100,9 @@ fn split_number(text: &str) -> Option<(&str, i32, &str)> {
         let length = unsigned.find(|c: char| !c.is_ascii_digit()).unwrap_or(unsigned.len());
         if length > 0 {
             let split = after.len() - unsigned.len() + length;
-            let exponent = after[..split].parse().ok()?;
+            // An exponent of more digits than these has: whatever it is, the number is zero or too large.
+            let beyond = if after.starts_with('-') { i32::MIN / 2 } else { i32::MAX / 2 };
+            let exponent = after[..split].parse().unwrap_or(beyond);
             return Some((digits, exponent, &after[split..]));
         }
     }
@@ -219,6 +221,8 @@ mod tests {
             ("100 mrad", "rad", 0.1),
             ("3e5", "m^(1−n)", 3e5),
             ("3 m^(1−n)", "m^(1−n)", 3.0),
+            ("0e99999999999 km", "m", 0.0),
+            ("1e-99999999999 nm", "m", 0.0),
         ] {
             assert_eq!(parse_quantity(text, unit), Ok(value), "{text} {unit}");
         }

@@ -6,6 +6,13 @@ use std::path::Path;
 /// Largest file read, bytes.
 const LARGEST_FILE: u64 = 1 << 30;
 
+/// Largest position and height read, m, and largest slope between two points: from there on lengths, mean
+/// squares and differences would go beyond all numbers.
+const LARGEST: f64 = 1.0e9;
+
+/// Longer columns are shortened in messages.
+const MOST_SHOWN: usize = 40;
+
 /// A profile measured along a line.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MeasuredProfile {
@@ -31,13 +38,15 @@ impl MeasuredProfile {
 
     /// Reads a profile from text: a line for each point with x and z in m, between them a comma,
     /// semicolon, tab or spaces; x ascending. Empty lines, lines that begin with `#` and a first line
-    /// of column names are skipped.
+    /// of column names are skipped, and so is a byte order mark. Positions and heights are at most 1e9 m,
+    /// slopes from point to point at most 1e9.
     ///
     /// # Errors
     /// What is wrong, with its line number.
     pub fn parse(text: &str) -> Result<Self, String> {
         let mut profile = MeasuredProfile { positions: Vec::new(), heights: Vec::new() };
         let mut header_allowed = true;
+        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         for (number, line) in text.lines().enumerate().map(|(index, line)| (index + 1, line.trim())) {
             if line.is_empty() || line.starts_with('#') {
                 continue;
@@ -56,12 +65,23 @@ impl MeasuredProfile {
                 return Err(format!("line {number}: {} columns; allowed: x and z", columns.len()));
             };
             let number_in = |column: &str| match column.parse::<f64>() {
-                Ok(value) if value.is_finite() => Ok(value),
-                _ => Err(format!("line {number}: {column:?}; allowed: a finite number in m")),
+                Ok(value) if value.abs() <= LARGEST => Ok(value),
+                _ => Err(format!(
+                    "line {number}: {:?}; allowed: a number from -{LARGEST:e} to {LARGEST:e} in m",
+                    shown(column)
+                )),
             };
             let (x, z) = (number_in(x)?, number_in(z)?);
-            if let Some(&before) = profile.positions.last().filter(|&&before| before >= x) {
-                return Err(format!("line {number}: x = {x:e} after {before:e}; allowed: x ascending"));
+            if let (Some(&before), Some(&height)) = (profile.positions.last(), profile.heights.last()) {
+                if before >= x {
+                    return Err(format!("line {number}: x = {x:e} after {before:e}; allowed: x ascending"));
+                }
+                let slope = (z - height).abs() / (x - before);
+                if slope > LARGEST {
+                    return Err(format!(
+                        "line {number}: a slope of {slope:e} from the point before; allowed: at most {LARGEST:e}"
+                    ));
+                }
             }
             profile.positions.push(x);
             profile.heights.push(z);
@@ -70,6 +90,18 @@ impl MeasuredProfile {
             return Err(format!("{} points; allowed: at least 2", profile.positions.len()));
         }
         Ok(profile)
+    }
+
+    /// Positions x, m, ascending; at least two.
+    #[must_use]
+    pub fn positions(&self) -> &[f64] {
+        &self.positions
+    }
+
+    /// Heights z, m, as measured: one for each position.
+    #[must_use]
+    pub fn heights(&self) -> &[f64] {
+        &self.heights
     }
 
     /// Length covered, m.
@@ -83,8 +115,12 @@ impl MeasuredProfile {
     #[must_use]
     pub fn rms_height_and_gradient(&self) -> (f64, f64) {
         let length = self.length();
-        let pieces =
-            || self.positions.windows(2).zip(self.heights.windows(2)).map(|(x, z)| (x[1] - x[0], z[0], z[1]));
+        // Against an offset far larger than the roughness: differences of heights, not heights.
+        let level = self.heights[0];
+        let pieces = || {
+            let heights = self.heights.windows(2).map(|z| (z[0] - level, z[1] - level));
+            self.positions.windows(2).zip(heights).map(|(x, (a, b))| (x[1] - x[0], a, b))
+        };
         let mean = pieces().map(|(dx, a, b)| dx * (a + b) / 2.0).sum::<f64>() / length;
         let square = pieces()
             .map(|(dx, a, b)| (a - mean, b - mean, dx))
@@ -124,6 +160,14 @@ impl MeasuredProfile {
     }
 }
 
+/// A column for a message, not too long.
+fn shown(column: &str) -> String {
+    match column.char_indices().nth(MOST_SHOWN) {
+        Some((end, _)) => format!("{}…", &column[..end]),
+        None => column.to_string(),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -146,6 +190,28 @@ mod tests {
         assert!(wrong("0 1 2\n").contains("line 1: 3 columns"));
         assert!(wrong("x z\n0 1\nx z\n").contains("line 3"));
         assert!(wrong("").contains("0 points"));
+        let long = wrong(&format!("0 {}", "κ".repeat(1000)));
+        assert!(long.chars().count() < 120, "{long}");
+    }
+
+    #[test]
+    fn what_a_length_or_a_mean_square_cannot_hold_is_refused() {
+        let wrong = |text: &str| MeasuredProfile::parse(text).unwrap_err();
+        assert_eq!(wrong("-1e308 0\n1e308 0"), "line 1: \"-1e308\"; allowed: a number from -1e9 to 1e9 in m");
+        assert!(wrong("0 0\n1 -1.1e9").contains("line 2: \"-1.1e9\""));
+        assert_eq!(
+            wrong("0 0\n0.5 1e9\n1 0"),
+            "line 2: a slope of 2e9 from the point before; allowed: at most 1e9"
+        );
+        let steepest = MeasuredProfile::parse("-1e9 1e9\n-999999998 -1e9\n1e9 1e9").unwrap();
+        let (height, gradient) = steepest.rms_height_and_gradient();
+        assert!(height.is_finite() && gradient.is_finite() && steepest.length() == 2e9);
+    }
+
+    #[test]
+    fn a_byte_order_mark_is_no_number() {
+        assert_eq!(MeasuredProfile::parse("\u{feff}0 1\n1 2"), MeasuredProfile::parse("0 1\n1 2"));
+        assert!(MeasuredProfile::parse("0 1\n\u{feff}1 2").unwrap_err().contains("line 2"));
     }
 
     #[test]
@@ -155,5 +221,8 @@ mod tests {
         let (height, gradient) = profile.rms_height_and_gradient();
         assert!((height - (1.0_f64 / 12.0).sqrt()).abs() < 1e-15);
         assert!((gradient - 1.0).abs() < 1e-15);
+        // A level is no roughness.
+        let level = MeasuredProfile::parse("6e-5 5\n1 5\n3 5").unwrap();
+        assert_eq!(level.rms_height_and_gradient(), (0.0, 0.0));
     }
 }

@@ -1,0 +1,87 @@
+//! What must hold for whatever is read: properties that panic where they do not hold.
+//!
+//! The targets of cargo-fuzz call them with what it makes up; `tests/fuzz_corpus.rs` includes this file
+//! and calls them with the seeds, with what was found, and with mutations of both.
+
+mod overrides;
+mod profile;
+mod quantity;
+mod scene;
+
+pub use overrides::overrides;
+pub use profile::profile;
+pub use quantity::quantity;
+pub use scene::scene;
+
+use asperity::scene::{Document, Origin, SceneError, SceneErrors, to_ron};
+use std::borrow::Cow;
+
+/// A property of all bytes.
+pub type Property = fn(&[u8]);
+
+/// All targets: the name is that of the file in `fuzz_targets` and of the folders of seeds and corpus.
+pub const TARGETS: &[(&str, Property)] =
+    &[("scene", scene), ("overrides", overrides), ("quantity", quantity), ("profile", profile)];
+
+/// Longest line of a message, in characters: names, values and the field's own words, none without end.
+const LONGEST_MESSAGE: usize = 2000;
+
+/// What is no UTF-8 is refused where files are read; here it must not waste an input.
+fn text(bytes: &[u8]) -> Cow<'_, str> {
+    String::from_utf8_lossy(bytes)
+}
+
+/// A message is one line that says something and carries nothing that moves a terminal's cursor.
+fn assert_message(message: &str) {
+    assert!(message.chars().any(char::is_alphabetic), "a message without words: {message:?}");
+    assert!(!message.contains(char::is_control), "a message with control characters: {message:?}");
+    let length = message.chars().count();
+    assert!(length <= LONGEST_MESSAGE, "a message of {length} characters: {message:?}");
+}
+
+/// Each error says what is wrong, where, and either what is allowed or why it is refused; `assert_origin`
+/// judges the place.
+fn assert_errors(errors: &SceneErrors, assert_origin: impl Fn(&Origin)) {
+    let count = errors.iter().count();
+    assert!(count <= 1000, "{count} errors");
+    let lines = errors.to_string().lines().count();
+    assert_eq!(lines, count, "an error is one line: {errors}");
+    for error in errors.iter() {
+        let SceneError { origin, field: _, value: _, allowed, message } = error;
+        assert!(!(allowed.is_empty() && message.is_empty()), "{error:?}");
+        assert_message(&error.to_string());
+        assert_message(&error.what().to_string());
+        let counted = *origin == Origin::Scene && message.starts_with("and ");
+        if !counted {
+            assert_origin(origin);
+        }
+    }
+}
+
+/// A place stands in the text, or just behind its last character.
+fn assert_place(text: &str, line: usize, column: usize) {
+    let line_text = line.checked_sub(1).and_then(|index| text.split('\n').nth(index));
+    let Some(line_text) = line_text else { panic!("line {line} is not in {text:?}") };
+    assert!((1..=line_text.chars().count() + 1).contains(&column), "{line}:{column} is not in {text:?}");
+}
+
+/// What must hold for every document, however it came about.
+fn assert_document(document: &Document) {
+    let scene = document.scene();
+    assert_eq!(asperity::scene::check(scene), [], "{}", document.text());
+    let read =
+        |text: &str| Document::parse(text, "again").unwrap_or_else(|errors| panic!("{errors}\n{text}"));
+    assert_eq!(read(document.text()).scene(), scene, "the text is that of the scene");
+    // Written in canonical form it is the same, and stays as it is.
+    let written = to_ron(scene);
+    assert_eq!(read(&written).scene(), scene, "{written}");
+    assert_eq!(to_ron(read(&written).scene()), written);
+}
+
+/// The overrides that are said to make one scene of another do.
+fn assert_leads(base: &Document, target: &Document) {
+    let overrides = target.overrides_from(base);
+    let reached = base.set_all(&overrides).unwrap_or_else(|errors| panic!("{overrides:?}: {errors}"));
+    assert_eq!(reached.scene(), target.scene(), "{overrides:?}");
+    assert_eq!(overrides.is_empty(), base.scene() == target.scene());
+}

@@ -1,0 +1,76 @@
+//! Measured profiles.
+
+use super::{assert_message, text};
+use asperity::surface::MeasuredProfile;
+
+/// A profile that is read has the points of its lines, all finite, and can be sampled; what is refused is
+/// refused with a line of it.
+pub fn profile(bytes: &[u8]) {
+    let text = text(bytes);
+    let read = MeasuredProfile::parse(&text);
+    // Neither the kind of separator nor of line break matters.
+    assert_eq!(MeasuredProfile::parse(&text.replace(',', ";")), read);
+    assert_eq!(MeasuredProfile::parse(&text.replace('\n', "\r\n")), read);
+    match read {
+        Ok(profile) => {
+            assert_points(&text, &profile);
+            assert_samples(&profile);
+        }
+        Err(message) => {
+            assert_message(&message);
+            assert!(message.contains("allowed: "), "{message}");
+            let line = message.strip_prefix("line ").and_then(|rest| rest.split_once(": "));
+            match line.map(|(number, _)| number.parse::<usize>()) {
+                Some(number) => {
+                    let lines = text.lines().count();
+                    assert!(number.is_ok_and(|number| (1..=lines).contains(&number)), "{lines}: {message}");
+                }
+                None => assert!(message.contains(" points; "), "{message}"),
+            }
+        }
+    }
+}
+
+fn assert_points(text: &str, profile: &MeasuredProfile) {
+    let (positions, heights) = (profile.positions(), profile.heights());
+    let is_data = |line: &&str| !line.trim().is_empty() && !line.trim().starts_with('#');
+    let lines = text.strip_prefix('\u{feff}').unwrap_or(text).lines().filter(is_data).count();
+    // A first line of names is no point.
+    assert!(positions.len() == lines || positions.len() + 1 == lines, "{} of {lines}", positions.len());
+    assert!(positions.len() >= 2 && positions.len() == heights.len());
+    assert!(positions.iter().chain(heights).all(|value| value.is_finite()));
+    assert!(positions.windows(2).all(|pair| pair[0] < pair[1]));
+    assert!(profile.length().is_finite() && profile.length() > 0.0, "{}", profile.length());
+    let (rms_height, rms_gradient) = profile.rms_height_and_gradient();
+    assert!(rms_height.is_finite() && rms_height >= 0.0, "{rms_height}");
+    assert!(rms_gradient.is_finite() && rms_gradient >= 0.0, "{rms_gradient}");
+    let (low, high) = ends(heights);
+    assert!(rms_height <= (high - low) * (1.0 + 1e-9) + f64::MIN_POSITIVE.sqrt(), "{rms_height}");
+}
+
+fn assert_samples(profile: &MeasuredProfile) {
+    let length = profile.length();
+    let (low, high) = ends(profile.heights());
+    let level = profile.heights()[0];
+    let margin = 4.0 * f64::EPSILON * (high - low);
+    for part in [1.0, 0.5, 1e-3] {
+        for points in [1, 2, 7, 64] {
+            let heights = profile.sample(part * length, points).unwrap_or_else(|error| panic!("{error}"));
+            assert_eq!(heights.len(), points);
+            for height in heights {
+                let inside = (low - level - margin..=high - level + margin).contains(&height);
+                assert!(inside, "{height} is not from {low} to {high} above {level}");
+            }
+        }
+    }
+    // More memory than there is, and a longer line than the profile, are refused and not tried.
+    let refused = [profile.sample(length, usize::MAX / 4), profile.sample(1.01 * length + 1e-300, 2)];
+    for message in refused.map(|sampled| sampled.map(|_| ()).unwrap_err()) {
+        assert_message(&message);
+    }
+}
+
+fn ends(values: &[f64]) -> (f64, f64) {
+    let wider = |(low, high): (f64, f64), &value: &f64| (low.min(value), high.max(value));
+    values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), wider)
+}

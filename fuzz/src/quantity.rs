@@ -1,0 +1,54 @@
+//! Numbers with units, as they are typed.
+
+use super::{assert_message, text};
+use asperity::scene::{FIELDS, LEG_FORCE, LEG_INDENTATION, format_quantity, parse_quantity};
+
+/// The largest number any field allows.
+const LARGEST: f64 = 1.0e300;
+
+/// The text is read for each unit of the table of fields.
+///
+/// What is read is finite, is read the same by whoever reads plain numbers, and is shown so that reading it
+/// gives what is shown.
+pub fn quantity(bytes: &[u8]) {
+    let text = text(bytes);
+    let mut units: Vec<&str> =
+        FIELDS.iter().chain([&LEG_FORCE, &LEG_INDENTATION]).map(|one| one.unit).collect();
+    units.sort_unstable();
+    units.dedup();
+    let plain = text.trim().parse().ok().filter(|plain: &f64| plain.is_finite());
+    for unit in units {
+        let read = parse_quantity(&text, unit);
+        if let Some(plain) = plain {
+            let same = |read: f64| read.to_bits() == plain.to_bits();
+            assert!(read.as_ref().is_ok_and(|&read| same(read)), "{text:?} {unit}: {read:?}");
+        }
+        match read {
+            Ok(value) => assert_shown(&text, value, unit),
+            Err(error) => {
+                assert_eq!((error.typed.as_str(), error.unit.as_str()), (&*text, unit));
+                let message = error.to_string();
+                assert_message(&message);
+                assert!(message.contains("allowed: a number"), "{message}");
+            }
+        }
+    }
+}
+
+fn assert_shown(text: &str, value: f64, unit: &str) {
+    assert!(value.is_finite(), "{text:?} {unit}: {value}");
+    if value.abs() > LARGEST {
+        return;
+    }
+    let shown = format_quantity(value, unit);
+    let read = parse_quantity(&shown, unit).unwrap_or_else(|error| panic!("{text:?}: {error}"));
+    assert_eq!(format_quantity(read, unit), shown, "{text:?} {unit}: {value} {read}");
+    // Four digits, as far as numbers that small have them.
+    let error = (read - value).abs();
+    assert!(error <= 5.01e-4 * value.abs() + f64::MIN_POSITIVE, "{text:?} {unit}: {value} {read}");
+    // Another sign is the other number.
+    let typed = text.trim();
+    if !typed.starts_with(['+', '-']) {
+        assert_eq!(parse_quantity(&format!("-{typed}"), unit).ok(), Some(-value), "-{typed:?} {unit}");
+    }
+}

@@ -1,0 +1,82 @@
+//! The text of a scene.
+
+use super::{assert_document, assert_errors, assert_leads, assert_place, text};
+use asperity::scene::{Computed, DEFAULT, Document, Effect, LONGEST_TEXT, Origin, find};
+use asperity::simulation::Plan;
+
+const NAME: &str = "fuzzed.ron";
+
+/// What is read is written and read back the same; what is refused is refused with a place in it.
+pub fn scene(bytes: &[u8]) {
+    let whole = text(bytes);
+    let text = whole.strip_prefix('\u{feff}').unwrap_or(&whole);
+    match Document::parse(&whole, NAME) {
+        Err(errors) => assert_errors(&errors, |origin| match origin {
+            Origin::Place { name, line, column } => {
+                assert_eq!(name, NAME);
+                assert_place(text, *line, *column);
+            }
+            Origin::File { name } => {
+                assert_eq!(name, NAME);
+                assert!(text.len() > LONGEST_TEXT, "an error in a text has a place: {errors}");
+            }
+            other => panic!("an error in a text has a place, not {other:?}: {errors}"),
+        }),
+        Ok(document) => {
+            assert_eq!(document.text(), text);
+            assert!(!document.is_changed() && document.overrides().is_empty());
+            assert_document(&document);
+            assert_fields(&document);
+            assert_effects(&document);
+            let default = find(DEFAULT).and_then(|preset| Document::parse(preset.text, preset.name).ok());
+            let Some(default) = default else { panic!("{DEFAULT} is a scene") };
+            assert_leads(&default, &document);
+            assert_leads(&document, &default);
+            let _ = Plan::of(document.scene());
+        }
+    }
+}
+
+/// A field set to what it says changes nothing; one step stays inside the range.
+fn assert_fields(document: &Document) {
+    for field in document.fields() {
+        let Some(value) = document.value(field.path) else { continue };
+        let same = document.set(field.path, value).unwrap_or_else(|errors| panic!("{errors}"));
+        assert_eq!(same.scene(), document.scene(), "{} = {value}", field.path);
+        for (steps, coarse) in [(1, false), (-1, false), (1, true), (-1, true)] {
+            let Some(next) = field.stepped(value, steps, coarse) else { continue };
+            assert_ne!(next, value, "{}", field.path);
+            if let Ok(next) = next.parse()
+                && field.range.min().is_some()
+            {
+                let inside = field.range.contains(next) || field.range.contains_whole(next as u64);
+                assert!(inside, "{} = {value} steps to {next}", field.path);
+            }
+        }
+    }
+}
+
+/// An effect that is switched off is off, and comes back.
+fn assert_effects(document: &Document) {
+    let computed = Computed { work_of_adhesion: Some(0.05), rms_height: Some(1.0e-7) };
+    let sound = |changed: &Result<Document, _>, effect: Effect, on: bool| match changed {
+        Ok(changed) => {
+            assert_document(changed);
+            assert_eq!(effect.is_on(changed.scene()), on, "{}", effect.name());
+        }
+        Err(errors) => {
+            let of_document = |origin: &Origin| assert!(!matches!(origin, Origin::Place { .. }));
+            assert_errors(errors, of_document);
+        }
+    };
+    for effect in Effect::ALL {
+        let off = document.without(effect, &computed);
+        sound(&off, effect, false);
+        let Ok(off) = off else { continue };
+        let back = off.with(effect, Some(document));
+        sound(&back, effect, true);
+        if let (true, Ok(back)) = (effect.is_on(document.scene()), back) {
+            assert_eq!(back.scene(), document.scene(), "{}", effect.name());
+        }
+    }
+}

@@ -1,0 +1,181 @@
+//! Inputs made of others, the same ones for the same seed.
+
+use asperity::scene::{FIELDS, Range};
+
+/// What trips readers of numbers and of nested text.
+const NASTY: &[&str] = &[
+    "NaN",
+    "inf",
+    "-inf",
+    "-0.0",
+    "1e999",
+    "1e-999",
+    "1e308",
+    "-1e308",
+    "5e-324",
+    "18446744073709551615",
+    "18446744073709551616",
+    "-1",
+    "0",
+    "268435456",
+    "1e99999999999",
+    "0x7f",
+    "1_000",
+    "None",
+    "Some(",
+    ")",
+    "(",
+    "[",
+    "]",
+    "{",
+    "}",
+    ",",
+    ":",
+    "=",
+    "\"",
+    "'",
+    "\\",
+    "\\u{1b}",
+    "r#\"",
+    "\"#",
+    "//",
+    "/*",
+    "*/",
+    "#",
+    "#![enable(unwrap_newtypes)]",
+    "\n",
+    "\r\n",
+    "\t",
+    " ",
+    ";",
+    "\u{feff}",
+    "\u{1b}[2J",
+    "\u{0}",
+    "µ",
+    "κ",
+    "°",
+    "²",
+    "−",
+    "é",
+    "\u{202e}",
+    "k",
+    "M",
+    "Ki",
+    "E",
+    "mm",
+    "Pa",
+    "J/m^2",
+    "m^(1−n)",
+    "rad",
+];
+
+/// Makes inputs of others.
+pub struct Mutator<'a> {
+    state: u64,
+    inputs: &'a [Vec<u8>],
+    tokens: Vec<&'static str>,
+    longest: usize,
+}
+
+impl<'a> Mutator<'a> {
+    /// A mutator of these inputs, of which there is at least one; what it makes is at most `longest` bytes
+    /// long.
+    pub fn new(seed: u64, inputs: &'a [Vec<u8>], longest: usize) -> Self {
+        let mut tokens = NASTY.to_vec();
+        for field in FIELDS {
+            tokens.extend([field.path, field.last(), field.default]);
+            if let Range::Choice(of) | Range::List { of, .. } = field.range {
+                tokens.extend(of);
+            }
+        }
+        tokens.extend(["ToForce(1e-3)", "ToIndentation(-1e-7)", "ToTouch", "ToZeroForce", "ToSeparation"]);
+        // xorshift stands still at zero.
+        Mutator { state: seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1, inputs, tokens, longest }
+    }
+
+    fn next(&mut self) -> u64 {
+        // xorshift64*, Vigna (2016).
+        self.state ^= self.state >> 12;
+        self.state ^= self.state << 25;
+        self.state ^= self.state >> 27;
+        self.state.wrapping_mul(0x2545_f491_4f6c_dd1d)
+    }
+
+    /// A number below `count`, which is above 0.
+    fn below(&mut self, count: usize) -> usize {
+        ((u128::from(self.next()) * count as u128) >> 64) as usize
+    }
+
+    /// A place in `input`, the end included.
+    fn place(&mut self, input: &[u8]) -> usize {
+        self.below(input.len() + 1)
+    }
+
+    /// A part of `input`, mostly a short one.
+    fn part(&mut self, input: &[u8]) -> std::ops::Range<usize> {
+        let start = self.place(input);
+        let most = if self.below(4) == 0 { input.len() } else { 8 };
+        start..(start + self.below(most + 1)).min(input.len())
+    }
+
+    /// The number nearest behind some place, digits, point, exponent and sign.
+    fn number(&mut self, input: &[u8]) -> std::ops::Range<usize> {
+        let from = self.place(input);
+        let is_part = |byte: &u8| byte.is_ascii_digit() || b".eE+-".contains(byte);
+        let start = input[from..].iter().position(|byte| byte.is_ascii_digit()).map_or(from, |at| from + at);
+        let length = input[start..].iter().position(|byte| !is_part(byte)).unwrap_or(input.len() - start);
+        start..start + length
+    }
+
+    /// One of those there are.
+    fn other(&mut self) -> &'a Vec<u8> {
+        let index = self.below(self.inputs.len());
+        &self.inputs[index]
+    }
+
+    /// The next input: one of those there are, changed in one to eight places.
+    pub fn next_input(&mut self) -> Vec<u8> {
+        let mut input = self.other().clone();
+        for _ in 0..1 << self.below(4) {
+            let token = self.below(self.tokens.len());
+            let token = self.tokens[token].as_bytes();
+            match self.below(8) {
+                0 => {
+                    let at = self.place(&input);
+                    if let Some(byte) = input.get_mut(at) {
+                        *byte ^= 1 << self.below(8);
+                    }
+                }
+                1 => {
+                    let part = self.part(&input);
+                    input.drain(part);
+                }
+                2 => {
+                    let (part, at) = (self.part(&input), self.place(&input));
+                    let again = input[part].to_vec();
+                    input.splice(at..at, again);
+                }
+                3 => {
+                    let at = self.place(&input);
+                    input.splice(at..at, token.iter().copied());
+                }
+                4 => {
+                    let part = self.part(&input);
+                    input.splice(part, token.iter().copied());
+                }
+                5 | 6 => {
+                    let number = self.number(&input);
+                    let other = NASTY[self.below(NASTY.len())];
+                    input.splice(number, other.bytes());
+                }
+                _ => {
+                    let other = self.other();
+                    let (part, at) = (self.part(other), self.part(&input));
+                    input.splice(at, other[part].iter().copied());
+                }
+            }
+        }
+        input.truncate(self.longest);
+        input
+    }
+}
