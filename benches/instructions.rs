@@ -1,0 +1,32 @@
+//! How many instructions the program takes for a scene beyond those of a kernel written by hand for it, counted
+//! by callgrind.
+//!
+//! `cargo bench --bench instructions` prints the table and fails where the program takes more than 2 % more, or
+//! where a scene executes what it does not call for. It needs valgrind and says so where there is none. Without
+//! `--bench`, as `cargo test --benches` starts it, it only shows that program and kernels agree.
+
+#[path = "instructions/mod.rs"]
+mod instructions;
+
+use instructions::{Case, Report, callgrind};
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    if instructions::run_as_child() {
+        return ExitCode::SUCCESS;
+    }
+    Case::all().iter().for_each(instructions::assert_agree);
+    if !std::env::args().any(|argument| argument == "--bench") {
+        println!("program and kernels agree; `cargo bench --bench instructions` counts");
+        return ExitCode::SUCCESS;
+    }
+    if !callgrind::is_there() {
+        println!("SKIPPED: valgrind is not installed, instructions are not counted");
+        return ExitCode::SUCCESS;
+    }
+    let reports = instructions::count(&Case::all(), &[]);
+    print!("{}", Report::table(&reports));
+    let failures: Vec<String> = reports.iter().flat_map(Report::failures).collect();
+    failures.iter().for_each(|failure| println!("{failure}"));
+    if failures.is_empty() { ExitCode::SUCCESS } else { ExitCode::FAILURE }
+}

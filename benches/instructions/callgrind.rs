@@ -1,0 +1,71 @@
+//! Running this very program again under callgrind, and reading what it counted.
+
+use std::collections::{BTreeMap, HashMap};
+use std::process::{Command, Stdio};
+
+/// Instructions by file and line.
+pub struct Profile {
+    lines: HashMap<String, BTreeMap<u64, u64>>,
+}
+
+impl Profile {
+    /// All instructions, of all threads.
+    pub fn total(&self) -> u64 {
+        self.lines.values().flat_map(BTreeMap::values).sum()
+    }
+
+    /// Files as the compiler named them, with the instructions of their lines.
+    pub fn files(&self) -> impl Iterator<Item = (&str, &BTreeMap<u64, u64>)> {
+        self.lines.iter().map(|(file, lines)| (file.as_str(), lines))
+    }
+
+    /// Reads what callgrind writes without compression. Inlined code stands under the file it was written
+    /// in (`fi`, `fe`); after `calls` follows what the called function took, which is counted there.
+    fn parse(text: &str) -> Profile {
+        let mut lines: HashMap<String, BTreeMap<u64, u64>> = HashMap::new();
+        let mut file = "";
+        let mut of_call = false;
+        for line in text.lines() {
+            if let Some(("fl" | "fi" | "fe", name)) = line.split_once('=') {
+                file = name;
+            } else if line.starts_with("calls=") {
+                of_call = true;
+            } else if line.starts_with(|c: char| c.is_ascii_digit()) {
+                let mut numbers = line.split(' ').map(|number| number.parse::<u64>());
+                if let (false, Some(Ok(number)), Some(Ok(cost))) = (of_call, numbers.next(), numbers.next()) {
+                    *lines.entry(file.to_string()).or_default().entry(number).or_default() += cost;
+                }
+                of_call = false;
+            }
+        }
+        Profile { lines }
+    }
+}
+
+/// Whether valgrind is installed.
+pub fn is_there() -> bool {
+    let version =
+        Command::new("valgrind").arg("--version").stdout(Stdio::null()).stderr(Stdio::null()).status();
+    version.is_ok_and(|status| status.success())
+}
+
+/// Runs this program under callgrind.
+pub fn profile(arguments: &[&str], environment: &[(&str, &str)]) -> Profile {
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = folder.path().join("profile");
+    let output = Command::new("valgrind")
+        .args(["--tool=callgrind", "--compress-strings=no", "--compress-pos=no", "--dump-line=yes"])
+        .arg(format!("--callgrind-out-file={}", file.display()))
+        .arg(std::env::current_exe().expect("this program"))
+        .args(arguments)
+        .envs(environment.iter().copied())
+        .output()
+        .expect("valgrind");
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "valgrind: {said}");
+    let text = String::from_utf8_lossy(&std::fs::read(file).expect("a profile")).into_owned();
+    let profile = Profile::parse(&text);
+    let told = text.lines().find_map(|line| line.strip_prefix("totals: ")?.trim().parse().ok());
+    assert_eq!(Some(profile.total()), told, "all that was counted is read");
+    profile
+}

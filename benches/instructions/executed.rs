@@ -1,0 +1,111 @@
+//! Effects a scene may call for, and the lines of source that nothing else executes.
+//!
+//! Callgrind attributes instructions to lines, also where a function has been inlined, so what is checked does
+//! not depend on how the compiler cut the program into functions. Each effect is looked for in the scenes that
+//! call for it, too: a check that finds nothing there fails.
+
+use super::callgrind::Profile;
+use super::cases::Case;
+use asperity::contact::Work;
+use asperity::scene::Edges;
+use std::path::Path;
+
+/// Where the instructions of an effect stand.
+pub enum Lines {
+    /// All lines of functions: files of this project, and how each function is declared in it.
+    Of(&'static [(&'static str, &'static str)]),
+    /// All lines of packages whose folders begin so.
+    Packages(&'static [&'static str]),
+}
+
+/// Something only some scenes call for.
+pub struct Effect {
+    /// In words.
+    pub name: &'static str,
+    /// Where it stands.
+    pub lines: Lines,
+    /// Whether a case calls for it.
+    pub called_for: fn(&Case) -> bool,
+    /// How often the program says it was done.
+    pub counted: fn(&Work) -> u64,
+}
+
+/// All that must not run unless a scene calls for it.
+pub const EFFECTS: &[Effect] = &[
+    Effect {
+        name: "Hess",
+        lines: Lines::Of(&[
+            ("src/contact/foundation.rs", "fn largest_stretch("),
+            ("src/contact/subcell/edges.rs", "fn rest("),
+        ]),
+        // Edges between springs are found by the rule of Hess also where it allows no stretch.
+        called_for: |case| case.is_adhesive() || case.edges == Edges::SubCell,
+        counted: |work| work.hess_evaluations,
+    },
+    Effect {
+        name: "unloading",
+        lines: Lines::Of(&[
+            ("src/contact/exact.rs", "fn unload("),
+            ("src/contact/thresholds.rs", "fn unload<"),
+        ]),
+        called_for: Case::goes_back,
+        counted: |work| work.leaves,
+    },
+    Effect {
+        name: "histogram",
+        lines: Lines::Of(&[("src/surface/histogram.rs", "pub fn new(")]),
+        called_for: Case::is_observed,
+        counted: |work| work.heights_binned,
+    },
+    Effect {
+        name: "FFT",
+        lines: Lines::Packages(&["rustfft-", "realfft-"]),
+        called_for: Case::is_rough,
+        counted: |work| work.transforms,
+    },
+    Effect {
+        name: "random numbers",
+        lines: Lines::Packages(&["rand_chacha-", "chacha20-", "rand-0.10"]),
+        called_for: Case::is_rough,
+        counted: |work| work.random_phases,
+    },
+];
+
+impl Effect {
+    /// Instructions executed for it.
+    pub fn executed(&self, profile: &Profile) -> u64 {
+        match self.lines {
+            Lines::Packages(packages) => profile
+                .files()
+                .filter(|(file, _)| {
+                    file.split('/').any(|folder| packages.iter().any(|package| folder.starts_with(package)))
+                })
+                .map(|(_, lines)| lines.values().sum::<u64>())
+                .sum(),
+            Lines::Of(functions) => functions
+                .iter()
+                .map(|(file, declared)| {
+                    let range = lines_of(file, declared);
+                    profile
+                        .files()
+                        .filter(|(path, _)| Path::new(path).ends_with(file))
+                        .flat_map(|(_, lines)| lines.range(range.clone()))
+                        .map(|(_, &instructions)| instructions)
+                        .sum::<u64>()
+                })
+                .sum(),
+        }
+    }
+}
+
+/// The lines of a function, from its declaration to the brace that closes it.
+fn lines_of(file: &str, declared: &str) -> std::ops::RangeInclusive<u64> {
+    let text = std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join(file)).expect("a source");
+    let lines: Vec<&str> = text.lines().collect();
+    let first = lines.iter().position(|line| line.contains(declared));
+    let first = first.unwrap_or_else(|| panic!("{file} has no {declared}"));
+    let indent = &lines[first][..lines[first].len() - lines[first].trim_start().len()];
+    let length =
+        lines[first..].iter().position(|line| *line == format!("{indent}}}")).expect("a closing brace");
+    first as u64 + 1..=(first + length) as u64 + 1
+}
