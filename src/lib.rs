@@ -34,6 +34,7 @@
 
 pub mod accuracy;
 pub mod analysis;
+pub mod check;
 pub mod cli;
 pub mod contact;
 pub mod ensemble;

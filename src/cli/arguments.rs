@@ -1,8 +1,8 @@
 //! What may be typed after `asperity`.
 
 use super::{
-    CompletionsArguments, CostArguments, DemoArguments, ExploreArguments, LineArguments, PlanArguments,
-    PresetsCommand, RunArguments,
+    CheckArguments, CompletionsArguments, CostArguments, DemoArguments, ExploreArguments, LineArguments,
+    PlanArguments, PresetsCommand, RunArguments,
 };
 use clap::{Parser, Subcommand};
 
@@ -52,6 +52,8 @@ pub enum Command {
     Plan(PlanArguments),
     /// Measure what accuracy costs: errors against time, for everything that buys accuracy
     Cost(CostArguments),
+    /// Run the catalogue of hard cases: what must hold, and whether it does on this machine
+    Check(CheckArguments),
     /// Print the rigid line of a scene as CSV: x,z in m
     Line(LineArguments),
     /// List, show and check scenes

@@ -65,6 +65,25 @@ pub enum CliError {
         /// Why not.
         error: EnsembleError,
     },
+    /// No hard case has this word in its name.
+    #[error("{word}: no case has this in its name; allowed: parts of {allowed}")]
+    NoCase {
+        /// The word.
+        word: String,
+        /// The names there are.
+        allowed: String,
+    },
+    /// Only cases were named that a quick check leaves out.
+    #[error("--quick leaves out all of these cases: they take seconds and hundreds of megabytes")]
+    OnlyLargeCases,
+    /// Hard cases fail.
+    #[error("{failed} of {checks} checks fail")]
+    CasesFail {
+        /// How many.
+        failed: usize,
+        /// Of how many.
+        checks: usize,
+    },
     /// A file could not be written.
     #[error("{0}{hint}", hint = hint(.0))]
     Write(#[from] WriteError),

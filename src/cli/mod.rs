@@ -4,6 +4,7 @@
 //! or the run failed, 2 wrong usage.
 
 mod arguments;
+mod check;
 mod completions;
 mod cost;
 mod demo;
@@ -20,6 +21,7 @@ mod scene;
 mod usage;
 
 pub use arguments::{Arguments, Command};
+pub use check::{CheckArguments, CheckFormat};
 pub use completions::CompletionsArguments;
 pub use cost::{CostArguments, CostFormat};
 pub use demo::DemoArguments;
@@ -78,6 +80,7 @@ fn dispatch(arguments: &Arguments, stdout: &mut dyn Write) -> Result<(), CliErro
         Some(Command::Run(arguments)) => run::run(arguments, stdout),
         Some(Command::Demo(arguments)) => demo::demo(arguments, stdout),
         Some(Command::Cost(arguments)) => cost::cost(arguments, stdout),
+        Some(Command::Check(arguments)) => check::check(arguments, stdout),
         Some(Command::Plan(arguments)) => plan::plan(arguments, stdout),
         Some(Command::Line(arguments)) => line::line(arguments, stdout),
         Some(Command::Presets(command)) => presets::presets(command, stdout),

@@ -4,6 +4,7 @@
 //! Numbers are written in SI units and in the shortest form that reads back as the same number.
 
 pub mod atomic;
+mod check;
 mod cost;
 mod csv;
 mod ensemble;
@@ -15,6 +16,7 @@ mod verdict;
 mod work_precision;
 
 pub use atomic::{WriteError, check_writable, write_new};
+pub use check::{check_markdown, check_text, write_check_json};
 pub use cost::{cost_text, write_cost_csv, write_cost_json};
 pub use csv::{write_curve, write_line};
 pub use ensemble::{ensemble_text, write_ensemble_csv, write_ensemble_json};

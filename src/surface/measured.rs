@@ -130,7 +130,7 @@ impl MeasuredProfile {
         ((square / length).sqrt(), (gradient / length).sqrt())
     }
 
-    /// Heights about the mean of the first and last, m, at x = (i + ½)L/N from the first point on,
+    /// Heights above the first point, m, at x = (i + ½)L/N from the first point on,
     /// straight between measured points.
     ///
     /// # Errors

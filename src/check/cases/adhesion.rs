@@ -1,0 +1,202 @@
+//! From no adhesion to adhesion that holds everything, and where forces or decisions hang by a hair.
+
+use super::{WORK, ensure, rough};
+use crate::check::catalogue::{Case, Family, Scope};
+use crate::check::{Body, Extended, Fault, end, follow, force_error};
+use crate::contact::Solver;
+use crate::scene::{Edges, Leg};
+use std::f64::consts::PI;
+
+pub const CASES: &[Case] = &[
+    Case {
+        name: "no-adhesion",
+        family: Family::Adhesion,
+        holds: "At γ = 0 pulling retraces pressing to the last bit, and nothing is lost.",
+        error_of: "force, over the largest",
+        scope: Scope::BothEdges(0.0, 0.0),
+        large: false,
+        measure: no_adhesion,
+    },
+    Case {
+        name: "vanishing-adhesion",
+        family: Family::Adhesion,
+        holds: "For γ from 1e−280 to 1e−3 J/m² contact and forces are those of the rules, and F(γ) goes to \
+                F(0) no slower than the longest stretch.",
+        error_of: "force and loss",
+        scope: Scope::BothEdges(1e-15, 1e-15),
+        large: false,
+        measure: vanishing_adhesion,
+    },
+    Case {
+        name: "everything-sticks",
+        family: Family::Adhesion,
+        holds: "Adhesion far beyond the roughness closes all at first touch and lets go of all at once, where \
+                the deepest spring does.",
+        error_of: "force and place of letting go",
+        scope: Scope::BothEdges(2e-15, 2e-15),
+        large: false,
+        measure: everything_sticks,
+    },
+    Case {
+        name: "balance-at-full-contact",
+        family: Family::Adhesion,
+        holds: "With all in contact and F = 0 a difference of sums, each F is right to the bound its \
+                documentation gives.",
+        error_of: "force, in documented units",
+        scope: Scope::BothEdges(4e-16, 1e-15),
+        large: false,
+        measure: balance,
+    },
+    Case {
+        name: "preload-at-an-event",
+        family: Family::Adhesion,
+        holds: "Pressed exactly to where springs join, or one number beside, the contact is that of the whole \
+                leg, and the force of that place is reached there.",
+        error_of: "force, in documented units",
+        scope: Scope::BothEdges(4e-16, 1e-15),
+        large: false,
+        measure: preload_at_an_event,
+    },
+];
+
+fn no_adhesion(edges: Edges) -> Result<f64, Fault> {
+    let body = rough(4096, 0.0)?;
+    let history = body.history(edges, &[Leg::ToIndentation(0.8 * body.deepest()), Leg::ToSeparation], 301)?;
+    let [loading, unloading] = &history.legs[..] else { return Err(Fault::Wrong("not two legs".into())) };
+    let lost = (loading.dissipated_energy, unloading.dissipated_energy);
+    ensure(lost == (0.0, 0.0), || format!("lost {lost:?} J"))?;
+    ensure(loading.curve.len() == unloading.curve.len(), || "other points on the way back".into())?;
+    let mut worst = 0.0_f64;
+    for (one, other) in loading.curve.iter().zip(unloading.curve.iter().rev()) {
+        ensure(one.indentation == other.indentation, || format!("{} m on the way back", other.indentation))?;
+        ensure((one.springs, one.fragments) == (other.springs, other.fragments), || {
+            format!("at {:e} m another contact on the way back", one.indentation)
+        })?;
+        worst = worst.max((one.force - other.force).abs());
+    }
+    Ok(worst / loading.largest.force)
+}
+
+fn vanishing_adhesion(edges: Edges) -> Result<f64, Fault> {
+    let bare = rough(1024, 0.0)?;
+    let deepest = Leg::ToIndentation(0.6 * bare.deepest());
+    let without = bare.history(edges, &[deepest], 2)?;
+    let mut worst = 0.0_f64;
+    for power in [-280, -200, -100, -50, -30, -20, -12, -9, -7, -6, -5, -4, -3] {
+        let body = Body { work: 10.0_f64.powi(power), ..bare.clone() };
+        worst = worst.max(follow(&body, edges, &body.tour())?.error());
+        let with = body.history(edges, &[deepest], 2)?;
+        let pulls = end(&without.legs[0]).force - end(&with.legs[0]).force;
+        // Nothing that adhesion adds is stretched further than a fragment as long as the line can be.
+        let stiffness = body.gaps.len() as f64 * body.foundation.spring_stiffness();
+        let most = stiffness * body.largest_stretch() + 1e-14 * end(&without.legs[0]).force;
+        ensure((-1e-14 * most..=most).contains(&pulls), || {
+            format!("γ = 1e{power} J/m² pulls with {pulls:e} N, at most {most:e} N are possible")
+        })?;
+    }
+    Ok(worst)
+}
+
+fn everything_sticks(edges: Edges) -> Result<f64, Fault> {
+    let mut worst = 0.0_f64;
+    for points in [3, 10, 999] {
+        let bare = rough(points, 0.0)?;
+        // One spring alone is held far beyond the depth, whatever its neighbours do.
+        for reach in [1e4, 1e8, 1e15] {
+            let stretch = reach * bare.deepest();
+            let work = stretch * stretch * bare.foundation.effective_modulus / (PI * bare.foundation.spacing);
+            let body = Body { work, ..bare.clone() };
+            let history = body.history(edges, &[Leg::ToTouch, Leg::ToSeparation], 9)?;
+            let count = points as u64;
+            let touch = end(&history.legs[0]);
+            ensure(touch.springs == count, || {
+                format!("{} of {count} springs at first touch", touch.springs)
+            })?;
+            let last = history.legs[1].smallest;
+            ensure(last.springs == count, || format!("{} of {count} springs at the last", last.springs))?;
+            let (cells, deepest) = (Extended::from(points as f64), Extended::from(body.deepest()));
+            let area = Extended::PI * cells * Extended::from(body.foundation.spacing);
+            let range = Extended::from(work) / Extended::from(body.foundation.effective_modulus);
+            let lets_go = deepest - (area * range).sqrt();
+            let stiffness =
+                Extended::from(body.foundation.effective_modulus) * Extended::from(body.foundation.spacing);
+            let force = stiffness * (cells * lets_go - Extended::sum(body.gaps.iter().copied()));
+            for (found, expected) in [
+                (last.force, force),
+                (last.indentation, lets_go),
+                (end(&history.legs[1]).indentation, lets_go),
+            ] {
+                let error = (Extended::from(found) - expected).abs().rounded();
+                worst = worst.max(error / expected.abs().rounded());
+            }
+        }
+    }
+    Ok(worst)
+}
+
+fn balance(edges: Edges) -> Result<f64, Fault> {
+    let bare = rough(10_007, 0.0)?;
+    // All of it is held at ten times its depth.
+    let stretch = 10.0 * bare.deepest();
+    let length = bare.gaps.len() as f64 * bare.foundation.spacing;
+    let work = stretch * stretch * bare.foundation.effective_modulus / (PI * length);
+    let body = Body { work, ..bare };
+    let cells = Extended::from(body.gaps.len() as f64);
+    let mean = (Extended::sum(body.gaps.iter().copied()) / cells).rounded();
+    body.with(edges, 9, |solver| {
+        let mut worst = 0.0_f64;
+        let beside = [mean, mean.next_up(), mean.next_down(), mean * (1.0 + 1e-12), mean * (1.0 - 1e-9)];
+        let legs = [Leg::ToIndentation(1.1 * body.deepest()), Leg::ToZeroForce];
+        for leg in legs.into_iter().chain(beside.map(Leg::ToIndentation)) {
+            let point = end(&solver.advance(leg)?);
+            ensure(point.springs == body.gaps.len() as u64, || "not all in contact".into())?;
+            worst = worst.max(force_error(&body, edges, solver, &point)?);
+        }
+        Ok(worst)
+    })
+}
+
+fn preload_at_an_event(edges: Edges) -> Result<f64, Fault> {
+    let body = rough(300, WORK)?;
+    let deepest = Leg::ToIndentation(0.9 * body.deepest());
+    let mut thresholds = Vec::new();
+    body.with(edges, 9, |whole| {
+        whole.advance(deepest)?;
+        whole.thresholds_along_line(&mut thresholds);
+        let mut worst = 0.0_f64;
+        let mut events: Vec<f64> = thresholds.iter().copied().filter(|at| at.is_finite()).collect();
+        events.sort_by(f64::total_cmp);
+        events.dedup();
+        ensure(events.len() > 10, || format!("only {} events", events.len()))?;
+        for event in events.into_iter().filter(|&event| event > 0.0) {
+            for at in [event.next_down(), event, event.next_up()] {
+                worst = worst.max(press_exactly_to(&body, edges, at, whole)?);
+            }
+        }
+        Ok(worst)
+    })
+}
+
+/// Presses a separated body to an indentation on a leg of its own.
+fn press_exactly_to(body: &Body, edges: Edges, at: f64, whole: &dyn Solver) -> Result<f64, Fault> {
+    body.with(edges, 9, |solver| {
+        let point = end(&solver.advance(Leg::ToIndentation(at))?);
+        ensure(solver.fragments(at) == whole.fragments(at), || format!("at {at:e} m another contact"))?;
+        let error = force_error(body, edges, solver, &point)?;
+        let back = solver.advance(Leg::ToSeparation)?;
+        ensure(end(&back).springs == 0 && back.leaves == point.springs, || {
+            format!("from {at:e} m not all of it lets go")
+        })?;
+        // Nothing separated can be pulled. And just before a jump the force is as large as it gets for a
+        // while: a rounding more is reached only beyond.
+        if point.force > 0.0 {
+            let wanted = point.force * (1.0 - 4.0 * f64::EPSILON);
+            let again = end(&solver.advance(Leg::ToForce(wanted))?);
+            let slack = 1e-15 * body.force_scale();
+            ensure(again.indentation <= at && again.force >= wanted - slack, || {
+                format!("the force at {at:e} m is reached at {:e} m", again.indentation)
+            })?;
+        }
+        Ok(error)
+    })
+}

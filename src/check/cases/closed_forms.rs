@@ -1,0 +1,81 @@
+//! Bodies whose loop is known in closed form.
+
+use super::ensure;
+use crate::check::catalogue::{Case, Family, Scope};
+use crate::check::{Body, Fault, end};
+use crate::contact::Foundation;
+use crate::reference::PowerLaw;
+use crate::scene::{Edges, Form, Leg};
+use crate::surface::Line;
+
+pub const CASES: &[Case] = &[
+    Case {
+        name: "hertz-sphere",
+        family: Family::ClosedForms,
+        holds: "Without adhesion 4001 springs press a sphere by Hertz.",
+        error_of: "force, over the largest",
+        scope: Scope::BothEdges(2e-6, 2e-6),
+        large: false,
+        measure: hertz,
+    },
+    Case {
+        name: "jkr-sphere",
+        family: Family::ClosedForms,
+        holds: "4001 springs pull a sphere off at (3/2)πγR and let go where Johnson, Kendall and Roberts say.",
+        error_of: "force and place of letting go",
+        scope: Scope::BothEdges(1e-2, 1e-5),
+        large: false,
+        measure: |edges| power_law(edges, Form::Paraboloid { radius: 1.0 }, 12.0, 1.5),
+    },
+    Case {
+        name: "cone",
+        family: Family::ClosedForms,
+        holds: "4001 springs pull a cone off at the force, and let go of it where its closed form says.",
+        error_of: "force and place of letting go",
+        scope: Scope::BothEdges(1e-2, 1e-5),
+        large: false,
+        measure: |edges| power_law(edges, Form::Cone { angle: 1.0 }, 16.0, 4.0),
+    },
+    Case {
+        name: "seventh-power",
+        family: Family::ClosedForms,
+        holds: "4001 springs pull a body r⁷, nearly flat with steep flanks, off at the force, and let go of \
+                it where its closed form says.",
+        error_of: "force and place of letting go",
+        scope: Scope::BothEdges(1e-2, 1e-5),
+        large: false,
+        measure: |edges| power_law(edges, Form::Power { coefficient: 0.3, exponent: 7.0 }, 8.0, 1.0),
+    },
+];
+
+const POINTS: usize = 4001;
+
+fn smooth(form: Form, length: f64, work: f64) -> Result<Body, Fault> {
+    let line = Line::new(length, POINTS, Some(&form), None, 0.0)?;
+    let foundation = Foundation { spacing: line.spacing, effective_modulus: 1.0 };
+    Ok(Body { gaps: line.gaps, foundation, work })
+}
+
+fn hertz(edges: Edges) -> Result<f64, Fault> {
+    let body = smooth(Form::Paraboloid { radius: 1.0 }, 4.0, 0.0)?;
+    let history = body.history(edges, &[Leg::ToIndentation(1.0)], 257)?;
+    // F = (4/3) E* √R d^(3/2).
+    let force = |d: f64| 4.0 / 3.0 * d.powf(1.5);
+    let errors = history.legs[0].curve.iter().map(|point| (point.force - force(point.indentation)).abs());
+    Ok(errors.fold(0.0, f64::max) / force(1.0))
+}
+
+fn power_law(edges: Edges, form: Form, length: f64, deepest: f64) -> Result<f64, Fault> {
+    let Some(closed) = PowerLaw::of(&form, 1.0, 1.0) else {
+        return Err(Fault::Wrong("no closed form".into()));
+    };
+    let body = smooth(form, length, 1.0)?;
+    let history = body.history(edges, &[Leg::ToIndentation(deepest), Leg::ToSeparation], 257)?;
+    let [loading, unloading] = &history.legs[..] else { return Err(Fault::Wrong("not two legs".into())) };
+    ensure(loading.largest.springs < POINTS as u64, || "the line is too short".into())?;
+    let (pull_off, lets_go) =
+        (closed.force_controlled_pull_off().1, closed.displacement_controlled_pull_off());
+    let lets_go = closed.indentation(lets_go.0);
+    let error = |found: f64, expected: f64| (found / expected - 1.0).abs();
+    Ok(error(unloading.smallest.force, pull_off).max(error(end(unloading).indentation, lets_go)))
+}

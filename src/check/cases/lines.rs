@@ -1,0 +1,346 @@
+//! Lines: spectra at their ends, few springs and many, ties, chains, and heights on a large offset.
+
+use super::{SPECTRUM, WORK, ensure, rough};
+use crate::check::catalogue::{Case, Family, Scope};
+use crate::check::{Body, Extended, Fault, LENGTH, MODULUS, RMS_HEIGHT, end, follow, force_error};
+use crate::scene::{Edges, Leg};
+use crate::surface::{Line, MeasuredProfile, SelfAffine, UnitRoughness, phases};
+use std::f64::consts::PI;
+use std::fmt::Write;
+
+/// What heights on a large offset are on, in units of their rms height.
+const OFFSET: f64 = 1e9;
+
+pub const CASES: &[Case] = &[
+    Case {
+        name: "hurst-to-0",
+        family: Family::Lines,
+        holds: "As H → 0, down to 1e−300, heights are the sum of their cosines, and the rms gradient goes to its \
+                limit.",
+        error_of: "height over rms height",
+        scope: Scope::Line(2e-14),
+        large: false,
+        measure: |_| hurst_to(0.0, &[1e-3, 1e-9, 1e-16, 1e-300]),
+    },
+    Case {
+        name: "hurst-to-1",
+        family: Family::Lines,
+        holds: "As H → 1, up to the last number before, heights are the sum of their cosines, and the rms \
+                gradient, also by eq. (13), goes to its limit.",
+        error_of: "height over rms height",
+        scope: Scope::Line(2e-14),
+        large: false,
+        measure: |_| hurst_to(1.0, &[0.999, 1.0 - 1e-9, 1.0_f64.next_down()]),
+    },
+    Case {
+        name: "one-mode",
+        family: Family::Lines,
+        holds: "A line of one mode, the first, some, or Nyquist's own, is that one cosine, and contact and \
+                forces on it are those of the rules.",
+        error_of: "height, force and loss",
+        scope: Scope::BothEdges(2e-14, 2e-14),
+        large: false,
+        measure: one_mode,
+    },
+    Case {
+        name: "modes-to-nyquist",
+        family: Family::Lines,
+        holds: "With as many modes as springs allow, N even, odd, prime and a power of two, heights are the sum \
+                of their cosines.",
+        error_of: "height over rms height",
+        scope: Scope::Line(2e-14),
+        large: false,
+        measure: |_| modes_to_nyquist(),
+    },
+    Case {
+        name: "springs-1-2-3-prime",
+        family: Family::Lines,
+        holds: "With 1, 2, 3, 5, 17, 127 and 4099 springs contact and forces are those of the rules.",
+        error_of: "force and loss",
+        scope: Scope::BothEdges(1e-15, 1e-15),
+        large: false,
+        measure: few_springs,
+    },
+    Case {
+        name: "springs-2^24",
+        family: Family::Lines,
+        holds: "With 2^24 springs and half as many modes, forces at the preload and at pull-off are the sums \
+                over the contact, and what has joined leaves.",
+        error_of: "force, in documented units",
+        scope: Scope::BothEdges(4e-16, 1e-15),
+        large: true,
+        measure: many_springs,
+    },
+    Case {
+        name: "flat-line",
+        family: Family::Lines,
+        holds: "On a flat line, where all springs tie, all join and leave at once, at Kendall's force.",
+        error_of: "force, place, loss",
+        scope: Scope::BothEdges(2e-15, 2e-15),
+        large: false,
+        measure: flat,
+    },
+    Case {
+        name: "staircase",
+        family: Family::Lines,
+        holds: "On 32 treads of 32 springs each, up, down, and up and down, contact and forces are those of the \
+                rules.",
+        error_of: "force and loss",
+        scope: Scope::BothEdges(1e-15, 1e-15),
+        large: false,
+        measure: |edges| {
+            shapes(
+                edges,
+                &[
+                    |i, n| (32 * i / n) as f64,
+                    |i, n| -((32 * i / n) as f64),
+                    |i, n| {
+                        let tread = (32 * i / n) as f64;
+                        (tread - 15.5).abs()
+                    },
+                ],
+            )
+        },
+    },
+    Case {
+        name: "monotone-line",
+        family: Family::Lines,
+        holds: "On straight and curved slopes, where the tree is one chain, contact and forces are those of the \
+                rules.",
+        error_of: "force and loss",
+        scope: Scope::BothEdges(1e-15, 1e-15),
+        large: false,
+        measure: |edges| {
+            shapes(
+                edges,
+                &[
+                    |i, n| i as f64 / n as f64,
+                    |i, n| -(i as f64 / n as f64),
+                    |i, n| (i as f64 / n as f64).powi(2),
+                    |i, n| (-8.0 * i as f64 / n as f64).exp(),
+                ],
+            )
+        },
+    },
+    Case {
+        name: "sawtooth",
+        family: Family::Lines,
+        holds: "On equal teeth of 2, 3 and 64 springs, leaning left or right, contact and forces are those of \
+                the rules.",
+        error_of: "force and loss",
+        scope: Scope::BothEdges(1e-15, 1e-15),
+        large: false,
+        measure: |edges| {
+            shapes(
+                edges,
+                &[
+                    |i, _| (i % 2) as f64,
+                    |i, _| (i % 3) as f64,
+                    |i, _| (i % 64) as f64,
+                    |i, _| -((i % 64) as f64),
+                ],
+            )
+        },
+    },
+    Case {
+        name: "height-offset-1e9",
+        family: Family::Lines,
+        holds: "A measured line on an offset of 1e9 rms heights has the rms height, rms gradient and gaps of \
+                its own roughness.",
+        error_of: "statistics and gaps",
+        scope: Scope::Line(1e-13),
+        large: false,
+        measure: |_| offset(),
+    },
+];
+
+/// Heights of a spectrum by their cosines: angles reduced as whole numbers, sums with twice the digits.
+fn cosines(spectrum: SelfAffine, seed: u64, points: usize) -> Vec<f64> {
+    let SelfAffine { hurst, first, last } = spectrum;
+    let amplitude = |mode: u64| (-(hurst + 0.5) * (mode as f64).ln()).exp();
+    let squares = Extended::sum((first..=last).map(|mode| amplitude(mode).powi(2)));
+    let rms = (squares.rounded() / 2.0).sqrt();
+    let phases: Vec<f64> = phases(seed, first).take((last + 1 - first) as usize).collect();
+    // Mode k at x = (i + ½)L/N: the angle is π k (2i + 1)/N.
+    let height = |index: usize| {
+        let terms = (first..=last).zip(&phases).map(|(mode, phase)| {
+            let turns = mode * (2 * index as u64 + 1) % (2 * points as u64);
+            amplitude(mode) * (PI * turns as f64 / points as f64 + phase).cos()
+        });
+        Extended::sum(terms).rounded() / rms
+    };
+    (0..points).map(height).collect()
+}
+
+/// Largest error of a synthesised line, over its rms height.
+fn height_error(spectrum: SelfAffine, seed: u64, points: usize) -> Result<f64, Fault> {
+    let line = UnitRoughness::synthesize(spectrum, seed, points)?;
+    let expected = cosines(spectrum, seed, points);
+    let errors = line.heights.iter().zip(&expected).map(|(a, b)| (a - b).abs());
+    Ok(errors.fold(0.0, |worst, error| if error <= worst { worst } else { error }))
+}
+
+fn hurst_to(limit: f64, exponents: &[f64]) -> Result<f64, Fault> {
+    let of = |hurst| SelfAffine { hurst, ..SPECTRUM };
+    let gradients = |hurst| {
+        let spectrum = of(hurst);
+        [spectrum.gradient_per_height(1.0), spectrum.continuum_gradient_per_height(1.0)]
+    };
+    let limits = gradients(limit);
+    let mut worst = 0.0_f64;
+    for &hurst in exponents {
+        worst = worst.max(height_error(of(hurst), 4, 1000)?);
+        for (found, limit_of) in gradients(hurst).into_iter().zip(limits) {
+            // Its logarithm changes with H by no more than ln of the ratio of the modes.
+            let most = (SPECTRUM.last as f64).ln() * (hurst - limit).abs() + 1e-14;
+            ensure((found / limit_of - 1.0).abs() <= most, || {
+                format!("H = {hurst:e}: rms gradient {found:e}, in the limit {limit_of:e}")
+            })?;
+        }
+    }
+    Ok(worst)
+}
+
+fn one_mode(edges: Edges) -> Result<f64, Fault> {
+    let mut worst = 0.0_f64;
+    for (points, mode) in [(2, 1), (64, 1), (1000, 1), (1000, 7), (1001, 500), (1000, 500)] {
+        let spectrum = SelfAffine { hurst: 0.5, first: mode, last: mode };
+        worst = worst.max(height_error(spectrum, 5, points)?);
+        let body = Body::rough(spectrum, 5, points, WORK)?;
+        worst = worst.max(follow(&body, edges, &body.tour())?.error());
+    }
+    Ok(worst)
+}
+
+fn modes_to_nyquist() -> Result<f64, Fault> {
+    let mut worst = 0.0_f64;
+    for points in [2, 3, 4, 1000, 1024, 1025, 1009, 2999] {
+        let spectrum = SelfAffine { hurst: 0.3, first: 1, last: points as u64 / 2 };
+        worst = worst.max(height_error(spectrum, 6, points)?);
+    }
+    Ok(worst)
+}
+
+fn few_springs(edges: Edges) -> Result<f64, Fault> {
+    let mut worst = 0.0_f64;
+    for points in [1, 2, 3, 5, 17, 127, 4099] {
+        for work in [0.0, 0.1 * WORK, WORK, 100.0 * WORK] {
+            let body = if points == 1 {
+                Body::below(vec![0.0], LENGTH, MODULUS, work)
+            } else {
+                rough(points, work)?
+            };
+            worst = worst.max(follow(&body, edges, &body.tour())?.error());
+        }
+    }
+    Ok(worst)
+}
+
+fn many_springs(edges: Edges) -> Result<f64, Fault> {
+    let points = 1 << 24;
+    let body = Body::rough(SelfAffine { last: points as u64 / 2, ..SPECTRUM }, 7, points, WORK)?;
+    body.with(edges, 33, |solver| {
+        let loading = solver.advance(Leg::ToIndentation(0.4 * body.deepest()))?;
+        let mut worst = force_error(&body, edges, solver, &end(&loading))?;
+        let unloading = solver.advance(Leg::ToSeparation)?;
+        ensure(unloading.smallest.force < 0.0, || "it does not stick".into())?;
+        worst = worst.max(force_error(&body, edges, solver, &unloading.smallest)?);
+        ensure(unloading.leaves == loading.joins && end(&unloading).springs == 0, || {
+            format!("{} springs joined, {} left", loading.joins, unloading.leaves)
+        })?;
+        Ok(worst)
+    })
+}
+
+fn flat(edges: Edges) -> Result<f64, Fault> {
+    let mut worst = 0.0_f64;
+    for points in [1, 2, 3, 1000, 65_537] {
+        let body = Body::below(vec![0.0; points], LENGTH, MODULUS, WORK);
+        let history = body.history(edges, &[Leg::ToIndentation(RMS_HEIGHT), Leg::ToSeparation], 9)?;
+        let last = history.legs[1].smallest;
+        let all = points as u64;
+        ensure((last.springs, last.fragments, history.legs[1].leaves) == (all, 1, all), || {
+            format!("{last:?}")
+        })?;
+        let [length, modulus, work] = [LENGTH, MODULUS, WORK].map(Extended::from);
+        let lets_go = -(Extended::PI * length * work / modulus).sqrt();
+        let lost = Extended::from(0.5) * modulus * length * lets_go * lets_go;
+        for (found, expected) in [
+            (last.force, modulus * length * lets_go),
+            (last.indentation, lets_go),
+            (end(&history.legs[1]).indentation, lets_go),
+            (history.legs[1].dissipated_energy, lost),
+            (end(&history.legs[0]).force, modulus * length * Extended::from(RMS_HEIGHT)),
+        ] {
+            let error = (Extended::from(found) - expected).abs().rounded();
+            worst = worst.max(error / expected.abs().rounded());
+        }
+    }
+    Ok(worst)
+}
+
+/// Follows bodies of these shapes, from hardly any adhesion to much.
+fn shapes(edges: Edges, shapes: &[fn(usize, usize) -> f64]) -> Result<f64, Fault> {
+    let points = 1024;
+    let mut worst = 0.0_f64;
+    for shape in shapes {
+        let heights: Vec<f64> = (0..points).map(|index| -shape(index, points)).collect();
+        let largest = heights.iter().fold(0.0, |most: f64, height| most.max(height.abs()));
+        let heights: Vec<f64> = heights.iter().map(|height| height * (RMS_HEIGHT / largest)).collect();
+        for work in [0.0, 0.01 * WORK, 0.1 * WORK, WORK, 10.0 * WORK] {
+            let body = Body::below(heights.clone(), LENGTH, MODULUS, work);
+            worst = worst.max(follow(&body, edges, &body.tour())?.error());
+        }
+    }
+    Ok(worst)
+}
+
+fn offset() -> Result<f64, Fault> {
+    // A file of a million points is what instruments write; a thousand show less.
+    let points = 200_000;
+    let rough = UnitRoughness::synthesize(SPECTRUM, 8, points)?;
+    let mut text = String::new();
+    let spacing = LENGTH / (points - 1) as f64;
+    let on_offset: Vec<f64> =
+        rough.heights.iter().map(|height| RMS_HEIGHT * OFFSET + RMS_HEIGHT * height).collect();
+    let positions: Vec<f64> = (0..points).map(|index| index as f64 * spacing).collect();
+    for (x, z) in positions.iter().zip(&on_offset) {
+        // Writing to a string does not fail, and the shortest digits give the same number again.
+        let _ = writeln!(text, "{x:e},{z:e}");
+    }
+    let profile = MeasuredProfile::parse(&text).map_err(Fault::Wrong)?;
+    let (height, gradient) = profile.rms_height_and_gradient();
+    let (expected_height, expected_gradient) = statistics(&positions, &on_offset);
+    let mut worst = (height / expected_height - 1.0).abs().max((gradient / expected_gradient - 1.0).abs());
+    // Springs midway between the points of the file: half a step further on.
+    let length = profile.length();
+    let heights = profile.sample(length, points - 1).map_err(Fault::Wrong)?;
+    let line = Line::new(length, points - 1, None, Some(&heights), 1.0)?;
+    let midway: Vec<f64> =
+        on_offset.windows(2).map(|z| 0.5 * (z[0] - z[1]) + (z[1] - on_offset[0])).collect();
+    let summit = midway.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    for (gap, height) in line.gaps.iter().zip(&midway) {
+        worst = worst.max((gap - (summit - height)).abs() / RMS_HEIGHT);
+    }
+    Ok(worst)
+}
+
+/// Rms height about the mean and rms gradient of straight pieces, with twice the digits.
+fn statistics(positions: &[f64], heights: &[f64]) -> (f64, f64) {
+    let pieces = || {
+        positions.windows(2).zip(heights.windows(2)).map(|(x, z)| {
+            let [x0, x1, a, b] = [x[0], x[1], z[0], z[1]].map(Extended::from);
+            (x1 - x0, a, b)
+        })
+    };
+    let zero = Extended::default();
+    let length = pieces().fold(zero, |sum, (dx, ..)| sum + dx);
+    let half = Extended::from(0.5);
+    let mean = pieces().fold(zero, |sum, (dx, a, b)| sum + dx * (a + b) * half) / length;
+    let square = pieces().fold(zero, |sum, (dx, a, b)| {
+        let (a, b) = (a - mean, b - mean);
+        sum + dx * (a * a + a * b + b * b) / Extended::from(3.0)
+    });
+    let gradient = pieces().fold(zero, |sum, (dx, a, b)| sum + (b - a) * (b - a) / dx);
+    ((square / length).sqrt().rounded(), (gradient / length).sqrt().rounded())
+}

@@ -1,0 +1,51 @@
+//! The cases, family by family, and what several of them share.
+
+pub mod adhesion;
+pub mod closed_forms;
+pub mod laws;
+pub mod lines;
+pub mod scales;
+
+use super::{Body, Fault, ensure};
+use crate::contact::{CurvePoint, History, LegRecord};
+use crate::surface::SelfAffine;
+
+/// The spectrum of lines for which another would show nothing else.
+const SPECTRUM: SelfAffine = SelfAffine { hurst: 0.7, first: 1, last: 256 };
+
+/// Work of adhesion with which a line of [`SPECTRUM`] is on the way from sticking to not sticking, J/m².
+const WORK: f64 = 2.0e-5;
+
+/// A line of [`SPECTRUM`].
+fn rough(points: usize, work: f64) -> Result<Body, Fault> {
+    Body::rough(SelfAffine { last: (points as u64 / 2).min(SPECTRUM.last), ..SPECTRUM }, 1, points, work)
+}
+
+/// All numbers of a leg.
+fn points(record: &LegRecord) -> impl Iterator<Item = &CurvePoint> {
+    record.curve.iter().chain([&record.largest, &record.smallest])
+}
+
+/// Checks that a history is another with indentations, forces and energies multiplied, to the last bit.
+fn same_bits(one: &History, other: &History, length: f64, force: f64) -> Result<(), Fault> {
+    ensure(one.legs.len() == other.legs.len(), || "another number of legs".into())?;
+    for (index, (one, other)) in one.legs.iter().zip(&other.legs).enumerate() {
+        let same = |a: f64, b: f64| a.to_bits() == b.to_bits() || (a == 0.0 && b == 0.0);
+        let points_agree = one.curve.len() == other.curve.len()
+            && points(one).zip(points(other)).all(|(a, b)| {
+                same(a.indentation * length, b.indentation)
+                    && same(a.force * force, b.force)
+                    && (a.springs, a.fragments) == (b.springs, b.fragments)
+            });
+        let same_energy = same(one.dissipated_energy * length * force, other.dissipated_energy);
+        ensure(points_agree && same_energy, || {
+            format!("leg {index}, lengths times {length:e}, forces times {force:e}: other bits")
+        })?;
+    }
+    Ok(())
+}
+
+/// The same spring sets, mirrored or not.
+fn indices(fragments: &[(usize, usize)]) -> Vec<usize> {
+    fragments.iter().flat_map(|&(first, last)| first..=last).collect()
+}

@@ -1,0 +1,229 @@
+//! Units and sizes: what only scales must only scale, to the ends of what numbers can tell.
+
+use super::{Body, WORK, ensure, points, rough, same_bits};
+use crate::check::catalogue::{Case, Family, Scope};
+use crate::check::{Fault, LENGTH, RMS_HEIGHT, end, follow};
+use crate::contact::{Foundation, History};
+use crate::scene::{Adhesion, Document, Edges, Leg, Roughness, Scene};
+use crate::simulation::Simulation;
+
+pub const CASES: &[Case] = &[
+    Case {
+        name: "modulus-1-pa-to-10-tpa",
+        family: Family::Scales,
+        holds: "E* and γ scaled alike, from 1 Pa to 8.8 TPa, change no bit of contact and forces; at 1 Pa and \
+                10 TPa with the same γ both are those of the rules.",
+        error_of: "force and loss",
+        scope: Scope::BothEdges(1e-15, 1e-15),
+        large: false,
+        measure: modulus,
+    },
+    Case {
+        name: "lengths-nm-to-m",
+        family: Family::Scales,
+        holds: "A scene from 1 nm to 8.6 m long, all lengths scaled, is one scene to the last bit; made anew at \
+                1 nm, 1 µm, 1 mm and 10 m, contact and forces are those of the rules.",
+        error_of: "force and loss",
+        scope: Scope::BothEdges(1e-15, 1e-15),
+        large: false,
+        measure: lengths,
+    },
+    Case {
+        name: "heights-1e-15-to-10-lengths",
+        family: Family::Scales,
+        holds: "A scene with an rms height from 1e−15 to 8 lengths, γ with its square, is one scene to the last \
+                bit; at one γ contact and forces are those of the rules for all of them.",
+        error_of: "force and loss",
+        scope: Scope::BothEdges(1e-15, 1e-15),
+        large: false,
+        measure: heights,
+    },
+    Case {
+        name: "subnormal-gaps",
+        family: Family::Scales,
+        holds: "Heights down to subnormal numbers give finite, ordered curves, forces within 2⁻¹⁰⁰⁰ m for each \
+                spring, and to 2⁻⁴⁰⁰ the same bits.",
+        error_of: "force, over n Δk 2⁻¹⁰⁰⁰ m",
+        scope: Scope::BothEdges(1.0, 1.0),
+        large: false,
+        measure: subnormal,
+    },
+    Case {
+        name: "near-overflow",
+        family: Family::Scales,
+        holds: "Heights up to 1e294 m only scale, to the last bit; with adhesion up to 1e128 m.",
+        error_of: "force",
+        scope: Scope::BothEdges(0.0, 0.0),
+        large: false,
+        measure: near_overflow,
+    },
+];
+
+/// A scene of 1 nm under a stiffness of 1 Pa, its loading in natural units of length and force.
+fn scene(edges: Edges) -> Result<Scene, Fault> {
+    let text = "(version: 1, material: (effective_modulus: 1.0), length: 1.0e-9,
+        roughness: SelfAffine(hurst: 0.7, rms_height: 1.0e-12, modes: (1, 128), seed: 3),
+        adhesion: (work: 1.0e-14),
+        loading: [ToIndentation(2.0e-12), ToIndentation(1.0e-12), ToForce(2.0e-21), ToZeroForce, ToSeparation],
+        numerics: (points: 512, samples: 65))";
+    let mut scene = Document::parse(text, "check")?.scene().clone();
+    scene.numerics.edges = edges;
+    Ok(scene)
+}
+
+/// The scene with lengths along the line, heights and stresses multiplied; γ so that they only scale.
+fn scaled(scene: &Scene, length: f64, height: f64, stress: f64) -> Scene {
+    let mut scene = scene.clone();
+    scene.length *= length;
+    if let Some(modulus) = &mut scene.material.effective_modulus {
+        *modulus *= stress;
+    }
+    if let Some(Roughness::SelfAffine { rms_height: Some(rms_height), .. }) = &mut scene.roughness {
+        *rms_height *= height;
+    }
+    // Δl² = π ℓ γ/E* must scale as the square of heights.
+    if let Some(Adhesion { work: Some(work), .. }) = &mut scene.adhesion {
+        *work *= height * height / length * stress;
+    }
+    for leg in &mut scene.loading {
+        match leg {
+            Leg::ToIndentation(to) => *to *= height,
+            Leg::ToForce(to) => *to *= stress * length * height,
+            _ => {}
+        }
+    }
+    scene
+}
+
+fn run(scene: &Scene) -> Result<History, Fault> {
+    let violations = crate::scene::check(scene);
+    ensure(violations.is_empty(), || format!("the scene is not allowed: {violations:?}"))?;
+    Ok(Simulation::default().run(scene, &|| false, &mut |_, _, _| Ok(()))?.history)
+}
+
+/// Runs the scene at all of these scales (length, height, stress), powers of two.
+fn only_scales(edges: Edges, scales: impl Iterator<Item = (f64, f64, f64)>) -> Result<(), Fault> {
+    let scene = scene(edges)?;
+    let one = run(&scene)?;
+    ensure(one.legs[0].joins > 50 && one.legs[4].smallest.force < 0.0, || "nothing sticks".into())?;
+    for (length, height, stress) in scales {
+        let other = run(&scaled(&scene, length, height, stress))?;
+        same_bits(&one, &other, height, stress * length * height)?;
+    }
+    Ok(())
+}
+
+fn modulus(edges: Edges) -> Result<f64, Fault> {
+    only_scales(edges, (1..=43).map(|k| (1.0, 1.0, 2.0_f64.powi(k))))?;
+    let mut worst = 0.0_f64;
+    for effective_modulus in [1.0, 1e3, 1e8, 1e13] {
+        let body = rough(512, WORK)?;
+        let foundation = Foundation { effective_modulus, ..body.foundation };
+        let body = Body { foundation, ..body };
+        worst = worst.max(follow(&body, edges, &body.tour())?.error());
+    }
+    Ok(worst)
+}
+
+fn lengths(edges: Edges) -> Result<f64, Fault> {
+    only_scales(edges, (1..=33).map(|k| (2.0_f64.powi(k), 2.0_f64.powi(k), 1.0)))?;
+    let mut worst = 0.0_f64;
+    for length in [1e-9, 1e-6, 1e-3, 10.0] {
+        let body = rough(512, 0.0)?;
+        let share = length / LENGTH;
+        let gaps = body.gaps.iter().map(|gap| share * gap).collect();
+        let foundation = Foundation { spacing: share * body.foundation.spacing, ..body.foundation };
+        let body = Body { gaps, foundation, work: share * WORK };
+        worst = worst.max(follow(&body, edges, &body.tour())?.error());
+    }
+    Ok(worst)
+}
+
+fn heights(edges: Edges) -> Result<f64, Fault> {
+    // From 1e−15 L on.
+    let mut low = scene(edges)?;
+    low = scaled(&low, 2.0_f64.powi(30), 1.0, 1.0);
+    let height = 2.0_f64.powi(-10);
+    low = scaled(&low, 1.0, height, 1.0);
+    if let Some(Roughness::SelfAffine { rms_height: Some(rms_height), .. }) = &mut low.roughness {
+        ensure(*rms_height <= 1e-15 * low.length, || format!("{rms_height:e} m"))?;
+    }
+    let one = run(&low)?;
+    for k in 1..=53 {
+        let lambda = 2.0_f64.powi(k);
+        same_bits(&one, &run(&scaled(&low, 1.0, lambda, 1.0))?, lambda, lambda)?;
+    }
+    let mut worst = 0.0_f64;
+    for share in [1e-15, 1e-12, 1e-9, 1e-6, 1e-3, 0.1, 1.0, 10.0] {
+        let body = rough(512, WORK)?;
+        let height = share * LENGTH / RMS_HEIGHT;
+        let body = Body { gaps: body.gaps.iter().map(|gap| height * gap).collect(), ..body };
+        worst = worst.max(follow(&body, edges, &body.tour())?.error());
+    }
+    Ok(worst)
+}
+
+/// The body with heights multiplied, and γ so that it only scales.
+fn higher(body: &Body, lambda: f64) -> Body {
+    let gaps = body.gaps.iter().map(|gap| lambda * gap).collect();
+    // One factor after the other: their product alone may be no number.
+    Body { gaps, work: lambda * (lambda * body.work), ..body.clone() }
+}
+
+fn subnormal(edges: Edges) -> Result<f64, Fault> {
+    let body = rough(500, WORK)?;
+    let tour = |body: &Body| body.history(edges, &body.tour(), 33);
+    let one = tour(&body)?;
+    for k in [100, 200, 300, 400] {
+        let lambda = 2.0_f64.powi(-k);
+        same_bits(&one, &tour(&higher(&body, lambda))?, lambda, lambda)?;
+    }
+    // Beyond, γ is no number any more. Gaps lose digits, so the reference is their own exact multiple.
+    let mut worst = 0.0_f64;
+    for k in [850, 900, 950, 980, 1000, 1020, 1040] {
+        let lambda = 2.0_f64.powi(-k / 2);
+        let down = |gap: &f64| lambda * (lambda * gap);
+        let up = |value: f64| value / lambda / lambda;
+        let small = Body { gaps: body.gaps.iter().map(down).collect(), work: 0.0, ..body.clone() };
+        ensure(k < 1020 || !small.deepest().is_normal(), || "not subnormal".into())?;
+        let large = Body { gaps: small.gaps.iter().map(|&gap| up(gap)).collect(), ..small.clone() };
+        for share in [0.25, 0.5, 0.75, 1.0, 2.0] {
+            let to = small.deepest() * share;
+            let found = small.history(edges, &[Leg::ToIndentation(to), Leg::ToSeparation], 33)?;
+            for record in &found.legs {
+                ensure(points(record).all(|p| p.force.is_finite() && p.indentation.is_finite()), || {
+                    format!("heights times 2^−{k}: not finite")
+                })?;
+            }
+            let ordered = found.legs[0]
+                .curve
+                .windows(2)
+                .all(|pair| pair[0].indentation <= pair[1].indentation && pair[0].springs <= pair[1].springs);
+            ensure(ordered, || format!("heights times 2^−{k}: not in order"))?;
+            let expected = end(&large.history(edges, &[Leg::ToIndentation(up(to))], 33)?.legs[0]);
+            let found = end(&found.legs[0]);
+            ensure(found.springs == expected.springs, || format!("heights times 2^−{k}: another contact"))?;
+            // In units in which nothing is subnormal.
+            let unit = body.gaps.len() as f64 * body.foundation.spring_stiffness() * 2.0_f64.powi(-1000);
+            worst = worst.max((up(found.force) - expected.force).abs() / up(unit));
+        }
+    }
+    Ok(worst)
+}
+
+fn near_overflow(edges: Edges) -> Result<f64, Fault> {
+    let body = rough(500, WORK)?;
+    let tour = |body: &Body| body.history(edges, &body.tour(), 33);
+    let one = tour(&body)?;
+    for k in [100, 200, 300, 400, 450] {
+        let lambda = 2.0_f64.powi(k);
+        same_bits(&one, &tour(&higher(&body, lambda))?, lambda, lambda)?;
+    }
+    let bare = Body { work: 0.0, ..body };
+    let one = tour(&bare)?;
+    for k in [500, 700, 900, 1000] {
+        let lambda = 2.0_f64.powi(k);
+        same_bits(&one, &tour(&higher(&bare, lambda))?, lambda, lambda)?;
+    }
+    Ok(0.0)
+}

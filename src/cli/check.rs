@@ -1,0 +1,136 @@
+//! `asperity check`: the catalogue of hard cases, on this machine.
+
+use super::{CliError, OutputArguments};
+use crate::check::{Case, Check, Verdict, catalogue, checks, judge};
+use crate::export::{check_text, write_check_json};
+use clap::{Args, ValueEnum};
+use std::io::{self, IsTerminal, Write};
+
+const EXAMPLES: &str = "\
+Examples:
+  asperity check                            All cases
+  asperity check --quick                    All but those that take seconds and hundreds of megabytes
+  asperity check adhesion memory            Those with one of these words in their names
+  asperity check --format json -o check.json
+
+Each case has one error and one bound, stated beforehand. Exit code 1 when a case fails.";
+
+/// Arguments of `check`.
+#[derive(Args, Debug)]
+#[command(after_help = EXAMPLES)]
+pub struct CheckArguments {
+    /// Only cases with one of these words in their names
+    #[arg(value_name = "WORD")]
+    pub words: Vec<String>,
+    /// Leave out cases that take seconds and hundreds of megabytes
+    #[arg(long)]
+    pub quick: bool,
+    /// text or json; left out: by the ending of FILE, else text
+    #[arg(long, value_enum, hide_possible_values = true)]
+    pub format: Option<CheckFormat>,
+    /// Where it goes.
+    #[command(flatten)]
+    pub output: OutputArguments,
+}
+
+/// How the verdicts are printed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum CheckFormat {
+    /// A table.
+    Text,
+    /// One object.
+    Json,
+}
+
+impl CheckArguments {
+    /// The cases that are meant; an error for a word that is in no name.
+    fn chosen(&self) -> Result<Vec<Check>, CliError> {
+        let has = |case: &Case, word: &String| case.name.contains(word.as_str());
+        for word in &self.words {
+            if !catalogue().into_iter().any(|case| has(case, word)) {
+                let allowed: Vec<&str> = catalogue().into_iter().map(|case| case.name).collect();
+                return Err(CliError::NoCase { word: word.clone(), allowed: allowed.join(", ") });
+            }
+        }
+        let is_meant = |case: &Case| {
+            let named = self.words.is_empty() || self.words.iter().any(|word| has(case, word));
+            named && !(self.quick && case.large)
+        };
+        let chosen = checks(is_meant);
+        if chosen.is_empty() { Err(CliError::OnlyLargeCases) } else { Ok(chosen) }
+    }
+}
+
+/// Runs the cases and writes what came of them.
+pub(super) fn check(arguments: &CheckArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
+    let chosen = arguments.chosen()?;
+    arguments.output.check()?;
+    let progress = Progress { count: chosen.len() };
+    let run = |(index, check): (usize, Check)| {
+        progress.tell(index, &check);
+        judge(check)
+    };
+    let verdicts: Vec<Verdict> = chosen.into_iter().enumerate().map(run).collect();
+    progress.end();
+    let by_ending = match arguments.output.file().and_then(|path| path.extension()?.to_str()) {
+        Some("json") => CheckFormat::Json,
+        _ => CheckFormat::Text,
+    };
+    arguments.output.write(stdout, |out| match arguments.format.unwrap_or(by_ending) {
+        CheckFormat::Text => out.write_all(check_text(&verdicts).as_bytes()),
+        CheckFormat::Json => write_check_json(out, &verdicts),
+    })?;
+    let failed = verdicts.iter().filter(|verdict| !verdict.passes()).count();
+    if failed == 0 { Ok(()) } else { Err(CliError::CasesFail { failed, checks: verdicts.len() }) }
+}
+
+/// Which case is running: on a terminal one line that changes, elsewhere nothing.
+struct Progress {
+    count: usize,
+}
+
+impl Progress {
+    fn tell(&self, index: usize, check: &Check) {
+        let mut stderr = io::stderr();
+        if stderr.is_terminal() {
+            // Who cannot be told does without.
+            let _ = write!(stderr, "\r\x1b[K{}/{} {}", index + 1, self.count, check.case.name)
+                .and_then(|()| stderr.flush());
+        }
+    }
+
+    fn end(&self) {
+        let mut stderr = io::stderr();
+        if stderr.is_terminal() {
+            let _ = write!(stderr, "\r\x1b[K").and_then(|()| stderr.flush());
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn arguments(words: &[&str], quick: bool) -> CheckArguments {
+        CheckArguments {
+            words: words.iter().map(ToString::to_string).collect(),
+            quick,
+            format: None,
+            output: OutputArguments { output: None, force: false },
+        }
+    }
+
+    #[test]
+    fn words_choose_cases() {
+        let names = |words: &[&str], quick| -> Vec<&str> {
+            let mut names: Vec<_> =
+                arguments(words, quick).chosen().unwrap().iter().map(|check| check.case.name).collect();
+            names.dedup();
+            names
+        };
+        assert_eq!(names(&["sawtooth", "memory"], false), ["sawtooth", "return-point-memory"]);
+        assert!(names(&[], false).contains(&"springs-2^24") && !names(&[], true).contains(&"springs-2^24"));
+        assert!(matches!(arguments(&["sawtooth", "nothing"], false).chosen(), Err(CliError::NoCase { .. })));
+        assert!(matches!(arguments(&["2^24"], true).chosen(), Err(CliError::OnlyLargeCases)));
+    }
+}

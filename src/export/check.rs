@@ -1,0 +1,135 @@
+//! The table of hard cases.
+
+use super::json_text::write_json_value;
+use super::sheet::Sheet;
+use crate::check::{Check, Verdict, catalogue};
+use crate::scene::Edges;
+use serde::Serialize;
+use std::io::{self, Write};
+
+/// Writes the verdicts for a person: a row for each check, then the sentences of the cases, then what failed.
+#[must_use]
+pub fn check_text(verdicts: &[Verdict]) -> String {
+    let mut sheet = Sheet::default();
+    let head = ["case", "edges", "error", "bound", "", "time", "error of"].map(String::from);
+    let mut rows = vec![head];
+    rows.extend(verdicts.iter().map(|verdict| {
+        let Check { case, edges, bound } = verdict.check;
+        [
+            case.name.to_owned(),
+            edges_name(edges).to_owned(),
+            verdict.error.as_ref().map_or_else(|_| "–".to_owned(), |&error| figure(error)),
+            figure(bound),
+            if verdict.passes() { "pass" } else { "FAIL" }.to_owned(),
+            format!("{:.2} s", verdict.seconds),
+            case.error_of.to_owned(),
+        ]
+    }));
+    sheet.table(&rows);
+    sheet.heading("What must hold");
+    let mut sentences = Vec::new();
+    for case in catalogue() {
+        if verdicts.iter().any(|verdict| verdict.check.case.name == case.name) {
+            sentences.push([case.name.to_owned(), case.holds.to_owned()]);
+        }
+    }
+    sheet.table(&sentences);
+    let failed: Vec<&Verdict> = verdicts.iter().filter(|verdict| !verdict.passes()).collect();
+    if !failed.is_empty() {
+        sheet.heading("What fails");
+        let why = |verdict: &&Verdict| {
+            let Check { case, edges, bound } = verdict.check;
+            let name = format!("{} {}", case.name, edges_name(edges)).trim_end().to_owned();
+            let why = match &verdict.error {
+                Ok(error) => format!("error {} above the bound {}", figure(*error), figure(bound)),
+                Err(fault) => fault.to_string(),
+            };
+            [name, why]
+        };
+        sheet.table(&failed.iter().map(why).collect::<Vec<_>>());
+    }
+    sheet.heading(&format!(
+        "{} of {} checks pass, in {:.1} s.",
+        verdicts.len() - failed.len(),
+        verdicts.len(),
+        verdicts.iter().map(|verdict| verdict.seconds).sum::<f64>()
+    ));
+    sheet.into_text()
+}
+
+/// The cases as a Markdown table: what must hold, and within which bounds.
+#[must_use]
+pub fn check_markdown(checks: &[Check]) -> String {
+    let mut text = String::from("| case | what must hold | error of | bound |\n| --- | --- | --- | --- |\n");
+    for case in catalogue() {
+        let bounds: Vec<String> = checks
+            .iter()
+            .filter(|check| check.case.name == case.name)
+            .map(|check| {
+                let edges = check.edges.map_or_else(String::new, |edges| format!("{}: ", name_of(edges)));
+                format!("{edges}{}", figure(check.bound))
+            })
+            .collect();
+        text +=
+            &format!("| `{}` | {} | {} | {} |\n", case.name, case.holds, case.error_of, bounds.join(", "));
+    }
+    text
+}
+
+/// Writes the verdicts as one object.
+///
+/// # Errors
+/// Those of `out`.
+pub fn write_check_json(out: &mut (impl Write + ?Sized), verdicts: &[Verdict]) -> io::Result<()> {
+    #[derive(Serialize)]
+    struct Report<'a> {
+        passes: bool,
+        checks: Vec<Row<'a>>,
+    }
+    #[derive(Serialize)]
+    struct Row<'a> {
+        case: &'a str,
+        family: crate::check::Family,
+        edges: Option<Edges>,
+        holds: &'a str,
+        error_of: &'a str,
+        error: Option<f64>,
+        bound: f64,
+        passes: bool,
+        fault: Option<String>,
+        seconds: f64,
+    }
+    let row = |verdict: &Verdict| {
+        let Check { case, edges, bound } = verdict.check;
+        Row {
+            case: case.name,
+            family: case.family,
+            edges,
+            holds: case.holds,
+            error_of: case.error_of,
+            error: verdict.error.as_ref().ok().copied().filter(|error| error.is_finite()),
+            bound,
+            passes: verdict.passes(),
+            fault: verdict.error.as_ref().err().map(ToString::to_string),
+            seconds: verdict.seconds,
+        }
+    };
+    let checks = verdicts.iter().map(row).collect();
+    write_json_value(out, &Report { passes: verdicts.iter().all(Verdict::passes), checks })
+}
+
+/// A bound or an error: two digits are enough to compare, zero is exact.
+fn figure(value: f64) -> String {
+    if value == 0.0 { "0".to_owned() } else { format!("{value:.1e}") }
+}
+
+fn edges_name(edges: Option<Edges>) -> &'static str {
+    edges.map_or("", name_of)
+}
+
+fn name_of(edges: Edges) -> &'static str {
+    match edges {
+        Edges::Grid => "Grid",
+        Edges::SubCell => "SubCell",
+    }
+}
