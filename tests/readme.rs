@@ -2,9 +2,11 @@
 //!
 //! After a change of the tables, `UPDATE_README=1 cargo test --test readme` writes them anew.
 
+use asperity::check::checks;
 use asperity::explorer::demo::{Demo, ONE_SCENE};
 use asperity::explorer::theme::{Appearance, Marker, Theme};
 use asperity::explorer::{keys, svg_of};
+use asperity::export::check_markdown;
 use asperity::scene::{FIELDS, LEG_FORCE, LEG_INDENTATION, Range, presets};
 use std::path::Path;
 
@@ -49,6 +51,7 @@ fn tables_are_those_of_the_program() {
         scenes += &format!("| `{}` | {} |\n", preset.name, document.scene().notice);
     }
     check("scenes", &scenes);
+    check("hard cases", &check_markdown(&checks(|_| true)));
 }
 
 #[test]
