@@ -562,9 +562,16 @@ fn the_explorer_asks_for_a_terminal() {
 
 #[test]
 fn help_is_for_reading() {
-    for command in
-        [&[][..], &["run"], &["demo"], &["line"], &["plan"], &["presets", "check"], &["completions"]]
-    {
+    for command in [
+        &[][..],
+        &["run"],
+        &["demo"],
+        &["line"],
+        &["plan"],
+        &["check"],
+        &["presets", "check"],
+        &["completions"],
+    ] {
         for flag in ["-h", "--help"] {
             let text = done(&[command, &[flag]].concat());
             assert!(text.contains("Usage: asperity") && text.contains("Examples:"), "{text}");
@@ -717,4 +724,31 @@ fn a_full_disk_is_told() {
         let told = String::from_utf8(output.stderr).unwrap();
         assert!(told.starts_with("standard output: cannot be written"), "{told}");
     }
+}
+
+#[test]
+fn hard_cases_are_a_table_or_json() {
+    let table = done(&["check", "no-adhesion", "one-mode"]);
+    let rows: Vec<_> = table.lines().take_while(|line| !line.is_empty()).collect();
+    assert!(rows[0].starts_with("case") && rows.len() == 5, "{table}");
+    assert!(rows[1..].iter().all(|row| row.contains(" pass ")), "{table}");
+    assert!(table.contains("4 of 4 checks pass"), "{table}");
+    assert!(table.lines().all(|line| line.chars().count() <= 100), "{table}");
+    let report = json(&["check", "no-adhesion", "--format", "json"]);
+    assert_eq!(report["passes"], true);
+    let checks = report["checks"].as_array().unwrap();
+    let edges: Vec<_> = checks.iter().map(|check| check["edges"].as_str().unwrap()).collect();
+    assert_eq!(edges, ["Grid", "SubCell"]);
+    assert!(checks.iter().all(|check| number(&check["error"]) <= number(&check["bound"])));
+}
+
+#[test]
+fn words_that_are_in_no_case_are_refused() {
+    let told = failed(1, &["check", "sawtooth", "no-such-case"]);
+    assert!(
+        told.starts_with("no-such-case: ") && told.contains("allowed") && told.contains("sawtooth"),
+        "{told}"
+    );
+    let told = failed(1, &["check", "--quick", "2^24"]);
+    assert!(told.contains("--quick"), "{told}");
 }

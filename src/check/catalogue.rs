@@ -115,3 +115,30 @@ pub fn judge(check: Check) -> Verdict {
     let error = (check.case.measure)(check.edges.unwrap_or(Edges::Grid));
     Verdict { check, error, seconds: clock.elapsed().as_secs_f64() }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn cases_have_names_of_their_own_and_sentences() {
+        let mut names: Vec<_> = catalogue().iter().map(|case| case.name).collect();
+        let count = names.len();
+        names.sort_unstable();
+        names.dedup();
+        assert_eq!(names.len(), count);
+        for case in catalogue() {
+            assert!(case.holds.ends_with('.') && !case.holds.contains("  "), "{}", case.holds);
+        }
+        assert!(checks(|_| true).iter().all(|check| check.bound >= 0.0));
+    }
+
+    #[test]
+    fn an_error_above_the_bound_fails() {
+        let check = checks(|case| case.name == "hertz-sphere")[0];
+        assert!(judge(check).passes());
+        assert!(!judge(Check { bound: 1e-12, ..check }).passes());
+        let nothing = Verdict { check, error: Ok(f64::NAN), seconds: 0.0 };
+        assert!(!nothing.passes());
+    }
+}

@@ -247,17 +247,27 @@ impl Rest {
         let at_rest = half * half + a + b * Extended::from(d);
         let root = half + at_rest.sqrt();
         let level = Extended::from(d) + s * root;
-        let scale = largest + d.abs() + level.abs().rounded();
-        let slack = 64.0 * f64::EPSILON * scale * (1.0 + level_slope(&half, &root));
-        if level.rounded() < largest - slack {
+        // No level of its own rests: the one next to it must, to rounding. On one number, where an edge passes
+        // a spring and what is left is about to let go, a fragment may stand at the end of its levels.
+        let clamp = |level: Extended| {
+            if level.rounded() > wall {
+                Extended::from(wall)
+            } else if level.rounded() < largest {
+                Extended::from(largest)
+            } else {
+                level
+            }
+        };
+        let level = clamp(level);
+        let length = a + b * level;
+        let rest = (level - s * length.sqrt() - Extended::from(d)).rounded();
+        let scale = largest + d.abs() + level.abs().rounded() + s.rounded() * length.rounded().abs().sqrt();
+        if rest > 64.0 * f64::EPSILON * scale {
             return unstable("holds a spring that is stretched too far");
         }
-        if level.rounded() > wall + slack {
+        if rest < -64.0 * f64::EPSILON * scale {
             return unstable("leaves out a spring within its reach");
         }
-        // Rounding alone may put it a little beyond.
-        let level = if level.rounded() > wall { Extended::from(wall) } else { level };
-        let level = if level.rounded() < largest { Extended::from(largest) } else { level };
         let half_of = |sum: Extended| sum * Extended::from(0.5);
         let mut compression = Extended::default();
         let mut magnitude = 0.0;
@@ -278,8 +288,8 @@ impl Rest {
         // How far the edges go for a rounding of the level, and with what stretch.
         let edges_move = b.rounded() * (scale + level_slope(&half, &root) * scale);
         let stretched = (level - Extended::from(d)).abs().rounded();
-        let length = (last - first + 1) as f64;
-        Ok(Rest { compression, allowed: magnitude + length * largest + stretched * edges_move })
+        let springs = (last - first + 1) as f64;
+        Ok(Rest { compression, allowed: magnitude + springs * largest + stretched * edges_move })
     }
 }
 

@@ -9,7 +9,7 @@ use std::io::{self, IsTerminal, Write};
 const EXAMPLES: &str = "\
 Examples:
   asperity check                            All cases
-  asperity check --quick                    All but those that take seconds and hundreds of megabytes
+  asperity check --quick                    All but those that take seconds and much memory
   asperity check adhesion memory            Those with one of these words in their names
   asperity check --format json -o check.json
 
@@ -80,6 +80,11 @@ pub(super) fn check(arguments: &CheckArguments, stdout: &mut dyn Write) -> Resul
         CheckFormat::Text => out.write_all(check_text(&verdicts).as_bytes()),
         CheckFormat::Json => write_check_json(out, &verdicts),
     })?;
+    conclude(&verdicts)
+}
+
+/// An error when a case fails.
+fn conclude(verdicts: &[Verdict]) -> Result<(), CliError> {
     let failed = verdicts.iter().filter(|verdict| !verdict.passes()).count();
     if failed == 0 { Ok(()) } else { Err(CliError::CasesFail { failed, checks: verdicts.len() }) }
 }
@@ -130,7 +135,24 @@ mod tests {
         };
         assert_eq!(names(&["sawtooth", "memory"], false), ["sawtooth", "return-point-memory"]);
         assert!(names(&[], false).contains(&"springs-2^24") && !names(&[], true).contains(&"springs-2^24"));
-        assert!(matches!(arguments(&["sawtooth", "nothing"], false).chosen(), Err(CliError::NoCase { .. })));
+        assert!(matches!(
+            arguments(&["sawtooth", "trapezium"], false).chosen(),
+            Err(CliError::NoCase { .. })
+        ));
         assert!(matches!(arguments(&["2^24"], true).chosen(), Err(CliError::OnlyLargeCases)));
+    }
+
+    #[test]
+    fn a_case_that_fails_is_told() {
+        let verdicts = |errors: &[f64]| -> Vec<Verdict> {
+            let checks = checks(|case| case.name == "flat-line");
+            let verdict = |(check, &error)| Verdict { check, error: Ok(error), seconds: 0.0 };
+            checks.into_iter().zip(errors).map(verdict).collect()
+        };
+        assert!(conclude(&verdicts(&[0.0, 1e-16])).is_ok());
+        for error in [1.0, f64::NAN, f64::INFINITY] {
+            let told = conclude(&verdicts(&[0.0, error])).unwrap_err().to_string();
+            assert_eq!(told, "1 of 2 checks fail");
+        }
     }
 }

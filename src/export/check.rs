@@ -133,3 +133,48 @@ fn name_of(edges: Edges) -> &'static str {
         Edges::SubCell => "SubCell",
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::check::{Fault, checks};
+    use serde_json::Value;
+
+    #[test]
+    fn what_fails_is_shown_with_its_reason() {
+        let named = |name: &str| checks(|case| case.name == name);
+        let [one, other] = named("flat-line")[..] else { panic!("not two kinds of edges") };
+        let third = named("refined-line")[0];
+        let verdict = |check, error| Verdict { check, error, seconds: 0.25 };
+        let verdicts = [
+            verdict(one, Ok(0.0)),
+            verdict(other, Ok(3.0)),
+            verdict(third, Err(Fault::Wrong("another line".into()))),
+        ];
+        let text = check_text(&verdicts);
+        let row = |name: &str, edges: &str| {
+            text.lines().find(|line| line.starts_with(name) && line.contains(edges)).unwrap().to_owned()
+        };
+        assert!(row("flat-line", "Grid").contains(" 0 ") && row("flat-line", "Grid").contains("pass"));
+        assert!(
+            row("flat-line", "SubCell").contains("3.0e0") && row("flat-line", "SubCell").contains("FAIL")
+        );
+        assert!(row("refined-line", "FAIL").contains("–"), "{text}");
+        assert!(text.contains("error 3.0e0 above the bound") && text.contains("another line"), "{text}");
+        assert!(text.contains("1 of 3 checks pass, in 0.8 s."), "{text}");
+        let mut json = Vec::new();
+        write_check_json(&mut json, &verdicts).unwrap();
+        let report: Value = serde_json::from_slice(&json).unwrap();
+        assert_eq!(report["passes"], false);
+        assert_eq!(report["checks"][1]["error"], 3.0);
+        assert_eq!(report["checks"][2]["fault"], "another line");
+        assert_eq!(report["checks"][2]["edges"], Value::Null);
+    }
+
+    #[test]
+    fn every_case_has_its_row() {
+        let table = check_markdown(&checks(|_| true));
+        assert_eq!(table.lines().count(), catalogue().len() + 2);
+        assert!(table.contains("| `flat-line` |") && table.contains("| Grid: 2.0e-15, SubCell: 2.0e-15 |"));
+    }
+}

@@ -33,10 +33,8 @@ fn compare(body: &Body) -> ([f64; 3], usize) {
                 let force = events.compression() * wide(stiffness);
                 let unit = rounded(&force).abs() + all * body.deepest() / 512.0;
                 worst[0] = worst[0].max(distance(last.force, &force) / unit);
-            } else if let Some(at) = &moved.separated_at {
-                if leg == Leg::ToSeparation {
-                    assert!(distance(last.indentation, at) <= 4.0 * f64::EPSILON * size, "{leg:?}");
-                }
+            } else if let Some(at) = moved.separated_at.as_ref().filter(|_| leg == Leg::ToSeparation) {
+                assert!(distance(last.indentation, at) <= 4.0 * f64::EPSILON * size, "{leg:?}");
             }
             // The smallest force stands at an event, so it moves with the rounding of that.
             if let Some((smallest, _)) =
@@ -135,7 +133,7 @@ fn heights_are_sums_of_cosines_of_192_digits() {
             for ((mode, amplitude), phase) in (first..).zip(&amplitudes).zip(&phases) {
                 let turns = mode * (2 * index as u64 + 1) % (2 * points as u64);
                 let angle = pi() * wide(turns as f64) / wide(points as f64) + phase.clone();
-                sum = sum + amplitude.clone() * angle.cos();
+                sum += amplitude.clone() * angle.cos();
             }
             worst = worst.max(distance(height, &(sum / rms.clone())));
         }
@@ -157,7 +155,7 @@ fn statistics_on_an_offset_are_those_of_192_digits() {
         let (mut area, mut square, mut slope) = (wide(0.0), wide(0.0), wide(0.0));
         let pieces = || positions.windows(2).zip(heights.windows(2));
         for (x, z) in pieces() {
-            area = area + (wide(x[1]) - wide(x[0])) * (wide(z[0]) + wide(z[1])) / wide(2.0);
+            area += (wide(x[1]) - wide(x[0])) * (wide(z[0]) + wide(z[1])) / wide(2.0);
         }
         let length = wide(positions[points - 1]) - wide(positions[0]);
         let mean = area / length.clone();
@@ -165,9 +163,9 @@ fn statistics_on_an_offset_are_those_of_192_digits() {
             let dx = wide(x[1]) - wide(x[0]);
             let (a, b) = (wide(z[0]) - mean.clone(), wide(z[1]) - mean.clone());
             let squares = a.clone() * a.clone() + a.clone() * b.clone() + b.clone() * b.clone();
-            square = square + dx.clone() * squares / wide(3.0);
+            square += dx.clone() * squares / wide(3.0);
             let rise = wide(z[1]) - wide(z[0]);
-            slope = slope + rise.clone() * rise / dx;
+            slope += rise.clone() * rise / dx;
         }
         let (height, gradient) = profile.rms_height_and_gradient();
         for (found, expected) in [(height, square / length.clone()), (gradient, slope / length)] {

@@ -296,7 +296,7 @@ fn shapes(edges: Edges, shapes: &[fn(usize, usize) -> f64]) -> Result<f64, Fault
 }
 
 fn offset() -> Result<f64, Fault> {
-    // A file of a million points is what instruments write; a thousand show less.
+    // As many points as instruments write: sums over them are where an offset shows.
     let points = 200_000;
     let rough = UnitRoughness::synthesize(SPECTRUM, 8, points)?;
     let mut text = String::new();
