@@ -16,6 +16,22 @@ const MOST_SPRINGS: u64 = 1 << 21;
 /// Solutions it takes to believe an estimate.
 const FEWEST_SOLUTIONS: usize = 3;
 
+/// A tolerance as people write it: `1e-3` or `0.1 %`.
+///
+/// # Errors
+/// What is allowed, where it is none.
+pub fn parse_tolerance(text: &str) -> Result<f64, String> {
+    let allowed = || "allowed: a relative error above 0 and below 1, such as 1e-3 or 0.1%".to_owned();
+    let text = text.trim();
+    let (number, hundredths) = match text.strip_suffix('%') {
+        Some(number) => (number.trim_end(), true),
+        None => (text, false),
+    };
+    let number: f64 = number.parse().map_err(|_| allowed())?;
+    let tolerance = if hundredths { number / 100.0 } else { number };
+    if tolerance > 0.0 && tolerance < 1.0 { Ok(tolerance) } else { Err(allowed()) }
+}
+
 /// What a tolerance is about.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
@@ -101,6 +117,9 @@ pub enum ChoiceError {
         "a tolerance goes with numerics.solver: Exact; the step of the stepwise solver is an error of its own"
     )]
     Stepwise,
+    /// The search was told to stop.
+    #[error("the search for springs was stopped")]
+    Stopped,
     /// Not with as many springs as are tried.
     #[error("{}", unreached(.tolerance, .best))]
     Unreached {
@@ -134,11 +153,18 @@ fn unreached(tolerance: &f64, best: &Option<Box<Choice>>) -> String {
 /// Springs are doubled until the estimate of the error, that of the finest solution included, has come below
 /// the tolerance; then the fewest are taken from which on it stays there. With as many springs edges at the
 /// springs are cheaper, so they are taken where they reach it with no more springs than edges between them.
-/// The choice depends on the scene alone, not on the time anything takes.
+/// The choice depends on the scene alone, not on the time anything takes. `stop` is asked now and then whether
+/// to give up; `trying` is told the springs that are tried next.
 ///
 /// # Errors
 /// [`ChoiceError`].
-pub fn choose(scene: &Scene, folder: &Path, tolerance: f64) -> Result<Choice, ChoiceError> {
+pub fn choose(
+    scene: &Scene,
+    folder: &Path,
+    tolerance: f64,
+    stop: &dyn Fn() -> bool,
+    trying: &mut dyn FnMut(u64),
+) -> Result<Choice, ChoiceError> {
     if scene.numerics.solver != Solver::Exact {
         return Err(ChoiceError::Stepwise);
     }
@@ -148,12 +174,16 @@ pub fn choose(scene: &Scene, folder: &Path, tolerance: f64) -> Result<Choice, Ch
     for points in allowed_points(scene).take_while(|&points| points <= most) {
         let mut closed_form = None;
         let mut solved = 0;
+        trying(points);
         for (edges, solutions) in EDGES.into_iter().zip(&mut tried) {
-            if let Solved::Outcome(outcome) = solve(&refined(scene, points, edges), folder, &|| false)? {
+            if let Solved::Outcome(outcome) = solve(&refined(scene, points, edges), folder, stop)? {
                 closed_form = closed_form_adhesion(scene, &outcome);
                 solutions.push(Solution::of(&outcome));
                 solved += 1;
             }
+        }
+        if stop() {
+            return Err(ChoiceError::Stopped);
         }
         if solved < EDGES.len() {
             continue;
@@ -234,6 +264,16 @@ mod tests {
     }
 
     #[test]
+    fn tolerances_are_numbers_or_per_cent() {
+        for (text, expected) in [("1e-3", 1e-3), ("0.1%", 1e-3), (" 10 % ", 0.1), ("0.5", 0.5)] {
+            assert!((parse_tolerance(text).unwrap() / expected - 1.0).abs() < 1e-15, "{text}");
+        }
+        for wrong in ["0", "-1", "1", "100%", "nan", "inf", "", "%", "1e-3 %%", "abc"] {
+            assert!(parse_tolerance(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
     fn the_fewest_springs_are_chosen() {
         // Grid: 0.5, 0.25, …; SubCell: 0.1, 0.025, 0.00625, …
         let tried = |count| [solutions(count, 0.5, 1), solutions(count, 0.1, 2)];
@@ -258,7 +298,7 @@ mod tests {
     fn a_tolerance_is_kept_or_refused() {
         let document = crate::scene::open("jkr-sphere").unwrap();
         let (scene, folder) = (document.scene(), document.resolve(""));
-        let choice = choose(scene, &folder, 1e-3).unwrap();
+        let choice = choose(scene, &folder, 1e-3, &|| false, &mut |_| ()).unwrap();
         assert_eq!(
             (choice.target, choice.edges, choice.closed_form),
             (Target::AdhesionForce, Edges::SubCell, true)
@@ -271,6 +311,8 @@ mod tests {
         assert!((outcome.figures.adhesion_force.unwrap() / exact - 1.0).abs() <= 1e-3);
         let mut stepwise = scene.clone();
         stepwise.numerics.solver = Solver::Stepwise { step: 1e-9 };
-        assert_eq!(choose(&stepwise, &folder, 1e-3), Err(ChoiceError::Stepwise));
+        let chosen = |scene: &Scene, stop: &dyn Fn() -> bool| choose(scene, &folder, 1e-3, stop, &mut |_| ());
+        assert_eq!(chosen(&stepwise, &|| false), Err(ChoiceError::Stepwise));
+        assert_eq!(chosen(scene, &|| true), Err(ChoiceError::Stopped));
     }
 }

@@ -11,16 +11,27 @@ const MOST_RUNS: usize = 9;
 /// Share of a budget that the runs of one setting may take.
 const SHARE_OF_RUNS: f64 = 0.02;
 
-/// A time that must not be exceeded.
+/// A time that must not be exceeded, and that somebody may end before.
 #[derive(Clone, Copy)]
-pub(super) struct Budget {
+pub(super) struct Budget<'a> {
     begun: Instant,
     seconds: f64,
+    stop: &'a dyn Fn() -> bool,
 }
 
-impl Budget {
-    pub(super) fn begin(budget: Duration) -> Self {
-        Budget { begun: Instant::now(), seconds: budget.as_secs_f64() }
+impl<'a> Budget<'a> {
+    pub(super) fn begin(budget: Duration, stop: &'a dyn Fn() -> bool) -> Self {
+        Budget { begun: Instant::now(), seconds: budget.as_secs_f64(), stop }
+    }
+
+    /// Whether it was ended before its time.
+    pub(super) fn is_stopped(&self) -> bool {
+        (self.stop)()
+    }
+
+    /// The whole of it, s.
+    pub(super) fn seconds(&self) -> f64 {
+        self.seconds
     }
 
     /// Seconds since it began.
@@ -28,9 +39,9 @@ impl Budget {
         self.begun.elapsed().as_secs_f64()
     }
 
-    /// Seconds until so large a share of it has passed; negative after that.
+    /// Seconds until so large a share of it has passed; negative after that, and once it is stopped.
     pub(super) fn left_of(&self, share: f64) -> f64 {
-        share * self.seconds - self.spent()
+        if self.is_stopped() { f64::NEG_INFINITY } else { share * self.seconds - self.spent() }
     }
 
     /// Whether it is over.

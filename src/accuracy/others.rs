@@ -1,9 +1,9 @@
 //! The knobs beside the number of springs: steps, samples, precision, lines.
 
-use super::measure::{Bench, CostError, Tried};
+use super::measure::{Bench, CostError, Rows, Tried};
 use super::single::errors_of_single_precision;
 use super::solution::{Solution, Solved, allowed_points, refined};
-use super::{Knob, Measures, Row, Timing};
+use super::{Knob, Measures, Timing};
 use crate::scene::{Edges, Roughness, Scene, Solver, check, format_quantity};
 use crate::simulation::Simulation;
 use std::time::Instant;
@@ -33,20 +33,13 @@ const MOST_SAMPLED: u64 = 1 << 14;
 const FEWEST_LINES: u64 = 4;
 const MOST_LINES: u64 = 1 << 14;
 
-type Progress<'a> = dyn FnMut(Knob, &str) + 'a;
-
 /// Adds the rows of all these knobs; `points` springs are good for about one per cent.
-pub(super) fn measure(
-    bench: &mut Bench<'_>,
-    points: u64,
-    rows: &mut Vec<Row>,
-    progress: &mut Progress<'_>,
-) -> Result<(), CostError> {
-    steps(bench, rows, progress)?;
+pub(super) fn measure(bench: &mut Bench<'_>, points: u64, rows: &mut Rows<'_, '_>) -> Result<(), CostError> {
+    steps(bench, rows)?;
     let own = bench.scene.numerics.points.min(MOST_SAMPLED).max(points);
-    samples(bench, own, rows, progress)?;
-    single_precision(bench, points, rows, progress)?;
-    lines(bench, points, rows, progress)
+    samples(bench, own, rows)?;
+    single_precision(bench, points, rows)?;
+    lines(bench, points, rows)
 }
 
 fn left_out(bench: &mut Bench<'_>, knob: Knob, what: &str) {
@@ -54,7 +47,7 @@ fn left_out(bench: &mut Bench<'_>, knob: Knob, what: &str) {
 }
 
 /// The step of the stepwise solver, against the exact solver on as many springs.
-fn steps(bench: &mut Bench<'_>, rows: &mut Vec<Row>, progress: &mut Progress<'_>) -> Result<(), CostError> {
+fn steps(bench: &mut Bench<'_>, rows: &mut Rows<'_, '_>) -> Result<(), CostError> {
     let knob = Knob::Step;
     let Some(points) = allowed_points(bench.scene).find(|&points| points >= STEPWISE_SPRINGS) else {
         return Ok(());
@@ -90,7 +83,7 @@ fn steps(bench: &mut Bench<'_>, rows: &mut Vec<Row>, progress: &mut Progress<'_>
         let share = if (halving as usize) < COARSE { 1.0 } else { STEPS_BY };
         let out_of_time = bench.budget.left_of(share) <= guess;
         if !out_of_time {
-            progress(knob, &named);
+            rows.trying(knob, &named);
         }
         let clock = Instant::now();
         let solved = if out_of_time { Solved::TooMuch } else { bench.solve(&scene)? };
@@ -107,18 +100,13 @@ fn steps(bench: &mut Bench<'_>, rows: &mut Vec<Row>, progress: &mut Progress<'_>
         };
         guess = 2.0 * took;
         let errors = Solution::of(&outcome).errors(&exact);
-        bench.push(rows, Tried { knob, setting: step, springs: points, seconds, errors }, &floors);
+        rows.add(bench, Tried { knob, setting: step, springs: points, seconds, errors }, &floors);
     }
     Ok(())
 }
 
 /// Samples of the curve, against very many of them: the curve between them is what they change, no figure.
-fn samples(
-    bench: &mut Bench<'_>,
-    points: u64,
-    rows: &mut Vec<Row>,
-    progress: &mut Progress<'_>,
-) -> Result<(), CostError> {
+fn samples(bench: &mut Bench<'_>, points: u64, rows: &mut Rows<'_, '_>) -> Result<(), CostError> {
     let knob = Knob::Samples;
     let legs = bench.scene.loading.len().max(1) as u64;
     let most = REFERENCE_SAMPLES / legs;
@@ -144,52 +132,46 @@ fn samples(
             left_out(bench, knob, &format!("{samples} and more"));
             break;
         }
-        progress(knob, &samples.to_string());
+        rows.trying(knob, &samples.to_string());
         scene.numerics.samples = samples;
         let Solved::Outcome(outcome) = bench.solve(&scene)? else { break };
         let curve = Solution::of(&outcome).errors(&finest).curve;
         let seconds = bench.time(&scene);
         let errors = Measures { curve, ..Measures::default() };
         let tried = Tried { knob, setting: samples as f64, springs: points, seconds, errors };
-        bench.push(rows, tried, &Measures::default());
+        rows.add(bench, tried, &Measures::default());
     }
     Ok(())
 }
 
 /// What heights in single precision would lose.
-fn single_precision(
-    bench: &mut Bench<'_>,
-    points: u64,
-    rows: &mut Vec<Row>,
-    progress: &mut Progress<'_>,
-) -> Result<(), CostError> {
+fn single_precision(bench: &mut Bench<'_>, points: u64, rows: &mut Rows<'_, '_>) -> Result<(), CostError> {
     let knob = Knob::SinglePrecision;
     if bench.budget.is_over() {
         left_out(bench, knob, "not tried");
         return Ok(());
     }
-    progress(knob, "");
+    rows.trying(knob, "");
     let scene = bench.compared(&refined(bench.scene, points, Edges::SubCell));
-    let errors = errors_of_single_precision(&scene, bench.folder)?;
+    let errors = match errors_of_single_precision(&scene, bench.folder, &|| bench.budget.is_stopped()) {
+        Ok(errors) => errors,
+        Err(error) if error.is_interruption() => return Ok(()),
+        Err(error) => return Err(error.into()),
+    };
     let tried = Tried { knob, setting: 32.0, springs: points, seconds: None, errors };
-    bench.push(rows, tried, &Measures::default());
+    rows.add(bench, tried, &Measures::default());
     Ok(())
 }
 
 /// Random lines: how well the mean of their adhesion forces is known, and what they take one after the other.
-fn lines(
-    bench: &mut Bench<'_>,
-    points: u64,
-    rows: &mut Vec<Row>,
-    progress: &mut Progress<'_>,
-) -> Result<(), CostError> {
+fn lines(bench: &mut Bench<'_>, points: u64, rows: &mut Rows<'_, '_>) -> Result<(), CostError> {
     let knob = Knob::Lines;
     let Some(Roughness::SelfAffine { seed, .. }) = bench.scene.roughness else { return Ok(()) };
     let scene = refined(bench.scene, points, Edges::SubCell);
     let mut simulation = Simulation::new(bench.folder.to_path_buf());
     let (mut forces, mut seconds, mut next) = (Vec::new(), 0.0, FEWEST_LINES);
     while next <= MOST_LINES {
-        progress(knob, &next.to_string());
+        rows.trying(knob, &next.to_string());
         while (forces.len() as u64) < next {
             if bench.budget.left_of(LINES_BY) <= 0.0 {
                 left_out(bench, knob, &format!("{next} and more"));
@@ -213,7 +195,7 @@ fn lines(
         let errors = Measures { adhesion_force, ..Measures::default() };
         let seconds = Timing::of(vec![seconds]);
         let tried = Tried { knob, setting: next as f64, springs: points, seconds, errors };
-        bench.push(rows, tried, &Measures::default());
+        rows.add(bench, tried, &Measures::default());
         next *= 2;
     }
     Ok(())

@@ -3,27 +3,30 @@
 use super::Measures;
 use super::solution::Solution;
 use crate::contact::subcell::{self, LevelSets};
-use crate::contact::{ContactTree, Foundation, HessRule, run};
+use crate::contact::{ContactError, ContactTree, Foundation, HessRule, run};
 use crate::scene::Scene;
 use crate::simulation::{RunError, Simulation};
 use std::path::Path;
 use std::sync::Arc;
 
 /// Relative errors of a scene whose gaps are rounded to single precision and then solved in double, against
-/// the same with gaps in double precision.
+/// the same with gaps in double precision. `stop` is asked between legs whether to give up.
 pub(super) fn errors_of_single_precision(
     scene: &Scene,
     folder: &Path,
+    stop: &dyn Fn() -> bool,
 ) -> Result<Measures<Option<f64>>, RunError> {
     let mut simulation = Simulation::new(folder.to_path_buf());
     let (line, _, governing) = simulation.make_line(scene)?;
     let foundation = Foundation { spacing: line.spacing, effective_modulus: governing.effective_modulus };
     let hess = governing.adhesive_work().map(|work| HessRule::new(foundation, work));
     let solve = |gaps: &[f64]| -> Result<Solution, RunError> {
+        let goes_on = || if stop() { Err(ContactError::Interrupted) } else { Ok(()) };
+        goes_on()?;
         let sets = Arc::new(LevelSets::new(Arc::new(ContactTree::build(gaps)?), gaps)?);
         let samples = scene.numerics.samples as usize;
         let mut body = subcell::adhesive_in(Vec::new(), &sets, hess, foundation, samples)?;
-        let history = run(&mut body, &scene.loading, |_, _| Ok(()))?;
+        let history = run(&mut body, &scene.loading, |_, _| goes_on())?;
         Ok(Solution::of_history(&history, scene.numerics.points))
     };
     let double = solve(&line.gaps)?;

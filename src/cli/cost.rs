@@ -1,7 +1,7 @@
 //! `asperity cost`: what accuracy costs for a scene.
 
 use super::{CliError, OutputArguments, SceneArguments};
-use crate::accuracy::{Knob, measure};
+use crate::accuracy::{Knob, Progress, measure};
 use crate::export::{
     check_writable, cost_text, work_precision_svg, write_cost_csv, write_cost_json, write_new,
 };
@@ -77,11 +77,13 @@ pub(super) fn cost(arguments: &CostArguments, stdout: &mut dyn Write) -> Result<
     if let Some(svg) = &arguments.svg {
         check_writable(svg, arguments.force)?;
     }
-    let mut progress = Progress::default();
-    let measured = measure(scene, &document.resolve(""), arguments.budget, &mut |knob, setting| {
-        progress.tell(knob, setting);
-    });
-    progress.end();
+    let mut told = Told::default();
+    let measured =
+        measure(scene, &document.resolve(""), arguments.budget, &|| false, &mut |progress| match progress {
+            Progress::Trying(knob, setting) => told.tell(knob, setting),
+            Progress::Rows(_) => {}
+        });
+    told.end();
     let table = measured.map_err(|error| CliError::Cost { scene: document.name().into(), error })?;
     if let Some(svg) = &arguments.svg {
         let title = if scene.title.is_empty() { document.name() } else { &scene.title };
@@ -102,11 +104,11 @@ pub(super) fn cost(arguments: &CostArguments, stdout: &mut dyn Write) -> Result<
 
 /// What is being tried: on a terminal one line that changes, elsewhere one line for each knob.
 #[derive(Default)]
-struct Progress {
+struct Told {
     knob: Option<Knob>,
 }
 
-impl Progress {
+impl Told {
     fn tell(&mut self, knob: Knob, setting: &str) {
         let mut stderr = io::stderr();
         // Who cannot be told does without.

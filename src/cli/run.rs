@@ -2,7 +2,7 @@
 
 use super::scene::simulation_of;
 use super::{CliError, OutputArguments, SceneArguments};
-use crate::accuracy::{Choice, choose};
+use crate::accuracy::{Choice, choose, parse_tolerance};
 use crate::ensemble;
 use crate::export::{
     ensemble_text, summary, write_chosen_json, write_curve, write_ensemble_csv, write_ensemble_json,
@@ -41,7 +41,7 @@ pub struct RunArguments {
     /// Springs are doubled until the error is small enough: that from the closed form where
     /// there is one, else an estimate; where nothing pulls, that of the force curve. What is
     /// chosen stands in place of the scene's own numerics.points and numerics.edges.
-    #[arg(long, value_name = "T", value_parser = tolerance, verbatim_doc_comment)]
+    #[arg(long, value_name = "T", value_parser = parse_tolerance, verbatim_doc_comment)]
     pub tolerance: Option<f64>,
     /// Compute random lines, this seed and those after it: mean and spread
     ///
@@ -58,19 +58,6 @@ pub struct RunArguments {
 
 /// Most random lines.
 const MOST_LINES: i64 = 1_000_000;
-
-/// A relative error: `1e-3` or `0.1%`.
-fn tolerance(text: &str) -> Result<f64, String> {
-    let allowed = || "allowed: a relative error above 0 and below 1, such as 1e-3 or 0.1%".to_owned();
-    let text = text.trim();
-    let (number, hundredths) = match text.strip_suffix('%') {
-        Some(number) => (number.trim_end(), true),
-        None => (text, false),
-    };
-    let number: f64 = number.parse().map_err(|_| allowed())?;
-    let tolerance = if hundredths { number / 100.0 } else { number };
-    if tolerance > 0.0 && tolerance < 1.0 { Ok(tolerance) } else { Err(allowed()) }
-}
 
 /// What a run prints.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -119,7 +106,7 @@ pub(super) fn run(arguments: &RunArguments, stdout: &mut dyn Write) -> Result<()
 
 /// The springs and edges for a tolerance, told on standard error.
 fn choice(document: &Document, tolerance: f64) -> Result<Choice, CliError> {
-    let choice = choose(document.scene(), &document.resolve(""), tolerance)
+    let choice = choose(document.scene(), &document.resolve(""), tolerance, &|| false, &mut |_| ())
         .map_err(|error| CliError::Choice { scene: document.name().into(), error })?;
     // Who cannot be told does without.
     let _ = writeln!(io::stderr(), "{}", choice.sentence());
@@ -147,19 +134,4 @@ fn on_lines(
         RunFormat::Json => write_ensemble_json(out, scene, choice, &results),
         RunFormat::Csv => write_ensemble_csv(out, &results),
     })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn tolerances_are_numbers_or_per_cent() {
-        for (text, expected) in [("1e-3", 1e-3), ("0.1%", 1e-3), (" 10 % ", 0.1), ("0.5", 0.5)] {
-            assert!((tolerance(text).unwrap() / expected - 1.0).abs() < 1e-15, "{text}");
-        }
-        for wrong in ["0", "-1", "1", "100%", "nan", "inf", "", "%", "1e-3 %%", "abc"] {
-            assert!(tolerance(wrong).is_err(), "{wrong}");
-        }
-    }
 }

@@ -1,0 +1,271 @@
+//! How large the error of one outcome is: cheaply, and without promising what is not known.
+
+use super::Target;
+use super::solution::{Solution, Solved, closed_form_adhesion, refined, relative_error, solve};
+use crate::scene::{Edges, Scene, Solver, check};
+use crate::simulation::{Outcome, RunError};
+use serde::Serialize;
+use std::collections::VecDeque;
+use std::path::Path;
+
+/// Most springs of a finer solution that is made for an estimate only, and of a coarser one.
+const MOST_FINER: u64 = 1 << 20;
+const MOST_COARSER: u64 = 1 << 22;
+/// Fewest springs that tell anything of more.
+const FEWEST_SPRINGS: u64 = 16;
+/// Solutions that an estimate would have, the outcome included: one difference may be small by chance, three
+/// in a row seldom are.
+const WANTED: usize = 4;
+/// Fewest that are enough, so that no finer ones are needed.
+const ENOUGH: usize = 3;
+/// Lowest order of convergence that is believed in.
+const LOWEST_ORDER: f64 = 0.5;
+
+/// The estimated relative error of an outcome.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Estimate {
+    /// What it is the error of.
+    pub target: Target,
+    /// The relative error.
+    pub error: f64,
+    /// What it is estimated from.
+    pub evidence: Evidence,
+}
+
+/// What an estimate rests on.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Evidence {
+    /// The closed form: this is the error itself.
+    ClosedForm,
+    /// Solutions of the same line with so many springs, by the same rule of edges.
+    Solutions(Vec<u64>),
+}
+
+/// Estimates the error of the adhesion force of an outcome, or of its force curve where nothing pulls.
+///
+/// With a closed form it is the error itself. Otherwise the same line is solved with half, a quarter and an
+/// eighth of the springs by the same rule of edges, and what is left to go follows from how the differences
+/// fall. A line whose modes need too many springs for that is solved with twice and four times as many instead.
+/// What the step of the stepwise solver adds is its distance from the exact solver on the same springs.
+///
+/// `None` where nothing can be told: there is no figure to be wrong, no other number of springs is allowed,
+/// too many would be needed, or `stop` said to give up.
+///
+/// # Errors
+/// When one of these solutions fails.
+pub fn estimate(
+    scene: &Scene,
+    folder: &Path,
+    outcome: &Outcome,
+    stop: &dyn Fn() -> bool,
+) -> Result<Option<Estimate>, RunError> {
+    let own = Solution::of(outcome);
+    let target = if own.adhesion_force.is_some() { Target::AdhesionForce } else { Target::Curve };
+    if let (Some(exact), Some(force)) = (closed_form_adhesion(scene, outcome), own.adhesion_force) {
+        let error = relative_error(force, exact);
+        return Ok(Some(Estimate { target, error, evidence: Evidence::ClosedForm }));
+    }
+    let differ = |one: &Solution, other: &Solution| {
+        let errors = one.errors(other);
+        if target == Target::Curve { errors.curve } else { errors.adhesion_force }
+    };
+    let points = scene.numerics.points;
+    let solved = |points: u64, most: u64| -> Result<Option<Solution>, RunError> {
+        let other = on_springs(scene, points);
+        let allowed = (FEWEST_SPRINGS..=most).contains(&points) && check(&other).is_empty();
+        if !allowed || stop() {
+            return Ok(None);
+        }
+        Ok(match solve(&other, folder, stop)? {
+            Solved::Outcome(outcome) => Some(Solution::of(&outcome)),
+            Solved::TooCoarse | Solved::TooMuch => None,
+        })
+    };
+    // The stepwise solver follows the exact one as its step shrinks.
+    let (exact, of_step) = if scene.numerics.solver == Solver::Exact {
+        (own, 0.0)
+    } else {
+        let Some(exact) = solved(points, MOST_FINER)? else { return Ok(None) };
+        let Some(of_step) = differ(&own, &exact) else { return Ok(None) };
+        (exact, of_step)
+    };
+    // From coarse to fine, the exact solution on the scene's own springs among them.
+    let mut solutions = VecDeque::from([exact]);
+    let mut coarser = points;
+    while solutions.len() < WANTED && coarser.is_multiple_of(2) {
+        coarser /= 2;
+        let Some(solution) = solved(coarser, MOST_COARSER)? else { break };
+        solutions.push_front(solution);
+    }
+    let place = solutions.len() - 1;
+    let mut finer = points;
+    while solutions.len() < ENOUGH {
+        finer = finer.saturating_mul(2);
+        let Some(solution) = solved(finer, MOST_FINER)? else { break };
+        solutions.push_back(solution);
+    }
+    if stop() {
+        return Ok(None);
+    }
+    let pairs = solutions.iter().zip(solutions.iter().skip(1));
+    let differences: Option<Vec<f64>> = pairs.map(|(coarse, fine)| differ(coarse, fine)).collect();
+    let Some(differences) = differences.filter(|differences| !differences.is_empty()) else {
+        return Ok(None);
+    };
+    let to_finest: f64 = differences.iter().skip(place).sum();
+    let error = of_step + to_finest + left_to_go(&differences, highest_order(scene));
+    let others = solutions.iter().map(|solution| solution.points).filter(|&others| others != points);
+    Ok(Some(Estimate { target, error, evidence: Evidence::Solutions(others.collect()) }))
+}
+
+/// The order that a rule of edges is trusted with. Edges at the springs are of first order. Edges between them
+/// are of second order where the line is smooth between springs; on rough lines jumps come in between.
+fn highest_order(scene: &Scene) -> f64 {
+    match on_springs(scene, scene.numerics.points).numerics.edges {
+        Edges::Grid => 1.0,
+        Edges::SubCell => 1.5,
+    }
+}
+
+/// Estimated distance of the finest of some solutions from the limit, by the differences of each, which has
+/// half the spacing of the one before, from that one.
+///
+/// A last difference that is smaller than the one before by 2^p leaves 1/(2^p − 1) of itself to go, p being
+/// believed between 0.5 and the highest order P; one that is not smaller leaves all of itself; and the only
+/// one there is, twice itself. That it may be small by chance is what those before it tell: with order P the
+/// difference j steps earlier leaves 1/(2^(Pj)(2^P − 1)) of itself.
+fn left_to_go(differences: &[f64], highest_order: f64) -> f64 {
+    let by_last = match differences {
+        [] => return f64::NAN,
+        [only] => return 2.0 * only,
+        [.., before, last] if last < before => {
+            let order = if *last > 0.0 { (before / last).log2() } else { f64::INFINITY };
+            last / (order.clamp(LOWEST_ORDER, highest_order).exp2() - 1.0)
+        }
+        [.., last] => *last,
+    };
+    let ratio = highest_order.exp2();
+    let by_those_before = differences.iter().rev().enumerate().skip(1).map(|(steps, difference)| {
+        difference / (ratio.powi(steps.try_into().unwrap_or(i32::MAX)) * (ratio - 1.0))
+    });
+    by_those_before.fold(by_last, f64::max)
+}
+
+/// This scene on so many springs, solved exactly by its own rule of edges.
+fn on_springs(scene: &Scene, points: u64) -> Scene {
+    // The stepwise solver has edges at the springs.
+    let edges = if scene.numerics.solver == Solver::Exact { scene.numerics.edges } else { Edges::Grid };
+    refined(scene, points, edges)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::{Document, open};
+    use crate::simulation::Simulation;
+
+    fn run(document: &Document) -> Outcome {
+        Simulation::default().run(document.scene(), &|| false, &mut |_, _, _| Ok(())).unwrap()
+    }
+
+    fn estimated(document: &Document) -> Option<Estimate> {
+        estimate(document.scene(), Path::new(""), &run(document), &|| false).unwrap()
+    }
+
+    fn with(scene: &str, fields: &[(&str, &str)]) -> Document {
+        let fields: Vec<_> =
+            fields.iter().map(|(path, value)| (path.to_string(), value.to_string())).collect();
+        open(scene).unwrap().set_all(&fields).unwrap()
+    }
+
+    #[test]
+    fn a_known_order_gives_what_is_left() {
+        for (order, highest) in [(0.5, 1.0), (1.0, 1.0), (1.0, 1.5), (1.5, 1.5)] {
+            let difference = |k: i32| (-order * f64::from(k)).exp2();
+            let left: f64 = (3..200).map(difference).sum();
+            let estimate = left_to_go(&[difference(0), difference(1), difference(2)], highest);
+            assert!((estimate / left - 1.0).abs() < 1e-9, "{order}: {estimate} for {left}");
+        }
+        // Small by chance, not falling, alone, nothing.
+        assert!((left_to_go(&[1.0, 0.5, 0.0], 1.0) - 0.25).abs() < 1e-15);
+        assert_eq!(left_to_go(&[1.0, 2.0], 1.0), 2.0);
+        assert_eq!(left_to_go(&[1.0], 1.5), 2.0);
+        assert_eq!(left_to_go(&[0.0, 0.0], 1.0), 0.0);
+    }
+
+    #[test]
+    fn a_closed_form_gives_the_error_itself() {
+        let document = with("jkr-sphere", &[("numerics.points", "1024"), ("numerics.edges", "Grid")]);
+        let estimate = estimated(&document).unwrap();
+        let exact = 1.5 * std::f64::consts::PI * 0.05 * 1e-4;
+        let error = (run(&document).figures.adhesion_force.unwrap() / exact - 1.0).abs();
+        assert_eq!((estimate.target, &estimate.evidence), (Target::AdhesionForce, &Evidence::ClosedForm));
+        assert!((estimate.error / error - 1.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn estimates_seldom_promise_more_than_there_is() {
+        let (mut kept, mut all) = (0, 0);
+        for edges in ["Grid", "SubCell"] {
+            for scene in ["pressure-sensitive", "rough-sphere"] {
+                for seed in ["1", "2", "3", "4"] {
+                    let on = |points: &str, edges: &str| {
+                        with(
+                            scene,
+                            &[
+                                ("numerics.points", points),
+                                ("numerics.edges", edges),
+                                ("roughness.seed", seed),
+                            ],
+                        )
+                    };
+                    let truth = run(&on("131072", "SubCell")).figures.adhesion_force.unwrap();
+                    for points in ["1024", "2048", "4096", "8192"] {
+                        let document = on(points, edges);
+                        let error = relative_error(run(&document).figures.adhesion_force.unwrap(), truth);
+                        let estimate = estimated(&document).unwrap().error;
+                        all += 1;
+                        kept += i32::from(error < 2.0 * estimate);
+                        assert!(
+                            error < 10.0 * estimate,
+                            "{scene} {seed} {points} {edges}: {estimate} for {error}"
+                        );
+                        // Nor are they so careful that they say nothing.
+                        assert!(estimate < 0.2, "{scene} {seed} {points} {edges}: {estimate}");
+                    }
+                }
+            }
+        }
+        assert!(10 * kept >= 9 * all, "{kept} of {all} within twice the estimate");
+    }
+
+    #[test]
+    fn the_evidence_is_what_the_scene_allows() {
+        let evidence =
+            |fields: &[(&str, &str)]| estimated(&with("pressure-sensitive", fields)).map(|one| one.evidence);
+        let solutions = |springs: &[u64]| Some(Evidence::Solutions(springs.to_vec()));
+        assert_eq!(evidence(&[("numerics.points", "8192")]), solutions(&[1024, 2048, 4096]));
+        // 512 modes need 1024 springs.
+        assert_eq!(evidence(&[("numerics.points", "2048")]), solutions(&[1024, 4096]));
+        assert_eq!(evidence(&[("numerics.points", "1024")]), solutions(&[2048, 4096]));
+        assert_eq!(evidence(&[("numerics.points", "1025")]), solutions(&[2050, 4100]));
+        let few = [("roughness.modes", "(1, 64)"), ("numerics.points", "512"), ("numerics.edges", "Grid")];
+        let exact = estimated(&with("pressure-sensitive", &few)).unwrap();
+        let stepwise = estimated(&with(
+            "pressure-sensitive",
+            &[&few[..], &[("numerics.solver", "Stepwise(step: 2e-9)")]].concat(),
+        ));
+        assert!(stepwise.unwrap().error > exact.error);
+        // Nothing pulls: the curve.
+        let bare = with("pressure-sensitive", &[("adhesion", "None"), ("numerics.points", "4096")]);
+        assert_eq!(estimated(&bare).unwrap().target, Target::Curve);
+        // Nothing at all happens.
+        let still = with(
+            "pressure-sensitive",
+            &[("loading", "[ToTouch]"), ("adhesion", "None"), ("numerics.points", "4096")],
+        );
+        assert_eq!(estimated(&still), None);
+        assert_eq!(estimate(bare.scene(), Path::new(""), &run(&bare), &|| true), Ok(None));
+    }
+}
