@@ -8,6 +8,8 @@ mod common {
     pub mod script;
 }
 
+#[path = "screen/accuracy.rs"]
+mod accuracy;
 #[path = "screen/chrome.rs"]
 mod chrome;
 #[path = "screen/compare.rs"]
@@ -103,10 +105,14 @@ fn everywhere() -> Vec<Driver> {
         "a v",
         "D",
         "N w",
+        "A",
+        "A z",
+        "% 1",
         "y",
     ];
     let mut all: Vec<Driver> = keys.into_iter().map(pressed).collect();
     all.push(Driver::open(rough()));
+    all.push(accuracy::measured(rough()));
     let mut refused = pressed("");
     refused.enter("nothing");
     all.push(refused);

@@ -1,6 +1,5 @@
 //! The answer in a sentence or two: how many springs, and how long.
 
-use super::convergence::first_within;
 use super::{CostTable, Knob, Row};
 use crate::export::sheet::grouped;
 use crate::scene::format_quantity;
@@ -13,15 +12,8 @@ impl CostTable {
     /// pulls: one sentence for each.
     #[must_use]
     pub fn answer(&self) -> Vec<String> {
-        let (what, error): (_, fn(&Row) -> Option<f64>) = if self.reference.adhesion_force.is_some() {
-            ("the adhesion force", |row| Some(row.errors.adhesion_force?.error))
-        } else {
-            ("the force curve", |row| Some(row.errors.curve?.error))
-        };
-        let row_within = |knob, bound| {
-            let rows: Vec<_> = self.rows_of(knob).collect();
-            first_within(rows.iter().map(|row| error(row)), bound).map(|index| rows[index])
-        };
+        let what =
+            if self.reference.adhesion_force.is_some() { "the adhesion force" } else { "the force curve" };
         let needs = |row: &Row| {
             let time = row.seconds.map_or_else(String::new, |time| {
                 format!(", {}", format_quantity(three_digits(time.minimum), "s"))
@@ -30,7 +22,7 @@ impl CostTable {
         };
         let sentence = |&(bound, percent): &(f64, &str)| {
             let found = [(Knob::SubCellSprings, "SubCell"), (Knob::GridSprings, "Grid")].map(
-                |(knob, edges)| match (row_within(knob, bound), self.rows_of(knob).next_back()) {
+                |(knob, edges)| match (self.first_row_within(knob, bound), self.rows_of(knob).next_back()) {
                     (Some(row), _) => format!("{} with edges {edges}", needs(row)),
                     (None, Some(finest)) => {
                         format!("more than {} springs with edges {edges}", grouped(finest.springs))

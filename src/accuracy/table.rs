@@ -1,6 +1,7 @@
 //! The table of what accuracy costs.
 
 use super::Measures;
+use super::convergence::first_within;
 use serde::Serialize;
 
 /// What buys accuracy.
@@ -139,11 +140,69 @@ impl CostTable {
     pub fn rows_of(&self, knob: Knob) -> impl DoubleEndedIterator<Item = &Row> {
         self.rows.iter().filter(move |row| row.knob == knob)
     }
+
+    /// The error that answers are about: that of the adhesion force, or of the curve where nothing pulls.
+    #[must_use]
+    pub fn main_error(&self, row: &Row) -> Option<ErrorFigure> {
+        let Measures { adhesion_force, curve, .. } = row.errors;
+        if self.reference.adhesion_force.is_some() { adhesion_force } else { curve }
+    }
+
+    /// The first row of a knob from which on the main error is within a bound.
+    #[must_use]
+    pub fn first_row_within(&self, knob: Knob, bound: f64) -> Option<&Row> {
+        let rows: Vec<_> = self.rows_of(knob).collect();
+        let errors = rows.iter().map(|row| Some(self.main_error(row)?.error));
+        first_within(errors, bound).map(|index| rows[index])
+    }
+
+    /// The order of convergence of a knob over all its rows whose errors are resolved: the slope of the straight
+    /// line that comes nearest to the logarithms of error and setting. `None` with fewer than three of them.
+    #[must_use]
+    pub fn order(&self, knob: Knob) -> Option<f64> {
+        let point = |row: &Row| {
+            let figure = row.errors.adhesion_force.or(row.errors.curve).filter(|figure| figure.resolved)?;
+            Some((row.setting.ln(), figure.error.ln()))
+        };
+        let points: Vec<(f64, f64)> = self.rows_of(knob).filter_map(point).collect();
+        if points.len() < 3 {
+            return None;
+        }
+        let count = points.len() as f64;
+        let (x, y) =
+            points.iter().fold((0.0, 0.0), |(x, y), point| (x + point.0 / count, y + point.1 / count));
+        let product: f64 = points.iter().map(|point| (point.0 - x) * (point.1 - y)).sum();
+        let square: f64 = points.iter().map(|point| (point.0 - x).powi(2)).sum();
+        // A smaller step and more of anything else make it better.
+        Some((product / square).abs()).filter(|order| order.is_finite())
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    fn row(knob: Knob, setting: f64, error: f64, resolved: bool) -> Row {
+        let curve = Some(ErrorFigure { error, resolved, order: None });
+        let errors = Measures { curve, ..Measures::default() };
+        Row { knob, setting, springs: 16, seconds: None, transforms: None, errors }
+    }
+
+    #[test]
+    fn the_order_is_the_slope_of_what_is_resolved() {
+        let reference =
+            Reference { springs: 16, adhesion_force: None, closed_form: false, errors: Measures::default() };
+        let mut rows: Vec<Row> =
+            (0..5).map(|k| row(Knob::Step, 0.5_f64.powi(k), 0.25_f64.powi(k), true)).collect();
+        rows.push(row(Knob::Step, 1e-6, 0.5, false));
+        rows.extend((4..6).map(|k| row(Knob::GridSprings, 2.0_f64.powi(k), 0.5_f64.powi(k), true)));
+        let (transform_seconds, left_out) = (1.0, Vec::new());
+        let table = CostTable { budget: 1.0, spent: 1.0, transform_seconds, reference, rows, left_out };
+        assert!((table.order(Knob::Step).unwrap() - 2.0).abs() < 1e-12);
+        assert_eq!(table.order(Knob::GridSprings), None, "two rows are no order");
+        assert_eq!(table.first_row_within(Knob::GridSprings, 0.04).map(|row| row.setting), Some(32.0));
+        assert_eq!(table.first_row_within(Knob::GridSprings, 0.01), None);
+    }
 
     #[test]
     fn times_have_a_minimum_and_a_median() {

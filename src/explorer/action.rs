@@ -2,6 +2,7 @@
 
 use super::model::Traffic;
 use super::snapshot::{Loop, Moment, Preview};
+use super::study::Found;
 use crate::scene::Entry;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -40,6 +41,8 @@ pub enum Action {
         /// Why, in one line.
         error: String,
     },
+    /// Something was found out about accuracy.
+    Found(Found),
     /// A file has been written, or not.
     Written(Result<Written, WriteFailure>),
     /// The scenes that can be opened.
@@ -212,6 +215,10 @@ pub enum Command {
     ToggleNormalised,
     /// Shade the loss.
     ToggleLoss,
+    /// Show what accuracy costs and what ran, or the profile and the fragments again.
+    ToggleAccuracy,
+    /// Type a tolerance.
+    TypeTolerance,
     /// Give one pane the whole screen, or all of them again.
     ZoomPane,
     /// Choose the next pane.

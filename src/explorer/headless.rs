@@ -4,13 +4,17 @@
 use super::action::{Action, Command};
 use super::model::Model;
 use super::session::{action_of, scene_of};
+use super::study::{Accuracy, Found, Task, perform};
 use super::theme::Appearance;
-use super::update::{Effect, moment_request, update};
+use super::update::{Effect, moment_request, study_tasks, update};
 use super::worker::{Desk, Engine, Newest, Report, Request};
 use crate::scene::Document;
 use std::cell::RefCell;
 use std::collections::VecDeque;
 use std::sync::atomic::Ordering;
+
+/// With more springs than these no error is estimated: who watches would have to wait for it.
+const MOST_ESTIMATED: u64 = 1 << 17;
 
 /// See the module.
 pub struct Headless {
@@ -68,6 +72,7 @@ impl Headless {
                 Some(request) => Request::Show(request),
                 None => return Vec::new(),
             },
+            Effect::Study => return self.study(),
             Effect::Hand(order) => Request::Hand { generation, order },
             Effect::Preview(document) => {
                 Request::Preview { text: document.text().to_owned(), scene: scene_of(&document) }
@@ -85,5 +90,22 @@ impl Headless {
             true
         });
         reports.into_inner().into_iter().map(action_of).collect()
+    }
+
+    /// What is found out about accuracy, but for what it costs: times differ from run to run.
+    fn study(&self) -> Vec<Action> {
+        let generation = self.model.generation;
+        let mut found = Vec::new();
+        for task in study_tasks(&self.model) {
+            match &task {
+                Task::Measure(_) => continue,
+                Task::Estimate(of) if of.scene.numerics.points > MOST_ESTIMATED => continue,
+                _ => {}
+            }
+            perform(&mut Accuracy, &task, &|| false, &mut |finding| {
+                found.push(Action::Found(Found { generation, finding }));
+            });
+        }
+        found
     }
 }

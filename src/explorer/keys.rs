@@ -81,9 +81,16 @@ const fn shift(code: KeyCode) -> Key {
 
 const EXPLORE: &[ModeKind] = &[ModeKind::Explore];
 const HELP: &[ModeKind] = &[ModeKind::Help];
-const LINE: &[ModeKind] = &[ModeKind::Edit, ModeKind::Force, ModeKind::SaveAs, ModeKind::Export];
-const TYPED: &[ModeKind] =
-    &[ModeKind::Edit, ModeKind::Force, ModeKind::SaveAs, ModeKind::Export, ModeKind::Library];
+const LINE: &[ModeKind] =
+    &[ModeKind::Edit, ModeKind::Force, ModeKind::Tolerance, ModeKind::SaveAs, ModeKind::Export];
+const TYPED: &[ModeKind] = &[
+    ModeKind::Edit,
+    ModeKind::Force,
+    ModeKind::Tolerance,
+    ModeKind::SaveAs,
+    ModeKind::Export,
+    ModeKind::Library,
+];
 const LIBRARY: &[ModeKind] = &[ModeKind::Library];
 const ASK: &[ModeKind] = &[ModeKind::Overwrite];
 const LEAVE: &[ModeKind] = &[ModeKind::Quit];
@@ -145,6 +152,7 @@ pub const BINDINGS: &[Binding] = &[
     row(&[key(KeyCode::Enter), char('e')], EXPLORE, Command::EditValue, "type", "type a value, with a prefix and unit if you like: 2.5 MPa, 10 µm, 50m", PARAMETERS),
     row(&[char('t')], EXPLORE, Command::ToggleEffect, "on/off", "switch the effect of the selected row on or off", PARAMETERS),
     row(&[char('R')], EXPLORE, Command::Reseed, "reseed", "another random line", PARAMETERS),
+    row(&[char('%')], EXPLORE, Command::TypeTolerance, "", "type a tolerance, 0.1 % or 1e-3: springs and edges that keep it are chosen", PARAMETERS),
     row(&[char('u')], EXPLORE, Command::Undo, "undo", "take back the last edit", PARAMETERS),
     row(&[char('U'), control('r')], EXPLORE, Command::Redo, "", "do it again", PARAMETERS),
 
@@ -167,6 +175,7 @@ pub const BINDINGS: &[Binding] = &[
     row(&[char(')')], EXPLORE, Command::Pan(1), "", "to the right along the line", LOOK),
     row(&[char('w')], EXPLORE, Command::ToggleFollow, "", "let the profile follow the fragment of the close-up", LOOK),
     row(&[char('0')], EXPLORE, Command::ResetZoom, "", "the whole line again", LOOK),
+    row(&[char('A')], EXPLORE, Command::ToggleAccuracy, "accuracy", "what accuracy costs and what ran, in place of profile and fragments", LOOK),
     row(&[key(KeyCode::Tab)], EXPLORE, Command::NextPane, "", "choose the next pane", LOOK),
     row(&[char('z')], EXPLORE, Command::ZoomPane, "zoom", "the chosen pane on the whole screen, or all panes", LOOK),
     row(&[char('T')], EXPLORE, Command::NextTheme, "", "other colours", LOOK),

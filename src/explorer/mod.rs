@@ -3,6 +3,7 @@
 //! nothing happens.
 
 pub mod action;
+pub mod appraisal;
 mod close_up;
 pub mod demo;
 pub mod headless;
@@ -19,6 +20,7 @@ pub mod reduce;
 mod screen;
 mod session;
 pub mod snapshot;
+pub mod study;
 mod terminal;
 mod text_line;
 pub mod theme;

@@ -14,6 +14,8 @@ pub enum Mode {
     Edit(TextLine),
     /// Typing the force to move the body to.
     Force(TextLine),
+    /// Typing a tolerance.
+    Tolerance(TextLine),
     /// Choosing a scene from the library.
     Library(Library),
     /// Typing the name of the file to save the scene to.
@@ -73,6 +75,8 @@ pub enum ModeKind {
     Edit,
     /// See [`Mode::Force`].
     Force,
+    /// See [`Mode::Tolerance`].
+    Tolerance,
     /// See [`Mode::Library`].
     Library,
     /// See [`Mode::SaveAs`].
@@ -89,10 +93,11 @@ pub enum ModeKind {
 
 impl ModeKind {
     /// All modes.
-    pub const ALL: [ModeKind; 9] = [
+    pub const ALL: [ModeKind; 10] = [
         ModeKind::Explore,
         ModeKind::Edit,
         ModeKind::Force,
+        ModeKind::Tolerance,
         ModeKind::Library,
         ModeKind::SaveAs,
         ModeKind::Export,
@@ -110,6 +115,7 @@ impl Mode {
             Mode::Explore => ModeKind::Explore,
             Mode::Edit(_) => ModeKind::Edit,
             Mode::Force(_) => ModeKind::Force,
+            Mode::Tolerance(_) => ModeKind::Tolerance,
             Mode::Library(_) => ModeKind::Library,
             Mode::SaveAs { .. } => ModeKind::SaveAs,
             Mode::Export(_) => ModeKind::Export,
@@ -122,9 +128,11 @@ impl Mode {
     /// The line that is being typed.
     pub fn line_mut(&mut self) -> Option<&mut TextLine> {
         match self {
-            Mode::Edit(line) | Mode::Force(line) | Mode::Export(line) | Mode::SaveAs { line, .. } => {
-                Some(line)
-            }
+            Mode::Edit(line)
+            | Mode::Force(line)
+            | Mode::Tolerance(line)
+            | Mode::Export(line)
+            | Mode::SaveAs { line, .. } => Some(line),
             Mode::Library(library) => Some(&mut library.query),
             Mode::Explore | Mode::Overwrite { .. } | Mode::Help { .. } | Mode::Quit => None,
         }

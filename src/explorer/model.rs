@@ -1,5 +1,6 @@
 //! The state of the explorer: changed by `update` alone, drawn by the views.
 
+pub use super::appraisal::{Appraisal, Costs, Estimated};
 pub use super::mode::{Library, Mode, ModeKind};
 use super::parameters::{Parameter, Setting, parameters};
 use super::snapshot::{Drive, Loop, Moment, Preview};
@@ -22,11 +23,16 @@ pub enum Pane {
     CloseUp,
     /// The list of parameters.
     Parameters,
+    /// What accuracy costs and what ran, in place of profile and close-up.
+    Accuracy,
 }
 
 impl Pane {
-    /// All panes, the most important first: the order in which they stay when the window shrinks.
+    /// The panes as the explorer opens, the most important first: the order in which they stay when the window
+    /// shrinks.
     pub const ALL: [Pane; 4] = [Pane::Force, Pane::Profile, Pane::Parameters, Pane::CloseUp];
+    /// The panes while accuracy is shown.
+    pub const WITH_ACCURACY: [Pane; 3] = [Pane::Force, Pane::Accuracy, Pane::Parameters];
 }
 
 /// Where the animation stands.
@@ -175,6 +181,8 @@ pub struct Model {
     pub curve: CurveLook,
     /// Loops kept to be compared with, the newest last.
     pub ghosts: Vec<Ghost>,
+    /// How accurate the scene is and what accuracy costs.
+    pub appraisal: Appraisal,
     /// The curve of the scene selected in the library.
     pub preview: Option<Arc<Preview>>,
     /// The chosen pane.
@@ -223,6 +231,7 @@ impl Model {
             profile: LineView::WHOLE,
             curve: CurveLook::default(),
             ghosts: Vec::new(),
+            appraisal: Appraisal::default(),
             preview: None,
             pane: Pane::Force,
             zoomed: false,
@@ -282,6 +291,12 @@ impl Model {
     #[must_use]
     pub fn is_computing(&self) -> bool {
         self.progress.is_some()
+    }
+
+    /// The panes there are to choose from.
+    #[must_use]
+    pub fn panes(&self) -> &'static [Pane] {
+        if self.appraisal.shown { &Pane::WITH_ACCURACY } else { &Pane::ALL }
     }
 
     /// What moves the body.

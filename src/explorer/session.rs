@@ -4,9 +4,10 @@ use super::action::{Action, WriteFailure, Written};
 use super::input;
 use super::model::{Model, Traffic};
 use super::snapshot::Loop;
+use super::study::{Accuracy, Found, Study};
 use super::terminal::{self, FrameWriter, TerminalGuard, Told};
 use super::theme::{Appearance, Marker, Theme};
-use super::update::{Effect, moment_request, update};
+use super::update::{Effect, moment_request, study_tasks, update};
 use super::view;
 use super::worker::{self, Engine, Report, Request, Worker};
 use super::writing;
@@ -61,6 +62,7 @@ enum Message {
     /// The process was stopped and goes on: another program may have had the terminal.
     Continued,
     Report(Report),
+    Found(Found),
 }
 
 /// Opens the explorer on a scene and returns what it leaves.
@@ -88,6 +90,10 @@ pub fn open_with(
     let reports = messages.clone();
     worker::start(engine, Arc::clone(&newest), outbox, move |report| {
         reports.send(Message::Report(report)).is_ok()
+    })?;
+    let study = Study::start(Box::new(Accuracy), {
+        let messages = messages.clone();
+        move |found| messages.send(Message::Found(found)).is_ok()
     })?;
     terminal::watch_for_hang_up({
         let messages = messages.clone();
@@ -121,6 +127,7 @@ pub fn open_with(
         guard,
         model: Model::new(document, (size.width, size.height), appearance),
         worker: Worker::new(requests, newest),
+        study,
         draw,
         remote: ["SSH_CONNECTION", "SSH_TTY"].iter().any(|name| std::env::var_os(name).is_some()),
         redraw: false,
@@ -152,6 +159,7 @@ struct Session<'a, W: Write> {
     guard: TerminalGuard,
     model: Model,
     worker: Worker,
+    study: Study,
     draw: Draw,
     remote: bool,
     /// Whether nothing that stands on the screen can be relied on.
@@ -220,6 +228,7 @@ impl<W: Write> Session<'_, W> {
                     // In the mode that holds by now: the key before may have changed it.
                     Message::Input(event) => input::action_of(&event, self.model.mode.kind()),
                     Message::Report(report) => Some(action_of(report)),
+                    Message::Found(found) => Some(Action::Found(found)),
                 };
                 if let Some(action) = action {
                     changed = true;
@@ -265,6 +274,8 @@ impl<W: Write> Session<'_, W> {
             match effect {
                 Effect::Compute => {
                     let scene = scene_of(&self.model.document);
+                    // What is found out about the scene before is of no use, and takes time from this one.
+                    self.study.stop();
                     self.worker.ask(Request::Compute { generation, scene });
                 }
                 Effect::Show => {
@@ -272,6 +283,7 @@ impl<W: Write> Session<'_, W> {
                         self.worker.ask(Request::Show(request));
                     }
                 }
+                Effect::Study => self.study.ask(generation, study_tasks(&self.model)),
                 Effect::Hand(order) => self.worker.ask(Request::Hand { generation, order }),
                 Effect::DrawSeed => {
                     // Six digits are enough for another line and can be read out to a colleague.

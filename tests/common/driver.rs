@@ -4,8 +4,9 @@
 use asperity::explorer::action::{Action, Content, WriteFailure, Written};
 use asperity::explorer::model::Model;
 use asperity::explorer::snapshot::Loop;
+use asperity::explorer::study::{Appraiser, Found, perform};
 use asperity::explorer::theme::{Appearance, Marker, Theme};
-use asperity::explorer::update::{Effect, moment_request};
+use asperity::explorer::update::{Effect, moment_request, study_tasks};
 use asperity::explorer::worker::{self, Engine, Newest, Report, Request, Worker};
 use asperity::explorer::write;
 use asperity::scene::{Document, Library};
@@ -36,6 +37,8 @@ pub struct Driver {
     pub copied: Vec<String>,
     /// The seed that is drawn next.
     pub seed: u64,
+    /// What tells of accuracy. Left out, nothing is found out.
+    pub appraiser: Option<Box<dyn Appraiser>>,
     worker: Worker,
     reports: Receiver<Report>,
 }
@@ -58,6 +61,7 @@ impl Driver {
             copied: Vec::new(),
             folder: PathBuf::from("no such folder"),
             seed: 4711,
+            appraiser: None,
             worker: Worker::new(requests, newest),
             reports,
         }
@@ -74,6 +78,7 @@ impl Driver {
             Effect::Show => {
                 moment_request(&self.model).map_or(Vec::new(), |one| self.ask(Request::Show(one)))
             }
+            Effect::Study => self.study(),
             Effect::Hand(order) => {
                 // Answered with the next moment.
                 self.worker.ask(Request::Hand { generation: self.model.generation, order });
@@ -111,6 +116,20 @@ impl Driver {
                 vec![Action::Written(result)]
             }
         }
+    }
+
+    /// All that is found out about accuracy, as if nobody did anything meanwhile.
+    fn study(&mut self) -> Vec<Action> {
+        let (generation, tasks) = (self.model.generation, study_tasks(&self.model));
+        let mut found = Vec::new();
+        if let Some(appraiser) = &mut self.appraiser {
+            for task in tasks {
+                perform(appraiser.as_mut(), &task, &|| false, &mut |finding| {
+                    found.push(Action::Found(Found { generation, finding }));
+                });
+            }
+        }
+        found
     }
 
     /// Asks the worker, and waits for all it reports.

@@ -175,7 +175,8 @@ pub fn change(model: &mut Model, path: &str, value: &str) -> Vec<Effect> {
     take_over(model, changed)
 }
 
-fn take_over(model: &mut Model, changed: Result<Document, SceneErrors>) -> Vec<Effect> {
+/// Makes a changed document the one that is explored, or tells why it is not allowed.
+pub fn take_over(model: &mut Model, changed: Result<Document, SceneErrors>) -> Vec<Effect> {
     match changed {
         Ok(document) => {
             let lost = model.document.comments().saturating_sub(document.comments());
@@ -224,6 +225,7 @@ fn renew(model: &mut Model) -> Vec<Effect> {
     model.refused = None;
     model.generation += 1;
     model.progress = Some(0);
+    model.appraisal.forget();
     // What was in hand was pressed on another line, or under another force.
     if model.hand.take().is_some() {
         let back = "the body is back on the scene's loading".to_owned();

@@ -41,8 +41,9 @@ pub fn obey(model: &mut Model, command: Command) -> Vec<Effect> {
         Command::ToggleLoss => model.curve.loss = !model.curve.loss,
         Command::ZoomPane => model.zoomed = !model.zoomed,
         Command::NextPane => {
-            let place = Pane::ALL.iter().position(|pane| *pane == model.pane).unwrap_or(0);
-            model.pane = Pane::ALL[(place + 1) % Pane::ALL.len()];
+            let panes = model.panes();
+            let place = panes.iter().position(|pane| *pane == model.pane).unwrap_or(0);
+            model.pane = panes[(place + 1) % panes.len()];
         }
         Command::NextTheme => {
             model.appearance.theme = model.appearance.theme.next();

@@ -1,6 +1,7 @@
 //! What each action does to the model. Nothing here touches terminal, files or worker: what is to be
 //! done outside is returned.
 
+mod accuracy;
 mod compare;
 mod edit;
 mod files;
@@ -8,6 +9,8 @@ mod library;
 mod look;
 mod mouse;
 mod movement;
+
+pub use accuracy::study_tasks;
 
 use super::action::{Action, Command, Content};
 use super::layout::Layout;
@@ -25,6 +28,8 @@ pub enum Effect {
     Compute,
     /// Show the moment at which the body stands.
     Show,
+    /// Work out what is not known yet of the scene's accuracy, see [`study_tasks`], and nothing else.
+    Study,
     /// Move the body by hand.
     Hand(HandOrder),
     /// Draw a random seed and give it back as an action.
@@ -74,7 +79,7 @@ pub fn update(model: &mut Model, action: Action) -> Vec<Effect> {
             if matches!(model.notice, Some(Notice::Error(_))) {
                 model.notice = None;
             }
-            return vec![Effect::Show];
+            return vec![Effect::Show, Effect::Study];
         }
         Action::Shown(moment) if moment.generation == model.generation => movement::shown(model, moment),
         Action::Progress { generation, legs } if generation == model.generation => {
@@ -86,6 +91,7 @@ pub fn update(model: &mut Model, action: Action) -> Vec<Effect> {
         }
         // Stale: of a scene that has been changed since.
         Action::Computed(_) | Action::Shown(_) | Action::Progress { .. } | Action::Failed { .. } => {}
+        Action::Found(found) => return accuracy::found(model, found),
         Action::Written(result) => files::written(model, result),
         Action::Listed(entries) => return library::listed(model, entries),
         Action::Previewed(preview) => model.preview = Some(preview),
@@ -145,6 +151,14 @@ fn obey(model: &mut Model, command: Command) -> Vec<Effect> {
                 let typed = line.text();
                 model.mode = Mode::Explore;
                 return movement::accept_force(model, &typed);
+            }
+            _ => edit_line(model, command),
+        },
+        Mode::Tolerance(line) => match command {
+            Command::Accept => {
+                let typed = line.text();
+                model.mode = Mode::Explore;
+                return accuracy::accept_tolerance(model, &typed);
             }
             _ => edit_line(model, command),
         },
@@ -226,6 +240,7 @@ fn explore(model: &mut Model, command: Command) -> Vec<Effect> {
         Command::Export => files::ask_export(model),
         Command::CopyCommand => return files::copy_command(model),
         Command::OpenLibrary => return library::open(model),
+        Command::ToggleAccuracy | Command::TypeTolerance => return accuracy::obey(model, command),
         Command::Fragment(_)
         | Command::ToggleLengths
         | Command::Zoom(_)

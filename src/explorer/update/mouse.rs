@@ -34,7 +34,7 @@ pub fn act(model: &mut Model, mouse: Mouse) -> Vec<Effect> {
                     vec![Effect::Show]
                 }
                 Pane::Force => drag(model, inside(area), mouse.column),
-                Pane::Profile | Pane::CloseUp => vec![Effect::Show],
+                Pane::Profile | Pane::CloseUp | Pane::Accuracy => vec![Effect::Show],
             }
         }
         (Gesture::Drag, Pane::Force) => drag(model, inside(area), mouse.column),

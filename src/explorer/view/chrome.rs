@@ -2,12 +2,14 @@
 
 use super::typed::typed;
 use super::wrap::{fitting, wrapped};
+use crate::accuracy::{Estimate, Target};
 use crate::contact::CurvePoint;
 use crate::explorer::action::Command;
 use crate::explorer::keys;
-use crate::explorer::model::{Mode, Model, Notice, Traffic};
+use crate::explorer::model::{Estimated, Mode, Model, Notice, Traffic};
 use crate::explorer::text_line::TextLine;
 use crate::explorer::theme::Meaning;
+use crate::export::sheet::grouped;
 use crate::scene::format_quantity;
 use ratatui::Frame;
 use ratatui::layout::Rect;
@@ -42,6 +44,8 @@ pub fn status(frame: &mut Frame<'_>, area: Rect, model: &Model) {
         (Mode::Export(line), _) if area.width < 60 => prompted("Export to: ", line),
         (Mode::Export(line), _) => prompted("Export to (.csv .json .svg .txt): ", line),
         (Mode::Force(line), _) => prompted("Go to the force: ", line),
+        (Mode::Tolerance(line), _) if area.width < 60 => prompted("Tolerance: ", line),
+        (Mode::Tolerance(line), _) => prompted("Relative error allowed (0.1 % or 1e-3): ", line),
         (Mode::Library(library), _) => prompted("Search: ", &library.query),
         (Mode::Overwrite { path, .. }, _) => error(format!("{} exists. Overwrite it?", path.display())),
         (Mode::Quit, _) => error("The scene has unsaved changes. Leave?".to_owned()),
@@ -51,6 +55,7 @@ pub fn status(frame: &mut Frame<'_>, area: Rect, model: &Model) {
             error(format!("! {text}"))
         }
         (_, Some(Notice::Done(text))) => Line::raw(text.clone()),
+        (Mode::Explore, None) if model.appraisal.choosing.is_some() => choosing(model),
         _ => headline(model, area.width),
     };
     frame.render_widget(Paragraph::new(line), area);
@@ -71,8 +76,21 @@ fn headline(model: &Model, width: u16) -> Line<'static> {
         let apart = if parts.is_empty() { "" } else { apart };
         parts.push(vec![Span::raw(apart), Span::styled(text, theme.style(meaning))]);
     };
+    let in_hand = model.present().is_some() && model.hand.is_some();
     if let Some(adhesion) = outcome.figures.adhesion_force {
         part("  ", format!("F_a {}", format_quantity(adhesion, "N")), Meaning::Title);
+    } else if let Some(largest) = outcome.figures.preload.filter(|force| *force != 0.0 && !in_hand) {
+        part("  ", format!("F_max {}", format_quantity(largest, "N")), Meaning::Title);
+    }
+    // What is told of the hand needs the room in a common window.
+    if !in_hand || width >= WIDE {
+        if let Some(error) = error(model) {
+            part(" ", error, Meaning::Title);
+        }
+        if model.shows_times && !model.is_computing() {
+            // What the last run made anew: a kept line and tree cost nothing.
+            part(" · ", format_quantity(short(outcome.timings.total()), "s"), Meaning::Quiet);
+        }
     }
     if let (Some(moment), Some(hand)) = (model.present(), &model.hand) {
         // What the move cost comes before what it led to.
@@ -99,12 +117,45 @@ fn headline(model: &Model, width: u16) -> Line<'static> {
     if model.is_computing() {
         let legs = model.document.scene().loading.len();
         part("  ", format!("computing, leg {} of {legs}", model.progress.unwrap_or(0) + 1), Meaning::Quiet);
-    } else if model.shows_times {
-        // What the last run made anew: a kept line and tree cost nothing.
-        let seconds = format_quantity(short(outcome.timings.total()), "s");
-        part(" · ", seconds, Meaning::Quiet);
     }
     fitting(parts, "", usize::from(width))
+}
+
+/// Narrower windows have no room for error and time beside what is told of the hand.
+const WIDE: u16 = 110;
+
+/// The estimated error of the headline, `…` until it is known; nothing where it cannot be.
+fn error(model: &Model) -> Option<String> {
+    match &model.appraisal.estimated {
+        Estimated::Known(Estimate { target, error, .. }) => {
+            let of = if *target == Target::Curve { "curve " } else { "" };
+            Some(format!("{of}± {}", per_cent(*error)))
+        }
+        Estimated::Waiting if model.shows_times => Some("± …".to_owned()),
+        Estimated::Waiting | Estimated::Unknown => None,
+    }
+}
+
+/// A relative error in per cent: one digit, and another after a one. An estimate is worth no more.
+fn per_cent(error: f64) -> String {
+    let per_cent = 100.0 * error;
+    if per_cent > 100.0 {
+        return "> 100 %".to_owned();
+    }
+    if per_cent < 1e-3 {
+        return "< 0.001 %".to_owned();
+    }
+    let two: f64 = format!("{per_cent:.1e}").parse().unwrap_or(per_cent);
+    let one: f64 = format!("{per_cent:.0e}").parse().unwrap_or(per_cent);
+    let leads_with_one = format!("{two:e}").starts_with('1');
+    format!("{} %", if leads_with_one { two } else { one })
+}
+
+/// That springs are searched for a tolerance, and how far.
+fn choosing(model: &Model) -> Line<'static> {
+    let Some((tolerance, trying)) = model.appraisal.choosing else { return Line::default() };
+    let trying = trying.map_or_else(String::new, |points| format!(": {} springs", grouped(points)));
+    Line::raw(format!("trying for {tolerance:e}{trying}…"))
 }
 
 /// How much touches.
@@ -148,5 +199,29 @@ pub fn footer(frame: &mut Frame<'_>, area: Rect, model: &Model) {
     if let Some(traffic) = traffic {
         let width = traffic.width() as u16;
         frame.render_widget(traffic, Rect { x: area.right() - width, width, ..area });
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn errors_are_told_to_one_digit_and_two_after_a_one() {
+        let told = [
+            (0.0042, "0.4 %"),
+            (0.0104, "1 %"),
+            (0.0148, "1.5 %"),
+            (0.0096, "1 %"),
+            (0.123, "12 %"),
+            (0.9, "90 %"),
+            (1.5, "> 100 %"),
+            (2.3e-5, "0.002 %"),
+            (9e-6, "< 0.001 %"),
+            (0.0, "< 0.001 %"),
+        ];
+        for (error, text) in told {
+            assert_eq!(per_cent(error), text, "{error}");
+        }
     }
 }

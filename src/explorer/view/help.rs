@@ -24,6 +24,11 @@ const PANES: &[(&str, &str)] = &[
          what is seen",
     ),
     (
+        "Accuracy",
+        "A shows it: relative error over the time of a run, one line for each thing that buys accuracy; ◆ the \
+         scene as it stands; below it what 1 % and 0.1 % take, and what ran",
+    ),
+    (
         "Parameters",
         "everything the scene says; ● is an effect that is on, = a value that follows from others",
     ),

@@ -1,5 +1,6 @@
 //! Draws the model. Nothing here changes it or computes anything.
 
+mod accuracy;
 mod axes;
 mod chrome;
 mod close_up;
@@ -11,6 +12,7 @@ mod library;
 mod parameters;
 mod plot;
 mod profile;
+mod stages;
 mod typed;
 mod wrap;
 
@@ -76,6 +78,7 @@ fn draw_pane(frame: &mut Frame<'_>, area: Rect, model: &Model, pane: Pane) {
             Pane::CloseUp if model.lengths => lengths::TITLE.to_owned(),
             Pane::CloseUp => close_up::title(model),
             Pane::Parameters => " Parameters ".to_owned(),
+            Pane::Accuracy => accuracy::TITLE.to_owned(),
         };
         let style = model.appearance.theme.style(if chosen { Meaning::Title } else { Meaning::Quiet });
         let mark = if chosen { "▸" } else { "" };
@@ -91,5 +94,6 @@ fn draw_pane(frame: &mut Frame<'_>, area: Rect, model: &Model, pane: Pane) {
         Pane::CloseUp if model.lengths => lengths::draw(frame, area, model),
         Pane::CloseUp => close_up::draw(frame, area, model),
         Pane::Parameters => parameters::draw(frame, area, model),
+        Pane::Accuracy => accuracy::draw(frame, area, model),
     }
 }

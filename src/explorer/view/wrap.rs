@@ -40,6 +40,25 @@ pub fn fitting(parts: Vec<Vec<Span<'static>>>, between: &'static str, columns: u
     line
 }
 
+/// Parts in as many lines as they take, with what stands between them on a line; a part wider than the columns
+/// is left out.
+pub fn filled(parts: Vec<Vec<Span<'static>>>, between: &'static str, columns: usize) -> Vec<Line<'static>> {
+    let mut lines: Vec<Line<'static>> = Vec::new();
+    for part in parts {
+        let width: usize = part.iter().map(Span::width).sum();
+        let apart = Span::raw(between);
+        match lines.last_mut().filter(|line| line.width() + apart.width() + width <= columns) {
+            Some(line) => {
+                line.spans.push(apart);
+                line.spans.extend(part);
+            }
+            None if width <= columns => lines.push(Line::from(part)),
+            None => {}
+        }
+    }
+    lines
+}
+
 /// The lines so far, the last of them unfinished.
 struct Page {
     lines: Vec<Line<'static>>,
@@ -111,6 +130,18 @@ mod tests {
         {
             assert_eq!(fitting(parts(), ", ", columns).to_string(), text);
         }
+    }
+
+    #[test]
+    fn parts_fill_lines() {
+        let told = |columns| {
+            let parts = ["one", "two", "three"].map(|text| vec![Span::raw(text)]).to_vec();
+            filled(parts, ", ", columns).iter().map(ToString::to_string).collect::<Vec<_>>()
+        };
+        assert_eq!(told(20), ["one, two, three"]);
+        assert_eq!(told(8), ["one, two", "three"]);
+        assert_eq!(told(7), ["one", "two", "three"]);
+        assert_eq!(told(3), ["one", "two"]);
     }
 
     #[test]

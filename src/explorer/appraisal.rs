@@ -1,0 +1,76 @@
+//! What is known of the accuracy of the scene, and what is still to be worked out.
+
+use super::study::Finding;
+use crate::accuracy::{CostTable, Estimate};
+use std::sync::Arc;
+
+/// See the module.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Appraisal {
+    /// Whether its pane stands in place of profile and close-up.
+    pub shown: bool,
+    /// The error of what has been computed.
+    pub estimated: Estimated,
+    /// What accuracy costs.
+    pub costs: Costs,
+    /// The tolerance for which springs are searched, and how many are tried.
+    pub choosing: Option<(f64, Option<u64>)>,
+    /// What the last tolerance led to, until the next edit.
+    pub answer: Option<String>,
+}
+
+/// The error of what has been computed.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub enum Estimated {
+    /// Not known yet.
+    #[default]
+    Waiting,
+    /// This one.
+    Known(Estimate),
+    /// Nothing can be told of it.
+    Unknown,
+}
+
+/// The table of costs, as far as it is.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Costs {
+    /// The rows so far.
+    pub table: Option<Arc<CostTable>>,
+    /// What is tried at the moment.
+    pub trying: Option<String>,
+    /// Whether it is finished; or why there is no table.
+    pub ended: Option<Result<(), String>>,
+}
+
+impl Appraisal {
+    /// Of another scene nothing is known.
+    pub fn forget(&mut self) {
+        *self = Appraisal { shown: self.shown, ..Appraisal::default() };
+    }
+
+    /// Takes in a finding. What a tolerance led to is for others to act on.
+    pub fn take_in(&mut self, finding: Finding) {
+        match finding {
+            Finding::Estimated(estimate) => {
+                self.estimated = estimate.map_or(Estimated::Unknown, Estimated::Known);
+            }
+            Finding::Trying(knob, setting) => {
+                let setting = if setting.is_empty() { String::new() } else { format!(": {setting}") };
+                self.costs.trying = Some(format!("{}{setting}", knob.name()));
+            }
+            Finding::Costs(table) => self.costs.table = Some(table),
+            Finding::Measured(table) => {
+                self.costs = Costs { table: Some(table), trying: None, ended: Some(Ok(())) };
+            }
+            Finding::NotMeasured(why) => {
+                self.costs = Costs { table: None, trying: None, ended: Some(Err(why)) };
+            }
+            Finding::Choosing(points) => {
+                if let Some((_, trying)) = &mut self.choosing {
+                    *trying = Some(points);
+                }
+            }
+            Finding::Chosen(..) => self.choosing = None,
+        }
+    }
+}

@@ -1,0 +1,249 @@
+//! How accurate the scene is and what accuracy costs: worked out beside the worker, on a thread of its own, so
+//! that no edit waits for it. Whatever is asked for next ends what is under way.
+
+use super::snapshot::Loop;
+use crate::accuracy::{
+    Choice, ChoiceError, CostError, CostTable, Estimate, Knob, Progress, choose, estimate, measure,
+};
+use crate::scene::Scene;
+use crate::simulation::RunError;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::Path;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender};
+use std::time::Duration;
+
+/// Time for a whole measurement: that of `asperity cost`.
+pub const BUDGET: Duration = Duration::from_secs(10);
+/// Nothing is begun before it has been as quiet as that: somebody who holds a key down wants the machine.
+const QUIET: Duration = Duration::from_millis(300);
+
+/// Something to be worked out about a scene.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Task {
+    /// How large the error of the outcome is.
+    Estimate(Arc<Loop>),
+    /// What accuracy costs.
+    Measure(Arc<Scene>),
+    /// Springs and edges for a tolerance.
+    Choose(Arc<Scene>, f64),
+}
+
+impl Task {
+    /// Whether it waits until it is quiet; what the user waits for does not.
+    fn waits(&self) -> bool {
+        !matches!(self, Task::Choose(..))
+    }
+}
+
+/// What is found out.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Finding {
+    /// The error of the outcome, where it can be told.
+    Estimated(Option<Estimate>),
+    /// What is measured next.
+    Trying(Knob, String),
+    /// The table so far.
+    Costs(Arc<CostTable>),
+    /// The whole table.
+    Measured(Arc<CostTable>),
+    /// There is no table, and why.
+    NotMeasured(String),
+    /// With how many springs a tolerance is tried next.
+    Choosing(u64),
+    /// What reaches a tolerance, or why nothing does.
+    Chosen(f64, Result<Choice, ChoiceError>),
+}
+
+/// A finding and the generation of the scene it belongs to.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Found {
+    /// Generation of the scene.
+    pub generation: u64,
+    /// What was found.
+    pub finding: Finding,
+}
+
+/// What works it out. [`Accuracy`] does; tests put others in its place.
+pub trait Appraiser: Send {
+    /// See [`estimate`].
+    ///
+    /// # Errors
+    /// When a solution that is needed fails.
+    fn estimate(&mut self, of: &Loop, stop: &dyn Fn() -> bool) -> Result<Option<Estimate>, RunError>;
+
+    /// See [`measure()`].
+    ///
+    /// # Errors
+    /// When nothing can be compared.
+    fn measure(
+        &mut self,
+        scene: &Scene,
+        stop: &dyn Fn() -> bool,
+        watch: &mut dyn FnMut(Progress<'_>),
+    ) -> Result<CostTable, CostError>;
+
+    /// See [`choose`].
+    ///
+    /// # Errors
+    /// When nothing reaches the tolerance.
+    fn choose(
+        &mut self,
+        scene: &Scene,
+        tolerance: f64,
+        stop: &dyn Fn() -> bool,
+        trying: &mut dyn FnMut(u64),
+    ) -> Result<Choice, ChoiceError>;
+}
+
+/// The appraiser of the program.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Accuracy;
+
+/// The files of a scene that is explored are named by whole paths.
+const FOLDER: &str = "";
+
+impl Appraiser for Accuracy {
+    fn estimate(&mut self, of: &Loop, stop: &dyn Fn() -> bool) -> Result<Option<Estimate>, RunError> {
+        estimate(&of.scene, Path::new(FOLDER), &of.outcome, stop)
+    }
+
+    fn measure(
+        &mut self,
+        scene: &Scene,
+        stop: &dyn Fn() -> bool,
+        watch: &mut dyn FnMut(Progress<'_>),
+    ) -> Result<CostTable, CostError> {
+        measure(scene, Path::new(FOLDER), BUDGET, stop, watch)
+    }
+
+    fn choose(
+        &mut self,
+        scene: &Scene,
+        tolerance: f64,
+        stop: &dyn Fn() -> bool,
+        trying: &mut dyn FnMut(u64),
+    ) -> Result<Choice, ChoiceError> {
+        choose(scene, Path::new(FOLDER), tolerance, stop, trying)
+    }
+}
+
+/// Does a task. What is told after `stop` has said to give up is of no use to anyone and is not told.
+pub fn perform(
+    appraiser: &mut dyn Appraiser,
+    task: &Task,
+    stop: &dyn Fn() -> bool,
+    tell: &mut dyn FnMut(Finding),
+) {
+    let mut tell = |finding: Finding| {
+        if !stop() {
+            tell(finding);
+        }
+    };
+    let done = catch_unwind(AssertUnwindSafe(|| match task {
+        Task::Estimate(of) => Finding::Estimated(appraiser.estimate(of, stop).unwrap_or(None)),
+        Task::Measure(scene) => {
+            let measured = appraiser.measure(scene, stop, &mut |progress| match progress {
+                Progress::Trying(knob, setting) => tell(Finding::Trying(knob, setting.to_owned())),
+                Progress::Rows(table) => {
+                    if let Some(table) = table() {
+                        tell(Finding::Costs(Arc::new(table)));
+                    }
+                }
+            });
+            match measured {
+                Ok(table) => Finding::Measured(Arc::new(table)),
+                Err(error) => Finding::NotMeasured(error.to_string()),
+            }
+        }
+        Task::Choose(scene, tolerance) => {
+            let choice =
+                appraiser.choose(scene, *tolerance, stop, &mut |points| tell(Finding::Choosing(points)));
+            Finding::Chosen(*tolerance, choice)
+        }
+    }));
+    tell(done.unwrap_or_else(|_| match task {
+        Task::Estimate(_) => Finding::Estimated(None),
+        Task::Measure(_) => Finding::NotMeasured("internal error, please report it".to_owned()),
+        Task::Choose(_, tolerance) => Finding::Chosen(*tolerance, Err(ChoiceError::Stopped)),
+    }));
+}
+
+/// What is to be done about one scene, one after the other, in place of all that was asked for before.
+struct Order {
+    number: u64,
+    generation: u64,
+    tasks: Vec<Task>,
+}
+
+/// The explorer's end of the channel to the study.
+pub struct Study {
+    orders: Sender<Order>,
+    newest: Arc<AtomicU64>,
+}
+
+impl Study {
+    /// Starts a study on a thread of its own. Its findings go through `report`, which says whether anyone
+    /// still listens.
+    ///
+    /// # Errors
+    /// When the system gives no thread.
+    pub fn start(
+        appraiser: Box<dyn Appraiser>,
+        report: impl Fn(Found) -> bool + Send + 'static,
+    ) -> std::io::Result<Self> {
+        let (orders, inbox) = std::sync::mpsc::channel();
+        let newest = Arc::new(AtomicU64::new(0));
+        let watched = Arc::clone(&newest);
+        std::thread::Builder::new()
+            .name("accuracy".to_owned())
+            .spawn(move || serve(appraiser, &watched, &inbox, &report))?;
+        Ok(Study { orders, newest })
+    }
+
+    /// Ends what is under way and asks for these in its place.
+    pub fn ask(&self, generation: u64, tasks: Vec<Task>) {
+        let number = self.newest.fetch_add(1, Ordering::Relaxed) + 1;
+        // The study only ends with the explorer.
+        let _ = self.orders.send(Order { number, generation, tasks });
+    }
+
+    /// Ends what is under way.
+    pub fn stop(&self) {
+        self.ask(0, Vec::new());
+    }
+}
+
+/// Does what was asked for last until the explorer is gone.
+fn serve(
+    mut appraiser: Box<dyn Appraiser>,
+    newest: &AtomicU64,
+    orders: &Receiver<Order>,
+    report: &dyn Fn(Found) -> bool,
+) {
+    let mut next = None;
+    while let Some(order) = next.take().or_else(|| orders.recv().ok()) {
+        let Order { number, generation, tasks } = order;
+        let stop = || newest.load(Ordering::Relaxed) != number;
+        for task in tasks {
+            if task.waits() {
+                match orders.recv_timeout(QUIET) {
+                    Ok(newer) => next = Some(newer),
+                    Err(RecvTimeoutError::Timeout) => {}
+                    Err(RecvTimeoutError::Disconnected) => return,
+                }
+            }
+            if next.is_some() || stop() {
+                break;
+            }
+            let mut heard = true;
+            perform(appraiser.as_mut(), &task, &stop, &mut |finding| {
+                heard = heard && report(Found { generation, finding });
+            });
+            if !heard {
+                return;
+            }
+        }
+    }
+}

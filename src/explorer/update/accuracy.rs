@@ -1,0 +1,169 @@
+//! What accuracy costs, and springs for a tolerance.
+
+use super::{Effect, edit};
+use crate::accuracy::{Choice, ChoiceError, Estimate, Evidence, Target, parse_tolerance};
+use crate::explorer::action::Command;
+use crate::explorer::mode::Mode;
+use crate::explorer::model::{Estimated, Model, Notice, Pane};
+use crate::explorer::study::{Finding, Found, Task};
+use crate::explorer::text_line::TextLine;
+use crate::export::sheet::grouped;
+use crate::scene::{Edges, format_quantity};
+
+/// What is still to be worked out about the accuracy of the scene as it stands, in this order.
+#[must_use]
+pub fn study_tasks(model: &Model) -> Vec<Task> {
+    let Some(computed) = model.computed.as_ref().filter(|_| model.is_current()) else { return Vec::new() };
+    let appraisal = &model.appraisal;
+    if let Some((tolerance, _)) = appraisal.choosing {
+        return vec![Task::Choose(computed.scene.clone(), tolerance)];
+    }
+    let estimate =
+        (appraisal.estimated == Estimated::Waiting).then(|| Task::Estimate(std::sync::Arc::clone(computed)));
+    let measure = (appraisal.shown && appraisal.costs.ended.is_none())
+        .then(|| Task::Measure(std::sync::Arc::clone(&computed.scene)));
+    estimate.into_iter().chain(measure).collect()
+}
+
+/// Obeys a command that has to do with accuracy.
+pub fn obey(model: &mut Model, command: Command) -> Vec<Effect> {
+    if command == Command::TypeTolerance {
+        if model.is_current() {
+            model.mode = Mode::Tolerance(TextLine::new(""));
+        } else {
+            model.notice = Some(Notice::Error("not before the scene is computed".to_owned()));
+        }
+        return Vec::new();
+    }
+    let shown = !model.appraisal.shown;
+    model.appraisal.shown = shown;
+    if shown {
+        model.pane = Pane::Accuracy;
+    } else {
+        model.pane = if model.pane == Pane::Accuracy { Pane::Force } else { model.pane };
+        // Nobody looks on: what was not finished begins anew when it is shown again.
+        if model.appraisal.costs.ended.is_none() {
+            model.appraisal.costs = Default::default();
+        }
+    }
+    vec![Effect::Study, Effect::Show]
+}
+
+/// Searches springs for a tolerance that was typed.
+pub fn accept_tolerance(model: &mut Model, typed: &str) -> Vec<Effect> {
+    match parse_tolerance(typed) {
+        Ok(tolerance) if model.is_current() => {
+            model.appraisal.choosing = Some((tolerance, None));
+            model.appraisal.answer = None;
+            // What was measured ends for it.
+            model.appraisal.costs.trying = None;
+            vec![Effect::Study]
+        }
+        Ok(_) => {
+            model.notice = Some(Notice::Error("not before the scene is computed".to_owned()));
+            Vec::new()
+        }
+        Err(error) => {
+            model.notice = Some(Notice::Error(error));
+            Vec::new()
+        }
+    }
+}
+
+/// Takes in what was found out.
+pub fn found(model: &mut Model, found: Found) -> Vec<Effect> {
+    if found.generation != model.generation {
+        // Of a scene that has been changed since.
+        return Vec::new();
+    }
+    match found.finding {
+        Finding::Chosen(tolerance, result) => {
+            // Whoever does not wait for it any more has changed the scene.
+            if model.appraisal.choosing.take().is_none() {
+                return Vec::new();
+            }
+            match result {
+                Ok(choice) => take_over(model, &choice),
+                Err(error) => {
+                    refuse(model, tolerance, &error);
+                    vec![Effect::Study]
+                }
+            }
+        }
+        finding => {
+            model.appraisal.take_in(finding);
+            Vec::new()
+        }
+    }
+}
+
+/// Makes a choice an edit.
+fn take_over(model: &mut Model, choice: &Choice) -> Vec<Effect> {
+    let sentence = choice.sentence();
+    let numerics = model.document.scene().numerics;
+    let short = format!(
+        "{} springs, edges {}: {} within {}",
+        grouped(choice.points),
+        edges_name(choice.edges),
+        if choice.target == Target::Curve { "curve" } else { "F_a" },
+        per_cent(choice.tolerance),
+    );
+    let mut effects = vec![Effect::Study];
+    let is_so = (numerics.points, numerics.edges) == (choice.points, choice.edges);
+    if !is_so {
+        let points = choice.points.to_string();
+        let fields = [("numerics.points", points.as_str()), ("numerics.edges", edges_name(choice.edges))];
+        let fields = fields.map(|(path, value)| (path.to_owned(), value.to_owned()));
+        effects = edit::take_over(model, model.document.set_all(&fields));
+        if let Some((_, why)) = &model.refused {
+            model.appraisal.answer = Some(why.clone());
+            return effects;
+        }
+    }
+    // Of finer solutions than an estimate would be made from.
+    let evidence =
+        if choice.closed_form { Evidence::ClosedForm } else { Evidence::Solutions(vec![choice.finest]) };
+    let known = Estimate { target: choice.target, error: choice.error, evidence };
+    model.appraisal.estimated = Estimated::Known(known);
+    let already = if is_so { "as it is: " } else { "" };
+    model.notice =
+        Some(Notice::Done(fitting(model, format!("{already}{sentence}"), format!("{already}{short}"))));
+    model.appraisal.answer = Some(sentence);
+    effects
+}
+
+/// Tells what can be reached instead.
+fn refuse(model: &mut Model, tolerance: f64, error: &ChoiceError) {
+    let sentence = error.to_string();
+    let asked = per_cent(tolerance);
+    let short = match error {
+        ChoiceError::Unreached { best: Some(best), .. } => format!(
+            "{asked} is out of reach: {:.1e} with {} springs, edges {}",
+            best.error,
+            grouped(best.points),
+            edges_name(best.edges)
+        ),
+        ChoiceError::Unreached { best: None, .. } => format!("{asked} cannot be checked: too few springs"),
+        ChoiceError::Stepwise => "a tolerance goes with numerics.solver: Exact".to_owned(),
+        ChoiceError::Run(_) | ChoiceError::Stopped => sentence.clone(),
+    };
+    model.notice = Some(Notice::Error(fitting(model, sentence.clone(), short)));
+    model.appraisal.answer = Some(sentence);
+}
+
+/// The long text where the status line has room for it, else the short one.
+fn fitting(model: &Model, long: String, short: String) -> String {
+    if long.chars().count() + 2 <= usize::from(model.size.0) { long } else { short }
+}
+
+fn edges_name(edges: Edges) -> &'static str {
+    match edges {
+        Edges::Grid => "Grid",
+        Edges::SubCell => "SubCell",
+    }
+}
+
+/// A share in per cent.
+fn per_cent(share: f64) -> String {
+    format!("{} %", format_quantity(100.0 * share, "1"))
+}

@@ -1,0 +1,53 @@
+//! What ran for the scene, and how long each stage took; what did not run stands back.
+
+use super::wrap::filled;
+use crate::explorer::model::Model;
+use crate::explorer::theme::Meaning;
+use crate::scene::format_quantity;
+use crate::simulation::{Plan, Stage, Timings};
+use ratatui::text::{Line, Span};
+
+/// A part of a run that is timed.
+struct Part {
+    name: &'static str,
+    /// The stages in it; any of them calls for it. A line and a curve there always is.
+    stages: &'static [Stage],
+    seconds: fn(&Timings) -> f64,
+}
+
+const PARTS: [Part; 5] = [
+    Part { name: "line", stages: &[], seconds: |timings| timings.line },
+    Part { name: "tree", stages: &[Stage::Tree, Stage::LevelSets], seconds: |timings| timings.tree },
+    Part {
+        name: "passes",
+        stages: &[Stage::LoadingPass, Stage::UnloadingPass, Stage::Relaxation],
+        seconds: |timings| timings.passes,
+    },
+    Part { name: "curve", stages: &[], seconds: |timings| timings.curve },
+    Part { name: "F_a(0)", stages: &[Stage::ZeroLoadAdhesion], seconds: |timings| timings.zero_load },
+];
+
+/// The stages in as many lines as there is room for and it takes.
+pub fn strip(model: &Model, width: u16, rows: usize) -> Vec<Line<'static>> {
+    let Some(computed) = model.computed.as_ref().filter(|_| model.is_current()) else { return Vec::new() };
+    let theme = model.appearance.theme;
+    let plan = Plan::of(&computed.scene);
+    let timings = &computed.outcome.timings;
+    let mut parts: Vec<Vec<Span<'static>>> = vec![vec![Span::styled("ran", theme.style(Meaning::Quiet))]];
+    for part in PARTS {
+        let runs = part.stages.is_empty() || part.stages.iter().any(|stage| plan.runs(*stage));
+        let name = if plan.runs(Stage::Relaxation) && part.name == "passes" { "steps" } else { part.name };
+        parts.push(match runs {
+            true if model.shows_times => {
+                let seconds = (part.seconds)(timings);
+                let seconds = format_quantity(format!("{seconds:.1e}").parse().unwrap_or(seconds), "s");
+                vec![Span::raw(format!("● {name} ")), Span::styled(seconds, theme.style(Meaning::Title))]
+            }
+            true => vec![Span::raw(format!("● {name}"))],
+            false => vec![Span::styled(format!("○ {name}"), theme.style(Meaning::Quiet))],
+        });
+    }
+    let mut lines = filled(parts, "  ", usize::from(width));
+    lines.truncate(rows);
+    lines
+}

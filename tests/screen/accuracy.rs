@@ -1,0 +1,356 @@
+//! What accuracy costs, the error in the status line, springs for a tolerance: told by a scripted appraiser, so
+//! that nothing depends on time.
+
+use super::common::deadline::within;
+use super::common::driver::Driver;
+use super::common::scenes::{changed, rough, without_adhesion};
+use super::{is_up_to_date, keep};
+use asperity::accuracy::{
+    Choice, ChoiceError, CostError, CostTable, ErrorFigure, Estimate, Evidence, Knob, Measures, Progress,
+    Reference, Row, Target, Timing,
+};
+use asperity::explorer::action::Action;
+use asperity::explorer::model::{Costs, Estimated, Notice, Pane};
+use asperity::explorer::snapshot::Loop;
+use asperity::explorer::study::{Appraiser, Finding, Found, Study, Task};
+use asperity::explorer::update::Effect;
+use asperity::scene::{Document, Edges, Scene};
+use asperity::simulation::RunError;
+use std::sync::Arc;
+use std::sync::mpsc::{Receiver, Sender, channel};
+use std::time::Duration;
+
+/// Finds out what it is told to.
+struct Scripted {
+    estimate: Option<Estimate>,
+    table: Result<CostTable, CostError>,
+}
+
+impl Appraiser for Scripted {
+    fn estimate(&mut self, _: &Loop, _: &dyn Fn() -> bool) -> Result<Option<Estimate>, RunError> {
+        Ok(self.estimate.clone())
+    }
+
+    fn measure(
+        &mut self,
+        _: &Scene,
+        _: &dyn Fn() -> bool,
+        watch: &mut dyn FnMut(Progress<'_>),
+    ) -> Result<CostTable, CostError> {
+        watch(Progress::Trying(Knob::SubCellSprings, "32 springs"));
+        watch(Progress::Rows(&|| self.table.clone().ok()));
+        self.table.clone()
+    }
+
+    fn choose(
+        &mut self,
+        _: &Scene,
+        tolerance: f64,
+        _: &dyn Fn() -> bool,
+        trying: &mut dyn FnMut(u64),
+    ) -> Result<Choice, ChoiceError> {
+        trying(2048);
+        let choice = Choice {
+            tolerance,
+            target: Target::AdhesionForce,
+            points: 2048,
+            edges: Edges::SubCell,
+            error: 4e-4,
+            closed_form: false,
+            finest: 8192,
+        };
+        if tolerance >= choice.error {
+            return Ok(choice);
+        }
+        Err(ChoiceError::Unreached { tolerance, best: Some(Box::new(choice)) })
+    }
+}
+
+/// A row whose error falls with a power of its setting, and whose time grows with it.
+fn row(knob: Knob, setting: f64, error: f64) -> Row {
+    let figure = ErrorFigure { error: error.max(1e-5), resolved: error > 1e-5, order: None };
+    let seconds = if knob == Knob::Step { 2e-12 / setting } else { 1e-7 * setting };
+    Row {
+        knob,
+        setting,
+        springs: if knob == Knob::Step { 1024 } else { setting as u64 },
+        seconds: Timing::of(vec![seconds]),
+        transforms: None,
+        errors: Measures { adhesion_force: Some(figure), ..Measures::default() },
+    }
+}
+
+fn table() -> CostTable {
+    let springs = || (9..15).map(|power| f64::from(1 << power));
+    let mut rows: Vec<Row> = springs().map(|n| row(Knob::SubCellSprings, n, (64.0 / n).powi(2))).collect();
+    rows.extend(springs().map(|n| row(Knob::GridSprings, n, 20.0 / n)));
+    rows.extend((0..6).map(|k| 1e-8 * 0.5_f64.powi(k)).map(|step| row(Knob::Step, step, 2e6 * step)));
+    let reference = Reference {
+        springs: 16384,
+        adhesion_force: Some(1e-5),
+        closed_form: false,
+        errors: Measures { adhesion_force: Some(1e-5), ..Measures::default() },
+    };
+    CostTable { budget: 10.0, spent: 1.0, transform_seconds: 1e-2, reference, rows, left_out: Vec::new() }
+}
+
+fn estimate(error: f64) -> Option<Estimate> {
+    Some(Estimate { target: Target::AdhesionForce, error, evidence: Evidence::Solutions(vec![512, 2048]) })
+}
+
+fn driver_with(
+    document: Document,
+    estimate: Option<Estimate>,
+    table: Result<CostTable, CostError>,
+) -> Driver {
+    let mut driver = Driver::open(document);
+    driver.appraiser = Some(Box::new(Scripted { estimate, table }));
+    driver.perform(vec![Effect::Compute]);
+    driver.press("Space");
+    driver
+}
+
+/// The explorer with everything measured, and shown.
+pub fn measured(document: Document) -> Driver {
+    let mut driver = driver_with(document, estimate(0.0042), Ok(table()));
+    driver.press("A");
+    driver
+}
+
+#[test]
+fn what_accuracy_costs_is_shown_beside_what_can_be_changed() {
+    within(60, || {
+        let mut driver = measured(changed(&rough(), &[("numerics.edges", "Grid")]));
+        let mut screens = String::new();
+        for size in [(120, 40), (80, 24)] {
+            driver.resize(size);
+            screens += &format!("── {} × {} ──\n{}\n", size.0, size.1, driver.text());
+            for told in
+                ["order 2.0", "order 1.0", "1 %: SubCell 1 024", "Grid 2 048", "● line", "◆ 1 024 springs"]
+            {
+                assert!(driver.text().contains(told), "{told} at {size:?}:\n{}", driver.text());
+            }
+        }
+        keep("screen_of_what_accuracy_costs", &screens);
+        driver.press("A");
+        assert_eq!((driver.model.appraisal.shown, driver.model.pane), (false, Pane::Force));
+        assert!(driver.text().contains("Profile"), "{}", driver.text());
+        // It is not measured twice.
+        assert!(driver.model.appraisal.costs.ended.is_some());
+        assert_eq!(driver.press("A"), [Effect::Study, Effect::Show]);
+        assert!(driver.text().contains("order 2.0"));
+    });
+}
+
+#[test]
+fn a_scene_with_nothing_to_show_says_so() {
+    within(60, || {
+        let empty = CostTable { rows: Vec::new(), ..table() };
+        let mut driver = driver_with(without_adhesion(), None, Ok(empty));
+        driver.press("A");
+        for size in [(120, 40), (80, 24)] {
+            driver.resize(size);
+            assert!(driver.text().contains("nothing to show"), "{}", driver.text());
+            assert!(driver.text().contains("○ F_a(0)"), "{}", driver.text());
+        }
+        let short = CostError::BudgetTooShort { budget: 10.0, springs: 1 << 27 };
+        let mut driver = driver_with(rough(), None, Err(short));
+        driver.press("A");
+        assert!(driver.text().contains("nothing is measured: the budget of 10 s"), "{}", driver.text());
+        assert!(driver.text().contains("error unknown"), "{}", driver.text());
+    });
+}
+
+#[test]
+fn an_edit_forgets_what_was_found_out() {
+    within(60, || {
+        let mut driver = measured(rough());
+        let before = driver.model.generation;
+        // Nobody answers any more.
+        driver.appraiser = None;
+        driver.select("roughness.hurst");
+        assert_eq!(driver.press("l"), [Effect::Compute]);
+        assert!(driver.model.appraisal.shown);
+        assert_eq!(driver.model.appraisal.estimated, Estimated::Waiting);
+        assert_eq!(driver.model.appraisal.costs, Costs::default());
+        assert!(driver.status().contains("± …"), "{}", driver.status());
+        assert!(driver.text().contains("measuring"), "{}", driver.text());
+        // What comes late changes nothing.
+        let screen = driver.screen();
+        for finding in [
+            Finding::Estimated(estimate(0.5)),
+            Finding::Trying(Knob::Lines, "4".to_owned()),
+            Finding::Measured(Arc::new(table())),
+            Finding::NotMeasured("late".to_owned()),
+        ] {
+            assert!(driver.act(Action::Found(Found { generation: before, finding })).is_empty());
+            assert_eq!(driver.screen(), screen);
+        }
+    });
+}
+
+#[test]
+fn the_headline_has_its_error_and_its_time() {
+    within(60, || {
+        let told = |error: Option<f64>| driver_with(rough(), error.and_then(estimate), Ok(table()));
+        let mut driver = told(Some(0.0042));
+        for size in [(120, 40), (80, 24), (60, 20)] {
+            driver.resize(size);
+            assert!(driver.status().contains("N ± 0.4 % · 0 s"), "{}", driver.status());
+        }
+        // Pictures that are the same always have no times, and wait for nothing.
+        driver.model.shows_times = false;
+        assert!(driver.status().contains("N ± 0.4 % · "), "{}", driver.status());
+        assert!(!driver.status().contains(" s ·"), "{}", driver.status());
+        driver.model.appraisal.estimated = Estimated::Waiting;
+        assert!(!driver.status().contains('±'), "{}", driver.status());
+        driver.model.shows_times = true;
+        assert!(driver.status().contains("± … · 0 s"), "{}", driver.status());
+        assert!(!told(None).status().contains('±'), "what cannot be told is left out");
+        // Where nothing pulls, the largest force, and how good its curve is.
+        let curve = Estimate { target: Target::Curve, ..estimate(0.02).unwrap() };
+        let driver = driver_with(without_adhesion(), Some(curve), Ok(table()));
+        assert!(driver.status().starts_with("F_max 20 µN curve ± 2 % · 0 s"), "{}", driver.status());
+    });
+}
+
+/// Types a tolerance.
+fn ask(driver: &mut Driver, tolerance: &str) {
+    driver.press("%");
+    driver.type_text(tolerance);
+    driver.press("Enter");
+}
+
+#[test]
+fn a_tolerance_is_an_edit_that_can_be_taken_back() {
+    within(60, || {
+        let mut driver = measured(changed(&rough(), &[("numerics.edges", "Grid")]));
+        let before = driver.model.document.scene().numerics;
+        ask(&mut driver, "0.1 %");
+        let after = driver.model.document.scene().numerics;
+        assert_eq!((after.points, after.edges), (2048, Edges::SubCell));
+        assert!(is_up_to_date(&driver.model) && driver.model.appraisal.choosing.is_none());
+        assert!(driver.status().contains("2 048 springs"), "{}", driver.status());
+        assert!(driver.text().contains("the first found to keep the adhesion force"), "{}", driver.text());
+        // It was found out from finer solutions than an estimate.
+        assert!(matches!(&driver.model.appraisal.estimated, Estimated::Known(known) if known.error == 4e-4));
+        let generation = driver.model.generation;
+        ask(&mut driver, "0.1 %");
+        assert_eq!(driver.model.generation, generation, "it is so already");
+        assert!(driver.status().contains("as it is"), "{}", driver.status());
+        driver.press("u");
+        assert_eq!(driver.model.document.scene().numerics, before);
+        assert!(driver.model.appraisal.answer.is_none());
+    });
+}
+
+#[test]
+fn a_tolerance_out_of_reach_changes_nothing() {
+    within(60, || {
+        let mut driver = measured(rough());
+        driver.resize((80, 24));
+        let (text, generation) = (driver.model.document.text().to_owned(), driver.model.generation);
+        ask(&mut driver, "1e-6");
+        assert!(matches!(driver.model.notice, Some(Notice::Error(_))));
+        let told = "0.0001 % is out of reach: 4.0e-4 with 2 048 springs, edges SubCell";
+        assert!(driver.status().contains(told), "{}", driver.status());
+        for wrong in ["", "0", "2", "much", "-1 %"] {
+            ask(&mut driver, wrong);
+            assert!(driver.status().contains("allowed: a relative error"), "{wrong}: {}", driver.status());
+        }
+        driver.press("% 1 Esc");
+        assert!(driver.model.notice.is_none() && driver.model.appraisal.choosing.is_none());
+        assert_eq!((driver.model.document.text(), driver.model.generation), (text.as_str(), generation));
+        // Nothing is chosen for a scene that is not there.
+        let mut driver = Driver::open(rough());
+        driver.press("%");
+        assert!(driver.status().contains("not before"), "{}", driver.status());
+    });
+}
+
+const PATIENCE: Duration = Duration::from_secs(20);
+
+/// Measures until it is told to stop, and says when it begins and when it has stopped.
+struct Endless(Sender<&'static str>);
+
+impl Appraiser for Endless {
+    fn estimate(&mut self, _: &Loop, _: &dyn Fn() -> bool) -> Result<Option<Estimate>, RunError> {
+        panic!("no estimate")
+    }
+
+    fn measure(
+        &mut self,
+        _: &Scene,
+        stop: &dyn Fn() -> bool,
+        watch: &mut dyn FnMut(Progress<'_>),
+    ) -> Result<CostTable, CostError> {
+        watch(Progress::Trying(Knob::Samples, "8"));
+        self.0.send("begun").unwrap();
+        while !stop() {
+            std::thread::yield_now();
+        }
+        watch(Progress::Trying(Knob::Samples, "too late"));
+        self.0.send("stopped").unwrap();
+        Err(CostError::Stopped)
+    }
+
+    fn choose(
+        &mut self,
+        _: &Scene,
+        _: f64,
+        _: &dyn Fn() -> bool,
+        _: &mut dyn FnMut(u64),
+    ) -> Result<Choice, ChoiceError> {
+        Err(ChoiceError::Stepwise)
+    }
+}
+
+fn endless() -> (Study, Receiver<Found>, Receiver<&'static str>) {
+    let (says, said) = channel();
+    let (report, reports) = channel();
+    let study = Study::start(Box::new(Endless(says)), move |found| report.send(found).is_ok()).unwrap();
+    (study, reports, said)
+}
+
+#[test]
+fn what_is_measured_ends_as_soon_as_something_else_is_asked_for() {
+    within(60, || {
+        let (study, reports, said) = endless();
+        let scene = Arc::new(rough().scene().clone());
+        let next = || reports.recv_timeout(PATIENCE).expect("a finding");
+        for round in 1..=2 {
+            study.ask(round, vec![Task::Measure(Arc::clone(&scene))]);
+            assert_eq!(said.recv_timeout(PATIENCE), Ok("begun"));
+            assert_eq!(next().finding, Finding::Trying(Knob::Samples, "8".to_owned()));
+            // An edit stops it, a tolerance takes its place.
+            if round == 1 {
+                study.stop();
+            } else {
+                study.ask(round, vec![Task::Choose(Arc::clone(&scene), 0.1)]);
+            }
+            assert_eq!(said.recv_timeout(PATIENCE), Ok("stopped"));
+        }
+        // Nothing was told in between.
+        let chosen = Finding::Chosen(0.1, Err(ChoiceError::Stepwise));
+        assert_eq!(next(), Found { generation: 2, finding: chosen });
+        // The explorer leaves: so does the study.
+        drop(study);
+        assert!(reports.recv_timeout(PATIENCE).is_err());
+    });
+}
+
+#[test]
+fn a_key_held_down_begins_nothing() {
+    within(60, || {
+        let (study, reports, said) = endless();
+        let scene = Arc::new(rough().scene().clone());
+        for generation in 1..=50 {
+            study.ask(generation, vec![Task::Measure(Arc::clone(&scene))]);
+        }
+        assert_eq!(said.recv_timeout(PATIENCE), Ok("begun"));
+        assert_eq!(reports.recv_timeout(PATIENCE).map(|found| found.generation), Ok(50));
+        assert!(said.try_recv().is_err(), "of fifty only the last was begun");
+        study.stop();
+        assert_eq!(said.recv_timeout(PATIENCE), Ok("stopped"));
+    });
+}
