@@ -231,7 +231,9 @@ fn a_tolerance_is_an_edit_that_can_be_taken_back() {
         assert_eq!((after.points, after.edges), (2048, Edges::SubCell));
         assert!(is_up_to_date(&driver.model) && driver.model.appraisal.choosing.is_none());
         assert!(driver.status().contains("2 048 springs"), "{}", driver.status());
-        assert!(driver.text().contains("the first found to keep the adhesion force"), "{}", driver.text());
+        let answer = driver.model.appraisal.answer.clone().unwrap();
+        assert!(answer.contains("the first found to keep the adhesion force within 1e-3"), "{answer}");
+        assert!(driver.text().contains("2 048 springs with edges SubCell: the first"), "{}", driver.text());
         // It was found out from finer solutions than an estimate.
         assert!(matches!(&driver.model.appraisal.estimated, Estimated::Known(known) if known.error == 4e-4));
         let generation = driver.model.generation;
@@ -252,7 +254,7 @@ fn a_tolerance_out_of_reach_changes_nothing() {
         let (text, generation) = (driver.model.document.text().to_owned(), driver.model.generation);
         ask(&mut driver, "1e-6");
         assert!(matches!(driver.model.notice, Some(Notice::Error(_))));
-        let told = "0.0001 % is out of reach: 4.0e-4 with 2 048 springs, edges SubCell";
+        let told = "1e-4 % is out of reach: 4.0e-4 with 2 048 springs, edges SubCell";
         assert!(driver.status().contains(told), "{}", driver.status());
         for wrong in ["", "0", "2", "much", "-1 %"] {
             ask(&mut driver, wrong);

@@ -77,15 +77,17 @@ fn headline(model: &Model, width: u16) -> Line<'static> {
         parts.push(vec![Span::raw(apart), Span::styled(text, theme.style(meaning))]);
     };
     let in_hand = model.present().is_some() && model.hand.is_some();
-    if let Some(adhesion) = outcome.figures.adhesion_force {
+    let adhesion = outcome.figures.adhesion_force.filter(|force| *force != 0.0);
+    if let Some(adhesion) = adhesion {
         part("  ", format!("F_a {}", format_quantity(adhesion, "N")), Meaning::Title);
-    } else if let Some(largest) = outcome.figures.preload.filter(|force| *force != 0.0 && !in_hand) {
+    } else if let Some(largest) = outcome.figures.preload.filter(|force| *force != 0.0) {
+        // Where nothing pulls.
         part("  ", format!("F_max {}", format_quantity(largest, "N")), Meaning::Title);
     }
-    // What is told of the hand needs the room in a common window.
-    if !in_hand || width >= WIDE {
-        if let Some(error) = error(model) {
-            part(" ", error, Meaning::Title);
+    let error = error(model);
+    if !in_hand {
+        if let Some(error) = &error {
+            part(" ", error.clone(), Meaning::Title);
         }
         if model.shows_times && !model.is_computing() {
             // What the last run made anew: a kept line and tree cost nothing.
@@ -100,6 +102,10 @@ fn headline(model: &Model, width: u16) -> Line<'static> {
         part(" · ", format!("{} changed", counted(hand.changed, "spring")), Meaning::Text);
         part(" · ", format!("{} looked at", hand.touched), Meaning::Text);
         part(" · ", contact(point), Meaning::Text);
+        if let Some(error) = error {
+            let of = if adhesion.is_some() { "F_a " } else { "" };
+            part(" · ", format!("{of}{error}"), Meaning::Text);
+        }
     } else {
         if let Some(regime) = outcome.regime {
             part(" · ", regime.name().to_owned(), Meaning::Title);
@@ -120,9 +126,6 @@ fn headline(model: &Model, width: u16) -> Line<'static> {
     }
     fitting(parts, "", usize::from(width))
 }
-
-/// Narrower windows have no room for error and time beside what is told of the hand.
-const WIDE: u16 = 110;
 
 /// The estimated error of the headline, `…` until it is known; nothing where it cannot be.
 fn error(model: &Model) -> Option<String> {
