@@ -42,6 +42,8 @@ pub fn explorer() -> (Program, tempfile::TempDir) {
 pub fn paused(program: Program) -> Terminal {
     let mut terminal = program.start();
     terminal.wait_for("F_a ");
+    // Its error comes when it has been quiet for a while.
+    terminal.wait_without("± …");
     terminal.send(".");
     terminal.settle();
     terminal

@@ -79,6 +79,7 @@ impl LastFilled for [String] {
 fn suspended_and_continued_it_is_as_it_was() {
     within(120, || {
         in_each_shell(|mut terminal| {
+            terminal.wait_without("± …");
             let before = without_times(&terminal);
             // Twice: the second time everything works as the first.
             for _ in 0..2 {
