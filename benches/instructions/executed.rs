@@ -7,7 +7,6 @@
 use super::callgrind::Profile;
 use super::cases::Case;
 use asperity::contact::Work;
-use asperity::scene::Edges;
 use std::path::Path;
 
 /// Where the instructions of an effect stand.
@@ -38,8 +37,7 @@ pub const EFFECTS: &[Effect] = &[
             ("src/contact/foundation.rs", "fn largest_stretch("),
             ("src/contact/subcell/edges.rs", "fn rest("),
         ]),
-        // Edges between springs are found by the rule of Hess also where it allows no stretch.
-        called_for: |case| case.is_adhesive() || case.edges == Edges::SubCell,
+        called_for: Case::is_adhesive,
         counted: |work| work.hess_evaluations,
     },
     Effect {

@@ -1,17 +1,15 @@
 //! For each case the least that computes it: only the building blocks it needs, one after the other, without a
 //! plan, switches or memory of an earlier run.
-//!
-//! Beside a loop with edges at springs the program finds F_a(0) from what the loop knows of first touch, which
-//! has no public name. The kernel runs the touch protocol as a loop of its own and so takes more.
 
 use super::cases::{
     Case, Class, EFFECTIVE_MODULUS, FORCE, HURST, LAST_MODE, LENGTH, POINTS, RADIUS, RMS_HEIGHT, SAMPLES,
     SEED, WORK_OF_ADHESION,
 };
 use asperity::analysis::Figures;
-use asperity::contact::subcell::{LevelSets, SubCell};
+use asperity::contact::exact::{self, OverTree};
+use asperity::contact::subcell::{self, LevelSets};
 use asperity::contact::{
-    ContactTree, Foundation, GridEdges, HessRule, History, LegRecord, Solver, exact, run,
+    ContactTree, Exact, Foundation, GridEdges, HessRule, History, LegRecord, Solver, Work, run,
 };
 use asperity::scene::{Edges, Form, Leg};
 use asperity::surface::{Histogram, Line, SelfAffine, Synthesizer};
@@ -42,9 +40,9 @@ pub fn kernel(case: &Case) -> Given {
         (Edges::Grid, Class::AdhesiveTouch) => touch(&rough()),
         (Edges::Grid, Class::AdhesiveLoop) => adhesive_and_touch(&rough()),
         (Edges::Grid, Class::AdhesiveObserved) => observed(&rough()),
-        (Edges::SubCell, Class::SmoothPressed) => between(&smooth(), None, &PRESS),
-        (Edges::SubCell, Class::RoughLoop) => between(&rough(), None, &LOOP),
-        (Edges::SubCell, Class::AdhesivePressed) => between(&rough(), Some(hess()), &PRESS),
+        (Edges::SubCell, Class::SmoothPressed) => bare_between(&smooth(), &PRESS),
+        (Edges::SubCell, Class::RoughLoop) => bare_between(&rough(), &LOOP),
+        (Edges::SubCell, Class::AdhesivePressed) => between(&rough(), &PRESS),
         (Edges::SubCell, Class::AdhesiveTouch) => touch_between(&rough()),
         (Edges::SubCell, Class::AdhesiveLoop) => between_and_touch(&rough()),
         (Edges::SubCell, Class::AdhesiveObserved) => observed_between(&rough()),
@@ -97,10 +95,7 @@ fn adhesive_and_touch(line: &Line) -> Given {
     let tree = ContactTree::build(&line.gaps).expect("a tree");
     let rule = GridEdges::new(hess());
     let mut body = exact::adhesive(&tree, rule, FOUNDATION, SAMPLES).expect("a body");
-    let mut given = given(loaded(&mut body, &LOOP));
-    let mut body = exact::adhesive(&tree, rule, FOUNDATION, 2).expect("a body");
-    given.zero_load_adhesion_force = Figures::of(&loaded(&mut body, &TOUCH)).adhesion_force;
-    given
+    loop_and_touch(&mut body)
 }
 
 fn observed(line: &Line) -> Given {
@@ -108,22 +103,38 @@ fn observed(line: &Line) -> Given {
     let tree = ContactTree::build(&line.gaps).expect("a tree");
     let rule = GridEdges::new(hess());
     let mut body = exact::adhesive(&tree, rule, FOUNDATION, SAMPLES).expect("a body");
-    let mut given = observed_legs(&mut body);
-    given.histogram = Some(histogram);
-    let mut body = exact::adhesive(&tree, rule, FOUNDATION, 2).expect("a body");
-    given.zero_load_adhesion_force = Figures::of(&loaded(&mut body, &TOUCH)).adhesion_force;
-    given
+    Given { histogram: Some(histogram), ..observed_loop(&mut body) }
 }
 
-/// A loop with the fragments at the end of each leg.
-fn observed_legs<S: Solver>(body: &mut S) -> Given {
-    let mut fragments = Vec::new();
-    let history = run(body, &LOOP, |record: &LegRecord, body: &S| {
+/// A loop, and F_a(0) from its first touch.
+fn loop_and_touch<'a, C: OverTree<'a, Rule: Clone>>(body: &mut Exact<C>) -> Given {
+    let mut touch = None;
+    let history = run(body, &LOOP, |_, body: &Exact<C>| {
+        touch = touch.or(body.pull_off_at_touch(&mut Vec::new())?);
+        Ok(())
+    });
+    Given {
+        history: history.expect("a loading within reach"),
+        zero_load_adhesion_force: force(touch),
+        ..Given::default()
+    }
+}
+
+/// The same with the fragments at the end of each leg.
+fn observed_loop<'a, C: OverTree<'a, Rule: Clone>>(body: &mut Exact<C>) -> Given {
+    let (mut touch, mut fragments) = (None, Vec::new());
+    let history = run(body, &LOOP, |record: &LegRecord, body: &Exact<C>| {
+        touch = touch.or(body.pull_off_at_touch(&mut Vec::new())?);
         let end = record.curve.last().filter(|end| end.springs > 0);
         fragments.push(end.map_or_else(Vec::new, |end| body.fragments(end.indentation)));
         Ok(())
     });
-    Given { history: history.expect("a loading within reach"), fragments, ..Given::default() }
+    let history = history.expect("a loading within reach");
+    Given { history, zero_load_adhesion_force: force(touch), fragments, ..Given::default() }
+}
+
+fn force(touch: Option<(f64, Work)>) -> Option<f64> {
+    touch.map(|(smallest, _)| -smallest)
 }
 
 fn levels(line: &Line) -> Arc<LevelSets> {
@@ -131,34 +142,29 @@ fn levels(line: &Line) -> Arc<LevelSets> {
     Arc::new(LevelSets::new(tree, &line.gaps).expect("level sets"))
 }
 
-fn body_between(levels: &Arc<LevelSets>, hess: Option<HessRule>, samples: usize) -> SubCell<'_> {
-    SubCell::new(levels, hess, FOUNDATION, samples, Vec::new()).expect("a body")
+fn body_between(levels: &Arc<LevelSets>) -> subcell::Adhesive<'_> {
+    subcell::adhesive_in(Vec::new(), levels, Some(hess()), FOUNDATION, SAMPLES).expect("a body")
 }
 
-fn between(line: &Line, hess: Option<HessRule>, legs: &[Leg]) -> Given {
-    given(loaded(&mut body_between(&levels(line), hess, SAMPLES), legs))
+fn bare_between(line: &Line, legs: &[Leg]) -> Given {
+    given(loaded(&mut subcell::bare(&line.gaps, FOUNDATION, SAMPLES), legs))
+}
+
+fn between(line: &Line, legs: &[Leg]) -> Given {
+    given(loaded(&mut body_between(&levels(line)), legs))
 }
 
 fn touch_between(line: &Line) -> Given {
-    let mut given = between(line, Some(hess()), &TOUCH);
+    let mut given = between(line, &TOUCH);
     given.zero_load_adhesion_force = Figures::of(&given.history).adhesion_force;
     given
 }
 
 fn between_and_touch(line: &Line) -> Given {
-    let levels = levels(line);
-    let mut given = given(loaded(&mut body_between(&levels, Some(hess()), SAMPLES), &LOOP));
-    let touch = loaded(&mut body_between(&levels, Some(hess()), 2), &TOUCH);
-    given.zero_load_adhesion_force = Figures::of(&touch).adhesion_force;
-    given
+    loop_and_touch(&mut body_between(&levels(line)))
 }
 
 fn observed_between(line: &Line) -> Given {
     let histogram = Histogram::new(line.heights(), line.lowest(), line.summit, BINS);
-    let levels = levels(line);
-    let mut given = observed_legs(&mut body_between(&levels, Some(hess()), SAMPLES));
-    given.histogram = Some(histogram);
-    let touch = loaded(&mut body_between(&levels, Some(hess()), 2), &TOUCH);
-    given.zero_load_adhesion_force = Figures::of(&touch).adhesion_force;
-    given
+    Given { histogram: Some(histogram), ..observed_loop(&mut body_between(&levels(line))) }
 }

@@ -2,7 +2,7 @@
 //! the engine.
 
 use super::Fault;
-use crate::contact::subcell::{LevelSets, SubCell};
+use crate::contact::subcell::{self, LevelSets};
 use crate::contact::{
     ContactTree, CurvePoint, Foundation, GridEdges, HessRule, History, LegRecord, Solver, exact, run,
 };
@@ -127,9 +127,12 @@ impl Body {
                 act(&mut exact::adhesive(&tree, rule, self.foundation, samples)?)
             }
             Edges::SubCell => {
-                let hess = (self.work > 0.0).then(|| HessRule::new(self.foundation, self.work));
+                if self.work == 0.0 {
+                    return act(&mut subcell::bare(&self.gaps, self.foundation, samples));
+                }
+                let hess = HessRule::new(self.foundation, self.work);
                 let sets = Arc::new(LevelSets::new(tree, &self.gaps)?);
-                act(&mut SubCell::new(&sets, hess, self.foundation, samples, Vec::new())?)
+                act(&mut subcell::adhesive_in(Vec::new(), &sets, Some(hess), self.foundation, samples)?)
             }
         }
     }

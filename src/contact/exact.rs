@@ -7,6 +7,7 @@ use super::law::{Contact, Standing};
 use super::ledger::Grid;
 use super::springs::{AdhesiveSprings, BareSprings};
 use super::targets::{self, Target};
+use super::touch;
 use super::whole::WholeSprings;
 use super::{
     ContactError, ContactTree, CurvePoint, Direction, EdgeRule, Foundation, LegContact, LegRecord, Work,
@@ -129,6 +130,20 @@ impl<'a, C: OverTree<'a>> Exact<C> {
     /// Roots of the fragments in contact at first touch, on the leg that forms the contact.
     pub(crate) fn roots_at_touch(&self) -> Option<Vec<usize>> {
         self.springs().roots_at_touch().filter(|_| self.touching)
+    }
+
+    /// The smallest force, N, on the way back from first touch, and what it took to find; `None` unless the
+    /// present leg forms the contact. `memory` serves for the next body.
+    ///
+    /// # Errors
+    /// [`ContactError::OutOfMemory`].
+    pub fn pull_off_at_touch(&self, memory: &mut Vec<f64>) -> Result<Option<(f64, Work)>, ContactError>
+    where
+        C::Rule: Clone,
+    {
+        let (tree, rule) = (self.springs().tree(), self.springs().rule().clone());
+        let pull_off = |roots| touch::smallest_force::<C>(tree, rule, self.foundation, roots, memory);
+        self.roots_at_touch().map(pull_off).transpose()
     }
 }
 
