@@ -371,7 +371,7 @@ fn a_moment_at_a_sample_is_the_sample() {
                     // Where the contact forms or ends at once two samples stand at one place.
                     let same = record.curve.iter().filter(|one| one.indentation == sample.indentation);
                     assert!(
-                        same.clone().any(|one| *one == shown),
+                        same.clone().any(|one| near(one, &shown)),
                         "{name}, leg {leg}: {shown:?}, not {:?}",
                         same.collect::<Vec<_>>()
                     );
@@ -379,6 +379,16 @@ fn a_moment_at_a_sample_is_the_sample() {
             }
         }
     });
+}
+
+/// Whether two points are the same but for the rounding of their sums: edges between springs are not summed up
+/// in the same order on a leg and at a moment.
+fn near(one: &CurvePoint, other: &CurvePoint) -> bool {
+    let same = |a: f64, b: f64| (a - b).abs() <= 1e-13 * a.abs().max(b.abs()).max(1e-12);
+    one.indentation == other.indentation
+        && (one.springs, one.fragments) == (other.springs, other.fragments)
+        && same(one.force, other.force)
+        && same(one.contact_length, other.contact_length)
 }
 
 #[test]
@@ -396,11 +406,8 @@ fn a_moment_between_samples_is_the_one_a_finer_curve_has() {
                 let known = &coarse.outcome.history.legs[leg].curve;
                 let new = |point: &&CurvePoint| known.iter().all(|one| one.indentation != point.indentation);
                 for point in record.curve.iter().filter(new) {
-                    assert_eq!(
-                        served.shown(moment(leg, point.indentation)).point,
-                        *point,
-                        "{name}, leg {leg}"
-                    );
+                    let shown = served.shown(moment(leg, point.indentation)).point;
+                    assert!(near(&shown, point), "{name}, leg {leg}: {shown:?}, not {point:?}");
                     between += 1;
                 }
             }
@@ -606,7 +613,8 @@ fn a_fragment_bears_what_the_rule_of_hess_allows() {
         for sample in some(&computed.outcome.history.legs[1].curve).filter(|sample| sample.springs > 0) {
             let facts = served.shown(moment(1, sample.indentation)).close_up.fragment.unwrap();
             let springs = facts.springs.1 + 1 - facts.springs.0;
-            assert!((facts.length / (springs as f64 * spacing) - 1.0).abs() < 1e-12);
+            // Its edges lie within a cell of its outermost springs.
+            assert!((facts.length / spacing - springs as f64).abs() <= 1.0 + 1e-9, "{facts:?}");
             // Eq. (10), written anew.
             let bears = (2.0 * std::f64::consts::PI * (facts.length / 2.0) * range).sqrt();
             assert!((facts.largest_stretch / bears - 1.0).abs() < 1e-12, "{facts:?}, not {bears}");

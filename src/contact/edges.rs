@@ -1,5 +1,6 @@
 //! How the length of a fragment is read, and so when it grows and when it lets go.
 
+use super::tally::GapScale;
 use super::{ContactTree, HessRule};
 
 /// Thresholds of a node of the tree: the one place where the length of a fragment enters.
@@ -14,6 +15,13 @@ pub trait EdgeRule {
     /// Smallest indentation, m, at which the fragment that fills the subtree `node` still holds the
     /// spring of `node`, its most stretched one.
     fn holds_to(&self, tree: &ContactTree, node: usize) -> f64;
+
+    /// What joins and leaves with the spring of `node`, as a gap in quanta of this scale: its own, unless the
+    /// rule counts otherwise.
+    #[inline]
+    fn quanta(&self, tree: &ContactTree, scale: &GapScale, node: usize) -> i64 {
+        scale.quanta(tree.gap(node))
+    }
 }
 
 /// The paper's rule: a fragment of n springs is n Δx long.

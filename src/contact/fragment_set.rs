@@ -311,7 +311,7 @@ impl<R: EdgeRule> FragmentSet<R> {
 
     #[inline]
     fn quanta(&self, node: usize) -> i128 {
-        i128::from(self.scale.quanta(self.tree.gap(node)))
+        i128::from(self.rule.quanta(&self.tree, &self.scale, node))
     }
 
     /// Keys of a slot in the queues of what joins and what leaves.

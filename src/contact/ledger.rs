@@ -10,6 +10,8 @@ pub struct Spring {
     pub threshold: f64,
     /// Its gap c, m; never below the threshold.
     pub gap: f64,
+    /// What it adds to the gaps that are summed, in quanta of their scale.
+    pub quanta: i64,
     /// Contact fragments it adds: 1, 0 or −1.
     pub fragments: i64,
 }
@@ -189,7 +191,6 @@ fn each_run<S: StretchSum>(
     wanted: impl Fn(f64) -> bool,
     mut see: impl FnMut(Run<S>),
 ) {
-    let scale = *springs.scale();
     let mut threshold = f64::NAN;
     let mut is_wanted = false;
     let (mut joins, mut squared_stretch) = (Tally::default(), S::default());
@@ -205,7 +206,7 @@ fn each_run<S: StretchSum>(
         if is_wanted {
             joins.springs += 1;
             joins.fragments += spring.fragments;
-            joins.quanta += i128::from(scale.quanta(spring.gap));
+            joins.quanta += i128::from(spring.quanta);
             squared_stretch.add_stretch(spring.gap - spring.threshold);
         }
     });

@@ -120,9 +120,10 @@ impl<R: EdgeRule> Springs for AdhesiveSprings<'_, R> {
     fn each(&self, mut see: impl FnMut(Spring)) {
         for Part { start, thresholds } in self.parts() {
             let nodes = start..start + thresholds.len();
-            let nodes = self.tree.gaps()[nodes.clone()].iter().zip(&self.tree.shapes()[nodes]);
-            for (&threshold, (&gap, &shape)) in thresholds.iter().zip(nodes) {
-                see(Spring { threshold, gap, fragments: shape.fragments() });
+            let shapes = self.tree.gaps()[nodes.clone()].iter().zip(&self.tree.shapes()[nodes.clone()]);
+            for ((&threshold, (&gap, &shape)), node) in thresholds.iter().zip(shapes).zip(nodes) {
+                let quanta = self.rule.quanta(self.tree, &self.scale, node);
+                see(Spring { threshold, gap, quanta, fragments: shape.fragments() });
             }
         }
     }
@@ -213,7 +214,7 @@ impl Springs for BareSprings<'_> {
             // One fragment more, less one for each neighbour that touches earlier; among equals the
             // one on the left counts as the later, as in the tree.
             let fragments = 1 - i64::from(before < gap) - i64::from(after <= gap);
-            see(Spring { threshold: gap, gap, fragments });
+            see(Spring { threshold: gap, gap, quanta: self.scale.quanta(gap), fragments });
             before = gap;
         }
     }

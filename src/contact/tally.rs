@@ -33,6 +33,13 @@ impl GapScale {
         (gap * self.quanta_per_metre) as i64
     }
 
+    /// The mean of two gaps in quanta: of a cell between two springs.
+    #[inline]
+    #[must_use]
+    pub fn mean_quanta(&self, one: f64, other: f64) -> i64 {
+        self.quanta(0.5 * one + 0.5 * other)
+    }
+
     /// Size of a quantum, m: the error of one gap in a sum is below it.
     #[must_use]
     pub fn quantum(&self) -> f64 {
@@ -68,10 +75,29 @@ impl Tally {
     ///
     /// With n springs, unit roundoff u = 2⁻⁵³ and a largest gap below 2^e the error is at most
     /// 2u |result| + n 2^(e−62): the gaps are summed exactly, n d is taken as an exact product of two
-    /// numbers, and only their difference is rounded.
+    /// numbers, and only their difference is rounded. Below a largest gap of about 2^−938 m a quantum is
+    /// 2^−1000 m and no less.
     #[must_use]
     pub fn compression(&self, indentation: f64, scale: &GapScale) -> f64 {
-        let springs = self.springs as f64;
+        self.compression_of(self.springs, indentation, scale)
+    }
+
+    /// The same of the cells between the springs in contact, where the quanta are those of the mean gaps of
+    /// these cells: ∫ (d − c) dx over them, in cells times metres.
+    #[must_use]
+    pub fn compression_of_cells(&self, indentation: f64, scale: &GapScale) -> f64 {
+        self.compression_of(self.cells(), indentation, scale)
+    }
+
+    /// Whole cells between the springs in contact: one less than its springs in each fragment.
+    #[must_use]
+    pub fn cells(&self) -> i64 {
+        self.springs - self.fragments
+    }
+
+    #[inline]
+    fn compression_of(&self, count: i64, indentation: f64, scale: &GapScale) -> f64 {
+        let springs = count as f64;
         let product = springs * indentation;
         let product_error = springs.mul_add(indentation, -product);
         let high = self.quanta as f64;

@@ -38,7 +38,7 @@ impl EdgeLaw<'_> {
                 cells,
                 largest_stretch: moment.largest_stretch(cells),
                 most_stretched: slider.level(contact.indentation) - contact.indentation,
-                compression: compression(contact, (first, last)) + edges.compression,
+                compression: compression_of_cells(contact, (first, last)) + edges.compression,
             };
         }
         let springs = last + 1 - first;
@@ -122,6 +122,12 @@ fn centre(contact: &Contact<'_>, focus: Focus) -> usize {
 /// Sum of the compressions of a fragment's springs, m.
 fn compression(contact: &Contact<'_>, (first, last): (usize, usize)) -> f64 {
     contact.gaps[first..=last].iter().map(|gap| contact.indentation - gap).sum()
+}
+
+/// The same of the whole cells between them.
+fn compression_of_cells(contact: &Contact<'_>, (first, last): (usize, usize)) -> f64 {
+    let cells = contact.gaps[first..=last].windows(2);
+    cells.map(|cell| contact.indentation - 0.5 * (cell[0] + cell[1])).sum()
 }
 
 /// The number of the fragment nearest to a spring.

@@ -188,3 +188,35 @@ fn extreme_values_give_numbers() {
         }
     }
 }
+
+proptest! {
+    #![proptest_config(cases(1500))]
+
+    /// Without adhesion a line needs no tree: the cells alone give the same curves, forces reached and loss.
+    #[test]
+    fn without_adhesion_cells_alone_give_what_the_tree_gives(
+        body in body(80),
+        turns in prop::collection::vec((any::<bool>(), -0.2..1.3_f64), 1..5),
+    ) {
+        let body = Body { work: 0.0, ..body };
+        let sets = body.sets();
+        let mut tree = body.on(&sets, 33);
+        let mut cells = subcell::bare(&body.gaps, body.foundation, 33);
+        let scale = body.force_scale();
+        let near = |a: f64, b: f64, size: f64| (a - b).abs() <= 1e-12 * size;
+        for (presses, turn) in turns {
+            let leg = if presses { Leg::ToForce(turn.max(0.0).powi(3) * scale) } else { Leg::ToIndentation(turn) };
+            let (one, other) = (tree.advance(leg).unwrap(), cells.advance(leg).unwrap());
+            prop_assert_eq!((one.direction, one.curve.len()), (other.direction, other.curve.len()));
+            for (a, b) in one.curve.iter().zip(&other.curve) {
+                prop_assert!(near(a.indentation, b.indentation, 2.0 + body.deepest()), "{:?} {:?}", a, b);
+                prop_assert!(near(a.force, b.force, scale), "{:?} {:?}", a, b);
+                prop_assert!(near(a.contact_length, b.contact_length, 100.0), "{:?} {:?}", a, b);
+            }
+            prop_assert!(near(one.largest.force, other.largest.force, scale));
+            prop_assert!(near(one.smallest.force, other.smallest.force, scale));
+            prop_assert_eq!(other.dissipated_energy, 0.0);
+        }
+        prop_assert_eq!(cells.work().hess_evaluations, 0);
+    }
+}

@@ -44,7 +44,7 @@ pub const CASES: &[Case] = &[
         holds: "Heights down to subnormal numbers give finite, ordered curves, forces within 2⁻¹⁰⁰⁰ m for each \
                 spring, and to 2⁻⁴⁰⁰ the same bits.",
         error_of: "force, over n Δk 2⁻¹⁰⁰⁰ m",
-        scope: Scope::BothEdges(1.0, 1e-8),
+        scope: Scope::BothEdges(1.0, 1.0),
         large: false,
         measure: subnormal,
     },

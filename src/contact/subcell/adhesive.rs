@@ -1,7 +1,7 @@
 //! Edges of the fragments of an adhesive contact: they slide while a fragment is one.
 
 use super::between::{BetweenSprings, EdgeSprings, Piece};
-use super::edges::{Edges, Slider, SubCellEdges};
+use super::edges::{EdgeSum, Edges, Slider, SubCellEdges};
 use crate::contact::exact::OverTree;
 use crate::contact::ledger::{CompensatedSum, Grid};
 use crate::contact::springs::{AdhesiveSprings, Part, Thresholds};
@@ -32,7 +32,7 @@ impl Piece for Sliding {
     }
 
     fn stiffness(&self, indentation: f64) -> f64 {
-        self.slider.stiffness(indentation) - self.slider.springs()
+        self.slider.stiffness(indentation) - self.slider.cells()
     }
 }
 
@@ -138,23 +138,9 @@ fn add(edges: &SubCellEdges, grid: &Grid, sums: &mut [EdgeSum], (node, from, to)
     if first < end {
         let slider = edges.slider(node);
         for (sum, &point) in sums[first..end].iter_mut().zip(&points[first..end]) {
-            let edges = slider.edges(point);
-            sum.length.add(edges.length);
-            sum.compression.add(edges.compression);
+            sum.add(slider.edges(point));
         }
     }
-}
-
-/// What the edges of many fragments add.
-#[derive(Clone, Copy, Default)]
-struct EdgeSum {
-    length: CompensatedSum,
-    compression: CompensatedSum,
-}
-
-fn totals(sums: Vec<EdgeSum>) -> Vec<Edges> {
-    let total = |sum: EdgeSum| Edges { length: sum.length.total(), compression: sum.compression.total() };
-    sums.into_iter().map(total).collect()
 }
 
 impl EdgeSprings for Springs<'_> {
@@ -171,7 +157,7 @@ impl EdgeSprings for Springs<'_> {
     fn edges_along(&self, grid: &Grid) -> Vec<Edges> {
         let mut sums = vec![EdgeSum::default(); grid.points().len()];
         each_fragment(self, |node, from, to| add(self.rule(), grid, &mut sums, (node, from, to)));
-        totals(sums)
+        sums.iter().map(EdgeSum::total).collect()
     }
 
     /// Between the threshold of a node and that of its parent its edges slide; at either of them they jump.
@@ -201,7 +187,7 @@ impl EdgeSprings for Springs<'_> {
                 }
             }
         }
-        (totals(sums), squared.total())
+        (sums.iter().map(EdgeSum::total).collect(), squared.total())
     }
 
     fn is_monotone(&self) -> bool {

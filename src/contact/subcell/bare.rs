@@ -2,18 +2,39 @@
 //! tree, no rule, no pass.
 
 use super::between::{EdgeSprings, Piece};
-use super::edges::Edges;
-use crate::contact::ledger::{CompensatedSum, Grid};
-use crate::contact::springs::BareSprings;
+use super::edges::{EdgeSum, Edges};
+use crate::contact::ledger::{CompensatedSum, Grid, Spring, Springs};
+use crate::contact::springs::{BareSprings, Thresholds};
+use crate::contact::tally::GapScale;
+use crate::contact::{ContactError, LegContact, Work};
 
-/// A cell between two springs, in contact in part while the indentation lies between their gaps.
+/// The line through springs without adhesion.
+pub struct BareLine<'a> {
+    springs: BareSprings<'a>,
+}
+
+impl<'a> BareLine<'a> {
+    /// The line through springs of these gaps, m, the smallest 0.
+    pub fn new(gaps: &'a [f64]) -> Self {
+        BareLine { springs: BareSprings::new(gaps) }
+    }
+
+    fn gaps(&self) -> &'a [f64] {
+        self.springs.gaps()
+    }
+}
+
+/// A cell between two springs, in contact in part while the indentation lies between their gaps, or the half
+/// cell at an end of the foundation, which lies level with its spring.
 #[derive(Clone, Copy, Debug)]
 pub struct Cell {
     /// The smaller gap, m.
     low: f64,
-    /// The larger one, m.
+    /// The larger one, m; infinite at an end.
     high: f64,
-    /// Share per metre, 1/m.
+    /// What of it is in contact at the smaller gap, in cells.
+    share: f64,
+    /// By how much that grows with the indentation, 1/m.
     growth: f64,
 }
 
@@ -23,7 +44,12 @@ impl Cell {
     fn between(left: f64, right: f64) -> Option<Cell> {
         let (low, high) = if left < right { (left, right) } else { (right, left) };
         let growth = (high - low).recip();
-        (growth < f64::INFINITY).then_some(Cell { low, high, growth })
+        (growth < f64::INFINITY).then_some(Cell { low, high, share: 0.0, growth })
+    }
+
+    /// The half cell at an end of the foundation.
+    fn end(gap: f64) -> Cell {
+        Cell { low: gap, high: f64::INFINITY, share: 0.5, growth: 0.0 }
     }
 }
 
@@ -38,10 +64,9 @@ impl Piece for Cell {
 
     #[inline]
     fn edges(&self, indentation: f64) -> Edges {
-        // Of the spring that touches half a cell counts already.
         let above = indentation - self.low;
-        let share = above * self.growth;
-        Edges { length: share - 0.5, compression: 0.5 * above * (share - 1.0) }
+        let grown = above * self.growth;
+        Edges { length: self.share + grown, compression: above * (self.share + 0.5 * grown) }
     }
 
     fn stiffness(&self, indentation: f64) -> f64 {
@@ -82,29 +107,86 @@ impl Quadratic {
     }
 }
 
-impl BareSprings<'_> {
+impl BareLine<'_> {
+    /// The two halves of a cell at the ends of the foundation.
+    fn ends(&self) -> impl Iterator<Item = Cell> {
+        let gaps = self.gaps();
+        gaps.first().into_iter().chain(gaps.last()).map(|&gap| Cell::end(gap))
+    }
+
     /// What the cells add at one indentation, whatever leg leads there.
     fn edges_at(&self, indentation: f64) -> Edges {
-        let (mut length, mut compression) = (CompensatedSum::default(), CompensatedSum::default());
+        let mut sum = EdgeSum::default();
+        self.ends().filter(|end| end.is_at(indentation)).for_each(|end| sum.add(end.edges(indentation)));
         for cell in self.gaps().windows(2) {
             let (left, right) = (cell[0], cell[1]);
             if (left <= indentation) == (right <= indentation) {
                 continue;
             }
             if let Some(cell) = Cell::between(left, right) {
-                let edges = cell.edges(indentation);
-                length.add(edges.length);
-                compression.add(edges.compression);
+                sum.add(cell.edges(indentation));
             }
         }
-        Edges { length: length.total(), compression: compression.total() }
+        sum.total()
     }
 }
 
-impl EdgeSprings for BareSprings<'_> {
+impl Springs for BareLine<'_> {
+    #[inline]
+    fn each(&self, mut see: impl FnMut(Spring)) {
+        let gaps = self.gaps();
+        let scale = self.springs.scale();
+        let mut before = f64::INFINITY;
+        for (index, &gap) in gaps.iter().enumerate() {
+            let after = gaps.get(index + 1).copied().unwrap_or(f64::INFINITY);
+            // The cells to neighbours that touch earlier; among equals the one on the left counts as the
+            // later.
+            let (left, right) = (before < gap, after <= gap);
+            let cell =
+                |closes: bool, neighbour: f64| if closes { scale.mean_quanta(gap, neighbour) } else { 0 };
+            let quanta = cell(left, before) + cell(right, after);
+            let fragments = 1 - i64::from(left) - i64::from(right);
+            see(Spring { threshold: gap, gap, quanta, fragments });
+            before = gap;
+        }
+    }
+
+    fn scale(&self) -> &GapScale {
+        self.springs.scale()
+    }
+}
+
+impl Thresholds for BareLine<'_> {
+    fn count(&self) -> u64 {
+        self.springs.count()
+    }
+
+    fn load(&mut self, from: Option<f64>, work: &mut Work) -> f64 {
+        self.springs.load(from, work)
+    }
+
+    fn unload(&mut self, from: f64, work: &mut Work) -> f64 {
+        self.springs.unload(from, work)
+    }
+
+    fn thresholds_along_line(&self, out: &mut Vec<f64>) {
+        self.springs.thresholds_along_line(out);
+    }
+
+    fn copy_leg(&self, copy: &mut LegContact) -> Result<(), ContactError> {
+        self.springs.copy_leg(copy)
+    }
+
+    fn fragments(&self, indentation: f64) -> Vec<(usize, usize)> {
+        self.springs.fragments(indentation)
+    }
+}
+
+impl EdgeSprings for BareLine<'_> {
     type Piece = Cell;
 
     fn each_piece(&self, low: f64, high: f64, mut see: impl FnMut(Cell)) {
+        self.ends().filter(|end| end.low <= high).for_each(&mut see);
         for cell in self.gaps().windows(2) {
             let (left, right) = (cell[0], cell[1]);
             if (left <= high || right <= high)
@@ -123,6 +205,12 @@ impl EdgeSprings for BareSprings<'_> {
         let last = points.len() - 1;
         let place = |gap: f64| if gap > points[last] { points.len() } else { grid.first_at_least(gap) };
         let mut changes = vec![Quadratic::default(); points.len()];
+        for end in self.ends() {
+            let enters = place(end.low);
+            if enters <= last {
+                changes[enters].add(&end, points[enters], 1.0);
+            }
+        }
         let mut before = self.gaps().first().map(|&gap| (gap, place(gap)));
         for &gap in self.gaps() {
             let here = (gap, place(gap));

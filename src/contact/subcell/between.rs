@@ -1,5 +1,5 @@
-//! The contact of a line whose fragments have their edges between springs: whole springs, and what the edges
-//! add to them.
+//! The contact of a line whose fragments have their edges between springs: whole cells from spring to spring, and
+//! what the cells at the edges add to them.
 
 use super::edges::Edges;
 use super::search::{Interval, Step};
@@ -9,7 +9,7 @@ use crate::contact::springs::Thresholds;
 use crate::contact::tally::Tally;
 use crate::contact::{ContactError, LegContact, Work};
 
-/// Springs that know what the edges of their fragments add.
+/// Springs that sum the cells between them and know what the edges of their fragments add.
 pub trait EdgeSprings: Thresholds {
     /// The edges of one fragment, or one edge.
     type Piece: Piece;
@@ -28,7 +28,7 @@ pub trait EdgeSprings: Thresholds {
     fn is_monotone(&self) -> bool;
 }
 
-/// What a fragment adds to its whole springs while it is one.
+/// What a fragment adds to its whole cells while it is one.
 pub trait Piece: Copy {
     /// The indentation from which on it is one, m.
     fn from(&self) -> f64;
@@ -36,7 +36,7 @@ pub trait Piece: Copy {
     fn to(&self) -> f64;
     /// What it adds at an indentation.
     fn edges(&self, indentation: f64) -> Edges;
-    /// By how much the compression it adds grows with the indentation, in cells. With its springs it only
+    /// By how much the compression it adds grows with the indentation, in cells. With its whole cells it only
     /// grows: between events the force is convex.
     fn stiffness(&self, indentation: f64) -> f64;
 
@@ -61,8 +61,8 @@ impl<T: EdgeSprings> BetweenSprings<T> {
             indentation,
             springs: tally.springs,
             fragments: tally.fragments,
-            length: tally.springs as f64 + edges.length,
-            compression: tally.compression(indentation, self.0.scale()) + edges.compression,
+            length: tally.cells() as f64 + edges.length,
+            compression: tally.compression_of_cells(indentation, self.0.scale()) + edges.compression,
         }
     }
 

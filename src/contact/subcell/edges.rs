@@ -1,6 +1,8 @@
 //! The rule of Hess read with the length between edges that lie anywhere in their cells.
 
 use super::level_sets::{LevelSets, Levels, levels_between};
+use crate::contact::ledger::CompensatedSum;
+use crate::contact::tally::GapScale;
 use crate::contact::{ContactTree, EdgeRule, HessRule};
 use std::sync::Arc;
 
@@ -70,8 +72,10 @@ impl SubCellEdges {
 pub struct Slider {
     gap: f64,
     levels: Levels,
-    /// By how much it is longer than its springs at its lowest level, in cells.
-    excess: f64,
+    /// Whole cells between its springs.
+    cells: f64,
+    /// What of its edge cells is in contact at its lowest level, in cells.
+    edges: f64,
     /// What its edges carry there at the indentation of its gap.
     compression: f64,
     stretch: f64,
@@ -81,15 +85,33 @@ pub struct Slider {
     square: f64,
 }
 
-/// What the edges of a fragment add to its whole springs at one indentation: each of its two outermost
-/// springs stands for half a cell beyond itself, and the edge lies elsewhere.
+/// What the two cells at the edges of a fragment, or at one of them, add to its whole cells at one
+/// indentation.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Edges {
-    /// By how much the fragment is longer than its springs, in cells.
+    /// How much of them is in contact, in cells.
     pub length: f64,
-    /// By how much the compression ∫ (d − c) dx over it is larger than the sum Σ (d − c) over its springs, in
-    /// cells times metres.
+    /// The compression ∫ (d − c) dx over that, in cells times metres.
     pub compression: f64,
+}
+
+/// What the edges of many fragments add.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct EdgeSum {
+    length: CompensatedSum,
+    compression: CompensatedSum,
+}
+
+impl EdgeSum {
+    #[inline]
+    pub fn add(&mut self, edges: Edges) {
+        self.length.add(edges.length);
+        self.compression.add(edges.compression);
+    }
+
+    pub fn total(&self) -> Edges {
+        Edges { length: self.length.total(), compression: self.compression.total() }
+    }
 }
 
 impl Slider {
@@ -106,7 +128,8 @@ impl Slider {
     fn new(gap: f64, springs: f64, levels: Levels, compression: f64, stretch: f64) -> Self {
         let half = 0.5 * stretch * levels.growth;
         let square = half * half + levels.length;
-        Slider { gap, levels, excess: levels.length - springs, compression, stretch, half, square }
+        let cells = springs - 1.0;
+        Slider { gap, levels, cells, edges: levels.length - cells, compression, stretch, half, square }
     }
 
     /// Gap of its node, m: its lowest level.
@@ -157,15 +180,15 @@ impl Slider {
         let rise = self.rise(above);
         let grown = self.levels.growth * rise;
         Edges {
-            length: self.excess + grown,
-            compression: (self.excess * above + self.compression) + grown * (above - 0.5 * rise),
+            length: self.edges + grown,
+            compression: (self.edges * above + self.compression) + grown * (above - 0.5 * rise),
         }
     }
 
-    /// Springs it has.
+    /// Whole cells between its springs.
     #[inline]
-    pub(super) fn springs(&self) -> f64 {
-        self.levels.length - self.excess
+    pub(super) fn cells(&self) -> f64 {
+        self.cells
     }
 
     /// Its length under an indentation, in cells.
@@ -246,6 +269,7 @@ fn at_once(growth: f64, from: f64, to: f64, at: f64) -> f64 {
     THIRD * growth * (to - from) * (a * a + a * b + b * b)
 }
 
+/// What joins and leaves are the cells between springs.
 impl EdgeRule for SubCellEdges {
     #[inline]
     fn grows_at(&self, tree: &ContactTree, fragment: usize, _: usize) -> f64 {
@@ -257,5 +281,10 @@ impl EdgeRule for SubCellEdges {
     fn holds_to(&self, tree: &ContactTree, node: usize) -> f64 {
         let (gap, levels) = (tree.gap(node), self.sets.levels(node));
         self.rest(gap, levels, self.lowest(gap, levels)).min(gap)
+    }
+
+    #[inline]
+    fn quanta(&self, _: &ContactTree, _: &GapScale, node: usize) -> i64 {
+        self.sets.cell_quanta(node)
     }
 }

@@ -4,7 +4,7 @@
 //! fragment slide all the time. So a move takes O((k + 1) log N + n) time for k springs that change and n
 //! fragments, and one to a force O(n) for each event on its way.
 
-use super::edges::{Slider, SubCellEdges};
+use super::edges::{EdgeSum, Slider, SubCellEdges};
 use super::level_sets::LevelSets;
 use super::search::{bisect, crossing, last_before};
 use crate::contact::fragment_set::{FragmentSet, Joined};
@@ -65,18 +65,15 @@ impl SubCellHand {
     /// What is in contact, were it at this indentation.
     fn standing_at(&self, indentation: f64) -> Standing {
         let tally = self.set.tally();
-        let (mut length, mut compression) = (CompensatedSum::default(), CompensatedSum::default());
-        for root in self.set.roots() {
-            let edges = self.edges().slider(root).edges(indentation);
-            length.add(edges.length);
-            compression.add(edges.compression);
-        }
+        let mut sum = EdgeSum::default();
+        self.set.roots().for_each(|root| sum.add(self.edges().slider(root).edges(indentation)));
+        let edges = sum.total();
         Standing {
             indentation,
             springs: tally.springs,
             fragments: tally.fragments,
-            length: tally.springs as f64 + length.total(),
-            compression: tally.compression(indentation, self.set.scale()) + compression.total(),
+            length: tally.cells() as f64 + edges.length,
+            compression: tally.compression_of_cells(indentation, self.set.scale()) + edges.compression,
         }
     }
 

@@ -1,6 +1,7 @@
 //! The piecewise-linear line through the springs, how long its fragments are at each level, and what their
 //! edges carry.
 
+use crate::contact::tally::GapScale;
 use crate::contact::{ContactError, ContactTree, resized};
 use crate::parallel::in_parallel;
 use std::sync::Arc;
@@ -19,6 +20,7 @@ pub struct LevelSets {
     tree: Arc<ContactTree>,
     nodes: Vec<Levels>,
     edge_compressions: Vec<f64>,
+    cell_quanta: Vec<i64>,
     steps: Vec<Step>,
 }
 
@@ -27,6 +29,7 @@ pub struct LevelSets {
 pub struct LevelMemory {
     nodes: Vec<Levels>,
     edge_compressions: Vec<f64>,
+    cell_quanta: Vec<i64>,
     steps: Vec<Step>,
 }
 
@@ -69,16 +72,21 @@ impl LevelSets {
         let nothing = Levels { length: 0.0, growth: 0.0, top: f64::INFINITY };
         let mut nodes = resized(memory.nodes, tree.len(), nothing)?;
         let mut edge_compressions = resized(memory.edge_compressions, tree.len(), 0.0)?;
+        let mut cell_quanta = resized(memory.cell_quanta, tree.len(), 0)?;
+        let scale = tree.gap_scale();
         let half = tree.len() / 2;
+        let (first_cells, other_cells) = cell_quanta.split_at_mut(half);
         let (first_nodes, other_nodes) = nodes.split_at_mut(half);
         let (first_edges, other_edges) = edge_compressions.split_at_mut(half);
-        let measure = |start: usize, nodes: &mut [Levels], edges: &mut [f64], mut steps: Vec<Step>| {
-            for (index, (levels, edge)) in nodes.iter_mut().zip(edges).enumerate() {
-                (*levels, *edge) = measure_node(&tree, gaps, start + index);
-                let length = level_length(gaps, tree.positions()[start + index] as usize);
+        let measure = |start: usize, part: Part<'_>, mut steps: Vec<Step>| {
+            let arrays = part.nodes.iter_mut().zip(part.edges).zip(part.cells);
+            for (node, ((levels, edge), cells)) in (start..).zip(arrays) {
+                (*levels, *edge) = levels_between(gaps, tree.interval(node), tree.gap(node));
+                *cells = quanta_of_cells(&tree, gaps, &scale, node);
+                let length = level_length(gaps, tree.positions()[node] as usize);
                 if length > 0.0 {
                     steps.try_reserve(1).map_err(|_| ContactError::OutOfMemory { springs: gaps.len() })?;
-                    steps.push(Step { node: (start + index) as u32, length });
+                    steps.push(Step { node: node as u32, length });
                 }
             }
             Ok(steps)
@@ -87,19 +95,20 @@ impl LevelSets {
         steps.clear();
         let (first, others) = in_parallel(
             tree.len() >= MANY_SPRINGS,
-            || measure(0, first_nodes, first_edges, steps),
-            || measure(half, other_nodes, other_edges, Vec::new()),
+            || measure(0, Part { nodes: first_nodes, edges: first_edges, cells: first_cells }, steps),
+            || measure(half, Part { nodes: other_nodes, edges: other_edges, cells: other_cells }, Vec::new()),
         );
         let (mut steps, others) = (first?, others?);
         steps.try_reserve(others.len()).map_err(|_| ContactError::OutOfMemory { springs: gaps.len() })?;
         steps.extend(others);
-        Ok(LevelSets { tree, nodes, edge_compressions, steps })
+        Ok(LevelSets { tree, nodes, edge_compressions, cell_quanta, steps })
     }
 
     /// Their memory, without the tree, for those of the next line.
     #[must_use]
     pub fn into_memory(self) -> LevelMemory {
-        LevelMemory { nodes: self.nodes, edge_compressions: self.edge_compressions, steps: self.steps }
+        let LevelSets { nodes, edge_compressions, cell_quanta, steps, .. } = self;
+        LevelMemory { nodes, edge_compressions, cell_quanta, steps }
     }
 
     /// The tree of the line.
@@ -123,11 +132,18 @@ impl LevelSets {
         &self.nodes
     }
 
-    /// What the two edge cells of a node carry at the indentation and the level of its gap, less half a cell
-    /// each, which its outermost springs carry: ∫ (c − c(x)) dx, in cells times metres.
+    /// What the two edge cells of a node carry at the indentation and the level of its gap: ∫ (c − c(x)) dx over
+    /// them, in cells times metres.
     #[inline]
     pub fn edge_compression(&self, node: usize) -> f64 {
         self.edge_compressions[node]
+    }
+
+    /// Mean gaps of the cells between a node's spring and those of its parts, which close when it joins them, as
+    /// the sum of their quanta.
+    #[inline]
+    pub fn cell_quanta(&self, node: usize) -> i64 {
+        self.cell_quanta[node]
     }
 
     /// All that lies level, in the order of the nodes.
@@ -142,10 +158,26 @@ impl LevelSets {
     }
 }
 
-/// Levels of a node, and what its edges carry.
+/// Arrays of the nodes that one thread measures.
+struct Part<'s> {
+    nodes: &'s mut [Levels],
+    edges: &'s mut [f64],
+    cells: &'s mut [i64],
+}
+
+/// See [`LevelSets::cell_quanta`].
 #[inline]
-fn measure_node(tree: &ContactTree, gaps: &[f64], node: usize) -> (Levels, f64) {
-    levels_between(gaps, tree.interval(node), tree.gap(node))
+fn quanta_of_cells(tree: &ContactTree, gaps: &[f64], scale: &GapScale, node: usize) -> i64 {
+    let position = tree.positions()[node] as usize;
+    let shape = tree.shapes()[node];
+    let gap = tree.gap(node);
+    // In place of a neighbour that is no part of it the spring itself, whose cell then does not count.
+    let (left, right) = (position - usize::from(shape.left() > 0), position + usize::from(shape.right > 0));
+    let cell = |neighbour: usize| {
+        let quanta = scale.mean_quanta(gap, gaps[neighbour]);
+        if neighbour == position { 0 } else { quanta }
+    };
+    cell(left) + cell(right)
 }
 
 /// Levels of the component that holds these springs, the largest of whose gaps is `gap`, and what its edges
@@ -160,7 +192,7 @@ pub(super) fn levels_between(gaps: &[f64], (first, last): (usize, usize), gap: f
         growth: left.growth + right.growth,
         top: left.outside.min(right.outside),
     };
-    (levels, 0.5 * (left.excess + right.excess))
+    (levels, 0.5 * (left.carries + right.carries))
 }
 
 /// Cells that lie level with a spring: half of one at an end of the foundation, and the one to its left
@@ -181,8 +213,8 @@ struct EdgeCell {
     share: f64,
     /// By how much the share grows with the level, 1/m; zero where it does not, or all at once.
     growth: f64,
-    /// Twice what it carries at that level, less half a cell at the gap inside, m.
-    excess: f64,
+    /// Twice what it carries at that level and indentation, m.
+    carries: f64,
 }
 
 impl EdgeCell {
@@ -191,13 +223,13 @@ impl EdgeCell {
         let (height, above) = (outside - inside, level - inside);
         if height == f64::INFINITY {
             // Half a cell as level as the spring it belongs to.
-            return EdgeCell { outside, share: 0.5, growth: 0.0, excess: 0.0 };
+            return EdgeCell { outside, share: 0.5, growth: 0.0, carries: above };
         }
         let share = above / height;
         // 0/0 where the cell is level: then it lies there whole.
         let share = if share < 1.0 { share } else { 1.0 };
         let growth = height.recip();
         let growth = if growth < f64::INFINITY { growth } else { 0.0 };
-        EdgeCell { outside, share, growth, excess: above * (share - 1.0) }
+        EdgeCell { outside, share, growth, carries: above * share }
     }
 }

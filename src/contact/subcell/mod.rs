@@ -2,8 +2,8 @@
 //! fragment lie where it crosses the fragment's level.
 //!
 //! The tree and the two passes over it are those of whole springs; only the length in the rule of Hess is
-//! another, and the force is an integral instead of a sum: that sum, and what the two cells at the edges of
-//! each fragment add to it. Its error falls with the square of the distance between springs.
+//! another, and the force is an integral instead of a sum: over the whole cells between springs in contact, and
+//! what the two cells at the edges of each fragment add. Its error falls with the square of the distance between springs.
 
 mod adhesive;
 mod bare;
@@ -20,15 +20,16 @@ pub use level_sets::{LevelMemory, LevelSets};
 pub use moment::SubCellMoment;
 
 use super::exact::Exact;
-use super::springs::{AdhesiveSprings, BareSprings};
+use super::springs::AdhesiveSprings;
 use super::{ContactError, Foundation, HessRule};
+use bare::BareLine;
 use between::BetweenSprings;
 use std::sync::Arc;
 
 /// A body under adhesion; build one with [`adhesive_in`].
 pub type Adhesive<'a> = Exact<BetweenSprings<AdhesiveSprings<'a, SubCellEdges>>>;
 /// A body without adhesion; build one with [`bare`].
-pub type Bare<'a> = Exact<BetweenSprings<BareSprings<'a>>>;
+pub type Bare<'a> = Exact<BetweenSprings<BareLine<'a>>>;
 
 /// A body over the line of `sets`, separated, at d = 0 just before first touch, in the memory that
 /// [`Exact::into_memory`] gave back.
@@ -52,5 +53,5 @@ pub fn adhesive_in(
 /// A body without adhesion over the line through springs of these gaps (m, the smallest 0), separated.
 #[must_use]
 pub fn bare(gaps: &[f64], foundation: Foundation, samples: usize) -> Bare<'_> {
-    Exact::new(BetweenSprings(BareSprings::new(gaps)), foundation, samples)
+    Exact::new(BetweenSprings(BareLine::new(gaps)), foundation, samples)
 }

@@ -1,7 +1,7 @@
 //! What fragments come to at one moment, given where they are: for a look at a contact that is not solved
 //! again.
 
-use super::edges::Slider;
+use super::edges::{EdgeSum, Slider};
 use crate::contact::tally::GapScale;
 use crate::contact::{CurvePoint, Foundation, HessRule, Tally};
 
@@ -33,21 +33,21 @@ impl<'a> SubCellMoment<'a> {
         fragments: &[(usize, usize)],
     ) -> CurvePoint {
         let mut tally = Tally::default();
-        let (mut length, mut compression) = (0.0, 0.0);
+        let mut sum = EdgeSum::default();
         for &(first, last) in fragments {
             tally.springs += (last + 1 - first) as i64;
             tally.fragments += 1;
-            let quanta = self.gaps[first..=last].iter().map(|&gap| i128::from(self.scale.quanta(gap)));
-            tally.quanta += quanta.sum::<i128>();
-            let edges = self.slider((first, last)).edges(indentation);
-            length += edges.length;
-            compression += edges.compression;
+            let cells = self.gaps[first..=last].windows(2);
+            tally.quanta +=
+                cells.map(|cell| i128::from(self.scale.mean_quanta(cell[0], cell[1]))).sum::<i128>();
+            sum.add(self.slider((first, last)).edges(indentation));
         }
-        let compression = tally.compression(indentation, &self.scale) + compression;
+        let edges = sum.total();
+        let compression = tally.compression_of_cells(indentation, &self.scale) + edges.compression;
         CurvePoint {
             indentation,
             force: foundation.spring_stiffness() * compression,
-            contact_length: foundation.spacing * (tally.springs as f64 + length),
+            contact_length: (tally.cells() as f64 + edges.length) * foundation.spacing,
             springs: tally.springs.unsigned_abs(),
             fragments: tally.fragments.unsigned_abs(),
         }

@@ -5,6 +5,7 @@
 //! happens inside it.
 
 use super::between::Piece;
+use super::edges::EdgeSum;
 use crate::contact::law::Standing;
 use crate::contact::tally::{GapScale, Tally};
 
@@ -68,18 +69,18 @@ impl<P: Piece> Interval<P> {
     /// What is in contact at `contact` as it stands at another indentation.
     fn standing(&self, pieces: &[P], contact: f64, indentation: f64) -> Standing {
         let tally = self.tally(contact);
-        let (mut length, mut compression) = (0.0, 0.0);
-        for piece in pieces.iter().filter(|piece| piece.is_at(contact)) {
-            let edges = piece.edges(indentation);
-            length += edges.length;
-            compression += edges.compression;
-        }
+        let mut sum = EdgeSum::default();
+        pieces
+            .iter()
+            .filter(|piece| piece.is_at(contact))
+            .for_each(|piece| sum.add(piece.edges(indentation)));
+        let edges = sum.total();
         Standing {
             indentation,
             springs: tally.springs,
             fragments: tally.fragments,
-            length: tally.springs as f64 + length,
-            compression: tally.compression(indentation, &self.scale) + compression,
+            length: tally.cells() as f64 + edges.length,
+            compression: tally.compression_of_cells(indentation, &self.scale) + edges.compression,
         }
     }
 
@@ -91,7 +92,7 @@ impl<P: Piece> Interval<P> {
     /// By how much the compression grows with the indentation, for what is in contact at `low`.
     fn stiffness(&self, pieces: &[P], low: f64, indentation: f64) -> f64 {
         let standing = pieces.iter().filter(|piece| piece.is_at(low));
-        self.tally(low).springs as f64 + standing.map(|piece| piece.stiffness(indentation)).sum::<f64>()
+        self.tally(low).cells() as f64 + standing.map(|piece| piece.stiffness(indentation)).sum::<f64>()
     }
 
     /// An event inside a part of it, the middle one of all.

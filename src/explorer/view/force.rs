@@ -13,7 +13,7 @@ use ratatui::layout::Rect;
 use ratatui::style::Style;
 use ratatui::text::{Line, Span as Text};
 use ratatui::widgets::Paragraph;
-use ratatui::widgets::canvas::{Canvas, Context};
+use ratatui::widgets::canvas::Canvas;
 
 /// Title of the pane.
 pub fn title(model: &Model) -> String {
@@ -206,20 +206,27 @@ pub fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
                 let colour = theme.colour(Meaning::Hand);
                 ctx.draw(&Polyline { points: &along(&hand.path), colour, stroke: Stroke::Dashed });
             }
-            for (number, ghost) in model.ghosts.iter().enumerate() {
-                mark_ghost(ctx, number, ghost, units, theme);
-            }
+            let mut glyphs = Vec::new();
             if !stale {
-                for (point, glyph, _) in marks(legs) {
-                    let (x, y) = units.place(&point);
-                    ctx.print(x, y, Line::styled(glyph, theme.style(Meaning::Title)));
-                }
+                let title = theme.style(Meaning::Title);
+                glyphs
+                    .extend(marks(legs).iter().map(|(point, glyph, _)| (units.place(point), *glyph, title)));
             }
             if let Some(moment) = model.present() {
                 let (at, value) = units.place(&moment.point);
-                let style = theme.style(Meaning::Cursor);
-                let (at, value) = (at.clamp(x.low, x.high), value.clamp(y.low, y.high));
-                ctx.print(at, value, Line::styled("◆", style));
+                let at = (at.clamp(x.low, x.high), value.clamp(y.low, y.high));
+                glyphs.push((at, "◆", theme.style(Meaning::Cursor)));
+            }
+            let mut cells = Cells { x, y, plot: places.plot, taken: Vec::new() };
+            glyphs.iter().for_each(|&(at, ..)| cells.take(at));
+            for (number, ghost) in model.ghosts.iter().enumerate() {
+                if let Some(point) = marked(ghost) {
+                    let at = cells.take_free(units.place(&point));
+                    ctx.print(at.0, at.1, Line::styled(letter(number), theme.style(Meaning::Ghost)));
+                }
+            }
+            for ((at, value), glyph, style) in glyphs {
+                ctx.print(at, value, Line::styled(glyph, style));
             }
         });
     frame.render_widget(canvas, places.plot);
@@ -297,13 +304,53 @@ fn values(legs: &[LegRecord], width: u16, theme: Theme) -> Line<'static> {
         .unwrap_or_default()
 }
 
-/// The letter of a ghost, beside its pull-off force.
-fn mark_ghost(ctx: &mut Context<'_>, number: usize, ghost: &Ghost, units: Units, theme: Theme) {
+/// Where the letter of a ghost stands: at its pull-off force, or where it ends.
+fn marked(ghost: &Ghost) -> Option<CurvePoint> {
     let legs = &ghost.computed.outcome.history.legs;
     let at = marks(legs).into_iter().next_back().map(|(point, ..)| point);
-    if let Some(point) = at.or_else(|| legs.last().and_then(|leg| leg.curve.last().copied())) {
-        let (x, y) = units.place(&point);
-        ctx.print(x, y, Line::styled(letter(number), theme.style(Meaning::Ghost)));
+    at.or_else(|| legs.last().and_then(|leg| leg.curve.last().copied()))
+}
+
+/// Which cells of the plot have a glyph already, so that no letter hides behind one.
+struct Cells {
+    x: Span,
+    y: Span,
+    plot: Rect,
+    taken: Vec<(i32, i32)>,
+}
+
+impl Cells {
+    /// Column and row of a place, as the canvas counts them.
+    fn cell(&self, (x, y): (f64, f64)) -> (i32, i32) {
+        let part = |value: f64, low: f64, high: f64, cells: u16| {
+            ((value - low) / (high - low) * f64::from(cells.max(1) - 1)) as i32
+        };
+        (
+            part(x, self.x.low, self.x.high, self.plot.width),
+            part(-y, -self.y.high, -self.y.low, self.plot.height),
+        )
+    }
+
+    fn take(&mut self, at: (f64, f64)) {
+        let cell = self.cell(at);
+        self.taken.push(cell);
+    }
+
+    /// Takes the cell of a place, or the nearest one of its row that is free.
+    fn take_free(&mut self, at: (f64, f64)) -> (f64, f64) {
+        let (column, row) = self.cell(at);
+        let last = i32::from(self.plot.width) - 1;
+        let beside = (0..=last).flat_map(|step| [column + step, column - step]);
+        let free = beside.filter(|column| (0..=last).contains(column));
+        let free = free.map(|column| (column, row)).find(|cell| !self.taken.contains(cell));
+        let Some((free, _)) = free.filter(|&(free, _)| free != column) else {
+            self.taken.push((column, row));
+            return at;
+        };
+        self.taken.push((free, row));
+        // Well inside the cell.
+        let share = (f64::from(free) + 0.25) / f64::from(last.max(1));
+        ((self.x.low + share * (self.x.high - self.x.low)).min(self.x.high), at.1)
     }
 }
 
