@@ -13,8 +13,6 @@ mod explore;
 mod line;
 mod output;
 mod plan;
-mod plan_cost;
-mod plan_legs;
 mod presets;
 mod run;
 mod scene;

@@ -15,9 +15,6 @@ use super::{
 use crate::scene::Leg;
 use std::time::{Duration, Instant};
 
-/// Intervals in which extremes are searched when the curve has fewer samples.
-pub(super) const SEARCH_INTERVALS: usize = 1024;
-
 /// A body on its foundation, moved leg by leg.
 pub struct Exact<C> {
     contact: C,
@@ -182,14 +179,14 @@ impl<C: Contact> Exact<C> {
     /// Grid of a leg's curve: every `stride`-th point is a sample, those between sharpen the search.
     fn grid(&self, low: f64, high: f64) -> (Grid, usize) {
         let intervals = self.samples - 1;
-        let stride = SEARCH_INTERVALS.div_ceil(intervals);
+        let stride = C::SEARCH_INTERVALS.div_ceil(intervals);
         (Grid::new(low, high, intervals * stride), stride)
     }
 
     /// What is in contact along the grid of a search.
     fn sample(&mut self, low: f64, high: f64) -> C::Leg {
         self.work.springs_tallied += self.work.springs;
-        self.contact.sample(Grid::new(low, high, SEARCH_INTERVALS))
+        self.contact.sample(Grid::new(low, high, C::SEARCH_INTERVALS))
     }
 
     fn curve_point(&self, standing: Standing) -> CurvePoint {

@@ -43,6 +43,9 @@ pub trait Contact {
     /// What is in contact along an even grid of indentations.
     type Leg;
 
+    /// Intervals in which extremes are searched when the curve has fewer samples.
+    const SEARCH_INTERVALS: usize;
+
     /// Springs, in contact or not.
     fn count(&self) -> u64;
 

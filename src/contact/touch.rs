@@ -1,6 +1,6 @@
 //! Adhesion at first touch, F_a(0): the contact that forms at d = 0 on the way in, pulled off from there.
 
-use super::exact::{OverTree, SEARCH_INTERVALS};
+use super::exact::OverTree;
 use super::ledger::Grid;
 use super::springs::AdhesiveSprings;
 use super::thresholds;
@@ -23,7 +23,7 @@ pub(crate) fn smallest_force<'a, C: OverTree<'a>>(
     let mut springs = AdhesiveSprings::of(tree, rule, roots, std::mem::take(memory))?;
     let held = springs.open(0.0);
     let contact = C::over(springs);
-    let leg = contact.sample(Grid::new(held.separates.min(0.0), 0.0, SEARCH_INTERVALS));
+    let leg = contact.sample(Grid::new(held.separates.min(0.0), 0.0, C::SEARCH_INTERVALS));
     let mut work = Work {
         zero_load_passes: 1,
         hess_evaluations: held.springs,

@@ -29,6 +29,8 @@ impl<T: Thresholds> WholeSprings<T> {
 impl<T: Thresholds> Contact for WholeSprings<T> {
     type Leg = Ledger;
 
+    const SEARCH_INTERVALS: usize = 1024;
+
     fn count(&self) -> u64 {
         self.0.count()
     }

@@ -8,5 +8,5 @@ mod stages;
 
 pub use error::RunError;
 pub use outcome::{LineFacts, Outcome, Timings};
-pub use plan::{Plan, PlannedStage, Stage};
+pub use plan::{Plan, PlannedStage, Stage, StageCost};
 pub use stages::{AfterLeg, Simulation};

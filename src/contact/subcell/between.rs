@@ -131,6 +131,9 @@ fn slack(low: &Standing, high: &Standing, rise: f64) -> f64 {
 impl<T: EdgeSprings> Contact for BetweenSprings<T> {
     type Leg = BetweenLeg;
 
+    // Fewer than for whole springs: each fragment is evaluated at each of their ends.
+    const SEARCH_INTERVALS: usize = 256;
+
     fn count(&self) -> u64 {
         self.0.count()
     }

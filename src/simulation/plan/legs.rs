@@ -4,7 +4,7 @@ use crate::scene::Leg;
 
 /// How many legs there are of either kind.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) struct Legs {
+pub struct Legs {
     loading: u64,
     unloading: u64,
     /// Legs that move nothing that touches.
@@ -29,7 +29,7 @@ enum Way {
 }
 
 impl Legs {
-    pub(super) fn of(loading: &[Leg]) -> Legs {
+    pub fn of(loading: &[Leg]) -> Legs {
         let mut legs = Legs::default();
         let mut standing = Standing { touches: Some(false), force: Some(0.0), indentation: Some(0.0) };
         for leg in loading {
@@ -46,17 +46,17 @@ impl Legs {
     }
 
     /// All legs.
-    pub(super) fn all(self) -> u64 {
+    pub fn all(self) -> u64 {
         self.loading + self.unloading + self.idle + self.unclear
     }
 
     /// Loading legs, where that is clear for all.
-    pub(super) fn loading(self) -> Option<u64> {
+    pub fn loading(self) -> Option<u64> {
         (self.unclear == 0).then_some(self.loading)
     }
 
     /// Unloading legs, where that is clear for all.
-    pub(super) fn unloading(self) -> Option<u64> {
+    pub fn unloading(self) -> Option<u64> {
         (self.unclear == 0).then_some(self.unloading)
     }
 }

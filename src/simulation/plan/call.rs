@@ -1,0 +1,128 @@
+//! What the stages ask of a scene, and what they answer.
+
+use super::Stage;
+use super::legs::Legs;
+use crate::scene::{Edges, Effect, Form, Roughness, Scene, Solver};
+use serde::Serialize;
+
+/// Bytes for each spring: a height of the roughness, or a gap of the line.
+pub const HEIGHT: u64 = 8;
+/// Bytes for each spring: the indentation at which it joins or leaves.
+pub const THRESHOLD: u64 = 8;
+/// Bytes for each spring of the stepwise solver: its threshold and whether it touches.
+pub const RELAXED: u64 = THRESHOLD + 1;
+
+/// Why stages are skipped, in the same words each time.
+pub const NO_ADHESION: &str = "no adhesion: each spring touches and leaves at its own gap";
+pub const STEPWISE: &str = "solver: Stepwise";
+pub const NEVER_BACK: &str = "loading never goes back";
+pub const NOT_OBSERVED: &str = "not in observe";
+
+/// A stage: what it is called, what calls for it, and what it costs if something does.
+pub struct Row {
+    pub stage: Stage,
+    pub name: &'static str,
+    pub called: fn(&Call<'_>) -> Called,
+    pub cost: fn(&Call<'_>) -> StageCost,
+}
+
+/// Whether a scene calls for a stage.
+pub enum Called {
+    /// It does, by this field.
+    For(&'static str),
+    /// It does not, for this reason.
+    Not(&'static str),
+}
+
+impl Called {
+    /// By `field` if it does, else for this reason.
+    pub fn when(does: bool, field: &'static str, reason: &'static str) -> Self {
+        if does { Called::For(field) } else { Called::Not(reason) }
+    }
+}
+
+/// What one stage costs.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+pub struct StageCost {
+    /// Passes over the line or its tree; `None` where only the run can tell.
+    pub passes: Option<u64>,
+    /// Springs looked at in all of them, at the most; `None` where only the run can tell.
+    pub springs_touched: Option<u64>,
+    /// Bytes of the arrays it adds while it runs.
+    pub bytes: u64,
+}
+
+impl StageCost {
+    /// That of a stage that is skipped.
+    pub const NOTHING: StageCost = StageCost { passes: Some(0), springs_touched: Some(0), bytes: 0 };
+}
+
+/// What a scene calls for.
+pub struct Call<'a> {
+    pub scene: &'a Scene,
+    /// Springs N of the foundation.
+    pub points: u64,
+    /// Springs under the body.
+    pub springs: u64,
+    /// Points of all curves.
+    pub curve_points: u64,
+    pub legs: Legs,
+    pub adhesive: bool,
+    /// Solved exactly, not step by step.
+    pub exact: bool,
+    /// Edges between springs.
+    pub between: bool,
+    /// Whether the loading may turn back.
+    pub pulls: bool,
+}
+
+impl<'a> Call<'a> {
+    pub fn of(scene: &'a Scene) -> Self {
+        let loading = scene.loading.as_slice();
+        Call {
+            scene,
+            points: scene.numerics.points,
+            springs: springs_under_body(scene),
+            curve_points: scene.numerics.samples * loading.len() as u64,
+            legs: Legs::of(loading),
+            adhesive: Effect::Adhesion.is_on(scene),
+            exact: scene.numerics.solver == Solver::Exact,
+            between: scene.numerics.edges == Edges::SubCell,
+            pulls: Effect::Unloading.is_on(scene),
+        }
+    }
+
+    pub fn is_rough(&self) -> bool {
+        Effect::Roughness.is_on(self.scene)
+    }
+
+    pub fn is_synthesised(&self) -> bool {
+        matches!(self.scene.roughness, Some(Roughness::SelfAffine { .. }))
+    }
+
+    pub fn is_measured(&self) -> bool {
+        matches!(self.scene.roughness, Some(Roughness::Measured { .. }))
+    }
+
+    /// Passes over the springs under the body, with arrays of so many bytes for each.
+    pub fn passes(&self, passes: Option<u64>, bytes_per_spring: u64) -> StageCost {
+        self.passes_over(self.springs, passes, bytes_per_spring)
+    }
+
+    /// Passes over so many springs, with arrays of so many bytes for each.
+    pub fn passes_over(&self, springs: u64, passes: Option<u64>, bytes_per_spring: u64) -> StageCost {
+        let springs_touched = passes.map(|passes| passes.saturating_mul(springs));
+        StageCost { passes, springs_touched, bytes: bytes_per_spring.saturating_mul(springs) }
+    }
+}
+
+/// Springs of the foundation that stand under the body: all of them but those beside a punch.
+fn springs_under_body(scene: &Scene) -> u64 {
+    let points = scene.numerics.points;
+    let Some(Form::Punch { radius }) = scene.form else { return points };
+    let cells = radius / scene.spacing();
+    // Pairs at half or whole cells from the axis, and one on it where the number of springs is odd.
+    let under =
+        if points.is_multiple_of(2) { 2.0 * (cells + 0.5).floor() } else { 2.0 * cells.floor() + 1.0 };
+    (under as u64).min(points)
+}

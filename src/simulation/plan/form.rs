@@ -1,0 +1,16 @@
+//! The macroscopic form, added to the line.
+
+use super::Stage;
+use super::call::{Called, Row};
+use crate::scene::Form;
+
+pub const ROW: Row = Row {
+    stage: Stage::Form,
+    name: "form",
+    called: |call| match call.scene.form {
+        None => Called::Not("no form: nominally flat"),
+        Some(Form::Punch { .. }) => Called::For("form: the springs under the punch"),
+        Some(_) => Called::For("form"),
+    },
+    cost: |call| call.passes(Some(1), 0),
+};

@@ -1,0 +1,163 @@
+//! Which stages a scene calls for, by which of its fields, and what they cost. The run follows this plan.
+//!
+//! Each stage is a file with its row, and stands once in the table; nothing else knows all of them.
+
+mod call;
+mod form;
+mod fragments;
+mod height_histogram;
+mod legs;
+mod level_sets;
+mod loading_pass;
+mod measured_profile;
+mod relaxation;
+mod rule_of_hess;
+mod synthesis;
+mod tree;
+mod unloading_pass;
+mod zero_load_adhesion;
+
+use crate::contact::CurvePoint;
+use crate::scene::Scene;
+use call::{Call, Called, HEIGHT, Row};
+use serde::Serialize;
+
+pub use call::StageCost;
+
+/// All stages, in the order in which they run.
+const TABLE: [Row; 12] = [
+    form::ROW,
+    synthesis::ROW,
+    measured_profile::ROW,
+    tree::ROW,
+    level_sets::ROW,
+    rule_of_hess::ROW,
+    loading_pass::ROW,
+    unloading_pass::ROW,
+    relaxation::ROW,
+    zero_load_adhesion::ROW,
+    fragments::ROW,
+    height_histogram::ROW,
+];
+
+/// A stage on the way from a scene to its curve.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Stage {
+    /// Adding the macroscopic form.
+    Form,
+    /// Drawing random phases and transforming them into a line.
+    Synthesis,
+    /// Reading a measured profile.
+    MeasuredProfile,
+    /// Building the tree of the gaps.
+    Tree,
+    /// Measuring the level sets of the line that runs straight from spring to spring.
+    LevelSets,
+    /// Evaluating the rule of Hess.
+    RuleOfHess,
+    /// Thresholds of loading legs.
+    LoadingPass,
+    /// Thresholds of unloading legs.
+    UnloadingPass,
+    /// Steps and relaxation sweeps.
+    Relaxation,
+    /// The loop turned at first touch, for F_a(0) and the regime.
+    ZeroLoadAdhesion,
+    /// The list of contact fragments.
+    Fragments,
+    /// The histogram of heights.
+    HeightHistogram,
+}
+
+impl Stage {
+    /// The stage in words.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        TABLE.iter().find(|row| row.stage == self).map_or("", |row| row.name)
+    }
+}
+
+/// A stage, whether a scene calls for it, and what it then costs.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct PlannedStage {
+    /// The stage.
+    pub stage: Stage,
+    /// Whether it runs.
+    pub runs: bool,
+    /// The field that calls for it, or why it is skipped.
+    pub because: &'static str,
+    /// What it costs; nothing where it is skipped.
+    #[serde(flatten)]
+    pub cost: StageCost,
+}
+
+/// The stages of a scene, in the order in which they run.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct Plan {
+    /// Springs under the body.
+    pub springs: u64,
+    /// About the most memory the arrays of a run take at any one time, bytes.
+    pub peak_bytes: u64,
+    /// All stages, those that are skipped as well.
+    pub stages: Vec<PlannedStage>,
+}
+
+impl Plan {
+    /// The plan of a checked scene.
+    #[must_use]
+    pub fn of(scene: &Scene) -> Self {
+        let call = Call::of(scene);
+        let stages = TABLE.map(|row| {
+            let (runs, because) = match (row.called)(&call) {
+                Called::For(because) => (true, because),
+                Called::Not(because) => (false, because),
+            };
+            let cost = if runs { (row.cost)(&call) } else { StageCost::NOTHING };
+            PlannedStage { stage: row.stage, runs, because, cost }
+        });
+        let stages = stages.into();
+        let mut plan = Plan { springs: call.springs, peak_bytes: 0, stages };
+        plan.peak_bytes = plan.peak_of(&call);
+        plan
+    }
+
+    /// Whether a stage runs.
+    #[must_use]
+    pub fn runs(&self, stage: Stage) -> bool {
+        self.stages.iter().any(|planned| planned.stage == stage && planned.runs)
+    }
+
+    fn bytes(&self, stage: Stage) -> u64 {
+        self.stages.iter().find(|planned| planned.stage == stage).map_or(0, |planned| planned.cost.bytes)
+    }
+
+    /// The line is made before the contact is solved: what the larger of both takes.
+    fn peak_of(&self, call: &Call<'_>) -> u64 {
+        let kept = if call.is_rough() { HEIGHT * call.points } else { 0 };
+        let contact = [
+            Stage::Tree,
+            Stage::LevelSets,
+            Stage::LoadingPass,
+            Stage::Relaxation,
+            // At the most, where all that touches under load touches at first touch as well.
+            Stage::ZeroLoadAdhesion,
+        ];
+        let curves = call.curve_points * size_of::<CurvePoint>() as u64;
+        let contact = contact.map(|stage| self.bytes(stage)).iter().sum::<u64>();
+        (kept + HEIGHT * call.springs + contact + curves).max(self.bytes(Stage::Synthesis))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn each_stage_stands_once_in_the_table() {
+        for (index, row) in TABLE.iter().enumerate() {
+            assert_eq!(row.stage as usize, index, "{}", row.name);
+            assert_eq!(row.stage.name(), row.name);
+        }
+    }
+}
