@@ -46,3 +46,4 @@ pub mod reference;
 pub mod scene;
 pub mod simulation;
 pub mod surface;
+pub mod sweep;

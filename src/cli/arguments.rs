@@ -2,7 +2,7 @@
 
 use super::{
     CheckArguments, CompletionsArguments, CostArguments, DemoArguments, ExploreArguments, LineArguments,
-    PlanArguments, PresetsCommand, RunArguments,
+    PlanArguments, PresetsCommand, RunArguments, SweepArguments,
 };
 use clap::{Parser, Subcommand};
 
@@ -52,6 +52,8 @@ pub enum Command {
     Plan(PlanArguments),
     /// Measure what accuracy costs: errors against time, for everything that buys accuracy
     Cost(CostArguments),
+    /// Compute a parameter study: many cells on many random lines, by as many processes as there are
+    Sweep(SweepArguments),
     /// Run the catalogue of hard cases: what must hold, and whether it does on this machine
     Check(CheckArguments),
     /// Print the rigid line of a scene as CSV: x,z in m

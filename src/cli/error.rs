@@ -5,6 +5,7 @@ use crate::ensemble::EnsembleError;
 use crate::export::WriteError;
 use crate::scene::SceneErrors;
 use crate::simulation::RunError;
+use crate::sweep::SweepError;
 use std::io;
 use thiserror::Error;
 
@@ -83,6 +84,25 @@ pub enum CliError {
         failed: usize,
         /// Of how many.
         checks: usize,
+    },
+    /// A study could not go on.
+    #[error(transparent)]
+    Sweep(#[from] SweepError),
+    /// A study was told to stop.
+    #[error("stopped: {done} of {total} records are there; the same command goes on from here")]
+    Stopped {
+        /// Records that are there.
+        done: u64,
+        /// Records there are to be.
+        total: u64,
+    },
+    /// Not even one thread has enough memory.
+    #[error("--memory {most}: this plan takes {least} with one thread; allowed: at least that")]
+    TooLittleMemory {
+        /// What is allowed.
+        most: String,
+        /// What it takes.
+        least: String,
     },
     /// A file could not be written.
     #[error("{0}{hint}", hint = hint(.0))]

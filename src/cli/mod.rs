@@ -16,6 +16,7 @@ mod plan;
 mod presets;
 mod run;
 mod scene;
+mod sweep;
 mod usage;
 
 pub use arguments::{Arguments, Command};
@@ -31,6 +32,9 @@ pub use plan::{PlanArguments, PlanFormat};
 pub use presets::{ListFormat, PresetsCommand};
 pub use run::{RunArguments, RunFormat};
 pub use scene::{Overrides, SceneArguments};
+pub use sweep::{
+    MergeArguments, PlansArguments, StatusArguments, SweepArguments, SweepCommand, SweepRunArguments,
+};
 
 use clap::Parser;
 use std::ffi::OsString;
@@ -78,6 +82,7 @@ fn dispatch(arguments: &Arguments, stdout: &mut dyn Write) -> Result<(), CliErro
         Some(Command::Run(arguments)) => run::run(arguments, stdout),
         Some(Command::Demo(arguments)) => demo::demo(arguments, stdout),
         Some(Command::Cost(arguments)) => cost::cost(arguments, stdout),
+        Some(Command::Sweep(arguments)) => sweep::sweep(arguments, stdout),
         Some(Command::Check(arguments)) => check::check(arguments, stdout),
         Some(Command::Plan(arguments)) => plan::plan(arguments, stdout),
         Some(Command::Line(arguments)) => line::line(arguments, stdout),

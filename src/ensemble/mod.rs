@@ -8,6 +8,7 @@ mod statistics;
 
 pub use heights::HeightShape;
 pub use statistics::Statistics;
+pub(crate) use statistics::{CONFIDENCE, StudentT};
 
 use crate::analysis::Regime;
 use crate::scene::{Roughness, Scene};

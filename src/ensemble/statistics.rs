@@ -4,7 +4,7 @@ use serde::Serialize;
 use std::f64::consts::FRAC_2_PI;
 
 /// Share of samples whose confidence interval holds the true mean.
-const CONFIDENCE: f64 = 0.95;
+pub(crate) const CONFIDENCE: f64 = 0.95;
 
 /// What a sample tells of what it was drawn from.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -25,6 +25,11 @@ impl Statistics {
     /// Of these values; `None` for fewer than two.
     #[must_use]
     pub fn of(values: &[f64]) -> Option<Self> {
+        Statistics::with(values, &mut StudentT::default())
+    }
+
+    /// The same for one of many samples of the same size, whose quantile is worked out once.
+    pub(crate) fn with(values: &[f64], quantiles: &mut StudentT) -> Option<Self> {
         if values.len() < 2 {
             return None;
         }
@@ -36,7 +41,7 @@ impl Statistics {
         let squares = values.iter().map(|value| (value / unit - mean).powi(2)).sum::<f64>();
         let (mean, standard_deviation) = (mean * unit, (squares / (count - 1.0)).sqrt() * unit);
         let standard_error = standard_deviation / count.sqrt();
-        let half = student_t(values.len() as u32 - 1) * standard_error;
+        let half = quantiles.of(values.len() as u32 - 1) * standard_error;
         let confidence_interval = (mean - half, mean + half);
         Some(Statistics {
             count: values.len(),
@@ -45,6 +50,21 @@ impl Statistics {
             standard_error,
             confidence_interval,
         })
+    }
+}
+
+/// Quantiles of Student's distribution, the last of them kept.
+#[derive(Default)]
+pub(crate) struct StudentT {
+    known: Option<(u32, f64)>,
+}
+
+impl StudentT {
+    fn of(&mut self, freedom: u32) -> f64 {
+        match self.known {
+            Some((known, t)) if known == freedom => t,
+            _ => self.known.insert((freedom, student_t(freedom))).1,
+        }
     }
 }
 

@@ -101,7 +101,7 @@ fn whole(name: &str, message: String) -> SceneErrors {
 }
 
 /// The text of a file, of which no more than a scene can be long is read.
-pub(super) fn read_file(path: &Path) -> Result<String, String> {
+pub(crate) fn read_file(path: &Path) -> Result<String, String> {
     if path.is_dir() {
         return Err("this is a directory, not a scene file".into());
     }

@@ -47,13 +47,35 @@ pub(super) fn wrong_version(text: &str) -> Option<Unread> {
     Some(Unread { offset, field, value, allowed, message })
 }
 
-fn explain(text: &str, error: &ron::error::SpannedError) -> Unread {
+/// Where and why text that is no scene, but written like one, cannot be read.
+pub(crate) fn told_otherwise(text: &str, error: &ron::error::SpannedError) -> (usize, String) {
+    let message = match &error.code {
+        ron::Error::NoSuchEnumVariant { expected, found, .. } => {
+            let near = nearest(found, expected.iter().copied());
+            let near = near.map_or_else(String::new, |near| format!(" (did you mean {near}?)"));
+            format!("{found}: allowed: {}{near}", expected.join(", "))
+        }
+        ron::Error::MissingStructField { field, .. } => format!("{field}: missing"),
+        ron::Error::NoSuchStructField { found, .. } => format!("{found}: {}", plain(&error.code)),
+        ron::Error::DuplicateStructField { field, .. } => format!("{field}: given twice"),
+        ron::Error::TrailingCharacters => "nothing may follow here".into(),
+        code => plain(code),
+    };
+    (place_of(text, error).0, message)
+}
+
+/// The byte at which what is wrong begins, and where the reader stood.
+fn place_of(text: &str, error: &ron::error::SpannedError) -> (usize, usize) {
     let start = offset_of(text, error.span.start.line, error.span.start.col);
     let end = offset_of(text, error.span.end.line, error.span.end.col).max(start);
     // The span starts before the last thing read; where that was only blank or punctuation, what is
     // wrong comes after it.
     let something = |c: char| c.is_alphanumeric() || matches!(c, '"' | '\'' | '_' | '-');
-    let offset = if text[start..end].contains(something) { start } else { end };
+    (if text[start..end].contains(something) { start } else { end }, end)
+}
+
+fn explain(text: &str, error: &ron::error::SpannedError) -> Unread {
+    let (offset, end) = place_of(text, error);
     match Outline::of(text) {
         Ok(outline) => explain_at(text, &outline, offset, &error.code),
         // Where the reader only found the end of the text, the bracket that stays open says more.

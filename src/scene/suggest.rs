@@ -6,7 +6,7 @@ const LONGEST: usize = 64;
 /// The nearest name, where it is near enough to be what was meant.
 ///
 /// A name may also be meant by its last component: `hurst` means `roughness.hurst`.
-pub(super) fn nearest<'n>(name: &str, names: impl IntoIterator<Item = &'n str>) -> Option<&'n str> {
+pub(crate) fn nearest<'n>(name: &str, names: impl IntoIterator<Item = &'n str>) -> Option<&'n str> {
     if name.is_empty() || name.len() > LONGEST {
         return None;
     }

@@ -1,0 +1,45 @@
+//! `asperity sweep merge`: the tables of a study.
+
+use crate::cli::CliError;
+use crate::sweep::{Folder, Merged, RESULTS, SIDECAR, SUMMARY, merge as merge_records};
+use clap::Args;
+use std::io::Write;
+use std::path::PathBuf;
+
+const EXAMPLES: &str = "\
+results.csv has one row for each cell and line, summary.csv one for each cell: mean, standard deviation and
+95 % confidence interval of the mean over the lines. results.json says what the columns mean. SI units.";
+
+/// Arguments of `sweep merge`.
+#[derive(Args, Debug)]
+#[command(after_help = EXAMPLES)]
+pub struct MergeArguments {
+    /// Folder of the study
+    #[arg(value_name = "DIR")]
+    pub folder: PathBuf,
+    /// Publish what there is, even where cells are missing
+    #[arg(long)]
+    pub partial: bool,
+}
+
+/// Merges and tells what came of it.
+pub(super) fn merge(arguments: &MergeArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
+    let folder = Folder::open(&arguments.folder)?;
+    tell_merged(&folder, &merge_records(&folder, arguments.partial)?, stdout)
+}
+
+pub(super) fn tell_merged(folder: &Folder, merged: &Merged, stdout: &mut dyn Write) -> Result<(), CliError> {
+    let Merged { records, total, duplicates, damaged, missing_cells, .. } = merged;
+    let path = folder.path().display();
+    writeln!(stdout, "{records} of {total} records in {path}: {RESULTS}, {SUMMARY}, {SIDECAR}")?;
+    for (count, what) in [
+        (duplicates, "records were computed twice, with the same bits"),
+        (damaged, "torn or damaged lines were left out"),
+        (missing_cells, "cells are not complete"),
+    ] {
+        if *count > 0 {
+            writeln!(stdout, "{count} {what}")?;
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,60 @@
+//! `asperity sweep`: parameter studies.
+
+mod merge;
+mod plans;
+mod progress;
+mod run;
+mod status;
+
+pub use merge::MergeArguments;
+pub use plans::PlansArguments;
+pub use run::SweepRunArguments;
+pub use status::StatusArguments;
+
+use super::CliError;
+use clap::{Args, Subcommand};
+use std::io::Write;
+
+const EXAMPLES: &str = "\
+Examples:
+  asperity sweep plans                              What comes with the program
+  asperity sweep figure-5b -o study                 Compute it, all cores; again: go on
+  asperity sweep my-plan.ron -o study --shard 3/8   One of eight parts, on any machine that sees the folder
+  asperity sweep status study                       How far it is
+  asperity sweep merge study                        results.csv, summary.csv and results.json
+
+A run that computes everything merges by itself. Ctrl-C stops after the present cells; nothing is lost, and
+the same command goes on.";
+
+/// Arguments of `sweep`.
+#[derive(Args, Debug)]
+#[command(after_help = EXAMPLES, args_conflicts_with_subcommands = true, subcommand_negates_reqs = true)]
+pub struct SweepArguments {
+    /// What is done with a study; without it, a plan is computed.
+    #[command(subcommand)]
+    pub command: Option<SweepCommand>,
+    /// The plan that is computed.
+    #[command(flatten)]
+    pub run: SweepRunArguments,
+}
+
+/// What is done with a study.
+#[derive(Debug, Subcommand)]
+pub enum SweepCommand {
+    /// Put the records of all processes into tables
+    Merge(MergeArguments),
+    /// Tell how far a study is, and who has worked on it
+    Status(StatusArguments),
+    /// List the built-in plans, or print one of them
+    Plans(PlansArguments),
+}
+
+/// Does one of the commands, or computes a plan.
+pub(super) fn sweep(arguments: &SweepArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
+    match &arguments.command {
+        Some(SweepCommand::Merge(arguments)) => merge::merge(arguments, stdout),
+        Some(SweepCommand::Status(arguments)) => status::status(arguments, stdout),
+        Some(SweepCommand::Plans(arguments)) => plans::plans(arguments, stdout),
+        None => run::run(&arguments.run, stdout),
+    }
+}

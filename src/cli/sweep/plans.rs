@@ -1,0 +1,68 @@
+//! `asperity sweep plans`: what comes with the program.
+
+use crate::cli::CliError;
+use crate::export::sheet::Sheet;
+use crate::export::write_json_value;
+use crate::sweep::{Changes, Plan, PlanErrors, SweepError, find, plans as built_in};
+use clap::{Args, ValueEnum};
+use serde::Serialize;
+use std::io::Write;
+
+/// Arguments of `sweep plans`.
+#[derive(Args, Debug)]
+pub struct PlansArguments {
+    /// Print the text of this plan, to start one's own from
+    pub name: Option<String>,
+    /// How they are listed
+    #[arg(long, value_enum, default_value_t = PlansFormat::Text, conflicts_with = "name")]
+    pub format: PlansFormat,
+}
+
+/// How plans are listed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum PlansFormat {
+    /// Name, size and title in columns.
+    Text,
+    /// Objects with name, title, notice, cells and lines.
+    Json,
+}
+
+/// A plan in the list.
+#[derive(Serialize)]
+struct Listed {
+    name: &'static str,
+    title: String,
+    notice: String,
+    cells: u64,
+    lines: u64,
+}
+
+/// Lists the built-in plans, or prints one.
+pub(super) fn plans(arguments: &PlansArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
+    if let Some(name) = &arguments.name {
+        let Some(plan) = find(name) else {
+            let names = built_in().iter().map(|plan| plan.name).collect::<Vec<_>>().join(", ");
+            let error = format!("{name}: there is no such built-in plan; allowed: {names}");
+            return Err(SweepError::Plan(PlanErrors(vec![error])).into());
+        };
+        return Ok(stdout.write_all(plan.text.as_bytes())?);
+    }
+    let mut listed = Vec::new();
+    for one in built_in() {
+        let plan = Plan::open(one.name, &Changes::default()).map_err(SweepError::from)?;
+        let (cells, lines) = (plan.cells(), plan.lines);
+        listed.push(Listed { name: one.name, title: plan.title, notice: plan.notice, cells, lines });
+    }
+    match arguments.format {
+        PlansFormat::Json => write_json_value(stdout, &listed)?,
+        PlansFormat::Text => {
+            let row = |plan: Listed| {
+                [plan.name.into(), format!("{} cells × {} lines", plan.cells, plan.lines), plan.title]
+            };
+            let mut sheet = Sheet::default();
+            sheet.table(&listed.into_iter().map(row).collect::<Vec<_>>());
+            stdout.write_all(sheet.into_text().as_bytes())?;
+        }
+    }
+    Ok(())
+}

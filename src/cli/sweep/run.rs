@@ -1,0 +1,195 @@
+//! `asperity sweep PLAN`: computes a study, or what is missing of it.
+
+use super::merge::tell_merged;
+use super::progress::Teller;
+use crate::cli::plan_cost::Cost;
+use crate::cli::{CliError, Overrides};
+use crate::scene::Scene;
+use crate::simulation;
+use crate::sweep::{Changes, Folder, Options, Plan, Shard, SweepError, merge, run as compute};
+use clap::Args;
+use std::io::{self, Write};
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::thread::available_parallelism;
+
+/// Arguments of a run.
+#[derive(Args, Debug)]
+pub struct SweepRunArguments {
+    /// A plan file, or the name of a built-in plan (see `asperity sweep plans`)
+    #[arg(required = true)]
+    pub plan: Option<String>,
+    /// Folder of the study; made where it is not there
+    #[arg(short, long, value_name = "DIR", required_unless_present = "check")]
+    pub output: Option<PathBuf>,
+    /// Threads; left out, one for each core
+    #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub jobs: Option<u16>,
+    /// Compute part K of N alone; the parts share the folder, or are copied into one before merging
+    #[arg(long, value_name = "K/N")]
+    pub shard: Option<Shard>,
+    /// Most memory for all threads together: 500M, 2G; fewer threads are used where it takes that
+    #[arg(long, value_name = "SIZE", value_parser = size)]
+    pub memory: Option<u64>,
+    /// Random lines of each cell, in place of what the plan says
+    #[arg(long, value_name = "COUNT")]
+    pub lines: Option<u64>,
+    /// Check the plan and tell what it takes, without computing anything
+    #[arg(long)]
+    pub check: bool,
+    /// What is changed in the scene of the plan.
+    #[command(flatten)]
+    pub overrides: Overrides,
+}
+
+/// Bytes beside those of a scene's arrays: code, stacks, files and what the allocator keeps.
+const BESIDE: u64 = 16 << 20;
+/// Bytes for each spring of a transform that is kept for the next line, up to [`LONGEST_KEPT`] springs.
+const KEPT: u64 = 20;
+const LONGEST_KEPT: u64 = 1 << 22;
+
+/// Bytes as people write them.
+fn size(text: &str) -> Result<u64, String> {
+    let allowed = || "allowed: a size such as 500M, 2G or 1.5GiB".to_owned();
+    let text = text.trim();
+    let digits = text.find(|c: char| !(c.is_ascii_digit() || c == '.')).unwrap_or(text.len());
+    let (number, unit) = text.split_at(digits);
+    let unit = unit.trim().to_ascii_lowercase();
+    let unit = unit.strip_suffix("ib").or(unit.strip_suffix('b')).unwrap_or(&unit);
+    let power = match unit {
+        "" => 0,
+        "k" => 1,
+        "m" => 2,
+        "g" => 3,
+        "t" => 4,
+        _ => return Err(allowed()),
+    };
+    let bytes = number.parse::<f64>().map_err(|_| allowed())? * 1024_f64.powi(power);
+    if (1.0..=1e18).contains(&bytes) { Ok(bytes as u64) } else { Err(allowed()) }
+}
+
+/// Memory of a whole study: what one thread takes at the most, and what all share.
+struct Memory {
+    job: u64,
+    shared: u64,
+}
+
+impl Memory {
+    fn of(plan: &Plan) -> Memory {
+        let mut job = 0;
+        let mut spare = 0;
+        plan.each_scene(|scene: &Scene| {
+            let points = scene.numerics.points;
+            let kept = if points <= LONGEST_KEPT { KEPT * points } else { 0 };
+            // The contact without adhesion or at zero force may come on top of what the scene itself takes.
+            let peak = Cost::of(scene).peak_bytes(&simulation::Plan::of(scene)) + kept;
+            job = job.max(peak);
+            spare = spare.max(16 * scene.numerics.samples * scene.loading.len() as u64);
+        });
+        // One bit for each record, and each axis written out by every thread.
+        let values: u64 = plan.axes.iter().map(crate::sweep::Axis::count).sum();
+        Memory { job: job + spare + 8 * values, shared: BESIDE + plan.records_in_all() / 8 }
+    }
+
+    fn of_jobs(&self, jobs: u64) -> u64 {
+        self.shared + jobs * self.job
+    }
+}
+
+/// Computes a plan, or what is missing of it, and merges where that makes it whole.
+pub(super) fn run(arguments: &SweepRunArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
+    let changes = Changes { set: arguments.overrides.set.clone(), lines: arguments.lines };
+    // The parser asks for a plan where there is no command.
+    let plan =
+        Plan::open(arguments.plan.as_deref().unwrap_or_default(), &changes).map_err(SweepError::from)?;
+    let memory = Memory::of(&plan);
+    let wanted = arguments
+        .jobs
+        .map_or_else(|| available_parallelism().map_or(1, std::num::NonZero::get) as u64, u64::from);
+    let mut jobs = wanted;
+    if let Some(most) = arguments.memory {
+        if memory.of_jobs(1) > most {
+            return Err(CliError::TooLittleMemory { most: bytes(most), least: bytes(memory.of_jobs(1)) });
+        }
+        jobs = jobs.min((most - memory.shared) / memory.job.max(1)).max(1);
+    }
+    let mut stderr = io::stderr();
+    let threads = if jobs == 1 { "1 thread".into() } else { format!("{jobs} threads") };
+    let fewer =
+        if jobs < wanted { format!(", fewer than {wanted} for want of memory") } else { String::new() };
+    let told = format!(
+        "{} cells on {} {}: {} records; {threads}{fewer}, at most {} of memory",
+        plan.cells(),
+        plan.lines,
+        if plan.lines == 1 { "line" } else { "lines" },
+        plan.records_in_all(),
+        bytes(memory.of_jobs(jobs))
+    );
+    if arguments.check {
+        writeln!(stdout, "{told}")?;
+        return Ok(());
+    }
+    let _ = writeln!(stderr, "{told}");
+    let Some(output) = &arguments.output else { return Ok(()) };
+    let folder = Folder::create(output, &plan)?;
+    let stop = stop_by_signal()?;
+    let mut teller = Teller::default();
+    let options = Options { jobs: jobs as usize, shard: arguments.shard.unwrap_or(Shard::WHOLE) };
+    let ended = compute(&folder, options, &|| stop.load(Ordering::SeqCst), &mut |progress| {
+        teller.tell(progress);
+    });
+    teller.end();
+    let ended = ended?;
+    if !ended.complete {
+        let (done, total) = (ended.progress.done, ended.progress.total);
+        return Err(CliError::Stopped { done, total });
+    }
+    if arguments.shard.is_none() {
+        tell_merged(&folder, &merge(&folder, false)?, stdout)?;
+    } else {
+        let _ = writeln!(stderr, "{} records of shard {} are there", ended.progress.total, options.shard);
+    }
+    Ok(())
+}
+
+/// Set by the first signal to end; a second one ends the process at once.
+fn stop_by_signal() -> Result<Arc<AtomicBool>, CliError> {
+    let stop = Arc::new(AtomicBool::new(false));
+    #[cfg(unix)]
+    for signal in [signal_hook::consts::SIGINT, signal_hook::consts::SIGTERM] {
+        signal_hook::flag::register_conditional_default(signal, Arc::clone(&stop))?;
+        signal_hook::flag::register(signal, Arc::clone(&stop))?;
+    }
+    Ok(stop)
+}
+
+/// Bytes as people read them.
+fn bytes(count: u64) -> String {
+    let units = ["B", "KiB", "MiB", "GiB", "TiB"];
+    let mut size = count as f64;
+    let mut unit = 0;
+    while size >= 1024.0 && unit + 1 < units.len() {
+        size /= 1024.0;
+        unit += 1;
+    }
+    let decimals = usize::from(unit > 0 && size < 10.0);
+    format!("{size:.decimals$} {}", units[unit])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sizes_are_bytes() {
+        for (text, expected) in
+            [("500M", 500 << 20), ("2G", 2 << 30), ("1.5 GiB", 3 << 29), ("4096", 4096), ("1kb", 1024)]
+        {
+            assert_eq!(size(text), Ok(expected), "{text}");
+        }
+        for wrong in ["", "G", "-1G", "1X", "1GG", "nan", "0", "1e3M"] {
+            assert!(size(wrong).is_err(), "{wrong}");
+        }
+    }
+}

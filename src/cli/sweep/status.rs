@@ -1,0 +1,76 @@
+//! `asperity sweep status`: how far a study is.
+
+use crate::cli::CliError;
+use crate::export::sheet::{Sheet, grouped};
+use crate::export::write_json_value;
+use crate::sweep::{Folder, Status};
+use clap::{Args, ValueEnum};
+use std::io::Write;
+use std::path::PathBuf;
+
+/// Arguments of `sweep status`.
+#[derive(Args, Debug)]
+pub struct StatusArguments {
+    /// Folder of the study
+    #[arg(value_name = "DIR")]
+    pub folder: PathBuf,
+    /// How it is printed
+    #[arg(long, value_enum, default_value_t = StatusFormat::Text)]
+    pub format: StatusFormat,
+}
+
+/// How a status is printed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum StatusFormat {
+    /// A table.
+    Text,
+    /// One object.
+    Json,
+}
+
+/// Tells how far a study is.
+pub(super) fn status(arguments: &StatusArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
+    let folder = Folder::open(&arguments.folder)?;
+    let status = Status::of(&folder)?;
+    match arguments.format {
+        StatusFormat::Json => write_json_value(stdout, &status)?,
+        StatusFormat::Text => stdout.write_all(text(&folder, &status).as_bytes())?,
+    }
+    Ok(())
+}
+
+fn text(folder: &Folder, status: &Status) -> String {
+    let mut sheet = Sheet::default();
+    let title = &folder.plan().title;
+    if !title.is_empty() {
+        sheet.paragraph(title);
+    }
+    let share = 100.0 * status.done as f64 / status.total.max(1) as f64;
+    sheet.heading(&format!(
+        "{} of {} records are there, {share:.1} %; {} are missing",
+        grouped(status.done),
+        grouped(status.total),
+        grouped(status.missing)
+    ));
+    if status.damaged > 0 {
+        sheet.paragraph(&format!("{} torn or damaged lines are left out.", grouped(status.damaged)));
+    }
+    let mut rows =
+        vec![["shard", "there", "of", "machine", "process", "wrote", "per second"].map(String::from)];
+    for shard in &status.shards {
+        for (index, attempt) in shard.attempts.iter().enumerate() {
+            let first = |text: String| if index == 0 { text } else { String::new() };
+            rows.push([
+                first(shard.shard.clone()),
+                first(grouped(shard.done)),
+                first(grouped(shard.total)),
+                attempt.host.clone(),
+                attempt.process.to_string(),
+                grouped(attempt.records),
+                attempt.rate.map_or_else(String::new, |rate| format!("{rate:.2}")),
+            ]);
+        }
+    }
+    sheet.table(&rows);
+    sheet.into_text()
+}

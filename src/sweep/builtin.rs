@@ -1,0 +1,34 @@
+//! The plans that come with the program.
+
+/// A built-in plan.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct BuiltInPlan {
+    /// Its name, which opens it.
+    pub name: &'static str,
+    /// Its text in RON.
+    pub text: &'static str,
+}
+
+macro_rules! plans {
+    ($($name:literal),* $(,)?) => {
+        &[$(BuiltInPlan {
+            name: $name,
+            text: include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/presets/plans/", $name, ".ron")),
+        }),*]
+    };
+}
+
+const PLANS: &[BuiltInPlan] =
+    plans!["figure-5a", "figure-5b", "figure-6", "stiffness-exponent", "self-averaging"];
+
+/// All built-in plans.
+#[must_use]
+pub fn plans() -> &'static [BuiltInPlan] {
+    PLANS
+}
+
+/// The built-in plan of a name.
+#[must_use]
+pub fn find(name: &str) -> Option<&'static BuiltInPlan> {
+    PLANS.iter().find(|plan| plan.name == name)
+}

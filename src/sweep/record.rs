@@ -1,0 +1,95 @@
+//! One record of a shard file: a line with its key, its values and a checksum.
+
+use std::fmt::Write;
+
+/// Characters of the checksum and the comma behind it.
+const CHECKSUM: usize = 9;
+
+/// Cell and seed: what a record is the only one of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Key {
+    /// Index of the cell.
+    pub cell: u64,
+    /// Seed of the line.
+    pub seed: u64,
+}
+
+/// Appends a line with its checksum in front; the payload holds no line break.
+pub(super) fn seal(payload: &str, into: &mut String) {
+    // A string can be written to without fail.
+    let _ = writeln!(into, "{:08x},{payload}", crc32fast::hash(payload.as_bytes()));
+}
+
+/// The payload of a line without its break; `None` where it is not what was written.
+pub(super) fn unseal(line: &[u8]) -> Option<&str> {
+    let line = std::str::from_utf8(line).ok()?;
+    let (checksum, payload) = (line.get(..CHECKSUM)?, line.get(CHECKSUM..)?);
+    let checksum = checksum.strip_suffix(',')?;
+    // One way of writing it, so that equal records are equal text.
+    let is_ours = checksum == format!("{:08x}", crc32fast::hash(payload.as_bytes()));
+    is_ours.then_some(payload)
+}
+
+/// Appends a record. NaN, which stands for what there is not, is nothing at all.
+pub(super) fn encode(key: Key, values: &[f64], into: &mut String) {
+    let mut payload = format!("{},{}", key.cell, key.seed);
+    for value in values {
+        payload.push(',');
+        if !value.is_nan() {
+            // The shortest text that reads back bit for bit.
+            let _ = write!(payload, "{value:?}");
+        }
+    }
+    seal(&payload, into);
+}
+
+/// The key of a payload and where its values begin.
+pub(super) fn key_of(payload: &str) -> Option<(Key, &str)> {
+    let mut parts = payload.splitn(3, ',');
+    let cell = parts.next()?.parse().ok()?;
+    let seed = parts.next()?.parse().ok()?;
+    Some((Key { cell, seed }, parts.next()?))
+}
+
+/// The values of a payload: so many, NaN for what is not there.
+pub(super) fn values_of(values: &str, count: usize) -> Option<Vec<f64>> {
+    let number = |text: &str| if text.is_empty() { Some(f64::NAN) } else { text.parse().ok() };
+    let values: Option<Vec<f64>> = values.split(',').map(number).collect();
+    values.filter(|values| values.len() == count)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn records_read_back_bit_for_bit(
+            cell: u64,
+            seed: u64,
+            values in prop::collection::vec(prop::option::of(any::<f64>()), 1..6),
+        ) {
+            let values: Vec<f64> = values.into_iter().map(|value| value.unwrap_or(f64::NAN)).collect();
+            let mut text = String::new();
+            encode(Key { cell, seed }, &values, &mut text);
+            let payload = unseal(text.trim_end_matches('\n').as_bytes()).unwrap();
+            let (key, rest) = key_of(payload).unwrap();
+            prop_assert_eq!(key, Key { cell, seed });
+            let read = values_of(rest, values.len()).unwrap();
+            for (read, value) in read.iter().zip(&values) {
+                prop_assert!(read.to_bits() == value.to_bits() || (read.is_nan() && value.is_nan()));
+            }
+            // Whatever is cut off or changed is noticed.
+            let line = text.trim_end_matches('\n').as_bytes();
+            for end in 0..line.len() {
+                prop_assert_eq!(unseal(&line[..end]), None);
+            }
+            for place in 0..line.len() {
+                let mut changed = line.to_vec();
+                changed[place] ^= 1;
+                prop_assert_eq!(unseal(&changed), None);
+            }
+        }
+    }
+}
