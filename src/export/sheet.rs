@@ -49,13 +49,15 @@ impl Sheet {
 
     /// Lines of cells below each other, all but the last column as wide as its widest cell; a last
     /// cell too long for its line goes on below itself.
-    pub(crate) fn table<const COLUMNS: usize>(&mut self, rows: &[[String; COLUMNS]]) {
-        let width = |column: usize| rows.iter().map(|row| row[column].chars().count()).max().unwrap_or(0);
+    pub(crate) fn table<R: AsRef<[String]>>(&mut self, rows: &[R]) {
+        let cell = |row: &R, column: usize| row.as_ref().get(column).map_or(0, |cell| cell.chars().count());
+        let width = |column: usize| rows.iter().map(|row| cell(row, column)).max().unwrap_or(0);
         for row in rows {
+            let Some((last, others)) = row.as_ref().split_last() else { continue };
             let mut before: String =
-                (0..COLUMNS - 1).map(|column| padded(&row[column], width(column) + 2)).collect();
+                others.iter().enumerate().map(|(column, cell)| padded(cell, width(column) + 2)).collect();
             let room = WIDTH.saturating_sub(before.chars().count()).max(1);
-            for line in wrap(&row[COLUMNS - 1], room) {
+            for line in wrap(last, room) {
                 self.line(&format!("{before}{line}"));
                 before = " ".repeat(before.chars().count());
             }

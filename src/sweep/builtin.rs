@@ -19,7 +19,7 @@ macro_rules! plans {
 }
 
 const PLANS: &[BuiltInPlan] =
-    plans!["figure-5a", "figure-5b", "figure-6", "stiffness-exponent", "self-averaging"];
+    plans!["figure-5a", "figure-5b", "figure-6", "equation-15", "stiffness-exponent", "self-averaging"];
 
 /// All built-in plans.
 #[must_use]

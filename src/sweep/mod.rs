@@ -31,6 +31,7 @@
 //! ```
 
 mod axis;
+mod boundary;
 mod builtin;
 mod cells;
 mod error;
@@ -47,6 +48,7 @@ mod store;
 mod target;
 
 pub use axis::{Axis, MOST_VALUES};
+pub use boundary::{Boundaries, Boundary, Crossing, DEFINITIONS, USUAL_LEVELS, boundaries};
 pub use builtin::{BuiltInPlan, find, plans};
 pub use error::SweepError;
 pub use finished::{CellSummary, Finished, Row, Spread};

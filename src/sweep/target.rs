@@ -263,7 +263,8 @@ mod tests {
         }
         let mut scene = rough.scene().clone();
         Target::SpringsPerWave.set(&mut scene, 8.0).unwrap();
-        assert_eq!(modes(&mut scene).unwrap().1, scene.numerics.points / 8);
+        let points = scene.numerics.points;
+        assert_eq!(modes(&mut scene).unwrap().1, points / 8);
     }
 
     #[test]

@@ -1,11 +1,13 @@
 //! `asperity sweep`: parameter studies.
 
+mod boundary;
 mod merge;
 mod plans;
 mod progress;
 mod run;
 mod status;
 
+pub use boundary::BoundaryArguments;
 pub use merge::MergeArguments;
 pub use plans::PlansArguments;
 pub use run::SweepRunArguments;
@@ -22,6 +24,7 @@ Examples:
   asperity sweep my-plan.ron -o study --shard 3/8   One of eight parts, on any machine that sees the folder
   asperity sweep status study                       How far it is
   asperity sweep merge study                        results.csv, summary.csv and results.json
+  asperity sweep boundary study                     κ at which F_a(0) vanishes, for each H
 
 A run that computes everything merges by itself. Ctrl-C stops after the present cells; nothing is lost, and
 the same command goes on.";
@@ -45,6 +48,8 @@ pub enum SweepCommand {
     Merge(MergeArguments),
     /// Tell how far a study is, and who has worked on it
     Status(StatusArguments),
+    /// Find the κ at which adhesion without a preload vanishes
+    Boundary(BoundaryArguments),
     /// List the built-in plans, or print one of them
     Plans(PlansArguments),
 }
@@ -54,6 +59,7 @@ pub(super) fn sweep(arguments: &SweepArguments, stdout: &mut dyn Write) -> Resul
     match &arguments.command {
         Some(SweepCommand::Merge(arguments)) => merge::merge(arguments, stdout),
         Some(SweepCommand::Status(arguments)) => status::status(arguments, stdout),
+        Some(SweepCommand::Boundary(arguments)) => boundary::boundary(arguments, stdout),
         Some(SweepCommand::Plans(arguments)) => plans::plans(arguments, stdout),
         None => run::run(&arguments.run, stdout),
     }

@@ -2,7 +2,6 @@
 
 use super::merge::tell_merged;
 use super::progress::Teller;
-use crate::cli::plan_cost::Cost;
 use crate::cli::{CliError, Overrides};
 use crate::scene::Scene;
 use crate::simulation;
@@ -83,7 +82,7 @@ impl Memory {
             let points = scene.numerics.points;
             let kept = if points <= LONGEST_KEPT { KEPT * points } else { 0 };
             // The contact without adhesion or at zero force may come on top of what the scene itself takes.
-            let peak = Cost::of(scene).peak_bytes(&simulation::Plan::of(scene)) + kept;
+            let peak = simulation::Plan::of(scene).peak_bytes + kept;
             job = job.max(peak);
             spare = spare.max(16 * scene.numerics.samples * scene.loading.len() as u64);
         });

@@ -1,0 +1,151 @@
+//! `asperity sweep boundary`: where adhesion without a preload vanishes.
+
+use crate::cli::CliError;
+use crate::export::sheet::Sheet;
+use crate::export::write_json_value;
+use crate::sweep::{Boundaries, Boundary, Crossing, DEFINITIONS, Quantity, USUAL_LEVELS, boundaries};
+use clap::{Args, ValueEnum};
+use serde_json::{Map, Value, json};
+use std::io::Write;
+use std::path::PathBuf;
+
+const EXAMPLES: &str = "\
+Examples:
+  asperity sweep equation-15 -o edge && asperity sweep boundary edge
+  asperity sweep boundary edge --level 0.05 --format csv
+
+F_a(0) never quite vanishes: it falls about exponentially with κ. So κ* is where its mean over the lines
+falls below a share of F_a,max for good; intervals hold 95 % of 1000 resamplings of the lines.
+With wave numbers in 1/m instead of rad/m the same κ* is √(2π) times smaller (kappa_cycles), with
+amplitudes instead of root mean squares √2 times larger (kappa_amplitude).";
+
+/// Arguments of `sweep boundary`.
+#[derive(Args, Debug)]
+#[command(after_help = EXAMPLES)]
+pub struct BoundaryArguments {
+    /// Folder of a merged study with an axis `kappa`
+    #[arg(value_name = "DIR")]
+    pub folder: PathBuf,
+    /// Share of F_a,max below which adhesion counts as vanished; may be given more than once
+    #[arg(long = "level", value_name = "SHARE", value_parser = level)]
+    pub levels: Vec<f64>,
+    /// How it is printed
+    #[arg(long, value_enum, default_value_t = BoundaryFormat::Text)]
+    pub format: BoundaryFormat,
+}
+
+/// How boundaries are printed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum BoundaryFormat {
+    /// A table.
+    Text,
+    /// One object.
+    Json,
+    /// One row for each boundary.
+    Csv,
+}
+
+fn level(text: &str) -> Result<f64, String> {
+    let level = text.trim().parse::<f64>().ok().filter(|level| *level > 0.0 && *level < 1.0);
+    level.ok_or_else(|| "allowed: a share above 0 and below 1, such as 0.05".to_string())
+}
+
+/// Finds the boundaries of a study and prints them.
+pub(super) fn boundary(arguments: &BoundaryArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
+    let levels = if arguments.levels.is_empty() { USUAL_LEVELS.to_vec() } else { arguments.levels.clone() };
+    let boundaries = boundaries(&arguments.folder, &levels)?;
+    match arguments.format {
+        BoundaryFormat::Text => stdout.write_all(text(&boundaries).as_bytes())?,
+        BoundaryFormat::Json => write_json_value(stdout, &object(&boundaries))?,
+        BoundaryFormat::Csv => stdout.write_all(csv(&boundaries).as_bytes())?,
+    }
+    Ok(())
+}
+
+fn protocol(quantity: Quantity) -> &'static str {
+    if quantity == Quantity::ZeroLoadAdhesionShare { "touch" } else { "zero force" }
+}
+
+/// κ*, and its interval where there is one.
+fn shown(kappa: Crossing) -> (String, String) {
+    match kappa {
+        Crossing::At(kappa, interval) => {
+            let interval = interval.map_or_else(String::new, |(low, high)| format!("{low:.2} to {high:.2}"));
+            (format!("{kappa:.2}"), interval)
+        }
+        Crossing::Below(smallest) => (format!("< {smallest:.2}"), String::new()),
+        Crossing::Above(largest) => (format!("> {largest:.2}"), String::new()),
+    }
+}
+
+fn text(boundaries: &Boundaries) -> String {
+    let mut heading = boundaries.others.clone();
+    heading.extend(["protocol", "level", "κ*", "95 %", "q in 1/m"].map(String::from));
+    let mut rows = vec![heading];
+    for Boundary { others, protocol: quantity, level, kappa } in &boundaries.found {
+        let mut row: Vec<String> = others.iter().map(ToString::to_string).collect();
+        let (value, interval) = shown(*kappa);
+        let cycles = match *kappa {
+            Crossing::At(kappa, _) => format!("{:.2}", DEFINITIONS[1].1(kappa)),
+            _ => String::new(),
+        };
+        row.extend([protocol(*quantity).to_string(), level.to_string(), value, interval, cycles]);
+        rows.push(row);
+    }
+    let mut sheet = Sheet::default();
+    sheet.table(&rows);
+    sheet.paragraph(&format!("κ* over {} random lines; the paper gives 0.6.", boundaries.lines));
+    sheet.into_text()
+}
+
+fn object(boundaries: &Boundaries) -> Value {
+    let found = boundaries.found.iter().map(|boundary| {
+        let mut object = Map::new();
+        for (name, value) in boundaries.others.iter().zip(&boundary.others) {
+            object.insert(name.clone(), json!(value));
+        }
+        object.insert("protocol".into(), json!(protocol(boundary.protocol)));
+        object.insert("level".into(), json!(boundary.level));
+        match boundary.kappa {
+            Crossing::At(kappa, interval) => {
+                for (name, other) in DEFINITIONS {
+                    object.insert(name.into(), json!(other(kappa)));
+                }
+                let interval = interval.map(|(low, high)| [low, high]);
+                object.insert("confidence_interval".into(), json!(interval));
+            }
+            Crossing::Below(smallest) => {
+                object.insert("below".into(), json!(smallest));
+            }
+            Crossing::Above(largest) => {
+                object.insert("above".into(), json!(largest));
+            }
+        }
+        Value::Object(object)
+    });
+    json!({ "lines": boundaries.lines, "boundaries": found.collect::<Vec<_>>() })
+}
+
+fn csv(boundaries: &Boundaries) -> String {
+    let mut columns = boundaries.others.clone();
+    columns.extend(["protocol", "level"].map(String::from));
+    columns.extend(DEFINITIONS.map(|(name, _)| name.to_string()));
+    columns.extend(["low", "high", "below", "above"].map(String::from));
+    let mut text = columns.join(",") + "\n";
+    for Boundary { others, protocol: quantity, level, kappa } in &boundaries.found {
+        let mut row: Vec<String> = others.iter().map(ToString::to_string).collect();
+        row.extend([protocol(*quantity).to_string(), level.to_string()]);
+        let numbers = match *kappa {
+            Crossing::At(kappa, interval) => {
+                let mut numbers = DEFINITIONS.map(|(_, other)| Some(other(kappa))).to_vec();
+                numbers.extend([interval.map(|(low, _)| low), interval.map(|(_, high)| high), None, None]);
+                numbers
+            }
+            Crossing::Below(smallest) => vec![None, None, None, None, None, Some(smallest), None],
+            Crossing::Above(largest) => vec![None, None, None, None, None, None, Some(largest)],
+        };
+        row.extend(numbers.into_iter().map(|number| number.map_or_else(String::new, |n| n.to_string())));
+        text += &(row.join(",") + "\n");
+    }
+    text
+}
