@@ -14,7 +14,6 @@ use rand::RngExt;
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use std::collections::BTreeMap;
-use std::f64::consts::TAU;
 use std::path::Path;
 
 /// Shares of F_a,max that are usual.
@@ -61,13 +60,13 @@ pub struct Boundaries {
     pub found: Vec<Boundary>,
 }
 
-/// By how much κ counts otherwise under other definitions of what it is made of.
-pub const DEFINITIONS: [(&str, fn(f64) -> f64); 3] = [
-    ("kappa", |kappa| kappa),
-    // ⟨∇z⟩ is 2π times smaller.
-    ("kappa_cycles", |kappa| kappa / TAU.sqrt()),
-    // h and ⟨∇z⟩ are √2 times larger.
-    ("kappa_amplitude", |kappa| kappa * std::f64::consts::SQRT_2),
+/// By how much κ is another number under other definitions of what it is made of: a name and a factor.
+pub const DEFINITIONS: [(&str, f64); 3] = [
+    ("kappa", 1.0),
+    // Wave numbers in 1/m: ⟨∇z⟩ is 2π times smaller, κ by its root, 1/√(2π).
+    ("kappa_cycles", 0.398_942_280_401_432_7),
+    // Amplitudes in place of root mean squares: h and ⟨∇z⟩ are √2 times larger.
+    ("kappa_amplitude", std::f64::consts::SQRT_2),
 ];
 
 /// Finds the boundaries of a merged study along its axis `kappa`.

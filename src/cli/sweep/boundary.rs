@@ -86,7 +86,7 @@ fn text(boundaries: &Boundaries) -> String {
         let mut row: Vec<String> = others.iter().map(ToString::to_string).collect();
         let (value, interval) = shown(*kappa);
         let cycles = match *kappa {
-            Crossing::At(kappa, _) => format!("{:.2}", DEFINITIONS[1].1(kappa)),
+            Crossing::At(kappa, _) => format!("{:.2}", DEFINITIONS[1].1 * kappa),
             _ => String::new(),
         };
         row.extend([protocol(*quantity).to_string(), level.to_string(), value, interval, cycles]);
@@ -108,8 +108,8 @@ fn object(boundaries: &Boundaries) -> Value {
         object.insert("level".into(), json!(boundary.level));
         match boundary.kappa {
             Crossing::At(kappa, interval) => {
-                for (name, other) in DEFINITIONS {
-                    object.insert(name.into(), json!(other(kappa)));
+                for (name, factor) in DEFINITIONS {
+                    object.insert(name.into(), json!(factor * kappa));
                 }
                 let interval = interval.map(|(low, high)| [low, high]);
                 object.insert("confidence_interval".into(), json!(interval));
@@ -137,7 +137,7 @@ fn csv(boundaries: &Boundaries) -> String {
         row.extend([protocol(*quantity).to_string(), level.to_string()]);
         let numbers = match *kappa {
             Crossing::At(kappa, interval) => {
-                let mut numbers = DEFINITIONS.map(|(_, other)| Some(other(kappa))).to_vec();
+                let mut numbers = DEFINITIONS.map(|(_, factor)| Some(factor * kappa)).to_vec();
                 numbers.extend([interval.map(|(low, _)| low), interval.map(|(_, high)| high), None, None]);
                 numbers
             }
