@@ -176,7 +176,7 @@ impl Shared<'_> {
         loop {
             let index = self.next.fetch_add(1, Ordering::Relaxed);
             let number = index * u64::from(self.shard.count) + u64::from(self.shard.number) - 1;
-            if number >= self.cells.units() || self.ends() {
+            if number >= self.cells.units() || self.failed.load(Ordering::SeqCst) {
                 return;
             }
             let unit = self.cells.unit(number);

@@ -1,0 +1,190 @@
+//! What a parameter study costs: cells that share their line against cells one by one, two jobs against one,
+//! and a great many small cells, all in one run. Costs are also given in real Fourier transforms of as many
+//! points, measured beside.
+//!
+//! `cargo bench --bench sweep` prints the figures and fails where a bar is not kept. After `--`: `--quick` takes
+//! fewer lines and cells. Without `--bench`, as `cargo test --benches` starts it, it only shows that it runs.
+
+use asperity::scene::{Adhesion, Leg, Roughness, Scene};
+use asperity::simulation::Simulation;
+use asperity::sweep::{Changes, Folder, Options, Plan, Shard, merge, run};
+use realfft::RealFftPlanner;
+use std::hint::black_box;
+use std::path::PathBuf;
+use std::process::ExitCode;
+use std::time::Instant;
+
+/// Shared cells must be so many times cheaper.
+const SHARING: f64 = 3.0;
+/// Two jobs must be so many times faster than one.
+const TWO_JOBS: f64 = 1.8;
+/// The study of many small cells is scaled up to so many.
+const MILLION: f64 = 1.0e6;
+
+struct Size {
+    points: u64,
+    hurst: u64,
+    kappas: u64,
+    lines: u64,
+    small_cells: u64,
+    repeats: usize,
+}
+
+fn main() -> ExitCode {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let has = |flag: &str| arguments.iter().any(|argument| argument == flag);
+    let shows_only = has("--test") || !has("--bench");
+    let size = match (shows_only, has("--quick")) {
+        (true, _) => Size { points: 256, hurst: 2, kappas: 2, lines: 2, small_cells: 64, repeats: 1 },
+        (false, true) => {
+            Size { points: 1 << 16, hurst: 2, kappas: 33, lines: 2, small_cells: 10_000, repeats: 2 }
+        }
+        (false, false) => {
+            Size { points: 1 << 16, hurst: 3, kappas: 33, lines: 4, small_cells: 50_000, repeats: 3 }
+        }
+    };
+    let mut kept = true;
+    let mut bar = |name: &str, ratio: f64, least: f64| {
+        let holds = ratio >= least;
+        kept &= holds || shows_only;
+        println!("{name}: {ratio:.2}; the bar of {least} {}", if holds { "holds" } else { "does NOT hold" });
+    };
+
+    let plan = figure(&size);
+    let records = plan.records_in_all() as f64;
+    let fft = transform(size.points as usize, size.repeats);
+    println!(
+        "Fig. 5: {} × {} cells of 2^{} springs, 3 preloads, {} lines; one real transform {:.3} ms",
+        size.hurst,
+        size.kappas,
+        size.points.ilog2(),
+        size.lines,
+        fft * 1e3
+    );
+    let best = |time: &dyn Fn() -> f64| (0..size.repeats).map(|_| time()).fold(f64::INFINITY, f64::min);
+    let shared = best(&|| study(&plan, 1));
+    let two = best(&|| study(&plan, 2));
+    let by_one = best(&|| one_by_one(&plan));
+    let per = |name: &str, seconds: f64| {
+        let each = seconds / records;
+        println!("{name}: {:.3} ms for each record, {:.1} FFTs", each * 1e3, each / fft);
+    };
+    per("one by one", by_one);
+    per("shared, one job", shared);
+    per("shared, two jobs", two);
+    bar("one by one over shared", by_one / shared, SHARING);
+    bar("one job over two", shared / two, TWO_JOBS);
+    println!(
+        "the whole of Fig. 5(b), 17 × 33 × 3 cells on 32 lines, two jobs: {:.0} s",
+        two / records * 53_856.0
+    );
+
+    let plan = small(size.small_cells);
+    let before = peak();
+    let seconds = study(&plan, 2);
+    let after = peak();
+    let each = seconds / plan.records_in_all() as f64;
+    let fft = transform(1 << 10, size.repeats);
+    println!(
+        "\n{} cells of 2^10 springs, two jobs, merged: {:.1} µs each, {:.1} FFTs; 10^6 of them: {:.0} s",
+        plan.cells(),
+        each * 1e6,
+        each / fft,
+        each * MILLION
+    );
+    if let (Some(before), Some(after)) = (before, after) {
+        println!("peak memory {:.1} MiB before, {:.1} MiB after", before / 1024.0, after / 1024.0);
+    }
+    if kept { ExitCode::SUCCESS } else { ExitCode::FAILURE }
+}
+
+/// Fig. 5(b), scaled down.
+fn figure(size: &Size) -> Plan {
+    let text = format!(
+        "(version: 1, base: \"ideal-adhesion\", set: {{\"numerics.points\": \"{}\", \"roughness.modes\": \"(1, {})\"}},
+         axes: [Linear(path: \"roughness.hurst\", from: 0.1, to: 0.9, count: {}),
+                Linear(path: \"kappa\", from: 0.2, to: 6.6, count: {})],
+         preloads: [0.01, 0.1, 1.0], lines: {},
+         record: [adhesion_coefficient, adhesion_force, zero_load_adhesion_share, regime])",
+        size.points,
+        size.points / 8,
+        size.hurst,
+        size.kappas,
+        size.lines
+    );
+    Plan::parse(&text, "figure", &Changes::default()).unwrap_or_else(|errors| panic!("{errors}"))
+}
+
+/// Many small cells on one line.
+fn small(cells: u64) -> Plan {
+    let text = format!(
+        "(version: 1, base: \"ideal-adhesion\", set: {{\"numerics.points\": \"1024\", \"roughness.modes\": \"(1, 128)\"}},
+         axes: [List(path: \"roughness.hurst\", values: [0.3, 0.7]),
+                Linear(path: \"kappa\", from: 0.2, to: 6.6, count: {})],
+         preloads: [0.1], record: [adhesion_coefficient, adhesion_force])",
+        cells / 2
+    );
+    Plan::parse(&text, "small", &Changes::default()).unwrap_or_else(|errors| panic!("{errors}"))
+}
+
+/// Seconds of a study from an empty folder to its tables.
+fn study(plan: &Plan, jobs: usize) -> f64 {
+    let place = tempfile::tempdir().unwrap_or_else(|error| panic!("{error}"));
+    let clock = Instant::now();
+    let done = Folder::create(place.path(), plan).and_then(|folder| {
+        run(&folder, Options { jobs, shard: Shard::WHOLE }, &|| false, &mut |_| ())?;
+        merge(&folder, false)
+    });
+    done.unwrap_or_else(|error| panic!("{error}"));
+    clock.elapsed().as_secs_f64()
+}
+
+/// Seconds of the same cells, each a scene of its own that nothing is kept from, as by a script that calls the
+/// program for each of them, but without the start of a process.
+fn one_by_one(plan: &Plan) -> f64 {
+    let clock = Instant::now();
+    // Lines cost alike: one of them is enough.
+    let lines = 1;
+    for line in 0..lines {
+        for cell in 0..plan.cells() {
+            let values = plan.values(cell);
+            let mut scene: Scene = plan.scene.clone();
+            scene.adhesion = Some(Adhesion { work: None, kappa: Some(values[1]) });
+            let Some(Roughness::SelfAffine { hurst, seed, rms_height, .. }) = &mut scene.roughness else {
+                continue;
+            };
+            (*hurst, *seed) = (values[0], plan.seed_of(line));
+            let unit = scene.material.effective_modulus() * rms_height.unwrap_or(1.0) * scene.length;
+            scene.loading = vec![Leg::ToForce(values[2] * unit), Leg::ToSeparation];
+            scene.numerics.samples = 2;
+            let mut simulation = Simulation::new(PathBuf::new());
+            let outcome = simulation.run(&scene, &|| false, &mut |_, _, _| Ok(()));
+            black_box(outcome.unwrap_or_else(|error| panic!("{error}")));
+        }
+    }
+    clock.elapsed().as_secs_f64() * plan.lines as f64 / lines as f64
+}
+
+/// Seconds of one real transform.
+fn transform(points: usize, repeats: usize) -> f64 {
+    let plan = RealFftPlanner::<f64>::new().plan_fft_forward(points);
+    let mut input: Vec<f64> = (0..points).map(|index| (index as f64).sin()).collect();
+    let mut output = plan.make_output_vec();
+    let mut scratch = plan.make_scratch_vec();
+    (0..10 * repeats)
+        .map(|_| {
+            let clock = Instant::now();
+            let done = plan.process_with_scratch(&mut input, &mut output, &mut scratch);
+            let seconds = clock.elapsed().as_secs_f64();
+            black_box(done.is_ok());
+            seconds
+        })
+        .fold(f64::INFINITY, f64::min)
+}
+
+/// Most memory this process has had, KiB, where the system tells.
+fn peak() -> Option<f64> {
+    let status = std::fs::read_to_string("/proc/self/status").ok()?;
+    let line = status.lines().find(|line| line.starts_with("VmHWM:"))?;
+    line.split_whitespace().nth(1)?.parse().ok()
+}

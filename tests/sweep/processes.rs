@@ -1,0 +1,167 @@
+//! Processes that are killed, stopped, or run out of disk: nothing is lost, nothing is counted twice.
+
+use super::{plan, tables, undisturbed};
+use asperity::sweep::{Folder, Status};
+use std::fs;
+use std::path::Path;
+use std::process::{Child, Command, Output, Stdio};
+use std::thread::sleep;
+use std::time::{Duration, Instant};
+
+/// Long enough to be killed in the middle.
+fn text() -> String {
+    super::SMALL
+        .replace("count: 4", "count: 12")
+        .replace("lines: 3", "lines: 6")
+        .replace("points: 256", "points: 2048")
+        .replace("modes: (1, 64)", "modes: (1, 512)")
+}
+
+fn command(folder: &Path) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_asperity"));
+    command.arg("sweep").arg(folder.join("plan-of-test.ron")).arg("-o").arg(folder.join("study"));
+    command.stdout(Stdio::piped()).stderr(Stdio::piped());
+    command
+}
+
+fn place() -> tempfile::TempDir {
+    let place = tempfile::tempdir().unwrap();
+    fs::write(place.path().join("plan-of-test.ron"), text()).unwrap();
+    place
+}
+
+fn finish(mut command: Command) -> Output {
+    command.output().unwrap()
+}
+
+fn done(place: &Path) -> u64 {
+    Folder::open(&place.join("study")).map_or(0, |folder| Status::of(&folder).unwrap().done)
+}
+
+/// Waits until a study has so many records, or its process has ended.
+fn wait_for(child: &mut Child, place: &Path, records: u64) {
+    let clock = Instant::now();
+    while done(place) < records && child.try_wait().unwrap().is_none() {
+        assert!(clock.elapsed() < Duration::from_secs(120));
+        sleep(Duration::from_millis(2));
+    }
+}
+
+fn check_whole(place: &Path) {
+    let folder = Folder::open(&place.join("study")).unwrap();
+    assert_eq!(tables(&folder), undisturbed(&plan(&text())));
+}
+
+#[test]
+fn killed_at_random_moments_it_goes_on() {
+    let place = place();
+    let total = plan(&text()).records_in_all();
+    let mut kills = 0;
+    for share in [7, 2, 5, 3] {
+        let mut child = command(place.path()).spawn().unwrap();
+        let there = done(place.path());
+        wait_for(&mut child, place.path(), there + (total - there) / share);
+        // SIGKILL.
+        child.kill().unwrap();
+        kills += u32::from(!child.wait().unwrap().success());
+    }
+    assert!(kills >= 2, "{kills}");
+    let output = finish(command(place.path()));
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    check_whole(place.path());
+}
+
+#[test]
+fn told_to_stop_it_ends_cleanly() {
+    for signal in [rustix::process::Signal::INT, rustix::process::Signal::TERM] {
+        let place = place();
+        let mut child = command(place.path()).spawn().unwrap();
+        wait_for(&mut child, place.path(), 20);
+        rustix::process::kill_process(rustix::process::Pid::from_child(&child), signal).unwrap();
+        let output = child.wait_with_output().unwrap();
+        let told = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(1), "{told}");
+        assert!(told.contains("records are there; the same command goes on from here"), "{told}");
+        let folder = Folder::open(&place.path().join("study")).unwrap();
+        assert_eq!(Status::of(&folder).unwrap().damaged, 0);
+        assert!(finish(command(place.path())).status.success());
+        check_whole(place.path());
+    }
+}
+
+#[test]
+fn two_processes_may_be_given_the_same_shard() {
+    let place = place();
+    let shard = |name: &str| {
+        let mut command = command(place.path());
+        command.args(["--shard", name]);
+        command.spawn().unwrap()
+    };
+    let children: Vec<_> = ["1/2", "2/2", "1/2"].into_iter().map(shard).collect();
+    for child in children {
+        let output = child.wait_with_output().unwrap();
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    }
+    let study = place.path().join("study");
+    let merge =
+        Command::new(env!("CARGO_BIN_EXE_asperity")).args(["sweep", "merge"]).arg(&study).output().unwrap();
+    assert!(merge.status.success(), "{}", String::from_utf8_lossy(&merge.stderr));
+    let shards = Status::of(&Folder::open(&study).unwrap()).unwrap().shards;
+    assert_eq!(shards.iter().map(|shard| shard.shard.as_str()).collect::<Vec<_>>(), ["1/2", "2/2"]);
+    check_whole(place.path());
+}
+
+#[test]
+fn a_full_disk_is_told_and_loses_nothing() {
+    let place = place();
+    // A file may not grow beyond 16 blocks of 512 bytes; the signal for it is left out, as where a disk is full.
+    let inner = command(place.path());
+    let mut words = vec![inner.get_program().to_owned()];
+    words.extend(inner.get_args().map(std::ffi::OsStr::to_owned));
+    let mut limited = Command::new("sh");
+    limited.arg("-c").arg("trap '' XFSZ; ulimit -f 16; exec \"$@\"").arg("sh").args(words);
+    let output = limited.output().unwrap();
+    let told = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(1), "{told}");
+    assert!(told.contains(".shard: cannot be written: File too large"), "{told}");
+    let there = done(place.path());
+    assert!(there > 10 && there < plan(&text()).records_in_all(), "{there}");
+    let folder = Folder::open(&place.path().join("study")).unwrap();
+    assert!(Status::of(&folder).unwrap().damaged <= 1);
+    assert!(finish(command(place.path())).status.success());
+    check_whole(place.path());
+}
+
+#[test]
+fn too_little_memory_is_refused_and_some_keeps_threads_down() {
+    let place = place();
+    let with = |size: &str| {
+        let mut command = command(place.path());
+        command.args(["--memory", size, "--jobs", "64", "--check"]);
+        finish(command)
+    };
+    let refused = with("1M");
+    assert_eq!(refused.status.code(), Some(1));
+    assert!(String::from_utf8_lossy(&refused.stderr).contains("with one thread"));
+    let fewer = with("17M");
+    let told = String::from_utf8_lossy(&fewer.stdout);
+    assert!(told.contains("fewer than 64 for want of memory"), "{told}");
+    assert!(!place.path().join("study").exists());
+}
+
+#[test]
+fn where_a_study_cannot_be_is_told() {
+    let place = place();
+    fs::write(place.path().join("study"), "a file").unwrap();
+    let output = finish(command(place.path()));
+    assert_eq!(output.status.code(), Some(1));
+    assert!(String::from_utf8_lossy(&output.stderr).contains("study: cannot be written"));
+    let output = Command::new(env!("CARGO_BIN_EXE_asperity"))
+        .args(["sweep", "merge"])
+        .arg(place.path())
+        .output()
+        .unwrap();
+    assert_eq!(output.status.code(), Some(1));
+    let told = String::from_utf8_lossy(&output.stderr);
+    assert!(told.contains("this is not the folder of a study: there is no plan.ron in it"), "{told}");
+}

@@ -1,0 +1,90 @@
+//! What is wrong with a plan is told before anything runs.
+
+use super::SMALL;
+use asperity::sweep::{Changes, Plan};
+use std::time::Instant;
+
+fn wrong(text: &str) -> String {
+    Plan::parse(text, "p.ron", &Changes::default()).expect_err(text).to_string()
+}
+
+#[test]
+fn each_mistake_has_its_message() {
+    for (from, to, said) in [
+        ("axes:", "axis:", "p.ron:12:5: axis: no such field; did you mean axes?"),
+        ("Linear(", "Liner(", "p.ron:13:9: Liner: allowed: Linear, Logarithmic, List (did you mean Linear?)"),
+        ("from: 0.5", "form: 0.5", "form: no such field; did you mean from?"),
+        ("lines: 3", "lines: three", "p.ron:18:12: a whole number is expected here"),
+        ("lines: 3", "lines: 0", "p.ron: lines = 0: allowed: from 1 to 1000000"),
+        ("lines: 3", "lines: 1000001", "lines = 1000001: allowed: from 1 to 1000000"),
+        ("regime,", "regimes,", "(did you mean regime?)"),
+        ("regime,", "regime, regime,", "record: regime is given twice"),
+        ("version: 1,\n    title", "version: 2,\n    title", "version = 2: allowed: 1"),
+        (
+            "preloads: [0.01, 0.3]",
+            "preloads: [0.0, 0.3]",
+            "preload 0.0: allowed: above 0, in units of E* h L",
+        ),
+        ("preloads: [0.01, 0.3]", "preloads: [0.3, 0.3]", "axis preload: the value 0.3 stands there twice"),
+        ("preloads: [0.01, 0.3]", "preloads: [0.3, NaN]", "values must be finite"),
+        ("\"roughness.hurst\"", "\"roughness.hurts\"", "did you mean roughness.hurst?"),
+        ("\"roughness.hurst\"", "\"form.radius\"", "the form of the scene has no such number"),
+        ("\"roughness.hurst\"", "\"kappa\"", "axis kappa: given twice"),
+        ("\"roughness.hurst\"", "\"loading.7.0\"", "the scene has 2 legs, the first is 0"),
+        ("\"roughness.hurst\"", "\"preload\"", "preloads are given twice"),
+        ("[0.8, 0.3]", "[]", "no values; allowed: at least one"),
+        ("[0.8, 0.3]", "[0.8, 1.3]", "cell 4 (kappa = 0.5, roughness.hurst = 1.3, "),
+        ("[0.8, 0.3]", "[0.8, 1.3]", "roughness.hurst = 1.3: allowed: above 0 and below 1 (Hurst exponent)"),
+        ("from: 0.5, to: 5.0", "from: 5.0, to: 0.5", "from 5.0 to 0.5: it must begin below its end"),
+        ("count: 4", "count: 1", "count = 1: allowed: from 2 to 1000000"),
+        ("scene: (", "base: \"jkr-sphere\", scene: (", "`base` and `scene` are given"),
+        ("points: 256", "points: 16", "roughness.modes = (1, 64): allowed: last mode at most points/2 = 8"),
+    ] {
+        let text = SMALL.replacen(from, to, 1);
+        assert_ne!(text, SMALL);
+        let told = wrong(&text);
+        assert!(told.contains(said), "{to}: {told}");
+        assert!(told.lines().all(|line| line.starts_with("p.ron")), "{told}");
+    }
+    let smooth = "(version: 1, base: \"jkr-sphere\", preloads: [0.1], lines: 2, record: [regime])";
+    let told = wrong(smooth);
+    assert!(told.contains("this scene is smooth; allowed: an axis loading.0.0, in N"), "{told}");
+    assert!(told.contains("lines = 2: several lines go with roughness: SelfAffine"), "{told}");
+    let told = wrong(&SMALL[..SMALL.len() / 2]);
+    assert!(told.starts_with("p.ron:"), "{told}");
+}
+
+#[test]
+fn too_many_cells_are_refused_at_once() {
+    let clock = Instant::now();
+    let text = SMALL.replace("count: 4", "count: 1000000");
+    let told = wrong(&text.replace("values: [1.0e6, 2.0e6]", "values: [1.0e6, 2.0e6, 3.0e6]"));
+    assert!(told.contains("1000000 × 2 × 3 × 2 cells; allowed: at most 10000000"), "{told}");
+    let told = wrong(&text.replace("lines: 3", "lines: 1000000"));
+    assert!(told.contains("on 1000000 lines; allowed: at most 100000000 together"), "{told}");
+    let told = wrong(&SMALL.replace("count: 4", "count: 18446744073709551615"));
+    assert!(told.contains("allowed: from 2 to 1000000"), "{told}");
+    assert!(clock.elapsed().as_secs() < 20, "nothing is gone through");
+}
+
+#[test]
+fn scenes_stand_beside_their_plans() {
+    let place = tempfile::tempdir().unwrap();
+    let folder = place.path();
+    let preset = asperity::scene::find("rough-sphere").unwrap().text;
+    std::fs::write(folder.join("mine.ron"), preset).unwrap();
+    let text =
+        "(version: 1, base: \"mine.ron\", set: {\"roughness.seed\": \"7\"}, lines: 2, record: [regime])";
+    std::fs::write(folder.join("plan.ron"), text).unwrap();
+    let open = |name: &str| Plan::open(folder.join(name).to_str().unwrap(), &Changes::default());
+    let plan = open("plan.ron").unwrap();
+    assert_eq!((plan.seed, plan.cells()), (7, 1));
+    let changes = Changes { set: vec![("roughness.hurst".into(), "1.5".into())], lines: None };
+    let told = Plan::open(folder.join("plan.ron").to_str().unwrap(), &changes).unwrap_err().to_string();
+    assert!(told.contains("roughness.hurst = 1.5: allowed: above 0 and below 1"), "{told}");
+    std::fs::write(folder.join("lost.ron"), text.replace("mine", "other")).unwrap();
+    assert!(open("lost.ron").unwrap_err().to_string().contains("other.ron"));
+    assert!(open("none.ron").unwrap_err().to_string().contains("cannot be read"));
+    let told = Plan::open("figure5a", &Changes::default()).unwrap_err().to_string();
+    assert!(told.contains("did you mean figure-5a?"), "{told}");
+}
