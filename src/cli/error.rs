@@ -5,7 +5,8 @@ use crate::ensemble::EnsembleError;
 use crate::export::WriteError;
 use crate::scene::SceneErrors;
 use crate::simulation::RunError;
-use crate::sweep::SweepError;
+use crate::sweep::slurm::SlurmError;
+use crate::sweep::{FigureError, SweepError};
 use std::io;
 use thiserror::Error;
 
@@ -88,6 +89,12 @@ pub enum CliError {
     /// A study could not go on.
     #[error(transparent)]
     Sweep(#[from] SweepError),
+    /// A study was not submitted to a cluster.
+    #[error(transparent)]
+    Slurm(#[from] SlurmError),
+    /// A figure of a study cannot be drawn.
+    #[error(transparent)]
+    Figure(#[from] FigureError),
     /// A study was told to stop.
     #[error("stopped: {done} of {total} records are there; the same command goes on from here")]
     Stopped {

@@ -12,6 +12,7 @@ mod json;
 mod json_text;
 pub(crate) mod sheet;
 mod summary;
+mod sweep_figure;
 mod verdict;
 mod work_precision;
 
@@ -23,4 +24,5 @@ pub use ensemble::{ensemble_text, write_ensemble_csv, write_ensemble_json};
 pub use json::{write_chosen_json, write_json};
 pub use json_text::write_json_value;
 pub use summary::summary;
+pub use sweep_figure::{Colours, figure_svg, figure_text};
 pub use work_precision::work_precision_svg;

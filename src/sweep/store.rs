@@ -21,7 +21,7 @@ pub const STORE_VERSION: u32 = 1;
 /// Longest line of a shard file; records are much shorter.
 const LONGEST_LINE: u64 = 1 << 16;
 
-const PLAN: &str = "plan.ron";
+pub(super) const PLAN: &str = "plan.ron";
 const SHARDS: &str = "shards";
 /// Ending of a shard file.
 const ENDING: &str = "shard";

@@ -3,15 +3,19 @@
 mod boundary;
 mod merge;
 mod plans;
+mod plot;
 mod progress;
 mod run;
 mod status;
+mod submit;
 
 pub use boundary::BoundaryArguments;
 pub use merge::MergeArguments;
 pub use plans::PlansArguments;
+pub use plot::PlotArguments;
 pub use run::SweepRunArguments;
 pub use status::StatusArguments;
+pub use submit::SubmitArguments;
 
 use super::CliError;
 use clap::{Args, Subcommand};
@@ -25,6 +29,9 @@ Examples:
   asperity sweep status study                       How far it is
   asperity sweep merge study                        results.csv, summary.csv and results.json
   asperity sweep boundary study                     κ at which F_a(0) vanishes, for each H
+  asperity sweep plot study -o map.svg              A phase map, or a section
+  asperity sweep submit my-plan.ron -o study --shards 100
+                                                    The same on a Slurm cluster
 
 A run that computes everything merges by itself. Ctrl-C stops after the present cells; nothing is lost, and
 the same command goes on.";
@@ -50,6 +57,10 @@ pub enum SweepCommand {
     Status(StatusArguments),
     /// Find the κ at which adhesion without a preload vanishes
     Boundary(BoundaryArguments),
+    /// Draw a merged study: a map over two axes, or a section along one
+    Plot(PlotArguments),
+    /// Let a Slurm cluster compute a plan: an array of tasks, and a merge after them
+    Submit(SubmitArguments),
     /// List the built-in plans, or print one of them
     Plans(PlansArguments),
 }
@@ -60,6 +71,8 @@ pub(super) fn sweep(arguments: &SweepArguments, stdout: &mut dyn Write) -> Resul
         Some(SweepCommand::Merge(arguments)) => merge::merge(arguments, stdout),
         Some(SweepCommand::Status(arguments)) => status::status(arguments, stdout),
         Some(SweepCommand::Boundary(arguments)) => boundary::boundary(arguments, stdout),
+        Some(SweepCommand::Plot(arguments)) => plot::plot(arguments, stdout),
+        Some(SweepCommand::Submit(arguments)) => submit::submit(arguments, stdout),
         Some(SweepCommand::Plans(arguments)) => plans::plans(arguments, stdout),
         None => run::run(&arguments.run, stdout),
     }

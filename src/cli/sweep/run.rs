@@ -49,7 +49,7 @@ const KEPT: u64 = 20;
 const LONGEST_KEPT: u64 = 1 << 22;
 
 /// Bytes as people write them.
-fn size(text: &str) -> Result<u64, String> {
+pub(super) fn size(text: &str) -> Result<u64, String> {
     let allowed = || "allowed: a size such as 500M, 2G or 1.5GiB".to_owned();
     let text = text.trim();
     let digits = text.find(|c: char| !(c.is_ascii_digit() || c == '.')).unwrap_or(text.len());

@@ -1,0 +1,96 @@
+//! `asperity sweep plot`: figures of a merged study.
+
+use crate::cli::{CliError, OutputArguments};
+use crate::export::{Colours, figure_svg, figure_text};
+use crate::sweep::figure::AxisScale;
+use crate::sweep::{Finished, Selection};
+use clap::Args;
+use std::io::{self, IsTerminal, Write};
+use std::path::PathBuf;
+
+const EXAMPLES: &str = "\
+Examples:
+  asperity sweep plot study                          A figure for the terminal
+  asperity sweep plot study -o map.svg               ... and one for a paper
+  asperity sweep plot study --at roughness.hurst=0.3 A section along the axis that is left
+  asperity sweep plot study --quantity adhesion_force --x kappa --y roughness.hurst
+
+Two free axes make a map: colours are means, signs are regimes, and the line is where adhesion without a load
+vanishes. One free axis makes a section: the mean with its 95 % confidence, and in a corner on a logarithmic
+scale where it spans decades. A second axis of up to five values makes several curves.";
+
+/// Columns of text where there is no terminal.
+const COLUMNS: usize = 80;
+
+/// Arguments of `sweep plot`.
+#[derive(Args, Debug)]
+#[command(after_help = EXAMPLES)]
+pub struct PlotArguments {
+    /// Folder of the study
+    #[arg(value_name = "DIR")]
+    pub folder: PathBuf,
+    /// Quantity that is drawn, as often as there are panels; left out: F_a(0) and F_a/F_n, or the first
+    #[arg(long = "quantity", value_name = "NAME")]
+    pub quantities: Vec<String>,
+    /// Axis across
+    #[arg(long = "x", value_name = "AXIS")]
+    pub across: Option<String>,
+    /// Axis up
+    #[arg(long = "y", value_name = "AXIS")]
+    pub up: Option<String>,
+    /// Fix an axis at one of its values, as often as needed
+    #[arg(long, value_name = "AXIS=VALUE", value_parser = fixed)]
+    pub at: Vec<(String, String)>,
+    /// Draw quantities on a logarithmic scale
+    #[arg(long)]
+    pub log: bool,
+    /// Text rather than SVG; so it is where no FILE is given
+    #[arg(long)]
+    pub text: bool,
+    /// The file that is written.
+    #[command(flatten)]
+    pub output: OutputArguments,
+}
+
+fn fixed(text: &str) -> Result<(String, String), String> {
+    let parts = text.split_once('=').map(|(axis, value)| (axis.trim(), value.trim()));
+    let parts = parts.filter(|(axis, value)| !axis.is_empty() && !value.is_empty());
+    let owned = parts.map(|(axis, value)| (axis.to_owned(), value.to_owned()));
+    owned.ok_or_else(|| "allowed: AXIS=VALUE, such as roughness.hurst=0.3".into())
+}
+
+/// Draws a study.
+pub(super) fn plot(arguments: &PlotArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
+    let study = Finished::open(&arguments.folder)?;
+    let selection = Selection {
+        quantities: arguments.quantities.clone(),
+        across: arguments.across.clone(),
+        up: arguments.up.clone(),
+        at: arguments.at.clone(),
+        scale: if arguments.log { AxisScale::Logarithmic } else { AxisScale::Linear },
+    };
+    let figure = selection.figure(&study)?;
+    let to_file = arguments.output.file().is_some();
+    // `-o -` is an SVG into a pipe.
+    let picture = if arguments.text || arguments.output.output.is_none() {
+        let terminal = !to_file && io::stdout().is_terminal();
+        let size = crossterm::terminal::size().ok().filter(|_| terminal);
+        let columns = size.map_or(COLUMNS, |(columns, _)| usize::from(columns));
+        figure_text(&figure, columns, if terminal { colours() } else { Colours::None })
+    } else {
+        figure_svg(&figure)
+    };
+    arguments.output.write(stdout, |out| out.write_all(picture.as_bytes()))
+}
+
+/// What the environment says of the terminal's colours.
+fn colours() -> Colours {
+    let value = |name| std::env::var(name).unwrap_or_default();
+    if !value("NO_COLOR").is_empty() || value("TERM") == "dumb" {
+        Colours::None
+    } else if ["truecolor", "24bit"].contains(&value("COLORTERM").as_str()) {
+        Colours::All
+    } else {
+        Colours::Palette
+    }
+}

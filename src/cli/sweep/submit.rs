@@ -1,0 +1,120 @@
+//! `asperity sweep submit`: a study as jobs of a Slurm cluster.
+
+use super::run::size;
+use crate::cli::{CliError, Overrides};
+use crate::export::write_new;
+use crate::sweep::slurm::{Submission, array_size, word};
+use crate::sweep::{Changes, Folder, Plan, SweepError};
+use clap::Args;
+use std::ffi::OsString;
+use std::fs;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+const EXAMPLES: &str = "\
+Examples:
+  asperity sweep submit figure-5b -o study --shards 100 --dry-run
+  asperity sweep submit figure-5b -o study --shards 100 -- --partition=short --cpus-per-task=8 --time=2:00:00
+
+One task of the array computes one shard, on as many threads as it has processors; the merge waits for all of
+them. A killed program is started again within its task, a task whose node is lost on another node, and both
+go on where the results end. Whatever is computed twice is counted once. The folder must be seen by all nodes;
+the jobs' scripts and messages are in DIR/slurm.
+
+Without a scheduler, GNU parallel does it on this machine, or with --sshlogin on others that see the folder:
+  asperity sweep my-plan.ron -o study --check
+  seq 8 | parallel --joblog shards.log --resume-failed --retries 3 \\
+    asperity sweep my-plan.ron -o study --shard {}/8 --jobs 1 && asperity sweep merge study
+The same line goes on with what has failed.";
+
+/// Arguments of `sweep submit`.
+#[derive(Args, Debug)]
+#[command(after_help = EXAMPLES)]
+pub struct SubmitArguments {
+    /// A plan file, or the name of a built-in plan
+    pub plan: String,
+    /// Folder of the study, on a file system that all nodes see; made where it is not there
+    #[arg(short, long, value_name = "DIR")]
+    pub output: PathBuf,
+    /// Parts the plan is cut into, one task each
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=1_000_000))]
+    pub shards: u64,
+    /// Most tasks that run at the same time
+    #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u64).range(1..=1_000_000))]
+    pub at_once: Option<u64>,
+    /// How often a task starts its program again after that was killed
+    #[arg(long, value_name = "COUNT", default_value_t = 3, value_parser = clap::value_parser!(u32).range(0..=1000))]
+    pub retries: u32,
+    /// Most memory for a task: 500M, 2G
+    #[arg(long, value_name = "SIZE", value_parser = size)]
+    pub memory: Option<u64>,
+    /// Random lines of each cell, in place of what the plan says
+    #[arg(long, value_name = "COUNT")]
+    pub lines: Option<u64>,
+    /// Print the scripts and the commands; write and submit nothing
+    #[arg(long)]
+    pub dry_run: bool,
+    /// What is changed in the scene of the plan.
+    #[command(flatten)]
+    pub overrides: Overrides,
+    /// Options of sbatch for both jobs, after --
+    #[arg(last = true, value_name = "SBATCH OPTIONS")]
+    pub options: Vec<OsString>,
+}
+
+/// Submits a study, or tells how that would be done.
+pub(super) fn submit(arguments: &SubmitArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
+    let changes = Changes { set: arguments.overrides.set.clone(), lines: arguments.lines };
+    let plan = Plan::open(&arguments.plan, &changes).map_err(SweepError::from)?;
+    let absolute = |path: &Path| std::path::absolute(path).unwrap_or_else(|_| path.to_path_buf());
+    let memory = arguments.memory.map(|bytes| [OsString::from("--memory"), bytes.to_string().into()]);
+    let submission = Submission {
+        program: std::env::current_exe()?,
+        folder: absolute(&arguments.output),
+        shards: arguments.shards,
+        at_once: arguments.at_once,
+        retries: arguments.retries,
+        arguments: memory.into_iter().flatten().collect(),
+        options: arguments.options.clone(),
+    };
+    submission.check(array_size())?;
+    if arguments.dry_run {
+        return Ok(tell(&submission, stdout)?);
+    }
+    let folder = Folder::create(&arguments.output, &plan)?;
+    let own = submission.own_folder();
+    fs::create_dir_all(&own)
+        .map_err(|error| SweepError::Folder { path: own, reason: format!("cannot be made: {error}") })?;
+    for (path, script) in [
+        (submission.shard_path(), submission.shard_script()),
+        (submission.merge_path(), submission.merge_script()),
+    ] {
+        write_new(&path, true, |out| out.write_all(script.as_bytes()))?;
+    }
+    let jobs = submission.submit()?;
+    // What sbatch warns of is no result.
+    let _ = write!(io::stderr(), "{}", jobs.notes);
+    let (array, merge) = (&jobs.array, &jobs.merge);
+    let path = folder.path().display();
+    let tasks = if arguments.shards == 1 { "1 task".into() } else { format!("{} tasks", arguments.shards) };
+    writeln!(stdout, "job {array}: {tasks}; job {merge}: the merge after them")?;
+    writeln!(stdout, "squeue --jobs={array},{merge}, or asperity sweep status {path}, tells how far they are")?;
+    Ok(())
+}
+
+/// Prints what would be written and run.
+fn tell(submission: &Submission, stdout: &mut dyn Write) -> io::Result<()> {
+    for (path, script) in [
+        (submission.shard_path(), submission.shard_script()),
+        (submission.merge_path(), submission.merge_script()),
+    ] {
+        writeln!(stdout, "==> {} <==\n{script}", path.display())?;
+    }
+    let command = |arguments: Vec<OsString>| {
+        let words: Vec<_> = arguments.iter().map(word).collect();
+        format!("sbatch {}", words.join(" "))
+    };
+    writeln!(stdout, "==> commands <==")?;
+    writeln!(stdout, "{}", command(submission.array_arguments()))?;
+    writeln!(stdout, "{}", command(submission.merge_arguments("ARRAY")))
+}

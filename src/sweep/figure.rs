@@ -1,0 +1,138 @@
+//! What a figure of a sweep shows: a map over two axes, or a section along one. It knows numbers and their
+//! names; how they are drawn is the export's.
+
+use crate::analysis::Regime;
+
+/// An axis of a figure.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FigureAxis {
+    /// Its name in the terms of the field: `Hurst exponent`.
+    pub name: String,
+    /// Its symbol, with `_` before what stands below the line: `F_n`. Empty where it has none.
+    pub symbol: String,
+    /// SI unit; `1` or empty for numbers without one.
+    pub unit: String,
+    /// How values lie on it.
+    pub scale: AxisScale,
+    /// Its values in SI units, ascending.
+    pub values: Vec<f64>,
+}
+
+/// How values lie on an axis.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum AxisScale {
+    /// In proportion.
+    Linear,
+    /// Equal ratios are equal distances; all values are above zero.
+    Logarithmic,
+}
+
+impl AxisScale {
+    /// Where a number stands: itself, or its decimal logarithm.
+    #[must_use]
+    pub fn coordinate(self, number: f64) -> f64 {
+        if self == AxisScale::Logarithmic { number.log10() } else { number }
+    }
+
+    /// The number that stands at a coordinate.
+    #[must_use]
+    pub fn number(self, coordinate: f64) -> f64 {
+        if self == AxisScale::Logarithmic { 10_f64.powf(coordinate) } else { coordinate }
+    }
+}
+
+impl FigureAxis {
+    /// Where its values stand.
+    #[must_use]
+    pub fn coordinates(&self) -> Vec<f64> {
+        self.values.iter().map(|value| self.scale.coordinate(*value)).collect()
+    }
+}
+
+/// A quantity that is shown.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FigureQuantity {
+    /// Its name in the terms of the field.
+    pub name: String,
+    /// Its symbol, as in [`FigureAxis::symbol`].
+    pub symbol: String,
+    /// SI unit, as in [`FigureAxis::unit`].
+    pub unit: String,
+}
+
+/// A mean over random lines with its confidence.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Estimate {
+    /// The mean.
+    pub mean: f64,
+    /// Lower end of the 95 % confidence interval of the mean.
+    pub low: f64,
+    /// Its upper end.
+    pub high: f64,
+}
+
+/// One quantity in all cells; `None` in those that are missing or do not have it. In a map row by row, the
+/// row of the first value of the axis up first; in a section curve by curve.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Panel {
+    /// What is shown.
+    pub quantity: FigureQuantity,
+    /// Its values.
+    pub estimates: Vec<Option<Estimate>>,
+}
+
+/// Where adhesion without a load vanishes: where these values fall through the level.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Boundary {
+    /// F_a(0) in all cells, in the order of [`Panel::estimates`].
+    pub values: Vec<Option<f64>>,
+    /// Below this it has vanished.
+    pub level: f64,
+    /// What the line is: `F_a(0) = 0.05 F_a,max`.
+    pub label: String,
+}
+
+/// A figure.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Figure {
+    /// One line above it; may be empty.
+    pub title: String,
+    /// Axes that are fixed, as `H = 0.3`.
+    pub fixed: Vec<String>,
+    /// The axis across.
+    pub across: FigureAxis,
+    /// The axis up; a section has none.
+    pub up: Option<FigureAxis>,
+    /// The axis of the curves of a section, where there are several: one for each value.
+    pub series: Option<FigureAxis>,
+    /// What is shown, side by side.
+    pub panels: Vec<Panel>,
+    /// Where adhesion without a load vanishes, where that is known.
+    pub boundary: Option<Boundary>,
+    /// The regime of most lines of each cell, where that is known; empty otherwise.
+    pub regimes: Vec<Option<Regime>>,
+    /// How the quantities lie on their scale.
+    pub scale: AxisScale,
+}
+
+impl Figure {
+    /// Points on the axis across, in its coordinates, where a section crosses the boundary.
+    #[must_use]
+    pub fn crossings(&self) -> Vec<f64> {
+        let Some(boundary) = self.boundary.as_ref().filter(|_| self.up.is_none()) else { return Vec::new() };
+        let places = self.across.coordinates();
+        // Without a load all curves have the same; where they do not, there is no one place.
+        let mut curves = boundary.values.chunks(places.len().max(1));
+        let first = curves.next();
+        if curves.any(|curve| Some(curve) != first) {
+            return Vec::new();
+        }
+        let ends = places.windows(2).zip(first.unwrap_or_default().windows(2));
+        ends.filter_map(|(x, value)| {
+            let (first, second) = (value[0]? - boundary.level, value[1]? - boundary.level);
+            let crosses = (first < 0.0) != (second < 0.0);
+            crosses.then(|| x[0] + (x[1] - x[0]) * first / (first - second))
+        })
+        .collect()
+    }
+}
