@@ -19,7 +19,7 @@ use std::process::{Child, Command, Output, Stdio};
 use std::time::{Duration, Instant};
 
 const ASPERITY: &str = env!("CARGO_BIN_EXE_asperity");
-const CLUSTER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/slurm/cluster.sh");
+const CLUSTER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/slurm_cluster/cluster.sh");
 
 /// Small, but its cells take long enough to be killed in: about a tenth of a second each.
 const PLAN: &str = r#"(
@@ -120,7 +120,8 @@ impl Cluster {
         let mut submit = self.command(ASPERITY);
         submit.args(["sweep", "submit"]).arg(plan).arg("-o").arg(self.path(folder)).args(options);
         let said = succeeded(&mut submit);
-        let numbers: Vec<_> = said.split(|c: char| !c.is_ascii_digit()).filter(|word| !word.is_empty()).collect();
+        let numbers: Vec<_> =
+            said.split(|c: char| !c.is_ascii_digit()).filter(|word| !word.is_empty()).collect();
         // job ARRAY: TASKS tasks; job MERGE: …
         (numbers[0].to_owned(), numbers[2].to_owned())
     }
@@ -128,7 +129,8 @@ impl Cluster {
     /// What squeue says of a job, one line for each of its tasks; nothing when it is over.
     fn queue(&self, job: &str) -> String {
         let format = "--format=%K %T %N %r";
-        let output = self.command("squeue").args(["--noheader", "--array", "--jobs", job, format]).output().unwrap();
+        let output =
+            self.command("squeue").args(["--noheader", "--array", "--jobs", job, format]).output().unwrap();
         String::from_utf8_lossy(&output.stdout).trim().to_owned()
     }
 
@@ -350,7 +352,8 @@ fn what_slurm_refuses_is_passed_on() {
     assert!(said.contains("sbatch: there is no such program here"), "{said}");
     assert!(said.contains("parallel --joblog shards.log --resume-failed --retries 3"), "{said}");
 
-    let refusing = stand_ins(&[("sbatch", "echo 'sbatch: error: invalid partition specified: x' >&2; exit 1")]);
+    let refusing =
+        stand_ins(&[("sbatch", "echo 'sbatch: error: invalid partition specified: x' >&2; exit 1")]);
     let (code, _, said) = submit_to(refusing.path(), &["--shards", "4", "--", "--partition=x"]);
     assert_eq!(code, Some(1));
     assert_eq!(said.trim(), "sbatch refuses the array: sbatch: error: invalid partition specified: x");
@@ -360,7 +363,10 @@ fn what_slurm_refuses_is_passed_on() {
     let half = stand_ins(&[("sbatch", sbatch), ("scancel", "echo \"$*\" >cancelled")]);
     let (code, _, said) = submit_to(half.path(), &["--shards", "4"]);
     assert_eq!(code, Some(1));
-    assert!(said.contains("refuses the merge: no dependencies today") && said.contains("17 was cancelled"), "{said}");
+    assert!(
+        said.contains("refuses the merge: no dependencies today") && said.contains("17 was cancelled"),
+        "{said}"
+    );
     assert_eq!(fs::read_to_string(half.path().join("cancelled")).unwrap().trim(), "17");
 }
 
@@ -405,7 +411,8 @@ fn a_dry_run_tells_and_touches_nothing() {
     ] {
         assert!(told.contains(expected), "{expected}: {told}");
     }
-    let mut left: Vec<_> = fs::read_dir(folder.path()).unwrap().map(|entry| entry.unwrap().file_name()).collect();
+    let mut left: Vec<_> =
+        fs::read_dir(folder.path()).unwrap().map(|entry| entry.unwrap().file_name()).collect();
     left.sort();
     assert_eq!(left, ["bin", "plan.ron"]);
 }
@@ -435,7 +442,11 @@ fn a_task_starts_killed_programs_again_and_no_others() {
         task.current_dir(folder.path()).args(["-c", &script]).env("SLURM_ARRAY_TASK_ID", "3");
         let output = task.env("SLURM_CPUS_ON_NODE", "7").env_remove("SLURM_CPUS_PER_TASK").output().unwrap();
         let asked = fs::read_to_string(&runs_file).unwrap();
-        assert_eq!((output.status.code(), asked.lines().count()), (Some(code), runs), "{program}: {output:?}");
+        assert_eq!(
+            (output.status.code(), asked.lines().count()),
+            (Some(code), runs),
+            "{program}: {output:?}"
+        );
         assert!(asked.lines().all(|line| line.ends_with("--shard 3/4 --jobs 7")), "{asked}");
     }
 }

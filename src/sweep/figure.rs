@@ -79,6 +79,8 @@ pub struct Panel {
     pub quantity: FigureQuantity,
     /// Its values.
     pub estimates: Vec<Option<Estimate>>,
+    /// How they lie on their scale.
+    pub scale: AxisScale,
 }
 
 /// Where adhesion without a load vanishes: where these values fall through the level.
@@ -111,8 +113,6 @@ pub struct Figure {
     pub boundary: Option<Boundary>,
     /// The regime of most lines of each cell, where that is known; empty otherwise.
     pub regimes: Vec<Option<Regime>>,
-    /// How the quantities lie on their scale.
-    pub scale: AxisScale,
 }
 
 impl Figure {

@@ -1,8 +1,6 @@
 //! What of a merged study a figure shows: which quantities, along which axes, at which values of the others.
 
-use super::figure::{
-    AxisScale, Boundary, Estimate, Figure, FigureAxis, FigureQuantity, Panel,
-};
+use super::figure::{AxisScale, Boundary, Estimate, Figure, FigureAxis, FigureQuantity, Panel};
 use super::finished::{CellSummary, Finished};
 use super::plan::Plan;
 use super::quantity::Quantity;
@@ -13,7 +11,7 @@ use thiserror::Error;
 
 /// A second axis of at most so many values makes curves of a section rather than rows of a map.
 const MOST_CURVES: usize = 5;
-/// A list of values is drawn on a logarithmic scale when it spans this ratio.
+/// What spans this ratio is drawn on a logarithmic scale.
 const LOGARITHMIC_RATIO: f64 = 50.0;
 /// Values that are named in a message.
 const MOST_NAMED: usize = 12;
@@ -30,8 +28,9 @@ pub struct Selection {
     pub up: Option<String>,
     /// Axes that are fixed, with their values.
     pub at: Vec<(String, String)>,
-    /// How quantities lie on their scale.
-    pub scale: AxisScale,
+    /// How quantities lie on their scale; where it is left open, a map is logarithmic where a linear one would
+    /// show next to nothing but its lowest colour.
+    pub scale: Option<AxisScale>,
 }
 
 /// Why there is no such figure.
@@ -84,7 +83,9 @@ pub enum FigureError {
         example: String,
     },
     /// All axes are fixed or have one value.
-    #[error("no axis is free: the study has one cell{fixed}; a section needs an axis with two values at least")]
+    #[error(
+        "no axis is free: the study has one cell{fixed}; a section needs an axis with two values at least"
+    )]
     NoAxes {
         /// How it came to that.
         fixed: &'static str,
@@ -130,9 +131,12 @@ impl Selection {
             series: series.map(axis),
             panels: quantities
                 .into_iter()
-                .map(|quantity| Panel {
-                    quantity: figure_quantity(quantity),
-                    estimates: cells.of(|cell| estimate(study, cell, quantity)),
+                .map(|quantity| {
+                    let estimates = cells.of(|cell| estimate(study, cell, quantity));
+                    let is_map = second.is_some() && series.is_none();
+                    let by_itself = || if is_map { scale_of(&estimates) } else { AxisScale::Linear };
+                    let scale = self.scale.unwrap_or_else(by_itself);
+                    Panel { quantity: figure_quantity(quantity), estimates, scale }
                 })
                 .collect(),
             boundary: boundary.map(|quantity| Boundary {
@@ -145,7 +149,6 @@ impl Selection {
             } else {
                 cells.of(regime)
             },
-            scale: self.scale,
         })
     }
 
@@ -161,7 +164,10 @@ impl Selection {
             if all.is_empty() {
                 all.extend(plan.record.iter().copied().find(drawn));
             }
-            let none = || FigureError::NoQuantity { name: "regime".into(), allowed: "none, only regimes were recorded".into() };
+            let none = || FigureError::NoQuantity {
+                name: "regime".into(),
+                allowed: "none, only regimes were recorded".into(),
+            };
             return if all.is_empty() { Err(none()) } else { Ok(all) };
         }
         let named = |name: &String| {
@@ -214,9 +220,8 @@ impl Selection {
             return Err(FigureError::Twice { path, one: "--x", other: "--y" });
         }
         let is_named = |index: &usize| Some(*index) == across || Some(*index) == up;
-        let free: Vec<usize> = (0..chosen.len())
-            .filter(|index| chosen[*index].at.is_none() || is_named(index))
-            .collect();
+        let free: Vec<usize> =
+            (0..chosen.len()).filter(|index| chosen[*index].at.is_none() || is_named(index)).collect();
         let rest: Vec<usize> = free.iter().copied().filter(|index| !is_named(index)).collect();
         let result = match (across, up, rest.as_slice()) {
             (Some(across), up, []) => (across, up),
@@ -337,6 +342,15 @@ fn estimate(study: &Finished, cell: &CellSummary, quantity: Quantity) -> Option<
     let spread = study.spread(cell.cell, quantity)?;
     let (low, high) = spread.confidence_interval.unwrap_or((spread.mean, spread.mean));
     spread.mean.is_finite().then_some(Estimate { mean: spread.mean, low, high })
+}
+
+/// Logarithmic where all means are above zero and half of them below a fiftieth of the largest.
+fn scale_of(estimates: &[Option<Estimate>]) -> AxisScale {
+    let means: Vec<f64> = estimates.iter().flatten().map(|estimate| estimate.mean).collect();
+    let largest = means.iter().copied().fold(0.0, f64::max);
+    let small = means.iter().filter(|mean| **mean < largest / LOGARITHMIC_RATIO).count();
+    let wide = means.iter().all(|mean| *mean > 0.0) && 2 * small >= means.len().max(1);
+    if wide { AxisScale::Logarithmic } else { AxisScale::Linear }
 }
 
 /// The regime of most lines; of two with as many the one with more adhesion.

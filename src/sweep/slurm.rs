@@ -53,8 +53,10 @@ pub struct Jobs {
 #[derive(Debug, Error)]
 pub enum SlurmError {
     /// The cluster's arrays are smaller.
-    #[error("--shards {shards}: this cluster has arrays of at most {most} tasks (its MaxArraySize is {size}); \
-             allowed: 1 to {most}, each shard computes as many cells as it takes")]
+    #[error(
+        "--shards {shards}: this cluster has arrays of at most {most} tasks (its MaxArraySize is {size}); \
+             allowed: 1 to {most}, each shard computes as many cells as it takes"
+    )]
     TooManyShards {
         /// Shards asked for.
         shards: u64,
@@ -64,8 +66,10 @@ pub enum SlurmError {
         size: u64,
     },
     /// An option of sbatch that is not the user's to give.
-    #[error("{option}: this is not for sbatch here; allowed: --shards and --at-once for the array, and any \
-             option that both the array and the merge may have")]
+    #[error(
+        "{option}: this is not for sbatch here; allowed: --shards and --at-once for the array, and any \
+             option that both the array and the merge may have"
+    )]
     Taken {
         /// The option.
         option: String,
@@ -77,7 +81,9 @@ pub enum SlurmError {
         path: PathBuf,
     },
     /// There is no Slurm.
-    #[error("sbatch: there is no such program here; a login node of a Slurm cluster has it. Without a scheduler: {instead}")]
+    #[error(
+        "sbatch: there is no such program here; a login node of a Slurm cluster has it. Without a scheduler: {instead}"
+    )]
     NoSlurm {
         /// What to run instead.
         instead: String,
@@ -127,15 +133,17 @@ impl Submission {
             let short = option.starts_with("-a") || option.starts_with("-W");
             short || TAKEN.contains(&option.split('=').next().unwrap_or_default())
         };
-        self.options.iter().find(taken).map_or(Ok(()), |option| {
-            Err(SlurmError::Taken { option: option.to_string_lossy().into_owned() })
-        })
+        self.options
+            .iter()
+            .find(taken)
+            .map_or(Ok(()), |option| Err(SlurmError::Taken { option: option.to_string_lossy().into_owned() }))
     }
 
     /// The script of a task of the array.
     #[must_use]
     pub fn shard_script(&self) -> String {
-        let arguments: String = self.arguments.iter().map(|argument| format!(" {}", word(argument))).collect();
+        let arguments: String =
+            self.arguments.iter().map(|argument| format!(" {}", word(argument))).collect();
         format!(
             r#"{head}
 retries={retries}
@@ -157,7 +165,9 @@ while :; do
     echo "killed by signal $((status - 128)): retry $retry of $retries" >&2
 done
 "#,
-            head = self.head("One shard of a sweep, the task of an array; started again, it goes on where its results end."),
+            head = self.head(
+                "One shard of a sweep, the task of an array; started again, it goes on where its results end."
+            ),
             retries = self.retries,
             shards = self.shards,
         )
@@ -208,7 +218,8 @@ done
     #[must_use]
     pub fn merge_arguments(&self, array: &str) -> Vec<OsString> {
         let mut arguments = self.first_arguments("asperity-merge", "merge-%j.log");
-        arguments.extend([format!("--dependency=afterok:{array}").into(), "--kill-on-invalid-dep=yes".into()]);
+        arguments
+            .extend([format!("--dependency=afterok:{array}").into(), "--kill-on-invalid-dep=yes".into()]);
         arguments.extend(["--requeue", "--ntasks=1", "--cpus-per-task=1"].map(OsString::from));
         arguments.push(self.merge_path().into());
         arguments
@@ -298,7 +309,8 @@ pub fn array_size() -> u64 {
 }
 
 fn size_in(config: &str) -> Option<u64> {
-    let value = config.lines().find_map(|line| line.trim().strip_prefix("MaxArraySize")?.trim().strip_prefix('='));
+    let value =
+        config.lines().find_map(|line| line.trim().strip_prefix("MaxArraySize")?.trim().strip_prefix('='));
     value?.trim().parse().ok()
 }
 

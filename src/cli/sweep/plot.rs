@@ -4,7 +4,7 @@ use crate::cli::{CliError, OutputArguments};
 use crate::export::{Colours, figure_svg, figure_text};
 use crate::sweep::figure::AxisScale;
 use crate::sweep::{Finished, Selection};
-use clap::Args;
+use clap::{Args, ValueEnum};
 use std::io::{self, IsTerminal, Write};
 use std::path::PathBuf;
 
@@ -41,15 +41,24 @@ pub struct PlotArguments {
     /// Fix an axis at one of its values, as often as needed
     #[arg(long, value_name = "AXIS=VALUE", value_parser = fixed)]
     pub at: Vec<(String, String)>,
-    /// Draw quantities on a logarithmic scale
-    #[arg(long)]
-    pub log: bool,
+    /// Scale of quantities; left out, a section is linear, and a map as it shows more
+    #[arg(long, value_enum)]
+    pub scale: Option<PlotScale>,
     /// Text rather than SVG; so it is where no FILE is given
     #[arg(long)]
     pub text: bool,
     /// The file that is written.
     #[command(flatten)]
     pub output: OutputArguments,
+}
+
+/// How quantities lie on their scale.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum PlotScale {
+    /// In proportion.
+    Linear,
+    /// Equal ratios are equal distances.
+    Logarithmic,
 }
 
 fn fixed(text: &str) -> Result<(String, String), String> {
@@ -67,7 +76,10 @@ pub(super) fn plot(arguments: &PlotArguments, stdout: &mut dyn Write) -> Result<
         across: arguments.across.clone(),
         up: arguments.up.clone(),
         at: arguments.at.clone(),
-        scale: if arguments.log { AxisScale::Logarithmic } else { AxisScale::Linear },
+        scale: arguments.scale.map(|scale| match scale {
+            PlotScale::Linear => AxisScale::Linear,
+            PlotScale::Logarithmic => AxisScale::Logarithmic,
+        }),
     };
     let figure = selection.figure(&study)?;
     let to_file = arguments.output.file().is_some();

@@ -98,7 +98,10 @@ pub(super) fn submit(arguments: &SubmitArguments, stdout: &mut dyn Write) -> Res
     let path = folder.path().display();
     let tasks = if arguments.shards == 1 { "1 task".into() } else { format!("{} tasks", arguments.shards) };
     writeln!(stdout, "job {array}: {tasks}; job {merge}: the merge after them")?;
-    writeln!(stdout, "squeue --jobs={array},{merge}, or asperity sweep status {path}, tells how far they are")?;
+    writeln!(
+        stdout,
+        "squeue --jobs={array},{merge}, or asperity sweep status {path}, tells how far they are"
+    )?;
     Ok(())
 }
 

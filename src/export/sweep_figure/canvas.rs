@@ -4,11 +4,11 @@ use super::label::typeset;
 use plotters::coord::Shift;
 use plotters::element::DashedPathElement;
 use plotters::prelude::{
-    Circle, Color, DrawingArea, FontDesc, FontFamily, FontStyle, FontTransform,
-    IntoDrawingArea, PathElement, Polygon, RGBColor, Rectangle, SVGBackend, ShapeStyle, Text,
+    Circle, Color, DrawingArea, FontDesc, FontFamily, FontStyle, FontTransform, IntoDrawingArea, PathElement,
+    Polygon, RGBColor, Rectangle, SVGBackend, ShapeStyle, Text,
 };
-use plotters::style::text_anchor::{HPos, Pos, VPos};
 use plotters::style::TextStyle;
+use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 /// Units of the picture in a pixel: plotters knows whole numbers only.
 const UNITS: f64 = 10.0;

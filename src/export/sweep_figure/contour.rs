@@ -18,9 +18,8 @@ pub(super) fn contour(across: &[f64], up: &[f64], field: &[Option<f64>], level: 
             let corners = [(0, 0), (1, 0), (1, 1), (0, 1)].map(|(dx, dy)| corner(dx, dy));
             let [Some(a), Some(b), Some(c), Some(d)] = corners else { continue };
             let square = [a, b, c, d];
-            let cuts: Vec<(usize, Point)> = (0..4)
-                .filter_map(|edge| Some((edge, cut(square[edge], square[(edge + 1) % 4])?)))
-                .collect();
+            let cuts: Vec<(usize, Point)> =
+                (0..4).filter_map(|edge| Some((edge, cut(square[edge], square[(edge + 1) % 4])?))).collect();
             match cuts.as_slice() {
                 [(_, from), (_, to)] => pieces.push((*from, *to)),
                 [(_, south), (_, east), (_, north), (_, west)] => {
@@ -56,9 +55,9 @@ fn joined(mut pieces: Vec<(Point, Point)>) -> Vec<Vec<Point>> {
         let mut line = std::collections::VecDeque::from([from, to]);
         loop {
             let ends = (line.front().copied(), line.back().copied());
-            let next = pieces.iter().position(|(a, b)| {
-                [ends.0, ends.1].into_iter().flatten().any(|end| end == *a || end == *b)
-            });
+            let next = pieces
+                .iter()
+                .position(|(a, b)| [ends.0, ends.1].into_iter().flatten().any(|end| end == *a || end == *b));
             let Some((a, b)) = next.map(|index| pieces.remove(index)) else { break };
             if ends.1 == Some(a) {
                 line.push_back(b);

@@ -1,9 +1,7 @@
 //! Figures with known numbers, for tests.
 
 use crate::analysis::Regime;
-use crate::sweep::figure::{
-    AxisScale, Boundary, Estimate, Figure, FigureAxis, FigureQuantity, Panel,
-};
+use crate::sweep::figure::{AxisScale, Boundary, Estimate, Figure, FigureAxis, FigureQuantity, Panel};
 
 pub(super) fn axis(name: &str, symbol: &str, scale: AxisScale, values: Vec<f64>) -> FigureAxis {
     FigureAxis { name: name.into(), symbol: symbol.into(), unit: "1".into(), scale, values }
@@ -33,13 +31,17 @@ fn estimate(mean: f64) -> Option<Estimate> {
 /// A map of two quantities over H and κ, with gaps.
 pub(super) fn phase_map() -> Figure {
     let hursts: Vec<f64> = (0..9).map(|index| f64::from(index + 1) / 10.0).collect();
-    let cells = || kappas().into_iter().flat_map(|kappa| hursts.clone().into_iter().map(move |hurst| (kappa, hurst)));
+    let cells =
+        || kappas().into_iter().flat_map(|kappa| hursts.clone().into_iter().map(move |hurst| (kappa, hurst)));
     let panel = |name: &str, symbol: &str, value: fn(f64, f64) -> f64| Panel {
         quantity: quantity(name, symbol),
         estimates: cells()
             .enumerate()
-            .map(|(index, (kappa, hurst))| estimate(value(kappa, hurst)).filter(|_| ![3, 40, 41].contains(&index)))
+            .map(|(index, (kappa, hurst))| {
+                estimate(value(kappa, hurst)).filter(|_| ![3, 40, 41].contains(&index))
+            })
             .collect(),
+        scale: AxisScale::Linear,
     };
     let regime = |(kappa, hurst): (f64, f64)| {
         Some(match (share(kappa, hurst), coefficient(kappa, hurst)) {
@@ -64,7 +66,6 @@ pub(super) fn phase_map() -> Figure {
             label: "F_a(0) = 0.05 F_a,max".into(),
         }),
         regimes: cells().map(regime).collect(),
-        scale: AxisScale::Linear,
     }
 }
 
@@ -77,6 +78,7 @@ pub(super) fn sections() -> Figure {
             .enumerate()
             .map(|(index, kappa)| estimate(value(kappa, 0.3)).filter(|_| index != 4))
             .collect(),
+        scale: AxisScale::Linear,
     };
     Figure {
         title: "Sections at H = 0.3".into(),
@@ -94,6 +96,5 @@ pub(super) fn sections() -> Figure {
             label: "F_a(0) = 0.05 F_a,max".into(),
         }),
         regimes: Vec::new(),
-        scale: AxisScale::Linear,
     }
 }

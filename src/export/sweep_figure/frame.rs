@@ -1,7 +1,7 @@
 //! The frame of a panel: from numbers to places, with axes around it.
 
-use super::canvas::{Canvas, INK, Place, stroke};
 use super::canvas::Anchor;
+use super::canvas::{Canvas, INK, Place, stroke};
 use super::label::width;
 use super::ticks::{Tick, ticks};
 use crate::sweep::figure::AxisScale;

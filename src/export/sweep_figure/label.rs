@@ -80,13 +80,13 @@ pub(super) fn width(text: &str) -> f64 {
 
 /// A unit with the SI prefix that suits numbers up to `largest`, and what numbers are divided by for it.
 pub(super) fn prefixed(unit: &str, largest: f64) -> (f64, String) {
-    const PREFIXES: [(&str, i32); 9] = [
-        ("f", -15), ("p", -12), ("n", -9), ("µ", -6), ("m", -3), ("", 0), ("k", 3), ("M", 6), ("G", 9),
-    ];
+    const PREFIXES: [(&str, i32); 9] =
+        [("f", -15), ("p", -12), ("n", -9), ("µ", -6), ("m", -3), ("", 0), ("k", 3), ("M", 6), ("G", 9)];
     if matches!(unit, "" | "1") {
         return (1.0, String::new());
     }
-    if !["N", "m", "J", "Pa", "J/m²", "N/m", "s"].contains(&unit) || !(largest > 0.0 && largest.is_finite()) {
+    if !["N", "m", "J", "Pa", "J/m²", "N/m", "s"].contains(&unit) || !(largest > 0.0 && largest.is_finite())
+    {
         return (1.0, unit.into());
     }
     // A hair below, so that what is just a thousand by rounding is one of the next.
@@ -143,7 +143,8 @@ pub(super) fn short(value: f64) -> String {
         return if value == 0.0 { "0".into() } else { value.to_string() };
     }
     let rounded: f64 = format!("{value:.2e}").parse().unwrap_or(value);
-    let text = if (1e-3..1e5).contains(&rounded.abs()) { format!("{rounded}") } else { format!("{rounded:e}") };
+    let text =
+        if (1e-3..1e5).contains(&rounded.abs()) { format!("{rounded}") } else { format!("{rounded:e}") };
     text.replace('-', "−")
 }
 
@@ -197,7 +198,10 @@ mod tests {
     fn plain_text_says_the_same() {
         assert_eq!(plain(&symbol("F_a(0)/F_a,max")), "F_a(0)/F_a,max");
         assert_eq!(plain(&power_of_ten(-12)), "10⁻¹²");
-        assert_eq!([0.0, 0.30000000000000004, 12345.6, 1.5e-6, -2.0].map(short), ["0", "0.3", "12300", "1.5e−6", "−2"]);
+        assert_eq!(
+            [0.0, 0.30000000000000004, 12345.6, 1.5e-6, -2.0].map(short),
+            ["0", "0.3", "12300", "1.5e−6", "−2"]
+        );
     }
 
     #[test]

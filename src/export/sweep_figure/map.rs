@@ -30,7 +30,7 @@ pub(super) fn draw(
     let ends = |borders: &[f64]| (borders[0], borders[borders.len() - 1]);
     let frame = Frame { from, to, across: ends(&columns), up: ends(&rows) };
     let values = || panel.estimates.iter().flatten().map(|estimate| estimate.mean);
-    let shades = Shades::over(figure.scale, values());
+    let shades = Shades::over(panel.scale, values());
     for row in 0..rows.len() - 1 {
         for column in 0..columns.len() - 1 {
             let estimate = panel.estimates.get(row * (columns.len() - 1) + column).copied().flatten();

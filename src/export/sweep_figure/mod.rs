@@ -108,11 +108,133 @@ mod examples;
 mod tests {
     use super::*;
 
+    /// The numbers of an attribute of all elements of a kind.
+    fn elements<'a>(svg: &'a str, tag: &'a str) -> impl Iterator<Item = &'a str> {
+        svg.split('<')
+            .filter(move |element| element.strip_prefix(tag).is_some_and(|rest| rest.starts_with(' ')))
+    }
+
+    fn attribute(element: &str, name: &str) -> f64 {
+        let value = element.split_once(&format!(" {name}=\"")).and_then(|(_, rest)| rest.split('"').next());
+        value.and_then(|value| value.parse().ok()).unwrap_or(f64::NAN)
+    }
+
     #[test]
-    fn look() {
-        for (name, figure) in [("map", examples::phase_map()), ("section", examples::sections())] {
-            std::fs::write(format!("/tmp/mapscratch/{name}.svg"), figure_svg(&figure)).unwrap();
-            std::fs::write(format!("/tmp/mapscratch/{name}.txt"), figure_text(&figure, 80, Colours::None)).unwrap();
+    fn the_same_figure_has_the_same_bytes_and_says_what_it_shows() {
+        for (figure, words) in [
+            (examples::phase_map(), vec!["pressure-sensitive", "non-adhesive", "no value", "Hurst exponent"]),
+            (examples::sections(), vec!["95 % confidence of the mean", "mean", "governing parameter"]),
+        ] {
+            let svg = figure_svg(&figure);
+            assert_eq!(svg, figure_svg(&figure));
+            for word in words {
+                assert!(svg.contains(word), "{word}");
+            }
+            assert!(!svg.contains("NaN") && !svg.contains("inf"), "no number is lost");
+            assert!(!svg.chars().any(|c| ('\u{e000}'..'\u{f8ff}').contains(&c)), "all is typeset");
+            assert_eq!(svg.matches("<tspan").count(), svg.matches("</tspan>").count());
+            assert!(svg.trim_end().ends_with("</svg>"));
+        }
+    }
+
+    #[test]
+    fn each_cell_with_a_value_is_coloured_and_the_others_are_not() {
+        let figure = examples::phase_map();
+        let svg = figure_svg(&figure);
+        let there: usize = figure.panels.iter().map(|panel| panel.estimates.iter().flatten().count()).sum();
+        let rectangles = elements(&svg, "rect").count();
+        // The paper, the cells, and a scale of colours of 128 stripes beside each panel.
+        assert_eq!(rectangles, 1 + there + figure.panels.len() * 128);
+        assert!(there < figure.panels.iter().map(|panel| panel.estimates.len()).sum());
+    }
+
+    #[test]
+    fn words_lie_within_the_picture_and_not_on_each_other() {
+        let mut large = examples::phase_map();
+        large.title = "A title that is a good deal longer than the figure is wide ".repeat(4);
+        for figure in [large, examples::sections(), examples::phase_map()] {
+            let svg = figure_svg(&figure);
+            let paper = elements(&svg, "rect").next().unwrap_or_default();
+            let size = (attribute(paper, "width"), attribute(paper, "height"));
+            let mut boxes: Vec<(f64, f64, f64, f64)> = Vec::new();
+            for (element, rest) in svg.split("<text").skip(1).map(|rest| rest.split_once('>').unwrap()) {
+                let words: String = rest.split("</text>").next().unwrap_or_default().into();
+                let plain: String =
+                    words.split('<').map(|part| part.rsplit('>').next().unwrap_or("")).collect();
+                let plain = plain.replace("&#8203;", "");
+                let (x, y) = (attribute(element, "x"), attribute(element, "y"));
+                let height = attribute(element, "font-size");
+                let width = 0.9 * label::width(plain.trim()) * height;
+                let left = match () {
+                    () if element.contains("\"middle\"") => x - width / 2.0,
+                    () if element.contains("\"end\"") => x - width,
+                    () => x,
+                };
+                let half = 0.4 * height;
+                let place = if element.contains("rotate") {
+                    (x - half, y - width / 2.0, x + half, y + width / 2.0)
+                } else {
+                    (left, y - half, left + width, y + half)
+                };
+                assert!(
+                    place.0 > 0.0 && place.1 > 0.0 && place.2 < size.0 && place.3 < size.1,
+                    "{plain}: {place:?} {size:?}"
+                );
+                let over = |other: &&(f64, f64, f64, f64)| {
+                    place.0 < other.2 && other.0 < place.2 && place.1 < other.3 && other.1 < place.3
+                };
+                assert_eq!(boxes.iter().find(over), None, "{plain}: {place:?}");
+                boxes.push(place);
+            }
+            assert!(boxes.len() > 20);
+        }
+    }
+
+    #[test]
+    fn text_fits_its_columns_and_has_colours_only_where_it_may() {
+        for figure in [examples::phase_map(), examples::sections()] {
+            for columns in [40, 80, 200] {
+                let text = figure_text(&figure, columns, Colours::None);
+                let widest = text.lines().map(|line| line.chars().count()).max();
+                assert!(widest <= Some(columns), "{columns}: {widest:?}\n{text}");
+                assert!(!text.contains('\x1b'));
+            }
+        }
+        let coloured = figure_text(&examples::phase_map(), 80, Colours::All);
+        assert!(coloured.contains("\x1b[38;2;"));
+    }
+
+    #[test]
+    fn figures_as_text_stay_as_they_are() {
+        insta::assert_snapshot!("sweep_map", figure_text(&examples::phase_map(), 80, Colours::None));
+        insta::assert_snapshot!("sweep_section", figure_text(&examples::sections(), 80, Colours::None));
+    }
+
+    #[test]
+    fn what_has_one_value_or_none_is_drawn() {
+        for mut figure in [examples::phase_map(), examples::sections()] {
+            figure.panels.iter_mut().for_each(|panel| panel.estimates.fill(None));
+            assert!(figure_svg(&figure).contains("</svg>") && !figure_svg(&figure).contains("NaN"));
+            assert!(!figure_text(&figure, 80, Colours::None).is_empty());
+            figure.across.values.truncate(1);
+            figure.boundary = None;
+            figure.regimes.clear();
+            for value in [0.0, -2.0, 1e-300] {
+                for scale in
+                    [crate::sweep::figure::AxisScale::Linear, crate::sweep::figure::AxisScale::Logarithmic]
+                {
+                    for panel in &mut figure.panels {
+                        let estimate =
+                            crate::sweep::figure::Estimate { mean: value, low: value, high: value };
+                        panel.estimates =
+                            vec![Some(estimate); figure.up.as_ref().map_or(1, |up| up.values.len())];
+                        panel.scale = scale;
+                    }
+                    let svg = figure_svg(&figure);
+                    assert!(!svg.contains("NaN") && !svg.contains("inf"), "{value} {scale:?}");
+                    assert!(!figure_text(&figure, 80, Colours::None).contains("NaN"));
+                }
+            }
         }
     }
 }

@@ -36,10 +36,18 @@ impl Sign {
             Sign::Dot => canvas.dot((x, y), r, colour),
             Sign::Square => canvas.rectangle((x - 0.9 * r, y - 0.9 * r), (x + 0.9 * r, y + 0.9 * r), colour),
             Sign::Triangle => {
-                canvas.area(&[(x, y - 1.2 * r), (x + 1.1 * r, y + 0.9 * r), (x - 1.1 * r, y + 0.9 * r)], colour, 1.0);
+                canvas.area(
+                    &[(x, y - 1.2 * r), (x + 1.1 * r, y + 0.9 * r), (x - 1.1 * r, y + 0.9 * r)],
+                    colour,
+                    1.0,
+                );
             }
             Sign::Diamond => {
-                canvas.area(&[(x, y - 1.3 * r), (x + 1.2 * r, y), (x, y + 1.3 * r), (x - 1.2 * r, y)], colour, 1.0);
+                canvas.area(
+                    &[(x, y - 1.3 * r), (x + 1.2 * r, y), (x, y + 1.3 * r), (x - 1.2 * r, y)],
+                    colour,
+                    1.0,
+                );
             }
             Sign::Ring => {
                 canvas.dot((x, y), 1.1 * r, colour);
@@ -62,12 +70,12 @@ const INSET_AXES: (f64, f64) = (40.0, 20.0);
 
 /// Draws one panel of a section into a rectangle; axes stand around it.
 pub(super) fn draw(canvas: &Canvas<'_>, figure: &Figure, panel: &Panel, (from, to): (Place, Place)) {
-    let curves = curves(figure, panel, figure.scale);
+    let curves = curves(figure, panel, panel.scale);
     let all: Vec<Point> = curves.iter().flatten().copied().collect();
     let across = around(figure.across.coordinates().into_iter(), 0.03);
-    let mut up = heights(figure.scale, &all);
+    let mut up = heights(panel.scale, &all);
     let mut frame = Frame { from, to, across, up };
-    let inset = (figure.scale == AxisScale::Linear && spans_decades(panel)).then(|| {
+    let inset = (panel.scale == AxisScale::Linear && spans_decades(panel)).then(|| {
         let mut place = corner(&frame, &curves);
         while place.is_none() && up.1 - up.0 < MOST_ROOM * (frame.up.1 - frame.up.0) {
             up.1 += 0.05 * (up.1 - up.0);
@@ -83,10 +91,10 @@ pub(super) fn draw(canvas: &Canvas<'_>, figure: &Figure, panel: &Panel, (from, t
     draw_curves(canvas, &frame, &curves, 2.6);
     canvas.frame(from, to);
     let largest = all.iter().map(|point| point.high.abs().max(point.mean.abs())).fold(0.0, f64::max);
-    let largest = if figure.scale == AxisScale::Logarithmic { 10_f64.powf(up.1) } else { largest };
+    let largest = if panel.scale == AxisScale::Logarithmic { 10_f64.powf(up.1) } else { largest };
     let (divisor, unit) = prefixed(&panel.quantity.unit, largest);
     let label = quantity_label(&panel.quantity, &unit);
-    frame.axis_left(canvas, &Ruler { scale: figure.scale, divisor, label, most: 6 }, NUMBER);
+    frame.axis_left(canvas, &Ruler { scale: panel.scale, divisor, label, most: 6 }, NUMBER);
     let axis = &figure.across;
     let (divisor, unit) = prefixed(&axis.unit, axis.values.iter().copied().fold(0.0, f64::max));
     let label = axis_label(axis, &unit);
@@ -255,11 +263,7 @@ fn draw_inset(
     let curves = curves(figure, panel, AxisScale::Logarithmic);
     let up = heights(AxisScale::Logarithmic, &curves.concat());
     let frame = Frame { from, to, across, up };
-    canvas.rectangle(
-        (from.0 - INSET_AXES.0, from.1 - 3.0),
-        (to.0 + 6.0, to.1 + INSET_AXES.1),
-        PAPER,
-    );
+    canvas.rectangle((from.0 - INSET_AXES.0, from.1 - 3.0), (to.0 + 6.0, to.1 + INSET_AXES.1), PAPER);
     draw_curves(canvas, &frame, &curves, 1.7);
     canvas.line(&[from, (to.0, from.1), to, (from.0, to.1), from], stroke(INK, 0.8));
     let (divisor, _) = prefixed(&panel.quantity.unit, 10_f64.powf(up.1));

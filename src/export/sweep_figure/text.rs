@@ -27,10 +27,7 @@ pub fn figure_text(figure: &Figure, columns: usize, colours: Colours) -> String 
     let columns = columns.clamp(NARROWEST, WIDEST);
     let mut text = String::new();
     for line in [figure.title.clone(), figure.fixed.join(", ")] {
-        if !line.is_empty() {
-            text.push_str(&line);
-            text.push('\n');
-        }
+        push_words(&mut text, &line, columns);
     }
     for panel in &figure.panels {
         if !text.is_empty() {
@@ -42,6 +39,26 @@ pub fn figure_text(figure: &Figure, columns: usize, colours: Colours) -> String 
         }
     }
     text
+}
+
+/// Adds words, on as many lines as they take.
+pub(super) fn push_words(text: &mut String, words: &str, columns: usize) {
+    let mut line = String::new();
+    for word in words.split_whitespace() {
+        if !line.is_empty() && line.chars().count() + 1 + word.chars().count() > columns {
+            text.push_str(&line);
+            text.push('\n');
+            line.clear();
+        }
+        if !line.is_empty() {
+            line.push(' ');
+        }
+        line.push_str(word);
+    }
+    if !line.is_empty() {
+        text.push_str(&line);
+        text.push('\n');
+    }
 }
 
 /// Numbers below an axis, as many as have room. `places` are columns with their numbers.
@@ -92,7 +109,8 @@ mod tests {
 
     #[test]
     fn numbers_do_not_touch() {
-        let places: Vec<_> = (0..10).map(|place| (3 * place, format!("{:.2}", f64::from(place as u32)))).collect();
+        let places: Vec<_> =
+            (0..10).map(|place| (3 * place, format!("{:.2}", f64::from(place as u32)))).collect();
         let line = numbers_below(2, &places, 40);
         assert_eq!(line, "0.00  2.00  4.00  6.00  8.00");
         assert_eq!(numbers_below(0, &[(39, "12345".into())], 40), "", "what does not fit is left out");

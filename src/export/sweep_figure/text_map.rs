@@ -2,7 +2,7 @@
 
 use super::label::{axis_label, plain, prefixed, quantity_label};
 use super::shades::{Shades, ink_on};
-use super::text::{Colours, centred, numbers_below, painted, scaled};
+use super::text::{Colours, centred, numbers_below, painted, push_words, scaled};
 use crate::analysis::Regime;
 use crate::sweep::figure::{AxisScale, Figure, FigureAxis, Panel};
 
@@ -33,7 +33,7 @@ pub(super) fn draw(
     let shown = values.div_ceil(every).max(1);
     let wide = (room / shown).clamp(1, WIDEST_CELL);
     let means = panel.estimates.iter().flatten().map(|estimate| estimate.mean);
-    let shades = Shades::over(figure.scale, means);
+    let shades = Shades::over(panel.scale, means);
     let largest = match shades.scale {
         AxisScale::Linear => shades.high.abs().max(shades.low.abs()),
         AxisScale::Logarithmic => 10_f64.powf(shades.high),
@@ -42,7 +42,11 @@ pub(super) fn draw(
 
     let heading = |label: String| format!("{}\n", plain(&label));
     text.push_str(&heading(quantity_label(&panel.quantity, &unit)));
-    text.push_str(&heading(format!("{}↑ {}", " ".repeat(before.saturating_sub(1)), axis_label(up, &up_unit))));
+    text.push_str(&heading(format!(
+        "{}↑ {}",
+        " ".repeat(before.saturating_sub(1)),
+        axis_label(up, &up_unit)
+    )));
     for row in (0..rows.len()).step_by(every_row).rev() {
         text.push_str(&format!("{:>width$} ", rows[row], width = before - 2));
         text.push('┤');
@@ -61,14 +65,18 @@ pub(super) fn draw(
     let places: Vec<_> = (0..values)
         .step_by(every)
         .enumerate()
-        .map(|(place, column)| (place * wide + wide / 2, scaled(figure.across.values[column], across_divisor)))
+        .map(|(place, column)| {
+            (place * wide + wide / 2, scaled(figure.across.values[column], across_divisor))
+        })
         .collect();
     text.push_str(&format!("{}\n", numbers_below(before, &places, columns)));
-    text.push_str(&format!("{}\n\n", centred(&axis_label(&figure.across, &across_unit), before, shown * wide)));
-    text.push_str(&scale_of_shades(&shades, divisor, colours));
+    text.push_str(&format!(
+        "{}\n\n",
+        centred(&axis_label(&figure.across, &across_unit), before, shown * wide)
+    ));
+    text.push_str(&scale_of_shades(&shades, divisor, columns, colours));
     for line in meanings(figure, panel, wide, (every, every_row)) {
-        text.push_str(&line);
-        text.push('\n');
+        push_words(text, &line, columns);
     }
 }
 
@@ -119,7 +127,9 @@ fn cell(
     if let Some(boundary) = &figure.boundary {
         let vanished = |index: usize| Some(boundary.values.get(index).copied().flatten()? < boundary.level);
         let parted = |other: Option<usize>| {
-            other.and_then(|other| vanished(index).zip(vanished(other))).is_some_and(|(here, there)| here != there)
+            other
+                .and_then(|other| vanished(index).zip(vanished(other)))
+                .is_some_and(|(here, there)| here != there)
         };
         if parted(below) {
             let ends = if has_letters(wide) { [0, wide - 1] } else { [0; 2] };
@@ -136,7 +146,7 @@ fn cell(
     })
 }
 
-fn scale_of_shades(shades: &Shades, divisor: f64, colours: Colours) -> String {
+fn scale_of_shades(shades: &Shades, divisor: f64, columns: usize, colours: Colours) -> String {
     let number = |share: f64| {
         let coordinate = shades.low + share * (shades.high - shades.low);
         let value = match shades.scale {
@@ -147,12 +157,20 @@ fn scale_of_shades(shades: &Shades, divisor: f64, colours: Colours) -> String {
     };
     let steps = SHADES.len() as f64;
     let mut line = number(0.0);
+    // Where there is no room for all numbers, those at the ends are given.
+    let numbers: usize = (0..=SHADES.len()).map(|index| number(index as f64 / steps).chars().count()).sum();
+    let all = numbers + 5 * SHADES.len() <= columns;
     for (index, character) in SHADES.into_iter().enumerate() {
         let middle = (index as f64 + 0.5) / steps;
         let colour = super::shades::shade(middle);
         let blanks = if colours == Colours::None { character.to_string().repeat(3) } else { "   ".into() };
         let painted = painted(&blanks, colour, ink_on(colour), colours);
-        line.push_str(&format!(" {painted} {}", number((index + 1) as f64 / steps)));
+        let last = index + 1 == SHADES.len();
+        let before = if all || index == 0 { " " } else { "" };
+        line.push_str(&format!("{before}{painted}"));
+        if all || last {
+            line.push_str(&format!(" {}", number((index + 1) as f64 / steps)));
+        }
     }
     format!("{line}\n")
 }

@@ -2,7 +2,7 @@
 
 use super::label::{axis_label, plain, prefixed, quantity_label, short, value_label};
 use super::section::{Point, around, curves, heights};
-use super::text::{centred, numbers_below};
+use super::text::{centred, numbers_below, push_words};
 use super::ticks::ticks;
 use crate::sweep::figure::{AxisScale, Figure, Panel};
 use ratatui::buffer::Buffer;
@@ -20,16 +20,16 @@ const WIDEST: usize = 100;
 const DISTANCE: usize = 3;
 
 pub(super) fn draw(text: &mut String, figure: &Figure, panel: &Panel, columns: usize) {
-    let curves = curves(figure, panel, figure.scale);
+    let curves = curves(figure, panel, panel.scale);
     let all = curves.concat();
     let across = around(figure.across.coordinates().into_iter(), 0.02);
-    let up = heights(figure.scale, &all);
-    let largest = match figure.scale {
+    let up = heights(panel.scale, &all);
+    let largest = match panel.scale {
         AxisScale::Linear => up.0.abs().max(up.1.abs()),
         AxisScale::Logarithmic => 10_f64.powf(up.1),
     };
     let (divisor, unit) = prefixed(&panel.quantity.unit, largest);
-    let marks = ticks(figure.scale, up, divisor, 6);
+    let marks = ticks(panel.scale, up, divisor, 6);
     let labels: Vec<(u16, String)> = marks
         .iter()
         .filter_map(|tick| {
@@ -69,12 +69,13 @@ pub(super) fn draw(text: &mut String, figure: &Figure, panel: &Panel, columns: u
     text.push_str(&format!("{}\n", numbers_below(before, &places, columns)));
     text.push_str(&format!("{}\n", centred(&axis_label(axis, &unit), before, width)));
     if all.iter().any(|point| point.high > point.low) {
-        text.push_str("line: mean, dots: its 95 % confidence\n");
+        push_words(text, "line: mean, dots: its 95 % confidence", columns);
     }
     if let Some(series) = numbered {
         let names = series.values.iter().enumerate();
-        let names = names.map(|(index, value)| format!("{}: {}", index + 1, plain(&value_label(series, *value))));
-        text.push_str(&format!("{}\n", names.collect::<Vec<_>>().join(", ")));
+        let names =
+            names.map(|(index, value)| format!("{}: {}", index + 1, plain(&value_label(series, *value))));
+        push_words(text, &names.collect::<Vec<_>>().join(", "), columns);
     }
     if let Some(boundary) = &figure.boundary {
         let symbol = if axis.symbol.is_empty() { &axis.name } else { &axis.symbol };

@@ -1,0 +1,98 @@
+//! Figures of studies, drawn by the program.
+
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+
+const PLAN: &str = r#"(
+    version: 1,
+    title: "Small",
+    scene: (
+        version: 1,
+        material: (youngs_modulus: 2.0e6, poisson_ratio: 0.5),
+        length: 1.0e-4,
+        roughness: SelfAffine(hurst: 0.5, rms_height: 2.0e-7, modes: (1, 64), seed: 1),
+        adhesion: (kappa: 1.0),
+        loading: [ToForce(1.0e-5), ToSeparation],
+        numerics: (points: 256, edges: SubCell),
+    ),
+    axes: [
+        Linear(path: "roughness.hurst", from: 0.1, to: 0.9, count: 9),
+        Logarithmic(path: "kappa", from: 0.25, to: 16, count: 7),
+    ],
+    preloads: [0.01, 0.1, 1.0],
+    lines: 4,
+    record: [zero_load_adhesion_share, adhesion_coefficient, adhesion_force, regime],
+)"#;
+
+fn asperity(folder: &Path, arguments: &[&str]) -> Result<String, String> {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_asperity"));
+    let output = command.current_dir(folder).args(arguments).output().unwrap();
+    let text = |bytes| String::from_utf8(bytes).unwrap();
+    if output.status.success() { Ok(text(output.stdout)) } else { Err(text(output.stderr)) }
+}
+
+#[test]
+fn a_study_is_drawn_as_map_and_as_section() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    fs::write(at.join("plan.ron"), PLAN).unwrap();
+    let plot = |more: &[&str]| asperity(at, &[&["sweep", "plot", "study"], more].concat());
+
+    asperity(at, &["sweep", "plan.ron", "-o", "study", "--shard", "1/2"]).unwrap();
+    assert!(plot(&[]).unwrap_err().contains("has not been merged yet"));
+    asperity(at, &["sweep", "plan.ron", "-o", "study"]).unwrap();
+
+    let error = plot(&[]).unwrap_err();
+    assert!(error.starts_with("3 axes are free: roughness.hurst (0.1, "), "{error}");
+    assert!(error.trim_end().ends_with("Fix one of them, such as --at preload=0.01"), "{error}");
+    for (arguments, said) in [
+        (
+            vec!["--quantity", "force"],
+            "allowed: zero_load_adhesion_share, adhesion_coefficient, adhesion_force",
+        ),
+        (vec!["--quantity", "regime"], "this study has no such quantity"),
+        (
+            vec!["--x", "hurst"],
+            "--x hurst: this study has no such axis; allowed: roughness.hurst, kappa, preload",
+        ),
+        (vec!["--at", "preload=0.2"], "--at preload=0.2: the study has no such value; allowed: 0.01, 0.1, 1"),
+        (vec!["--at", "preload=0.1", "--at", "preload=1"], "preload: named by --at and by --at"),
+        (vec!["--at", "kappa=1", "--x", "kappa"], "kappa: named by --x and by --at"),
+        (vec!["--at", "preload"], "allowed: AXIS=VALUE"),
+    ] {
+        let error = plot(&arguments).unwrap_err();
+        assert!(error.contains(said), "{arguments:?}: {error}");
+    }
+
+    let map = plot(&["--at", "preload=0.1", "-o", "-"]).unwrap();
+    assert_eq!(map, plot(&["--at", "preload=0.1", "-o", "-"]).unwrap());
+    assert!(map.starts_with("<svg ") && map.contains("Small"), "{map}");
+    // Two panels of 63 cells with a scale of colours of 128 stripes each, on paper.
+    assert_eq!(map.matches("<rect ").count(), 1 + 2 * (63 + 128));
+    plot(&["--at", "preload=0.1", "-o", "map.svg"]).unwrap();
+    assert_eq!(fs::read_to_string(at.join("map.svg")).unwrap(), map);
+    assert!(plot(&["--at", "preload=0.1", "-o", "map.svg"]).unwrap_err().contains("--force overwrites it"));
+
+    // Into a pipe: text, and no colours.
+    let text = plot(&["--at", "preload=0.1"]).unwrap();
+    assert!(
+        text.contains("Hurst exponent H") && text.contains("F_a/F_n") && !text.contains('\x1b'),
+        "{text}"
+    );
+    let turned = plot(&["--at", "preload=0.1", "--x", "kappa"]).unwrap();
+    assert!(turned.contains("↑ Hurst exponent H"), "{turned}");
+
+    // One free axis, and three preloads as curves.
+    let curves = plot(&["--at", "roughness.hurst=0.3"]).unwrap();
+    assert!(curves.contains("3: F_n/(E* h L) = 1"), "{curves}");
+    let section = plot(&["--at", "roughness.hurst=0.3", "--at", "preload=1", "--quantity", "adhesion_force"]);
+    let section = section.unwrap();
+    assert!(section.contains("F_a (") && section.contains("95 % confidence"), "{section}");
+
+    // Half of the cells: the others are gaps.
+    asperity(at, &["sweep", "plan.ron", "-o", "half", "--shard", "1/5"]).unwrap();
+    asperity(at, &["sweep", "merge", "half", "--partial"]).unwrap();
+    let half = asperity(at, &["sweep", "plot", "half", "--at", "preload=0.1"]).unwrap();
+    assert!(half.contains("Small"), "{half}");
+}
