@@ -85,8 +85,7 @@ pub(super) fn prefixed(unit: &str, largest: f64) -> (f64, String) {
     if matches!(unit, "" | "1") {
         return (1.0, String::new());
     }
-    if !["N", "m", "J", "Pa", "J/m²", "N/m", "s"].contains(&unit) || !(largest > 0.0 && largest.is_finite())
-    {
+    if !(["N", "m", "J", "Pa", "J/m²", "N/m", "s"].contains(&unit) && largest > 0.0 && largest.is_finite()) {
         return (1.0, unit.into());
     }
     // A hair below, so that what is just a thousand by rounding is one of the next.
