@@ -42,6 +42,7 @@ pub mod explorer;
 pub mod export;
 mod memory;
 mod parallel;
+pub mod phase;
 pub mod reference;
 pub mod scene;
 pub mod simulation;

@@ -1,0 +1,178 @@
+//! Computes a map.
+
+use super::grid::{KAPPAS, Level, hurst, kappa};
+use super::{Basis, Cell, PhaseMap};
+use crate::analysis::{Regime, RegimeEvidence};
+use crate::simulation::{Outcome, RunError, Simulation};
+use std::path::Path;
+
+/// What one line gives to a cell.
+#[derive(Clone, Copy)]
+struct OfLine {
+    evidence: RegimeEvidence,
+    ideal_adhesion: f64,
+}
+
+/// Computes the cells that a map lacks, from coarse to fine and row by row: all κ of a row are those of the same
+/// lines. `tell` sees the map after each row. Files the scene names are looked for in `folder`. Gives up as
+/// soon as `stop` says so; the row under way is then lost.
+///
+/// A cell that cannot be computed tells why in its place.
+pub fn chart(map: &mut PhaseMap, folder: &Path, stop: &dyn Fn() -> bool, tell: &mut dyn FnMut(&PhaseMap)) {
+    let basis = std::sync::Arc::clone(map.basis());
+    let mut simulation = Simulation::new(folder.to_path_buf());
+    for level in Level::ALL {
+        for &row in map.rows_of(level) {
+            let columns: Vec<usize> =
+                level.columns().filter(|&column| map.cell(column, row).is_none()).collect();
+            if columns.is_empty() {
+                continue;
+            }
+            let Some(cells) = cells(&mut simulation, &basis, hurst(row), &columns, stop) else { return };
+            for (column, cell) in columns.into_iter().zip(cells) {
+                map.set(column, row, cell);
+            }
+            tell(map);
+        }
+    }
+}
+
+/// Cells of one row; `None` when told to stop.
+fn cells(
+    simulation: &mut Simulation,
+    basis: &Basis,
+    hurst: f64,
+    columns: &[usize],
+    stop: &dyn Fn() -> bool,
+) -> Option<Vec<Result<Cell, String>>> {
+    let mut lines: Vec<Result<Vec<OfLine>, RunError>> = vec![Ok(Vec::new()); columns.len()];
+    for line in 0..basis.lines() {
+        for (&column, cell) in columns.iter().zip(&mut lines) {
+            debug_assert!(column < KAPPAS);
+            let Ok(so_far) = cell else { continue };
+            if stop() {
+                return None;
+            }
+            match simulation.run(&basis.scene(kappa(column), hurst, line), stop, &mut |_, _, _| Ok(())) {
+                Ok(outcome) => so_far.push(OfLine::of(&outcome)),
+                Err(error) if error.is_interruption() => return None,
+                Err(error) => *cell = Err(error),
+            }
+        }
+    }
+    Some(
+        lines
+            .into_iter()
+            .map(|lines| lines.map(|lines| mean(&lines)).map_err(|error| error.to_string()))
+            .collect(),
+    )
+}
+
+impl OfLine {
+    fn of(outcome: &Outcome) -> Self {
+        let evidence = RegimeEvidence {
+            zero_load_adhesion: outcome.zero_load_adhesion_force.unwrap_or(0.0),
+            // What never pulls does not stick.
+            adhesion: outcome.figures.adhesion_force.unwrap_or(0.0),
+            preload: outcome.figures.preload.unwrap_or(0.0),
+            smooth_adhesion: outcome.smooth_adhesion_force.unwrap_or(0.0),
+        };
+        OfLine { evidence, ideal_adhesion: outcome.ideal_adhesion_force.unwrap_or(0.0) }
+    }
+
+    fn regime(&self) -> Regime {
+        self.evidence.regime()
+    }
+}
+
+/// A cell of its lines.
+fn mean(lines: &[OfLine]) -> Cell {
+    let mean = |of: fn(&OfLine) -> f64| lines.iter().map(of).sum::<f64>() / lines.len() as f64;
+    let evidence = RegimeEvidence {
+        zero_load_adhesion: mean(|line| line.evidence.zero_load_adhesion),
+        adhesion: mean(|line| line.evidence.adhesion),
+        preload: mean(|line| line.evidence.preload),
+        smooth_adhesion: mean(|line| line.evidence.smooth_adhesion),
+    };
+    let regime = evidence.regime();
+    Cell {
+        zero_load_adhesion: evidence.zero_load_adhesion,
+        adhesion: evidence.adhesion,
+        preload: evidence.preload,
+        ideal_adhesion: mean(|line| line.ideal_adhesion),
+        regime,
+        agreeing: lines.iter().filter(|line| line.regime() == regime).count() as u64,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::open;
+    use std::sync::Arc;
+
+    /// The map of a small scene.
+    fn map() -> PhaseMap {
+        let document = open("pressure-sensitive").unwrap();
+        let small = [("numerics.points", "128"), ("roughness.modes", "(1, 32)")];
+        let small = small.map(|(path, value)| (path.to_owned(), value.to_owned()));
+        let document = document.set_all(&small).unwrap();
+        PhaseMap::new(Arc::new(Basis::of(document.scene()).unwrap()))
+    }
+
+    #[test]
+    fn a_map_goes_from_coarse_to_fine_and_from_what_sticks_to_what_does_not() {
+        let (mut map, mut levels, mut rows) = (map(), Vec::new(), 0);
+        chart(&mut map, Path::new(""), &|| false, &mut |map| {
+            rows += 1;
+            levels.extend(map.level());
+        });
+        levels.dedup();
+        assert_eq!(levels, Level::ALL);
+        assert_eq!(rows, 5 + 9 + 19 + 19);
+        for row in 0..map.rows() {
+            let cells: Vec<_> = map.along_kappa(row).collect();
+            assert_eq!(cells.len(), KAPPAS);
+            assert_eq!(cells[0].1.regime, Regime::PressureInsensitive);
+            assert_eq!(cells[KAPPAS - 1].1.regime, Regime::NonAdhesive);
+            assert!(cells.iter().all(|(_, cell)| (1..=4).contains(&cell.agreeing)));
+            assert!(cells[0].1.zero_load_share() > 0.5 && cells[KAPPAS - 1].1.zero_load_share() < 0.01);
+        }
+        let (column, row, cell) = map.nearest(1.02, 0.31).unwrap();
+        assert_eq!((kappa(column), hurst(row)), (1.0, 0.3));
+        // What it says is what the scene of the cell gives.
+        let mut forces = Vec::new();
+        for line in 0..map.basis().lines() {
+            let scene = map.basis().scene(1.0, 0.3, line);
+            let outcome = Simulation::default().run(&scene, &|| false, &mut |_, _, _| Ok(())).unwrap();
+            forces.push(outcome.zero_load_adhesion_force.unwrap());
+        }
+        assert_eq!(
+            cell.as_ref().unwrap().zero_load_adhesion,
+            forces.iter().sum::<f64>() / forces.len() as f64
+        );
+    }
+
+    #[test]
+    fn what_is_known_is_not_computed_again_and_a_stop_keeps_whole_rows() {
+        let mut once = map();
+        chart(&mut once, Path::new(""), &|| false, &mut |_| ());
+        let (mut map, rows) = (map(), std::cell::Cell::new(0));
+        chart(&mut map, Path::new(""), &|| rows.get() == 7, &mut |_| rows.set(rows.get() + 1));
+        assert_eq!((rows.get(), map.level()), (7, Some(Level::Coarse)));
+        chart(&mut map, Path::new(""), &|| false, &mut |_| rows.set(rows.get() + 1));
+        assert_eq!(rows.get(), 5 + 9 + 19 + 19);
+        assert_eq!(map, once);
+        chart(&mut map, Path::new(""), &|| false, &mut |_| panic!("nothing is missing"));
+    }
+
+    #[test]
+    fn what_cannot_be_computed_says_why() {
+        let document = open("pressure-sensitive").unwrap();
+        let never = document.set("loading", "[ToForce(1.0e-5), ToForce(-1.0)]").unwrap();
+        let mut map = PhaseMap::new(Arc::new(Basis::of(never.scene()).unwrap()));
+        let told = std::cell::Cell::new(false);
+        chart(&mut map, Path::new(""), &|| told.get(), &mut |_| told.set(true));
+        assert!(map.cell(0, 0).is_some_and(|cell| cell.as_ref().is_err_and(|why| !why.is_empty())));
+    }
+}
