@@ -219,6 +219,16 @@ pub enum Command {
     ToggleAccuracy,
     /// Type a tolerance.
     TypeTolerance,
+    /// Show the map over κ and H, choose it, or show the profile and the fragments again.
+    ToggleChart,
+    /// Show sections through the mark in place of the map, or the other way round.
+    ToggleSections,
+    /// Let the glyphs of the map tell another quantity.
+    NextCharted,
+    /// Move the mark, and the scene, by so many columns of the map.
+    MoveKappa(i32),
+    /// Move the mark, and the scene, by so many rows of the map.
+    MoveHurst(i32),
     /// Give one pane the whole screen, or all of them again.
     ZoomPane,
     /// Choose the next pane.

@@ -48,6 +48,14 @@ impl Appraisal {
         *self = Appraisal { shown: self.shown, ..Appraisal::default() };
     }
 
+    /// Nobody looks on any more: what was not finished begins anew when it is shown again.
+    pub fn hide(&mut self) {
+        self.shown = false;
+        if self.costs.ended.is_none() {
+            self.costs = Costs::default();
+        }
+    }
+
     /// Takes in a finding. What a tolerance led to is for others to act on.
     pub fn take_in(&mut self, finding: Finding) {
         match finding {
@@ -71,6 +79,8 @@ impl Appraisal {
                 }
             }
             Finding::Chosen(..) => self.choosing = None,
+            // Not about accuracy.
+            Finding::Charted(_) | Finding::NotCharted(_) => {}
         }
     }
 }

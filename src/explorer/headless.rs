@@ -16,6 +16,9 @@ use std::sync::atomic::Ordering;
 /// With more springs than these no error is estimated: who watches would have to wait for it.
 const MOST_ESTIMATED: u64 = 1 << 17;
 
+/// Nor is a map over κ and H computed, of hundreds of scenes.
+const MOST_CHARTED: u64 = 1 << 12;
+
 /// See the module.
 pub struct Headless {
     /// The model.
@@ -99,6 +102,7 @@ impl Headless {
         for task in study_tasks(&self.model) {
             match &task {
                 Task::Measure(_) => continue,
+                Task::Chart { map, .. } if map.basis().springs() > MOST_CHARTED => continue,
                 Task::Estimate(of) if of.scene.numerics.points > MOST_ESTIMATED => continue,
                 _ => {}
             }

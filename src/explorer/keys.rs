@@ -79,7 +79,11 @@ const fn shift(code: KeyCode) -> Key {
     Key { code, modifiers: KeyModifiers::SHIFT }
 }
 
-const EXPLORE: &[ModeKind] = &[ModeKind::Explore];
+/// Exploring, whichever pane is chosen.
+const EXPLORE: &[ModeKind] = &[ModeKind::Explore, ModeKind::Chart];
+/// What the arrows do beside them is done in the map by other keys.
+const LIST: &[ModeKind] = &[ModeKind::Explore];
+const CHART: &[ModeKind] = &[ModeKind::Chart];
 const HELP: &[ModeKind] = &[ModeKind::Help];
 const LINE: &[ModeKind] =
     &[ModeKind::Edit, ModeKind::Force, ModeKind::Tolerance, ModeKind::SaveAs, ModeKind::Export];
@@ -101,6 +105,7 @@ const HAND: &str = "Body in hand";
 const PARAMETERS: &str = "Parameters";
 const COMPARE: &str = "Comparing";
 const LOOK: &str = "Looking";
+const MAP: &str = "Map over κ and H";
 const SCENE: &str = "Scene";
 const TEXT: &str = "Typing and lists";
 
@@ -141,16 +146,16 @@ pub const BINDINGS: &[Binding] = &[
     row(&[char('F')], EXPLORE, Command::TypeForce, "", "type the force to go to", HAND),
     row(&[char('S')], EXPLORE, Command::Separate, "", "pull until nothing touches", HAND),
 
-    row(&[key(KeyCode::Up), char('k')], EXPLORE, Command::Select(-1), "", "the parameter above", PARAMETERS),
-    row(&[key(KeyCode::Down), char('j')], EXPLORE, Command::Select(1), "select", "the parameter below", PARAMETERS),
-    row(&[key(KeyCode::Home), char('g')], EXPLORE, Command::SelectEnd(false), "", "the first parameter", PARAMETERS),
-    row(&[key(KeyCode::End), char('G')], EXPLORE, Command::SelectEnd(true), "", "the last parameter", PARAMETERS),
-    row(&[key(KeyCode::Left), char('h')], EXPLORE, step(-1, false), "", "a small step down", PARAMETERS),
-    row(&[key(KeyCode::Right), char('l')], EXPLORE, step(1, false), "change", "a small step up", PARAMETERS),
-    row(&[shift(KeyCode::Left), char('H')], EXPLORE, step(-1, true), "", "a large step down", PARAMETERS),
-    row(&[shift(KeyCode::Right), char('L')], EXPLORE, step(1, true), "", "a large step up", PARAMETERS),
-    row(&[key(KeyCode::Enter), char('e')], EXPLORE, Command::EditValue, "type", "type a value, with a prefix and unit if you like: 2.5 MPa, 10 µm, 50m", PARAMETERS),
-    row(&[char('t')], EXPLORE, Command::ToggleEffect, "on/off", "switch the effect of the selected row on or off", PARAMETERS),
+    row(&[key(KeyCode::Up), char('k')], LIST, Command::Select(-1), "", "the parameter above", PARAMETERS),
+    row(&[key(KeyCode::Down), char('j')], LIST, Command::Select(1), "select", "the parameter below", PARAMETERS),
+    row(&[key(KeyCode::Home), char('g')], LIST, Command::SelectEnd(false), "", "the first parameter", PARAMETERS),
+    row(&[key(KeyCode::End), char('G')], LIST, Command::SelectEnd(true), "", "the last parameter", PARAMETERS),
+    row(&[key(KeyCode::Left), char('h')], LIST, step(-1, false), "", "a small step down", PARAMETERS),
+    row(&[key(KeyCode::Right), char('l')], LIST, step(1, false), "change", "a small step up", PARAMETERS),
+    row(&[shift(KeyCode::Left), char('H')], LIST, step(-1, true), "", "a large step down", PARAMETERS),
+    row(&[shift(KeyCode::Right), char('L')], LIST, step(1, true), "", "a large step up", PARAMETERS),
+    row(&[key(KeyCode::Enter), char('e')], LIST, Command::EditValue, "type", "type a value, with a prefix and unit if you like: 2.5 MPa, 10 µm, 50m", PARAMETERS),
+    row(&[char('t')], LIST, Command::ToggleEffect, "on/off", "switch the effect of the selected row on or off", PARAMETERS),
     row(&[char('R')], EXPLORE, Command::Reseed, "reseed", "another random line", PARAMETERS),
     row(&[char('%')], EXPLORE, Command::TypeTolerance, "", "type a tolerance, 0.1 % or 1e-3: springs and edges that keep it are chosen", PARAMETERS),
     row(&[char('u')], EXPLORE, Command::Undo, "undo", "take back the last edit", PARAMETERS),
@@ -180,6 +185,18 @@ pub const BINDINGS: &[Binding] = &[
     row(&[char('z')], EXPLORE, Command::ZoomPane, "zoom", "the chosen pane on the whole screen, or all panes", LOOK),
     row(&[char('T')], EXPLORE, Command::NextTheme, "", "other colours", LOOK),
     row(&[char('M')], EXPLORE, Command::NextMarker, "", "other markers: braille, octants, half blocks, ASCII", LOOK),
+
+    row(&[char('m')], EXPLORE, Command::ToggleChart, "map", "which regime other κ and H would be in, in place of profile and fragments", MAP),
+    row(&[key(KeyCode::Left), char('h')], CHART, Command::MoveKappa(-1), "", "less κ: the mark and the scene; moves in a row are one edit", MAP),
+    row(&[key(KeyCode::Right), char('l')], CHART, Command::MoveKappa(1), "κ", "more κ", MAP),
+    row(&[key(KeyCode::Down), char('j')], CHART, Command::MoveHurst(-1), "", "less H", MAP),
+    row(&[key(KeyCode::Up), char('k')], CHART, Command::MoveHurst(1), "H", "more H", MAP),
+    row(&[shift(KeyCode::Left), char('H')], CHART, Command::MoveKappa(-4), "", "half the κ", MAP),
+    row(&[shift(KeyCode::Right), char('L')], CHART, Command::MoveKappa(4), "", "twice the κ", MAP),
+    row(&[shift(KeyCode::Down), char('J')], CHART, Command::MoveHurst(-4), "", "much less H", MAP),
+    row(&[shift(KeyCode::Up), char('K')], CHART, Command::MoveHurst(4), "", "much more H", MAP),
+    row(&[char('X')], CHART, Command::ToggleSections, "sections", "sections through the mark: adhesion over κ and over H, or the map again", MAP),
+    row(&[char('V')], CHART, Command::NextCharted, "quantity", "the glyphs: regime, F_a(0)/F_a,max or F_a/F_n", MAP),
 
     row(&[char('o')], EXPLORE, Command::OpenLibrary, "open", "choose a scene: built-in ones and your own", SCENE),
     row(&[char('1')], EXPLORE, Command::Preset(0), "", "first built-in scene; 2 to 9: the others", SCENE),

@@ -96,9 +96,9 @@ fn panes(model: &Model, body: Rect) -> Vec<(Pane, Rect)> {
         let left = body.width * 58 / 100;
         let upper = body.height / 2;
         let part = |x: u16, y: u16, width: u16, height: u16| Rect::new(body.x + x, body.y + y, width, height);
-        if model.appraisal.shown {
+        if let Some(pane) = model.in_place_of_the_line() {
             return vec![
-                (Pane::Accuracy, part(0, 0, left, body.height)),
+                (pane, part(0, 0, left, body.height)),
                 (Pane::Force, part(left, 0, body.width - left, upper)),
                 (Pane::Parameters, part(left, upper, body.width - left, body.height - upper)),
             ];
@@ -112,8 +112,7 @@ fn panes(model: &Model, body: Rect) -> Vec<(Pane, Rect)> {
     }
     // Too small for four: the most important ones, side by side or one above the other.
     let second = match model.pane {
-        Pane::Force if model.appraisal.shown => Pane::Accuracy,
-        Pane::Force => Pane::Profile,
+        Pane::Force => model.in_place_of_the_line().unwrap_or(Pane::Profile),
         chosen => chosen,
     };
     if body.width >= 36 && body.height >= 6 {

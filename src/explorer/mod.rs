@@ -4,6 +4,7 @@
 
 pub mod action;
 pub mod appraisal;
+pub mod chart;
 mod close_up;
 pub mod demo;
 pub mod headless;

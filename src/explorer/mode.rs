@@ -71,6 +71,8 @@ impl Library {
 pub enum ModeKind {
     /// See [`Mode::Explore`].
     Explore,
+    /// See [`Mode::Explore`], with the map chosen.
+    Chart,
     /// See [`Mode::Edit`].
     Edit,
     /// See [`Mode::Force`].
@@ -93,8 +95,9 @@ pub enum ModeKind {
 
 impl ModeKind {
     /// All modes.
-    pub const ALL: [ModeKind; 10] = [
+    pub const ALL: [ModeKind; 11] = [
         ModeKind::Explore,
+        ModeKind::Chart,
         ModeKind::Edit,
         ModeKind::Force,
         ModeKind::Tolerance,

@@ -1,6 +1,7 @@
 //! The state of the explorer: changed by `update` alone, drawn by the views.
 
 pub use super::appraisal::{Appraisal, Costs, Estimated};
+pub use super::chart::{Chart, Charted};
 pub use super::mode::{Library, Mode, ModeKind};
 use super::parameters::{Parameter, Setting, parameters};
 use super::snapshot::{Drive, Loop, Moment, Preview};
@@ -8,6 +9,7 @@ use super::theme::Appearance;
 use super::worker::{Focus, LineView};
 use crate::analysis::Governing;
 use crate::contact::{CurvePoint, LegRecord};
+use crate::phase::Basis;
 use crate::scene::{Document, Scene, ron_float};
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -25,6 +27,8 @@ pub enum Pane {
     Parameters,
     /// What accuracy costs and what ran, in place of profile and close-up.
     Accuracy,
+    /// The map over κ and H, in place of profile and close-up.
+    Chart,
 }
 
 impl Pane {
@@ -33,6 +37,8 @@ impl Pane {
     pub const ALL: [Pane; 4] = [Pane::Force, Pane::Profile, Pane::Parameters, Pane::CloseUp];
     /// The panes while accuracy is shown.
     pub const WITH_ACCURACY: [Pane; 3] = [Pane::Force, Pane::Accuracy, Pane::Parameters];
+    /// The panes while the map is shown.
+    pub const WITH_CHART: [Pane; 3] = [Pane::Force, Pane::Chart, Pane::Parameters];
 }
 
 /// Where the animation stands.
@@ -183,6 +189,8 @@ pub struct Model {
     pub ghosts: Vec<Ghost>,
     /// How accurate the scene is and what accuracy costs.
     pub appraisal: Appraisal,
+    /// The map over κ and H.
+    pub chart: Chart,
     /// The curve of the scene selected in the library.
     pub preview: Option<Arc<Preview>>,
     /// The chosen pane.
@@ -232,6 +240,7 @@ impl Model {
             curve: CurveLook::default(),
             ghosts: Vec::new(),
             appraisal: Appraisal::default(),
+            chart: Chart::default(),
             preview: None,
             pane: Pane::Force,
             zoomed: false,
@@ -296,7 +305,41 @@ impl Model {
     /// The panes there are to choose from.
     #[must_use]
     pub fn panes(&self) -> &'static [Pane] {
-        if self.appraisal.shown { &Pane::WITH_ACCURACY } else { &Pane::ALL }
+        match self.in_place_of_the_line() {
+            Some(Pane::Chart) => &Pane::WITH_CHART,
+            Some(_) => &Pane::WITH_ACCURACY,
+            None => &Pane::ALL,
+        }
+    }
+
+    /// What is shown in place of profile and close-up.
+    #[must_use]
+    pub fn in_place_of_the_line(&self) -> Option<Pane> {
+        match (self.chart.shown, self.appraisal.shown) {
+            (true, _) => Some(Pane::Chart),
+            (_, true) => Some(Pane::Accuracy),
+            _ => None,
+        }
+    }
+
+    /// Which keys are valid: in the map the arrows move its mark.
+    #[must_use]
+    pub fn keys(&self) -> ModeKind {
+        match self.mode.kind() {
+            ModeKind::Explore if self.chart.shown && self.pane == Pane::Chart => ModeKind::Chart,
+            kind => kind,
+        }
+    }
+
+    /// κ and, where it has one, H of the scene as it stands: the mark on the map. `None` where it has no κ, or
+    /// none that is known yet.
+    #[must_use]
+    pub fn place(&self) -> Option<(f64, Option<f64>)> {
+        let scene = self.document.scene();
+        if !Basis::of(scene).ok()?.has_hurst() {
+            return Some((self.governing()?.kappa?, None));
+        }
+        Basis::place(scene).map(|(kappa, hurst)| (kappa, Some(hurst)))
     }
 
     /// What moves the body.

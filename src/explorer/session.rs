@@ -226,7 +226,7 @@ impl<W: Write> Session<'_, W> {
                         Some(Action::Resize(size.width, size.height))
                     }
                     // In the mode that holds by now: the key before may have changed it.
-                    Message::Input(event) => input::action_of(&event, self.model.mode.kind()),
+                    Message::Input(event) => input::action_of(&event, self.model.keys()),
                     Message::Report(report) => Some(action_of(report)),
                     Message::Found(found) => Some(Action::Found(found)),
                 };

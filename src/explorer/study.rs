@@ -1,10 +1,11 @@
-//! How accurate the scene is and what accuracy costs: worked out beside the worker, on a thread of its own, so
+//! How accurate the scene is, what accuracy costs, and the map over κ and H: worked out beside the worker, on a thread of its own, so
 //! that no edit waits for it. Whatever is asked for next ends what is under way.
 
 use super::snapshot::Loop;
 use crate::accuracy::{
     Choice, ChoiceError, CostError, CostTable, Estimate, Knob, Progress, choose, estimate, measure,
 };
+use crate::phase::{PhaseMap, chart};
 use crate::scene::Scene;
 use crate::simulation::RunError;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -28,12 +29,19 @@ pub enum Task {
     Measure(Arc<Scene>),
     /// Springs and edges for a tolerance.
     Choose(Arc<Scene>, f64),
+    /// What a map over κ and H still lacks.
+    Chart {
+        /// The map so far.
+        map: Arc<PhaseMap>,
+        /// Whether it waits until it is quiet.
+        waits: bool,
+    },
 }
 
 impl Task {
     /// Whether it waits until it is quiet; what the user waits for does not.
     fn waits(&self) -> bool {
-        !matches!(self, Task::Choose(..))
+        !matches!(self, Task::Choose(..) | Task::Chart { waits: false, .. })
     }
 }
 
@@ -54,6 +62,10 @@ pub enum Finding {
     Choosing(u64),
     /// What reaches a tolerance, or why nothing does.
     Chosen(f64, Result<Choice, ChoiceError>),
+    /// The map over κ and H so far.
+    Charted(Arc<PhaseMap>),
+    /// There is no more of it, and why.
+    NotCharted(String),
 }
 
 /// A finding and the generation of the scene it belongs to.
@@ -95,6 +107,9 @@ pub trait Appraiser: Send {
         stop: &dyn Fn() -> bool,
         trying: &mut dyn FnMut(u64),
     ) -> Result<Choice, ChoiceError>;
+
+    /// See [`chart`].
+    fn chart(&mut self, map: &mut PhaseMap, stop: &dyn Fn() -> bool, tell: &mut dyn FnMut(&PhaseMap));
 }
 
 /// The appraiser of the program.
@@ -126,6 +141,10 @@ impl Appraiser for Accuracy {
         trying: &mut dyn FnMut(u64),
     ) -> Result<Choice, ChoiceError> {
         choose(scene, Path::new(FOLDER), tolerance, stop, trying)
+    }
+
+    fn chart(&mut self, map: &mut PhaseMap, stop: &dyn Fn() -> bool, tell: &mut dyn FnMut(&PhaseMap)) {
+        chart(map, Path::new(FOLDER), stop, tell);
     }
 }
 
@@ -162,11 +181,17 @@ pub fn perform(
                 appraiser.choose(scene, *tolerance, stop, &mut |points| tell(Finding::Choosing(points)));
             Finding::Chosen(*tolerance, choice)
         }
+        Task::Chart { map, .. } => {
+            let mut map = PhaseMap::clone(map);
+            appraiser.chart(&mut map, stop, &mut |map| tell(Finding::Charted(Arc::new(map.clone()))));
+            Finding::Charted(Arc::new(map))
+        }
     }));
     tell(done.unwrap_or_else(|_| match task {
         Task::Estimate(_) => Finding::Estimated(None),
         Task::Measure(_) => Finding::NotMeasured("internal error, please report it".to_owned()),
         Task::Choose(_, tolerance) => Finding::Chosen(*tolerance, Err(ChoiceError::Stopped)),
+        Task::Chart { .. } => Finding::NotCharted("internal error, please report it".to_owned()),
     }));
 }
 

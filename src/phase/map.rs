@@ -95,21 +95,32 @@ impl PhaseMap {
         Level::ALL.into_iter().take_while(|level| self.has(*level)).last()
     }
 
-    /// The computed cell nearest to a place, and its column and row. Rows count as much as columns.
+    /// The column and the row of a place, between whole ones where it lies between cells.
     #[must_use]
-    pub fn nearest(
-        &self,
-        wanted_kappa: f64,
-        wanted_hurst: f64,
-    ) -> Option<(usize, usize, &Result<Cell, String>)> {
-        let column = (4.0 * wanted_kappa.log2() + 12.0).clamp(0.0, (KAPPAS - 1) as f64);
-        let row = (wanted_hurst * 20.0 - 1.0).clamp(0.0, (self.rows() - 1) as f64);
-        let far = |at: &(usize, usize)| (at.0 as f64 - column).hypot(at.1 as f64 - row);
-        let places = (0..self.rows()).flat_map(|row| (0..KAPPAS).map(move |column| (column, row)));
-        let (column, row) = places
-            .filter(|&(column, row)| self.cell(column, row).is_some())
-            .min_by(|one, other| far(one).total_cmp(&far(other)))?;
-        Some((column, row, self.cell(column, row)?))
+    pub fn coordinates(kappa: f64, hurst: f64) -> (f64, f64) {
+        (4.0 * kappa.log2() + 12.0, 20.0 * hurst - 1.0)
+    }
+
+    /// A cell or, while it has not been computed, the one of a coarser level that stands for it, with its column
+    /// and row.
+    #[must_use]
+    pub fn stand_in(&self, column: usize, row: usize) -> Option<(usize, usize, &Result<Cell, String>)> {
+        let near = |all: &mut dyn Iterator<Item = usize>, wanted: usize| {
+            all.min_by_key(|one| one.abs_diff(wanted)).unwrap_or(wanted)
+        };
+        Level::ALL.into_iter().rev().find_map(|level| {
+            let column = near(&mut level.columns(), column);
+            let row = near(&mut self.rows_of(level).iter().copied(), row);
+            Some((column, row, self.cell(column, row)?))
+        })
+    }
+
+    /// The computed cell that stands for a place, with its column and row.
+    #[must_use]
+    pub fn nearest(&self, kappa: f64, hurst: f64) -> Option<(usize, usize, &Result<Cell, String>)> {
+        let (column, row) = Self::coordinates(kappa, hurst);
+        let nearest = |at: f64, count: usize| at.round().clamp(0.0, (count - 1) as f64) as usize;
+        self.stand_in(nearest(column, KAPPAS), nearest(row, self.rows()))
     }
 
     /// The cells of a row that are there, by κ.

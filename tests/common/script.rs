@@ -45,7 +45,7 @@ impl Driver {
         let mut effects = Vec::new();
         for name in names.split_whitespace() {
             let event = key_event(name);
-            effects = match (keys::command(&event, self.model.mode.kind()), event.code) {
+            effects = match (keys::command(&event, self.model.keys()), event.code) {
                 (Some(command), _) => self.act(Action::Command(command)),
                 (None, KeyCode::Char(character)) => self.act(Action::Type(character)),
                 (None, _) => Vec::new(),

@@ -10,7 +10,7 @@ use crate::explorer::text_line::TextLine;
 use crate::export::sheet::grouped;
 use crate::scene::{Edges, format_quantity};
 
-/// What is still to be worked out about the accuracy of the scene as it stands, in this order.
+/// What is still to be worked out about the scene as it stands, in this order.
 #[must_use]
 pub fn study_tasks(model: &Model) -> Vec<Task> {
     let Some(computed) = model.computed.as_ref().filter(|_| model.is_current()) else { return Vec::new() };
@@ -18,11 +18,15 @@ pub fn study_tasks(model: &Model) -> Vec<Task> {
     if let Some((tolerance, _)) = appraisal.choosing {
         return vec![Task::Choose(computed.scene.clone(), tolerance)];
     }
+    let chart = model.chart.wanted(&computed.scene).ok().flatten();
+    let chart = chart
+        .filter(|_| model.chart.shown && model.chart.failed.is_none())
+        .map(|map| Task::Chart { map, waits: model.chart.edited });
     let estimate =
         (appraisal.estimated == Estimated::Waiting).then(|| Task::Estimate(std::sync::Arc::clone(computed)));
     let measure = (appraisal.shown && appraisal.costs.ended.is_none())
         .then(|| Task::Measure(std::sync::Arc::clone(&computed.scene)));
-    estimate.into_iter().chain(measure).collect()
+    chart.into_iter().chain(estimate).chain(measure).collect()
 }
 
 /// Obeys a command that has to do with accuracy.
@@ -35,16 +39,12 @@ pub fn obey(model: &mut Model, command: Command) -> Vec<Effect> {
         }
         return Vec::new();
     }
-    let shown = !model.appraisal.shown;
-    model.appraisal.shown = shown;
-    if shown {
-        model.pane = Pane::Accuracy;
-    } else {
+    if model.appraisal.shown {
+        model.appraisal.hide();
         model.pane = if model.pane == Pane::Accuracy { Pane::Force } else { model.pane };
-        // Nobody looks on: what was not finished begins anew when it is shown again.
-        if model.appraisal.costs.ended.is_none() {
-            model.appraisal.costs = Default::default();
-        }
+    } else {
+        (model.appraisal.shown, model.chart.shown) = (true, false);
+        model.pane = Pane::Accuracy;
     }
     vec![Effect::Study, Effect::Show]
 }
@@ -89,6 +89,14 @@ pub fn found(model: &mut Model, found: Found) -> Vec<Effect> {
                     vec![Effect::Study]
                 }
             }
+        }
+        Finding::Charted(map) => {
+            model.chart.map = Some(map);
+            Vec::new()
+        }
+        Finding::NotCharted(why) => {
+            model.chart.failed = Some(why);
+            Vec::new()
         }
         finding => {
             model.appraisal.take_in(finding);

@@ -7,6 +7,7 @@ use crate::explorer::layout::Layout;
 use crate::explorer::mode::Mode;
 use crate::explorer::model::{Look, Model, Notice, Pane, Player};
 use crate::explorer::parameters::{Setting, parameters};
+use crate::explorer::session::scene_of;
 use crate::explorer::text_line::TextLine;
 use crate::explorer::worker::{Focus, LineView};
 use crate::scene::{Computed, Document, SceneErrors, presets};
@@ -206,6 +207,13 @@ pub fn adopt(model: &mut Model, document: Document) -> Vec<Effect> {
     renew(model)
 }
 
+/// Goes on with the last edit: what it comes to takes its place.
+pub fn replace(model: &mut Model, document: Document) -> Vec<Effect> {
+    model.document = document;
+    model.redo.clear();
+    renew(model)
+}
+
 /// Takes back the last edit, or does it again.
 pub fn undo(model: &mut Model, back: bool) -> Vec<Effect> {
     let (from, to) =
@@ -226,6 +234,7 @@ fn renew(model: &mut Model) -> Vec<Effect> {
     model.generation += 1;
     model.progress = Some(0);
     model.appraisal.forget();
+    model.chart.renew(&scene_of(&model.document));
     // What was in hand was pressed on another line, or under another force.
     if model.hand.take().is_some() {
         let back = "the body is back on the scene's loading".to_owned();

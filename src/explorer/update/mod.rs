@@ -2,6 +2,7 @@
 //! done outside is returned.
 
 mod accuracy;
+mod chart;
 mod compare;
 mod edit;
 mod files;
@@ -211,6 +212,9 @@ fn edit_line(model: &mut Model, command: Command) {
 }
 
 fn explore(model: &mut Model, command: Command) -> Vec<Effect> {
+    if !matches!(command, Command::MoveKappa(_) | Command::MoveHurst(_)) {
+        model.chart.moving = false;
+    }
     // Why there is no curve stays to be read; all else goes with the next key.
     if model.is_current() || model.is_computing() {
         model.notice = None;
@@ -241,6 +245,11 @@ fn explore(model: &mut Model, command: Command) -> Vec<Effect> {
         Command::CopyCommand => return files::copy_command(model),
         Command::OpenLibrary => return library::open(model),
         Command::ToggleAccuracy | Command::TypeTolerance => return accuracy::obey(model, command),
+        Command::ToggleChart
+        | Command::ToggleSections
+        | Command::NextCharted
+        | Command::MoveKappa(_)
+        | Command::MoveHurst(_) => return chart::obey(model, command),
         Command::Fragment(_)
         | Command::ToggleLengths
         | Command::Zoom(_)

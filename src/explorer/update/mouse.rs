@@ -1,11 +1,11 @@
 //! The mouse: it chooses panes and rows, drags the load and scrolls. Everything it does a key does too.
 
-use super::{Effect, edit, explore, look, movement};
+use super::{Effect, chart, edit, explore, look, movement};
 use crate::explorer::action::{Command, Gesture, Mouse};
 use crate::explorer::layout::{Layout, inside};
 use crate::explorer::mode::Mode;
 use crate::explorer::model::{Model, Pane};
-use crate::explorer::view::{indentation_at, parameter_at};
+use crate::explorer::view::{indentation_at, parameter_at, place_at};
 use crate::explorer::worker::HandOrder;
 use ratatui::layout::Position;
 
@@ -34,9 +34,14 @@ pub fn act(model: &mut Model, mouse: Mouse) -> Vec<Effect> {
                     vec![Effect::Show]
                 }
                 Pane::Force => drag(model, inside(area), mouse.column),
+                Pane::Chart => {
+                    model.chart.moving = false;
+                    put(model, inside(area), here)
+                }
                 Pane::Profile | Pane::CloseUp | Pane::Accuracy => vec![Effect::Show],
             }
         }
+        (Gesture::Drag, Pane::Chart) if model.chart.moving => put(model, inside(area), here),
         (Gesture::Drag, Pane::Force) => drag(model, inside(area), mouse.column),
         (Gesture::Wheel(turns), Pane::Parameters) => explore(model, Command::Select(-turns)),
         (Gesture::Wheel(turns), Pane::Profile | Pane::CloseUp) => {
@@ -45,6 +50,14 @@ pub fn act(model: &mut Model, mouse: Mouse) -> Vec<Effect> {
             vec![Effect::Show]
         }
         (Gesture::Drag | Gesture::Wheel(_), _) => Vec::new(),
+    }
+}
+
+/// Puts the mark of the map under the mouse.
+fn put(model: &mut Model, area: ratatui::layout::Rect, here: Position) -> Vec<Effect> {
+    match place_at(model, area, here) {
+        Some((kappa, hurst)) => chart::move_to(model, kappa, hurst),
+        None => vec![Effect::Show],
     }
 }
 

@@ -6,7 +6,7 @@ use crate::accuracy::{Estimate, Target};
 use crate::contact::CurvePoint;
 use crate::explorer::action::Command;
 use crate::explorer::keys;
-use crate::explorer::model::{Estimated, Mode, Model, Notice, Traffic};
+use crate::explorer::model::{Estimated, Mode, ModeKind, Model, Notice, Traffic};
 use crate::explorer::text_line::TextLine;
 use crate::explorer::theme::Meaning;
 use crate::export::sheet::grouped;
@@ -184,10 +184,14 @@ pub fn footer(frame: &mut Frame<'_>, area: Rect, model: &Model) {
     });
     let mut spans = Vec::new();
     let mut room = usize::from(area.width) - traffic.as_ref().map_or(0, Line::width);
-    let labelled = || keys::valid_in(model.mode.kind()).filter(|row| !row.label.is_empty());
+    let labelled = || keys::valid_in(model.keys()).filter(|row| !row.label.is_empty());
     // The way to all the others and the way out show in the smallest window.
     let first = |row: &&keys::Binding| matches!(row.command, Command::Help | Command::Quit);
-    for row in labelled().filter(first).chain(labelled().filter(|row| !first(row))) {
+    // Then what no other pane has.
+    let special = |row: &&keys::Binding| !first(row) && !row.modes.contains(&ModeKind::Explore);
+    let usual = |row: &&keys::Binding| !first(row) && !special(row);
+    let rows = labelled().filter(first).chain(labelled().filter(special)).chain(labelled().filter(usual));
+    for row in rows {
         let Some(key) = row.keys.first() else { continue };
         let name = key.name();
         let width = name.chars().count() + row.label.chars().count() + 3;

@@ -29,6 +29,12 @@ const PANES: &[(&str, &str)] = &[
          scene as it stands; below it what 1 % and 0.1 % take, and what ran",
     ),
     (
+        "Map",
+        "m shows it: the regime under other κ and H, the mean of a few random lines of few springs; █ sticks at \
+         first touch, ▒ after pressing, · hardly ever, × cannot be computed; ◆ the scene as it stands, moved by \
+         the arrows",
+    ),
+    (
         "Parameters",
         "everything the scene says; ● is an effect that is on, = a value that follows from others",
     ),

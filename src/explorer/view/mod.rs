@@ -2,6 +2,7 @@
 
 mod accuracy;
 mod axes;
+mod chart;
 mod chrome;
 mod close_up;
 mod force;
@@ -12,10 +13,12 @@ mod library;
 mod parameters;
 mod plot;
 mod profile;
+mod sections;
 mod stages;
 mod typed;
 mod wrap;
 
+pub use chart::place_at;
 pub use force::indentation_at;
 pub use parameters::parameter_at;
 
@@ -79,6 +82,7 @@ fn draw_pane(frame: &mut Frame<'_>, area: Rect, model: &Model, pane: Pane) {
             Pane::CloseUp => close_up::title(model),
             Pane::Parameters => " Parameters ".to_owned(),
             Pane::Accuracy => accuracy::TITLE.to_owned(),
+            Pane::Chart => chart::title(model),
         };
         let style = model.appearance.theme.style(if chosen { Meaning::Title } else { Meaning::Quiet });
         let mark = if chosen { "▸" } else { "" };
@@ -95,5 +99,6 @@ fn draw_pane(frame: &mut Frame<'_>, area: Rect, model: &Model, pane: Pane) {
         Pane::CloseUp => close_up::draw(frame, area, model),
         Pane::Parameters => parameters::draw(frame, area, model),
         Pane::Accuracy => accuracy::draw(frame, area, model),
+        Pane::Chart => chart::draw(frame, area, model),
     }
 }
