@@ -10,6 +10,8 @@ mod common {
 
 #[path = "screen/accuracy.rs"]
 mod accuracy;
+#[path = "screen/chart.rs"]
+mod chart;
 #[path = "screen/chrome.rs"]
 mod chrome;
 #[path = "screen/compare.rs"]
@@ -109,10 +111,17 @@ fn everywhere() -> Vec<Driver> {
         "A z",
         "% 1",
         "y",
+        "m",
+        "m X z",
     ];
     let mut all: Vec<Driver> = keys.into_iter().map(pressed).collect();
     all.push(Driver::open(rough()));
     all.push(accuracy::measured(rough()));
+    all.extend(["", "V", "V V", "X", "z"].map(|keys| {
+        let mut driver = chart::charted(rough());
+        driver.press(keys);
+        driver
+    }));
     let mut refused = pressed("");
     refused.enter("nothing");
     all.push(refused);

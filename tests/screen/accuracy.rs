@@ -14,6 +14,7 @@ use asperity::explorer::model::{Costs, Estimated, Notice, Pane};
 use asperity::explorer::snapshot::Loop;
 use asperity::explorer::study::{Appraiser, Finding, Found, Study, Task};
 use asperity::explorer::update::Effect;
+use asperity::phase::PhaseMap;
 use asperity::scene::{Document, Edges, Scene};
 use asperity::simulation::RunError;
 use std::sync::Arc;
@@ -64,6 +65,8 @@ impl Appraiser for Scripted {
         }
         Err(ChoiceError::Unreached { tolerance, best: Some(Box::new(choice)) })
     }
+
+    fn chart(&mut self, _: &mut PhaseMap, _: &dyn Fn() -> bool, _: &mut dyn FnMut(&PhaseMap)) {}
 }
 
 /// A row whose error falls with a power of its setting, and whose time grows with it.
@@ -305,6 +308,8 @@ impl Appraiser for Endless {
     ) -> Result<Choice, ChoiceError> {
         Err(ChoiceError::Stepwise)
     }
+
+    fn chart(&mut self, _: &mut PhaseMap, _: &dyn Fn() -> bool, _: &mut dyn FnMut(&PhaseMap)) {}
 }
 
 fn endless() -> (Study, Receiver<Found>, Receiver<&'static str>) {

@@ -61,7 +61,7 @@ fn footer(driver: &Driver) -> Vec<String> {
 fn the_footer_shows_keys_of_the_table_that_are_valid_now() {
     within(30, || {
         for mut driver in everywhere() {
-            let mode = driver.model.mode.kind();
+            let mode = driver.model.keys();
             let known: Vec<String> = keys::valid_in(mode)
                 .filter(|row| !row.label.is_empty())
                 .map(|row| format!("{} {}", row.keys[0].name(), row.label))
@@ -71,7 +71,7 @@ fn the_footer_shows_keys_of_the_table_that_are_valid_now() {
                 let shown = footer(&driver);
                 assert!(!shown.is_empty(), "{mode:?} {size:?}");
                 assert!(shown.iter().all(|one| known.contains(one)), "{shown:?} {known:?}");
-                if mode == ModeKind::Explore {
+                if matches!(mode, ModeKind::Explore | ModeKind::Chart) {
                     assert!(shown.iter().any(|one| one.contains("help")), "{size:?}: {shown:?}");
                     assert!(shown.iter().any(|one| one.contains("quit")), "{size:?}: {shown:?}");
                 }

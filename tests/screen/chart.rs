@@ -1,0 +1,349 @@
+//! The map over κ and H: what it shows, its mark, which is the scene, and what is computed of it when. Told by a
+//! scripted appraiser.
+
+use super::common::deadline::within;
+use super::common::driver::Driver;
+use super::common::scenes::{changed, rough, smooth, without_adhesion};
+use super::{is_up_to_date, keep};
+use asperity::accuracy::{Choice, ChoiceError, CostError, CostTable, Estimate, Progress};
+use asperity::analysis::Regime;
+use asperity::explorer::action::{Action, Gesture, Mouse};
+use asperity::explorer::layout::{Layout, inside};
+use asperity::explorer::model::{Charted, ModeKind, Pane};
+use asperity::explorer::snapshot::Loop;
+use asperity::explorer::study::{Appraiser, Finding, Found, Study, Task};
+use asperity::explorer::theme::Marker;
+use asperity::explorer::update::{Effect, study_tasks};
+use asperity::phase::{Basis, Cell, HURSTS, KAPPAS, Level, PhaseMap, hurst, kappa};
+use asperity::scene::{Document, Scene};
+use asperity::simulation::RunError;
+use std::sync::Arc;
+use std::sync::mpsc::{Sender, channel};
+use std::time::Duration;
+
+/// Fills the levels of a map that it is told to; nothing else is known to it.
+struct Mapper(Vec<Level>);
+
+/// Adhesion falls with κ, and with it the regime.
+fn cell(kappa: f64, hurst: f64) -> Cell {
+    let regime = match kappa * (0.5 + hurst) {
+        ..2.0 => Regime::PressureInsensitive,
+        2.0..12.0 => Regime::PressureSensitive,
+        _ => Regime::NonAdhesive,
+    };
+    Cell {
+        zero_load_adhesion: (-kappa).exp(),
+        adhesion: 2.0 * (-kappa / 2.0).exp(),
+        preload: 1.0,
+        ideal_adhesion: 1.0,
+        regime,
+        agreeing: 3,
+    }
+}
+
+impl Appraiser for Mapper {
+    fn estimate(&mut self, _: &Loop, _: &dyn Fn() -> bool) -> Result<Option<Estimate>, RunError> {
+        Ok(None)
+    }
+
+    fn measure(
+        &mut self,
+        _: &Scene,
+        _: &dyn Fn() -> bool,
+        _: &mut dyn FnMut(Progress<'_>),
+    ) -> Result<CostTable, CostError> {
+        Err(CostError::Stopped)
+    }
+
+    fn choose(
+        &mut self,
+        _: &Scene,
+        _: f64,
+        _: &dyn Fn() -> bool,
+        _: &mut dyn FnMut(u64),
+    ) -> Result<Choice, ChoiceError> {
+        Err(ChoiceError::Stopped)
+    }
+
+    fn chart(&mut self, map: &mut PhaseMap, _: &dyn Fn() -> bool, tell: &mut dyn FnMut(&PhaseMap)) {
+        for level in &self.0 {
+            for &row in map.rows_of(*level) {
+                level.columns().for_each(|column| map.set(column, row, Ok(cell(kappa(column), hurst(row)))));
+                tell(map);
+            }
+        }
+    }
+}
+
+fn driver_with(document: Document, levels: &[Level]) -> Driver {
+    let mut driver = Driver::open(document);
+    driver.appraiser = Some(Box::new(Mapper(levels.to_vec())));
+    driver.perform(vec![Effect::Compute]);
+    driver.press("Space m");
+    driver
+}
+
+/// The explorer with a whole map, and the map shown.
+pub fn charted(document: Document) -> Driver {
+    driver_with(document, &Level::ALL)
+}
+
+fn place(driver: &Driver) -> (f64, f64) {
+    let (kappa, hurst) = driver.model.place().unwrap();
+    (kappa, hurst.unwrap())
+}
+
+#[test]
+fn the_map_is_shown_beside_what_can_be_changed() {
+    within(60, || {
+        let mut screens = String::new();
+        for (keys, levels) in
+            [("", &Level::ALL[..]), ("", &[Level::Coarse]), ("V", &Level::ALL), ("X", &Level::ALL)]
+        {
+            let mut driver = driver_with(rough(), levels);
+            driver.press(keys);
+            for size in [(120, 40), (80, 24)] {
+                driver.resize(size);
+                screens += &format!("── {keys} {} × {} ──\n{}\n", size.0, size.1, driver.text());
+                assert!(driver.text().contains("4 lines of 1 024 springs"), "{}", driver.text());
+                assert!(driver.text().contains("◆ κ 8, H 0.7"), "{}", driver.text());
+                assert_eq!(
+                    driver.text().contains("5 × 5 cells so far"),
+                    levels.len() == 1,
+                    "{}",
+                    driver.text()
+                );
+                assert!(driver.text().contains("Parameters") && driver.text().contains("Force F(d)"));
+            }
+        }
+        keep("screen_of_the_map", &screens);
+    });
+}
+
+#[test]
+fn the_map_says_without_colours_what_it_says_with_them() {
+    within(60, || {
+        let mut driver = charted(rough());
+        for told in ["█ pressure-insensitive", "▒ pressure-sensitive", "· non-adhesive"] {
+            assert!(driver.text().contains(told), "{told}\n{}", driver.text());
+        }
+        // The same three in every row, from left to right.
+        let fields = driver.rows().iter().filter(|row| row.contains("█▒") && row.contains("▒·")).count();
+        assert!(fields > 15, "{}", driver.text());
+        driver.model.appearance.marker = Marker::Ascii;
+        assert!(driver.text().is_ascii() && driver.text().contains("#%"), "{}", driver.text());
+        driver.model.appearance.marker = Marker::Braille;
+        // Each quantity has a legend of its own.
+        for (quantity, told) in [
+            (Charted::ZeroLoadAdhesion, "F_a(0)/F_a,max  █ ≥ 500m"),
+            (Charted::Coefficient, "F_a/F_n  █ ≥ 1"),
+            (Charted::Regime, "█ pressure-insensitive"),
+        ] {
+            driver.press("V");
+            assert_eq!(driver.model.chart.quantity, quantity);
+            assert!(
+                driver.text().contains(told) || quantity == Charted::ZeroLoadAdhesion,
+                "{}",
+                driver.text()
+            );
+        }
+    });
+}
+
+#[test]
+fn moves_in_a_row_are_one_edit() {
+    within(60, || {
+        let mut driver = charted(rough());
+        assert_eq!(driver.model.keys(), ModeKind::Chart);
+        let before = driver.model.document.clone();
+        let (edits, map) = (driver.model.undo.len(), driver.model.chart.map.clone());
+        assert_eq!(driver.press("Left"), [Effect::Compute]);
+        assert_eq!(place(&driver), (6.73, 0.7));
+        driver.press("Left Down j l Shift+Left Up");
+        assert_eq!(place(&driver), (3.36, 0.65));
+        assert_eq!(driver.model.undo.len(), edits + 1);
+        assert!(is_up_to_date(&driver.model));
+        // The map is that of all of them.
+        assert_eq!(driver.model.chart.map, map);
+        assert!(driver.text().contains("◆ κ 3.36, H 0.65"), "{}", driver.text());
+        // Any other key ends the row.
+        driver.press("V Right");
+        assert_eq!((place(&driver).0, driver.model.undo.len()), (4.0, edits + 2));
+        driver.press("u");
+        assert_eq!(place(&driver), (3.36, 0.65));
+        driver.press("Left u u");
+        assert_eq!(driver.model.document, before);
+        driver.press("U");
+        assert_eq!(place(&driver), (3.36, 0.65));
+        assert_eq!(driver.model.chart.map, map);
+    });
+}
+
+#[test]
+fn the_mark_stays_on_the_map() {
+    within(60, || {
+        let mut driver = charted(rough());
+        driver.press(&"Shift+Right Shift+Up ".repeat(9));
+        assert_eq!(place(&driver), (32.0, 0.95));
+        let generation = driver.model.generation;
+        driver.press("Right");
+        assert!(driver.status().contains("here the map ends"), "{}", driver.status());
+        assert_eq!(driver.model.generation, generation);
+        // A scene beyond it comes back with the first step.
+        driver.press("Tab Tab");
+        assert_eq!(driver.model.keys(), ModeKind::Explore);
+        driver.select("adhesion.kappa");
+        driver.enter("100");
+        assert!(driver.text().contains("κ 100, H 0.95, outside the map"), "{}", driver.text());
+        driver.press("m h");
+        assert_eq!(place(&driver).0, 32.0);
+    });
+}
+
+#[test]
+fn adhesion_given_by_its_work_stays_so() {
+    within(60, || {
+        let mut driver = charted(changed(&rough(), &[("adhesion", "(work: 0.02)")]));
+        driver.press("Right Up");
+        let adhesion = driver.model.document.scene().adhesion.unwrap();
+        assert!(adhesion.kappa.is_none() && adhesion.work.is_some_and(|work| work != 0.02));
+        let (at, hurst) = place(&driver);
+        assert!((0..KAPPAS).any(|column| (kappa(column) / at - 1.0).abs() < 1e-9), "{at}");
+        assert_eq!(hurst, 0.75);
+        // What ran agrees.
+        let computed = driver.model.computed.as_ref().unwrap().outcome.governing.kappa.unwrap();
+        assert!((computed / at - 1.0).abs() < 1e-9);
+    });
+}
+
+#[test]
+fn the_mouse_moves_the_mark() {
+    within(60, || {
+        let mut driver = charted(rough());
+        let edits = driver.model.undo.len();
+        let area = inside(Layout::of(&driver.model).pane(Pane::Chart).unwrap());
+        let mut mouse = |column, row, gesture| driver.act(Action::Mouse(Mouse { column, row, gesture }));
+        mouse(area.x + 20, area.y + 10, Gesture::Press);
+        for column in 20..30 {
+            mouse(area.x + column, area.y + 12, Gesture::Drag);
+        }
+        assert_eq!(driver.model.undo.len(), edits + 1);
+        let screen = driver.screen();
+        assert_eq!(screen[(area.x + 29, area.y + 12)].symbol(), "◆", "{}", driver.text());
+    });
+}
+
+#[test]
+fn other_edits_begin_the_map_anew_and_wait_for_quiet() {
+    within(60, || {
+        let mut driver = charted(rough());
+        let chart = |driver: &Driver| match study_tasks(&driver.model).into_iter().next() {
+            Some(Task::Chart { map, waits }) => Some((map.level(), waits)),
+            _ => None,
+        };
+        assert_eq!(chart(&driver), None, "it is whole");
+        driver.appraiser = None;
+        driver.press("Tab Tab R");
+        assert_eq!(chart(&driver), Some((None, true)));
+        assert!(driver.text().contains("computing the map"), "{}", driver.text());
+        // What comes late is of no use.
+        let generation = driver.model.generation - 1;
+        let late = Arc::new(PhaseMap::new(Arc::new(Basis::of(rough().scene()).unwrap())));
+        driver.act(Action::Found(Found { generation, finding: Finding::Charted(late) }));
+        assert!(driver.model.chart.map.is_none());
+        // Nobody looks on.
+        driver.press("m m");
+        assert!(!driver.model.chart.shown);
+        assert_eq!(chart(&driver), None);
+        assert_eq!(driver.press("m"), [Effect::Study, Effect::Show]);
+        assert_eq!(chart(&driver), Some((None, false)), "shown, it begins at once");
+        // Accuracy takes its place, and the other way round.
+        driver.press("A");
+        assert!(driver.model.appraisal.shown && !driver.model.chart.shown);
+        driver.press("m");
+        assert!(!driver.model.appraisal.shown && driver.model.chart.shown);
+    });
+}
+
+#[test]
+fn a_scene_without_a_map_says_why() {
+    within(60, || {
+        for (document, why) in [(smooth(), "a smooth body has"), (without_adhesion(), "has no adhesion")] {
+            let mut driver = charted(document);
+            assert!(driver.text().contains(why), "{}", driver.text());
+            let generation = driver.model.generation;
+            driver.press("Left Up X");
+            assert_eq!(driver.model.generation, generation);
+        }
+        // A cell that cannot be computed.
+        let mut driver = charted(rough());
+        let mut map = PhaseMap::clone(driver.model.chart.map.as_deref().unwrap());
+        for (column, row) in (0..KAPPAS).flat_map(|column| (0..HURSTS).map(move |row| (column, row))) {
+            map.set(column, row, Err("the force is never reached".to_owned()));
+        }
+        let generation = driver.model.generation;
+        driver.act(Action::Found(Found { generation, finding: Finding::Charted(Arc::new(map)) }));
+        assert!(driver.text().contains("××××"), "{}", driver.text());
+        assert!(driver.text().contains("the force is never"), "{}", driver.text());
+        driver.press("X");
+        assert!(driver.text().contains("over κ"), "{}", driver.text());
+    });
+}
+
+const PATIENCE: Duration = Duration::from_secs(20);
+
+/// Draws a map until it is told to stop, and says when it begins and when it has stopped.
+struct Endless(Sender<&'static str>, Mapper);
+
+impl Appraiser for Endless {
+    fn estimate(&mut self, of: &Loop, stop: &dyn Fn() -> bool) -> Result<Option<Estimate>, RunError> {
+        self.1.estimate(of, stop)
+    }
+
+    fn measure(
+        &mut self,
+        scene: &Scene,
+        stop: &dyn Fn() -> bool,
+        watch: &mut dyn FnMut(Progress<'_>),
+    ) -> Result<CostTable, CostError> {
+        self.1.measure(scene, stop, watch)
+    }
+
+    fn choose(
+        &mut self,
+        scene: &Scene,
+        tolerance: f64,
+        stop: &dyn Fn() -> bool,
+        trying: &mut dyn FnMut(u64),
+    ) -> Result<Choice, ChoiceError> {
+        self.1.choose(scene, tolerance, stop, trying)
+    }
+
+    fn chart(&mut self, map: &mut PhaseMap, stop: &dyn Fn() -> bool, tell: &mut dyn FnMut(&PhaseMap)) {
+        self.1.chart(map, stop, tell);
+        self.0.send("begun").unwrap();
+        while !stop() {
+            std::thread::yield_now();
+        }
+        tell(map);
+        self.0.send("stopped").unwrap();
+    }
+}
+
+#[test]
+fn an_edit_ends_the_computing_of_the_map() {
+    within(60, || {
+        let (says, said) = channel();
+        let (report, reports) = channel();
+        let endless = Endless(says, Mapper(vec![Level::Coarse]));
+        let study = Study::start(Box::new(endless), move |found| report.send(found).is_ok()).unwrap();
+        let map = Arc::new(PhaseMap::new(Arc::new(Basis::of(rough().scene()).unwrap())));
+        study.ask(1, vec![Task::Chart { map, waits: false }]);
+        assert_eq!(said.recv_timeout(PATIENCE), Ok("begun"));
+        study.stop();
+        assert_eq!(said.recv_timeout(PATIENCE), Ok("stopped"));
+        drop(study);
+        let told: Vec<Found> = reports.iter().collect();
+        assert_eq!(told.len(), 5, "a finding for each row, and none after the stop");
+    });
+}
