@@ -67,6 +67,6 @@ impl Chart {
             Some(map) if **map.basis() == basis => Arc::clone(map),
             _ => Arc::new(PhaseMap::new(Arc::new(basis))),
         };
-        Ok(Some(map).filter(|map| map.level() != Some(crate::phase::Level::Whole)))
+        Ok(Some(map).filter(|map| !map.is_whole()))
     }
 }

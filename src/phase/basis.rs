@@ -1,5 +1,6 @@
 //! What a map belongs to: a scene but for its κ and H.
 
+use super::Level;
 use crate::analysis::Governing;
 use crate::scene::{Adhesion, Document, Edges, Numerics, Roughness, Scene, SceneErrors, Solver};
 use crate::surface::SelfAffine;
@@ -11,6 +12,9 @@ pub const LINES: u64 = 4;
 const SPRINGS: (u64, u64) = (1 << 10, 1 << 12);
 /// Springs for each period of the shortest wave, where that is not too many.
 const SPRINGS_PER_WAVE: u64 = 4;
+/// With more springs than these a map gets fewer cells, and with more than those fewer still.
+const MANY: u64 = 1 << 14;
+const VERY_MANY: u64 = 1 << 17;
 /// Stand for all κ and H.
 const ANY: (f64, f64) = (1.0, 0.5);
 
@@ -68,6 +72,16 @@ impl Basis {
     #[must_use]
     pub fn springs(&self) -> u64 {
         self.scene.numerics.points
+    }
+
+    /// How finely a map of it is computed: waves that need very many springs get fewer cells.
+    #[must_use]
+    pub fn finest(&self) -> Level {
+        match self.springs() {
+            ..=MANY => Level::Whole,
+            ..=VERY_MANY => Level::Fine,
+            _ => Level::Medium,
+        }
     }
 
     /// Whether its roughness has an H; a measured one is what it is.
@@ -168,6 +182,12 @@ mod tests {
         ] {
             assert_ne!(of(&document.set(path, value).unwrap()), basis, "{path}");
         }
+        // Short waves have their springs, and very many springs have fewer cells.
+        let short = [("numerics.points", "1048576"), ("roughness.modes", "(1, 131072)")];
+        let short = short.map(|(path, value)| (path.to_owned(), value.to_owned()));
+        let short = of(&document.set_all(&short).unwrap());
+        assert_eq!((short.springs(), short.finest()), (1 << 18, Level::Medium));
+        assert_eq!(basis.finest(), Level::Whole);
         assert_eq!(Basis::of(document.set("adhesion", "None").unwrap().scene()), Err(NoMap::NoAdhesion));
         assert_eq!(Basis::of(open("jkr-sphere").unwrap().scene()), Err(NoMap::Smooth));
     }

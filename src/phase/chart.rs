@@ -21,7 +21,7 @@ struct OfLine {
 pub fn chart(map: &mut PhaseMap, folder: &Path, stop: &dyn Fn() -> bool, tell: &mut dyn FnMut(&PhaseMap)) {
     let basis = std::sync::Arc::clone(map.basis());
     let mut simulation = Simulation::new(folder.to_path_buf());
-    for level in Level::ALL {
+    for level in Level::ALL.into_iter().take_while(|level| *level <= basis.finest()) {
         for &row in map.rows_of(level) {
             let columns: Vec<usize> =
                 level.columns().filter(|&column| map.cell(column, row).is_none()).collect();

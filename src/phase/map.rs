@@ -101,6 +101,12 @@ impl PhaseMap {
         (4.0 * kappa.log2() + 12.0, 20.0 * hurst - 1.0)
     }
 
+    /// Whether nothing of it is missing.
+    #[must_use]
+    pub fn is_whole(&self) -> bool {
+        self.has(self.basis.finest())
+    }
+
     /// A cell or, while it has not been computed, the one of a coarser level that stands for it, with its column
     /// and row.
     #[must_use]

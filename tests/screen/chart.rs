@@ -135,17 +135,13 @@ fn the_map_says_without_colours_what_it_says_with_them() {
         driver.model.appearance.marker = Marker::Braille;
         // Each quantity has a legend of its own.
         for (quantity, told) in [
-            (Charted::ZeroLoadAdhesion, "F_a(0)/F_a,max  █ ≥ 500m"),
-            (Charted::Coefficient, "F_a/F_n  █ ≥ 1"),
+            (Charted::ZeroLoadAdhesion, "F_a(0)/F_a,max  █ ≥ 0.5  ▒ ≥ 0.05  ░ ≥ 0.005"),
+            (Charted::Coefficient, "F_a/F_n  █ ≥ 1  ▒ ≥ 0.1  ░ ≥ 0.01"),
             (Charted::Regime, "█ pressure-insensitive"),
         ] {
             driver.press("V");
             assert_eq!(driver.model.chart.quantity, quantity);
-            assert!(
-                driver.text().contains(told) || quantity == Charted::ZeroLoadAdhesion,
-                "{}",
-                driver.text()
-            );
+            assert!(driver.text().contains(told), "{}", driver.text());
         }
     });
 }
@@ -228,8 +224,11 @@ fn the_mouse_moves_the_mark() {
             mouse(area.x + column, area.y + 12, Gesture::Drag);
         }
         assert_eq!(driver.model.undo.len(), edits + 1);
+        // A cell of the map has two of the screen.
         let screen = driver.screen();
-        assert_eq!(screen[(area.x + 29, area.y + 12)].symbol(), "◆", "{}", driver.text());
+        let near = |x: u16, y: u16| screen[(area.x + x, area.y + y)].symbol() == "◆";
+        let seen = (28..=30).any(|x| (11..=13).any(|y| near(x, y)));
+        assert!(seen, "{}", driver.text());
     });
 }
 
@@ -237,9 +236,11 @@ fn the_mouse_moves_the_mark() {
 fn other_edits_begin_the_map_anew_and_wait_for_quiet() {
     within(60, || {
         let mut driver = charted(rough());
-        let chart = |driver: &Driver| match study_tasks(&driver.model).into_iter().next() {
-            Some(Task::Chart { map, waits }) => Some((map.level(), waits)),
-            _ => None,
+        let chart = |driver: &Driver| {
+            study_tasks(&driver.model).into_iter().find_map(|task| match task {
+                Task::Chart { map, waits } => Some((map.level(), waits)),
+                _ => None,
+            })
         };
         assert_eq!(chart(&driver), None, "it is whole");
         driver.appraiser = None;

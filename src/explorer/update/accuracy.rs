@@ -26,7 +26,7 @@ pub fn study_tasks(model: &Model) -> Vec<Task> {
         (appraisal.estimated == Estimated::Waiting).then(|| Task::Estimate(std::sync::Arc::clone(computed)));
     let measure = (appraisal.shown && appraisal.costs.ended.is_none())
         .then(|| Task::Measure(std::sync::Arc::clone(&computed.scene)));
-    chart.into_iter().chain(estimate).chain(measure).collect()
+    estimate.into_iter().chain(chart).chain(measure).collect()
 }
 
 /// Obeys a command that has to do with accuracy.

@@ -56,9 +56,9 @@ fn glyph_of(regime: Regime) -> &'static str {
 }
 
 /// Glyphs of a quantity, and the least value of each; below the last there is a dot.
-type Steps = [(&'static str, f64); 4];
-const ZERO_LOAD_STEPS: Steps = [("█", 0.5), ("▓", 0.05), ("▒", 0.005), ("░", 0.0005)];
-const COEFFICIENT_STEPS: Steps = [("█", 1.0), ("▓", 0.1), ("▒", 0.01), ("░", 0.001)];
+type Steps = [(&'static str, f64); 3];
+const ZERO_LOAD_STEPS: Steps = [("█", 0.5), ("▒", 0.05), ("░", 0.005)];
+const COEFFICIENT_STEPS: Steps = [("█", 1.0), ("▒", 0.1), ("░", NEGLIGIBLE_COEFFICIENT)];
 
 fn step(steps: &Steps, value: f64) -> &'static str {
     steps.iter().find(|(_, least)| value >= *least).map_or("·", |(glyph, _)| glyph)
@@ -294,13 +294,15 @@ fn below(model: &Model, area: Rect) -> Vec<Line<'static>> {
     if let Some((at_kappa, at_hurst)) = model.place() {
         say(here(model, at_kappa, at_hurst));
         if let Some((column, row, cell)) = map.nearest(at_kappa, at_hurst.unwrap_or_default()) {
-            say(Line::raw(there(map, (column, row), cell)));
+            let at = (number(kappa(column)), at_hurst.map(|_| number(hurst(row))));
+            let elsewhere = at != (number(at_kappa), at_hurst.map(number));
+            say(Line::raw(there(map, elsewhere.then_some(at), cell)));
         }
     }
     let sides = |level: Level| format!("{} × {} cells", level.columns().count(), map.rows_of(level).len());
     match (map.level(), &model.chart.failed) {
         (_, Some(why)) => say(Line::styled(format!("the map ends here: {why}"), theme.style(Meaning::Error))),
-        (Some(Level::Whole), None) => {}
+        (Some(_), None) if map.is_whole() => {}
         (Some(level), None) => {
             say(Line::styled(format!("{} so far…", sides(level)), theme.style(Meaning::Key)))
         }
@@ -308,7 +310,7 @@ fn below(model: &Model, area: Rect) -> Vec<Line<'static>> {
     }
     if area.height >= ROOMY {
         let note = format!(
-            "Pressure-insensitive: F_a(0) is at least {} % of F_a and {} % of that of the smooth body. \
+            "Eq. (15) has the first boundary at κ ≈ 0.6. Pressure-insensitive: F_a(0) is at least {} % of F_a and {} % of that of the smooth body. \
              Non-adhesive: F_a is below {} % of F_n. All forces are means; the lines have the seed of the scene and \
              those after it, exact, with edges between springs.",
             100.0 * INSENSITIVE_SHARE,
@@ -337,10 +339,15 @@ fn here(model: &Model, at_kappa: f64, at_hurst: Option<f64>) -> Line<'static> {
     ])
 }
 
-/// What the map says there.
-fn there(map: &PhaseMap, (column, row): (usize, usize), cell: &Result<Cell, String>) -> String {
-    let hurst = if map.basis().has_hurst() { format!(", H {}", number(hurst(row))) } else { String::new() };
-    let at = format!("map at κ {}{hurst}", number(kappa(column)));
+/// What the map says there, or where it says it, in case that is not where the mark is.
+fn there(map: &PhaseMap, at: Option<(String, Option<String>)>, cell: &Result<Cell, String>) -> String {
+    let at = match at {
+        None => "map".to_owned(),
+        Some((kappa, hurst)) => {
+            let hurst = hurst.map_or_else(String::new, |hurst| format!(", H {hurst}"));
+            format!("map at κ {kappa}{hurst}")
+        }
+    };
     let cell = match cell {
         Ok(cell) => cell,
         Err(why) => return format!("{at}: {why}"),

@@ -13,7 +13,7 @@ use ratatui::text::{Line, Span as Text};
 use ratatui::widgets::Paragraph;
 use ratatui::widgets::canvas::Canvas;
 
-/// Decades that are shown at most: nobody needs to tell smaller forces apart.
+/// Lowest decade that is shown: what is smaller lies below the plot.
 const LOWEST: f64 = -4.0;
 
 /// Rows that make a plot worth drawing.
@@ -30,10 +30,9 @@ struct Curve {
 /// What is shown of cells: the share of the ideal adhesion without a preload, and the adhesion coefficient.
 fn curves<'a>(cells: impl Iterator<Item = (f64, &'a Cell)>) -> [Curve; 2] {
     let (mut zero_load, mut coefficient) = (Vec::new(), Vec::new());
-    let level = |value: f64| value.log10().max(LOWEST);
     for (at, cell) in cells {
-        zero_load.push((at, level(cell.zero_load_share())));
-        coefficient.extend(cell.coefficient().map(|value| (at, level(value))));
+        zero_load.push((at, cell.zero_load_share().log10()));
+        coefficient.extend(cell.coefficient().map(|value| (at, value.log10())));
     }
     for points in [&mut zero_load, &mut coefficient] {
         points.retain(|point| point.1.is_finite());
