@@ -66,7 +66,7 @@ fn the_footer_shows_keys_of_the_table_that_are_valid_now() {
                 .filter(|row| !row.label.is_empty())
                 .map(|row| format!("{} {}", row.keys[0].name(), row.label))
                 .collect();
-            for size in [(200, 40), (120, 40), (80, 24), (40, 12), (20, 6)] {
+            for size in [(220, 40), (120, 40), (80, 24), (40, 12), (20, 6)] {
                 driver.resize(size);
                 let shown = footer(&driver);
                 assert!(!shown.is_empty(), "{mode:?} {size:?}");
@@ -75,7 +75,7 @@ fn the_footer_shows_keys_of_the_table_that_are_valid_now() {
                     assert!(shown.iter().any(|one| one.contains("help")), "{size:?}: {shown:?}");
                     assert!(shown.iter().any(|one| one.contains("quit")), "{size:?}: {shown:?}");
                 }
-                if size.0 == 200 {
+                if size.0 == 220 {
                     assert_eq!(shown.len(), known.len(), "{mode:?}: {shown:?}");
                 }
             }
