@@ -108,7 +108,7 @@ pub trait Appraiser: Send {
         trying: &mut dyn FnMut(u64),
     ) -> Result<Choice, ChoiceError>;
 
-    /// See [`chart`].
+    /// See [`chart()`].
     fn chart(&mut self, map: &mut PhaseMap, stop: &dyn Fn() -> bool, tell: &mut dyn FnMut(&PhaseMap));
 }
 

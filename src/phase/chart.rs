@@ -1,6 +1,6 @@
 //! Computes a map.
 
-use super::grid::{KAPPAS, Level, hurst, kappa};
+use super::grid::{Level, hurst, kappa};
 use super::{Basis, Cell, PhaseMap};
 use crate::analysis::{Regime, RegimeEvidence};
 use crate::simulation::{Outcome, RunError, Simulation};
@@ -48,7 +48,6 @@ fn cells(
     let mut lines: Vec<Result<Vec<OfLine>, RunError>> = vec![Ok(Vec::new()); columns.len()];
     for line in 0..basis.lines() {
         for (&column, cell) in columns.iter().zip(&mut lines) {
-            debug_assert!(column < KAPPAS);
             let Ok(so_far) = cell else { continue };
             if stop() {
                 return None;
@@ -108,6 +107,7 @@ fn mean(lines: &[OfLine]) -> Cell {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::phase::KAPPAS;
     use crate::scene::open;
     use std::sync::Arc;
 

@@ -84,7 +84,7 @@ fn places(model: &Model, area: Rect) -> Places {
     let mut below = below(model, area);
     // The map comes first, then what the mark says, then the legend.
     let room = usize::from(area.height.saturating_sub(FEWEST_ROWS + 1));
-    below.truncate(room);
+    below.truncate(room.min(usize::from(area.height / 3)));
     legend.truncate(room - below.len());
     let gutter = if area.width >= 30 { GUTTER } else { 0 };
     let axis = u16::from(area.height >= 5);
