@@ -77,10 +77,13 @@ impl Basis {
     /// How finely a map of it is computed: waves that need very many springs get fewer cells.
     #[must_use]
     pub fn finest(&self) -> Level {
-        match self.springs() {
-            ..=MANY => Level::Whole,
-            ..=VERY_MANY => Level::Fine,
-            _ => Level::Medium,
+        let springs = self.springs();
+        if springs <= MANY {
+            Level::Whole
+        } else if springs <= VERY_MANY {
+            Level::Fine
+        } else {
+            Level::Medium
         }
     }
 
