@@ -1,7 +1,7 @@
 //! The exact solver: any loading history, leg by leg, in linear time and without a step error.
 //!
-//! How a leg goes is the same for whole springs and for edges between them; what the springs come to is
-//! their [`Contact`].
+//! How a leg goes is the same for whole springs and for edges between them; what the springs come to is the
+//! law of their contact.
 
 use super::law::{Contact, Standing};
 use super::ledger::Grid;

@@ -1,8 +1,8 @@
 //! Parameter studies: many cells on many random lines, computed once, kept safely and put into tables.
 //!
 //! A [`Plan`] names a scene, the [`Axis`]es along which numbers of it vary, a number of random lines, and what
-//! is recorded. [`run`] computes what is missing of it in a [`Folder`], by as many threads and processes as
-//! there are; [`merge`] publishes the tables, and [`Finished`] reads them back.
+//! is recorded. [`run()`] computes what is missing of it in a [`Folder`], by as many threads and processes as
+//! there are; [`merge()`] publishes the tables, and [`Finished`] reads them back.
 //!
 //! Lines have the same seeds in all cells, so a curve over an axis is as smooth as that of a single line. What
 //! cells share is made once: a line and its tree serve every κ, γ and load.

@@ -26,15 +26,15 @@ use bare::BareLine;
 use between::BetweenSprings;
 use std::sync::Arc;
 
-/// A body under adhesion; build one with [`adhesive_in`].
+/// A body under adhesion; build one with [`adhesive_in()`].
 pub type Adhesive<'a> = Exact<BetweenSprings<AdhesiveSprings<'a, SubCellEdges>>>;
-/// A body without adhesion; build one with [`bare`].
+/// A body without adhesion; build one with [`bare()`].
 pub type Bare<'a> = Exact<BetweenSprings<BareLine<'a>>>;
 
 /// A body over the line of `sets`, separated, at d = 0 just before first touch, in the memory that
 /// [`Exact::into_memory`] gave back.
 ///
-/// `hess` is the rule of Hess; with `None` nothing is stretched, and [`bare`] gives the same without a tree.
+/// `hess` is the rule of Hess; with `None` nothing is stretched, and [`bare()`] gives the same without a tree.
 /// `samples` (at least 2) curve points are taken on each leg.
 ///
 /// # Errors
