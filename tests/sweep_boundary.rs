@@ -33,7 +33,8 @@ fn study(folder: &Path, axis: &str) -> String {
 fn a_boundary_is_found_for_each_place_protocol_and_level() {
     let place = tempfile::tempdir().unwrap();
     let study = study(place.path(), "Linear(path: \"kappa\", from: 0.5, to: 6.0, count: 12)");
-    let found = asperity(&["sweep", "boundary", &study, "--level", "0.5", "--level", "0.1", "--format", "json"]);
+    let found =
+        asperity(&["sweep", "boundary", &study, "--level", "0.5", "--level", "0.1", "--format", "json"]);
     assert!(found.status.success(), "{}", told(&found.stderr));
     let object: Value = serde_json::from_slice(&found.stdout).unwrap();
     assert_eq!(object["lines"], 8);
@@ -62,7 +63,7 @@ fn a_boundary_is_found_for_each_place_protocol_and_level() {
 #[test]
 fn a_study_without_kappa_has_none_and_says_so() {
     let place = tempfile::tempdir().unwrap();
-    let study = study(place.path(), "List(path: \"roughness.seed\", values: [1.0])");
+    let study = study(place.path(), "List(path: \"roughness.rms_height\", values: [1.0e-7])");
     let refused = asperity(&["sweep", "boundary", &study]);
     assert_eq!(refused.status.code(), Some(1));
     assert!(told(&refused.stderr).contains("no axis `kappa`"), "{}", told(&refused.stderr));

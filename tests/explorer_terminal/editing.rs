@@ -80,7 +80,7 @@ fn help_opens_scrolls_and_closes() {
         for (open, close) in [("?", "?"), ("?", ESCAPE), ("\x1bOP", "q")] {
             terminal.send(open);
             terminal.wait_for("play or pause");
-            terminal.send("jjjjjjjjjjjjj");
+            terminal.send(&"j".repeat(30));
             terminal.wait_without("play or pause");
             terminal.send(close);
             terminal.wait("screen as before", |rows| rows.join("\n") == before);
