@@ -52,7 +52,7 @@ pub enum Command {
     Plan(PlanArguments),
     /// Measure what accuracy costs: errors against time, for everything that buys accuracy
     Cost(CostArguments),
-    /// Compute a parameter study: many cells on many random lines, by any number of processes
+    /// Compute a parameter study: many cells on many random lines
     Sweep(SweepArguments),
     /// Run the catalogue of hard cases: what must hold, and whether it does on this machine
     Check(CheckArguments),
