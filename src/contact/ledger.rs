@@ -20,8 +20,25 @@ pub struct Spring {
 pub trait Springs {
     /// Calls `see` once for each spring.
     fn each(&self, see: impl FnMut(Spring));
+    /// The same for each spring whose threshold is above `low`, m, in any order; others may be left out.
+    fn each_above(&self, _low: f64, see: impl FnMut(Spring)) {
+        self.each(see);
+    }
     /// The scale on which the gaps are summed.
     fn scale(&self) -> &GapScale;
+}
+
+/// The springs whose thresholds are above an indentation, m, and perhaps some others.
+struct Above<'s, S>(f64, &'s S);
+
+impl<S: Springs> Springs for Above<'_, S> {
+    fn each(&self, see: impl FnMut(Spring)) {
+        self.1.each_above(self.0, see);
+    }
+
+    fn scale(&self) -> &GapScale {
+        self.1.scale()
+    }
 }
 
 /// An evenly spaced grid of indentations, both ends exact.
@@ -136,7 +153,7 @@ impl Ledger {
         let (low, high) = (points[first], points[last + 1]);
         let mut events = Vec::new();
         let within = |threshold: f64| threshold > low && threshold <= high;
-        each_run(springs, within, |Run::<()> { threshold, joins, .. }| {
+        each_run(&Above(low, springs), within, |Run::<()> { threshold, joins, .. }| {
             let interval = self.grid.first_at_least(threshold) - 1;
             if chosen[interval] {
                 events.push(Event { threshold, joins, interval });

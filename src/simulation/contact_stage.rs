@@ -35,6 +35,15 @@ pub(super) struct ContactMemory {
     touch: Vec<f64>,
 }
 
+impl ContactMemory {
+    /// The same with room for the thresholds of so many springs, already cleared by the system.
+    pub fn ready(self, springs: usize) -> Result<Self, ContactError> {
+        let thresholds = crate::memory::resized(self.thresholds, springs, f64::INFINITY);
+        let thresholds = thresholds.map_err(|_| ContactError::OutOfMemory { springs })?;
+        Ok(ContactMemory { thresholds, ..self })
+    }
+}
+
 /// What a run gives.
 pub(super) struct Contacted {
     pub history: History,

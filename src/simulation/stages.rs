@@ -9,6 +9,7 @@ use crate::parallel::in_parallel;
 use crate::reference::smooth_adhesion_force;
 use crate::scene::{Form, Roughness, Scene};
 use crate::surface::{Histogram, Line, MeasuredProfile, SelfAffine, SurfaceError, Synthesizer};
+use std::mem::take;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Instant;
@@ -169,6 +170,46 @@ impl Simulation {
         }
     }
 
+    /// Makes of the line what the plan calls for and is not there yet: its histogram, its tree, its level sets.
+    /// Returns the number of heights sorted into bins.
+    fn look_at_line(&mut self, plan: &Plan) -> Result<u64, ContactError> {
+        self.finds_edges = plan.runs(Stage::LevelSets);
+        let Some((_, line)) = &self.line else { return Err(ContactError::Interrupted) };
+        let springs = line.gaps.len();
+        let count = plan.runs(Stage::HeightHistogram) && self.histogram.is_none();
+        let build = plan.runs(Stage::Tree) && !self.tree_is_current;
+        if build && let Some(levels) = self.levels.take() {
+            // They hold on to the tree before.
+            self.level_memory = Arc::into_inner(levels).map(LevelSets::into_memory).unwrap_or_default();
+        }
+        let tree_before = if build { self.tree.take() } else { None };
+        let (levels, contact) = (take(&mut self.level_memory), take(&mut self.memory));
+        let finds_edges = self.finds_edges;
+        // The system clears fresh memory when it is first touched, which takes as long as the tree.
+        let aside = || {
+            let histogram = || Histogram::new(line.heights(), line.lowest(), line.summit, HISTOGRAM_BINS);
+            let histogram = count.then(histogram);
+            let levels = if build && finds_edges { levels.ready(springs)? } else { levels };
+            let contact = if build { contact.ready(springs)? } else { contact };
+            Ok((histogram, levels, contact))
+        };
+        let (ready, built) = in_parallel(build && springs >= MANY_SPRINGS, aside, || {
+            build.then(|| build_tree(tree_before, &line.gaps))
+        });
+        if let Some(tree) = built {
+            self.tree = Some(tree?);
+            self.tree_is_current = true;
+        }
+        let histogram;
+        (histogram, self.level_memory, self.memory) = ready?;
+        self.histogram = histogram.or(self.histogram.take());
+        if let (true, None, Some(tree)) = (self.finds_edges, &self.levels, &self.tree) {
+            let memory = take(&mut self.level_memory);
+            self.levels = Some(Arc::new(LevelSets::new_in(memory, Arc::clone(tree), &line.gaps)?));
+        }
+        Ok(if count { springs as u64 } else { 0 })
+    }
+
     /// Runs a checked scene by its plan. `stop` is asked now and then whether to give up; `after` sees
     /// each leg of the scene's own loading.
     ///
@@ -192,34 +233,12 @@ impl Simulation {
         let made_roughness = self.roughness.as_ref().filter(|(key, _)| Some(key) != had_roughness.as_ref());
         let random_phases = made_roughness.map_or(0, |(_, rough)| rough.random_phases);
 
-        self.finds_edges = plan.runs(Stage::LevelSets);
-        let Some((_, line)) = &self.line else { return Err(ContactError::Interrupted.into()) };
         let clock = Instant::now();
-        let count = plan.runs(Stage::HeightHistogram) && self.histogram.is_none();
-        let build = plan.runs(Stage::Tree) && !self.tree_is_current;
-        if build && let Some(levels) = self.levels.take() {
-            // They hold on to the tree before.
-            self.level_memory = Arc::into_inner(levels).map(LevelSets::into_memory).unwrap_or_default();
-        }
-        let tree_before = if build { self.tree.take() } else { None };
-        let (counted, built) = in_parallel(
-            count && build && line.gaps.len() >= MANY_SPRINGS,
-            || count.then(|| Histogram::new(line.heights(), line.lowest(), line.summit, HISTOGRAM_BINS)),
-            || build.then(|| build_tree(tree_before, &line.gaps)),
-        );
-        let heights_binned = if count { line.gaps.len() as u64 } else { 0 };
-        self.histogram = counted.or(self.histogram.take());
-        if let Some(tree) = built {
-            self.tree = Some(tree?);
-            self.tree_is_current = true;
-        }
-        if let (true, None, Some(tree)) = (plan.runs(Stage::LevelSets), &self.levels, &self.tree) {
-            let memory = std::mem::take(&mut self.level_memory);
-            self.levels = Some(Arc::new(LevelSets::new_in(memory, Arc::clone(tree), &line.gaps)?));
-        }
+        let heights_binned = self.look_at_line(&plan)?;
         timings.tree = clock.elapsed().as_secs_f64();
         interrupted()?;
 
+        let Some((_, line)) = &self.line else { return Err(ContactError::Interrupted.into()) };
         let foundation = Foundation { spacing: line.spacing, effective_modulus: governing.effective_modulus };
         let hess = governing
             .adhesive_work()

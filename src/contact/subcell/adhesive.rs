@@ -52,20 +52,29 @@ impl<'a> OverTree<'a> for BetweenSprings<Springs<'a>> {
     }
 }
 
-/// Each fragment: a node, the indentation from which on it is one, and that from which on it is part of a
-/// larger one. The others join or leave with their parents.
+/// Each fragment that is one anywhere above `low`: a node, the indentation from which on it is one, and that
+/// from which on it is part of a larger one. The others join or leave with their parents.
 #[inline]
-fn each_fragment(springs: &Springs<'_>, mut see: impl FnMut(usize, f64, f64)) {
-    each_fragment_placed(springs, |_, node, from, to| see(node, from, to));
+fn each_fragment(springs: &Springs<'_>, low: f64, mut see: impl FnMut(usize, f64, f64)) {
+    each_fragment_placed(springs, low, |_, node, from, to| see(node, from, to));
 }
 
 /// The same with its place among the thresholds.
 #[inline]
-fn each_fragment_placed(springs: &Springs<'_>, mut see: impl FnMut(usize, usize, f64, f64)) {
+fn each_fragment_placed(springs: &Springs<'_>, low: f64, mut see: impl FnMut(usize, usize, f64, f64)) {
     let mut before = 0;
     for Part { start, thresholds } in springs.parts() {
         let shapes = &springs.tree().shapes()[start..start + thresholds.len()];
-        for (parent, (&shape, &to)) in shapes.iter().zip(thresholds).enumerate() {
+        let mut end = thresholds.len();
+        while end > 0 {
+            let parent = end - 1;
+            let (shape, to) = (shapes[parent], thresholds[parent]);
+            if to <= low {
+                // So are all the thresholds in its subtree.
+                end -= shape.size as usize;
+                continue;
+            }
+            end = parent;
             let [right, left] = children_or_self(parent, shape);
             // Rarely so: a branch on whether there is a child would often be mispredicted.
             if (thresholds[right] < to) | (thresholds[left] < to) {
@@ -147,8 +156,8 @@ impl EdgeSprings for Springs<'_> {
     type Piece = Sliding;
 
     fn each_piece(&self, low: f64, high: f64, mut see: impl FnMut(Sliding)) {
-        each_fragment(self, |node, from, to| {
-            if from <= high && to > low {
+        each_fragment(self, low, |node, from, to| {
+            if from <= high {
                 see(Sliding { slider: self.rule().slider(node), from, to });
             }
         });
@@ -156,7 +165,7 @@ impl EdgeSprings for Springs<'_> {
 
     fn edges_along(&self, grid: &Grid) -> Vec<Edges> {
         let mut sums = vec![EdgeSum::default(); grid.points().len()];
-        each_fragment(self, |node, from, to| add(self.rule(), grid, &mut sums, (node, from, to)));
+        each_fragment(self, grid.points()[0], |node, from, to| add(self.rule(), grid, &mut sums, (node, from, to)));
         sums.iter().map(EdgeSum::total).collect()
     }
 
@@ -166,7 +175,7 @@ impl EdgeSprings for Springs<'_> {
         let mut sums = vec![EdgeSum::default(); grid.points().len()];
         let mut squared = CompensatedSum::default();
         let mut fragments = Fragments::none(self.count() as usize);
-        each_fragment_placed(self, |place, node, from, to| {
+        each_fragment_placed(self, low.min(grid.points()[0]), |place, node, from, to| {
             fragments.mark(place);
             add(edges, grid, &mut sums, (node, from, to));
             if from <= high && to > low {

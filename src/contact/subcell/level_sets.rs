@@ -54,6 +54,22 @@ pub struct Step {
     pub length: f64,
 }
 
+impl LevelMemory {
+    /// The same with room for the level sets of so many springs, already cleared by the system.
+    ///
+    /// # Errors
+    /// [`ContactError::OutOfMemory`].
+    pub fn ready(self, springs: usize) -> Result<Self, ContactError> {
+        let nothing = Levels { length: 0.0, growth: 0.0, top: f64::INFINITY };
+        Ok(LevelMemory {
+            nodes: resized(self.nodes, springs, nothing)?,
+            edge_compressions: resized(self.edge_compressions, springs, 0.0)?,
+            cell_quanta: resized(self.cell_quanta, springs, 0)?,
+            steps: self.steps,
+        })
+    }
+}
+
 impl LevelSets {
     /// Those of the line of a tree, `gaps` in their order along the line.
     ///
@@ -69,10 +85,8 @@ impl LevelSets {
     /// # Errors
     /// [`ContactError::OutOfMemory`].
     pub fn new_in(memory: LevelMemory, tree: Arc<ContactTree>, gaps: &[f64]) -> Result<Self, ContactError> {
-        let nothing = Levels { length: 0.0, growth: 0.0, top: f64::INFINITY };
-        let mut nodes = resized(memory.nodes, tree.len(), nothing)?;
-        let mut edge_compressions = resized(memory.edge_compressions, tree.len(), 0.0)?;
-        let mut cell_quanta = resized(memory.cell_quanta, tree.len(), 0)?;
+        let memory = memory.ready(tree.len())?;
+        let LevelMemory { mut nodes, mut edge_compressions, mut cell_quanta, mut steps } = memory;
         let scale = tree.gap_scale();
         let half = tree.len() / 2;
         let (first_cells, other_cells) = cell_quanta.split_at_mut(half);
@@ -91,7 +105,6 @@ impl LevelSets {
             }
             Ok(steps)
         };
-        let mut steps = memory.steps;
         steps.clear();
         let (first, others) = in_parallel(
             tree.len() >= MANY_SPRINGS,
