@@ -10,7 +10,7 @@
 use asperity::analysis::ideal_adhesion_force;
 use asperity::contact::subcell::{self, LevelSets};
 use asperity::contact::{
-    ContactTree, Foundation, GridEdges, HessRule, LegContact, LegRecord, Solver, Work, exact,
+    BodyMemory, ContactTree, Foundation, GridEdges, HessRule, LegContact, LegRecord, Solver, Work, exact,
 };
 use asperity::scene::{Adhesion, Document, Leg, Roughness, Scene};
 use asperity::simulation::Simulation;
@@ -161,7 +161,7 @@ fn measure(rough: &Rough, runs: usize) -> Measured {
     let edits = Edits::of(&rough.scene);
     let mut best =
         Measured { transform: never, synthesis: never, fresh_tree: never, tree: never, loops, edits };
-    let mut thresholds = Vec::new();
+    let (mut memory, mut memory_between) = (BodyMemory::default(), BodyMemory::default());
     for run in 0..runs {
         // The unit is a transform whose memory is in the caches as far as it fits.
         for _ in 0..2 {
@@ -180,13 +180,13 @@ fn measure(rough: &Rough, runs: usize) -> Measured {
             let clock = Instant::now();
             tree = tree.rebuild(black_box(gaps)).expect("memory for the tree");
             best.tree = best.tree.min(seconds_since(clock));
-            thresholds = one.measure_legs(thresholds, rough, &tree);
+            memory = one.measure_legs(memory, rough, &tree);
             one.whole = one.whole.min(seconds_since(clock));
         }
         let shared = Arc::new(tree.clone());
         let mut sets = LevelSets::new(Arc::clone(&shared), gaps).expect("memory for the level sets");
         for one in &mut best.loops {
-            sets = one.measure_between(sets, rough, &shared);
+            (sets, memory_between) = one.measure_between((sets, memory_between), rough, &shared);
         }
         best.edits.measure(&rough.scene, run);
     }
@@ -251,15 +251,21 @@ impl Loop {
     }
 
     /// The same legs with edges between springs.
-    fn measure_between(&mut self, sets: LevelSets, rough: &Rough, tree: &Arc<ContactTree>) -> LevelSets {
+    fn measure_between(
+        &mut self,
+        (sets, memory): (LevelSets, BodyMemory),
+        rough: &Rough,
+        tree: &Arc<ContactTree>,
+    ) -> (LevelSets, BodyMemory) {
         let clock = Instant::now();
-        let memory = sets.into_memory();
-        let sets = LevelSets::new_in(memory, Arc::clone(tree), black_box(&rough.line.gaps)).expect("memory");
+        let level_memory = sets.into_memory();
+        let sets =
+            LevelSets::new_in(level_memory, Arc::clone(tree), black_box(&rough.line.gaps)).expect("memory");
         let sets_seconds = seconds_since(clock);
         let sets = Arc::new(sets);
         let hess = HessRule::new(rough.foundation, rough.work_of_adhesion(self.kappa));
         let mut solver =
-            subcell::adhesive_in(Vec::new(), &sets, Some(hess), rough.foundation, SAMPLES).expect("memory");
+            subcell::adhesive_in(memory, &sets, Some(hess), rough.foundation, SAMPLES).expect("memory");
         let clock = Instant::now();
         for leg in [Leg::ToForce(LOAD * EFFECTIVE_MODULUS * LENGTH * RMS_HEIGHT), Leg::ToSeparation] {
             black_box(solver.advance(leg).expect("a reachable leg"));
@@ -269,12 +275,12 @@ impl Loop {
         for (best, seconds) in self.between.iter_mut().zip([sets_seconds, passes, curves]) {
             *best = best.min(seconds);
         }
-        drop(solver);
-        Arc::into_inner(sets).expect("nobody else has it")
+        let memory = solver.into_memory();
+        (Arc::into_inner(sets).expect("nobody else has it"), memory)
     }
 
     /// Loads to a force and pulls off.
-    fn measure_legs(&mut self, memory: Vec<f64>, rough: &Rough, tree: &ContactTree) -> Vec<f64> {
+    fn measure_legs(&mut self, memory: BodyMemory, rough: &Rough, tree: &ContactTree) -> BodyMemory {
         let rule = GridEdges::new(HessRule::new(rough.foundation, rough.work_of_adhesion(self.kappa)));
         let mut solver = exact::adhesive_in(memory, tree, rule, rough.foundation, SAMPLES).expect("memory");
         let legs = [Leg::ToForce(LOAD * EFFECTIVE_MODULUS * LENGTH * RMS_HEIGHT), Leg::ToSeparation];

@@ -5,6 +5,8 @@
 mod brute_force;
 #[path = "laws/extreme_inputs.rs"]
 mod extreme_inputs;
+#[path = "common/formed.rs"]
+mod formed;
 #[path = "laws/memory.rs"]
 mod memory;
 #[path = "laws/refusals.rs"]

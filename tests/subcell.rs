@@ -4,6 +4,8 @@
 mod brute_force;
 #[path = "subcell/closed_forms.rs"]
 mod closed_forms;
+#[path = "common/formed.rs"]
+mod formed;
 #[path = "subcell/hand.rs"]
 mod hand;
 #[path = "subcell/laws.rs"]
@@ -13,7 +15,7 @@ mod rule;
 
 use asperity::contact::subcell::{self, LevelSets};
 use asperity::contact::{
-    ContactError, ContactTree, CurvePoint, Foundation, HessRule, History, LegRecord, Solver, run,
+    BodyMemory, ContactError, ContactTree, CurvePoint, Foundation, HessRule, History, LegRecord, Solver, run,
 };
 use asperity::scene::Leg;
 use proptest::prelude::*;
@@ -40,7 +42,7 @@ impl Body {
     }
 
     fn on<'a>(&self, sets: &'a Arc<LevelSets>, samples: usize) -> subcell::Adhesive<'a> {
-        subcell::adhesive_in(Vec::new(), sets, self.hess(), self.foundation, samples).unwrap()
+        subcell::adhesive_in(BodyMemory::default(), sets, self.hess(), self.foundation, samples).unwrap()
     }
 
     fn history(&self, legs: &[Leg], samples: usize) -> History {

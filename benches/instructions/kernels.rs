@@ -9,7 +9,7 @@ use asperity::analysis::Figures;
 use asperity::contact::exact::{self, OverTree};
 use asperity::contact::subcell::{self, LevelSets};
 use asperity::contact::{
-    ContactTree, Exact, Foundation, GridEdges, HessRule, History, LegRecord, Solver, Work, run,
+    BodyMemory, ContactTree, Exact, Foundation, GridEdges, HessRule, History, LegRecord, Solver, Work, run,
 };
 use asperity::scene::{Edges, Form, Leg};
 use asperity::surface::{Histogram, Line, SelfAffine, Synthesizer};
@@ -110,7 +110,7 @@ fn observed(line: &Line) -> Given {
 fn loop_and_touch<'a, C: OverTree<'a, Rule: Clone>>(body: &mut Exact<C>) -> Given {
     let mut touch = None;
     let history = run(body, &LOOP, |_, body: &Exact<C>| {
-        touch = touch.or(body.pull_off_at_touch(&mut Vec::new())?);
+        touch = touch.or(body.pull_off_at_touch(&mut BodyMemory::default())?);
         Ok(())
     });
     Given {
@@ -124,7 +124,7 @@ fn loop_and_touch<'a, C: OverTree<'a, Rule: Clone>>(body: &mut Exact<C>) -> Give
 fn observed_loop<'a, C: OverTree<'a, Rule: Clone>>(body: &mut Exact<C>) -> Given {
     let (mut touch, mut fragments) = (None, Vec::new());
     let history = run(body, &LOOP, |record: &LegRecord, body: &Exact<C>| {
-        touch = touch.or(body.pull_off_at_touch(&mut Vec::new())?);
+        touch = touch.or(body.pull_off_at_touch(&mut BodyMemory::default())?);
         let end = record.curve.last().filter(|end| end.springs > 0);
         fragments.push(end.map_or_else(Vec::new, |end| body.fragments(end.indentation)));
         Ok(())
@@ -143,7 +143,7 @@ fn levels(line: &Line) -> Arc<LevelSets> {
 }
 
 fn body_between(levels: &Arc<LevelSets>) -> subcell::Adhesive<'_> {
-    subcell::adhesive_in(Vec::new(), levels, Some(hess()), FOUNDATION, SAMPLES).expect("a body")
+    subcell::adhesive_in(BodyMemory::default(), levels, Some(hess()), FOUNDATION, SAMPLES).expect("a body")
 }
 
 fn bare_between(line: &Line, legs: &[Leg]) -> Given {

@@ -3,7 +3,7 @@
 use super::Measures;
 use super::solution::Solution;
 use crate::contact::subcell::{self, LevelSets};
-use crate::contact::{ContactError, ContactTree, Foundation, HessRule, run};
+use crate::contact::{BodyMemory, ContactError, ContactTree, Foundation, HessRule, run};
 use crate::scene::Scene;
 use crate::simulation::{RunError, Simulation};
 use std::path::Path;
@@ -25,7 +25,7 @@ pub(super) fn errors_of_single_precision(
         goes_on()?;
         let sets = Arc::new(LevelSets::new(Arc::new(ContactTree::build(gaps)?), gaps)?);
         let samples = scene.numerics.samples as usize;
-        let mut body = subcell::adhesive_in(Vec::new(), &sets, hess, foundation, samples)?;
+        let mut body = subcell::adhesive_in(BodyMemory::default(), &sets, hess, foundation, samples)?;
         let history = run(&mut body, &scene.loading, |_, _| goes_on())?;
         Ok(Solution::of_history(&history, scene.numerics.points))
     };

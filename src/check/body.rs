@@ -4,7 +4,8 @@
 use super::Fault;
 use crate::contact::subcell::{self, LevelSets};
 use crate::contact::{
-    ContactTree, CurvePoint, Foundation, GridEdges, HessRule, History, LegRecord, Solver, exact, run,
+    BodyMemory, ContactTree, CurvePoint, Foundation, GridEdges, HessRule, History, LegRecord, Solver, exact,
+    run,
 };
 use crate::scene::{Edges, Leg};
 use crate::surface::{Line, SelfAffine, UnitRoughness, phases};
@@ -132,7 +133,13 @@ impl Body {
                 }
                 let hess = HessRule::new(self.foundation, self.work);
                 let sets = Arc::new(LevelSets::new(tree, &self.gaps)?);
-                act(&mut subcell::adhesive_in(Vec::new(), &sets, Some(hess), self.foundation, samples)?)
+                act(&mut subcell::adhesive_in(
+                    BodyMemory::default(),
+                    &sets,
+                    Some(hess),
+                    self.foundation,
+                    samples,
+                )?)
             }
         }
     }

@@ -5,7 +5,7 @@
 
 use super::law::{Contact, Standing};
 use super::ledger::Grid;
-use super::springs::{AdhesiveSprings, BareSprings};
+use super::springs::{AdhesiveSprings, BareSprings, BodyMemory};
 use super::targets::{self, Target};
 use super::touch;
 use super::whole::WholeSprings;
@@ -16,11 +16,13 @@ use crate::scene::Leg;
 use std::time::{Duration, Instant};
 
 /// A body on its foundation, moved leg by leg.
-pub struct Exact<C> {
+pub struct Exact<C: Contact> {
     contact: C,
     foundation: Foundation,
     samples: usize,
     standing: Standing,
+    /// Where the first loading is kept: whether it is, and what is in contact along it once it has been sought.
+    first: Option<Option<C::Leg>>,
     /// Whether the present leg touches at all, so that its thresholds hold.
     touching: bool,
     legs: usize,
@@ -41,6 +43,9 @@ pub trait OverTree<'a>: Contact + Sized {
     /// Its springs.
     fn springs(&self) -> &AdhesiveSprings<'a, Self::Rule>;
 
+    /// Its springs.
+    fn springs_mut(&mut self) -> &mut AdhesiveSprings<'a, Self::Rule>;
+
     /// Its springs, to be looked at otherwise.
     fn into_springs(self) -> AdhesiveSprings<'a, Self::Rule>;
 }
@@ -54,6 +59,10 @@ impl<'a, R: EdgeRule> OverTree<'a> for WholeSprings<AdhesiveSprings<'a, R>> {
 
     fn springs(&self) -> &AdhesiveSprings<'a, R> {
         &self.0
+    }
+
+    fn springs_mut(&mut self) -> &mut AdhesiveSprings<'a, R> {
+        &mut self.0
     }
 
     fn into_springs(self) -> AdhesiveSprings<'a, R> {
@@ -78,7 +87,7 @@ pub fn adhesive<R: EdgeRule>(
     foundation: Foundation,
     samples: usize,
 ) -> Result<Adhesive<'_, R>, ContactError> {
-    adhesive_in(Vec::new(), tree, rule, foundation, samples)
+    adhesive_in(BodyMemory::default(), tree, rule, foundation, samples)
 }
 
 /// The same in the memory that [`Exact::into_memory`] gave back: fresh memory costs about as much as a pass.
@@ -86,7 +95,7 @@ pub fn adhesive<R: EdgeRule>(
 /// # Errors
 /// [`ContactError::OutOfMemory`].
 pub fn adhesive_in<R: EdgeRule>(
-    memory: Vec<f64>,
+    memory: BodyMemory,
     tree: &ContactTree,
     rule: R,
     foundation: Foundation,
@@ -113,9 +122,18 @@ impl<'a, C: OverTree<'a>> Exact<C> {
         Ok(exact)
     }
 
+    /// The same, which computes the loading from separation once and keeps it: for a loading that comes down
+    /// several times. What it gives is the same, bit for bit.
+    #[must_use]
+    pub fn keeping_first_loading(mut self) -> Self {
+        self.contact.springs_mut().keep_first_loading();
+        self.first = Some(None);
+        self
+    }
+
     /// The memory it worked in, for the next body.
     #[must_use]
-    pub fn into_memory(self) -> Vec<f64> {
+    pub fn into_memory(self) -> BodyMemory {
         self.contact.into_springs().into_memory()
     }
 
@@ -134,7 +152,7 @@ impl<'a, C: OverTree<'a>> Exact<C> {
     ///
     /// # Errors
     /// [`ContactError::OutOfMemory`].
-    pub fn pull_off_at_touch(&self, memory: &mut Vec<f64>) -> Result<Option<(f64, Work)>, ContactError>
+    pub fn pull_off_at_touch(&self, memory: &mut BodyMemory) -> Result<Option<(f64, Work)>, ContactError>
     where
         C::Rule: Clone,
     {
@@ -153,6 +171,7 @@ impl<C: Contact> Exact<C> {
             foundation,
             samples: samples.max(2),
             standing: Standing::free(0.0),
+            first: None,
             touching: false,
             legs: 0,
             work,
@@ -231,7 +250,11 @@ impl<C: Contact> Exact<C> {
             Target::Compression(wanted) => self.load_to_compression(leg, wanted, low, complete.max(low))?,
             Target::Separation => low,
         };
-        let (grid, stride) = self.grid(low, high);
+        let (grid, stride) = match target {
+            // Nothing is sought any more.
+            Target::Compression(_) => (Grid::new(low, high, self.samples - 1), 1),
+            _ => self.grid(low, high),
+        };
         self.work.springs_tallied += self.work.springs;
         let (sampled, joined) = self.contact.sample_joins(grid, separated);
         let mut curve = self.samples(&sampled, stride);
@@ -272,16 +295,21 @@ impl<C: Contact> Exact<C> {
         low: f64,
         complete: f64,
     ) -> Result<f64, ContactError> {
-        let sampled = self.sample(low, complete);
+        let forms = self.is_separated();
+        let kept = self.first.as_mut().filter(|_| forms).and_then(Option::take);
+        // From d = 0 to where all is in contact it is the same each time.
+        let sampled = kept.unwrap_or_else(|| self.sample(low, complete));
         let sorted = &mut self.work.events_sorted;
-        if let Some(found) = self.contact.first_at_least(&sampled, wanted, sorted) {
-            return Ok(found);
+        // Beyond, everything is in contact and the force rises with all springs.
+        let beyond = || {
+            let indentation = self.contact.beyond(&sampled, wanted).filter(|found| found.is_finite());
+            indentation.map(|indentation| indentation.max(complete))
+        };
+        let found = self.contact.first_at_least(&sampled, wanted, sorted).or_else(beyond);
+        if forms && let Some(kept) = &mut self.first {
+            *kept = Some(sampled);
         }
-        // Everything is in contact and the force rises with all springs.
-        let found = self.contact.beyond(&sampled, wanted).filter(|indentation| indentation.is_finite());
-        found
-            .map(|indentation| indentation.max(complete))
-            .ok_or(ContactError::OutOfReach { index: self.legs, leg })
+        found.ok_or(ContactError::OutOfReach { index: self.legs, leg })
     }
 
     fn unload(&mut self, leg: Leg, target: Target) -> Result<LegRecord, ContactError> {

@@ -44,6 +44,7 @@ pub use history::{CurvePoint, Direction, History, LegRecord, Work};
 pub use incremental::{HandError, HandHeld, Incremental, Move};
 pub use leg_contact::LegContact;
 pub use solver::{Solver, run};
+pub use springs::BodyMemory;
 pub use stepwise::Stepwise;
 pub use tally::{GapScale, Tally};
 pub use tree::ContactTree;

@@ -26,6 +26,33 @@ pub trait Thresholds: Springs {
     fn fragments(&self, indentation: f64) -> Vec<(usize, usize)>;
 }
 
+/// Memory that one body leaves to the next: fresh memory costs about as much as a pass.
+#[derive(Debug, Default)]
+pub struct BodyMemory {
+    thresholds: Vec<f64>,
+    first: Vec<f64>,
+}
+
+impl BodyMemory {
+    /// The same with room for the thresholds of so many springs, already cleared by the system.
+    ///
+    /// # Errors
+    /// [`ContactError::OutOfMemory`].
+    pub fn ready(self, springs: usize) -> Result<Self, ContactError> {
+        Ok(BodyMemory { thresholds: super::resized(self.thresholds, springs, f64::INFINITY)?, ..self })
+    }
+}
+
+/// Thresholds of the loading that forms the contact: each time the body comes down again they are the same.
+enum FirstLoading {
+    /// Computed each time; the memory is not used.
+    Forgotten(Vec<f64>),
+    /// To be kept in this memory once they are computed.
+    Awaited(Vec<f64>),
+    /// Those of each spring, and the largest of them, m.
+    Known(Vec<f64>, f64),
+}
+
 /// Springs under adhesion: the tree decides, under a rule for the edges.
 pub struct AdhesiveSprings<'a, R> {
     tree: &'a ContactTree,
@@ -34,6 +61,7 @@ pub struct AdhesiveSprings<'a, R> {
     roots: Vec<usize>,
     /// Those of the springs of each subtree, one subtree after the other, each in post-order, m.
     thresholds: Vec<f64>,
+    first: FirstLoading,
     scale: GapScale,
     /// Whether the present leg presses a body that was separated before.
     forms: bool,
@@ -51,7 +79,7 @@ pub struct Part<'s> {
 impl<'a, R: EdgeRule> AdhesiveSprings<'a, R> {
     /// Keeps its thresholds in this memory; what it holds does not matter, as nothing asks for them before
     /// the first pass has written them.
-    pub fn new(tree: &'a ContactTree, rule: R, memory: Vec<f64>) -> Result<Self, ContactError> {
+    pub fn new(tree: &'a ContactTree, rule: R, memory: BodyMemory) -> Result<Self, ContactError> {
         let roots = tree.len().checked_sub(1).into_iter().collect();
         Self::of(tree, rule, roots, memory)
     }
@@ -61,11 +89,12 @@ impl<'a, R: EdgeRule> AdhesiveSprings<'a, R> {
         tree: &'a ContactTree,
         rule: R,
         roots: Vec<usize>,
-        memory: Vec<f64>,
+        memory: BodyMemory,
     ) -> Result<Self, ContactError> {
         let count = roots.iter().map(|&root| tree.size(root) as usize).sum();
-        let thresholds = super::resized(memory, count, f64::INFINITY)?;
-        Ok(AdhesiveSprings { tree, rule, roots, thresholds, scale: tree.gap_scale(), forms: false })
+        let BodyMemory { thresholds, first } = memory.ready(count)?;
+        let first = FirstLoading::Forgotten(first);
+        Ok(AdhesiveSprings { tree, rule, roots, thresholds, first, scale: tree.gap_scale(), forms: false })
     }
 
     /// The tree of the line.
@@ -78,8 +107,39 @@ impl<'a, R: EdgeRule> AdhesiveSprings<'a, R> {
         &self.rule
     }
 
-    pub fn into_memory(self) -> Vec<f64> {
-        self.thresholds
+    pub fn into_memory(self) -> BodyMemory {
+        let (FirstLoading::Forgotten(first) | FirstLoading::Awaited(first) | FirstLoading::Known(first, _)) =
+            self.first;
+        BodyMemory { thresholds: self.thresholds, first }
+    }
+
+    /// Computes the loading that forms the contact once, and keeps it for each time the body comes down again.
+    pub fn keep_first_loading(&mut self) {
+        let first = std::mem::replace(&mut self.first, FirstLoading::Forgotten(Vec::new()));
+        self.first = match first {
+            FirstLoading::Forgotten(memory) => FirstLoading::Awaited(memory),
+            kept => kept,
+        };
+    }
+
+    /// Begins the loading that forms the contact and returns the largest threshold.
+    fn form(&mut self, work: &mut Work) -> f64 {
+        if let FirstLoading::Known(thresholds, complete) = &self.first {
+            self.thresholds.copy_from_slice(thresholds);
+            return *complete;
+        }
+        work.loading_passes += 1;
+        work.hess_evaluations += (self.tree.len() as u64).saturating_sub(1);
+        let complete = thresholds::load(self.tree, &self.rule, &mut self.thresholds, |_| false);
+        if let FirstLoading::Awaited(memory) = &mut self.first {
+            // Where there is no memory to keep them they are computed again.
+            let kept = super::resized(std::mem::take(memory), self.thresholds.len(), 0.0);
+            self.first = kept.map_or(FirstLoading::Forgotten(Vec::new()), |mut kept| {
+                kept.copy_from_slice(&self.thresholds);
+                FirstLoading::Known(kept, complete)
+            });
+        }
+        complete
     }
 
     /// The subtrees looked at.
@@ -158,25 +218,17 @@ impl<R: EdgeRule> Thresholds for AdhesiveSprings<'_, R> {
     }
 
     fn load(&mut self, from: Option<f64>, work: &mut Work) -> f64 {
-        let nodes = self.tree.len() as u64;
-        work.loading_passes += 1;
         self.forms = from.is_none();
-        match from {
-            None => {
-                work.hess_evaluations += nodes.saturating_sub(1);
-                thresholds::load(self.tree, &self.rule, &mut self.thresholds, |_| false)
-            }
-            Some(from) => {
-                // Each part of a subtree that is still open asks the rule once.
-                let (mut springs, mut fragments) = (0, 0);
-                self.tree.each_fragment(&self.thresholds, from, |root| {
-                    springs += u64::from(self.tree.size(root));
-                    fragments += 1;
-                });
-                work.hess_evaluations += (nodes - springs + fragments).saturating_sub(1);
-                thresholds::load(self.tree, &self.rule, &mut self.thresholds, |threshold| threshold <= from)
-            }
-        }
+        let Some(from) = from else { return self.form(work) };
+        work.loading_passes += 1;
+        // Each part of a subtree that is still open asks the rule once.
+        let (mut springs, mut fragments) = (0, 0);
+        self.tree.each_fragment(&self.thresholds, from, |root| {
+            springs += u64::from(self.tree.size(root));
+            fragments += 1;
+        });
+        work.hess_evaluations += (self.tree.len() as u64 - springs + fragments).saturating_sub(1);
+        thresholds::load(self.tree, &self.rule, &mut self.thresholds, |threshold| threshold <= from)
     }
 
     fn unload(&mut self, from: f64, work: &mut Work) -> f64 {

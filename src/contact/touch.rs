@@ -2,8 +2,8 @@
 
 use super::exact::OverTree;
 use super::ledger::Grid;
-use super::springs::AdhesiveSprings;
-use super::thresholds;
+use super::springs::Thresholds;
+use super::springs::{AdhesiveSprings, BodyMemory};
 use super::{ContactError, ContactTree, EdgeRule, Foundation, Work};
 
 /// Pulls off the contact of first touch, of which these are the roots of all fragments, and gives the
@@ -18,7 +18,7 @@ pub(crate) fn smallest_force<'a, C: OverTree<'a>>(
     rule: C::Rule,
     foundation: Foundation,
     roots: Vec<usize>,
-    memory: &mut Vec<f64>,
+    memory: &mut BodyMemory,
 ) -> Result<(f64, Work), ContactError> {
     let mut springs = AdhesiveSprings::of(tree, rule, roots, std::mem::take(memory))?;
     let held = springs.open(0.0);
@@ -41,16 +41,15 @@ pub(crate) fn smallest_force<'a, C: OverTree<'a>>(
 /// [`ContactError::OutOfMemory`].
 pub(crate) fn roots<R: EdgeRule>(
     tree: &ContactTree,
-    rule: &R,
-    memory: &mut Vec<f64>,
+    rule: R,
+    memory: &mut BodyMemory,
 ) -> Result<(Vec<usize>, Work), ContactError> {
-    let mut springs = super::resized(std::mem::take(memory), tree.len(), 0.0)?;
-    thresholds::load(tree, rule, &mut springs, |_| false);
-    let mut roots = Vec::new();
-    tree.each_fragment(&springs, 0.0, |root| roots.push(root));
-    *memory = springs;
-    let hess_evaluations = (tree.len() as u64).saturating_sub(1);
-    Ok((roots, Work { zero_load_passes: 1, hess_evaluations, ..Work::default() }))
+    let mut springs = AdhesiveSprings::new(tree, rule, std::mem::take(memory))?;
+    let mut work = Work::default();
+    springs.load(None, &mut work);
+    let roots = springs.roots_at_touch().unwrap_or_default();
+    *memory = springs.into_memory();
+    Ok((roots, Work { zero_load_passes: 1, loading_passes: 0, ..work }))
 }
 
 #[cfg(test)]
@@ -85,8 +84,8 @@ mod tests {
             body.advance(Leg::ToIndentation(deep)).unwrap();
             let known = body.roots_at_touch().unwrap();
             // What memory holds does not matter.
-            let mut memory = vec![f64::NAN; gaps.len() / 2];
-            let (found, effort) = roots(&tree, &rule, &mut memory).unwrap();
+            let mut memory = BodyMemory::default();
+            let (found, effort) = roots(&tree, rule.clone(), &mut memory).unwrap();
             prop_assert_eq!(&found, &known);
             prop_assert_eq!(effort.zero_load_passes, 1);
             let (force, effort) = smallest_force::<WholeSprings<_>>(&tree, rule, FOUNDATION, known, &mut memory).unwrap();

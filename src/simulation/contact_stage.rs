@@ -1,13 +1,14 @@
 //! The contact stage of a run: the loading by the solver of the scene and, beside it, F_a(0).
 
 use super::AfterLeg;
+use super::plan::Legs;
 use super::stages::MANY_SPRINGS;
 use crate::analysis::Figures;
 use crate::contact::exact::OverTree;
 use crate::contact::subcell::{self, LevelSets};
 use crate::contact::{
-    ContactError, ContactTree, Exact, Foundation, GridEdges, HessRule, History, LegRecord, Solver, Stepwise,
-    Work, exact, run, touch,
+    BodyMemory, ContactError, ContactTree, Exact, Foundation, GridEdges, HessRule, History, LegRecord,
+    Solver, Stepwise, Work, exact, run, touch,
 };
 use crate::parallel::Beside;
 use crate::scene::{Edges, Leg, Scene, Solver as SolverChoice};
@@ -31,16 +32,14 @@ pub(super) struct ContactStage<'a> {
 /// Memory that one run leaves to the next.
 #[derive(Default)]
 pub(super) struct ContactMemory {
-    thresholds: Vec<f64>,
-    touch: Vec<f64>,
+    body: BodyMemory,
+    touch: BodyMemory,
 }
 
 impl ContactMemory {
     /// The same with room for the thresholds of so many springs, already cleared by the system.
     pub fn ready(self, springs: usize) -> Result<Self, ContactError> {
-        let thresholds = crate::memory::resized(self.thresholds, springs, f64::INFINITY);
-        let thresholds = thresholds.map_err(|_| ContactError::OutOfMemory { springs })?;
-        Ok(ContactMemory { thresholds, ..self })
+        Ok(ContactMemory { body: self.body.ready(springs)?, ..self })
     }
 }
 
@@ -59,7 +58,7 @@ pub(super) struct Contacted {
 struct PulledOff {
     smallest_force: Result<f64, ContactError>,
     work: Work,
-    memory: Vec<f64>,
+    memory: BodyMemory,
 }
 
 impl ContactStage<'_> {
@@ -86,7 +85,7 @@ impl ContactStage<'_> {
                 Ok(contacted)
             }
             (SolverChoice::Exact, Some(hess), Some(tree)) => {
-                let thresholds = take(&mut memory.thresholds);
+                let thresholds = take(&mut memory.body);
                 if let Some(levels) = self.levels {
                     let body =
                         subcell::adhesive_in(thresholds, levels, Some(hess), self.foundation, samples)?;
@@ -106,7 +105,7 @@ impl ContactStage<'_> {
     /// Runs the loading of an adhesive body.
     fn load_over_tree<'t, C: OverTree<'t>>(
         &self,
-        mut body: Exact<C>,
+        body: Exact<C>,
         zero_load: bool,
         memory: &mut ContactMemory,
         after: &mut AfterLeg<'_>,
@@ -114,12 +113,14 @@ impl ContactStage<'_> {
     where
         C::Rule: Clone + Send + Sync,
     {
+        let again = Legs::of(&self.scene.loading).comes_down_again();
+        let mut body = if again { body.keeping_first_loading() } else { body };
         let contacted = if zero_load {
             self.load_and_touch(&mut body, &mut memory.touch, after)
         } else {
             self.load(&mut body, after)
         };
-        memory.thresholds = body.into_memory();
+        memory.body = body.into_memory();
         contacted
     }
 
@@ -158,7 +159,7 @@ impl ContactStage<'_> {
     fn load_and_touch<'t, C: OverTree<'t>>(
         &self,
         body: &mut Exact<C>,
-        memory: &mut Vec<f64>,
+        memory: &mut BodyMemory,
         after: &mut AfterLeg<'_>,
     ) -> Result<Contacted, ContactError>
     where
@@ -167,7 +168,7 @@ impl ContactStage<'_> {
         // Not `self`: `stop` need not be fit for other threads.
         let foundation = self.foundation;
         let (tree, rule) = (body.springs().tree(), body.springs().rule().clone());
-        let pull_off = |roots: Vec<usize>, mut memory: Vec<f64>| {
+        let pull_off = |roots: Vec<usize>, mut memory: BodyMemory| {
             let pulled = touch::smallest_force::<C>(tree, rule.clone(), foundation, roots, &mut memory);
             let (smallest_force, work) = match pulled {
                 Ok((force, work)) => (Ok(force), work),
@@ -193,7 +194,7 @@ impl ContactStage<'_> {
                 Some(aside) => aside.finish(),
                 // The loading never touches.
                 None => {
-                    let (roots, work) = touch::roots(tree, &rule, memory)?;
+                    let (roots, work) = touch::roots(tree, rule.clone(), memory)?;
                     contacted.history.work.add_effort(&work);
                     pull_off(roots, take(memory))
                 }

@@ -47,6 +47,25 @@ proptest! {
     }
 }
 
+proptest! {
+    #![proptest_config(cases(600))]
+
+    #[test]
+    fn a_contact_that_is_formed_again_is_what_it_was(
+        body in body(), legs in formed::loadings(), samples in 2_usize..40,
+    ) {
+        let tree = body.tree();
+        let (mut plain, mut keeping) =
+            (body.on(&tree, samples), body.on(&tree, samples).keeping_first_loading());
+        formed::do_the_same(&mut plain, &mut keeping, &legs, body.force_scale())?;
+        // Its memory, with what it kept, serves for the next body.
+        let rule = GridEdges::new(HessRule::new(body.foundation, 0.5 * body.work));
+        let other = exact::adhesive_in(keeping.into_memory(), &tree, rule, body.foundation, samples).unwrap();
+        let mut plain = exact::adhesive(&tree, rule, body.foundation, samples).unwrap();
+        formed::do_the_same(&mut plain, &mut other.keeping_first_loading(), &legs, body.force_scale())?;
+    }
+}
+
 const SCENE: &str = r#"(
     version: 1,
     material: (youngs_modulus: 2.0e6, poisson_ratio: 0.5),

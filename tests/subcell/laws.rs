@@ -49,6 +49,16 @@ proptest! {
     }
 
     #[test]
+    fn a_contact_that_is_formed_again_is_what_it_was(
+        body in body(60), legs in formed::loadings(), samples in 2_usize..40,
+    ) {
+        let sets = body.sets();
+        let (mut plain, mut keeping) =
+            (body.on(&sets, samples), body.on(&sets, samples).keeping_first_loading());
+        formed::do_the_same(&mut plain, &mut keeping, &legs, body.force_scale())?;
+    }
+
+    #[test]
     fn deeper_loads_leave_more_in_contact(
         body in body(60), a in 0.0..1.2_f64, b in 0.0..1.2_f64, probe in 0.0..1.0_f64,
     ) {

@@ -47,6 +47,10 @@ impl<'a> OverTree<'a> for BetweenSprings<Springs<'a>> {
         &self.0
     }
 
+    fn springs_mut(&mut self) -> &mut Springs<'a> {
+        &mut self.0
+    }
+
     fn into_springs(self) -> Springs<'a> {
         self.0
     }
@@ -165,7 +169,9 @@ impl EdgeSprings for Springs<'_> {
 
     fn edges_along(&self, grid: &Grid) -> Vec<Edges> {
         let mut sums = vec![EdgeSum::default(); grid.points().len()];
-        each_fragment(self, grid.points()[0], |node, from, to| add(self.rule(), grid, &mut sums, (node, from, to)));
+        each_fragment(self, grid.points()[0], |node, from, to| {
+            add(self.rule(), grid, &mut sums, (node, from, to))
+        });
         sums.iter().map(EdgeSum::total).collect()
     }
 

@@ -21,7 +21,7 @@ pub use moment::SubCellMoment;
 
 use super::exact::Exact;
 use super::springs::AdhesiveSprings;
-use super::{ContactError, Foundation, HessRule};
+use super::{BodyMemory, ContactError, Foundation, HessRule};
 use bare::BareLine;
 use between::BetweenSprings;
 use std::sync::Arc;
@@ -40,7 +40,7 @@ pub type Bare<'a> = Exact<BetweenSprings<BareLine<'a>>>;
 /// # Errors
 /// [`ContactError::OutOfMemory`].
 pub fn adhesive_in(
-    memory: Vec<f64>,
+    memory: BodyMemory,
     sets: &Arc<LevelSets>,
     hess: Option<HessRule>,
     foundation: Foundation,

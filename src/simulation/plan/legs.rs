@@ -10,6 +10,8 @@ pub struct Legs {
     /// Legs that move nothing that touches.
     idle: u64,
     unclear: u64,
+    /// Loading legs that form the contact.
+    from_separation: u64,
 }
 
 /// What is known of the body before a leg.
@@ -35,6 +37,10 @@ impl Legs {
         for leg in loading {
             let way = standing.way(leg);
             match way {
+                Way::Loading if standing.touches == Some(false) => {
+                    legs.from_separation += 1;
+                    legs.loading += 1;
+                }
                 Way::Loading => legs.loading += 1,
                 Way::Unloading => legs.unloading += 1,
                 Way::Idle => legs.idle += 1,
@@ -53,6 +59,16 @@ impl Legs {
     /// Loading legs, where that is clear for all.
     pub fn loading(self) -> Option<u64> {
         (self.unclear == 0).then_some(self.loading)
+    }
+
+    /// Whether the contact is formed more than once, which each time goes as it did the first time.
+    pub fn comes_down_again(self) -> bool {
+        self.from_separation > 1
+    }
+
+    /// Passes over the tree for loading legs, where that is clear.
+    pub fn loading_passes(self) -> Option<u64> {
+        self.loading().map(|loading| loading - self.from_separation.saturating_sub(1))
     }
 
     /// Unloading legs, where that is clear for all.
@@ -137,6 +153,20 @@ mod tests {
             let legs = Legs::of(loading);
             assert_eq!((legs.loading(), legs.unloading()), counts, "{loading:?}");
             assert_eq!(legs.all(), loading.len() as u64);
+        }
+    }
+
+    #[test]
+    fn the_contact_is_formed_each_time_the_body_comes_down() {
+        for (loading, formed, passes) in [
+            (&[ToForce(1.0), ToSeparation][..], 1, 1),
+            (&[ToForce(1.0), ToForce(0.5), ToForce(2.0), ToSeparation], 1, 2),
+            (&[ToForce(1.0), ToSeparation, ToForce(2.0), ToSeparation, ToTouch], 3, 1),
+            (&[ToSeparation, ToIndentation(-1.0), ToTouch], 1, 1),
+            (&[], 0, 0),
+        ] {
+            let legs = Legs::of(loading);
+            assert_eq!((legs.from_separation, legs.loading_passes()), (formed, Some(passes)), "{loading:?}");
         }
     }
 }

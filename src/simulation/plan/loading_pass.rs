@@ -10,5 +10,9 @@ pub const ROW: Row = Row {
         let reason = if call.adhesive { STEPWISE } else { NO_ADHESION };
         Called::when(call.exact && call.adhesive, "adhesion with the exact solver", reason)
     },
-    cost: |call| call.passes(call.legs.loading(), THRESHOLD),
+    cost: |call| {
+        // What forms the contact is kept for when the body comes down again.
+        let arrays = if call.legs.comes_down_again() { 2 } else { 1 };
+        call.passes(call.legs.loading_passes(), arrays * THRESHOLD)
+    },
 };

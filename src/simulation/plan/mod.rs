@@ -23,6 +23,7 @@ use call::{Call, Called, HEIGHT, Row};
 use serde::Serialize;
 
 pub use call::StageCost;
+pub(super) use legs::Legs;
 
 /// All stages, in the order in which they run.
 const TABLE: [Row; 12] = [
