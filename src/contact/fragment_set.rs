@@ -15,7 +15,7 @@ const NO_PARENT: u32 = u32::MAX;
 /// begins at its leaf, or its leaf is inside of a fragment, or free. Two queues over the slots give the
 /// next event: what joins next when the indentation grows, and what leaves next when it falls. Both are
 /// true at any time, so a turn costs nothing.
-pub(super) struct FragmentSet<R> {
+pub struct FragmentSet<R> {
     tree: Arc<ContactTree>,
     rule: R,
     scale: GapScale,
@@ -48,7 +48,7 @@ enum Slot {
 
 /// Springs that joined or left in one event.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Event {
+pub struct Event {
     pub springs: u64,
     /// Σ of their squared stretches, m².
     pub squared_stretch: CompensatedSum,
@@ -56,7 +56,7 @@ pub(super) struct Event {
 
 /// What becomes part of a fragment.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Joined {
+pub enum Joined {
     /// The spring of a node; the last of all is the root of the fragment.
     Spring(usize),
     /// The fragment that filled the subtree of a node.

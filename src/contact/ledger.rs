@@ -245,7 +245,7 @@ pub struct Event {
 /// Sum of non-negative terms that keeps its rounding errors (Neumaier): relative error below
 /// 2u + O(n u²).
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct CompensatedSum {
+pub struct CompensatedSum {
     value: f64,
     error: f64,
 }

@@ -87,6 +87,9 @@ fn strip(strip: &[Share], section: &Section, springs: usize, theme: Theme) -> Li
     Line::from(vec![part(0, open), bracket("["), part(open + 1, close), bracket("]"), part(close + 1, count)])
 }
 
+/// Share of a stretch below which it is rounding.
+const ROUNDING: f64 = 1e-13;
+
 /// The fragment in words: where it stands, what it carries, and how near its most stretched spring is to
 /// letting go.
 fn describe(fragment: Option<FragmentFacts>, fragments: u64, width: u16) -> [Line<'static>; 2] {
@@ -101,6 +104,8 @@ fn describe(fragment: Option<FragmentFacts>, fragments: u64, width: u16) -> [Lin
         first += &force;
     }
     let margin = facts.largest_stretch - facts.most_stretched;
+    // At the very edge of letting go what is left of it is rounding.
+    let margin = if margin.abs() <= ROUNDING * facts.largest_stretch { 0.0 } else { margin };
     let [bears, stretched, margin] =
         [facts.largest_stretch, facts.most_stretched, margin].map(|value| format_quantity(short(value), "m"));
     let second = if width >= 60 {
