@@ -6,7 +6,7 @@ use super::search::{Interval, Step};
 use crate::contact::law::{Contact, Standing};
 use crate::contact::ledger::{Grid, Ledger};
 use crate::contact::springs::Thresholds;
-use crate::contact::tally::Tally;
+use crate::contact::tally::{GapScale, Tally};
 use crate::contact::{ContactError, LegContact, Work};
 
 /// Springs that sum the cells between them and know what the edges of their fragments add.
@@ -52,26 +52,44 @@ pub struct BetweenSprings<T>(pub T);
 /// What is in contact along a grid.
 pub struct BetweenLeg {
     ledger: Ledger,
-    edges: Vec<Edges>,
+    /// At each of its points.
+    standings: Vec<Standing>,
 }
 
-impl<T: EdgeSprings> BetweenSprings<T> {
-    fn standing(&self, indentation: f64, tally: Tally, edges: Edges) -> Standing {
+impl Standing {
+    /// What stands so at an indentation, whole cells and edges.
+    pub(super) fn of_cells(indentation: f64, tally: Tally, edges: Edges, scale: &GapScale) -> Self {
         Standing {
             indentation,
             springs: tally.springs,
             fragments: tally.fragments,
             length: tally.cells() as f64 + edges.length,
-            compression: tally.compression_of_cells(indentation, self.0.scale()) + edges.compression,
+            compression: tally.compression_of_cells(indentation, scale) + edges.compression,
         }
+    }
+}
+
+impl BetweenLeg {
+    fn new(ledger: Ledger, edges: Vec<Edges>, scale: &GapScale) -> Self {
+        let points = ledger.grid.points().iter().zip(&ledger.tallies).zip(edges);
+        let standings =
+            points.map(|((&point, &tally), edges)| Standing::of_cells(point, tally, edges, scale)).collect();
+        BetweenLeg { ledger, standings }
     }
 
     /// The intervals of the grid of which the values at their ends say so.
-    fn choose(&self, leg: &BetweenLeg, may_lie: impl Fn(&Standing, &Standing) -> bool) -> Vec<usize> {
-        let intervals = 0..leg.ledger.intervals();
-        intervals.filter(|&index| may_lie(&self.at(leg, index), &self.at(leg, index + 1))).collect()
+    fn choose(&self, may_lie: impl Fn(&Standing, &Standing) -> bool) -> Vec<usize> {
+        let ends = self.standings.windows(2).enumerate();
+        ends.filter(|(_, ends)| may_lie(&ends[0], &ends[1])).map(|(index, _)| index).collect()
     }
 
+    /// What stands at the ends of an interval.
+    fn ends(&self, interval: usize) -> (&Standing, &Standing) {
+        (&self.standings[interval], &self.standings[interval + 1])
+    }
+}
+
+impl<T: EdgeSprings> BetweenSprings<T> {
     /// What happens in each of these intervals, which ascend.
     fn intervals(&self, leg: &BetweenLeg, chosen: &[usize], sorted: &mut u64) -> Vec<Interval<T::Piece>> {
         let points = leg.ledger.grid.points();
@@ -148,14 +166,14 @@ impl<T: EdgeSprings> Contact for BetweenSprings<T> {
 
     fn sample(&self, grid: Grid) -> BetweenLeg {
         let edges = self.0.edges_along(&grid);
-        BetweenLeg { ledger: Ledger::new(&self.0, grid), edges }
+        BetweenLeg::new(Ledger::new(&self.0, grid), edges, self.0.scale())
     }
 
     fn sample_joins(&self, grid: Grid, separated: bool) -> (BetweenLeg, f64) {
         // What touches at once when the contact forms joins at the first point itself.
         let above = if separated { f64::NEG_INFINITY } else { grid.points()[0] };
         let (edges, squared_stretch) = self.0.edges_and_stretches(&grid, above);
-        (BetweenLeg { ledger: Ledger::new(&self.0, grid), edges }, squared_stretch)
+        (BetweenLeg::new(Ledger::new(&self.0, grid), edges, self.0.scale()), squared_stretch)
     }
 
     fn sample_leaves(&self, grid: Grid, separates: bool) -> (BetweenLeg, f64) {
@@ -168,85 +186,84 @@ impl<T: EdgeSprings> Contact for BetweenSprings<T> {
     }
 
     fn at(&self, leg: &BetweenLeg, index: usize) -> Standing {
-        self.standing(leg.ledger.grid.points()[index], leg.ledger.tallies[index], leg.edges[index])
+        leg.standings[index]
     }
 
     fn smallest(&self, leg: &BetweenLeg, sorted: &mut u64) -> Standing {
-        let points = (1..leg.edges.len()).map(|index| self.at(leg, index));
-        let first = self.at(leg, 0);
+        let first = leg.standings[0];
         if self.0.is_monotone() {
             return first;
         }
         let smaller =
-            |best: Standing, next: Standing| if next.compression < best.compression { next } else { best };
-        let mut best = points.fold(first, smaller);
-        let chosen = self.choose(leg, |low, high| lower_bound(low, high) < best.compression);
+            |best: Standing, next: &Standing| if next.compression < best.compression { *next } else { best };
+        let mut best = leg.standings.iter().fold(first, smaller);
+        let chosen = leg.choose(|low, high| lower_bound(low, high) < best.compression);
         let intervals = self.intervals(leg, &chosen, sorted);
         for (&index, interval) in chosen.iter().zip(&intervals) {
-            interval.smallest((&self.at(leg, index), &self.at(leg, index + 1)), &lower_bound, &mut best);
+            interval.smallest(leg.ends(index), &lower_bound, &mut best);
         }
         best
     }
 
     fn largest(&self, leg: &BetweenLeg, sorted: &mut u64) -> Standing {
-        let last = self.at(leg, leg.edges.len() - 1);
+        let last = leg.standings[leg.standings.len() - 1];
         if self.0.is_monotone() {
             return last;
         }
         let larger =
-            |best: Standing, next: Standing| if next.compression > best.compression { next } else { best };
-        let mut best = (0..leg.edges.len() - 1).rev().map(|index| self.at(leg, index)).fold(last, larger);
-        let chosen = self.choose(leg, |low, high| upper_bound(low, high) > best.compression);
+            |best: Standing, next: &Standing| if next.compression > best.compression { *next } else { best };
+        let mut best = leg.standings.iter().rev().fold(last, larger);
+        let chosen = leg.choose(|low, high| upper_bound(low, high) > best.compression);
         let intervals = self.intervals(leg, &chosen, sorted);
         for (&index, interval) in chosen.iter().zip(&intervals).rev() {
-            interval.largest((&self.at(leg, index), &self.at(leg, index + 1)), &upper_bound, &mut best);
+            interval.largest(leg.ends(index), &upper_bound, &mut best);
         }
         best
     }
 
     fn first_at_least(&self, leg: &BetweenLeg, wanted: f64, sorted: &mut u64) -> Option<f64> {
-        if self.at(leg, 0).compression >= wanted {
-            return Some(leg.ledger.grid.points()[0]);
-        }
         // Behind the first point that has it nothing is sought.
-        let reached = (0..leg.edges.len()).find(|&index| self.at(leg, index).compression >= wanted);
-        let end = reached.map_or(f64::INFINITY, |index| leg.ledger.grid.points()[index]);
+        let reached = leg.standings.iter().position(|standing| standing.compression >= wanted);
+        let reached = reached.map(|index| leg.standings[index].indentation);
+        if reached == Some(leg.standings[0].indentation) {
+            return reached;
+        }
+        let end = reached.unwrap_or(f64::INFINITY);
         let monotone = self.0.is_monotone();
-        let chosen = self.choose(leg, |low, high| {
+        let chosen = leg.choose(|low, high| {
             high.indentation <= end
                 && (if monotone { high.compression } else { upper_bound(low, high) }) >= wanted
         });
         let intervals = self.intervals(leg, &chosen, sorted);
-        let mut ends = chosen.iter().map(|&index| (self.at(leg, index), self.at(leg, index + 1)));
+        let mut ends = chosen.iter().map(|&index| leg.ends(index));
         let find = |interval: &Interval<T::Piece>| {
-            ends.next().and_then(|(low, high)| interval.first_at_least((&low, &high), &upper_bound, wanted))
+            ends.next().and_then(|ends| interval.first_at_least(ends, &upper_bound, wanted))
         };
-        intervals.iter().find_map(find).or(reached.map(|index| leg.ledger.grid.points()[index]))
+        intervals.iter().find_map(find).or(reached)
     }
 
     fn last_at_most(&self, leg: &BetweenLeg, wanted: f64, sorted: &mut u64) -> Option<f64> {
-        let points = leg.ledger.grid.points();
-        let last = leg.edges.len() - 1;
-        if self.at(leg, last).compression <= wanted {
-            return Some(points[last]);
+        let reached = leg.standings.iter().rposition(|standing| standing.compression <= wanted);
+        let reached = reached.map(|index| leg.standings[index].indentation);
+        if reached == leg.standings.last().map(|last| last.indentation) {
+            return reached;
         }
-        let reached = (0..last).rev().find(|&index| self.at(leg, index).compression <= wanted);
-        let end = reached.map_or(f64::NEG_INFINITY, |index| points[index]);
+        let end = reached.unwrap_or(f64::NEG_INFINITY);
         let monotone = self.0.is_monotone();
-        let chosen = self.choose(leg, |low, high| {
+        let chosen = leg.choose(|low, high| {
             low.indentation >= end
                 && (if monotone { low.compression } else { lower_bound(low, high) }) <= wanted
         });
         let intervals = self.intervals(leg, &chosen, sorted);
-        let mut ends = chosen.iter().map(|&index| (self.at(leg, index), self.at(leg, index + 1))).rev();
+        let mut ends = chosen.iter().rev().map(|&index| leg.ends(index));
         let find = |interval: &Interval<T::Piece>| {
-            ends.next().and_then(|(low, high)| interval.last_at_most((&low, &high), &lower_bound, wanted))
+            ends.next().and_then(|ends| interval.last_at_most(ends, &lower_bound, wanted))
         };
-        intervals.iter().rev().find_map(find).or(reached.map(|index| points[index]))
+        intervals.iter().rev().find_map(find).or(reached)
     }
 
     fn beyond(&self, leg: &BetweenLeg, wanted: f64) -> Option<f64> {
-        let end = self.at(leg, leg.edges.len() - 1);
+        let end = leg.standings.last()?;
         Some(end.indentation + (wanted - end.compression) / end.length)
     }
 

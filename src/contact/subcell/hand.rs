@@ -89,14 +89,7 @@ impl HandContact for BetweenInHand {
         let tally = self.0.tally();
         let mut sum = EdgeSum::default();
         self.0.roots().for_each(|root| sum.add(self.edges().slider(root).edges(indentation)));
-        let edges = sum.total();
-        Standing {
-            indentation,
-            springs: tally.springs,
-            fragments: tally.fragments,
-            length: tally.cells() as f64 + edges.length,
-            compression: tally.compression_of_cells(indentation, self.0.scale()) + edges.compression,
-        }
+        Standing::of_cells(indentation, tally, sum.total(), self.0.scale())
     }
 
     fn begin(&self, from: f64) -> Notes {

@@ -74,14 +74,7 @@ impl<P: Piece> Interval<P> {
             .iter()
             .filter(|piece| piece.is_at(contact))
             .for_each(|piece| sum.add(piece.edges(indentation)));
-        let edges = sum.total();
-        Standing {
-            indentation,
-            springs: tally.springs,
-            fragments: tally.fragments,
-            length: tally.cells() as f64 + edges.length,
-            compression: tally.compression_of_cells(indentation, &self.scale) + edges.compression,
-        }
+        Standing::of_cells(indentation, tally, sum.total(), &self.scale)
     }
 
     /// The compression just below `indentation`, as that of what is in contact at `low`.
