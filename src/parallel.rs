@@ -1,9 +1,23 @@
 //! Two computations side by side. Neither sees the other, so what they give does not depend on whether they
 //! run at the same time.
 
+use std::cell::Cell;
 use std::panic::resume_unwind;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::{Builder, Scope, ScopedJoinHandle, scope};
+
+thread_local! {
+    /// Whether this thread is one of as many as there are cores.
+    static ONE_OF_MANY: Cell<bool> = const { Cell::new(false) };
+}
+
+/// Does `work` on this thread alone, one thing after the other: for one of many threads that keep all cores busy.
+pub(crate) fn on_this_thread<A>(work: impl FnOnce() -> A) -> A {
+    let before = ONE_OF_MANY.replace(true);
+    let result = work();
+    ONE_OF_MANY.set(before);
+    result
+}
 
 /// Does both, the first on a thread of its own if that is `worth` it and the system gives one.
 pub(crate) fn in_parallel<A: Send, B>(
@@ -11,7 +25,7 @@ pub(crate) fn in_parallel<A: Send, B>(
     one: impl FnOnce() -> A + Send,
     other: impl FnOnce() -> B,
 ) -> (A, B) {
-    if !worth {
+    if !worth || ONE_OF_MANY.get() {
         return (one(), other());
     }
     scope(|scope| {
@@ -43,6 +57,7 @@ impl<'scope, A: Send + 'scope, F: FnOnce() -> A + Send + 'scope> Beside<'scope, 
         let task = Arc::new(Mutex::new(Some(task)));
         let aside = Task(Arc::clone(&task));
         let begin = || Builder::new().spawn_scoped(scope, move || aside.take().map(|task| task())).ok();
+        let worth = worth && !ONE_OF_MANY.get();
         Beside { thread: worth.then(begin).flatten(), task: Task(task) }
     }
 
@@ -70,6 +85,16 @@ mod tests {
             let results = in_parallel(worth, || (0..1000).for_each(|k| one += k), || other += 1);
             assert_eq!((results, one, other), (((), ()), 499_500, 1));
         }
+    }
+
+    #[test]
+    fn one_of_many_threads_stays_alone() {
+        let threads = || {
+            let (one, other) =
+                in_parallel(true, || std::thread::current().id(), || std::thread::current().id());
+            usize::from(one != other) + 1
+        };
+        assert_eq!((threads(), on_this_thread(threads), threads()), (2, 1, 2));
     }
 
     #[test]

@@ -11,6 +11,7 @@ pub use statistics::Statistics;
 pub(crate) use statistics::{CONFIDENCE, StudentT};
 
 use crate::analysis::Regime;
+use crate::parallel::on_this_thread;
 use crate::scene::{Roughness, Scene};
 use crate::simulation::{Outcome, RunError, Simulation};
 use serde::Serialize;
@@ -88,10 +89,11 @@ pub fn run(
     };
     std::thread::scope(|scope| {
         // A system that gives no further thread has those do all that it gave.
-        for _ in 1..jobs.min(lines) {
-            let _ = std::thread::Builder::new().spawn_scoped(scope, work);
+        let threads = jobs.min(lines);
+        for _ in 1..threads {
+            let _ = std::thread::Builder::new().spawn_scoped(scope, || on_this_thread(work));
         }
-        work();
+        if threads > 1 { on_this_thread(work) } else { work() }
     });
     let mut done = done.into_inner().unwrap_or_else(PoisonError::into_inner);
     done.sort_by_key(|&(index, ..)| index);

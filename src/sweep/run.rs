@@ -7,6 +7,7 @@ use super::record::{Key, encode};
 use super::shard::Shard;
 use super::store::{Done, Folder};
 use crate::export::WriteError;
+use crate::parallel::on_this_thread;
 use crate::simulation::RunError;
 use std::fs::File;
 use std::io::Write;
@@ -125,7 +126,7 @@ pub fn run(
         let (sender, receiver) = sync_channel(WAITING);
         let begin = || {
             let sender = sender.clone();
-            std::thread::Builder::new().spawn_scoped(scope, move || shared.work(&sender))
+            std::thread::Builder::new().spawn_scoped(scope, move || on_this_thread(|| shared.work(&sender)))
         };
         // A system that gives fewer threads than asked for has those do all.
         let begun = (0..jobs).filter(|_| begin().is_ok()).count();

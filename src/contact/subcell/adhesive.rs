@@ -121,7 +121,7 @@ fn squared_stretch_of_parts(springs: &Springs<'_>, fragments: &Fragments, low: f
     let (mut squared, mut block, mut place) = (CompensatedSum::default(), 0.0, 0);
     for Part { start, thresholds } in springs.parts() {
         let nodes = start..start + thresholds.len();
-        let levels = &springs.rule().sets().all_levels()[nodes.clone()];
+        let levels = springs.rule().sets().levels_of(nodes.clone());
         let nodes = thresholds.iter().zip(&springs.tree().gaps()[nodes]).zip(levels);
         for ((&at, &gap), levels) in nodes {
             if place % Fragments::BITS == 0 {

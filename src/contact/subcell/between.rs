@@ -8,9 +8,13 @@ use crate::contact::ledger::{Grid, Ledger};
 use crate::contact::springs::Thresholds;
 use crate::contact::tally::{GapScale, Tally};
 use crate::contact::{ContactError, LegContact, Work};
+use crate::parallel::in_parallel;
+
+/// From so many springs on a second thread pays.
+const MANY_SPRINGS: u64 = 1 << 15;
 
 /// Springs that sum the cells between them and know what the edges of their fragments add.
-pub trait EdgeSprings: Thresholds {
+pub trait EdgeSprings: Thresholds + Sync {
     /// The edges of one fragment, or one edge.
     type Piece: Piece;
 
@@ -90,6 +94,20 @@ impl BetweenLeg {
 }
 
 impl<T: EdgeSprings> BetweenSprings<T> {
+    /// What stands along a grid, and what else its edges tell. Whole cells and edges are summed side by side:
+    /// neither sees the other.
+    fn along<S: Send>(
+        &self,
+        grid: Grid,
+        edges: impl FnOnce(&Grid) -> (Vec<Edges>, S) + Send,
+    ) -> (BetweenLeg, S) {
+        let many = self.0.count() >= MANY_SPRINGS;
+        let of_edges = grid.clone();
+        let ((edges, told), ledger) =
+            in_parallel(many, move || edges(&of_edges), || Ledger::new(&self.0, grid));
+        (BetweenLeg::new(ledger, edges, self.0.scale()), told)
+    }
+
     /// What happens in each of these intervals, which ascend.
     fn intervals(&self, leg: &BetweenLeg, chosen: &[usize], sorted: &mut u64) -> Vec<Interval<T::Piece>> {
         let points = leg.ledger.grid.points();
@@ -165,15 +183,13 @@ impl<T: EdgeSprings> Contact for BetweenSprings<T> {
     }
 
     fn sample(&self, grid: Grid) -> BetweenLeg {
-        let edges = self.0.edges_along(&grid);
-        BetweenLeg::new(Ledger::new(&self.0, grid), edges, self.0.scale())
+        self.along(grid, |grid| (self.0.edges_along(grid), ())).0
     }
 
     fn sample_joins(&self, grid: Grid, separated: bool) -> (BetweenLeg, f64) {
         // What touches at once when the contact forms joins at the first point itself.
         let above = if separated { f64::NEG_INFINITY } else { grid.points()[0] };
-        let (edges, squared_stretch) = self.0.edges_and_stretches(&grid, above);
-        (BetweenLeg::new(Ledger::new(&self.0, grid), edges, self.0.scale()), squared_stretch)
+        self.along(grid, |grid| self.0.edges_and_stretches(grid, above))
     }
 
     fn sample_leaves(&self, grid: Grid, separates: bool) -> (BetweenLeg, f64) {

@@ -272,9 +272,9 @@ fn at_once(growth: f64, from: f64, to: f64, at: f64) -> f64 {
 /// What joins and leaves are the cells between springs.
 impl EdgeRule for SubCellEdges {
     #[inline]
-    fn grows_at(&self, tree: &ContactTree, fragment: usize, _: usize) -> f64 {
-        let levels = self.sets.levels(fragment);
-        self.rest(tree.gap(fragment), levels, levels.top)
+    fn grows_at(&self, tree: &ContactTree, fragment: usize, wall: usize) -> f64 {
+        // Its highest level.
+        self.rest(tree.gap(fragment), self.sets.levels(fragment), tree.gap(wall))
     }
 
     #[inline]

@@ -4,6 +4,7 @@
 use crate::contact::tally::GapScale;
 use crate::contact::{ContactError, ContactTree, resized};
 use crate::parallel::in_parallel;
+use std::ops::Range;
 use std::sync::Arc;
 
 /// From so many springs on a second thread pays.
@@ -18,7 +19,9 @@ const MANY_SPRINGS: usize = 1 << 15;
 #[derive(Debug)]
 pub struct LevelSets {
     tree: Arc<ContactTree>,
-    nodes: Vec<Levels>,
+    lengths: Vec<Length>,
+    /// Gaps of the parents, m, which the passes hardly ever ask for.
+    tops: Vec<f64>,
     edge_compressions: Vec<f64>,
     cell_quanta: Vec<i64>,
     steps: Vec<Step>,
@@ -27,7 +30,8 @@ pub struct LevelSets {
 /// Memory of level sets that are no longer needed.
 #[derive(Debug, Default)]
 pub struct LevelMemory {
-    nodes: Vec<Levels>,
+    lengths: Vec<Length>,
+    tops: Vec<f64>,
     edge_compressions: Vec<f64>,
     cell_quanta: Vec<i64>,
     steps: Vec<Step>,
@@ -45,6 +49,13 @@ pub struct Levels {
     pub top: f64,
 }
 
+/// What of [`Levels`] the passes over the tree need.
+#[derive(Clone, Copy, Debug)]
+struct Length {
+    length: f64,
+    growth: f64,
+}
+
 /// What of the line lies level with a spring and comes into contact together with it.
 #[derive(Clone, Copy, Debug)]
 pub struct Step {
@@ -60,9 +71,10 @@ impl LevelMemory {
     /// # Errors
     /// [`ContactError::OutOfMemory`].
     pub fn ready(self, springs: usize) -> Result<Self, ContactError> {
-        let nothing = Levels { length: 0.0, growth: 0.0, top: f64::INFINITY };
+        let nothing = Length { length: 0.0, growth: 0.0 };
         Ok(LevelMemory {
-            nodes: resized(self.nodes, springs, nothing)?,
+            lengths: resized(self.lengths, springs, nothing)?,
+            tops: resized(self.tops, springs, f64::INFINITY)?,
             edge_compressions: resized(self.edge_compressions, springs, 0.0)?,
             cell_quanta: resized(self.cell_quanta, springs, 0)?,
             steps: self.steps,
@@ -86,16 +98,19 @@ impl LevelSets {
     /// [`ContactError::OutOfMemory`].
     pub fn new_in(memory: LevelMemory, tree: Arc<ContactTree>, gaps: &[f64]) -> Result<Self, ContactError> {
         let memory = memory.ready(tree.len())?;
-        let LevelMemory { mut nodes, mut edge_compressions, mut cell_quanta, mut steps } = memory;
+        let LevelMemory { mut lengths, mut tops, mut edge_compressions, mut cell_quanta, mut steps } = memory;
         let scale = tree.gap_scale();
         let half = tree.len() / 2;
         let (first_cells, other_cells) = cell_quanta.split_at_mut(half);
-        let (first_nodes, other_nodes) = nodes.split_at_mut(half);
+        let (first_lengths, other_lengths) = lengths.split_at_mut(half);
+        let (first_tops, other_tops) = tops.split_at_mut(half);
         let (first_edges, other_edges) = edge_compressions.split_at_mut(half);
         let measure = |start: usize, part: Part<'_>, mut steps: Vec<Step>| {
-            let arrays = part.nodes.iter_mut().zip(part.edges).zip(part.cells);
-            for (node, ((levels, edge), cells)) in (start..).zip(arrays) {
-                (*levels, *edge) = levels_between(gaps, tree.interval(node), tree.gap(node));
+            let arrays = part.lengths.iter_mut().zip(part.tops).zip(part.edges).zip(part.cells);
+            for (node, (((length, top), edge), cells)) in (start..).zip(arrays) {
+                let (levels, carries) = levels_between(gaps, tree.interval(node), tree.gap(node));
+                *length = Length { length: levels.length, growth: levels.growth };
+                (*top, *edge) = (levels.top, carries);
                 *cells = quanta_of_cells(&tree, gaps, &scale, node);
                 let length = level_length(gaps, tree.positions()[node] as usize);
                 if length > 0.0 {
@@ -108,20 +123,32 @@ impl LevelSets {
         steps.clear();
         let (first, others) = in_parallel(
             tree.len() >= MANY_SPRINGS,
-            || measure(0, Part { nodes: first_nodes, edges: first_edges, cells: first_cells }, steps),
-            || measure(half, Part { nodes: other_nodes, edges: other_edges, cells: other_cells }, Vec::new()),
+            || {
+                measure(
+                    0,
+                    Part { lengths: first_lengths, tops: first_tops, edges: first_edges, cells: first_cells },
+                    steps,
+                )
+            },
+            || {
+                measure(
+                    half,
+                    Part { lengths: other_lengths, tops: other_tops, edges: other_edges, cells: other_cells },
+                    Vec::new(),
+                )
+            },
         );
         let (mut steps, others) = (first?, others?);
         steps.try_reserve(others.len()).map_err(|_| ContactError::OutOfMemory { springs: gaps.len() })?;
         steps.extend(others);
-        Ok(LevelSets { tree, nodes, edge_compressions, cell_quanta, steps })
+        Ok(LevelSets { tree, lengths, tops, edge_compressions, cell_quanta, steps })
     }
 
     /// Their memory, without the tree, for those of the next line.
     #[must_use]
     pub fn into_memory(self) -> LevelMemory {
-        let LevelSets { nodes, edge_compressions, cell_quanta, steps, .. } = self;
-        LevelMemory { nodes, edge_compressions, cell_quanta, steps }
+        let LevelSets { lengths, tops, edge_compressions, cell_quanta, steps, .. } = self;
+        LevelMemory { lengths, tops, edge_compressions, cell_quanta, steps }
     }
 
     /// The tree of the line.
@@ -137,12 +164,14 @@ impl LevelSets {
     /// Levels of a node.
     #[inline]
     pub fn levels(&self, node: usize) -> Levels {
-        self.nodes[node]
+        let Length { length, growth } = self.lengths[node];
+        Levels { length, growth, top: self.tops[node] }
     }
 
-    /// Levels of all nodes.
-    pub(super) fn all_levels(&self) -> &[Levels] {
-        &self.nodes
+    /// Levels of nodes that follow each other.
+    pub(super) fn levels_of(&self, nodes: Range<usize>) -> impl Iterator<Item = Levels> {
+        let levels = self.lengths[nodes.clone()].iter().zip(&self.tops[nodes]);
+        levels.map(|(&Length { length, growth }, &top)| Levels { length, growth, top })
     }
 
     /// What the two edge cells of a node carry at the indentation and the level of its gap: ∫ (c − c(x)) dx over
@@ -173,7 +202,8 @@ impl LevelSets {
 
 /// Arrays of the nodes that one thread measures.
 struct Part<'s> {
-    nodes: &'s mut [Levels],
+    lengths: &'s mut [Length],
+    tops: &'s mut [f64],
     edges: &'s mut [f64],
     cells: &'s mut [i64],
 }
