@@ -2,6 +2,7 @@
 
 use crate::accuracy::{ChoiceError, CostError};
 use crate::ensemble::EnsembleError;
+use crate::explorer::OpeningError;
 use crate::export::WriteError;
 use crate::scene::SceneErrors;
 use crate::simulation::RunError;
@@ -123,6 +124,15 @@ pub enum CliError {
         /// Name of the scene.
         scene: String,
     },
+    /// The explorer cannot draw the map of a study.
+    #[error("the explorer needs a terminal; asperity sweep plot {folder} draws the study without one")]
+    NoTerminalForStudy {
+        /// Folder of the study.
+        folder: String,
+    },
+    /// What was named cannot be explored.
+    #[error(transparent)]
+    Opening(OpeningError),
     /// The explorer failed.
     #[error("the explorer failed: {0}")]
     Explorer(String),

@@ -1,17 +1,18 @@
-//! `asperity [SCENE]`: opens the explorer.
+//! `asperity [SCENE]`: opens the explorer on a scene or on a finished study.
 
 use super::{Arguments, CliError, Overrides};
 use crate::explorer::theme::{Marker, Theme};
-use crate::explorer::{self, Options};
+use crate::explorer::{self, Opening, OpeningError, Options};
 use crate::export::summary;
-use crate::scene::{DEFAULT, Document, open};
+use crate::scene::DEFAULT;
 use clap::{Args, CommandFactory};
 use std::io::{IsTerminal, Write, stdin, stdout};
 
 /// Arguments of the explorer.
 #[derive(Args, Debug)]
 pub struct ExploreArguments {
-    /// Open the explorer on this scene file or built-in scene (see `asperity presets list`)
+    /// Open the explorer on this scene file or built-in scene (see `asperity presets list`), or on
+    /// the folder of a merged study
     pub scene: Option<String>,
     /// What is changed in it.
     #[command(flatten)]
@@ -31,16 +32,20 @@ pub struct ExploreArguments {
     pub no_mouse: bool,
 }
 
-/// Opens the explorer on a scene.
+/// Opens the explorer on a scene or a study.
 ///
 /// When it is left, the summary of its last scene stays to be read.
 pub(super) fn explore(arguments: &ExploreArguments, out: &mut dyn Write) -> Result<(), CliError> {
-    let document = document(arguments)?;
+    let opening = opening(arguments)?;
     if !stdin().is_terminal() || !stdout().is_terminal() {
-        return Err(CliError::NoTerminal { scene: document.name().into() });
+        let name = opening.document.name().into();
+        return Err(match opening.atlas {
+            None => CliError::NoTerminal { scene: name },
+            Some(_) => CliError::NoTerminalForStudy { folder: name },
+        });
     }
     let &ExploreArguments { theme, marker, no_mouse, .. } = arguments;
-    let left = explorer::open(document, Options { theme, marker, no_mouse })
+    let left = explorer::open(opening, Options { theme, marker, no_mouse })
         .map_err(|error| CliError::Explorer(error.to_string()))?;
     if let Some(computed) = &left.computed {
         out.write_all(summary(left.document.scene(), &computed.outcome).as_bytes())?;
@@ -48,19 +53,23 @@ pub(super) fn explore(arguments: &ExploreArguments, out: &mut dyn Write) -> Resu
     Ok(())
 }
 
-fn document(arguments: &ExploreArguments) -> Result<Document, CliError> {
+fn opening(arguments: &ExploreArguments) -> Result<Opening, CliError> {
     let name = arguments.scene.as_deref().unwrap_or(DEFAULT);
-    let document = open(name).map_err(|errors| {
-        // A single word that is no scene may have been meant as a command.
-        let is_word = name.chars().all(|c| c.is_ascii_alphabetic());
-        if is_word && !std::path::Path::new(name).exists() {
-            let command = Arguments::command();
-            let commands: Vec<_> = command.get_subcommands().map(|command| command.get_name()).collect();
-            let commands = commands.join(", ");
-            CliError::NeitherSceneNorCommand { errors: Box::new(errors), commands }
-        } else {
-            errors.into()
+    let mut opening = Opening::of(name).map_err(|error| match error {
+        OpeningError::Scene(errors) => {
+            // A single word that is no scene may have been meant as a command.
+            let is_word = name.chars().all(|c| c.is_ascii_alphabetic());
+            if is_word && !std::path::Path::new(name).exists() {
+                let command = Arguments::command();
+                let commands: Vec<_> = command.get_subcommands().map(|command| command.get_name()).collect();
+                let commands = commands.join(", ");
+                CliError::NeitherSceneNorCommand { errors, commands }
+            } else {
+                CliError::Scene(errors)
+            }
         }
+        error => CliError::Opening(error),
     })?;
-    arguments.overrides.apply(document)
+    opening.document = arguments.overrides.apply(opening.document)?;
+    Ok(opening)
 }

@@ -1,6 +1,7 @@
 //! Everything that can happen to the explorer.
 
 use super::model::Traffic;
+use super::opening::Opening;
 use super::snapshot::{Loop, Moment, Preview};
 use super::study::Found;
 use crate::scene::Entry;
@@ -47,6 +48,8 @@ pub enum Action {
     Written(Result<Written, WriteFailure>),
     /// The scenes that can be opened.
     Listed(Vec<Entry>),
+    /// A scene or a study has been opened by its path, or not, and why.
+    Opened(Result<Box<Opening>, String>),
     /// The curve of the scene chosen in the library.
     Previewed(Arc<Preview>),
     /// What the connection carries.
@@ -225,6 +228,10 @@ pub enum Command {
     ToggleSections,
     /// Let the glyphs of the map tell another quantity.
     NextCharted,
+    /// Show the map of the study, or the one that is computed here.
+    ToggleStudy,
+    /// Show the next or previous map of the study: another preload, or another value of a further axis.
+    NextSlice(i32),
     /// Move the mark, and the scene, by so many columns of the map.
     MoveKappa(i32),
     /// Move the mark, and the scene, by so many rows of the map.

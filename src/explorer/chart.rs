@@ -1,7 +1,8 @@
 //! What the explorer shows of the map over κ and H, and what is still to be computed of it.
 
-use crate::phase::{Basis, NoMap, PhaseMap};
+use crate::phase::{Atlas, Basis, Charted, NoMap, PhaseMap, Plane, hursts, kappas};
 use crate::scene::Scene;
+use crate::sweep::figure::FigureAxis;
 use std::sync::Arc;
 
 /// See the module.
@@ -9,12 +10,18 @@ use std::sync::Arc;
 pub struct Chart {
     /// Whether its pane stands in place of profile and close-up.
     pub shown: bool,
-    /// Which quantity the glyphs tell.
+    /// Which quantity the glyphs tell, where the map has it.
     pub quantity: Charted,
     /// Whether the sections through the mark stand in place of the map.
     pub sections: bool,
-    /// The map so far. Kept while κ and H change, whether it is shown or not.
+    /// The map that is computed here, so far. Kept while κ and H change, whether it is shown or not.
     pub map: Option<Arc<PhaseMap>>,
+    /// The same as it is shown.
+    live: Option<Arc<Plane>>,
+    /// A finished study, kept until another one is opened.
+    pub study: Option<OpenStudy>,
+    /// Whether its map is shown rather than the one that is computed here.
+    pub of_study: bool,
     /// Why the computing of it ended before it was whole.
     pub failed: Option<String>,
     /// Whether the scene has just been edited: somebody who holds a key down wants the machine.
@@ -23,31 +30,80 @@ pub struct Chart {
     pub moving: bool,
 }
 
-/// What the glyphs of the map tell. Colours tell the regime always.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Charted {
-    /// The regime.
-    #[default]
-    Regime,
-    /// F_a(0)/F_a,max.
-    ZeroLoadAdhesion,
-    /// F_a/F_n.
-    Coefficient,
+/// A finished study, and which of its maps is shown.
+#[derive(Clone, Debug, PartialEq)]
+pub struct OpenStudy {
+    /// Its maps.
+    pub atlas: Arc<Atlas>,
+    /// Number of the one that is shown.
+    pub slice: u64,
+    plane: Arc<Plane>,
 }
 
-impl Charted {
-    /// The next one.
+impl OpenStudy {
+    /// One map of a study.
     #[must_use]
-    pub fn next(self) -> Self {
-        match self {
-            Charted::Regime => Charted::ZeroLoadAdhesion,
-            Charted::ZeroLoadAdhesion => Charted::Coefficient,
-            Charted::Coefficient => Charted::Regime,
-        }
+    pub fn at(atlas: Arc<Atlas>, slice: u64) -> Self {
+        OpenStudy { plane: Arc::new(atlas.plane(slice)), atlas, slice }
+    }
+
+    /// The map so many after this one, from the last on to the first.
+    #[must_use]
+    pub fn stepped(&self, steps: i32) -> Self {
+        let slices = i128::from(self.atlas.slices().max(1));
+        let slice = (i128::from(self.slice) + i128::from(steps)).rem_euclid(slices) as u64;
+        OpenStudy::at(Arc::clone(&self.atlas), slice)
     }
 }
 
 impl Chart {
+    /// The map that is shown, as far as there is one.
+    #[must_use]
+    pub fn plane(&self) -> Option<&Plane> {
+        match self.shown_study() {
+            Some(study) => Some(&study.plane),
+            None => self.live.as_deref(),
+        }
+    }
+
+    /// The study whose map is shown.
+    #[must_use]
+    pub fn shown_study(&self) -> Option<&OpenStudy> {
+        self.study.as_ref().filter(|_| self.of_study)
+    }
+
+    /// κ and H of the map that is shown, or would be.
+    #[must_use]
+    pub fn axes(&self) -> (FigureAxis, FigureAxis) {
+        match self.plane().map(|plane| (plane.across(), plane.up())) {
+            Some((across, Some(up))) => (across.clone(), up.clone()),
+            _ => (kappas(), hursts()),
+        }
+    }
+
+    /// What the glyphs tell: what was chosen, where the map that is shown has it.
+    #[must_use]
+    pub fn charted(&self) -> Charted {
+        let all = self.plane().map(Plane::charted).unwrap_or_default();
+        let chosen = all.iter().find(|one| **one == self.quantity);
+        *chosen.or(all.first()).unwrap_or(&self.quantity)
+    }
+
+    /// What they can tell after that.
+    #[must_use]
+    pub fn next_charted(&self) -> Charted {
+        let all = self.plane().map(Plane::charted).unwrap_or_default();
+        let now = self.charted();
+        let place = all.iter().position(|one| *one == now).map_or(0, |place| place + 1);
+        all.get(place).or(all.first()).copied().unwrap_or(now)
+    }
+
+    /// Takes in what has been computed of the map.
+    pub fn take_in(&mut self, map: Arc<PhaseMap>) {
+        self.live = Some(Arc::new(map.plane()));
+        self.map = Some(map);
+    }
+
     /// The scene has been changed: a map of another one is of no use.
     pub fn renew(&mut self, scene: &Scene) {
         self.edited = true;
@@ -55,6 +111,7 @@ impl Chart {
         self.failed = None;
         let basis = Basis::of(scene).ok();
         self.map = self.map.take().filter(|map| Some(map.basis().as_ref()) == basis.as_ref());
+        self.live = self.live.take().filter(|_| self.map.is_some());
     }
 
     /// The map to be gone on with for a scene, `None` once it is whole.

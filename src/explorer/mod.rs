@@ -14,6 +14,7 @@ pub mod keys;
 pub mod layout;
 pub mod mode;
 pub mod model;
+mod opening;
 pub mod parameters;
 pub mod picture;
 mod playback;
@@ -30,6 +31,7 @@ pub mod view;
 pub mod worker;
 mod writing;
 
+pub use opening::{Opening, OpeningError};
 pub use screen::{FrameBytes, Screen};
 pub use session::{Draw, Left, Options, open, open_with};
 pub use writing::{picture_of, svg_of, write};

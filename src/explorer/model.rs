@@ -1,7 +1,7 @@
 //! The state of the explorer: changed by `update` alone, drawn by the views.
 
 pub use super::appraisal::{Appraisal, Costs, Estimated};
-pub use super::chart::{Chart, Charted};
+pub use super::chart::{Chart, OpenStudy};
 pub use super::mode::{Library, Mode, ModeKind};
 use super::parameters::{Parameter, Setting, parameters};
 use super::snapshot::{Drive, Loop, Moment, Preview};
@@ -9,7 +9,8 @@ use super::theme::Appearance;
 use super::worker::{Focus, LineView};
 use crate::analysis::Governing;
 use crate::contact::{CurvePoint, LegRecord};
-use crate::phase::Basis;
+pub use crate::phase::Charted;
+use crate::phase::{Atlas, Basis};
 use crate::scene::{Document, Scene, ron_float};
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -329,6 +330,14 @@ impl Model {
             ModeKind::Explore if self.chart.shown && self.pane == Pane::Chart => ModeKind::Chart,
             kind => kind,
         }
+    }
+
+    /// Shows the map of a study, the first of them.
+    pub fn show_study(&mut self, atlas: Arc<Atlas>) {
+        self.chart.study = Some(OpenStudy::at(atlas, 0));
+        (self.chart.of_study, self.chart.shown) = (true, true);
+        self.appraisal.hide();
+        self.pane = Pane::Chart;
     }
 
     /// κ and, where it has one, H of the scene as it stands: the mark on the map. `None` where it has no κ, or

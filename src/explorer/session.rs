@@ -3,6 +3,7 @@
 use super::action::{Action, WriteFailure, Written};
 use super::input;
 use super::model::{Model, Traffic};
+use super::opening::Opening;
 use super::snapshot::Loop;
 use super::study::{Accuracy, Found, Study};
 use super::terminal::{self, FrameWriter, TerminalGuard, Told};
@@ -65,24 +66,25 @@ enum Message {
     Found(Found),
 }
 
-/// Opens the explorer on a scene and returns what it leaves.
+/// Opens the explorer on a scene or a finished study and returns what it leaves.
 ///
 /// # Errors
 /// When the terminal refuses.
-pub fn open(document: Document, options: Options) -> io::Result<Left> {
-    open_with(document, options, Box::new(Simulation::default()), view::draw)
+pub fn open(opening: impl Into<Opening>, options: Options) -> io::Result<Left> {
+    open_with(opening, options, Box::new(Simulation::default()), view::draw)
 }
 
-/// Opens the explorer on a scene with another engine behind it and another view before it.
+/// Opens the explorer with another engine behind it and another view before it.
 ///
 /// # Errors
 /// When the terminal refuses.
 pub fn open_with(
-    document: Document,
+    opening: impl Into<Opening>,
     options: Options,
     engine: Box<dyn Engine>,
     draw: Draw,
 ) -> io::Result<Left> {
+    let Opening { document, atlas } = opening.into();
     let guard = TerminalGuard::take(!options.no_mouse)?;
     let (messages, inbox) = channel();
     let (requests, outbox) = channel();
@@ -122,10 +124,14 @@ pub fn open_with(
         theme: options.theme.unwrap_or(environment.theme),
         marker: options.marker.unwrap_or(environment.marker),
     };
+    let mut model = Model::new(document, (size.width, size.height), appearance);
+    if let Some(atlas) = atlas {
+        model.show_study(atlas);
+    }
     let mut session = Session {
         terminal: &mut terminal,
         guard,
-        model: Model::new(document, (size.width, size.height), appearance),
+        model,
         worker: Worker::new(requests, newest),
         study,
         draw,
@@ -297,6 +303,10 @@ impl<W: Write> Session<'_, W> {
                 Effect::List => {
                     let entries = Library::of_environment().list();
                     self.act(Action::Listed(entries))?;
+                }
+                Effect::Open(name) => {
+                    let opened = Opening::of(&name).map(Box::new).map_err(|error| error.to_string());
+                    self.act(Action::Opened(opened))?;
                 }
                 Effect::Preview(document) => {
                     let (scene, text) = (scene_of(&document), document.text().to_owned());

@@ -141,7 +141,7 @@ impl Basis {
 }
 
 /// What governs a scene with a self-affine line.
-fn governing(scene: &Scene) -> Option<Governing> {
+pub(super) fn governing(scene: &Scene) -> Option<Governing> {
     let Some(Roughness::SelfAffine { hurst, modes: (first, last), .. }) = scene.roughness else {
         return None;
     };

@@ -109,6 +109,7 @@ mod tests {
     use super::*;
     use crate::phase::KAPPAS;
     use crate::scene::open;
+    use crate::sweep::Quantity;
     use std::sync::Arc;
 
     /// The map of a small scene.
@@ -130,16 +131,26 @@ mod tests {
         levels.dedup();
         assert_eq!(levels, Level::ALL);
         assert_eq!(rows, 5 + 9 + 19 + 19);
+        let plane = map.plane();
+        assert_eq!(plane.size(), (KAPPAS, map.rows()));
+        let share = plane.layer(Quantity::ZeroLoadAdhesionShare).unwrap();
         for row in 0..map.rows() {
-            let cells: Vec<_> = map.along_kappa(row).collect();
-            assert_eq!(cells.len(), KAPPAS);
-            assert_eq!(cells[0].1.regime, Regime::PressureInsensitive);
-            assert_eq!(cells[KAPPAS - 1].1.regime, Regime::NonAdhesive);
-            assert!(cells.iter().all(|(_, cell)| (1..=4).contains(&cell.agreeing)));
-            assert!(cells[0].1.zero_load_share() > 0.5 && cells[KAPPAS - 1].1.zero_load_share() < 0.01);
+            let spots: Vec<_> =
+                (0..KAPPAS).map(|column| plane.shown(column, row).unwrap().spot.clone().unwrap()).collect();
+            assert_eq!(spots[0].regime, Some(Regime::PressureInsensitive));
+            assert_eq!(spots[KAPPAS - 1].regime, Some(Regime::NonAdhesive));
+            assert!(spots.iter().all(|spot| (1..=4).contains(&spot.agreeing) && spot.lines == 4));
+            let along = plane.along_kappa(share, row);
+            assert_eq!(along.len(), KAPPAS);
+            assert!(along[0].1.mean > 0.5 && along[KAPPAS - 1].1.mean < 0.01);
         }
-        let (column, row, cell) = map.nearest(1.02, 0.31).unwrap();
-        assert_eq!((kappa(column), hurst(row)), (1.0, 0.3));
+        let place = plane.nearest(1.02, Some(0.31)).unwrap();
+        assert_eq!((kappa(place.column), hurst(place.row)), (1.0, 0.3));
+        let cell = map.cell(place.column, place.row).unwrap();
+        assert_eq!(
+            plane.along_hurst(share, place.column)[place.row].1.mean,
+            cell.as_ref().unwrap().zero_load_share()
+        );
         // What it says is what the scene of the cell gives.
         let mut forces = Vec::new();
         for line in 0..map.basis().lines() {
@@ -164,6 +175,21 @@ mod tests {
         assert_eq!(rows.get(), 5 + 9 + 19 + 19);
         assert_eq!(map, once);
         chart(&mut map, Path::new(""), &|| false, &mut |_| panic!("nothing is missing"));
+    }
+
+    #[test]
+    fn what_is_missing_is_shown_by_the_nearest_of_a_coarser_map() {
+        let (mut map, rows) = (map(), std::cell::Cell::new(0));
+        assert_eq!(map.plane().shown(3, 3), None);
+        chart(&mut map, Path::new(""), &|| rows.get() == 5, &mut |_| rows.set(rows.get() + 1));
+        let plane = map.plane();
+        for (asked, stands) in [((0, 0), (0, 0)), ((3, 1), (0, 0)), ((5, 3), (8, 4)), ((32, 18), (32, 18))] {
+            let place = plane.shown(asked.0, asked.1).unwrap();
+            assert_eq!((place.column, place.row), stands, "{asked:?}");
+        }
+        // A section has what was computed, and nothing that only stands for it.
+        assert_eq!(plane.along_kappa(&plane.layers()[0], 0).len(), 5);
+        assert_eq!((plane.shown(KAPPAS, 0), plane.shown(0, 19)), (None, None));
     }
 
     #[test]

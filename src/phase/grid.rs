@@ -1,5 +1,7 @@
 //! The values of κ and H that a map has, and the order in which it gets them.
 
+use crate::sweep::figure::{AxisScale, FigureAxis};
+
 /// Values of κ: quarters of octaves from 1/8 to 32.
 pub const KAPPAS: usize = 33;
 /// Values of H, from 0.05 to 0.95.
@@ -21,16 +23,32 @@ pub fn hurst(row: usize) -> f64 {
 /// A value differs from another on a grid, rather than by rounding.
 const APART: f64 = 1e-6;
 
-/// The value of an ascending grid so many steps above `value`, or below it; its first or last one where it
-/// goes no further, and `None` where `value` is there already.
+/// The κ of all columns.
 #[must_use]
-pub fn next_beyond(value: f64, steps: i32, count: usize, at: fn(usize) -> f64) -> Option<f64> {
+pub fn kappas() -> FigureAxis {
+    axis("governing parameter", "κ", AxisScale::Logarithmic, (0..KAPPAS).map(kappa).collect())
+}
+
+/// The H of all rows.
+#[must_use]
+pub fn hursts() -> FigureAxis {
+    axis("Hurst exponent", "H", AxisScale::Linear, (0..HURSTS).map(hurst).collect())
+}
+
+fn axis(name: &str, symbol: &str, scale: AxisScale, values: Vec<f64>) -> FigureAxis {
+    FigureAxis { name: name.into(), symbol: symbol.into(), unit: "1".into(), scale, values }
+}
+
+/// The one of ascending values so many steps above `value`, or below it; the first or last of them where they
+/// go no further, and `None` where `value` is there already.
+#[must_use]
+pub fn next_beyond(value: f64, steps: i32, values: &[f64]) -> Option<f64> {
     let apart = APART * value.abs();
-    let last = count - 1;
+    let last = values.len().checked_sub(1)?;
     let first_step = if steps > 0 {
-        (0..count).find(|&index| at(index) > value + apart)
+        values.iter().position(|one| *one > value + apart)
     } else {
-        (0..count).rfind(|&index| at(index) < value - apart)
+        values.iter().rposition(|one| *one < value - apart)
     }?;
     let further = steps.unsigned_abs().saturating_sub(1) as usize;
     let index = if steps > 0 {
@@ -38,7 +56,7 @@ pub fn next_beyond(value: f64, steps: i32, count: usize, at: fn(usize) -> f64) -
     } else {
         first_step.saturating_sub(further)
     };
-    (steps != 0).then(|| at(index))
+    values.get(index).copied().filter(|_| steps != 0)
 }
 
 /// How finely a map is known. Every level has the cells of the one before.
@@ -107,12 +125,13 @@ mod tests {
 
     #[test]
     fn steps_go_to_the_next_value_of_the_grid_and_end_with_it() {
-        let to = |value, steps| next_beyond(value, steps, KAPPAS, kappa);
+        let to = |value, steps| next_beyond(value, steps, &kappas().values);
         assert_eq!((to(6.0, 1), to(6.0, -1), to(6.0, 4)), (Some(6.73), Some(5.66), Some(11.3)));
         // A value that is one of the grid but for rounding.
         assert_eq!((to(1.0 + 1e-12, 1), to(1.0 - 1e-12, -1)), (Some(1.19), Some(0.841)));
         assert_eq!((to(31.0, 100), to(32.0, 1), to(0.125, -1)), (Some(32.0), None, None));
         assert_eq!((to(100.0, -1), to(100.0, 1), to(1e-3, 1)), (Some(32.0), None, Some(0.125)));
         assert_eq!((to(6.0, 0), to(6.0, i32::MIN), to(6.0, i32::MAX)), (None, Some(0.125), Some(32.0)));
+        assert_eq!(next_beyond(1.0, 1, &[]), None);
     }
 }

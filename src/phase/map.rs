@@ -1,8 +1,11 @@
 //! The cells of a map.
 
 use super::Basis;
-use super::grid::{HURSTS, KAPPAS, Level, hurst, kappa};
+use super::grid::{HURSTS, KAPPAS, Level, hursts, kappas};
+use super::plane::{Layer, Plane, Spot, usual};
 use crate::analysis::Regime;
+use crate::sweep::Quantity;
+use crate::sweep::figure::Estimate;
 use std::sync::Arc;
 
 /// What the lines of a cell give in the mean; forces in N.
@@ -95,47 +98,51 @@ impl PhaseMap {
         Level::ALL.into_iter().take_while(|level| self.has(*level)).last()
     }
 
-    /// The column and the row of a place, between whole ones where it lies between cells.
-    #[must_use]
-    pub fn coordinates(kappa: f64, hurst: f64) -> (f64, f64) {
-        (4.0 * kappa.log2() + 12.0, 20.0 * hurst - 1.0)
-    }
-
     /// Whether nothing of it is missing.
     #[must_use]
     pub fn is_whole(&self) -> bool {
         self.has(self.basis.finest())
     }
 
-    /// A cell or, while it has not been computed, the one of a coarser level that stands for it, with its column
-    /// and row.
-    #[must_use]
-    pub fn stand_in(&self, column: usize, row: usize) -> Option<(usize, usize, &Result<Cell, String>)> {
+    /// The computed cell that stands for one: itself or, while it has not been computed, one of a coarser
+    /// level.
+    fn stand_in(&self, column: usize, row: usize) -> Option<usize> {
         let near = |all: &mut dyn Iterator<Item = usize>, wanted: usize| {
             all.min_by_key(|one| one.abs_diff(wanted)).unwrap_or(wanted)
         };
         Level::ALL.into_iter().rev().find_map(|level| {
             let column = near(&mut level.columns(), column);
             let row = near(&mut self.rows_of(level).iter().copied(), row);
-            Some((column, row, self.cell(column, row)?))
+            self.cell(column, row).map(|_| row * KAPPAS + column)
         })
     }
 
-    /// The computed cell that stands for a place, with its column and row.
+    /// The map as it is shown.
     #[must_use]
-    pub fn nearest(&self, kappa: f64, hurst: f64) -> Option<(usize, usize, &Result<Cell, String>)> {
-        let (column, row) = Self::coordinates(kappa, hurst);
-        let nearest = |at: f64, count: usize| at.round().clamp(0.0, (count - 1) as f64) as usize;
-        self.stand_in(nearest(column, KAPPAS), nearest(row, self.rows()))
-    }
-
-    /// The cells of a row that are there, by κ.
-    pub fn along_kappa(&self, row: usize) -> impl Iterator<Item = (f64, &Cell)> {
-        (0..KAPPAS).filter_map(move |column| Some((kappa(column), self.cell(column, row)?.as_ref().ok()?)))
-    }
-
-    /// The cells of a column that are there, by H.
-    pub fn along_hurst(&self, column: usize) -> impl Iterator<Item = (f64, &Cell)> {
-        (0..self.rows()).filter_map(move |row| Some((hurst(row), self.cell(column, row)?.as_ref().ok()?)))
+    pub fn plane(&self) -> Plane {
+        let lines = self.basis.lines();
+        let spot = |cell: &Result<Cell, String>| match cell {
+            Ok(cell) => Ok(Spot { regime: Some(cell.regime), split: None, agreeing: cell.agreeing, lines }),
+            Err(why) => Err(why.clone()),
+        };
+        let layer = |quantity: Quantity, value: fn(&Cell) -> Option<f64>| {
+            let (scale, steps) = usual(quantity)?;
+            // Of so few lines no confidence is told.
+            let estimate = |cell: &Option<Result<Cell, String>>| {
+                let mean = value(cell.as_ref()?.as_ref().ok()?)?;
+                Some(Estimate { mean, low: mean, high: mean })
+            };
+            Some(Layer { quantity, scale, steps, estimates: self.cells.iter().map(estimate).collect() })
+        };
+        let layers = [
+            layer(Quantity::ZeroLoadAdhesionShare, |cell| Some(cell.zero_load_share())),
+            layer(Quantity::AdhesionCoefficient, Cell::coefficient),
+        ];
+        Plane::new(
+            (kappas(), self.basis.has_hurst().then(hursts)),
+            layers.into_iter().flatten().collect(),
+            self.cells.iter().map(|cell| cell.as_ref().map(spot)).collect(),
+            (0..self.cells.len()).map(|index| self.stand_in(index % KAPPAS, index / KAPPAS)).collect(),
+        )
     }
 }

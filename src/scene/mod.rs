@@ -51,6 +51,7 @@ pub use library::{Entry, Library, MOST_BYTES, MOST_FILES, Source};
 pub use locate::{Place, line_column, locate};
 pub use model::*;
 pub use overrides::command_line;
+pub(crate) use overrides::quoted;
 pub(crate) use presets::read_file;
 pub use presets::{DEFAULT, Preset, find, open, presets};
 pub use quantity::{QuantityError, format_quantity, parse_quantity};

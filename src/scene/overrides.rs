@@ -141,7 +141,7 @@ pub fn command_line(name: &str, overrides: &[(String, String)]) -> String {
 }
 
 /// A word as a shell reads it.
-fn quoted(word: &str) -> String {
+pub(crate) fn quoted(word: &str) -> String {
     let plain = |c: char| c.is_alphanumeric() || "_-./:,+@%=".contains(c);
     // zsh takes a word that starts with = for the place of a command.
     if !word.is_empty() && !word.starts_with('=') && word.chars().all(plain) {

@@ -47,6 +47,19 @@ impl FigureAxis {
     pub fn coordinates(&self) -> Vec<f64> {
         self.values.iter().map(|value| self.scale.coordinate(*value)).collect()
     }
+
+    /// Where a number stands among its values, the first of them at 0: between two by its share of their
+    /// distance, and beyond the ends as the last distance goes on.
+    #[must_use]
+    pub fn place(&self, number: f64) -> f64 {
+        let places = self.coordinates();
+        let at = self.scale.coordinate(number);
+        let after = places.partition_point(|place| *place <= at).clamp(1, places.len().max(2) - 1);
+        match places.get(after - 1..=after) {
+            Some(&[low, high]) if high > low => (after - 1) as f64 + (at - low) / (high - low),
+            _ => 0.0,
+        }
+    }
 }
 
 /// A quantity that is shown.
@@ -134,5 +147,32 @@ impl Figure {
             crosses.then(|| x[0] + (x[1] - x[0]) * first / (first - second))
         })
         .collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_have_a_place_among_the_values() {
+        let axis = |scale, values: &[f64]| FigureAxis {
+            name: String::new(),
+            symbol: String::new(),
+            unit: String::new(),
+            scale,
+            values: values.to_vec(),
+        };
+        let linear = axis(AxisScale::Linear, &[1.0, 2.0, 6.0]);
+        for (number, place) in
+            [(1.0, 0.0), (1.5, 0.5), (2.0, 1.0), (4.0, 1.5), (6.0, 2.0), (10.0, 3.0), (0.0, -1.0)]
+        {
+            assert_eq!(linear.place(number), place, "{number}");
+        }
+        let decades = axis(AxisScale::Logarithmic, &[0.1, 1.0, 10.0]);
+        assert!((decades.place(10_f64.sqrt()) - 1.5).abs() < 1e-12);
+        assert_eq!((decades.place(100.0), decades.place(0.0)), (3.0, f64::NEG_INFINITY));
+        assert_eq!(axis(AxisScale::Linear, &[3.0]).place(7.0), 0.0);
+        assert_eq!(axis(AxisScale::Linear, &[]).place(7.0), 0.0);
     }
 }

@@ -123,10 +123,13 @@ impl Finished {
 fn each_row(path: &Path, plan: &Plan, mut each: impl FnMut(&[&str]) -> Option<()>) -> Result<(), SweepError> {
     let wrong = |reason: String| SweepError::Folder { path: path.to_path_buf(), reason };
     let file = File::open(path).map_err(|error| {
-        wrong(match error.kind() {
-            std::io::ErrorKind::NotFound => "the study has not been merged yet".into(),
-            _ => format!("cannot be read: {error}"),
-        })
+        if error.kind() != std::io::ErrorKind::NotFound {
+            return wrong(format!("cannot be read: {error}"));
+        }
+        let folder = path.parent().unwrap_or(path);
+        let merge = crate::scene::quoted(&folder.display().to_string());
+        let reason = format!("the study has not been merged yet; asperity sweep merge {merge} does it");
+        SweepError::Folder { path: folder.to_path_buf(), reason }
     })?;
     let mut count = None;
     for (number, line) in BufReader::new(file).lines().enumerate() {

@@ -115,12 +115,7 @@ impl Selection {
         });
         let cells = Cells { study, chosen: &chosen, across, second };
         let axis = |index: usize| figure_axis(plan, chosen[index].axis);
-        let fixed = chosen.iter().filter_map(|one| {
-            let value = one.axis.value(one.at?);
-            let FigureAxis { name, symbol, unit, .. } = figure_axis(plan, one.axis);
-            let value = format_quantity(value, &unit);
-            Some(if symbol.is_empty() { format!("{name} {value}") } else { format!("{symbol} = {value}") })
-        });
+        let fixed = chosen.iter().filter_map(|one| Some(fixed(plan, one.axis, one.at?)));
         let by_zero_load = [Quantity::ZeroLoadAdhesionShare, Quantity::ZeroForceAdhesionShare];
         let boundary = by_zero_load.into_iter().find(|quantity| plan.record.contains(quantity));
         Ok(Figure {
@@ -269,14 +264,21 @@ fn values_of(axis: &Axis) -> String {
     format!("{}, … {last}", first.join(", "))
 }
 
+/// An axis at one of its values, as people read it: `H = 0.3`.
+pub(crate) fn fixed(plan: &Plan, axis: &Axis, place: u64) -> String {
+    let FigureAxis { name, symbol, unit, .. } = figure_axis(plan, axis);
+    let value = format_quantity(axis.value(place), &unit);
+    if symbol.is_empty() { format!("{name} {value}") } else { format!("{symbol} = {value}") }
+}
+
 /// The places of an axis, by ascending values.
-fn ascending(axis: &Axis) -> Vec<u64> {
+pub(crate) fn ascending(axis: &Axis) -> Vec<u64> {
     let mut places: Vec<u64> = (0..axis.count()).collect();
     places.sort_by(|a, b| axis.value(*a).total_cmp(&axis.value(*b)));
     places
 }
 
-fn figure_axis(plan: &Plan, axis: &Axis) -> FigureAxis {
+pub(crate) fn figure_axis(plan: &Plan, axis: &Axis) -> FigureAxis {
     let path = axis.path();
     let values: Vec<f64> = ascending(axis).into_iter().map(|place| axis.value(place)).collect();
     let ends = values.first().copied().zip(values.last().copied());
@@ -338,14 +340,14 @@ impl Cells<'_> {
     }
 }
 
-fn estimate(study: &Finished, cell: &CellSummary, quantity: Quantity) -> Option<Estimate> {
+pub(crate) fn estimate(study: &Finished, cell: &CellSummary, quantity: Quantity) -> Option<Estimate> {
     let spread = study.spread(cell.cell, quantity)?;
     let (low, high) = spread.confidence_interval.unwrap_or((spread.mean, spread.mean));
     spread.mean.is_finite().then_some(Estimate { mean: spread.mean, low, high })
 }
 
 /// Logarithmic where all means are above zero and half of them below a fiftieth of the largest.
-fn scale_of(estimates: &[Option<Estimate>]) -> AxisScale {
+pub(crate) fn scale_of(estimates: &[Option<Estimate>]) -> AxisScale {
     let means: Vec<f64> = estimates.iter().flatten().map(|estimate| estimate.mean).collect();
     let largest = means.iter().copied().fold(0.0, f64::max);
     let small = means.iter().filter(|mean| **mean < largest / LOGARITHMIC_RATIO).count();
@@ -354,7 +356,7 @@ fn scale_of(estimates: &[Option<Estimate>]) -> AxisScale {
 }
 
 /// The regime of most lines; of two with as many the one with more adhesion.
-fn regime(cell: &CellSummary) -> Option<Regime> {
+pub(crate) fn regime(cell: &CellSummary) -> Option<Regime> {
     let shares = cell.regimes?;
     let most = shares.into_iter().fold(0.0, f64::max);
     let index = shares.into_iter().position(|share| share == most && most > 0.0)?;

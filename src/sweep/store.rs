@@ -110,6 +110,12 @@ impl Folder {
         Ok(Folder { path: path.to_path_buf(), plan: plan.clone() })
     }
 
+    /// Whether a path is the folder of a study, sound or not.
+    #[must_use]
+    pub fn is_at(path: &Path) -> bool {
+        path.join(PLAN).is_file()
+    }
+
     /// Opens the folder of a study.
     ///
     /// # Errors

@@ -8,7 +8,7 @@ use asperity::explorer::study::{Appraiser, Found, perform};
 use asperity::explorer::theme::{Appearance, Marker, Theme};
 use asperity::explorer::update::{Effect, moment_request, study_tasks};
 use asperity::explorer::worker::{self, Engine, Newest, Report, Request, Worker};
-use asperity::explorer::write;
+use asperity::explorer::{Opening, write};
 use asperity::scene::{Document, Library};
 use asperity::simulation::{Simulation, Timings};
 use std::collections::BTreeMap;
@@ -45,18 +45,23 @@ pub struct Driver {
 
 impl Driver {
     /// The explorer as it opens, before anything is computed.
-    pub fn open(document: Document) -> Self {
-        Driver::open_with(document, Box::new(Simulation::default()))
+    pub fn open(opening: impl Into<Opening>) -> Self {
+        Driver::open_with(opening, Box::new(Simulation::default()))
     }
 
     /// The same with another engine.
-    pub fn open_with(document: Document, engine: Box<dyn Engine>) -> Self {
+    pub fn open_with(opening: impl Into<Opening>, engine: Box<dyn Engine>) -> Self {
+        let Opening { document, atlas } = opening.into();
+        let mut model = Model::new(document, (120, 40), APPEARANCE);
+        if let Some(atlas) = atlas {
+            model.show_study(atlas);
+        }
         let (requests, outbox) = channel();
         let (report, reports) = channel();
         let newest = Newest::default();
         worker::start(engine, Arc::clone(&newest), outbox, move |one| report.send(one).is_ok()).unwrap();
         Driver {
-            model: Model::new(document, (120, 40), APPEARANCE),
+            model,
             files: BTreeMap::new(),
             copied: Vec::new(),
             folder: PathBuf::from("no such folder"),
@@ -87,6 +92,10 @@ impl Driver {
             Effect::Preview(document) => {
                 let scene = Arc::new(document.scene().clone());
                 self.ask(Request::Preview { text: document.text().to_owned(), scene })
+            }
+            Effect::Open(name) => {
+                let opened = Opening::of(&name).map(Box::new).map_err(|error| error.to_string());
+                vec![Action::Opened(opened)]
             }
             Effect::List => vec![Action::Listed(Library::of(None, self.folder.clone()).list())],
             Effect::Copy(text) => {

@@ -7,8 +7,7 @@ use asperity::explorer::keys;
 use asperity::explorer::layout::Layout;
 use asperity::explorer::model::Model;
 use asperity::explorer::update::{Effect, update};
-use asperity::explorer::view;
-use asperity::scene::Document;
+use asperity::explorer::{Opening, view};
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 use ratatui::Terminal;
 use ratatui::backend::TestBackend;
@@ -17,8 +16,8 @@ use std::time::Duration;
 
 impl Driver {
     /// The explorer with its scene computed and the first moment shown.
-    pub fn start(document: Document) -> Self {
-        let mut driver = Driver::open(document);
+    pub fn start(opening: impl Into<Opening>) -> Self {
+        let mut driver = Driver::open(opening);
         driver.perform(vec![Effect::Compute]);
         driver
     }

@@ -9,14 +9,15 @@ use asperity::accuracy::{Choice, ChoiceError, CostError, CostTable, Estimate, Pr
 use asperity::analysis::Regime;
 use asperity::explorer::action::{Action, Gesture, Mouse};
 use asperity::explorer::layout::{Layout, inside};
-use asperity::explorer::model::{Charted, ModeKind, Pane};
+use asperity::explorer::model::{ModeKind, Pane};
 use asperity::explorer::snapshot::Loop;
 use asperity::explorer::study::{Appraiser, Finding, Found, Study, Task};
 use asperity::explorer::theme::Marker;
 use asperity::explorer::update::{Effect, study_tasks};
-use asperity::phase::{Basis, Cell, HURSTS, KAPPAS, Level, PhaseMap, hurst, kappa};
+use asperity::phase::{Basis, Cell, Charted, HURSTS, KAPPAS, Level, PhaseMap, hurst, kappa};
 use asperity::scene::{Document, Scene};
 use asperity::simulation::RunError;
+use asperity::sweep::Quantity;
 use std::sync::Arc;
 use std::sync::mpsc::{Sender, channel};
 use std::time::Duration;
@@ -135,8 +136,11 @@ fn the_map_says_without_colours_what_it_says_with_them() {
         driver.model.appearance.marker = Marker::Braille;
         // Each quantity has a legend of its own.
         for (quantity, told) in [
-            (Charted::ZeroLoadAdhesion, "F_a(0)/F_a,max  █ ≥ 0.5  ▒ ≥ 0.05  ░ ≥ 0.005"),
-            (Charted::Coefficient, "F_a/F_n  █ ≥ 1  ▒ ≥ 0.1  ░ ≥ 0.01"),
+            (
+                Charted::Quantity(Quantity::ZeroLoadAdhesionShare),
+                "F_a(0)/F_a,max  █ ≥ 0.5  ▒ ≥ 0.05  ░ ≥ 0.005",
+            ),
+            (Charted::Quantity(Quantity::AdhesionCoefficient), "F_a/F_n  █ ≥ 1  ▒ ≥ 0.1  ░ ≥ 0.01"),
             (Charted::Regime, "█ pressure-insensitive"),
         ] {
             driver.press("V");

@@ -53,7 +53,10 @@ fn all_scenes_are_listed_and_found_as_one_types() {
         driver.type_text("ere-no-such");
         assert!(found(&driver).is_empty());
         assert!(driver.text().contains("no scene fits"), "{}", driver.text());
-        assert!(driver.press("Enter").is_empty(), "nothing is there to be opened");
+        // Accepted, it is tried as a path.
+        driver.press("Enter");
+        assert!(driver.status().contains("! sphere-no-such: there is no such file"), "{}", driver.status());
+        driver.press("o");
         driver.press("Ctrl+u");
         assert_eq!(found(&driver).len(), presets().len() + 2);
         driver.type_text("mine");

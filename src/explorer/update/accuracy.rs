@@ -20,7 +20,7 @@ pub fn study_tasks(model: &Model) -> Vec<Task> {
     }
     let chart = model.chart.wanted(&computed.scene).ok().flatten();
     let chart = chart
-        .filter(|_| model.chart.shown && model.chart.failed.is_none())
+        .filter(|_| model.chart.shown && model.chart.shown_study().is_none() && model.chart.failed.is_none())
         .map(|map| Task::Chart { map, waits: model.chart.edited });
     let estimate =
         (appraisal.estimated == Estimated::Waiting).then(|| Task::Estimate(std::sync::Arc::clone(computed)));
@@ -91,7 +91,7 @@ pub fn found(model: &mut Model, found: Found) -> Vec<Effect> {
             }
         }
         Finding::Charted(map) => {
-            model.chart.map = Some(map);
+            model.chart.take_in(map);
             Vec::new()
         }
         Finding::NotCharted(why) => {

@@ -3,7 +3,9 @@
 use super::{Effect, edit};
 use crate::explorer::action::Command;
 use crate::explorer::model::{Model, Notice, Pane};
-use crate::phase::{Basis, HURSTS, KAPPAS, hurst, kappa, next_beyond};
+use crate::explorer::opening::Opening;
+use crate::phase::{Basis, next_beyond};
+use crate::scene::{Document, SceneErrors};
 
 /// Obeys a command that has to do with the map.
 pub fn obey(model: &mut Model, command: Command) -> Vec<Effect> {
@@ -14,9 +16,11 @@ pub fn obey(model: &mut Model, command: Command) -> Vec<Effect> {
             Vec::new()
         }
         Command::NextCharted => {
-            model.chart.quantity = model.chart.quantity.next();
+            model.chart.quantity = model.chart.next_charted();
             Vec::new()
         }
+        Command::ToggleStudy => toggle_study(model),
+        Command::NextSlice(steps) => step_slice(model, steps),
         Command::MoveKappa(steps) => step(model, steps, 0),
         Command::MoveHurst(steps) => step(model, 0, steps),
         _ => Vec::new(),
@@ -41,6 +45,51 @@ fn toggle(model: &mut Model) -> Vec<Effect> {
     vec![Effect::Study, Effect::Show]
 }
 
+/// Explores what has been opened by its path.
+pub fn open(model: &mut Model, opening: Opening) -> Vec<Effect> {
+    let Opening { document, atlas } = opening;
+    let effects = edit::open(model, document);
+    if let Some(atlas) = atlas {
+        model.show_study(atlas);
+    }
+    effects
+}
+
+/// Without a study there is nothing to be shown of it.
+const NO_STUDY: &str = "no study is open; o and the path of its folder open one";
+
+fn toggle_study(model: &mut Model) -> Vec<Effect> {
+    if model.chart.study.is_none() {
+        model.notice = Some(Notice::Error(NO_STUDY.to_owned()));
+        return Vec::new();
+    }
+    model.chart.of_study = !model.chart.of_study;
+    model.chart.edited = false;
+    vec![Effect::Study]
+}
+
+/// Shows another map of the study. A scene that is of the map before goes with it.
+fn step_slice(model: &mut Model, steps: i32) -> Vec<Effect> {
+    let Some(study) = model.chart.shown_study() else {
+        let why = if model.chart.study.is_some() {
+            "this is the map that is computed here; W shows the study's"
+        } else {
+            NO_STUDY
+        };
+        model.notice = Some(Notice::Error(why.to_owned()));
+        return Vec::new();
+    };
+    if study.atlas.slices() == 1 {
+        model.notice = Some(Notice::Done("this study has one map".to_owned()));
+        return Vec::new();
+    }
+    let next = study.stepped(steps);
+    let goes_with = study.atlas.is_of(study.slice, model.document.scene());
+    let followed = goes_with.then(|| next.atlas.follow(next.slice, &model.document));
+    model.chart.study = Some(next);
+    followed.map_or_else(Vec::new, |followed| edit::take_over(model, followed))
+}
+
 /// Moves the mark by columns and rows of the map.
 fn step(model: &mut Model, columns: i32, rows: i32) -> Vec<Effect> {
     let Some((at_kappa, at_hurst)) = model.place() else {
@@ -51,9 +100,10 @@ fn step(model: &mut Model, columns: i32, rows: i32) -> Vec<Effect> {
         model.notice = Some(Notice::Error(why));
         return Vec::new();
     };
-    let to_kappa = if columns == 0 { Some(at_kappa) } else { next_beyond(at_kappa, columns, KAPPAS, kappa) };
+    let (across, up) = model.chart.axes();
+    let to_kappa = if columns == 0 { Some(at_kappa) } else { next_beyond(at_kappa, columns, &across.values) };
     let to_hurst = match at_hurst {
-        Some(at) if rows != 0 => next_beyond(at, rows, HURSTS, hurst),
+        Some(at) if rows != 0 => next_beyond(at, rows, &up.values),
         None if rows != 0 => {
             model.notice = Some(Notice::Error("a measured profile has no H to change".to_owned()));
             return Vec::new();
@@ -72,10 +122,24 @@ fn step(model: &mut Model, columns: i32, rows: i32) -> Vec<Effect> {
 /// Sets κ and H of the scene. All moves in a row are one edit.
 pub fn move_to(model: &mut Model, kappa: f64, hurst: f64) -> Vec<Effect> {
     let goes_on = model.chart.moving;
-    let effects = match Basis::moved(&model.document, kappa, hurst) {
+    let effects = match moved(model, kappa, hurst) {
         Ok(document) if goes_on => edit::replace(model, document),
         moved => edit::take_over(model, moved),
     };
     model.chart.moving = model.refused.is_none();
     effects
+}
+
+/// The scene with another κ and H. A preload in units of E* h L may change with them.
+fn moved(model: &Model, kappa: f64, hurst: f64) -> Result<Document, SceneErrors> {
+    let moved = Basis::moved(&model.document, kappa, hurst)?;
+    match model.chart.shown_study() {
+        Some(study)
+            if study.atlas.is_of(study.slice, model.document.scene())
+                && !study.atlas.is_of(study.slice, moved.scene()) =>
+        {
+            study.atlas.follow(study.slice, &moved)
+        }
+        _ => Ok(moved),
+    }
 }

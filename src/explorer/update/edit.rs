@@ -69,6 +69,8 @@ pub fn open(model: &mut Model, document: Document) -> Vec<Effect> {
     model.player = Player { leg: 0, done: 0.0, playing: true };
     model.look = Look { focus: Focus::Summit, springs: Look::springs_shown(&document) };
     model.profile = LineView::WHOLE;
+    // The map that is shown is that of the scene; a study stays at hand.
+    model.chart.of_study = false;
     let effects = adopt(model, document);
     model.set_saved();
     effects

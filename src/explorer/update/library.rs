@@ -44,7 +44,16 @@ pub fn obey(model: &mut Model, command: Command) -> Vec<Effect> {
             preview(model)
         }
         Command::Accept => {
-            let Some(entry) = library.entry() else { return Vec::new() };
+            let typed = library.query.text();
+            // What has a separator in it is no name to search for.
+            let is_path = typed.contains(std::path::is_separator);
+            let Some(entry) = library.entry().filter(|_| !is_path) else {
+                if typed.trim().is_empty() {
+                    return Vec::new();
+                }
+                model.mode = Mode::Explore;
+                return vec![Effect::Open(typed.trim().to_owned())];
+            };
             match entry.document() {
                 Ok(document) => {
                     model.mode = Mode::Explore;

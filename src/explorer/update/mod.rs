@@ -46,6 +46,8 @@ pub enum Effect {
     },
     /// List the scenes of the library.
     List,
+    /// Open a scene or a study by its path.
+    Open(String),
     /// Compute a scene of the library to look at its curve.
     Preview(Box<Document>),
     /// Copy a text.
@@ -95,6 +97,8 @@ pub fn update(model: &mut Model, action: Action) -> Vec<Effect> {
         Action::Found(found) => return accuracy::found(model, found),
         Action::Written(result) => files::written(model, result),
         Action::Listed(entries) => return library::listed(model, entries),
+        Action::Opened(Ok(opening)) => return chart::open(model, *opening),
+        Action::Opened(Err(why)) => model.notice = Some(Notice::Error(why)),
         Action::Previewed(preview) => model.preview = Some(preview),
         Action::Traffic(traffic) => model.traffic = Some(traffic),
         Action::Mouse(mouse) => return mouse::act(model, mouse),
@@ -248,6 +252,8 @@ fn explore(model: &mut Model, command: Command) -> Vec<Effect> {
         Command::ToggleChart
         | Command::ToggleSections
         | Command::NextCharted
+        | Command::ToggleStudy
+        | Command::NextSlice(_)
         | Command::MoveKappa(_)
         | Command::MoveHurst(_) => return chart::obey(model, command),
         Command::Fragment(_)

@@ -3,6 +3,7 @@
 mod accuracy;
 mod axes;
 mod chart;
+mod chart_words;
 mod chrome;
 mod close_up;
 mod force;
@@ -82,7 +83,7 @@ fn draw_pane(frame: &mut Frame<'_>, area: Rect, model: &Model, pane: Pane) {
             Pane::CloseUp => close_up::title(model),
             Pane::Parameters => " Parameters ".to_owned(),
             Pane::Accuracy => accuracy::TITLE.to_owned(),
-            Pane::Chart => chart::title(model),
+            Pane::Chart => chart_words::title(model),
         };
         let style = model.appearance.theme.style(if chosen { Meaning::Title } else { Meaning::Quiet });
         let mark = if chosen { "▸" } else { "" };

@@ -1,109 +1,159 @@
-//! Sections through the mark of the map: adhesion over κ and over H, on a logarithmic scale.
+//! Sections through the mark of the map: means over κ and over H, with their confidence where it is known.
 
 use super::axes::{Axis, Places};
+use super::chart_words::{name_of, number, told};
 use super::plot::{Polyline, Span, Stroke};
 use super::wrap::filled;
 use crate::explorer::model::Model;
 use crate::explorer::theme::Meaning;
-use crate::phase::{Cell, HURSTS, KAPPAS, PhaseMap, hurst, kappa};
-use crate::scene::format_quantity;
+use crate::phase::{Layer, Plane};
+use crate::sweep::figure::{AxisScale, Estimate, FigureAxis};
 use ratatui::Frame;
 use ratatui::layout::Rect;
 use ratatui::text::{Line, Span as Text};
 use ratatui::widgets::Paragraph;
 use ratatui::widgets::canvas::Canvas;
 
-/// Lowest decade that is shown: what is smaller lies below the plot.
-const LOWEST: f64 = -4.0;
+/// Decades that are shown: what is smaller lies below the plot.
+const DECADES: f64 = 5.0;
 
 /// Rows that make a plot worth drawing.
 const FEWEST_ROWS: u16 = 4;
 
-/// A curve: its points, its name, its colour and its line.
+/// Lines of curves, and what they mean where there are two.
+const CURVES: [(Meaning, Stroke, &str); 2] =
+    [(Meaning::Retraction, Stroke::Solid, "─ "), (Meaning::Approach, Stroke::Dotted, "┄ ")];
+
+/// A curve: its points, the confidence of each where it is known, in coordinates of the plot, and its name.
 struct Curve {
     points: Vec<(f64, f64)>,
-    name: &'static str,
+    bars: Vec<(f64, f64, f64)>,
+    name: String,
     meaning: Meaning,
     stroke: Stroke,
+    sign: &'static str,
 }
 
-/// What is shown of cells: the share of the ideal adhesion without a preload, and the adhesion coefficient.
-fn curves<'a>(cells: impl Iterator<Item = (f64, &'a Cell)>) -> [Curve; 2] {
-    let (mut zero_load, mut coefficient) = (Vec::new(), Vec::new());
-    for (at, cell) in cells {
-        zero_load.push((at, cell.zero_load_share().log10()));
-        coefficient.extend(cell.coefficient().map(|value| (at, value.log10())));
-    }
-    for points in [&mut zero_load, &mut coefficient] {
-        points.retain(|point| point.1.is_finite());
-    }
-    let curve = |points, name, meaning, stroke| Curve { points, name, meaning, stroke };
-    [
-        curve(zero_load, "F_a(0)/F_a,max", Meaning::Retraction, Stroke::Solid),
-        curve(coefficient, "F_a/F_n", Meaning::Approach, Stroke::Dotted),
-    ]
-}
-
-/// A plot: its curves, along what, where the mark is, and what is kept.
+/// A plot: its curves, how their values lie, along what, where the mark is, and what is kept.
 struct Section {
-    curves: [Curve; 2],
+    curves: Vec<Curve>,
+    scale: AxisScale,
+    unit: &'static str,
+    symbol: &'static str,
+    across: &'static str,
     x: Span,
     ends: Span,
-    symbol: &'static str,
     mark: f64,
     kept: String,
 }
 
+impl Section {
+    /// A section along an axis, of layers with their values on it.
+    fn along(
+        plane: &Plane,
+        (axis, across): (&FigureAxis, &'static str),
+        values: &[(&Layer, Vec<(f64, Estimate)>)],
+        mark: f64,
+        kept: String,
+    ) -> Option<Self> {
+        let (first, last) = (*axis.values.first()?, *axis.values.last()?);
+        let (layer, _) = values.first()?;
+        let (scale, unit) = (layer.scale, layer.quantity.unit());
+        let curve = |((layer, values), (meaning, stroke, sign)): (&(&Layer, Vec<(f64, Estimate)>), _)| {
+            let at = |number: f64| axis.scale.coordinate(number);
+            let y = |number: f64| scale.coordinate(number);
+            let points = values.iter().map(|(x, one)| (at(*x), y(one.mean)));
+            let bars = values.iter().filter(|(_, one)| one.low < one.high);
+            // Of a mean near zero the interval may go beyond what has a logarithm.
+            let bottom =
+                |number: f64| if number > 0.0 || scale == AxisScale::Linear { y(number) } else { f64::MIN };
+            Curve {
+                points: points.filter(|point| point.1.is_finite()).collect(),
+                bars: bars.map(|(x, one)| (at(*x), bottom(one.low), y(one.high))).collect(),
+                name: name_of(plane, layer.quantity),
+                meaning,
+                stroke,
+                sign,
+            }
+        };
+        let symbol = match values {
+            [_] if !layer.quantity.symbol().is_empty() => layer.quantity.symbol(),
+            [_] => "value",
+            _ => "share",
+        };
+        Some(Section {
+            curves: values.iter().zip(CURVES).map(curve).collect(),
+            scale,
+            unit,
+            symbol,
+            across,
+            x: Span { low: axis.scale.coordinate(first), high: axis.scale.coordinate(last) },
+            ends: Span { low: first, high: last },
+            mark: axis.scale.coordinate(mark),
+            kept,
+        })
+    }
+
+    /// What its values span; `None` where there are none.
+    fn y(&self) -> Option<Span> {
+        let means = || self.curves.iter().flat_map(|curve| &curve.points).map(|point| point.1);
+        let (low, high) = (means().fold(f64::INFINITY, f64::min), means().fold(f64::NEG_INFINITY, f64::max));
+        if low > high {
+            return None;
+        }
+        if self.scale == AxisScale::Linear {
+            let bars = self.curves.iter().flat_map(|curve| &curve.bars).flat_map(|bar| [bar.1, bar.2]);
+            return Some(Span::around(means().chain(bars), 0.04));
+        }
+        let high = high.ceil();
+        let low = low.floor().max(high - DECADES);
+        Some(Span { low, high: high.max(low + 1.0) })
+    }
+}
+
 /// Draws both sections one above the other, or that over κ where there is no H or no room.
-pub fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model, map: &PhaseMap) {
+pub fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model, plane: &Plane) {
     let Some((at_kappa, at_hurst)) = model.place() else { return };
-    let Some((column, row, _)) = map.nearest(at_kappa, at_hurst.unwrap_or_default()) else { return };
-    let number = |value: f64| format_quantity(format!("{value:.2e}").parse().unwrap_or(value), "1");
-    let over_kappa = Section {
-        curves: curves(map.along_kappa(row).map(|(kappa, cell)| (kappa.log2(), cell))),
-        x: Span { low: kappa(0).log2(), high: kappa(KAPPAS - 1).log2() },
-        ends: Span { low: kappa(0), high: kappa(KAPPAS - 1) },
-        symbol: "κ",
-        mark: at_kappa.log2(),
-        kept: if at_hurst.is_some() { format!("at H {}", number(hurst(row))) } else { String::new() },
+    let Some(place) = plane.nearest(at_kappa, at_hurst) else { return };
+    let layers = told(model, plane);
+    let kept = |symbol: &str, axis: &FigureAxis, index: usize| {
+        axis.values.get(index).map_or_else(String::new, |value| format!("at {symbol} {}", number(*value)))
     };
-    let Some(at_hurst) = at_hurst.filter(|_| area.height >= 2 * FEWEST_ROWS) else {
-        return section(frame, area, model, &over_kappa);
-    };
-    let over_hurst = Section {
-        curves: curves(map.along_hurst(column)),
-        x: Span { low: hurst(0), high: hurst(HURSTS - 1) },
-        ends: Span { low: hurst(0), high: hurst(HURSTS - 1) },
-        symbol: "H",
-        mark: at_hurst,
-        kept: format!("at κ {}", number(kappa(column))),
-    };
-    let upper = area.height.div_ceil(2);
-    section(frame, Rect { height: upper, ..area }, model, &over_kappa);
-    let lower = Rect { y: area.y + upper, height: area.height - upper, ..area };
-    section(frame, lower, model, &over_hurst);
+    let values: Vec<_> = layers.iter().map(|layer| (*layer, plane.along_kappa(layer, place.row))).collect();
+    let at = plane.up().map_or_else(String::new, |up| kept("H", up, place.row));
+    let over_kappa = Section::along(plane, (plane.across(), "κ"), &values, at_kappa, at);
+    let both = plane.up().zip(at_hurst).filter(|_| area.height >= 2 * FEWEST_ROWS);
+    let upper = if both.is_some() { area.height.div_ceil(2) } else { area.height };
+    if let Some(over_kappa) = over_kappa {
+        section(frame, Rect { height: upper, ..area }, model, &over_kappa);
+    }
+    if let Some((up, at_hurst)) = both {
+        let values: Vec<_> =
+            layers.iter().map(|layer| (*layer, plane.along_hurst(layer, place.column))).collect();
+        let at = kept("κ", plane.across(), place.column);
+        if let Some(over_hurst) = Section::along(plane, (up, "H"), &values, at_hurst, at) {
+            let lower = Rect { y: area.y + upper, height: area.height - upper, ..area };
+            section(frame, lower, model, &over_hurst);
+        }
+    }
 }
 
 fn section(frame: &mut Frame<'_>, area: Rect, model: &Model, section: &Section) {
     let theme = model.appearance.theme;
-    let Section { curves, x, ends, symbol, mark, kept } = section;
-    let told = Text::styled(format!("over {symbol} {kept}"), theme.style(Meaning::Title));
+    let Section { curves, x, mark, across, kept, .. } = section;
+    let told = Text::styled(format!("over {across} {kept}"), theme.style(Meaning::Title));
     let names = curves.iter().filter(|curve| !curve.points.is_empty()).map(|curve| {
-        let line = if curve.stroke == Stroke::Solid { "─ " } else { "┄ " };
-        vec![Text::styled(line, theme.style(curve.meaning)), Text::raw(curve.name)]
+        vec![Text::styled(curve.sign, theme.style(curve.meaning)), Text::raw(curve.name.clone())]
     });
-    let legend = filled(std::iter::once(vec![told]).chain(names).collect(), "  ", usize::from(area.width));
+    let with_bars = curves.iter().any(|curve| !curve.bars.is_empty());
+    let bars = with_bars.then(|| vec![Text::raw("│ 95 % confidence")]);
+    let parts = std::iter::once(vec![told]).chain(names).chain(bars).collect();
+    let legend = filled(parts, "  ", usize::from(area.width));
     let rows = (legend.len() as u16).min(area.height.saturating_sub(FEWEST_ROWS));
     for (y, line) in (area.y..area.y + rows).zip(legend) {
         frame.render_widget(Paragraph::new(line), Rect { y, height: 1, ..area });
     }
-    let all = || curves.iter().flat_map(|curve| &curve.points).map(|point| point.1);
-    let low = all().fold(f64::INFINITY, f64::min);
-    if !low.is_finite() {
-        return;
-    }
-    let low = low.floor().max(LOWEST);
-    let y = Span { low, high: all().fold(low, f64::max).ceil().max(low + 1.0) };
+    let Some(y) = section.y() else { return };
     let places = Places::within(area, rows);
     let canvas = Canvas::default()
         .marker(model.appearance.marker.symbols())
@@ -115,9 +165,13 @@ fn section(frame: &mut Frame<'_>, area: Rect, model: &Model, section: &Section) 
                 let colour = theme.colour(Meaning::Cursor);
                 ctx.draw(&Polyline { points: &there, colour, stroke: Stroke::Sparse });
             }
-            for Curve { points, meaning, stroke, .. } in curves {
+            for Curve { points, bars, meaning, stroke, .. } in curves {
                 ctx.layer();
                 let colour = theme.colour(*meaning);
+                for (at, low, high) in bars {
+                    let bar = [low, high].map(|end| (*at, end.clamp(y.low, y.high)));
+                    ctx.draw(&Polyline { points: &bar, colour, stroke: Stroke::Solid });
+                }
                 ctx.draw(&Polyline { points, colour, stroke: *stroke });
             }
             if (x.low..=x.high).contains(mark) {
@@ -125,11 +179,11 @@ fn section(frame: &mut Frame<'_>, area: Rect, model: &Model, section: &Section) 
             }
         });
     frame.render_widget(canvas, places.plot);
-    let decades = Span { low: 10_f64.powf(y.low), high: 10_f64.powf(y.high) };
+    let values = Span { low: section.scale.number(y.low), high: section.scale.number(y.high) };
     places.draw(
         frame,
-        Axis { span: *ends, unit: "1", symbol },
-        Axis { span: decades, unit: "1", symbol: "share" },
+        Axis { span: section.ends, unit: "1", symbol: across },
+        Axis { span: values, unit: section.unit, symbol: section.symbol },
         theme,
     );
 }

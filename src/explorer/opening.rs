@@ -1,0 +1,63 @@
+//! What the explorer opens: a scene, or a finished study around one.
+
+use crate::phase::{Atlas, AtlasError};
+use crate::scene::{Document, SceneErrors, open};
+use crate::sweep::Folder;
+use std::path::Path;
+use std::sync::Arc;
+use thiserror::Error;
+
+/// What the explorer opens.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Opening {
+    /// The scene.
+    pub document: Document,
+    /// The study it is from, whose maps are shown.
+    pub atlas: Option<Arc<Atlas>>,
+}
+
+/// Why nothing was opened.
+#[derive(Debug, Error)]
+pub enum OpeningError {
+    /// It is no scene, or none that is allowed.
+    #[error(transparent)]
+    Scene(Box<SceneErrors>),
+    /// It is a folder, and not that of a study.
+    #[error(
+        "{0}: this folder is not that of a study: there is no plan.ron in it; allowed: a scene, or the folder of a \
+         merged study"
+    )]
+    Folder(String),
+    /// It is the folder of a study that cannot be shown.
+    #[error(transparent)]
+    Study(Box<AtlasError>),
+}
+
+impl From<Document> for Opening {
+    fn from(document: Document) -> Self {
+        Opening { document, atlas: None }
+    }
+}
+
+impl Opening {
+    /// Opens a scene by its name or file, or a study by its folder. Of a built-in scene and a folder with the
+    /// same name it is the folder, where that is one of a study.
+    ///
+    /// # Errors
+    /// Where it is neither.
+    pub fn of(name: &str) -> Result<Self, OpeningError> {
+        let folder = Path::new(name);
+        if !folder.is_dir() {
+            return open(name).map(Opening::from).map_err(|errors| OpeningError::Scene(Box::new(errors)));
+        }
+        if Folder::is_at(folder) {
+            return Opening::of_study(folder).map_err(|error| OpeningError::Study(Box::new(error)));
+        }
+        open(name).map(Opening::from).map_err(|_| OpeningError::Folder(name.to_owned()))
+    }
+
+    fn of_study(folder: &Path) -> Result<Self, AtlasError> {
+        let atlas = Atlas::open(folder)?;
+        Ok(Opening { document: atlas.document()?, atlas: Some(Arc::new(atlas)) })
+    }
+}

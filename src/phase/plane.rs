@@ -1,0 +1,203 @@
+//! A map over κ and H as it is shown: the one that is computed while one looks on, and those of a finished
+//! study, fill the same [`Plane`].
+
+use crate::analysis::{NEGLIGIBLE_COEFFICIENT, Regime};
+use crate::sweep::Quantity;
+use crate::sweep::figure::{AxisScale, Estimate, FigureAxis};
+
+/// A map as it is shown.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Plane {
+    across: FigureAxis,
+    up: Option<FigureAxis>,
+    layers: Vec<Layer>,
+    /// Row by row, the lowest H first.
+    cells: Vec<Option<Result<Spot, String>>>,
+    /// The cell that stands for each: itself, or one of a coarser map.
+    stand_ins: Vec<Option<usize>>,
+}
+
+/// A quantity in all cells of a map.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Layer {
+    /// Which one.
+    pub quantity: Quantity,
+    /// How it lies on its scale.
+    pub scale: AxisScale,
+    /// Least values of the three densest glyphs, the densest first.
+    pub steps: [f64; 3],
+    /// Its mean in each cell, row by row; with its confidence where that is known.
+    pub estimates: Vec<Option<Estimate>>,
+}
+
+/// What a cell says beside its quantities.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Spot {
+    /// Its regime; `None` where that is not known.
+    pub regime: Option<Regime>,
+    /// Another regime, where too many of its lines are in that one to call the first the cell's.
+    pub split: Option<Regime>,
+    /// Lines that are in its regime each by itself.
+    pub agreeing: u64,
+    /// Its lines.
+    pub lines: u64,
+}
+
+/// A cell that is shown, and where it stands on the map.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Place<'p> {
+    /// Its column.
+    pub column: usize,
+    /// Its row.
+    pub row: usize,
+    /// What it says, or why it says nothing.
+    pub spot: &'p Result<Spot, String>,
+}
+
+/// What the glyphs of a map tell. Colours tell the regime, where it is known.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Charted {
+    /// The regime.
+    #[default]
+    Regime,
+    /// A quantity.
+    Quantity(Quantity),
+}
+
+/// Steps of shares of the ideal adhesion, and of the adhesion coefficient: the same on all maps.
+const SHARE_STEPS: [f64; 3] = [0.5, 0.05, 0.005];
+const COEFFICIENT_STEPS: [f64; 3] = [1.0, 0.1, NEGLIGIBLE_COEFFICIENT];
+
+/// The glyphs and the scale that a quantity has on every map; `None` where they follow from its values.
+pub(super) fn usual(quantity: Quantity) -> Option<(AxisScale, [f64; 3])> {
+    match quantity {
+        Quantity::ZeroLoadAdhesionShare
+        | Quantity::ZeroForceAdhesionShare
+        | Quantity::AdhesionShare
+        | Quantity::ContactFraction => Some((AxisScale::Logarithmic, SHARE_STEPS)),
+        Quantity::AdhesionCoefficient => Some((AxisScale::Logarithmic, COEFFICIENT_STEPS)),
+        _ => None,
+    }
+}
+
+impl Layer {
+    /// The step that a value reaches, 0 the densest; 3 where it reaches none.
+    #[must_use]
+    pub fn step(&self, value: f64) -> usize {
+        self.steps.iter().position(|least| value >= *least).unwrap_or(self.steps.len())
+    }
+}
+
+impl Plane {
+    /// A map of its cells, row by row, and of the cell that stands for each.
+    pub(super) fn new(
+        (across, up): (FigureAxis, Option<FigureAxis>),
+        layers: Vec<Layer>,
+        cells: Vec<Option<Result<Spot, String>>>,
+        stand_ins: Vec<Option<usize>>,
+    ) -> Plane {
+        Plane { across, up, layers, cells, stand_ins }
+    }
+
+    /// κ of its columns.
+    #[must_use]
+    pub fn across(&self) -> &FigureAxis {
+        &self.across
+    }
+
+    /// H of its rows; `None` where there is no H.
+    #[must_use]
+    pub fn up(&self) -> Option<&FigureAxis> {
+        self.up.as_ref()
+    }
+
+    /// How many columns and rows it has.
+    #[must_use]
+    pub fn size(&self) -> (usize, usize) {
+        (self.across.values.len(), self.up.as_ref().map_or(1, |up| up.values.len()))
+    }
+
+    /// What it tells beside the regime.
+    #[must_use]
+    pub fn layers(&self) -> &[Layer] {
+        &self.layers
+    }
+
+    /// The layer of a quantity.
+    #[must_use]
+    pub fn layer(&self, quantity: Quantity) -> Option<&Layer> {
+        self.layers.iter().find(|layer| layer.quantity == quantity)
+    }
+
+    /// What its glyphs can tell, the regime first where it is known.
+    #[must_use]
+    pub fn charted(&self) -> Vec<Charted> {
+        let known = self.cells.iter().flatten().flatten().any(|spot| spot.regime.is_some());
+        // Of a map that is empty yet nothing is known, and the regime is what it begins with.
+        let regime = (known || self.layers.is_empty()).then_some(Charted::Regime);
+        regime.into_iter().chain(self.layers.iter().map(|layer| Charted::Quantity(layer.quantity))).collect()
+    }
+
+    /// Whether lines of one of its cells are divided between regimes.
+    #[must_use]
+    pub fn is_split(&self) -> bool {
+        self.cells.iter().flatten().flatten().any(|spot| spot.split.is_some())
+    }
+
+    /// The cell that is shown at a column and a row: itself or, while it has not been computed, one that stands
+    /// for it.
+    #[must_use]
+    pub fn shown(&self, column: usize, row: usize) -> Option<Place<'_>> {
+        let columns = self.across.values.len();
+        let index = (*self.stand_ins.get(row * columns + column).filter(|_| column < columns)?)?;
+        let spot = self.cells.get(index)?.as_ref()?;
+        Some(Place { column: index % columns, row: index / columns, spot })
+    }
+
+    /// The column and the row of a place, between whole ones where it lies between cells.
+    #[must_use]
+    pub fn coordinates(&self, kappa: f64, hurst: Option<f64>) -> (f64, f64) {
+        let row = self.up.as_ref().zip(hurst).map_or(0.0, |(up, hurst)| up.place(hurst));
+        (self.across.place(kappa), row)
+    }
+
+    /// Whether a place lies on it, half a cell beyond the outermost values included.
+    #[must_use]
+    pub fn contains(&self, kappa: f64, hurst: Option<f64>) -> bool {
+        let (column, row) = self.coordinates(kappa, hurst);
+        let within = |at: f64, count: usize| (-0.5..count as f64 - 0.5).contains(&at);
+        let (columns, rows) = self.size();
+        within(column, columns) && within(row, rows)
+    }
+
+    /// The cell that is shown for a place or, beyond the map, the one at its edge; `None` without an H where
+    /// the map has one.
+    #[must_use]
+    pub fn nearest(&self, kappa: f64, hurst: Option<f64>) -> Option<Place<'_>> {
+        if self.up.is_some() && hurst.is_none() {
+            return None;
+        }
+        let (column, row) = self.coordinates(kappa, hurst);
+        let nearest = |at: f64, count: usize| at.round().clamp(0.0, count.saturating_sub(1) as f64) as usize;
+        let (columns, rows) = self.size();
+        self.shown(nearest(column, columns), nearest(row, rows))
+    }
+
+    /// A layer in a cell.
+    #[must_use]
+    pub fn estimate(&self, layer: &Layer, column: usize, row: usize) -> Option<Estimate> {
+        *layer.estimates.get(row * self.across.values.len() + column)?
+    }
+
+    /// A layer along a row, as far as it is known, by κ.
+    pub fn along_kappa(&self, layer: &Layer, row: usize) -> Vec<(f64, Estimate)> {
+        let values = self.across.values.iter().enumerate();
+        values.filter_map(|(column, kappa)| Some((*kappa, self.estimate(layer, column, row)?))).collect()
+    }
+
+    /// A layer along a column, as far as it is known, by H.
+    pub fn along_hurst(&self, layer: &Layer, column: usize) -> Vec<(f64, Estimate)> {
+        let values = self.up.iter().flat_map(|up| &up.values).enumerate();
+        values.filter_map(|(row, hurst)| Some((*hurst, self.estimate(layer, column, row)?))).collect()
+    }
+}
