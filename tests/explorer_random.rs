@@ -5,6 +5,7 @@ mod common {
     pub mod deadline;
     pub mod driver;
     pub mod scenes;
+    pub mod study;
 }
 
 use asperity::explorer::action::{Action, Command};
@@ -12,16 +13,20 @@ use asperity::explorer::keys::BINDINGS;
 use asperity::explorer::model::Mode;
 use asperity::explorer::parameters::parameters;
 use asperity::explorer::update::{Effect, update};
-use asperity::explorer::view;
+use asperity::explorer::{Opening, view};
+use asperity::phase::Charted;
 use asperity::scene::{Document, Solver, check};
 use common::deadline::within;
 use common::driver::{Driver, REFUSED};
 use common::scenes::{changed, one_spring, punch, rough, smooth, without_adhesion};
+use common::study::PLAN;
+use common::study::merged;
 use proptest::prelude::*;
 use proptest::test_runner::{Config, TestRunner};
 use ratatui::Terminal;
 use ratatui::backend::TestBackend;
 use std::collections::VecDeque;
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 const CASES: u32 = 1200;
@@ -40,6 +45,8 @@ enum Event {
     Enter(String),
     /// The scene saved under a name.
     Save(String),
+    /// The folder of the study, or one that is none, opened by its path.
+    Open(bool),
     Resize(u16, u16),
     /// The window has another size by now, and nobody has told the explorer.
     Shrunk(u16, u16),
@@ -117,6 +124,10 @@ fn command() -> impl Strategy<Value = Command> {
         Command::Push { steps: i32::MIN, coarse: true },
         Command::Push { steps: i32::MAX, coarse: true },
         Command::Preset(usize::MAX),
+        Command::NextSlice(i32::MIN),
+        Command::NextSlice(i32::MAX),
+        Command::MoveKappa(i32::MIN),
+        Command::MoveHurst(i32::MAX),
     ];
     prop_oneof![8 => prop::sample::select(bound), 1 => prop::sample::select(extreme)]
 }
@@ -133,6 +144,7 @@ fn event() -> impl Strategy<Value = Event> {
         1 => ".{0,80}".prop_map(Event::Paste),
         4 => value().prop_map(Event::Enter),
         1 => names.prop_map(Event::Save),
+        1 => prop::bool::weighted(0.8).prop_map(Event::Open),
         3 => size().prop_map(|(columns, rows)| Event::Resize(columns, rows)),
         2 => size().prop_map(|(columns, rows)| Event::Shrunk(columns, rows)),
         4 => (0.0..9.0).prop_map(Event::Elapse),
@@ -141,12 +153,12 @@ fn event() -> impl Strategy<Value = Event> {
     ]
 }
 
-/// Small scenes of each kind, and one that cannot be computed.
-fn scenes() -> Vec<Document> {
+/// Small scenes of each kind, one that cannot be computed, and a study.
+fn scenes(study: &Path) -> Vec<Opening> {
     let few = [("numerics.points", "64"), ("numerics.samples", "16")];
     let small = changed(&rough(), &[("roughness.modes", "(2, 16)"), few[0], few[1]]);
     let beyond = small.set("loading", "[ToForce(1.0e-5), ToForce(-1.0)]").unwrap();
-    vec![
+    let mut scenes: Vec<Opening> = [
         small.clone(),
         small.set("loading", "[ToForce(1.0e-5), ToZeroForce, ToForce(2.0e-5), ToSeparation]").unwrap(),
         changed(&smooth(), &few),
@@ -155,6 +167,10 @@ fn scenes() -> Vec<Document> {
         one_spring(),
         beyond,
     ]
+    .map(Opening::from)
+    .to_vec();
+    scenes.push(Opening::of(study.to_str().unwrap()).unwrap());
+    scenes
 }
 
 /// An explorer whose worker answers only when it is let.
@@ -165,12 +181,14 @@ struct Explorer {
     reports: Vec<Action>,
     /// The generation that has been looked at.
     judged: u64,
+    /// Folder of the study.
+    study: PathBuf,
 }
 
 impl Explorer {
-    fn new(document: Document) -> Self {
-        let driver = Driver::open(document);
-        Explorer { driver, waiting: VecDeque::from([Effect::Compute]), reports: Vec::new(), judged: 0 }
+    fn new(opening: Opening, study: &Path) -> Self {
+        let (driver, waiting) = (Driver::open(opening), VecDeque::from([Effect::Compute]));
+        Explorer { driver, waiting, reports: Vec::new(), judged: 0, study: study.to_owned() }
     }
 
     fn act(&mut self, action: Action) {
@@ -204,6 +222,12 @@ impl Explorer {
                 self.act(Action::Command(Command::Save));
                 self.act(Action::Command(Command::Clear));
                 self.act(Action::Paste(name.clone()));
+                self.act(Action::Command(Command::Accept));
+            }
+            Event::Open(sound) => {
+                self.act(Action::Command(Command::OpenLibrary));
+                let folder = if *sound { self.study.clone() } else { self.study.join("shards") };
+                self.act(Action::Paste(folder.to_str().unwrap().to_owned()));
                 self.act(Action::Command(Command::Accept));
             }
             Event::Resize(columns, rows) => self.act(Action::Resize(*columns, *rows)),
@@ -257,6 +281,15 @@ impl Explorer {
         assert!(model.refused.as_ref().is_none_or(|(row, _)| *row < model.parameters.len()));
         assert!((0.0..=1.0).contains(&model.player.done), "{:?}", model.player);
         assert!(model.indentation().is_finite());
+        if let Some(study) = model.chart.shown_study() {
+            assert!(study.slice < study.atlas.slices());
+            let charted = model.chart.charted();
+            assert!(model.chart.plane().is_some_and(|plane| plane.charted().contains(&charted)));
+        } else {
+            assert!(
+                !matches!(model.chart.charted(), Charted::Quantity(one) if model.chart.plane().is_some_and(|plane| plane.layer(one).is_none()))
+            );
+        }
         if model.computed.as_ref().is_some_and(|computed| computed.generation == model.generation) {
             assert!(model.player.leg < model.legs().len(), "{:?}", model.player);
             assert!(!model.is_computing());
@@ -290,7 +323,14 @@ impl Explorer {
 #[test]
 fn whatever_happens_it_draws_and_its_scene_is_sound() {
     within(60, || {
-        let scenes = scenes();
+        let folder = tempfile::tempdir().unwrap();
+        // Few values: the edges of the map are near.
+        let plan = PLAN
+            .replace("count: 9", "count: 2")
+            .replace("count: 13", "count: 3")
+            .replace("lines: 12", "lines: 2");
+        merged(folder.path(), &plan);
+        let scenes = scenes(folder.path());
         let cases = (0..scenes.len(), size(), prop::collection::vec(event(), 1..=LONGEST));
         let mut runner = TestRunner::new(Config {
             failure_persistence: None,
@@ -298,7 +338,7 @@ fn whatever_happens_it_draws_and_its_scene_is_sound() {
             ..Config::with_cases(CASES)
         });
         let outcome = runner.run(&cases, |(scene, (columns, rows), events)| {
-            let mut explorer = Explorer::new(scenes[scene].clone());
+            let mut explorer = Explorer::new(scenes[scene].clone(), folder.path());
             explorer.act(Action::Resize(columns, rows));
             for event in &events {
                 explorer.happen(event);

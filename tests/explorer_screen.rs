@@ -6,6 +6,7 @@ mod common {
     pub mod driver;
     pub mod scenes;
     pub mod script;
+    pub mod study;
 }
 
 #[path = "screen/accuracy.rs"]
@@ -44,6 +45,8 @@ mod panes;
 mod play;
 #[path = "screen/saving.rs"]
 mod saving;
+#[path = "screen/study.rs"]
+mod study;
 #[path = "screen/typing.rs"]
 mod typing;
 #[path = "screen/windows.rs"]
@@ -119,6 +122,11 @@ fn everywhere() -> Vec<Driver> {
     all.push(accuracy::measured(rough()));
     all.extend(["", "V", "V V", "X", "z"].map(|keys| {
         let mut driver = chart::charted(rough());
+        driver.press(keys);
+        driver
+    }));
+    all.extend(["", "V V", "X", "W", "V V V X z"].map(|keys| {
+        let (_folder, mut driver) = study::opened();
         driver.press(keys);
         driver
     }));

@@ -4,7 +4,7 @@ use crate::accuracy::{ChoiceError, CostError};
 use crate::ensemble::EnsembleError;
 use crate::explorer::OpeningError;
 use crate::export::WriteError;
-use crate::scene::SceneErrors;
+use crate::scene::{SceneErrors, quoted};
 use crate::simulation::RunError;
 use crate::sweep::slurm::SlurmError;
 use crate::sweep::{FigureError, SweepError};
@@ -125,7 +125,10 @@ pub enum CliError {
         scene: String,
     },
     /// The explorer cannot draw the map of a study.
-    #[error("the explorer needs a terminal; asperity sweep plot {folder} draws the study without one")]
+    #[error(
+        "the explorer needs a terminal; asperity sweep plot {} draws the study without one",
+        quoted(folder)
+    )]
     NoTerminalForStudy {
         /// Folder of the study.
         folder: String,

@@ -296,3 +296,188 @@ fn glyphs(estimates: &[Option<Estimate>]) -> (AxisScale, [f64; 3]) {
     };
     if low > high { (AxisScale::Linear, [0.0; 3]) } else { (scale, [0.75, 0.5, 0.25].map(step)) }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::phase::Charted;
+    use crate::sweep::{Changes, Folder, SUMMARY};
+
+    /// κ not in the order of its values, two preloads, another axis, five lines.
+    const PLAN: &str = r#"(
+        version: 1,
+        title: "A study",
+        scene: (
+            version: 1,
+            material: (effective_modulus: 2.0e6),
+            length: 1.0e-4,
+            roughness: SelfAffine(hurst: 0.5, rms_height: 1.0e-7, modes: (1, 32), seed: 1),
+            numerics: (points: 128),
+        ),
+        axes: [
+            List(path: "kappa", values: [4.0, 1.0, 2.0]),
+            List(path: "roughness.modes.1", values: [16, 32]),
+            Linear(path: "roughness.hurst", from: 0.25, to: 0.75, count: 2),
+        ],
+        preloads: [0.5, 2.0],
+        lines: 5,
+        seed: 7,
+        record: [adhesion_coefficient, regime, preload_force],
+    )"#;
+
+    /// Its tables: the coefficient of a cell is its number, and all but a fifth of its lines are in the regime of
+    /// that number.
+    fn merged(plan: &str) -> tempfile::TempDir {
+        let folder = tempfile::tempdir().unwrap();
+        let plan = Plan::parse(plan, "plan", &Changes::default()).unwrap();
+        Folder::create(folder.path(), &plan).unwrap();
+        let mut text = String::from("cell");
+        plan.axes.iter().for_each(|axis| text += &format!(",{}", axis.path()));
+        text += ",preload,lines,and so on,,,,,,,,,,\n";
+        for cell in (0..plan.cells()).filter(|cell| *cell != 5) {
+            let axes = ",".repeat(plan.axes.len());
+            let shares = [["0.8", "0.2", "0"], ["0.2", "0.8", "0"], ["0", "0.4", "0.6"]][cell as usize % 3];
+            let low = cell as f64 - 0.25;
+            text += &format!("{cell},{axes},5,{cell},0.1,{low},{}.5,{},", cell, shares.join(","));
+            text += &format!("{},,,\n", 1.0e-6 * cell as f64);
+        }
+        std::fs::write(folder.path().join(SUMMARY), text).unwrap();
+        folder
+    }
+
+    fn atlas() -> Atlas {
+        Atlas::open(merged(PLAN).path()).unwrap()
+    }
+
+    /// The number of a cell by its places on the axes of the plan.
+    fn cell(kappa: u64, modes: u64, hurst: u64, preload: u64) -> f64 {
+        (((kappa * 2 + modes) * 2 + hurst) * 2 + preload) as f64
+    }
+
+    #[test]
+    fn maps_have_the_cells_of_the_study() {
+        let atlas = atlas();
+        assert_eq!(atlas.slices(), 4);
+        assert_eq!(atlas.stands_at(0), ["k_max = 16", "F_n/(E* h L) = 0.5"]);
+        assert_eq!(atlas.stands_at(1), ["k_max = 16", "F_n/(E* h L) = 2"]);
+        assert_eq!(atlas.stands_at(2), ["k_max = 32", "F_n/(E* h L) = 0.5"]);
+        for (slice, modes, preload) in [(0, 0, 0), (1, 0, 1), (2, 1, 0), (3, 1, 1)] {
+            let plane = atlas.plane(slice);
+            assert_eq!(plane.size(), (3, 2));
+            assert_eq!(plane.across().values, [1.0, 2.0, 4.0], "κ ascends");
+            assert_eq!(plane.up().unwrap().values, [0.25, 0.75]);
+            let layer = plane.layer(Quantity::AdhesionCoefficient).unwrap();
+            for row in 0..2 {
+                for (column, kappa) in [1, 2, 0].into_iter().enumerate() {
+                    let number = cell(kappa, modes, row, preload);
+                    let estimate = plane.estimate(layer, column, row as usize);
+                    if number == 5.0 {
+                        assert_eq!((estimate, plane.shown(column, row as usize)), (None, None));
+                        continue;
+                    }
+                    let (mean, low, high) = (number, number - 0.25, number + 0.5);
+                    assert_eq!(estimate, Some(Estimate { mean, low, high }), "{slice} {row} {column}");
+                    let place = plane.shown(column, row as usize).unwrap();
+                    let (regime, split, agreeing) = [
+                        (Regime::PressureInsensitive, None, 4),
+                        (Regime::PressureSensitive, None, 4),
+                        (Regime::NonAdhesive, Some(Regime::PressureSensitive), 3),
+                    ][number as usize % 3];
+                    let spot = Spot { regime: Some(regime), split, agreeing, lines: 5 };
+                    assert_eq!((place.column, place.row, place.spot), (column, row as usize, &Ok(spot)));
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn glyphs_tell_the_regime_and_all_that_was_recorded() {
+        let plane = atlas().plane(0);
+        assert_eq!(
+            plane.charted(),
+            [
+                Charted::Regime,
+                Charted::Quantity(Quantity::AdhesionCoefficient),
+                Charted::Quantity(Quantity::PreloadForce)
+            ]
+        );
+        let layer = |quantity| plane.layer(quantity).unwrap();
+        assert_eq!(layer(Quantity::AdhesionCoefficient).steps, [1.0, 0.1, 0.01], "those of every map");
+        // From 0 to 23 µN over all maps, whichever is shown.
+        let force = layer(Quantity::PreloadForce);
+        assert_eq!((force.scale, force.steps), (AxisScale::Linear, [1.7e-5, 1.2e-5, 5.8e-6]));
+        assert_eq!([2.0e-5, 1.2e-5, 6.0e-6, 5.0e-6].map(|value| force.step(value)), [0, 1, 2, 3]);
+        // Without regimes, and with nothing else.
+        let plane = |record: &str| {
+            let plan = PLAN.replace("record: [adhesion_coefficient, regime, preload_force]", record);
+            let plan = Plan::parse(&plan, "plan", &Changes::default()).unwrap();
+            let folder = tempfile::tempdir().unwrap();
+            Folder::create(folder.path(), &plan).unwrap();
+            let values = if record.contains("regime") { "0.5,0.5,0" } else { "1,,," };
+            let row = format!("0,4,16,0.25,0.5,5,{values}");
+            let columns = "cell,kappa,roughness.modes.1,roughness.hurst,preload,lines".to_owned();
+            let more = ",x".repeat(row.matches(',').count() - columns.matches(',').count());
+            std::fs::write(folder.path().join(SUMMARY), format!("{columns}{more}\n{row}\n")).unwrap();
+            Atlas::open(folder.path()).unwrap().plane(0)
+        };
+        assert_eq!(plane("record: [regime]").charted(), [Charted::Regime]);
+        let plane = plane("record: [fragments]");
+        assert_eq!(plane.charted(), [Charted::Quantity(Quantity::Fragments)]);
+        assert_eq!(plane.layers()[0].steps, [1.0; 3], "one value");
+    }
+
+    #[test]
+    fn the_scene_is_that_of_a_cell_on_the_first_line() {
+        let atlas = atlas();
+        let document = atlas.document().unwrap();
+        let scene = document.scene();
+        assert_eq!(scene.title, "A study");
+        assert_eq!(scene.adhesion.unwrap().kappa, Some(1.0), "the plan's scene has none");
+        let Some(Roughness::SelfAffine { seed, modes, hurst, .. }) = scene.roughness else { panic!() };
+        assert_eq!((seed, modes, hurst), (7, (1, 16), 0.5));
+        // 0.5 E* h L.
+        let Leg::ToForce(force) = scene.loading[0] else { panic!("{:?}", scene.loading) };
+        assert!((force / (0.5 * 2.0e6 * 1.0e-7 * 1.0e-4) - 1.0).abs() < 1e-12, "{force}");
+        for slice in 0..4 {
+            assert_eq!(atlas.is_of(slice, scene), slice == 0);
+            let moved = Basis::moved(&document, 3.0, 0.25).unwrap();
+            assert_eq!(atlas.is_of(slice, moved.scene()), slice == 0, "κ and H are the mark's");
+            let followed = atlas.follow(slice, &moved).unwrap();
+            assert!(atlas.is_of(slice, followed.scene()), "{}", followed.text());
+            assert_eq!(Basis::place(followed.scene()), Some((3.0, 0.25)));
+        }
+        let other = document.set("material.effective_modulus", "3.0e6").unwrap();
+        assert!(!atlas.is_of(0, other.scene()));
+        assert!(!atlas.is_of(0, crate::scene::open("jkr-sphere").unwrap().scene()));
+    }
+
+    #[test]
+    fn without_kappa_and_hurst_there_is_no_map() {
+        let kappa = "List(path: \"kappa\", values: [4.0, 1.0, 2.0])";
+        let hurst = "Linear(path: \"roughness.hurst\", from: 0.25, to: 0.75, count: 2)";
+        for (axis, by, said) in [
+            (kappa, "List(path: \"kappa\", values: [4.0])", "kappa (1 value)"),
+            (kappa, "List(path: \"length\", values: [1.0e-4, 2.0e-4])", "length (2 values)"),
+            (
+                hurst,
+                "List(path: \"roughness.rms_height\", values: [1.0e-7])",
+                "roughness.rms_height (1 value)",
+            ),
+        ] {
+            let plan = PLAN
+                .replace(axis, by)
+                .replace("numerics: (points: 128)", "numerics: (points: 128), adhesion: (kappa: 1.0)");
+            let error = Atlas::open(merged(&plan).path()).unwrap_err();
+            assert!(matches!(error, AtlasError::NoMap { .. }), "{error}");
+            let told = error.to_string();
+            assert!(
+                told.contains(said) && told.contains("allowed: axes kappa and roughness.hurst"),
+                "{told}"
+            );
+        }
+        let plan = PLAN
+            .replace("\"kappa\"", "\"adhesion.kappa\"")
+            .replace("numerics:", "adhesion: (kappa: 1.0), numerics:");
+        assert_eq!(Atlas::open(merged(&plan).path()).unwrap().slices(), 4);
+    }
+}

@@ -2,6 +2,7 @@
 //! study, fill the same [`Plane`].
 
 use crate::analysis::{NEGLIGIBLE_COEFFICIENT, Regime};
+use crate::scene::format_quantity;
 use crate::sweep::Quantity;
 use crate::sweep::figure::{AxisScale, Estimate, FigureAxis};
 
@@ -15,6 +16,10 @@ pub struct Plane {
     cells: Vec<Option<Result<Spot, String>>>,
     /// The cell that stands for each: itself, or one of a coarser map.
     stand_ins: Vec<Option<usize>>,
+    /// Whether the regime of any cell is known, and whether lines of any are divided.
+    has_regimes: bool,
+    is_split: bool,
+    labels: [Vec<(usize, String)>; 2],
 }
 
 /// A quantity in all cells of a map.
@@ -80,6 +85,32 @@ pub(super) fn usual(quantity: Quantity) -> Option<(AxisScale, [f64; 3])> {
     }
 }
 
+/// Most values that are written along a side.
+const MOST_LABELS: usize = 6;
+/// Distances between them, and values to begin with, that are tried.
+const MOST_TRIED: usize = 64;
+/// What another label is worth, in characters of their mean length.
+const LABEL: f64 = 0.45;
+
+/// The values of an axis that are written beside it, at equal distances: those that are short, and rather more
+/// than fewer.
+fn labels(axis: &FigureAxis) -> Vec<(usize, String)> {
+    let count = axis.values.len();
+    let text = |value: &f64| format_quantity(format!("{value:.2e}").parse().unwrap_or(*value), "1");
+    let strides = (count.div_ceil(MOST_LABELS).max(1)..=count.max(1)).take(MOST_TRIED);
+    let all = strides.flat_map(|stride| (0..stride.min(MOST_TRIED)).map(move |first| (stride, first)));
+    let written = |(stride, first): (usize, usize)| -> Vec<(usize, String)> {
+        let values = axis.values.iter().enumerate().skip(first).step_by(stride);
+        values.map(|(index, value)| (index, text(value))).collect()
+    };
+    let cost = |labels: &Vec<(usize, String)>| {
+        let (number, length) =
+            (labels.len() as f64, labels.iter().map(|(_, text)| text.chars().count()).sum::<usize>());
+        length as f64 / number.max(1.0) - LABEL * number
+    };
+    all.map(written).min_by(|a, b| cost(a).total_cmp(&cost(b))).unwrap_or_default()
+}
+
 impl Layer {
     /// The step that a value reaches, 0 the densest; 3 where it reaches none.
     #[must_use]
@@ -96,7 +127,17 @@ impl Plane {
         cells: Vec<Option<Result<Spot, String>>>,
         stand_ins: Vec<Option<usize>>,
     ) -> Plane {
-        Plane { across, up, layers, cells, stand_ins }
+        let spots = || cells.iter().flatten().flatten();
+        Plane {
+            has_regimes: spots().any(|spot| spot.regime.is_some()),
+            is_split: spots().any(|spot| spot.split.is_some()),
+            labels: [labels(&across), up.as_ref().map(labels).unwrap_or_default()],
+            across,
+            up,
+            layers,
+            cells,
+            stand_ins,
+        }
     }
 
     /// κ of its columns.
@@ -109,6 +150,12 @@ impl Plane {
     #[must_use]
     pub fn up(&self) -> Option<&FigureAxis> {
         self.up.as_ref()
+    }
+
+    /// The values that are written below it, with their columns, and beside it, with their rows.
+    #[must_use]
+    pub fn labels(&self) -> &[Vec<(usize, String)>; 2] {
+        &self.labels
     }
 
     /// How many columns and rows it has.
@@ -132,16 +179,14 @@ impl Plane {
     /// What its glyphs can tell, the regime first where it is known.
     #[must_use]
     pub fn charted(&self) -> Vec<Charted> {
-        let known = self.cells.iter().flatten().flatten().any(|spot| spot.regime.is_some());
-        // Of a map that is empty yet nothing is known, and the regime is what it begins with.
-        let regime = (known || self.layers.is_empty()).then_some(Charted::Regime);
+        let regime = self.has_regimes.then_some(Charted::Regime);
         regime.into_iter().chain(self.layers.iter().map(|layer| Charted::Quantity(layer.quantity))).collect()
     }
 
     /// Whether lines of one of its cells are divided between regimes.
     #[must_use]
     pub fn is_split(&self) -> bool {
-        self.cells.iter().flatten().flatten().any(|spot| spot.split.is_some())
+        self.is_split
     }
 
     /// The cell that is shown at a column and a row: itself or, while it has not been computed, one that stands
@@ -199,5 +244,26 @@ impl Plane {
     pub fn along_hurst(&self, layer: &Layer, column: usize) -> Vec<(f64, Estimate)> {
         let values = self.up.iter().flat_map(|up| &up.values).enumerate();
         values.filter_map(|(row, hurst)| Some((*hurst, self.estimate(layer, column, row)?))).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::phase::{hursts, kappas};
+
+    #[test]
+    fn short_values_are_written_beside_a_map() {
+        let written =
+            |axis: &FigureAxis| labels(axis).into_iter().map(|(_, text)| text).collect::<Vec<_>>().join(" ");
+        assert_eq!(written(&kappas()), "0.125 0.5 2 8 32");
+        assert_eq!(written(&hursts()), "0.1 0.3 0.5 0.7 0.9");
+        let list = |values: &[f64]| FigureAxis { values: values.to_vec(), ..hursts() };
+        let fifths: Vec<f64> = (1..34).map(|index| f64::from(index) / 5.0).collect();
+        assert_eq!(written(&list(&fifths)), "1 2 3 4 5 6");
+        assert_eq!(written(&list(&[0.25, 4.0])), "0.25 4");
+        assert_eq!((written(&list(&[3.0])), written(&list(&[]))), ("3".to_owned(), String::new()));
+        let many: Vec<f64> = (0..1_000_000).map(f64::from).collect();
+        assert!((3..=MOST_LABELS).contains(&labels(&list(&many)).len()));
     }
 }

@@ -9,7 +9,7 @@ use asperity::explorer::theme::{Appearance, Marker, Theme};
 use asperity::explorer::update::{Effect, moment_request, study_tasks};
 use asperity::explorer::worker::{self, Engine, Newest, Report, Request, Worker};
 use asperity::explorer::{Opening, write};
-use asperity::scene::{Document, Library};
+use asperity::scene::Library;
 use asperity::simulation::{Simulation, Timings};
 use std::collections::BTreeMap;
 use std::path::PathBuf;

@@ -9,6 +9,7 @@
 #[path = "../common"]
 mod common {
     pub mod deadline;
+    pub mod study;
     pub mod terminal;
 }
 mod appearance;
@@ -24,4 +25,5 @@ mod library;
 mod mouse;
 mod opening;
 mod panics;
+mod study;
 mod window;

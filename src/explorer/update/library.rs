@@ -29,7 +29,10 @@ pub fn listed(model: &mut Model, entries: Vec<Entry>) -> Vec<Effect> {
 pub fn search(model: &mut Model) -> Vec<Effect> {
     let Mode::Library(library) = &mut model.mode else { return Vec::new() };
     let Some(entries) = &library.entries else { return Vec::new() };
-    library.found = search_entries(entries, &library.query.text());
+    let typed = library.query.text();
+    // What has a separator in it is a path, and no name to search for.
+    let is_path = typed.contains(std::path::is_separator);
+    library.found = if is_path { Vec::new() } else { search_entries(entries, &typed) };
     library.selected = 0;
     preview(model)
 }
@@ -44,15 +47,13 @@ pub fn obey(model: &mut Model, command: Command) -> Vec<Effect> {
             preview(model)
         }
         Command::Accept => {
-            let typed = library.query.text();
-            // What has a separator in it is no name to search for.
-            let is_path = typed.contains(std::path::is_separator);
-            let Some(entry) = library.entry().filter(|_| !is_path) else {
-                if typed.trim().is_empty() {
+            let Some(entry) = library.entry() else {
+                let typed = library.query.text().trim().to_owned();
+                if typed.is_empty() {
                     return Vec::new();
                 }
                 model.mode = Mode::Explore;
-                return vec![Effect::Open(typed.trim().to_owned())];
+                return vec![Effect::Open(typed)];
             };
             match entry.document() {
                 Ok(document) => {

@@ -7,7 +7,6 @@ use crate::analysis::Regime;
 use crate::explorer::model::Model;
 use crate::explorer::theme::{Meaning, Theme};
 use crate::phase::{Charted, Place, Plane, Spot};
-use crate::sweep::figure::FigureAxis;
 use ratatui::Frame;
 use ratatui::layout::{Position, Rect};
 use ratatui::text::{Line, Span as Text};
@@ -115,19 +114,19 @@ pub fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
         let text = wrapped(&Line::styled(words::nothing_yet(model), theme.style(Meaning::Quiet)), area.width);
         return write(frame, area, text);
     };
-    let Some(up) = plane.up().filter(|_| !model.chart.sections) else {
+    if model.chart.sections || plane.up().is_none() {
         let below = words::below(model, area);
         let rows = (below.len() as u16).min(area.height.saturating_sub(FEWEST_ROWS));
         let plots = Rect { height: area.height - rows, ..area };
         sections::draw(frame, plots, model, plane);
         return write(frame, Rect { y: plots.bottom(), height: rows, ..area }, below);
-    };
+    }
     let Places { legend, plot, below } = places(model, area);
     write(frame, Rect { height: legend.len() as u16, ..area }, legend);
     let rows = (below.len() as u16).min(area.height);
     write(frame, Rect { y: area.bottom() - rows, height: rows, ..area }, below);
     cells(frame, plot, model, plane);
-    axes(frame, area, plot, (plane.across(), up), theme);
+    axes(frame, area, plot, plane, theme);
     mark(frame, area, plot, model, plane);
 }
 
@@ -158,34 +157,8 @@ fn cells(frame: &mut Frame<'_>, plot: Rect, model: &Model, plane: &Plane) {
     }
 }
 
-/// Most values that are written along a side.
-const MOST_LABELS: usize = 6;
-/// What another label is worth, in characters of their mean length.
-const LABEL: f64 = 0.45;
-
-/// The values of an axis that are written beside it, at equal distances: those that are short, and rather more
-/// than fewer.
-fn labels(axis: &FigureAxis) -> Vec<(usize, String)> {
-    let count = axis.values.len();
-    let texts: Vec<String> = axis.values.iter().map(|value| words::number(*value)).collect();
-    let strides = (1..=count).flat_map(|stride| (0..stride).map(move |first| (stride, first)));
-    let cost = |(stride, first): (usize, usize)| {
-        let lengths = texts.iter().skip(first).step_by(stride).map(|text| text.chars().count());
-        let number = lengths.clone().count();
-        (number <= MOST_LABELS).then(|| lengths.sum::<usize>() as f64 / number as f64 - LABEL * number as f64)
-    };
-    let costs = strides.filter_map(|one| Some((one, cost(one)?)));
-    let Some(((stride, first), _)) = costs.min_by(|a, b| a.1.total_cmp(&b.1)) else { return Vec::new() };
-    texts.into_iter().enumerate().skip(first).step_by(stride).collect()
-}
-
-fn axes(
-    frame: &mut Frame<'_>,
-    area: Rect,
-    plot: Rect,
-    (across, up): (&FigureAxis, &FigureAxis),
-    theme: Theme,
-) {
+fn axes(frame: &mut Frame<'_>, area: Rect, plot: Rect, plane: &Plane, theme: Theme) {
+    let ([across, up], (columns, rows)) = (plane.labels(), plane.size());
     let quiet = theme.style(Meaning::Quiet);
     if plot.is_empty() {
         return;
@@ -196,10 +169,10 @@ fn axes(
     let below = Rect { y: plot.bottom(), height: 1, ..plot };
     if below.bottom() <= area.bottom() {
         let mut free = plot.x;
-        for (number, (column, text)) in labels(across).into_iter().enumerate() {
-            let text = if number == 0 { format!("κ {text}") } else { text };
+        for (number, (column, text)) in across.iter().enumerate() {
+            let text = if number == 0 { format!("κ {text}") } else { text.clone() };
             let width = text.chars().count() as u16;
-            let middle = plot.x + screen(column as f64, plot.width, across.values.len());
+            let middle = plot.x + screen(*column as f64, plot.width, columns);
             let x = middle
                 .saturating_sub(width / 2)
                 .clamp(plot.x, plot.right().saturating_sub(width).max(plot.x));
@@ -211,12 +184,10 @@ fn axes(
     }
     if plot.x > area.x {
         let mut free = plot.bottom();
-        let labels = labels(up);
-        let last = labels.len().saturating_sub(1);
-        for (number, (row, text)) in labels.into_iter().enumerate() {
-            let y = plot.bottom() - 1 - screen(row as f64, plot.height, up.values.len());
+        for (number, (row, text)) in up.iter().enumerate() {
+            let y = plot.bottom() - 1 - screen(*row as f64, plot.height, rows);
             if y < free {
-                let symbol = if number == last { "H" } else { " " };
+                let symbol = if number + 1 == up.len() { "H" } else { " " };
                 put(Rect { x: area.x, y, width: GUTTER, height: 1 }, format!("{symbol}{text}"));
                 free = y;
             }

@@ -225,8 +225,8 @@ const WITH_REGIME: [Quantity; 2] = [Quantity::ZeroLoadAdhesionShare, Quantity::A
 
 /// The layers that are told together: with the regime those it follows from, as far as there are any, else the
 /// one that the glyphs tell.
-pub fn told<'p>(model: &Model, plane: &'p Plane) -> Vec<&'p Layer> {
-    match model.chart.charted() {
+pub fn told(charted: Charted, plane: &Plane) -> Vec<&Layer> {
+    match charted {
         Charted::Quantity(quantity) => plane.layer(quantity).into_iter().collect(),
         Charted::Regime => {
             let both: Vec<_> = WITH_REGIME.into_iter().filter_map(|one| plane.layer(one)).collect();
@@ -260,7 +260,12 @@ fn there(
         format!(" ({} of {} lines)", grouped(spot.agreeing), grouped(spot.lines))
     };
     let regime = spot.regime.map(|regime| format!("{}{agree}", regime.name()));
-    let values = told(model, plane).into_iter().filter_map(|layer| {
+    // What goes with the regime is told together, so that the map keeps its place.
+    let charted = match model.chart.charted() {
+        Charted::Quantity(one) if WITH_REGIME.contains(&one) => Charted::Regime,
+        other => other,
+    };
+    let values = told(charted, plane).into_iter().filter_map(|layer| {
         let estimate = plane.estimate(layer, place.column, place.row)?;
         let value = value(estimate, layer.quantity.unit());
         Some(format!("{} {value}", name_of(plane, layer.quantity)))

@@ -35,6 +35,12 @@ const PANES: &[(&str, &str)] = &[
          the arrows",
     ),
     (
+        "Study",
+        "its map in place of that one, opened by the path of its folder: means over its lines, ▓ ░ where they are \
+         divided between regimes; ◆ goes from cell to cell, and P to the next preload; W shows the map around the \
+         scene instead, and the study again",
+    ),
+    (
         "Parameters",
         "everything the scene says; ● is an effect that is on, = a value that follows from others",
     ),

@@ -37,7 +37,9 @@ fn draw_list(frame: &mut Frame<'_>, area: Rect, model: &Model, library: &Library
         return frame.render_widget(Paragraph::new("reading…").style(theme.style(Meaning::Quiet)), area);
     };
     if library.found.is_empty() {
-        return frame.render_widget(Paragraph::new("no scene fits").style(theme.style(Meaning::Quiet)), area);
+        let told = "no scene fits; Enter tries it as a path, such as ./scene.ron or that of a study's folder";
+        let told = wrapped(&Line::styled(told, theme.style(Meaning::Quiet)), area.width);
+        return frame.render_widget(Paragraph::new(told), area);
     }
     let first = (library.selected + 1).saturating_sub(usize::from(area.height));
     for (row, place) in (area.y..area.bottom()).zip(first..library.found.len()) {

@@ -115,7 +115,7 @@ impl Section {
 pub fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model, plane: &Plane) {
     let Some((at_kappa, at_hurst)) = model.place() else { return };
     let Some(place) = plane.nearest(at_kappa, at_hurst) else { return };
-    let layers = told(model, plane);
+    let layers = told(model.chart.charted(), plane);
     let kept = |symbol: &str, axis: &FigureAxis, index: usize| {
         axis.values.get(index).map_or_else(String::new, |value| format!("at {symbol} {}", number(*value)))
     };

@@ -1,0 +1,37 @@
+//! A small study over κ and H at three preloads, finished.
+
+use asperity::sweep::{Changes, Folder, Options, Plan, Shard, merge, run};
+use std::path::Path;
+
+pub const PLAN: &str = r#"(
+    version: 1,
+    title: "Small study",
+    scene: (
+        version: 1,
+        material: (youngs_modulus: 2.0e6, poisson_ratio: 0.5),
+        length: 1.0e-4,
+        roughness: SelfAffine(hurst: 0.5, rms_height: 2.0e-7, modes: (1, 32), seed: 1),
+        adhesion: (kappa: 1.0),
+        numerics: (points: 128, samples: 32, edges: SubCell),
+    ),
+    axes: [
+        Linear(path: "roughness.hurst", from: 0.1, to: 0.9, count: 9),
+        Logarithmic(path: "kappa", from: 0.25, to: 16, count: 13),
+    ],
+    preloads: [0.01, 0.1, 1.0],
+    lines: 12,
+    record: [zero_load_adhesion_share, adhesion_coefficient, adhesion_force, regime],
+)"#;
+
+/// Puts the study of a plan into a folder, merged.
+pub fn merged(folder: &Path, plan: &str) {
+    let study = begun(folder, plan);
+    run(&study, Options { jobs: 2, shard: Shard::WHOLE }, &|| false, &mut |_| ()).unwrap();
+    merge(&study, false).unwrap();
+}
+
+/// Puts the study of a plan into a folder, with nothing computed of it.
+pub fn begun(folder: &Path, plan: &str) -> Folder {
+    let plan = Plan::parse(plan, "plan", &Changes::default()).unwrap();
+    Folder::create(folder, &plan).unwrap()
+}

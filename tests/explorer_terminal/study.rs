@@ -1,0 +1,106 @@
+//! A finished study opens as a map, and a folder that is none says what it is.
+
+use crate::common::deadline::within;
+use crate::common::study::{PLAN, begun, merged};
+use crate::common::terminal::Program;
+use crate::driving::{ASPERITY, answer, explorer, paused, quit};
+use std::path::Path;
+use std::process::{Command, Stdio};
+
+#[test]
+fn a_folder_opens_as_the_map_of_its_study() {
+    within(60, || {
+        let folder = tempfile::tempdir().unwrap();
+        merged(&folder.path().join("small"), PLAN);
+        let home = folder.path().to_str().unwrap();
+        let program = Program::new(ASPERITY).argument("small/").folder(folder.path()).env("HOME", home);
+        let mut terminal = paused(program);
+        for told in
+            ["Small study", "Study small: 13 × 9 cells, 12 lines", "F_n/(E* h L) = 0.01", "◆ κ 1, H 0.5"]
+        {
+            terminal.wait_for(told);
+        }
+        terminal.send("P");
+        terminal.wait_for("F_n/(E* h L) = 0.1");
+        terminal.send("\x1b[C");
+        terminal.wait_for("◆ κ 1.41, H 0.5");
+        terminal.send("W");
+        terminal.wait_for("Map over κ, H: 4 lines");
+        terminal.send("W");
+        terminal.wait_for("Study small");
+        // The command that is copied opens the study again.
+        terminal.send("y");
+        terminal.wait_for("copy: asperity small --set");
+        terminal.send("q");
+        terminal.wait_for("unsaved changes");
+        terminal.send("y");
+        assert!(terminal.wait_end().success());
+    });
+}
+
+#[test]
+fn a_study_is_opened_by_its_path_from_within() {
+    within(60, || {
+        let (program, folder) = explorer();
+        merged(&folder.path().join("small"), PLAN);
+        begun(&folder.path().join("begun"), PLAN);
+        let mut terminal = paused(program);
+        terminal.send("o");
+        answer(&mut terminal, "Search: ", "./begun");
+        terminal.wait_for("has not been merged yet");
+        terminal.send("o");
+        answer(&mut terminal, "Search: ", "./small");
+        terminal.wait_for("Study small: 13 × 9 cells, 12 lines");
+        quit(&mut terminal);
+    });
+}
+
+/// What the program says of a folder, without a terminal.
+fn told(folder: &Path, name: &str) -> String {
+    let mut command = Command::new(ASPERITY);
+    let output = command.current_dir(folder).arg(name).stdin(Stdio::null()).output().unwrap();
+    assert_eq!(output.status.code(), Some(1));
+    assert!(output.stdout.is_empty());
+    String::from_utf8(output.stderr).unwrap()
+}
+
+#[test]
+fn a_folder_without_a_map_says_why() {
+    within(60, || {
+        let folder = tempfile::tempdir().unwrap();
+        let at = |name: &str| folder.path().join(name);
+        begun(&at("begun"), PLAN);
+        merged(&at("whole"), PLAN);
+        merged(
+            &at("narrow one"),
+            &PLAN.replace("from: 0.1, to: 0.9, count: 9", "from: 0.1, to: 0.9, count: 2"),
+        );
+        let one_axis = PLAN.replace("Linear(path: \"roughness.hurst\", from: 0.1, to: 0.9, count: 9),", "");
+        merged(&at("one axis"), &one_axis);
+        std::fs::create_dir(at("notes")).unwrap();
+        std::fs::create_dir(at("jkr-sphere")).unwrap();
+        for (name, said) in [
+            ("begun", "begun: the study has not been merged yet; asperity sweep merge begun does it"),
+            (
+                "notes",
+                "notes: this folder is not that of a study: there is no plan.ron in it; allowed: a scene, or",
+            ),
+            (
+                "one axis",
+                "one axis: this study has no map over κ and H: it has kappa (13 values), preload (3 values); allowed: \
+                 axes kappa and roughness.hurst, each with two values at least. asperity sweep plot 'one axis' draws",
+            ),
+            ("whole", "the explorer needs a terminal; asperity sweep plot whole draws the study without one"),
+            (
+                "narrow one",
+                "the explorer needs a terminal; asperity sweep plot 'narrow one' draws the study without one",
+            ),
+            // A built-in scene is not hidden by a folder that happens to have its name.
+            ("jkr-sphere", "asperity run jkr-sphere computes the scene without one"),
+        ] {
+            let told = told(folder.path(), name);
+            assert!(told.starts_with(said) || told.ends_with(&format!("{said}\n")), "{name}: {told}");
+            assert_eq!(told.lines().count(), 1, "{told}");
+        }
+    });
+}
