@@ -85,8 +85,8 @@ pub(super) fn usual(quantity: Quantity) -> Option<(AxisScale, [f64; 3])> {
     }
 }
 
-/// Most values that are written along a side.
-const MOST_LABELS: usize = 6;
+/// Fewest and most values that are written along a side, as far as there are so many.
+const LABELS: (usize, usize) = (3, 6);
 /// Distances between them, and values to begin with, that are tried.
 const MOST_TRIED: usize = 64;
 /// What another label is worth, in characters of their mean length.
@@ -97,7 +97,7 @@ const LABEL: f64 = 0.45;
 fn labels(axis: &FigureAxis) -> Vec<(usize, String)> {
     let count = axis.values.len();
     let text = |value: &f64| format_quantity(format!("{value:.2e}").parse().unwrap_or(*value), "1");
-    let strides = (count.div_ceil(MOST_LABELS).max(1)..=count.max(1)).take(MOST_TRIED);
+    let strides = ((count / (LABELS.1 + 1)).max(1)..=count.max(1)).take(MOST_TRIED);
     let all = strides.flat_map(|stride| (0..stride.min(MOST_TRIED)).map(move |first| (stride, first)));
     let written = |(stride, first): (usize, usize)| -> Vec<(usize, String)> {
         let values = axis.values.iter().enumerate().skip(first).step_by(stride);
@@ -108,7 +108,9 @@ fn labels(axis: &FigureAxis) -> Vec<(usize, String)> {
             (labels.len() as f64, labels.iter().map(|(_, text)| text.chars().count()).sum::<usize>());
         length as f64 / number.max(1.0) - LABEL * number
     };
-    all.map(written).min_by(|a, b| cost(a).total_cmp(&cost(b))).unwrap_or_default()
+    let allowed = LABELS.0.min(count)..=LABELS.1;
+    let all = all.map(written).filter(|labels| allowed.contains(&labels.len()));
+    all.min_by(|a, b| cost(a).total_cmp(&cost(b))).unwrap_or_default()
 }
 
 impl Layer {
@@ -264,6 +266,8 @@ mod tests {
         assert_eq!(written(&list(&[0.25, 4.0])), "0.25 4");
         assert_eq!((written(&list(&[3.0])), written(&list(&[]))), ("3".to_owned(), String::new()));
         let many: Vec<f64> = (0..1_000_000).map(f64::from).collect();
-        assert!((3..=MOST_LABELS).contains(&labels(&list(&many)).len()));
+        assert!((LABELS.0..=LABELS.1).contains(&labels(&list(&many)).len()));
+        let octaves: Vec<f64> = (-4..=8).map(|half| 2_f64.powf(f64::from(half) / 2.0)).collect();
+        assert_eq!(written(&list(&octaves)), "0.25 1 4 16");
     }
 }

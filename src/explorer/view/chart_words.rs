@@ -200,7 +200,7 @@ fn note_of_study(study: &OpenStudy, plane: &Plane) -> String {
     };
     let plan = study.atlas.plan();
     format!(
-        "A finished study of {}, from seed {}. {regimes}◆ is its scene on the first line; W shows the map that is \
+        "A finished study of {}, from seed {}. {regimes}± is the 95 % confidence of the mean. ◆ is its scene on the first line; W shows the map that is \
          computed here around it, and this one again.",
         lines(plan.lines),
         plan.seed

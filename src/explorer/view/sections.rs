@@ -14,8 +14,10 @@ use ratatui::text::{Line, Span as Text};
 use ratatui::widgets::Paragraph;
 use ratatui::widgets::canvas::Canvas;
 
-/// Decades that are shown: what is smaller lies below the plot.
-const DECADES: f64 = 5.0;
+/// Lowest decade that is shown of numbers without a unit, and most decades of others: what is smaller lies
+/// below the plot.
+const LOWEST: f64 = -4.0;
+const DECADES: f64 = 8.0;
 
 /// Rows that make a plot worth drawing.
 const FEWEST_ROWS: u16 = 4;
@@ -103,10 +105,14 @@ impl Section {
         }
         if self.scale == AxisScale::Linear {
             let bars = self.curves.iter().flat_map(|curve| &curve.bars).flat_map(|bar| [bar.1, bar.2]);
-            return Some(Span::around(means().chain(bars), 0.04));
+            let ends: Vec<f64> = means().chain(bars).collect();
+            let Span { low, high } = Span::around(ends.iter().copied(), 0.04);
+            // What is never negative has no axis below zero.
+            let least = if ends.iter().all(|end| *end >= 0.0) { 0.0 } else { low };
+            return Some(Span { low: low.max(least), high });
         }
         let high = high.ceil();
-        let low = low.floor().max(high - DECADES);
+        let low = low.floor().max(if self.unit == "1" { LOWEST } else { high - DECADES });
         Some(Span { low, high: high.max(low + 1.0) })
     }
 }
