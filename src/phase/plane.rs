@@ -97,8 +97,10 @@ const LABEL: f64 = 0.45;
 fn labels(axis: &FigureAxis) -> Vec<(usize, String)> {
     let count = axis.values.len();
     let text = |value: &f64| format_quantity(format!("{value:.2e}").parse().unwrap_or(*value), "1");
-    let strides = ((count / (LABELS.1 + 1)).max(1)..=count.max(1)).take(MOST_TRIED);
-    let all = strides.flat_map(|stride| (0..stride.min(MOST_TRIED)).map(move |first| (stride, first)));
+    let strides = ((count / (LABELS.1 + 1)).max(1)..=count.max(1)).step_by((count / MOST_TRIED).max(1));
+    let all = strides.flat_map(|stride| {
+        (0..stride).step_by((stride / MOST_TRIED).max(1)).map(move |first| (stride, first))
+    });
     let written = |(stride, first): (usize, usize)| -> Vec<(usize, String)> {
         let values = axis.values.iter().enumerate().skip(first).step_by(stride);
         values.map(|(index, value)| (index, text(value))).collect()
