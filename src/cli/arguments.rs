@@ -11,6 +11,7 @@ Examples:
   asperity                                  Open the explorer
   asperity rough-sphere --set adhesion.work=0.1
                                             ... on a built-in scene, with one field changed
+  asperity study                            ... on the map of a finished parameter study
   asperity run my-scene.ron                 Compute a scene and print what came out
   asperity run jkr-sphere --format csv -o jkr.csv
                                             ... and keep its force curve

@@ -11,8 +11,9 @@ use std::io::{IsTerminal, Write, stdin, stdout};
 /// Arguments of the explorer.
 #[derive(Args, Debug)]
 pub struct ExploreArguments {
-    /// Open the explorer on this scene file or built-in scene (see `asperity presets list`), or on
-    /// the folder of a merged study
+    /// Explore this scene file, built-in scene (see `asperity presets list`), or merged study
+    ///
+    /// A study by its folder: its map over κ and H, where it varies both.
     pub scene: Option<String>,
     /// What is changed in it.
     #[command(flatten)]
