@@ -202,15 +202,13 @@ impl Atlas {
                 }
             }
         }
-        let preload = at.iter().find(|(axis, ..)| axis.path() == "preload");
+        let of_map = at.iter().find(|(axis, ..)| axis.path() == "preload");
+        let preload = of_map.map(|(axis, _, place)| axis.value(*place));
         let unit = governing(&scene).and_then(|governing| {
             Some(governing.effective_modulus * governing.amplitude?.rms_height * scene.length)
         });
-        if let Some(((axis, _, place), unit)) = preload.zip(unit) {
-            scene.loading = vec![Leg::ToForce(axis.value(*place) * unit), Leg::ToSeparation];
-        } else if scene.loading.is_empty() {
-            // A study of F_a(0) needs no loading; what is explored does.
-            scene.loading = vec![Leg::ToTouch, Leg::ToSeparation];
+        if let Some((preload, unit)) = preload.zip(unit) {
+            scene.loading = vec![Leg::ToForce(preload * unit), Leg::ToSeparation];
         }
         scene
     }
@@ -446,6 +444,11 @@ mod tests {
             assert!(atlas.is_of(slice, followed.scene()), "{}", followed.text());
             assert_eq!(Basis::place(followed.scene()), Some((3.0, 0.25)));
         }
+        let without = PLAN.replace("preloads: [0.5, 2.0],", "");
+        let unpressed = Atlas::open(merged(&without).path()).unwrap();
+        let legs = unpressed.document().unwrap().scene().loading.clone();
+        assert_eq!(legs, unpressed.plan().scene.loading, "that of the plan");
+        assert_eq!(unpressed.stands_at(0), ["k_max = 16"]);
         let other = document.set("material.effective_modulus", "3.0e6").unwrap();
         assert!(!atlas.is_of(0, other.scene()));
         assert!(!atlas.is_of(0, crate::scene::open("jkr-sphere").unwrap().scene()));
