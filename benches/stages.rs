@@ -42,9 +42,9 @@ fn main() {
         options.runs
     );
     println!(
-        "Memory is kept from run to run, also that of the transform, which is planned beforehand. The loops"
+        "Memory is kept from run to run, also that of the transform, which is planned beforehand. Tree and loops"
     );
-    println!("take one thread; line and edits two, where the system has them.\n");
+    println!("of whole springs take one thread; all else two, where the system has them.\n");
     let mut verdict = Vec::new();
     for exponent in (options.smallest..=options.largest).step_by(2) {
         let rough = Rough::new(exponent);

@@ -77,6 +77,9 @@ impl<'scope, A: Send + 'scope, F: FnOnce() -> A + Send + 'scope> Beside<'scope, 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::sync::atomic::{AtomicBool, Ordering};
+    use std::thread::current;
+    use std::time::{Duration, Instant};
 
     #[test]
     fn both_are_done_once() {
@@ -89,12 +92,24 @@ mod tests {
 
     #[test]
     fn one_of_many_threads_stays_alone() {
-        let threads = || {
-            let (one, other) =
-                in_parallel(true, || std::thread::current().id(), || std::thread::current().id());
-            usize::from(one != other) + 1
+        let on_two_threads = || {
+            let begun = AtomicBool::new(false);
+            let one = || {
+                begun.store(true, Ordering::SeqCst);
+                current().id()
+            };
+            let other = || {
+                // Else this thread may do both before the other is there.
+                let clock = Instant::now();
+                while !begun.load(Ordering::SeqCst) && clock.elapsed() < Duration::from_secs(30) {
+                    std::thread::yield_now();
+                }
+                current().id()
+            };
+            let (one, other) = in_parallel(true, one, other);
+            one != other
         };
-        assert_eq!((threads(), on_this_thread(threads), threads()), (2, 1, 2));
+        assert_eq!((on_two_threads(), on_this_thread(on_two_threads), on_two_threads()), (true, false, true));
     }
 
     #[test]
