@@ -94,6 +94,8 @@ pub struct Panel {
     pub estimates: Vec<Option<Estimate>>,
     /// How they lie on their scale.
     pub scale: AxisScale,
+    /// Whether it is itself F_a(0)/F_a,max, by whichever protocol: then the boundary is where it vanishes.
+    pub vanishes: bool,
 }
 
 /// Where adhesion without a load vanishes: where these values fall through the level.
@@ -129,10 +131,21 @@ pub struct Figure {
 }
 
 impl Figure {
+    /// The boundary as a panel shows it: where its own F_a(0) vanishes, if that is what it shows.
+    #[must_use]
+    pub fn boundary_of(&self, panel: &Panel) -> Option<Boundary> {
+        let boundary = self.boundary.clone()?;
+        let own = || panel.estimates.iter().map(|estimate| estimate.map(|estimate| estimate.mean));
+        Some(if panel.vanishes { Boundary { values: own().collect(), ..boundary } } else { boundary })
+    }
+
     /// Points on the axis across, in its coordinates, where a section crosses the boundary.
     #[must_use]
-    pub fn crossings(&self) -> Vec<f64> {
-        let Some(boundary) = self.boundary.as_ref().filter(|_| self.up.is_none()) else { return Vec::new() };
+    pub fn crossings(&self, panel: &Panel) -> Vec<f64> {
+        if self.up.is_some() {
+            return Vec::new();
+        }
+        let Some(boundary) = self.boundary_of(panel) else { return Vec::new() };
         let places = self.across.coordinates();
         // Without a load all curves have the same; where they do not, there is no one place.
         let mut curves = boundary.values.chunks(places.len().max(1));

@@ -13,14 +13,16 @@ use thiserror::Error;
 const MOST_CURVES: usize = 5;
 /// What spans this ratio is drawn on a logarithmic scale.
 const LOGARITHMIC_RATIO: f64 = 50.0;
+/// F_a(0)/F_a,max by the two protocols.
+const SHARES: [Quantity; 2] = [Quantity::ZeroLoadAdhesionShare, Quantity::ZeroForceAdhesionShare];
 /// Values that are named in a message.
 const MOST_NAMED: usize = 12;
 
 /// What is asked for.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Selection {
-    /// Names of quantities; where there are none, F_a(0) and the adhesion coefficient if they were recorded,
-    /// else the first that was.
+    /// Names of quantities; where there are none, F_a(0) and the adhesion coefficient if they were recorded, or
+    /// F_a(0) by both protocols, else the first that was.
     pub quantities: Vec<String>,
     /// Path of the axis across.
     pub across: Option<String>,
@@ -28,8 +30,8 @@ pub struct Selection {
     pub up: Option<String>,
     /// Axes that are fixed, with their values.
     pub at: Vec<(String, String)>,
-    /// How quantities lie on their scale; where it is left open, a map is logarithmic where a linear one would
-    /// show next to nothing but its lowest colour.
+    /// How quantities lie on their scale; where it is left open, a map or several curves are logarithmic where a
+    /// linear scale would show next to nothing but its lowest end.
     pub scale: Option<AxisScale>,
 }
 
@@ -109,15 +111,18 @@ impl Selection {
         let quantities = self.quantities(plan)?;
         let chosen = self.chosen(plan)?;
         let (across, second) = self.free(&chosen)?;
-        let series = second.filter(|&second| {
-            let count = |index: usize| chosen[index].axis.count() as usize;
-            self.up.is_none() && count(second) <= MOST_CURVES && count(across) > MOST_CURVES
-        });
+        let few = |index: usize| chosen[index].axis.count() as usize <= MOST_CURVES;
+        // Curves lie along the longer axis, unless it was said which one goes across.
+        let turned = |second: &usize| self.across.is_none() && self.up.is_none() && few(across) && !few(*second);
+        let (across, second) = match second.filter(turned) {
+            Some(second) => (second, Some(across)),
+            None => (across, second),
+        };
+        let series = second.filter(|&second| self.up.is_none() && few(second) && !few(across));
         let cells = Cells { study, chosen: &chosen, across, second };
         let axis = |index: usize| figure_axis(plan, chosen[index].axis);
         let fixed = chosen.iter().filter_map(|one| Some(fixed(plan, one.axis, one.at?)));
-        let by_zero_load = [Quantity::ZeroLoadAdhesionShare, Quantity::ZeroForceAdhesionShare];
-        let boundary = by_zero_load.into_iter().find(|quantity| plan.record.contains(quantity));
+        let boundary = SHARES.into_iter().find(|quantity| plan.record.contains(quantity));
         Ok(Figure {
             title: plan.title.clone(),
             fixed: fixed.collect(),
@@ -128,10 +133,14 @@ impl Selection {
                 .into_iter()
                 .map(|quantity| {
                     let estimates = cells.of(|cell| estimate(study, cell, quantity));
-                    let is_map = second.is_some() && series.is_none();
-                    let by_itself = || if is_map { scale_of(&estimates) } else { AxisScale::Linear };
+                    // A single curve has an inset for what is small; of several the highest would hide the others.
+                    let mut curves = estimates.chunks(chosen[across].axis.count().max(1) as usize);
+                    let first = curves.next();
+                    let several = curves.any(|curve| Some(curve) != first);
+                    let by_itself = || if several { scale_of(&estimates) } else { AxisScale::Linear };
                     let scale = self.scale.unwrap_or_else(by_itself);
-                    Panel { quantity: figure_quantity(quantity), estimates, scale }
+                    let vanishes = SHARES.contains(&quantity);
+                    Panel { quantity: figure_quantity(quantity), estimates, scale, vanishes }
                 })
                 .collect(),
             boundary: boundary.map(|quantity| Boundary {
@@ -155,7 +164,10 @@ impl Selection {
         };
         if self.quantities.is_empty() {
             let paper = [Quantity::ZeroLoadAdhesionShare, Quantity::AdhesionCoefficient];
-            let mut all: Vec<_> = paper.into_iter().filter(|one| plan.record.contains(one)).collect();
+            let recorded = |one: &Quantity| plan.record.contains(one);
+            // Without a preload there is no coefficient, and the two protocols stand side by side.
+            let usual = if recorded(&paper[1]) { paper } else { SHARES };
+            let mut all: Vec<_> = usual.into_iter().filter(recorded).collect();
             if all.is_empty() {
                 all.extend(plan.record.iter().copied().find(drawn));
             }

@@ -42,6 +42,7 @@ pub(super) fn phase_map() -> Figure {
             })
             .collect(),
         scale: AxisScale::Linear,
+        vanishes: name == "zero load adhesion share",
     };
     let regime = |(kappa, hurst): (f64, f64)| {
         Some(match (share(kappa, hurst), coefficient(kappa, hurst)) {
@@ -79,6 +80,7 @@ pub(super) fn sections() -> Figure {
             .map(|(index, kappa)| estimate(value(kappa, 0.3)).filter(|_| index != 4))
             .collect(),
         scale: AxisScale::Linear,
+        vanishes: name == "zero load adhesion share",
     };
     Figure {
         title: "Sections at H = 0.3".into(),

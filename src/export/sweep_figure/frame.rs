@@ -35,6 +35,14 @@ pub(super) struct Ruler {
     pub most: usize,
 }
 
+impl Ruler {
+    /// Room that an upright axis over these coordinates takes beside its rectangle, px.
+    pub(super) fn room(&self, span: (f64, f64), size: f64) -> f64 {
+        let ticks = ticks(self.scale, span, self.divisor, self.most);
+        beside(&ticks, size) + 0.7 * LABEL * size / NUMBER
+    }
+}
+
 impl Frame {
     /// Where a point of the plane stands.
     pub(super) fn place(&self, (x, y): (f64, f64)) -> Place {
@@ -74,7 +82,7 @@ impl Frame {
         }
         let middle = f64::midpoint(self.from.1, self.to.1);
         if !ruler.label.is_empty() {
-            let beside = left - widest(&ticks) * size - 1.9 * size;
+            let beside = left - beside(&ticks, size);
             canvas.text(&ruler.label, (beside, middle), LABEL * size / NUMBER, Anchor::Upwards);
         }
     }
@@ -92,7 +100,7 @@ impl Frame {
         }
         let middle = f64::midpoint(self.from.1, self.to.1);
         if !ruler.label.is_empty() {
-            let beside = right + widest(&ticks) * size + 1.9 * size;
+            let beside = right + beside(&ticks, size);
             canvas.text(&ruler.label, (beside, middle), LABEL * size / NUMBER, Anchor::Upwards);
         }
     }
@@ -103,7 +111,9 @@ fn length(tick: &Tick, size: f64) -> f64 {
     if tick.label.is_some() { 0.43 * size } else { 0.23 * size }
 }
 
-/// Width of the widest number, in units of its size.
-fn widest(ticks: &[Tick]) -> f64 {
-    ticks.iter().filter_map(|tick| tick.label.as_deref()).map(width).fold(0.0, f64::max)
+/// Distance from an axis to the middle of its label, beyond the widest number, px. Some fonts are a tenth wider
+/// than the usual ones.
+fn beside(ticks: &[Tick], size: f64) -> f64 {
+    let widest = ticks.iter().filter_map(|tick| tick.label.as_deref()).map(width).fold(0.0, f64::max);
+    (1.1 * widest + 1.9) * size
 }

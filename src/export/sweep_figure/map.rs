@@ -15,6 +15,9 @@ use plotters::prelude::RGBColor;
 const SIGN_DISTANCE: f64 = 13.0;
 /// Half the size of a sign, px.
 const SIGN: f64 = 2.9;
+/// Distance of the scale of colours from its map, and its width, px.
+const FROM_MAP: f64 = 14.0;
+const BAR: f64 = 13.0;
 /// Stripes of the scale of colours.
 const STRIPES: u32 = 128;
 
@@ -29,8 +32,7 @@ pub(super) fn draw(
     let (columns, rows) = (borders(&figure.across), borders(up));
     let ends = |borders: &[f64]| (borders[0], borders[borders.len() - 1]);
     let frame = Frame { from, to, across: ends(&columns), up: ends(&rows) };
-    let values = || panel.estimates.iter().flatten().map(|estimate| estimate.mean);
-    let shades = Shades::over(panel.scale, values());
+    let shades = shades_of(panel);
     for row in 0..rows.len() - 1 {
         for column in 0..columns.len() - 1 {
             let estimate = panel.estimates.get(row * (columns.len() - 1) + column).copied().flatten();
@@ -47,7 +49,7 @@ pub(super) fn draw(
             }
         }
     }
-    if let Some(boundary) = &figure.boundary {
+    if let Some(boundary) = figure.boundary_of(panel) {
         let (across, up) = (figure.across.coordinates(), up.coordinates());
         for line in contour(&across, &up, &boundary.values, boundary.level) {
             let places: Vec<_> = line.into_iter().map(|point| frame.place(point)).collect();
@@ -101,19 +103,33 @@ pub(super) fn sign(canvas: &Canvas<'_>, regime: Regime, (x, y): Place, ink: RGBC
 }
 
 fn axes(canvas: &Canvas<'_>, figure: &Figure, up: &FigureAxis, frame: &Frame) {
-    let ruler = |axis: &FigureAxis, most| {
-        let (divisor, unit) = prefixed(&axis.unit, axis.values.iter().copied().fold(0.0, f64::max));
-        Ruler { scale: axis.scale, divisor, label: axis_label(axis, &unit), most }
-    };
-    frame.axis_below(canvas, &ruler(&figure.across, 6), NUMBER);
-    frame.axis_left(canvas, &ruler(up, 6), NUMBER);
+    frame.axis_below(canvas, &ruler(&figure.across), NUMBER);
+    frame.axis_left(canvas, &ruler(up), NUMBER);
+}
+
+fn ruler(axis: &FigureAxis) -> Ruler {
+    let (divisor, unit) = prefixed(&axis.unit, axis.values.iter().copied().fold(0.0, f64::max));
+    Ruler { scale: axis.scale, divisor, label: axis_label(axis, &unit), most: 6 }
+}
+
+/// Room that a panel takes on the left and on the right of its rectangle, px.
+pub(super) fn rooms(up: &FigureAxis, panel: &Panel) -> (f64, f64) {
+    let borders = borders(up);
+    let left = ruler(up).room((borders[0], borders[borders.len() - 1]), NUMBER);
+    let shades = shades_of(panel);
+    let right = FROM_MAP + BAR + ruler_of_colours(panel, shades).room((shades.low, shades.high), NUMBER);
+    (left, right)
+}
+
+fn shades_of(panel: &Panel) -> Shades {
+    Shades::over(panel.scale, panel.estimates.iter().flatten().map(|estimate| estimate.mean))
 }
 
 fn scale_of_colours(canvas: &Canvas<'_>, panel: &Panel, map: &Frame, shades: Shades) {
-    let left = map.to.0 + 14.0;
+    let left = map.to.0 + FROM_MAP;
     let bar = Frame {
         from: (left, map.from.1),
-        to: (left + 13.0, map.to.1),
+        to: (left + BAR, map.to.1),
         across: (0.0, 1.0),
         up: (shades.low, shades.high),
     };
@@ -126,13 +142,17 @@ fn scale_of_colours(canvas: &Canvas<'_>, panel: &Panel, map: &Frame, shades: Sha
         canvas.rectangle((bar.from.0, top), (bar.to.0, bottom), shade(middle));
     }
     canvas.frame(bar.from, bar.to);
+    bar.axis_right(canvas, &ruler_of_colours(panel, shades), NUMBER);
+}
+
+fn ruler_of_colours(panel: &Panel, shades: Shades) -> Ruler {
     let largest = match shades.scale {
         AxisScale::Linear => shades.high.abs().max(shades.low.abs()),
         AxisScale::Logarithmic => 10_f64.powf(shades.high),
     };
     let (divisor, unit) = prefixed(&panel.quantity.unit, largest);
     let label = quantity_label(&panel.quantity, &unit);
-    bar.axis_right(canvas, &Ruler { scale: shades.scale, divisor, label, most: 6 }, NUMBER);
+    Ruler { scale: shades.scale, divisor, label, most: 6 }
 }
 
 /// Borders of the cells of an axis, in its coordinate: halfway between its values.

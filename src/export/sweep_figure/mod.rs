@@ -23,19 +23,21 @@ use frame::LABEL;
 
 /// Size of the rectangle of a panel, px.
 const PANEL: (f64, f64) = (330.0, 270.0);
-/// Room on the left and below a panel for its axes.
+/// Room on the left and below a panel for its axes; more on the left where numbers are long.
 const AXES: (f64, f64) = (78.0, 50.0);
-/// Room on the right of a map for its scale of colours, and of a section.
+/// Room on the right of a map for its scale of colours, as far as numbers are not long, and of a section.
 const SCALE: f64 = 104.0;
 const BESIDE: f64 = 22.0;
+/// Least distance of words from the border, px.
+const MARGIN: f64 = 6.0;
 /// Size of the title, px.
 const TITLE: f64 = 14.5;
 
 /// A figure as SVG.
 #[must_use]
 pub fn figure_svg(figure: &Figure) -> String {
-    let beside = if figure.up.is_some() { SCALE } else { BESIDE };
-    let wide = AXES.0 + PANEL.0 + beside;
+    let (before, beside) = rooms(figure);
+    let wide = before + PANEL.0 + beside;
     let draw_legend = if figure.up.is_some() { map::legend } else { section::legend };
     let legend = draw_legend(None, figure, (0.0, 0.0));
     let panels = figure.panels.len().max(1);
@@ -57,7 +59,7 @@ pub fn figure_svg(figure: &Figure) -> String {
             canvas.text(&label::symbol_before(line), (middle, y - 1.0), LABEL - 1.0, Anchor::Middle);
             y += 18.0;
         }
-        let left = (width - panels as f64 * wide) / 2.0 + AXES.0;
+        let left = (width - panels as f64 * wide) / 2.0 + before;
         for (index, panel) in figure.panels.iter().enumerate() {
             let from: Place = (left + index as f64 * wide, top);
             let to = (from.0 + PANEL.0, from.1 + PANEL.1);
@@ -72,6 +74,16 @@ pub fn figure_svg(figure: &Figure) -> String {
             draw_legend(Some(canvas), figure, ((width - legend) / 2.0, bottom + 12.0));
         }
     })
+}
+
+/// Room on the left and on the right of a panel, the same for all.
+fn rooms(figure: &Figure) -> (f64, f64) {
+    let of_panels = figure.panels.iter().map(|panel| match &figure.up {
+        Some(up) => map::rooms(up, panel),
+        None => (section::room(figure, panel), 0.0),
+    });
+    let least = (AXES.0, if figure.up.is_some() { SCALE } else { BESIDE });
+    of_panels.fold(least, |most, (left, right)| (most.0.max(left + MARGIN), most.1.max(right + MARGIN)))
 }
 
 fn draw_panel(
@@ -107,6 +119,7 @@ mod examples;
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::sweep::figure::Estimate;
 
     /// The numbers of an attribute of all elements of a kind.
     fn elements<'a>(svg: &'a str, tag: &'a str) -> impl Iterator<Item = &'a str> {
@@ -152,7 +165,13 @@ mod tests {
     fn words_lie_within_the_picture_and_not_on_each_other() {
         let mut large = examples::phase_map();
         large.title = "A title that is a good deal longer than the figure is wide ".repeat(4);
-        for figure in [large, examples::sections(), examples::phase_map()] {
+        // Numbers with many digits, in which alone they differ.
+        let mut long = [examples::phase_map(), examples::sections()];
+        for estimate in long.iter_mut().flat_map(|figure| figure.panels[0].estimates.iter_mut().flatten()) {
+            *estimate = Estimate { mean: 1e5 + estimate.mean, low: 1e5, high: 1e5 + 1.0 };
+        }
+        let [long_map, long_sections] = long;
+        for figure in [large, examples::sections(), examples::phase_map(), long_map, long_sections] {
             let svg = figure_svg(&figure);
             let paper = elements(&svg, "rect").next().unwrap_or_default();
             let size = (attribute(paper, "width"), attribute(paper, "height"));

@@ -4,6 +4,7 @@ use super::canvas::{Canvas, FAINT, INK, PAPER, Place, Stroke, stroke};
 use super::frame::{Frame, NUMBER, Ruler};
 use super::label::{axis_label, prefixed, quantity_label, symbol, value_label};
 use super::legend::Legend;
+use super::shades::NO_SPREAD;
 use crate::sweep::figure::{AxisScale, Estimate, Figure, Panel};
 use plotters::prelude::RGBColor;
 
@@ -84,17 +85,13 @@ pub(super) fn draw(canvas: &Canvas<'_>, figure: &Figure, panel: &Panel, (from, t
         frame.up = up;
         place.unwrap_or_else(|| place_of_inset(&frame, INSETS[3], true))
     });
-    for crossing in figure.crossings() {
+    for crossing in figure.crossings(panel) {
         let (x, _) = frame.place((crossing, up.0));
         canvas.line(&[(x, from.1), (x, to.1)], Stroke { colour: FAINT, width: 1.2, dashed: true });
     }
     draw_curves(canvas, &frame, &curves, 2.6);
     canvas.frame(from, to);
-    let largest = all.iter().map(|point| point.high.abs().max(point.mean.abs())).fold(0.0, f64::max);
-    let largest = if panel.scale == AxisScale::Logarithmic { 10_f64.powf(up.1) } else { largest };
-    let (divisor, unit) = prefixed(&panel.quantity.unit, largest);
-    let label = quantity_label(&panel.quantity, &unit);
-    frame.axis_left(canvas, &Ruler { scale: panel.scale, divisor, label, most: 6 }, NUMBER);
+    frame.axis_left(canvas, &ruler(panel, &all, up.1), NUMBER);
     let axis = &figure.across;
     let (divisor, unit) = prefixed(&axis.unit, axis.values.iter().copied().fold(0.0, f64::max));
     let label = axis_label(axis, &unit);
@@ -102,6 +99,22 @@ pub(super) fn draw(canvas: &Canvas<'_>, figure: &Figure, panel: &Panel, (from, t
     if let Some((from, to)) = inset {
         draw_inset(canvas, figure, panel, (from, to), across);
     }
+}
+
+/// The axis of the heights of these points, the highest of which are near `top`.
+fn ruler(panel: &Panel, points: &[Point], top: f64) -> Ruler {
+    let largest = points.iter().map(|point| point.high.abs().max(point.mean.abs())).fold(0.0, f64::max);
+    let largest = if panel.scale == AxisScale::Logarithmic { 10_f64.powf(top) } else { largest };
+    let (divisor, unit) = prefixed(&panel.quantity.unit, largest);
+    let label = quantity_label(&panel.quantity, &unit);
+    Ruler { scale: panel.scale, divisor, label, most: 6 }
+}
+
+/// Room that a panel takes on the left of its rectangle, px.
+pub(super) fn room(figure: &Figure, panel: &Panel) -> f64 {
+    let points = curves(figure, panel, panel.scale).concat();
+    let up = heights(panel.scale, &points);
+    ruler(panel, &points, up.1).room(up, NUMBER)
 }
 
 /// The curves of a panel: one for each value of the series. Where they are all the same to the last bit, the
@@ -153,7 +166,8 @@ pub(super) fn around(values: impl Iterator<Item = f64>, room: f64) -> (f64, f64)
         return (0.0, 1.0);
     }
     let width = high - low;
-    let margin = if width > 0.0 { room * width } else { (0.1 * low.abs()).max(1e-30) };
+    let spread = width > NO_SPREAD * low.abs().max(high.abs());
+    let margin = if spread { room * width } else { (0.1 * low.abs()).max(1e-30) };
     (low - margin, high + margin)
 }
 
@@ -300,7 +314,8 @@ pub(super) fn legend(canvas: Option<&Canvas<'_>>, figure: &Figure, (left, y): Pl
             canvas.area(&[from, (to.0, from.1), to, (from.0, to.1)], CURVES[0].1, BAND_OPACITY);
         });
     }
-    if let Some(boundary) = figure.boundary.as_ref().filter(|_| !figure.crossings().is_empty()) {
+    let crosses = figure.panels.iter().any(|panel| !figure.crossings(panel).is_empty());
+    if let Some(boundary) = figure.boundary.as_ref().filter(|_| crosses) {
         row.say(&symbol(&boundary.label), 16.0, |canvas, x| {
             let line = [(x + 5.0, y + 7.0), (x + 5.0, y - 7.0)];
             canvas.line(&line, Stroke { colour: FAINT, width: 1.2, dashed: true });

@@ -21,6 +21,9 @@ const COLOURS: [RGBColor; 9] = [
 /// Most decades a logarithmic scale of colours spans.
 const MOST_DECADES: f64 = 6.0;
 
+/// What differs by less, in shares of itself, is one number: a scale would have but marks with the same digits.
+pub(super) const NO_SPREAD: f64 = 1e-6;
+
 /// The numbers between which colours change, in the coordinate of the scale.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Shades {
@@ -53,10 +56,10 @@ impl Shades {
         if !(low.is_finite() && high.is_finite()) {
             return Shades { scale, low: 0.0, high: 1.0 };
         }
-        if high > low {
+        if high - low > NO_SPREAD * high.abs().max(low.abs()) {
             return Shades { scale, low, high };
         }
-        // A single number.
+        // A single number, or what differs from it by rounding.
         let around = if low == 0.0 { 1.0 } else { 0.1 * low.abs() };
         Shades { scale, low: low - around, high: high + around }
     }
@@ -119,6 +122,8 @@ mod tests {
         assert_eq!((decades.share(0.1), decades.share(0.0), decades.share(-1.0)), (0.5, 0.0, 0.0));
         let deep = Shades::over(AxisScale::Logarithmic, [1e-20, 1.0].into_iter());
         assert_eq!(deep.low, -6.0);
+        let rounded = Shades::over(AxisScale::Linear, [2.0, 2.0 + 1e-9].into_iter());
+        assert!((rounded.low - 1.8).abs() < 1e-6 && (rounded.high - 2.2).abs() < 1e-6, "{rounded:?}");
         for none in [vec![], vec![0.0], vec![3.0, 3.0], vec![-1.0]] {
             for scale in [AxisScale::Linear, AxisScale::Logarithmic] {
                 let shades = Shades::over(scale, none.iter().copied());

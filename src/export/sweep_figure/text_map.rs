@@ -4,7 +4,7 @@ use super::label::{axis_label, plain, prefixed, quantity_label};
 use super::shades::{Shades, ink_on};
 use super::text::{Colours, centred, numbers_below, painted, push_words, scaled};
 use crate::analysis::Regime;
-use crate::sweep::figure::{AxisScale, Figure, FigureAxis, Panel};
+use crate::sweep::figure::{AxisScale, Boundary, Figure, FigureAxis, Panel};
 
 /// Shades from low to high where there are no colours; a cell without a value is blank.
 const SHADES: [char; 5] = ['·', '░', '▒', '▓', '█'];
@@ -40,6 +40,7 @@ pub(super) fn draw(
     };
     let (divisor, unit) = prefixed(&panel.quantity.unit, largest);
 
+    let boundary = figure.boundary_of(panel);
     let heading = |label: String| format!("{}\n", plain(&label));
     text.push_str(&heading(quantity_label(&panel.quantity, &unit)));
     text.push_str(&heading(format!(
@@ -56,7 +57,7 @@ pub(super) fn draw(
             // Bars stand between shown cells.
             let beside = (index + every < ends).then_some(index + every);
             let below = index.checked_sub(every_row * values);
-            text.push_str(&cell(figure, panel, &shades, (index, beside, below), wide, colours));
+            text.push_str(&cell(figure, panel, (&shades, boundary.as_ref()), (index, beside, below), wide, colours));
         }
         trim(text);
         text.push('\n');
@@ -109,7 +110,7 @@ fn has_letters(wide: usize) -> bool {
 fn cell(
     figure: &Figure,
     panel: &Panel,
-    shades: &Shades,
+    (shades, boundary): (&Shades, Option<&Boundary>),
     (index, beside, below): (usize, Option<usize>, Option<usize>),
     wide: usize,
     colours: Colours,
@@ -124,7 +125,7 @@ fn cell(
     if let Some(regime) = regime.filter(|_| has_letters(wide)) {
         characters[wide / 2] = letter(regime);
     }
-    if let Some(boundary) = &figure.boundary {
+    if let Some(boundary) = boundary {
         let vanished = |index: usize| Some(boundary.values.get(index).copied().flatten()? < boundary.level);
         let parted = |other: Option<usize>| {
             other

@@ -79,7 +79,7 @@ pub(super) fn draw(text: &mut String, figure: &Figure, panel: &Panel, columns: u
     }
     if let Some(boundary) = &figure.boundary {
         let symbol = if axis.symbol.is_empty() { &axis.name } else { &axis.symbol };
-        for crossing in figure.crossings() {
+        for crossing in figure.crossings(panel) {
             let at = short(axis.scale.number(crossing) / divisor);
             let unit = if unit.is_empty() { String::new() } else { format!(" {unit}") };
             text.push_str(&format!("{} at {symbol} = {at}{unit}\n", boundary.label));
