@@ -574,6 +574,13 @@ fn help_is_for_reading() {
         &["check"],
         &["presets", "check"],
         &["completions"],
+        &["sweep"],
+        &["sweep", "merge"],
+        &["sweep", "status"],
+        &["sweep", "boundary"],
+        &["sweep", "plot"],
+        &["sweep", "submit"],
+        &["sweep", "plans"],
     ] {
         for flag in ["-h", "--help"] {
             let text = done(&[command, &[flag]].concat());

@@ -8,16 +8,29 @@ use asperity::explorer::theme::{Appearance, Marker, Theme};
 use asperity::explorer::{keys, svg_of};
 use asperity::export::check_markdown;
 use asperity::scene::{FIELDS, LEG_FORCE, LEG_INDENTATION, Range, presets};
-use std::path::Path;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::sync::Mutex;
+
+/// One test at a time writes the README.
+static README: Mutex<()> = Mutex::new(());
+
+fn updating() -> bool {
+    std::env::var_os("UPDATE_README").is_some()
+}
+
+fn path() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("README.md")
+}
 
 fn check(name: &str, expected: &str) {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("README.md");
-    let readme = std::fs::read_to_string(&path).unwrap();
+    let _alone = README.lock();
+    let readme = std::fs::read_to_string(path()).unwrap();
     let (start, end) = (format!("<!-- {name} -->\n"), format!("<!-- end of {name} -->"));
     let (before, rest) = readme.split_once(&start).unwrap_or_else(|| panic!("README.md has no {start}"));
     let (found, after) = rest.split_once(&end).unwrap_or_else(|| panic!("README.md has no {end}"));
-    if std::env::var_os("UPDATE_README").is_some() {
-        std::fs::write(&path, format!("{before}{start}{expected}{end}{after}")).unwrap();
+    if updating() {
+        std::fs::write(path(), format!("{before}{start}{expected}{end}{after}")).unwrap();
     } else {
         assert_eq!(found, expected, "the table of {name} in README.md is not the program's");
     }
@@ -62,10 +75,26 @@ fn the_picture_is_that_of_the_program() {
     while demo.advance().is_some_and(|seconds| seconds + 1e-9 < 9.0) {}
     let picture = svg_of(demo.model());
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/explorer.svg");
-    if std::env::var_os("UPDATE_README").is_some() {
+    if updating() {
         std::fs::write(&path, picture).unwrap();
     } else {
         let found = std::fs::read_to_string(&path).unwrap();
         assert!(found == picture, "docs/explorer.svg is not the program's: the README says how to make it");
     }
+}
+
+fn asperity(arguments: &[&str]) -> String {
+    let output = Command::new(env!("CARGO_BIN_EXE_asperity")).args(arguments).output().unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    String::from_utf8(output.stdout).unwrap()
+}
+
+#[test]
+fn boundaries_are_those_of_the_program() {
+    let folder = tempfile::tempdir().unwrap();
+    let study = folder.path().join("edge");
+    let study = study.to_str().unwrap();
+    asperity(&["sweep", "equation-15", "-o", study]);
+    let levels = ["--level", "0.5", "--level", "0.1", "--format", "markdown"];
+    check("boundaries", &asperity(&[&["sweep", "boundary", study], &levels[..]].concat()));
 }

@@ -112,6 +112,11 @@ pub enum CliError {
         /// What it takes.
         least: String,
     },
+    /// The program has no Parquet in it.
+    #[error(
+        "--parquet: this program was built without it; cargo install --path . --features parquet builds it in"
+    )]
+    NoParquet,
     /// A file could not be written.
     #[error("{0}{hint}", hint = hint(.0))]
     Write(#[from] WriteError),

@@ -35,7 +35,7 @@ impl OutputArguments {
         write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
     ) -> Result<(), CliError> {
         match self.file() {
-            Some(path) => Ok(write_new(path, self.force, write)?),
+            Some(path) => Ok(write_new(path, self.force, |out| write(out))?),
             None => Ok(write(stdout)?),
         }
     }

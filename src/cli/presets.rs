@@ -52,7 +52,7 @@ pub enum PresetsCommand {
 pub enum ListFormat {
     /// Name and title in columns.
     Text,
-    /// Objects with name, title and notice; one's own scenes have a path, and an error if wrong.
+    /// Objects with name, title and notice; one's own scenes with path, and error if wrong.
     Json,
 }
 

@@ -73,7 +73,7 @@ pub fn check_writable(path: &Path, overwrite: bool) -> Result<(), WriteError> {
 pub fn write_new(
     path: &Path,
     overwrite: bool,
-    write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+    write: impl FnOnce(&mut (dyn Write + Send)) -> io::Result<()>,
 ) -> Result<(), WriteError> {
     let failed = |reason| WriteError::Failed { path: path.to_path_buf(), reason };
     match Target::of(path, overwrite)? {
@@ -97,7 +97,7 @@ pub fn write_new(
     }
 }
 
-fn fill(file: &File, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
+fn fill(file: &File, write: impl FnOnce(&mut (dyn Write + Send)) -> io::Result<()>) -> io::Result<()> {
     let mut buffered = BufWriter::with_capacity(BUFFER, file);
     write(&mut buffered)?;
     buffered.flush()
@@ -222,7 +222,7 @@ mod tests {
     fn a_failure_leaves_nothing_behind() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("curve.csv");
-        let broken = |out: &mut dyn Write| {
+        let broken = |out: &mut (dyn Write + Send)| {
             out.write_all(&[b'x'; 2 * BUFFER])?;
             Err(io::Error::other("no more"))
         };

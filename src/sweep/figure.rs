@@ -71,6 +71,8 @@ pub struct FigureQuantity {
     pub symbol: String,
     /// SI unit, as in [`FigureAxis::unit`].
     pub unit: String,
+    /// Whether it may be below zero.
+    pub signed: bool,
 }
 
 /// A mean over random lines with its confidence.

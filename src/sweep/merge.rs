@@ -11,6 +11,7 @@ use crate::ensemble::{Statistics, StudentT};
 use crate::export::{WriteError, write_json_value, write_new};
 use serde::Serialize;
 use std::collections::BTreeSet;
+use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
@@ -20,6 +21,8 @@ pub const RESULTS_VERSION: u32 = 1;
 pub const RESULTS: &str = "results.csv";
 /// One row for each cell.
 pub const SUMMARY: &str = "summary.csv";
+/// The results with types, where they are asked for.
+pub const PARQUET: &str = "results.parquet";
 /// What the columns mean.
 pub const SIDECAR: &str = "results.json";
 
@@ -58,7 +61,7 @@ struct Index {
 }
 
 /// Merges the shard files of a study and publishes its tables, whole or not at all. With `partial`, those of
-/// what there is.
+/// what there is. [`PARQUET`] of an earlier merge goes.
 ///
 /// # Errors
 /// [`SweepError::Missing`] where records are missing and `partial` is not set; [`SweepError::Disagree`] where
@@ -168,6 +171,14 @@ impl Index {
         // Rows of the summary are gathered while those of the results are written: each record is read once.
         let path = folder.path();
         let summary = path.join(SUMMARY);
+        // One of an earlier merge would stand beside tables that it does not belong to.
+        let earlier = path.join(PARQUET);
+        match fs::remove_file(&earlier) {
+            Err(reason) if reason.kind() != io::ErrorKind::NotFound => {
+                return Err(WriteError::Failed { path: earlier, reason }.into());
+            }
+            _ => {}
+        }
         let mut write_both = |results: &mut dyn Write, summary: &mut dyn Write| -> io::Result<()> {
             writeln!(results, "{}", header(plan, true))?;
             writeln!(summary, "{}", header(plan, false))?;

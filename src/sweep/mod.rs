@@ -39,6 +39,8 @@ pub mod figure;
 mod finished;
 mod measure;
 mod merge;
+#[cfg(feature = "parquet")]
+mod parquet;
 mod plan;
 mod quantity;
 mod record;
@@ -55,7 +57,9 @@ pub use boundary::{Boundaries, Boundary, Crossing, DEFINITIONS, USUAL_LEVELS, bo
 pub use builtin::{BuiltInPlan, find, plans};
 pub use error::SweepError;
 pub use finished::{CellSummary, Finished, Row, Spread};
-pub use merge::{Merged, RESULTS, RESULTS_VERSION, SIDECAR, SUMMARY, merge};
+pub use merge::{Merged, PARQUET, RESULTS, RESULTS_VERSION, SIDECAR, SUMMARY, merge};
+#[cfg(feature = "parquet")]
+pub use parquet::write_parquet;
 pub use plan::{
     Changes, MOST_CELLS, MOST_LINES, MOST_RECORDS, PLAN_VERSION, Plan, PlanErrors, StiffnessRange,
 };

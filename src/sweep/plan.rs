@@ -66,10 +66,13 @@ pub struct StiffnessRange {
 impl Default for StiffnessRange {
     /// Between what a few waves carry and what flattens the long ones.
     fn default() -> Self {
-        StiffnessRange { from: 1.0e-3, to: 1.0e-1, count: 17 }
+        StiffnessRange { from: 1.0e-4, to: 1.0e-2, count: 17 }
     }
 }
 
+/// Axes of which the first sets what the second does.
+const SAME: [(&str, &str); 3] =
+    [("springs_per_wave", "roughness.modes.1"), ("kappa", "adhesion.kappa"), ("kappa", "adhesion.work")];
 /// Most forces of a [`StiffnessRange`].
 const MOST_FORCES: u64 = 1000;
 
@@ -209,6 +212,11 @@ impl Plan {
         for (index, axis) in self.axes.iter().enumerate() {
             if self.axes[..index].iter().any(|other| other.path() == axis.path()) {
                 wrong.push(format!("axis {}: given twice", axis.path()));
+            }
+        }
+        for (one, other) in SAME {
+            if [one, other].iter().all(|path| self.axes.iter().any(|axis| axis.path() == *path)) {
+                wrong.push(format!("axis {other}: {one} sets it as well; allowed: one of them"));
             }
         }
         if !(1..=MOST_LINES).contains(&self.lines) {

@@ -219,6 +219,18 @@ impl Quantity {
         self.row().3
     }
 
+    /// Whether it may be below zero.
+    #[must_use]
+    pub const fn is_signed(self) -> bool {
+        matches!(
+            self,
+            Quantity::PreloadIndentation
+                | Quantity::PullOffIndentation
+                | Quantity::Skewness
+                | Quantity::ExcessKurtosis
+        )
+    }
+
     pub(super) const fn needs(self) -> Needs {
         self.row().4
     }

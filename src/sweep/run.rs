@@ -17,8 +17,10 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, sync_channel};
 use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
-/// How long records wait for the disk at the most. Syncing costs tenths of a millisecond or, on network file
-/// systems, many of them, so small cells share it.
+/// How long written records wait for the disk at the most; a power cut loses them, and they are computed again.
+/// Syncing each costs tenths of a millisecond or, on network file systems, many of them: on a local disk 100 000
+/// records of 256 springs take 11 s with this, 12 s where each sync takes what has come during the one before,
+/// and 190 s where each record has its own. Cells of thousands of springs show no difference.
 const SYNC: Duration = Duration::from_millis(50);
 /// Records on their way to the file.
 const WAITING: usize = 4096;

@@ -113,7 +113,8 @@ impl Selection {
         let (across, second) = self.free(&chosen)?;
         let few = |index: usize| chosen[index].axis.count() as usize <= MOST_CURVES;
         // Curves lie along the longer axis, unless it was said which one goes across.
-        let turned = |second: &usize| self.across.is_none() && self.up.is_none() && few(across) && !few(*second);
+        let turned =
+            |second: &usize| self.across.is_none() && self.up.is_none() && few(across) && !few(*second);
         let (across, second) = match second.filter(turned) {
             Some(second) => (second, Some(across)),
             None => (across, second),
@@ -122,6 +123,23 @@ impl Selection {
         let cells = Cells { study, chosen: &chosen, across, second };
         let axis = |index: usize| figure_axis(plan, chosen[index].axis);
         let fixed = chosen.iter().filter_map(|one| Some(fixed(plan, one.axis, one.at?)));
+        let panel = |&quantity: &Quantity| {
+            let estimates = cells.of(|cell| estimate(study, cell, quantity));
+            // A single curve has an inset for what is small; of several the highest would hide the others.
+            let mut curves = estimates.chunks(chosen[across].axis.count().max(1) as usize);
+            let first = curves.next();
+            let several = curves.any(|curve| Some(curve) != first);
+            let by_itself = || if several { scale_of(&estimates) } else { AxisScale::Linear };
+            let scale = self.scale.unwrap_or_else(by_itself);
+            let vanishes = SHARES.contains(&quantity);
+            Panel { quantity: figure_quantity(quantity), estimates, scale, vanishes }
+        };
+        let mut panels: Vec<Panel> = quantities.iter().map(panel).collect();
+        // The same quantity by two protocols has one scale.
+        let shares = || quantities.iter().all(|quantity| SHARES.contains(quantity));
+        if shares() && panels.iter().any(|panel: &Panel| panel.scale == AxisScale::Logarithmic) {
+            panels.iter_mut().for_each(|panel| panel.scale = AxisScale::Logarithmic);
+        }
         let boundary = SHARES.into_iter().find(|quantity| plan.record.contains(quantity));
         Ok(Figure {
             title: plan.title.clone(),
@@ -129,20 +147,7 @@ impl Selection {
             across: axis(across),
             up: second.filter(|_| series.is_none()).map(axis),
             series: series.map(axis),
-            panels: quantities
-                .into_iter()
-                .map(|quantity| {
-                    let estimates = cells.of(|cell| estimate(study, cell, quantity));
-                    // A single curve has an inset for what is small; of several the highest would hide the others.
-                    let mut curves = estimates.chunks(chosen[across].axis.count().max(1) as usize);
-                    let first = curves.next();
-                    let several = curves.any(|curve| Some(curve) != first);
-                    let by_itself = || if several { scale_of(&estimates) } else { AxisScale::Linear };
-                    let scale = self.scale.unwrap_or_else(by_itself);
-                    let vanishes = SHARES.contains(&quantity);
-                    Panel { quantity: figure_quantity(quantity), estimates, scale, vanishes }
-                })
-                .collect(),
+            panels,
             boundary: boundary.map(|quantity| Boundary {
                 values: cells.of(|cell| Some(estimate(study, cell, quantity)?.mean)),
                 level: VANISHING_SHARE,
@@ -322,6 +327,7 @@ fn figure_quantity(quantity: Quantity) -> FigureQuantity {
         name: quantity.name().replace('_', " "),
         symbol: quantity.symbol().into(),
         unit: quantity.unit().into(),
+        signed: quantity.is_signed(),
     }
 }
 

@@ -1,7 +1,8 @@
 //! The folder of a study: its plan, and one file for each process that has worked on it.
 //!
 //! A shard file is only ever appended to, by the one process that made it; each record is a line with a
-//! checksum. So whatever ends a process, what it wrote before stays, and a line torn by that is left out.
+//! checksum. So whatever ends a process, what it wrote before stays, and a line torn by that is left out. What
+//! ends the machine takes what had not reached the disk as well: the records of a moment, which are computed again.
 
 use super::SweepError;
 use super::plan::{Changes, Plan};

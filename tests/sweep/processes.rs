@@ -2,7 +2,10 @@
 
 use super::{plan, tables, undisturbed};
 use asperity::sweep::{Folder, Status};
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
 use std::fs;
+use std::os::unix::process::ExitStatusExt;
 use std::path::Path;
 use std::process::{Child, Command, Output, Stdio};
 use std::thread::sleep;
@@ -52,23 +55,49 @@ fn check_whole(place: &Path) {
     assert_eq!(tables(&folder), undisturbed(&plan(&text())));
 }
 
+/// Kills that must have hit a running process.
+const KILLS: u32 = 20;
+
 #[test]
-fn killed_at_random_moments_it_goes_on() {
-    let place = place();
-    let total = plan(&text()).records_in_all();
-    let mut kills = 0;
-    for share in [7, 2, 5, 3] {
-        let mut child = command(place.path()).spawn().unwrap();
-        let there = done(place.path());
-        wait_for(&mut child, place.path(), there + (total - there) / share);
-        // SIGKILL.
-        child.kill().unwrap();
-        kills += u32::from(!child.wait().unwrap().success());
+fn killed_twenty_times_at_random_moments_it_goes_on() {
+    let expected = undisturbed(&plan(&text()));
+    // How long a process takes that nobody disturbs.
+    let calm = place();
+    let clock = Instant::now();
+    assert!(finish(command(calm.path())).status.success());
+    let whole = clock.elapsed();
+    let mut random = ChaCha8Rng::seed_from_u64(rand::random());
+    let (mut kills, mut after_records) = (0, 0);
+    while kills < KILLS {
+        // A study is killed and taken up again until it is whole; then there is another one.
+        let place = place();
+        let mut there = 0;
+        loop {
+            let mut child = command(place.path()).spawn().unwrap();
+            if kills == KILLS {
+                let output = child.wait_with_output().unwrap();
+                assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+                break;
+            }
+            sleep(whole.mul_f64(random.random_range(0.0..0.5)));
+            child.kill().unwrap();
+            let status = child.wait().unwrap();
+            if status.success() {
+                break;
+            }
+            assert_eq!(status.signal(), Some(9), "{status}");
+            kills += 1;
+            // What was there is there still.
+            let now = done(place.path());
+            assert!(now >= there, "{now} {there}");
+            after_records += u32::from(now > there);
+            there = now;
+        }
+        let folder = Folder::open(&place.path().join("study")).unwrap();
+        assert_eq!(tables(&folder), expected);
     }
-    assert!(kills >= 2, "{kills}");
-    let output = finish(command(place.path()));
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    check_whole(place.path());
+    // Some hit before the first record, most between records.
+    assert!(after_records >= KILLS / 4, "{after_records} of {kills}");
 }
 
 #[test]

@@ -30,6 +30,7 @@ fn each_mistake_has_its_message() {
         ("\"roughness.hurst\"", "\"roughness.hurts\"", "did you mean roughness.hurst?"),
         ("\"roughness.hurst\"", "\"form.radius\"", "the form of the scene has no such number"),
         ("\"roughness.hurst\"", "\"kappa\"", "axis kappa: given twice"),
+        ("\"roughness.hurst\"", "\"adhesion.work\"", "axis adhesion.work: kappa sets it as well"),
         ("\"roughness.hurst\"", "\"loading.7.0\"", "the scene has 2 legs, the first is 0"),
         ("\"roughness.hurst\"", "\"preload\"", "preloads are given twice"),
         ("[0.8, 0.3]", "[]", "no values; allowed: at least one"),

@@ -13,9 +13,10 @@ const EXAMPLES: &str = "\
 Examples:
   asperity sweep equation-15 -o edge && asperity sweep boundary edge
   asperity sweep boundary edge --level 0.05 --format csv
+  asperity sweep boundary edge --level 0.5 --level 0.1 --format markdown
 
-F_a(0) never quite vanishes: it falls about exponentially with κ. So κ* is where its mean over the lines
-falls below a share of F_a,max for good; intervals hold 95 % of 1000 resamplings of the lines.
+F_a(0) never quite vanishes: it falls about exponentially with κ. So κ* is where its mean over the
+lines falls below a share of F_a,max for good; intervals hold 95 % of 1000 resamplings of the lines.
 With wave numbers in 1/m instead of rad/m the same κ* is √(2π) times smaller (kappa_cycles), with
 amplitudes instead of root mean squares √2 times larger (kappa_amplitude).";
 
@@ -26,7 +27,7 @@ pub struct BoundaryArguments {
     /// Folder of a merged study with an axis `kappa`
     #[arg(value_name = "DIR")]
     pub folder: PathBuf,
-    /// Share of F_a,max below which adhesion counts as vanished; may be given more than once
+    /// Share of F_a,max below which adhesion counts as vanished, as often as needed
     #[arg(long = "level", value_name = "SHARE", value_parser = level)]
     pub levels: Vec<f64>,
     /// How it is printed
@@ -43,6 +44,8 @@ pub enum BoundaryFormat {
     Json,
     /// One row for each boundary.
     Csv,
+    /// Tables for a document, one for each share.
+    Markdown,
 }
 
 fn level(text: &str) -> Result<f64, String> {
@@ -58,6 +61,7 @@ pub(super) fn boundary(arguments: &BoundaryArguments, stdout: &mut dyn Write) ->
         BoundaryFormat::Text => stdout.write_all(text(&boundaries).as_bytes())?,
         BoundaryFormat::Json => write_json_value(stdout, &object(&boundaries))?,
         BoundaryFormat::Csv => stdout.write_all(csv(&boundaries).as_bytes())?,
+        BoundaryFormat::Markdown => stdout.write_all(markdown(&boundaries, &levels).as_bytes())?,
     }
     Ok(())
 }
@@ -124,6 +128,54 @@ fn object(boundaries: &Boundaries) -> Value {
         Value::Object(object)
     });
     json!({ "lines": boundaries.lines, "boundaries": found.collect::<Vec<_>>() })
+}
+
+/// For each share a table: the first axis goes down, protocols and other axes go across.
+fn markdown(boundaries: &Boundaries, levels: &[f64]) -> String {
+    let Boundaries { others, found, .. } = boundaries;
+    let down = |boundary: &Boundary| boundary.others.first().copied();
+    let (mut rows, mut columns) = (Vec::new(), Vec::new());
+    for protocol in [Quantity::ZeroLoadAdhesionShare, Quantity::ZeroForceAdhesionShare] {
+        for boundary in found.iter().filter(|boundary| boundary.protocol == protocol) {
+            let column = (protocol, boundary.others.get(1..).unwrap_or_default());
+            if !columns.contains(&column) {
+                columns.push(column);
+            }
+            if !rows.contains(&down(boundary)) {
+                rows.push(down(boundary));
+            }
+        }
+    }
+    let heading = |(one, values): &(Quantity, &[f64])| {
+        let values = others.iter().skip(1).zip(*values).map(|(name, value)| format!(", {name} = {value}"));
+        format!(" {}{} |", protocol(*one), values.collect::<String>().replace('*', "\\*"))
+    };
+    let mut tables = Vec::new();
+    for level in levels {
+        let mut table = format!("κ\\* at which F_a(0) falls below {level} F_a,max:\n\n");
+        let name = others.first().map_or("", String::as_str).replace('*', "\\*");
+        table += &format!("| {name} |{}\n", columns.iter().map(heading).collect::<String>());
+        table += &format!("| --- |{}\n", " --- |".repeat(columns.len()));
+        for row in &rows {
+            table += &format!("| {} |", row.map_or("κ\\*".into(), |value| value.to_string()));
+            for (protocol, values) in &columns {
+                let here = found.iter().find(|boundary| {
+                    let place = (down(boundary), boundary.others.get(1..).unwrap_or_default());
+                    boundary.protocol == *protocol && boundary.level == *level && place == (*row, values)
+                });
+                let (kappa, interval) = here.map(|boundary| shown(boundary.kappa)).unwrap_or_default();
+                let interval = interval.replace(" to ", "–");
+                table += &if interval.is_empty() {
+                    format!(" {kappa} |")
+                } else {
+                    format!(" {kappa} ({interval}) |")
+                };
+            }
+            table.push('\n');
+        }
+        tables.push(table);
+    }
+    tables.join("\n")
 }
 
 fn csv(boundaries: &Boundaries) -> String {

@@ -1,14 +1,19 @@
 //! `asperity sweep merge`: the tables of a study.
 
 use crate::cli::CliError;
-use crate::sweep::{Folder, Merged, RESULTS, SIDECAR, SUMMARY, merge as merge_records};
+use crate::sweep::{Folder, Merged, PARQUET, RESULTS, SIDECAR, SUMMARY, merge as merge_records};
 use clap::Args;
 use std::io::Write;
 use std::path::PathBuf;
 
 const EXAMPLES: &str = "\
-results.csv has one row for each cell and line, summary.csv one for each cell: mean, standard deviation and
-95 % confidence interval of the mean over the lines. results.json says what the columns mean. SI units.";
+Examples:
+  asperity sweep merge study
+  asperity sweep merge study --partial               What there is so far
+
+results.csv has one row for each cell and line, summary.csv one for each cell: mean, standard
+deviation and 95 % confidence interval of the mean over the lines. results.json says what the
+columns mean. SI units.";
 
 /// Arguments of `sweep merge`.
 #[derive(Args, Debug)]
@@ -20,12 +25,27 @@ pub struct MergeArguments {
     /// Publish what there is, even where cells are missing
     #[arg(long)]
     pub partial: bool,
+    /// Write results.parquet as well, with typed columns
+    #[arg(long, hide = cfg!(not(feature = "parquet")))]
+    pub parquet: bool,
 }
 
 /// Merges and tells what came of it.
 pub(super) fn merge(arguments: &MergeArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
+    if arguments.parquet && cfg!(not(feature = "parquet")) {
+        return Err(CliError::NoParquet);
+    }
     let folder = Folder::open(&arguments.folder)?;
-    tell_merged(&folder, &merge_records(&folder, arguments.partial)?, stdout)
+    let merged = merge_records(&folder, arguments.partial)?;
+    #[cfg(feature = "parquet")]
+    if arguments.parquet {
+        crate::sweep::write_parquet(&folder)?;
+    }
+    tell_merged(&folder, &merged, stdout)?;
+    if arguments.parquet {
+        writeln!(stdout, "{PARQUET} has the rows of {RESULTS}")?;
+    }
+    Ok(())
 }
 
 pub(super) fn tell_merged(folder: &Folder, merged: &Merged, stdout: &mut dyn Write) -> Result<(), CliError> {

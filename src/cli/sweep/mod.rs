@@ -25,7 +25,7 @@ const EXAMPLES: &str = "\
 Examples:
   asperity sweep plans                              What comes with the program
   asperity sweep figure-5b -o study                 Compute it, all cores; again: go on
-  asperity sweep my-plan.ron -o study --shard 3/8   One of eight parts, on any machine that sees the folder
+  asperity sweep my-plan.ron -o study --shard 3/8   One of eight parts, wherever the folder is seen
   asperity sweep status study                       How far it is
   asperity sweep merge study                        results.csv, summary.csv and results.json
   asperity sweep boundary study                     κ at which F_a(0) vanishes, for each H
@@ -33,8 +33,9 @@ Examples:
   asperity sweep submit my-plan.ron -o study --shards 100
                                                     The same on a Slurm cluster
 
-A run that computes everything merges by itself. Ctrl-C stops after the present cells; nothing is lost, and
-the same command goes on.";
+A run that computes everything merges by itself. Ctrl-C stops after the present cells; nothing is
+lost, and the same command goes on. A killed program loses the cells it was at, a power cut those
+of about the last 50 ms as well; they are computed again.";
 
 /// Arguments of `sweep`.
 #[derive(Args, Debug)]

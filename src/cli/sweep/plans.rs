@@ -8,8 +8,14 @@ use clap::{Args, ValueEnum};
 use serde::Serialize;
 use std::io::Write;
 
+const EXAMPLES: &str = "\
+Examples:
+  asperity sweep plans
+  asperity sweep plans figure-5b > my-plan.ron";
+
 /// Arguments of `sweep plans`.
 #[derive(Args, Debug)]
+#[command(after_help = EXAMPLES)]
 pub struct PlansArguments {
     /// Print the text of this plan, to start one's own from
     pub name: Option<String>,

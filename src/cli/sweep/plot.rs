@@ -15,9 +15,10 @@ Examples:
   asperity sweep plot study --at roughness.hurst=0.3 A section along the axis that is left
   asperity sweep plot study --quantity adhesion_force --x kappa --y roughness.hurst
 
-Two free axes make a map: colours are means, signs are regimes, and the line is where adhesion without a load
-vanishes. One free axis makes a section: the mean with its 95 % confidence, and in a corner on a logarithmic
-scale where it spans decades. A second axis of up to five values makes several curves.";
+Two free axes make a map: colours are means, signs are regimes, and the line is where adhesion
+without a load vanishes. One free axis makes a section: the mean with its 95 % confidence, and in a
+corner on a logarithmic scale where it spans decades. A second axis of up to five values makes
+several curves, unless --y names it.";
 
 /// Columns of text where there is no terminal.
 const COLUMNS: usize = 80;
@@ -29,7 +30,9 @@ pub struct PlotArguments {
     /// Folder of the study
     #[arg(value_name = "DIR")]
     pub folder: PathBuf,
-    /// Quantity that is drawn, as often as there are panels; left out: F_a(0) and F_a/F_n, or the first
+    /// Quantity that is drawn, one for each panel; left out: F_a(0) and F_a/F_n
+    ///
+    /// Where no F_a/F_n was recorded: F_a(0) by both protocols; where neither was: the first quantity.
     #[arg(long = "quantity", value_name = "NAME")]
     pub quantities: Vec<String>,
     /// Axis across
@@ -41,7 +44,7 @@ pub struct PlotArguments {
     /// Fix an axis at one of its values, as often as needed
     #[arg(long, value_name = "AXIS=VALUE", value_parser = fixed)]
     pub at: Vec<(String, String)>,
-    /// Scale of quantities; left out, a section is linear, and a map as it shows more
+    /// Scale of quantities; left out, as it shows more
     #[arg(long, value_enum)]
     pub scale: Option<PlotScale>,
     /// Text rather than SVG; so it is where no FILE is given

@@ -25,10 +25,12 @@ pub struct SweepRunArguments {
     /// Threads; left out, one for each core
     #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub jobs: Option<u16>,
-    /// Compute part K of N alone; the parts share the folder, or are copied into one before merging
+    /// Compute part K of N alone; merging takes the parts together
+    ///
+    /// All parts write to the same folder, or their folders are copied into one before merging.
     #[arg(long, value_name = "K/N")]
     pub shard: Option<Shard>,
-    /// Most memory for all threads together: 500M, 2G; fewer threads are used where it takes that
+    /// Most memory for all threads: 500M, 2G; fewer threads run where it takes that
     #[arg(long, value_name = "SIZE", value_parser = size)]
     pub memory: Option<u64>,
     /// Random lines of each cell, in place of what the plan says

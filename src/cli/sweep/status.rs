@@ -8,8 +8,14 @@ use clap::{Args, ValueEnum};
 use std::io::Write;
 use std::path::PathBuf;
 
+const EXAMPLES: &str = "\
+Examples:
+  asperity sweep status study
+  asperity sweep status study --format json";
+
 /// Arguments of `sweep status`.
 #[derive(Args, Debug)]
+#[command(after_help = EXAMPLES)]
 pub struct StatusArguments {
     /// Folder of the study
     #[arg(value_name = "DIR")]

@@ -14,14 +14,15 @@ use std::path::{Path, PathBuf};
 const EXAMPLES: &str = "\
 Examples:
   asperity sweep submit figure-5b -o study --shards 100 --dry-run
-  asperity sweep submit figure-5b -o study --shards 100 -- --partition=short --cpus-per-task=8 --time=2:00:00
+  asperity sweep submit figure-5b -o study --shards 100 -- --partition=short --time=2:00:00
 
-One task of the array computes one shard, on as many threads as it has processors; the merge waits for all of
-them. A killed program is started again within its task, a task whose node is lost on another node, and both
-go on where the results end. Whatever is computed twice is counted once. The folder must be seen by all nodes;
-the jobs' scripts and messages are in DIR/slurm.
+One task of the array computes one shard, on as many threads as it has processors; the merge waits
+for all of them. A killed program is started again within its task, a task whose node is lost on
+another node, and both go on where the results end. Whatever is computed twice is counted once. The
+folder must be seen by all nodes; the jobs' scripts and messages are in DIR/slurm.
 
-Without a scheduler, GNU parallel does it on this machine, or with --sshlogin on others that see the folder:
+Without a scheduler, GNU parallel does it on this machine, or with --sshlogin on others that see the
+folder:
   asperity sweep my-plan.ron -o study --check
   seq 8 | parallel --joblog shards.log --resume-failed --retries 3 \\
     asperity sweep my-plan.ron -o study --shard {}/8 --jobs 1 && asperity sweep merge study
@@ -33,7 +34,7 @@ The same line goes on with what has failed.";
 pub struct SubmitArguments {
     /// A plan file, or the name of a built-in plan
     pub plan: String,
-    /// Folder of the study, on a file system that all nodes see; made where it is not there
+    /// Folder of the study, seen by all nodes; made where it is not there
     #[arg(short, long, value_name = "DIR")]
     pub output: PathBuf,
     /// Parts the plan is cut into, one task each
@@ -42,7 +43,7 @@ pub struct SubmitArguments {
     /// Most tasks that run at the same time
     #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u64).range(1..=1_000_000))]
     pub at_once: Option<u64>,
-    /// How often a task starts its program again after that was killed
+    /// How often a task starts a killed program again
     #[arg(long, value_name = "COUNT", default_value_t = 3, value_parser = clap::value_parser!(u32).range(0..=1000))]
     pub retries: u32,
     /// Most memory for a task: 500M, 2G

@@ -8,7 +8,7 @@ pub(super) fn axis(name: &str, symbol: &str, scale: AxisScale, values: Vec<f64>)
 }
 
 fn quantity(name: &str, symbol: &str) -> FigureQuantity {
-    FigureQuantity { name: name.into(), symbol: symbol.into(), unit: "1".into() }
+    FigureQuantity { name: name.into(), symbol: symbol.into(), unit: "1".into(), signed: false }
 }
 
 fn kappas() -> Vec<f64> {

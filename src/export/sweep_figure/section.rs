@@ -74,7 +74,7 @@ pub(super) fn draw(canvas: &Canvas<'_>, figure: &Figure, panel: &Panel, (from, t
     let curves = curves(figure, panel, panel.scale);
     let all: Vec<Point> = curves.iter().flatten().copied().collect();
     let across = around(figure.across.coordinates().into_iter(), 0.03);
-    let mut up = heights(panel.scale, &all);
+    let mut up = heights(panel, panel.scale, &all);
     let mut frame = Frame { from, to, across, up };
     let inset = (panel.scale == AxisScale::Linear && spans_decades(panel)).then(|| {
         let mut place = corner(&frame, &curves);
@@ -113,7 +113,7 @@ fn ruler(panel: &Panel, points: &[Point], top: f64) -> Ruler {
 /// Room that a panel takes on the left of its rectangle, px.
 pub(super) fn room(figure: &Figure, panel: &Panel) -> f64 {
     let points = curves(figure, panel, panel.scale).concat();
-    let up = heights(panel.scale, &points);
+    let up = heights(panel, panel.scale, &points);
     ruler(panel, &points, up.1).room(up, NUMBER)
 }
 
@@ -172,7 +172,7 @@ pub(super) fn around(values: impl Iterator<Item = f64>, room: f64) -> (f64, f64)
 }
 
 /// The range of a scale of heights: from zero where nothing is below it and something is near.
-pub(super) fn heights(scale: AxisScale, points: &[Point]) -> (f64, f64) {
+pub(super) fn heights(panel: &Panel, scale: AxisScale, points: &[Point]) -> (f64, f64) {
     match scale {
         AxisScale::Linear => {
             let finite = |value: &f64| value.is_finite();
@@ -180,7 +180,7 @@ pub(super) fn heights(scale: AxisScale, points: &[Point]) -> (f64, f64) {
             let (low, high) = around(ends.filter(finite), 0.0);
             let (least, _) = around(points.iter().map(|point| point.mean).filter(finite), 0.0);
             // What is never below zero may have a confidence interval that is: it says nothing there.
-            let from_zero = least >= 0.0 && least <= 0.3 * high;
+            let from_zero = !panel.quantity.signed && least >= 0.0 && least <= 0.3 * high;
             let room = 0.05 * (high - if from_zero { 0.0 } else { low });
             (if from_zero { -0.6 * room } else { low - room }, high + room)
         }
@@ -275,7 +275,7 @@ fn draw_inset(
 ) {
     let size = 0.8 * NUMBER;
     let curves = curves(figure, panel, AxisScale::Logarithmic);
-    let up = heights(AxisScale::Logarithmic, &curves.concat());
+    let up = heights(panel, AxisScale::Logarithmic, &curves.concat());
     let frame = Frame { from, to, across, up };
     canvas.rectangle((from.0 - INSET_AXES.0, from.1 - 3.0), (to.0 + 6.0, to.1 + INSET_AXES.1), PAPER);
     draw_curves(canvas, &frame, &curves, 1.7);

@@ -57,7 +57,14 @@ pub(super) fn draw(
             // Bars stand between shown cells.
             let beside = (index + every < ends).then_some(index + every);
             let below = index.checked_sub(every_row * values);
-            text.push_str(&cell(figure, panel, (&shades, boundary.as_ref()), (index, beside, below), wide, colours));
+            text.push_str(&cell(
+                figure,
+                panel,
+                (&shades, boundary.as_ref()),
+                (index, beside, below),
+                wide,
+                colours,
+            ));
         }
         trim(text);
         text.push('\n');

@@ -23,7 +23,7 @@ pub(super) fn draw(text: &mut String, figure: &Figure, panel: &Panel, columns: u
     let curves = curves(figure, panel, panel.scale);
     let all = curves.concat();
     let across = around(figure.across.coordinates().into_iter(), 0.02);
-    let up = heights(panel.scale, &all);
+    let up = heights(panel, panel.scale, &all);
     let largest = match panel.scale {
         AxisScale::Linear => up.0.abs().max(up.1.abs()),
         AxisScale::Logarithmic => 10_f64.powf(up.1),
