@@ -12,7 +12,7 @@ mod common {
 use common::deadline::within;
 use common::terminal::{Frame, Program, Terminal};
 use std::fs;
-use std::io::{BufRead, BufReader};
+use std::io::{BufRead, BufReader, Write};
 use std::net::TcpListener;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
@@ -25,6 +25,11 @@ const ASPERITY: &str = env!("CARGO_BIN_EXE_asperity");
 const MOST_BYTES: f64 = 20_000.0;
 /// Most frames in a second.
 const MOST_FRAMES: f64 = 12.0;
+
+/// Says what is left out, past the test runner, which keeps what passing tests print to itself.
+fn tell(note: &str) {
+    let _ = writeln!(std::io::stderr(), "{note}");
+}
 
 /// A program by its name, on the path or where Debian keeps those of the administrator.
 fn program(name: &str) -> Option<PathBuf> {
@@ -69,7 +74,7 @@ impl Server {
         let [sshd, ssh, keygen] = ["sshd", "ssh", "ssh-keygen"].map(|name| {
             let found = program(name);
             if found.is_none() {
-                println!("skipped: there is no {name} (Debian: openssh-server, openssh-client)");
+                tell(&format!("skipped: there is no {name} (Debian: openssh-server, openssh-client)"));
             }
             found
         });
@@ -78,7 +83,7 @@ impl Server {
         // As root it parts with its rights in an empty folder that must be there.
         let empty = Path::new("/run/sshd");
         if user == "root" && !empty.exists() && fs::create_dir(empty).is_err() {
-            println!("skipped: {} is not there and cannot be made", empty.display());
+            tell(&format!("skipped: {} is not there and cannot be made", empty.display()));
             return None;
         }
         let folder = tempfile::tempdir().unwrap();
@@ -152,7 +157,7 @@ impl Server {
         }
         let log: Vec<String> = self.log.try_iter().collect();
         if log.iter().any(|line| line.contains("account is locked") || line.contains("not allowed because")) {
-            println!("skipped: {} may not log in here", self.user);
+            tell(&format!("skipped: {} may not log in here", self.user));
             return false;
         }
         panic!("{}\n{}", String::from_utf8_lossy(&output.stderr), log.join("\n"));

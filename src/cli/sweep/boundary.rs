@@ -27,10 +27,10 @@ pub struct BoundaryArguments {
     /// Folder of a merged study with an axis `kappa`
     #[arg(value_name = "DIR")]
     pub folder: PathBuf,
-    /// Share of F_a,max below which adhesion counts as vanished, as often as needed
+    /// Share of F_a,max below which adhesion has vanished, as often as needed
     #[arg(long = "level", value_name = "SHARE", value_parser = level)]
     pub levels: Vec<f64>,
-    /// How it is printed
+    /// How to print
     #[arg(long, value_enum, default_value_t = BoundaryFormat::Text)]
     pub format: BoundaryFormat,
 }

@@ -32,7 +32,7 @@ pub struct PlotArguments {
     pub folder: PathBuf,
     /// Quantity that is drawn, one for each panel; left out: F_a(0) and F_a/F_n
     ///
-    /// Where no F_a/F_n was recorded: F_a(0) by both protocols; where neither was: the first quantity.
+    /// Where no F_a/F_n was recorded: F_a(0) by both protocols; where neither was: the first one.
     #[arg(long = "quantity", value_name = "NAME")]
     pub quantities: Vec<String>,
     /// Axis across
@@ -44,7 +44,9 @@ pub struct PlotArguments {
     /// Fix an axis at one of its values, as often as needed
     #[arg(long, value_name = "AXIS=VALUE", value_parser = fixed)]
     pub at: Vec<(String, String)>,
-    /// Scale of quantities; left out, as it shows more
+    /// Scale of quantities; left out: by itself
+    ///
+    /// By itself it is the one that shows more; a single curve has the other one in a corner.
     #[arg(long, value_enum)]
     pub scale: Option<PlotScale>,
     /// Text rather than SVG; so it is where no FILE is given

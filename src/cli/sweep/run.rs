@@ -30,7 +30,7 @@ pub struct SweepRunArguments {
     /// All parts write to the same folder, or their folders are copied into one before merging.
     #[arg(long, value_name = "K/N")]
     pub shard: Option<Shard>,
-    /// Most memory for all threads: 500M, 2G; fewer threads run where it takes that
+    /// Most memory for all threads: 500M, 2G; fewer threads run if need be
     #[arg(long, value_name = "SIZE", value_parser = size)]
     pub memory: Option<u64>,
     /// Random lines of each cell, in place of what the plan says

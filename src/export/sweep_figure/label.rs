@@ -151,7 +151,9 @@ pub(super) fn short(value: f64) -> String {
 pub(super) fn value_label(axis: &FigureAxis, value: f64) -> String {
     let (divisor, unit) = prefixed(&axis.unit, value.abs());
     let unit = if unit.is_empty() { unit } else { format!(" {unit}") };
-    let value = short(value / divisor);
+    // A number of springs is told whole.
+    let whole = unit.is_empty() && value.fract() == 0.0 && value.abs() < 1e8;
+    let value = if whole { number(value, 1.0) } else { short(value / divisor) };
     if axis.symbol.is_empty() {
         format!("{} {value}{unit}", axis.name)
     } else {
@@ -201,6 +203,21 @@ mod tests {
             [0.0, 0.30000000000000004, 12345.6, 1.5e-6, -2.0].map(short),
             ["0", "0.3", "12300", "1.5e−6", "−2"]
         );
+    }
+
+    #[test]
+    fn values_of_curves_are_told_whole_where_they_are() {
+        let axis = |symbol: &str, unit: &str| FigureAxis {
+            name: "points".into(),
+            symbol: symbol.into(),
+            unit: unit.into(),
+            scale: crate::sweep::figure::AxisScale::Linear,
+            values: Vec::new(),
+        };
+        assert_eq!(plain(&value_label(&axis("N", "1"), 65536.0)), "N = 65536");
+        assert_eq!(plain(&value_label(&axis("N", "1"), -2.0)), "N = −2");
+        assert_eq!(plain(&value_label(&axis("", "N"), 1.25e-5)), "points 12.5 µN");
+        assert_eq!(plain(&value_label(&axis("H", ""), 0.12345)), "H = 0.123");
     }
 
     #[test]
