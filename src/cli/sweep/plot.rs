@@ -44,9 +44,9 @@ pub struct PlotArguments {
     /// Fix an axis at one of its values, as often as needed
     #[arg(long, value_name = "AXIS=VALUE", value_parser = fixed)]
     pub at: Vec<(String, String)>,
-    /// Scale of quantities; left out: by itself
+    /// Scale of quantities
     ///
-    /// By itself it is the one that shows more; a single curve has the other one in a corner.
+    /// Left out, it is the one that shows more; a single curve has the logarithmic one in a corner.
     #[arg(long, value_enum)]
     pub scale: Option<PlotScale>,
     /// Text rather than SVG; so it is where no FILE is given
