@@ -46,7 +46,7 @@ pub struct PlotArguments {
     pub at: Vec<(String, String)>,
     /// Scale of quantities
     ///
-    /// Left out, it is the one that shows more; a single curve has the logarithmic one in a corner.
+    /// Left out, it is the one that shows more; a single curve is linear with an inset.
     #[arg(long, value_enum)]
     pub scale: Option<PlotScale>,
     /// Text rather than SVG; so it is where no FILE is given
