@@ -210,6 +210,23 @@ mod tests {
     }
 
     #[test]
+    fn each_protocol_vanishes_at_its_own_place() {
+        let mut figure = examples::sections();
+        let own = figure.crossings(&figure.panels[0]);
+        assert_eq!(own.len(), 1, "{own:?}");
+        // What is no share of F_a(0) shows where that vanishes.
+        assert_eq!(figure.crossings(&figure.panels[1]), own);
+        let shares = figure.panels[0].estimates.clone();
+        let twice = |estimate: Option<Estimate>| {
+            estimate.map(|estimate| Estimate { mean: 2.0 * estimate.mean, ..estimate })
+        };
+        figure.panels[1].estimates = shares.into_iter().map(twice).collect();
+        figure.panels[1].vanishes = true;
+        let later = figure.crossings(&figure.panels[1]);
+        assert!(later.len() == 1 && later[0] > own[0], "{later:?} {own:?}");
+    }
+
+    #[test]
     fn text_fits_its_columns_and_has_colours_only_where_it_may() {
         for figure in [examples::phase_map(), examples::sections()] {
             for columns in [40, 80, 200] {
