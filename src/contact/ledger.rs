@@ -20,24 +20,29 @@ pub struct Spring {
 pub trait Springs {
     /// Calls `see` once for each spring.
     fn each(&self, see: impl FnMut(Spring));
-    /// The same for each spring whose threshold is above `low`, m, in any order; others may be left out.
-    fn each_above(&self, _low: f64, see: impl FnMut(Spring)) {
+    /// The same for each spring whose threshold is above `low` and at most `high`, m, in any order; others may
+    /// be left out.
+    fn each_between(&self, _low: f64, _high: f64, see: impl FnMut(Spring)) {
         self.each(see);
     }
     /// The scale on which the gaps are summed.
     fn scale(&self) -> &GapScale;
 }
 
-/// The springs whose thresholds are above an indentation, m, and perhaps some others.
-struct Above<'s, S>(f64, &'s S);
+/// The springs whose thresholds are above an indentation and at most another, m, and perhaps some others.
+struct Between<'s, S> {
+    low: f64,
+    high: f64,
+    springs: &'s S,
+}
 
-impl<S: Springs> Springs for Above<'_, S> {
+impl<S: Springs> Springs for Between<'_, S> {
     fn each(&self, see: impl FnMut(Spring)) {
-        self.1.each_above(self.0, see);
+        self.springs.each_between(self.low, self.high, see);
     }
 
     fn scale(&self) -> &GapScale {
-        self.1.scale()
+        self.springs.scale()
     }
 }
 
@@ -153,7 +158,7 @@ impl Ledger {
         let (low, high) = (points[first], points[last + 1]);
         let mut events = Vec::new();
         let within = |threshold: f64| threshold > low && threshold <= high;
-        each_run(&Above(low, springs), within, |Run::<()> { threshold, joins, .. }| {
+        each_run(&Between { low, high, springs }, within, |Run::<()> { threshold, joins, .. }| {
             let interval = self.grid.first_at_least(threshold) - 1;
             if chosen[interval] {
                 events.push(Event { threshold, joins, interval });

@@ -190,17 +190,16 @@ impl<R: EdgeRule> Springs for AdhesiveSprings<'_, R> {
 
     /// No spring of a subtree has a larger threshold than its root.
     #[inline]
-    fn each_above(&self, low: f64, mut see: impl FnMut(Spring)) {
+    fn each_between(&self, low: f64, high: f64, mut see: impl FnMut(Spring)) {
         for Part { start, thresholds } in self.parts() {
             let mut end = thresholds.len();
             while end > 0 {
                 let (place, node) = (end - 1, start + end - 1);
                 let (threshold, shape) = (thresholds[place], self.tree.shapes()[node]);
-                if threshold <= low {
-                    end -= shape.size as usize;
+                end = if threshold <= low { end - shape.size as usize } else { place };
+                if threshold <= low || threshold > high {
                     continue;
                 }
-                end = place;
                 let quanta = self.rule.quanta(self.tree, &self.scale, node);
                 see(Spring { threshold, gap: self.tree.gap(node), quanta, fragments: shape.fragments() });
             }

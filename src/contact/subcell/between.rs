@@ -33,7 +33,7 @@ pub trait EdgeSprings: Thresholds + Sync {
 }
 
 /// What a fragment adds to its whole cells while it is one.
-pub trait Piece: Copy {
+pub trait Piece: Copy + Send {
     /// The indentation from which on it is one, m.
     fn from(&self) -> f64;
     /// The indentation up to which, not itself, it is one, m.
@@ -94,6 +94,11 @@ impl BetweenLeg {
 }
 
 impl<T: EdgeSprings> BetweenSprings<T> {
+    /// Whether a second thread pays.
+    fn is_long(&self) -> bool {
+        self.0.count() >= MANY_SPRINGS
+    }
+
     /// What stands along a grid, and what else its edges tell. Whole cells and edges are summed side by side:
     /// neither sees the other.
     fn along<S: Send>(
@@ -101,10 +106,9 @@ impl<T: EdgeSprings> BetweenSprings<T> {
         grid: Grid,
         edges: impl FnOnce(&Grid) -> (Vec<Edges>, S) + Send,
     ) -> (BetweenLeg, S) {
-        let many = self.0.count() >= MANY_SPRINGS;
         let of_edges = grid.clone();
         let ((edges, told), ledger) =
-            in_parallel(many, move || edges(&of_edges), || Ledger::new(&self.0, grid));
+            in_parallel(self.is_long(), move || edges(&of_edges), || Ledger::new(&self.0, grid));
         (BetweenLeg::new(ledger, edges, self.0.scale()), told)
     }
 
@@ -122,25 +126,30 @@ impl<T: EdgeSprings> BetweenSprings<T> {
             })
             .collect();
         let (Some(&first), Some(&last)) = (chosen.first(), chosen.last()) else { return intervals };
+        let (low, high) = (points[first], points[last + 1]);
+        let pieces = || {
+            let mut pieces = vec![Vec::new(); chosen.len()];
+            self.0.each_piece(low, high, |piece| {
+                // Intervals that reach from below its end to its beginning and above.
+                let above = |value: f64| leg.ledger.grid.first_at_least(value.min(high));
+                let from = above(piece.from()).saturating_sub(1).max(first);
+                for place in marks[from..above(piece.to()).min(last + 1)].iter().flatten() {
+                    pieces[*place].push(piece);
+                }
+            });
+            pieces
+        };
         let is_chosen: Vec<bool> = marks.iter().map(Option::is_some).collect();
-        for event in leg.ledger.events(&self.0, &is_chosen) {
+        let (pieces, events) = in_parallel(self.is_long(), pieces, || leg.ledger.events(&self.0, &is_chosen));
+        for (interval, pieces) in intervals.iter_mut().zip(pieces) {
+            interval.pieces = pieces;
+        }
+        for event in events {
             if let Some(place) = marks[event.interval] {
                 intervals[place].joins(event.threshold, event.joins);
                 *sorted += 1;
             }
         }
-        let (low, high) = (points[first], points[last + 1]);
-        self.0.each_piece(low, high, |piece| {
-            // Intervals that reach from below its end to its beginning and above.
-            let above = |value: f64| leg.ledger.grid.first_at_least(value.min(high));
-            for mark in
-                &marks[above(piece.from()).saturating_sub(1).max(first)..above(piece.to()).min(last + 1)]
-            {
-                if let Some(place) = *mark {
-                    intervals[place].pieces.push(piece);
-                }
-            }
-        });
         intervals.iter_mut().for_each(Interval::sort);
         intervals
     }
