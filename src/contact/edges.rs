@@ -7,7 +7,7 @@ use super::{ContactTree, HessRule};
 ///
 /// A node's `holds_to` must not exceed its gap, nor the `grows_at` by which a part of it took it in by
 /// more than one rounding: what has just joined must not leave at once.
-pub trait EdgeRule: Sync {
+pub trait EdgeRule {
     /// Smallest indentation, m, at which the fragment that fills the subtree `fragment` takes in the
     /// spring of its parent `wall`.
     fn grows_at(&self, tree: &ContactTree, fragment: usize, wall: usize) -> f64;
