@@ -85,7 +85,7 @@ mod tests {
             let known = body.roots_at_touch().unwrap();
             // What memory holds does not matter.
             let mut memory = BodyMemory::default();
-            let (found, effort) = roots(&tree, rule.clone(), &mut memory).unwrap();
+            let (found, effort) = roots(&tree, rule, &mut memory).unwrap();
             prop_assert_eq!(&found, &known);
             prop_assert_eq!(effort.zero_load_passes, 1);
             let (force, effort) = smallest_force::<WholeSprings<_>>(&tree, rule, FOUNDATION, known, &mut memory).unwrap();
