@@ -1,5 +1,5 @@
 //! The map over κ and H: regimes as glyphs and colours, and the mark of the scene. Beside it stand
-//! [words](super::chart_words).
+//! [words].
 
 use super::wrap::wrapped;
 use super::{chart_words as words, sections};
