@@ -8,6 +8,9 @@ use super::{ContactTree, HessRule};
 /// A node's `holds_to` must not exceed its gap, nor the `grows_at` by which a part of it took it in by
 /// more than one rounding: what has just joined must not leave at once.
 pub trait EdgeRule {
+    /// Whether the edges of a fragment move while it is one, so that the passes list the fragments.
+    const EDGES_MOVE: bool = false;
+
     /// Smallest indentation, m, at which the fragment that fills the subtree `fragment` takes in the
     /// spring of its parent `wall`.
     fn grows_at(&self, tree: &ContactTree, fragment: usize, wall: usize) -> f64;

@@ -17,6 +17,7 @@ mod edges;
 mod error;
 pub mod exact;
 mod foundation;
+mod fragment_list;
 mod fragment_set;
 mod hand;
 mod history;

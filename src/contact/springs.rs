@@ -1,5 +1,6 @@
 //! Where the thresholds of a leg come from: the tree with a rule for edges, or the gaps alone.
 
+use super::fragment_list::FragmentList;
 use super::ledger::{Spring, Springs};
 use super::tally::GapScale;
 use super::thresholds::{self, Held};
@@ -29,28 +30,54 @@ pub trait Thresholds: Springs {
 /// Memory that one body leaves to the next: fresh memory costs about as much as a pass.
 #[derive(Debug, Default)]
 pub struct BodyMemory {
-    thresholds: Vec<f64>,
-    first: Vec<f64>,
+    passed: Passed,
+    first: Passed,
 }
 
 impl BodyMemory {
-    /// The same with room for the thresholds of so many springs, already cleared by the system.
+    /// The same with room for what a pass over so many springs gives, already cleared by the system; with their
+    /// fragments if these are `listed`.
     ///
     /// # Errors
     /// [`ContactError::OutOfMemory`].
-    pub fn ready(self, springs: usize) -> Result<Self, ContactError> {
-        Ok(BodyMemory { thresholds: super::resized(self.thresholds, springs, f64::INFINITY)?, ..self })
+    pub fn ready(self, springs: usize, listed: bool) -> Result<Self, ContactError> {
+        Ok(BodyMemory { passed: self.passed.ready(springs, listed)?, ..self })
     }
 }
 
-/// Thresholds of the loading that forms the contact: each time the body comes down again they are the same.
+/// What a pass gives.
+#[derive(Debug, Default)]
+struct Passed {
+    /// Those of the springs of each subtree, one subtree after the other, each in post-order, m.
+    thresholds: Vec<f64>,
+    /// The fragments of these subtrees if their edges move, else none.
+    fragments: FragmentList,
+}
+
+impl Passed {
+    fn ready(self, springs: usize, listed: bool) -> Result<Self, ContactError> {
+        let thresholds = super::resized(self.thresholds, springs, f64::INFINITY)?;
+        let fragments = if listed { self.fragments.ready(springs)? } else { self.fragments };
+        Ok(Passed { thresholds, fragments })
+    }
+
+    /// Makes it a copy of another over as many springs.
+    fn copy_from(&mut self, other: &Passed, listed: bool) {
+        self.thresholds.copy_from_slice(&other.thresholds);
+        if listed {
+            self.fragments.copy_from(&other.fragments);
+        }
+    }
+}
+
+/// What the loading gives that forms the contact: each time the body comes down again it is the same.
 enum FirstLoading {
     /// Computed each time; the memory is not used.
-    Forgotten(Vec<f64>),
-    /// To be kept in this memory once they are computed.
-    Awaited(Vec<f64>),
-    /// Those of each spring, and the largest of them, m.
-    Known(Vec<f64>, f64),
+    Forgotten(Passed),
+    /// To be kept in this memory once it is computed.
+    Awaited(Passed),
+    /// This, and the largest threshold, m.
+    Known(Passed, f64),
 }
 
 /// Springs under adhesion: the tree decides, under a rule for the edges.
@@ -59,8 +86,7 @@ pub struct AdhesiveSprings<'a, R> {
     rule: R,
     /// Roots of the subtrees looked at: of the whole tree, or of the fragments of first touch.
     roots: Vec<usize>,
-    /// Those of the springs of each subtree, one subtree after the other, each in post-order, m.
-    thresholds: Vec<f64>,
+    passed: Passed,
     first: FirstLoading,
     scale: GapScale,
     /// Whether the present leg presses a body that was separated before.
@@ -74,6 +100,16 @@ pub struct Part<'s> {
     pub start: usize,
     /// Thresholds of its nodes from there on, m.
     pub thresholds: &'s [f64],
+}
+
+/// The fragments of one of them.
+#[derive(Clone, Copy)]
+pub struct PartFragments<'s> {
+    pub part: Part<'s>,
+    /// Nodes that are fragments of their own somewhere, ascending.
+    pub nodes: &'s [u32],
+    /// Where each becomes part of a larger one, m.
+    pub ends: &'s [f64],
 }
 
 impl<'a, R: EdgeRule> AdhesiveSprings<'a, R> {
@@ -92,9 +128,9 @@ impl<'a, R: EdgeRule> AdhesiveSprings<'a, R> {
         memory: BodyMemory,
     ) -> Result<Self, ContactError> {
         let count = roots.iter().map(|&root| tree.size(root) as usize).sum();
-        let BodyMemory { thresholds, first } = memory.ready(count)?;
+        let BodyMemory { passed, first } = memory.ready(count, R::EDGES_MOVE)?;
         let first = FirstLoading::Forgotten(first);
-        Ok(AdhesiveSprings { tree, rule, roots, thresholds, first, scale: tree.gap_scale(), forms: false })
+        Ok(AdhesiveSprings { tree, rule, roots, passed, first, scale: tree.gap_scale(), forms: false })
     }
 
     /// The tree of the line.
@@ -110,12 +146,12 @@ impl<'a, R: EdgeRule> AdhesiveSprings<'a, R> {
     pub fn into_memory(self) -> BodyMemory {
         let (FirstLoading::Forgotten(first) | FirstLoading::Awaited(first) | FirstLoading::Known(first, _)) =
             self.first;
-        BodyMemory { thresholds: self.thresholds, first }
+        BodyMemory { passed: self.passed, first }
     }
 
     /// Computes the loading that forms the contact once, and keeps it for each time the body comes down again.
     pub fn keep_first_loading(&mut self) {
-        let first = std::mem::replace(&mut self.first, FirstLoading::Forgotten(Vec::new()));
+        let first = std::mem::replace(&mut self.first, FirstLoading::Forgotten(Passed::default()));
         self.first = match first {
             FirstLoading::Forgotten(memory) => FirstLoading::Awaited(memory),
             kept => kept,
@@ -124,31 +160,48 @@ impl<'a, R: EdgeRule> AdhesiveSprings<'a, R> {
 
     /// Begins the loading that forms the contact and returns the largest threshold.
     fn form(&mut self, work: &mut Work) -> f64 {
-        if let FirstLoading::Known(thresholds, complete) = &self.first {
-            self.thresholds.copy_from_slice(thresholds);
+        if let FirstLoading::Known(passed, complete) = &self.first {
+            self.passed.copy_from(passed, R::EDGES_MOVE);
             return *complete;
         }
         work.loading_passes += 1;
         work.hess_evaluations += (self.tree.len() as u64).saturating_sub(1);
-        let complete = thresholds::load(self.tree, &self.rule, &mut self.thresholds, |_| false);
+        let complete = self.pass_loading(|_| false);
         if let FirstLoading::Awaited(memory) = &mut self.first {
-            // Where there is no memory to keep them they are computed again.
-            let kept = super::resized(std::mem::take(memory), self.thresholds.len(), 0.0);
-            self.first = kept.map_or(FirstLoading::Forgotten(Vec::new()), |mut kept| {
-                kept.copy_from_slice(&self.thresholds);
+            // Where there is no memory to keep it, it is computed again.
+            let kept = std::mem::take(memory).ready(self.passed.thresholds.len(), R::EDGES_MOVE);
+            self.first = kept.map_or(FirstLoading::Forgotten(Passed::default()), |mut kept| {
+                kept.copy_from(&self.passed, R::EDGES_MOVE);
                 FirstLoading::Known(kept, complete)
             });
         }
         complete
     }
 
+    fn pass_loading(&mut self, already: impl Fn(f64) -> bool) -> f64 {
+        let Passed { thresholds, fragments } = &mut self.passed;
+        thresholds::load(self.tree, &self.rule, thresholds, fragments, already)
+    }
+
     /// The subtrees looked at.
     pub fn parts(&self) -> impl Iterator<Item = Part<'_>> {
-        let mut rest = self.thresholds.as_slice();
+        let mut rest = self.passed.thresholds.as_slice();
         self.roots.iter().map(move |&root| {
             let (thresholds, after) = rest.split_at(self.tree.size(root) as usize);
             rest = after;
             Part { start: root + 1 - thresholds.len(), thresholds }
+        })
+    }
+
+    /// Their fragments on the present leg, if their edges move.
+    pub fn fragments_of_parts(&self) -> impl Iterator<Item = PartFragments<'_>> {
+        // The subtrees stand from the end of the post-order, and so did the pass go.
+        let (mut nodes, mut ends) = self.passed.fragments.as_slices();
+        self.parts().map(move |part| {
+            let first = nodes.partition_point(|&node| (node as usize) < part.start);
+            let of_part = PartFragments { part, nodes: &nodes[first..], ends: &ends[first..] };
+            (nodes, ends) = (&nodes[..first], &ends[..first]);
+            of_part
         })
     }
 
@@ -157,7 +210,7 @@ impl<'a, R: EdgeRule> AdhesiveSprings<'a, R> {
     pub fn roots_at_touch(&self) -> Option<Vec<usize>> {
         self.forms.then(|| {
             let mut roots = Vec::new();
-            self.tree.each_fragment(&self.thresholds, 0.0, |root| roots.push(root));
+            self.tree.each_fragment(&self.passed.thresholds, 0.0, |root| roots.push(root));
             roots
         })
     }
@@ -165,10 +218,12 @@ impl<'a, R: EdgeRule> AdhesiveSprings<'a, R> {
     /// Begins the unloading leg of subtrees that are whole in contact at an indentation, m.
     pub fn open(&mut self, from: f64) -> Held {
         let mut held = Held::NOTHING;
-        let mut rest = self.thresholds.as_mut_slice();
+        let Passed { thresholds, fragments } = &mut self.passed;
+        fragments.clear();
+        let mut rest = thresholds.as_mut_slice();
         for &root in &self.roots {
             let (fragment, after) = rest.split_at_mut(self.tree.size(root) as usize);
-            held = held.and(thresholds::open(self.tree, &self.rule, root, fragment, from));
+            held = held.and(thresholds::open(self.tree, &self.rule, root, fragment, fragments, from));
             rest = after;
         }
         held
@@ -213,7 +268,7 @@ impl<R: EdgeRule> Springs for AdhesiveSprings<'_, R> {
 
 impl<R: EdgeRule> Thresholds for AdhesiveSprings<'_, R> {
     fn count(&self) -> u64 {
-        self.thresholds.len() as u64
+        self.passed.thresholds.len() as u64
     }
 
     fn load(&mut self, from: Option<f64>, work: &mut Work) -> f64 {
@@ -222,36 +277,37 @@ impl<R: EdgeRule> Thresholds for AdhesiveSprings<'_, R> {
         work.loading_passes += 1;
         // Each part of a subtree that is still open asks the rule once.
         let (mut springs, mut fragments) = (0, 0);
-        self.tree.each_fragment(&self.thresholds, from, |root| {
+        self.tree.each_fragment(&self.passed.thresholds, from, |root| {
             springs += u64::from(self.tree.size(root));
             fragments += 1;
         });
         work.hess_evaluations += (self.tree.len() as u64 - springs + fragments).saturating_sub(1);
-        thresholds::load(self.tree, &self.rule, &mut self.thresholds, |threshold| threshold <= from)
+        self.pass_loading(|threshold| threshold <= from)
     }
 
     fn unload(&mut self, from: f64, work: &mut Work) -> f64 {
         work.unloading_passes += 1;
         self.forms = false;
-        let held = thresholds::unload(self.tree, &self.rule, &mut self.thresholds, from);
+        let Passed { thresholds, fragments } = &mut self.passed;
+        let held = thresholds::unload(self.tree, &self.rule, thresholds, fragments, from);
         work.hess_evaluations += held.springs;
         held.separates
     }
 
     fn thresholds_along_line(&self, out: &mut Vec<f64>) {
         out.clear();
-        out.resize(self.thresholds.len(), f64::INFINITY);
-        for (&threshold, &position) in self.thresholds.iter().zip(self.tree.positions()) {
+        out.resize(self.passed.thresholds.len(), f64::INFINITY);
+        for (&threshold, &position) in self.passed.thresholds.iter().zip(self.tree.positions()) {
             out[position as usize] = threshold;
         }
     }
 
     fn copy_leg(&self, copy: &mut LegContact) -> Result<(), ContactError> {
-        copy.keep_tree_order(&self.thresholds)
+        copy.keep_tree_order(&self.passed.thresholds)
     }
 
     fn fragments(&self, indentation: f64) -> Vec<(usize, usize)> {
-        self.tree.fragments(&self.thresholds, indentation)
+        self.tree.fragments(&self.passed.thresholds, indentation)
     }
 }
 

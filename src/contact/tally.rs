@@ -124,6 +124,15 @@ impl Tally {
     }
 }
 
+impl std::ops::Neg for Tally {
+    type Output = Tally;
+
+    #[inline]
+    fn neg(self) -> Tally {
+        Tally { springs: -self.springs, fragments: -self.fragments, quanta: -self.quanta }
+    }
+}
+
 impl std::ops::AddAssign for Tally {
     #[inline]
     fn add_assign(&mut self, other: Tally) {

@@ -3,6 +3,7 @@
 //! Each spring gets one threshold, whatever the direction of the leg: it is in contact at indentation
 //! d exactly when its threshold is at most d.
 
+use super::fragment_list::FragmentList;
 use super::tree::Shape;
 use super::{ContactTree, EdgeRule};
 
@@ -14,11 +15,13 @@ use super::{ContactTree, EdgeRule};
 /// A spring joins at the smallest s of its own subtree and all that contain it.
 ///
 /// `already` tells from its old threshold whether a spring is in contact when the leg begins; such a
-/// spring gets −∞. Returns the largest threshold: from there on everything is in contact.
+/// spring gets −∞. Lists the fragments if their edges move. Returns the largest threshold: from there on
+/// everything is in contact.
 pub(crate) fn load<R: EdgeRule>(
     tree: &ContactTree,
     rule: &R,
     thresholds: &mut [f64],
+    fragments: &mut FragmentList,
     already: impl Fn(f64) -> bool,
 ) -> f64 {
     let shapes = &tree.shapes()[..thresholds.len()];
@@ -34,13 +37,39 @@ pub(crate) fn load<R: EdgeRule>(
         }
         thresholds[node] = closes;
     }
+    if R::EDGES_MOVE {
+        join_as_fragments(shapes, thresholds, fragments);
+    } else {
+        join(shapes, thresholds);
+    }
+    thresholds.last().copied().unwrap_or(f64::NEG_INFINITY)
+}
+
+/// Each subtree joins when it closes, or with one that contains it.
+fn join(shapes: &[Shape], thresholds: &mut [f64]) {
     for node in (0..thresholds.len()).rev() {
         let joins = thresholds[node];
         for child in children_or_self(node, shapes[node]) {
             thresholds[child] = lesser(thresholds[child], joins);
         }
     }
-    thresholds.last().copied().unwrap_or(f64::NEG_INFINITY)
+}
+
+/// The same; those that close before one that contains them are fragments.
+fn join_as_fragments(shapes: &[Shape], thresholds: &mut [f64], fragments: &mut FragmentList) {
+    fragments.clear();
+    if let Some(root) = thresholds.len().checked_sub(1) {
+        fragments.hand_down(root, f64::INFINITY);
+    }
+    for node in (0..thresholds.len()).rev() {
+        let (closes, taken_in) = (thresholds[node], fragments.handed(node));
+        let joins = lesser(closes, taken_in);
+        thresholds[node] = joins;
+        for child in children_or_self(node, shapes[node]) {
+            fragments.hand_down(child, joins);
+        }
+        fragments.offer(node, taken_in, closes < taken_in);
+    }
 }
 
 /// What an unloading leg begins with and where it ends at the latest.
@@ -63,9 +92,16 @@ impl Held {
 }
 
 /// Thresholds of an unloading leg that begins at indentation `from`, overwriting those of the leg
-/// before. Springs that are not in contact get +∞.
-pub(crate) fn unload<R: EdgeRule>(tree: &ContactTree, rule: &R, thresholds: &mut [f64], from: f64) -> Held {
+/// before. Springs that are not in contact get +∞. Lists the fragments if their edges move.
+pub(crate) fn unload<R: EdgeRule>(
+    tree: &ContactTree,
+    rule: &R,
+    thresholds: &mut [f64],
+    fragments: &mut FragmentList,
+    from: f64,
+) -> Held {
     let shapes = &tree.shapes()[..thresholds.len()];
+    fragments.clear();
     let mut held = Held::NOTHING;
     let mut end = thresholds.len();
     while end > 0 {
@@ -77,7 +113,7 @@ pub(crate) fn unload<R: EdgeRule>(tree: &ContactTree, rule: &R, thresholds: &mut
         }
         // A node in contact whose parent is not is the root of one whole fragment.
         let start = end - shapes[root].size as usize;
-        held = held.and(open(tree, rule, root, &mut thresholds[start..end], from));
+        held = held.and(open(tree, rule, root, &mut thresholds[start..end], fragments, from));
         end = start;
     }
     held
@@ -87,12 +123,14 @@ pub(crate) fn unload<R: EdgeRule>(tree: &ContactTree, rule: &R, thresholds: &mut
 /// `from`; `thresholds` has one value for each node of this subtree and what it held does not matter.
 ///
 /// A subtree opens, and its largest spring leaves, as soon as one that contains it has opened or its
-/// own rule no longer holds it: t_v = min(t_parent, `holds_to`(v)).
+/// own rule no longer holds it: t_v = min(t_parent, `holds_to`(v)). Adds the fragments to the list if their
+/// edges move.
 pub(crate) fn open<R: EdgeRule>(
     tree: &ContactTree,
     rule: &R,
     root: usize,
     thresholds: &mut [f64],
+    fragments: &mut FragmentList,
     from: f64,
 ) -> Held {
     let start = root + 1 - thresholds.len();
@@ -104,8 +142,15 @@ pub(crate) fn open<R: EdgeRule>(
     }
     for node in (0..thresholds.len()).rev() {
         // Handed down to it: when the subtree around its own opens.
-        let leaves = lesser(thresholds[node], rule.holds_to(tree, start + node));
+        let (let_go, holds) = (thresholds[node], rule.holds_to(tree, start + node));
+        let leaves = lesser(let_go, holds);
         thresholds[node] = leaves;
+        if R::EDGES_MOVE {
+            // The largest fragment is part of no other.
+            let is_root = start + node == root;
+            let end = if is_root { f64::INFINITY } else { let_go };
+            fragments.offer(start + node, end, is_root | (holds < let_go));
+        }
         for child in children_or_self(node, shapes[node]) {
             thresholds[child] = leaves;
         }

@@ -37,9 +37,10 @@ pub(super) struct ContactMemory {
 }
 
 impl ContactMemory {
-    /// The same with room for the thresholds of so many springs, already cleared by the system.
-    pub fn ready(self, springs: usize) -> Result<Self, ContactError> {
-        Ok(ContactMemory { body: self.body.ready(springs)?, ..self })
+    /// The same with room for what passes over so many springs give, already cleared by the system; with
+    /// their fragments if these are `listed`.
+    pub fn ready(self, springs: usize, listed: bool) -> Result<Self, ContactError> {
+        Ok(ContactMemory { body: self.body.ready(springs, listed)?, ..self })
     }
 }
 

@@ -190,7 +190,7 @@ impl Simulation {
             let histogram = || Histogram::new(line.heights(), line.lowest(), line.summit, HISTOGRAM_BINS);
             let histogram = count.then(histogram);
             let levels = if build && finds_edges { levels.ready(springs)? } else { levels };
-            let contact = if build { contact.ready(springs)? } else { contact };
+            let contact = if build { contact.ready(springs, finds_edges)? } else { contact };
             Ok((histogram, levels, contact))
         };
         let (ready, built) = in_parallel(build && springs >= MANY_SPRINGS, aside, || {

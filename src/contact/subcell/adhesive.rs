@@ -3,9 +3,10 @@
 use super::between::{BetweenSprings, EdgeSprings, Piece};
 use super::edges::{EdgeSum, Edges, Slider, SubCellEdges};
 use crate::contact::exact::OverTree;
-use crate::contact::ledger::{CompensatedSum, Grid};
-use crate::contact::springs::{AdhesiveSprings, Part, Thresholds};
-use crate::contact::thresholds::children_or_self;
+use crate::contact::ledger::{CompensatedSum, Event, Grid, Ledger};
+use crate::contact::springs::{AdhesiveSprings, Part, PartFragments};
+use crate::contact::tally::Tally;
+use crate::parallel::in_parallel;
 
 /// The springs of an adhesive contact with edges between them.
 type Springs<'a> = AdhesiveSprings<'a, SubCellEdges>;
@@ -56,153 +57,156 @@ impl<'a> OverTree<'a> for BetweenSprings<Springs<'a>> {
     }
 }
 
-/// Each fragment that is one anywhere above `low`: a node, the indentation from which on it is one, and that
-/// from which on it is part of a larger one. The others join or leave with their parents.
+/// Each node that is a fragment of its own, the indentation from which on it is one, and that from which on it is
+/// part of a larger one. The others join or leave with their parents.
 #[inline]
-fn each_fragment(springs: &Springs<'_>, low: f64, mut see: impl FnMut(usize, f64, f64)) {
-    each_fragment_placed(springs, low, |_, node, from, to| see(node, from, to));
-}
-
-/// The same with its place among the thresholds.
-#[inline]
-fn each_fragment_placed(springs: &Springs<'_>, low: f64, mut see: impl FnMut(usize, usize, f64, f64)) {
-    let mut before = 0;
-    for Part { start, thresholds } in springs.parts() {
-        let shapes = &springs.tree().shapes()[start..start + thresholds.len()];
-        let mut end = thresholds.len();
-        while end > 0 {
-            let parent = end - 1;
-            let (shape, to) = (shapes[parent], thresholds[parent]);
-            if to <= low {
-                // So are all the thresholds in its subtree.
-                end -= shape.size as usize;
-                continue;
-            }
-            end = parent;
-            let [right, left] = children_or_self(parent, shape);
-            // Rarely so: a branch on whether there is a child would often be mispredicted.
-            if (thresholds[right] < to) | (thresholds[left] < to) {
-                for child in [right, left] {
-                    let from = thresholds[child];
-                    if from < to {
-                        see(before + child, start + child, from, to);
-                    }
-                }
-            }
+fn each_fragment(springs: &Springs<'_>, mut see: impl FnMut(usize, f64, f64)) {
+    for PartFragments { part: Part { start, thresholds }, nodes, ends } in springs.fragments_of_parts() {
+        for (&node, &end) in nodes.iter().zip(ends).rev() {
+            let node = node as usize;
+            see(node, thresholds[node - start], end);
         }
-        if let Some(&root) = thresholds.last()
-            && root < f64::INFINITY
-        {
-            let last = thresholds.len() - 1;
-            see(before + last, start + last, root, f64::INFINITY);
-        }
-        before += thresholds.len();
     }
 }
 
-/// Nodes that are fragments of their own somewhere, a bit for each in the order of the thresholds.
-struct Fragments(Vec<u64>);
+/// What is in contact along a grid and what its edges add; `see` sees each fragment and where it is one.
+#[inline]
+fn along(springs: &Springs<'_>, grid: Grid, mut see: impl FnMut(usize, f64, f64)) -> (Ledger, Vec<Edges>) {
+    let points = grid.points();
+    let place = |at: f64| if at > grid.high() { points.len() } else { grid.first_at_least(at) };
+    let mut changes = vec![Tally::default(); points.len() + 1];
+    let mut sums = vec![EdgeSum::default(); points.len()];
+    each_fragment(springs, |node, from, to| {
+        see(node, from, to);
+        let (first, end) = (place(from), place(to));
+        if first >= end {
+            return;
+        }
+        let whole = whole(springs, node);
+        changes[first] += whole;
+        changes[end] += -whole;
+        let slider = springs.rule().slider(node);
+        for (sum, &point) in sums[first..end].iter_mut().zip(&points[first..end]) {
+            sum.add(slider.edges(point));
+        }
+    });
+    changes.truncate(points.len());
+    (Ledger::from_changes(grid, changes), sums.iter().map(EdgeSum::total).collect())
+}
 
-impl Fragments {
-    const BITS: usize = u64::BITS as usize;
-
-    fn none(springs: usize) -> Self {
-        Fragments(vec![0; springs.div_ceil(Self::BITS)])
-    }
-
-    fn mark(&mut self, place: usize) {
-        self.0[place / Self::BITS] |= 1 << (place % Self::BITS);
+/// All that a fragment holds, whole cells without its edges.
+#[inline]
+fn whole(springs: &Springs<'_>, node: usize) -> Tally {
+    Tally {
+        springs: i64::from(springs.tree().size(node)),
+        fragments: 1,
+        quanta: springs.rule().sets().subtree_quanta(node),
     }
 }
 
 /// ∫ (c − θ)² dx over what is around the springs of all nodes that are no fragments and join or leave with
 /// their parents between these indentations, in cells times m².
-fn squared_stretch_of_parts(springs: &Springs<'_>, fragments: &Fragments, low: f64, high: f64) -> f64 {
-    let (mut squared, mut block, mut place) = (CompensatedSum::default(), 0.0, 0);
-    for Part { start, thresholds } in springs.parts() {
-        let nodes = start..start + thresholds.len();
-        let levels = springs.rule().sets().levels_of(nodes.clone());
-        let nodes = thresholds.iter().zip(&springs.tree().gaps()[nodes]).zip(levels);
-        for ((&at, &gap), levels) in nodes {
-            if place % Fragments::BITS == 0 {
-                // Sums of blocks are compensated: within one, rounding is small and nothing waits.
-                squared.add(std::mem::take(&mut block));
+fn squared_stretch_of_others(springs: &Springs<'_>, low: f64, high: f64) -> f64 {
+    let mut squared = CompensatedSum::default();
+    for PartFragments { part: Part { start, thresholds }, nodes: fragments, .. } in
+        springs.fragments_of_parts()
+    {
+        let (gaps, sets) = (springs.tree().gaps(), springs.rule().sets());
+        let (mut block, mut left) = (0.0, BLOCK);
+        let mut from = start;
+        for &fragment in fragments {
+            let fragment = fragment as usize;
+            let nodes = from..fragment;
+            from = fragment + 1;
+            let at = &thresholds[nodes.start - start..nodes.end - start];
+            for ((&at, &gap), levels) in at.iter().zip(&gaps[nodes.clone()]).zip(sets.levels_of(nodes)) {
+                // Also where it does not count: a branch would often be mispredicted.
+                let term = levels.squared_stretch_at_once(gap, at);
+                block += if (at > low) & (at <= high) { term } else { 0.0 };
+                left -= 1;
+                if left == 0 {
+                    // Sums of blocks are compensated: within one, rounding is small and nothing waits.
+                    squared.add(std::mem::take(&mut block));
+                    left = BLOCK;
+                }
             }
-            let is_fragment = fragments.0[place / Fragments::BITS] >> (place % Fragments::BITS) & 1 == 1;
-            // Also where it does not count: a branch would often be mispredicted.
-            let term = levels.squared_stretch_at_once(gap, at);
-            block += if (at > low) & (at <= high) & !is_fragment { term } else { 0.0 };
-            place += 1;
         }
+        // What is behind the last fragment touches nowhere on this leg.
+        squared.add(block);
     }
-    squared.add(block);
     squared.total()
 }
 
-/// Adds to the points of a grid what a fragment adds while it is one.
-#[inline]
-fn add(edges: &SubCellEdges, grid: &Grid, sums: &mut [EdgeSum], (node, from, to): (usize, f64, f64)) {
-    let points = grid.points();
-    if from > grid.high() || to <= points[0] {
-        return;
-    }
-    let first = grid.first_at_least(from);
-    let end = if to > grid.high() { points.len() } else { grid.first_at_least(to) };
-    if first < end {
-        let slider = edges.slider(node);
-        for (sum, &point) in sums[first..end].iter_mut().zip(&points[first..end]) {
-            sum.add(slider.edges(point));
+/// Terms that are summed without compensation.
+const BLOCK: usize = 64;
+
+/// The same of what lies level with springs.
+fn squared_stretch_of_steps(springs: &Springs<'_>, low: f64, high: f64) -> f64 {
+    let mut squared = CompensatedSum::default();
+    for Part { start, thresholds } in springs.parts() {
+        let steps = springs.rule().sets().steps();
+        let first = steps.partition_point(|step| (step.node as usize) < start);
+        for step in steps[first..].iter().take_while(|step| (step.node as usize) < start + thresholds.len()) {
+            let at = thresholds[step.node as usize - start];
+            if at > low && at <= high {
+                let stretch = springs.tree().gap(step.node as usize) - at;
+                squared.add(step.length * stretch * stretch);
+            }
         }
     }
+    squared.total()
 }
 
 impl EdgeSprings for Springs<'_> {
     type Piece = Sliding;
 
     fn each_piece(&self, low: f64, high: f64, mut see: impl FnMut(Sliding)) {
-        each_fragment(self, low, |node, from, to| {
-            if from <= high {
+        each_fragment(self, |node, from, to| {
+            if from <= high && to > low {
                 see(Sliding { slider: self.rule().slider(node), from, to });
             }
         });
     }
 
-    fn edges_along(&self, grid: &Grid) -> Vec<Edges> {
-        let mut sums = vec![EdgeSum::default(); grid.points().len()];
-        each_fragment(self, grid.points()[0], |node, from, to| {
-            add(self.rule(), grid, &mut sums, (node, from, to))
+    fn events(&self, ledger: &Ledger, chosen: &[bool]) -> Vec<Event> {
+        let grid = &ledger.grid;
+        let (low, high) = (grid.points()[0], grid.high());
+        let mut events = Vec::new();
+        each_fragment(self, |node, from, to| {
+            for (threshold, forms) in [(from, true), (to, false)] {
+                if threshold > low && threshold <= high {
+                    let interval = grid.first_at_least(threshold) - 1;
+                    if chosen[interval] {
+                        let whole = whole(self, node);
+                        events.push(Event { threshold, joins: if forms { whole } else { -whole }, interval });
+                    }
+                }
+            }
         });
-        sums.iter().map(EdgeSum::total).collect()
+        events
+    }
+
+    fn along(&self, grid: Grid) -> (Ledger, Vec<Edges>) {
+        along(self, grid, |_, _, _| ())
     }
 
     /// Between the threshold of a node and that of its parent its edges slide; at either of them they jump.
-    fn edges_and_stretches(&self, grid: &Grid, low: f64) -> (Vec<Edges>, f64) {
-        let (edges, high) = (self.rule(), grid.high());
-        let mut sums = vec![EdgeSum::default(); grid.points().len()];
-        let mut squared = CompensatedSum::default();
-        let mut fragments = Fragments::none(self.count() as usize);
-        each_fragment_placed(self, low.min(grid.points()[0]), |place, node, from, to| {
-            fragments.mark(place);
-            add(edges, grid, &mut sums, (node, from, to));
-            if from <= high && to > low {
-                squared.add(edges.slider(node).squared_stretch((from, to), (low, high)));
-            }
-        });
-        squared.add(squared_stretch_of_parts(self, &fragments, low, high));
-        for Part { start, thresholds } in self.parts() {
-            let steps = edges.sets().steps();
-            let first = steps.partition_point(|step| (step.node as usize) < start);
-            let steps =
-                steps[first..].iter().take_while(|step| (step.node as usize) < start + thresholds.len());
-            for step in steps {
-                let at = thresholds[step.node as usize - start];
-                if at > low && at <= high {
-                    let stretch = self.tree().gap(step.node as usize) - at;
-                    squared.add(step.length * stretch * stretch);
+    fn along_with_stretches(&self, grid: Grid, low: f64) -> (Ledger, Vec<Edges>, f64) {
+        let high = grid.high();
+        let fragments = || {
+            let mut squared = CompensatedSum::default();
+            let (ledger, edges) = along(self, grid, |node, from, to| {
+                if from <= high && to > low {
+                    squared.add(self.rule().slider(node).squared_stretch((from, to), (low, high)));
                 }
-            }
-        }
-        (sums.iter().map(EdgeSum::total).collect(), squared.total())
+            });
+            (ledger, edges, squared)
+        };
+        let others =
+            || squared_stretch_of_others(self, low, high) + squared_stretch_of_steps(self, low, high);
+        let ((ledger, edges, mut squared), others) = in_parallel(self.is_long(), fragments, others);
+        squared.add(others);
+        (ledger, edges, squared.total())
     }
 
     fn is_monotone(&self) -> bool {

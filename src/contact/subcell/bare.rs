@@ -3,10 +3,11 @@
 
 use super::between::{EdgeSprings, Piece};
 use super::edges::{EdgeSum, Edges};
-use crate::contact::ledger::{CompensatedSum, Grid, Spring, Springs};
+use crate::contact::ledger::{CompensatedSum, Event, Grid, Ledger, Spring, Springs};
 use crate::contact::springs::{BareSprings, Thresholds};
 use crate::contact::tally::GapScale;
 use crate::contact::{ContactError, LegContact, Work};
+use crate::parallel::in_parallel;
 
 /// The line through springs without adhesion.
 pub struct BareLine<'a> {
@@ -198,6 +199,31 @@ impl EdgeSprings for BareLine<'_> {
         }
     }
 
+    fn events(&self, ledger: &Ledger, chosen: &[bool]) -> Vec<Event> {
+        ledger.events(self, chosen)
+    }
+
+    /// Whole cells and edges are summed side by side: neither sees the other.
+    fn along(&self, grid: Grid) -> (Ledger, Vec<Edges>) {
+        let of_edges = grid.clone();
+        let (edges, ledger) =
+            in_parallel(self.is_long(), move || self.edges_along(&of_edges), || Ledger::new(self, grid));
+        (ledger, edges)
+    }
+
+    fn along_with_stretches(&self, grid: Grid, _: f64) -> (Ledger, Vec<Edges>, f64) {
+        let (ledger, edges) = self.along(grid);
+        (ledger, edges, 0.0)
+    }
+
+    fn is_monotone(&self) -> bool {
+        true
+    }
+}
+
+impl BareLine<'_> {
+    /// What all edges add at each point of a grid.
+    ///
     /// A cell enters at the first point it reaches and leaves at the first beyond it; between them the sum of
     /// all is one quadratic, so that no cell is looked at more often however many points it passes.
     fn edges_along(&self, grid: &Grid) -> Vec<Edges> {
@@ -242,13 +268,5 @@ impl EdgeSprings for BareLine<'_> {
             edges[index] = self.edges_at(points[index]);
         }
         edges
-    }
-
-    fn edges_and_stretches(&self, grid: &Grid, _: f64) -> (Vec<Edges>, f64) {
-        (self.edges_along(grid), 0.0)
-    }
-
-    fn is_monotone(&self) -> bool {
-        true
     }
 }

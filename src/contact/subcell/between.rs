@@ -4,7 +4,7 @@
 use super::edges::Edges;
 use super::search::{Interval, Step};
 use crate::contact::law::{Contact, Standing};
-use crate::contact::ledger::{Grid, Ledger};
+use crate::contact::ledger::{Event, Grid, Ledger};
 use crate::contact::springs::Thresholds;
 use crate::contact::tally::{GapScale, Tally};
 use crate::contact::{ContactError, LegContact, Work};
@@ -21,12 +21,20 @@ pub trait EdgeSprings: Thresholds + Sync {
     /// Calls `see` for each piece that is one anywhere from `low` up to `high`, m.
     fn each_piece(&self, low: f64, high: f64, see: impl FnMut(Self::Piece));
 
-    /// What all edges add at each point of a grid.
-    fn edges_along(&self, grid: &Grid) -> Vec<Edges>;
+    /// What joins or leaves in the chosen intervals of a grid, in any order.
+    fn events(&self, ledger: &Ledger, chosen: &[bool]) -> Vec<Event>;
+
+    /// What is in contact along a grid, and what all edges add at each of its points.
+    fn along(&self, grid: Grid) -> (Ledger, Vec<Edges>);
 
     /// The same, and ∫ (c − θ)² dx over what joins or leaves above `low` and up to the end of the grid, θ
     /// being the indentation at which it does so, in cells times m².
-    fn edges_and_stretches(&self, grid: &Grid, low: f64) -> (Vec<Edges>, f64);
+    fn along_with_stretches(&self, grid: Grid, low: f64) -> (Ledger, Vec<Edges>, f64);
+
+    /// Whether a second thread pays.
+    fn is_long(&self) -> bool {
+        self.count() >= MANY_SPRINGS
+    }
 
     /// Whether the force never falls as the indentation grows.
     fn is_monotone(&self) -> bool;
@@ -94,24 +102,6 @@ impl BetweenLeg {
 }
 
 impl<T: EdgeSprings> BetweenSprings<T> {
-    /// Whether a second thread pays.
-    fn is_long(&self) -> bool {
-        self.0.count() >= MANY_SPRINGS
-    }
-
-    /// What stands along a grid, and what else its edges tell. Whole cells and edges are summed side by side:
-    /// neither sees the other.
-    fn along<S: Send>(
-        &self,
-        grid: Grid,
-        edges: impl FnOnce(&Grid) -> (Vec<Edges>, S) + Send,
-    ) -> (BetweenLeg, S) {
-        let of_edges = grid.clone();
-        let ((edges, told), ledger) =
-            in_parallel(self.is_long(), move || edges(&of_edges), || Ledger::new(&self.0, grid));
-        (BetweenLeg::new(ledger, edges, self.0.scale()), told)
-    }
-
     /// What happens in each of these intervals, which ascend.
     fn intervals(&self, leg: &BetweenLeg, chosen: &[usize], sorted: &mut u64) -> Vec<Interval<T::Piece>> {
         let points = leg.ledger.grid.points();
@@ -140,7 +130,8 @@ impl<T: EdgeSprings> BetweenSprings<T> {
             pieces
         };
         let is_chosen: Vec<bool> = marks.iter().map(Option::is_some).collect();
-        let (pieces, events) = in_parallel(self.is_long(), pieces, || leg.ledger.events(&self.0, &is_chosen));
+        let (pieces, events) =
+            in_parallel(self.0.is_long(), pieces, || self.0.events(&leg.ledger, &is_chosen));
         for (interval, pieces) in intervals.iter_mut().zip(pieces) {
             interval.pieces = pieces;
         }
@@ -192,13 +183,15 @@ impl<T: EdgeSprings> Contact for BetweenSprings<T> {
     }
 
     fn sample(&self, grid: Grid) -> BetweenLeg {
-        self.along(grid, |grid| (self.0.edges_along(grid), ())).0
+        let (ledger, edges) = self.0.along(grid);
+        BetweenLeg::new(ledger, edges, self.0.scale())
     }
 
     fn sample_joins(&self, grid: Grid, separated: bool) -> (BetweenLeg, f64) {
         // What touches at once when the contact forms joins at the first point itself.
         let above = if separated { f64::NEG_INFINITY } else { grid.points()[0] };
-        self.along(grid, |grid| self.0.edges_and_stretches(grid, above))
+        let (ledger, edges, squared_stretch) = self.0.along_with_stretches(grid, above);
+        (BetweenLeg::new(ledger, edges, self.0.scale()), squared_stretch)
     }
 
     fn sample_leaves(&self, grid: Grid, separates: bool) -> (BetweenLeg, f64) {

@@ -271,6 +271,8 @@ fn at_once(growth: f64, from: f64, to: f64, at: f64) -> f64 {
 
 /// What joins and leaves are the cells between springs.
 impl EdgeRule for SubCellEdges {
+    const EDGES_MOVE: bool = true;
+
     #[inline]
     fn grows_at(&self, tree: &ContactTree, fragment: usize, wall: usize) -> f64 {
         // Its highest level.

@@ -23,7 +23,8 @@ pub struct LevelSets {
     /// Gaps of the parents, m, which the passes hardly ever ask for.
     tops: Vec<f64>,
     edge_compressions: Vec<f64>,
-    cell_quanta: Vec<i64>,
+    /// Mean gaps of all cells before each spring along the line, as the sum of their quanta.
+    cells_before: Vec<i128>,
     steps: Vec<Step>,
 }
 
@@ -33,7 +34,7 @@ pub struct LevelMemory {
     lengths: Vec<Length>,
     tops: Vec<f64>,
     edge_compressions: Vec<f64>,
-    cell_quanta: Vec<i64>,
+    cells_before: Vec<i128>,
     steps: Vec<Step>,
 }
 
@@ -76,7 +77,7 @@ impl LevelMemory {
             lengths: resized(self.lengths, springs, nothing)?,
             tops: resized(self.tops, springs, f64::INFINITY)?,
             edge_compressions: resized(self.edge_compressions, springs, 0.0)?,
-            cell_quanta: resized(self.cell_quanta, springs, 0)?,
+            cells_before: resized(self.cells_before, springs, 0)?,
             steps: self.steps,
         })
     }
@@ -98,20 +99,18 @@ impl LevelSets {
     /// [`ContactError::OutOfMemory`].
     pub fn new_in(memory: LevelMemory, tree: Arc<ContactTree>, gaps: &[f64]) -> Result<Self, ContactError> {
         let memory = memory.ready(tree.len())?;
-        let LevelMemory { mut lengths, mut tops, mut edge_compressions, mut cell_quanta, mut steps } = memory;
-        let scale = tree.gap_scale();
+        let LevelMemory { mut lengths, mut tops, mut edge_compressions, mut cells_before, mut steps } =
+            memory;
         let half = tree.len() / 2;
-        let (first_cells, other_cells) = cell_quanta.split_at_mut(half);
         let (first_lengths, other_lengths) = lengths.split_at_mut(half);
         let (first_tops, other_tops) = tops.split_at_mut(half);
         let (first_edges, other_edges) = edge_compressions.split_at_mut(half);
         let measure = |start: usize, part: Part<'_>, mut steps: Vec<Step>| {
-            let arrays = part.lengths.iter_mut().zip(part.tops).zip(part.edges).zip(part.cells);
-            for (node, (((length, top), edge), cells)) in (start..).zip(arrays) {
+            let arrays = part.lengths.iter_mut().zip(part.tops).zip(part.edges);
+            for (node, ((length, top), edge)) in (start..).zip(arrays) {
                 let (levels, carries) = levels_between(gaps, tree.interval(node), tree.gap(node));
                 *length = Length { length: levels.length, growth: levels.growth };
                 (*top, *edge) = (levels.top, carries);
-                *cells = quanta_of_cells(&tree, gaps, &scale, node);
                 let length = level_length(gaps, tree.positions()[node] as usize);
                 if length > 0.0 {
                     steps.try_reserve(1).map_err(|_| ContactError::OutOfMemory { springs: gaps.len() })?;
@@ -124,16 +123,13 @@ impl LevelSets {
         let (first, others) = in_parallel(
             tree.len() >= MANY_SPRINGS,
             || {
-                measure(
-                    0,
-                    Part { lengths: first_lengths, tops: first_tops, edges: first_edges, cells: first_cells },
-                    steps,
-                )
+                sum_cells(gaps, &tree.gap_scale(), &mut cells_before);
+                measure(0, Part { lengths: first_lengths, tops: first_tops, edges: first_edges }, steps)
             },
             || {
                 measure(
                     half,
-                    Part { lengths: other_lengths, tops: other_tops, edges: other_edges, cells: other_cells },
+                    Part { lengths: other_lengths, tops: other_tops, edges: other_edges },
                     Vec::new(),
                 )
             },
@@ -141,14 +137,14 @@ impl LevelSets {
         let (mut steps, others) = (first?, others?);
         steps.try_reserve(others.len()).map_err(|_| ContactError::OutOfMemory { springs: gaps.len() })?;
         steps.extend(others);
-        Ok(LevelSets { tree, lengths, tops, edge_compressions, cell_quanta, steps })
+        Ok(LevelSets { tree, lengths, tops, edge_compressions, cells_before, steps })
     }
 
     /// Their memory, without the tree, for those of the next line.
     #[must_use]
     pub fn into_memory(self) -> LevelMemory {
-        let LevelSets { lengths, tops, edge_compressions, cell_quanta, steps, .. } = self;
-        LevelMemory { lengths, tops, edge_compressions, cell_quanta, steps }
+        let LevelSets { lengths, tops, edge_compressions, cells_before, steps, .. } = self;
+        LevelMemory { lengths, tops, edge_compressions, cells_before, steps }
     }
 
     /// The tree of the line.
@@ -185,7 +181,21 @@ impl LevelSets {
     /// the sum of their quanta.
     #[inline]
     pub fn cell_quanta(&self, node: usize) -> i64 {
-        self.cell_quanta[node]
+        let (position, shape) = (self.tree.positions()[node] as usize, self.tree.shapes()[node]);
+        let (left, right) = (usize::from(shape.left() > 0), usize::from(shape.right > 0));
+        // At most two cells.
+        self.cells_between((position - left, position + right)) as i64
+    }
+
+    /// Mean gaps of the cells between all springs of a node's subtree, as the sum of their quanta.
+    #[inline]
+    pub fn subtree_quanta(&self, node: usize) -> i128 {
+        self.cells_between(self.tree.interval(node))
+    }
+
+    #[inline]
+    fn cells_between(&self, (first, last): (usize, usize)) -> i128 {
+        self.cells_before[last] - self.cells_before[first]
     }
 
     /// All that lies level, in the order of the nodes.
@@ -205,22 +215,17 @@ struct Part<'s> {
     lengths: &'s mut [Length],
     tops: &'s mut [f64],
     edges: &'s mut [f64],
-    cells: &'s mut [i64],
 }
 
-/// See [`LevelSets::cell_quanta`].
-#[inline]
-fn quanta_of_cells(tree: &ContactTree, gaps: &[f64], scale: &GapScale, node: usize) -> i64 {
-    let position = tree.positions()[node] as usize;
-    let shape = tree.shapes()[node];
-    let gap = tree.gap(node);
-    // In place of a neighbour that is no part of it the spring itself, whose cell then does not count.
-    let (left, right) = (position - usize::from(shape.left() > 0), position + usize::from(shape.right > 0));
-    let cell = |neighbour: usize| {
-        let quanta = scale.mean_quanta(gap, gaps[neighbour]);
-        if neighbour == position { 0 } else { quanta }
-    };
-    cell(left) + cell(right)
+/// Sums the mean gaps of the cells between springs.
+fn sum_cells(gaps: &[f64], scale: &GapScale, cells_before: &mut [i128]) {
+    let mut sum = 0;
+    let mut before = gaps.first().copied().unwrap_or(0.0);
+    for (&gap, cells) in gaps.iter().zip(cells_before) {
+        sum += i128::from(scale.mean_quanta(before, gap));
+        *cells = sum;
+        before = gap;
+    }
 }
 
 /// Levels of the component that holds these springs, the largest of whose gaps is `gap`, and what its edges
@@ -268,11 +273,11 @@ impl EdgeCell {
             // Half a cell as level as the spring it belongs to.
             return EdgeCell { outside, share: 0.5, growth: 0.0, carries: above };
         }
-        let share = above / height;
-        // 0/0 where the cell is level: then it lies there whole.
-        let share = if share < 1.0 { share } else { 1.0 };
         let growth = height.recip();
         let growth = if growth < f64::INFINITY { growth } else { 0.0 };
+        let share = if growth > 0.0 { above * growth } else { above / height };
+        // 0/0 where the cell is level: then it lies there whole.
+        let share = if above < height { share } else { 1.0 };
         EdgeCell { outside, share, growth, carries: above * share }
     }
 }

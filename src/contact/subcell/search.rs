@@ -46,9 +46,16 @@ impl<P: Piece> Interval<P> {
         self.steps.push(Step { threshold, tally: joins });
     }
 
-    /// Sorts what has joined: each step then has the tally of all before it.
+    /// Sorts what has joined: each step then has the tally of all before it and of what joins with it.
     pub fn sort(&mut self) {
         self.steps[1..].sort_unstable_by(|a, b| a.threshold.total_cmp(&b.threshold));
+        self.steps.dedup_by(|next, step| {
+            let together = next.threshold == step.threshold;
+            if together {
+                step.tally += next.tally;
+            }
+            together
+        });
         let mut total = Tally::default();
         for step in &mut self.steps {
             total += step.tally;

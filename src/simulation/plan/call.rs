@@ -9,6 +9,8 @@ use serde::Serialize;
 pub const HEIGHT: u64 = 8;
 /// Bytes for each spring: the indentation at which it joins or leaves.
 pub const THRESHOLD: u64 = 8;
+/// Bytes for each spring: where the fragment it is the largest gap of is one, at the most.
+const LISTED: u64 = 12;
 /// Bytes for each spring of the stepwise solver: its threshold and whether it touches.
 pub const RELAXED: u64 = THRESHOLD + 1;
 
@@ -102,6 +104,11 @@ impl<'a> Call<'a> {
 
     pub fn is_measured(&self) -> bool {
         matches!(self.scene.roughness, Some(Roughness::Measured { .. }))
+    }
+
+    /// Bytes for each spring of what a pass gives.
+    pub fn bytes_of_pass(&self) -> u64 {
+        if self.between { THRESHOLD + LISTED } else { THRESHOLD }
     }
 
     /// Passes over the springs under the body, with arrays of so many bytes for each.

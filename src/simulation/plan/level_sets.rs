@@ -14,5 +14,5 @@ pub const ROW: Row = Row {
     cost: |call| call.passes(Some(1), LEVELS),
 };
 
-/// Bytes for each spring: the levels of its node, what its edges carry and its cells.
-const LEVELS: u64 = 40;
+/// Bytes for each spring: the levels of its node, what its edges carry and the cells before it.
+const LEVELS: u64 = 48;

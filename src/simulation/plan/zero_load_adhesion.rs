@@ -1,7 +1,7 @@
 //! The contact of first touch pulled off: F_a(0) and the regime.
 
 use super::Stage;
-use super::call::{Called, NEVER_BACK, RELAXED, Row, THRESHOLD};
+use super::call::{Called, NEVER_BACK, RELAXED, Row};
 use crate::analysis::Figures;
 
 pub const ROW: Row = Row {
@@ -18,6 +18,6 @@ pub const ROW: Row = Row {
             return call.passes(None, RELAXED);
         }
         // What first touches is known from the first leg that touches, if there is one.
-        call.passes(Some(if call.legs.loading() == Some(0) { 2 } else { 1 }), THRESHOLD)
+        call.passes(Some(if call.legs.loading() == Some(0) { 2 } else { 1 }), call.bytes_of_pass())
     },
 };
