@@ -1,6 +1,8 @@
 //! How the length of a fragment is read, and so when it grows and when it lets go.
 
+use super::fragment_list::FragmentList;
 use super::tally::GapScale;
+use super::thresholds::{self, Held};
 use super::{ContactTree, HessRule};
 
 /// Thresholds of a node of the tree: the one place where the length of a fragment enters.
@@ -18,6 +20,39 @@ pub trait EdgeRule {
     /// Smallest indentation, m, at which the fragment that fills the subtree `node` still holds the
     /// spring of `node`, its most stretched one.
     fn holds_to(&self, tree: &ContactTree, node: usize) -> f64;
+
+    /// Thresholds of a loading leg, and its fragments if their edges move, overwriting those of the leg before.
+    /// `already` tells from its old threshold whether a spring is in contact when the leg begins. Returns the
+    /// largest threshold.
+    fn load(
+        &self,
+        tree: &ContactTree,
+        thresholds: &mut [f64],
+        _: &mut FragmentList,
+        already: impl Fn(f64) -> bool,
+    ) -> f64
+    where
+        Self: Sized,
+    {
+        thresholds::load(tree, self, thresholds, already)
+    }
+
+    /// Thresholds at which the fragment that fills the subtree of `root` opens, on a leg from indentation
+    /// `from`, and the fragments that it leaves if their edges move; `thresholds` has one value for each node of
+    /// this subtree and what it held does not matter.
+    fn open(
+        &self,
+        tree: &ContactTree,
+        root: usize,
+        thresholds: &mut [f64],
+        _: &mut FragmentList,
+        from: f64,
+    ) -> Held
+    where
+        Self: Sized,
+    {
+        thresholds::open(tree, self, root, thresholds, from)
+    }
 
     /// What joins and leaves with the spring of `node`, as a gap in quanta of this scale: its own, unless the
     /// rule counts otherwise.

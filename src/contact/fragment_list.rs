@@ -1,12 +1,13 @@
 //! The fragments of one leg, listed by the pass that finds them.
 
 use super::{ContactError, resized};
+use std::ops::Range;
 
 /// The nodes that are fragments of their own at some indentation of a leg, each with the indentation from which
 /// on it is part of a larger one, m; that from which on it is one is its threshold.
 ///
 /// A pass finds them from the end of the post-order, and keeps them in that order at the end of these arrays:
-/// what lies before is free for it to hand values down the tree.
+/// what lies before is free for it to hand values up and down the tree.
 #[derive(Debug, Default)]
 pub struct FragmentList {
     nodes: Vec<u32>,
@@ -38,16 +39,23 @@ impl FragmentList {
         self.first -= usize::from(is_one);
     }
 
-    /// Hands a value down to a node that has not been offered yet.
+    /// Hands a value to a node that has not been offered yet, or from it to others. Nodes count from the first
+    /// of the subtree of the pass.
     #[inline]
-    pub fn hand_down(&mut self, place: usize, value: f64) {
-        self.ends[place] = value;
+    pub fn hand(&mut self, node: usize, value: f64) {
+        self.ends[node] = value;
     }
 
-    /// What was handed down to it.
+    /// Hands values to several of them.
     #[inline]
-    pub fn handed(&self, place: usize) -> f64 {
-        self.ends[place]
+    pub fn hand_each(&mut self, nodes: Range<usize>) -> &mut [f64] {
+        &mut self.ends[nodes]
+    }
+
+    /// What was handed last.
+    #[inline]
+    pub fn handed(&self, node: usize) -> f64 {
+        self.ends[node]
     }
 
     /// Their nodes in ascending order, and where each becomes part of a larger one, m.

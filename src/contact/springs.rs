@@ -180,7 +180,7 @@ impl<'a, R: EdgeRule> AdhesiveSprings<'a, R> {
 
     fn pass_loading(&mut self, already: impl Fn(f64) -> bool) -> f64 {
         let Passed { thresholds, fragments } = &mut self.passed;
-        thresholds::load(self.tree, &self.rule, thresholds, fragments, already)
+        self.rule.load(self.tree, thresholds, fragments, already)
     }
 
     /// The subtrees looked at.
@@ -223,7 +223,7 @@ impl<'a, R: EdgeRule> AdhesiveSprings<'a, R> {
         let mut rest = thresholds.as_mut_slice();
         for &root in &self.roots {
             let (fragment, after) = rest.split_at_mut(self.tree.size(root) as usize);
-            held = held.and(thresholds::open(self.tree, &self.rule, root, fragment, fragments, from));
+            held = held.and(self.rule.open(self.tree, root, fragment, fragments, from));
             rest = after;
         }
         held

@@ -15,13 +15,11 @@ use super::{ContactTree, EdgeRule};
 /// A spring joins at the smallest s of its own subtree and all that contain it.
 ///
 /// `already` tells from its old threshold whether a spring is in contact when the leg begins; such a
-/// spring gets −∞. Lists the fragments if their edges move. Returns the largest threshold: from there on
-/// everything is in contact.
+/// spring gets −∞. Returns the largest threshold: from there on everything is in contact.
 pub(crate) fn load<R: EdgeRule>(
     tree: &ContactTree,
     rule: &R,
     thresholds: &mut [f64],
-    fragments: &mut FragmentList,
     already: impl Fn(f64) -> bool,
 ) -> f64 {
     let shapes = &tree.shapes()[..thresholds.len()];
@@ -37,39 +35,53 @@ pub(crate) fn load<R: EdgeRule>(
         }
         thresholds[node] = closes;
     }
-    if R::EDGES_MOVE {
-        join_as_fragments(shapes, thresholds, fragments);
-    } else {
-        join(shapes, thresholds);
-    }
-    thresholds.last().copied().unwrap_or(f64::NEG_INFINITY)
-}
-
-/// Each subtree joins when it closes, or with one that contains it.
-fn join(shapes: &[Shape], thresholds: &mut [f64]) {
     for node in (0..thresholds.len()).rev() {
         let joins = thresholds[node];
         for child in children_or_self(node, shapes[node]) {
             thresholds[child] = lesser(thresholds[child], joins);
         }
     }
+    thresholds.last().copied().unwrap_or(f64::NEG_INFINITY)
 }
 
-/// The same; those that close before one that contains them are fragments.
-fn join_as_fragments(shapes: &[Shape], thresholds: &mut [f64], fragments: &mut FragmentList) {
+/// Nodes for which a rule is evaluated at once.
+const BLOCK: usize = 512;
+
+/// The same, listing the fragments: the subtrees that close before one that contains them. `grows_on_at` is
+/// the indentation at which the fragment of a node takes in the spring of its parent.
+pub(crate) fn load_and_list(
+    tree: &ContactTree,
+    grows_on_at: impl Fn(usize) -> f64,
+    thresholds: &mut [f64],
+    fragments: &mut FragmentList,
+    already: impl Fn(f64) -> bool,
+) -> f64 {
+    let shapes = &tree.shapes()[..thresholds.len()];
+    let gaps = &tree.gaps()[..thresholds.len()];
     fragments.clear();
+    for node in 0..thresholds.len() {
+        let mut closes = if already(thresholds[node]) { f64::NEG_INFINITY } else { gaps[node] };
+        // Handed up from the children; in place of one that is not there, from itself.
+        fragments.hand(node, closes);
+        for child in children_or_self(node, shapes[node]) {
+            closes = lesser(closes, fragments.handed(child));
+        }
+        thresholds[node] = closes;
+        fragments.hand(node, greater(closes, grows_on_at(node)));
+    }
     if let Some(root) = thresholds.len().checked_sub(1) {
-        fragments.hand_down(root, f64::INFINITY);
+        fragments.hand(root, f64::INFINITY);
     }
     for node in (0..thresholds.len()).rev() {
         let (closes, taken_in) = (thresholds[node], fragments.handed(node));
         let joins = lesser(closes, taken_in);
         thresholds[node] = joins;
         for child in children_or_self(node, shapes[node]) {
-            fragments.hand_down(child, joins);
+            fragments.hand(child, joins);
         }
         fragments.offer(node, taken_in, closes < taken_in);
     }
+    thresholds.last().copied().unwrap_or(f64::NEG_INFINITY)
 }
 
 /// What an unloading leg begins with and where it ends at the latest.
@@ -113,7 +125,7 @@ pub(crate) fn unload<R: EdgeRule>(
         }
         // A node in contact whose parent is not is the root of one whole fragment.
         let start = end - shapes[root].size as usize;
-        held = held.and(open(tree, rule, root, &mut thresholds[start..end], fragments, from));
+        held = held.and(rule.open(tree, root, &mut thresholds[start..end], fragments, from));
         end = start;
     }
     held
@@ -123,14 +135,12 @@ pub(crate) fn unload<R: EdgeRule>(
 /// `from`; `thresholds` has one value for each node of this subtree and what it held does not matter.
 ///
 /// A subtree opens, and its largest spring leaves, as soon as one that contains it has opened or its
-/// own rule no longer holds it: t_v = min(t_parent, `holds_to`(v)). Adds the fragments to the list if their
-/// edges move.
+/// own rule no longer holds it: t_v = min(t_parent, `holds_to`(v)).
 pub(crate) fn open<R: EdgeRule>(
     tree: &ContactTree,
     rule: &R,
     root: usize,
     thresholds: &mut [f64],
-    fragments: &mut FragmentList,
     from: f64,
 ) -> Held {
     let start = root + 1 - thresholds.len();
@@ -142,19 +152,52 @@ pub(crate) fn open<R: EdgeRule>(
     }
     for node in (0..thresholds.len()).rev() {
         // Handed down to it: when the subtree around its own opens.
-        let (let_go, holds) = (thresholds[node], rule.holds_to(tree, start + node));
-        let leaves = lesser(let_go, holds);
+        let leaves = lesser(thresholds[node], rule.holds_to(tree, start + node));
         thresholds[node] = leaves;
-        if R::EDGES_MOVE {
-            // The largest fragment is part of no other.
-            let is_root = start + node == root;
-            let end = if is_root { f64::INFINITY } else { let_go };
-            fragments.offer(start + node, end, is_root | (holds < let_go));
-        }
         for child in children_or_self(node, shapes[node]) {
             thresholds[child] = leaves;
         }
         separates = lesser(separates, leaves);
+    }
+    Held { springs: thresholds.len() as u64, separates }
+}
+
+/// The same, listing the fragments: the subtrees that stay when what contains them has opened. `hold_to` gives
+/// the indentations to which the nodes from a first one on hold their springs.
+pub(crate) fn open_and_list(
+    tree: &ContactTree,
+    hold_to: impl Fn(usize, &mut [f64]),
+    root: usize,
+    thresholds: &mut [f64],
+    fragments: &mut FragmentList,
+    from: f64,
+) -> Held {
+    let start = root + 1 - thresholds.len();
+    let shapes = &tree.shapes()[start..=root];
+    let mut separates = f64::INFINITY;
+    if let Some(last) = thresholds.last_mut() {
+        *last = from;
+    }
+    let mut end = thresholds.len();
+    while end > 0 {
+        let begin = end.saturating_sub(BLOCK);
+        // In the same place each time, which stays in the caches; what is offered overwrites only what has
+        // been looked at.
+        hold_to(start + begin, fragments.hand_each(0..end - begin));
+        for node in (begin..end).rev() {
+            let (opened, holds) = (thresholds[node], fragments.handed(node - begin));
+            let leaves = lesser(opened, holds);
+            thresholds[node] = leaves;
+            for child in children_or_self(node, shapes[node]) {
+                thresholds[child] = leaves;
+            }
+            separates = lesser(separates, leaves);
+            // The largest fragment is part of no other.
+            let is_root = start + node == root;
+            let end = if is_root { f64::INFINITY } else { opened };
+            fragments.offer(start + node, end, is_root | (holds < opened));
+        }
+        end = begin;
     }
     Held { springs: thresholds.len() as u64, separates }
 }

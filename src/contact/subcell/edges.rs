@@ -1,8 +1,10 @@
 //! The rule of Hess read with the length between edges that lie anywhere in their cells.
 
 use super::level_sets::{LevelSets, Levels, levels_between};
+use crate::contact::fragment_list::FragmentList;
 use crate::contact::ledger::CompensatedSum;
 use crate::contact::tally::GapScale;
+use crate::contact::thresholds::{self, Held};
 use crate::contact::{ContactTree, EdgeRule, HessRule};
 use std::sync::Arc;
 
@@ -41,13 +43,41 @@ impl SubCellEdges {
         level - self.stretch * (levels.length + levels.growth * (level - gap)).sqrt()
     }
 
-    /// The level at which φ is smallest, of those of a node, m.
+    /// φ at the highest level of a node, where its parent's spring is next, m.
     #[inline]
-    fn lowest(&self, gap: f64, levels: Levels) -> f64 {
+    fn grows_on_at(&self, gap: f64, levels: Levels) -> f64 {
+        self.rest(gap, levels, levels.top)
+    }
+
+    /// The smallest φ of the levels of a node, m.
+    #[inline]
+    fn holds(&self, gap: f64, levels: Levels) -> f64 {
         // There √ℓ is half of the stretch that a unit of growth gives.
         let root = 0.5 * self.stretch * levels.growth;
         let excess = root * root - levels.length;
-        if excess > 0.0 && levels.growth > 0.0 { (gap + excess / levels.growth).min(levels.top) } else { gap }
+        // Without branches: they would often be mispredicted.
+        let rise = excess / levels.growth;
+        let most = levels.top - gap;
+        let rise = if rise < most { rise } else { most };
+        let rise = if excess > 0.0 { rise } else { 0.0 };
+        let holds = (gap + rise) - self.stretch * (levels.length + levels.growth * rise).sqrt();
+        if holds < gap { holds } else { gap }
+    }
+
+    /// Evaluates something for the nodes from a first one on.
+    #[inline]
+    fn for_each_node(
+        &self,
+        tree: &ContactTree,
+        first: usize,
+        values: &mut [f64],
+        evaluate: impl Fn(f64, Levels) -> f64,
+    ) {
+        let nodes = first..first + values.len();
+        let gaps = tree.gaps()[nodes.clone()].iter();
+        for ((&gap, levels), value) in gaps.zip(self.sets.levels_of(nodes)).zip(values) {
+            *value = evaluate(gap, levels);
+        }
     }
 
     /// How the fragment of a node slides.
@@ -273,16 +303,40 @@ fn at_once(growth: f64, from: f64, to: f64, at: f64) -> f64 {
 impl EdgeRule for SubCellEdges {
     const EDGES_MOVE: bool = true;
 
+    fn load(
+        &self,
+        tree: &ContactTree,
+        thresholds: &mut [f64],
+        fragments: &mut FragmentList,
+        already: impl Fn(f64) -> bool,
+    ) -> f64 {
+        let grows_on_at = |node| self.grows_on_at(tree.gap(node), self.sets.levels(node));
+        thresholds::load_and_list(tree, grows_on_at, thresholds, fragments, already)
+    }
+
+    fn open(
+        &self,
+        tree: &ContactTree,
+        root: usize,
+        thresholds: &mut [f64],
+        fragments: &mut FragmentList,
+        from: f64,
+    ) -> Held {
+        let hold_to = |first, block: &mut [f64]| {
+            self.for_each_node(tree, first, block, |gap, levels| self.holds(gap, levels));
+        };
+        thresholds::open_and_list(tree, hold_to, root, thresholds, fragments, from)
+    }
+
     #[inline]
     fn grows_at(&self, tree: &ContactTree, fragment: usize, wall: usize) -> f64 {
-        // Its highest level.
-        self.rest(tree.gap(fragment), self.sets.levels(fragment), tree.gap(wall))
+        debug_assert_eq!(self.sets.levels(fragment).top, tree.gap(wall), "the wall is the parent");
+        self.grows_on_at(tree.gap(fragment), self.sets.levels(fragment))
     }
 
     #[inline]
     fn holds_to(&self, tree: &ContactTree, node: usize) -> f64 {
-        let (gap, levels) = (tree.gap(node), self.sets.levels(node));
-        self.rest(gap, levels, self.lowest(gap, levels)).min(gap)
+        self.holds(tree.gap(node), self.sets.levels(node))
     }
 
     #[inline]
