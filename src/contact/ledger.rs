@@ -117,12 +117,7 @@ impl Ledger {
         let mut bins = vec![Tally::default(); grid.points.len()];
         let reached = |threshold| threshold <= grid.high();
         each_run(springs, reached, |run: Run<()>| bins[grid.first_at_least(run.threshold)] += run.joins);
-        Ledger::from_changes(grid, bins)
-    }
-
-    /// What adds up from these changes at the points of the grid.
-    pub fn from_changes(grid: Grid, changes: Vec<Tally>) -> Self {
-        Ledger { tallies: running_total(changes), grid }
+        Ledger { tallies: running_total(bins), grid }
     }
 
     /// The same, and what the joins cost: about half as much work again.

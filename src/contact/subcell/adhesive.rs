@@ -69,29 +69,11 @@ fn each_fragment(springs: &Springs<'_>, mut see: impl FnMut(usize, f64, f64)) {
     }
 }
 
-/// What is in contact along a grid and what its edges add; `see` sees each fragment and where it is one.
-#[inline]
-fn along(springs: &Springs<'_>, grid: Grid, mut see: impl FnMut(usize, f64, f64)) -> (Ledger, Vec<Edges>) {
-    let points = grid.points();
-    let place = |at: f64| if at > grid.high() { points.len() } else { grid.first_at_least(at) };
-    let mut changes = vec![Tally::default(); points.len() + 1];
-    let mut sums = vec![EdgeSum::default(); points.len()];
-    each_fragment(springs, |node, from, to| {
-        see(node, from, to);
-        let (first, end) = (place(from), place(to));
-        if first >= end {
-            return;
-        }
-        let whole = whole(springs, node);
-        changes[first] += whole;
-        changes[end] += -whole;
-        let slider = springs.rule().slider(node);
-        for (sum, &point) in sums[first..end].iter_mut().zip(&points[first..end]) {
-            sum.add(slider.edges(point));
-        }
-    });
-    changes.truncate(points.len());
-    (Ledger::from_changes(grid, changes), sums.iter().map(EdgeSum::total).collect())
+/// What stands at a point of a grid, together in memory: fragments come in no order of theirs.
+#[derive(Clone, Copy, Default)]
+struct AtPoint {
+    whole: Tally,
+    edges: EdgeSum,
 }
 
 /// All that a fragment holds, whole cells without its edges.
@@ -104,8 +86,19 @@ fn whole(springs: &Springs<'_>, node: usize) -> Tally {
     }
 }
 
-/// ∫ (c − θ)² dx over what is around the springs of all nodes that are no fragments and join or leave with
-/// their parents between these indentations, in cells times m².
+/// ∫ (c − θ)² dx over what joins or leaves between these indentations around the springs of fragments, in cells
+/// times m²: between the threshold of a node and that of its parent its edges slide; at either of them they jump.
+fn squared_stretch_of_fragments(springs: &Springs<'_>, low: f64, high: f64) -> CompensatedSum {
+    let mut squared = CompensatedSum::default();
+    each_fragment(springs, |node, from, to| {
+        if from <= high && to > low {
+            squared.add(springs.rule().slider(node).squared_stretch((from, to), (low, high)));
+        }
+    });
+    squared
+}
+
+/// The same around those of all nodes that are no fragments and join or leave with their parents.
 fn squared_stretch_of_others(springs: &Springs<'_>, low: f64, high: f64) -> f64 {
     let mut squared = CompensatedSum::default();
     for PartFragments { part: Part { start, thresholds }, nodes: fragments, .. } in
@@ -187,26 +180,34 @@ impl EdgeSprings for Springs<'_> {
     }
 
     fn along(&self, grid: Grid) -> (Ledger, Vec<Edges>) {
-        along(self, grid, |_, _, _| ())
+        let points = grid.points();
+        let place = |at: f64| if at > grid.high() { points.len() } else { grid.first_at_least(at) };
+        let mut standing = vec![AtPoint::default(); points.len()];
+        each_fragment(self, |node, from, to| {
+            let (first, end) = (place(from), place(to));
+            if first < end {
+                let (whole, slider) = (whole(self, node), self.rule().slider(node));
+                for (at, &point) in standing[first..end].iter_mut().zip(&points[first..end]) {
+                    at.whole += whole;
+                    at.edges.add(slider.edges(point));
+                }
+            }
+        });
+        let edges = standing.iter().map(|at| at.edges.total()).collect();
+        let tallies = standing.iter().map(|at| at.whole).collect();
+        (Ledger { grid, tallies }, edges)
     }
 
-    /// Between the threshold of a node and that of its parent its edges slide; at either of them they jump.
     fn along_with_stretches(&self, grid: Grid, low: f64) -> (Ledger, Vec<Edges>, f64) {
         let high = grid.high();
-        let fragments = || {
-            let mut squared = CompensatedSum::default();
-            let (ledger, edges) = along(self, grid, |node, from, to| {
-                if from <= high && to > low {
-                    squared.add(self.rule().slider(node).squared_stretch((from, to), (low, high)));
-                }
-            });
-            (ledger, edges, squared)
+        let squared = || {
+            let mut squared = squared_stretch_of_fragments(self, low, high);
+            squared.add(squared_stretch_of_others(self, low, high));
+            squared.add(squared_stretch_of_steps(self, low, high));
+            squared.total()
         };
-        let others =
-            || squared_stretch_of_others(self, low, high) + squared_stretch_of_steps(self, low, high);
-        let ((ledger, edges, mut squared), others) = in_parallel(self.is_long(), fragments, others);
-        squared.add(others);
-        (ledger, edges, squared.total())
+        let (squared, (ledger, edges)) = in_parallel(self.is_long(), squared, || self.along(grid));
+        (ledger, edges, squared)
     }
 
     fn is_monotone(&self) -> bool {
