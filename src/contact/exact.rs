@@ -21,8 +21,7 @@ pub struct Exact<C: Contact> {
     foundation: Foundation,
     samples: usize,
     standing: Standing,
-    /// Where the first loading is kept: whether it is, and what is in contact along it once it has been sought.
-    first: Option<Option<C::Leg>>,
+    first: FirstSearch<C::Leg>,
     /// Whether the present leg touches at all, so that its thresholds hold.
     touching: bool,
     legs: usize,
@@ -30,6 +29,15 @@ pub struct Exact<C: Contact> {
     /// Time spent on whole legs, and in it on the thresholds.
     leg_time: Duration,
     pass_time: Duration,
+}
+
+/// What is in contact along the loading that forms the contact, where a force was sought on it.
+enum FirstSearch<L> {
+    /// Sought anew each time.
+    Forgotten,
+    /// To be kept once it is known.
+    Awaited,
+    Known(L),
 }
 
 /// A contact of springs under adhesion.
@@ -127,7 +135,7 @@ impl<'a, C: OverTree<'a>> Exact<C> {
     #[must_use]
     pub fn keeping_first_loading(mut self) -> Self {
         self.contact.springs_mut().keep_first_loading();
-        self.first = Some(None);
+        self.first = FirstSearch::Awaited;
         self
     }
 
@@ -171,7 +179,7 @@ impl<C: Contact> Exact<C> {
             foundation,
             samples: samples.max(2),
             standing: Standing::free(0.0),
-            first: None,
+            first: FirstSearch::Forgotten,
             touching: false,
             legs: 0,
             work,
@@ -295,10 +303,17 @@ impl<C: Contact> Exact<C> {
         low: f64,
         complete: f64,
     ) -> Result<f64, ContactError> {
-        let forms = self.is_separated();
-        let kept = self.first.as_mut().filter(|_| forms).and_then(Option::take);
-        // From d = 0 to where all is in contact it is the same each time.
-        let sampled = kept.unwrap_or_else(|| self.sample(low, complete));
+        let keeps = self.is_separated() && !matches!(self.first, FirstSearch::Forgotten);
+        let known = if keeps {
+            std::mem::replace(&mut self.first, FirstSearch::Awaited)
+        } else {
+            FirstSearch::Forgotten
+        };
+        let sampled = match known {
+            // From d = 0 to where all is in contact it is the same each time.
+            FirstSearch::Known(sampled) => sampled,
+            FirstSearch::Awaited | FirstSearch::Forgotten => self.sample(low, complete),
+        };
         let sorted = &mut self.work.events_sorted;
         // Beyond, everything is in contact and the force rises with all springs.
         let beyond = || {
@@ -306,8 +321,8 @@ impl<C: Contact> Exact<C> {
             indentation.map(|indentation| indentation.max(complete))
         };
         let found = self.contact.first_at_least(&sampled, wanted, sorted).or_else(beyond);
-        if forms && let Some(kept) = &mut self.first {
-            *kept = Some(sampled);
+        if keeps {
+            self.first = FirstSearch::Known(sampled);
         }
         found.ok_or(ContactError::OutOfReach { index: self.legs, leg })
     }

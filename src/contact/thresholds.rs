@@ -222,3 +222,91 @@ pub(crate) fn children_or_self(node: usize, shape: Shape) -> [usize; 2] {
     let left = if shape.left() > 0 { 1 + shape.right as usize } else { 0 };
     [node - right, node - left]
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::contact::{Foundation, GridEdges, HessRule};
+    use proptest::prelude::*;
+
+    /// By definition: whose threshold is below that of its parent, or is one at all without a parent; and the
+    /// parent's.
+    fn fragments_of(parents: &[Option<usize>], thresholds: &[f64]) -> Vec<(u32, f64)> {
+        let end = |node: usize| match parents[node] {
+            Some(parent) => thresholds[parent],
+            None => f64::INFINITY,
+        };
+        let nodes = (0..thresholds.len()).filter(|&node| thresholds[node] < end(node));
+        nodes.map(|node| (node as u32, end(node))).collect()
+    }
+
+    fn listed(fragments: &FragmentList) -> Vec<(u32, f64)> {
+        let (nodes, ends) = fragments.as_slices();
+        nodes.iter().copied().zip(ends.iter().copied()).collect()
+    }
+
+    proptest! {
+        /// Many more springs than are evaluated at once, and fewer.
+        #[test]
+        fn fragments_are_listed_with_the_same_thresholds(
+            levels in prop_oneof![
+                prop::collection::vec(0_u16..400, 1..40),
+                prop::collection::vec(0_u16..4000, 2 * BLOCK..3 * BLOCK),
+                prop::collection::vec(0_u16..3, 2 * BLOCK..3 * BLOCK),
+            ],
+            work in prop_oneof![Just(0.0), 0.0..2.0_f64],
+            depths in prop::collection::vec(0.0..=1.0_f64, 2),
+        ) {
+            let lowest = levels.iter().copied().min().unwrap_or(0);
+            let gaps: Vec<f64> = levels.iter().map(|&level| f64::from(level - lowest) / 300.0).collect();
+            let tree = ContactTree::build(&gaps).unwrap();
+            let mut parents = vec![None; tree.len()];
+            for parent in 0..tree.len() {
+                let (left, right) = tree.children(parent);
+                left.into_iter().chain(right).for_each(|child| parents[child] = Some(parent));
+            }
+            let rule = GridEdges::new(HessRule::new(Foundation { spacing: 0.01, effective_modulus: 2.0 }, work));
+            let grows_on_at = |node: usize| parents[node].map_or(f64::NAN, |parent| rule.grows_at(&tree, node, parent));
+            let hold_to = |first: usize, values: &mut [f64]| {
+                for (node, value) in (first..).zip(values) {
+                    *value = rule.holds_to(&tree, node);
+                }
+            };
+            let mut plain = vec![f64::NAN; tree.len()];
+            let mut thresholds = plain.clone();
+            let mut fragments = FragmentList::default().ready(tree.len()).unwrap();
+
+            let complete = load(&tree, &rule, &mut plain, |_| false);
+            let found = load_and_list(&tree, grows_on_at, &mut thresholds, &mut fragments, |_| false);
+            prop_assert_eq!((found, &thresholds), (complete, &plain));
+            prop_assert_eq!(listed(&fragments), fragments_of(&parents, &thresholds));
+
+            // Back from a part of the way, and in again.
+            let from = depths[0] * complete;
+            let held = unload(&tree, &rule, &mut plain, &mut FragmentList::default(), from);
+            fragments.clear();
+            let (mut end, mut found) = (tree.len(), Held::NOTHING);
+            while end > 0 {
+                let root = end - 1;
+                if thresholds[root] > from {
+                    thresholds[root] = f64::INFINITY;
+                    end = root;
+                    continue;
+                }
+                let start = end - tree.size(root) as usize;
+                let part = &mut thresholds[start..end];
+                found = found.and(open_and_list(&tree, hold_to, root, part, &mut fragments, from));
+                end = start;
+            }
+            prop_assert_eq!((found, &thresholds), (held, &plain));
+            prop_assert_eq!(listed(&fragments), fragments_of(&parents, &thresholds));
+
+            let from = depths[1] * from;
+            let already = |threshold: f64| threshold <= from;
+            let complete = load(&tree, &rule, &mut plain, already);
+            let found = load_and_list(&tree, grows_on_at, &mut thresholds, &mut fragments, already);
+            prop_assert_eq!((found, &thresholds), (complete, &plain));
+            prop_assert_eq!(listed(&fragments), fragments_of(&parents, &thresholds));
+        }
+    }
+}
