@@ -90,7 +90,7 @@ impl Choice {
             format!("estimated from solutions with up to {} springs", grouped(self.finest))
         };
         format!(
-            "{} springs with edges {edges}: the first found to keep the {} within {:e}; its error is {:.1e}, {from}.",
+            "{} springs with edges {edges}: the fewest found to keep the {} within {:e}; its error is {:.1e}, {from}.",
             grouped(self.points),
             self.target.name(),
             self.tolerance,
@@ -151,8 +151,9 @@ fn unreached(tolerance: &f64, best: &Option<Box<Choice>>) -> String {
 /// most `tolerance` of its adhesion force, or of its force curve where nothing pulls.
 ///
 /// Springs are doubled until the estimate of the error, that of the finest solution included, has come below
-/// the tolerance; then the fewest are taken from which on it stays there. With as many springs edges at the
-/// springs are cheaper, so they are taken where they reach it with no more springs than edges between them.
+/// the tolerance, and once more, since a finer solution tells better how good the others are; then the fewest
+/// are taken from which on it stays there. With as many springs either kind of edges takes about as long, and
+/// edges between springs are taken, whose error falls faster where the estimate was too good.
 /// The choice depends on the scene alone, not on the time anything takes. `stop` is asked now and then whether
 /// to give up; `trying` is told the springs that are tried next.
 ///
@@ -171,6 +172,7 @@ pub fn choose(
     let most = allowed_points(scene).next().map_or(0, |fewest| MOST_SPRINGS.max(4 * fewest));
     let mut tried: [Vec<Solution>; 2] = [Vec::new(), Vec::new()];
     let mut best: Option<Box<Choice>> = None;
+    let mut found = None;
     for points in allowed_points(scene).take_while(|&points| points <= most) {
         let mut closed_form = None;
         let mut solved = 0;
@@ -190,8 +192,13 @@ pub fn choose(
         }
         if let Some(choice) = judge(&tried, closed_form, tolerance) {
             if choice.error <= tolerance {
-                return Ok(choice);
+                if found.is_some() {
+                    return Ok(choice);
+                }
+                found = Some(choice);
+                continue;
             }
+            found = None;
             if best.as_ref().is_none_or(|best| choice.error < best.error) {
                 best = Some(Box::new(choice.clone()));
             }
@@ -200,15 +207,15 @@ pub fn choose(
             best.finest = finest.points;
         }
     }
-    Err(ChoiceError::Unreached { tolerance, best })
+    found.ok_or(ChoiceError::Unreached { tolerance, best })
 }
 
 /// In the order in which they are preferred at the same number of springs.
-const EDGES: [Edges; 2] = [Edges::Grid, Edges::SubCell];
+const EDGES: [Edges; 2] = [Edges::SubCell, Edges::Grid];
 
 /// The choice among solutions with edges at and between springs, of as many springs each; if none is good
 /// enough, the best of them. `None` where too few are there to tell.
-fn judge([grid, sub_cell]: &[Vec<Solution>; 2], closed_form: Option<f64>, tolerance: f64) -> Option<Choice> {
+fn judge([sub_cell, grid]: &[Vec<Solution>; 2], closed_form: Option<f64>, tolerance: f64) -> Option<Choice> {
     let finest = sub_cell.last()?;
     let target = if finest.adhesion_force.is_some() { Target::AdhesionForce } else { Target::Curve };
     let differ = |one: &Solution, other: &Solution| {
@@ -226,7 +233,7 @@ fn judge([grid, sub_cell]: &[Vec<Solution>; 2], closed_form: Option<f64>, tolera
         Some(force) => Some(relative_error(solution.adhesion_force.unwrap_or(0.0), force)),
         None => Some(differ(solution, finest)? + of_finest),
     };
-    let candidates = EDGES.into_iter().zip([grid, sub_cell]).filter_map(|(edges, solutions)| {
+    let candidates = EDGES.into_iter().zip([sub_cell, grid]).filter_map(|(edges, solutions)| {
         let errors: Vec<_> = solutions.iter().map(error).collect();
         // Where none is good enough, the finest is offered.
         let index = first_within(errors.iter().copied(), tolerance).unwrap_or(errors.len() - 1);
@@ -242,7 +249,7 @@ fn judge([grid, sub_cell]: &[Vec<Solution>; 2], closed_form: Option<f64>, tolera
         })
     });
     let (good, others): (Vec<_>, Vec<_>) = candidates.partition(|choice| choice.error <= tolerance);
-    // The first of equals: edges at the springs.
+    // The first of equals: edges between springs.
     let fewest = good.into_iter().min_by_key(|choice| choice.points);
     fewest.or_else(|| others.into_iter().min_by(|one, other| one.error.total_cmp(&other.error)))
 }
@@ -276,7 +283,7 @@ mod tests {
     #[test]
     fn the_fewest_springs_are_chosen() {
         // Grid: 0.5, 0.25, …; SubCell: 0.1, 0.025, 0.00625, …
-        let tried = |count| [solutions(count, 0.5, 1), solutions(count, 0.1, 2)];
+        let tried = |count| [solutions(count, 0.1, 2), solutions(count, 0.5, 1)];
         let choice = judge(&tried(5), Some(1.0), 0.01).unwrap();
         assert_eq!((choice.points, choice.edges), (64, Edges::SubCell));
         assert!((choice.error - 0.00625).abs() < 1e-12);
@@ -285,8 +292,10 @@ mod tests {
         assert_eq!((choice.points, choice.edges), (64, Edges::SubCell));
         assert!((choice.error / 0.00625 - 1.0).abs() < 0.15, "{choice:?}");
         assert_eq!(judge(&tried(2), None, 0.01), None);
-        // Edges at the springs where they are as good with as many.
+        // Edges at the springs only where they do with fewer.
         let choice = judge(&[solutions(5, 0.1, 2), solutions(5, 0.1, 2)], Some(1.0), 0.01).unwrap();
+        assert_eq!((choice.points, choice.edges), (64, Edges::SubCell));
+        let choice = judge(&[solutions(5, 0.5, 1), solutions(5, 0.1, 2)], Some(1.0), 0.01).unwrap();
         assert_eq!((choice.points, choice.edges), (64, Edges::Grid));
         // The best where none will do.
         let choice = judge(&tried(3), Some(1.0), 1e-6).unwrap();

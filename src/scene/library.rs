@@ -2,9 +2,9 @@
 
 use std::fs;
 use std::io;
-use std::path::{Component, Path, PathBuf};
+use std::path::{Component, Path, PathBuf, is_separator};
 
-use etcetera::{BaseStrategy, choose_base_strategy};
+use etcetera::{BaseStrategy, choose_base_strategy, home_dir};
 
 use super::document::{Document, LONGEST_TEXT};
 use super::errors::{Origin, SceneError, SceneErrors, shown};
@@ -18,6 +18,17 @@ pub const MOST_BYTES: usize = 16 * LONGEST_TEXT;
 
 /// Entries of a folder that are looked at.
 const MOST_LOOKED_AT: usize = 100_000;
+
+/// A path as people type it: in place of `~` at its beginning the home folder, if there is one.
+#[must_use]
+pub fn typed_path(text: &str) -> PathBuf {
+    let text = text.trim();
+    let in_home = text.strip_prefix('~').filter(|rest| rest.is_empty() || rest.starts_with(is_separator));
+    match (in_home, home_dir()) {
+        (Some(rest), Ok(home)) => home.join(rest.trim_start_matches(is_separator)),
+        _ => PathBuf::from(text),
+    }
+}
 
 /// Where a scene comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -267,6 +278,16 @@ mod tests {
         assert_eq!(own, root.path().join("config/asperity/presets"));
         fs::create_dir_all(&own).unwrap();
         (root, library, own, working)
+    }
+
+    #[test]
+    fn a_tilde_is_the_home_folder() {
+        let home = home_dir().unwrap();
+        assert_eq!(typed_path("~"), home);
+        assert_eq!(typed_path(" ~/scenes/one.ron "), home.join("scenes/one.ron"));
+        for other in ["~someone/one.ron", "a~/one.ron", "./~", "/one.ron", "one.ron"] {
+            assert_eq!(typed_path(other), PathBuf::from(other));
+        }
     }
 
     fn listed(library: &Library) -> Vec<(String, Source)> {

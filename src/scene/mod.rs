@@ -47,7 +47,7 @@ pub use document::{Document, LONGEST_TEXT};
 pub use effects::Effect;
 pub use errors::{Origin, SceneError, SceneErrors};
 pub use fields::{FIELDS, Field, LEG_FORCE, LEG_INDENTATION, field};
-pub use library::{Entry, Library, MOST_BYTES, MOST_FILES, Source};
+pub use library::{Entry, Library, MOST_BYTES, MOST_FILES, Source, typed_path};
 pub use locate::{Place, line_column, locate};
 pub use model::*;
 pub use overrides::command_line;

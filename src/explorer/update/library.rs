@@ -5,7 +5,7 @@ use crate::explorer::action::Command;
 use crate::explorer::mode::{Library, Mode};
 use crate::explorer::model::{Model, Notice};
 use crate::explorer::text_line::TextLine;
-use crate::scene::{Entry, search as search_entries};
+use crate::scene::{Entry, search as search_entries, typed_path};
 
 /// Scenes with more springs are not computed to look at.
 const MOST_SPRINGS_PREVIEWED: u64 = 1 << 17;
@@ -53,7 +53,8 @@ pub fn obey(model: &mut Model, command: Command) -> Vec<Effect> {
                     return Vec::new();
                 }
                 model.mode = Mode::Explore;
-                return vec![Effect::Open(typed)];
+                let path = typed_path(&typed).into_os_string().into_string();
+                return vec![Effect::Open(path.unwrap_or(typed))];
             };
             match entry.document() {
                 Ok(document) => {

@@ -19,7 +19,7 @@ use super::mode::Mode;
 use super::model::{Model, Notice};
 use super::view::help_end;
 use super::worker::{HandOrder, MomentRequest};
-use crate::scene::{Document, Roughness};
+use crate::scene::{Document, Roughness, typed_path};
 use std::path::PathBuf;
 
 /// Something to be done outside the model.
@@ -169,14 +169,14 @@ fn obey(model: &mut Model, command: Command) -> Vec<Effect> {
         },
         Mode::SaveAs { line, then_quit } => match command {
             Command::Accept => {
-                let (path, then_quit) = (PathBuf::from(line.text().trim()), *then_quit);
+                let (path, then_quit) = (typed_path(&line.text()), *then_quit);
                 return files::write(model, path, Content::Scene, then_quit);
             }
             _ => edit_line(model, command),
         },
         Mode::Export(line) => match command {
             Command::Accept => {
-                let path = PathBuf::from(line.text().trim());
+                let path = typed_path(&line.text());
                 return files::export(model, path);
             }
             _ => edit_line(model, command),
