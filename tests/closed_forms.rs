@@ -1,9 +1,13 @@
 //! Smooth bodies of revolution against their closed forms, and the order at which they are reached.
 
+#[path = "common/numerics.rs"]
+mod numerics;
+
 use asperity::contact::{ContactTree, Foundation, GridEdges, HessRule, LegRecord, Solver, exact};
 use asperity::reference::PowerLaw;
 use asperity::scene::{Form, Leg};
 use asperity::surface::{Line, power_law_factor};
+use numerics::{integral, invert, observed_order};
 use std::f64::consts::PI;
 use std::ops::RangeInclusive;
 
@@ -141,35 +145,9 @@ fn judge(name: &str, problem: &Problem, closed: &ClosedForm, grids: &[usize], de
     }
 }
 
-fn observed_order(grids: &[usize], errors: &[f64]) -> f64 {
-    let xs: Vec<f64> = grids.iter().map(|&points| -(points as f64).ln()).collect();
-    let ys: Vec<f64> = errors.iter().map(|error| error.ln()).collect();
-    let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len() as f64;
-    let (x, y) = (mean(&xs), mean(&ys));
-    let covariance: f64 = xs.iter().zip(&ys).map(|(a, b)| (a - x) * (b - y)).sum();
-    covariance / xs.iter().map(|a| (a - x) * (a - x)).sum::<f64>()
-}
-
 /// Five grids for each factor of ten, odd and without a pattern that a form shares: 301 to 300 001.
 fn grids() -> Vec<usize> {
     (0..16).map(|k| (300.0 * 10_f64.powf(f64::from(k) / 5.0)) as usize | 1).collect()
-}
-
-/// Where a rising function takes a value between `low` and `high`.
-fn invert(function: impl Fn(f64) -> f64, value: f64, mut low: f64, mut high: f64) -> f64 {
-    for _ in 0..200 {
-        let middle = 0.5 * (low + high);
-        *(if function(middle) < value { &mut low } else { &mut high }) = middle;
-    }
-    0.5 * (low + high)
-}
-
-/// ∫ f(x) dx by Simpson's rule.
-fn integral(f: impl Fn(f64) -> f64, from: f64, to: f64) -> f64 {
-    let steps = 2000;
-    let width = (to - from) / f64::from(steps);
-    let weight = |k| if k == 0 || k == steps { 1.0 } else { f64::from(2 + 2 * (k % 2)) };
-    (0..=steps).map(|k| weight(k) * f(from + width * f64::from(k))).sum::<f64>() * width / 3.0
 }
 
 /// The figures of a body in contact on one stable branch, of which F(a), d(a) and dd/da are known.

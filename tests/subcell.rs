@@ -10,6 +10,8 @@ mod formed;
 mod hand;
 #[path = "subcell/laws.rs"]
 mod laws;
+#[path = "common/numerics.rs"]
+mod numerics;
 #[path = "subcell/rule.rs"]
 mod rule;
 

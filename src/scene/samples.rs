@@ -52,7 +52,7 @@ fn form(length: f64) -> impl Strategy<Value = Form> {
     prop_oneof![
         number(0..4).prop_map(move |times| Form::Paraboloid { radius: times * length }),
         (0.01..1.5).prop_map(|angle| Form::Cone { angle }),
-        (number(-5..2), 0.6..5.0).prop_map(|(coefficient, exponent)| Form::Power { coefficient, exponent }),
+        (number(-5..1), 0.6..5.0).prop_map(|(coefficient, exponent)| Form::Power { coefficient, exponent }),
         (0.2..0.5).prop_map(move |times| Form::Punch { radius: times * length }),
     ]
 }

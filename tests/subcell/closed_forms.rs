@@ -1,5 +1,6 @@
 //! Smooth bodies against their closed forms: second order in the distance between springs.
 
+use super::numerics::{integral, invert, observed_order};
 use super::*;
 use asperity::reference::PowerLaw;
 use asperity::scene::Form;
@@ -12,36 +13,9 @@ fn smooth(form: Option<Form>, length: f64, points: usize, modulus: f64, work: f6
     Body { gaps: line.gaps, foundation, work }
 }
 
-/// Slope of ln(error) over −ln(N) by least squares.
-fn order(grids: &[usize], errors: &[f64]) -> f64 {
-    let xs: Vec<f64> = grids.iter().map(|&points| -(points as f64).ln()).collect();
-    let ys: Vec<f64> = errors.iter().map(|error| error.ln()).collect();
-    let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len() as f64;
-    let (x, y) = (mean(&xs), mean(&ys));
-    let covariance: f64 = xs.iter().zip(&ys).map(|(a, b)| (a - x) * (b - y)).sum();
-    covariance / xs.iter().map(|a| (a - x) * (a - x)).sum::<f64>()
-}
-
 /// Odd and without a pattern that a form shares: 101 to 31 623.
 fn grids() -> Vec<usize> {
     (0..11).map(|k| (100.0 * 10_f64.powf(f64::from(k) / 4.0)) as usize | 1).collect()
-}
-
-/// Where a rising function takes a value between `low` and `high`.
-fn invert(function: impl Fn(f64) -> f64, value: f64, mut low: f64, mut high: f64) -> f64 {
-    for _ in 0..200 {
-        let middle = 0.5 * (low + high);
-        *(if function(middle) < value { &mut low } else { &mut high }) = middle;
-    }
-    0.5 * (low + high)
-}
-
-/// ∫ f(x) dx by Simpson's rule.
-fn integral(f: impl Fn(f64) -> f64, from: f64, to: f64) -> f64 {
-    let steps = 2000;
-    let width = (to - from) / f64::from(steps);
-    let weight = |k| if k == 0 || k == steps { 1.0 } else { f64::from(2 + 2 * (k % 2)) };
-    (0..=steps).map(|k| weight(k) * f(from + width * f64::from(k))).sum::<f64>() * width / 3.0
 }
 
 #[test]
@@ -92,7 +66,7 @@ fn power_laws_converge_with_the_square_of_the_distance() {
             errors[2].push((energy / lost - 1.0).abs());
         }
         for (what, errors) in ["pull-off", "curve", "energy"].iter().zip(&errors) {
-            let order = order(&grids, errors);
+            let order = observed_order(&grids, errors);
             println!("{name}: {what}: {:.1e} falls to {:.1e}, order {order:.2}", errors[0], errors[10]);
             assert!(order >= 1.8, "{name}: {what}: order {order}, errors {errors:?}");
         }
@@ -141,7 +115,7 @@ fn without_adhesion_loading_and_unloading_agree_bit_for_bit_with_order_two() {
         let error = down.curve.iter().map(|point| (point.force - exact(point.indentation)).abs());
         errors.push(error.fold(0.0, f64::max) / exact(1.0));
     }
-    let order = order(&grids(), &errors);
+    let order = observed_order(&grids(), &errors);
     println!("Hertz: {:.1e} falls to {:.1e}, order {order:.2}", errors[0], errors[10]);
     assert!(order >= 1.8, "order {order}, errors {errors:?}");
 }
@@ -186,7 +160,7 @@ fn rough_lines_of_few_modes_converge_with_the_square_of_the_distance_in_the_medi
     }
     let grids = exponents.map(|exponent| 1_usize << exponent);
     for (what, medians) in ["pull-off", "energy"].iter().zip(&medians) {
-        let order = order(&grids, medians);
+        let order = observed_order(&grids, medians);
         println!("rough, {what}: order {order:.2}");
         assert!(order >= 1.8, "{what}: order {order}, medians {medians:?}");
     }
