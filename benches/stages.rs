@@ -4,7 +4,8 @@
 //!
 //! `cargo bench --bench stages` prints the table. After `--`: `--quick` stops at 2^16 springs,
 //! `--smallest 20` begins at 2^20, `--largest 18` stops at 2^18, and `--runs 9` repeats each measurement
-//! so often, of which the shortest counts. Without `--bench`, as `cargo test --benches` starts it, it only
+//! so often, of which the shortest counts; `--hurst 0.2` and `--kappa 100` take other lines and another adhesion,
+//! with ten times this κ beside it. Without `--bench`, as `cargo test --benches` starts it, it only
 //! shows that it runs.
 
 use asperity::analysis::ideal_adhesion_force;
@@ -29,17 +30,17 @@ const LENGTH: f64 = 1.0e-3;
 const EFFECTIVE_MODULUS: f64 = 2.0e6;
 const RMS_HEIGHT: f64 = 5.0e-7;
 const HURST: f64 = 0.7;
-/// Under the first, lines as finely rough as these snap into full contact; under the second, part of them
+/// Under this, lines as finely rough as these snap into full contact; under ten times as much, part of them
 /// stays free, and springs join and leave a few at a time.
-const KAPPAS: [f64; 2] = [2.0, 20.0];
+const KAPPA: f64 = 2.0;
 /// Load in units of E* L h.
 const LOAD: f64 = 0.4;
 
 fn main() {
     let options = Options::from_arguments(std::env::args().skip(1));
     println!(
-        "self-affine line, H = {HURST}, modes up to N/4, {SAMPLES} samples on each leg; shortest of {} runs",
-        options.runs
+        "self-affine line, H = {}, modes up to N/4, {SAMPLES} samples on each leg; shortest of {} runs",
+        options.hurst, options.runs
     );
     println!(
         "Memory is kept from run to run, also that of the transform, which is planned beforehand. Tree and loops"
@@ -47,7 +48,7 @@ fn main() {
     println!("of whole springs take one thread; all else two, where the system has them.\n");
     let mut verdict = Vec::new();
     for exponent in (options.smallest..=options.largest).step_by(2) {
-        let rough = Rough::new(exponent);
+        let rough = Rough::new(exponent, options.hurst, options.kappas);
         let measured = measure(&rough, options.runs);
         measured.print(&rough);
         if exponent == BAR.0 {
@@ -65,22 +66,28 @@ struct Options {
     smallest: u32,
     largest: u32,
     runs: usize,
+    hurst: f64,
+    kappas: [f64; 2],
 }
 
 impl Options {
     fn from_arguments(arguments: impl Iterator<Item = String>) -> Self {
         let arguments: Vec<String> = arguments.collect();
         let has = |flag: &str| arguments.iter().any(|argument| argument == flag);
-        let number = |flag: &str| {
+        let value = |flag: &str| {
             let place = arguments.iter().position(|argument| argument == flag)?;
-            arguments.get(place + 1)?.parse().ok()
+            arguments.get(place + 1)
         };
+        let number = |flag: &str| value(flag)?.parse().ok();
+        let real = |flag: &str, usual: f64| value(flag).and_then(|text| text.parse().ok()).unwrap_or(usual);
+        let (hurst, kappa) = (real("--hurst", HURST), real("--kappa", KAPPA));
+        let kappas = [kappa, 10.0 * kappa];
         if has("--test") || !has("--bench") {
-            return Options { smallest: 6, largest: 8, runs: 1 };
+            return Options { smallest: 6, largest: 8, runs: 1, hurst, kappas };
         }
         let largest = number("--largest").unwrap_or(if has("--quick") { 16 } else { 22 });
         let runs = number("--runs").map_or(if has("--quick") { 5 } else { 9 }, |runs| runs as usize);
-        Options { smallest: number("--smallest").unwrap_or(12), largest, runs: runs.max(1) }
+        Options { smallest: number("--smallest").unwrap_or(12), largest, runs: runs.max(1), hurst, kappas }
     }
 }
 
@@ -92,28 +99,29 @@ struct Rough {
     foundation: Foundation,
     rms_gradient: f64,
     scene: Scene,
+    kappas: [f64; 2],
 }
 
 impl Rough {
-    fn new(exponent: u32) -> Self {
+    fn new(exponent: u32, hurst: f64, kappas: [f64; 2]) -> Self {
         let points = 1_usize << exponent;
-        let spectrum = SelfAffine { hurst: HURST, first: 1, last: points as u64 / 4 };
+        let spectrum = SelfAffine { hurst, first: 1, last: points as u64 / 4 };
         let line = synthesize(spectrum, points);
         let foundation = Foundation { spacing: line.spacing, effective_modulus: EFFECTIVE_MODULUS };
         let last = spectrum.last;
         let force = LOAD * EFFECTIVE_MODULUS * LENGTH * RMS_HEIGHT;
         let scene = format!(
             "(version: 1, material: (youngs_modulus: {:e}, poisson_ratio: 0.5), length: {LENGTH:e}, \
-             roughness: SelfAffine(hurst: {HURST}, rms_height: {RMS_HEIGHT:e}, modes: (1, {last}), seed: 1), \
+             roughness: SelfAffine(hurst: {hurst}, rms_height: {RMS_HEIGHT:e}, modes: (1, {last}), seed: 1), \
              adhesion: (kappa: {}), loading: [ToForce({force:e}), ToSeparation], \
              numerics: (points: {points}, samples: {SAMPLES}), observe: [HeightHistogram])",
             0.75 * EFFECTIVE_MODULUS,
-            KAPPAS[0],
+            kappas[0],
         );
         let scene = Document::parse(&scene, "bench").expect("a valid scene").scene().clone();
         // Two sums over all modes: not to be made while a loop is measured.
         let rms_gradient = RMS_HEIGHT * spectrum.gradient_per_height(LENGTH);
-        Rough { spectrum, points, line, foundation, rms_gradient, scene }
+        Rough { spectrum, points, line, foundation, rms_gradient, scene, kappas }
     }
 
     /// γ = h⟨∇z⟩E*/κ², eq. (11).
@@ -157,8 +165,8 @@ fn measure(rough: &Rough, runs: usize) -> Measured {
     // The tree's memory is kept from run to run, as the transform's buffers are and as a simulation does.
     let mut tree = ContactTree::build(gaps).expect("memory for the tree");
     let never = f64::INFINITY;
-    let loops = KAPPAS.map(Loop::under).into();
-    let edits = Edits::of(&rough.scene);
+    let loops = rough.kappas.map(Loop::under).into();
+    let edits = Edits::of(rough);
     let mut best =
         Measured { transform: never, synthesis: never, fresh_tree: never, tree: never, loops, edits };
     let (mut memory, mut memory_between) = (BodyMemory::default(), BodyMemory::default());
@@ -188,7 +196,7 @@ fn measure(rough: &Rough, runs: usize) -> Measured {
         for one in &mut best.loops {
             (sets, memory_between) = one.measure_between((sets, memory_between), rough, &shared);
         }
-        best.edits.measure(&rough.scene, run);
+        best.edits.measure(rough, run);
     }
     best
 }
@@ -205,25 +213,25 @@ struct Edits {
 }
 
 impl Edits {
-    fn of(scene: &Scene) -> Self {
+    fn of(rough: &Rough) -> Self {
         let (kappa, seed) = ([f64::INFINITY; 2], [f64::INFINITY; 2]);
         let copies = [LegContact::default(), LegContact::default()];
         let mut edits = Edits { simulation: Simulation::default(), copies, kappa, seed };
-        edits.seconds(scene);
+        edits.seconds(&rough.scene);
         edits
     }
 
-    fn measure(&mut self, scene: &Scene, run: usize) {
-        for (index, kappa) in KAPPAS.into_iter().enumerate() {
-            let mut scene = scene.clone();
+    fn measure(&mut self, rough: &Rough, run: usize) {
+        for (index, kappa) in rough.kappas.into_iter().enumerate() {
+            let mut scene = rough.scene.clone();
             scene.adhesion = Some(Adhesion { work: None, kappa: Some(kappa) });
             let Some(Roughness::SelfAffine { seed, .. }) = &mut scene.roughness else { return };
             *seed = 2 + (2 * run + index) as u64;
             self.seed[index] = self.seed[index].min(self.seconds(&scene));
         }
         // The line of the last seed is kept.
-        for (index, kappa) in KAPPAS.into_iter().enumerate() {
-            let mut scene = scene.clone();
+        for (index, kappa) in rough.kappas.into_iter().enumerate() {
+            let mut scene = rough.scene.clone();
             scene.adhesion = Some(Adhesion { work: None, kappa: Some(kappa) });
             let Some(Roughness::SelfAffine { seed, .. }) = &mut scene.roughness else { return };
             *seed = 3 + 2 * run as u64;
@@ -351,7 +359,7 @@ impl Measured {
             one.print_outcome(rough);
         }
         println!("  edits: the whole outcome with F_a(0) and histogram, legs copied");
-        for (index, kappa) in KAPPAS.into_iter().enumerate() {
+        for (index, kappa) in rough.kappas.into_iter().enumerate() {
             row(&format!("of kappa, to {kappa}"), self.edits.kappa[index]);
             row(&format!("of the seed, kappa = {kappa}"), self.edits.seed[index]);
         }
