@@ -4,6 +4,10 @@
 //! The tree and the two passes over it are those of whole springs; only the length in the rule of Hess is
 //! another, and the force is an integral instead of a sum: over the whole cells between springs in contact, and
 //! what the two cells at the edges of each fragment add. Its error falls with the square of the distance between springs.
+//!
+//! A fragment is one from its own threshold to that of its parent, and holds all between its edges. So the passes
+//! list the fragments as they find them, and whatever is asked of a leg is a sum over this list: under strong adhesion
+//! it is short, and at the most it is as long as the line.
 
 mod adhesive;
 mod bare;
