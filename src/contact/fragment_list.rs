@@ -6,8 +6,8 @@ use std::ops::Range;
 /// The nodes that are fragments of their own at some indentation of a leg, each with the indentation from which
 /// on it is part of a larger one, m; that from which on it is one is its threshold.
 ///
-/// A pass finds them from the end of the post-order, and keeps them in that order at the end of these arrays:
-/// what lies before is free for it to hand values up and down the tree.
+/// A pass finds them from the end of the post-order, and fills these arrays from their end: what lies before is
+/// free for it to hand values up and down the tree.
 #[derive(Debug, Default)]
 pub struct FragmentList {
     nodes: Vec<u32>,

@@ -48,7 +48,7 @@ impl BodyMemory {
 /// What a pass gives.
 #[derive(Debug, Default)]
 struct Passed {
-    /// Those of the springs of each subtree, one subtree after the other, each in post-order, m.
+    /// Thresholds of the springs of each subtree, one subtree after the other, each in post-order, m.
     thresholds: Vec<f64>,
     /// The fragments of these subtrees if their edges move, else none.
     fragments: FragmentList,
