@@ -4,7 +4,7 @@ use asperity::contact::{
     ContactError, ContactTree, CurvePoint, Foundation, GridEdges, HandError, HandHeld, HessRule, Incremental,
     LegRecord, Move, NoAdhesion, Solver, exact,
 };
-use asperity::scene::Leg;
+use asperity::scene::{Edges, Leg};
 use asperity::surface::{SelfAffine, UnitRoughness};
 use proptest::prelude::*;
 use std::sync::Arc;
@@ -31,7 +31,7 @@ impl Body {
     fn exact<'a>(&'a self, tree: &'a ContactTree) -> Box<dyn Solver + 'a> {
         match self.work {
             Some(work) => Box::new(exact::adhesive(tree, self.rule(work), self.foundation, 2).unwrap()),
-            None => Box::new(exact::bare(&self.gaps, self.foundation, 2)),
+            None => Box::new(exact::nonadhesive(&self.gaps, Edges::Grid, self.foundation, 2)),
         }
     }
 

@@ -21,7 +21,7 @@ mod symmetries;
 use asperity::contact::{
     ContactTree, CurvePoint, Foundation, GridEdges, HessRule, History, LegRecord, Solver, exact, run,
 };
-use asperity::scene::Leg;
+use asperity::scene::{Edges, Leg};
 use proptest::prelude::*;
 
 /// Springs under adhesion.

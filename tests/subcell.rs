@@ -17,9 +17,10 @@ mod rule;
 
 use asperity::contact::subcell::{self, LevelSets};
 use asperity::contact::{
-    BodyMemory, ContactError, ContactTree, CurvePoint, Foundation, HessRule, History, LegRecord, Solver, run,
+    BodyMemory, ContactError, ContactTree, CurvePoint, Foundation, HessRule, History, LegRecord, Solver,
+    exact, run,
 };
-use asperity::scene::Leg;
+use asperity::scene::{Edges, Leg};
 use proptest::prelude::*;
 use std::sync::Arc;
 

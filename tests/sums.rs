@@ -2,7 +2,7 @@
 //! of a force cancels, and no order of the springs shows.
 
 use asperity::contact::{ContactTree, Foundation, GapScale, GridEdges, HessRule, Solver, Tally, exact};
-use asperity::scene::Leg;
+use asperity::scene::{Edges, Leg};
 use dashu_float::{FBig, round::mode::HalfEven};
 use proptest::prelude::*;
 
@@ -141,7 +141,7 @@ proptest! {
         let forces = [gaps, other].map(|gaps| {
             let gaps: Vec<f64> = gaps.iter().map(|gap| gap - lowest).collect();
             let foundation = Foundation { spacing: 1e-3, effective_modulus: 3.0 };
-            let mut solver = exact::bare(&gaps, foundation, 40);
+            let mut solver = exact::nonadhesive(&gaps, Edges::Grid, foundation, 40);
             let leg = solver.advance(Leg::ToIndentation(share * (largest - lowest))).unwrap();
             leg.curve.iter().map(|point| (point.force.to_bits(), point.springs)).collect::<Vec<_>>()
         });

@@ -76,7 +76,7 @@ fn given(history: History) -> Given {
 }
 
 fn bare(line: &Line, legs: &[Leg]) -> Given {
-    given(loaded(&mut exact::bare(&line.gaps, FOUNDATION, SAMPLES), legs))
+    given(loaded(&mut exact::nonadhesive(&line.gaps, Edges::Grid, FOUNDATION, SAMPLES), legs))
 }
 
 fn adhesive(line: &Line, legs: &[Leg]) -> Given {
@@ -147,7 +147,7 @@ fn body_between(levels: &Arc<LevelSets>) -> subcell::Adhesive<'_> {
 }
 
 fn bare_between(line: &Line, legs: &[Leg]) -> Given {
-    given(loaded(&mut subcell::bare(&line.gaps, FOUNDATION, SAMPLES), legs))
+    given(loaded(&mut exact::nonadhesive(&line.gaps, Edges::SubCell, FOUNDATION, SAMPLES), legs))
 }
 
 fn between(line: &Line, legs: &[Leg]) -> Given {

@@ -121,6 +121,9 @@ impl Body {
         samples: usize,
         act: impl FnOnce(&mut dyn Solver) -> Result<T, Fault>,
     ) -> Result<T, Fault> {
+        if self.work == 0.0 {
+            return act(&mut exact::nonadhesive(&self.gaps, edges, self.foundation, samples));
+        }
         let tree = Arc::new(ContactTree::build(&self.gaps)?);
         match edges {
             Edges::Grid => {
@@ -128,9 +131,6 @@ impl Body {
                 act(&mut exact::adhesive(&tree, rule, self.foundation, samples)?)
             }
             Edges::SubCell => {
-                if self.work == 0.0 {
-                    return act(&mut subcell::bare(&self.gaps, self.foundation, samples));
-                }
                 let hess = HessRule::new(self.foundation, self.work);
                 let sets = Arc::new(LevelSets::new(tree, &self.gaps)?);
                 act(&mut subcell::adhesive_in(

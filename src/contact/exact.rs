@@ -5,14 +5,15 @@
 
 use super::law::{Contact, Standing};
 use super::ledger::Grid;
-use super::springs::{AdhesiveSprings, BareSprings, BodyMemory};
+use super::springs::{AdhesiveSprings, BodyMemory};
 use super::targets::{self, Target};
 use super::touch;
 use super::whole::WholeSprings;
 use super::{
-    ContactError, ContactTree, CurvePoint, Direction, EdgeRule, Foundation, LegContact, LegRecord, Work,
+    ContactError, ContactTree, CurvePoint, Direction, EdgeRule, Foundation, LegContact, LegRecord,
+    Nonadhesive, Work,
 };
-use crate::scene::Leg;
+use crate::scene::{Edges, Leg};
 use std::time::{Duration, Instant};
 
 /// A body on its foundation, moved leg by leg.
@@ -80,8 +81,8 @@ impl<'a, R: EdgeRule> OverTree<'a> for WholeSprings<AdhesiveSprings<'a, R>> {
 
 /// A body of whole springs under adhesion; build one with [`adhesive`].
 pub type Adhesive<'a, R> = Exact<WholeSprings<AdhesiveSprings<'a, R>>>;
-/// A body of whole springs without adhesion; build one with [`bare`].
-pub type Bare<'a> = Exact<WholeSprings<BareSprings<'a>>>;
+/// A body without adhesion; build one with [`nonadhesive`].
+pub type WithoutAdhesion<'a> = Exact<Nonadhesive<'a>>;
 
 /// A body of whole springs under adhesion, separated, at d = 0 just before first touch.
 ///
@@ -112,10 +113,15 @@ pub fn adhesive_in<R: EdgeRule>(
     Exact::over_tree(AdhesiveSprings::new(tree, rule, memory)?, foundation, samples)
 }
 
-/// A body of whole springs without adhesion, over springs of these gaps (m, the smallest 0), separated.
+/// A separated body without adhesion at d = 0 just before first touch, over springs of these gaps (m, the smallest 0).
 #[must_use]
-pub fn bare(gaps: &[f64], foundation: Foundation, samples: usize) -> Bare<'_> {
-    Exact::new(WholeSprings(BareSprings::new(gaps)), foundation, samples)
+pub fn nonadhesive(
+    gaps: &[f64],
+    edges: Edges,
+    foundation: Foundation,
+    samples: usize,
+) -> WithoutAdhesion<'_> {
+    Exact::new(Nonadhesive::new(gaps, edges), foundation, samples)
 }
 
 impl<'a, C: OverTree<'a>> Exact<C> {

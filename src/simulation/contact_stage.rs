@@ -11,7 +11,7 @@ use crate::contact::{
     Solver, Stepwise, Work, exact, run, touch,
 };
 use crate::parallel::Beside;
-use crate::scene::{Edges, Leg, Scene, Solver as SolverChoice};
+use crate::scene::{Leg, Scene, Solver as SolverChoice};
 use crate::surface::Line;
 use std::mem::take;
 use std::sync::Arc;
@@ -96,10 +96,10 @@ impl ContactStage<'_> {
                 let body = exact::adhesive_in(thresholds, tree, rule, self.foundation, samples)?;
                 self.load_over_tree(body, zero_load, memory, after)
             }
-            (SolverChoice::Exact, _, _) if self.scene.numerics.edges == Edges::SubCell => {
-                self.load(&mut subcell::bare(gaps, self.foundation, samples), after)
+            (SolverChoice::Exact, _, _) => {
+                let edges = self.scene.numerics.edges;
+                self.load(&mut exact::nonadhesive(gaps, edges, self.foundation, samples), after)
             }
-            (SolverChoice::Exact, _, _) => self.load(&mut exact::bare(gaps, self.foundation, samples), after),
         }
     }
 

@@ -86,7 +86,7 @@ proptest! {
         let springs = body.gaps.len() as u64;
         let tree = body.tree();
         let adhesive: Box<dyn Solver> = Box::new(body.on(&tree, samples));
-        let bare: Box<dyn Solver> = Box::new(exact::bare(&body.gaps, body.foundation, samples));
+        let bare: Box<dyn Solver> = Box::new(exact::nonadhesive(&body.gaps, Edges::Grid, body.foundation, samples));
         for mut solver in [adhesive, bare] {
             let mut thresholds = Vec::new();
             let mut held = 0;

@@ -18,7 +18,7 @@ proptest! {
         let tree = body.tree();
         let [mut asked, mut spared]: [Box<dyn Solver>; 2] = [(), ()].map(|()| -> Box<dyn Solver> {
             if bare {
-                Box::new(exact::bare(&body.gaps, body.foundation, 9))
+                Box::new(exact::nonadhesive(&body.gaps, Edges::Grid, body.foundation, 9))
             } else {
                 Box::new(body.on(&tree, 9))
             }

@@ -25,7 +25,7 @@ proptest! {
             let hess = Some(HessRule::new(body.foundation, body.work));
             let mut solver: Box<dyn Solver> = match kind {
                 0 => Box::new(body.on(&tree, 3)),
-                1 => Box::new(exact::bare(&body.gaps, body.foundation, 3)),
+                1 => Box::new(exact::nonadhesive(&body.gaps, Edges::Grid, body.foundation, 3)),
                 _ => Box::new(Stepwise::new(&body.gaps, hess, body.foundation, 0.05, 3, &stop).unwrap()),
             };
             let tree = (kind == 0).then_some(&tree);

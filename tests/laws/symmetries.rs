@@ -42,7 +42,7 @@ proptest! {
     ) {
         let legs = [Leg::ToIndentation(deepest), Leg::ToSeparation];
         let adhesive = body.history(&legs, samples);
-        let bare = run(&mut exact::bare(&body.gaps, body.foundation, samples), &legs, |_, _| Ok(())).unwrap();
+        let bare = run(&mut exact::nonadhesive(&body.gaps, Edges::Grid, body.foundation, samples), &legs, |_, _| Ok(())).unwrap();
         for history in [adhesive, bare] {
             let mut back = curve_bits(&history.legs[1]);
             back.reverse();
@@ -61,7 +61,7 @@ proptest! {
         let legs = legs(&body, &turns, force);
         let tree = body.tree();
         let mut adhesive = body.on(&tree, 33);
-        let mut bare = exact::bare(&body.gaps, body.foundation, 33);
+        let mut bare = exact::nonadhesive(&body.gaps, Edges::Grid, body.foundation, 33);
         for leg in legs {
             let (a, b) = (adhesive.advance(leg).unwrap(), bare.advance(leg).unwrap());
             prop_assert_eq!(leg_bits(&a), leg_bits(&b), "the two solvers, {:?}", leg);

@@ -211,7 +211,7 @@ proptest! {
         let body = Body { work: 0.0, ..body };
         let sets = body.sets();
         let mut tree = body.on(&sets, 33);
-        let mut cells = subcell::bare(&body.gaps, body.foundation, 33);
+        let mut cells = exact::nonadhesive(&body.gaps, Edges::SubCell, body.foundation, 33);
         let scale = body.force_scale();
         let near = |a: f64, b: f64, size: f64| (a - b).abs() <= 1e-12 * size;
         for (presses, turn) in turns {

@@ -10,7 +10,6 @@
 //! it is short, and at the most it is as long as the line.
 
 mod adhesive;
-mod bare;
 mod between;
 mod edges;
 mod hand;
@@ -22,23 +21,22 @@ pub use edges::{Edges, Slider, SubCellEdges};
 pub use hand::SubCellHand;
 pub use level_sets::{LevelMemory, LevelSets};
 pub use moment::SubCellMoment;
+pub(in crate::contact) use search::bisect;
 
 use super::exact::Exact;
 use super::springs::AdhesiveSprings;
 use super::{BodyMemory, ContactError, Foundation, HessRule};
-use bare::BareLine;
 use between::BetweenSprings;
 use std::sync::Arc;
 
 /// A body under adhesion; build one with [`adhesive_in()`].
 pub type Adhesive<'a> = Exact<BetweenSprings<AdhesiveSprings<'a, SubCellEdges>>>;
-/// A body without adhesion; build one with [`bare()`].
-pub type Bare<'a> = Exact<BetweenSprings<BareLine<'a>>>;
 
 /// A body over the line of `sets`, separated, at d = 0 just before first touch, in the memory that
 /// [`Exact::into_memory`] gave back.
 ///
-/// `hess` is the rule of Hess; with `None` nothing is stretched, and [`bare()`] gives the same without a tree.
+/// `hess` is the rule of Hess; with `None` nothing is stretched, and [`exact::nonadhesive`](super::exact::nonadhesive) gives the same without a
+/// tree.
 /// `samples` (at least 2) curve points are taken on each leg.
 ///
 /// # Errors
@@ -52,10 +50,4 @@ pub fn adhesive_in(
 ) -> Result<Adhesive<'_>, ContactError> {
     let edges = SubCellEdges::new(Arc::clone(sets), hess);
     Exact::over_tree(AdhesiveSprings::new(sets.tree(), edges, memory)?, foundation, samples)
-}
-
-/// A body without adhesion over the line through springs of these gaps (m, the smallest 0), separated.
-#[must_use]
-pub fn bare(gaps: &[f64], foundation: Foundation, samples: usize) -> Bare<'_> {
-    Exact::new(BetweenSprings(BareLine::new(gaps)), foundation, samples)
 }

@@ -1,0 +1,533 @@
+//! Contact without adhesion: a spring carries exactly while its gap is closed, on any leg.
+//!
+//! The contact depends on the indentation alone, so there is no history and no threshold; the force is a convex
+//! function of the indentation. One pass along the line gives a whole curve.
+//!
+//! What lies between two springs, a *cell*, fills from its smaller gap to its larger one. The cells that are full are
+//! summed exactly, as whole numbers of quanta. Those that are filled in part are summed one by one, which keeps every
+//! digit however steep or flat they are and however far the indentation goes; only cells that are filled in part at
+//! many points of a curve in a row add as quadratics, whose coefficients their height bounds there.
+
+use super::law::{Contact, Standing};
+use super::ledger::{CompensatedSum, Grid};
+use super::springs::runs;
+use super::subcell::bisect;
+use super::tally::{GapScale, Tally};
+use super::{ContactError, LegContact, Work};
+use crate::scene::Edges;
+use std::ops::Range;
+
+/// Cells that are filled in part at so many points of a curve in a row are added to each of them.
+const FEW_POINTS: usize = 4;
+/// Most Newton steps to a force; what they leave of an interval is halved.
+const NEWTON_STEPS: usize = 200;
+
+/// Springs of a line without adhesion.
+#[derive(Clone, Copy, Debug)]
+pub struct Nonadhesive<'a> {
+    gaps: &'a [f64],
+    /// Largest gap, m.
+    deepest: f64,
+    edges: Edges,
+    scale: GapScale,
+}
+
+/// What is in contact at each point of a grid.
+pub struct Sampled {
+    grid: Grid,
+    standings: Vec<Standing>,
+}
+
+/// Sum over what is filled in part.
+#[derive(Clone, Copy, Debug, Default)]
+struct Partial {
+    /// In cells.
+    length: CompensatedSum,
+    /// ∫ (d − c) dx in cells times metres.
+    compression: CompensatedSum,
+}
+
+impl Partial {
+    /// Adds a cell from `low` to `high` (m), between which the indentation lies.
+    #[inline]
+    fn add(&mut self, low: f64, high: f64, indentation: f64) {
+        let above = indentation - low;
+        let share = above / (high - low);
+        self.length.add(share);
+        self.compression.add(0.5 * above * share);
+    }
+}
+
+/// Sum of cells as a quadratic in the way x from a point: `compression + length x + curvature x²`.
+#[derive(Clone, Copy, Debug, Default)]
+struct Quadratic {
+    partial: Partial,
+    curvature: CompensatedSum,
+}
+
+impl Quadratic {
+    /// Adds a cell at a point, or takes it away.
+    #[inline]
+    fn add(&mut self, low: f64, high: f64, point: f64, sign: f64) {
+        let (above, growth) = (point - low, (high - low).recip());
+        let share = above * growth;
+        self.partial.length.add(sign * share);
+        self.partial.compression.add(sign * 0.5 * above * share);
+        self.curvature.add(sign * 0.5 * growth);
+    }
+
+    fn add_all(&mut self, other: Quadratic) {
+        self.partial.length.add_sum(other.partial.length);
+        self.partial.compression.add_sum(other.partial.compression);
+        self.curvature.add_sum(other.curvature);
+    }
+
+    /// Moves the point on.
+    fn shift(&mut self, way: f64) {
+        let (length, bend) = (self.partial.length.total(), way * self.curvature.total());
+        self.partial.compression.add(way * (length + bend));
+        self.partial.length.add(2.0 * bend);
+    }
+}
+
+/// Changes of the contact from one point of a grid to the next.
+struct Changes {
+    whole: Vec<Tally>,
+    partial: Vec<Partial>,
+    quadratic: Vec<Quadratic>,
+}
+
+/// The contact in an interval of indentations.
+struct Between<'s> {
+    contact: &'s Nonadhesive<'s>,
+    /// Sum of what is full from the lower end on.
+    full: Tally,
+    /// Springs that come into contact inside, by their gaps.
+    springs: Vec<(f64, Tally)>,
+    /// Cells that are filled in part anywhere inside.
+    cells: Vec<[f64; 2]>,
+}
+
+impl<'a> Nonadhesive<'a> {
+    /// Springs of these gaps (m, finite, the smallest 0).
+    #[must_use]
+    pub fn new(gaps: &'a [f64], edges: Edges) -> Self {
+        let deepest = gaps.iter().copied().fold(0.0, f64::max);
+        Nonadhesive { gaps, deepest, edges, scale: GapScale::for_gaps_up_to(deepest) }
+    }
+
+    /// Smaller and larger gap of each cell, m.
+    fn cells(&self) -> impl Iterator<Item = [f64; 2]> {
+        self.gaps
+            .windows(2)
+            .map(|cell| if cell[0] < cell[1] { [cell[0], cell[1]] } else { [cell[1], cell[0]] })
+    }
+
+    /// The half cells beyond the first and the last spring lie level with them.
+    fn ends(&self) -> impl Iterator<Item = f64> {
+        let ends =
+            if self.edges == Edges::SubCell { [self.gaps.first(), self.gaps.last()] } else { [None, None] };
+        ends.into_iter().flatten().copied()
+    }
+
+    /// Adds the half cells at an indentation, m.
+    fn add_ends(&self, partial: &mut Partial, indentation: f64) {
+        for gap in self.ends().filter(|&gap| gap <= indentation) {
+            partial.length.add(0.5);
+            partial.compression.add(0.5 * (indentation - gap));
+        }
+    }
+
+    /// The contact of full springs and cells, and of what is filled in part.
+    fn standing(&self, indentation: f64, full: Tally, partial: Partial) -> Standing {
+        let (springs, fragments) = (full.springs, full.fragments);
+        match self.edges {
+            Edges::Grid => Standing {
+                indentation,
+                springs,
+                fragments,
+                length: springs as f64,
+                compression: full.compression(indentation, &self.scale),
+            },
+            Edges::SubCell => Standing {
+                indentation,
+                springs,
+                fragments,
+                length: (full.cells() as f64 + partial.length.total()).min(self.gaps.len() as f64),
+                compression: full.compression_of_cells(indentation, &self.scale)
+                    + partial.compression.total(),
+            },
+        }
+    }
+
+    /// Calls `see` with each spring: the contact it adds, its gap and that of the spring before it.
+    ///
+    /// A spring adds a fragment, less one for each neighbour that touches earlier; among equals the left one counts
+    /// as the later. Between springs it adds the cells to these neighbours.
+    #[inline]
+    fn each_spring(&self, mut see: impl FnMut(Tally, f64, f64)) {
+        let sub_cell = self.edges == Edges::SubCell;
+        let mut before = f64::INFINITY;
+        for (index, &gap) in self.gaps.iter().enumerate() {
+            let after = self.gaps.get(index + 1).copied().unwrap_or(f64::INFINITY);
+            let (left, right) = (before < gap, after <= gap);
+            let cell = |closes, neighbour| if closes { self.scale.mean_quanta(gap, neighbour) } else { 0 };
+            let quanta =
+                if sub_cell { cell(left, before) + cell(right, after) } else { self.scale.quanta(gap) };
+            let fragments = 1 - i64::from(left) - i64::from(right);
+            see(Tally { springs: 1, fragments, quanta: i128::from(quanta) }, gap, before);
+            before = gap;
+        }
+    }
+
+    /// The contact along a grid, by one pass along the line.
+    fn along(&self, grid: &Grid) -> Vec<Standing> {
+        let points = grid.points();
+        let count = points.len();
+        let mut changes = Changes {
+            whole: vec![Tally::default(); count],
+            partial: vec![Partial::default(); count],
+            quadratic: vec![Quadratic::default(); count],
+        };
+        for (partial, &point) in changes.partial.iter_mut().zip(points) {
+            self.add_ends(partial, point);
+        }
+        let place = |gap: f64| if gap > grid.high() { count } else { grid.first_at_least(gap) };
+        let sub_cell = self.edges == Edges::SubCell;
+        let mut place_before = count;
+        self.each_spring(|adds, gap, before| {
+            let here = place(gap);
+            if here < count {
+                changes.whole[here] += adds;
+            }
+            if sub_cell && here != place_before && before < f64::INFINITY {
+                let (low, high) = if before < gap { (before, gap) } else { (gap, before) };
+                changes.add_cell(low, high, here.min(place_before)..here.max(place_before), points);
+            }
+            place_before = here;
+        });
+        self.sum(points, changes)
+    }
+
+    fn sum(&self, points: &[f64], changes: Changes) -> Vec<Standing> {
+        let (mut full, mut sum) = (Tally::default(), Quadratic::default());
+        let mut from = points[0];
+        let changes = changes.whole.into_iter().zip(changes.partial).zip(changes.quadratic);
+        let mut longest = 0.0;
+        let last = points.len() - 1;
+        points
+            .iter()
+            .zip(changes)
+            .enumerate()
+            .map(|(index, (&point, ((whole, mut partial), quadratic)))| {
+                full += whole;
+                sum.shift(point - from);
+                sum.add_all(quadratic);
+                from = point;
+                if index > 0 && index < last {
+                    partial.length.add_sum(sum.partial.length);
+                    partial.compression.add_sum(sum.partial.compression);
+                }
+                let mut standing = self.standing(point, full, partial);
+                // Rounding must not make the contact shrink.
+                longest = standing.length.max(longest);
+                standing.length = longest;
+                standing
+            })
+            .collect()
+    }
+
+    /// The contact at any indentation from `low` up to, not itself, `high` (m), looking only at what changes there.
+    fn between(&self, low: f64, high: f64) -> Between<'_> {
+        let mut full = Tally::default();
+        let mut springs = Vec::new();
+        self.each_spring(|adds, gap, _| {
+            if gap <= low {
+                full += adds;
+            } else if gap < high {
+                springs.push((gap, adds));
+            }
+        });
+        let mut cells = Vec::new();
+        if self.edges == Edges::SubCell {
+            cells.extend(self.cells().filter(|&[from, to]| from < high && to > low));
+        }
+        Between { contact: self, full, springs, cells }
+    }
+
+    /// Neighbouring numbers between which the compression passes `wanted` on a leg, the lower first; the end of the
+    /// leg twice where it lies beyond.
+    fn crossing(&self, leg: &Sampled, wanted: f64, is_past: impl Fn(f64) -> bool) -> Option<[f64; 2]> {
+        let past = leg.standings.partition_point(|standing| !is_past(standing.compression));
+        let high = leg.standings.get(past)?.indentation;
+        let Some(low) = past.checked_sub(1).map(|index| leg.standings[index].indentation) else {
+            return Some([high; 2]);
+        };
+        let between = self.between(low, high.next_up());
+        Some(match self.edges {
+            Edges::Grid => [between.crossing_of_springs((low, high), wanted); 2],
+            // It rises from there on, though perhaps by less than a number can hold.
+            Edges::SubCell if leg.standings[past - 1].compression == wanted => [low, low.next_up()],
+            Edges::SubCell => between.crossing((low, high), wanted, is_past),
+        })
+    }
+}
+
+impl Between<'_> {
+    fn at(&self, indentation: f64) -> Standing {
+        let mut full = self.full;
+        self.springs.iter().filter(|(gap, _)| *gap <= indentation).for_each(|(_, adds)| full += *adds);
+        let mut partial = Partial::default();
+        self.contact.add_ends(&mut partial, indentation);
+        let cells = self.cells.iter().filter(|&&[low, high]| low <= indentation && indentation < high);
+        cells.for_each(|&[low, high]| partial.add(low, high, indentation));
+        self.contact.standing(indentation, full, partial)
+    }
+
+    /// Springs in contact at an indentation, m.
+    fn full_at(&self, indentation: f64) -> Tally {
+        let mut full = self.full;
+        self.springs.iter().filter(|(gap, _)| *gap <= indentation).for_each(|(_, adds)| full += *adds);
+        full
+    }
+
+    /// Neighbouring numbers (m) in `low..=high` between which the compression passes `wanted`: `is_past` holds at
+    /// the higher end and not at the lower one.
+    ///
+    /// Newton's method from above: the compression is convex and the length is its derivative, so that each step
+    /// leads down to the crossing and not beyond it, until rounding ends the steps.
+    fn crossing(
+        &self,
+        (mut low, mut high): (f64, f64),
+        wanted: f64,
+        is_past: impl Fn(f64) -> bool,
+    ) -> [f64; 2] {
+        let past = |indentation: f64| is_past(self.at(indentation).compression);
+        for _ in 0..NEWTON_STEPS {
+            let standing = self.at(high);
+            let next = high - (standing.compression - wanted) / standing.length;
+            if next >= high || next <= low {
+                break;
+            }
+            if !past(next) {
+                low = next;
+                break;
+            }
+            high = next;
+        }
+        let mut width = high - high.next_down();
+        while high - width > low && past(high - width) {
+            high -= width;
+            width *= 2.0;
+        }
+        let found = bisect(low.max(high - width), high, past);
+        [found.next_down().max(low), found]
+    }
+
+    /// The indentation of a compression between springs, where it is a straight line, found from above.
+    fn crossing_of_springs(&self, (low, high): (f64, f64), wanted: f64) -> f64 {
+        let mut at = high;
+        loop {
+            match self.full_at(at).indentation(wanted, &self.contact.scale) {
+                Some(next) if next < at => at = next.max(low),
+                _ => return at,
+            }
+        }
+    }
+}
+
+impl Changes {
+    /// Adds a cell that is filled in part at these points.
+    #[inline]
+    fn add_cell(&mut self, low: f64, high: f64, at: Range<usize>, points: &[f64]) {
+        let last = points.len() - 1;
+        let Range { start, end } = at;
+        if end - start <= FEW_POINTS {
+            for index in start..end {
+                self.partial[index].add(low, high, points[index]);
+            }
+            return;
+        }
+        // Both ends of the curve are ends of other legs as well, which must find the same there.
+        for index in [0, last].into_iter().filter(|index| (start..end).contains(index)) {
+            self.partial[index].add(low, high, points[index]);
+        }
+        let (start, end) = (start.max(1), end.min(last));
+        self.quadratic[start].add(low, high, points[start], 1.0);
+        self.quadratic[end].add(low, high, points[end], -1.0);
+    }
+}
+
+impl Contact for Nonadhesive<'_> {
+    type Leg = Sampled;
+
+    const SEARCH_INTERVALS: usize = 256;
+
+    fn count(&self) -> u64 {
+        self.gaps.len() as u64
+    }
+
+    fn load(&mut self, _: Option<f64>, _: &mut Work) -> f64 {
+        self.deepest
+    }
+
+    fn unload(&mut self, _: f64, _: &mut Work) -> f64 {
+        // The highest point of the line touches first and leaves last, at d = 0.
+        0.0
+    }
+
+    fn sample(&self, grid: Grid) -> Sampled {
+        Sampled { standings: self.along(&grid), grid }
+    }
+
+    /// Nothing is stretched, so that nothing dissipates.
+    fn sample_joins(&self, grid: Grid, _: bool) -> (Sampled, f64) {
+        (self.sample(grid), 0.0)
+    }
+
+    fn sample_leaves(&self, grid: Grid, _: bool) -> (Sampled, f64) {
+        (self.sample(grid), 0.0)
+    }
+
+    fn grid<'l>(&self, leg: &'l Sampled) -> &'l Grid {
+        &leg.grid
+    }
+
+    fn at(&self, leg: &Sampled, index: usize) -> Standing {
+        leg.standings[index]
+    }
+
+    fn smallest(&self, leg: &Sampled, _: &mut u64) -> Standing {
+        leg.standings[0]
+    }
+
+    fn largest(&self, leg: &Sampled, _: &mut u64) -> Standing {
+        leg.standings[leg.standings.len() - 1]
+    }
+
+    fn first_at_least(&self, leg: &Sampled, wanted: f64, _: &mut u64) -> Option<f64> {
+        self.crossing(leg, wanted, |compression| compression >= wanted).map(|[_, found]| found)
+    }
+
+    fn last_at_most(&self, leg: &Sampled, wanted: f64, _: &mut u64) -> Option<f64> {
+        if leg.standings[0].compression > wanted {
+            return None;
+        }
+        let found = self.crossing(leg, wanted, |compression| compression > wanted).map(|[found, _]| found);
+        found.or(leg.standings.last().map(|last| last.indentation))
+    }
+
+    fn beyond(&self, leg: &Sampled, wanted: f64) -> Option<f64> {
+        let end = leg.standings.last()?;
+        match self.edges {
+            Edges::Grid => {
+                self.between(end.indentation, end.indentation).full.indentation(wanted, &self.scale)
+            }
+            Edges::SubCell => Some(end.indentation + (wanted - end.compression) / end.length),
+        }
+    }
+
+    fn thresholds_along_line(&self, out: &mut Vec<f64>) {
+        out.clear();
+        out.extend_from_slice(self.gaps);
+    }
+
+    fn copy_leg(&self, copy: &mut LegContact) -> Result<(), ContactError> {
+        copy.keep_gaps();
+        Ok(())
+    }
+
+    fn fragments(&self, indentation: f64) -> Vec<(usize, usize)> {
+        runs(self.gaps.iter().map(|&gap| gap <= indentation))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::contact::{Foundation, Solver, exact};
+    use crate::scene::Leg;
+    use proptest::prelude::*;
+
+    const FOUNDATION: Foundation = Foundation { spacing: 0.25, effective_modulus: 8.0 };
+
+    /// Length and compression by definition, cell by cell.
+    fn by_definition(gaps: &[f64], edges: Edges, d: f64) -> (f64, f64) {
+        if edges == Edges::Grid {
+            let inside = gaps.iter().filter(|&&gap| gap <= d);
+            return inside.fold((0.0, 0.0), |(length, sum), gap| (length + 1.0, sum + (d - gap)));
+        }
+        let ends = [gaps[0], gaps[gaps.len() - 1]].into_iter().filter(|&gap| gap <= d);
+        let of_ends = ends.fold((0.0, 0.0), |(length, sum), gap| (length + 0.5, sum + 0.5 * (d - gap)));
+        gaps.windows(2).fold(of_ends, |(length, sum), cell| {
+            let (low, high) = (cell[0].min(cell[1]), cell[0].max(cell[1]));
+            if d < low {
+                (length, sum)
+            } else if d >= high {
+                (length + 1.0, sum + ((d - low) + (d - high)) / 2.0)
+            } else {
+                let share = (d - low) / (high - low);
+                (length + share, sum + 0.5 * (d - low) * share)
+            }
+        })
+    }
+
+    /// Lines with ties, near-ties down to one rounding, and steps of any height.
+    fn lines() -> impl Strategy<Value = Vec<f64>> {
+        let gap = prop_oneof![
+            3 => (0_u16..8).prop_map(|level| f64::from(level) * 0.125),
+            2 => (0_u16..8, -80_i32..-20).prop_map(|(level, power)| f64::from(level) * 0.125 + 2.0_f64.powi(power)),
+            2 => 0.0..1.0_f64,
+            1 => (-1000_i32..0).prop_map(|power| 2.0_f64.powi(power)),
+        ];
+        (prop::collection::vec(gap, 0..60), any::<prop::sample::Index>()).prop_map(|(mut gaps, place)| {
+            gaps.insert(place.index(gaps.len() + 1), 0.0);
+            gaps
+        })
+    }
+
+    fn edges() -> impl Strategy<Value = Edges> {
+        prop_oneof![Just(Edges::Grid), Just(Edges::SubCell)]
+    }
+
+    proptest! {
+        #[test]
+        fn curves_are_those_of_the_definition(
+            gaps in lines(), edges in edges(), power in -40..100_i32, samples in 2..600_usize,
+        ) {
+            let deepest = 2.0_f64.powi(power);
+            let mut body = exact::nonadhesive(&gaps, edges, FOUNDATION, samples);
+            let count = gaps.len() as f64;
+            let (mut length, mut force) = (0.0, 0.0);
+            let loading = body.advance(Leg::ToIndentation(deepest)).unwrap();
+            let unloading = body.advance(Leg::ToIndentation(0.3 * deepest)).unwrap();
+            for point in &loading.curve[1..] {
+                let (expected_length, expected) = by_definition(&gaps, edges, point.indentation);
+                let found = [point.contact_length / 0.25, point.force / 2.0];
+                prop_assert!((found[0] - expected_length).abs() <= 1e-13 * expected_length, "{point:?} {expected_length}");
+                let quanta = count * GapScale::for_gaps_up_to(1.0).quantum();
+                prop_assert!((found[1] - expected).abs() <= 1e-12 * expected + quanta, "{point:?} {expected}");
+                prop_assert!(found[0] <= count && found[0] >= length && point.force >= force);
+                (length, force) = (found[0], point.force);
+            }
+            prop_assert_eq!(length == count, gaps.iter().all(|gap| *gap <= deepest));
+            prop_assert_eq!(unloading.curve.first(), loading.curve.last());
+            prop_assert_eq!(loading.dissipated_energy + unloading.dissipated_energy, 0.0);
+        }
+
+        #[test]
+        fn forces_are_met_to_the_last_place_of_the_indentation(
+            gaps in lines(), edges in edges(), power in -60..200_i32, part in 0.0..1.0_f64,
+        ) {
+            let mut body = exact::nonadhesive(&gaps, edges, FOUNDATION, 3);
+            for wanted in [2.0_f64.powi(power), part * 2.0_f64.powi(power), 0.0] {
+                let record = body.advance(Leg::ToForce(wanted)).unwrap();
+                let end = record.curve.last().unwrap();
+                let place = end.indentation - end.indentation.next_down();
+                let quanta = end.contact_length / 0.25 * GapScale::for_gaps_up_to(1.0).quantum();
+                let bound = 2.0 * (end.contact_length / 0.25 * place + quanta) + 4.0 * f64::EPSILON * wanted;
+                prop_assert!((end.force - wanted).abs() <= bound, "{wanted} {end:?}");
+            }
+        }
+    }
+}
