@@ -239,6 +239,44 @@ fn it_gives_up_when_told_to_or_when_steps_are_too_many() {
     assert_eq!(refused, Err(ContactError::TooManySteps { index: 0, step: 1e-9, limit }));
 }
 
+#[test]
+fn legs_without_an_end_are_refused_before_their_first_step() {
+    let gaps = rough(64, 3);
+    let hess = Some(HessRule::new(FOUNDATION, 1e-3));
+    let steps = std::cell::Cell::new(0_u64);
+    // Asked before each step.
+    let stop = || {
+        steps.set(steps.get() + 1);
+        false
+    };
+    for (hess, step) in [(None, 1e-3), (hess, 1e-3), (hess, 1e-30)] {
+        let mut solver = Stepwise::new(&gaps, hess, FOUNDATION, step, 9, &stop).unwrap();
+        let limit = asperity::contact::stepwise::STEP_LIMIT;
+        let too_many = |index| Err(ContactError::TooManySteps { index, step, limit });
+        let far = solver.advance(Leg::ToForce(1e9));
+        assert!(far == too_many(0), "{far:?}");
+        if step < 1e-3 {
+            assert_eq!(solver.advance(Leg::ToTouch).unwrap().joins, 1);
+            assert_eq!(
+                (solver.advance(Leg::ToSeparation), solver.advance(Leg::ToForce(1e-3))),
+                (too_many(1), too_many(1))
+            );
+            continue;
+        }
+        solver.advance(Leg::ToIndentation(0.3)).unwrap();
+        let before = steps.replace(0);
+        assert!(before > 300);
+        let beyond = solver.advance(Leg::ToForce(-1e9));
+        let Err(ContactError::LetsGoBefore { index: 1, smallest, .. }) = beyond else { panic!("{beyond:?}") };
+        assert_eq!(steps.replace(0), 0);
+        // The steps come no further, and no less far than one of them.
+        let record = solver.advance(Leg::ToSeparation).unwrap();
+        assert!(record.smallest.force >= smallest && record.smallest.force <= smallest + 64.0 * 0.01 * step);
+        steps.set(0);
+    }
+    assert_eq!(steps.get(), 1);
+}
+
 /// A rough rubber face; each scene of these tests differs from it by its overrides.
 const SCENE: &str = r#"(
     version: 1,

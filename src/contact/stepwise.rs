@@ -1,13 +1,16 @@
 //! The stepwise solver: move by a small step, relax to equilibrium, repeat, as the paper does.
 //!
 //! The step Δd is its accuracy; each step costs a few sweeps over the whole line. It shares nothing
-//! with the exact solver but the rules and the sums.
+//! with the exact solver but the rules and the sums; only whether a leg can end, and within how many steps,
+//! is asked of the exact thresholds before the first step.
 
 use super::{
-    ContactError, CurvePoint, Direction, Foundation, GapScale, HessRule, LegContact, LegRecord, Solver,
-    Tally, Work, reserve,
+    ContactError, ContactTree, CurvePoint, Direction, EdgeRule, Foundation, GapScale, GridEdges, HandError,
+    HandHeld, HessRule, Incremental, LegContact, LegRecord, NoAdhesion, Solver, Tally, Work, exact, reserve,
+    springs,
 };
-use crate::scene::Leg;
+use crate::scene::{Edges, Leg};
+use std::sync::Arc;
 
 /// Most steps on one leg.
 pub const STEP_LIMIT: u64 = 10_000_000;
@@ -197,6 +200,63 @@ impl<'a> Stepwise<'a> {
         self.squared_stretch = 0.0;
     }
 
+    /// Refuses a leg whose end lies out of reach or beyond the limit of steps, before its first step.
+    ///
+    /// # Errors
+    /// [`ContactError::LetsGoBefore`], [`ContactError::OutOfReach`], [`ContactError::TooManySteps`].
+    fn check_reach(&self, leg: Leg, direction: Direction, goal: Goal) -> Result<(), ContactError> {
+        let end = match (goal, direction) {
+            (Goal::Indentation(end), _) => end,
+            (Goal::Force(force), Direction::Loading) => self.least_indentation(force.max(0.0))?,
+            (Goal::Force(_) | Goal::Separation, _) => match self.hess {
+                Some(hess) => self.pulled(GridEdges::new(hess), leg, goal)?,
+                None => self.pulled(NoAdhesion, leg, goal)?,
+            },
+        };
+        // From separation the first step is the touch.
+        let start = if self.tally.springs == 0 { self.indentation.max(0.0) } else { self.indentation };
+        // No end is closer than the exact one, and the last step may be a part of one.
+        if (end - start).abs() / self.step > STEP_LIMIT as f64 {
+            let index = self.legs;
+            return Err(ContactError::TooManySteps { index, step: self.step, limit: STEP_LIMIT });
+        }
+        Ok(())
+    }
+
+    /// Indentation, m, below which no contact carries a force (N, at least zero): adhesion only lessens it.
+    fn least_indentation(&self, force: f64) -> Result<f64, ContactError> {
+        let mut body = exact::nonadhesive(self.gaps, Edges::Grid, self.foundation, 2);
+        let leg = Leg::ToForce(force);
+        let reached = body.advance(leg).map_err(|error| match error {
+            ContactError::OutOfReach { .. } => ContactError::OutOfReach { index: self.legs, leg },
+            other => other,
+        })?;
+        Ok(reached.end())
+    }
+
+    /// Indentation, m, at which the present contact reaches a goal when it is pulled.
+    fn pulled<R: EdgeRule>(&self, rule: R, leg: Leg, goal: Goal) -> Result<f64, ContactError> {
+        let tree = Arc::new(ContactTree::build(self.gaps)?);
+        let contacts = springs::runs(self.contact.iter().copied());
+        let body = Incremental::standing(tree, rule, self.foundation, self.indentation, &contacts);
+        let pulled = body.and_then(|mut body| {
+            match goal {
+                Goal::Force(force) => body.move_to_force(force)?,
+                Goal::Indentation(_) | Goal::Separation => body.separate(),
+            };
+            Ok(body.point().indentation)
+        });
+        pulled.map_err(|error| match error {
+            HandError::Contact(error) => error,
+            HandError::LetsGoBefore { smallest, .. } => {
+                ContactError::LetsGoBefore { index: self.legs, leg, smallest }
+            }
+            HandError::NotFinite { .. } | HandError::NothingToPull { .. } | HandError::OutOfReach { .. } => {
+                ContactError::OutOfReach { index: self.legs, leg }
+            }
+        })
+    }
+
     /// Steps on until `goal` says the leg is done.
     fn walk(&mut self, leg: Leg, direction: Direction, goal: Goal) -> Result<LegRecord, ContactError> {
         self.begin();
@@ -374,6 +434,7 @@ impl Solver for Stepwise<'_> {
                 LegRecord::free(leg, here.indentation, end)
             }
             None => {
+                self.check_reach(leg, direction, goal)?;
                 let (contact, thresholds) = (self.contact.clone(), self.thresholds.clone());
                 let tally = self.tally;
                 self.walk(leg, direction, goal).inspect_err(|_| {
