@@ -4,11 +4,8 @@
 //! law of their contact.
 
 use super::law::{Contact, Standing};
-use super::ledger::Grid;
-use super::springs::{AdhesiveSprings, BodyMemory};
+use super::grid::Grid;
 use super::targets::{self, Target};
-use super::touch;
-use super::whole::WholeSprings;
 use super::{
     ContactError, ContactTree, CurvePoint, Direction, EdgeRule, Foundation, LegContact, LegRecord,
     Nonadhesive, Work,
@@ -41,77 +38,8 @@ enum FirstSearch<L> {
     Known(L),
 }
 
-/// A contact of springs under adhesion.
-pub trait OverTree<'a>: Contact + Sized {
-    /// The rule for its edges.
-    type Rule: EdgeRule;
-
-    /// The contact of these springs.
-    fn over(springs: AdhesiveSprings<'a, Self::Rule>) -> Self;
-
-    /// Its springs.
-    fn springs(&self) -> &AdhesiveSprings<'a, Self::Rule>;
-
-    /// Its springs.
-    fn springs_mut(&mut self) -> &mut AdhesiveSprings<'a, Self::Rule>;
-
-    /// Its springs, to be looked at otherwise.
-    fn into_springs(self) -> AdhesiveSprings<'a, Self::Rule>;
-}
-
-impl<'a, R: EdgeRule> OverTree<'a> for WholeSprings<AdhesiveSprings<'a, R>> {
-    type Rule = R;
-
-    fn over(springs: AdhesiveSprings<'a, R>) -> Self {
-        WholeSprings(springs)
-    }
-
-    fn springs(&self) -> &AdhesiveSprings<'a, R> {
-        &self.0
-    }
-
-    fn springs_mut(&mut self) -> &mut AdhesiveSprings<'a, R> {
-        &mut self.0
-    }
-
-    fn into_springs(self) -> AdhesiveSprings<'a, R> {
-        self.0
-    }
-}
-
-/// A body of whole springs under adhesion; build one with [`adhesive`].
-pub type Adhesive<'a, R> = Exact<WholeSprings<AdhesiveSprings<'a, R>>>;
 /// A body without adhesion; build one with [`nonadhesive`].
 pub type WithoutAdhesion<'a> = Exact<Nonadhesive<'a>>;
-
-/// A body of whole springs under adhesion, separated, at d = 0 just before first touch.
-///
-/// `samples` (at least 2) curve points are taken on each leg.
-///
-/// # Errors
-/// [`ContactError::OutOfMemory`].
-pub fn adhesive<R: EdgeRule>(
-    tree: &ContactTree,
-    rule: R,
-    foundation: Foundation,
-    samples: usize,
-) -> Result<Adhesive<'_, R>, ContactError> {
-    adhesive_in(BodyMemory::default(), tree, rule, foundation, samples)
-}
-
-/// The same in the memory that [`Exact::into_memory`] gave back: fresh memory costs about as much as a pass.
-///
-/// # Errors
-/// [`ContactError::OutOfMemory`].
-pub fn adhesive_in<R: EdgeRule>(
-    memory: BodyMemory,
-    tree: &ContactTree,
-    rule: R,
-    foundation: Foundation,
-    samples: usize,
-) -> Result<Adhesive<'_, R>, ContactError> {
-    Exact::over_tree(AdhesiveSprings::new(tree, rule, memory)?, foundation, samples)
-}
 
 /// A separated body without adhesion at d = 0 just before first touch, over springs of these gaps (m, the smallest 0).
 #[must_use]
@@ -122,58 +50,6 @@ pub fn nonadhesive(
     samples: usize,
 ) -> WithoutAdhesion<'_> {
     Exact::new(Nonadhesive::new(gaps, edges), foundation, samples)
-}
-
-impl<'a, C: OverTree<'a>> Exact<C> {
-    /// A body over these springs, separated, at d = 0 just before first touch.
-    pub(super) fn over_tree(
-        springs: AdhesiveSprings<'a, C::Rule>,
-        foundation: Foundation,
-        samples: usize,
-    ) -> Result<Self, ContactError> {
-        let mut exact = Exact::new(C::over(springs), foundation, samples);
-        exact.work.tree_nodes = exact.work.springs;
-        Ok(exact)
-    }
-
-    /// The same, which computes the loading from separation once and keeps it: for a loading that comes down
-    /// several times. What it gives is the same, bit for bit.
-    #[must_use]
-    pub fn keeping_first_loading(mut self) -> Self {
-        self.contact.springs_mut().keep_first_loading();
-        self.first = FirstSearch::Awaited;
-        self
-    }
-
-    /// The memory it worked in, for the next body.
-    #[must_use]
-    pub fn into_memory(self) -> BodyMemory {
-        self.contact.into_springs().into_memory()
-    }
-
-    /// The springs under adhesion.
-    pub(crate) fn springs(&self) -> &AdhesiveSprings<'a, C::Rule> {
-        self.contact.springs()
-    }
-
-    /// Roots of the fragments in contact at first touch, on the leg that forms the contact.
-    pub(crate) fn roots_at_touch(&self) -> Option<Vec<usize>> {
-        self.springs().roots_at_touch().filter(|_| self.touching)
-    }
-
-    /// The smallest force, N, on the way back from first touch, and what it took to find; `None` unless the
-    /// present leg forms the contact. `memory` serves for the next body.
-    ///
-    /// # Errors
-    /// [`ContactError::OutOfMemory`].
-    pub fn pull_off_at_touch(&self, memory: &mut BodyMemory) -> Result<Option<(f64, Work)>, ContactError>
-    where
-        C::Rule: Clone,
-    {
-        let (tree, rule) = (self.springs().tree(), self.springs().rule().clone());
-        let pull_off = |roots| touch::smallest_force::<C>(tree, rule, self.foundation, roots, memory);
-        self.roots_at_touch().map(pull_off).transpose()
-    }
 }
 
 impl<C: Contact> Exact<C> {
@@ -192,6 +68,26 @@ impl<C: Contact> Exact<C> {
             leg_time: Duration::ZERO,
             pass_time: Duration::ZERO,
         }
+    }
+
+    /// The same, which computes the loading from separation once and keeps it: for a loading that comes down
+    /// several times. What it gives is the same, bit for bit.
+    #[must_use]
+    pub fn keeping_first_loading(mut self) -> Self {
+        self.first = FirstSearch::Awaited;
+        self
+    }
+
+    pub(super) fn into_contact(self) -> C {
+        self.contact
+    }
+
+    pub(super) fn contact_mut(&mut self) -> &mut C {
+        &mut self.contact
+    }
+
+    pub(super) fn foundation(&self) -> Foundation {
+        self.foundation
     }
 
     fn is_separated(&self) -> bool {
@@ -217,7 +113,7 @@ impl<C: Contact> Exact<C> {
     }
 
     /// What is in contact along the grid of a search.
-    fn sample(&mut self, low: f64, high: f64) -> C::Leg {
+    fn sample(&mut self, low: f64, high: f64) -> Result<C::Leg, ContactError> {
         self.work.springs_tallied += self.work.springs;
         self.contact.sample(Grid::new(low, high, C::SEARCH_INTERVALS))
     }
@@ -255,7 +151,7 @@ impl<C: Contact> Exact<C> {
         let before = self.standing;
         let separated = self.is_separated();
         let clock = Instant::now();
-        let complete = self.contact.load((!separated).then_some(before.indentation), &mut self.work);
+        let complete = self.contact.load((!separated).then_some(before.indentation), &mut self.work)?;
         self.pass_time += clock.elapsed();
         // Nothing touches below d = 0.
         let low = if separated { before.indentation.max(0.0) } else { before.indentation };
@@ -270,7 +166,7 @@ impl<C: Contact> Exact<C> {
             _ => self.grid(low, high),
         };
         self.work.springs_tallied += self.work.springs;
-        let (sampled, joined) = self.contact.sample_joins(grid, separated);
+        let (sampled, joined) = self.contact.sample_joins(grid, separated)?;
         let mut curve = self.samples(&sampled, stride);
         if separated {
             curve.insert(0, self.curve_point(Standing::free(low)));
@@ -318,7 +214,7 @@ impl<C: Contact> Exact<C> {
         let sampled = match known {
             // From d = 0 to where all is in contact it is the same each time.
             FirstSearch::Known(sampled) => sampled,
-            FirstSearch::Awaited | FirstSearch::Forgotten => self.sample(low, complete),
+            FirstSearch::Awaited | FirstSearch::Forgotten => self.sample(low, complete)?,
         };
         let sorted = &mut self.work.events_sorted;
         // Beyond, everything is in contact and the force rises with all springs.
@@ -337,7 +233,7 @@ impl<C: Contact> Exact<C> {
         let before = self.standing;
         let high = before.indentation;
         let clock = Instant::now();
-        let separates = self.contact.unload(high, &mut self.work);
+        let separates = self.contact.unload(high, &mut self.work)?;
         self.pass_time += clock.elapsed();
         let low = match target {
             Target::Indentation(indentation) => indentation,
@@ -349,7 +245,7 @@ impl<C: Contact> Exact<C> {
         let (grid, stride) = self.grid(low, high);
         let separates = matches!(target, Target::Separation);
         self.work.springs_tallied += self.work.springs;
-        let (sampled, left) = self.contact.sample_leaves(grid, separates);
+        let (sampled, left) = self.contact.sample_leaves(grid, separates)?;
         let smallest = self.contact.smallest(&sampled, &mut self.work.events_sorted);
         let smallest = self.curve_point(smallest);
         let mut curve = self.samples(&sampled, stride);
@@ -387,7 +283,7 @@ impl<C: Contact> Exact<C> {
         low: f64,
         high: f64,
     ) -> Result<f64, ContactError> {
-        let sampled = self.sample(low, high);
+        let sampled = self.sample(low, high)?;
         let sorted = &mut self.work.events_sorted;
         if let Some(found) = self.contact.last_at_most(&sampled, wanted, sorted) {
             return Ok(found);

@@ -33,6 +33,11 @@ impl HessRule {
         HessRule { stretch_of_one: (std::f64::consts::PI * foundation.spacing * range).sqrt() }
     }
 
+    /// The rule under which a fragment of one spring can be stretched by so much, m.
+    pub(super) fn with_stretch(stretch_of_one: f64) -> Self {
+        HessRule { stretch_of_one }
+    }
+
     /// Largest stretch Δl_max = sqrt(π n Δx γ/E*), m, of a fragment of `springs` springs, eq. (10).
     ///
     /// Rounding keeps the order: more springs never give a smaller value.

@@ -1,8 +1,8 @@
 //! The fragments in contact as a set that changes event by event, with the next event always known.
 
-use super::ledger::CompensatedSum;
+use super::grid::CompensatedSum;
 use super::tournament::Tournament;
-use super::{ContactError, ContactTree, EdgeRule, GapScale, Tally, reserve};
+use super::{ContactError, SpringTree, EdgeRule, GapScale, Tally, reserve};
 use std::sync::Arc;
 
 /// In place of the parent of the whole line.
@@ -16,7 +16,7 @@ const NO_PARENT: u32 = u32::MAX;
 /// next event: what joins next when the indentation grows, and what leaves next when it falls. Both are
 /// true at any time, so a turn costs nothing.
 pub struct FragmentSet<R> {
-    tree: Arc<ContactTree>,
+    tree: Arc<SpringTree>,
     rule: R,
     scale: GapScale,
     parents: Vec<u32>,
@@ -69,7 +69,7 @@ impl<R: EdgeRule> FragmentSet<R> {
     ///
     /// # Errors
     /// [`ContactError::OutOfMemory`].
-    pub fn new(tree: Arc<ContactTree>, rule: R, runs: &[(usize, usize)]) -> Result<Self, ContactError> {
+    pub fn new(tree: Arc<SpringTree>, rule: R, runs: &[(usize, usize)]) -> Result<Self, ContactError> {
         let count = tree.len();
         let mut parents = filled(count, NO_PARENT)?;
         let mut leaves_before = reserve(count)?;

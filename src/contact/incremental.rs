@@ -6,8 +6,8 @@
 use super::fragment_set::{Event, FragmentSet};
 use super::hand::{Hand, HandContact, HandError};
 use super::law::Standing;
-use super::ledger::CompensatedSum;
-use super::{ContactError, ContactTree, EdgeRule, Foundation};
+use super::grid::CompensatedSum;
+use super::{ContactError, SpringTree, EdgeRule, Foundation};
 use std::sync::Arc;
 
 /// Whole springs in hand.
@@ -21,7 +21,7 @@ impl<R: EdgeRule> Incremental<R> {
     ///
     /// # Errors
     /// [`ContactError::OutOfMemory`].
-    pub fn new(tree: Arc<ContactTree>, rule: R, foundation: Foundation) -> Result<Self, ContactError> {
+    pub fn new(tree: Arc<SpringTree>, rule: R, foundation: Foundation) -> Result<Self, ContactError> {
         Ok(Hand::touching(WholeInHand(FragmentSet::new(tree, rule, &[])?), foundation))
     }
 
@@ -34,7 +34,7 @@ impl<R: EdgeRule> Incremental<R> {
     /// # Errors
     /// [`HandError::NotFinite`], [`ContactError::OutOfMemory`].
     pub fn standing(
-        tree: Arc<ContactTree>,
+        tree: Arc<SpringTree>,
         rule: R,
         foundation: Foundation,
         indentation: f64,

@@ -1,6 +1,6 @@
 //! What a body asks of its springs on a leg, whichever way the force of a fragment is read.
 
-use super::ledger::Grid;
+use super::grid::Grid;
 use super::{ContactError, CurvePoint, Foundation, LegContact, Work};
 
 /// What is in contact at one indentation, and what it comes to.
@@ -51,21 +51,36 @@ pub trait Contact {
 
     /// Begins a loading leg from this indentation, or from separation, and returns the indentation from which
     /// on everything is in contact, m.
-    fn load(&mut self, from: Option<f64>, work: &mut Work) -> f64;
+    ///
+    /// # Errors
+    /// [`ContactError::OutOfMemory`]; the contact is then as it was.
+    fn load(&mut self, from: Option<f64>, work: &mut Work) -> Result<f64, ContactError>;
 
     /// Begins an unloading leg from this indentation and returns the smallest one with contact, m.
-    fn unload(&mut self, from: f64, work: &mut Work) -> f64;
+    ///
+    /// # Errors
+    /// [`ContactError::OutOfMemory`]; the contact is then as it was.
+    fn unload(&mut self, from: f64, work: &mut Work) -> Result<f64, ContactError>;
 
     /// What is in contact along a grid.
-    fn sample(&self, grid: Grid) -> Self::Leg;
+    ///
+    /// # Errors
+    /// [`ContactError::OutOfMemory`].
+    fn sample(&self, grid: Grid) -> Result<Self::Leg, ContactError>;
 
     /// The same and, in units of half the stiffness of one spring, the energy of what joins on a loading leg up
     /// to the end of the grid: from its lowest point on, or whatever joins if the body was `separated`.
-    fn sample_joins(&self, grid: Grid, separated: bool) -> (Self::Leg, f64);
+    ///
+    /// # Errors
+    /// [`ContactError::OutOfMemory`].
+    fn sample_joins(&self, grid: Grid, separated: bool) -> Result<(Self::Leg, f64), ContactError>;
 
     /// The same of what leaves on an unloading leg down to the lowest point, with what this holds last if the
     /// body `separates`.
-    fn sample_leaves(&self, grid: Grid, separates: bool) -> (Self::Leg, f64);
+    ///
+    /// # Errors
+    /// [`ContactError::OutOfMemory`].
+    fn sample_leaves(&self, grid: Grid, separates: bool) -> Result<(Self::Leg, f64), ContactError>;
 
     /// The grid of a leg.
     fn grid<'l>(&self, leg: &'l Self::Leg) -> &'l Grid;

@@ -1,37 +1,41 @@
-//! What was in contact on a leg, told after the body has gone on.
+//! The contact of a leg after the body has gone on.
 
-use super::{ContactError, ContactTree};
+use super::adhesive::{Adhesive, ContactTree, Run, SubCell, WholeSprings};
+use super::fragments::runs;
+use super::{ContactError, resized};
+use crate::scene::Edges;
 
-/// The contact at any indentation of one leg, copied from a [`Solver`](super::Solver) as it then stood.
+/// The contact at any indentation of one leg, copied from a [`Solver`](super::Solver) when the leg was done.
 ///
-/// The copy is in the order in which the solver keeps its springs, so it costs no more than copying a number
-/// for each of them, and nothing where the gaps already tell. Its memory serves for other legs and lines.
+/// A copy holds the runs of an adhesive contact, nothing where the gaps decide, and a number for each spring of the
+/// stepwise solver. Its memory serves for other legs and lines.
 #[derive(Clone, Debug, Default)]
 pub struct LegContact {
-    order: Order,
+    kind: Kind,
+    runs: Vec<Run>,
     thresholds: Vec<f64>,
 }
 
-/// What the thresholds belong to.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-enum Order {
+/// What decides about contact.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+enum Kind {
     /// Nothing touches on this leg.
     #[default]
     Apart,
     /// Each spring touches at its own gap.
     Gaps,
-    /// One for each node of the tree.
-    Tree,
-    /// One for each spring along the line.
+    /// The runs of an adhesive contact.
+    Runs { unloading: bool, stretch: f64, edges: Edges },
+    /// A threshold for each spring along the line.
     Line,
 }
 
 impl LegContact {
     /// First and last spring of each fragment in contact at `indentation` (m), in ascending order.
     ///
-    /// `gaps` and `tree` are those of the run from which this leg comes: a tree is asked for only where
-    /// adhesion was solved exactly, and without one of as many springs nothing is told to touch. With a tree
-    /// this takes as long as there are free springs and fragments, else as long as there are springs.
+    /// `gaps` and `tree` are those of the run from which this leg comes; a tree is asked for only where adhesion was
+    /// solved exactly, and without one nothing touches there. With a tree this takes as long as there are runs, else as
+    /// long as there are springs.
     #[must_use]
     pub fn fragments_at(
         &self,
@@ -39,48 +43,61 @@ impl LegContact {
         gaps: &[f64],
         tree: Option<&ContactTree>,
     ) -> Vec<(usize, usize)> {
-        let touching = |thresholds: &[f64]| {
-            super::springs::runs(thresholds.iter().map(|&threshold| threshold <= indentation))
-        };
-        match self.order {
-            Order::Apart => Vec::new(),
-            Order::Gaps => touching(gaps),
-            Order::Line => touching(&self.thresholds),
-            Order::Tree => tree
-                .filter(|tree| tree.len() == self.thresholds.len())
-                .map_or_else(Vec::new, |tree| tree.fragments(&self.thresholds, indentation)),
+        let touching = |thresholds: &[f64]| runs(thresholds.iter().map(|&threshold| threshold <= indentation));
+        match (self.kind, tree) {
+            (Kind::Apart, _) | (Kind::Runs { .. }, None) => Vec::new(),
+            (Kind::Gaps, _) => touching(gaps),
+            (Kind::Line, _) => touching(&self.thresholds),
+            (Kind::Runs { unloading, stretch, edges: Edges::Grid }, Some(tree)) => {
+                let rule = WholeSprings::with_stretch(stretch);
+                Adhesive::fragments_of(gaps, tree, rule, &self.runs, unloading, indentation)
+            }
+            (Kind::Runs { unloading, stretch, edges: Edges::SubCell }, Some(tree)) => {
+                let rule = SubCell::with_stretch(stretch);
+                Adhesive::fragments_of(gaps, tree, rule, &self.runs, unloading, indentation)
+            }
         }
     }
 
     /// Bytes this copy holds on to, for those who keep many.
     #[must_use]
     pub fn bytes(&self) -> usize {
-        self.thresholds.capacity() * size_of::<f64>()
+        self.thresholds.capacity() * size_of::<f64>() + self.runs.capacity() * size_of::<Run>()
     }
 
     /// Nothing touches on the leg.
     pub(in crate::contact) fn keep_nothing(&mut self) {
-        self.order = Order::Apart;
+        self.kind = Kind::Apart;
     }
 
     /// Each spring touches at its own gap.
     pub(super) fn keep_gaps(&mut self) {
-        self.order = Order::Gaps;
+        self.kind = Kind::Gaps;
     }
 
-    pub(super) fn keep_tree_order(&mut self, thresholds: &[f64]) -> Result<(), ContactError> {
-        self.keep(Order::Tree, thresholds)
+    /// The runs of an adhesive contact; `stretch` is the largest one of a fragment of unit length, m.
+    pub(super) fn keep_runs(
+        &mut self,
+        runs: &[Run],
+        unloading: bool,
+        stretch: f64,
+        edges: Edges,
+    ) -> Result<(), ContactError> {
+        self.kind = Kind::Apart;
+        self.runs.clear();
+        let springs = runs.len();
+        self.runs.try_reserve_exact(springs).map_err(|_| ContactError::OutOfMemory { springs })?;
+        self.runs.extend_from_slice(runs);
+        self.kind = Kind::Runs { unloading, stretch, edges };
+        Ok(())
     }
 
+    /// A threshold for each spring along the line, m.
     pub(super) fn keep_line_order(&mut self, thresholds: &[f64]) -> Result<(), ContactError> {
-        self.keep(Order::Line, thresholds)
-    }
-
-    fn keep(&mut self, order: Order, thresholds: &[f64]) -> Result<(), ContactError> {
-        self.order = Order::Apart;
-        self.thresholds = super::resized(std::mem::take(&mut self.thresholds), thresholds.len(), 0.0)?;
+        self.kind = Kind::Apart;
+        self.thresholds = resized(std::mem::take(&mut self.thresholds), thresholds.len(), 0.0)?;
         self.thresholds.copy_from_slice(thresholds);
-        self.order = order;
+        self.kind = Kind::Line;
         Ok(())
     }
 }

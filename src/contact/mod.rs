@@ -13,32 +13,29 @@
 //! moves by small steps and relaxes, as the paper does; [`Incremental`] holds the body in hand and does, for
 //! each small move either way, only the work that changes.
 
+pub mod adhesive;
 mod edges;
 mod error;
 pub mod exact;
 mod foundation;
-mod fragment_list;
 mod fragment_set;
+mod fragments;
+mod grid;
 mod hand;
 mod history;
 mod incremental;
 mod law;
-mod ledger;
 mod leg_contact;
 mod nonadhesive;
-mod search;
 mod solver;
-mod springs;
 pub mod stepwise;
 pub mod subcell;
 mod tally;
 mod targets;
-mod thresholds;
-pub(crate) mod touch;
 mod tournament;
 mod tree;
-mod whole;
 
+pub use adhesive::{Adhesive, AdhesiveMemory, ContactTree, EdgeModel, SubCell, WholeSprings};
 pub use edges::{EdgeRule, GridEdges, NoAdhesion};
 pub use error::ContactError;
 pub use exact::Exact;
@@ -49,10 +46,9 @@ pub use incremental::Incremental;
 pub use leg_contact::LegContact;
 pub use nonadhesive::Nonadhesive;
 pub use solver::{Solver, run};
-pub use springs::BodyMemory;
 pub use stepwise::Stepwise;
 pub use tally::{GapScale, Tally};
-pub use tree::ContactTree;
+pub use tree::SpringTree;
 
 /// An empty vector with room for `count` values, or an error instead of an abort.
 pub(crate) fn reserve<T>(count: usize) -> Result<Vec<T>, ContactError> {

@@ -9,11 +9,11 @@
 //! many points of a curve in a row add as quadratics, whose coefficients their height bounds there.
 
 use super::law::{Contact, Standing};
-use super::ledger::{CompensatedSum, Grid};
-use super::springs::runs;
-use super::subcell::bisect;
+use super::grid::{CompensatedSum, Grid};
+use super::fragments::runs;
+use super::adhesive::bisect;
 use super::tally::{GapScale, Tally};
-use super::{ContactError, LegContact, Work};
+use super::{ContactError, LegContact, Work, resized};
 use crate::scene::Edges;
 use std::ops::Range;
 
@@ -181,13 +181,13 @@ impl<'a> Nonadhesive<'a> {
     }
 
     /// The contact along a grid, by one pass along the line.
-    fn along(&self, grid: &Grid) -> Vec<Standing> {
+    fn along(&self, grid: &Grid) -> Result<Vec<Standing>, ContactError> {
         let points = grid.points();
         let count = points.len();
         let mut changes = Changes {
-            whole: vec![Tally::default(); count],
-            partial: vec![Partial::default(); count],
-            quadratic: vec![Quadratic::default(); count],
+            whole: resized(Vec::new(), count, Tally::default())?,
+            partial: resized(Vec::new(), count, Partial::default())?,
+            quadratic: resized(Vec::new(), count, Quadratic::default())?,
         };
         for (partial, &point) in changes.partial.iter_mut().zip(points) {
             self.add_ends(partial, point);
@@ -206,7 +206,7 @@ impl<'a> Nonadhesive<'a> {
             }
             place_before = here;
         });
-        self.sum(points, changes)
+        Ok(self.sum(points, changes))
     }
 
     fn sum(&self, points: &[f64], changes: Changes) -> Vec<Standing> {
@@ -367,26 +367,26 @@ impl Contact for Nonadhesive<'_> {
         self.gaps.len() as u64
     }
 
-    fn load(&mut self, _: Option<f64>, _: &mut Work) -> f64 {
-        self.deepest
+    fn load(&mut self, _: Option<f64>, _: &mut Work) -> Result<f64, ContactError> {
+        Ok(self.deepest)
     }
 
-    fn unload(&mut self, _: f64, _: &mut Work) -> f64 {
-        // The highest point of the line touches first and leaves last, at d = 0.
-        0.0
+    fn unload(&mut self, _: f64, _: &mut Work) -> Result<f64, ContactError> {
+        // The highest point of the line touches first and detaches last, at d = 0.
+        Ok(0.0)
     }
 
-    fn sample(&self, grid: Grid) -> Sampled {
-        Sampled { standings: self.along(&grid), grid }
+    fn sample(&self, grid: Grid) -> Result<Sampled, ContactError> {
+        Ok(Sampled { standings: self.along(&grid)?, grid })
     }
 
     /// Nothing is stretched, so that nothing dissipates.
-    fn sample_joins(&self, grid: Grid, _: bool) -> (Sampled, f64) {
-        (self.sample(grid), 0.0)
+    fn sample_joins(&self, grid: Grid, _: bool) -> Result<(Sampled, f64), ContactError> {
+        Ok((self.sample(grid)?, 0.0))
     }
 
-    fn sample_leaves(&self, grid: Grid, _: bool) -> (Sampled, f64) {
-        (self.sample(grid), 0.0)
+    fn sample_leaves(&self, grid: Grid, _: bool) -> Result<(Sampled, f64), ContactError> {
+        Ok((self.sample(grid)?, 0.0))
     }
 
     fn grid<'l>(&self, leg: &'l Sampled) -> &'l Grid {

@@ -5,9 +5,8 @@
 //! is asked of the exact thresholds before the first step.
 
 use super::{
-    ContactError, ContactTree, CurvePoint, Direction, EdgeRule, Foundation, GapScale, GridEdges, HandError,
-    HandHeld, HessRule, Incremental, LegContact, LegRecord, NoAdhesion, Solver, Tally, Work, exact, reserve,
-    springs,
+    ContactError, SpringTree, CurvePoint, Direction, EdgeRule, Foundation, GapScale, GridEdges, HandError,
+    HandHeld, HessRule, Incremental, LegContact, LegRecord, NoAdhesion, Solver, Tally, Work, exact, fragments, reserve,
 };
 use crate::scene::{Edges, Leg};
 use std::sync::Arc;
@@ -236,8 +235,8 @@ impl<'a> Stepwise<'a> {
 
     /// Indentation, m, at which the present contact reaches a goal when it is pulled.
     fn pulled<R: EdgeRule>(&self, rule: R, leg: Leg, goal: Goal) -> Result<f64, ContactError> {
-        let tree = Arc::new(ContactTree::build(self.gaps)?);
-        let contacts = springs::runs(self.contact.iter().copied());
+        let tree = Arc::new(SpringTree::build(self.gaps)?);
+        let contacts = fragments::runs(self.contact.iter().copied());
         let body = Incremental::standing(tree, rule, self.foundation, self.indentation, &contacts);
         let pulled = body.and_then(|mut body| {
             match goal {
@@ -448,7 +447,7 @@ impl Solver for Stepwise<'_> {
     }
 
     fn fragments(&self, indentation: f64) -> Vec<(usize, usize)> {
-        super::springs::runs(self.thresholds.iter().map(|&threshold| threshold <= indentation))
+        super::fragments::runs(self.thresholds.iter().map(|&threshold| threshold <= indentation))
     }
 
     fn thresholds_along_line(&self, out: &mut Vec<f64>) {

@@ -10,7 +10,7 @@ use super::{ContactError, GapScale};
 /// child (if any) at `j − 1 − right(j)`, so no pointers and no recursion are needed: a monotone line
 /// makes the tree N deep.
 #[derive(Clone, Debug, PartialEq)]
-pub struct ContactTree {
+pub struct SpringTree {
     gap: Vec<f64>,
     shape: Vec<Shape>,
     position: Vec<u32>,
@@ -40,7 +40,7 @@ impl Shape {
     }
 }
 
-/// A subtree that still waits for its right part, on the stack of [`ContactTree::build`].
+/// A subtree that still waits for its right part, on the stack of [`SpringTree::build`].
 struct Pending {
     gap: f64,
     position: u32,
@@ -50,13 +50,13 @@ struct Pending {
     right_start: u32,
 }
 
-impl ContactTree {
+impl SpringTree {
     /// Builds the tree of `gaps` (m, finite, at least zero) in one pass and O(N) memory.
     ///
     /// # Errors
     /// [`ContactError::OutOfMemory`] when the arrays cannot be had.
     pub fn build(gaps: &[f64]) -> Result<Self, ContactError> {
-        ContactTree { gap: Vec::new(), shape: Vec::new(), position: Vec::new() }.rebuild(gaps)
+        SpringTree { gap: Vec::new(), shape: Vec::new(), position: Vec::new() }.rebuild(gaps)
     }
 
     /// Builds the tree of other gaps in the memory of this one: fresh memory costs about as much as the
@@ -93,7 +93,7 @@ impl ContactTree {
         while let Some(top) = pending.pop() {
             finish(&top);
         }
-        Ok(ContactTree { gap, shape, position })
+        Ok(SpringTree { gap, shape, position })
     }
 
     /// Number of nodes, one for each spring.
@@ -223,7 +223,7 @@ mod tests {
         #[test]
         fn is_the_cartesian_tree(levels in prop::collection::vec(0_u8..12, 0..80)) {
             let gaps: Vec<f64> = levels.iter().map(|&level| f64::from(level)).collect();
-            let tree = ContactTree::build(&gaps).unwrap();
+            let tree = SpringTree::build(&gaps).unwrap();
             let mut expected = Vec::new();
             by_definition(&gaps, 0, &mut expected);
             let found: Vec<_> = (0..tree.len())

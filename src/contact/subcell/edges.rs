@@ -1,11 +1,9 @@
 //! The rule of Hess read with the length between edges that lie anywhere in their cells.
 
 use super::level_sets::{LevelSets, Levels, levels_between};
-use crate::contact::fragment_list::FragmentList;
-use crate::contact::ledger::CompensatedSum;
+use crate::contact::grid::CompensatedSum;
 use crate::contact::tally::GapScale;
-use crate::contact::thresholds::{self, Held};
-use crate::contact::{ContactTree, EdgeRule, HessRule};
+use crate::contact::{SpringTree, EdgeRule, HessRule};
 use std::sync::Arc;
 
 /// Edges between grid points: a fragment at level t is in equilibrium with the indentation
@@ -62,22 +60,6 @@ impl SubCellEdges {
         let rise = if excess > 0.0 { rise } else { 0.0 };
         let holds = (gap + rise) - self.stretch * (levels.length + levels.growth * rise).sqrt();
         if holds < gap { holds } else { gap }
-    }
-
-    /// Evaluates something for the nodes from a first one on.
-    #[inline]
-    fn for_each_node(
-        &self,
-        tree: &ContactTree,
-        first: usize,
-        values: &mut [f64],
-        evaluate: impl Fn(f64, Levels) -> f64,
-    ) {
-        let nodes = first..first + values.len();
-        let gaps = tree.gaps()[nodes.clone()].iter();
-        for ((&gap, levels), value) in gaps.zip(self.sets.levels_of(nodes)).zip(values) {
-            *value = evaluate(gap, levels);
-        }
     }
 
     /// How the fragment of a node slides.
@@ -301,46 +283,19 @@ fn at_once(growth: f64, from: f64, to: f64, at: f64) -> f64 {
 
 /// What joins and leaves are the cells between springs.
 impl EdgeRule for SubCellEdges {
-    const EDGES_MOVE: bool = true;
-
-    fn load(
-        &self,
-        tree: &ContactTree,
-        thresholds: &mut [f64],
-        fragments: &mut FragmentList,
-        already: impl Fn(f64) -> bool,
-    ) -> f64 {
-        let grows_on_at = |node| self.grows_on_at(tree.gap(node), self.sets.levels(node));
-        thresholds::load_and_list(tree, grows_on_at, thresholds, fragments, already)
-    }
-
-    fn open(
-        &self,
-        tree: &ContactTree,
-        root: usize,
-        thresholds: &mut [f64],
-        fragments: &mut FragmentList,
-        from: f64,
-    ) -> Held {
-        let hold_to = |first, block: &mut [f64]| {
-            self.for_each_node(tree, first, block, |gap, levels| self.holds(gap, levels));
-        };
-        thresholds::open_and_list(tree, hold_to, root, thresholds, fragments, from)
-    }
-
     #[inline]
-    fn grows_at(&self, tree: &ContactTree, fragment: usize, wall: usize) -> f64 {
+    fn grows_at(&self, tree: &SpringTree, fragment: usize, wall: usize) -> f64 {
         debug_assert_eq!(self.sets.levels(fragment).top, tree.gap(wall), "the wall is the parent");
         self.grows_on_at(tree.gap(fragment), self.sets.levels(fragment))
     }
 
     #[inline]
-    fn holds_to(&self, tree: &ContactTree, node: usize) -> f64 {
+    fn holds_to(&self, tree: &SpringTree, node: usize) -> f64 {
         self.holds(tree.gap(node), self.sets.levels(node))
     }
 
     #[inline]
-    fn quanta(&self, _: &ContactTree, _: &GapScale, node: usize) -> i64 {
+    fn quanta(&self, _: &SpringTree, _: &GapScale, node: usize) -> i64 {
         self.sets.cell_quanta(node)
     }
 }

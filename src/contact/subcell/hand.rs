@@ -6,11 +6,11 @@
 
 use super::edges::{EdgeSum, Slider, SubCellEdges};
 use super::level_sets::LevelSets;
-use super::search::{bisect, crossing, last_before};
+use crate::contact::adhesive::{bisect, crossing, last_before};
 use crate::contact::fragment_set::{Event, FragmentSet, Joined};
 use crate::contact::hand::{Hand, HandContact};
 use crate::contact::law::Standing;
-use crate::contact::ledger::CompensatedSum;
+use crate::contact::grid::CompensatedSum;
 use crate::contact::{ContactError, Foundation, HandError, HessRule};
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -89,7 +89,14 @@ impl HandContact for BetweenInHand {
         let tally = self.0.tally();
         let mut sum = EdgeSum::default();
         self.0.roots().for_each(|root| sum.add(self.edges().slider(root).edges(indentation)));
-        Standing::of_cells(indentation, tally, sum.total(), self.0.scale())
+        let edges = sum.total();
+        Standing {
+            indentation,
+            springs: tally.springs,
+            fragments: tally.fragments,
+            length: tally.cells() as f64 + edges.length,
+            compression: tally.compression_of_cells(indentation, self.0.scale()) + edges.compression,
+        }
     }
 
     fn begin(&self, from: f64) -> Notes {

@@ -2,7 +2,7 @@
 //! edges carry.
 
 use crate::contact::tally::GapScale;
-use crate::contact::{ContactError, ContactTree, resized};
+use crate::contact::{ContactError, SpringTree, resized};
 use crate::parallel::in_parallel;
 use std::ops::Range;
 use std::sync::Arc;
@@ -18,7 +18,7 @@ const MANY_SPRINGS: usize = 1 << 15;
 /// each, so that its length is linear in t.
 #[derive(Debug)]
 pub struct LevelSets {
-    tree: Arc<ContactTree>,
+    tree: Arc<SpringTree>,
     lengths: Vec<Length>,
     /// Gaps of the parents, m, which the passes hardly ever ask for.
     tops: Vec<f64>,
@@ -88,7 +88,7 @@ impl LevelSets {
     ///
     /// # Errors
     /// [`ContactError::OutOfMemory`].
-    pub fn new(tree: Arc<ContactTree>, gaps: &[f64]) -> Result<Self, ContactError> {
+    pub fn new(tree: Arc<SpringTree>, gaps: &[f64]) -> Result<Self, ContactError> {
         Self::new_in(LevelMemory::default(), tree, gaps)
     }
 
@@ -97,7 +97,7 @@ impl LevelSets {
     ///
     /// # Errors
     /// [`ContactError::OutOfMemory`].
-    pub fn new_in(memory: LevelMemory, tree: Arc<ContactTree>, gaps: &[f64]) -> Result<Self, ContactError> {
+    pub fn new_in(memory: LevelMemory, tree: Arc<SpringTree>, gaps: &[f64]) -> Result<Self, ContactError> {
         let memory = memory.ready(tree.len())?;
         let LevelMemory { mut lengths, mut tops, mut edge_compressions, mut cells_before, mut steps } =
             memory;
@@ -148,12 +148,12 @@ impl LevelSets {
     }
 
     /// The tree of the line.
-    pub fn tree(&self) -> &ContactTree {
+    pub fn tree(&self) -> &SpringTree {
         &self.tree
     }
 
     /// The tree of the line, to share.
-    pub fn shared_tree(&self) -> Arc<ContactTree> {
+    pub fn shared_tree(&self) -> Arc<SpringTree> {
         Arc::clone(&self.tree)
     }
 

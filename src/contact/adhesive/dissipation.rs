@@ -1,0 +1,214 @@
+//! Energy of what attaches or detaches under a stretch, as a stream along the line.
+//!
+//! When a fragment forms or parts at an indentation θ, whatever lies between its edges and not in the fragments it is
+//! made of attaches (detaches) at once. In the order of the runs the fragments inside another one follow it from right
+//! to left, so one pass with a stack meets each place of the line once for each event there.
+
+use super::edge_model::EdgeModel;
+use super::run::{Ground, Run};
+use super::span::Span;
+use crate::contact::grid::CompensatedSum;
+
+/// Terms summed side by side, and such sums before one is compensated.
+const LANES: usize = 8;
+const LONG: usize = 256;
+
+/// An edge of a fragment.
+#[derive(Clone, Copy, Debug)]
+pub struct Edge {
+    /// Its outermost spring in contact.
+    pub spring: usize,
+    /// Its level, m.
+    pub level: f64,
+}
+
+/// Where a stretch of the line that attaches at once begins or ends.
+#[derive(Clone, Copy, Debug)]
+pub enum Boundary {
+    /// At an edge of the fragment that forms: the stretch lies inside.
+    Outer(Edge),
+    /// At an edge of a fragment it is made of: the stretch lies outside.
+    Part(Edge),
+}
+
+/// A stretch of the line that attaches or detaches at once, from left to right.
+#[derive(Clone, Copy, Debug)]
+pub struct AtOnce {
+    /// Indentation, m.
+    pub at: f64,
+    pub between: (Boundary, Boundary),
+}
+
+/// A fragment on its way, whose parts may still follow.
+struct Open {
+    at: f64,
+    left: Edge,
+    right: Edge,
+    /// Left edge of the part met last.
+    met: Option<Edge>,
+    /// Whether it forms on the range looked at.
+    counts: bool,
+}
+
+/// The part of a leg that is looked at.
+#[derive(Clone, Copy, Debug)]
+pub struct Range {
+    /// Indentations above this, m.
+    pub low: f64,
+    /// Up to and including this, m.
+    pub high: f64,
+    /// Whether the leg unloads.
+    pub unloading: bool,
+}
+
+impl<E: EdgeModel> Ground<'_, E> {
+    /// ∫ (c − θ)² dx over what attaches or detaches on a range of a leg, in cells times m².
+    pub fn squared_stretch(&self, runs: &[Run], range: Range) -> f64 {
+        let (mut thirds, mut sliding) = (CompensatedSum::default(), CompensatedSum::default());
+        let slide = |lower: (&Span, f64), upper: (&Span, f64)| {
+            sliding.add(self.edges.squared_stretch_sliding(self.gaps, lower, upper, range.unloading));
+        };
+        self.each_change(runs, range, slide, |AtOnce { at, between }| {
+            thirds.add(self.edges.squared_stretch(self.gaps, between, at));
+        });
+        sliding.add(thirds.total() / 3.0);
+        sliding.total()
+    }
+
+    /// Calls `slide` with the spans and levels between which each run slides on a range, and `jump` with each stretch
+    /// of the line that attaches or detaches there at once.
+    pub fn each_change(
+        &self,
+        runs: &[Run],
+        range: Range,
+        mut slide: impl FnMut((&Span, f64), (&Span, f64)),
+        mut jump: impl FnMut(AtOnce),
+    ) {
+        let Range { low, high, unloading } = range;
+        let mut open: Vec<Open> = Vec::new();
+        for run in runs.iter().filter(|run| run.from <= high && run.to > low) {
+            let top = if run.to > high { self.span_at(run, unloading, high) } else { self.top(run) };
+            let bottom = if run.from < low { self.span_at(run, unloading, low) } else { self.bottom(run) };
+            let upper = self.level_up_to(&top, run.to.min(high), unloading);
+            let lower = self.edges.level(&bottom, self.edges.length(self.gaps, &bottom), run.from.max(low));
+            slide((&bottom, lower), (&top, upper));
+
+            while let Some(done) = open.pop_if(|open| open.left.spring > top.last) {
+                done.close(&mut jump);
+            }
+            if let Some(around) = open.last_mut() {
+                let right = Edge { spring: top.last, level: upper };
+                around.meet(Edge { spring: top.first, level: upper }, right, &mut jump);
+            }
+            open.push(Open {
+                at: run.from,
+                left: Edge { spring: bottom.first, level: lower },
+                right: Edge { spring: bottom.last, level: lower },
+                met: None,
+                // What forms or parts where the range begins does so outside of it, unless it has no beginning.
+                counts: run.from > low || low == f64::NEG_INFINITY,
+            });
+        }
+        while let Some(done) = open.pop() {
+            done.close(&mut jump);
+        }
+    }
+
+    /// The smallest indentation at which each spring is in contact on a leg, m, along the line: −∞ always, +∞ never.
+    pub fn thresholds(&self, runs: &[Run], unloading: bool, out: &mut Vec<f64>) {
+        out.clear();
+        out.resize(self.gaps.len(), f64::INFINITY);
+        let range = Range { low: f64::NEG_INFINITY, high: f64::INFINITY, unloading };
+        self.each_change(runs, range, |_, _| {}, |AtOnce { at, between: (from, to) }| {
+            let start = match from {
+                Boundary::Outer(edge) => edge.spring,
+                Boundary::Part(edge) => edge.spring + 1,
+            };
+            let end = match to {
+                Boundary::Outer(edge) => edge.spring + 1,
+                Boundary::Part(edge) => edge.spring,
+            };
+            out[start..end.max(start)].fill(at);
+        });
+        for run in runs {
+            let mut below: Option<Span> = None;
+            self.each_span(run, unloading, |span, from, _| {
+                if let Some(below) = below.replace(*span) {
+                    out[if span.last > below.last { span.last } else { span.first }] = from;
+                }
+                false
+            });
+        }
+    }
+
+    /// Level of the edges of a span at an indentation, m, up to which its run goes.
+    fn level_up_to(&self, span: &Span, indentation: f64, unloading: bool) -> f64 {
+        let length = self.edges.length(self.gaps, span);
+        match span.wall(self.gaps).map(|wall| self.gaps[wall]) {
+            // Where it takes in its wall it has reached it, also after rounding.
+            Some(wall) if !unloading && indentation >= self.edges.attaches_at(span, length, wall) => wall,
+            Some(_) => self.edges.level(span, length, indentation),
+            None => span.gap,
+        }
+    }
+}
+
+impl Open {
+    /// Meets the next of its parts to the left.
+    fn meet(&mut self, left: Edge, right: Edge, jump: &mut impl FnMut(AtOnce)) {
+        let to = self.met.replace(left).map_or(Boundary::Outer(self.right), Boundary::Part);
+        if self.counts {
+            jump(AtOnce { at: self.at, between: (Boundary::Part(right), to) });
+        }
+    }
+
+    /// Has met all its parts.
+    fn close(self, jump: &mut impl FnMut(AtOnce)) {
+        let to = self.met.map_or(Boundary::Outer(self.right), Boundary::Part);
+        if self.counts {
+            jump(AtOnce { at: self.at, between: (Boundary::Outer(self.left), to) });
+        }
+    }
+}
+
+/// Σ of a function of each gap.
+pub fn squares(gaps: &[f64], of: impl Fn(f64) -> f64) -> f64 {
+    let mut total = CompensatedSum::default();
+    for block in gaps.chunks(LONG) {
+        let (eights, rest) = block.as_chunks::<LANES>();
+        let mut sums = [0.0; LANES];
+        for eight in eights {
+            for (sum, &gap) in sums.iter_mut().zip(eight) {
+                *sum += of(gap);
+            }
+        }
+        total.add(sum_of(sums) + rest.iter().map(|&gap| of(gap)).sum::<f64>());
+    }
+    total.total()
+}
+
+/// Three times ∫ (c − θ)² dx over the cells between neighbours of these gaps.
+pub fn squares_of_cells(gaps: &[f64], at: f64) -> f64 {
+    let of = |left: f64, right: f64| {
+        let (a, b) = (left - at, right - at);
+        (a + b) * a + b * b
+    };
+    let mut total = CompensatedSum::default();
+    let mut rest = gaps;
+    while let Some(block) = rest.first_chunk::<{ LONG + 1 }>() {
+        let mut sums = [0.0; LANES];
+        for start in (0..LONG).step_by(LANES) {
+            for (lane, sum) in sums.iter_mut().enumerate() {
+                *sum += of(block[start + lane], block[start + lane + 1]);
+            }
+        }
+        total.add(sum_of(sums));
+        rest = &rest[LONG..];
+    }
+    total.add(rest.windows(2).map(|cell| of(cell[0], cell[1])).sum());
+    total.total()
+}
+
+fn sum_of([a, b, c, d, e, f, g, h]: [f64; LANES]) -> f64 {
+    ((a + b) + (c + d)) + ((e + f) + (g + h))
+}

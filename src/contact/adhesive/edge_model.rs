@@ -1,0 +1,85 @@
+//! What the edges of a fragment decide: when it grows, when it detaches, and what its edge cells carry.
+
+use super::dissipation::Boundary;
+use super::span::Span;
+use crate::contact::law::Standing;
+use crate::contact::tally::{GapScale, Tally};
+use crate::scene::Edges;
+
+/// Reads the length of a fragment, which alone decides under the rule of Hess.
+///
+/// A fragment grows from span to span. On each it has levels from its own largest gap up to that of its wall, and on
+/// each level a length.
+pub trait EdgeModel: Copy + Send + Sync {
+    /// Length of a span at each of its levels.
+    type Length: Copy;
+    /// The edge cells of a span as they slide with the indentation.
+    type Slider: Copy + Send;
+
+    /// What this model is called in a scene; it decides what is summed along the line.
+    const EDGES: Edges;
+    /// Whether edges slide between springs, so that the force is curved between two events.
+    const SLIDES: bool;
+
+    /// Largest stretch s of a fragment of unit length, m: Δl_max = s √ℓ, eq. (10).
+    fn stretch(&self) -> f64;
+
+    /// Length of a span, in cells.
+    fn length(&self, gaps: &[f64], span: &Span) -> Self::Length;
+
+    /// Smallest length that a span has at its highest level, in cells, at least 1.
+    fn least_length(&self, first: usize, last: usize) -> f64;
+
+    /// Smallest indentation at which the span takes in its wall of this gap, m.
+    fn attaches_at(&self, span: &Span, length: Self::Length, wall: f64) -> f64;
+
+    /// Smallest indentation at which the span holds its most stretched spring, m; at most its gap.
+    fn holds_to(&self, span: &Span, length: Self::Length) -> f64;
+
+    /// Level of the edges at an indentation, m.
+    fn level(&self, span: &Span, length: Self::Length, indentation: f64) -> f64;
+
+    /// Whether the edges pass from a span to the next larger one without a jump.
+    fn slides_on(&self, lower: (&Span, Self::Length), upper: (&Span, Self::Length)) -> bool;
+
+    /// The edge cells of a span.
+    fn slider(&self, gaps: &[f64], span: &Span) -> Self::Slider;
+
+    /// What the edge cells add at an indentation.
+    fn edge_cells(&self, slider: &Self::Slider, indentation: f64) -> EdgeCells;
+
+    /// By how much the compression that they add grows with the indentation, in cells.
+    fn edge_stiffness(&self, slider: &Self::Slider, indentation: f64) -> f64;
+
+    /// The contact of whole springs or cells and of edge cells.
+    fn standing(&self, indentation: f64, totals: Tally, edges: EdgeCells, scale: &GapScale) -> Standing;
+
+    /// By how much the compression of these grows with the indentation, in cells.
+    fn stiffness(&self, totals: Tally) -> f64;
+
+    /// Indentation at which these carry a compression, m, if nothing else does.
+    fn indentation_of(&self, totals: Tally, compression: f64, scale: &GapScale) -> Option<f64>;
+
+    /// Three times ∫ (c − θ)² dx over the part of the line between two boundaries, in cells times m², where θ is
+    /// the indentation `at`.
+    fn squared_stretch(&self, gaps: &[f64], between: (Boundary, Boundary), at: f64) -> f64;
+
+    /// ∫ (c − θ)² dx over what attaches (or detaches) while the edges slide between two spans and levels, each place
+    /// at its own indentation θ, in cells times m².
+    fn squared_stretch_sliding(
+        &self,
+        gaps: &[f64],
+        lower: (&Span, f64),
+        upper: (&Span, f64),
+        unloading: bool,
+    ) -> f64;
+}
+
+/// What the two cells at the edges of a fragment add to what it holds whole, at one indentation.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct EdgeCells {
+    /// How much of them is in contact, in cells.
+    pub length: f64,
+    /// The compression ∫ (d − c) dx over that, in cells times metres.
+    pub compression: f64,
+}

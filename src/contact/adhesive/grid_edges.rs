@@ -1,0 +1,133 @@
+//! Whole springs, as the paper counts them: a fragment of n springs is n Δx long.
+
+use super::dissipation::{Boundary, squares};
+use super::edge_model::{EdgeCells, EdgeModel};
+use super::span::Span;
+use crate::contact::HessRule;
+use crate::contact::law::Standing;
+use crate::contact::tally::{GapScale, Tally};
+use crate::scene::Edges;
+
+/// The paper's rule for edges.
+#[derive(Clone, Copy, Debug)]
+pub struct WholeSprings {
+    hess: HessRule,
+}
+
+impl WholeSprings {
+    /// Whole springs under the rule of Hess.
+    #[must_use]
+    pub fn new(hess: HessRule) -> Self {
+        WholeSprings { hess }
+    }
+
+    /// Whole springs, one of which can be stretched by so much alone, m.
+    pub(in crate::contact) fn with_stretch(stretch: f64) -> Self {
+        WholeSprings { hess: HessRule::with_stretch(stretch) }
+    }
+}
+
+impl EdgeModel for WholeSprings {
+    /// Δl_max, m.
+    type Length = f64;
+    type Slider = ();
+
+    const EDGES: Edges = Edges::Grid;
+    const SLIDES: bool = false;
+
+    fn stretch(&self) -> f64 {
+        self.hess.largest_stretch(1)
+    }
+
+    #[inline]
+    fn length(&self, _: &[f64], span: &Span) -> f64 {
+        self.hess.largest_stretch(span.springs() as u32)
+    }
+
+    #[inline]
+    fn least_length(&self, first: usize, last: usize) -> f64 {
+        (last + 1 - first) as f64
+    }
+
+    #[inline]
+    fn attaches_at(&self, _: &Span, largest_stretch: f64, wall: f64) -> f64 {
+        wall - largest_stretch
+    }
+
+    #[inline]
+    fn holds_to(&self, span: &Span, largest_stretch: f64) -> f64 {
+        // At this indentation the spring is stretched by just Δl_max and detaches, so the smallest that still holds it
+        // is the next number above; but a spring whose gap is closed stays whatever the rule says.
+        (span.gap - largest_stretch).next_up().min(span.gap)
+    }
+
+    #[inline]
+    fn level(&self, span: &Span, _: f64, _: f64) -> f64 {
+        span.gap
+    }
+
+    #[inline]
+    fn slides_on(&self, _: (&Span, f64), _: (&Span, f64)) -> bool {
+        true
+    }
+
+    #[inline]
+    fn slider(&self, _: &[f64], _: &Span) {}
+
+    #[inline]
+    fn edge_cells(&self, (): &(), _: f64) -> EdgeCells {
+        EdgeCells::default()
+    }
+
+    #[inline]
+    fn edge_stiffness(&self, (): &(), _: f64) -> f64 {
+        0.0
+    }
+
+    #[inline]
+    fn standing(&self, indentation: f64, totals: Tally, _: EdgeCells, scale: &GapScale) -> Standing {
+        Standing {
+            indentation,
+            springs: totals.springs,
+            fragments: totals.fragments,
+            length: totals.springs as f64,
+            compression: totals.compression(indentation, scale),
+        }
+    }
+
+    #[inline]
+    fn stiffness(&self, totals: Tally) -> f64 {
+        totals.springs as f64
+    }
+
+    fn indentation_of(&self, totals: Tally, compression: f64, scale: &GapScale) -> Option<f64> {
+        totals.indentation(compression, scale)
+    }
+
+    fn squared_stretch(&self, gaps: &[f64], (from, to): (Boundary, Boundary), at: f64) -> f64 {
+        let start = match from {
+            Boundary::Outer(edge) => edge.spring,
+            Boundary::Part(edge) => edge.spring + 1,
+        };
+        let end = match to {
+            Boundary::Outer(edge) => edge.spring + 1,
+            Boundary::Part(edge) => edge.spring,
+        };
+        3.0 * squares(&gaps[start..end.max(start)], |gap| (gap - at) * (gap - at))
+    }
+
+    fn squared_stretch_sliding(
+        &self,
+        _: &[f64],
+        (lower, _): (&Span, f64),
+        (upper, _): (&Span, f64),
+        unloading: bool,
+    ) -> f64 {
+        // A spring attaches under the stretch of the fragment before it, and detaches under that with it:
+        // s² Σ n over n = lower … upper − 1, or one more.
+        let (lower, upper) = (lower.springs() as f64, upper.springs() as f64);
+        let one = self.stretch() * self.stretch();
+        let twice_the_mean = if unloading { upper + lower + 1.0 } else { upper + lower - 1.0 };
+        0.5 * one * (upper - lower) * twice_the_mean
+    }
+}

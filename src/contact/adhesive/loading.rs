@@ -1,0 +1,367 @@
+//! Loading: at which indentation each part of the line closes, and the fragments on the way.
+
+use super::edge_model::EdgeModel;
+use super::run::{Ground, Held, Run, larger, smaller};
+use super::span::Span;
+use super::tree::{Branch, Node};
+use crate::contact::{ContactError, resized};
+
+/// Where bounds are compared with thresholds they leave room for rounding.
+const BELOW: f64 = 1.0 - 1e-12;
+
+/// Closing thresholds of the nodes of a tree.
+///
+/// A node closes, and all its subtree is one fragment, when one of its two branches takes in its spring:
+/// s_v = min over branches u of max(s_u, φ on each span from u up to v).
+#[derive(Clone, Debug, Default)]
+pub struct Closing {
+    /// Indentation at which each node closes on a loading from separation, m.
+    closes: Vec<f64>,
+    /// Springs that each node surely takes with it; bounds that grow as the chains above the node are walked.
+    known: Vec<[u32; 2]>,
+    /// Whether `closes` holds for the present line and rule.
+    ready: bool,
+    /// Thresholds that a loading from standing fragments has replaced, in the order of the changes.
+    replaced: Vec<(u32, f64)>,
+    frames: Vec<Frame>,
+    branches: Vec<Climb>,
+}
+
+/// A branch on its way up.
+#[derive(Clone, Copy)]
+struct Start {
+    closes: f64,
+    known: [u32; 2],
+    gap: f64,
+}
+
+/// A node some of whose parts are in contact when a loading begins.
+#[derive(Clone, Copy, Debug)]
+struct Frame {
+    node: u32,
+    /// Which of the standing fragments lie in it, and how many of those on its left.
+    held: [u32; 2],
+    left: u32,
+    is_open: bool,
+}
+
+/// A branch that is looked at on the way down from the root.
+#[derive(Clone, Copy, Debug)]
+struct Climb {
+    branch: Branch,
+    /// Indentation at which all of it is part of a larger fragment, m.
+    joins: f64,
+    /// Spring of the node above it.
+    parent: usize,
+    held: [u32; 2],
+}
+
+impl Closing {
+    /// Bytes it holds on to.
+    pub fn bytes(&self) -> usize {
+        size_of::<f64>() * self.closes.capacity() + size_of::<[u32; 2]>() * self.known.capacity()
+    }
+
+    /// Forgets the line and the rule.
+    pub fn forget(&mut self) {
+        self.ready = false;
+    }
+
+    /// Closes all nodes on a loading from separation. Returns the evaluations of the rule.
+    pub fn close<E: EdgeModel>(&mut self, ground: &Ground<'_, E>) -> Result<u64, ContactError> {
+        while let Some((node, closes)) = self.replaced.pop() {
+            self.closes[node as usize] = closes;
+        }
+        if self.ready {
+            return Ok(0);
+        }
+        let count = ground.tree.len();
+        self.closes = resized(std::mem::take(&mut self.closes), count, 0.0)?;
+        self.known = resized(std::mem::take(&mut self.known), count, [0; 2])?;
+        let square = ground.square();
+        let mut evaluations = 0;
+        for index in 0..count {
+            let node = ground.tree.nodes()[index];
+            let (rank, right) = (node.rank as usize, node.right as usize);
+            let left = node.size as usize - 1 - right;
+            let mut closes = f64::INFINITY;
+            let mut known = [0; 2];
+            let parts = [(left, index.saturating_sub(1 + right)), (right, index.saturating_sub(1))];
+            for (side, (size, child)) in parts.into_iter().enumerate() {
+                // Both kinds of branches are read: a choice would often be mispredicted.
+                let place = ground.tree.turns()[2 * (rank + side)];
+                let lowest = ground.gaps[place as usize];
+                let (of_node, known_of_node) = (self.closes[child], self.known[child]);
+                let is_leaf = size == 0;
+                let closed = if is_leaf { lowest } else { of_node };
+                let mut reach = if is_leaf { [place; 2] } else { known_of_node };
+                let need = node.gap - closed;
+                let taken = if need * need <= square * ground.edges.least_length(reach[0] as usize, reach[1] as usize) {
+                    closed
+                } else {
+                    let gap = if is_leaf { closed } else { ground.tree.nodes()[child].gap };
+                    let start = Start { closes: closed, known: reach, gap };
+                    let (taken, walked) = ground.climb(start, ground.tree.maximum(&node), &mut evaluations);
+                    reach = walked;
+                    if !is_leaf {
+                        self.known[child] = walked;
+                    }
+                    taken
+                };
+                known[side] = reach[side];
+                closes = smaller(closes, taken);
+            }
+            self.closes[index] = closes;
+            self.known[index] = known;
+        }
+        self.ready = true;
+        Ok(evaluations)
+    }
+
+    /// Closes the nodes around fragments in contact (from left to right) when a loading begins, and no others.
+    pub fn close_around<E: EdgeModel>(
+        &mut self,
+        ground: &Ground<'_, E>,
+        held: &[Held],
+    ) -> Result<u64, ContactError> {
+        let mut evaluations = self.close(ground)?;
+        let (mut frames, count) = (std::mem::take(&mut self.frames), held.len() as u32);
+        frames.clear();
+        let enter = |branch: Branch, range: [u32; 2], frames: &mut Vec<Frame>| {
+            let standing = range[1] - range[0] == 1 && held[range[0] as usize].branch == branch;
+            if let (Ok(node), false) = (branch.origin(), standing || range[0] == range[1]) {
+                frames.push(Frame { node: node as u32, held: range, left: 0, is_open: false });
+            }
+        };
+        enter(ground.tree.root(), [0, count], &mut frames);
+        while let Some(frame) = frames.last_mut() {
+            let index = frame.node as usize;
+            let node = ground.tree.nodes()[index];
+            let place = ground.tree.maximum(&node);
+            let parts = ground.tree.parts(index);
+            if !frame.is_open {
+                let [begin, end] = frame.held;
+                let inside = &held[begin as usize..end as usize];
+                let middle = begin + inside.partition_point(|held| (held.first as usize) < place) as u32;
+                (frame.is_open, frame.left) = (true, middle);
+                enter(parts[0], [begin, middle], &mut frames);
+                enter(parts[1], [middle, end], &mut frames);
+                continue;
+            }
+            let ranges = [[frame.held[0], frame.left], [frame.left, frame.held[1]]];
+            let mut closes = f64::INFINITY;
+            for (part, range) in parts.into_iter().zip(ranges) {
+                let start = self.start(ground, part, held_on(held, range, part));
+                let (taken, _) = ground.climb(start, place, &mut evaluations);
+                closes = smaller(closes, taken);
+            }
+            self.replaced.push((index as u32, self.closes[index]));
+            self.closes[index] = closes;
+            frames.pop();
+        }
+        self.frames = frames;
+        Ok(evaluations)
+    }
+
+    /// Where a branch begins: on a fragment in contact, else where it closes.
+    fn start<E: EdgeModel>(&self, ground: &Ground<'_, E>, branch: Branch, held: Option<&Held>) -> Start {
+        if let Some(held) = held {
+            let known = [held.first, held.last];
+            return Start { closes: f64::NEG_INFINITY, known, gap: ground.span(branch, known).gap };
+        }
+        match branch.origin() {
+            Ok(node) => {
+                let gap = ground.tree.nodes()[node].gap;
+                Start { closes: self.closes[node], known: self.known[node], gap }
+            }
+            Err(rank) => {
+                let place = ground.tree.minimum(rank);
+                let gap = ground.gaps[place];
+                Start { closes: gap, known: [place as u32; 2], gap }
+            }
+        }
+    }
+
+    /// Lists the runs of a loading from these fragments in contact (from left to right) in place of `runs`. Returns
+    /// the indentation from which on all is in contact, m.
+    pub fn list<E: EdgeModel>(
+        &mut self,
+        ground: &Ground<'_, E>,
+        held: &[Held],
+        runs: &mut Vec<Run>,
+        evaluations: &mut u64,
+    ) -> Result<f64, ContactError> {
+        runs.clear();
+        let mut branches = std::mem::take(&mut self.branches);
+        branches.clear();
+        let nowhere = usize::MAX;
+        let all = [0, held.len() as u32];
+        branches.push(Climb { branch: ground.tree.root(), joins: f64::INFINITY, parent: nowhere, held: all });
+        let mut complete = f64::NEG_INFINITY;
+        while let Some(climb) = branches.pop() {
+            let Climb { branch, joins, .. } = climb;
+            let standing = held_on(held, climb.held, branch);
+            let start = self.start(ground, branch, standing);
+            let node = branch.origin().ok().map(|index| (index, ground.tree.nodes()[index]));
+            let lowest = node.map_or(start.gap, |(_, node)| node.lowest);
+            // What is in contact already stays so, however far it is stretched.
+            if lowest >= joins && climb.held[0] == climb.held[1] {
+                continue;
+            }
+            if start.closes < joins {
+                self.climb_and_list(ground, &climb, start, runs, &mut complete, evaluations)?;
+            }
+            if let (Some((index, node)), None) = (node, standing) {
+                let joins = smaller(start.closes, joins);
+                let parent = ground.tree.maximum(&node);
+                let [begin, end] = climb.held;
+                let inside = &held[begin as usize..end as usize];
+                let middle = begin + inside.partition_point(|held| (held.first as usize) < parent) as u32;
+                branches.try_reserve(2).map_err(|_| ground.out_of_memory())?;
+                for (branch, held) in ground.tree.parts(index).into_iter().zip([[begin, middle], [middle, end]]) {
+                    branches.push(Climb { branch, joins, parent, held });
+                }
+            }
+        }
+        self.branches = branches;
+        Ok(complete)
+    }
+
+    /// Lists the runs of one branch, the largest first.
+    fn climb_and_list<E: EdgeModel>(
+        &self,
+        ground: &Ground<'_, E>,
+        climb: &Climb,
+        start: Start,
+        runs: &mut Vec<Run>,
+        complete: &mut f64,
+        evaluations: &mut u64,
+    ) -> Result<(), ContactError> {
+        let Ground { gaps, edges, .. } = *ground;
+        let square = ground.square();
+        let known = (start.known[0] as usize, start.known[1] as usize);
+        let mut span = Span::around(gaps, known, start.gap);
+        let mut closes = start.closes;
+        let listed = runs.len();
+        // The span below and its length, while its run may go on.
+        let mut below: Option<(Span, E::Length)> = None;
+        loop {
+            let Some(wall) = span.wall(gaps) else {
+                *complete = closes;
+                if closes < climb.joins {
+                    runs.try_reserve(1).map_err(|_| ground.out_of_memory())?;
+                    runs.push(Run::new(climb.branch, &span, closes, climb.joins));
+                }
+                break;
+            };
+            let need = gaps[wall] - closes;
+            let mut attaches = closes;
+            if need * need > square * edges.least_length(span.first, span.last) {
+                *evaluations += 1;
+                let length = edges.length(gaps, &span);
+                attaches = larger(closes, edges.attaches_at(&span, length, gaps[wall]));
+                let end = smaller(attaches, climb.joins);
+                if closes < end {
+                    match (runs.last_mut(), below) {
+                        (Some(run), Some((lower, of_lower)))
+                            if edges.slides_on((&lower, of_lower), (&span, length)) =>
+                        {
+                            run.raise(&span, end);
+                        }
+                        _ => {
+                            runs.try_reserve(1).map_err(|_| ground.out_of_memory())?;
+                            runs.push(Run::new(climb.branch, &span, closes, end));
+                        }
+                    }
+                    below = Some((span, length));
+                } else {
+                    below = None;
+                }
+            } else {
+                below = None;
+            }
+            if wall == climb.parent || attaches >= climb.joins {
+                break;
+            }
+            span = span.with(gaps, wall);
+            closes = attaches;
+        }
+        runs[listed..].reverse();
+        Ok(())
+    }
+}
+
+/// The fragment in contact on a branch itself, not in a part of it, among these.
+fn held_on(held: &[Held], [begin, end]: [u32; 2], branch: Branch) -> Option<&Held> {
+    held.get(begin as usize).filter(|held| end - begin == 1 && held.branch == branch)
+}
+
+impl<E: EdgeModel> Ground<'_, E> {
+    fn out_of_memory(&self) -> ContactError {
+        ContactError::OutOfMemory { springs: self.gaps.len() }
+    }
+
+    /// Squared stretch of a fragment of unit length, m², rounded down.
+    fn square(&self) -> f64 {
+        let stretch = self.edges.stretch();
+        stretch * stretch * BELOW
+    }
+
+    /// The largest φ on the way from where a branch begins up to the spring `parent`, not below its own threshold; and
+    /// the springs it surely holds at its lowest span.
+    ///
+    /// No φ below a gap b exceeds b − s√n with n cells known inside, so that most chains need no evaluation.
+    #[inline(never)]
+    fn climb(&self, start: Start, parent: usize, evaluations: &mut u64) -> (f64, [u32; 2]) {
+        let gaps = self.gaps;
+        let square = self.square();
+        let may_rise = |closes: f64, gap: f64, span: &Span| {
+            let need = gap - closes;
+            need > 0.0 && need * need > square * self.edges.least_length(span.first, span.last)
+        };
+        let known = (start.known[0] as usize, start.known[1] as usize);
+        let mut span = Span::around(gaps, known, start.gap);
+        let ends = span.ends();
+        let mut closes = start.closes;
+        // At the top first: mostly φ is largest there.
+        let top = self.below(&span, parent);
+        if may_rise(closes, gaps[parent], &top) {
+            *evaluations += 1;
+            let attaches = self.edges.attaches_at(&top, self.edges.length(gaps, &top), gaps[parent]);
+            closes = larger(closes, attaches);
+        }
+        if !may_rise(closes, top.gap, &span) {
+            return (closes, ends);
+        }
+        while let Some(wall) = span.wall(gaps).filter(|&wall| wall != parent) {
+            if may_rise(closes, gaps[wall], &span) {
+                *evaluations += 1;
+                let attaches = self.edges.attaches_at(&span, self.edges.length(gaps, &span), gaps[wall]);
+                closes = larger(closes, attaches);
+            }
+            span = span.with(gaps, wall);
+        }
+        (closes, ends)
+    }
+
+    /// The largest span of a branch, with the spring `parent` next to it.
+    fn below(&self, span: &Span, parent: usize) -> Span {
+        let (gaps, wall) = (self.gaps, self.gaps[parent]);
+        let Span { gap, mut first, mut last } = *span;
+        if parent > last {
+            last = parent - 1;
+            while first > 0 && gaps[first - 1] < wall {
+                first -= 1;
+            }
+        } else {
+            first = parent + 1;
+            while last + 1 < gaps.len() && gaps[last + 1] <= wall {
+                last += 1;
+            }
+        }
+        Span { gap: larger(gap, larger(gaps[first], gaps[last])), first, last }
+    }
+}
+
+/// Gap and lowest gap of a node are read together.
+const _: () = assert!(size_of::<Node>() == 32);

@@ -1,0 +1,252 @@
+//! Adhesive contact: the exact loop over turning points.
+//!
+//! The gaps of a line give a [`ContactTree`] of their local maxima. A loading pass closes its nodes from below, an
+//! unloading pass opens them from above; both list the *runs* of the leg, fragments whose edges move without a jump.
+//! Curves, extremes and energies are sums over these runs. How the length of a fragment is read is the business of an
+//! [`EdgeModel`] alone.
+
+mod curve;
+mod dissipation;
+mod edge_model;
+mod grid_edges;
+mod loading;
+mod run;
+mod search;
+mod span;
+mod sub_cell_edges;
+mod tree;
+mod unloading;
+
+pub use edge_model::{EdgeCells, EdgeModel};
+pub use grid_edges::WholeSprings;
+pub use sub_cell_edges::SubCell;
+pub use tree::ContactTree;
+pub(in crate::contact) use run::Run;
+pub(in crate::contact) use search::{bisect, crossing, last_before};
+
+use super::exact::Exact;
+use super::law::{Contact, Standing};
+use super::grid::Grid;
+use super::{ContactError, Foundation, LegContact, Work};
+use curve::Sampled;
+use dissipation::Range;
+use loading::Closing;
+use run::{Ground, Held};
+use search::Search;
+use unloading::Opening;
+
+/// Memory that one adhesive body leaves to the next: fresh memory costs about as much as a pass.
+#[derive(Clone, Debug, Default)]
+pub struct AdhesiveMemory {
+    closing: Closing,
+    opening: Opening,
+    runs: Vec<Run>,
+    spare: Vec<Run>,
+    held: Vec<Held>,
+}
+
+impl AdhesiveMemory {
+    /// Bytes it holds on to.
+    #[must_use]
+    pub fn bytes(&self) -> usize {
+        self.closing.bytes() + size_of::<Run>() * (self.runs.capacity() + self.spare.capacity())
+    }
+}
+
+/// Springs under adhesion, loaded and unloaded leg by leg.
+pub struct Adhesive<'a, E> {
+    ground: Ground<'a, E>,
+    memory: AdhesiveMemory,
+    unloading: bool,
+    /// Whether the present leg forms the contact.
+    forms: bool,
+}
+
+impl<'a, E: EdgeModel> Adhesive<'a, E> {
+    /// Springs of these gaps (m, the smallest 0) and the tree of these gaps, separated.
+    #[must_use]
+    pub fn new(gaps: &'a [f64], tree: &'a ContactTree, edges: E, mut memory: AdhesiveMemory) -> Self {
+        debug_assert_eq!(tree.edges(), E::EDGES, "the tree sums for other edges");
+        memory.closing.forget();
+        memory.runs.clear();
+        Adhesive { ground: Ground { gaps, tree, edges }, memory, unloading: false, forms: false }
+    }
+
+    /// First and last spring of each fragment at an indentation (m) of a leg with these runs, in ascending order.
+    pub(super) fn fragments_of(
+        gaps: &[f64],
+        tree: &ContactTree,
+        edges: E,
+        runs: &[Run],
+        unloading: bool,
+        indentation: f64,
+    ) -> Vec<(usize, usize)> {
+        let ground = Ground { gaps, tree, edges };
+        let held = ground.held_at(runs, unloading, indentation);
+        held.map(|held| (held.first as usize, held.last as usize)).collect()
+    }
+
+    fn hold(&mut self, indentation: f64) {
+        let held = self.ground.held_at(&self.memory.runs, self.unloading, indentation);
+        self.memory.held.clear();
+        self.memory.held.extend(held);
+    }
+
+    fn search(&self) -> Search<'_, E> {
+        Search { ground: self.ground, runs: &self.memory.runs, unloading: self.unloading }
+    }
+
+    fn sample_from(&self, grid: Grid, low: f64) -> Result<(Sampled, f64), ContactError> {
+        let range = Range { low, high: grid.high(), unloading: self.unloading };
+        let squared = self.ground.squared_stretch(&self.memory.runs, range);
+        Ok((self.sample(grid)?, squared))
+    }
+
+    /// The smallest compression on the way back from first touch, and what was done to find it.
+    fn pull_off_at_touch(&mut self) -> Result<(f64, Work), ContactError> {
+        let mut work = Work { zero_load_passes: 1, ..Work::default() };
+        if !self.forms {
+            work.hess_evaluations += self.memory.closing.close(&self.ground)?;
+        }
+        let AdhesiveMemory { closing, opening, runs, spare, held } = &mut self.memory;
+        if !self.forms {
+            closing.list(&self.ground, &[], spare, &mut work.hess_evaluations)?;
+        }
+        held.clear();
+        held.extend(self.ground.held_at(if self.forms { runs } else { spare }, false, 0.0));
+        let opened = opening.list(&self.ground, held, 0.0, spare)?;
+        work.hess_evaluations += opened.evaluations;
+        work.springs_tallied = opened.springs;
+        let grid = Grid::new(opened.separates.min(0.0), 0.0, Self::SEARCH_INTERVALS);
+        let leg = self.ground.sample(spare, true, grid)?;
+        let search = Search { ground: self.ground, runs: spare, unloading: true };
+        let smallest = search.smallest(&leg, &mut work.events_sorted);
+        Ok((smallest.compression, work))
+    }
+}
+
+impl<E: EdgeModel> Contact for Adhesive<'_, E> {
+    type Leg = Sampled;
+
+    // Each fragment is evaluated at each of their ends.
+    const SEARCH_INTERVALS: usize = 256;
+
+    fn count(&self) -> u64 {
+        self.ground.gaps.len() as u64
+    }
+
+    fn load(&mut self, from: Option<f64>, work: &mut Work) -> Result<f64, ContactError> {
+        self.memory.held.clear();
+        if let Some(from) = from {
+            self.hold(from);
+        }
+        let AdhesiveMemory { closing, runs, spare, held, .. } = &mut self.memory;
+        work.loading_passes += 1;
+        work.hess_evaluations += closing.close_around(&self.ground, held)?;
+        let complete = closing.list(&self.ground, held, spare, &mut work.hess_evaluations)?;
+        std::mem::swap(runs, spare);
+        (self.unloading, self.forms) = (false, from.is_none());
+        Ok(complete)
+    }
+
+    fn unload(&mut self, from: f64, work: &mut Work) -> Result<f64, ContactError> {
+        self.hold(from);
+        let AdhesiveMemory { opening, runs, spare, held, .. } = &mut self.memory;
+        work.unloading_passes += 1;
+        let opened = opening.list(&self.ground, held, from, spare)?;
+        work.hess_evaluations += opened.evaluations;
+        std::mem::swap(runs, spare);
+        (self.unloading, self.forms) = (true, false);
+        Ok(opened.separates)
+    }
+
+    fn sample(&self, grid: Grid) -> Result<Sampled, ContactError> {
+        self.ground.sample(&self.memory.runs, self.unloading, grid)
+    }
+
+    fn sample_joins(&self, grid: Grid, separated: bool) -> Result<(Sampled, f64), ContactError> {
+        // What touches at once when the contact forms attaches at the first point itself.
+        let low = if separated { f64::NEG_INFINITY } else { grid.points()[0] };
+        self.sample_from(grid, low)
+    }
+
+    fn sample_leaves(&self, grid: Grid, separates: bool) -> Result<(Sampled, f64), ContactError> {
+        // What is held to the last point detaches just below it.
+        self.sample_joins(grid, separates)
+    }
+
+    fn grid<'l>(&self, leg: &'l Sampled) -> &'l Grid {
+        &leg.grid
+    }
+
+    fn at(&self, leg: &Sampled, index: usize) -> Standing {
+        leg.standings[index]
+    }
+
+    fn smallest(&self, leg: &Sampled, sorted: &mut u64) -> Standing {
+        self.search().smallest(leg, sorted)
+    }
+
+    fn largest(&self, leg: &Sampled, sorted: &mut u64) -> Standing {
+        self.search().largest(leg, sorted)
+    }
+
+    fn first_at_least(&self, leg: &Sampled, wanted: f64, sorted: &mut u64) -> Option<f64> {
+        self.search().first_at_least(leg, wanted, sorted)
+    }
+
+    fn last_at_most(&self, leg: &Sampled, wanted: f64, sorted: &mut u64) -> Option<f64> {
+        self.search().last_at_most(leg, wanted, sorted)
+    }
+
+    fn beyond(&self, leg: &Sampled, wanted: f64) -> Option<f64> {
+        let (end, totals) = (leg.standings.last()?, *leg.totals.last()?);
+        let straight = self.ground.edges.indentation_of(totals, wanted, &self.ground.tree.scale());
+        straight.or_else(|| Some(end.indentation + (wanted - end.compression) / end.length))
+    }
+
+    fn thresholds_along_line(&self, out: &mut Vec<f64>) {
+        self.ground.thresholds(&self.memory.runs, self.unloading, out);
+    }
+
+    fn copy_leg(&self, copy: &mut LegContact) -> Result<(), ContactError> {
+        copy.keep_runs(&self.memory.runs, self.unloading, self.ground.edges.stretch(), E::EDGES)
+    }
+
+    fn fragments(&self, indentation: f64) -> Vec<(usize, usize)> {
+        let Ground { gaps, tree, edges } = self.ground;
+        Self::fragments_of(gaps, tree, edges, &self.memory.runs, self.unloading, indentation)
+    }
+}
+
+/// A body under adhesion on its foundation, separated, at d = 0 just before first touch; `samples` (at least 2) curve
+/// points are taken on each leg.
+#[must_use]
+pub fn body<'a, E: EdgeModel>(
+    gaps: &'a [f64],
+    tree: &'a ContactTree,
+    edges: E,
+    foundation: Foundation,
+    samples: usize,
+    memory: AdhesiveMemory,
+) -> Exact<Adhesive<'a, E>> {
+    Exact::new(Adhesive::new(gaps, tree, edges, memory), foundation, samples)
+}
+
+impl<'a, E: EdgeModel> Exact<Adhesive<'a, E>> {
+    /// The memory it worked in, for the next body.
+    #[must_use]
+    pub fn into_memory(self) -> AdhesiveMemory {
+        self.into_contact().memory
+    }
+
+    /// Smallest force, N, on the way back from first touch, and what was done to find it.
+    ///
+    /// # Errors
+    /// [`ContactError::OutOfMemory`].
+    pub fn pull_off_at_touch(&mut self) -> Result<(f64, Work), ContactError> {
+        let stiffness = self.foundation().spring_stiffness();
+        let (compression, work) = self.contact_mut().pull_off_at_touch()?;
+        Ok((stiffness * compression, work))
+    }
+}

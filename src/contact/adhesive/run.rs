@@ -1,0 +1,144 @@
+//! Runs: the fragments of a leg, each over the range of indentations in which its edges move without a jump.
+
+use super::edge_model::EdgeModel;
+use super::span::Span;
+use super::tree::{Branch, ContactTree};
+
+/// One fragment from an indentation on until it jumps, merges or parts: on the way from its bottom to its top each
+/// span passes into the next.
+///
+/// The runs of a leg stand in the order of a walk through the tree from its root, right parts first: along each branch
+/// the larger ones first. So a run that contains another one stands before it, and of two others the right one first.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Run {
+    /// Lower bound (inclusive) of its indentations, m; −∞ for a fragment in contact when a loading leg begins.
+    pub from: f64,
+    /// Upper bound (exclusive), m; +∞ for a fragment in contact when an unloading leg begins.
+    pub to: f64,
+    bottom: [u32; 2],
+    top: [u32; 2],
+    pub branch: Branch,
+}
+
+/// A fragment in contact between two legs.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Held {
+    pub branch: Branch,
+    pub first: u32,
+    pub last: u32,
+}
+
+/// The line under a rule for its edges: what the passes of a leg share.
+#[derive(Clone, Copy, Debug)]
+pub struct Ground<'a, E> {
+    pub gaps: &'a [f64],
+    pub tree: &'a ContactTree,
+    pub edges: E,
+}
+
+impl Run {
+    /// A run over one span.
+    pub fn new(branch: Branch, span: &Span, from: f64, to: f64) -> Self {
+        Run { from, to, bottom: span.ends(), top: span.ends(), branch }
+    }
+
+    /// Goes on upwards, to the next larger span.
+    pub fn raise(&mut self, span: &Span, to: f64) {
+        (self.to, self.top) = (to, span.ends());
+    }
+
+    /// Goes on downwards, to the next smaller span.
+    pub fn lower(&mut self, span: &Span, from: f64) {
+        (self.from, self.bottom) = (from, span.ends());
+    }
+
+    /// Whether it is there at an indentation, m.
+    #[inline]
+    pub fn is_at(&self, indentation: f64) -> bool {
+        self.from <= indentation && indentation < self.to
+    }
+}
+
+impl<E: EdgeModel> Ground<'_, E> {
+    /// The span of a branch between these springs.
+    #[inline]
+    pub fn span(&self, branch: Branch, [first, last]: [u32; 2]) -> Span {
+        let (first, last) = (first as usize, last as usize);
+        let ends = larger(self.gaps[first], self.gaps[last]);
+        // Above the lowest span of a branch the largest gap is that of the outermost spring that attached last.
+        let gap = branch.origin().map_or(ends, |node| larger(ends, self.tree.nodes()[node].gap));
+        Span { gap, first, last }
+    }
+
+    /// The smallest span of a run.
+    #[inline]
+    pub fn bottom(&self, run: &Run) -> Span {
+        self.span(run.branch, run.bottom)
+    }
+
+    /// The largest one.
+    #[inline]
+    pub fn top(&self, run: &Run) -> Span {
+        self.span(run.branch, run.top)
+    }
+
+    /// Whole springs or cells of a span, and the fragment they form.
+    #[inline]
+    pub fn totals(&self, span: &Span) -> crate::contact::Tally {
+        let end = span.last + usize::from(!E::SLIDES);
+        let quanta = self.tree.sum_before(self.gaps, end) - self.tree.sum_before(self.gaps, span.first);
+        crate::contact::Tally { springs: span.springs() as i64, fragments: 1, quanta }
+    }
+
+    /// Calls `see` with each span of a run from the smallest one on and the range of indentations (m) over which the
+    /// run fills it, until `see` says that this is enough.
+    #[inline]
+    pub fn each_span(&self, run: &Run, unloading: bool, mut see: impl FnMut(&Span, f64, f64) -> bool) {
+        let mut span = self.bottom(run);
+        let mut from = run.from;
+        while span.ends() != run.top {
+            let above = span.grown(self.gaps);
+            let to = if unloading {
+                // The span above parts where this one would go on.
+                self.edges.holds_to(&above, self.edges.length(self.gaps, &above))
+            } else {
+                self.edges.attaches_at(&span, self.edges.length(self.gaps, &span), above.gap)
+            };
+            if see(&span, from, to) {
+                return;
+            }
+            (span, from) = (above, to);
+        }
+        see(&span, from, run.to);
+    }
+
+    /// The span of a run at an indentation, m.
+    pub fn span_at(&self, run: &Run, unloading: bool, indentation: f64) -> Span {
+        let mut found = self.bottom(run);
+        self.each_span(run, unloading, |span, _, to| {
+            found = *span;
+            indentation < to
+        });
+        found
+    }
+
+    /// Fragments in contact at an indentation (m) of a leg, from left to right.
+    pub fn held_at(&self, runs: &[Run], unloading: bool, indentation: f64) -> impl Iterator<Item = Held> {
+        runs.iter().rev().filter(move |run| run.is_at(indentation)).map(move |run| {
+            let [first, last] = self.span_at(run, unloading, indentation).ends();
+            Held { branch: run.branch, first, last }
+        })
+    }
+}
+
+/// The smaller of two numbers, neither of which is NaN: `f64::min` would look for that.
+#[inline]
+pub fn smaller(a: f64, b: f64) -> f64 {
+    if b < a { b } else { a }
+}
+
+/// The larger of two numbers, neither of which is NaN.
+#[inline]
+pub fn larger(a: f64, b: f64) -> f64 {
+    if b > a { b } else { a }
+}

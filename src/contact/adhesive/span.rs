@@ -1,0 +1,65 @@
+//! Neighbouring springs that one fragment holds, and their growth along the line.
+
+/// Springs `first..=last` of one fragment and their largest gap, m.
+///
+/// Every fragment in equilibrium under any loading history is a span all of whose neighbours have larger gaps: a
+/// subtree of the max-Cartesian tree of the gaps, where of equal gaps the leftmost is nearest the root.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Span {
+    /// Largest gap, m.
+    pub gap: f64,
+    /// First spring.
+    pub first: usize,
+    /// Last spring.
+    pub last: usize,
+}
+
+impl Span {
+    /// The span of all springs around these that lie below a gap, m, which is the largest of all.
+    #[inline]
+    pub fn around(gaps: &[f64], (mut first, mut last): (usize, usize), gap: f64) -> Self {
+        while first > 0 && gaps[first - 1] < gap {
+            first -= 1;
+        }
+        while last + 1 < gaps.len() && gaps[last + 1] <= gap {
+            last += 1;
+        }
+        Span { gap, first, last }
+    }
+
+    /// The spring that attaches next, the lower one beside the span; `None` where it fills the line.
+    #[inline]
+    pub fn wall(&self, gaps: &[f64]) -> Option<usize> {
+        match (self.first.checked_sub(1), gaps.get(self.last + 1)) {
+            (Some(left), Some(&right)) => Some(if right <= gaps[left] { self.last + 1 } else { left }),
+            (Some(left), None) => Some(left),
+            (None, Some(_)) => Some(self.last + 1),
+            (None, None) => None,
+        }
+    }
+
+    /// The same with the spring beside it that attaches next.
+    #[inline]
+    pub fn with(&self, gaps: &[f64], wall: usize) -> Self {
+        let gap = gaps[wall];
+        if wall > self.last { Span { gap, last: wall, ..*self } } else { Span { gap, first: wall, ..*self } }
+    }
+
+    /// The next larger span, if there is one.
+    #[inline]
+    pub fn grown(&self, gaps: &[f64]) -> Self {
+        self.wall(gaps).map_or(*self, |wall| self.with(gaps, wall))
+    }
+
+    /// Springs in it.
+    #[inline]
+    pub fn springs(&self) -> usize {
+        self.last + 1 - self.first
+    }
+
+    /// First and last spring.
+    #[inline]
+    pub fn ends(&self) -> [u32; 2] {
+        [self.first as u32, self.last as u32]
+    }
+}

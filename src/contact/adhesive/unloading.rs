@@ -1,0 +1,154 @@
+//! Unloading: down to which indentation each part of a contact holds, and the fragments on the way.
+
+use super::edge_model::EdgeModel;
+use super::run::{Ground, Held, Run, smaller};
+use super::span::Span;
+use super::tree::Branch;
+use crate::contact::ContactError;
+
+/// Where bounds are compared with thresholds they leave room for rounding.
+const ABOVE: f64 = 1.0 + 1e-12;
+
+/// What is left to look at of the contact.
+#[derive(Clone, Copy, Debug)]
+struct Part {
+    branch: Branch,
+    first: u32,
+    last: u32,
+    /// Indentation at which the fragment around it parts, m.
+    opens: f64,
+    /// Whether it is a fragment from the beginning of the leg on.
+    is_whole: bool,
+}
+
+/// Memory of the walk.
+#[derive(Clone, Debug, Default)]
+pub struct Opening {
+    parts: Vec<Part>,
+}
+
+/// The end of an unloading leg and the effort.
+#[derive(Clone, Copy, Debug)]
+pub struct Opened {
+    /// Smallest indentation with contact, m; +∞ without any.
+    pub separates: f64,
+    /// Springs in contact when the leg begins.
+    pub springs: u64,
+    /// Evaluations of the rule of Hess.
+    pub evaluations: u64,
+}
+
+impl Opening {
+    /// Lists the runs of an unloading leg from indentation `from` (m) in place of `runs`; `held` are the fragments in
+    /// contact there, from left to right.
+    ///
+    /// A fragment parts, and its most stretched spring detaches, as soon as what contains it has parted or the rule no
+    /// longer holds that spring: t_v = min(t of what contains it, smallest φ of v).
+    pub fn list<E: EdgeModel>(
+        &mut self,
+        ground: &Ground<'_, E>,
+        held: &[Held],
+        from: f64,
+        runs: &mut Vec<Run>,
+    ) -> Result<Opened, ContactError> {
+        runs.clear();
+        let out_of_memory = |_| ContactError::OutOfMemory { springs: ground.gaps.len() };
+        let mut opened = Opened { separates: f64::INFINITY, springs: 0, evaluations: 0 };
+        let mut parts = std::mem::take(&mut self.parts);
+        for &Held { branch, first, last } in held.iter().rev() {
+            opened.springs += u64::from(last + 1 - first);
+            parts.push(Part { branch, first, last, opens: from, is_whole: true });
+            while let Some(part) = parts.pop() {
+                let Some((opens, bottom, place)) = ground.descend(part, from, runs, &mut opened)? else { continue };
+                if let Ok(node) = part.branch.origin() {
+                    parts.try_reserve(2).map_err(out_of_memory)?;
+                    let [left, right] = ground.tree.parts(node);
+                    let [first, last] = bottom.ends();
+                    let place = place as u32;
+                    parts.push(Part { branch: left, first, last: place - 1, opens, is_whole: false });
+                    parts.push(Part { branch: right, first: place + 1, last, opens, is_whole: false });
+                }
+            }
+        }
+        self.parts = parts;
+        Ok(opened)
+    }
+}
+
+impl<E: EdgeModel> Ground<'_, E> {
+    /// Whether a fragment within `springs` springs, the smallest or largest gap of which is `gap`, may hold that
+    /// spring below the indentation `opens`: its length is at most that of these springs and their edge cells.
+    #[inline]
+    fn may_hold(&self, gap: f64, opens: f64, springs: usize) -> bool {
+        let stretch = self.edges.stretch();
+        let need = gap - opens;
+        need <= 0.0 || need * need < stretch * stretch * ABOVE * (springs + 1) as f64
+    }
+
+    /// Lists the runs of one branch from its largest span down. Returns the indentation at which its smallest span
+    /// parts (m), that span and the spring that then detaches; `None` where no fragment is left inside.
+    fn descend(
+        &self,
+        part: Part,
+        from: f64,
+        runs: &mut Vec<Run>,
+        opened: &mut Opened,
+    ) -> Result<Option<(f64, Span, usize)>, ContactError> {
+        let Ground { gaps, tree, edges } = *self;
+        let (mut first, mut last) = (part.first as usize, part.last as usize);
+        let (mut opens, mut is_whole) = (part.opens, part.is_whole);
+        let (bottom, lowest, place) = match part.branch.origin() {
+            Ok(index) => {
+                let node = &tree.nodes()[index];
+                (node.gap, node.lowest, tree.maximum(node))
+            }
+            Err(rank) => {
+                let place = tree.minimum(rank);
+                (f64::NEG_INFINITY, gaps[place], place)
+            }
+        };
+        if !is_whole && !self.may_hold(lowest, opens, last + 1 - first) {
+            return Ok(None);
+        }
+        let is_leaf = bottom == f64::NEG_INFINITY;
+        // The span above and its length, while its run may go on.
+        let mut above: Option<(Span, E::Length)> = None;
+        loop {
+            let (left, right) = (gaps[first], gaps[last]);
+            let at_bottom = if is_leaf { first == last } else { left < bottom && right <= bottom };
+            let gap = if at_bottom { gaps[place] } else if left >= right { left } else { right };
+            let span = Span { gap, first, last };
+            let mut goes_on = None;
+            if is_whole || self.may_hold(gap, opens, last + 1 - first) {
+                opened.evaluations += 1;
+                let length = edges.length(gaps, &span);
+                let holds = edges.holds_to(&span, length);
+                if is_whole || holds < opens {
+                    let leaves = smaller(opens, holds);
+                    match (runs.last_mut(), above) {
+                        (Some(run), Some((upper, of_upper)))
+                            if edges.slides_on((&span, length), (&upper, of_upper)) =>
+                        {
+                            run.lower(&span, leaves);
+                        }
+                        _ => {
+                            let to = if is_whole { f64::INFINITY } else { opens };
+                            runs.try_reserve(1)
+                                .map_err(|_| ContactError::OutOfMemory { springs: gaps.len() })?;
+                            runs.push(Run::new(part.branch, &span, leaves, to));
+                        }
+                    }
+                    // Only what slides down to its own gap goes on without a jump.
+                    goes_on = (leaves == holds).then_some((span, length));
+                    opened.separates = smaller(opened.separates, leaves);
+                    (opens, is_whole) = (leaves, false);
+                }
+            }
+            above = goes_on;
+            if at_bottom {
+                return Ok(Some((opens, span, place)));
+            }
+            if left >= right { first += 1 } else { last -= 1 }
+        }
+    }
+}
