@@ -56,7 +56,7 @@ pub(super) fn explore(arguments: &ExploreArguments, out: &mut dyn Write) -> Resu
 
 fn opening(arguments: &ExploreArguments) -> Result<Opening, CliError> {
     let name = arguments.scene.as_deref().unwrap_or(DEFAULT);
-    let mut opening = Opening::of(name).map_err(|error| match error {
+    let mut opening = Opening::of_argument(name).map_err(|error| match error {
         OpeningError::Scene(errors) => {
             // A single word that is no scene may have been meant as a command.
             let is_word = name.chars().all(|c| c.is_ascii_alphabetic());
