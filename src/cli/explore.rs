@@ -48,6 +48,9 @@ pub(super) fn explore(arguments: &ExploreArguments, out: &mut dyn Write) -> Resu
     let &ExploreArguments { theme, marker, no_mouse, .. } = arguments;
     let left = explorer::open(opening, Options { theme, marker, no_mouse })
         .map_err(|error| CliError::Explorer(error.to_string()))?;
+    if let Some(signal) = left.signal {
+        explorer::end_by(signal);
+    }
     if let Some(computed) = &left.computed {
         out.write_all(summary(left.document.scene(), &computed.outcome).as_bytes())?;
     }

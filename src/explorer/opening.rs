@@ -57,10 +57,7 @@ impl Opening {
         Self::with(name, open_argument)
     }
 
-    fn with(
-        name: &str,
-        open: impl Fn(&str) -> Result<Document, SceneErrors>,
-    ) -> Result<Self, OpeningError> {
+    fn with(name: &str, open: impl Fn(&str) -> Result<Document, SceneErrors>) -> Result<Self, OpeningError> {
         let folder = Path::new(name);
         if !folder.is_dir() {
             return open(name).map(Opening::from).map_err(|errors| OpeningError::Scene(Box::new(errors)));

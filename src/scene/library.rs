@@ -246,9 +246,9 @@ fn read_within(path: &Path, room: usize) -> Result<String, String> {
         Err(ReadError::TooLong { limit: LONGEST_TEXT }) => {
             Err(format!("the scene is too long: at most {LONGEST_TEXT} bytes are read"))
         }
-        Err(ReadError::TooLong { .. }) => Err(format!(
-            "not read: the scene files of this folder are more than {MOST_BYTES} bytes long"
-        )),
+        Err(ReadError::TooLong { .. }) => {
+            Err(format!("not read: the scene files of this folder are more than {MOST_BYTES} bytes long"))
+        }
         read => read.map_err(|error| error.to_string()),
     }
 }

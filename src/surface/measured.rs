@@ -164,7 +164,10 @@ impl Reader {
         self.number += 1;
         let wrong = |number: usize, what: String| format!("line {number}: {what}");
         if line.len() > LONGEST_LINE {
-            return Err(wrong(self.number, format!("longer than {LONGEST_LINE} bytes; allowed: at most that")));
+            return Err(wrong(
+                self.number,
+                format!("longer than {LONGEST_LINE} bytes; allowed: at most that"),
+            ));
         }
         let line = str::from_utf8(line).map_err(|error| {
             let byte = error.valid_up_to();
@@ -191,7 +194,9 @@ impl Reader {
             }
             let slope = (z - height).abs() / (x - before);
             if slope > LARGEST {
-                return Err(format!("a slope of {slope:e} from the point before; allowed: at most {LARGEST:e}"));
+                return Err(format!(
+                    "a slope of {slope:e} from the point before; allowed: at most {LARGEST:e}"
+                ));
             }
         }
         for (values, value) in [(positions, x), (heights, z)] {
@@ -220,7 +225,8 @@ fn columns(line: &str) -> impl Iterator<Item = &str> {
 
 /// Whether a line holds names and no number.
 fn is_header(line: &str) -> bool {
-    columns(line).all(|column| column.parse::<f64>().is_err()) && columns(line).any(|column| !column.is_empty())
+    columns(line).all(|column| column.parse::<f64>().is_err())
+        && columns(line).any(|column| !column.is_empty())
 }
 
 /// x and z of a line.

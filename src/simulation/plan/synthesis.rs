@@ -52,9 +52,16 @@ mod tests {
 
     #[test]
     fn the_largest_prime_factor_is_found() {
-        for (number, factor) in
-            [(1, 1), (2, 2), (3, 3), (1 << 28, 2), (1_048_583, 1_048_583), (2 * 524_287, 524_287), (121, 11), (90, 5)]
-        {
+        for (number, factor) in [
+            (1, 1),
+            (2, 2),
+            (3, 3),
+            (1 << 28, 2),
+            (1_048_583, 1_048_583),
+            (2 * 524_287, 524_287),
+            (121, 11),
+            (90, 5),
+        ] {
             assert_eq!(largest_prime_factor(number), factor, "{number}");
         }
     }
