@@ -3,7 +3,7 @@
 use crate::common::deadline::within;
 use crate::common::terminal::Terminal;
 use crate::driving::{
-    CLEAR_LINE, ENTER, ESCAPE, SCENE, answer, explorer, headline, paused, quit, select, wait_for_another,
+    CLEAR_LINE, ESCAPE, SCENE, answer, explorer, headline, paused, quit, select, wait_for_another,
 };
 use rustix::fs::{CWD, FileType, Mode, mknodat};
 use std::fs;
@@ -54,6 +54,7 @@ fn a_pipe_or_a_device_is_not_opened_as_a_scene() {
         terminal.wait_for("! pipe.ron  here");
         terminal.wait_for("not a regular file");
         terminal.send(ESCAPE);
+        terminal.wait_without("Search:");
         quit(&mut terminal);
     });
 }
@@ -104,7 +105,6 @@ fn a_measured_file_that_is_a_pipe_stops_no_computation() {
         }
         // Opened, it is an error of the scene.
         open(&mut terminal, "./piped.ron");
-        terminal.send(ENTER);
         terminal.wait_for("not a regular file");
         assert_answers(&mut terminal);
         quit(&mut terminal);
