@@ -3,8 +3,8 @@
 use crate::common::deadline::within;
 use crate::common::terminal::{Program, Terminal};
 use crate::driving::{
-    ASPERITY, CLEAR_LINE, ENTER, ESCAPE, INTERRUPT, LEAVE_ALTERNATE_SCREEN, SCENE, assert_given_back,
-    explorer, headline, last_place, paused, quit, select, wait_for_another,
+    ASPERITY, CLEAR_LINE, ENTER, ENTER_ALTERNATE_SCREEN, ESCAPE, INTERRUPT, LEAVE_ALTERNATE_SCREEN, SCENE,
+    assert_given_back, explorer, headline, last_place, paused, quit, select, wait_for_another,
 };
 use std::fs;
 use std::path::Path;
@@ -111,12 +111,83 @@ fn signal(terminal: &Terminal, name: &str) {
 }
 
 #[test]
-fn a_signal_to_end_gives_the_terminal_back() {
+fn whatever_signal_ends_it_the_terminal_is_given_back() {
+    within(120, || {
+        for name in ["TERM", "INT", "HUP", "QUIT", "ABRT", "KILL"] {
+            let (program, _folder) = explorer();
+            let mut terminal = paused(program);
+            signal(&terminal, name);
+            assert!(!terminal.wait_end().success(), "{name}: it is seen that a signal ended it");
+            assert_given_back(&terminal);
+        }
+    });
+}
+
+#[test]
+fn a_terminal_that_reads_nothing_keeps_no_signal_from_ending_it() {
+    within(120, || {
+        for name in ["TERM", "INT", "HUP", "QUIT"] {
+            let (program, _folder) = explorer();
+            let mut terminal = paused(program);
+            terminal.rest(true);
+            // Each size is a whole frame; some of them are more than the system holds for a terminal.
+            for columns in (100..140).step_by(4) {
+                terminal.resize(columns, 40);
+                std::thread::sleep(std::time::Duration::from_millis(50));
+            }
+            assert!(is_waiting_to_write(terminal.pid()), "the explorer waits for the terminal");
+            signal(&terminal, name);
+            assert!(!terminal.wait_process().success(), "{name}");
+            // Line by line and with echo already, while what was drawn still waits.
+            assert!(terminal.is_as_before(), "{name}");
+            terminal.rest(false);
+            terminal.wait_end();
+            assert_given_back(&terminal);
+        }
+    });
+}
+
+#[test]
+fn with_whatever_memory_there_is_the_terminal_is_given_back() {
+    within(300, || {
+        let (_, folder) = explorer();
+        let mut computed = 0;
+        // Up to more than the scene takes, and its threads reserve.
+        for mebibytes in [40, 70, 100, 130, 160, 190, 220, 250, 280, 310, 400, 2000] {
+            let limited = format!("ulimit -v {}; exec '{ASPERITY}' million-springs", mebibytes << 10);
+            let mut terminal =
+                Program::new("/bin/sh").argument("-c").argument(limited).folder(folder.path()).start();
+            terminal.settle_for(std::time::Duration::from_millis(1500));
+            computed += u32::from(terminal.text().contains("F_a "));
+            terminal.send_if_open("q");
+            terminal.wait_end();
+            assert!(terminal.is_as_before(), "{mebibytes} MiB");
+            if last_place(terminal.written(), ENTER_ALTERNATE_SCREEN).is_some() {
+                assert_given_back(&terminal);
+            }
+        }
+        assert!(computed > 0, "with enough of it the scene is computed");
+    });
+}
+
+/// Whether the main thread of a process sleeps in a call that writes.
+fn is_waiting_to_write(pid: u32) -> bool {
+    let call = fs::read_to_string(format!("/proc/{pid}/syscall")).unwrap();
+    // The numbers of `write` on 64-bit x86 and ARM; the first argument is standard output.
+    let words: Vec<&str> = call.split_whitespace().collect();
+    matches!(words[..], ["1" | "64", "0x1", ..])
+}
+
+#[test]
+fn a_suspended_explorer_that_is_killed_leaves_the_terminal_to_the_shell() {
     within(40, || {
         let (program, _folder) = explorer();
         let mut terminal = paused(program);
-        signal(&terminal, "TERM");
-        terminal.wait_end();
+        // No shell continues it: the system goes on at once.
+        terminal.send("\x1a");
+        terminal.settle();
+        signal(&terminal, "KILL");
+        assert!(!terminal.wait_end().success());
         assert_given_back(&terminal);
     });
 }
