@@ -5,7 +5,7 @@ mod numerics;
 
 use asperity::contact::{ContactTree, Foundation, GridEdges, HessRule, LegRecord, Solver, exact};
 use asperity::reference::PowerLaw;
-use asperity::scene::{Form, Leg};
+use asperity::scene::{Edges, Form, Leg};
 use asperity::surface::{Line, power_law_factor};
 use numerics::{integral, invert, observed_order};
 use std::f64::consts::PI;
@@ -75,9 +75,9 @@ fn dissipated_energy([loading, unloading]: &[LegRecord; 2]) -> f64 {
 fn closed_loop(problem: &Problem, points: usize) -> [LegRecord; 2] {
     let line = Line::new(problem.length, points, problem.form.as_ref(), None, 0.0).unwrap();
     let foundation = Foundation { spacing: line.spacing, effective_modulus: problem.modulus };
-    let tree = ContactTree::build(&line.gaps).unwrap();
+    let tree = ContactTree::build(&line.gaps, Edges::Grid).unwrap();
     let rule = GridEdges::new(HessRule::new(foundation, problem.work));
-    let mut solver = exact::adhesive(&tree, rule, foundation, 257).unwrap();
+    let mut solver = exact::adhesive(&line.gaps, &tree, rule, foundation, 257);
     let [loading, unloading] =
         [Leg::ToIndentation(problem.deepest), Leg::ToSeparation].map(|leg| solver.advance(leg).unwrap());
     let separated = unloading.curve.last().unwrap();

@@ -1,7 +1,7 @@
 //! The exact solver against blind relaxation of the rules, written here and independent of the library.
 
 use asperity::contact::{ContactError, ContactTree, Foundation, GridEdges, HessRule, Solver, exact};
-use asperity::scene::Leg;
+use asperity::scene::{Edges, Leg};
 use proptest::prelude::*;
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -223,9 +223,9 @@ fn compare(
     compared: &Compared,
 ) -> Result<(), TestCaseError> {
     let foundation = Foundation { spacing: SPACING, effective_modulus: 1.0 };
-    let tree = ContactTree::build(gaps).unwrap();
+    let tree = ContactTree::build(gaps, Edges::Grid).unwrap();
     let rule = GridEdges::new(HessRule::new(foundation, range));
-    let mut solver = exact::adhesive(&tree, rule, foundation, 2).unwrap();
+    let mut solver = exact::adhesive(gaps, &tree, rule, foundation, 2);
     let count = gaps.len();
     let mut blind = Blind { gaps: gaps.to_vec(), range, contact: vec![false; count], order };
     let (mut stands_at, mut force) = (0.0, 0.0);

@@ -1,8 +1,8 @@
 //! The body in hand against the exact solver: the same contact, bit for bit, at the cost of what changes.
 
 use asperity::contact::{
-    ContactError, ContactTree, CurvePoint, Foundation, GridEdges, HandError, HandHeld, HessRule, Incremental,
-    LegRecord, Move, NoAdhesion, Solver, exact,
+    ContactError, ContactTree, CurvePoint, Foundation, GridEdges, GridRule, HandError, HandHeld, HessRule, Incremental,
+    LegRecord, Move, NoAdhesion, Solver, SpringTree, exact,
 };
 use asperity::scene::{Edges, Leg};
 use asperity::surface::{SelfAffine, UnitRoughness};
@@ -20,23 +20,31 @@ struct Body {
 }
 
 impl Body {
-    fn tree(&self) -> Arc<ContactTree> {
-        Arc::new(ContactTree::build(&self.gaps).unwrap())
+    fn tree(&self) -> Arc<SpringTree> {
+        Arc::new(SpringTree::build(&self.gaps).unwrap())
     }
 
-    fn rule(&self, work: f64) -> GridEdges {
-        GridEdges::new(HessRule::new(self.foundation, work))
+    /// Its turning points.
+    fn turning(&self) -> ContactTree {
+        ContactTree::build(&self.gaps, Edges::Grid).unwrap()
+    }
+
+    fn rule(&self, work: f64) -> GridRule {
+        GridRule::new(HessRule::new(self.foundation, work))
     }
 
     fn exact<'a>(&'a self, tree: &'a ContactTree) -> Box<dyn Solver + 'a> {
         match self.work {
-            Some(work) => Box::new(exact::adhesive(tree, self.rule(work), self.foundation, 2).unwrap()),
+            Some(work) => {
+                let rule = GridEdges::new(HessRule::new(self.foundation, work));
+                Box::new(exact::adhesive(&self.gaps, tree, rule, self.foundation, 2))
+            },
             None => Box::new(exact::nonadhesive(&self.gaps, Edges::Grid, self.foundation, 2)),
         }
     }
 
     /// In hand, as it is before first touch.
-    fn in_hand(&self, tree: &Arc<ContactTree>) -> Box<dyn HandHeld + Send> {
+    fn in_hand(&self, tree: &Arc<SpringTree>) -> Box<dyn HandHeld + Send> {
         let tree = Arc::clone(tree);
         match self.work {
             Some(work) => Box::new(Incremental::new(tree, self.rule(work), self.foundation).unwrap()),
@@ -47,7 +55,7 @@ impl Body {
     /// In hand, in this contact.
     fn standing(
         &self,
-        tree: &Arc<ContactTree>,
+        tree: &Arc<SpringTree>,
         indentation: f64,
         contacts: &[(usize, usize)],
     ) -> Box<dyn HandHeld + Send> {
@@ -207,7 +215,8 @@ proptest! {
     #[test]
     fn it_stands_where_the_exact_solver_stands(body in body(), goals in goals()) {
         let tree = body.tree();
-        let (mut solver, mut hand) = (body.exact(&tree), body.in_hand(&tree));
+        let turning = body.turning();
+        let (mut solver, mut hand) = (body.exact(&turning), body.in_hand(&tree));
         for (index, goal) in goals.iter().enumerate() {
             let leg = goal.leg(&body);
             let before = state(&*hand);
@@ -293,7 +302,8 @@ proptest! {
         goals in goals(),
     ) {
         let tree = body.tree();
-        let (mut solver, mut came) = (body.exact(&tree), body.in_hand(&tree));
+        let turning = body.turning();
+        let (mut solver, mut came) = (body.exact(&turning), body.in_hand(&tree));
         let mut last = None;
         for &to in &history {
             last = Some(solver.advance(Leg::ToIndentation(to)).unwrap());
@@ -391,7 +401,8 @@ fn a_step_costs_what_changes() {
     for work in [None, Some(1e-6), Some(1e-3), Some(0.02), Some(0.3), Some(1e3)] {
         let body = rough(SPRINGS, work);
         let tree = body.tree();
-        let (mut solver, mut hand) = (body.exact(&tree), body.in_hand(&tree));
+        let turning = body.turning();
+        let (mut solver, mut hand) = (body.exact(&turning), body.in_hand(&tree));
         let mut check = |moved: Move| {
             let changed = moved.joins + moved.leaves;
             assert!(moved.events <= changed, "{moved:?}");
@@ -462,7 +473,8 @@ fn a_force_no_indentation_reaches_is_refused() {
     for work in [None, Some(0.1)] {
         let body = Body { gaps: vec![0.3, 0.0, 0.9, 0.2, 0.5], foundation, work };
         let tree = body.tree();
-        let (mut solver, mut hand) = (body.exact(&tree), body.in_hand(&tree));
+        let turning = body.turning();
+        let (mut solver, mut hand) = (body.exact(&turning), body.in_hand(&tree));
         for leg in [Leg::ToIndentation(0.25), Leg::ToSeparation] {
             solver.advance(leg).unwrap();
             go(&mut *hand, leg).unwrap();

@@ -2,7 +2,7 @@
 //! every fragment is like every other. All have answers that are known.
 
 use asperity::contact::{ContactTree, CurvePoint, Foundation, GridEdges, HessRule, LegRecord, Solver, exact};
-use asperity::scene::Leg;
+use asperity::scene::{Edges, Leg};
 use std::f64::consts::PI;
 
 const SPRINGS: usize = 1 << 20;
@@ -14,10 +14,9 @@ fn foundation(springs: usize) -> Foundation {
 
 /// The legs of a line on springs of this foundation, with the fragments in contact after the first.
 fn legs(gaps: &[f64], foundation: Foundation, work: f64, deepest: f64) -> ([LegRecord; 2], usize) {
-    let tree = ContactTree::build(gaps).unwrap();
-    assert_eq!(tree.len(), gaps.len());
+    let tree = ContactTree::build(gaps, Edges::Grid).unwrap();
     let rule = GridEdges::new(HessRule::new(foundation, work));
-    let mut solver = exact::adhesive(&tree, rule, foundation, 64).unwrap();
+    let mut solver = exact::adhesive(gaps, &tree, rule, foundation, 64);
     let loading = solver.advance(Leg::ToIndentation(deepest)).unwrap();
     let fragments = solver.fragments(deepest).len();
     let unloading = solver.advance(Leg::ToSeparation).unwrap();

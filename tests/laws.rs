@@ -19,7 +19,7 @@ mod search;
 mod symmetries;
 
 use asperity::contact::{
-    ContactTree, CurvePoint, Foundation, GridEdges, HessRule, History, LegRecord, Solver, exact, run,
+    Adhesive, ContactTree, CurvePoint, Exact, Foundation, GridEdges, HessRule, History, LegRecord, Solver, exact, run,
 };
 use asperity::scene::{Edges, Leg};
 use proptest::prelude::*;
@@ -36,13 +36,13 @@ struct Body {
 
 impl Body {
     fn tree(&self) -> ContactTree {
-        ContactTree::build(&self.gaps).unwrap()
+        ContactTree::build(&self.gaps, Edges::Grid).unwrap()
     }
 
     /// The exact solver over its tree.
-    fn on<'a>(&self, tree: &'a ContactTree, samples: usize) -> exact::Adhesive<'a, GridEdges> {
+    fn on<'a>(&'a self, tree: &'a ContactTree, samples: usize) -> Exact<Adhesive<'a, GridEdges>> {
         let rule = GridEdges::new(HessRule::new(self.foundation, self.work));
-        exact::adhesive(tree, rule, self.foundation, samples).unwrap()
+        exact::adhesive(&self.gaps, tree, rule, self.foundation, samples)
     }
 
     fn history(&self, legs: &[Leg], samples: usize) -> History {

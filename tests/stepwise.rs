@@ -4,7 +4,7 @@ use asperity::contact::{
     ContactError, ContactTree, Direction, Foundation, GridEdges, HessRule, LegRecord, Solver, Stepwise, Work,
     exact,
 };
-use asperity::scene::{Document, Leg};
+use asperity::scene::{Edges, Document, Leg};
 use asperity::simulation::{Outcome, Simulation};
 use asperity::surface::{SelfAffine, UnitRoughness};
 use proptest::prelude::*;
@@ -27,8 +27,8 @@ fn stepwise(gaps: &[f64], hess: Option<HessRule>, step: f64) -> Stepwise<'_> {
 /// Runs legs with the stepwise solver and with the exact one.
 fn both(gaps: &[f64], work: f64, step: f64, legs: &[Leg]) -> [Vec<LegRecord>; 2] {
     let hess = HessRule::new(FOUNDATION, work);
-    let tree = ContactTree::build(gaps).unwrap();
-    let mut exact = exact::adhesive(&tree, GridEdges::new(hess), FOUNDATION, 64).unwrap();
+    let tree = ContactTree::build(gaps, Edges::Grid).unwrap();
+    let mut exact = exact::adhesive(gaps, &tree, GridEdges::new(hess), FOUNDATION, 64);
     let mut stepwise = stepwise(gaps, (work > 0.0).then_some(hess), step);
     let run = |solver: &mut dyn Solver| legs.iter().map(|&leg| solver.advance(leg).unwrap()).collect();
     [run(&mut stepwise), run(&mut exact)]
@@ -88,9 +88,9 @@ fn contact_sets_on_the_way_converge_with_the_step() {
     let mut differences = vec![0.0; steps.len()];
     for gaps in (1..=12).map(|seed| rough(128, seed)) {
         let hess = HessRule::new(FOUNDATION, 0.05);
-        let tree = ContactTree::build(&gaps).unwrap();
+        let tree = ContactTree::build(&gaps, Edges::Grid).unwrap();
         for (&step, differences) in steps.iter().zip(&mut differences) {
-            let mut exact = exact::adhesive(&tree, GridEdges::new(hess), FOUNDATION, 2).unwrap();
+            let mut exact = exact::adhesive(&gaps, &tree, GridEdges::new(hess), FOUNDATION, 2);
             let mut stepwise = stepwise(&gaps, Some(hess), step);
             for (leg, from, to) in
                 [(Leg::ToIndentation(0.6), 0.0, 0.6), (Leg::ToIndentation(-0.3), 0.6, -0.3)]
@@ -123,8 +123,8 @@ proptest! {
     ) {
         let gaps = rough(points.max(4), seed);
         let hess = HessRule::new(FOUNDATION, 10_f64.powf(range));
-        let tree = ContactTree::build(&gaps).unwrap();
-        let mut exact = exact::adhesive(&tree, GridEdges::new(hess), FOUNDATION, 2).unwrap();
+        let tree = ContactTree::build(&gaps, Edges::Grid).unwrap();
+        let mut exact = exact::adhesive(&gaps, &tree, GridEdges::new(hess), FOUNDATION, 2);
         let mut stepwise = stepwise(&gaps, Some(hess), step);
         let (mut found, mut expected) = (Vec::new(), Vec::new());
         for leg in turns.into_iter().map(Leg::ToIndentation) {

@@ -15,10 +15,10 @@ mod numerics;
 #[path = "subcell/rule.rs"]
 mod rule;
 
-use asperity::contact::subcell::{self, LevelSets};
+use asperity::contact::subcell::LevelSets;
 use asperity::contact::{
-    BodyMemory, ContactError, ContactTree, CurvePoint, Foundation, HessRule, History, LegRecord, Solver,
-    exact, run,
+    Adhesive, ContactError, ContactTree, CurvePoint, Exact, Foundation, HessRule, History, LegRecord, Solver,
+    SpringTree, SubCellEdges, exact, run,
 };
 use asperity::scene::{Edges, Leg};
 use proptest::prelude::*;
@@ -36,20 +36,25 @@ struct Body {
 
 impl Body {
     fn sets(&self) -> Arc<LevelSets> {
-        let tree = Arc::new(ContactTree::build(&self.gaps).unwrap());
+        let tree = Arc::new(SpringTree::build(&self.gaps).unwrap());
         Arc::new(LevelSets::new(tree, &self.gaps).unwrap())
+    }
+
+    fn tree(&self) -> ContactTree {
+        ContactTree::build(&self.gaps, Edges::SubCell).unwrap()
     }
 
     fn hess(&self) -> Option<HessRule> {
         (self.work > 0.0).then(|| HessRule::new(self.foundation, self.work))
     }
 
-    fn on<'a>(&self, sets: &'a Arc<LevelSets>, samples: usize) -> subcell::Adhesive<'a> {
-        subcell::adhesive_in(BodyMemory::default(), sets, self.hess(), self.foundation, samples).unwrap()
+    fn on<'a>(&'a self, tree: &'a ContactTree, samples: usize) -> Exact<Adhesive<'a, SubCellEdges>> {
+        let edges = SubCellEdges::new(HessRule::new(self.foundation, self.work));
+        exact::adhesive(&self.gaps, tree, edges, self.foundation, samples)
     }
 
     fn history(&self, legs: &[Leg], samples: usize) -> History {
-        run(&mut self.on(&self.sets(), samples), legs, |_, _| Ok(())).unwrap()
+        run(&mut self.on(&self.tree(), samples), legs, |_, _| Ok(())).unwrap()
     }
 
     fn deepest(&self) -> f64 {

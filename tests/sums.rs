@@ -187,10 +187,10 @@ fn forces_at_full_contact_keep_the_bound_where_they_vanish() {
     gaps[1000] = 0.0;
     let foundation = Foundation { spacing: 1e-6, effective_modulus: 2.0e6 };
     let stiffness = foundation.spring_stiffness();
-    let tree = ContactTree::build(&gaps).unwrap();
+    let tree = ContactTree::build(&gaps, Edges::Grid).unwrap();
     // Adhesion enough to hold everything when hardly pressed.
     let rule = GridEdges::new(HessRule::new(foundation, 4.0e6));
-    let mut solver = exact::adhesive(&tree, rule, foundation, 20).unwrap();
+    let mut solver = exact::adhesive(&gaps, &tree, rule, foundation, 20);
     let (scale, sum) = (scale_of(&gaps), sum(&gaps));
     let balanced = balance(gaps.len(), &sum, 2);
     for leg in [Leg::ToIndentation(1.0), Leg::ToZeroForce, Leg::ToIndentation(balanced)] {

@@ -2,12 +2,10 @@
 
 use super::Measures;
 use super::solution::Solution;
-use crate::contact::subcell::{self, LevelSets};
-use crate::contact::{BodyMemory, ContactError, ContactTree, Foundation, HessRule, run};
-use crate::scene::Scene;
+use crate::contact::{ContactError, ContactTree, Foundation, HessRule, SubCellEdges, exact, run};
+use crate::scene::{Edges, Scene};
 use crate::simulation::{RunError, Simulation};
 use std::path::Path;
-use std::sync::Arc;
 
 /// Relative errors of a scene whose gaps are rounded to single precision and then solved in double, against
 /// the same with gaps in double precision. `stop` is asked between legs whether to give up.
@@ -23,10 +21,15 @@ pub(super) fn errors_of_single_precision(
     let solve = |gaps: &[f64]| -> Result<Solution, RunError> {
         let goes_on = || if stop() { Err(ContactError::Interrupted) } else { Ok(()) };
         goes_on()?;
-        let sets = Arc::new(LevelSets::new(Arc::new(ContactTree::build(gaps)?), gaps)?);
         let samples = scene.numerics.samples as usize;
-        let mut body = subcell::adhesive_in(BodyMemory::default(), &sets, hess, foundation, samples)?;
-        let history = run(&mut body, &scene.loading, |_, _| goes_on())?;
+        let history = if let Some(hess) = hess {
+            let tree = ContactTree::build(gaps, Edges::SubCell)?;
+            let mut body = exact::adhesive(gaps, &tree, SubCellEdges::new(hess), foundation, samples);
+            run(&mut body, &scene.loading, |_, _| goes_on())?
+        } else {
+            let mut body = exact::nonadhesive(gaps, Edges::SubCell, foundation, samples);
+            run(&mut body, &scene.loading, |_, _| goes_on())?
+        };
         Ok(Solution::of_history(&history, scene.numerics.points))
     };
     let double = solve(&line.gaps)?;

@@ -2,15 +2,13 @@
 //! the engine.
 
 use super::Fault;
-use crate::contact::subcell::{self, LevelSets};
 use crate::contact::{
-    BodyMemory, ContactTree, CurvePoint, Foundation, GridEdges, HessRule, History, LegRecord, Solver, exact,
-    run,
+    ContactTree, CurvePoint, Foundation, GridEdges, HessRule, History, LegRecord, Solver, SubCellEdges,
+    exact, run,
 };
 use crate::scene::{Edges, Leg};
 use crate::surface::{Line, SelfAffine, UnitRoughness, phases};
 use std::f64::consts::{PI, TAU};
-use std::sync::Arc;
 
 /// Springs under adhesion.
 #[derive(Clone, Debug)]
@@ -124,22 +122,15 @@ impl Body {
         if self.work == 0.0 {
             return act(&mut exact::nonadhesive(&self.gaps, edges, self.foundation, samples));
         }
-        let tree = Arc::new(ContactTree::build(&self.gaps)?);
+        let (hess, gaps) = (HessRule::new(self.foundation, self.work), self.gaps.as_slice());
+        let tree = ContactTree::build(gaps, edges)?;
         match edges {
             Edges::Grid => {
-                let rule = GridEdges::new(HessRule::new(self.foundation, self.work));
-                act(&mut exact::adhesive(&tree, rule, self.foundation, samples)?)
+                let rule = GridEdges::new(hess);
+                act(&mut exact::adhesive(gaps, &tree, rule, self.foundation, samples))
             }
             Edges::SubCell => {
-                let hess = HessRule::new(self.foundation, self.work);
-                let sets = Arc::new(LevelSets::new(tree, &self.gaps)?);
-                act(&mut subcell::adhesive_in(
-                    BodyMemory::default(),
-                    &sets,
-                    Some(hess),
-                    self.foundation,
-                    samples,
-                )?)
+                act(&mut exact::adhesive(gaps, &tree, SubCellEdges::new(hess), self.foundation, samples))
             }
         }
     }

@@ -26,19 +26,19 @@ pub trait EdgeRule {
 
 /// The paper's rule: a fragment of n springs is n Δx long.
 #[derive(Clone, Copy, Debug)]
-pub struct GridEdges {
+pub struct GridRule {
     hess: HessRule,
 }
 
-impl GridEdges {
+impl GridRule {
     /// Whole springs under the rule of Hess.
     #[must_use]
     pub fn new(hess: HessRule) -> Self {
-        GridEdges { hess }
+        GridRule { hess }
     }
 }
 
-impl EdgeRule for GridEdges {
+impl EdgeRule for GridRule {
     #[inline]
     fn grows_at(&self, tree: &SpringTree, fragment: usize, wall: usize) -> f64 {
         tree.gap(wall) - self.hess.largest_stretch(tree.size(fragment))

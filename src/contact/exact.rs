@@ -3,13 +3,11 @@
 //! How a leg goes is the same for whole springs and for edges between them; what the springs come to is the
 //! law of their contact.
 
-use super::law::{Contact, Standing};
+use super::adhesive::{Adhesive, AdhesiveMemory, ContactTree, EdgeModel};
 use super::grid::Grid;
+use super::law::{Contact, Standing};
 use super::targets::{self, Target};
-use super::{
-    ContactError, ContactTree, CurvePoint, Direction, EdgeRule, Foundation, LegContact, LegRecord,
-    Nonadhesive, Work,
-};
+use super::{ContactError, CurvePoint, Direction, Foundation, LegContact, LegRecord, Nonadhesive, Work};
 use crate::scene::{Edges, Leg};
 use std::time::{Duration, Instant};
 
@@ -50,6 +48,34 @@ pub fn nonadhesive(
     samples: usize,
 ) -> WithoutAdhesion<'_> {
     Exact::new(Nonadhesive::new(gaps, edges), foundation, samples)
+}
+
+/// A separated body under adhesion at d = 0 just before first touch, over springs of these gaps (m, the smallest 0) and
+/// the tree of these gaps; `samples` (at least 2) curve points are taken on each leg.
+#[must_use]
+pub fn adhesive<'a, E: EdgeModel>(
+    gaps: &'a [f64],
+    tree: &'a ContactTree,
+    edges: E,
+    foundation: Foundation,
+    samples: usize,
+) -> Exact<Adhesive<'a, E>> {
+    adhesive_in(AdhesiveMemory::default(), gaps, tree, edges, foundation, samples)
+}
+
+/// The same in the memory that [`Exact::into_memory`] gave back: fresh memory costs about as much as a pass.
+#[must_use]
+pub fn adhesive_in<'a, E: EdgeModel>(
+    memory: AdhesiveMemory,
+    gaps: &'a [f64],
+    tree: &'a ContactTree,
+    edges: E,
+    foundation: Foundation,
+    samples: usize,
+) -> Exact<Adhesive<'a, E>> {
+    let mut body = Exact::new(Adhesive::new(gaps, tree, edges, memory), foundation, samples);
+    body.work.tree_nodes = tree.len() as u64;
+    body
 }
 
 impl<C: Contact> Exact<C> {

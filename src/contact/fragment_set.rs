@@ -2,7 +2,7 @@
 
 use super::grid::CompensatedSum;
 use super::tournament::Tournament;
-use super::{ContactError, SpringTree, EdgeRule, GapScale, Tally, reserve};
+use super::{ContactError, EdgeRule, GapScale, SpringTree, Tally, reserve};
 use std::sync::Arc;
 
 /// In place of the parent of the whole line.

@@ -4,10 +4,10 @@
 //! taking in hand takes O(N).
 
 use super::fragment_set::{Event, FragmentSet};
+use super::grid::CompensatedSum;
 use super::hand::{Hand, HandContact, HandError};
 use super::law::Standing;
-use super::grid::CompensatedSum;
-use super::{ContactError, SpringTree, EdgeRule, Foundation};
+use super::{ContactError, EdgeRule, Foundation, SpringTree};
 use std::sync::Arc;
 
 /// Whole springs in hand.

@@ -1,6 +1,6 @@
 //! The contact of a leg after the body has gone on.
 
-use super::adhesive::{Adhesive, ContactTree, Run, SubCell, WholeSprings};
+use super::adhesive::{Adhesive, ContactTree, GridEdges, Run, SubCellEdges};
 use super::fragments::runs;
 use super::{ContactError, resized};
 use crate::scene::Edges;
@@ -43,17 +43,18 @@ impl LegContact {
         gaps: &[f64],
         tree: Option<&ContactTree>,
     ) -> Vec<(usize, usize)> {
-        let touching = |thresholds: &[f64]| runs(thresholds.iter().map(|&threshold| threshold <= indentation));
+        let touching =
+            |thresholds: &[f64]| runs(thresholds.iter().map(|&threshold| threshold <= indentation));
         match (self.kind, tree) {
             (Kind::Apart, _) | (Kind::Runs { .. }, None) => Vec::new(),
             (Kind::Gaps, _) => touching(gaps),
             (Kind::Line, _) => touching(&self.thresholds),
             (Kind::Runs { unloading, stretch, edges: Edges::Grid }, Some(tree)) => {
-                let rule = WholeSprings::with_stretch(stretch);
+                let rule = GridEdges::with_stretch(stretch);
                 Adhesive::fragments_of(gaps, tree, rule, &self.runs, unloading, indentation)
             }
             (Kind::Runs { unloading, stretch, edges: Edges::SubCell }, Some(tree)) => {
-                let rule = SubCell::with_stretch(stretch);
+                let rule = SubCellEdges::with_stretch(stretch);
                 Adhesive::fragments_of(gaps, tree, rule, &self.runs, unloading, indentation)
             }
         }

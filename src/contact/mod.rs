@@ -35,8 +35,8 @@ mod targets;
 mod tournament;
 mod tree;
 
-pub use adhesive::{Adhesive, AdhesiveMemory, ContactTree, EdgeModel, SubCell, WholeSprings};
-pub use edges::{EdgeRule, GridEdges, NoAdhesion};
+pub use adhesive::{Adhesive, AdhesiveMemory, ContactTree, EdgeModel, GridEdges, SubCellEdges};
+pub use edges::{EdgeRule, GridRule, NoAdhesion};
 pub use error::ContactError;
 pub use exact::Exact;
 pub use foundation::{Foundation, HessRule};

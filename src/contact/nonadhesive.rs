@@ -8,10 +8,10 @@
 //! digit however steep or flat they are and however far the indentation goes; only cells that are filled in part at
 //! many points of a curve in a row add as quadratics, whose coefficients their height bounds there.
 
-use super::law::{Contact, Standing};
-use super::grid::{CompensatedSum, Grid};
-use super::fragments::runs;
 use super::adhesive::bisect;
+use super::fragments::runs;
+use super::grid::{CompensatedSum, Grid};
+use super::law::{Contact, Standing};
 use super::tally::{GapScale, Tally};
 use super::{ContactError, LegContact, Work, resized};
 use crate::scene::Edges;

@@ -5,8 +5,9 @@
 //! is asked of the exact thresholds before the first step.
 
 use super::{
-    ContactError, SpringTree, CurvePoint, Direction, EdgeRule, Foundation, GapScale, GridEdges, HandError,
-    HandHeld, HessRule, Incremental, LegContact, LegRecord, NoAdhesion, Solver, Tally, Work, exact, fragments, reserve,
+    ContactError, CurvePoint, Direction, EdgeRule, Foundation, GapScale, GridRule, HandError, HandHeld,
+    HessRule, Incremental, LegContact, LegRecord, NoAdhesion, Solver, SpringTree, Tally, Work, exact,
+    fragments, reserve,
 };
 use crate::scene::{Edges, Leg};
 use std::sync::Arc;
@@ -208,7 +209,7 @@ impl<'a> Stepwise<'a> {
             (Goal::Indentation(end), _) => end,
             (Goal::Force(force), Direction::Loading) => self.least_indentation(force.max(0.0))?,
             (Goal::Force(_) | Goal::Separation, _) => match self.hess {
-                Some(hess) => self.pulled(GridEdges::new(hess), leg, goal)?,
+                Some(hess) => self.pulled(GridRule::new(hess), leg, goal)?,
                 None => self.pulled(NoAdhesion, leg, goal)?,
             },
         };

@@ -174,30 +174,6 @@ impl SpringTree {
         GapScale::for_gaps_up_to(self.gap.last().copied().unwrap_or(0.0))
     }
 
-    /// Calls `see` with the root of each fragment in contact at `indentation`, from the end of the
-    /// post-order; `thresholds` stand in post-order. Takes as long as there are free springs and fragments.
-    pub(crate) fn each_fragment(&self, thresholds: &[f64], indentation: f64, mut see: impl FnMut(usize)) {
-        let mut end = thresholds.len();
-        while end > 0 {
-            let node = end - 1;
-            if thresholds[node] <= indentation {
-                see(node);
-                end -= self.shape[node].size as usize;
-            } else {
-                end = node;
-            }
-        }
-    }
-
-    /// First and last spring of each fragment in contact at `indentation`, in ascending order.
-    pub(crate) fn fragments(&self, thresholds: &[f64], indentation: f64) -> Vec<(usize, usize)> {
-        let mut fragments = Vec::new();
-        self.each_fragment(thresholds, indentation, |root| fragments.push(self.interval(root)));
-        // Subtrees none of which contains another stand in post-order as they stand on the line.
-        fragments.reverse();
-        fragments
-    }
-
     #[inline]
     pub(crate) fn shapes(&self) -> &[Shape] {
         &self.shape

@@ -5,8 +5,8 @@ use super::worker::HandOrder;
 use crate::analysis::Governing;
 use crate::contact::subcell::{LevelSets, SubCellHand};
 use crate::contact::{
-    ContactTree, CurvePoint, Foundation, GridEdges, HandError, HandHeld, HessRule, Incremental, Move,
-    NoAdhesion,
+    CurvePoint, Foundation, GridRule, HandError, HandHeld, HessRule, Incremental, Move, NoAdhesion,
+    SpringTree,
 };
 use crate::surface::Line;
 use std::sync::Arc;
@@ -24,45 +24,27 @@ pub struct Held {
     step: f64,
 }
 
-/// What is known of the line of a scene.
-#[derive(Clone, Copy)]
-pub struct Known<'a> {
-    /// Its level sets, if the scene calls for them.
-    pub levels: Option<&'a Arc<LevelSets>>,
-    /// Its tree, if the scene calls for it.
-    pub tree: Option<&'a Arc<ContactTree>>,
-    /// The line itself.
-    pub line: &'a Line,
-}
-
 impl Held {
     /// Takes the body where these fragments are in contact at this indentation, m, with edges between springs
-    /// or not. What the scene has not called for is built. `step` is how far apart the points of a pull are,
+    /// or not. `step` is how far apart the points of a pull are,
     /// m.
     pub fn take(
-        known: Known<'_>,
+        line: &Line,
         between: bool,
         governing: &Governing,
         (indentation, contact): (f64, &[(usize, usize)]),
         step: f64,
     ) -> Option<Self> {
-        let line = known.line;
         let foundation = Foundation { spacing: line.spacing, effective_modulus: governing.effective_modulus };
         let hess = governing.adhesive_work().map(|work| HessRule::new(foundation, work));
-        let tree = match known.tree {
-            Some(tree) => Arc::clone(tree),
-            None => Arc::new(ContactTree::build(&line.gaps).ok()?),
-        };
+        let tree = Arc::new(SpringTree::build(&line.gaps).ok()?);
         let body: Box<dyn HandHeld + Send> = match (between, hess) {
             (true, hess) => {
-                let levels = match known.levels {
-                    Some(levels) => Arc::clone(levels),
-                    None => Arc::new(LevelSets::new(tree, &line.gaps).ok()?),
-                };
+                let levels = Arc::new(LevelSets::new(tree, &line.gaps).ok()?);
                 Box::new(SubCellHand::standing(levels, hess, foundation, indentation, contact).ok()?)
             }
             (false, Some(hess)) => {
-                let rule = GridEdges::new(hess);
+                let rule = GridRule::new(hess);
                 Box::new(Incremental::standing(tree, rule, foundation, indentation, contact).ok()?)
             }
             (false, None) => {

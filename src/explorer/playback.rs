@@ -1,7 +1,7 @@
 //! The scene that was computed last, ready to be played leg by leg or moved by hand.
 
 use super::close_up::{EdgeLaw, close_up};
-use super::held::{Held, Known};
+use super::held::Held;
 use super::reduce::{self, Contact, LineColumns, Part};
 use super::snapshot::{Drive, Loop, Moment};
 use super::worker::{Engine, HandOrder, LineView, MomentRequest, Newest, Report};
@@ -121,9 +121,8 @@ impl Playback {
                 let Some((computed, line)) = self.computed.as_ref().zip(engine.line()) else { return };
                 let governing = &computed.outcome.governing;
                 let step = range_of(computed) / STEPS_OF_A_PULL;
-                let known = Known { levels: engine.levels(), tree: engine.tree(), line };
                 let between = self.finds_edges();
-                self.held = Held::take(known, between, governing, (indentation, &contact), step);
+                self.held = Held::take(line, between, governing, (indentation, &contact), step);
                 self.last = None;
             }
             HandOrder::Give => {

@@ -3,7 +3,6 @@
 use super::playback::Playback;
 use super::snapshot::{Drive, Loop, Moment, Preview};
 use crate::contact::ContactTree;
-use crate::contact::subcell::LevelSets;
 use crate::scene::Scene;
 use crate::simulation::{AfterLeg, Outcome, RunError, Simulation};
 use crate::surface::Line;
@@ -31,11 +30,6 @@ pub trait Engine: Send {
 
     /// The tree of that line, where the scene called for one.
     fn tree(&self) -> Option<&Arc<ContactTree>>;
-
-    /// The level sets of that line, where the scene has edges between springs.
-    fn levels(&self) -> Option<&Arc<LevelSets>> {
-        None
-    }
 }
 
 impl Engine for Simulation {
@@ -54,10 +48,6 @@ impl Engine for Simulation {
 
     fn tree(&self) -> Option<&Arc<ContactTree>> {
         Simulation::tree(self)
-    }
-
-    fn levels(&self) -> Option<&Arc<LevelSets>> {
-        Simulation::levels(self)
     }
 }
 

@@ -3,12 +3,11 @@
 use super::contact_stage::{ContactMemory, ContactStage};
 use super::{LineFacts, Outcome, Plan, RunError, Stage, Timings};
 use crate::analysis::{Amplitude, Figures, Governing, Regime, RegimeEvidence, ideal_adhesion_force};
-use crate::contact::subcell::{LevelMemory, LevelSets};
 use crate::contact::{ContactError, ContactTree, Foundation, HessRule, LegRecord, Solver};
 use crate::memory::check_room;
 use crate::parallel::in_parallel;
 use crate::reference::smooth_adhesion_force;
-use crate::scene::{Form, Roughness, Scene};
+use crate::scene::{Edges, Form, Roughness, Scene};
 use crate::surface::{Histogram, Line, MeasuredProfile, SelfAffine, SurfaceError, Synthesizer};
 use std::mem::take;
 use std::path::{Path, PathBuf};
@@ -41,14 +40,8 @@ pub struct Simulation {
     /// That of the line's heights, once it has been observed.
     histogram: Option<Histogram>,
     tree: Option<Arc<ContactTree>>,
-    /// The level sets of the line, where a scene has called for them.
-    levels: Option<Arc<LevelSets>>,
-    /// Memory of the level sets of the line before.
-    level_memory: LevelMemory,
     /// Whether the tree is that of the line, rather than of one before.
     tree_is_current: bool,
-    /// Whether the last scene has edges between springs.
-    finds_edges: bool,
     memory: ContactMemory,
     kept: Kept,
 }
@@ -108,12 +101,6 @@ impl Simulation {
     #[must_use]
     pub fn tree(&self) -> Option<&Arc<ContactTree>> {
         self.tree.as_ref().filter(|_| self.tree_is_current)
-    }
-
-    /// The level sets of this line, if the last scene run has edges between springs.
-    #[must_use]
-    pub fn levels(&self) -> Option<&Arc<LevelSets>> {
-        self.levels.as_ref().filter(|_| self.tree_is_current && self.finds_edges)
     }
 
     /// Makes the line of a checked scene, unless the last one was the same, and tells what is known
@@ -190,43 +177,27 @@ impl Simulation {
         }
     }
 
-    /// Makes of the line what the plan calls for and is not there yet: its histogram, its tree, its level sets.
-    /// Returns the number of heights sorted into bins.
-    fn look_at_line(&mut self, plan: &Plan) -> Result<u64, ContactError> {
-        self.finds_edges = plan.runs(Stage::LevelSets);
+    /// Makes of the line what the plan calls for and is not there yet: its histogram and its tree. Returns the number
+    /// of heights sorted into bins.
+    fn look_at_line(&mut self, plan: &Plan, edges: Edges) -> Result<u64, ContactError> {
         let Some((_, line)) = &self.line else { return Err(ContactError::Interrupted) };
         let springs = line.gaps.len();
         let count = plan.runs(Stage::HeightHistogram) && self.histogram.is_none();
-        let build = plan.runs(Stage::Tree) && !self.tree_is_current;
-        if build && let Some(levels) = self.levels.take() {
-            // They hold on to the tree before.
-            self.level_memory = Arc::into_inner(levels).map(LevelSets::into_memory).unwrap_or_default();
-        }
-        let tree_before = if build { self.tree.take() } else { None };
-        let (levels, contact) = (take(&mut self.level_memory), take(&mut self.memory));
-        let finds_edges = self.finds_edges;
-        // The system clears fresh memory when it is first touched, which takes as long as the tree.
+        let is_current = self.tree_is_current && self.tree.as_ref().is_some_and(|tree| tree.edges() == edges);
+        let build = plan.runs(Stage::Tree) && !is_current;
+        let before = if build { self.tree.take() } else { None };
         let aside = || {
             let histogram = || Histogram::new(line.heights(), line.lowest(), line.summit, HISTOGRAM_BINS);
-            let histogram = count.then(histogram);
-            let levels = if build && finds_edges { levels.ready(springs)? } else { levels };
-            let contact = if build { contact.ready(springs, finds_edges)? } else { contact };
-            Ok((histogram, levels, contact))
+            count.then(histogram)
         };
-        let (ready, built) = in_parallel(build && springs >= MANY_SPRINGS, aside, || {
-            build.then(|| build_tree(tree_before, &line.gaps))
+        let (histogram, built) = in_parallel(count && build && springs >= MANY_SPRINGS, aside, || {
+            build.then(|| build_tree(before, &line.gaps, edges))
         });
         if let Some(tree) = built {
-            self.tree = Some(tree?);
+            self.tree = Some(Arc::new(tree?));
             self.tree_is_current = true;
         }
-        let histogram;
-        (histogram, self.level_memory, self.memory) = ready?;
         self.histogram = histogram.or(self.histogram.take());
-        if let (true, None, Some(tree)) = (self.finds_edges, &self.levels, &self.tree) {
-            let memory = take(&mut self.level_memory);
-            self.levels = Some(Arc::new(LevelSets::new_in(memory, Arc::clone(tree), &line.gaps)?));
-        }
         Ok(if count { springs as u64 } else { 0 })
     }
 
@@ -275,7 +246,7 @@ impl Simulation {
         let random_phases = made_roughness.map_or(0, |(_, rough)| rough.random_phases);
 
         let clock = Instant::now();
-        let heights_binned = self.look_at_line(&plan)?;
+        let heights_binned = self.look_at_line(&plan, scene.numerics.edges)?;
         timings.tree = clock.elapsed().as_secs_f64();
         interrupted()?;
 
@@ -286,8 +257,7 @@ impl Simulation {
             .filter(|_| plan.runs(Stage::RuleOfHess))
             .map(|work| HessRule::new(foundation, work));
         let tree = self.tree.as_deref();
-        let levels = self.levels.as_ref().filter(|_| plan.runs(Stage::LevelSets));
-        let contact = ContactStage { line, tree, levels, foundation, hess, scene, stop };
+        let contact = ContactStage { line, tree, foundation, hess, scene, stop };
 
         let clock = Instant::now();
         let mut fragments = Vec::new();
@@ -352,12 +322,12 @@ fn spectrum(scene: &Scene) -> Option<(SelfAffine, u64)> {
 }
 
 /// The tree of these gaps, in the memory of one before unless somebody else holds it still.
-fn build_tree(before: Option<Arc<ContactTree>>, gaps: &[f64]) -> Result<Arc<ContactTree>, ContactError> {
-    match before.and_then(Arc::into_inner) {
-        Some(before) => before.rebuild(gaps),
-        None => ContactTree::build(gaps),
-    }
-    .map(Arc::new)
+fn build_tree(
+    before: Option<Arc<ContactTree>>,
+    gaps: &[f64],
+    edges: Edges,
+) -> Result<ContactTree, ContactError> {
+    before.and_then(Arc::into_inner).unwrap_or_default().rebuild(gaps, edges)
 }
 
 /// The heights of a roughness; those that are synthesized, in this memory.

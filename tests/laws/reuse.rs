@@ -60,8 +60,8 @@ proptest! {
         formed::do_the_same(&mut plain, &mut keeping, &legs, body.force_scale())?;
         // Its memory, with what it kept, serves for the next body.
         let rule = GridEdges::new(HessRule::new(body.foundation, 0.5 * body.work));
-        let other = exact::adhesive_in(keeping.into_memory(), &tree, rule, body.foundation, samples).unwrap();
-        let mut plain = exact::adhesive(&tree, rule, body.foundation, samples).unwrap();
+        let other = exact::adhesive_in(keeping.into_memory(), &body.gaps, &tree, rule, body.foundation, samples);
+        let mut plain = exact::adhesive(&body.gaps, &tree, rule, body.foundation, samples);
         formed::do_the_same(&mut plain, &mut other.keeping_first_loading(), &legs, body.force_scale())?;
     }
 }
@@ -157,7 +157,7 @@ fn a_tree_held_by_somebody_else_stays_as_it_is() {
     outcome(&mut simulation, &scene(&[("roughness.seed", "2")]));
     assert_eq!(*held, before);
     let line = simulation.line().unwrap().gaps.clone();
-    assert_eq!(**simulation.tree().unwrap(), ContactTree::build(&line).unwrap());
+    assert_eq!(**simulation.tree().unwrap(), ContactTree::build(&line, Edges::Grid).unwrap());
     // The tree of another line is none of this one.
     outcome(&mut simulation, &scene(&[("adhesion", "None"), ("roughness.seed", "2")]));
     assert!(simulation.tree().is_some());

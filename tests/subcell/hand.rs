@@ -26,8 +26,8 @@ proptest! {
 
     #[test]
     fn the_hand_goes_as_the_legs_do(body in body(120), goals in goals()) {
-        let sets = body.sets();
-        let mut legs = body.on(&sets, 2);
+        let (sets, tree) = (body.sets(), body.tree());
+        let mut legs = body.on(&tree, 2);
         let mut hand: Box<dyn HandHeld + Send> =
             Box::new(SubCellHand::new(Arc::clone(&sets), body.hess(), body.foundation).unwrap());
         let scale = body.gaps.len() as f64 * body.foundation.spring_stiffness();

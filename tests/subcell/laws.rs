@@ -52,9 +52,9 @@ proptest! {
     fn a_contact_that_is_formed_again_is_what_it_was(
         body in body(60), legs in formed::loadings(), samples in 2_usize..40,
     ) {
-        let sets = body.sets();
+        let tree = body.tree();
         let (mut plain, mut keeping) =
-            (body.on(&sets, samples), body.on(&sets, samples).keeping_first_loading());
+            (body.on(&tree, samples), body.on(&tree, samples).keeping_first_loading());
         formed::do_the_same(&mut plain, &mut keeping, &legs, body.force_scale())?;
     }
 
@@ -134,8 +134,8 @@ proptest! {
 
     #[test]
     fn forces_are_reached_there_and_not_before(body in body(60), first in 0.0..1.0_f64, then in -0.3..1.0_f64) {
-        let sets = body.sets();
-        let mut solver = body.on(&sets, 5000);
+        let tree = body.tree();
+        let mut solver = body.on(&tree, 5000);
         let slack = 1e-14 * body.gaps.len() as f64 * body.foundation.spring_stiffness()
             * (1.3 + body.largest_stretch());
         for share in [first, then] {
@@ -171,8 +171,8 @@ fn extreme_values_give_numbers() {
                 let foundation = Foundation { spacing: length, effective_modulus: 1e6 };
                 let gaps: Vec<f64> = gaps.iter().map(|gap| gap * length.min(1.0)).collect();
                 let body = Body { gaps, foundation, work };
-                let sets = body.sets();
-                let mut solver = body.on(&sets, 17);
+                let tree = body.tree();
+                let mut solver = body.on(&tree, 17);
                 let legs = [
                     Leg::ToTouch,
                     Leg::ToIndentation(length),
@@ -209,8 +209,8 @@ proptest! {
         turns in prop::collection::vec((any::<bool>(), -0.2..1.3_f64), 1..5),
     ) {
         let body = Body { work: 0.0, ..body };
-        let sets = body.sets();
-        let mut tree = body.on(&sets, 33);
+        let tree = body.tree();
+        let mut tree = body.on(&tree, 33);
         let mut cells = exact::nonadhesive(&body.gaps, Edges::SubCell, body.foundation, 33);
         let scale = body.force_scale();
         let near = |a: f64, b: f64, size: f64| (a - b).abs() <= 1e-12 * size;

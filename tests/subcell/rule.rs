@@ -11,8 +11,8 @@ proptest! {
         body in body(61),
         turns in prop::collection::vec(-0.9..1.3_f64, 1..9),
     ) {
-        let sets = body.sets();
-        let mut solver = body.on(&sets, 6);
+        let tree = body.tree();
+        let mut solver = body.on(&tree, 6);
         // A body with hardly more and one with hardly less adhesion: where these do not stand in the same
         // fragments, an event lies at the turning point to rounding and either is right.
         let work = |factor: f64| Relaxed::new(&body.gaps, body.foundation, body.work * factor);

@@ -2,8 +2,8 @@
 
 use super::edge_model::{EdgeCells, EdgeModel};
 use super::run::{Ground, Run};
-use crate::contact::law::Standing;
 use crate::contact::grid::Grid;
+use crate::contact::law::Standing;
 use crate::contact::tally::Tally;
 use crate::contact::{ContactError, resized};
 
@@ -58,9 +58,10 @@ impl<E: EdgeModel> Ground<'_, E> {
         for (index, (standing, &point)) in standings.iter_mut().zip(points).enumerate() {
             total += totals[index];
             totals[index] = total;
-            let cells = sums.get(index).map_or_else(EdgeCells::default, |[length, of_length, compression, rest]| {
-                EdgeCells { length: length + of_length, compression: compression + rest }
-            });
+            let cells =
+                sums.get(index).map_or_else(EdgeCells::default, |[length, of_length, compression, rest]| {
+                    EdgeCells { length: length + of_length, compression: compression + rest }
+                });
             *standing = self.edges.standing(point, total, cells, &scale);
         }
         Ok(Sampled { grid, totals, standings })

@@ -119,17 +119,22 @@ impl<E: EdgeModel> Ground<'_, E> {
         out.clear();
         out.resize(self.gaps.len(), f64::INFINITY);
         let range = Range { low: f64::NEG_INFINITY, high: f64::INFINITY, unloading };
-        self.each_change(runs, range, |_, _| {}, |AtOnce { at, between: (from, to) }| {
-            let start = match from {
-                Boundary::Outer(edge) => edge.spring,
-                Boundary::Part(edge) => edge.spring + 1,
-            };
-            let end = match to {
-                Boundary::Outer(edge) => edge.spring + 1,
-                Boundary::Part(edge) => edge.spring,
-            };
-            out[start..end.max(start)].fill(at);
-        });
+        self.each_change(
+            runs,
+            range,
+            |_, _| {},
+            |AtOnce { at, between: (from, to) }| {
+                let start = match from {
+                    Boundary::Outer(edge) => edge.spring,
+                    Boundary::Part(edge) => edge.spring + 1,
+                };
+                let end = match to {
+                    Boundary::Outer(edge) => edge.spring + 1,
+                    Boundary::Part(edge) => edge.spring,
+                };
+                out[start..end.max(start)].fill(at);
+            },
+        );
         for run in runs {
             let mut below: Option<Span> = None;
             self.each_span(run, unloading, |span, from, _| {

@@ -10,24 +10,24 @@ use crate::scene::Edges;
 
 /// The paper's rule for edges.
 #[derive(Clone, Copy, Debug)]
-pub struct WholeSprings {
+pub struct GridEdges {
     hess: HessRule,
 }
 
-impl WholeSprings {
+impl GridEdges {
     /// Whole springs under the rule of Hess.
     #[must_use]
     pub fn new(hess: HessRule) -> Self {
-        WholeSprings { hess }
+        GridEdges { hess }
     }
 
     /// Whole springs, one of which can be stretched by so much alone, m.
     pub(in crate::contact) fn with_stretch(stretch: f64) -> Self {
-        WholeSprings { hess: HessRule::with_stretch(stretch) }
+        GridEdges { hess: HessRule::with_stretch(stretch) }
     }
 }
 
-impl EdgeModel for WholeSprings {
+impl EdgeModel for GridEdges {
     /// Δl_max, m.
     type Length = f64;
     type Slider = ();

@@ -96,7 +96,9 @@ impl Closing {
                 let closed = if is_leaf { lowest } else { of_node };
                 let mut reach = if is_leaf { [place; 2] } else { known_of_node };
                 let need = node.gap - closed;
-                let taken = if need * need <= square * ground.edges.least_length(reach[0] as usize, reach[1] as usize) {
+                let taken = if need * need
+                    <= square * ground.edges.least_length(reach[0] as usize, reach[1] as usize)
+                {
                     closed
                 } else {
                     let gap = if is_leaf { closed } else { ground.tree.nodes()[child].gap };
@@ -218,7 +220,9 @@ impl Closing {
                 let inside = &held[begin as usize..end as usize];
                 let middle = begin + inside.partition_point(|held| (held.first as usize) < parent) as u32;
                 branches.try_reserve(2).map_err(|_| ground.out_of_memory())?;
-                for (branch, held) in ground.tree.parts(index).into_iter().zip([[begin, middle], [middle, end]]) {
+                for (branch, held) in
+                    ground.tree.parts(index).into_iter().zip([[begin, middle], [middle, end]])
+                {
                     branches.push(Climb { branch, joins, parent, held });
                 }
             }

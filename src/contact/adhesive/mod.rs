@@ -18,16 +18,16 @@ mod tree;
 mod unloading;
 
 pub use edge_model::{EdgeCells, EdgeModel};
-pub use grid_edges::WholeSprings;
-pub use sub_cell_edges::SubCell;
-pub use tree::ContactTree;
+pub use grid_edges::GridEdges;
 pub(in crate::contact) use run::Run;
 pub(in crate::contact) use search::{bisect, crossing, last_before};
+pub use sub_cell_edges::SubCellEdges;
+pub use tree::ContactTree;
 
 use super::exact::Exact;
-use super::law::{Contact, Standing};
 use super::grid::Grid;
-use super::{ContactError, Foundation, LegContact, Work};
+use super::law::{Contact, Standing};
+use super::{ContactError, LegContact, Work};
 use curve::Sampled;
 use dissipation::Range;
 use loading::Closing;
@@ -217,20 +217,6 @@ impl<E: EdgeModel> Contact for Adhesive<'_, E> {
         let Ground { gaps, tree, edges } = self.ground;
         Self::fragments_of(gaps, tree, edges, &self.memory.runs, self.unloading, indentation)
     }
-}
-
-/// A body under adhesion on its foundation, separated, at d = 0 just before first touch; `samples` (at least 2) curve
-/// points are taken on each leg.
-#[must_use]
-pub fn body<'a, E: EdgeModel>(
-    gaps: &'a [f64],
-    tree: &'a ContactTree,
-    edges: E,
-    foundation: Foundation,
-    samples: usize,
-    memory: AdhesiveMemory,
-) -> Exact<Adhesive<'a, E>> {
-    Exact::new(Adhesive::new(gaps, tree, edges, memory), foundation, samples)
 }
 
 impl<'a, E: EdgeModel> Exact<Adhesive<'a, E>> {

@@ -8,8 +8,8 @@
 use super::curve::Sampled;
 use super::edge_model::{EdgeCells, EdgeModel};
 use super::run::{Ground, Run};
-use crate::contact::law::Standing;
 use crate::contact::grid::CompensatedSum;
+use crate::contact::law::Standing;
 use crate::contact::tally::{GapScale, Tally};
 
 /// Halvings of an interval in which a crossing or a flat place is looked for: enough for any two numbers.
@@ -328,7 +328,11 @@ impl<E: EdgeModel> Interval<E> {
         match self.middle_event(from, to) {
             None => {
                 if let Some(straight) = self.straight(from, wanted) {
-                    return if straight < to { Some(straight.max(from)) } else { (high.compression >= wanted).then_some(to) };
+                    return if straight < to {
+                        Some(straight.max(from))
+                    } else {
+                        (high.compression >= wanted).then_some(to)
+                    };
                 }
                 if self.below(pieces, from, to) < wanted {
                     return (high.compression >= wanted).then_some(to);

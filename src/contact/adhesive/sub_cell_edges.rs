@@ -15,7 +15,7 @@ use crate::scene::Edges;
 /// recedes while φ(t) ≥ d. Between the gap of its largest spring and that of its wall ℓ is linear in t, so φ is
 /// convex: it falls to its lowest value and then rises, and only where it rises does a fragment rest.
 #[derive(Clone, Copy, Debug)]
-pub struct SubCell {
+pub struct SubCellEdges {
     /// Largest stretch of a fragment of one cell, m.
     stretch: f64,
 }
@@ -78,7 +78,7 @@ fn levels_between(gaps: &[f64], span: &Span) -> (Levels, f64) {
     (levels, 0.5 * (left.carries + right.carries))
 }
 
-impl SubCell {
+impl SubCellEdges {
     /// Edges under the rule of Hess.
     #[must_use]
     pub fn new(hess: HessRule) -> Self {
@@ -87,7 +87,7 @@ impl SubCell {
 
     /// Edges of fragments, one of one cell of which can be stretched by so much, m.
     pub(in crate::contact) fn with_stretch(stretch: f64) -> Self {
-        SubCell { stretch }
+        SubCellEdges { stretch }
     }
 }
 
@@ -130,7 +130,7 @@ impl Slider {
     }
 }
 
-impl EdgeModel for SubCell {
+impl EdgeModel for SubCellEdges {
     type Length = Levels;
     type Slider = Slider;
 
@@ -234,7 +234,11 @@ impl EdgeModel for SubCell {
         let (root, fall) = (slider.root(above), 2.0 * slider.half);
         let rises = 2.0 * root - fall;
         // Where it is about to detach the edges run away at once.
-        if rises > 0.0 { length * (2.0 * root - 3.0 * fall) / rises - slider.cells } else { f64::NEG_INFINITY }
+        if rises > 0.0 {
+            length * (2.0 * root - 3.0 * fall) / rises - slider.cells
+        } else {
+            f64::NEG_INFINITY
+        }
     }
 
     #[inline]
@@ -259,9 +263,10 @@ impl EdgeModel for SubCell {
 
     fn squared_stretch(&self, gaps: &[f64], (from, to): (Boundary, Boundary), at: f64) -> f64 {
         match (from, to) {
-            (Boundary::Outer(outer), Boundary::Part(part)) if outer.spring == part.spring => {
-                outer.spring.checked_sub(1).map_or(0.0, |cell| part_of_cell(gaps, cell, (part.level, outer.level), at))
-            }
+            (Boundary::Outer(outer), Boundary::Part(part)) if outer.spring == part.spring => outer
+                .spring
+                .checked_sub(1)
+                .map_or(0.0, |cell| part_of_cell(gaps, cell, (part.level, outer.level), at)),
             (Boundary::Part(part), Boundary::Outer(outer)) if outer.spring == part.spring => {
                 if outer.spring + 1 < gaps.len() {
                     part_of_cell(gaps, outer.spring, (part.level, outer.level), at)

@@ -18,7 +18,7 @@ const LANES: usize = 64;
 ///
 /// Nodes stand in post-order: the subtree of node j fills the places `j + 1 − size ..= j`. It depends on the gaps
 /// alone, not on the work of adhesion, the modulus or the loading.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct ContactTree {
     /// Local minima and maxima in turn along the line; the first and the last are minima.
     turns: Vec<u32>,
@@ -72,7 +72,7 @@ impl Branch {
 }
 
 /// A node that waits for its right part.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 struct Pending {
     gap: f64,
     lowest: f64,
@@ -294,7 +294,8 @@ impl ContactTree {
                 let mut last = gaps.first().copied().unwrap_or(0.0);
                 for block in gaps.chunks(BLOCK) {
                     // Up to the first spring of the block.
-                    sum += i128::from(scale.mean_quanta(last, block[0])) * i128::from(u8::from(!sums.is_empty()));
+                    sum += i128::from(scale.mean_quanta(last, block[0]))
+                        * i128::from(u8::from(!sums.is_empty()));
                     sums.push(sum);
                     for cell in block.windows(2) {
                         sum += i128::from(scale.mean_quanta(cell[0], cell[1]));

@@ -59,7 +59,7 @@ impl Opening {
             opened.springs += u64::from(last + 1 - first);
             parts.push(Part { branch, first, last, opens: from, is_whole: true });
             while let Some(part) = parts.pop() {
-                let Some((opens, bottom, place)) = ground.descend(part, from, runs, &mut opened)? else { continue };
+                let Some((opens, bottom, place)) = ground.descend(part, runs, &mut opened)? else { continue };
                 if let Ok(node) = part.branch.origin() {
                     parts.try_reserve(2).map_err(out_of_memory)?;
                     let [left, right] = ground.tree.parts(node);
@@ -90,7 +90,6 @@ impl<E: EdgeModel> Ground<'_, E> {
     fn descend(
         &self,
         part: Part,
-        from: f64,
         runs: &mut Vec<Run>,
         opened: &mut Opened,
     ) -> Result<Option<(f64, Span, usize)>, ContactError> {
@@ -116,7 +115,13 @@ impl<E: EdgeModel> Ground<'_, E> {
         loop {
             let (left, right) = (gaps[first], gaps[last]);
             let at_bottom = if is_leaf { first == last } else { left < bottom && right <= bottom };
-            let gap = if at_bottom { gaps[place] } else if left >= right { left } else { right };
+            let gap = if at_bottom {
+                gaps[place]
+            } else if left >= right {
+                left
+            } else {
+                right
+            };
             let span = Span { gap, first, last };
             let mut goes_on = None;
             if is_whole || self.may_hold(gap, opens, last + 1 - first) {

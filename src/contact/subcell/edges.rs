@@ -3,7 +3,7 @@
 use super::level_sets::{LevelSets, Levels, levels_between};
 use crate::contact::grid::CompensatedSum;
 use crate::contact::tally::GapScale;
-use crate::contact::{SpringTree, EdgeRule, HessRule};
+use crate::contact::{EdgeRule, HessRule, SpringTree};
 use std::sync::Arc;
 
 /// Edges between grid points: a fragment at level t is in equilibrium with the indentation
@@ -13,26 +13,21 @@ use std::sync::Arc;
 /// its parent ℓ is linear in t, so φ is convex: it falls to its lowest value and then rises, and only
 /// where it rises does a fragment rest.
 #[derive(Clone, Debug)]
-pub struct SubCellEdges {
+pub struct SubCellRule {
     sets: Arc<LevelSets>,
     /// Largest stretch of a fragment of one cell, m: Δl_max = `stretch` √ℓ.
     stretch: f64,
 }
 
-impl SubCellEdges {
+impl SubCellRule {
     /// Edges under the rule of Hess; `None`: without adhesion.
     pub fn new(sets: Arc<LevelSets>, hess: Option<HessRule>) -> Self {
-        SubCellEdges { sets, stretch: hess.map_or(0.0, |hess| hess.largest_stretch(1)) }
+        SubCellRule { sets, stretch: hess.map_or(0.0, |hess| hess.largest_stretch(1)) }
     }
 
     /// The level sets.
     pub fn sets(&self) -> &LevelSets {
         &self.sets
-    }
-
-    /// Whether nothing is stretched at all.
-    pub(super) fn is_without_adhesion(&self) -> bool {
-        self.stretch == 0.0
     }
 
     /// φ at a level of a node, m.
@@ -84,8 +79,6 @@ impl SubCellEdges {
 pub struct Slider {
     gap: f64,
     levels: Levels,
-    /// Whole cells between its springs.
-    cells: f64,
     /// What of its edge cells is in contact at its lowest level, in cells.
     edges: f64,
     /// What its edges carry there at the indentation of its gap.
@@ -141,7 +134,7 @@ impl Slider {
         let half = 0.5 * stretch * levels.growth;
         let square = half * half + levels.length;
         let cells = springs - 1.0;
-        Slider { gap, levels, cells, edges: levels.length - cells, compression, stretch, half, square }
+        Slider { gap, levels, edges: levels.length - cells, compression, stretch, half, square }
     }
 
     /// Gap of its node, m: its lowest level.
@@ -195,12 +188,6 @@ impl Slider {
             length: self.edges + grown,
             compression: (self.edges * above + self.compression) + grown * (above - 0.5 * rise),
         }
-    }
-
-    /// Whole cells between its springs.
-    #[inline]
-    pub(super) fn cells(&self) -> f64 {
-        self.cells
     }
 
     /// Its length under an indentation, in cells.
@@ -262,17 +249,6 @@ impl Slider {
     }
 }
 
-impl Levels {
-    /// ∫ (c − θ)² dx over what is around the springs of a node of this gap, m, up to those of its parent, and
-    /// joins or leaves at once at the indentation θ = `at`, in cells times m².
-    #[inline]
-    pub(super) fn squared_stretch_at_once(&self, gap: f64, at: f64) -> f64 {
-        let squared = at_once(self.growth, gap, self.top, at);
-        // The root's edges do not move, however high its level.
-        if self.growth > 0.0 { squared } else { 0.0 }
-    }
-}
-
 /// growth ∫ (t − at)² dt from one level to another.
 #[inline]
 fn at_once(growth: f64, from: f64, to: f64, at: f64) -> f64 {
@@ -282,7 +258,7 @@ fn at_once(growth: f64, from: f64, to: f64, at: f64) -> f64 {
 }
 
 /// What joins and leaves are the cells between springs.
-impl EdgeRule for SubCellEdges {
+impl EdgeRule for SubCellRule {
     #[inline]
     fn grows_at(&self, tree: &SpringTree, fragment: usize, wall: usize) -> f64 {
         debug_assert_eq!(self.sets.levels(fragment).top, tree.gap(wall), "the wall is the parent");

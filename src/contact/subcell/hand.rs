@@ -4,19 +4,19 @@
 //! fragment slide all the time. So a move takes O((k + 1) log N + n) time for k springs that change and n
 //! fragments, and one to a force O(n) for each event on its way.
 
-use super::edges::{EdgeSum, Slider, SubCellEdges};
+use super::edges::{EdgeSum, Slider, SubCellRule};
 use super::level_sets::LevelSets;
 use crate::contact::adhesive::{bisect, crossing, last_before};
 use crate::contact::fragment_set::{Event, FragmentSet, Joined};
+use crate::contact::grid::CompensatedSum;
 use crate::contact::hand::{Hand, HandContact};
 use crate::contact::law::Standing;
-use crate::contact::grid::CompensatedSum;
 use crate::contact::{ContactError, Foundation, HandError, HessRule};
 use std::collections::HashMap;
 use std::sync::Arc;
 
 /// Springs with edges between them, in hand.
-pub struct BetweenInHand(FragmentSet<SubCellEdges>);
+pub struct BetweenInHand(FragmentSet<SubCellRule>);
 
 /// A body with edges between grid points, held in hand.
 pub type SubCellHand = Hand<BetweenInHand>;
@@ -57,10 +57,10 @@ impl BetweenInHand {
         hess: Option<HessRule>,
         contacts: &[(usize, usize)],
     ) -> Result<Self, ContactError> {
-        Ok(BetweenInHand(FragmentSet::new(sets.shared_tree(), SubCellEdges::new(sets, hess), contacts)?))
+        Ok(BetweenInHand(FragmentSet::new(sets.shared_tree(), SubCellRule::new(sets, hess), contacts)?))
     }
 
-    fn edges(&self) -> &SubCellEdges {
+    fn edges(&self) -> &SubCellRule {
         self.0.rule()
     }
 
@@ -74,14 +74,14 @@ impl BetweenInHand {
 }
 
 impl HandContact for BetweenInHand {
-    type Rule = SubCellEdges;
+    type Rule = SubCellRule;
     type Notes = Notes;
 
-    fn set(&self) -> &FragmentSet<SubCellEdges> {
+    fn set(&self) -> &FragmentSet<SubCellRule> {
         &self.0
     }
 
-    fn set_mut(&mut self) -> &mut FragmentSet<SubCellEdges> {
+    fn set_mut(&mut self) -> &mut FragmentSet<SubCellRule> {
         &mut self.0
     }
 
@@ -178,7 +178,7 @@ impl Notes {
         self.squared_stretch.add(slider.squared_stretch_sliding(low, high));
     }
 
-    fn slide_on(&mut self, edges: &SubCellEdges, root: usize, to: f64) {
+    fn slide_on(&mut self, edges: &SubCellRule, root: usize, to: f64) {
         let slider = edges.slider(root);
         if slider.growth() > 0.0 {
             self.slide(root, &slider, to);
@@ -186,7 +186,7 @@ impl Notes {
     }
 
     /// A larger fragment takes this one in.
-    fn take_in(&mut self, edges: &SubCellEdges, root: usize) {
+    fn take_in(&mut self, edges: &SubCellRule, root: usize) {
         let slider = edges.slider(root);
         if slider.growth() > 0.0 {
             self.slide(root, &slider, self.level);
@@ -195,7 +195,7 @@ impl Notes {
     }
 
     /// What is around the springs of a node, up to those of the next, joins with them.
-    fn take_in_at_once(&mut self, edges: &SubCellEdges, node: usize) {
+    fn take_in_at_once(&mut self, edges: &SubCellRule, node: usize) {
         let slider = edges.slider(node);
         if slider.growth() > 0.0 {
             self.jump(&slider, slider.gap(), slider.top());
@@ -203,7 +203,7 @@ impl Notes {
     }
 
     /// The spring of a node joins or leaves, with what lies level with it.
-    fn take_spring(&mut self, edges: &SubCellEdges, node: usize) {
+    fn take_spring(&mut self, edges: &SubCellRule, node: usize) {
         let length = edges.sets().step(node);
         if length > 0.0 {
             let stretch = edges.slider(node).gap() - self.level;
@@ -212,7 +212,7 @@ impl Notes {
     }
 
     /// A fragment forms, on the way in, and with it what is around its springs up to its level.
-    fn form_below(&mut self, edges: &SubCellEdges, root: usize) {
+    fn form_below(&mut self, edges: &SubCellRule, root: usize) {
         let slider = edges.slider(root);
         if slider.growth() > 0.0 {
             self.jump(&slider, slider.gap(), slider.level(self.level));
@@ -221,7 +221,7 @@ impl Notes {
     }
 
     /// The fragment lets go of the spring of its root, and its parts shrink to their own levels.
-    fn let_go(&mut self, edges: &SubCellEdges, root: usize) {
+    fn let_go(&mut self, edges: &SubCellRule, root: usize) {
         let slider = edges.slider(root);
         if slider.growth() > 0.0 {
             self.slide(root, &slider, self.level);

@@ -4,7 +4,6 @@
 use crate::contact::tally::GapScale;
 use crate::contact::{ContactError, SpringTree, resized};
 use crate::parallel::in_parallel;
-use std::ops::Range;
 use std::sync::Arc;
 
 /// From so many springs on a second thread pays.
@@ -162,12 +161,6 @@ impl LevelSets {
     pub fn levels(&self, node: usize) -> Levels {
         let Length { length, growth } = self.lengths[node];
         Levels { length, growth, top: self.tops[node] }
-    }
-
-    /// Levels of nodes that follow each other.
-    pub(super) fn levels_of(&self, nodes: Range<usize>) -> impl Iterator<Item = Levels> {
-        let levels = self.lengths[nodes.clone()].iter().zip(&self.tops[nodes]);
-        levels.map(|(&Length { length, growth }, &top)| Levels { length, growth, top })
     }
 
     /// What the two edge cells of a node carry at the indentation and the level of its gap: ∫ (c − c(x)) dx over

@@ -5,7 +5,7 @@ mod hand;
 mod level_sets;
 mod moment;
 
-pub use edges::{Edges, Slider, SubCellEdges};
+pub use edges::{Edges, Slider, SubCellRule};
 pub use hand::SubCellHand;
 pub use level_sets::{LevelMemory, LevelSets};
 pub use moment::SubCellMoment;

@@ -17,7 +17,7 @@ struct Part {
 
 const PARTS: [Part; 5] = [
     Part { name: "line", stages: &[], seconds: |timings| timings.line },
-    Part { name: "tree", stages: &[Stage::Tree, Stage::LevelSets], seconds: |timings| timings.tree },
+    Part { name: "tree", stages: &[Stage::Tree], seconds: |timings| timings.tree },
     Part {
         name: "passes",
         stages: &[Stage::LoadingPass, Stage::UnloadingPass, Stage::Relaxation],

@@ -8,9 +8,10 @@ use serde::Serialize;
 /// Bytes for each spring: a height of the roughness, or a gap of the line.
 pub const HEIGHT: u64 = 8;
 /// Bytes for each spring: the indentation at which it joins or leaves.
-pub const THRESHOLD: u64 = 8;
-/// Bytes for each spring: where the fragment it is the largest gap of is one, at the most.
-const LISTED: u64 = 12;
+const THRESHOLD: u64 = 8;
+/// Bytes for each spring of the passes: thresholds of a quarter of the springs, and runs of the present leg and of the
+/// one before. Runs are few but where hardly anything sticks.
+pub const PASSED: u64 = 12;
 /// Bytes for each spring of the stepwise solver: its threshold and whether it touches.
 pub const RELAXED: u64 = THRESHOLD + 1;
 /// Bytes for each sample of the leg that is under way, beside its curve: grid of indentations, what is in contact at
@@ -109,11 +110,6 @@ impl<'a> Call<'a> {
 
     pub fn is_measured(&self) -> bool {
         matches!(self.scene.roughness, Some(Roughness::Measured { .. }))
-    }
-
-    /// Bytes for each spring of what a pass gives.
-    pub fn bytes_of_pass(&self) -> u64 {
-        if self.between { THRESHOLD + LISTED } else { THRESHOLD }
     }
 
     /// Bytes that sampling the curve of one leg takes while it is under way.

@@ -7,7 +7,6 @@ mod form;
 mod fragments;
 mod height_histogram;
 mod legs;
-mod level_sets;
 mod loading_pass;
 mod measured_profile;
 mod relaxation;
@@ -29,12 +28,11 @@ pub(super) use legs::Legs;
 const PROGRAM: u64 = 14 << 20;
 
 /// All stages, in the order in which they run.
-const TABLE: [Row; 12] = [
+const TABLE: [Row; 11] = [
     form::ROW,
     synthesis::ROW,
     measured_profile::ROW,
     tree::ROW,
-    level_sets::ROW,
     rule_of_hess::ROW,
     loading_pass::ROW,
     unloading_pass::ROW,
@@ -56,13 +54,11 @@ pub enum Stage {
     MeasuredProfile,
     /// Building the tree of the gaps.
     Tree,
-    /// Measuring the level sets of the line that runs straight from spring to spring.
-    LevelSets,
     /// Evaluating the rule of Hess.
     RuleOfHess,
-    /// Thresholds of loading legs.
+    /// Runs of loading legs.
     LoadingPass,
-    /// Thresholds of unloading legs.
+    /// Runs of unloading legs.
     UnloadingPass,
     /// Steps and relaxation sweeps.
     Relaxation,
@@ -151,7 +147,6 @@ impl Plan {
         let kept = if call.is_rough() { HEIGHT * call.points } else { 0 };
         let contact = [
             Stage::Tree,
-            Stage::LevelSets,
             Stage::LoadingPass,
             Stage::Relaxation,
             // At the most, where all that touches under load touches at first touch as well.

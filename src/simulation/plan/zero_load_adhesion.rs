@@ -17,7 +17,6 @@ pub const ROW: Row = Row {
         if !call.exact {
             return call.passes(None, RELAXED);
         }
-        // What first touches is known from the first leg that touches, if there is one.
-        call.passes(Some(if call.legs.loading() == Some(0) { 2 } else { 1 }), call.bytes_of_pass())
+        call.passes(Some(1), 0)
     },
 };
