@@ -1,8 +1,8 @@
 //! The body in hand against the exact solver: the same contact, bit for bit, at the cost of what changes.
 
 use asperity::contact::{
-    ContactError, ContactTree, CurvePoint, Foundation, GridEdges, GridRule, HandError, HandHeld, HessRule, Incremental,
-    LegRecord, Move, NoAdhesion, Solver, SpringTree, exact,
+    ContactError, ContactTree, CurvePoint, Foundation, GridEdges, GridRule, HandError, HandHeld, HessRule,
+    Incremental, LegRecord, Move, NoAdhesion, Solver, SpringTree, exact,
 };
 use asperity::scene::{Edges, Leg};
 use asperity::surface::{SelfAffine, UnitRoughness};
@@ -38,7 +38,7 @@ impl Body {
             Some(work) => {
                 let rule = GridEdges::new(HessRule::new(self.foundation, work));
                 Box::new(exact::adhesive(&self.gaps, tree, rule, self.foundation, 2))
-            },
+            }
             None => Box::new(exact::nonadhesive(&self.gaps, Edges::Grid, self.foundation, 2)),
         }
     }

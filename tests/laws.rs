@@ -19,7 +19,8 @@ mod search;
 mod symmetries;
 
 use asperity::contact::{
-    Adhesive, ContactTree, CurvePoint, Exact, Foundation, GridEdges, HessRule, History, LegRecord, Solver, exact, run,
+    Adhesive, ContactTree, CurvePoint, Exact, Foundation, GridEdges, HessRule, History, LegRecord, Solver,
+    exact, run,
 };
 use asperity::scene::{Edges, Leg};
 use proptest::prelude::*;

@@ -4,7 +4,7 @@ use asperity::contact::{
     ContactError, ContactTree, Direction, Foundation, GridEdges, HessRule, LegRecord, Solver, Stepwise, Work,
     exact,
 };
-use asperity::scene::{Edges, Document, Leg};
+use asperity::scene::{Document, Edges, Leg};
 use asperity::simulation::{Outcome, Simulation};
 use asperity::surface::{SelfAffine, UnitRoughness};
 use proptest::prelude::*;

@@ -6,14 +6,12 @@ use super::cases::{
     SEED, WORK_OF_ADHESION,
 };
 use asperity::analysis::Figures;
-use asperity::contact::exact::{self, OverTree};
-use asperity::contact::subcell::{self, LevelSets};
 use asperity::contact::{
-    BodyMemory, ContactTree, Exact, Foundation, GridEdges, HessRule, History, LegRecord, Solver, Work, run,
+    Adhesive, ContactTree, EdgeModel, Exact, Foundation, GridEdges, HessRule, History, LegRecord, Solver,
+    SubCellEdges, exact, run,
 };
 use asperity::scene::{Edges, Form, Leg};
 use asperity::surface::{Histogram, Line, SelfAffine, Synthesizer};
-use std::sync::Arc;
 
 /// Bins of the histogram of heights.
 const BINS: usize = 64;
@@ -33,20 +31,25 @@ pub struct Given {
 
 /// Runs the kernel of a case.
 pub fn kernel(case: &Case) -> Given {
-    match (case.edges, case.class) {
-        (Edges::Grid, Class::SmoothPressed) => bare(&smooth(), &PRESS),
-        (Edges::Grid, Class::RoughLoop) => bare(&rough(), &LOOP),
-        (Edges::Grid, Class::AdhesivePressed) => adhesive(&rough(), &PRESS),
-        (Edges::Grid, Class::AdhesiveTouch) => touch(&rough()),
-        (Edges::Grid, Class::AdhesiveLoop) => adhesive_and_touch(&rough()),
-        (Edges::Grid, Class::AdhesiveObserved) => observed(&rough()),
-        (Edges::SubCell, Class::SmoothPressed) => bare_between(&smooth(), &PRESS),
-        (Edges::SubCell, Class::RoughLoop) => bare_between(&rough(), &LOOP),
-        (Edges::SubCell, Class::AdhesivePressed) => between(&rough(), &PRESS),
-        (Edges::SubCell, Class::AdhesiveTouch) => touch_between(&rough()),
-        (Edges::SubCell, Class::AdhesiveLoop) => between_and_touch(&rough()),
-        (Edges::SubCell, Class::AdhesiveObserved) => observed_between(&rough()),
+    let (smooth_or_rough, legs): (Line, &[Leg]) = match case.class {
+        Class::SmoothPressed => (smooth(), &PRESS),
+        Class::AdhesivePressed => (rough(), &PRESS),
+        Class::AdhesiveTouch => (rough(), &TOUCH),
+        Class::RoughLoop | Class::AdhesiveLoop | Class::AdhesiveObserved => (rough(), &LOOP),
+    };
+    let (line, edges) = (&smooth_or_rough, case.edges);
+    if !case.is_adhesive() {
+        let mut body = exact::nonadhesive(&line.gaps, edges, FOUNDATION, SAMPLES);
+        return Given { history: loaded(&mut body, legs), ..Given::default() };
     }
+    let histogram =
+        case.is_observed().then(|| Histogram::new(line.heights(), line.lowest(), line.summit, BINS));
+    let tree = ContactTree::build(&line.gaps, edges).expect("a tree");
+    let given = match edges {
+        Edges::Grid => adhesive(case, body(line, &tree, GridEdges::new(hess())), legs),
+        Edges::SubCell => adhesive(case, body(line, &tree, SubCellEdges::new(hess())), legs),
+    };
+    Given { histogram, ..given }
 }
 
 const FOUNDATION: Foundation =
@@ -71,100 +74,27 @@ fn loaded(body: &mut impl Solver, legs: &[Leg]) -> History {
     run(body, legs, |_, _| Ok(())).expect("a loading within reach")
 }
 
-fn given(history: History) -> Given {
-    Given { history, ..Given::default() }
+fn body<'a, E: EdgeModel>(line: &'a Line, tree: &'a ContactTree, edges: E) -> Exact<Adhesive<'a, E>> {
+    exact::adhesive(&line.gaps, tree, edges, FOUNDATION, SAMPLES)
 }
 
-fn bare(line: &Line, legs: &[Leg]) -> Given {
-    given(loaded(&mut exact::nonadhesive(&line.gaps, Edges::Grid, FOUNDATION, SAMPLES), legs))
-}
-
-fn adhesive(line: &Line, legs: &[Leg]) -> Given {
-    let tree = ContactTree::build(&line.gaps).expect("a tree");
-    let mut body = exact::adhesive(&tree, GridEdges::new(hess()), FOUNDATION, SAMPLES).expect("a body");
-    given(loaded(&mut body, legs))
-}
-
-fn touch(line: &Line) -> Given {
-    let mut given = adhesive(line, &TOUCH);
-    given.zero_load_adhesion_force = Figures::of(&given.history).adhesion_force;
-    given
-}
-
-fn adhesive_and_touch(line: &Line) -> Given {
-    let tree = ContactTree::build(&line.gaps).expect("a tree");
-    let rule = GridEdges::new(hess());
-    let mut body = exact::adhesive(&tree, rule, FOUNDATION, SAMPLES).expect("a body");
-    loop_and_touch(&mut body)
-}
-
-fn observed(line: &Line) -> Given {
-    let histogram = Histogram::new(line.heights(), line.lowest(), line.summit, BINS);
-    let tree = ContactTree::build(&line.gaps).expect("a tree");
-    let rule = GridEdges::new(hess());
-    let mut body = exact::adhesive(&tree, rule, FOUNDATION, SAMPLES).expect("a body");
-    Given { histogram: Some(histogram), ..observed_loop(&mut body) }
-}
-
-/// A loop, and F_a(0) from its first touch.
-fn loop_and_touch<'a, C: OverTree<'a, Rule: Clone>>(body: &mut Exact<C>) -> Given {
-    let mut touch = None;
-    let history = run(body, &LOOP, |_, body: &Exact<C>| {
-        touch = touch.or(body.pull_off_at_touch(&mut BodyMemory::default())?);
-        Ok(())
-    });
-    Given {
-        history: history.expect("a loading within reach"),
-        zero_load_adhesion_force: force(touch),
-        ..Given::default()
-    }
-}
-
-/// The same with the fragments at the end of each leg.
-fn observed_loop<'a, C: OverTree<'a, Rule: Clone>>(body: &mut Exact<C>) -> Given {
-    let (mut touch, mut fragments) = (None, Vec::new());
-    let history = run(body, &LOOP, |record: &LegRecord, body: &Exact<C>| {
-        touch = touch.or(body.pull_off_at_touch(&mut BodyMemory::default())?);
-        let end = record.curve.last().filter(|end| end.springs > 0);
-        fragments.push(end.map_or_else(Vec::new, |end| body.fragments(end.indentation)));
+/// A loading under adhesion, with what its case asks for beside the curve.
+fn adhesive<E: EdgeModel>(case: &Case, mut body: Exact<Adhesive<'_, E>>, legs: &[Leg]) -> Given {
+    let mut fragments = Vec::new();
+    let history = run(&mut body, legs, |record: &LegRecord, body: &Exact<Adhesive<'_, E>>| {
+        if case.is_observed() {
+            let end = record.curve.last().filter(|end| end.springs > 0);
+            fragments.push(end.map_or_else(Vec::new, |end| body.fragments(end.indentation)));
+        }
         Ok(())
     });
     let history = history.expect("a loading within reach");
-    Given { history, zero_load_adhesion_force: force(touch), fragments, ..Given::default() }
-}
-
-fn force(touch: Option<(f64, Work)>) -> Option<f64> {
-    touch.map(|(smallest, _)| -smallest)
-}
-
-fn levels(line: &Line) -> Arc<LevelSets> {
-    let tree = Arc::new(ContactTree::build(&line.gaps).expect("a tree"));
-    Arc::new(LevelSets::new(tree, &line.gaps).expect("level sets"))
-}
-
-fn body_between(levels: &Arc<LevelSets>) -> subcell::Adhesive<'_> {
-    subcell::adhesive_in(BodyMemory::default(), levels, Some(hess()), FOUNDATION, SAMPLES).expect("a body")
-}
-
-fn bare_between(line: &Line, legs: &[Leg]) -> Given {
-    given(loaded(&mut exact::nonadhesive(&line.gaps, Edges::SubCell, FOUNDATION, SAMPLES), legs))
-}
-
-fn between(line: &Line, legs: &[Leg]) -> Given {
-    given(loaded(&mut body_between(&levels(line)), legs))
-}
-
-fn touch_between(line: &Line) -> Given {
-    let mut given = between(line, &TOUCH);
-    given.zero_load_adhesion_force = Figures::of(&given.history).adhesion_force;
-    given
-}
-
-fn between_and_touch(line: &Line) -> Given {
-    loop_and_touch(&mut body_between(&levels(line)))
-}
-
-fn observed_between(line: &Line) -> Given {
-    let histogram = Histogram::new(line.heights(), line.lowest(), line.summit, BINS);
-    Given { histogram: Some(histogram), ..observed_loop(&mut body_between(&levels(line))) }
+    let zero_load_adhesion_force = match case.class {
+        Class::AdhesiveTouch => Figures::of(&history).adhesion_force,
+        Class::AdhesiveLoop | Class::AdhesiveObserved => {
+            Some(-body.pull_off_at_touch().expect("a contact at first touch").0)
+        }
+        Class::SmoothPressed | Class::RoughLoop | Class::AdhesivePressed => None,
+    };
+    Given { history, zero_load_adhesion_force, histogram: None, fragments }
 }
