@@ -10,7 +10,7 @@ use asperity::surface::{SelfAffine, UnitRoughness};
 use proptest::prelude::*;
 use std::f64::consts::PI;
 
-const FOUNDATION: Foundation = Foundation { spacing: 0.01, effective_modulus: 1.0 };
+const FOUNDATION: Foundation = Foundation::endless(0.01, 1.0);
 
 /// Gaps of a self-affine line about 1 m deep.
 fn rough(points: usize, seed: u64) -> Vec<f64> {

@@ -186,7 +186,7 @@ impl<'a> Stepwise<'a> {
         CurvePoint {
             indentation: self.indentation,
             force: self.foundation.spring_stiffness() * compression,
-            contact_length: self.tally.springs as f64 * self.foundation.spacing,
+            contact_length: self.foundation.contact_length(self.tally.springs as f64),
             springs: self.tally.springs.unsigned_abs(),
             fragments: self.tally.fragments.unsigned_abs(),
         }

@@ -84,7 +84,7 @@ pub fn close_up(
         FragmentFacts {
             number,
             springs,
-            length: cells * foundation.spacing,
+            length: foundation.contact_length(cells),
             largest_stretch,
             most_stretched,
             force: foundation.spring_stiffness() * compression,

@@ -5,7 +5,7 @@ use super::worker::HandOrder;
 use crate::analysis::Governing;
 use crate::contact::subcell::{LevelSets, SubCellHand};
 use crate::contact::{
-    CurvePoint, Foundation, GridRule, HandError, HandHeld, HessRule, Incremental, Move, NoAdhesion,
+    CurvePoint, GridRule, HandError, HandHeld, HessRule, Incremental, Move, NoAdhesion,
     SpringTree,
 };
 use crate::surface::Line;
@@ -35,7 +35,7 @@ impl Held {
         (indentation, contact): (f64, &[(usize, usize)]),
         step: f64,
     ) -> Option<Self> {
-        let foundation = Foundation { spacing: line.spacing, effective_modulus: governing.effective_modulus };
+        let foundation = governing.foundation(line);
         let hess = governing.adhesive_work().map(|work| HessRule::new(foundation, work));
         let tree = Arc::new(SpringTree::build(&line.gaps).ok()?);
         let body: Box<dyn HandHeld + Send> = match (between, hess) {

@@ -152,7 +152,7 @@ impl Playback {
         let line = engine.line()?;
         let outcome = &self.computed.as_ref()?.outcome;
         let (governing, deepest) = (outcome.governing, outcome.line.deepest);
-        let foundation = Foundation { spacing: line.spacing, effective_modulus: governing.effective_modulus };
+        let foundation = governing.foundation(line);
         let hess = governing.adhesive_work().map(|work| HessRule::new(foundation, work));
         let between = self.finds_edges().then(|| SubCellMoment::new(&line.gaps, deepest, hess));
         let point = at.unwrap_or_else(|| {
@@ -269,7 +269,7 @@ fn point(
     CurvePoint {
         indentation,
         force: foundation.spring_stiffness() * tally.compression(indentation, scale),
-        contact_length: tally.springs as f64 * foundation.spacing,
+        contact_length: foundation.contact_length(tally.springs as f64),
         springs: tally.springs.unsigned_abs(),
         fragments: fragments.len() as u64,
     }

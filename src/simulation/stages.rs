@@ -3,7 +3,7 @@
 use super::contact_stage::{ContactMemory, ContactStage};
 use super::{LineFacts, Outcome, Plan, RunError, Stage, Timings};
 use crate::analysis::{Amplitude, Figures, Governing, Regime, RegimeEvidence, ideal_adhesion_force};
-use crate::contact::{ContactError, ContactTree, Foundation, HessRule, LegRecord, Solver};
+use crate::contact::{ContactError, ContactTree, HessRule, LegRecord, Solver};
 use crate::memory::check_room;
 use crate::parallel::in_parallel;
 use crate::reference::smooth_adhesion_force;
@@ -251,7 +251,7 @@ impl Simulation {
         interrupted()?;
 
         let Some((_, line)) = &self.line else { return Err(ContactError::Interrupted.into()) };
-        let foundation = Foundation { spacing: line.spacing, effective_modulus: governing.effective_modulus };
+        let foundation = governing.foundation(line);
         let hess = governing
             .adhesive_work()
             .filter(|_| plan.runs(Stage::RuleOfHess))

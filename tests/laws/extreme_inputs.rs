@@ -82,7 +82,7 @@ proptest! {
         samples in 2_usize..300,
     ) {
         let work = range * effective_modulus;
-        let body = Body { gaps, foundation: Foundation { spacing, effective_modulus }, work };
+        let body = Body { gaps, foundation: Foundation::endless(spacing, effective_modulus), work };
         let springs = body.gaps.len() as u64;
         let tree = body.tree();
         let adhesive: Box<dyn Solver> = Box::new(body.on(&tree, samples));
@@ -119,7 +119,7 @@ proptest! {
         step in power_of_ten(-15.0, 15.0),
         to in -50_i32..50,
     ) {
-        let foundation = Foundation { spacing: 0.01, effective_modulus: 1.0 };
+        let foundation = Foundation::endless(0.01, 1.0);
         let hess = (range > 0.0).then(|| HessRule::new(foundation, range));
         let mut solver = Stepwise::new(&gaps, hess, foundation, step, 9, &|| false).unwrap();
         let mut held = 0;

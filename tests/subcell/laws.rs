@@ -168,7 +168,7 @@ fn extreme_values_give_numbers() {
     for gaps in lines {
         for length in [1e-9, 1e-3, 1.0] {
             for work in [0.0, 1e-30, 1e-3, 1e30] {
-                let foundation = Foundation { spacing: length, effective_modulus: 1e6 };
+                let foundation = Foundation::endless(length, 1e6);
                 let gaps: Vec<f64> = gaps.iter().map(|gap| gap * length.min(1.0)).collect();
                 let body = Body { gaps, foundation, work };
                 let tree = body.tree();

@@ -47,7 +47,7 @@ impl<'a> SubCellMoment<'a> {
         CurvePoint {
             indentation,
             force: foundation.spring_stiffness() * compression,
-            contact_length: (tally.cells() as f64 + edges.length) * foundation.spacing,
+            contact_length: foundation.contact_length(tally.cells() as f64 + edges.length),
             springs: tally.springs.unsigned_abs(),
             fragments: tally.fragments.unsigned_abs(),
         }
