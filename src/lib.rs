@@ -40,6 +40,7 @@ pub mod contact;
 pub mod ensemble;
 pub mod explorer;
 pub mod export;
+mod io;
 mod memory;
 mod parallel;
 pub mod phase;

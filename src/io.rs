@@ -1,0 +1,207 @@
+//! Reading files that others name: regular files only, and only up to a limit.
+//!
+//! Opening a pipe waits for its writer, a terminal waits for its user, and a device may never end. What a
+//! file's metadata say is no bound either: a file grows while it is read, and some systems give a size of
+//! zero for what has content.
+
+use std::fs::{File, OpenOptions};
+use std::io::{self, Read};
+use std::path::Path;
+use thiserror::Error;
+
+/// Reason why a file was not read. The caller puts the name of the file before it.
+#[derive(Debug, Error)]
+pub(crate) enum ReadError {
+    /// A folder has the name.
+    #[error("this is a folder; allowed: a file")]
+    Folder,
+    /// A pipe, a socket, a terminal or another device has the name.
+    #[error("this is not a regular file")]
+    NotRegular,
+    /// The file has more bytes than are read.
+    #[error("longer than {limit} bytes; allowed: at most {limit} bytes")]
+    TooLong {
+        /// Largest number of bytes allowed.
+        limit: usize,
+    },
+    /// The bytes are not text.
+    #[error("this is not UTF-8 text: byte {byte} is not")]
+    NotText {
+        /// Index of the first byte that is not.
+        byte: usize,
+    },
+    /// The system refused, or has no memory for the content.
+    #[error("cannot be read: {0}")]
+    Failed(#[from] io::Error),
+}
+
+/// Opens a regular file for reading. Never waits for a writer or for a terminal.
+///
+/// # Errors
+/// [`ReadError::Folder`], [`ReadError::NotRegular`] or what the system says.
+pub(crate) fn open_regular(path: &Path) -> Result<File, ReadError> {
+    // Opening a device can do something to it, and opening a pipe wakes its writer: nothing else than a
+    // regular file is opened where that is known before.
+    check_regular(&path.metadata()?)?;
+    let mut options = OpenOptions::new();
+    options.read(true);
+    without_waiting(&mut options);
+    let file = options.open(path)?;
+    // Another file may have taken the name meanwhile.
+    check_regular(&file.metadata()?)?;
+    Ok(file)
+}
+
+/// Content of a regular file of at most `limit` bytes.
+///
+/// # Errors
+/// As [`open_regular`], and [`ReadError::TooLong`]; memory that the system does not give is
+/// [`ReadError::Failed`].
+pub(crate) fn read_regular(path: &Path, limit: usize) -> Result<Vec<u8>, ReadError> {
+    read_limited(open_regular(path)?, limit)
+}
+
+/// Text of a regular file of at most `limit` bytes.
+///
+/// # Errors
+/// As [`read_regular`], and [`ReadError::NotText`].
+pub(crate) fn read_regular_text(path: &Path, limit: usize) -> Result<String, ReadError> {
+    into_text(read_regular(path, limit)?)
+}
+
+/// All that a source gives up to its end, of at most `limit` bytes: for standard input and other streams that
+/// the caller is ready to wait for.
+///
+/// # Errors
+/// [`ReadError::TooLong`] or [`ReadError::Failed`].
+pub(crate) fn read_limited(source: impl Read, limit: usize) -> Result<Vec<u8>, ReadError> {
+    let mut bytes = Vec::new();
+    // One byte more tells a file of the limit from a longer one.
+    source.take(limit as u64 + 1).read_to_end(&mut bytes)?;
+    if bytes.len() > limit { Err(ReadError::TooLong { limit }) } else { Ok(bytes) }
+}
+
+/// Bytes as text, without a copy.
+///
+/// # Errors
+/// [`ReadError::NotText`].
+pub(crate) fn into_text(bytes: Vec<u8>) -> Result<String, ReadError> {
+    String::from_utf8(bytes).map_err(|error| ReadError::NotText { byte: error.utf8_error().valid_up_to() })
+}
+
+fn check_regular(found: &std::fs::Metadata) -> Result<(), ReadError> {
+    if found.is_dir() {
+        Err(ReadError::Folder)
+    } else if found.is_file() {
+        Ok(())
+    } else {
+        Err(ReadError::NotRegular)
+    }
+}
+
+/// Opening returns at once, and so does reading what the system calls a regular file and is none, as
+/// `/proc/kmsg`. Regular files on disks are read as without it. A terminal does not become that of the process.
+#[cfg(unix)]
+fn without_waiting(options: &mut OpenOptions) {
+    use rustix::fs::OFlags;
+    use std::os::unix::fs::OpenOptionsExt;
+    options.custom_flags((OFlags::NONBLOCK | OFlags::NOCTTY).bits().cast_signed());
+}
+
+/// Elsewhere a name that is found to be a regular file is opened at once.
+#[cfg(not(unix))]
+fn without_waiting(_: &mut OpenOptions) {}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_file_is_read_up_to_the_limit() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("text");
+        std::fs::write(&path, "12345").unwrap();
+        assert_eq!(read_regular(&path, 5).unwrap(), b"12345");
+        assert_eq!(read_regular_text(&path, 6).unwrap(), "12345");
+        assert!(matches!(read_regular(&path, 4), Err(ReadError::TooLong { limit: 4 })));
+        std::fs::write(&path, b"a\xff").unwrap();
+        assert!(matches!(read_regular_text(&path, 5), Err(ReadError::NotText { byte: 1 })));
+        assert!(matches!(read_regular(folder.path(), 5), Err(ReadError::Folder)));
+        assert!(matches!(read_regular(&folder.path().join("none"), 5), Err(ReadError::Failed(_))));
+    }
+
+    #[test]
+    fn a_source_without_an_end_is_not_read_further_than_the_limit() {
+        struct Endless(usize);
+        impl Read for Endless {
+            fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+                self.0 += buffer.len();
+                Ok(buffer.len())
+            }
+        }
+        let mut endless = Endless(0);
+        assert!(matches!(read_limited(&mut endless, 1000), Err(ReadError::TooLong { limit: 1000 })));
+        assert_eq!(endless.0, 1001);
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn what_is_no_regular_file_is_refused_at_once() {
+        use std::os::unix::net::UnixListener;
+        let folder = tempfile::tempdir().unwrap();
+        let pipe = folder.path().join("pipe");
+        make_pipe(&pipe);
+        let link = folder.path().join("link");
+        std::os::unix::fs::symlink(&pipe, &link).unwrap();
+        let socket = folder.path().join("socket");
+        let _listener = UnixListener::bind(&socket).unwrap();
+        for path in [&pipe, &link, &socket, Path::new("/dev/zero"), Path::new("/dev/null")] {
+            let read = read_regular(path, 5);
+            assert!(matches!(read, Err(ReadError::NotRegular)), "{}: {read:?}", path.display());
+        }
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_pipe_that_takes_the_name_between_both_looks_is_refused_at_once() {
+        let folder = tempfile::tempdir().unwrap();
+        let (pipe, file, name) =
+            (folder.path().join("pipe"), folder.path().join("file"), folder.path().join("name"));
+        make_pipe(&pipe);
+        std::fs::write(&file, "text").unwrap();
+        std::fs::hard_link(&file, &name).unwrap();
+        let ended = std::sync::atomic::AtomicBool::new(false);
+        let (mut read, mut refused) = (0, 0);
+        std::thread::scope(|scope| {
+            scope.spawn(|| {
+                let spare = folder.path().join("spare");
+                for other in [&pipe, &file].into_iter().cycle() {
+                    if ended.load(std::sync::atomic::Ordering::Relaxed) {
+                        return;
+                    }
+                    std::fs::hard_link(other, &spare).unwrap();
+                    std::fs::rename(&spare, &name).unwrap();
+                }
+            });
+            let begun = std::time::Instant::now();
+            while (read < 500 || refused < 500) && begun.elapsed() < std::time::Duration::from_secs(30) {
+                match read_regular(&name, 5) {
+                    Ok(bytes) => {
+                        assert_eq!(bytes, b"text");
+                        read += 1;
+                    }
+                    Err(ReadError::NotRegular) => refused += 1,
+                    Err(error) => panic!("{error}"),
+                }
+            }
+            ended.store(true, std::sync::atomic::Ordering::Relaxed);
+        });
+        assert!(read >= 500 && refused >= 500, "{read} read, {refused} refused");
+    }
+
+    #[cfg(unix)]
+    fn make_pipe(path: &Path) {
+        use rustix::fs::{CWD, FileType, Mode, mknodat};
+        mknodat(CWD, path, FileType::Fifo, Mode::from_raw_mode(0o600), 0).unwrap();
+    }
+}
