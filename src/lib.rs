@@ -49,3 +49,4 @@ pub mod scene;
 pub mod simulation;
 pub mod surface;
 pub mod sweep;
+mod text;

@@ -7,6 +7,7 @@ use crate::scene::{
     self, Document, Entry, LONGEST_TEXT, Library, Roughness, SceneErrors, Source, line_column, locate,
 };
 use crate::surface::MeasuredProfile;
+use crate::text::printable;
 use clap::{Subcommand, ValueEnum};
 use serde::Serialize;
 use std::io::{self, Read, Write};
@@ -120,7 +121,7 @@ fn check(files: &[String], stdout: &mut dyn Write) -> Result<(), CliError> {
     let mut wrong = Vec::new();
     for file in files {
         match checked(file) {
-            Ok(name) => writeln!(stdout, "{name}: ok")?,
+            Ok(name) => writeln!(stdout, "{}: ok", printable(&name))?,
             Err(errors) => wrong.push(errors),
         }
     }

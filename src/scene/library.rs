@@ -9,6 +9,7 @@ use etcetera::{BaseStrategy, choose_base_strategy, home_dir};
 use super::document::{Document, LONGEST_TEXT};
 use super::errors::{Origin, SceneError, SceneErrors, shown};
 use super::presets::{Preset, presets, read_file};
+use crate::text::is_control;
 
 /// Scene files that are read in one folder; the rest is counted.
 pub const MOST_FILES: usize = 500;
@@ -258,7 +259,7 @@ fn read_regular(path: &Path, room: usize) -> Result<String, String> {
 
 /// A name that does not control the terminal.
 pub(super) fn printable(name: &str) -> String {
-    if name.contains(char::is_control) { shown(name) } else { name.to_string() }
+    if name.contains(is_control) { shown(name) } else { name.to_string() }
 }
 
 #[cfg(test)]
