@@ -37,6 +37,7 @@ pub mod analysis;
 pub mod check;
 pub mod cli;
 pub mod contact;
+pub mod disk;
 pub mod ensemble;
 pub mod explorer;
 pub mod export;

@@ -1,6 +1,8 @@
 //! Writing a file whole or not at all, and never over another one unasked.
 
-use std::fs::{self, File, OpenOptions, Permissions};
+use crate::disk::{Disk, DiskFile, SystemDisk, folder_of};
+use crate::text::path_name;
+use std::fs::{self, OpenOptions, Permissions};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 use thiserror::Error;
@@ -15,19 +17,19 @@ const MOST_NAMES: u32 = 1000;
 #[derive(Debug, Error)]
 pub enum WriteError {
     /// There is a file of that name, and it was not asked to overwrite it.
-    #[error("{}: there is a file of that name already", path.display())]
+    #[error("{}: there is a file of that name already", path_name(path))]
     Exists {
         /// The file.
         path: PathBuf,
     },
     /// The name is that of a folder, or of none.
-    #[error("{}: this is not the name of a file", path.display())]
+    #[error("{}: this is not the name of a file", path_name(path))]
     NoFileName {
         /// The name.
         path: PathBuf,
     },
     /// The folder the file should stand in is not there.
-    #[error("{}: there is no folder {}", path.display(), folder.display())]
+    #[error("{}: there is no folder {}", path_name(path), path_name(folder))]
     NoFolder {
         /// The file.
         path: PathBuf,
@@ -35,13 +37,13 @@ pub enum WriteError {
         folder: PathBuf,
     },
     /// The file may only be read.
-    #[error("{}: this file may not be written", path.display())]
+    #[error("{}: this file may not be written", path_name(path))]
     ReadOnly {
         /// The file.
         path: PathBuf,
     },
     /// The system refused.
-    #[error("{}: cannot be written: {reason}", path.display())]
+    #[error("{}: cannot be written: {reason}", path_name(path))]
     Failed {
         /// The file.
         path: PathBuf,
@@ -58,7 +60,7 @@ pub enum WriteError {
 pub fn check_writable(path: &Path, overwrite: bool) -> Result<(), WriteError> {
     match Target::of(path, overwrite)? {
         Target::Stream => Ok(()),
-        Target::File { path, .. } => Unfinished::beside(&path).map(drop),
+        Target::File { path, .. } => Unfinished::beside(&path, &SystemDisk).map(drop),
     }
 }
 
@@ -75,29 +77,47 @@ pub fn write_new(
     overwrite: bool,
     write: impl FnOnce(&mut (dyn Write + Send)) -> io::Result<()>,
 ) -> Result<(), WriteError> {
+    write_new_on(&SystemDisk, path, overwrite, write)
+}
+
+/// [`write_new`] on another disk.
+///
+/// # Errors
+/// As [`write_new`].
+pub fn write_new_on(
+    disk: &dyn Disk,
+    path: &Path,
+    overwrite: bool,
+    write: impl FnOnce(&mut (dyn Write + Send)) -> io::Result<()>,
+) -> Result<(), WriteError> {
     let failed = |reason| WriteError::Failed { path: path.to_path_buf(), reason };
     match Target::of(path, overwrite)? {
         Target::Stream => {
-            let stream = OpenOptions::new().write(true).open(path).map_err(failed)?;
-            fill(&stream, write).map_err(failed)
+            let mut stream = OpenOptions::new().write(true).open(path).map_err(failed)?;
+            fill(&mut stream, write).map_err(failed)
         }
         Target::File { path: place, permissions } => {
-            let unfinished = Unfinished::beside(&place)?;
-            let file = &unfinished.file;
+            let mut unfinished = Unfinished::beside(&place, disk)?;
+            let file = &mut unfinished.file;
             fill(file, write).map_err(failed)?;
             if let Some(permissions) = permissions {
                 file.set_permissions(permissions).map_err(failed)?;
             }
-            file.sync_all().map_err(failed)?;
+            file.sync().map_err(failed)?;
             unfinished.publish(&place, overwrite).map_err(|reason| match reason.kind() {
                 io::ErrorKind::AlreadyExists => WriteError::Exists { path: path.to_path_buf() },
                 _ => failed(reason),
-            })
+            })?;
+            // The name has to last as well.
+            disk.sync_folder(folder_of(&place)).map_err(failed)
         }
     }
 }
 
-fn fill(file: &File, write: impl FnOnce(&mut (dyn Write + Send)) -> io::Result<()>) -> io::Result<()> {
+fn fill(
+    file: &mut (impl Write + Send),
+    write: impl FnOnce(&mut (dyn Write + Send)) -> io::Result<()>,
+) -> io::Result<()> {
     let mut buffered = BufWriter::with_capacity(BUFFER, file);
     write(&mut buffered)?;
     buffered.flush()
@@ -141,24 +161,22 @@ impl Target {
 }
 
 /// A temporary file, which goes away unless it is published.
-struct Unfinished {
+struct Unfinished<'d> {
+    disk: &'d dyn Disk,
     path: PathBuf,
-    file: File,
+    file: Box<dyn DiskFile>,
 }
 
-impl Unfinished {
+impl<'d> Unfinished<'d> {
     /// A new file in the folder of `target`.
-    fn beside(target: &Path) -> Result<Unfinished, WriteError> {
-        let folder = match target.parent() {
-            Some(folder) if folder != Path::new("") => folder,
-            _ => Path::new("."),
-        };
+    fn beside(target: &Path, disk: &'d dyn Disk) -> Result<Unfinished<'d>, WriteError> {
+        let folder = folder_of(target);
         let mut number = 0;
         loop {
             // Its name does not depend on the target's, which may be as long as names can be.
             let path = folder.join(format!(".asperity-{}-{number}.tmp", std::process::id()));
-            match File::create_new(&path) {
-                Ok(file) => return Ok(Unfinished { path, file }),
+            match disk.make_file(&path) {
+                Ok(file) => return Ok(Unfinished { disk, path, file }),
                 Err(error) if error.kind() == io::ErrorKind::AlreadyExists && number < MOST_NAMES => {
                     number += 1;
                 }
@@ -173,24 +191,24 @@ impl Unfinished {
     /// Gives the file its name.
     fn publish(self, path: &Path, overwrite: bool) -> io::Result<()> {
         if overwrite {
-            return fs::rename(&self.path, path);
+            return self.disk.rename(&self.path, path);
         }
         // A link cannot be made where there is a file by now, while a renaming would replace it.
-        match fs::hard_link(&self.path, path) {
+        match self.disk.link(&self.path, path) {
             Err(error) if error.kind() != io::ErrorKind::AlreadyExists => {
                 // Some file systems have no links: there an empty file claims the name.
-                drop(File::create_new(path)?);
-                fs::rename(&self.path, path).inspect_err(|_| drop(fs::remove_file(path)))
+                drop(self.disk.make_file(path)?);
+                self.disk.rename(&self.path, path).inspect_err(|_| drop(self.disk.remove_file(path)))
             }
             done => done,
         }
     }
 }
 
-impl Drop for Unfinished {
+impl Drop for Unfinished<'_> {
     fn drop(&mut self) {
         // After a renaming there is nothing left to remove.
-        let _ = fs::remove_file(&self.path);
+        let _ = self.disk.remove_file(&self.path);
     }
 }
 
