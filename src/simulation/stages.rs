@@ -25,6 +25,8 @@ pub(super) const MANY_SPRINGS: usize = 1 << 15;
 #[derive(Default)]
 pub struct Simulation {
     folder: PathBuf,
+    /// A measured profile in place of the files that scenes name.
+    profile: Option<Arc<MeasuredProfile>>,
     synthesizer: Synthesizer,
     roughness: Option<(RoughnessKey, Rough)>,
     line: Option<(LineKey, Line)>,
@@ -80,6 +82,12 @@ impl Simulation {
         Simulation { folder, ..Simulation::default() }
     }
 
+    /// Uses a measured profile that has been read already, whichever file a scene names.
+    #[must_use]
+    pub fn with_profile(self, profile: Arc<MeasuredProfile>) -> Self {
+        Simulation { profile: Some(profile), ..self }
+    }
+
     /// The line of the last scene made.
     #[must_use]
     pub fn line(&self) -> Option<&Line> {
@@ -110,7 +118,12 @@ impl Simulation {
         if self.roughness.as_ref().map(|(key, _)| key) != key.as_ref() {
             let before = self.roughness.take().map(|(_, rough)| rough.heights);
             if let Some(key) = &key {
-                let rough = make_roughness(key, &mut self.synthesizer, before.unwrap_or_default())?;
+                let rough = make_roughness(
+                    key,
+                    self.profile.as_deref(),
+                    &mut self.synthesizer,
+                    before.unwrap_or_default(),
+                )?;
                 self.roughness = Some((key.clone(), rough));
             }
         }
@@ -322,6 +335,7 @@ fn build_tree(before: Option<Arc<ContactTree>>, gaps: &[f64]) -> Result<Arc<Cont
 /// The heights of a roughness; those that are synthesized, in this memory.
 fn make_roughness(
     key: &RoughnessKey,
+    known: Option<&MeasuredProfile>,
     synthesizer: &mut Synthesizer,
     memory: Vec<f64>,
 ) -> Result<Rough, RunError> {
@@ -336,7 +350,14 @@ fn make_roughness(
             })
         }
         RoughnessKey::Measured { file, length, points } => {
-            let profile = MeasuredProfile::read(file)?;
+            let read;
+            let profile = match known {
+                Some(known) => known,
+                None => {
+                    read = MeasuredProfile::read(file)?;
+                    &read
+                }
+            };
             let (rms_height, rms_gradient) = profile.rms_height_and_gradient();
             let heights = profile
                 .sample(*length, *points)

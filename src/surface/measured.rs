@@ -4,7 +4,7 @@ use super::SurfaceError;
 use std::path::Path;
 
 /// Largest file read, bytes.
-const LARGEST_FILE: u64 = 1 << 30;
+pub(crate) const LARGEST_FILE: u64 = 1 << 30;
 
 /// Largest position and height read, m, and largest slope between two points: from there on lengths, mean
 /// squares and differences would go beyond all numbers.
