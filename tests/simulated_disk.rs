@@ -124,38 +124,44 @@ impl Expected {
         expected
     }
 
-    /// Checks what is found of a study, takes it up again, and checks what that gives.
-    fn check(&self, root: &Path, reported: Reported, what: &str) {
+    /// Checks what is found of a study, takes it up again, and checks what that gives; what is lost otherwise.
+    fn check(&self, root: &Path, reported: Reported) -> Result<(), String> {
+        let told = |error: SweepError| error.to_string();
         let path = root.join("study");
         if reported.folder {
-            let status = Status::of(&Folder::open(&path).unwrap()).unwrap();
-            let told: u64 = reported.records.iter().sum();
-            assert!(status.done >= told, "{what}: {} of {told} records", status.done);
+            let done = Status::of(&Folder::open(&path).map_err(told)?).map_err(told)?.done;
+            let records: u64 = reported.records.iter().sum();
+            if done < records {
+                return Err(format!("{done} of {records} records that were reported"));
+            }
         }
         let found = tables(&path);
-        let none = (None, None, None);
-        assert!(
-            found == self.whole
-                || (found == self.partial && !reported.whole)
-                || (found == none && !reported.partial),
-            "{what}: {reported:?}: {found:?}"
-        );
+        let sound = found == self.whole
+            || (found == self.partial && !reported.whole)
+            || (found == (None, None, None) && !reported.partial);
+        if !sound {
+            return Err(format!("{reported:?}: {found:?}"));
+        }
         // The disk is simulated so that it need not be waited for.
-        let disk = SimulatedDisk::new(root);
-        let folder = Folder::create_on(disk.shared(), &path, &plan())
-            .unwrap_or_else(|error| panic!("{what}: {error}"));
-        let ended = run(&folder, Options { jobs: 1, shard: Shard::WHOLE }, &|| false, &mut |_| ());
-        assert!(ended.unwrap_or_else(|error| panic!("{what}: {error}")).complete);
-        let merged = merge(&folder, false).unwrap_or_else(|error| panic!("{what}: {error}"));
-        assert_eq!((merged.records, merged.missing_cells), (2 * HALF, 0), "{what}");
-        assert_eq!(tables(&path), self.whole, "{what}");
-        // What was not published is gone.
+        let folder = Folder::create_on(SimulatedDisk::new(root).shared(), &path, &plan()).map_err(told)?;
+        let options = Options { jobs: 1, shard: Shard::WHOLE };
+        assert!(run(&folder, options, &|| false, &mut |_| ()).map_err(told)?.complete);
+        let merged = merge(&folder, false).map_err(told)?;
+        if (merged.records, merged.missing_cells) != (2 * HALF, 0) || tables(&path) != self.whole {
+            return Err(format!("{merged:?}: {:?}", tables(&path)));
+        }
+        let current = fs::read_link(path.join("tables")).ok();
         let names =
             fs::read_dir(&path).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap());
-        let mut names: Vec<_> = names.filter(|name| name.starts_with(".tables-")).collect();
-        let current = fs::read_link(path.join("tables")).ok();
-        names.retain(|name| current.as_deref() != Some(Path::new(name)));
-        assert_eq!(names, Vec::<String>::new(), "{what}");
+        let remains: Vec<_> = names
+            .filter(|name| name.starts_with(".tables-") && current.as_deref() != Some(Path::new(name)))
+            .collect();
+        if remains.is_empty() { Ok(()) } else { Err(format!("unpublished tables are left: {remains:?}")) }
+    }
+
+    /// Checks, and says what happened before something was lost.
+    fn hold(&self, root: &Path, reported: Reported, what: &str) {
+        self.check(root, reported).unwrap_or_else(|lost| panic!("{what}: {lost}"));
     }
 }
 
@@ -192,7 +198,7 @@ const OPERATIONS: usize = 90;
 fn a_study_outlives_each_failure() {
     let expected = Expected::new();
     for fault in [Fault::Failure, Fault::Torn] {
-        let tried = each_operation(fault, |_, root, reported, what| expected.check(root, reported, what));
+        let tried = each_operation(fault, |_, root, reported, what| expected.hold(root, reported, what));
         assert!(tried >= OPERATIONS, "{tried}: {:#?}", operations());
     }
 }
@@ -205,10 +211,10 @@ fn a_study_outlives_a_kill_or_a_power_cut_after_each_operation() {
         for survival in SURVIVALS {
             let (_place, found) = place();
             disk.after_power_cut(survival, &found);
-            expected.check(&found, reported, &format!("{what}, {survival:?} survives"));
+            expected.hold(&found, reported, &format!("{what}, {survival:?} survives"));
             points += 1;
         }
-        expected.check(root, reported, what);
+        expected.hold(root, reported, what);
         points += 1;
     });
     println!("{points} crash points");
@@ -226,11 +232,46 @@ fn what_a_killed_process_left_in_memory_is_not_counted_on() {
         for survival in [Survival::Nothing, Survival::Names, Survival::Random(4)] {
             let (_place, found) = place();
             disk.after_power_cut(survival, &found);
-            expected.check(&found, reported, &format!("{what}, gone on from, then {survival:?} survives"));
+            expected.hold(&found, reported, &format!("{what}, gone on from, then {survival:?} survives"));
             points += 1;
         }
     });
     assert!(points >= OPERATIONS * 3, "{points}");
+}
+
+#[test]
+fn a_disk_that_does_not_keep_its_word_is_found_out() {
+    let expected = Expected::new();
+    let lost = |disk: &SimulatedDisk, root: &Path| {
+        let mut reported = Reported::default();
+        study(&disk.shared(), root, &mut reported).unwrap();
+        let (_place, found) = place();
+        disk.after_power_cut(Survival::Names, &found);
+        expected.check(&found, reported).is_err()
+    };
+    for kind in ["sync", "sync folder"] {
+        let (_place, root) = place();
+        let disk = SimulatedDisk::deceiving(&root, kind);
+        let mut reported = Reported::default();
+        study(&disk.shared(), &root, &mut reported).unwrap();
+        let (_found, found) = place();
+        disk.after_power_cut(Survival::Nothing, &found);
+        assert!(expected.check(&found, reported).is_err(), "{kind}");
+    }
+    // What a killed process wrote: with the word kept, nothing is lost; without, something is.
+    let (_place, root) = place();
+    let records = SimulatedDisk::new(&root);
+    study(&records.shared(), &root, &mut Reported::default()).unwrap();
+    let is_write = |operation: &String| operation.starts_with("write study/shards/1-of-2");
+    let last = records.operations().iter().rposition(is_write).unwrap();
+    for (kind, loses) in [("none", false), ("sync file", true)] {
+        let (_place, root) = place();
+        let disk = SimulatedDisk::deceiving(&root, kind);
+        disk.kill_at(last);
+        study(&disk.shared(), &root, &mut Reported::default()).unwrap_err();
+        disk.go_on();
+        assert_eq!(lost(&disk, &root), loses, "{kind}");
+    }
 }
 
 #[test]

@@ -82,6 +82,8 @@ struct State {
     operations: Vec<String>,
     fault: Option<(usize, Fault)>,
     ended: bool,
+    /// The kind of operation that says it has synchronised, and has not.
+    deceit: Option<&'static str>,
 }
 
 #[derive(Clone)]
@@ -133,6 +135,13 @@ impl SimulatedDisk {
         disk
     }
 
+    /// A disk on which operations of a kind do not synchronise what they say they do.
+    pub fn deceiving(root: &Path, kind: &'static str) -> SimulatedDisk {
+        let disk = SimulatedDisk::new(root);
+        disk.lock().deceit = Some(kind);
+        disk
+    }
+
     pub fn shared(&self) -> Arc<dyn Disk> {
         Arc::new(self.clone())
     }
@@ -140,6 +149,11 @@ impl SimulatedDisk {
     /// What has been done so far.
     pub fn operations(&self) -> Vec<String> {
         self.lock().operations.clone()
+    }
+
+    /// Lets the process end at the operation with this number.
+    pub fn kill_at(&self, operation: usize) {
+        self.lock().fault = Some((operation, Fault::Kill));
     }
 
     /// Another process uses the disk, of which no operation goes wrong.
@@ -308,6 +322,9 @@ impl Disk for SimulatedDisk {
 
     fn sync_file(&self, path: &Path) -> io::Result<()> {
         let (mut state, last) = self.begin("sync file", path)?;
+        if state.deceit == Some("sync file") {
+            return Self::end(last, ());
+        }
         let node = state.names[path];
         if let Node::File { synced, now } = &mut state.nodes[node] {
             synced.clone_from(now);
@@ -320,6 +337,9 @@ impl Disk for SimulatedDisk {
         assert!(path.is_dir(), "{}", path.display());
         // Through a link to a folder, as the system does it.
         let path = fs::canonicalize(path)?;
+        if state.deceit == Some("sync folder") {
+            return Self::end(last, ());
+        }
         let (mut synced, pending) = (state.synced.clone(), std::mem::take(&mut state.pending));
         let (reached, pending) = pending.into_iter().partition::<Vec<_>, _>(|(folder, _)| *folder == path);
         reached.iter().for_each(|(_, change)| change.apply(&mut synced));
@@ -356,6 +376,9 @@ impl Write for SimulatedFile {
 impl DiskFile for SimulatedFile {
     fn sync(&mut self) -> io::Result<()> {
         let (mut state, last) = self.disk.begin("sync", &self.path)?;
+        if state.deceit == Some("sync") {
+            return SimulatedDisk::end(last, ());
+        }
         if let Node::File { synced, now } = &mut state.nodes[self.node] {
             synced.clone_from(now);
         }

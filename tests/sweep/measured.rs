@@ -22,7 +22,7 @@ const PLAN: &str = r#"(
 
 fn profile(amplitude: f64) -> String {
     let row = |index: i32| format!("{:e} {:e}\n", f64::from(index) * 1e-6, amplitude * f64::from(index % 7));
-    (0..=100).map(row).collect()
+    (0..=110).map(row).collect()
 }
 
 /// A folder with a profile and a plan of it.
