@@ -24,6 +24,10 @@ pub trait Disk: Debug + Send + Sync {
     /// [`io::ErrorKind::AlreadyExists`] where the name is taken, and what the system says.
     fn make_file(&self, path: &Path) -> io::Result<Box<dyn DiskFile>>;
 
+    /// Makes a file in a folder that has no name yet, and goes with the process unless it is given one; `None`
+    /// where there are no such files.
+    fn make_nameless_file(&self, folder: &Path) -> Option<Box<dyn DiskFile>>;
+
     /// Gives a file a second name.
     ///
     /// # Errors
@@ -87,6 +91,12 @@ pub trait DiskFile: Write + Send {
     /// # Errors
     /// What the system says.
     fn set_permissions(&mut self, permissions: Permissions) -> io::Result<()>;
+
+    /// Gives a file without a name one that no other has.
+    ///
+    /// # Errors
+    /// [`io::ErrorKind::AlreadyExists`] where the name is taken, and what the system says.
+    fn give_name(&self, path: &Path) -> io::Result<()>;
 }
 
 /// The file systems of the machine.
@@ -109,6 +119,17 @@ impl DiskFile for File {
     fn set_permissions(&mut self, permissions: Permissions) -> io::Result<()> {
         File::set_permissions(self, permissions)
     }
+
+    #[cfg(target_os = "linux")]
+    fn give_name(&self, path: &Path) -> io::Result<()> {
+        use rustix::fs::{AtFlags, CWD, linkat};
+        Ok(linkat(CWD, of_descriptor(self), CWD, path, AtFlags::SYMLINK_FOLLOW)?)
+    }
+
+    #[cfg(not(target_os = "linux"))]
+    fn give_name(&self, _: &Path) -> io::Result<()> {
+        Err(io::ErrorKind::Unsupported.into())
+    }
 }
 
 impl Disk for SystemDisk {
@@ -118,6 +139,21 @@ impl Disk for SystemDisk {
 
     fn make_file(&self, path: &Path) -> io::Result<Box<dyn DiskFile>> {
         Ok(Box::new(File::create_new(path)?))
+    }
+
+    #[cfg(target_os = "linux")]
+    fn make_nameless_file(&self, folder: &Path) -> Option<Box<dyn DiskFile>> {
+        use rustix::fs::{Mode, OFlags, open};
+        let mode = Mode::from_raw_mode(0o666);
+        let file: File = open(folder, OFlags::TMPFILE | OFlags::WRONLY | OFlags::CLOEXEC, mode).ok()?.into();
+        // Without this folder it could not be given a name.
+        fs::metadata(of_descriptor(&file)).ok()?;
+        Some(Box::new(file))
+    }
+
+    #[cfg(not(target_os = "linux"))]
+    fn make_nameless_file(&self, _: &Path) -> Option<Box<dyn DiskFile>> {
+        None
     }
 
     fn link(&self, file: &Path, name: &Path) -> io::Result<()> {
@@ -166,6 +202,12 @@ impl Disk for SystemDisk {
         };
         File::open(path).and_then(|folder| folder.sync_all()).or_else(lenient)
     }
+}
+
+#[cfg(target_os = "linux")]
+fn of_descriptor(file: &File) -> PathBuf {
+    use std::os::fd::AsRawFd;
+    PathBuf::from(format!("/proc/self/fd/{}", file.as_raw_fd()))
 }
 
 /// Makes a folder and those it is in, as far as they are not there, so that they outlast a crash.

@@ -1,12 +1,36 @@
 //! Large arrays whose memory is used again: fresh memory costs about as much as a pass over it, because the
 //! system clears each page when it is first touched.
+//!
+//! What input can make large is asked for before it is used: an allocation that fails elsewhere ends the process.
 
 use std::collections::TryReserveError;
+use std::hint::black_box;
 
 /// Memory is given back when it holds more than so many times what is needed.
 const MOST_SPARE: usize = 4;
 /// Smaller arrays are never given back.
 const SMALL: usize = 1 << 16;
+
+/// Bytes asked for beside those that are known: stacks of threads, and what small arrays take. It is larger than
+/// any block that the allocator of glibc keeps for the next, so that asking changes nothing.
+const BESIDE: u64 = 33 << 20;
+/// Fewer bytes are not asked for: they are there, or nothing is.
+const FEW: u64 = 1 << 20;
+
+/// Checks that the system gives so many more bytes at this moment, and gives them back untouched.
+///
+/// # Errors
+/// When it does not.
+pub(crate) fn check_room(bytes: u64) -> Result<(), TryReserveError> {
+    if bytes < FEW {
+        return Ok(());
+    }
+    let mut asked = Vec::<u8>::new();
+    asked.try_reserve_exact(usize::try_from(bytes.saturating_add(BESIDE)).unwrap_or(usize::MAX))?;
+    // The compiler may leave out an allocation that nothing sees.
+    black_box(asked.as_ptr());
+    Ok(())
+}
 
 /// An empty vector with room for `count` values, in this memory where it suffices.
 pub(crate) fn emptied<T>(mut values: Vec<T>, count: usize) -> Result<Vec<T>, TryReserveError> {
@@ -35,6 +59,12 @@ fn unless_far_too_large<T>(values: Vec<T>, count: usize) -> Vec<T> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn what_no_system_gives_is_refused() {
+        assert_eq!(check_room(FEW), Ok(()));
+        assert!(check_room(1 << 62).is_err() && check_room(u64::MAX).is_err());
+    }
 
     #[test]
     fn memory_is_kept_until_it_is_far_too_large() {

@@ -518,6 +518,69 @@ fn files_are_not_overwritten_unasked() {
     assert_eq!(done(&["run", "jkr-sphere", "--format", "csv", "-o", "-"]), csv);
 }
 
+#[cfg(unix)]
+#[test]
+fn a_process_that_is_killed_while_it_writes_leaves_nothing_behind() {
+    within(120, || {
+        let folder = tempfile::tempdir().unwrap();
+        let out = folder.path().join("out.csv");
+        let arguments = ["run", "jkr-sphere", "--set", "numerics.samples=200000", "--force", "-o"];
+        let clock = std::time::Instant::now();
+        assert!(program().args(arguments).arg(&out).status().unwrap().success());
+        let (whole, time) = (fs::read(&out).unwrap(), clock.elapsed());
+        for (round, share) in (0..16).map(|round| (round, 0.1 + 0.06 * f64::from(round))) {
+            if round % 2 == 0 {
+                fs::remove_file(&out).unwrap();
+            }
+            let mut run = program().args(arguments).arg(&out).spawn().unwrap();
+            std::thread::sleep(time.mul_f64(share));
+            run.kill().unwrap();
+            run.wait().unwrap();
+            if out.exists() {
+                assert!(fs::read(&out).unwrap() == whole, "a file is whole or not there");
+            } else {
+                fs::write(&out, &whole).unwrap();
+            }
+        }
+        // Where files have names from the beginning, the next one removes those of processes that are gone.
+        assert!(program().args(arguments).arg(&out).status().unwrap().success());
+        let names = fs::read_dir(folder.path()).unwrap().map(|entry| entry.unwrap().file_name());
+        assert_eq!(names.collect::<Vec<_>>(), ["out.csv"]);
+    });
+}
+
+#[cfg(unix)]
+#[test]
+fn a_scene_comes_from_a_stream_only_where_it_is_named_on_the_command_line() {
+    within(60, || {
+        let text = done(&["presets", "show", "jkr-sphere"]);
+        let force = |json: &Value| number(&json["adhesion_force"]);
+        let wanted = force(&json(&["run", "jkr-sphere", "--format", "json"]));
+        for name in ["-", "/dev/stdin"] {
+            let mut child = program()
+                .args(["run", name, "--format", "json"])
+                .stdin(Stdio::piped())
+                .stdout(Stdio::piped())
+                .spawn()
+                .unwrap();
+            child.stdin.take().unwrap().write_all(text.as_bytes()).unwrap();
+            let output = child.wait_with_output().unwrap();
+            assert_eq!(force(&serde_json::from_slice(&output.stdout).unwrap()), wanted, "{name}");
+        }
+        // Of what has no end no more is read than a scene can be long.
+        assert!(failed(1, &["run", "/dev/zero"]).contains("too long"));
+        let folder = tempfile::tempdir().unwrap();
+        let scene = folder.path().join("endless.ron");
+        let measured = SMALL.replace("numerics", "roughness: Measured(file: \"/dev/zero\"),\n    numerics");
+        fs::write(&scene, measured).unwrap();
+        let scene = scene.to_str().unwrap();
+        for command in [&["run"][..], &["line"], &["cost"], &["demo", "--frames"], &["presets", "check"]] {
+            let told = failed(1, &[command, &[scene]].concat());
+            assert!(told.contains("not a regular file"), "{command:?}: {told}");
+        }
+    });
+}
+
 #[test]
 fn a_file_that_cannot_be_written_is_told_before_anything_is_computed() {
     // The run itself would fail as well, and later.

@@ -174,10 +174,15 @@ fn operations() -> Vec<String> {
 }
 
 /// Runs a study with a fault at each operation; threads may make one write of two, so it ends where none is left.
-fn each_operation(fault: Fault, mut each: impl FnMut(&SimulatedDisk, &Path, Reported, &str)) -> usize {
+fn each_operation(
+    nameless: bool,
+    fault: Fault,
+    mut each: impl FnMut(&SimulatedDisk, &Path, Reported, &str),
+) -> usize {
     for number in 0.. {
         let (_place, root) = place();
         let disk = SimulatedDisk::with_fault(&root, number, fault);
+        let disk = if nameless { disk.with_nameless_files() } else { disk };
         let mut reported = Reported::default();
         let ended = study(&disk.shared(), &root, &mut reported);
         let operations = disk.operations();
@@ -197,8 +202,10 @@ const OPERATIONS: usize = 90;
 #[test]
 fn a_study_outlives_each_failure() {
     let expected = Expected::new();
-    for fault in [Fault::Failure, Fault::Torn] {
-        let tried = each_operation(fault, |_, root, reported, what| expected.hold(root, reported, what));
+    let ways = [(false, Fault::Failure), (true, Fault::Failure), (true, Fault::Torn)];
+    for (nameless, fault) in ways {
+        let tried =
+            each_operation(nameless, fault, |_, root, reported, what| expected.hold(root, reported, what));
         assert!(tried >= OPERATIONS, "{tried}: {:#?}", operations());
     }
 }
@@ -207,25 +214,27 @@ fn a_study_outlives_each_failure() {
 fn a_study_outlives_a_kill_or_a_power_cut_after_each_operation() {
     let expected = Expected::new();
     let mut points = 0;
-    each_operation(Fault::Kill, |disk, root, reported, what| {
-        for survival in SURVIVALS {
-            let (_place, found) = place();
-            disk.after_power_cut(survival, &found);
-            expected.hold(&found, reported, &format!("{what}, {survival:?} survives"));
+    for nameless in [false, true] {
+        each_operation(nameless, Fault::Kill, |disk, root, reported, what| {
+            for survival in SURVIVALS {
+                let (_place, found) = place();
+                disk.after_power_cut(survival, &found);
+                expected.hold(&found, reported, &format!("{what}, {survival:?} survives"));
+                points += 1;
+            }
+            expected.hold(root, reported, what);
             points += 1;
-        }
-        expected.hold(root, reported, what);
-        points += 1;
-    });
+        });
+    }
     println!("{points} crash points");
-    assert!(points >= OPERATIONS * (SURVIVALS.len() + 1), "{points}: {:#?}", operations());
+    assert!(points >= 2 * OPERATIONS * (SURVIVALS.len() + 1), "{points}: {:#?}", operations());
 }
 
 #[test]
 fn what_a_killed_process_left_in_memory_is_not_counted_on() {
     let expected = Expected::new();
     let mut points = 0;
-    each_operation(Fault::Kill, |disk, root, _, what| {
+    each_operation(true, Fault::Kill, |disk, root, _, what| {
         disk.go_on();
         let mut reported = Reported::default();
         study(&disk.shared(), root, &mut reported).unwrap_or_else(|error| panic!("{what}: {error}"));
@@ -283,7 +292,7 @@ fn a_saved_scene_is_the_old_or_the_new_one() {
         })
     };
     let mut points = 0;
-    for overwrite in [false, true] {
+    for (overwrite, nameless) in [(false, false), (false, true), (true, false), (true, true)] {
         for fault in [Fault::Failure, Fault::Torn, Fault::Kill] {
             for number in 0.. {
                 let (_place, root) = place();
@@ -293,6 +302,7 @@ fn a_saved_scene_is_the_old_or_the_new_one() {
                 }
                 let before = overwrite.then(|| old.to_owned());
                 let disk = SimulatedDisk::with_fault(&root, number, fault);
+                let disk = if nameless { disk.with_nameless_files() } else { disk };
                 let saved = save(&disk, &path, overwrite).is_ok();
                 let Some(operation) = disk.operations().get(number).cloned() else {
                     assert!(saved && number > 3, "{number}");

@@ -151,7 +151,8 @@ pub(super) enum Solved {
 fn is_out_of_memory(error: &RunError) -> bool {
     matches!(
         error,
-        RunError::Surface(SurfaceError::OutOfMemory { .. })
+        RunError::OutOfMemory { .. }
+            | RunError::Surface(SurfaceError::OutOfMemory { .. })
             | RunError::Contact(ContactError::OutOfMemory { .. })
     )
 }

@@ -6,7 +6,7 @@ use crate::explorer::picture::{Cast, text};
 use crate::explorer::theme::{Appearance, Marker, Theme};
 use crate::explorer::{FrameBytes, Screen, picture_of, svg_of};
 use crate::export::{check_writable, write_new};
-use crate::scene::{open, presets};
+use crate::scene::{open_argument, presets};
 use clap::Args;
 use std::io::{self, IsTerminal, Write, stdout};
 use std::path::PathBuf;
@@ -95,7 +95,7 @@ fn size(text: &str) -> Result<(u16, u16), String> {
 /// Plays the demo to where it is to go.
 pub(super) fn demo(arguments: &DemoArguments, stdout_: &mut dyn Write) -> Result<(), CliError> {
     let first = presets().first().map_or("", |preset| preset.name);
-    let document = arguments.overrides.apply(open(arguments.scene.as_deref().unwrap_or(first))?)?;
+    let document = arguments.overrides.apply(open_argument(arguments.scene.as_deref().unwrap_or(first))?)?;
     for file in arguments.cast.iter().chain(&arguments.svg) {
         check_writable(file, arguments.force)?;
     }

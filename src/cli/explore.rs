@@ -48,6 +48,9 @@ pub(super) fn explore(arguments: &ExploreArguments, out: &mut dyn Write) -> Resu
     let &ExploreArguments { theme, marker, no_mouse, .. } = arguments;
     let left = explorer::open(opening, Options { theme, marker, no_mouse })
         .map_err(|error| CliError::Explorer(error.to_string()))?;
+    if let Some(signal) = left.signal {
+        explorer::end_by(signal);
+    }
     if let Some(computed) = &left.computed {
         out.write_all(summary(left.document.scene(), &computed.outcome).as_bytes())?;
     }
@@ -56,7 +59,7 @@ pub(super) fn explore(arguments: &ExploreArguments, out: &mut dyn Write) -> Resu
 
 fn opening(arguments: &ExploreArguments) -> Result<Opening, CliError> {
     let name = arguments.scene.as_deref().unwrap_or(DEFAULT);
-    let mut opening = Opening::of(name).map_err(|error| match error {
+    let mut opening = Opening::of_argument(name).map_err(|error| match error {
         OpeningError::Scene(errors) => {
             // A single word that is no scene may have been meant as a command.
             let is_word = name.chars().all(|c| c.is_ascii_alphabetic());

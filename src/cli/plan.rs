@@ -63,8 +63,11 @@ fn text(plan: &Plan) -> String {
     }
     let mut sheet = Sheet::default();
     sheet.table(&rows);
-    let (springs, peak) = (grouped(plan.springs), memory(plan.peak_bytes));
-    sheet.heading(&format!("{springs} springs under the body; arrays of about {peak} at any one time"));
+    let (springs, peak) = (grouped(plan.springs), memory(plan.resident_bytes));
+    let program = memory(plan.resident_bytes - plan.peak_bytes);
+    sheet.heading(&format!(
+        "{springs} springs under the body; about {peak} of memory at any one time, {program} of them the program"
+    ));
     sheet.into_text()
 }
 

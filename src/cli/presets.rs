@@ -3,14 +3,12 @@
 use super::CliError;
 use crate::export::sheet::Sheet;
 use crate::export::write_json_value;
-use crate::scene::{
-    self, Document, Entry, LONGEST_TEXT, Library, Roughness, SceneErrors, Source, line_column, locate,
-};
+use crate::scene::{self, Document, Entry, Library, Roughness, Source, line_column, locate};
 use crate::surface::MeasuredProfile;
 use crate::text::printable;
 use clap::{Subcommand, ValueEnum};
 use serde::Serialize;
-use std::io::{self, Read, Write};
+use std::io::{self, Write};
 use std::path::Path;
 
 const CHECK_EXAMPLES: &str = "\
@@ -130,7 +128,7 @@ fn check(files: &[String], stdout: &mut dyn Write) -> Result<(), CliError> {
 
 /// The name of a scene in which nothing is wrong, or all that is, line by line.
 fn checked(file: &str) -> Result<String, String> {
-    let document = if file == "-" { of_standard_input() } else { of_file(file) }?;
+    let document = of_file(file)?;
     match profile_error(&document) {
         None => Ok(document.name().into()),
         Some(error) => Err(error),
@@ -138,6 +136,9 @@ fn checked(file: &str) -> Result<String, String> {
 }
 
 fn of_file(file: &str) -> Result<Document, String> {
+    if file == "-" {
+        return scene::open_argument(file).map_err(|errors| errors.to_string());
+    }
     let path = Path::new(file);
     // Names of built-in scenes are no files.
     match path.metadata() {
@@ -146,23 +147,8 @@ fn of_file(file: &str) -> Result<Document, String> {
         }
         Err(error) => Err(format!("{file}: cannot be read: {error}")),
         Ok(found) if found.is_dir() => Err(format!("{file}: this is a folder; allowed: files")),
-        Ok(_) => scene::open(file).map_err(|errors| errors.to_string()),
+        Ok(_) => scene::open_argument(file).map_err(|errors| errors.to_string()),
     }
-}
-
-fn of_standard_input() -> Result<Document, String> {
-    let name = "standard input";
-    let mut bytes = Vec::new();
-    let most = LONGEST_TEXT as u64 + 1;
-    io::stdin()
-        .lock()
-        .take(most)
-        .read_to_end(&mut bytes)
-        .map_err(|error| format!("{name}: cannot be read: {error}"))?;
-    let text = String::from_utf8(bytes).map_err(|error| {
-        format!("{name}: this is not UTF-8 text: byte {} is not", error.utf8_error().valid_up_to())
-    })?;
-    Document::parse(&text, name).map_err(|errors: SceneErrors| errors.to_string())
 }
 
 /// What is wrong with the measured profile a scene names, with the place where it names it.

@@ -1,7 +1,7 @@
 //! Which scene a command is about, and what is changed in it.
 
 use super::CliError;
-use crate::scene::{Document, open};
+use crate::scene::{Document, open_argument};
 use crate::simulation::Simulation;
 use clap::Args;
 
@@ -9,6 +9,8 @@ use clap::Args;
 #[derive(Args, Debug)]
 pub struct SceneArguments {
     /// A scene file, or the name of a built-in scene (see `asperity presets list`)
+    ///
+    /// `-` is standard input. A pipe is read up to its end.
     pub scene: String,
     /// What is changed in it.
     #[command(flatten)]
@@ -29,7 +31,7 @@ pub struct Overrides {
 impl SceneArguments {
     /// Opens the scene and changes it.
     pub(super) fn open(&self) -> Result<Document, CliError> {
-        self.overrides.apply(open(&self.scene)?)
+        self.overrides.apply(open_argument(&self.scene)?)
     }
 }
 

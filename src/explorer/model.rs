@@ -147,6 +147,17 @@ pub enum Notice {
     Error(String),
 }
 
+/// A file that is being written.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Writing {
+    /// Its path.
+    pub path: std::path::PathBuf,
+    /// The scene as it was when that began.
+    pub text: String,
+    /// Whether to leave afterwards.
+    pub then_quit: bool,
+}
+
 /// The state of the explorer.
 #[derive(Clone, Debug)]
 pub struct Model {
@@ -206,6 +217,8 @@ pub struct Model {
     pub traffic: Option<Traffic>,
     /// Whether times are shown: they differ from run to run.
     pub shows_times: bool,
+    /// The file that is being written.
+    pub writing: Option<Writing>,
     /// A line for the user.
     pub notice: Option<Notice>,
     /// Whether the explorer is to end.
@@ -249,6 +262,7 @@ impl Model {
             appearance,
             traffic: None,
             shows_times: true,
+            writing: None,
             notice: None,
             finished: false,
         }

@@ -1,7 +1,7 @@
 //! What the explorer opens: a scene, or a finished study around one.
 
 use crate::phase::{Atlas, AtlasError};
-use crate::scene::{Document, SceneErrors, open};
+use crate::scene::{Document, SceneErrors, open, open_argument};
 use crate::sweep::Folder;
 use std::path::Path;
 use std::sync::Arc;
@@ -46,6 +46,18 @@ impl Opening {
     /// # Errors
     /// Where it is neither.
     pub fn of(name: &str) -> Result<Self, OpeningError> {
+        Self::with(name, open)
+    }
+
+    /// The same for an argument of a command, which may also name a stream; see [`open_argument`].
+    ///
+    /// # Errors
+    /// As [`Self::of`].
+    pub fn of_argument(name: &str) -> Result<Self, OpeningError> {
+        Self::with(name, open_argument)
+    }
+
+    fn with(name: &str, open: impl Fn(&str) -> Result<Document, SceneErrors>) -> Result<Self, OpeningError> {
         let folder = Path::new(name);
         if !folder.is_dir() {
             return open(name).map(Opening::from).map_err(|errors| OpeningError::Scene(Box::new(errors)));

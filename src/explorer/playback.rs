@@ -16,6 +16,12 @@ use std::sync::atomic::Ordering;
 /// Bytes of legs that are kept: beyond them, legs are computed again when the animation comes to them.
 const BYTES_KEPT: usize = 1 << 29;
 
+/// Memory of a leg is used again while it holds no more than so many times what a leg takes, and that of few
+/// springs always.
+const MOST_SPARE: usize = 4;
+const FEW_SPRINGS: usize = 1 << 16;
+const BYTES_PER_SPRING: usize = size_of::<f64>();
+
 /// Points of the curve over the range of indentations, when the body is pulled off by hand.
 const STEPS_OF_A_PULL: f64 = 200.0;
 
@@ -62,6 +68,9 @@ impl Playback {
     ) -> Option<Report> {
         let mut spare = std::mem::take(&mut self.spare);
         spare.extend(self.legs.drain(..).flatten());
+        // Memory of a scene that was much larger is given back.
+        let most = MOST_SPARE * BYTES_PER_SPRING * (scene.numerics.points as usize).max(FEW_SPRINGS);
+        spare.retain(|leg| leg.bytes() <= most);
         *self = Playback { generation, ..Playback::default() };
         // The pane beside the profile observes the heights.
         let mut observed = scene.as_ref().clone();

@@ -1,18 +1,19 @@
 //! A session: input, worker and terminal around one model.
 
-use super::action::{Action, WriteFailure, Written};
+use super::action::Action;
+use super::file_job::FileJob;
 use super::input;
-use super::model::{Model, Traffic};
+use super::model::{Model, Notice, Traffic};
 use super::opening::Opening;
+use super::signals::{Told, watch_for_signals};
 use super::snapshot::Loop;
 use super::study::{Accuracy, Found, Study};
-use super::terminal::{self, FrameWriter, TerminalGuard, Told};
+use super::terminal::{self, FrameWriter, TerminalGuard};
 use super::theme::{Appearance, Marker, Theme};
 use super::update::{Effect, moment_request, study_tasks, update};
 use super::view;
 use super::worker::{self, Engine, Report, Request, Worker};
-use super::writing;
-use crate::scene::{Document, Library, Roughness, Scene};
+use crate::scene::{Document, Roughness, Scene};
 use crate::simulation::Simulation;
 use crossterm::clipboard::CopyToClipboard;
 use crossterm::event::Event;
@@ -21,18 +22,22 @@ use ratatui::backend::CrosstermBackend;
 use ratatui::layout::{Position, Rect};
 use ratatui::{Frame, Terminal};
 use std::cell::Cell;
+use std::collections::VecDeque;
 use std::io::{self, Write};
 use std::mem::ManuallyDrop;
-use std::path::PathBuf;
 use std::rc::Rc;
 use std::sync::Arc;
 use std::sync::atomic::AtomicU64;
-use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
+use std::sync::mpsc::{Receiver, Sender, channel};
 use std::time::{Duration, Instant};
 
 /// Frames in a second: fewer over SSH, where each has to travel.
 const LOCAL_FRAMES: u32 = 30;
 const REMOTE_FRAMES: u32 = 12;
+
+/// Time in which a job with files is waited for before anything else is done: keys that are typed after it act
+/// on what it gives. Longer jobs go on beside.
+const JOB: Duration = Duration::from_millis(50);
 
 /// How the explorer opens.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -51,6 +56,8 @@ pub struct Left {
     pub document: Document,
     /// What was computed for it.
     pub computed: Option<Arc<Loop>>,
+    /// Number of the signal that has ended it.
+    pub signal: Option<i32>,
 }
 
 /// Draws a model: [`view::draw`] does.
@@ -60,10 +67,22 @@ pub type Draw = fn(&mut Frame<'_>, &Model);
 enum Message {
     Input(Event),
     InputEnded,
+    /// A signal is to end the process.
+    Ended(i32),
     /// The process was stopped and goes on: another program may have had the terminal.
     Continued,
     Report(Report),
     Found(Found),
+    /// The job with files of this number is done.
+    Done(u64, Box<Action>),
+}
+
+/// A job with files that goes on beside.
+#[derive(Clone, Copy)]
+struct Beside {
+    number: u64,
+    /// Generation of the scene when it was asked for.
+    generation: u64,
 }
 
 /// Opens the explorer on a scene or a finished study and returns what it leaves.
@@ -101,17 +120,17 @@ pub fn open_with(
         let messages = messages.clone();
         move || drop(messages.send(Message::InputEnded))
     })?;
-    terminal::watch_for_signals({
+    watch_for_signals({
         let messages = messages.clone();
         move |told| {
             let message = match told {
-                Told::End => Message::InputEnded,
+                Told::End(signal) => Message::Ended(signal),
                 Told::Continue => Message::Continued,
             };
             messages.send(message).is_ok()
         }
     })?;
-    read_input(messages)?;
+    read_input(messages.clone())?;
     // The guard gives everything back; ratatui's own drop would complain on standard error, and panic
     // where that is gone together with the terminal.
     let writer = FrameWriter::new(io::stdout());
@@ -140,11 +159,16 @@ pub fn open_with(
         own_stops: 0,
         written,
         traffic: (Instant::now(), 0),
+        inbox,
+        messages,
+        held: VecDeque::new(),
+        jobs: 0,
+        opening: None,
     };
-    session.run(&inbox)?;
+    let signal = session.run()?;
     let model = session.model;
     let computed = model.computed.clone().filter(|_| model.is_current());
-    Ok(Left { document: model.document, computed })
+    Ok(Left { document: model.document, computed, signal })
 }
 
 fn read_input(messages: Sender<Message>) -> io::Result<()> {
@@ -176,10 +200,19 @@ struct Session<'a, W: Write> {
     written: Rc<Cell<u64>>,
     /// When the traffic was last told, and how many bytes had been written by then.
     traffic: (Instant, u64),
+    inbox: Receiver<Message>,
+    messages: Sender<Message>,
+    /// What came while a job with files was waited for.
+    held: VecDeque<Message>,
+    /// Jobs with files so far.
+    jobs: u64,
+    /// The newest of those that open something and go on beside.
+    opening: Option<Beside>,
 }
 
 impl<W: Write> Session<'_, W> {
-    fn run(&mut self, inbox: &Receiver<Message>) -> io::Result<()> {
+    /// Runs until the explorer is to end; gives the signal that ends it, if one does.
+    fn run(&mut self) -> io::Result<Option<i32>> {
         let frames = if self.remote { REMOTE_FRAMES } else { LOCAL_FRAMES };
         let frame_time = Duration::from_secs(1) / frames;
         self.perform(vec![Effect::Compute])?;
@@ -211,16 +244,11 @@ impl<W: Write> Session<'_, W> {
             let step = playing.then(|| frame_time.saturating_sub(moved.elapsed()));
             let frame = changed.then(|| due.saturating_duration_since(Instant::now()));
             let wait = step.into_iter().chain(frame).min();
-            let first = match wait
-                .map_or_else(|| inbox.recv().map_err(Into::into), |wait| inbox.recv_timeout(wait))
-            {
-                Ok(message) => Some(message),
-                Err(RecvTimeoutError::Timeout) => None,
-                Err(RecvTimeoutError::Disconnected) => break,
-            };
-            for message in first.into_iter().chain(inbox.try_iter()) {
+            let mut next = self.wait_for_message(wait);
+            while let Some(message) = next {
                 let action = match message {
-                    Message::InputEnded => return Ok(()),
+                    Message::InputEnded => return Ok(None),
+                    Message::Ended(signal) => return Ok(Some(signal)),
                     // The terminal has been taken again already.
                     Message::Continued if self.own_stops > 0 => {
                         self.own_stops -= 1;
@@ -235,6 +263,7 @@ impl<W: Write> Session<'_, W> {
                     Message::Input(event) => input::action_of(&event, self.model.keys()),
                     Message::Report(report) => Some(action_of(report)),
                     Message::Found(found) => Some(Action::Found(found)),
+                    Message::Done(number, action) => Some(self.late(number, *action)),
                 };
                 if let Some(action) = action {
                     changed = true;
@@ -243,6 +272,7 @@ impl<W: Write> Session<'_, W> {
                     self.redraw |= matches!(action, Action::Resize(..));
                     self.act(action)?;
                 }
+                next = self.wait_for_message(Some(Duration::ZERO));
             }
             if playing && moved.elapsed() >= frame_time {
                 // Time by itself shows nothing: the moment it asks for does.
@@ -251,7 +281,51 @@ impl<W: Write> Session<'_, W> {
                 self.act(Action::Elapse(elapsed))?;
             }
         }
+        Ok(None)
+    }
+
+    /// The next message; waits for this time at the most, or for as long as it takes.
+    fn wait_for_message(&mut self, wait: Option<Duration>) -> Option<Message> {
+        let received = |inbox: &Receiver<Message>| match wait {
+            Some(wait) => inbox.recv_timeout(wait).ok(),
+            None => inbox.recv().ok(),
+        };
+        self.held.pop_front().or_else(|| received(&self.inbox))
+    }
+
+    /// Does a job with files, and takes what it gives at once if that comes soon.
+    fn work_on_files(&mut self, job: FileJob) -> io::Result<()> {
+        self.jobs += 1;
+        let number = self.jobs;
+        let description = job.describe();
+        let opens = matches!(job, FileJob::Open(_));
+        let messages = self.messages.clone();
+        job.start(move |action| drop(messages.send(Message::Done(number, Box::new(action)))));
+        let until = Instant::now() + JOB;
+        while let Ok(message) = self.inbox.recv_timeout(until.saturating_duration_since(Instant::now())) {
+            match message {
+                Message::Done(done, action) if done == number => return self.act(*action),
+                other => self.held.push_back(other),
+            }
+        }
+        self.model.notice = Some(Notice::Done(description));
+        if opens {
+            self.opening = Some(Beside { number, generation: self.model.generation });
+        }
         Ok(())
+    }
+
+    /// What a job that went on beside gives. A scene that is opened does not take the place of one that was opened
+    /// or changed since.
+    fn late(&mut self, number: u64, action: Action) -> Action {
+        let Action::Opened(Ok(opening)) = &action else { return action };
+        let is_wanted =
+            |beside: Beside| beside.number == number && beside.generation == self.model.generation;
+        if self.opening.is_some_and(is_wanted) {
+            return action;
+        }
+        let name = opening.document.name();
+        Action::Opened(Err(format!("{name}: read too late, another scene is shown by now; open it again")))
     }
 
     fn act(&mut self, action: Action) -> io::Result<()> {
@@ -297,17 +371,11 @@ impl<W: Write> Session<'_, W> {
                     self.act(Action::SetSeed(seed))?;
                 }
                 Effect::Write { path, content, overwrite } => {
-                    let result = self.write(path, content, overwrite);
-                    self.act(Action::Written(result))?;
+                    let model = Box::new(self.model.clone());
+                    self.work_on_files(FileJob::Write { model, path, content, overwrite })?;
                 }
-                Effect::List => {
-                    let entries = Library::of_environment().list();
-                    self.act(Action::Listed(entries))?;
-                }
-                Effect::Open(name) => {
-                    let opened = Opening::of(&name).map(Box::new).map_err(|error| error.to_string());
-                    self.act(Action::Opened(opened))?;
-                }
+                Effect::List => self.work_on_files(FileJob::List)?,
+                Effect::Open(name) => self.work_on_files(FileJob::Open(name))?,
                 Effect::Preview(document) => {
                     let (scene, text) = (scene_of(&document), document.text().to_owned());
                     self.worker.ask(Request::Preview { text, scene });
@@ -327,15 +395,6 @@ impl<W: Write> Session<'_, W> {
             }
         }
         Ok(())
-    }
-
-    fn write(
-        &self,
-        path: PathBuf,
-        content: super::action::Content,
-        overwrite: bool,
-    ) -> Result<Written, WriteFailure> {
-        writing::write(&self.model, path, content, overwrite)
     }
 }
 

@@ -1,5 +1,6 @@
 //! The terminal: taken over when the explorer opens, given back however it ends.
 
+use super::rescue::Rescue;
 use crossterm::cursor::Show;
 use crossterm::event::{DisableBracketedPaste, EnableBracketedPaste};
 use crossterm::style::Print;
@@ -17,9 +18,10 @@ use std::rc::Rc;
 const MOUSE_ON: &str = "\x1b[?1000h\x1b[?1002h\x1b[?1006h";
 const MOUSE_OFF: &str = "\x1b[?1006l\x1b[?1002l\x1b[?1000l";
 
-/// The terminal in the explorer's hands; dropping it gives it back.
+/// The terminal in the explorer's hands; dropping it gives it back, and so does the end of the process.
 pub struct TerminalGuard {
     mouse: bool,
+    rescue: Option<Rescue>,
 }
 
 impl TerminalGuard {
@@ -30,6 +32,7 @@ impl TerminalGuard {
     pub fn take(mouse: bool) -> io::Result<Self> {
         // NO_COLOR is read by the theme; left to crossterm it would drop reverse and bold as well.
         crossterm::style::force_color_output(true);
+        let rescue = Rescue::start();
         let before = std::panic::take_hook();
         let drawing = std::thread::current().id();
         std::panic::set_hook(Box::new(move |panic| {
@@ -39,22 +42,35 @@ impl TerminalGuard {
                 before(panic);
             }
         }));
-        let guard = TerminalGuard { mouse };
+        let mut guard = TerminalGuard { mouse, rescue };
         guard.enter()?;
         Ok(guard)
     }
 
-    fn enter(&self) -> io::Result<()> {
+    fn enter(&mut self) -> io::Result<()> {
+        self.note(true);
         enable_raw_mode()?;
         let mouse = if self.mouse { MOUSE_ON } else { "" };
         execute!(io::stdout(), EnterAlternateScreen, EnableBracketedPaste, Print(mouse))
+    }
+
+    fn give_back(&mut self) -> io::Result<()> {
+        let given = give_back(self.mouse);
+        self.note(false);
+        given
+    }
+
+    fn note(&mut self, is_taken: bool) {
+        if let Some(rescue) = &mut self.rescue {
+            rescue.note(is_taken);
+        }
     }
 
     /// Takes the terminal once more, after another program may have had it.
     ///
     /// # Errors
     /// When the terminal refuses.
-    pub fn take_again(&self) -> io::Result<()> {
+    pub fn take_again(&mut self) -> io::Result<()> {
         // Only what has been given back can be taken.
         disable_raw_mode()?;
         self.enter()
@@ -65,8 +81,8 @@ impl TerminalGuard {
     ///
     /// # Errors
     /// When the terminal refuses.
-    pub fn suspend(&self) -> io::Result<()> {
-        give_back(self.mouse)?;
+    pub fn suspend(&mut self) -> io::Result<()> {
+        self.give_back()?;
         stop_until_continued();
         self.enter()
     }
@@ -75,7 +91,7 @@ impl TerminalGuard {
 impl Drop for TerminalGuard {
     fn drop(&mut self) {
         // Nothing can be done about a terminal that is gone.
-        let _ = give_back(self.mouse);
+        let _ = self.give_back();
         // While a panic unwinds, the hook cannot be taken and is needed no more.
         if !std::thread::panicking() {
             let _ = std::panic::take_hook();
@@ -100,41 +116,6 @@ fn stop_until_continued() {
 /// Elsewhere there are no jobs.
 #[cfg(not(unix))]
 fn stop_until_continued() {}
-
-/// A signal that the explorer answers.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Told {
-    /// It is to end.
-    End,
-    /// It has been stopped, and goes on.
-    Continue,
-}
-
-/// Calls `told` when the system tells the process to end or to go on; it says whether anyone still listens.
-///
-/// # Errors
-/// When the system refuses.
-#[cfg(unix)]
-pub fn watch_for_signals(told: impl Fn(Told) -> bool + Send + 'static) -> io::Result<()> {
-    use signal_hook::consts::{SIGCONT, SIGTERM};
-    let mut signals = signal_hook::iterator::Signals::new([SIGTERM, SIGCONT])?;
-    std::thread::Builder::new()
-        .name("signals".to_owned())
-        .spawn(move || {
-            for signal in signals.forever() {
-                if !told(if signal == SIGTERM { Told::End } else { Told::Continue }) {
-                    return;
-                }
-            }
-        })
-        .map(drop)
-}
-
-/// Elsewhere there are no signals.
-#[cfg(not(unix))]
-pub fn watch_for_signals(_: impl Fn(Told) -> bool + Send + 'static) -> io::Result<()> {
-    Ok(())
-}
 
 /// Calls `gone` when the terminal hangs up.
 ///

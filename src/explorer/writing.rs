@@ -5,14 +5,14 @@ use super::model::{Mode, Model, Notice};
 use super::picture::{Palette, svg, text};
 use super::theme::Theme;
 use super::view;
-use crate::export::{WriteError, write_curve, write_json, write_new};
+use crate::export::{WriteError, write_curve, write_json, write_new_file};
 use ratatui::Terminal;
 use ratatui::backend::TestBackend;
 use ratatui::buffer::Buffer;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-/// Writes what is asked for.
+/// Writes what is asked for, to a regular file: a pipe would be waited for.
 ///
 /// # Errors
 /// When the file is there and is not to be overwritten, or the system refuses.
@@ -22,7 +22,7 @@ pub fn write(
     content: Content,
     overwrite: bool,
 ) -> Result<Written, WriteFailure> {
-    let written = write_new(&path, overwrite, |file| write_content(file, model, content));
+    let written = write_new_file(&path, overwrite, |file| write_content(file, model, content));
     match written {
         Ok(()) => Ok(Written { path, content }),
         Err(WriteError::Exists { .. }) => Err(WriteFailure::Exists(path, content)),

@@ -1,6 +1,7 @@
 //! Writing a file whole or not at all, and never over another one unasked.
 
-use crate::disk::{Disk, DiskFile, SystemDisk, folder_of};
+use super::unfinished::Unfinished;
+use crate::disk::{Disk, SystemDisk, folder_of};
 use crate::text::path_name;
 use std::fs::{self, OpenOptions, Permissions};
 use std::io::{self, BufWriter, Write};
@@ -9,9 +10,6 @@ use thiserror::Error;
 
 /// Bytes gathered before they go to a file.
 const BUFFER: usize = 1 << 18;
-
-/// Names tried for the temporary file; those of processes that were ended are in the way of few.
-const MOST_NAMES: u32 = 1000;
 
 /// Why a file was not written.
 #[derive(Debug, Error)]
@@ -35,6 +33,12 @@ pub enum WriteError {
         path: PathBuf,
         /// Its folder.
         folder: PathBuf,
+    },
+    /// A pipe, a terminal or another device has the name, and a file was asked for.
+    #[error("{}: this is not a regular file; allowed: the name of a file", path_name(path))]
+    NotRegular {
+        /// The name.
+        path: PathBuf,
     },
     /// The file may only be read.
     #[error("{}: this file may not be written", path_name(path))]
@@ -68,7 +72,11 @@ pub fn check_writable(path: &Path, overwrite: bool) -> Result<(), WriteError> {
 /// whole new one, and after a failure nothing is left behind.
 ///
 /// An existing file is replaced only when `overwrite` says so; what is no file that could be
-/// overwritten, a pipe or a device, is written to as it stands.
+/// overwritten, a pipe or a device, is written to as it stands, which waits for a reader.
+///
+/// Where the system can, the temporary file has no name until it is whole: what ends the process, at whatever
+/// moment, leaves nothing behind. Elsewhere, and between naming and renaming, a file `.asperity-….tmp` can
+/// stay; the next that is made in the folder removes those of processes that are gone.
 ///
 /// # Errors
 /// [`WriteError`]; one of `write` itself comes as [`WriteError::Failed`].
@@ -90,28 +98,51 @@ pub fn write_new_on(
     overwrite: bool,
     write: impl FnOnce(&mut (dyn Write + Send)) -> io::Result<()>,
 ) -> Result<(), WriteError> {
-    let failed = |reason| WriteError::Failed { path: path.to_path_buf(), reason };
-    match Target::of(path, overwrite)? {
-        Target::Stream => {
-            let mut stream = OpenOptions::new().write(true).open(path).map_err(failed)?;
-            fill(&mut stream, write).map_err(failed)
-        }
-        Target::File { path: place, permissions } => {
-            let mut unfinished = Unfinished::beside(&place, disk)?;
-            let file = &mut unfinished.file;
-            fill(file, write).map_err(failed)?;
-            if let Some(permissions) = permissions {
-                file.set_permissions(permissions).map_err(failed)?;
-            }
-            file.sync().map_err(failed)?;
-            unfinished.publish(&place, overwrite).map_err(|reason| match reason.kind() {
-                io::ErrorKind::AlreadyExists => WriteError::Exists { path: path.to_path_buf() },
-                _ => failed(reason),
-            })?;
-            // The name has to last as well.
-            disk.sync_folder(folder_of(&place)).map_err(failed)
-        }
+    let target = Target::of(path, overwrite)?;
+    if let Target::Stream = target {
+        let failed = |reason| WriteError::Failed { path: path.to_path_buf(), reason };
+        let mut stream = OpenOptions::new().write(true).open(path).map_err(failed)?;
+        return fill(&mut stream, write).map_err(failed);
     }
+    write_target(disk, path, target, overwrite, write)
+}
+
+/// The same, and only to a file: a pipe or a device is refused, at once.
+///
+/// # Errors
+/// As [`write_new`], and [`WriteError::NotRegular`].
+pub fn write_new_file(
+    path: &Path,
+    overwrite: bool,
+    write: impl FnOnce(&mut (dyn Write + Send)) -> io::Result<()>,
+) -> Result<(), WriteError> {
+    write_target(&SystemDisk, path, Target::of(path, overwrite)?, overwrite, write)
+}
+
+fn write_target(
+    disk: &dyn Disk,
+    path: &Path,
+    target: Target,
+    overwrite: bool,
+    write: impl FnOnce(&mut (dyn Write + Send)) -> io::Result<()>,
+) -> Result<(), WriteError> {
+    let failed = |reason| WriteError::Failed { path: path.to_path_buf(), reason };
+    let Target::File { path: place, permissions } = target else {
+        return Err(WriteError::NotRegular { path: path.to_path_buf() });
+    };
+    let mut unfinished = Unfinished::beside(&place, disk)?;
+    let file = &mut unfinished.file;
+    fill(file, write).map_err(failed)?;
+    if let Some(permissions) = permissions {
+        file.set_permissions(permissions).map_err(failed)?;
+    }
+    file.sync().map_err(failed)?;
+    unfinished.publish(&place, overwrite).map_err(|reason| match reason.kind() {
+        io::ErrorKind::AlreadyExists => WriteError::Exists { path: path.to_path_buf() },
+        _ => failed(reason),
+    })?;
+    // The name has to last as well.
+    disk.sync_folder(folder_of(&place)).map_err(failed)
 }
 
 fn fill(
@@ -157,58 +188,6 @@ impl Target {
             }
             Err(reason) => Err(WriteError::Failed { path: own(), reason }),
         }
-    }
-}
-
-/// A temporary file, which goes away unless it is published.
-struct Unfinished<'d> {
-    disk: &'d dyn Disk,
-    path: PathBuf,
-    file: Box<dyn DiskFile>,
-}
-
-impl<'d> Unfinished<'d> {
-    /// A new file in the folder of `target`.
-    fn beside(target: &Path, disk: &'d dyn Disk) -> Result<Unfinished<'d>, WriteError> {
-        let folder = folder_of(target);
-        let mut number = 0;
-        loop {
-            // Its name does not depend on the target's, which may be as long as names can be.
-            let path = folder.join(format!(".asperity-{}-{number}.tmp", std::process::id()));
-            match disk.make_file(&path) {
-                Ok(file) => return Ok(Unfinished { disk, path, file }),
-                Err(error) if error.kind() == io::ErrorKind::AlreadyExists && number < MOST_NAMES => {
-                    number += 1;
-                }
-                Err(_) if !folder.is_dir() => {
-                    return Err(WriteError::NoFolder { path: target.into(), folder: folder.into() });
-                }
-                Err(reason) => return Err(WriteError::Failed { path: target.into(), reason }),
-            }
-        }
-    }
-
-    /// Gives the file its name.
-    fn publish(self, path: &Path, overwrite: bool) -> io::Result<()> {
-        if overwrite {
-            return self.disk.rename(&self.path, path);
-        }
-        // A link cannot be made where there is a file by now, while a renaming would replace it.
-        match self.disk.link(&self.path, path) {
-            Err(error) if error.kind() != io::ErrorKind::AlreadyExists => {
-                // Some file systems have no links: there an empty file claims the name.
-                drop(self.disk.make_file(path)?);
-                self.disk.rename(&self.path, path).inspect_err(|_| drop(self.disk.remove_file(path)))
-            }
-            done => done,
-        }
-    }
-}
-
-impl Drop for Unfinished<'_> {
-    fn drop(&mut self) {
-        // After a renaming there is nothing left to remove.
-        let _ = self.disk.remove_file(&self.path);
     }
 }
 
@@ -296,6 +275,25 @@ mod tests {
         write_new(&link, true, |out| out.write_all(b"two")).unwrap();
         assert_eq!(fs::read(&file).unwrap(), b"two");
         assert!(fs::symlink_metadata(&link).unwrap().is_symlink());
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn pipes_and_devices_are_refused_at_once_where_a_file_is_asked_for() {
+        use rustix::fs::{CWD, FileType, Mode, mknodat};
+        let folder = tempfile::tempdir().unwrap();
+        let pipe = folder.path().join("pipe");
+        mknodat(CWD, &pipe, FileType::Fifo, Mode::from_raw_mode(0o600), 0).unwrap();
+        for path in [&pipe, Path::new("/dev/null")] {
+            for overwrite in [false, true] {
+                let refused = write_new_file(path, overwrite, |out| out.write_all(b"one"));
+                assert!(matches!(refused, Err(WriteError::NotRegular { .. })), "{refused:?}");
+            }
+        }
+        assert_eq!(names(folder.path()), ["pipe"]);
+        let path = folder.path().join("curve.csv");
+        write_new_file(&path, false, |out| out.write_all(b"one")).unwrap();
+        assert_eq!(fs::read(&path).unwrap(), b"one");
     }
 
     #[cfg(unix)]

@@ -8,7 +8,8 @@ use etcetera::{BaseStrategy, choose_base_strategy, home_dir};
 
 use super::document::{Document, LONGEST_TEXT};
 use super::errors::{Origin, SceneError, SceneErrors, shown};
-use super::presets::{Preset, presets, read_file};
+use super::presets::{Preset, presets};
+use crate::io::{ReadError, read_regular_text};
 use crate::text::is_control;
 
 /// Scene files that are read in one folder; the rest is counted.
@@ -231,7 +232,7 @@ fn name_of(path: &Path, origin: Source) -> String {
 
 fn entry_of(path: PathBuf, origin: Source, room: &mut usize) -> Entry {
     let name = printable(&name_of(&path, origin));
-    match read_regular(&path, *room) {
+    match read_within(&path, *room) {
         Ok(text) => {
             *room -= text.len().min(*room);
             Entry::of_text(name, origin, Some(path), text)
@@ -240,21 +241,17 @@ fn entry_of(path: PathBuf, origin: Source, room: &mut usize) -> Entry {
     }
 }
 
-/// The text of a regular file; nothing else is opened, since opening a pipe waits for its writer.
-fn read_regular(path: &Path, room: usize) -> Result<String, String> {
-    let found = fs::metadata(path).map_err(|error| format!("cannot be read: {error}"))?;
-    if !found.is_file() {
-        return Err("this is not a regular file".into());
+/// Text of a regular file, where there is room for its bytes.
+fn read_within(path: &Path, room: usize) -> Result<String, String> {
+    match read_regular_text(path, room.min(LONGEST_TEXT)) {
+        Err(ReadError::TooLong { limit: LONGEST_TEXT }) => {
+            Err(format!("the scene is too long: at most {LONGEST_TEXT} bytes are read"))
+        }
+        Err(ReadError::TooLong { .. }) => {
+            Err(format!("not read: the scene files of this folder are more than {MOST_BYTES} bytes long"))
+        }
+        read => read.map_err(|error| error.to_string()),
     }
-    if found.len() > LONGEST_TEXT as u64 {
-        return Err(format!("the scene is too long: at most {LONGEST_TEXT} bytes are read"));
-    }
-    if found.len() > room as u64 {
-        return Err(format!(
-            "not read: the scene files of this folder are more than {MOST_BYTES} bytes long"
-        ));
-    }
-    read_file(path)
 }
 
 /// A name that does not control the terminal.

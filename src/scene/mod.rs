@@ -53,7 +53,7 @@ pub use model::*;
 pub use overrides::command_line;
 pub(crate) use overrides::quoted;
 pub(crate) use presets::read_file;
-pub use presets::{DEFAULT, Preset, find, open, presets};
+pub use presets::{DEFAULT, Preset, find, open, open_argument, presets};
 pub use quantity::{QuantityError, format_quantity, parse_quantity};
 pub use range::{End, Range};
 pub(crate) use read::told_otherwise;

@@ -1,13 +1,14 @@
 //! The scenes that come with the program, and opening a scene by file or by name.
 
 use std::fs;
-use std::io::Read;
+use std::io::{self, Read};
 use std::path::Path;
 
 use super::document::{Document, LONGEST_TEXT};
 use super::errors::{Origin, SceneError, SceneErrors};
 use super::library::{Library, printable};
 use super::suggest::nearest;
+use crate::io::{ReadError, into_text, read_limited, read_regular_text};
 
 /// Name of the scene that is opened where none is named.
 pub const DEFAULT: &str = "pressure-sensitive";
@@ -55,7 +56,7 @@ pub fn find(name: &str) -> Option<&'static Preset> {
 
 /// Opens a scene: a file, where one of that name exists or the name looks like one (it ends in
 /// `.ron` or has a path separator), else a built-in scene, else one of the user's own scenes, see
-/// [`Library::own_folder`].
+/// [`Library::own_folder`]. Only regular files are read: a pipe, a terminal or a device would be waited for.
 ///
 /// # Errors
 ///
@@ -92,6 +93,32 @@ fn open_in(name_or_path: &str, library: &Library) -> Result<Document, SceneError
     Err(whole(name_or_path, message))
 }
 
+/// Opens a scene that the arguments of a command name: as [`open`], but also from a stream. `-` is standard
+/// input, and a pipe or a device, as a shell puts in place of `<(…)`, is read up to its end.
+///
+/// Reading a stream waits for whoever writes it, so this is for commands that an interrupt ends, and not for
+/// what is opened while a terminal is taken over.
+///
+/// # Errors
+/// As [`open`].
+pub fn open_argument(argument: &str) -> Result<Document, SceneErrors> {
+    if argument == "-" {
+        return open_stream(io::stdin().lock(), "standard input");
+    }
+    let path = Path::new(argument);
+    match path.metadata() {
+        Ok(found) if !found.is_file() && !found.is_dir() => {
+            let failed = |error| whole(argument, format!("cannot be read: {error}"));
+            open_stream(fs::File::open(path).map_err(failed)?, argument)
+        }
+        _ => open(argument),
+    }
+}
+
+fn open_stream(stream: impl Read, name: &str) -> Result<Document, SceneErrors> {
+    Document::parse(&read_stream(stream).map_err(|message| whole(name, message))?, name)
+}
+
 fn open_file(path: &Path, name: &str) -> Result<Document, SceneErrors> {
     Document::parse(&read_file(path).map_err(|message| whole(name, message))?, name)
 }
@@ -100,20 +127,22 @@ fn whole(name: &str, message: String) -> SceneErrors {
     SceneError::whole(Origin::File { name: name.into() }, message).into()
 }
 
-/// The text of a file, of which no more than a scene can be long is read.
+/// Text of a regular file, of which no more than a scene can be long is read.
 pub(crate) fn read_file(path: &Path) -> Result<String, String> {
-    if path.is_dir() {
-        return Err("this is a directory, not a scene file".into());
+    read_regular_text(path, LONGEST_TEXT).map_err(told)
+}
+
+/// Text that a stream gives up to its end, of which no more than a scene can be long is read.
+fn read_stream(stream: impl Read) -> Result<String, String> {
+    read_limited(stream, LONGEST_TEXT).and_then(into_text).map_err(told)
+}
+
+fn told(error: ReadError) -> String {
+    match error {
+        ReadError::Folder => "this is a directory, not a scene file".into(),
+        ReadError::TooLong { limit } => format!("the scene is too long: at most {limit} bytes are read"),
+        other => other.to_string(),
     }
-    let file = fs::File::open(path).map_err(|error| format!("cannot be read: {error}"))?;
-    let mut bytes = Vec::new();
-    let most = LONGEST_TEXT as u64 + 1;
-    file.take(most).read_to_end(&mut bytes).map_err(|error| format!("cannot be read: {error}"))?;
-    if bytes.len() > LONGEST_TEXT {
-        return Err(format!("the scene is too long: at most {LONGEST_TEXT} bytes are read"));
-    }
-    String::from_utf8(bytes)
-        .map_err(|error| format!("this is not UTF-8 text: byte {} is not", error.utf8_error().valid_up_to()))
 }
 
 #[cfg(test)]

@@ -7,6 +7,15 @@ use thiserror::Error;
 /// Why a checked scene could not be computed.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum RunError {
+    /// What the scene takes does not fit into memory.
+    #[error(
+        "not enough memory: this scene takes about {} MiB; fewer numerics.points and numerics.samples take less",
+        bytes.div_ceil(1 << 20)
+    )]
+    OutOfMemory {
+        /// Bytes it takes.
+        bytes: u64,
+    },
     /// The line could not be made.
     #[error(transparent)]
     Surface(#[from] SurfaceError),

@@ -5,6 +5,7 @@ use super::{LineFacts, Outcome, Plan, RunError, Stage, Timings};
 use crate::analysis::{Amplitude, Figures, Governing, Regime, RegimeEvidence, ideal_adhesion_force};
 use crate::contact::subcell::{LevelMemory, LevelSets};
 use crate::contact::{ContactError, ContactTree, Foundation, HessRule, LegRecord, Solver};
+use crate::memory::check_room;
 use crate::parallel::in_parallel;
 use crate::reference::smooth_adhesion_force;
 use crate::scene::{Form, Roughness, Scene};
@@ -19,9 +20,17 @@ const HISTOGRAM_BINS: usize = 64;
 /// With fewer springs than these another thread takes longer to begin than it saves.
 pub(super) const MANY_SPRINGS: usize = 1 << 15;
 
+/// Memory of a run before is given back when it had more than so many times the springs of the next.
+const MOST_SPARE: usize = 4;
+/// Fewer bytes are kept in any case.
+const SMALL: u64 = 32 << 20;
+
 /// The line, the tree and what they were made from: kept from run to run, so that a changed parameter
 /// repeats the stages from the first one it touches and no other. Those that are repeated work in the memory
 /// they had before.
+///
+/// Between runs no more is kept than [`Plan::peak_bytes`] of a scene with four times the springs of the last
+/// one, or 32 MiB.
 #[derive(Default)]
 pub struct Simulation {
     folder: PathBuf,
@@ -42,6 +51,14 @@ pub struct Simulation {
     /// Whether the last scene has edges between springs.
     finds_edges: bool,
     memory: ContactMemory,
+    kept: Kept,
+}
+
+/// Largest run whose memory is still kept.
+#[derive(Clone, Copy, Default)]
+struct Kept {
+    points: usize,
+    bytes: u64,
 }
 
 /// What the heights of the roughness depend on.
@@ -118,6 +135,8 @@ impl Simulation {
         if self.roughness.as_ref().map(|(key, _)| key) != key.as_ref() {
             let before = self.roughness.take().map(|(_, rough)| rough.heights);
             if let Some(key) = &key {
+                // The transform allocates what it needs by itself, and would end the process.
+                check_room(Plan::of(scene).line_bytes()).map_err(|_| SurfaceError::OutOfMemory { points })?;
                 let rough = make_roughness(
                     key,
                     self.profile.as_deref(),
@@ -223,6 +242,27 @@ impl Simulation {
         Ok(if count { springs as u64 } else { 0 })
     }
 
+    /// Makes sure that there is memory for a run, before anything of it is allocated: what is kept counts, and
+    /// is given back where it is far too large or in the way.
+    fn make_room(&mut self, plan: &Plan, points: usize) -> Result<(), RunError> {
+        let needed = plan.peak_bytes;
+        if self.kept.points / MOST_SPARE > points && self.kept.bytes > SMALL {
+            self.give_back();
+        }
+        if check_room(needed.saturating_sub(self.kept.bytes)).is_err() {
+            self.give_back();
+            check_room(needed).map_err(|_| RunError::OutOfMemory { bytes: needed })?;
+        }
+        self.kept = Kept { points: self.kept.points.max(points), bytes: self.kept.bytes.max(needed) };
+        Ok(())
+    }
+
+    /// Keeps nothing of the runs before.
+    fn give_back(&mut self) {
+        let profile = self.profile.take();
+        *self = Simulation { profile, ..Simulation::new(take(&mut self.folder)) };
+    }
+
     /// Runs a checked scene by its plan. `stop` is asked now and then whether to give up; `after` sees
     /// each leg of the scene's own loading.
     ///
@@ -237,6 +277,7 @@ impl Simulation {
         let plan = Plan::of(scene);
         let mut timings = Timings::default();
         let interrupted = || if stop() { Err(ContactError::Interrupted) } else { Ok(()) };
+        self.make_room(&plan, scene.numerics.points as usize)?;
 
         let had_roughness = self.roughness.as_ref().map(|(key, _)| key.clone());
         let clock = Instant::now();

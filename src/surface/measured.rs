@@ -1,10 +1,15 @@
 //! Measured profiles: a text file with the columns x and z in m.
 
 use super::SurfaceError;
+use crate::io::{ReadError, open_regular};
+use std::io::{BufRead, BufReader, Read};
 use std::path::Path;
 
-/// Largest file read, bytes.
-pub(crate) const LARGEST_FILE: u64 = 1 << 30;
+/// Largest number of bytes read of a file.
+const MOST_BYTES: u64 = 1 << 30;
+
+/// Longest line, bytes: two numbers take a few dozen.
+const LONGEST_LINE: usize = 1 << 16;
 
 /// Largest position and height read, m, and largest slope between two points: from there on lengths, mean
 /// squares and differences would go beyond all numbers.
@@ -21,75 +26,59 @@ pub struct MeasuredProfile {
 }
 
 impl MeasuredProfile {
-    /// Reads a profile from a file; see [`Self::parse`].
+    /// Reads a profile from a regular file of at most 1 GiB, line by line; see [`Self::parse`]. Beside the
+    /// points, 16 bytes each, no more than one line is held.
     ///
     /// # Errors
     /// [`SurfaceError::Measured`] when the file cannot be read or is no profile.
     pub fn read(path: &Path) -> Result<Self, SurfaceError> {
-        let file = path.display().to_string();
-        let fail = |reason: String| SurfaceError::Measured { file: file.clone(), reason };
-        let size = std::fs::metadata(path).map_err(|error| fail(error.to_string()))?.len();
-        if size > LARGEST_FILE {
-            return Err(fail(format!("{size} bytes; allowed: at most {LARGEST_FILE}")));
+        Self::read_seen(path, &mut |_| ())
+    }
+
+    /// [`Self::read`], with all bytes of the file shown to `seen`, one line after the other.
+    pub(crate) fn read_seen(path: &Path, seen: &mut dyn FnMut(&[u8])) -> Result<Self, SurfaceError> {
+        Self::read_up_to(path, MOST_BYTES, seen)
+            .map_err(|reason| SurfaceError::Measured { file: path.display().to_string(), reason })
+    }
+
+    fn read_up_to(path: &Path, most: u64, seen: &mut dyn FnMut(&[u8])) -> Result<Self, String> {
+        let file = open_regular(path).map_err(|error| error.to_string())?;
+        // One byte more tells a file of that length from a longer one.
+        let mut source = BufReader::new(file.take(most + 1));
+        let (mut reader, mut line) = (Reader::default(), Vec::new());
+        let mut bytes = 0;
+        loop {
+            line.clear();
+            let taken = (&mut source)
+                .take(LONGEST_LINE as u64 + 1)
+                .read_until(b'\n', &mut line)
+                .map_err(|error| ReadError::from(error).to_string())?;
+            bytes += taken as u64;
+            if bytes > most {
+                return Err(format!("longer than {most} bytes; allowed: at most {most} bytes"));
+            }
+            if taken == 0 {
+                return reader.finish();
+            }
+            seen(&line);
+            reader.take(&line)?;
         }
-        let text = std::fs::read_to_string(path).map_err(|error| fail(error.to_string()))?;
-        Self::parse(&text).map_err(fail)
     }
 
     /// Reads a profile from text: a line for each point with x and z in m, between them a comma,
     /// semicolon, tab or spaces; x ascending. Empty lines, lines that begin with `#` and a first line
     /// of column names are skipped, and so is a byte order mark. Positions and heights are at most 1e9 m,
-    /// slopes from point to point at most 1e9.
+    /// slopes from point to point at most 1e9. A column between two commas, semicolons or tabs, or before or
+    /// behind one, must not be empty; a line is at most 64 KiB long.
     ///
     /// # Errors
     /// What is wrong, with its line number.
     pub fn parse(text: &str) -> Result<Self, String> {
-        let mut profile = MeasuredProfile { positions: Vec::new(), heights: Vec::new() };
-        let mut header_allowed = true;
-        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-        for (number, line) in text.lines().enumerate().map(|(index, line)| (index + 1, line.trim())) {
-            if line.is_empty() || line.starts_with('#') {
-                continue;
-            }
-            let columns: Vec<&str> = line
-                .split([',', ';', '\t', ' '])
-                .map(str::trim)
-                .filter(|column| !column.is_empty())
-                .collect();
-            let is_header = std::mem::replace(&mut header_allowed, false)
-                && columns.iter().all(|column| column.parse::<f64>().is_err());
-            if is_header {
-                continue;
-            }
-            let [x, z] = columns[..] else {
-                return Err(format!("line {number}: {} columns; allowed: x and z", columns.len()));
-            };
-            let number_in = |column: &str| match column.parse::<f64>() {
-                Ok(value) if value.abs() <= LARGEST => Ok(value),
-                _ => Err(format!(
-                    "line {number}: {:?}; allowed: a number from -{LARGEST:e} to {LARGEST:e} in m",
-                    shown(column)
-                )),
-            };
-            let (x, z) = (number_in(x)?, number_in(z)?);
-            if let (Some(&before), Some(&height)) = (profile.positions.last(), profile.heights.last()) {
-                if before >= x {
-                    return Err(format!("line {number}: x = {x:e} after {before:e}; allowed: x ascending"));
-                }
-                let slope = (z - height).abs() / (x - before);
-                if slope > LARGEST {
-                    return Err(format!(
-                        "line {number}: a slope of {slope:e} from the point before; allowed: at most {LARGEST:e}"
-                    ));
-                }
-            }
-            profile.positions.push(x);
-            profile.heights.push(z);
+        let mut reader = Reader::default();
+        for line in text.lines() {
+            reader.take(line.as_bytes())?;
         }
-        if profile.positions.len() < 2 {
-            return Err(format!("{} points; allowed: at least 2", profile.positions.len()));
-        }
-        Ok(profile)
+        reader.finish()
     }
 
     /// Positions x, m, ascending; at least two.
@@ -160,6 +149,111 @@ impl MeasuredProfile {
     }
 }
 
+/// Reads the lines of a profile one after the other.
+struct Reader {
+    profile: MeasuredProfile,
+    /// Number of the line read last, from 1 on.
+    number: usize,
+    header_allowed: bool,
+}
+
+impl Default for Reader {
+    fn default() -> Self {
+        let profile = MeasuredProfile { positions: Vec::new(), heights: Vec::new() };
+        Reader { profile, number: 0, header_allowed: true }
+    }
+}
+
+impl Reader {
+    /// Takes the next line, with or without its end.
+    fn take(&mut self, line: &[u8]) -> Result<(), String> {
+        self.number += 1;
+        let wrong = |number: usize, what: String| format!("line {number}: {what}");
+        if line.len() > LONGEST_LINE {
+            return Err(wrong(
+                self.number,
+                format!("longer than {LONGEST_LINE} bytes; allowed: at most that"),
+            ));
+        }
+        let line = str::from_utf8(line).map_err(|error| {
+            let byte = error.valid_up_to();
+            wrong(self.number, format!("this is not UTF-8 text: byte {byte} of the line is not"))
+        })?;
+        let line = if self.number == 1 { line.strip_prefix('\u{feff}').unwrap_or(line) } else { line };
+        let line = line.trim();
+        if line.is_empty() || line.starts_with('#') {
+            return Ok(());
+        }
+        let header_allowed = std::mem::replace(&mut self.header_allowed, false);
+        if header_allowed && is_header(line) {
+            return Ok(());
+        }
+        let (x, z) = point(line).map_err(|what| wrong(self.number, what))?;
+        self.push(x, z).map_err(|what| wrong(self.number, what))
+    }
+
+    fn push(&mut self, x: f64, z: f64) -> Result<(), String> {
+        let MeasuredProfile { positions, heights } = &mut self.profile;
+        if let (Some(&before), Some(&height)) = (positions.last(), heights.last()) {
+            if before >= x {
+                return Err(format!("x = {x:e} after {before:e}; allowed: x ascending"));
+            }
+            let slope = (z - height).abs() / (x - before);
+            if slope > LARGEST {
+                return Err(format!(
+                    "a slope of {slope:e} from the point before; allowed: at most {LARGEST:e}"
+                ));
+            }
+        }
+        for (values, value) in [(positions, x), (heights, z)] {
+            values.try_reserve(1).map_err(|_| "not enough memory for the points up to here".to_owned())?;
+            values.push(value);
+        }
+        Ok(())
+    }
+
+    fn finish(self) -> Result<MeasuredProfile, String> {
+        match self.profile.positions.len() {
+            points @ (0 | 1) => Err(format!("{points} points; allowed: at least 2")),
+            _ => Ok(self.profile),
+        }
+    }
+}
+
+/// The columns of a line. Spaces part columns, and more of them part them no further; between two other
+/// separators there is a column, though it may be empty.
+fn columns(line: &str) -> impl Iterator<Item = &str> {
+    line.split([',', ';', '\t']).flat_map(|part| {
+        let empty = part.trim().is_empty().then_some("");
+        empty.into_iter().chain(part.split_whitespace())
+    })
+}
+
+/// Whether a line holds names and no number.
+fn is_header(line: &str) -> bool {
+    columns(line).all(|column| column.parse::<f64>().is_err())
+        && columns(line).any(|column| !column.is_empty())
+}
+
+/// x and z of a line.
+fn point(line: &str) -> Result<(f64, f64), String> {
+    if let Some(empty) = columns(line).position(str::is_empty) {
+        return Err(format!("column {} is empty; allowed: x and z", empty + 1));
+    }
+    let mut all = columns(line);
+    let (Some(x), Some(z), None) = (all.next(), all.next(), all.next()) else {
+        return Err(format!("{} columns; allowed: x and z", columns(line).count()));
+    };
+    Ok((number(x)?, number(z)?))
+}
+
+fn number(column: &str) -> Result<f64, String> {
+    match column.parse::<f64>() {
+        Ok(value) if value.abs() <= LARGEST => Ok(value),
+        _ => Err(format!("{:?}; allowed: a number from -{LARGEST:e} to {LARGEST:e} in m", shown(column))),
+    }
+}
+
 /// A column for a message, not too long.
 fn shown(column: &str) -> String {
     match column.char_indices().nth(MOST_SHOWN) {
@@ -192,6 +286,50 @@ mod tests {
         assert!(wrong("").contains("0 points"));
         let long = wrong(&format!("0 {}", "κ".repeat(1000)));
         assert!(long.chars().count() < 120, "{long}");
+    }
+
+    #[test]
+    fn an_empty_column_is_an_error_that_names_its_row() {
+        let wrong = |text: &str| MeasuredProfile::parse(text).unwrap_err();
+        assert_eq!(wrong("x,z\n0,1\n1,,2\n2,3"), "line 3: column 2 is empty; allowed: x and z");
+        assert_eq!(wrong("0,1\n1;;2"), "line 2: column 2 is empty; allowed: x and z");
+        assert_eq!(wrong("0 1\n1\t\t2"), "line 2: column 2 is empty; allowed: x and z");
+        assert_eq!(wrong("0,1\n1, ,2"), "line 2: column 2 is empty; allowed: x and z");
+        assert_eq!(wrong("0,1\n,1,2"), "line 2: column 1 is empty; allowed: x and z");
+        assert_eq!(wrong("0,1\n1,2,"), "line 2: column 3 is empty; allowed: x and z");
+        assert_eq!(wrong(",,\n0,1\n1,2"), "line 1: column 1 is empty; allowed: x and z");
+        // Spaces around a separator are no columns.
+        let spaced = MeasuredProfile::parse("0 ,  1\n1\t 2\n2    3 ").unwrap();
+        assert_eq!(spaced, MeasuredProfile::parse("0,1\n1,2\n2,3").unwrap());
+    }
+
+    #[test]
+    fn a_file_is_read_line_by_line_up_to_a_number_of_bytes() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("line.csv");
+        let text = "\u{feff}# stylus\r\nx,z\r\n0,1\r\n1,2";
+        std::fs::write(&path, text).unwrap();
+        assert_eq!(MeasuredProfile::read(&path).unwrap(), MeasuredProfile::parse(text).unwrap());
+        let length = text.len() as u64;
+        assert!(MeasuredProfile::read_up_to(&path, length, &mut |_| ()).is_ok());
+        let wrong = MeasuredProfile::read_up_to(&path, length - 1, &mut |_| ()).unwrap_err();
+        assert!(wrong.contains(&format!("longer than {} bytes", length - 1)), "{wrong}");
+        let wrong = |bytes: &[u8]| {
+            std::fs::write(&path, bytes).unwrap();
+            MeasuredProfile::read(&path).unwrap_err().to_string()
+        };
+        let told = wrong(&[b"0,1\n".as_slice(), &[b' '; 2 * LONGEST_LINE]].concat());
+        assert!(told.contains("line 2: longer than 65536 bytes"), "{told}");
+        assert!(wrong(b"0,1\n1,\xb5").contains("line 2: this is not UTF-8 text: byte 2"));
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn devices_are_not_read() {
+        for device in ["/dev/zero", "/dev/null", "/dev/tty"] {
+            let told = MeasuredProfile::read(Path::new(device)).unwrap_err().to_string();
+            assert!(told.contains("not a regular file"), "{device}: {told}");
+        }
     }
 
     #[test]

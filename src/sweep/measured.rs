@@ -7,10 +7,8 @@
 use super::SweepError;
 use super::plan::Plan;
 use super::store::PLAN;
-use crate::io::{into_text, read_regular};
 use crate::scene::Roughness;
-use crate::surface::measured::LARGEST_FILE;
-use crate::surface::{MeasuredProfile, SurfaceError};
+use crate::surface::MeasuredProfile;
 use crate::text::path_name;
 use sha2::{Digest, Sha256};
 use std::path::{Path, PathBuf};
@@ -35,7 +33,7 @@ pub(super) fn file_of(plan: &Plan) -> Option<PathBuf> {
 /// Where the file cannot be read, or the plan asks for another hash.
 pub(super) fn with_hash(plan: &Plan) -> Result<Plan, SweepError> {
     let Some(file) = file_of(plan) else { return Ok(plan.clone()) };
-    let found = hash(&read(&file)?);
+    let (_, found) = read(&file)?;
     expect(plan, &file, &found, || "the plan".into())?;
     Ok(Plan { measured_sha256: Some(found), ..plan.clone() })
 }
@@ -46,12 +44,8 @@ pub(super) fn with_hash(plan: &Plan) -> Result<Plan, SweepError> {
 /// Where the file cannot be read, is no profile, or is not the one the plan has the hash of.
 pub(super) fn profile(plan: &Plan, folder: &Path) -> Result<Option<Arc<MeasuredProfile>>, SweepError> {
     let Some(file) = file_of(plan) else { return Ok(None) };
-    let bytes = read(&file)?;
-    expect(plan, &file, &hash(&bytes), || path_name(&folder.join(PLAN)))?;
-    let profile = into_text(bytes)
-        .map_err(|error| error.to_string())
-        .and_then(|text| MeasuredProfile::parse(&text))
-        .map_err(|reason| failed(&file, reason))?;
+    let (profile, found) = read(&file)?;
+    expect(plan, &file, &found, || path_name(&folder.join(PLAN)))?;
     Ok(Some(Arc::new(profile)))
 }
 
@@ -67,16 +61,11 @@ fn expect(plan: &Plan, file: &Path, found: &str, origin: impl Fn() -> String) ->
     }
 }
 
-fn read(file: &Path) -> Result<Vec<u8>, SweepError> {
-    Ok(read_regular(file, LARGEST_FILE as usize).map_err(|error| failed(file, error.to_string()))?)
-}
-
-fn failed(file: &Path, reason: String) -> SurfaceError {
-    SurfaceError::Measured { file: file.display().to_string(), reason }
-}
-
-fn hash(bytes: &[u8]) -> String {
-    Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect()
+/// A profile, and the hash of the bytes it was read from.
+fn read(file: &Path) -> Result<(MeasuredProfile, String), SweepError> {
+    let mut hasher = Sha256::new();
+    let profile = MeasuredProfile::read_seen(file, &mut |bytes| hasher.update(bytes))?;
+    Ok((profile, hasher.finalize().iter().map(|byte| format!("{byte:02x}")).collect()))
 }
 
 #[cfg(test)]
@@ -85,10 +74,14 @@ mod tests {
 
     #[test]
     fn hashes_are_those_of_sha256sum() {
-        let empty = "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855";
-        assert_eq!(hash(b""), empty);
-        assert!(is_hash(empty));
-        for wrong in [&empty[1..], &empty.to_uppercase(), &format!("{empty}0"), "", &"x".repeat(64)] {
+        let folder = tempfile::tempdir().unwrap();
+        let file = folder.path().join("line.csv");
+        // A mark, a comment, both kinds of line breaks, and none at the end.
+        std::fs::write(&file, "\u{feff}# heights\r\n0 0\n1e-6 1e-9").unwrap();
+        let known = "3301e005145807de31f1e613c0705281eacbe8fc66deec574eba4d53402a7e71";
+        assert_eq!(read(&file).unwrap().1, known);
+        assert!(is_hash(known));
+        for wrong in [&known[1..], &known.to_uppercase(), &format!("{known}0"), "", &"x".repeat(64)] {
             assert!(!is_hash(wrong), "{wrong}");
         }
     }

@@ -93,8 +93,9 @@ impl Program {
         let pid = child.process_id().expect("a process has a number");
         await_end(child, sender.clone());
         let closing = Arc::new(AtomicBool::new(false));
+        let resting = Arc::new(AtomicBool::new(false));
         let reader = pty.master.try_clone_reader().unwrap();
-        let reader = read(reader, sender, Arc::clone(&closing));
+        let reader = read(reader, sender, Arc::clone(&closing), Arc::clone(&resting));
         let (columns, rows) = self.size;
         Terminal {
             parser: vt100::Parser::new(nonzero(rows), nonzero(columns), 0),
@@ -109,6 +110,7 @@ impl Program {
             events,
             reader: Some(reader),
             closing,
+            resting,
             killer,
             pid,
             closed: false,
@@ -137,10 +139,18 @@ fn await_end(mut child: Box<dyn Child + Send + Sync>, events: Sender<Event>) {
     });
 }
 
-fn read(mut reader: Box<dyn Read + Send>, events: Sender<Event>, closing: Arc<AtomicBool>) -> JoinHandle<()> {
+fn read(
+    mut reader: Box<dyn Read + Send>,
+    events: Sender<Event>,
+    closing: Arc<AtomicBool>,
+    resting: Arc<AtomicBool>,
+) -> JoinHandle<()> {
     thread::spawn(move || {
         let mut bytes = [0; 1 << 16];
         loop {
+            while resting.load(Ordering::SeqCst) {
+                thread::sleep(Duration::from_millis(5));
+            }
             let event = match reader.read(&mut bytes) {
                 Ok(count) if count > 0 => Event::Wrote(bytes[..count].to_vec(), Instant::now()),
                 _ => Event::Closed,
@@ -171,6 +181,8 @@ pub struct Terminal {
     events: Receiver<Event>,
     reader: Option<JoinHandle<()>>,
     closing: Arc<AtomicBool>,
+    /// Whether nothing of what is written is read.
+    resting: Arc<AtomicBool>,
     killer: Box<dyn ChildKiller + Send + Sync>,
     pid: u32,
     closed: bool,
@@ -307,6 +319,23 @@ impl Terminal {
     pub fn wait_end(&mut self) -> ExitStatus {
         let deadline = Instant::now() + PATIENCE;
         while self.ended.is_none() || !(self.closed || self.reader.is_none()) {
+            let time = deadline.saturating_duration_since(Instant::now());
+            assert!(self.take(time), "it does not end:\n{}", self.text());
+        }
+        self.ended.clone().expect("it has ended")
+    }
+
+    /// Reads nothing of what is written, as a terminal that hangs, or reads again. What is on its way when it
+    /// stops is still taken.
+    pub fn rest(&self, resting: bool) {
+        self.resting.store(resting, Ordering::SeqCst);
+    }
+
+    /// Waits until the program has ended, whatever it wrote.
+    #[track_caller]
+    pub fn wait_process(&mut self) -> ExitStatus {
+        let deadline = Instant::now() + PATIENCE;
+        while self.ended.is_none() {
             let time = deadline.saturating_duration_since(Instant::now());
             assert!(self.take(time), "it does not end:\n{}", self.text());
         }

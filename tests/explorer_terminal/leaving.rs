@@ -111,12 +111,60 @@ fn signal(terminal: &Terminal, name: &str) {
 }
 
 #[test]
-fn a_signal_to_end_gives_the_terminal_back() {
+fn whatever_signal_ends_it_the_terminal_is_given_back() {
+    within(120, || {
+        for name in ["TERM", "INT", "HUP", "QUIT", "ABRT", "KILL"] {
+            let (program, _folder) = explorer();
+            let mut terminal = paused(program);
+            signal(&terminal, name);
+            assert!(!terminal.wait_end().success(), "{name}: it is seen that a signal ended it");
+            assert_given_back(&terminal);
+        }
+    });
+}
+
+#[test]
+fn a_terminal_that_reads_nothing_keeps_no_signal_from_ending_it() {
+    within(120, || {
+        for name in ["TERM", "INT", "HUP", "QUIT"] {
+            let (program, _folder) = explorer();
+            let mut terminal = paused(program);
+            terminal.rest(true);
+            // Each size is a whole frame; some of them are more than the system holds for a terminal.
+            for columns in (100..140).step_by(4) {
+                terminal.resize(columns, 40);
+                std::thread::sleep(std::time::Duration::from_millis(50));
+            }
+            assert!(is_waiting_to_write(terminal.pid()), "the explorer waits for the terminal");
+            signal(&terminal, name);
+            assert!(!terminal.wait_process().success(), "{name}");
+            // Line by line and with echo already, while what was drawn still waits.
+            assert!(terminal.is_as_before(), "{name}");
+            terminal.rest(false);
+            terminal.wait_end();
+            assert_given_back(&terminal);
+        }
+    });
+}
+
+/// Whether the main thread of a process sleeps in a call that writes.
+fn is_waiting_to_write(pid: u32) -> bool {
+    let call = fs::read_to_string(format!("/proc/{pid}/syscall")).unwrap();
+    // The numbers of `write` on 64-bit x86 and ARM; the first argument is standard output.
+    let words: Vec<&str> = call.split_whitespace().collect();
+    matches!(words[..], ["1" | "64", "0x1", ..])
+}
+
+#[test]
+fn a_suspended_explorer_that_is_killed_leaves_the_terminal_to_the_shell() {
     within(40, || {
         let (program, _folder) = explorer();
         let mut terminal = paused(program);
-        signal(&terminal, "TERM");
-        terminal.wait_end();
+        // No shell continues it: the system goes on at once.
+        terminal.send("\x1a");
+        terminal.settle();
+        signal(&terminal, "KILL");
+        assert!(!terminal.wait_end().success());
         assert_given_back(&terminal);
     });
 }

@@ -13,6 +13,7 @@ mod common {
     pub mod terminal;
 }
 mod appearance;
+mod devices;
 mod driving;
 mod editing;
 mod files;

@@ -84,6 +84,8 @@ struct State {
     ended: bool,
     /// The kind of operation that says it has synchronised, and has not.
     deceit: Option<&'static str>,
+    /// Where files without a name have theirs; `None` on a disk without such files.
+    nameless: Option<tempfile::TempDir>,
 }
 
 #[derive(Clone)]
@@ -149,6 +151,12 @@ impl SimulatedDisk {
     /// What has been done so far.
     pub fn operations(&self) -> Vec<String> {
         self.lock().operations.clone()
+    }
+
+    /// The same disk, with files that have no name until they are given one.
+    pub fn with_nameless_files(self) -> SimulatedDisk {
+        self.lock().nameless = Some(tempfile::tempdir().unwrap());
+        self
     }
 
     /// Lets the process end at the operation with this number.
@@ -270,6 +278,18 @@ impl Disk for SimulatedDisk {
         Self::end(last, Box::new(file))
     }
 
+    fn make_nameless_file(&self, folder: &Path) -> Option<Box<dyn DiskFile>> {
+        self.lock().nameless.as_ref()?;
+        let (mut state, last) = self.begin("make nameless file", folder).ok()?;
+        let node = state.nodes.len();
+        let path = state.nameless.as_ref()?.path().join(node.to_string());
+        let file = File::create_new(&path).unwrap();
+        state.nodes.push(Node::File { synced: Vec::new(), now: Vec::new() });
+        Self::end(last, Box::new(SimulatedFile { disk: self.clone(), path, node, file }))
+            .ok()
+            .map(|file| file as _)
+    }
+
     fn link(&self, file: &Path, name: &Path) -> io::Result<()> {
         let (mut state, last) = self.begin("link", name)?;
         fs::hard_link(file, name)?;
@@ -388,6 +408,13 @@ impl DiskFile for SimulatedFile {
     fn set_permissions(&mut self, permissions: Permissions) -> io::Result<()> {
         let (_state, last) = self.disk.begin("set permissions", &self.path)?;
         self.file.set_permissions(permissions)?;
+        SimulatedDisk::end(last, ())
+    }
+
+    fn give_name(&self, path: &Path) -> io::Result<()> {
+        let (mut state, last) = self.disk.begin("give name", path)?;
+        fs::hard_link(&self.path, path)?;
+        SimulatedDisk::change(&mut state, path, Change::Add(path.to_path_buf(), self.node));
         SimulatedDisk::end(last, ())
     }
 }

@@ -3,7 +3,7 @@
 use super::Effect;
 use crate::explorer::action::{Content, WriteFailure, Written};
 use crate::explorer::mode::Mode;
-use crate::explorer::model::{Model, Notice};
+use crate::explorer::model::{Model, Notice, Writing};
 use crate::explorer::text_line::TextLine;
 use crate::scene::{Document, command_line};
 use std::path::PathBuf;
@@ -48,34 +48,71 @@ pub fn write(model: &mut Model, path: PathBuf, content: Content, then_quit: bool
     if path.as_os_str().is_empty() {
         return Vec::new();
     }
-    // Kept until the outcome is known, for the question whether to overwrite.
-    model.mode = Mode::Overwrite { path: path.clone(), content, then_quit };
-    vec![Effect::Write { path, content, overwrite: false }]
+    begin(model, path, content, then_quit, false)
 }
 
-/// Takes in how writing went.
+/// Writes a file in place of the one that is there.
+pub fn overwrite(model: &mut Model, path: PathBuf, content: Content, then_quit: bool) -> Vec<Effect> {
+    begin(model, path, content, then_quit, true)
+}
+
+fn begin(
+    model: &mut Model,
+    path: PathBuf,
+    content: Content,
+    then_quit: bool,
+    overwrite: bool,
+) -> Vec<Effect> {
+    model.mode = Mode::Explore;
+    if let Some(writing) = &model.writing {
+        let why = format!("{} is still being written; nothing else is until then", writing.path.display());
+        model.notice = Some(Notice::Error(why));
+        return Vec::new();
+    }
+    model.writing = Some(Writing { path: path.clone(), text: model.document.text().to_owned(), then_quit });
+    vec![Effect::Write { path, content, overwrite }]
+}
+
+/// Takes in how writing went. It may have taken long: the scene can have been changed meanwhile.
 pub fn written(model: &mut Model, result: Result<Written, WriteFailure>) {
-    let then_quit = matches!(model.mode, Mode::Overwrite { then_quit: true, .. });
+    let Some(writing) = model.writing.take() else { return };
+    let then_quit = writing.then_quit;
     match result {
         Ok(Written { path, content }) => {
-            model.mode = Mode::Explore;
-            let how = match content {
-                Content::Scene => {
+            let how = if content == Content::Scene {
+                if model.document.text() == writing.text {
                     model.set_saved_as(&path);
-                    model.finished = then_quit;
-                    "saved"
                 }
-                _ => "exported",
+                "saved"
+            } else {
+                "exported"
             };
             model.notice = Some(Notice::Done(format!("{how} to {}", path.display())));
+            if then_quit && model.is_unsaved() {
+                model.mode = Mode::Quit;
+            } else {
+                model.finished = then_quit;
+            }
         }
         Err(WriteFailure::Exists(path, content)) => {
             model.mode = Mode::Overwrite { path, content, then_quit };
         }
         Err(WriteFailure::Refused(error)) => {
             model.notice = Some(Notice::Error(format!("not written: {error}")));
-            model.mode = Mode::Explore;
         }
+    }
+}
+
+/// Leaves the explorer, but first has a file written to its end. Asked once more, it leaves without.
+pub fn quit(model: &mut Model) {
+    match &mut model.writing {
+        Some(writing) if !writing.then_quit => {
+            writing.then_quit = true;
+            let path = writing.path.display();
+            let told = format!("leaving as soon as {path} is written; once more leaves without");
+            model.notice = Some(Notice::Done(told));
+        }
+        _ => model.finished = true,
     }
 }
 

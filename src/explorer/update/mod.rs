@@ -181,14 +181,15 @@ fn obey(model: &mut Model, command: Command) -> Vec<Effect> {
             }
             _ => edit_line(model, command),
         },
-        Mode::Overwrite { path, content, .. } => match command {
+        Mode::Overwrite { path, content, then_quit } => match command {
             Command::Accept => {
-                return vec![Effect::Write { path: path.clone(), content: *content, overwrite: true }];
+                let (path, content, then_quit) = (path.clone(), *content, *then_quit);
+                return files::overwrite(model, path, content, then_quit);
             }
             _ => model.mode = Mode::Explore,
         },
         Mode::Quit => match command {
-            Command::QuitAnyway => model.finished = true,
+            Command::QuitAnyway => files::quit(model),
             Command::Save => model.mode = files::save_as(&model.document, true),
             _ => model.mode = Mode::Explore,
         },
@@ -225,7 +226,7 @@ fn explore(model: &mut Model, command: Command) -> Vec<Effect> {
     }
     match command {
         Command::Quit if model.is_unsaved() => model.mode = Mode::Quit,
-        Command::Quit | Command::QuitAnyway => model.finished = true,
+        Command::Quit | Command::QuitAnyway => files::quit(model),
         Command::Help => model.mode = Mode::Help { scroll: 0 },
         Command::TogglePlay
         | Command::Step(_)

@@ -13,6 +13,11 @@ pub const THRESHOLD: u64 = 8;
 const LISTED: u64 = 12;
 /// Bytes for each spring of the stepwise solver: its threshold and whether it touches.
 pub const RELAXED: u64 = THRESHOLD + 1;
+/// Bytes for each sample of the leg that is under way, beside its curve: grid of indentations, what is in contact at
+/// each, and where the force is looked for. As measured.
+const SAMPLED: u64 = 64;
+/// The same with edges between springs, which are summed for each sample as well.
+const SAMPLED_WITH_EDGES: u64 = 120;
 
 /// Why stages are skipped, in the same words each time.
 pub const NO_ADHESION: &str = "no adhesion: each spring touches and leaves at its own gap";
@@ -109,6 +114,12 @@ impl<'a> Call<'a> {
     /// Bytes for each spring of what a pass gives.
     pub fn bytes_of_pass(&self) -> u64 {
         if self.between { THRESHOLD + LISTED } else { THRESHOLD }
+    }
+
+    /// Bytes that sampling the curve of one leg takes while it is under way.
+    pub fn bytes_of_sampling(&self) -> u64 {
+        let each = if self.between && self.exact { SAMPLED_WITH_EDGES } else { SAMPLED };
+        self.scene.numerics.samples.saturating_mul(each)
     }
 
     /// Passes over the springs under the body, with arrays of so many bytes for each.

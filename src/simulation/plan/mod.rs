@@ -25,6 +25,9 @@ use serde::Serialize;
 pub use call::StageCost;
 pub(super) use legs::Legs;
 
+/// Resident bytes of the program that has computed a small scene: code, tables and stacks.
+const PROGRAM: u64 = 14 << 20;
+
 /// All stages, in the order in which they run.
 const TABLE: [Row; 12] = [
     form::ROW,
@@ -98,8 +101,12 @@ pub struct PlannedStage {
 pub struct Plan {
     /// Springs under the body.
     pub springs: u64,
-    /// About the most memory the arrays of a run take at any one time, bytes.
+    /// About the most memory that a run takes at any one time beside the program itself, bytes: all its arrays,
+    /// and the curves it leaves. The content of a measured file is not known here and comes on top, 16 bytes for
+    /// each of its points, and so do lists of fragments.
     pub peak_bytes: u64,
+    /// The same with the program itself: about the largest resident memory of `asperity run`, bytes.
+    pub resident_bytes: u64,
     /// All stages, those that are skipped as well.
     pub stages: Vec<PlannedStage>,
 }
@@ -118,8 +125,9 @@ impl Plan {
             PlannedStage { stage: row.stage, runs, because, cost }
         });
         let stages = stages.into();
-        let mut plan = Plan { springs: call.springs, peak_bytes: 0, stages };
+        let mut plan = Plan { springs: call.springs, peak_bytes: 0, resident_bytes: PROGRAM, stages };
         plan.peak_bytes = plan.peak_of(&call);
+        plan.resident_bytes += plan.peak_bytes;
         plan
     }
 
@@ -133,6 +141,11 @@ impl Plan {
         self.stages.iter().find(|planned| planned.stage == stage).map_or(0, |planned| planned.cost.bytes)
     }
 
+    /// Bytes of all that making the line takes.
+    pub(super) fn line_bytes(&self) -> u64 {
+        HEIGHT * self.springs + self.bytes(Stage::Synthesis).max(self.bytes(Stage::MeasuredProfile))
+    }
+
     /// The line is made before the contact is solved: what the larger of both takes.
     fn peak_of(&self, call: &Call<'_>) -> u64 {
         let kept = if call.is_rough() { HEIGHT * call.points } else { 0 };
@@ -144,7 +157,7 @@ impl Plan {
             // At the most, where all that touches under load touches at first touch as well.
             Stage::ZeroLoadAdhesion,
         ];
-        let curves = call.curve_points * size_of::<CurvePoint>() as u64;
+        let curves = call.curve_points * size_of::<CurvePoint>() as u64 + call.bytes_of_sampling();
         let contact = contact.map(|stage| self.bytes(stage)).iter().sum::<u64>();
         (kept + HEIGHT * call.springs + contact + curves).max(self.bytes(Stage::Synthesis))
     }

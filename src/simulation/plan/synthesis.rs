@@ -11,29 +11,58 @@ pub const ROW: Row = Row {
         (_, true) => Called::Not("roughness: Measured"),
         _ => Called::Not("no roughness: smooth"),
     },
-    cost: |call| call.passes_over(call.points, Some(1), HEIGHT + transform(call.points)),
+    cost: |call| {
+        let mut cost = call.passes_over(call.points, Some(1), HEIGHT + transform(call.points));
+        cost.bytes = cost.bytes.saturating_add(convolution(call.points));
+        cost
+    },
 };
 
 /// Largest prime factor of a number of springs that the Fourier transform takes in its stride.
-const LARGEST_FACTOR: u64 = 11;
+const LARGEST_FACTOR: u64 = 31;
 
 /// Bytes for each spring of the transform's coefficients, scratch space and twiddle factors, as measured. Odd
-/// numbers of springs transform at twice the length, those with a large prime factor by way of a much longer
-/// convolution.
+/// numbers of springs transform at twice the length.
 fn transform(points: u64) -> u64 {
-    match (points.is_multiple_of(2), has_small_factors(points)) {
-        (true, true) => 20,
-        (false, true) => 56,
-        (true, false) => 96,
-        (false, false) => 176,
-    }
+    if points.is_multiple_of(2) { 20 } else { 56 }
 }
 
-fn has_small_factors(mut number: u64) -> bool {
-    for factor in 2..=LARGEST_FACTOR {
-        while number > 1 && number.is_multiple_of(factor) {
+/// Bytes of the convolution by way of which a large prime factor is transformed, as measured.
+fn convolution(points: u64) -> u64 {
+    let factor = largest_prime_factor(points);
+    if factor > LARGEST_FACTOR { 152 * factor } else { 0 }
+}
+
+fn largest_prime_factor(mut number: u64) -> u64 {
+    let (mut factor, mut largest) = (2, 1);
+    while factor * factor <= number {
+        if number.is_multiple_of(factor) {
             number /= factor;
+            largest = factor;
+        } else {
+            factor += 1;
         }
     }
-    number <= 1
+    largest.max(number)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_largest_prime_factor_is_found() {
+        for (number, factor) in [
+            (1, 1),
+            (2, 2),
+            (3, 3),
+            (1 << 28, 2),
+            (1_048_583, 1_048_583),
+            (2 * 524_287, 524_287),
+            (121, 11),
+            (90, 5),
+        ] {
+            assert_eq!(largest_prime_factor(number), factor, "{number}");
+        }
+    }
 }

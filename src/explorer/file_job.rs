@@ -1,0 +1,74 @@
+//! Reading and writing files for the explorer, each job on a thread of its own: a file may be on a disk that does
+//! not answer, and the screen has to.
+
+use super::action::{Action, Content, WriteFailure};
+use super::model::Model;
+use super::opening::Opening;
+use super::writing;
+use crate::scene::Library;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::PathBuf;
+
+/// A job with files.
+pub(super) enum FileJob {
+    /// Write a file from the model as it was asked for.
+    Write { model: Box<Model>, path: PathBuf, content: Content, overwrite: bool },
+    /// List the scenes of the library.
+    List,
+    /// Open a scene or a study by its path.
+    Open(String),
+}
+
+impl FileJob {
+    /// Description for who waits for it.
+    pub fn describe(&self) -> String {
+        match self {
+            FileJob::Write { path, .. } => format!("writing {} …", path.display()),
+            FileJob::List => "listing scenes …".to_owned(),
+            FileJob::Open(name) => format!("opening {name} …"),
+        }
+    }
+
+    /// Does the job on a thread of its own and passes its result on.
+    pub fn start(self, done: impl FnOnce(Action) + Send + 'static) {
+        let failed = self.failure();
+        let (on_thread, otherwise) = (failed("internal error, please report it"), failed("no thread for it"));
+        let done = std::sync::Arc::new(std::sync::Mutex::new(Some(done)));
+        let pass_on = move |action| {
+            if let Some(done) = done.lock().unwrap_or_else(std::sync::PoisonError::into_inner).take() {
+                done(action);
+            }
+        };
+        let started = std::thread::Builder::new().name("files".to_owned()).spawn({
+            let pass_on = pass_on.clone();
+            move || pass_on(catch_unwind(AssertUnwindSafe(|| self.perform())).unwrap_or(on_thread))
+        });
+        if started.is_err() {
+            pass_on(otherwise);
+        }
+    }
+
+    fn perform(self) -> Action {
+        match self {
+            FileJob::Write { model, path, content, overwrite } => {
+                Action::Written(writing::write(&model, path, content, overwrite))
+            }
+            FileJob::List => Action::Listed(Library::of_environment().list()),
+            FileJob::Open(name) => {
+                Action::Opened(Opening::of(&name).map(Box::new).map_err(|error| error.to_string()))
+            }
+        }
+    }
+
+    /// The action for a job that was not done, for a reason.
+    fn failure(&self) -> impl Fn(&str) -> Action + use<> {
+        let (writes, description) = (matches!(self, FileJob::Write { .. }), self.describe());
+        move |why| {
+            if writes {
+                Action::Written(Err(WriteFailure::Refused(why.to_owned())))
+            } else {
+                Action::Opened(Err(format!("{description} {why}")))
+            }
+        }
+    }
+}

@@ -1,0 +1,67 @@
+//! Signals that the explorer answers: those that end it give the terminal back first.
+
+use std::io;
+
+/// A signal that the explorer answers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Told {
+    /// It is to end, by the signal of this number.
+    End(i32),
+    /// It has been stopped, and goes on.
+    Continue,
+}
+
+/// Calls `told` when the system tells the process to end or to go on; it says whether anyone still listens.
+///
+/// Where the explorer has not ended some time after, as it cannot while the terminal takes nothing that is drawn,
+/// the process ends by the signal, and [`super::rescue::Rescue`] gives back what is left.
+///
+/// # Errors
+/// When the system refuses.
+#[cfg(unix)]
+pub fn watch_for_signals(told: impl Fn(Told) -> bool + Send + 'static) -> io::Result<()> {
+    use signal_hook::consts::{SIGCONT, SIGHUP, SIGINT, SIGQUIT, SIGTERM};
+    /// Time to end in an orderly way.
+    const PATIENCE: std::time::Duration = std::time::Duration::from_millis(800);
+    let mut signals = signal_hook::iterator::Signals::new([SIGCONT, SIGHUP, SIGINT, SIGQUIT, SIGTERM])?;
+    std::thread::Builder::new()
+        .name("signals".to_owned())
+        .spawn(move || {
+            for signal in signals.forever() {
+                if signal == SIGCONT {
+                    told(Told::Continue);
+                    continue;
+                }
+                if told(Told::End(signal)) {
+                    std::thread::sleep(PATIENCE);
+                    if !told(Told::End(signal)) {
+                        // The explorer has ended, and who opened it goes on or ends by itself.
+                        continue;
+                    }
+                    let _ = crossterm::terminal::disable_raw_mode();
+                }
+                end_by(signal);
+            }
+        })
+        .map(drop)
+}
+
+/// Elsewhere there are no signals.
+///
+/// # Errors
+/// None.
+#[cfg(not(unix))]
+pub fn watch_for_signals(_: impl Fn(Told) -> bool + Send + 'static) -> io::Result<()> {
+    Ok(())
+}
+
+/// Ends the process by a signal, as if it had never been answered: whoever waits for the process sees which.
+#[cfg(unix)]
+pub fn end_by(signal: i32) {
+    // It returns only for a signal that ends nothing.
+    let _ = signal_hook::low_level::emulate_default_handler(signal);
+}
+
+/// Elsewhere nothing has been answered.
+#[cfg(not(unix))]
+pub fn end_by(_: i32) {}

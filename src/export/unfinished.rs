@@ -1,0 +1,233 @@
+//! A file that is being written, in the folder where it is to be, and without its name until it is whole.
+//!
+//! Where the system has files without any name (Linux, on most file systems), it is one: the system removes
+//! it with the process, however that ends. Elsewhere it has a temporary name, which tells its process.
+
+use super::WriteError;
+use crate::disk::{Disk, DiskFile, folder_of};
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+
+/// Names tried for a temporary file.
+const MOST_NAMES: u32 = 1000;
+
+/// Entries of a folder among which temporary files of processes that are gone are looked for.
+const MOST_LOOKED_AT: usize = 10_000;
+
+/// A file that goes away unless it is published.
+pub(super) struct Unfinished<'d> {
+    disk: &'d dyn Disk,
+    pub file: Box<dyn DiskFile>,
+    folder: PathBuf,
+    /// Its temporary name; `None` for a file without any.
+    path: Option<PathBuf>,
+}
+
+impl<'d> Unfinished<'d> {
+    /// A new file in the folder of `target`.
+    ///
+    /// # Errors
+    /// [`WriteError::NoFolder`], [`WriteError::Failed`].
+    pub fn beside(target: &Path, disk: &'d dyn Disk) -> Result<Unfinished<'d>, WriteError> {
+        let folder = folder_of(target);
+        if let Some(file) = disk.make_nameless_file(folder) {
+            return Ok(Unfinished { disk, file, folder: folder.into(), path: None });
+        }
+        remove_left_behind(folder);
+        match named(folder, |path| disk.make_file(path)) {
+            Ok((file, path)) => Ok(Unfinished { disk, file, folder: folder.into(), path: Some(path) }),
+            Err(_) if !folder.is_dir() => {
+                Err(WriteError::NoFolder { path: target.into(), folder: folder.into() })
+            }
+            Err(reason) => Err(WriteError::Failed { path: target.into(), reason }),
+        }
+    }
+
+    /// Gives the file its name; where another has it, only with `overwrite`.
+    ///
+    /// # Errors
+    /// What the system says; [`io::ErrorKind::AlreadyExists`] without `overwrite`.
+    pub fn publish(mut self, path: &Path, overwrite: bool) -> io::Result<()> {
+        if self.path.is_none() {
+            if !overwrite {
+                return self.file.give_name(path);
+            }
+            // Only a renaming replaces a file, and only a name can be renamed.
+            remove_left_behind(&self.folder);
+            let ((), name) = named(&self.folder, |name| self.file.give_name(name))?;
+            self.path = Some(name);
+        }
+        let Some(name) = &self.path else { return Ok(()) };
+        if overwrite {
+            return self.disk.rename(name, path);
+        }
+        // A link cannot be made where there is a file by now, while a renaming would replace it.
+        match self.disk.link(name, path) {
+            Err(error) if error.kind() != io::ErrorKind::AlreadyExists => {
+                // Some file systems have no links: there an empty file claims the name.
+                drop(self.disk.make_file(path)?);
+                self.disk.rename(name, path).inspect_err(|_| drop(self.disk.remove_file(path)))
+            }
+            done => done,
+        }
+    }
+}
+
+impl Drop for Unfinished<'_> {
+    fn drop(&mut self) {
+        // After a renaming there is nothing left to remove.
+        if let Some(path) = &self.path {
+            let _ = self.disk.remove_file(path);
+        }
+    }
+}
+
+/// Makes something under a temporary name that is free.
+fn named<T>(folder: &Path, make: impl Fn(&Path) -> io::Result<T>) -> io::Result<(T, PathBuf)> {
+    let mut number = 0;
+    loop {
+        // The name does not depend on the target's, which may be as long as names can be.
+        let path = folder.join(format!("{}{number}.tmp", prefix(std::process::id())));
+        match make(&path) {
+            Ok(made) => return Ok((made, path)),
+            Err(error) if error.kind() == io::ErrorKind::AlreadyExists && number < MOST_NAMES => number += 1,
+            Err(error) => return Err(error),
+        }
+    }
+}
+
+/// Beginning of the temporary names of a process, which tells it and its machine: a folder can be shared by
+/// several.
+fn prefix(process: u32) -> String {
+    format!(".asperity-{}-{process}-", machine())
+}
+
+/// Removes the temporary files of processes of this machine that are gone.
+fn remove_left_behind(folder: &Path) {
+    let Ok(entries) = fs::read_dir(folder) else { return };
+    for entry in entries.take(MOST_LOOKED_AT).flatten() {
+        let name = entry.file_name();
+        let owner = name.to_str().and_then(owner);
+        if owner.is_some_and(|process| process != std::process::id() && is_gone(process)) {
+            let _ = fs::remove_file(entry.path());
+        }
+    }
+}
+
+/// Number of the process of this machine that a temporary name belongs to.
+fn owner(name: &str) -> Option<u32> {
+    let process = name.strip_prefix(".asperity-")?.strip_prefix(&machine())?.strip_prefix('-')?;
+    let (process, number) = process.strip_suffix(".tmp")?.split_once('-')?;
+    number.parse::<u32>().ok()?;
+    process.parse().ok()
+}
+
+/// What tells this machine, and this container on it, from others that use the same folder: a checksum of its
+/// name and of its numbering of processes.
+#[cfg(unix)]
+fn machine() -> String {
+    let mut hash = crc32fast::Hasher::new();
+    hash.update(rustix::system::uname().nodename().to_bytes());
+    let numbering = fs::read_link("/proc/self/ns/pid").unwrap_or_default();
+    hash.update(numbering.as_os_str().as_encoded_bytes());
+    format!("{:08x}", hash.finalize())
+}
+
+#[cfg(not(unix))]
+fn machine() -> String {
+    "0".into()
+}
+
+#[cfg(unix)]
+fn is_gone(process: u32) -> bool {
+    use rustix::process::{Pid, test_kill_process};
+    let process = i32::try_from(process).ok().and_then(Pid::from_raw);
+    process.is_some_and(|process| test_kill_process(process) == Err(rustix::io::Errno::SRCH))
+}
+
+/// Elsewhere no process is known to be gone.
+#[cfg(not(unix))]
+fn is_gone(_: u32) -> bool {
+    false
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::disk::SystemDisk;
+
+    fn names(folder: &Path) -> Vec<String> {
+        let entries = fs::read_dir(folder).unwrap();
+        let mut names: Vec<_> =
+            entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
+        names.sort();
+        names
+    }
+
+    /// A file with a temporary name, as where no other is to be had.
+    fn with_name(folder: &Path) -> Unfinished<'static> {
+        let (file, path) = named(folder, |path| SystemDisk.make_file(path)).unwrap();
+        Unfinished { disk: &SystemDisk, file, folder: folder.into(), path: Some(path) }
+    }
+
+    #[cfg(target_os = "linux")]
+    #[test]
+    fn nothing_is_seen_of_a_file_until_it_is_published() {
+        let folder = tempfile::tempdir().unwrap();
+        let target = folder.path().join("curve.csv");
+        for (overwrite, text) in [(false, "one"), (true, "two")] {
+            let before = names(folder.path());
+            let mut unfinished = Unfinished::beside(&target, &SystemDisk).unwrap();
+            if unfinished.path.is_some() {
+                println!("skipped: this file system has no files without a name");
+                return;
+            }
+            unfinished.file.write_all(text.as_bytes()).unwrap();
+            assert_eq!(names(folder.path()), before);
+            unfinished.publish(&target, overwrite).unwrap();
+            assert_eq!(fs::read_to_string(&target).unwrap(), text);
+            assert_eq!(names(folder.path()), ["curve.csv"]);
+        }
+        let again = Unfinished::beside(&target, &SystemDisk).unwrap().publish(&target, false).unwrap_err();
+        assert_eq!(again.kind(), io::ErrorKind::AlreadyExists);
+    }
+
+    #[test]
+    fn a_file_with_a_temporary_name_is_published_the_same() {
+        let folder = tempfile::tempdir().unwrap();
+        let target = folder.path().join("curve.csv");
+        for (overwrite, text) in [(false, "one"), (true, "two")] {
+            let mut unfinished = with_name(folder.path());
+            unfinished.file.write_all(text.as_bytes()).unwrap();
+            assert!(names(folder.path()).iter().any(|name| owner(name) == Some(std::process::id())));
+            unfinished.publish(&target, overwrite).unwrap();
+            assert_eq!(fs::read_to_string(&target).unwrap(), text);
+            assert_eq!(names(folder.path()), ["curve.csv"]);
+        }
+        let again = with_name(folder.path()).publish(&target, false).unwrap_err();
+        assert_eq!(again.kind(), io::ErrorKind::AlreadyExists);
+        assert_eq!(names(folder.path()), ["curve.csv"]);
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn what_processes_that_are_gone_left_behind_is_removed_and_nothing_else() {
+        let folder = tempfile::tempdir().unwrap();
+        let mut ended = std::process::Command::new("/bin/sh").args(["-c", "exit 0"]).spawn().unwrap();
+        let gone = ended.id();
+        ended.wait().unwrap();
+        let own = with_name(folder.path());
+        let (left, of_others) = (format!("{}0.tmp", prefix(gone)), format!("{}0.tmp", prefix(1)));
+        let of_another_machine = format!(".asperity-ffffffffx-{gone}-0.tmp");
+        for name in [&left, &of_others, &of_another_machine, ".asperity-notes.tmp"] {
+            fs::write(folder.path().join(name), "").unwrap();
+        }
+        remove_left_behind(folder.path());
+        let now = names(folder.path());
+        assert!(!now.contains(&left), "{now:?}");
+        assert_eq!(now.len(), 4, "{now:?}");
+        drop(own);
+        assert_eq!(names(folder.path()).len(), 3);
+    }
+}

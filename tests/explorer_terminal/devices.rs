@@ -1,0 +1,112 @@
+//! What is no file is neither read nor written, and nothing waits for it.
+
+use crate::common::deadline::within;
+use crate::common::terminal::Terminal;
+use crate::driving::{
+    CLEAR_LINE, ESCAPE, SCENE, answer, explorer, headline, paused, quit, select, wait_for_another,
+};
+use rustix::fs::{CWD, FileType, Mode, mknodat};
+use std::fs;
+use std::path::Path;
+use std::time::{Duration, Instant};
+
+/// Makes a pipe with a name; nobody writes or reads it.
+fn make_pipe(path: &Path) {
+    mknodat(CWD, path, FileType::Fifo, Mode::from_raw_mode(0o600), 0).unwrap();
+}
+
+/// Opens what is typed in the library.
+#[track_caller]
+fn open(terminal: &mut Terminal, path: &str) {
+    terminal.send("o");
+    answer(terminal, "Search: ", path);
+}
+
+/// Whether keys are answered soon.
+#[track_caller]
+fn assert_answers(terminal: &mut Terminal) {
+    let asked = Instant::now();
+    terminal.send("?");
+    terminal.wait_for("What you see");
+    terminal.send("?");
+    terminal.wait_without("What you see");
+    assert!(asked.elapsed() < Duration::from_secs(5), "{:?}", asked.elapsed());
+}
+
+#[test]
+fn a_pipe_or_a_device_is_not_opened_as_a_scene() {
+    within(60, || {
+        let (program, folder) = explorer();
+        make_pipe(&folder.path().join("pipe.ron"));
+        let mut terminal = paused(program);
+        for path in ["./pipe.ron", "/dev/tty", "/dev/zero"] {
+            open(&mut terminal, path);
+            terminal.wait_for(&format!("{path}: this is not a regular file"));
+            assert_answers(&mut terminal);
+        }
+        // The system calls it a regular file; whether it may be read, and what is in it, differs.
+        open(&mut terminal, "/proc/kmsg");
+        terminal.wait_for("/proc/kmsg:");
+        assert_answers(&mut terminal);
+        // In the list it stands with what is wrong with it.
+        terminal.send("o");
+        terminal.send("pipe");
+        terminal.wait_for("! pipe.ron  here");
+        terminal.wait_for("not a regular file");
+        terminal.send(ESCAPE);
+        terminal.wait_without("Search:");
+        quit(&mut terminal);
+    });
+}
+
+#[test]
+fn a_scene_is_not_saved_to_a_pipe_or_a_device() {
+    within(60, || {
+        let (program, folder) = explorer();
+        make_pipe(&folder.path().join("pipe.ron"));
+        let mut terminal = paused(program);
+        for path in ["pipe.ron", "/dev/tty"] {
+            terminal.send("s");
+            terminal.wait_for("Save as: ");
+            terminal.send(CLEAR_LINE);
+            answer(&mut terminal, "Save as: ", path);
+            terminal.wait_for(&format!("not written: {path}: this is not a regular file"));
+            assert_answers(&mut terminal);
+        }
+        quit(&mut terminal);
+    });
+}
+
+#[test]
+fn a_measured_file_that_is_a_pipe_stops_no_computation() {
+    within(60, || {
+        let (program, folder) = explorer();
+        make_pipe(&folder.path().join("pipe"));
+        let roughness = "SelfAffine(hurst: 0.7, rms_height: 2.0e-7, modes: (8, 256), seed: 1)";
+        assert!(SCENE.contains(roughness));
+        for (name, file) in [("piped.ron", "pipe"), ("endless.ron", "/dev/zero")] {
+            let scene = SCENE.replace(roughness, &format!("Measured(file: \"{file}\")"));
+            fs::write(folder.path().join(name), scene).unwrap();
+        }
+        let mut terminal = paused(program);
+        for name in ["piped", "endless"] {
+            terminal.send("o");
+            terminal.wait_for("Search:");
+            terminal.send(name);
+            terminal.wait_for(&format!("› {name}.ron  here"));
+            terminal.wait_for("not a regular file");
+            terminal.send(ESCAPE);
+            terminal.wait_without("Search:");
+            // The worker goes on with what it is asked next.
+            let before = headline(&terminal.rows()).unwrap();
+            select(&mut terminal, "κ");
+            terminal.send("h");
+            wait_for_another(&mut terminal, &before);
+        }
+        // Opened, it is an error of the scene.
+        open(&mut terminal, "./piped.ron");
+        terminal.wait_for("not a regular file");
+        assert_answers(&mut terminal);
+        quit(&mut terminal);
+    });
+}

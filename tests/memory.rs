@@ -1,0 +1,117 @@
+//! Memory that a run takes: as much as is stated, or a message.
+#![cfg(target_os = "linux")]
+
+use asperity::scene::open;
+use asperity::simulation::Plan;
+use std::fs;
+use std::io::Read;
+use std::process::{Command, Stdio};
+
+const ASPERITY: &str = env!("CARGO_BIN_EXE_asperity");
+
+/// Largest ratio of what is stated to what is taken, and the other way round.
+const FACTOR: f64 = 1.5;
+
+/// A scene by its name, and fields that are changed in it.
+type Changed<'a> = (&'a str, &'a [(&'a str, &'a str)]);
+
+/// Scenes that take memory for different things.
+const SCENES: [Changed<'static>; 14] = [
+    ("jkr-sphere", &[("numerics.samples", "5000")]),
+    ("jkr-sphere", &[("numerics.samples", "200000")]),
+    ("jkr-sphere", &[("numerics.samples", "1000000")]),
+    ("jkr-sphere", &[("numerics.samples", "1000000"), ("numerics.edges", "Grid")]),
+    ("jkr-sphere", &[("numerics.samples", "1000000"), ("adhesion", "None")]),
+    ("jkr-sphere", &[("numerics.samples", "1000000"), ("loading", "[ToForce(1e-3)]")]),
+    ("jkr-sphere", &[("numerics.samples", "300000"), ("loading", LEGS)]),
+    ("million-springs", &[("numerics.samples", "5000")]),
+    ("million-springs", &[("numerics.samples", "5000"), ("numerics.edges", "Grid")]),
+    ("million-springs", &[("numerics.samples", "5000"), ("adhesion", "None")]),
+    ("million-springs", &[("numerics.samples", "5000"), ("numerics.points", "1048583")]),
+    (
+        "million-springs",
+        &[("numerics.samples", "5000"), ("numerics.points", "1048583"), ("adhesion", "None")],
+    ),
+    (
+        "million-springs",
+        &[("numerics.samples", "5000"), ("numerics.points", "1048575"), ("adhesion", "None")],
+    ),
+    ("million-springs", &[("numerics.samples", "5000"), ("loading", LEGS)]),
+];
+const LEGS: &str = "[ToForce(1e-3), ToSeparation, ToForce(2e-3), ToSeparation]";
+
+/// Arguments of `asperity run` for a scene.
+fn arguments((scene, fields): Changed<'_>) -> Vec<String> {
+    let set = fields.iter().flat_map(|(path, value)| ["--set".to_owned(), format!("{path}={value}")]);
+    ["run", scene, "--format", "csv"].map(str::to_owned).into_iter().chain(set).collect()
+}
+
+/// Largest resident memory of `asperity run`, bytes, by the time its first results come. They are more than a
+/// pipe holds, so that the process then waits, and all it took can be read.
+fn peak(changed: Changed<'_>) -> u64 {
+    let mut run = Command::new(ASPERITY).args(arguments(changed)).stdout(Stdio::piped()).spawn().unwrap();
+    run.stdout.as_mut().unwrap().read_exact(&mut [0]).unwrap();
+    let status = fs::read_to_string(format!("/proc/{}/status", run.id())).unwrap();
+    run.kill().unwrap();
+    run.wait().unwrap();
+    let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:")).expect("it still runs");
+    let kilobytes: u64 = line.trim().strip_suffix(" kB").unwrap().parse().unwrap();
+    kilobytes << 10
+}
+
+#[test]
+fn a_plan_states_the_memory_that_a_run_takes() {
+    let mut wrong = Vec::new();
+    for changed in SCENES {
+        let fields: Vec<_> = changed.1.iter().map(|&(path, value)| (path.into(), value.into())).collect();
+        let document = open(changed.0).unwrap().set_all(&fields).unwrap();
+        let (stated, taken) = (Plan::of(document.scene()).resident_bytes, peak(changed));
+        let ratio = stated as f64 / taken as f64;
+        let row = format!("{changed:?}: {} MiB stated, {} MiB taken", stated >> 20, taken >> 20);
+        println!("{row}");
+        if !(FACTOR.recip()..=FACTOR).contains(&ratio) {
+            wrong.push(row);
+        }
+    }
+    assert!(wrong.is_empty(), "{wrong:#?}");
+}
+
+/// What a run with so much address space says on standard error; `None` where it is done.
+fn refusal(arguments: &[String], kibibytes: u64) -> Option<String> {
+    let mut limited = Command::new("/bin/sh");
+    limited.args(["-c", &format!("ulimit -v {kibibytes}; exec \"$@\""), "sh", ASPERITY]).args(arguments);
+    let output = limited.stdout(Stdio::null()).stderr(Stdio::piped()).output().unwrap();
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    match output.status.code() {
+        Some(0) => None,
+        Some(1) => Some(said),
+        _ => panic!("{arguments:?} in {kibibytes} KiB: {:?}\n{said}", output.status),
+    }
+}
+
+/// Address space in which a small scene is computed and refused, KiB.
+const LITTLE: u64 = 100_000;
+
+#[test]
+fn a_scene_that_does_not_fit_is_refused_and_never_an_abort() {
+    for changed in [
+        ("jkr-sphere", &[("numerics.samples", "1000000")][..]),
+        ("million-springs", &[("numerics.points", "1048583")]),
+        ("million-springs", &[("numerics.points", "268435456")]),
+        ("million-springs", &[]),
+    ] {
+        let arguments = arguments(changed);
+        let mut refused = 0;
+        let mut limit = LITTLE;
+        // Up to where it fits, in steps between which nothing new can get in the way unseen.
+        while let Some(said) = refusal(&arguments, limit) {
+            assert!(said.contains("not enough memory") && said.lines().count() == 1, "{said}");
+            refused += 1;
+            limit += 20_000;
+            if limit > 1_000_000 {
+                break;
+            }
+        }
+        assert!(refused > 0, "{changed:?}");
+    }
+}
