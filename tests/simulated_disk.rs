@@ -196,8 +196,10 @@ fn each_operation(
     unreachable!()
 }
 
-/// Operations there are at least, whatever threads do.
-const OPERATIONS: usize = 90;
+/// Operations of a study at least, however threads divide what is written: with and without files without names.
+fn operations_at_least(nameless: bool) -> usize {
+    if nameless { 84 } else { 94 }
+}
 
 #[test]
 fn a_study_outlives_each_failure() {
@@ -206,7 +208,7 @@ fn a_study_outlives_each_failure() {
     for (nameless, fault) in ways {
         let tried =
             each_operation(nameless, fault, |_, root, reported, what| expected.hold(root, reported, what));
-        assert!(tried >= OPERATIONS, "{tried}: {:#?}", operations());
+        assert!(tried >= operations_at_least(nameless), "{tried} of {nameless}: {:#?}", operations());
     }
 }
 
@@ -227,7 +229,11 @@ fn a_study_outlives_a_kill_or_a_power_cut_after_each_operation() {
         });
     }
     println!("{points} crash points");
-    assert!(points >= 2 * OPERATIONS * (SURVIVALS.len() + 1), "{points}: {:#?}", operations());
+    assert!(
+        points >= (operations_at_least(false) + operations_at_least(true)) * (SURVIVALS.len() + 1),
+        "{points}: {:#?}",
+        operations()
+    );
 }
 
 #[test]
@@ -245,7 +251,7 @@ fn what_a_killed_process_left_in_memory_is_not_counted_on() {
             points += 1;
         }
     });
-    assert!(points >= OPERATIONS * 3, "{points}");
+    assert!(points >= operations_at_least(true) * 3, "{points}");
 }
 
 #[test]
@@ -324,5 +330,5 @@ fn a_saved_scene_is_the_old_or_the_new_one() {
         }
     }
     println!("{points} crash points");
-    assert!(points >= 300, "{points}");
+    assert!(points >= 780, "{points}");
 }

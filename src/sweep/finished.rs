@@ -2,7 +2,7 @@
 
 use super::SweepError;
 use super::measure::REGIMES;
-use super::merge::{REGIME_COLUMNS, RESULTS, SIDECAR, SUMMARY};
+use super::merge::{REGIME_COLUMNS, RESULTS, SUMMARY};
 use super::plan::Plan;
 use super::quantity::Quantity;
 use super::store::{Folder, LONGEST_LINE};
@@ -66,10 +66,6 @@ impl Finished {
     /// Where the folder is none of a study, or its tables have not been published or were changed.
     pub fn open(path: &Path) -> Result<Finished, SweepError> {
         let plan = Folder::open(path)?.plan().clone();
-        // The last that is published, where tables are published one by one.
-        if !path.join(SIDECAR).exists() {
-            return Err(not_merged(path));
-        }
         let mut cells: Vec<Option<CellSummary>> = vec![None; plan.cells() as usize];
         each_row(&path.join(SUMMARY), &plan, |columns| {
             let summary = summary_of(&plan, columns)?;

@@ -149,16 +149,17 @@ impl Index {
     }
 
     fn publish(&self, folder: &Folder) -> Result<(), SweepError> {
-        publish(folder.disk(), folder.path(), &[RESULTS, SUMMARY, SIDECAR], &mut |place| {
+        // A study that has a summary counts as merged: where files are published one by one, that is the last.
+        publish(folder.disk(), folder.path(), &[RESULTS, SIDECAR, SUMMARY], &mut |place| {
             let [results, summary] = [RESULTS, SUMMARY].map(|name| place.join(name));
             let mut unreadable = None;
             let written = write_new_on(folder.disk(), &results, false, |results| {
                 let written = write_new_on(folder.disk(), &summary, false, |summary| {
-                    self.write_tables(folder.plan(), results, summary).or_else(|error| match error {
-                        TableError::Writing(error) => Err(error),
+                    self.write_tables(folder.plan(), results, summary).map_err(|error| match error {
+                        TableError::Writing(error) => error,
                         TableError::Reading(error) => {
                             unreadable = Some(error);
-                            Err(io::Error::other("a shard file cannot be read"))
+                            io::Error::other("a shard file cannot be read")
                         }
                     })
                 });

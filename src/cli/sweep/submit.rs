@@ -61,8 +61,7 @@ pub struct SubmitArguments {
     pub overrides: Overrides,
     /// Options of sbatch for both jobs, after --
     ///
-    /// Whole names and letters, such as --partition=short or -t 2:00:00, of those that leave the jobs what
-    /// they are. Variables such as SBATCH_PARTITION are not passed on.
+    /// Whole names or letters: --partition=short, -t 2:00:00. SBATCH_… variables are left out.
     #[arg(last = true, value_name = "SBATCH OPTIONS")]
     pub options: Vec<OsString>,
 }
