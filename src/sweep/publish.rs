@@ -155,7 +155,7 @@ impl Publication<'_> {
     }
 
     /// Removes tables that are no links: those of earlier versions, and of copies without links. The last one that
-    /// is published goes first, so that what is left is not taken for all.
+    /// is published goes first: without it, the others are not taken for a whole.
     fn clear(&self) -> io::Result<()> {
         let Publication { disk, study, names } = *self;
         for name in names.iter().rev() {

@@ -62,7 +62,7 @@ enum Value {
     None,
 }
 
-/// Names, letters and values, as in sbatch 20.11 to 25.05.
+/// Names, letters and values, as in sbatch 22.05.
 const OPTIONS: &[(&str, Option<&str>, Value)] = &[
     ("--account", Some("-A"), Value::Needed),
     ("--begin", Some("-b"), Value::Needed),
