@@ -7,7 +7,7 @@
 #[path = "../fuzz/src/lib.rs"]
 mod fuzzed;
 
-#[path = "fuzz_corpus/allocations.rs"]
+#[path = "common/allocations.rs"]
 mod allocations;
 #[path = "fuzz_corpus/mutator.rs"]
 mod mutator;

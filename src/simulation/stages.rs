@@ -29,8 +29,9 @@ const SMALL: u64 = 32 << 20;
 /// repeats the stages from the first one it touches and no other. Those that are repeated work in the memory
 /// they had before.
 ///
-/// Between runs no more is kept than [`Plan::peak_bytes`] of a scene with four times the springs of the last
-/// one, or 32 MiB.
+/// Between runs no more is kept than a scene with four times the springs of the last one takes
+/// ([`Plan::peak_bytes`], and 20 bytes for each spring of a Fourier transform), or 32 MiB. What is given back
+/// goes to the allocator; that of glibc keeps blocks of less than 32 MiB, up to 64 MiB for each thread.
 #[derive(Default)]
 pub struct Simulation {
     folder: PathBuf,

@@ -232,6 +232,12 @@ impl Terminal {
         keyboard.flush().unwrap();
     }
 
+    /// Types where the program still runs.
+    pub fn send_if_open(&mut self, keys: &str) {
+        let keyboard = self.keyboard.as_mut().expect("the terminal is open");
+        let _ = keyboard.write_all(keys.as_bytes()).and_then(|()| keyboard.flush());
+    }
+
     /// Gives the window another size. What was on it goes, as it may in a terminal.
     pub fn resize(&mut self, columns: u16, rows: u16) {
         self.parser.process(b"\x1b[2J");

@@ -3,8 +3,8 @@
 use crate::common::deadline::within;
 use crate::common::terminal::{Program, Terminal};
 use crate::driving::{
-    ASPERITY, CLEAR_LINE, ENTER, ESCAPE, INTERRUPT, LEAVE_ALTERNATE_SCREEN, SCENE, assert_given_back,
-    explorer, headline, last_place, paused, quit, select, wait_for_another,
+    ASPERITY, CLEAR_LINE, ENTER, ENTER_ALTERNATE_SCREEN, ESCAPE, INTERRUPT, LEAVE_ALTERNATE_SCREEN, SCENE,
+    assert_given_back, explorer, headline, last_place, paused, quit, select, wait_for_another,
 };
 use std::fs;
 use std::path::Path;
@@ -144,6 +144,29 @@ fn a_terminal_that_reads_nothing_keeps_no_signal_from_ending_it() {
             terminal.wait_end();
             assert_given_back(&terminal);
         }
+    });
+}
+
+#[test]
+fn with_whatever_memory_there_is_the_terminal_is_given_back() {
+    within(300, || {
+        let (_, folder) = explorer();
+        let mut computed = 0;
+        // Up to more than the scene takes, and its threads reserve.
+        for mebibytes in [40, 70, 100, 130, 160, 190, 220, 250, 280, 310, 400, 2000] {
+            let limited = format!("ulimit -v {}; exec '{ASPERITY}' million-springs", mebibytes << 10);
+            let mut terminal =
+                Program::new("/bin/sh").argument("-c").argument(limited).folder(folder.path()).start();
+            terminal.settle_for(std::time::Duration::from_millis(1500));
+            computed += u32::from(terminal.text().contains("F_a "));
+            terminal.send_if_open("q");
+            terminal.wait_end();
+            assert!(terminal.is_as_before(), "{mebibytes} MiB");
+            if last_place(terminal.written(), ENTER_ALTERNATE_SCREEN).is_some() {
+                assert_given_back(&terminal);
+            }
+        }
+        assert!(computed > 0, "with enough of it the scene is computed");
     });
 }
 

@@ -1,11 +1,17 @@
-//! How much memory is asked for at once.
+//! How much memory is asked for at once, and how much is held.
+
+#![allow(dead_code, reason = "no test uses all of it")]
 
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 thread_local! {
     static LARGEST: Cell<usize> = const { Cell::new(0) };
 }
+
+/// Bytes that have been given out and not taken back, on all threads.
+static HELD: AtomicUsize = AtomicUsize::new(0);
 
 struct Watched;
 
@@ -17,26 +23,41 @@ fn note(size: usize) {
     let _ = LARGEST.try_with(|largest| largest.set(largest.get().max(size)));
 }
 
+/// Counts what the system has given in place of what it had given before.
+fn count(given: *mut u8, before: usize, size: usize) -> *mut u8 {
+    if !given.is_null() {
+        HELD.fetch_add(size, Ordering::Relaxed);
+        HELD.fetch_sub(before, Ordering::Relaxed);
+    }
+    given
+}
+
 // SAFETY: everything is left to the allocator of the system; a cell without destructor is all that is added.
 unsafe impl GlobalAlloc for Watched {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
         note(layout.size());
-        unsafe { System.alloc(layout) }
+        count(unsafe { System.alloc(layout) }, 0, layout.size())
     }
 
     unsafe fn alloc_zeroed(&self, layout: Layout) -> *mut u8 {
         note(layout.size());
-        unsafe { System.alloc_zeroed(layout) }
+        count(unsafe { System.alloc_zeroed(layout) }, 0, layout.size())
     }
 
     unsafe fn realloc(&self, pointer: *mut u8, layout: Layout, size: usize) -> *mut u8 {
         note(size);
-        unsafe { System.realloc(pointer, layout, size) }
+        count(unsafe { System.realloc(pointer, layout, size) }, layout.size(), size)
     }
 
     unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
+        HELD.fetch_sub(layout.size(), Ordering::Relaxed);
         unsafe { System.dealloc(pointer, layout) }
     }
+}
+
+/// Bytes held by all threads at this moment.
+pub fn held() -> usize {
+    HELD.load(Ordering::Relaxed)
 }
 
 /// What `work` gives, and the largest piece of memory it asked for on this thread, bytes.
