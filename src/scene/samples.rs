@@ -5,6 +5,7 @@ use proptest::prelude::*;
 use super::model::{
     Adhesion, Edges, Form, Leg, Material, Numerics, Observer, Roughness, SCENE_VERSION, Scene, Solver,
 };
+use crate::text::is_control;
 
 /// A scene with nothing to complain about, rough and sticky.
 pub(super) fn sound() -> Scene {
@@ -74,7 +75,7 @@ fn surface() -> impl Strategy<Value = (Option<Roughness>, Option<Adhesion>)> {
             4 => (rough(Some(size), None), by(None, Some(kappa))),
             5 => (rough(None, None), by(Some(work), Some(kappa))),
             _ => {
-                let file: String = file.chars().filter(|c| !c.is_control()).collect();
+                let file: String = file.chars().filter(|c| !is_control(*c)).collect();
                 (Some(Roughness::Measured { file: file + ".csv" }), by(None, Some(kappa)))
             }
         }
@@ -125,8 +126,8 @@ pub(super) fn sound_scenes() -> impl Strategy<Value = Scene> {
             let ((title, notice, length), (roughness, adhesion), (loading, numerics)) = (text, surface, rest);
             Scene {
                 version: SCENE_VERSION,
-                title: title.chars().filter(|c| !c.is_control()).take(200).collect(),
-                notice: notice.chars().filter(|c| !c.is_control() || *c == '\n').take(4000).collect(),
+                title: title.chars().filter(|c| !is_control(*c)).take(200).collect(),
+                notice: notice.chars().filter(|c| !is_control(*c) || *c == '\n').take(4000).collect(),
                 material,
                 length,
                 form,
