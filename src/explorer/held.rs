@@ -5,8 +5,7 @@ use super::worker::HandOrder;
 use crate::analysis::Governing;
 use crate::contact::subcell::{LevelSets, SubCellHand};
 use crate::contact::{
-    CurvePoint, GridRule, HandError, HandHeld, HessRule, Incremental, Move, NoAdhesion,
-    SpringTree,
+    CurvePoint, GridRule, HandError, HandHeld, HessRule, Incremental, Move, NoAdhesion, SpringTree,
 };
 use crate::surface::Line;
 use std::sync::Arc;

@@ -53,9 +53,7 @@ proptest! {
         body in body(60), legs in formed::loadings(), samples in 2_usize..40,
     ) {
         let tree = body.tree();
-        let (mut plain, mut keeping) =
-            (body.on(&tree, samples), body.on(&tree, samples).keeping_first_loading());
-        formed::do_the_same(&mut plain, &mut keeping, &legs, body.force_scale())?;
+        formed::as_if_new(|| body.on(&tree, samples), &legs, body.force_scale())?;
     }
 
     #[test]

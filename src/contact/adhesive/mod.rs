@@ -141,7 +141,8 @@ impl<E: EdgeModel> Contact for Adhesive<'_, E> {
             self.hold(from);
         }
         let AdhesiveMemory { closing, runs, spare, held, .. } = &mut self.memory;
-        work.loading_passes += 1;
+        // A contact that forms again closes as it did the first time.
+        work.loading_passes += u64::from(from.is_some() || !closing.is_ready());
         work.hess_evaluations += closing.close_around(&self.ground, held)?;
         let complete = closing.list(&self.ground, held, spare, &mut work.hess_evaluations)?;
         std::mem::swap(runs, spare);
