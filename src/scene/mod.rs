@@ -24,6 +24,8 @@ mod document;
 mod effects;
 mod errors;
 mod fields;
+#[cfg(test)]
+mod grammar;
 mod library;
 mod locate;
 mod model;

@@ -380,7 +380,14 @@ mod tests {
                 let back = without.with(effect, Some(&document)).unwrap();
                 prop_assert_eq!(back.scene() == &scene, effect.is_on(&scene), "{:?}", effect);
                 for from in [None, Some(&other)] {
-                    prop_assert!(effect.is_on(without.with(effect, from).unwrap().scene()));
+                    match without.with(effect, from) {
+                        Ok(with) => prop_assert!(effect.is_on(with.scene())),
+                        // One spring carries no wave at all.
+                        Err(error) => {
+                            let too_few = effect == Effect::Roughness && scene.numerics.points < 2;
+                            prop_assert!(too_few, "{effect:?}: {error}");
+                        }
+                    }
                 }
             }
         }
