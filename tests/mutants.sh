@@ -6,10 +6,10 @@
 # ROOM is scene, surface, analysis, store (of studies) or contact; PART is a sample, every n-th mutant from the k-th
 # on, as k/n; left out: 0/1, all of them. OPTIONs go to cargo-mutants: --in-diff FILE, --file, --re.
 #
-# The rooms under test are put into a package of their own without the explorer, the command line and the figures,
-# which compiles in a fraction of the time. Mutants that the unit tests of the room leave are tried against its
-# integration tests and the unit tests of all rooms. What is left is in mutants.out/missed.txt of the folder
-# MUTANTS_FOLDER/ROOM, by default target/mutants/ROOM.
+# Each mutant is tried against the unit tests of its room first, in a package of that room and those it needs, which
+# compiles in a fraction of the time; those that are left, against the unit tests of all rooms below the explorer and
+# the command line, and the integration tests of the room. Survivors are shown at the end and stand in
+# FOLDER/ROOM/all/mutants.out/missed.txt; FOLDER is target/mutants, or what MUTANTS_FOLDER says.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -27,22 +27,27 @@ if [[ "${1:-}" =~ ^[0-9]+/[0-9]+$ ]]; then
     shift
 fi
 
-# Of each room: its files, the names its unit tests begin with, its integration tests.
+# Of each room: its files, the rooms its unit tests need, how their names begin, and its integration tests.
+all_rooms="analysis contact ensemble memory parallel reference scene simulation surface sweep"
+files=("src/$room")
 case "$room" in
-scene) files=(src/scene) names=(scene::) tests=(scene fuzz_corpus) ;;
-surface) files=(src/surface) names=(surface:: ensemble:: simulation::) tests=(closed_forms sums fuzz_corpus) ;;
-analysis) files=(src/analysis) names=(analysis:: simulation:: reference::) tests=(closed_forms sums sweep) ;;
-store)
-    files=(src/sweep/store.rs src/sweep/record.rs src/sweep/merge.rs src/sweep/shard.rs)
-    names=(sweep::) tests=(sweep)
+scene) rooms="scene" names="scene::" tests="scene fuzz_corpus" ;;
+surface) rooms="memory parallel scene surface" names="surface::" tests="closed_forms fuzz_corpus sums sweep" ;;
+analysis)
+    rooms="analysis contact memory parallel reference scene simulation surface"
+    names="analysis:: reference:: simulation::" tests="closed_forms sums sweep"
     ;;
-contact) files=(src/contact) names=(contact::) tests=(closed_forms sums laws subcell stepwise) ;;
+store)
+    rooms="$all_rooms" names="sweep::" tests="sweep"
+    files=(src/sweep/{store,record,merge,shard}.rs)
+    ;;
+contact) rooms="contact memory parallel scene" names="contact::" tests="closed_forms laws stepwise subcell sums" ;;
 *) usage ;;
 esac
 
-folder="${MUTANTS_FOLDER:-target/mutants}/$room"
-tree="$folder/tree"
-mkdir -p "$tree/tests" "$tree/src/export"
+folder="${MUTANTS_FOLDER:-$PWD/target/mutants}/$room"
+mkdir -p "$folder"
+folder="$(cd "$folder" && pwd)"
 
 # Copies what differs, so that what is compiled already stays so.
 copy() {
@@ -52,94 +57,97 @@ copy() {
     fi
 }
 
-rooms="analysis contact ensemble memory parallel reference scene simulation surface sweep"
-find "$tree/src" "$tree/tests" -name '*.rs' -delete
-for name in $rooms; do
-    for file in $(find "src/$name" "src/$name.rs" -name '*.rs' 2>/dev/null); do
+# Makes a package of these rooms and these integration tests.
+assemble() {
+    local tree="$1" rooms="$2" tests="$3" name file
+    mkdir -p "$tree/src" "$tree/tests"
+    for name in $rooms; do
+        while read -r file; do
+            copy "$file" "$tree/$file"
+        done < <(find "src/$name" "src/$name.rs" -type f 2>/dev/null)
+    done
+    for name in $tests; do
+        while read -r file; do
+            copy "$file" "$tree/$file"
+        done < <(find "tests/$name" "tests/$name.rs" tests/common tests/snapshots -type f 2>/dev/null)
+    done
+    while read -r file; do
         copy "$file" "$tree/$file"
-    done
-done
-for file in src/export/{atomic,csv,json_text}.rs Cargo.lock; do
-    copy "$file" "$tree/$file"
-done
-cp -r presets fuzz "$tree/"
-find src -name snapshots | while read -r snapshots; do
-    [ ! -d "$tree/$(dirname "$snapshots")" ] || cp -r "$snapshots" "$tree/$snapshots"
-done
-for name in "${tests[@]}"; do
-    copy "tests/$name.rs" "$tree/tests/$name.rs"
-    [ ! -d "tests/$name" ] || cp -r "tests/$name" "$tree/tests/"
-done
-cp -r tests/common tests/snapshots "$tree/tests/"
-{
-    echo '//! The rooms under test.'
-    for name in $rooms export; do
-        echo "pub mod $name;"
-    done
-} >"$tree/src/lib.rs"
-cat >"$tree/src/export/mod.rs" <<'RUST'
-//! What the rooms under test need of it.
-pub mod atomic;
-mod csv;
-mod json_text;
-pub use atomic::{WriteError, check_writable, write_new};
-pub use csv::{write_curve, write_line};
-pub use json_text::write_json_value;
-RUST
-# The package without its program, benchmarks and profiles.
-awk '/^\[/ { keep = !/^\[(profile|\[bench)/ } /^default-run/ { next } { if (NR == 1) keep = 1; if (keep) print }' \
-    Cargo.toml >"$tree/Cargo.toml"
-cat >>"$tree/Cargo.toml" <<'TOML'
+    done < <(find presets fuzz/src fuzz/fuzz_targets fuzz/seeds fuzz/corpus fuzz/Cargo.toml Cargo.lock README.md -type f)
+    {
+        echo '//! The rooms under test.'
+        echo '#![allow(unused)]'
+        for name in $rooms; do
+            echo "pub mod $name;"
+        done
+        if [[ " $rooms " == *" sweep "* ]]; then
+            echo 'pub mod export;'
+            for file in atomic csv json_text; do
+                copy "src/export/$file.rs" "$tree/src/export/$file.rs"
+            done
+            # What the rooms below need of it.
+            printf '%s\n' 'pub mod atomic;' 'mod csv;' 'mod json_text;' \
+                'pub use atomic::{WriteError, check_writable, write_new};' \
+                'pub use csv::{write_curve, write_line};' 'pub use json_text::write_json_value;' \
+                >"$tree/src/export/mod.rs"
+        fi
+    } >"$tree/src/lib.rs"
+    # The package without its program, benchmarks and profiles.
+    awk 'NR == 1 { keep = 1 } /^\[/ { keep = !/^\[(profile|\[bench)/ } /^default-run/ { next } keep' Cargo.toml \
+        >"$tree/Cargo.toml"
+    printf '%s\n' '[workspace]' '[profile.test]' "opt-level = ${MUTANTS_OPT_LEVEL:-0}" 'debug = false' \
+        '[profile.test.package."*"]' 'opt-level = 2' >>"$tree/Cargo.toml"
+}
 
-[workspace]
-
-[profile.test]
-opt-level = 1
-debug = false
-incremental = true
-
-[profile.test.package."*"]
-opt-level = 2
-TOML
+assemble "$folder/unit/tree" "$rooms" ""
+assemble "$folder/all/tree" "$all_rooms" "$tests"
 
 export PROPTEST_RNG_SEED="${PROPTEST_RNG_SEED:-2012}" FUZZ_MUTATIONS="${FUZZ_MUTATIONS:-300}"
-export CARGO_TARGET_DIR="$PWD/$folder/build" INSTA_UPDATE=no INSTA_WORKSPACE_ROOT="$PWD/$tree"
+export CARGO_TARGET_DIR="${MUTANTS_BUILD:-$folder/../build}" INSTA_UPDATE=no
 file_options=()
 for file in "${files[@]}"; do
-    file_options+=(--file "$( [ -d "$file" ] && echo "$file/**/*.rs" || echo "$file")")
-done
-mutants() {
-    local output="$1"
-    shift
-    rm -rf "$output/mutants.out" "$output/mutants.out.old"
-    mkdir -p "$output"
-    cargo mutants --dir "$tree" --output "$output" --in-place --no-shuffle --colors never --baseline skip \
-        --timeout "${MUTANTS_TIMEOUT:-120}" "${file_options[@]}" "$@" || true
-}
-tests_of_all=(--lib)
-for name in "${tests[@]}"; do
-    tests_of_all+=(--test "$name")
+    if [ -d "$file" ]; then file="$file/**/*.rs"; fi
+    file_options+=(--file "$file")
 done
 
-echo "== $room: that the tests pass without a mutation"
-(cd "$tree" && cargo test --locked --quiet "${tests_of_all[@]}")
-echo "== $room: part $part against its unit tests"
-mutants "$folder/unit" --sharding round-robin --shard "$part" "$@" -- --lib -- "${names[@]}"
+# Tries mutants in one of the packages.
+mutants() {
+    local stage="$folder/$1"
+    shift
+    rm -rf "$stage/mutants.out" "$stage/mutants.out.old"
+    # It fails where mutants are left, which is said below.
+    INSTA_WORKSPACE_ROOT="$stage/tree" cargo mutants --dir "$stage/tree" --output "$stage" --in-place --no-shuffle \
+        --colors never --baseline skip --timeout "${MUTANTS_TIMEOUT:-120}" "${file_options[@]}" "$@" || true
+}
+
 count() {
     cat "$folder/$1/mutants.out/$2.txt" 2>/dev/null | wc -l
 }
+
+of_all=(--lib)
+for name in $tests; do
+    of_all+=(--test "$name")
+done
+# shellcheck disable=SC2206 # Names without spaces.
+of_unit=(--lib -- $names)
+
+echo "== $room: that its unit tests pass without a mutation"
+(cd "$folder/unit/tree" && INSTA_WORKSPACE_ROOT="$PWD" cargo test --locked --quiet "${of_unit[@]}")
+echo "== $room: part $part against its unit tests"
+mutants unit --sharding round-robin --shard "$part" "$@" -- "${of_unit[@]}"
 exact=()
 while read -r name; do
-    exact+=(--re "^$(sed 's/[][\.*^$+?(){}|]/\\&/g' <<<"$name")\$")
+    exact+=(--re "^$(sed 's/[][\\.*^$+?(){}|]/\\&/g' <<<"$name")\$")
 done < <(cat "$folder/unit/mutants.out/missed.txt" 2>/dev/null)
+rm -rf "$folder/all/mutants.out"
 if [ "${#exact[@]}" != 0 ]; then
-    echo "== $room: the ${#exact[@]} that are left, against all tests"
-    mutants "$folder/all" "${exact[@]}" -- "${tests_of_all[@]}"
-else
-    rm -rf "$folder/all"
+    echo "== $room: that all tests pass without a mutation"
+    (cd "$folder/all/tree" && INSTA_WORKSPACE_ROOT="$PWD" cargo test --locked --quiet "${of_all[@]}")
+    echo "== $room: the $((${#exact[@]} / 2)) that are left, against all tests"
+    mutants all "${exact[@]}" -- "${of_all[@]}"
 fi
-caught=$(($(count unit caught) + $(count all caught) + $(count unit timeout) + $(count all timeout)))
-missed=$(count all missed)
-echo "== $room: $caught of $((caught + missed)) viable mutants killed ($(count unit timeout) of them by time); \
-$(count unit unviable) do not compile"
+timeouts=$(($(count unit timeout) + $(count all timeout)))
+killed=$(($(count unit caught) + $(count all caught) + timeouts))
+echo "== $room: $killed of $((killed + $(count all missed))) viable mutants killed, $timeouts of them by time;" \
+    "$(count unit unviable) do not compile"
 cat "$folder/all/mutants.out/missed.txt" 2>/dev/null || true
