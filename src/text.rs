@@ -8,7 +8,7 @@ use std::path::Path;
 
 /// Returns true for characters that act on what displays them: controls (C0, DEL, C1), bidirectional controls
 /// and marks, and separators of lines and paragraphs.
-pub(crate) fn is_control(c: char) -> bool {
+pub fn is_control(c: char) -> bool {
     let bidirectional =
         matches!(c, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
     c.is_control() || bidirectional || matches!(c, '\u{2028}' | '\u{2029}')

@@ -34,7 +34,12 @@ pub fn as_if_new<S: Solver>(new: impl Fn() -> S, legs: &[Leg], force: f64) -> Re
             (Ok(one), Ok(other)) => {
                 // Where it came from in separation does not matter.
                 let touching = |record: &asperity::contact::LegRecord| {
-                    record.curve.iter().filter(|point| !free || point.springs > 0).copied().collect::<Vec<_>>()
+                    record
+                        .curve
+                        .iter()
+                        .filter(|point| !free || point.springs > 0)
+                        .copied()
+                        .collect::<Vec<_>>()
                 };
                 prop_assert_eq!(touching(&one), touching(&other));
                 let figures = |record: &asperity::contact::LegRecord| {
