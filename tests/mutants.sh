@@ -36,8 +36,7 @@ case "$room" in
 scene) rooms="scene" names="scene::" tests="scene fuzz_corpus" ;;
 surface) rooms="memory parallel scene surface" names="surface::" tests="closed_forms fuzz_corpus sums sweep" ;;
 analysis)
-    rooms="analysis contact memory parallel reference scene simulation surface"
-    names="analysis:: reference:: simulation::" tests="closed_forms sums sweep"
+    rooms="analysis contact memory parallel scene" names="analysis::" tests="closed_forms sums sweep"
     ;;
 store)
     rooms="$all_rooms" names="sweep::" tests="sweep"
@@ -59,13 +58,28 @@ copy() {
     fi
 }
 
-# Makes a package of these rooms and these integration tests.
+# Leaves out the tests beside the code, which end a file.
+without_tests() {
+    awk '/^#\[cfg\(test\)\]$/ { held = $0; next }
+         held && /^mod [a-z_]+ \{$/ { exit }
+         held { print held; held = "" }
+         { print }' "$1"
+}
+
+# Makes a package of these rooms and these integration tests; where `own` is a folder, only its files have theirs
+# beside them.
 assemble() {
-    local tree="$1" rooms="$2" tests="$3" name file
+    local tree="$1" rooms="$2" tests="$3" own="${4:-src}" name file stripped version
     mkdir -p "$tree/src" "$tree/tests"
+    stripped="$(mktemp)"
     for name in $rooms; do
         while read -r file; do
-            copy "$file" "$tree/$file"
+            if [[ "$file" == "$own"/* || "$file" != *.rs ]]; then
+                copy "$file" "$tree/$file"
+            else
+                without_tests "$file" >"$stripped"
+                copy "$stripped" "$tree/$file"
+            fi
         done < <(find "src/$name" "src/$name.rs" -type f 2>/dev/null)
     done
     for name in $tests; do
@@ -97,15 +111,21 @@ assemble() {
     # The package without its program, benchmarks and profiles.
     awk 'NR == 1 { keep = 1 } /^\[/ { keep = !/^\[(profile|\[bench)/ } /^default-run/ { next } keep' Cargo.toml \
         >"$tree/Cargo.toml"
+    rm "$stripped"
+    # Packages of the same name and version would be taken for one another where what they need is built but once.
+    version="0.1.0+$room.$(basename "$(dirname "$tree")")"
+    sed -i "s/^version = .*/version = \"$version\"/" "$tree/Cargo.toml"
+    sed -i "/^name = \"asperity\"$/{n;s/.*/version = \"$version\"/}" "$tree/Cargo.lock"
     printf '%s\n' '[workspace]' '[profile.test]' "opt-level = ${MUTANTS_OPT_LEVEL:-0}" 'debug = false' \
         '[profile.test.package."*"]' 'opt-level = 2' >>"$tree/Cargo.toml"
 }
 
-assemble "$folder/unit/tree" "$rooms" ""
+assemble "$folder/unit/tree" "$rooms" "" "${files[0]%/*.rs}"
 assemble "$folder/all/tree" "$all_rooms" "$tests"
 
 export PROPTEST_RNG_SEED="${PROPTEST_RNG_SEED:-2012}" FUZZ_MUTATIONS="${FUZZ_MUTATIONS:-300}"
-export PROPTEST_CASES="${PROPTEST_CASES:-48}"
+# Where next to no draw is allowed any more, that shows soon.
+export PROPTEST_CASES="${PROPTEST_CASES:-48}" PROPTEST_MAX_LOCAL_REJECTS="${PROPTEST_MAX_LOCAL_REJECTS:-8000}"
 export CARGO_TARGET_DIR="${MUTANTS_BUILD:-$folder/../build}" INSTA_UPDATE=no
 file_options=()
 for file in "${files[@]}"; do
