@@ -128,6 +128,10 @@ mod tests {
             dissipated_energy: Some(1.0),
         };
         assert_eq!(found, expected);
+        // Nothing lost is 0, not −0.
+        let nothing = |leg: LegRecord| LegRecord { dissipated_energy: -0.0, ..leg };
+        let lost = figures(vec![nothing(pressed(7.0)), nothing(pulled(-3.0, 0))]).dissipated_energy;
+        assert!(lost.is_some_and(|lost| lost == 0.0 && lost.is_sign_positive()), "{lost:?}");
         // What still holds has lost nothing for good.
         assert_eq!(figures(vec![pressed(7.0), pulled(-3.0, 1)]).dissipated_energy, None);
         assert_eq!(figures(vec![]), Figures::default());

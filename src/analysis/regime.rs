@@ -109,6 +109,11 @@ mod tests {
         // A hundredth of the preload is negligible; a little more is not.
         assert_eq!(evidence(0.0, NEGLIGIBLE_COEFFICIENT, 1.0, 1.0), Regime::NonAdhesive);
         assert_eq!(evidence(0.0, NEGLIGIBLE_COEFFICIENT.next_up(), 1.0, 1.0), Regime::PressureSensitive);
+        // The same shares of other forces.
+        assert_eq!(evidence(0.2, 0.1, 1.0, 4.0), Regime::PressureInsensitive);
+        assert_eq!(evidence(0.19, 0.1, 1.0, 4.0), Regime::PressureSensitive);
+        assert_eq!(evidence(0.0, 0.04, 4.0, 1.0), Regime::NonAdhesive);
+        assert_eq!(evidence(0.0, 0.05, 4.0, 1.0), Regime::PressureSensitive);
         // Without a preload what is left under a twentieth is none, whatever it is against the preload.
         assert_eq!(evidence(0.01, 0.1, 0.0, 1.0), Regime::NonAdhesive);
         assert_eq!(evidence(0.01, 0.1, -1.0, 1.0), Regime::NonAdhesive);

@@ -24,7 +24,9 @@ mod document;
 mod effects;
 mod errors;
 mod fields;
+// What is not used here serves integration tests.
 #[cfg(test)]
+#[allow(dead_code)]
 mod grammar;
 mod library;
 mod locate;

@@ -156,6 +156,15 @@ mod tests {
     }
 
     #[test]
+    fn a_gap_beyond_all_numbers_is_refused_at_its_spring() {
+        let rough = [0.0, 0.0, 1e308, 0.0, -1e308, 0.0];
+        let line = |form: Option<&Form>| Line::new(1.0, 6, form, Some(&rough), 1.0);
+        assert_eq!(line(None), Err(SurfaceError::NotFinite { index: 4 }));
+        // The first spring under the punch is the second of the line.
+        assert_eq!(line(Some(&Form::Punch { radius: 0.3 })), Err(SurfaceError::NotFinite { index: 4 }));
+    }
+
+    #[test]
     fn form_and_roughness_add() {
         let rough = [0.0, 3.0, -1.0, 2.0];
         let form = Form::Paraboloid { radius: 1.0 };

@@ -215,6 +215,22 @@ mod tests {
     }
 
     #[test]
+    fn a_level_is_read_however_high() {
+        let level = MeasuredProfile::parse("0 1e9\n1 1e9").unwrap();
+        assert_eq!((level.heights(), level.length()), (&[1e9, 1e9][..], 1.0));
+    }
+
+    #[test]
+    fn a_file_of_gigabytes_is_not_read() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("profile");
+        // A hole takes no room on the disk.
+        std::fs::File::create(&path).unwrap().set_len(LARGEST_FILE + 1).unwrap();
+        let error = MeasuredProfile::read(&path).unwrap_err().to_string();
+        assert!(error.contains("1073741825 bytes; allowed: at most 1073741824"), "{error}");
+    }
+
+    #[test]
     fn samples_lie_on_the_straight_pieces() {
         let profile = MeasuredProfile::parse("-2 7\n0 3\n1 6\n4 0").unwrap();
         // Above the first height, at −1.5, −0.5 … 3.5.
