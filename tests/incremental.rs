@@ -113,7 +113,7 @@ fn body() -> impl Strategy<Value = Body> {
     ];
     (gaps(), range, 0.003..0.03_f64, 0.3..3.0_f64).prop_map(|(gaps, range, spacing, effective_modulus)| {
         let work = range.map(|range| range * effective_modulus);
-        Body { gaps, foundation: Foundation { spacing, effective_modulus }, work }
+        Body { gaps, foundation: Foundation::endless(spacing, effective_modulus), work }
     })
 }
 
@@ -370,7 +370,7 @@ fn rough(springs: usize, work: Option<f64>) -> Body {
     let heights = UnitRoughness::synthesize(spectrum, 1, springs).unwrap().heights;
     let summit = heights.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     let gaps = heights.iter().map(|height| 0.2 * (summit - height)).collect();
-    Body { gaps, foundation: Foundation { spacing: 1.0 / springs as f64, effective_modulus: 1.0 }, work }
+    Body { gaps, foundation: Foundation::endless(1.0 / springs as f64, 1.0), work }
 }
 
 /// Numbers in [0, 1) without a pattern.
@@ -440,11 +440,7 @@ fn a_step_costs_what_changes() {
 
 #[test]
 fn a_line_of_no_springs_is_never_touched() {
-    let body = Body {
-        gaps: Vec::new(),
-        foundation: Foundation { spacing: 1.0, effective_modulus: 1.0 },
-        work: None,
-    };
+    let body = Body { gaps: Vec::new(), foundation: Foundation::endless(1.0, 1.0), work: None };
     let mut manual = body.separated(&body.tree());
     manual.move_to_indentation(3.0).unwrap();
     assert_eq!(manual.move_to_force(1.0), Err(ManualError::OutOfReach { force: 1.0 }));
@@ -456,7 +452,7 @@ fn a_line_of_no_springs_is_never_touched() {
 
 #[test]
 fn a_force_no_indentation_reaches_is_refused() {
-    let foundation = Foundation { spacing: 1e-3, effective_modulus: 1.0 };
+    let foundation = Foundation::endless(1e-3, 1.0);
     for work in [None, Some(0.1)] {
         let body = Body { gaps: vec![0.3, 0.0, 0.9, 0.2, 0.5], foundation, work };
         let tree = body.tree();

@@ -104,7 +104,7 @@ fn body(most: usize) -> impl Strategy<Value = Body> {
     (gaps(most), range, 0.003..0.03_f64, 0.3..3.0_f64).prop_map(
         |(gaps, range, spacing, effective_modulus)| Body {
             gaps,
-            foundation: Foundation { spacing, effective_modulus },
+            foundation: Foundation::endless(spacing, effective_modulus),
             work: range * effective_modulus,
         },
     )

@@ -72,7 +72,7 @@ mod tests {
     fn only_a_preload_gives_a_coefficient() {
         let gaps: Vec<f64> = (0..101).map(|index| (f64::from(index - 50) * 0.02).powi(2)).collect();
         let tree = ContactTree::build(&gaps, crate::scene::Edges::Grid).unwrap();
-        let foundation = Foundation { spacing: 0.02, effective_modulus: 1.0 };
+        let foundation = Foundation::endless(0.02, 1.0);
         let rule = GridEdges::new(HessRule::new(foundation, 0.001));
         let figures = |first| {
             let mut body = exact::adhesive(&gaps, &tree, rule, foundation, 16);

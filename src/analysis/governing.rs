@@ -1,6 +1,8 @@
 //! The governing parameter κ and what it ties together, eqs. (11) and (14).
 
+use crate::contact::Foundation;
 use crate::scene::{Adhesion, Roughness, Scene};
+use crate::surface::Line;
 
 /// Roughness amplitude of a line: root mean square height and gradient.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -25,6 +27,12 @@ pub struct Governing {
 }
 
 impl Governing {
+    /// The foundation under a line.
+    #[must_use]
+    pub fn foundation(&self, line: &Line) -> Foundation {
+        Foundation { spacing: line.spacing, effective_modulus: self.effective_modulus, length: line.length }
+    }
+
     /// Works out the parameters of a checked scene. `gradient_per_height` is ⟨∇z⟩/h of its self-affine
     /// line, 1/m; `measured` the amplitude of its measured profile.
     ///

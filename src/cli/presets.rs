@@ -5,6 +5,7 @@ use crate::export::sheet::Sheet;
 use crate::export::write_json_value;
 use crate::scene::{self, Document, Entry, Library, Roughness, Source, line_column, locate};
 use crate::surface::MeasuredProfile;
+use crate::text::printable;
 use clap::{Subcommand, ValueEnum};
 use serde::Serialize;
 use std::io::{self, Write};
@@ -118,7 +119,7 @@ fn check(files: &[String], stdout: &mut dyn Write) -> Result<(), CliError> {
     let mut wrong = Vec::new();
     for file in files {
         match checked(file) {
-            Ok(name) => writeln!(stdout, "{name}: ok")?,
+            Ok(name) => writeln!(stdout, "{}: ok", printable(&name))?,
             Err(errors) => wrong.push(errors),
         }
     }

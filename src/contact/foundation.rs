@@ -7,9 +7,32 @@ pub struct Foundation {
     pub spacing: f64,
     /// Effective modulus E*, Pa, eq. (2).
     pub effective_modulus: f64,
+    /// Length L of all of it, m; infinite where it reaches beyond any contact.
+    pub length: f64,
 }
 
 impl Foundation {
+    /// So many springs on a length (m) for a half-space of this modulus (Pa).
+    #[must_use]
+    pub fn new(length: f64, springs: usize, effective_modulus: f64) -> Self {
+        Foundation { spacing: length / springs as f64, effective_modulus, length }
+    }
+
+    /// Springs at this distance (m) without end for a half-space of this modulus (Pa).
+    #[must_use]
+    pub const fn endless(spacing: f64, effective_modulus: f64) -> Self {
+        Foundation { spacing, effective_modulus, length: f64::INFINITY }
+    }
+
+    /// Length in contact of so many cells, m: never more than that of the foundation, and exactly this where the
+    /// cells cover the foundation, which N times Δx may miss by a rounding.
+    #[inline]
+    #[must_use]
+    pub fn contact_length(&self, cells: f64) -> f64 {
+        let length = cells * self.spacing;
+        if length > self.length * (1.0 - 2.0 * f64::EPSILON) { self.length } else { length }
+    }
+
     /// Stiffness Δk = E* Δx of one spring, N/m, eq. (1).
     #[must_use]
     pub fn spring_stiffness(&self) -> f64 {

@@ -449,7 +449,7 @@ mod tests {
     use crate::scene::Leg;
     use proptest::prelude::*;
 
-    const FOUNDATION: Foundation = Foundation { spacing: 0.25, effective_modulus: 8.0 };
+    const FOUNDATION: Foundation = Foundation::endless(0.25, 8.0);
 
     /// Length and compression by definition, cell by cell.
     fn by_definition(gaps: &[f64], edges: Edges, d: f64) -> (f64, f64) {

@@ -87,7 +87,12 @@ impl<'a> Snapshot<'a> {
         edges.standing(indentation, totals, cells, &self.scale)
     }
 
-    fn fragment_under<E: EdgeModel>(&self, edges: E, indentation: f64, ends: (usize, usize)) -> FragmentState {
+    fn fragment_under<E: EdgeModel>(
+        &self,
+        edges: E,
+        indentation: f64,
+        ends: (usize, usize),
+    ) -> FragmentState {
         let Standing { length, compression, .. } = self.contact(edges, indentation, &[ends]);
         let span = self.span(ends);
         let level = edges.level(&span, edges.length(self.gaps, &span), indentation);

@@ -185,7 +185,7 @@ impl<'a> Stepwise<'a> {
         CurvePoint {
             indentation: self.indentation,
             force: self.foundation.spring_stiffness() * compression,
-            contact_length: self.tally.springs as f64 * self.foundation.spacing,
+            contact_length: self.foundation.contact_length(self.tally.springs as f64),
             springs: self.tally.springs.unsigned_abs(),
             fragments: self.tally.fragments.unsigned_abs(),
         }
@@ -235,8 +235,7 @@ impl<'a> Stepwise<'a> {
         let tree = Arc::new(ContactTree::build(self.gaps, Edges::Grid)?);
         let edges = GridEdges::new(self.hess.unwrap_or(HessRule::NO_ADHESION));
         let contacts = fragments::runs(self.contact.iter().copied());
-        let body =
-            Manual::in_contact(self.gaps, tree, edges, self.foundation, self.indentation, &contacts);
+        let body = Manual::in_contact(self.gaps, tree, edges, self.foundation, self.indentation, &contacts);
         let pulled = body.and_then(|mut body| {
             match goal {
                 Goal::Force(force) => body.move_to_force(force)?,

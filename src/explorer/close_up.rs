@@ -35,7 +35,7 @@ pub fn close_up(
         FragmentFacts {
             number,
             springs,
-            length: length * foundation.spacing,
+            length: foundation.contact_length(length),
             largest_stretch,
             most_stretched,
             force: foundation.spring_stiffness() * compression,

@@ -4,8 +4,7 @@ use super::snapshot::Travel;
 use super::worker::HandOrder;
 use crate::analysis::Governing;
 use crate::contact::{
-    ContactTree, CurvePoint, Foundation, GridEdges, HessRule, Manual, ManualError, ManualLoading, Move,
-    SubCellEdges,
+    ContactTree, CurvePoint, GridEdges, HessRule, Manual, ManualError, ManualLoading, Move, SubCellEdges,
 };
 use crate::scene::Edges;
 use crate::surface::Line;
@@ -35,10 +34,9 @@ impl Held {
         (indentation, contact): (f64, &[(usize, usize)]),
         step: f64,
     ) -> Option<Self> {
-        let foundation = Foundation { spacing: line.spacing, effective_modulus: governing.effective_modulus };
-        let hess = governing
-            .adhesive_work()
-            .map_or(HessRule::NO_ADHESION, |work| HessRule::new(foundation, work));
+        let foundation = governing.foundation(line);
+        let hess =
+            governing.adhesive_work().map_or(HessRule::NO_ADHESION, |work| HessRule::new(foundation, work));
         let tree = match tree.filter(|tree| tree.edges() == edges) {
             Some(tree) => Arc::clone(tree),
             None => Arc::new(ContactTree::build(&line.gaps, edges).ok()?),

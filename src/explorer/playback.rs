@@ -5,7 +5,7 @@ use super::held::Held;
 use super::reduce::{self, Contact, LineColumns, Part};
 use super::snapshot::{Drive, Loop, Moment};
 use super::worker::{Engine, HandOrder, LineView, MomentRequest, Newest, Report};
-use crate::contact::{ContactError, Foundation, HessRule, LegContact, LegRecord, Snapshot, Solver};
+use crate::contact::{ContactError, HessRule, LegContact, LegRecord, Snapshot, Solver};
 use crate::scene::{Observer, Scene};
 use std::sync::Arc;
 use std::sync::atomic::Ordering;
@@ -114,8 +114,7 @@ impl Playback {
                 let governing = &computed.outcome.governing;
                 let step = range_of(computed) / STEPS_OF_A_PULL;
                 let edges = computed.scene.numerics.edges;
-                self.held =
-                    Held::take(line, engine.tree(), edges, governing, (indentation, &contact), step);
+                self.held = Held::take(line, engine.tree(), edges, governing, (indentation, &contact), step);
                 self.last = None;
             }
             HandOrder::Give => {
@@ -145,7 +144,7 @@ impl Playback {
         let line = engine.line()?;
         let Loop { scene, outcome, .. } = self.computed.as_deref()?;
         let (governing, deepest) = (outcome.governing, outcome.line.deepest);
-        let foundation = Foundation { spacing: line.spacing, effective_modulus: governing.effective_modulus };
+        let foundation = governing.foundation(line);
         let hess = governing.adhesive_work().map(|work| HessRule::new(foundation, work));
         let snapshot = Snapshot::new(&line.gaps, deepest, scene.numerics.edges, hess);
         let point = at.unwrap_or_else(|| snapshot.point(foundation, request.indentation, &fragments));

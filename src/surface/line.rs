@@ -13,6 +13,8 @@ pub struct Line {
     pub first: usize,
     /// Springs N of the whole foundation.
     pub points: usize,
+    /// Length L of the whole foundation, m.
+    pub length: f64,
     /// Distance Δx = L/N between springs, m.
     pub spacing: f64,
     /// Height of the highest point, m, above the apex of the form and the mean of the roughness.
@@ -77,7 +79,7 @@ impl Line {
         let mut gaps = heights;
         gaps.iter_mut().for_each(|height| *height = summit - *height);
         let deepest = largest(&gaps).map_err(|index| SurfaceError::NotFinite { index: first + index })?;
-        Ok(Line { gaps, first, points, spacing, summit, deepest })
+        Ok(Line { gaps, first, points, length, spacing, summit, deepest })
     }
 
     /// Heights z, m, of the points under the body.

@@ -32,11 +32,16 @@ impl MeasuredProfile {
     /// # Errors
     /// [`SurfaceError::Measured`] when the file cannot be read or is no profile.
     pub fn read(path: &Path) -> Result<Self, SurfaceError> {
-        Self::read_up_to(path, MOST_BYTES)
+        Self::read_seen(path, &mut |_| ())
+    }
+
+    /// [`Self::read`], with all bytes of the file shown to `seen`, one line after the other.
+    pub(crate) fn read_seen(path: &Path, seen: &mut dyn FnMut(&[u8])) -> Result<Self, SurfaceError> {
+        Self::read_up_to(path, MOST_BYTES, seen)
             .map_err(|reason| SurfaceError::Measured { file: path.display().to_string(), reason })
     }
 
-    fn read_up_to(path: &Path, most: u64) -> Result<Self, String> {
+    fn read_up_to(path: &Path, most: u64, seen: &mut dyn FnMut(&[u8])) -> Result<Self, String> {
         let file = open_regular(path).map_err(|error| error.to_string())?;
         // One byte more tells a file of that length from a longer one.
         let mut source = BufReader::new(file.take(most + 1));
@@ -55,6 +60,7 @@ impl MeasuredProfile {
             if taken == 0 {
                 return reader.finish();
             }
+            seen(&line);
             reader.take(&line)?;
         }
     }
@@ -305,8 +311,8 @@ mod tests {
         std::fs::write(&path, text).unwrap();
         assert_eq!(MeasuredProfile::read(&path).unwrap(), MeasuredProfile::parse(text).unwrap());
         let length = text.len() as u64;
-        assert!(MeasuredProfile::read_up_to(&path, length).is_ok());
-        let wrong = MeasuredProfile::read_up_to(&path, length - 1).unwrap_err();
+        assert!(MeasuredProfile::read_up_to(&path, length, &mut |_| ()).is_ok());
+        let wrong = MeasuredProfile::read_up_to(&path, length - 1, &mut |_| ()).unwrap_err();
         assert!(wrong.contains(&format!("longer than {} bytes", length - 1)), "{wrong}");
         let wrong = |bytes: &[u8]| {
             std::fs::write(&path, bytes).unwrap();

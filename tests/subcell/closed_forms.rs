@@ -9,7 +9,7 @@ use std::f64::consts::PI;
 
 fn smooth(form: Option<Form>, length: f64, points: usize, modulus: f64, work: f64) -> Body {
     let line = Line::new(length, points, form.as_ref(), None, 0.0).unwrap();
-    let foundation = Foundation { spacing: line.spacing, effective_modulus: modulus };
+    let foundation = Foundation::endless(line.spacing, modulus);
     Body { gaps: line.gaps, foundation, work }
 }
 
@@ -128,7 +128,7 @@ fn rough_lines_of_few_modes_converge_with_the_square_of_the_distance_in_the_medi
         let spectrum = SelfAffine { hurst, first: 1, last: 24 };
         let rough = UnitRoughness::synthesize(spectrum, seed, points).unwrap();
         let line = Line::new(1.0, points, None, Some(&rough.heights), 0.01).unwrap();
-        let foundation = Foundation { spacing: line.spacing, effective_modulus: 1.0 };
+        let foundation = Foundation::endless(line.spacing, 1.0);
         let work = 1e-4 * spectrum.gradient_per_height(1.0) / (kappa * kappa);
         let body = Body { gaps: line.gaps, foundation, work };
         let history = body.history(&[Leg::ToForce(4e-3), Leg::ToSeparation], 64);

@@ -42,7 +42,13 @@ impl Dissipation {
     }
 
     /// A fragment has formed from these parts at an indentation, m.
-    pub fn attach<E: EdgeModel>(&mut self, ground: Ground<'_, E>, at: f64, event: &Event, parts: &[Fragment]) {
+    pub fn attach<E: EdgeModel>(
+        &mut self,
+        ground: Ground<'_, E>,
+        at: f64,
+        event: &Event,
+        parts: &[Fragment],
+    ) {
         let Event { whole, springs } = *event;
         let span = &whole.span;
         let attaches_at = |span: &Span| {
@@ -71,7 +77,13 @@ impl Dissipation {
     }
 
     /// A fragment has detached a spring at an indentation (m), and these parts remain.
-    pub fn detach<E: EdgeModel>(&mut self, ground: Ground<'_, E>, at: f64, event: &Event, parts: &[Fragment]) {
+    pub fn detach<E: EdgeModel>(
+        &mut self,
+        ground: Ground<'_, E>,
+        at: f64,
+        event: &Event,
+        parts: &[Fragment],
+    ) {
         let Event { whole, .. } = *event;
         let span = &whole.span;
         let holds_to = |span: &Span| ground.edges.holds_to(span, ground.edges.length(ground.gaps, span));
@@ -96,8 +108,7 @@ impl Dissipation {
     /// The edges of a fragment slide up to those of an indentation, m.
     pub fn slide_up<E: EdgeModel>(&mut self, ground: Ground<'_, E>, fragment: &Fragment, to: f64) {
         if E::SLIDES {
-            let (from, to) =
-                (self.level_before(ground, fragment), level_up_to(ground, &fragment.span, to));
+            let (from, to) = (self.level_before(ground, fragment), level_up_to(ground, &fragment.span, to));
             self.slide(ground, (&fragment.span, from), (&fragment.span, to), false);
         }
     }
