@@ -8,10 +8,9 @@
 # --in-diff FILE, --re.
 #
 # Each mutant is tried against the unit tests of its room first, in a package of that room and those it needs, which
-# compiles in a fraction of the time; those that are left, against the unit tests of all rooms below the explorer and
-# the command line, and the integration tests of the room. Survivors are shown at the end and stand in
-# FOLDER/ROOM/all/mutants.out/missed.txt; FOLDER is target/mutants, or what MUTANTS_FOLDER says. It fails where one
-# survives that docs/mutation.md does not list.
+# compiles in a fraction of the time; those that are left, against all unit tests and the integration tests of the
+# room. Survivors are shown at the end; it fails where one survives that docs/mutation.md does not list. Packages and
+# what is built of them are in target/mutants, or where MUTANTS_FOLDER says; one run of a room at a time.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -29,21 +28,14 @@ if [[ "${1:-}" =~ ^([0-9]+/|~)[0-9]+$ ]]; then
     shift
 fi
 
-# Of each room: its files, the rooms its unit tests need, how their names begin, and its integration tests.
-all_rooms="analysis contact ensemble memory parallel reference scene simulation surface sweep"
+# Of each room: its files, the rooms its unit tests need, and its integration tests. The store is tested from outside.
 files=("src/$room")
 case "$room" in
-scene) rooms="scene" names="scene::" tests="scene fuzz_corpus" ;;
-surface) rooms="memory parallel scene surface" names="surface::" tests="closed_forms fuzz_corpus sums sweep" ;;
-analysis)
-    rooms="analysis contact memory parallel reference scene simulation surface"
-    names="analysis:: reference:: simulation::" tests="closed_forms sums sweep"
-    ;;
-store)
-    rooms="$all_rooms" names="sweep::" tests="sweep"
-    files=(src/sweep/{store,record,merge,shard}.rs)
-    ;;
-contact) rooms="contact memory parallel scene" names="contact::" tests="closed_forms laws stepwise subcell sums" ;;
+scene) rooms="scene" tests="scene fuzz_corpus readme explorer_screen" ;;
+surface) rooms="memory parallel scene surface" tests="closed_forms fuzz_corpus sums sweep" ;;
+analysis) rooms="analysis contact memory parallel scene" tests="closed_forms sums sweep" ;;
+store) rooms="" tests="sweep" files=(src/sweep/{store,record,merge,shard}.rs) ;;
+contact) rooms="contact memory parallel scene" tests="closed_forms laws stepwise subcell sums" ;;
 *) usage ;;
 esac
 
@@ -51,61 +43,69 @@ folder="${MUTANTS_FOLDER:-$PWD/target/mutants}/$room"
 mkdir -p "$folder"
 folder="$(cd "$folder" && pwd)"
 
-# Copies what differs, so that what is compiled already stays so.
-copy() {
-    if ! cmp -s "$1" "$2"; then
-        mkdir -p "$(dirname "$2")"
-        cp "$1" "$2"
-    fi
+# Leaves out the tests beside the code, which end a file.
+without_tests() {
+    awk '/^#\[cfg\(test\)\]$/ { held = $0; next }
+         held && /^mod [a-z_]+ \{$/ { exit }
+         held { print held; held = "" }
+         { print }' "$1"
 }
 
-# Makes a package of these rooms and these integration tests.
-assemble() {
-    local tree="$1" rooms="$2" tests="$3" name file
-    mkdir -p "$tree/src" "$tree/tests"
+# Writes the manifest of a package in a folder: without the profiles, and what follows instead of its programs.
+manifest() {
+    local tree="$1" left_out="$2" version
+    # Packages of the same name and version would be taken for one another where what they need is built but once.
+    version="0.1.0+$room.$(basename "$(dirname "$tree")")"
+    awk -v left_out="^\\[($left_out)" 'NR == 1 { keep = 1 } /^\[/ { keep = $0 !~ left_out } keep' Cargo.toml |
+        sed "s/^version = .*/version = \"$version\"/" >"$tree/Cargo.toml"
+    printf '%s\n' '[workspace]' '[profile.test]' 'opt-level = 0' 'debug = false' '[profile.dev]' 'debug = false' \
+        '[profile.test.package."*"]' 'opt-level = 2' '[profile.dev.package."*"]' 'opt-level = 2' >>"$tree/Cargo.toml"
+    sed "/^name = \"asperity\"$/{n;s/.*/version = \"$version\"/}" Cargo.lock >"$tree/Cargo.lock"
+}
+
+# Makes a package of some rooms, with tests beside the code in the one that is tested.
+assemble_rooms() {
+    local tree="$1" name file stripped
+    rm -rf "$tree/src"
+    mkdir -p "$tree/src"
     for name in $rooms; do
         while read -r file; do
-            copy "$file" "$tree/$file"
+            mkdir -p "$(dirname "$tree/$file")"
+            if [[ "$file" == "src/$room"/* || "$file" != *.rs ]]; then
+                cp "$file" "$tree/$file"
+            else
+                without_tests "$file" >"$tree/$file"
+            fi
         done < <(find "src/$name" "src/$name.rs" -type f 2>/dev/null)
     done
-    for name in $tests; do
-        while read -r file; do
-            copy "$file" "$tree/$file"
-        done < <(find "tests/$name" "tests/$name.rs" tests/common tests/snapshots -type f 2>/dev/null)
-    done
-    while read -r file; do
-        copy "$file" "$tree/$file"
-    done < <(find presets fuzz/src fuzz/fuzz_targets fuzz/seeds fuzz/corpus fuzz/Cargo.toml Cargo.lock README.md -type f)
+    cp -r presets "$tree/"
     {
-        echo '//! The rooms under test.'
+        echo '//! The room under test, and those it needs.'
         echo '#![allow(unused)]'
         for name in $rooms; do
             echo "pub mod $name;"
         done
-        if [[ " $rooms " == *" sweep "* ]]; then
-            echo 'pub mod export;'
-            for file in atomic csv json_text; do
-                copy "src/export/$file.rs" "$tree/src/export/$file.rs"
-            done
-            # What the rooms below need of it.
-            printf '%s\n' 'pub mod atomic;' 'mod csv;' 'mod json_text;' \
-                'pub use atomic::{WriteError, check_writable, write_new};' \
-                'pub use csv::{write_curve, write_line};' 'pub use json_text::write_json_value;' \
-                >"$tree/src/export/mod.rs"
-        fi
     } >"$tree/src/lib.rs"
-    # The package without its program, benchmarks and profiles.
-    awk 'NR == 1 { keep = 1 } /^\[/ { keep = !/^\[(profile|\[bench)/ } /^default-run/ { next } keep' Cargo.toml \
-        >"$tree/Cargo.toml"
-    printf '%s\n' '[workspace]' '[profile.test]' "opt-level = ${MUTANTS_OPT_LEVEL:-0}" 'debug = false' \
-        '[profile.test.package."*"]' 'opt-level = 2' >>"$tree/Cargo.toml"
+    manifest "$tree" 'profile|\\[bench'
+    sed -i '/^default-run/d' "$tree/Cargo.toml"
 }
 
-assemble "$folder/unit/tree" "$rooms" ""
-assemble "$folder/all/tree" "$all_rooms" "$tests"
+# Makes a copy of the whole package.
+assemble_all() {
+    local tree="$1" file
+    rm -rf "$tree"
+    while read -r file; do
+        if [ -f "$file" ]; then
+            mkdir -p "$tree/$(dirname "$file")"
+            cp "$file" "$tree/$file"
+        fi
+    done < <(git ls-files --cached --others --exclude-standard)
+    manifest "$tree" profile
+}
 
 export PROPTEST_RNG_SEED="${PROPTEST_RNG_SEED:-2012}" FUZZ_MUTATIONS="${FUZZ_MUTATIONS:-300}"
-export PROPTEST_CASES="${PROPTEST_CASES:-48}"
+# Where next to no draw is allowed any more, that shows soon.
+export PROPTEST_CASES="${PROPTEST_CASES:-48}" PROPTEST_MAX_LOCAL_REJECTS="${PROPTEST_MAX_LOCAL_REJECTS:-8000}"
 export CARGO_TARGET_DIR="${MUTANTS_BUILD:-$folder/../build}" INSTA_UPDATE=no
 file_options=()
 for file in "${files[@]}"; do
@@ -138,28 +138,38 @@ of_all=(--lib)
 for name in $tests; do
     of_all+=(--test "$name")
 done
-# shellcheck disable=SC2206 # Names without spaces.
-of_unit=(--lib -- $names)
 
-echo "== $room: that its unit tests pass without a mutation"
-(cd "$folder/unit/tree" && INSTA_WORKSPACE_ROOT="$PWD" cargo test --locked --quiet "${of_unit[@]}")
-echo "== $room: part $part of $all mutants against its unit tests"
-mutants unit --sharding round-robin --shard "$part" "$@" -- "${of_unit[@]}"
-exact=()
-while read -r name; do
-    exact+=(--re "^$(sed 's/[][\\.*^$+?(){}|]/\\&/g' <<<"$name")\$")
-done < <(cat "$folder/unit/mutants.out/missed.txt" 2>/dev/null)
-rm -rf "$folder/all/mutants.out"
-if [ "${#exact[@]}" != 0 ]; then
-    echo "== $room: that all tests pass without a mutation"
-    (cd "$folder/all/tree" && INSTA_WORKSPACE_ROOT="$PWD" cargo test --locked --quiet "${of_all[@]}")
-    echo "== $room: the $((${#exact[@]} / 2)) that are left, against all tests"
-    mutants all "${exact[@]}" -- "${of_all[@]}"
+# Builds and runs tests without a mutation.
+baseline() {
+    local tree="$folder/$1/tree"
+    shift
+    (cd "$tree" && INSTA_WORKSPACE_ROOT="$PWD" cargo test --locked --quiet "$@")
+}
+
+rm -rf "$folder"/{unit,all}/mutants.out
+sample=(--sharding round-robin --shard "$part" "$@")
+echo "== $room: part $part of $all mutants"
+if [ -n "$rooms" ]; then
+    echo "== $room: against its unit tests"
+    assemble_rooms "$folder/unit/tree"
+    baseline unit --lib -- "$room::"
+    mutants unit "${sample[@]}" -- --lib -- "$room::"
+    # By their names: the numbers of a sample are not those of what is left of it.
+    sample=()
+    while read -r name; do
+        sample+=(--re "^$(sed 's/[][\\.*^$+?(){}|]/\\&/g' <<<"$name")\$")
+    done < <(cat "$folder/unit/mutants.out/missed.txt")
+fi
+if [ "${#sample[@]}" != 0 ]; then
+    echo "== $room: against all tests"
+    assemble_all "$folder/all/tree"
+    baseline all "${of_all[@]}"
+    mutants all "${sample[@]}" -- "${of_all[@]}"
 fi
 timeouts=$(($(count unit timeout) + $(count all timeout)))
 killed=$(($(count unit caught) + $(count all caught) + timeouts))
 echo "== $room: $killed of $((killed + $(count all missed))) viable mutants killed, $timeouts of them by time;" \
-    "$(count unit unviable) do not compile"
+    "$(($(count unit unviable) + $(count all unviable))) do not compile"
 new=0
 while read -r name; do
     # As it is listed: without line and column, which change.

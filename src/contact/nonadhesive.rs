@@ -343,8 +343,8 @@ impl Changes {
         let last = points.len() - 1;
         let Range { start, end } = at;
         if end - start <= FEW_POINTS {
-            for index in start..end {
-                self.partial[index].add(low, high, points[index]);
+            for (partial, &point) in self.partial[start..end].iter_mut().zip(&points[start..end]) {
+                partial.add(low, high, point);
             }
             return;
         }

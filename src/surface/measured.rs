@@ -353,6 +353,37 @@ mod tests {
     }
 
     #[test]
+    fn a_level_is_read_however_high() {
+        let level = MeasuredProfile::parse("0 1e9\n1 1e9").unwrap();
+        assert_eq!((level.heights(), level.length()), (&[1e9, 1e9][..], 1.0));
+    }
+
+    #[test]
+    fn samples_lie_on_the_straight_pieces() {
+        let profile = MeasuredProfile::parse("-2 7\n0 3\n1 6\n4 0").unwrap();
+        // Above the first height, at −1.5, −0.5 … 3.5.
+        assert_eq!(profile.sample(6.0, 6).unwrap(), [-1.0, -3.0, -2.5, -2.0, -4.0, -6.0]);
+        // From the first point on.
+        assert_eq!(profile.sample(2.0, 4).unwrap(), [-0.5, -1.5, -2.5, -3.5]);
+        assert_eq!(
+            (profile.positions(), profile.heights()),
+            (&[-2.0, 0.0, 1.0, 4.0][..], &[7.0, 3.0, 6.0, 0.0][..])
+        );
+    }
+
+    #[test]
+    fn uneven_pieces_count_by_their_lengths() {
+        let profile = MeasuredProfile::parse("5 1\n6 3\n9 -3").unwrap();
+        let (height, gradient) = profile.rms_height_and_gradient();
+        // Mean 1/2; ∫ (z − 1/2)² dx is 31/12 and 39/4 on the two pieces, and the slopes are 2 and −2.
+        let square: f64 = (31.0 / 12.0 + 39.0 / 4.0) / 4.0;
+        assert!(
+            (height - square.sqrt()).abs() < 1e-15 && (gradient - 2.0).abs() < 1e-15,
+            "{height} {gradient}"
+        );
+    }
+
+    #[test]
     fn statistics_are_those_of_the_straight_pieces() {
         // A triangle of height 1 over length 2: mean 1/2, variance 1/12, slope 1.
         let profile = MeasuredProfile::parse("5 0\n6 1\n7 0").unwrap();

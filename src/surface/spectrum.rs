@@ -146,6 +146,26 @@ mod tests {
     }
 
     #[test]
+    fn a_longer_line_is_flatter() {
+        let spectrum = SelfAffine { hurst: 0.7, first: 2, last: 99 };
+        for gradient in [SelfAffine::gradient_per_height, SelfAffine::continuum_gradient_per_height] {
+            assert_eq!(gradient(&spectrum, 0.25), 4.0 * gradient(&spectrum, 1.0));
+        }
+    }
+
+    #[test]
+    fn sums_keep_what_single_additions_lose() {
+        // Each k⁻² is a whole multiple of 2⁻⁹⁰, and so is their sum.
+        let unit = 2.0_f64.powi(90);
+        for last in [1000, 100_000, 300_000] {
+            let exact: u128 = (1..=last).map(|k| ((k as f64).powf(-2.0) * unit) as u128).sum();
+            let found = SelfAffine { hurst: 0.5, first: 1, last }.moment(0);
+            assert_eq!(found, exact as f64 / unit, "{last}");
+        }
+        assert_eq!(SelfAffine { hurst: 0.5, first: 3, last: 12 }.moment(2), 10.0);
+    }
+
+    #[test]
     fn one_mode_is_a_cosine() {
         let spectrum = SelfAffine { hurst: 0.3, first: 5, last: 5 };
         let expected = std::f64::consts::TAU * 5.0 / 2.0;

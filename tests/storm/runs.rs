@@ -150,7 +150,10 @@ fn assert_energy(outcome: &Outcome) -> Result<(), TestCaseError> {
             least = least.min(sum);
         }
     }
-    prop_assert!(least >= -ROUNDING * size, "{:e} J won of {:e}", -least, size);
+    // What is stretched by less than a rounding of the gaps attaches and detaches wherever rounding puts it.
+    let place = 2.0 * f64::EPSILON * outcome.line.deepest;
+    let rounded = 0.5 * outcome.governing.effective_modulus * outcome.line.length * place * place;
+    prop_assert!(least >= -ROUNDING * size - rounded, "{:e} J won of {:e}", -least, size);
     prop_assert!(outcome.governing.adhesive_work().is_some() || size == 0.0, "{:e} J without adhesion", size);
     Ok(())
 }
