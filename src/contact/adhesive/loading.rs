@@ -258,16 +258,8 @@ impl Closing {
             let Some(wall) = span.wall(gaps) else {
                 *complete = closes;
                 if closes < climb.joins {
-                    let slides = |&(lower, of_lower): &(Span, E::Length)| {
-                        edges.slides_on((&lower, of_lower), (&span, edges.length(gaps, &span)))
-                    };
-                    match (runs.last_mut(), below.filter(slides)) {
-                        (Some(run), Some(_)) => run.raise(&span, climb.joins),
-                        _ => {
-                            runs.try_reserve(1).map_err(|_| ground.out_of_memory())?;
-                            runs.push(Run::new(climb.branch, &span, closes, climb.joins));
-                        }
-                    }
+                    runs.try_reserve(1).map_err(|_| ground.out_of_memory())?;
+                    runs.push(Run::new(climb.branch, &span, closes, climb.joins));
                 }
                 break;
             };

@@ -7,11 +7,12 @@ use std::collections::HashMap;
 
 /// Squared stretches of the parts of the line that have attached or detached on a move.
 ///
-/// The edges of a fragment slide from span to span until it jumps, merges or parts, as on the runs of a leg.
+/// Whole springs attach and detach one by one, or many at once. Edges between springs slide from span to span until the
+/// fragment jumps, merges or parts, as on the runs of a leg.
 pub struct Dissipation {
     /// Indentation at which the move begins, m.
     from: f64,
-    /// By slot, the fragments that have formed on the move.
+    /// By slot, the fragments whose spans have formed on the move, where edges slide.
     formed: HashMap<usize, Formed>,
     /// ∫ (c − θ)² dx over what attaches or detaches while edges slide, in cells times m².
     sliding: CompensatedSum,
@@ -49,31 +50,29 @@ impl Dissipation {
         event: &Event,
         parts: &[Fragment],
     ) {
-        let Event { whole, springs } = *event;
-        let span = &whole.span;
-        let attaches_at = |span: &Span| {
-            let length = ground.edges.length(ground.gaps, span);
-            span.wall(ground.gaps).map(|wall| ground.edges.attaches_at(span, length, ground.gaps[wall]))
-        };
-        if let ([part], 1) = (parts, springs)
-            && attaches_at(&part.span) == Some(at)
-            && attaches_at(span).is_none_or(|next| next > at)
-            && self.slides_on(ground, at, part.slot, &part.span, span)
+        let Fragment { slot, span } = event.whole;
+        if E::SLIDES
+            && let ([part], 1) = (parts, event.springs)
+            && attaches_at(ground, &part.span) == Some(at)
+            && attaches_at(ground, &span).is_none_or(|next| next > at)
+            && self.slides_on(ground, at, part.slot, (&part.span, &span))
         {
-            let from = (&part.span, self.level_before(ground, part));
-            self.slide(ground, from, (span, span.gap), false);
-            self.formed.insert(whole.slot, Formed { at, level: span.gap });
+            let from = self.level_before(ground, part);
+            self.slide(ground, (&part.span, from), (&span, span.gap));
+            self.formed.insert(slot, Formed { at, level: span.gap });
             return;
         }
         for part in parts {
             self.slide_up(ground, part, at);
         }
-        let level = level(ground, span, at);
-        self.jump(ground, at, (span, level), parts, |part| level_up_to(ground, &part.span, at));
-        for part in parts {
-            self.formed.remove(&part.slot);
+        let level = level(ground, &span, at);
+        self.jump(ground, at, (&span, level), parts, |part| ground.level_up_to(&part.span, at, false));
+        if E::SLIDES {
+            for part in parts {
+                self.formed.remove(&part.slot);
+            }
+            self.formed.insert(slot, Formed { at, level });
         }
-        self.formed.insert(whole.slot, Formed { at, level });
     }
 
     /// A fragment has detached a spring at an indentation (m), and these parts remain.
@@ -84,40 +83,43 @@ impl Dissipation {
         event: &Event,
         parts: &[Fragment],
     ) {
-        let Event { whole, .. } = *event;
-        let span = &whole.span;
-        let holds_to = |span: &Span| ground.edges.holds_to(span, ground.edges.length(ground.gaps, span));
-        if let [part] = parts
-            && holds_to(span) == at
-            && holds_to(&part.span) < at
-            && self.slides_on(ground, at, whole.slot, &part.span, span)
+        let Fragment { slot, span } = event.whole;
+        if E::SLIDES
+            && let [part] = parts
+            && holds_to(ground, &span) == at
+            && holds_to(ground, &part.span) < at
+            && self.slides_on(ground, at, slot, (&part.span, &span))
         {
-            let from = (span, self.level_before(ground, &whole));
-            self.slide(ground, (&part.span, span.gap), from, true);
-            self.formed.insert(part.slot, Formed { at, level: span.gap });
+            let from = self.level_before(ground, &event.whole);
+            self.slide(ground, (&part.span, span.gap), (&span, from));
+            self.formed.insert(slot, Formed { at, level: span.gap });
             return;
         }
-        self.slide_down(ground, &whole, at);
-        self.jump(ground, at, (span, level(ground, span, at)), parts, |part| level(ground, &part.span, at));
-        self.formed.remove(&whole.slot);
-        for part in parts {
-            self.formed.insert(part.slot, Formed { at, level: level(ground, &part.span, at) });
+        self.slide_down(ground, &event.whole, at);
+        self.jump(ground, at, (&span, level(ground, &span, at)), parts, |part| level(ground, &part.span, at));
+        if E::SLIDES {
+            self.formed.remove(&slot);
+            for part in parts {
+                self.formed.insert(part.slot, Formed { at, level: level(ground, &part.span, at) });
+            }
         }
     }
 
     /// The edges of a fragment slide up to those of an indentation, m.
     pub fn slide_up<E: EdgeModel>(&mut self, ground: Ground<'_, E>, fragment: &Fragment, to: f64) {
         if E::SLIDES {
-            let (from, to) = (self.level_before(ground, fragment), level_up_to(ground, &fragment.span, to));
-            self.slide(ground, (&fragment.span, from), (&fragment.span, to), false);
+            let from = self.level_before(ground, fragment);
+            let to = ground.level_up_to(&fragment.span, to, false);
+            self.slide(ground, (&fragment.span, from), (&fragment.span, to));
         }
     }
 
     /// The edges of a fragment slide down to those of an indentation, m.
     pub fn slide_down<E: EdgeModel>(&mut self, ground: Ground<'_, E>, fragment: &Fragment, to: f64) {
         if E::SLIDES {
-            let (from, to) = (self.level_before(ground, fragment), level(ground, &fragment.span, to));
-            self.slide(ground, (&fragment.span, to), (&fragment.span, from), true);
+            let from = self.level_before(ground, fragment);
+            let to = level(ground, &fragment.span, to);
+            self.slide(ground, (&fragment.span, to), (&fragment.span, from));
         }
     }
 
@@ -127,15 +129,14 @@ impl Dissipation {
         ground: Ground<'_, E>,
         at: f64,
         slot: usize,
-        lower: &Span,
-        upper: &Span,
+        (lower, upper): (&Span, &Span),
     ) -> bool {
         let was_at_rest = self.formed.get(&slot).is_none_or(|formed| formed.at != at);
         let length = |span: &Span| ground.edges.length(ground.gaps, span);
         was_at_rest && ground.edges.slides_on((lower, length(lower)), (upper, length(upper)))
     }
 
-    /// Level of the edges of a fragment where it began on this move.
+    /// Level of the edges of a fragment where its span began on this move.
     fn level_before<E: EdgeModel>(&self, ground: Ground<'_, E>, fragment: &Fragment) -> f64 {
         match self.formed.get(&fragment.slot) {
             Some(formed) => formed.level,
@@ -143,14 +144,8 @@ impl Dissipation {
         }
     }
 
-    fn slide<E: EdgeModel>(
-        &mut self,
-        ground: Ground<'_, E>,
-        lower: (&Span, f64),
-        upper: (&Span, f64),
-        unloading: bool,
-    ) {
-        self.sliding.add(ground.edges.squared_stretch_sliding(ground.gaps, lower, upper, unloading));
+    fn slide<E: EdgeModel>(&mut self, ground: Ground<'_, E>, lower: (&Span, f64), upper: (&Span, f64)) {
+        self.sliding.add(ground.edges.squared_stretch_sliding(ground.gaps, lower, upper));
     }
 
     /// All of a fragment attaches or detaches at once, but for these parts of it.
@@ -181,7 +176,13 @@ fn level<E: EdgeModel>(ground: Ground<'_, E>, span: &Span, indentation: f64) -> 
     ground.edges.level(span, ground.edges.length(ground.gaps, span), indentation)
 }
 
-/// The same up to where the span takes in its wall.
-fn level_up_to<E: EdgeModel>(ground: Ground<'_, E>, span: &Span, indentation: f64) -> f64 {
-    ground.level_up_to(span, indentation, false)
+/// Indentation at which a span takes in its wall, m; `None` where it fills the line.
+fn attaches_at<E: EdgeModel>(ground: Ground<'_, E>, span: &Span) -> Option<f64> {
+    let length = ground.edges.length(ground.gaps, span);
+    span.wall(ground.gaps).map(|wall| ground.edges.attaches_at(span, length, ground.gaps[wall]))
+}
+
+/// Indentation to which a span holds its most stretched spring, m.
+fn holds_to<E: EdgeModel>(ground: Ground<'_, E>, span: &Span) -> f64 {
+    ground.edges.holds_to(span, ground.edges.length(ground.gaps, span))
 }
