@@ -6,19 +6,18 @@ mod brute_force;
 mod closed_forms;
 #[path = "common/formed.rs"]
 mod formed;
-#[path = "subcell/hand.rs"]
-mod hand;
 #[path = "subcell/laws.rs"]
 mod laws;
+#[path = "subcell/manual.rs"]
+mod manual;
 #[path = "common/numerics.rs"]
 mod numerics;
 #[path = "subcell/rule.rs"]
 mod rule;
 
-use asperity::contact::subcell::LevelSets;
 use asperity::contact::{
     Adhesive, ContactError, ContactTree, CurvePoint, Exact, Foundation, HessRule, History, LegRecord, Solver,
-    SpringTree, SubCellEdges, exact, run,
+    SubCellEdges, exact, run,
 };
 use asperity::scene::{Edges, Leg};
 use proptest::prelude::*;
@@ -35,22 +34,16 @@ struct Body {
 }
 
 impl Body {
-    fn sets(&self) -> Arc<LevelSets> {
-        let tree = Arc::new(SpringTree::build(&self.gaps).unwrap());
-        Arc::new(LevelSets::new(tree, &self.gaps).unwrap())
-    }
-
     fn tree(&self) -> ContactTree {
         ContactTree::build(&self.gaps, Edges::SubCell).unwrap()
     }
 
-    fn hess(&self) -> Option<HessRule> {
-        (self.work > 0.0).then(|| HessRule::new(self.foundation, self.work))
+    fn edges(&self) -> SubCellEdges {
+        SubCellEdges::new(HessRule::new(self.foundation, self.work))
     }
 
     fn on<'a>(&'a self, tree: &'a ContactTree, samples: usize) -> Exact<Adhesive<'a, SubCellEdges>> {
-        let edges = SubCellEdges::new(HessRule::new(self.foundation, self.work));
-        exact::adhesive(&self.gaps, tree, edges, self.foundation, samples)
+        exact::adhesive(&self.gaps, tree, self.edges(), self.foundation, samples)
     }
 
     fn history(&self, legs: &[Leg], samples: usize) -> History {

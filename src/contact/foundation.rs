@@ -41,13 +41,16 @@ impl Foundation {
 }
 
 /// The rule of Hess, eqs. (3) and (10): how far the springs of a contact fragment can be stretched
-/// before they let go.
+/// before they detach.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HessRule {
     stretch_of_one: f64,
 }
 
 impl HessRule {
+    /// The rule without adhesion: nothing can be stretched.
+    pub const NO_ADHESION: HessRule = HessRule { stretch_of_one: 0.0 };
+
     /// The rule for a work of adhesion γ in J/m².
     #[must_use]
     pub fn new(foundation: Foundation, work_of_adhesion: f64) -> Self {

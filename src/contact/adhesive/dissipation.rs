@@ -161,7 +161,7 @@ impl<E: EdgeModel> Ground<'_, E> {
     }
 
     /// Level of the edges of a span at an indentation, m, up to which its run goes.
-    fn level_up_to(&self, span: &Span, indentation: f64, unloading: bool) -> f64 {
+    pub fn level_up_to(&self, span: &Span, indentation: f64, unloading: bool) -> f64 {
         let length = self.edges.length(self.gaps, span);
         match span.wall(self.gaps).map(|wall| self.gaps[wall]) {
             // Where it takes in its wall it has reached it, also after rounding.

@@ -17,12 +17,15 @@ mod sub_cell_edges;
 mod tree;
 mod unloading;
 
+pub(in crate::contact) use dissipation::{AtOnce, Boundary, Edge};
 pub use edge_model::{EdgeCells, EdgeModel};
 pub use grid_edges::GridEdges;
-pub(in crate::contact) use run::Run;
+pub(in crate::contact) use run::{Ground, Held, Run};
 pub(in crate::contact) use search::{bisect, crossing, last_before};
+pub(in crate::contact) use span::Span;
 pub use sub_cell_edges::SubCellEdges;
 pub use tree::ContactTree;
+pub(in crate::contact) use tree::{Branch, Node};
 
 use super::exact::Exact;
 use super::grid::Grid;
@@ -31,7 +34,6 @@ use super::{ContactError, LegContact, Work};
 use curve::Sampled;
 use dissipation::Range;
 use loading::Closing;
-use run::{Ground, Held};
 use search::Search;
 use unloading::Opening;
 
