@@ -240,7 +240,7 @@ fn compare(
         };
         let record = match solver.advance(leg) {
             Ok(record) => record,
-            Err(ContactError::NothingToPull { .. } | ContactError::LetsGoBefore { .. }) => {
+            Err(ContactError::NothingToPull { .. } | ContactError::DetachesBefore { .. }) => {
                 // It stands where it stood. The leg of a separation still says what its end held.
                 if blind.contact.contains(&true) {
                     let found = solver.fragments(stands_at);

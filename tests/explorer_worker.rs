@@ -309,7 +309,7 @@ fn a_leg_that_cannot_be_gone_is_told_in_one_line() {
         let beyond = rough().set("loading", "[ToForce(1.0e-5), ToForce(-1.0)]").unwrap();
         served.compute(1, &beyond);
         let Report::Failed { generation: 1, error } = served.answer() else { panic!("not failed") };
-        assert!(error.starts_with("loading.1 = ToForce(-1.0): the contact lets go before"), "{error}");
+        assert!(error.starts_with("loading.1 = ToForce(-1.0): the contact detaches above"), "{error}");
         assert_eq!(error.lines().count(), 1, "{error}");
         let alone = Simulation::default().run(beyond.scene(), &|| false, &mut |_, _, _| Ok(()));
         assert_eq!(error, alone.unwrap_err().to_string());

@@ -225,7 +225,7 @@ proptest! {
                         | (ManualError::OutOfReach { .. }, ContactError::OutOfReach { .. }) => true,
                         (
                             ManualError::DetachesBefore { smallest: one, .. },
-                            ContactError::LetsGoBefore { smallest: other, .. },
+                            ContactError::DetachesBefore { smallest: other, .. },
                         ) => one.to_bits() == other.to_bits(),
                         _ => false,
                     };

@@ -170,7 +170,7 @@ proptest! {
             let refused = asked.advance(Leg::ToForce(-1e30));
             let because = matches!(
                 refused,
-                Err(ContactError::LetsGoBefore { .. } | ContactError::NothingToPull { .. })
+                Err(ContactError::DetachesBefore { .. } | ContactError::NothingToPull { .. })
             );
             prop_assert!(because);
         }
@@ -267,7 +267,9 @@ fn legs_without_an_end_are_refused_before_their_first_step() {
         let before = steps.replace(0);
         assert!(before > 300);
         let beyond = solver.advance(Leg::ToForce(-1e9));
-        let Err(ContactError::LetsGoBefore { index: 1, smallest, .. }) = beyond else { panic!("{beyond:?}") };
+        let Err(ContactError::DetachesBefore { index: 1, smallest, .. }) = beyond else {
+            panic!("{beyond:?}")
+        };
         assert_eq!(steps.replace(0), 0);
         // The steps come no further, and no less far than one of them.
         let record = solver.advance(Leg::ToSeparation).unwrap();

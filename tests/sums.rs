@@ -1,7 +1,9 @@
 //! Sums of gaps and forces against exact arithmetic: the documented bound holds also where nearly all
 //! of a force cancels, and no order of the springs shows.
 
-use asperity::contact::{ContactTree, Foundation, GapScale, GridEdges, HessRule, Solver, Tally, exact};
+use asperity::contact::{
+    ContactTotals, ContactTree, Foundation, GapScale, GridEdges, HessRule, Solver, exact,
+};
 use asperity::scene::{Edges, Leg};
 use dashu_float::{FBig, round::mode::HalfEven};
 use proptest::prelude::*;
@@ -25,12 +27,12 @@ fn scale_of(gaps: &[f64]) -> GapScale {
     GapScale::for_gaps_up_to(gaps.iter().copied().fold(0.0, f64::max))
 }
 
-fn tally(gaps: &[f64], scale: &GapScale) -> Tally {
-    let mut tally = Tally::default();
+fn totals(gaps: &[f64], scale: &GapScale) -> ContactTotals {
+    let mut totals = ContactTotals::default();
     for &gap in gaps {
-        tally += Tally { springs: 1, fragments: 0, quanta: i128::from(scale.quanta(gap)) };
+        totals += ContactTotals { springs: 1, fragments: 0, quanta: i128::from(scale.quanta(gap)) };
     }
-    tally
+    totals
 }
 
 /// Σ c, exactly.
@@ -49,7 +51,7 @@ fn magnitude(value: Unrounded) -> Unrounded {
     if value < Unrounded::ZERO { -value } else { value }
 }
 
-/// What [`Tally::compression`] promises: 2u |result| + n 2^(e − 62), a quantum for each gap.
+/// What [`ContactTotals::compression`] promises: 2u |result| + n 2^(e − 62), a quantum for each gap.
 fn bound(exact: &Unrounded, springs: usize, scale: &GapScale) -> Unrounded {
     unrounded(2.0 * UNIT_ROUNDOFF) * magnitude(exact.clone())
         + unrounded(springs as f64) * unrounded(scale.quantum())
@@ -59,10 +61,10 @@ fn bound(exact: &Unrounded, springs: usize, scale: &GapScale) -> Unrounded {
 /// gaps nearly balance; tells what is not.
 fn check(gaps: &[f64], indentations: &[f64]) -> Result<(), String> {
     let scale = scale_of(gaps);
-    let (tally, sum) = (tally(gaps, &scale), sum(gaps));
+    let (totals, sum) = (totals(gaps, &scale), sum(gaps));
     let balances = [-3, -1, 0, 1, 2].map(|places| balance(gaps.len(), &sum, places));
     for &d in indentations.iter().chain(&balances) {
-        let found = tally.compression(d, &scale);
+        let found = totals.compression(d, &scale);
         let exact = compression(gaps.len(), &sum, d);
         let error = magnitude(unrounded(found) - exact.clone());
         if error > bound(&exact, gaps.len(), &scale) {
@@ -117,24 +119,24 @@ proptest! {
         places in -3_i64..4,
     ) {
         let scale = scale_of(&gaps);
-        let tally = tally(&gaps, &scale);
+        let totals = totals(&gaps, &scale);
         let largest = gaps.iter().copied().fold(0.0, f64::max);
         for d in [share * largest, balance(gaps.len(), &sum(&gaps), places)] {
-            let wanted = tally.compression(d, &scale);
-            let found = tally.indentation(wanted, &scale).unwrap();
+            let wanted = totals.compression(d, &scale);
+            let found = totals.indentation(wanted, &scale).unwrap();
             // Three roundings: of the sums, and of the quotient.
             let size = d.abs() + found.abs() + wanted.abs() / gaps.len() as f64;
             prop_assert!((found - d).abs() <= 3.0 * UNIT_ROUNDOFF * size + 2.0 * scale.quantum(),
                 "{} against {}", found, d);
         }
-        prop_assert_eq!(Tally::default().indentation(share, &scale), None);
+        prop_assert_eq!(ContactTotals::default().indentation(share, &scale), None);
     }
 
     #[test]
     fn no_order_shows(gaps in gaps(600), seed in any::<u64>(), share in 0.0..1.5_f64) {
         let scale = scale_of(&gaps);
         let other = shuffled(&gaps, seed);
-        prop_assert_eq!(tally(&gaps, &scale), tally(&other, &scale));
+        prop_assert_eq!(totals(&gaps, &scale), totals(&other, &scale));
         // Without adhesion a force does not depend on where the springs stand.
         let lowest = gaps.iter().copied().fold(f64::INFINITY, f64::min);
         let largest = gaps.iter().copied().fold(0.0, f64::max);

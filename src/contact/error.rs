@@ -1,9 +1,9 @@
-//! What can go wrong between the body and the foundation.
+//! Errors of the contact solvers.
 
 use crate::scene::Leg;
 use thiserror::Error;
 
-/// Why a contact could not be computed.
+/// Reason for which a contact is not computed.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum ContactError {
     /// An array does not fit into memory.
@@ -12,7 +12,7 @@ pub enum ContactError {
         /// Springs asked for.
         springs: usize,
     },
-    /// Nothing touches that could be pulled.
+    /// A pulling force on a separated body.
     #[error(
         "loading.{index} = ToForce({force:e}): a pulling force needs a contact; allowed from separation: at least 0 N"
     )]
@@ -22,11 +22,11 @@ pub enum ContactError {
         /// Force asked for, N.
         force: f64,
     },
-    /// The contact lets go before this force.
+    /// The contact detaches above this force.
     #[error(
-        "loading.{index} = {leg:?}: the contact lets go before that force; allowed on this leg: at least {smallest:e} N"
+        "loading.{index} = {leg:?}: the contact detaches above that force; allowed on this leg: at least {smallest:e} N"
     )]
-    LetsGoBefore {
+    DetachesBefore {
         /// Index of the leg.
         index: usize,
         /// The leg.
@@ -34,7 +34,7 @@ pub enum ContactError {
         /// Smallest force the contact bears, N.
         smallest: f64,
     },
-    /// The force lies beyond what indentations can reach.
+    /// No finite indentation reaches the force.
     #[error("loading.{index} = {leg:?}: no finite indentation reaches that force on this foundation")]
     OutOfReach {
         /// Index of the leg.
@@ -54,7 +54,7 @@ pub enum ContactError {
         /// Most steps allowed on one leg.
         limit: u64,
     },
-    /// The computation was told to stop.
+    /// The computation was stopped.
     #[error("interrupted")]
     Interrupted,
 }

@@ -4,22 +4,22 @@
 //! law of their contact.
 
 use super::adhesive::{Adhesive, AdhesiveMemory, ContactTree, EdgeModel};
+use super::contact_model::{ContactModel, ContactState};
 use super::grid::Grid;
-use super::law::{Contact, Standing};
-use super::targets::{self, Target};
+use super::leg_plan::{Target, plan};
 use super::{ContactError, CurvePoint, Direction, Foundation, LegContact, LegRecord, Nonadhesive, Work};
 use crate::scene::{Edges, Leg};
 use std::time::{Duration, Instant};
 
 /// A body on its foundation, moved leg by leg.
-pub struct Exact<C: Contact> {
+pub struct Exact<C: ContactModel> {
     contact: C,
     foundation: Foundation,
     samples: usize,
-    standing: Standing,
-    /// The contact along the loading that forms it, where a force was sought on it: it goes alike each time.
+    state: ContactState,
+    /// Contact states of the loading from separation, once a force has been sought there: the same each time.
     first: Option<C::Leg>,
-    /// Whether the present leg touches at all, so that its thresholds hold.
+    /// Whether the body touches on the present leg, so that the thresholds are those of this leg.
     touching: bool,
     legs: usize,
     work: Work,
@@ -70,7 +70,7 @@ pub fn adhesive_in<'a, E: EdgeModel>(
     body
 }
 
-impl<C: Contact> Exact<C> {
+impl<C: ContactModel> Exact<C> {
     /// A body over these springs, separated, at d = 0 just before first touch.
     pub(super) fn new(contact: C, foundation: Foundation, samples: usize) -> Self {
         let work = Work { springs: contact.count(), ..Work::default() };
@@ -78,7 +78,7 @@ impl<C: Contact> Exact<C> {
             contact,
             foundation,
             samples: samples.max(2),
-            standing: Standing::free(0.0),
+            state: ContactState::free(0.0),
             first: None,
             touching: false,
             legs: 0,
@@ -101,18 +101,7 @@ impl<C: Contact> Exact<C> {
     }
 
     fn is_separated(&self) -> bool {
-        self.standing.springs == 0
-    }
-
-    /// Which way a leg goes and where it ends; `None` when it ends where the body stands.
-    fn plan(&self, leg: Leg) -> Result<Option<(Direction, Target)>, ContactError> {
-        let stiffness = self.foundation.spring_stiffness();
-        let standing = targets::Standing {
-            indentation: self.standing.indentation,
-            force: stiffness * self.standing.compression,
-            separated: self.is_separated(),
-        };
-        standing.plan(leg, stiffness, self.legs)
+        self.state.springs == 0
     }
 
     /// Grid of a leg's curve: every `stride`-th point is a sample, those between sharpen the search.
@@ -122,14 +111,14 @@ impl<C: Contact> Exact<C> {
         (Grid::new(low, high, intervals * stride), stride)
     }
 
-    /// What is in contact along the grid of a search.
+    /// Contact states along the grid of a search.
     fn sample(&mut self, low: f64, high: f64) -> Result<C::Leg, ContactError> {
         self.work.springs_tallied += self.work.springs;
         self.contact.sample(Grid::new(low, high, C::SEARCH_INTERVALS))
     }
 
-    fn curve_point(&self, standing: Standing) -> CurvePoint {
-        standing.point(self.foundation)
+    fn curve_point(&self, state: ContactState) -> CurvePoint {
+        state.point(self.foundation)
     }
 
     /// The samples of a leg in ascending order of indentation.
@@ -141,24 +130,24 @@ impl<C: Contact> Exact<C> {
             .collect()
     }
 
-    /// Energy in J of springs that join or leave with these squared stretches.
+    /// Energy of springs that attach or detach with this sum of squared stretches (m²), J.
     fn energy(&self, squared_stretch: f64) -> f64 {
         0.5 * self.foundation.spring_stiffness() * squared_stretch
     }
 
     /// A leg of a separated body that does not touch.
     fn fly(&mut self, leg: Leg, to: f64) -> LegRecord {
-        let from = self.standing.indentation;
-        self.standing = Standing::free(to);
+        let from = self.state.indentation;
+        self.state = ContactState::free(to);
         LegRecord::free(leg, from, to)
     }
 
     fn stay(&self, leg: Leg) -> LegRecord {
-        LegRecord::still(leg, self.curve_point(self.standing))
+        LegRecord::still(leg, self.curve_point(self.state))
     }
 
     fn load(&mut self, leg: Leg, target: Target) -> Result<LegRecord, ContactError> {
-        let before = self.standing;
+        let before = self.state;
         let separated = self.is_separated();
         let clock = Instant::now();
         let complete = self.contact.load((!separated).then_some(before.indentation), &mut self.work)?;
@@ -167,34 +156,34 @@ impl<C: Contact> Exact<C> {
         let low = if separated { before.indentation.max(0.0) } else { before.indentation };
         let high = match target {
             Target::Indentation(indentation) => indentation,
-            Target::Compression(wanted) => self.load_to_compression(leg, wanted, low, complete.max(low))?,
+            Target::Force(force) => self.load_to_force(leg, force, low, complete.max(low))?,
             Target::Separation => low,
         };
         let (grid, stride) = match target {
             // Nothing is sought any more.
-            Target::Compression(_) => (Grid::new(low, high, self.samples - 1), 1),
+            Target::Force(_) => (Grid::new(low, high, self.samples - 1), 1),
             _ => self.grid(low, high),
         };
         self.work.springs_tallied += self.work.springs;
-        let (sampled, joined) = self.contact.sample_joins(grid, separated)?;
+        let (sampled, joined) = self.contact.sample_attaching(grid, separated)?;
         let mut curve = self.samples(&sampled, stride);
         if separated {
-            curve.insert(0, self.curve_point(Standing::free(low)));
+            curve.insert(0, self.curve_point(ContactState::free(low)));
             if before.indentation < low {
                 curve.insert(0, self.curve_point(before));
             }
         }
         let end = self.contact.at(&sampled, self.contact.grid(&sampled).points().len() - 1);
         let largest = match target {
-            // The force has been below its target all the way.
-            Target::Compression(_) => end,
+            // The force is below its target until then.
+            Target::Force(_) => end,
             _ => self.contact.largest(&sampled, &mut self.work.events_sorted),
         };
         let at_end = self.curve_point(end);
         let smallest = curve.iter().copied().min_by(|a, b| a.force.total_cmp(&b.force)).unwrap_or(at_end);
         let joins = (end.springs - before.springs).unsigned_abs();
         self.work.joins += joins;
-        self.standing = end;
+        self.state = end;
         Ok(LegRecord {
             leg,
             direction: Direction::Loading,
@@ -203,18 +192,13 @@ impl<C: Contact> Exact<C> {
             smallest,
             joins,
             leaves: 0,
-            // Not −0 where nothing joined with a stretch.
+            // Not −0 where nothing attached with a stretch.
             dissipated_energy: 0.0 - self.energy(joined),
         })
     }
 
-    fn load_to_compression(
-        &mut self,
-        leg: Leg,
-        wanted: f64,
-        low: f64,
-        complete: f64,
-    ) -> Result<f64, ContactError> {
+    fn load_to_force(&mut self, leg: Leg, force: f64, low: f64, complete: f64) -> Result<f64, ContactError> {
+        let wanted = force / self.foundation.spring_stiffness();
         let forms = self.is_separated();
         // From d = 0 to where all is in contact.
         let known = if forms { self.first.take() } else { None };
@@ -236,7 +220,7 @@ impl<C: Contact> Exact<C> {
     }
 
     fn unload(&mut self, leg: Leg, target: Target) -> Result<LegRecord, ContactError> {
-        let before = self.standing;
+        let before = self.state;
         let high = before.indentation;
         let clock = Instant::now();
         let separates = self.contact.unload(high, &mut self.work)?;
@@ -244,14 +228,12 @@ impl<C: Contact> Exact<C> {
         let low = match target {
             Target::Indentation(indentation) => indentation,
             Target::Separation => separates.min(high),
-            Target::Compression(wanted) => {
-                self.unload_to_compression(leg, wanted, separates.min(high), high)?
-            }
+            Target::Force(force) => self.unload_to_force(leg, force, separates.min(high), high)?,
         };
         let (grid, stride) = self.grid(low, high);
         let separates = matches!(target, Target::Separation);
         self.work.springs_tallied += self.work.springs;
-        let (sampled, left) = self.contact.sample_leaves(grid, separates)?;
+        let (sampled, left) = self.contact.sample_detaching(grid, separates)?;
         let smallest = self.contact.smallest(&sampled, &mut self.work.events_sorted);
         let smallest = self.curve_point(smallest);
         let mut curve = self.samples(&sampled, stride);
@@ -261,15 +243,15 @@ impl<C: Contact> Exact<C> {
         }
         curve.reverse();
         let end = if separates {
-            curve.push(self.curve_point(Standing::free(low)));
-            Standing::free(low)
+            curve.push(self.curve_point(ContactState::free(low)));
+            ContactState::free(low)
         } else {
             self.contact.at(&sampled, 0)
         };
         let largest = curve.first().copied().unwrap_or(smallest);
         let leaves = (before.springs - end.springs).unsigned_abs();
         self.work.leaves += leaves;
-        self.standing = end;
+        self.state = end;
         Ok(LegRecord {
             leg,
             direction: Direction::Unloading,
@@ -282,29 +264,24 @@ impl<C: Contact> Exact<C> {
         })
     }
 
-    fn unload_to_compression(
-        &mut self,
-        leg: Leg,
-        wanted: f64,
-        low: f64,
-        high: f64,
-    ) -> Result<f64, ContactError> {
+    fn unload_to_force(&mut self, leg: Leg, force: f64, low: f64, high: f64) -> Result<f64, ContactError> {
+        let wanted = force / self.foundation.spring_stiffness();
         let sampled = self.sample(low, high)?;
         let sorted = &mut self.work.events_sorted;
         if let Some(found) = self.contact.last_at_most(&sampled, wanted, sorted) {
             return Ok(found);
         }
-        // The thresholds of this leg still say what is in contact where the body stands.
+        // The thresholds of this leg are still true at the present indentation.
         let smallest = self.contact.smallest(&sampled, sorted).compression;
         let smallest = self.foundation.spring_stiffness() * smallest;
-        Err(ContactError::LetsGoBefore { index: self.legs, leg, smallest })
+        Err(ContactError::DetachesBefore { index: self.legs, leg, smallest })
     }
 }
 
-impl<C: Contact> super::Solver for Exact<C> {
+impl<C: ContactModel> super::Solver for Exact<C> {
     fn advance(&mut self, leg: Leg) -> Result<LegRecord, ContactError> {
         let clock = Instant::now();
-        let plan = self.plan(leg)?;
+        let plan = plan(leg, self.curve_point(self.state), self.legs)?;
         let separated = self.is_separated();
         let (touching, record) = match plan {
             None => (!separated, self.stay(leg)),

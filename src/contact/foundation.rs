@@ -1,6 +1,6 @@
 //! The elastic foundation of the method of dimensionality reduction and the rule of Hess on it.
 
-/// A foundation of independent springs that stands for an elastic half-space.
+/// A foundation of independent springs, equivalent to an elastic half-space.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Foundation {
     /// Distance Δx between springs, m.

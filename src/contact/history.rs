@@ -1,9 +1,9 @@
-//! What a loading history leaves behind: its legs, their curves, and how much was done for it.
+//! Result of a loading history: its legs, their curves and the work counts.
 
 use crate::scene::Leg;
 use serde::Serialize;
 
-/// Whether a leg presses or pulls.
+/// Direction of a leg.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Direction {
@@ -31,28 +31,28 @@ pub struct CurvePoint {
 /// One leg as it went.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LegRecord {
-    /// What was asked for.
+    /// Leg of the scene.
     pub leg: Leg,
-    /// Whether it pressed or pulled.
+    /// Direction of the motion.
     pub direction: Direction,
     /// The curve along the leg: its samples, and the point of the smallest force of an unloading leg.
-    /// Where the contact forms or ends at once, the point before and the point after both stand.
+    /// At a jump into or out of contact it has the points before and after.
     pub curve: Vec<CurvePoint>,
     /// Largest force on the leg, exact to rounding (loading legs).
     pub largest: CurvePoint,
     /// Smallest force on the leg, exact to rounding (unloading legs).
     pub smallest: CurvePoint,
-    /// Springs that came into contact.
+    /// Springs that attached.
     pub joins: u64,
-    /// Springs that left.
+    /// Springs that detached.
     pub leaves: u64,
-    /// Energy lost, J: ½ Δk Σ e² over the springs that left with a stretch e, less the same over those
-    /// that joined. The work done on the springs over a closed loop is the sum of this over its legs.
+    /// Dissipated energy, J: ½ Δk Σ e² over the springs that detached with a stretch e, less the same over those
+    /// that attached. The work done on the springs over a closed loop is the sum of these energies over its legs.
     pub dissipated_energy: f64,
 }
 
 impl LegRecord {
-    /// A leg to where the body stands already.
+    /// A leg that ends where it begins.
     pub(crate) fn still(leg: Leg, here: CurvePoint) -> Self {
         LegRecord {
             leg,
@@ -73,13 +73,13 @@ impl LegRecord {
         LegRecord { direction, curve: vec![start, end], ..LegRecord::still(leg, end) }
     }
 
-    /// Where the leg began.
+    /// Indentation at the beginning, m.
     #[must_use]
     pub fn start(&self) -> f64 {
         self.curve.first().map_or(0.0, |point| point.indentation)
     }
 
-    /// Where the leg ended.
+    /// Indentation at the end, m.
     #[must_use]
     pub fn end(&self) -> f64 {
         self.curve.last().map_or(0.0, |point| point.indentation)
@@ -93,11 +93,11 @@ pub struct History {
     pub legs: Vec<LegRecord>,
     /// First and last spring of each fragment in contact after the last leg.
     pub contacts: Vec<(usize, usize)>,
-    /// What was done for it.
+    /// Work counts.
     pub work: Work,
 }
 
-/// Counts of what was done: the same on every machine, unlike times.
+/// Work counts: the same on every machine, unlike times.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Work {
     /// Springs under the body.
@@ -112,7 +112,7 @@ pub struct Work {
     pub loading_passes: u64,
     /// Passes over the tree for unloading legs.
     pub unloading_passes: u64,
-    /// Passes over what touches first, for F_a(0).
+    /// Passes from first touch, for F_a(0).
     pub zero_load_passes: u64,
     /// Evaluations of the rule of Hess.
     pub hess_evaluations: u64,
@@ -120,9 +120,9 @@ pub struct Work {
     pub springs_tallied: u64,
     /// Springs sorted by threshold in the intervals that may hold an extreme of the force.
     pub events_sorted: u64,
-    /// Springs that came into contact on the legs of the loading.
+    /// Springs attached on the legs of the loading.
     pub joins: u64,
-    /// Springs that left contact on the legs of the loading.
+    /// Springs detached on the legs of the loading.
     pub leaves: u64,
     /// Steps of the stepwise solver.
     pub steps: u64,
@@ -135,7 +135,7 @@ pub struct Work {
 }
 
 impl Work {
-    /// Adds what was done beside the legs of the loading; what joined and left there is no part of it.
+    /// Adds work done beside the legs of the loading, without the springs attached and detached there.
     pub(crate) fn add_effort(&mut self, beside: &Work) {
         // All fields by name: a new one cannot be forgotten here.
         let Work {

@@ -1,4 +1,4 @@
-//! The contact of a leg after the body has gone on.
+//! Contact at all indentations of one leg, kept after the body has moved on.
 
 use super::adhesive::{Adhesive, ContactTree, GridEdges, Run, SubCellEdges};
 use super::fragments::runs;
@@ -16,7 +16,7 @@ pub struct LegContact {
     thresholds: Vec<f64>,
 }
 
-/// What decides about contact.
+/// Data that define the contact.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 enum Kind {
     /// Nothing touches on this leg.

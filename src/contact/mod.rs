@@ -1,4 +1,4 @@
-//! The rigid line on the elastic foundation: when each spring joins and leaves, and the force.
+//! The rigid line on the elastic foundation: attachment and detachment of each spring, and the force.
 //!
 //! Everything here follows the rules of equilibrium of the method of dimensionality reduction with the
 //! rule of Hess:
@@ -6,29 +6,29 @@
 //! * *touch*: a free spring whose gap is closed, c ≤ d, comes into contact;
 //! * *grow*: a free spring beside a fragment of n springs comes into contact when
 //!   d ≥ c − Δl_max(n), eq. (10);
-//! * *detach*: within a fragment of n springs the most stretched one leaves when d ≤ c − Δl_max(n), but
+//! * *detach*: within a fragment of n springs the most stretched one detaches when d ≤ c − Δl_max(n), but
 //!   not while its gap is closed.
 //!
 //! [`exact`] solves them for any loading history in one pass over a tree for each leg; [`stepwise`]
 //! moves by small steps and relaxes, as the paper does; [`Manual`] loading moves the body by steps of any size,
-//! either way, at the cost of what changes.
+//! either way, at a cost in proportion to the change.
 
 pub mod adhesive;
+mod contact_model;
 mod error;
 pub mod exact;
 mod foundation;
 mod fragments;
 mod grid;
 mod history;
-mod law;
 mod leg_contact;
+mod leg_plan;
 mod manual;
 mod nonadhesive;
 mod snapshot;
 mod solver;
 pub mod stepwise;
-mod tally;
-mod targets;
+mod totals;
 
 pub use adhesive::{Adhesive, AdhesiveMemory, ContactTree, EdgeModel, GridEdges, SubCellEdges};
 pub use error::ContactError;
@@ -36,12 +36,13 @@ pub use exact::Exact;
 pub use foundation::{Foundation, HessRule};
 pub use history::{CurvePoint, Direction, History, LegRecord, Work};
 pub use leg_contact::LegContact;
+pub use leg_plan::Target;
 pub use manual::{Manual, ManualError, ManualLoading, Move};
 pub use nonadhesive::Nonadhesive;
 pub use snapshot::{FragmentState, Snapshot};
 pub use solver::{Solver, run};
 pub use stepwise::Stepwise;
-pub use tally::{GapScale, Tally};
+pub use totals::{ContactTotals, GapScale};
 
 /// An empty vector with room for `count` values, or an error instead of an abort.
 pub(crate) fn reserve<T>(count: usize) -> Result<Vec<T>, ContactError> {

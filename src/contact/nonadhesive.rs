@@ -3,23 +3,23 @@
 //! The contact depends on the indentation alone, so there is no history and no threshold; the force is a convex
 //! function of the indentation. One pass along the line gives a whole curve.
 //!
-//! What lies between two springs, a *cell*, fills from its smaller gap to its larger one. The cells that are full are
-//! summed exactly, as whole numbers of quanta. Those that are filled in part are summed one by one, which keeps every
-//! digit however steep or flat they are and however far the indentation goes; only cells that are filled in part at
+//! A *cell*, the line between two neighbouring springs, fills from its smaller gap to its larger one. Full cells are
+//! summed exactly, as whole numbers of quanta. Partly filled cells are summed one by one, which keeps every
+//! digit for any slope and any indentation; only cells that are partly filled at
 //! many points of a curve in a row add as quadratics, whose coefficients their height bounds there.
 
 use super::adhesive::bisect;
+use super::contact_model::{ContactModel, ContactState};
 use super::fragments::runs;
 use super::grid::{CompensatedSum, Grid};
-use super::law::{Contact, Standing};
-use super::tally::{GapScale, Tally};
+use super::totals::{ContactTotals, GapScale};
 use super::{ContactError, LegContact, Work, resized};
 use crate::scene::Edges;
 use std::ops::Range;
 
 /// Cells that are filled in part at so many points of a curve in a row are added to each of them.
 const FEW_POINTS: usize = 4;
-/// Most Newton steps to a force; what they leave of an interval is halved.
+/// Most Newton steps to a force; bisection does the rest.
 const NEWTON_STEPS: usize = 200;
 
 /// Springs of a line without adhesion.
@@ -32,13 +32,13 @@ pub struct Nonadhesive<'a> {
     scale: GapScale,
 }
 
-/// What is in contact at each point of a grid.
+/// Contact states at the points of a grid.
 pub struct Sampled {
     grid: Grid,
-    standings: Vec<Standing>,
+    states: Vec<ContactState>,
 }
 
-/// Sum over what is filled in part.
+/// Sum over partly filled cells.
 #[derive(Clone, Copy, Debug, Default)]
 struct Partial {
     /// In cells.
@@ -92,7 +92,7 @@ impl Quadratic {
 
 /// Changes of the contact from one point of a grid to the next.
 struct Changes {
-    whole: Vec<Tally>,
+    whole: Vec<ContactTotals>,
     partial: Vec<Partial>,
     quadratic: Vec<Quadratic>,
 }
@@ -100,10 +100,10 @@ struct Changes {
 /// The contact in an interval of indentations.
 struct Between<'s> {
     contact: &'s Nonadhesive<'s>,
-    /// Sum of what is full from the lower end on.
-    full: Tally,
+    /// Totals of the full springs or cells at the lower end.
+    full: ContactTotals,
     /// Springs that come into contact inside, by their gaps.
-    springs: Vec<(f64, Tally)>,
+    springs: Vec<(f64, ContactTotals)>,
     /// Cells that are filled in part anywhere inside.
     cells: Vec<[f64; 2]>,
 }
@@ -138,18 +138,18 @@ impl<'a> Nonadhesive<'a> {
         }
     }
 
-    /// The contact of full springs and cells, and of what is filled in part.
-    fn standing(&self, indentation: f64, full: Tally, partial: Partial) -> Standing {
+    /// Contact state of the full springs or cells and of the partly filled cells.
+    fn state(&self, indentation: f64, full: ContactTotals, partial: Partial) -> ContactState {
         let (springs, fragments) = (full.springs, full.fragments);
         match self.edges {
-            Edges::Grid => Standing {
+            Edges::Grid => ContactState {
                 indentation,
                 springs,
                 fragments,
                 length: springs as f64,
                 compression: full.compression(indentation, &self.scale),
             },
-            Edges::SubCell => Standing {
+            Edges::SubCell => ContactState {
                 indentation,
                 springs,
                 fragments,
@@ -165,7 +165,7 @@ impl<'a> Nonadhesive<'a> {
     /// A spring adds a fragment, less one for each neighbour that touches earlier; among equals the left one counts
     /// as the later. Between springs it adds the cells to these neighbours.
     #[inline]
-    fn each_spring(&self, mut see: impl FnMut(Tally, f64, f64)) {
+    fn each_spring(&self, mut see: impl FnMut(ContactTotals, f64, f64)) {
         let sub_cell = self.edges == Edges::SubCell;
         let mut before = f64::INFINITY;
         for (index, &gap) in self.gaps.iter().enumerate() {
@@ -175,17 +175,17 @@ impl<'a> Nonadhesive<'a> {
             let quanta =
                 if sub_cell { cell(left, before) + cell(right, after) } else { self.scale.quanta(gap) };
             let fragments = 1 - i64::from(left) - i64::from(right);
-            see(Tally { springs: 1, fragments, quanta: i128::from(quanta) }, gap, before);
+            see(ContactTotals { springs: 1, fragments, quanta: i128::from(quanta) }, gap, before);
             before = gap;
         }
     }
 
     /// The contact along a grid, by one pass along the line.
-    fn along(&self, grid: &Grid) -> Result<Vec<Standing>, ContactError> {
+    fn along(&self, grid: &Grid) -> Result<Vec<ContactState>, ContactError> {
         let points = grid.points();
         let count = points.len();
         let mut changes = Changes {
-            whole: resized(Vec::new(), count, Tally::default())?,
+            whole: resized(Vec::new(), count, ContactTotals::default())?,
             partial: resized(Vec::new(), count, Partial::default())?,
             quadratic: resized(Vec::new(), count, Quadratic::default())?,
         };
@@ -209,8 +209,8 @@ impl<'a> Nonadhesive<'a> {
         Ok(self.sum(points, changes))
     }
 
-    fn sum(&self, points: &[f64], changes: Changes) -> Vec<Standing> {
-        let (mut full, mut sum) = (Tally::default(), Quadratic::default());
+    fn sum(&self, points: &[f64], changes: Changes) -> Vec<ContactState> {
+        let (mut full, mut sum) = (ContactTotals::default(), Quadratic::default());
         let mut from = points[0];
         let changes = changes.whole.into_iter().zip(changes.partial).zip(changes.quadratic);
         let mut longest = 0.0;
@@ -228,18 +228,18 @@ impl<'a> Nonadhesive<'a> {
                     partial.length.add_sum(sum.partial.length);
                     partial.compression.add_sum(sum.partial.compression);
                 }
-                let mut standing = self.standing(point, full, partial);
+                let mut state = self.state(point, full, partial);
                 // Rounding must not make the contact shrink.
-                longest = standing.length.max(longest);
-                standing.length = longest;
-                standing
+                longest = state.length.max(longest);
+                state.length = longest;
+                state
             })
             .collect()
     }
 
-    /// The contact at any indentation from `low` up to, not itself, `high` (m), looking only at what changes there.
+    /// Contact at any indentation in `low..high` (m), from the totals at `low` and the changes in the interval.
     fn between(&self, low: f64, high: f64) -> Between<'_> {
-        let mut full = Tally::default();
+        let mut full = ContactTotals::default();
         let mut springs = Vec::new();
         self.each_spring(|adds, gap, _| {
             if gap <= low {
@@ -258,34 +258,34 @@ impl<'a> Nonadhesive<'a> {
     /// Neighbouring numbers between which the compression passes `wanted` on a leg, the lower first; the end of the
     /// leg twice where it lies beyond.
     fn crossing(&self, leg: &Sampled, wanted: f64, is_past: impl Fn(f64) -> bool) -> Option<[f64; 2]> {
-        let past = leg.standings.partition_point(|standing| !is_past(standing.compression));
-        let high = leg.standings.get(past)?.indentation;
-        let Some(low) = past.checked_sub(1).map(|index| leg.standings[index].indentation) else {
+        let past = leg.states.partition_point(|state| !is_past(state.compression));
+        let high = leg.states.get(past)?.indentation;
+        let Some(low) = past.checked_sub(1).map(|index| leg.states[index].indentation) else {
             return Some([high; 2]);
         };
         let between = self.between(low, high.next_up());
         Some(match self.edges {
             Edges::Grid => [between.crossing_of_springs((low, high), wanted); 2],
             // It rises from there on, though perhaps by less than a number can hold.
-            Edges::SubCell if leg.standings[past - 1].compression == wanted => [low, low.next_up()],
+            Edges::SubCell if leg.states[past - 1].compression == wanted => [low, low.next_up()],
             Edges::SubCell => between.crossing((low, high), wanted, is_past),
         })
     }
 }
 
 impl Between<'_> {
-    fn at(&self, indentation: f64) -> Standing {
+    fn at(&self, indentation: f64) -> ContactState {
         let mut full = self.full;
         self.springs.iter().filter(|(gap, _)| *gap <= indentation).for_each(|(_, adds)| full += *adds);
         let mut partial = Partial::default();
         self.contact.add_ends(&mut partial, indentation);
         let cells = self.cells.iter().filter(|&&[low, high]| low <= indentation && indentation < high);
         cells.for_each(|&[low, high]| partial.add(low, high, indentation));
-        self.contact.standing(indentation, full, partial)
+        self.contact.state(indentation, full, partial)
     }
 
     /// Springs in contact at an indentation, m.
-    fn full_at(&self, indentation: f64) -> Tally {
+    fn full_at(&self, indentation: f64) -> ContactTotals {
         let mut full = self.full;
         self.springs.iter().filter(|(gap, _)| *gap <= indentation).for_each(|(_, adds)| full += *adds);
         full
@@ -304,8 +304,8 @@ impl Between<'_> {
     ) -> [f64; 2] {
         let past = |indentation: f64| is_past(self.at(indentation).compression);
         for _ in 0..NEWTON_STEPS {
-            let standing = self.at(high);
-            let next = high - (standing.compression - wanted) / standing.length;
+            let state = self.at(high);
+            let next = high - (state.compression - wanted) / state.length;
             if next >= high || next <= low {
                 break;
             }
@@ -358,7 +358,7 @@ impl Changes {
     }
 }
 
-impl Contact for Nonadhesive<'_> {
+impl ContactModel for Nonadhesive<'_> {
     type Leg = Sampled;
 
     const SEARCH_INTERVALS: usize = 256;
@@ -377,15 +377,15 @@ impl Contact for Nonadhesive<'_> {
     }
 
     fn sample(&self, grid: Grid) -> Result<Sampled, ContactError> {
-        Ok(Sampled { standings: self.along(&grid)?, grid })
+        Ok(Sampled { states: self.along(&grid)?, grid })
     }
 
     /// Nothing is stretched, so that nothing dissipates.
-    fn sample_joins(&self, grid: Grid, _: bool) -> Result<(Sampled, f64), ContactError> {
+    fn sample_attaching(&self, grid: Grid, _: bool) -> Result<(Sampled, f64), ContactError> {
         Ok((self.sample(grid)?, 0.0))
     }
 
-    fn sample_leaves(&self, grid: Grid, _: bool) -> Result<(Sampled, f64), ContactError> {
+    fn sample_detaching(&self, grid: Grid, _: bool) -> Result<(Sampled, f64), ContactError> {
         Ok((self.sample(grid)?, 0.0))
     }
 
@@ -393,16 +393,16 @@ impl Contact for Nonadhesive<'_> {
         &leg.grid
     }
 
-    fn at(&self, leg: &Sampled, index: usize) -> Standing {
-        leg.standings[index]
+    fn at(&self, leg: &Sampled, index: usize) -> ContactState {
+        leg.states[index]
     }
 
-    fn smallest(&self, leg: &Sampled, _: &mut u64) -> Standing {
-        leg.standings[0]
+    fn smallest(&self, leg: &Sampled, _: &mut u64) -> ContactState {
+        leg.states[0]
     }
 
-    fn largest(&self, leg: &Sampled, _: &mut u64) -> Standing {
-        leg.standings[leg.standings.len() - 1]
+    fn largest(&self, leg: &Sampled, _: &mut u64) -> ContactState {
+        leg.states[leg.states.len() - 1]
     }
 
     fn first_at_least(&self, leg: &Sampled, wanted: f64, _: &mut u64) -> Option<f64> {
@@ -410,15 +410,15 @@ impl Contact for Nonadhesive<'_> {
     }
 
     fn last_at_most(&self, leg: &Sampled, wanted: f64, _: &mut u64) -> Option<f64> {
-        if leg.standings[0].compression > wanted {
+        if leg.states[0].compression > wanted {
             return None;
         }
         let found = self.crossing(leg, wanted, |compression| compression > wanted).map(|[found, _]| found);
-        found.or(leg.standings.last().map(|last| last.indentation))
+        found.or(leg.states.last().map(|last| last.indentation))
     }
 
     fn beyond(&self, leg: &Sampled, wanted: f64) -> Option<f64> {
-        let end = leg.standings.last()?;
+        let end = leg.states.last()?;
         match self.edges {
             Edges::Grid => {
                 self.between(end.indentation, end.indentation).full.indentation(wanted, &self.scale)

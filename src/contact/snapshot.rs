@@ -1,9 +1,9 @@
 //! Forces and lengths of given fragments at one indentation: for a view of a contact that is not solved again.
 
 use super::adhesive::{EdgeCells, EdgeModel, GridEdges, Span, SubCellEdges};
+use super::contact_model::ContactState;
 use super::grid::CompensatedSum;
-use super::law::Standing;
-use super::tally::{GapScale, Tally};
+use super::totals::{ContactTotals, GapScale};
 use super::{CurvePoint, Foundation, HessRule};
 use crate::scene::Edges;
 
@@ -71,8 +71,13 @@ impl<'a> Snapshot<'a> {
         }
     }
 
-    fn contact<E: EdgeModel>(&self, edges: E, indentation: f64, fragments: &[(usize, usize)]) -> Standing {
-        let mut totals = Tally::default();
+    fn contact<E: EdgeModel>(
+        &self,
+        edges: E,
+        indentation: f64,
+        fragments: &[(usize, usize)],
+    ) -> ContactState {
+        let mut totals = ContactTotals::default();
         let (mut length, mut compression) = (CompensatedSum::default(), CompensatedSum::default());
         for &ends in fragments {
             totals += self.totals(E::EDGES, ends);
@@ -84,7 +89,7 @@ impl<'a> Snapshot<'a> {
             }
         }
         let cells = EdgeCells { length: length.total(), compression: compression.total() };
-        edges.standing(indentation, totals, cells, &self.scale)
+        edges.state(indentation, totals, cells, &self.scale)
     }
 
     fn fragment_under<E: EdgeModel>(
@@ -93,7 +98,7 @@ impl<'a> Snapshot<'a> {
         indentation: f64,
         ends: (usize, usize),
     ) -> FragmentState {
-        let Standing { length, compression, .. } = self.contact(edges, indentation, &[ends]);
+        let ContactState { length, compression, .. } = self.contact(edges, indentation, &[ends]);
         let span = self.span(ends);
         let level = edges.level(&span, edges.length(self.gaps, &span), indentation);
         FragmentState {
@@ -110,7 +115,7 @@ impl<'a> Snapshot<'a> {
     }
 
     /// Whole springs or cells of a fragment.
-    fn totals(&self, edges: Edges, (first, last): (usize, usize)) -> Tally {
+    fn totals(&self, edges: Edges, (first, last): (usize, usize)) -> ContactTotals {
         let springs = &self.gaps[first..=last];
         let quanta = match edges {
             Edges::Grid => springs.iter().map(|&gap| i128::from(self.scale.quanta(gap))).sum(),
@@ -119,6 +124,6 @@ impl<'a> Snapshot<'a> {
                 cells.map(|cell| i128::from(self.scale.mean_quanta(cell[0], cell[1]))).sum()
             }
         };
-        Tally { springs: springs.len() as i64, fragments: 1, quanta }
+        ContactTotals { springs: springs.len() as i64, fragments: 1, quanta }
     }
 }

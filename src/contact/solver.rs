@@ -1,4 +1,4 @@
-//! What every solver offers: a body moved leg by leg.
+//! Interface of the solvers: a body moved leg by leg.
 
 use super::{ContactError, History, LegContact, LegRecord, Work};
 use crate::scene::Leg;
@@ -9,7 +9,7 @@ pub trait Solver {
     /// Moves the body along one leg.
     ///
     /// # Errors
-    /// When the target of the leg cannot be reached; the body then stands where it stood.
+    /// For a target out of reach; the body then stays at its indentation.
     fn advance(&mut self, leg: Leg) -> Result<LegRecord, ContactError>;
 
     /// First and last spring of each contact fragment at `indentation` on the present leg, in
@@ -20,22 +20,21 @@ pub trait Solver {
     /// contact on the present leg (−∞ always, +∞ never).
     fn thresholds_along_line(&self, out: &mut Vec<f64>);
 
-    /// Copies what tells the contact at any indentation of the present leg, in the memory of `copy`: far
+    /// Copies the contact at all indentations of the present leg into the memory of `copy`: far
     /// cheaper than [`Solver::thresholds_along_line`] and enough to replay the leg.
     ///
     /// # Errors
-    /// [`ContactError::OutOfMemory`]; the copy then tells of no contact.
+    /// [`ContactError::OutOfMemory`]; the copy then holds no contact.
     fn copy_leg(&self, copy: &mut LegContact) -> Result<(), ContactError>;
 
-    /// What has been done so far.
+    /// Work counts since the start.
     fn work(&self) -> Work;
 
-    /// Seconds spent so far on curves and extremes rather than on what joins and leaves.
+    /// Seconds spent on curves and extremes since the start, without the thresholds.
     fn curve_seconds(&self) -> f64;
 }
 
-/// Runs a whole loading history. `after` sees each leg as soon as it is done, with the solver as it
-/// then stands.
+/// Runs a whole loading history. `after` receives each leg as soon as it is done, and the solver in its state then.
 ///
 /// # Errors
 /// The first leg that fails ends the run.

@@ -1,12 +1,14 @@
 //! The stepwise solver: move by a small step, relax to equilibrium, repeat, as the paper does.
 //!
 //! The step Δd is its accuracy; each step costs a few sweeps over the whole line. It shares nothing
-//! with the exact solver but the rules and the sums; only whether a leg can end, and within how many steps,
-//! is asked of the exact thresholds before the first step.
+//! with the exact solver but the rules and the sums; the exact thresholds decide only, before the first step, whether
+//! a leg can end and within how many steps.
 
+use super::leg_plan::{Target, plan};
 use super::{
-    ContactError, ContactTree, CurvePoint, Direction, Foundation, GapScale, GridEdges, HessRule, LegContact,
-    LegRecord, Manual, ManualError, ManualLoading, Solver, Tally, Work, exact, fragments, reserve,
+    ContactError, ContactTotals, ContactTree, CurvePoint, Direction, Foundation, GapScale, GridEdges,
+    HessRule, LegContact, LegRecord, Manual, ManualError, ManualLoading, Solver, Work, exact, fragments,
+    reserve,
 };
 use crate::scene::{Edges, Leg};
 use std::sync::Arc;
@@ -26,8 +28,8 @@ pub struct Stepwise<'a> {
     contact: Vec<bool>,
     thresholds: Vec<f64>,
     indentation: f64,
-    tally: Tally,
-    /// Σ of the squared stretches of what left, less that of what joined, on the present leg, m².
+    totals: ContactTotals,
+    /// Σ e² over the springs detached, less that over the springs attached, on the present leg, m².
     squared_stretch: f64,
     legs: usize,
     work: Work,
@@ -35,7 +37,7 @@ pub struct Stepwise<'a> {
 
 impl<'a> Stepwise<'a> {
     /// A separated body over springs of these gaps (m, the smallest 0), moved by steps of `step` m;
-    /// without a rule of Hess there is no adhesion. `stop` is asked after each step whether to give up.
+    /// without a rule of Hess there is no adhesion. `stop` returns true after a step to end the run.
     ///
     /// # Errors
     /// [`ContactError::OutOfMemory`].
@@ -62,7 +64,7 @@ impl<'a> Stepwise<'a> {
             contact,
             thresholds,
             indentation: 0.0,
-            tally: Tally::default(),
+            totals: ContactTotals::default(),
             squared_stretch: 0.0,
             legs: 0,
             work: Work { springs: gaps.len() as u64, ..Work::default() },
@@ -77,8 +79,8 @@ impl<'a> Stepwise<'a> {
     fn join(&mut self, index: usize) {
         self.contact[index] = true;
         self.thresholds[index] = self.indentation;
-        self.tally.springs += 1;
-        self.tally.quanta += i128::from(self.scale.quanta(self.gaps[index]));
+        self.totals.springs += 1;
+        self.totals.quanta += i128::from(self.scale.quanta(self.gaps[index]));
         let stretch = (self.gaps[index] - self.indentation).max(0.0);
         self.squared_stretch -= stretch * stretch;
     }
@@ -86,8 +88,8 @@ impl<'a> Stepwise<'a> {
     fn leave(&mut self, index: usize, held_until: f64) {
         self.contact[index] = false;
         self.thresholds[index] = held_until;
-        self.tally.springs -= 1;
-        self.tally.quanta -= i128::from(self.scale.quanta(self.gaps[index]));
+        self.totals.springs -= 1;
+        self.totals.quanta -= i128::from(self.scale.quanta(self.gaps[index]));
         // As far as it was held: how far the step went beyond is no property of the contact.
         let stretch = (self.gaps[index] - held_until).max(0.0);
         self.squared_stretch += stretch * stretch;
@@ -96,7 +98,7 @@ impl<'a> Stepwise<'a> {
     /// Sweeps until no spring touches and no fragment grows.
     fn relax_loading(&mut self) {
         loop {
-            let joined = self.tally.springs;
+            let joined = self.totals.springs;
             self.work.relaxation_sweeps += 1;
             self.work.spring_updates += self.gaps.len() as u64;
             for index in 0..self.gaps.len() {
@@ -107,13 +109,13 @@ impl<'a> Stepwise<'a> {
             if self.hess.is_some() {
                 self.grow_fragments();
             }
-            if self.tally.springs == joined {
+            if self.totals.springs == joined {
                 return;
             }
         }
     }
 
-    /// Lets each fragment take in its neighbours for as long as the rule allows.
+    /// Extends each fragment over its neighbours for as long as the rule allows.
     fn grow_fragments(&mut self) {
         let count = self.gaps.len();
         let mut first = 0;
@@ -149,7 +151,7 @@ impl<'a> Stepwise<'a> {
     /// Sweeps until every fragment holds its most stretched spring.
     fn relax_unloading(&mut self, held_until: f64) {
         loop {
-            let held = self.tally.springs;
+            let held = self.totals.springs;
             self.work.relaxation_sweeps += 1;
             let mut first = 0;
             while first < self.gaps.len() {
@@ -168,7 +170,7 @@ impl<'a> Stepwise<'a> {
                 }
                 first = end + 1;
             }
-            if self.tally.springs == held {
+            if self.totals.springs == held {
                 return;
             }
         }
@@ -177,21 +179,21 @@ impl<'a> Stepwise<'a> {
     fn count_fragments(&mut self) {
         let starts =
             (0..self.contact.len()).filter(|&i| self.contact[i] && (i == 0 || !self.contact[i - 1])).count();
-        self.tally.fragments = starts as i64;
+        self.totals.fragments = starts as i64;
     }
 
     fn point(&self) -> CurvePoint {
-        let compression = self.tally.compression(self.indentation, &self.scale);
+        let compression = self.totals.compression(self.indentation, &self.scale);
         CurvePoint {
             indentation: self.indentation,
             force: self.foundation.spring_stiffness() * compression,
-            contact_length: self.foundation.contact_length(self.tally.springs as f64),
-            springs: self.tally.springs.unsigned_abs(),
-            fragments: self.tally.fragments.unsigned_abs(),
+            contact_length: self.foundation.contact_length(self.totals.springs as f64),
+            springs: self.totals.springs.unsigned_abs(),
+            fragments: self.totals.fragments.unsigned_abs(),
         }
     }
 
-    /// Sets the thresholds to what is known when a leg begins.
+    /// Sets the thresholds for the beginning of a leg.
     fn begin(&mut self) {
         for (threshold, &contact) in self.thresholds.iter_mut().zip(&self.contact) {
             *threshold = if contact { f64::NEG_INFINITY } else { f64::INFINITY };
@@ -202,15 +204,15 @@ impl<'a> Stepwise<'a> {
     /// Refuses a leg whose end lies out of reach or beyond the limit of steps, before its first step.
     ///
     /// # Errors
-    /// [`ContactError::LetsGoBefore`], [`ContactError::OutOfReach`], [`ContactError::TooManySteps`].
-    fn check_reach(&self, leg: Leg, direction: Direction, goal: Goal) -> Result<(), ContactError> {
-        let end = match (goal, direction) {
-            (Goal::Indentation(end), _) => end,
-            (Goal::Force(force), Direction::Loading) => self.least_indentation(force.max(0.0))?,
-            (Goal::Force(_) | Goal::Separation, _) => self.pulled(leg, goal)?,
+    /// [`ContactError::DetachesBefore`], [`ContactError::OutOfReach`], [`ContactError::TooManySteps`].
+    fn check_reach(&self, leg: Leg, direction: Direction, target: Target) -> Result<(), ContactError> {
+        let end = match (target, direction) {
+            (Target::Indentation(end), _) => end,
+            (Target::Force(force), Direction::Loading) => self.least_indentation(force.max(0.0))?,
+            (Target::Force(_) | Target::Separation, _) => self.pulled(leg, target)?,
         };
         // From separation the first step is the touch.
-        let start = if self.tally.springs == 0 { self.indentation.max(0.0) } else { self.indentation };
+        let start = if self.totals.springs == 0 { self.indentation.max(0.0) } else { self.indentation };
         // No end is closer than the exact one, and the last step may be a part of one.
         if (end - start).abs() / self.step > STEP_LIMIT as f64 {
             let index = self.legs;
@@ -230,23 +232,23 @@ impl<'a> Stepwise<'a> {
         Ok(reached.end())
     }
 
-    /// Indentation, m, at which the present contact reaches a goal when it is pulled.
-    fn pulled(&self, leg: Leg, goal: Goal) -> Result<f64, ContactError> {
+    /// Indentation, m, at which the present contact, pulled, reaches a target.
+    fn pulled(&self, leg: Leg, target: Target) -> Result<f64, ContactError> {
         let tree = Arc::new(ContactTree::build(self.gaps, Edges::Grid)?);
         let edges = GridEdges::new(self.hess.unwrap_or(HessRule::NO_ADHESION));
         let contacts = fragments::runs(self.contact.iter().copied());
         let body = Manual::in_contact(self.gaps, tree, edges, self.foundation, self.indentation, &contacts);
         let pulled = body.and_then(|mut body| {
-            match goal {
-                Goal::Force(force) => body.move_to_force(force)?,
-                Goal::Indentation(_) | Goal::Separation => body.separate(),
+            match target {
+                Target::Force(force) => body.move_to_force(force)?,
+                Target::Indentation(_) | Target::Separation => body.separate(),
             };
             Ok(body.point().indentation)
         });
         pulled.map_err(|error| match error {
             ManualError::Contact(error) => error,
             ManualError::DetachesBefore { smallest, .. } => {
-                ContactError::LetsGoBefore { index: self.legs, leg, smallest }
+                ContactError::DetachesBefore { index: self.legs, leg, smallest }
             }
             ManualError::NotFinite { .. }
             | ManualError::NothingToPull { .. }
@@ -254,10 +256,10 @@ impl<'a> Stepwise<'a> {
         })
     }
 
-    /// Steps on until `goal` says the leg is done.
-    fn walk(&mut self, leg: Leg, direction: Direction, goal: Goal) -> Result<LegRecord, ContactError> {
+    /// Steps to the target.
+    fn walk(&mut self, leg: Leg, direction: Direction, target: Target) -> Result<LegRecord, ContactError> {
         self.begin();
-        let before = self.tally.springs;
+        let before = self.totals.springs;
         let mut curve = Thinned::new(self.samples);
         let here = self.point();
         curve.push(here);
@@ -285,7 +287,7 @@ impl<'a> Stepwise<'a> {
                 Direction::Loading => origin + moved,
                 Direction::Unloading => origin - moved,
             };
-            self.indentation = goal.clip(wanted, direction);
+            self.indentation = target.clip(wanted, direction);
             self.work.steps += 1;
             match direction {
                 Direction::Loading => self.relax_loading(),
@@ -300,17 +302,17 @@ impl<'a> Stepwise<'a> {
             if point.force < smallest.force {
                 smallest = point;
             }
-            if goal.reached(&point, direction) {
+            if target.reached(&point, direction) {
                 break;
             }
-            if point.springs == 0 && direction == Direction::Unloading && matches!(goal, Goal::Force(_)) {
+            if point.springs == 0 && direction == Direction::Unloading && matches!(target, Target::Force(_)) {
                 let index = self.legs;
-                return Err(ContactError::LetsGoBefore { index, leg, smallest: smallest.force });
+                return Err(ContactError::DetachesBefore { index, leg, smallest: smallest.force });
             }
         }
         let (joins, leaves) = match direction {
-            Direction::Loading => ((self.tally.springs - before).unsigned_abs(), 0),
-            Direction::Unloading => (0, (before - self.tally.springs).unsigned_abs()),
+            Direction::Loading => ((self.totals.springs - before).unsigned_abs(), 0),
+            Direction::Unloading => (0, (before - self.totals.springs).unsigned_abs()),
         };
         self.work.joins += joins;
         self.work.leaves += leaves;
@@ -327,34 +329,26 @@ impl<'a> Stepwise<'a> {
     }
 }
 
-/// When a leg is done.
-#[derive(Clone, Copy, Debug)]
-enum Goal {
-    Indentation(f64),
-    Force(f64),
-    Separation,
-}
-
-impl Goal {
+impl Target {
     fn clip(self, indentation: f64, direction: Direction) -> f64 {
         match (self, direction) {
-            (Goal::Indentation(end), Direction::Loading) => indentation.min(end),
-            (Goal::Indentation(end), Direction::Unloading) => indentation.max(end),
+            (Target::Indentation(end), Direction::Loading) => indentation.min(end),
+            (Target::Indentation(end), Direction::Unloading) => indentation.max(end),
             _ => indentation,
         }
     }
 
     fn reached(self, point: &CurvePoint, direction: Direction) -> bool {
         match (self, direction) {
-            (Goal::Indentation(end), _) => point.indentation == end,
-            (Goal::Force(force), Direction::Loading) => point.force >= force,
-            (Goal::Force(force), Direction::Unloading) => point.force <= force && point.springs > 0,
-            (Goal::Separation, _) => point.springs == 0,
+            (Target::Indentation(end), _) => point.indentation == end,
+            (Target::Force(force), Direction::Loading) => point.force >= force,
+            (Target::Force(force), Direction::Unloading) => point.force <= force && point.springs > 0,
+            (Target::Separation, _) => point.springs == 0,
         }
     }
 }
 
-/// A curve that halves its density whenever it has become twice as long as asked for.
+/// A curve that halves its density whenever it reaches twice the wanted length.
 struct Thinned {
     wanted: usize,
     stride: u64,
@@ -401,42 +395,20 @@ impl Thinned {
 
 impl Solver for Stepwise<'_> {
     fn advance(&mut self, leg: Leg) -> Result<LegRecord, ContactError> {
-        let separated = self.tally.springs == 0;
         let here = self.point();
-        let (direction, goal) = match leg {
-            Leg::ToIndentation(_) | Leg::ToTouch => {
-                let end = if let Leg::ToIndentation(end) = leg { end } else { 0.0 };
-                let loads = end > self.indentation || (separated && end >= 0.0);
-                (if loads { Direction::Loading } else { Direction::Unloading }, Goal::Indentation(end))
-            }
-            Leg::ToForce(_) | Leg::ToZeroForce => {
-                let force = if let Leg::ToForce(force) = leg { force } else { 0.0 };
-                if separated && force < 0.0 {
-                    return Err(ContactError::NothingToPull { index: self.legs, force });
-                }
-                let loads = separated || force > here.force;
-                (if loads { Direction::Loading } else { Direction::Unloading }, Goal::Force(force))
-            }
-            Leg::ToSeparation => (Direction::Unloading, Goal::Separation),
-        };
-        let done = !(separated && direction == Direction::Loading) && goal.reached(&here, direction);
-        let free_to = match goal {
-            Goal::Indentation(end) if separated && end < 0.0 => Some(end),
-            _ => None,
-        };
-        let record = match free_to {
-            _ if done => LegRecord::still(leg, here),
-            Some(end) => {
+        let record = match plan(leg, here, self.legs)? {
+            None => LegRecord::still(leg, here),
+            Some((_, Target::Indentation(end))) if here.springs == 0 && end < 0.0 => {
                 self.indentation = end;
                 LegRecord::free(leg, here.indentation, end)
             }
-            None => {
-                self.check_reach(leg, direction, goal)?;
+            Some((direction, target)) => {
+                self.check_reach(leg, direction, target)?;
                 let (contact, thresholds) = (self.contact.clone(), self.thresholds.clone());
-                let tally = self.tally;
-                self.walk(leg, direction, goal).inspect_err(|_| {
+                let totals = self.totals;
+                self.walk(leg, direction, target).inspect_err(|_| {
                     (self.contact, self.thresholds) = (contact, thresholds);
-                    (self.indentation, self.tally) = (here.indentation, tally);
+                    (self.indentation, self.totals) = (here.indentation, totals);
                 })?
             }
         };

@@ -97,7 +97,7 @@ proptest! {
                             prop_assert_eq!(indices(&fragments).len() as u64, held);
                         }
                     }
-                    Err(ContactError::LetsGoBefore { smallest, .. }) => prop_assert!(smallest.is_finite()),
+                    Err(ContactError::DetachesBefore { smallest, .. }) => prop_assert!(smallest.is_finite()),
                     Err(ContactError::NothingToPull { .. } | ContactError::OutOfReach { .. }) => {}
                     Err(error) => return Err(TestCaseError::fail(error.to_string())),
                 }

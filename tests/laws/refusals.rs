@@ -33,12 +33,12 @@ proptest! {
                 (false, true) => ContactError::NothingToPull { index, force },
                 (false, false) => match error {
                     // How small it gets is judged elsewhere; that it is said, here.
-                    ContactError::LetsGoBefore { smallest, .. } if smallest > force => error.clone(),
-                    _ => ContactError::LetsGoBefore { index, leg: Leg::ToForce(force), smallest: f64::NAN },
+                    ContactError::DetachesBefore { smallest, .. } if smallest > force => error.clone(),
+                    _ => ContactError::DetachesBefore { index, leg: Leg::ToForce(force), smallest: f64::NAN },
                 },
             };
             prop_assert_eq!(&error, &expected);
-            if let ContactError::LetsGoBefore { index: told, leg, .. } = error {
+            if let ContactError::DetachesBefore { index: told, leg, .. } = error {
                 prop_assert_eq!((told, leg), (index, Leg::ToForce(force)));
             }
             let (one, other) = (asked.advance(leg).unwrap(), spared.advance(leg).unwrap());

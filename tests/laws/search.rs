@@ -72,13 +72,13 @@ proptest! {
             let steps = Steps::new(&thresholds, &body);
             let record = match outcome {
                 Ok(record) => record,
-                Err(ContactError::LetsGoBefore { smallest, leg: Leg::ToForce(force), .. }) => {
+                Err(ContactError::DetachesBefore { smallest, leg: Leg::ToForce(force), .. }) => {
                     let expected = steps.smallest(f64::NEG_INFINITY, start);
                     prop_assert!((smallest - expected).abs() <= rounding(&body, start, expected));
                     prop_assert!(smallest > force, "{} was in reach, at least {}", force, smallest);
                     continue;
                 }
-                Err(ContactError::LetsGoBefore { leg: Leg::ToZeroForce, smallest, .. }) => {
+                Err(ContactError::DetachesBefore { leg: Leg::ToZeroForce, smallest, .. }) => {
                     prop_assert!(smallest > 0.0);
                     continue;
                 }

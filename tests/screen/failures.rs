@@ -43,16 +43,16 @@ fn a_scene_that_fails_is_told_and_the_next_edit_mends_it() {
         driver.enter("[ToForce(2.0e-5), ToForce(-1.0)]");
         assert!(!driver.model.is_computing());
         let text = driver.text();
-        assert!(text.contains("the contact lets go before that force"), "{text}");
+        assert!(text.contains("the contact detaches above that force"), "{text}");
         // Its numbers are not those of the scene any more.
         assert!(!text.contains("F_a "), "{text}");
         for keys in ["j", "k", ". .", "Tab", "n", "+"] {
             driver.press(keys);
         }
-        assert!(driver.text().contains("the contact lets go before that force"), "{}", driver.text());
+        assert!(driver.text().contains("the contact detaches above that force"), "{}", driver.text());
         driver.press("u");
         let text = driver.text();
-        assert!(text.contains("F_a ") && !text.contains("lets go before"), "{text}");
+        assert!(text.contains("F_a ") && !text.contains("detaches above"), "{text}");
         assert!(is_up_to_date(&driver.model));
     });
 }

@@ -183,7 +183,7 @@ fn assert_refused(error: &RunError, scene: &Scene) -> Result<(), TestCaseError> 
     prop_assert_eq!(message.lines().count(), 1);
     match error {
         RunError::Contact(
-            ContactError::NothingToPull { index, .. } | ContactError::LetsGoBefore { index, .. },
+            ContactError::NothingToPull { index, .. } | ContactError::DetachesBefore { index, .. },
         ) => {
             prop_assert!(message.starts_with(&format!("loading.{index} = ")), "{}", message);
             prop_assert!(message.contains("; allowed"), "{}", message);

@@ -47,7 +47,7 @@ proptest! {
                     prop_assert!((lost.0 - lost.1).abs() <= slack, "{:?}: lost {:?}", leg, lost);
                     record
                 }
-                (Err(ContactError::LetsGoBefore { smallest: a, .. }), Err(ManualError::DetachesBefore { smallest: b, .. })) => {
+                (Err(ContactError::DetachesBefore { smallest: a, .. }), Err(ManualError::DetachesBefore { smallest: b, .. })) => {
                     prop_assert!((a - b).abs() <= 1e-12 * scale * depth, "{:?}: {} {}", leg, a, b);
                     continue;
                 }

@@ -2,17 +2,17 @@
 
 use super::edge_model::{EdgeCells, EdgeModel};
 use super::run::{Ground, Run};
+use crate::contact::contact_model::ContactState;
 use crate::contact::grid::Grid;
-use crate::contact::law::Standing;
-use crate::contact::tally::Tally;
+use crate::contact::totals::ContactTotals;
 use crate::contact::{ContactError, resized};
 
 /// The contact at each point of a grid.
 pub struct Sampled {
     pub grid: Grid,
-    /// What is whole in contact at each point.
-    pub totals: Vec<Tally>,
-    pub standings: Vec<Standing>,
+    /// Totals of the full springs or cells at each point.
+    pub totals: Vec<ContactTotals>,
+    pub states: Vec<ContactState>,
 }
 
 /// Edge cells of many fragments: length, its rounding errors, compression, and theirs.
@@ -27,7 +27,7 @@ impl<E: EdgeModel> Ground<'_, E> {
         let points = grid.points();
         let count = points.len();
         let place = |at: f64| if at > grid.high() { count } else { grid.first_at_least(at) };
-        let mut totals = resized(Vec::new(), count + 1, Tally::default())?;
+        let mut totals = resized(Vec::new(), count + 1, ContactTotals::default())?;
         let mut sums: Vec<Sums> = resized(Vec::new(), if E::SLIDES { count } else { 0 }, [0.0; 4])?;
         for run in runs {
             let (mut first, end) = (place(run.from), place(run.to));
@@ -52,19 +52,19 @@ impl<E: EdgeModel> Ground<'_, E> {
             });
         }
         totals.truncate(count);
-        let mut total = Tally::default();
-        let mut standings = resized(Vec::new(), count, Standing::default())?;
+        let mut total = ContactTotals::default();
+        let mut states = resized(Vec::new(), count, ContactState::default())?;
         let scale = self.tree.scale();
-        for (index, (standing, &point)) in standings.iter_mut().zip(points).enumerate() {
+        for (index, (state, &point)) in states.iter_mut().zip(points).enumerate() {
             total += totals[index];
             totals[index] = total;
             let cells =
                 sums.get(index).map_or_else(EdgeCells::default, |[length, of_length, compression, rest]| {
                     EdgeCells { length: length + of_length, compression: compression + rest }
                 });
-            *standing = self.edges.standing(point, total, cells, &scale);
+            *state = self.edges.state(point, total, cells, &scale);
         }
-        Ok(Sampled { grid, totals, standings })
+        Ok(Sampled { grid, totals, states })
     }
 }
 

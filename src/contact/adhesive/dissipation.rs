@@ -1,7 +1,7 @@
-//! Energy of what attaches or detaches under a stretch, as a stream along the line.
+//! Energy of the parts of the line that attach or detach under a stretch, as a stream along the line.
 //!
-//! When a fragment forms or parts at an indentation θ, whatever lies between its edges and not in the fragments it is
-//! made of attaches (detaches) at once. In the order of the runs the fragments inside another one follow it from right
+//! When a fragment forms or parts at an indentation θ, all between its edges but the fragments inside attaches
+//! (detaches) at once. In the order of the runs the fragments inside another one follow it from right
 //! to left, so one pass with a stack meets each place of the line once for each event there.
 
 use super::edge_model::EdgeModel;
@@ -22,7 +22,7 @@ pub struct Edge {
     pub level: f64,
 }
 
-/// Where a stretch of the line that attaches at once begins or ends.
+/// End of a stretch of the line that attaches at once.
 #[derive(Clone, Copy, Debug)]
 pub enum Boundary {
     /// At an edge of the fragment that forms: the stretch lies inside.
@@ -39,18 +39,18 @@ pub struct AtOnce {
     pub between: (Boundary, Boundary),
 }
 
-/// A fragment on its way, whose parts may still follow.
+/// A fragment whose parts may still follow.
 struct Open {
     at: f64,
     left: Edge,
     right: Edge,
     /// Left edge of the part met last.
     met: Option<Edge>,
-    /// Whether it forms on the range looked at.
+    /// Whether the fragment forms on the range.
     counts: bool,
 }
 
-/// The part of a leg that is looked at.
+/// Part of a leg.
 #[derive(Clone, Copy, Debug)]
 pub struct Range {
     /// Indentations above this, m.
@@ -62,7 +62,7 @@ pub struct Range {
 }
 
 impl<E: EdgeModel> Ground<'_, E> {
-    /// ∫ (c − θ)² dx over what attaches or detaches on a range of a leg, in cells times m².
+    /// ∫ (c − θ)² dx over the parts of the line that attach or detach on a range of a leg, in cells times m².
     pub fn squared_stretch(&self, runs: &[Run], range: Range) -> f64 {
         let (mut thirds, mut sliding) = (CompensatedSum::default(), CompensatedSum::default());
         let slide = |lower: (&Span, f64), upper: (&Span, f64)| {
@@ -127,7 +127,7 @@ impl<E: EdgeModel> Ground<'_, E> {
                 left: Edge { spring: bottom.first, level: lower },
                 right: Edge { spring: bottom.last, level: lower },
                 met: None,
-                // What forms or parts where the range begins does so outside of it, unless it has no beginning.
+                // A range contains its upper end only.
                 counts: run.from > low || low == f64::NEG_INFINITY,
             });
         }
@@ -160,11 +160,11 @@ impl<E: EdgeModel> Ground<'_, E> {
         self.each_spring_of_chains(runs, unloading, |spring, at| out[spring] = at);
     }
 
-    /// Level of the edges of a span at an indentation, m, up to which its run goes.
+    /// Level of the edges of a span at the upper end of its run or below, m.
     pub fn level_up_to(&self, span: &Span, indentation: f64, unloading: bool) -> f64 {
         let length = self.edges.length(self.gaps, span);
         match span.wall(self.gaps).map(|wall| self.gaps[wall]) {
-            // Where it takes in its wall it has reached it, also after rounding.
+            // At the attachment of the wall the level is that of the wall, also after rounding.
             Some(wall) if !unloading && indentation >= self.edges.attaches_at(span, length, wall) => wall,
             Some(_) => self.edges.level(span, length, indentation),
             None => span.gap,

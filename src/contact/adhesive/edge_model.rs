@@ -1,12 +1,12 @@
-//! What the edges of a fragment decide: when it grows, when it detaches, and what its edge cells carry.
+//! Edge model of a contact fragment: its length, its next attachment and detachment, the force of its edge cells.
 
 use super::dissipation::Boundary;
 use super::span::Span;
-use crate::contact::law::Standing;
-use crate::contact::tally::{GapScale, Tally};
+use crate::contact::contact_model::ContactState;
+use crate::contact::totals::{ContactTotals, GapScale};
 use crate::scene::Edges;
 
-/// Reads the length of a fragment, which alone decides under the rule of Hess.
+/// Length of a fragment, on which alone the rule of Hess depends, and the force of its edge cells.
 ///
 /// A fragment grows from span to span. On each it has levels from its own largest gap up to that of its wall, and on
 /// each level a length.
@@ -16,9 +16,9 @@ pub trait EdgeModel: Copy + Send + Sync {
     /// The edge cells of a span as they slide with the indentation.
     type Slider: Copy + Send;
 
-    /// What this model is called in a scene; it decides what is summed along the line.
+    /// Name of this model in a scene; selects the sums of the contact tree.
     const EDGES: Edges;
-    /// Whether edges slide between springs, so that the force is curved between two events.
+    /// Whether edges slide between springs: the force is then curved between two events.
     const SLIDES: bool;
 
     /// Largest stretch s of a fragment of unit length, m: Δl_max = s √ℓ, eq. (10).
@@ -30,7 +30,7 @@ pub trait EdgeModel: Copy + Send + Sync {
     /// Smallest length that a span has at its highest level, in cells, at least 1.
     fn least_length(&self, first: usize, last: usize) -> f64;
 
-    /// Smallest indentation at which the span takes in its wall of this gap, m.
+    /// Smallest indentation at which the span attaches its wall of this gap, m.
     fn attaches_at(&self, span: &Span, length: Self::Length, wall: f64) -> f64;
 
     /// Smallest indentation at which the span holds its most stretched spring, m; at most its gap.
@@ -45,34 +45,40 @@ pub trait EdgeModel: Copy + Send + Sync {
     /// The edge cells of a span.
     fn slider(&self, gaps: &[f64], span: &Span) -> Self::Slider;
 
-    /// What the edge cells add at an indentation.
+    /// Contribution of the edge cells at an indentation.
     fn edge_cells(&self, slider: &Self::Slider, indentation: f64) -> EdgeCells;
 
     /// By how much the compression that they add grows with the indentation, in cells.
     fn edge_stiffness(&self, slider: &Self::Slider, indentation: f64) -> f64;
 
     /// The contact of whole springs or cells and of edge cells.
-    fn standing(&self, indentation: f64, totals: Tally, edges: EdgeCells, scale: &GapScale) -> Standing;
+    fn state(
+        &self,
+        indentation: f64,
+        totals: ContactTotals,
+        edges: EdgeCells,
+        scale: &GapScale,
+    ) -> ContactState;
 
     /// By how much the compression of these grows with the indentation, in cells.
-    fn stiffness(&self, totals: Tally) -> f64;
+    fn stiffness(&self, totals: ContactTotals) -> f64;
 
     /// Indentation at which these carry a compression, m, if nothing else does.
-    fn indentation_of(&self, totals: Tally, compression: f64, scale: &GapScale) -> Option<f64>;
+    fn indentation_of(&self, totals: ContactTotals, compression: f64, scale: &GapScale) -> Option<f64>;
 
     /// Three times ∫ (c − θ)² dx over the part of the line between two boundaries, in cells times m², where θ is
     /// the indentation `at`.
     fn squared_stretch(&self, gaps: &[f64], between: (Boundary, Boundary), at: f64) -> f64;
 
-    /// ∫ (c − θ)² dx over what attaches (or detaches) while the edges slide between two spans and levels, each place
+    /// ∫ (c − θ)² dx over the places passed while the edges slide between two spans and levels, each place
     /// at its own indentation θ, in cells times m²; nothing where springs attach one by one.
     fn squared_stretch_sliding(&self, gaps: &[f64], lower: (&Span, f64), upper: (&Span, f64)) -> f64;
 }
 
-/// What the two cells at the edges of a fragment add to what it holds whole, at one indentation.
+/// Contribution of the two cells at the edges of a fragment, beside its full ones, at one indentation.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct EdgeCells {
-    /// How much of them is in contact, in cells.
+    /// Their length in contact, in cells.
     pub length: f64,
     /// The compression ∫ (d − c) dx over that, in cells times metres.
     pub compression: f64,

@@ -4,8 +4,8 @@ use super::dissipation::{Boundary, squares};
 use super::edge_model::{EdgeCells, EdgeModel};
 use super::span::Span;
 use crate::contact::HessRule;
-use crate::contact::law::Standing;
-use crate::contact::tally::{GapScale, Tally};
+use crate::contact::contact_model::ContactState;
+use crate::contact::totals::{ContactTotals, GapScale};
 use crate::scene::Edges;
 
 /// The paper's rule for edges.
@@ -57,7 +57,7 @@ impl EdgeModel for GridEdges {
     #[inline]
     fn holds_to(&self, span: &Span, largest_stretch: f64) -> f64 {
         // At this indentation the spring is stretched by just Δl_max and detaches, so the smallest that still holds it
-        // is the next number above; but a spring whose gap is closed stays whatever the rule says.
+        // is the next number above; but a spring whose gap is closed stays under any rule.
         (span.gap - largest_stretch).next_up().min(span.gap)
     }
 
@@ -85,8 +85,8 @@ impl EdgeModel for GridEdges {
     }
 
     #[inline]
-    fn standing(&self, indentation: f64, totals: Tally, _: EdgeCells, scale: &GapScale) -> Standing {
-        Standing {
+    fn state(&self, indentation: f64, totals: ContactTotals, _: EdgeCells, scale: &GapScale) -> ContactState {
+        ContactState {
             indentation,
             springs: totals.springs,
             fragments: totals.fragments,
@@ -96,11 +96,11 @@ impl EdgeModel for GridEdges {
     }
 
     #[inline]
-    fn stiffness(&self, totals: Tally) -> f64 {
+    fn stiffness(&self, totals: ContactTotals) -> f64 {
         totals.springs as f64
     }
 
-    fn indentation_of(&self, totals: Tally, compression: f64, scale: &GapScale) -> Option<f64> {
+    fn indentation_of(&self, totals: ContactTotals, compression: f64, scale: &GapScale) -> Option<f64> {
         totals.indentation(compression, scale)
     }
 

@@ -1,4 +1,4 @@
-//! Loading: at which indentation each part of the line closes, and the fragments on the way.
+//! Loading: the indentation at which each part of the line closes, and the fragments between.
 
 use super::edge_model::EdgeModel;
 use super::run::{Ground, Held, Run, larger, smaller};
@@ -6,12 +6,12 @@ use super::span::Span;
 use super::tree::{Branch, Node};
 use crate::contact::{ContactError, resized};
 
-/// Where bounds are compared with thresholds they leave room for rounding.
+/// Margin of the bounds for rounding.
 const BELOW: f64 = 1.0 - 1e-12;
 
 /// Closing thresholds of the nodes of a tree.
 ///
-/// A node closes, and all its subtree is one fragment, when one of its two branches takes in its spring:
+/// A node closes, and all its subtree is one fragment, when one of its two branches attaches its spring:
 /// s_v = min over branches u of max(s_u, φ on each span from u up to v).
 #[derive(Clone, Debug, Default)]
 pub struct Closing {
@@ -21,13 +21,13 @@ pub struct Closing {
     known: Vec<[u32; 2]>,
     /// Whether `closes` holds for the present line and rule.
     ready: bool,
-    /// Thresholds that a loading from standing fragments has replaced, in the order of the changes.
+    /// Thresholds that a loading from present fragments has replaced, in the order of the changes.
     replaced: Vec<(u32, f64)>,
     frames: Vec<Frame>,
     branches: Vec<Climb>,
 }
 
-/// A branch on its way up.
+/// A branch followed from its beginning upwards.
 #[derive(Clone, Copy)]
 struct Start {
     closes: f64,
@@ -39,13 +39,13 @@ struct Start {
 #[derive(Clone, Copy, Debug)]
 struct Frame {
     node: u32,
-    /// Which of the standing fragments lie in it, and how many of those on its left.
+    /// Range of the present fragments inside, and their number on the left of the node.
     held: [u32; 2],
     left: u32,
     is_open: bool,
 }
 
-/// A branch that is looked at on the way down from the root.
+/// A branch visited on the walk down from the root.
 #[derive(Clone, Copy, Debug)]
 struct Climb {
     branch: Branch,
@@ -135,8 +135,8 @@ impl Closing {
         let (mut frames, count) = (std::mem::take(&mut self.frames), held.len() as u32);
         frames.clear();
         let enter = |branch: Branch, range: [u32; 2], frames: &mut Vec<Frame>| {
-            let standing = range[1] - range[0] == 1 && held[range[0] as usize].branch == branch;
-            if let (Ok(node), false) = (branch.origin(), standing || range[0] == range[1]) {
+            let is_present = range[1] - range[0] == 1 && held[range[0] as usize].branch == branch;
+            if let (Ok(node), false) = (branch.origin(), is_present || range[0] == range[1]) {
                 frames.push(Frame { node: node as u32, held: range, left: 0, is_open: false });
             }
         };
@@ -170,7 +170,7 @@ impl Closing {
         Ok(evaluations)
     }
 
-    /// Where a branch begins: on a fragment in contact, else where it closes.
+    /// Beginning of a branch: a fragment in contact, else the span at which the branch closes.
     fn start<E: EdgeModel>(&self, ground: &Ground<'_, E>, branch: Branch, held: Option<&Held>) -> Start {
         if let Some(held) = held {
             let known = [held.first, held.last];
@@ -207,8 +207,8 @@ impl Closing {
         let mut complete = f64::NEG_INFINITY;
         while let Some(climb) = branches.pop() {
             let Climb { branch, joins, .. } = climb;
-            let standing = held_on(held, climb.held, branch);
-            let start = self.start(ground, branch, standing);
+            let state = held_on(held, climb.held, branch);
+            let start = self.start(ground, branch, state);
             let node = branch.origin().ok().map(|index| (index, ground.tree.nodes()[index]));
             let lowest = node.map_or(start.gap, |(_, node)| node.lowest);
             // What is in contact already stays so, however far it is stretched.
@@ -218,7 +218,7 @@ impl Closing {
             if start.closes < joins {
                 self.climb_and_list(ground, &climb, start, runs, &mut complete, evaluations)?;
             }
-            if let (Some((index, node)), None) = (node, standing) {
+            if let (Some((index, node)), None) = (node, state) {
                 let joins = smaller(start.closes, joins);
                 let parent = ground.tree.maximum(&node);
                 let [begin, end] = climb.held;

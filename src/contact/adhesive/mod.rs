@@ -27,9 +27,9 @@ pub use sub_cell_edges::SubCellEdges;
 pub use tree::ContactTree;
 pub(in crate::contact) use tree::{Branch, Node};
 
+use super::contact_model::{ContactModel, ContactState};
 use super::exact::Exact;
 use super::grid::Grid;
-use super::law::{Contact, Standing};
 use super::{ContactError, LegContact, Work};
 use curve::Sampled;
 use dissipation::Range;
@@ -37,7 +37,7 @@ use loading::Closing;
 use search::Search;
 use unloading::Opening;
 
-/// Memory that one adhesive body leaves to the next: fresh memory costs about as much as a pass.
+/// Memory reused from body to body: fresh memory costs about as much as a pass.
 #[derive(Clone, Debug, Default)]
 pub struct AdhesiveMemory {
     closing: Closing,
@@ -104,7 +104,7 @@ impl<'a, E: EdgeModel> Adhesive<'a, E> {
         Ok((self.sample(grid)?, squared))
     }
 
-    /// The smallest compression on the way back from first touch, and what was done to find it.
+    /// Smallest compression of the unloading from first touch, m, and the work counts of the search.
     fn pull_off_at_touch(&mut self) -> Result<(f64, Work), ContactError> {
         let mut work = Work { zero_load_passes: 1, ..Work::default() };
         if !self.forms {
@@ -127,7 +127,7 @@ impl<'a, E: EdgeModel> Adhesive<'a, E> {
     }
 }
 
-impl<E: EdgeModel> Contact for Adhesive<'_, E> {
+impl<E: EdgeModel> ContactModel for Adhesive<'_, E> {
     type Leg = Sampled;
 
     // Each fragment is evaluated at each of their ends.
@@ -167,30 +167,30 @@ impl<E: EdgeModel> Contact for Adhesive<'_, E> {
         self.ground.sample(&self.memory.runs, self.unloading, grid)
     }
 
-    fn sample_joins(&self, grid: Grid, separated: bool) -> Result<(Sampled, f64), ContactError> {
-        // What touches at once when the contact forms attaches at the first point itself.
+    fn sample_attaching(&self, grid: Grid, separated: bool) -> Result<(Sampled, f64), ContactError> {
+        // The springs that touch first attach at the first point itself.
         let low = if separated { f64::NEG_INFINITY } else { grid.points()[0] };
         self.sample_from(grid, low)
     }
 
-    fn sample_leaves(&self, grid: Grid, separates: bool) -> Result<(Sampled, f64), ContactError> {
-        // What is held to the last point detaches just below it.
-        self.sample_joins(grid, separates)
+    fn sample_detaching(&self, grid: Grid, separates: bool) -> Result<(Sampled, f64), ContactError> {
+        // The springs held to the last point detach just below it.
+        self.sample_attaching(grid, separates)
     }
 
     fn grid<'l>(&self, leg: &'l Sampled) -> &'l Grid {
         &leg.grid
     }
 
-    fn at(&self, leg: &Sampled, index: usize) -> Standing {
-        leg.standings[index]
+    fn at(&self, leg: &Sampled, index: usize) -> ContactState {
+        leg.states[index]
     }
 
-    fn smallest(&self, leg: &Sampled, sorted: &mut u64) -> Standing {
+    fn smallest(&self, leg: &Sampled, sorted: &mut u64) -> ContactState {
         self.search().smallest(leg, sorted)
     }
 
-    fn largest(&self, leg: &Sampled, sorted: &mut u64) -> Standing {
+    fn largest(&self, leg: &Sampled, sorted: &mut u64) -> ContactState {
         self.search().largest(leg, sorted)
     }
 
@@ -203,7 +203,7 @@ impl<E: EdgeModel> Contact for Adhesive<'_, E> {
     }
 
     fn beyond(&self, leg: &Sampled, wanted: f64) -> Option<f64> {
-        let (end, totals) = (leg.standings.last()?, *leg.totals.last()?);
+        let (end, totals) = (leg.states.last()?, *leg.totals.last()?);
         let straight = self.ground.edges.indentation_of(totals, wanted, &self.ground.tree.scale());
         straight.or_else(|| Some(end.indentation + (wanted - end.compression) / end.length))
     }
@@ -229,7 +229,7 @@ impl<'a, E: EdgeModel> Exact<Adhesive<'a, E>> {
         self.into_contact().memory
     }
 
-    /// Smallest force, N, on the way back from first touch, and what was done to find it.
+    /// Smallest force of the unloading from first touch, N, and the work counts of the search.
     ///
     /// # Errors
     /// [`ContactError::OutOfMemory`].

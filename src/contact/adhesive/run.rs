@@ -7,8 +7,8 @@ use super::tree::{Branch, ContactTree};
 /// One fragment from an indentation on until it jumps, merges or parts: on the way from its bottom to its top each
 /// span passes into the next.
 ///
-/// The runs of a leg stand in the order of a walk through the tree from its root, right parts first: along each branch
-/// the larger ones first. So a run that contains another one stands before it, and of two others the right one first.
+/// The runs of a leg are in the order of a walk through the tree from its root, right parts first, and on each branch
+/// the larger ones first: a run comes before those inside it, and of two others the right one comes first.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Run {
     /// Lower bound (inclusive) of its indentations, m; −∞ for a fragment in contact when a loading leg begins.
@@ -28,7 +28,7 @@ pub struct Held {
     pub last: u32,
 }
 
-/// The line under a rule for its edges: what the passes of a leg share.
+/// Gaps, contact tree and edge model: the input of all passes of a leg.
 #[derive(Clone, Copy, Debug)]
 pub struct Ground<'a, E> {
     pub gaps: &'a [f64],
@@ -52,7 +52,7 @@ impl Run {
         (self.from, self.bottom) = (from, span.ends());
     }
 
-    /// Whether it is there at an indentation, m.
+    /// Whether the run exists at an indentation, m.
     #[inline]
     pub fn is_at(&self, indentation: f64) -> bool {
         self.from <= indentation && indentation < self.to
@@ -84,10 +84,10 @@ impl<E: EdgeModel> Ground<'_, E> {
 
     /// Whole springs or cells of a span, and the fragment they form.
     #[inline]
-    pub fn totals(&self, span: &Span) -> crate::contact::Tally {
+    pub fn totals(&self, span: &Span) -> crate::contact::ContactTotals {
         let end = span.last + usize::from(!E::SLIDES);
         let quanta = self.tree.sum_before(self.gaps, end) - self.tree.sum_before(self.gaps, span.first);
-        crate::contact::Tally { springs: span.springs() as i64, fragments: 1, quanta }
+        crate::contact::ContactTotals { springs: span.springs() as i64, fragments: 1, quanta }
     }
 
     /// Calls `see` with each span of a run from the smallest one on and the range of indentations (m) over which the

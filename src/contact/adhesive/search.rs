@@ -8,9 +8,9 @@
 use super::curve::Sampled;
 use super::edge_model::{EdgeCells, EdgeModel};
 use super::run::{Ground, Run};
+use crate::contact::contact_model::ContactState;
 use crate::contact::grid::CompensatedSum;
-use crate::contact::law::Standing;
-use crate::contact::tally::{GapScale, Tally};
+use crate::contact::totals::{ContactTotals, GapScale};
 
 /// Halvings of an interval in which a crossing or a flat place is looked for: enough for any two numbers.
 const HALVINGS: usize = 2200;
@@ -21,7 +21,7 @@ const GUESSES: usize = 20;
 #[derive(Clone, Copy, Debug)]
 struct Step {
     threshold: f64,
-    totals: Tally,
+    totals: ContactTotals,
 }
 
 /// A fragment whose edges slide, while it fills one span.
@@ -32,7 +32,7 @@ struct Piece<S> {
     to: f64,
 }
 
-/// An interval of indentations and what happens in it.
+/// An interval of indentations and its events.
 struct Interval<E: EdgeModel> {
     edges: E,
     scale: GapScale,
@@ -42,7 +42,7 @@ struct Interval<E: EdgeModel> {
 }
 
 /// Contact at the lowest and at the highest indentation of a part.
-type Ends<'s> = (&'s Standing, &'s Standing);
+type Ends<'s> = (&'s ContactState, &'s ContactState);
 
 /// A leg that is searched.
 pub struct Search<'a, E> {
@@ -53,10 +53,11 @@ pub struct Search<'a, E> {
 
 impl<E: EdgeModel> Search<'_, E> {
     /// The smallest force on the range of a grid.
-    pub fn smallest(&self, leg: &Sampled, sorted: &mut u64) -> Standing {
-        let smaller =
-            |best: Standing, next: &Standing| if next.compression < best.compression { *next } else { best };
-        let mut best = leg.standings.iter().fold(leg.standings[0], smaller);
+    pub fn smallest(&self, leg: &Sampled, sorted: &mut u64) -> ContactState {
+        let smaller = |best: ContactState, next: &ContactState| {
+            if next.compression < best.compression { *next } else { best }
+        };
+        let mut best = leg.states.iter().fold(leg.states[0], smaller);
         let chosen = leg.choose(|low, high| lower_bound(low, high) < best.compression);
         for (&index, interval) in chosen.iter().zip(&self.intervals(leg, &chosen, sorted)) {
             interval.smallest(&interval.pieces, leg.ends(index), &mut best);
@@ -65,11 +66,12 @@ impl<E: EdgeModel> Search<'_, E> {
     }
 
     /// The largest force on the range of a grid.
-    pub fn largest(&self, leg: &Sampled, sorted: &mut u64) -> Standing {
-        let last = leg.standings[leg.standings.len() - 1];
-        let larger =
-            |best: Standing, next: &Standing| if next.compression > best.compression { *next } else { best };
-        let mut best = leg.standings.iter().rev().fold(last, larger);
+    pub fn largest(&self, leg: &Sampled, sorted: &mut u64) -> ContactState {
+        let last = leg.states[leg.states.len() - 1];
+        let larger = |best: ContactState, next: &ContactState| {
+            if next.compression > best.compression { *next } else { best }
+        };
+        let mut best = leg.states.iter().rev().fold(last, larger);
         let chosen = leg.choose(|low, high| upper_bound(low, high) > best.compression);
         for (&index, interval) in chosen.iter().zip(&self.intervals(leg, &chosen, sorted)).rev() {
             interval.largest(&interval.pieces, leg.ends(index), &mut best);
@@ -80,11 +82,11 @@ impl<E: EdgeModel> Search<'_, E> {
     /// The smallest indentation of a grid, m, at which the compression is at least `wanted`.
     pub fn first_at_least(&self, leg: &Sampled, wanted: f64, sorted: &mut u64) -> Option<f64> {
         // Behind the first point that has it nothing is sought.
-        let reached = leg.standings.iter().position(|standing| standing.compression >= wanted);
+        let reached = leg.states.iter().position(|state| state.compression >= wanted);
         if reached == Some(0) {
-            return Some(leg.standings[0].indentation);
+            return Some(leg.states[0].indentation);
         }
-        let end = reached.map(|index| leg.standings[index].indentation);
+        let end = reached.map(|index| leg.states[index].indentation);
         let last = end.unwrap_or(f64::INFINITY);
         let chosen = leg.choose(|low, high| high.indentation <= last && upper_bound(low, high) >= wanted);
         let intervals = self.intervals(leg, &chosen, sorted);
@@ -96,9 +98,9 @@ impl<E: EdgeModel> Search<'_, E> {
 
     /// The largest indentation of a grid, m, at which the compression is at most `wanted`.
     pub fn last_at_most(&self, leg: &Sampled, wanted: f64, sorted: &mut u64) -> Option<f64> {
-        let reached = leg.standings.iter().rposition(|standing| standing.compression <= wanted);
-        let start = reached.map(|index| leg.standings[index].indentation);
-        if reached == Some(leg.standings.len() - 1) {
+        let reached = leg.states.iter().rposition(|state| state.compression <= wanted);
+        let start = reached.map(|index| leg.states[index].indentation);
+        if reached == Some(leg.states.len() - 1) {
             return start;
         }
         let first = start.unwrap_or(f64::NEG_INFINITY);
@@ -110,7 +112,7 @@ impl<E: EdgeModel> Search<'_, E> {
             .or(start)
     }
 
-    /// What happens in each of these intervals, which ascend.
+    /// Events in each of these ascending intervals.
     fn intervals(&self, leg: &Sampled, chosen: &[usize], sorted: &mut u64) -> Vec<Interval<E>> {
         let points = leg.grid.points();
         let mut marks = vec![None; points.len() - 1];
@@ -164,30 +166,30 @@ impl<E: EdgeModel> Search<'_, E> {
 
 impl Sampled {
     /// The intervals of the grid for which the contact at their ends allows it.
-    fn choose(&self, may_lie: impl Fn(&Standing, &Standing) -> bool) -> Vec<usize> {
-        let ends = self.standings.windows(2).enumerate();
+    fn choose(&self, may_lie: impl Fn(&ContactState, &ContactState) -> bool) -> Vec<usize> {
+        let ends = self.states.windows(2).enumerate();
         ends.filter(|(_, ends)| may_lie(&ends[0], &ends[1])).map(|(index, _)| index).collect()
     }
 
     fn ends(&self, interval: usize) -> Ends<'_> {
-        (&self.standings[interval], &self.standings[interval + 1])
+        (&self.states[interval], &self.states[interval + 1])
     }
 }
 
 /// A bound below any force between two indentations.
-fn lower_bound(low: &Standing, high: &Standing) -> f64 {
+fn lower_bound(low: &ContactState, high: &ContactState) -> f64 {
     let rise = (high.indentation - low.indentation) * high.length;
     high.compression - rise - slack(low, high, rise)
 }
 
 /// A bound above.
-fn upper_bound(low: &Standing, high: &Standing) -> f64 {
+fn upper_bound(low: &ContactState, high: &ContactState) -> f64 {
     let rise = (high.indentation - low.indentation) * high.length;
     low.compression + rise + slack(low, high, rise)
 }
 
 /// Bound of the rounding of a bound.
-fn slack(low: &Standing, high: &Standing, rise: f64) -> f64 {
+fn slack(low: &ContactState, high: &ContactState, rise: f64) -> f64 {
     8.0 * f64::EPSILON * (low.compression.abs() + high.compression.abs() + rise)
 }
 
@@ -202,25 +204,25 @@ impl<E: EdgeModel> Interval<E> {
             }
             together
         });
-        let mut total = Tally::default();
+        let mut total = ContactTotals::default();
         for step in &mut self.steps {
             total += step.totals;
             step.totals = total;
         }
     }
 
-    fn totals(&self, indentation: f64) -> Tally {
+    fn totals(&self, indentation: f64) -> ContactTotals {
         let above = self.steps.partition_point(|step| step.threshold <= indentation);
         self.steps[above.saturating_sub(1)].totals
     }
 
     /// The contact at an indentation.
-    fn at(&self, pieces: &[Piece<E::Slider>], indentation: f64) -> Standing {
-        self.standing(pieces, indentation, indentation)
+    fn at(&self, pieces: &[Piece<E::Slider>], indentation: f64) -> ContactState {
+        self.state(pieces, indentation, indentation)
     }
 
     /// The contact at the indentation `contact` as it carries at another one.
-    fn standing(&self, pieces: &[Piece<E::Slider>], contact: f64, indentation: f64) -> Standing {
+    fn state(&self, pieces: &[Piece<E::Slider>], contact: f64, indentation: f64) -> ContactState {
         let (mut length, mut compression) = (CompensatedSum::default(), CompensatedSum::default());
         for piece in pieces.iter().filter(|piece| piece.is_at(contact)) {
             let cells = self.edges.edge_cells(&piece.slider, indentation);
@@ -228,12 +230,12 @@ impl<E: EdgeModel> Interval<E> {
             compression.add(cells.compression);
         }
         let cells = EdgeCells { length: length.total(), compression: compression.total() };
-        self.edges.standing(indentation, self.totals(contact), cells, &self.scale)
+        self.edges.state(indentation, self.totals(contact), cells, &self.scale)
     }
 
     /// The compression just below `indentation`, as that of the contact at `low`.
     fn below(&self, pieces: &[Piece<E::Slider>], low: f64, indentation: f64) -> f64 {
-        self.standing(pieces, low, indentation).compression
+        self.state(pieces, low, indentation).compression
     }
 
     /// Growth of the compression with the indentation for the contact at `low`.
@@ -255,7 +257,7 @@ impl<E: EdgeModel> Interval<E> {
         pieces.iter().copied().filter(|piece| piece.from <= high && piece.to > low).collect()
     }
 
-    /// Where between `low` and `high` the convex force of the contact at `low` is smallest.
+    /// Indentation of the smallest force between `low` and `high`, m; the force of the contact at `low` is convex.
     fn flat(&self, pieces: &[Piece<E::Slider>], low: f64, high: f64) -> f64 {
         if self.stiffness(pieces, low, low) >= 0.0 {
             return low;
@@ -267,7 +269,7 @@ impl<E: EdgeModel> Interval<E> {
     }
 
     /// Makes `best` the smallest force between two ends, both of which it knows already.
-    fn smallest(&self, pieces: &[Piece<E::Slider>], (low, high): Ends<'_>, best: &mut Standing) {
+    fn smallest(&self, pieces: &[Piece<E::Slider>], (low, high): Ends<'_>, best: &mut ContactState) {
         let (from, to) = (low.indentation, high.indentation);
         if lower_bound(low, high) >= best.compression || from.next_up() >= to {
             return;
@@ -287,7 +289,7 @@ impl<E: EdgeModel> Interval<E> {
 
     /// Makes `best` the largest force between two ends, both of which it knows already. Where the force falls at once,
     /// the largest number before counts.
-    fn largest(&self, pieces: &[Piece<E::Slider>], (low, high): Ends<'_>, best: &mut Standing) {
+    fn largest(&self, pieces: &[Piece<E::Slider>], (low, high): Ends<'_>, best: &mut ContactState) {
         let (from, to) = (low.indentation, high.indentation);
         if upper_bound(low, high) <= best.compression || from.next_up() >= to {
             return;
@@ -308,14 +310,14 @@ impl<E: EdgeModel> Interval<E> {
         &self,
         pieces: &[Piece<E::Slider>],
         at: f64,
-        best: &mut Standing,
+        best: &mut ContactState,
         is_better: impl Fn(f64, f64) -> bool,
-    ) -> Standing {
-        let standing = self.at(pieces, at);
-        if is_better(standing.compression, best.compression) {
-            *best = standing;
+    ) -> ContactState {
+        let state = self.at(pieces, at);
+        if is_better(state.compression, best.compression) {
+            *best = state;
         }
-        standing
+        state
     }
 
     /// The smallest indentation above the lower end, up to the higher one, with at least this compression; at the

@@ -1,15 +1,15 @@
-//! Edges anywhere between springs: the line runs straight from spring to spring, and a fragment ends where the line
-//! crosses the fragment's level. The error falls with the square of the distance between springs.
+//! Sub-cell edges: the line is straight between neighbouring springs, and a fragment ends at the crossing of the line
+//! with the level of the fragment. The error falls with the square of the distance between springs.
 
 use super::dissipation::{Boundary, squares_of_cells};
 use super::edge_model::{EdgeCells, EdgeModel};
 use super::span::Span;
 use crate::contact::HessRule;
-use crate::contact::law::Standing;
-use crate::contact::tally::{GapScale, Tally};
+use crate::contact::contact_model::ContactState;
+use crate::contact::totals::{ContactTotals, GapScale};
 use crate::scene::Edges;
 
-/// Edges between springs.
+/// Sub-cell edges under a rule of Hess.
 ///
 /// A fragment at level t is in equilibrium with the indentation φ(t) = t − Δl_max(ℓ(t)): it grows while φ(t) ≤ d and
 /// recedes while φ(t) ≥ d. Between the gap of its largest spring and that of its wall ℓ is linear in t, so φ is
@@ -40,7 +40,7 @@ struct EdgeCell {
     share: f64,
     /// Growth of the share with the level, 1/m; zero where it does not grow, or all at once.
     growth: f64,
-    /// Twice what the cell carries at that level and indentation, m.
+    /// Twice the compression of the cell at that level and indentation, m.
     carries: f64,
 }
 
@@ -61,7 +61,7 @@ impl EdgeCell {
     }
 }
 
-/// Levels of a span and what its edge cells carry at the level and the indentation of its largest gap: ∫ (c − c(x)) dx
+/// Levels of a span and the compression of its edge cells at the level and the indentation of its largest gap: ∫ (c − c(x)) dx
 /// over them, in cells times metres.
 #[inline]
 fn levels_between(gaps: &[f64], span: &Span) -> (Levels, f64) {
@@ -102,7 +102,7 @@ pub struct Slider {
     cells: f64,
     /// Part of its edge cells in contact at its lowest level, in cells.
     edges: f64,
-    /// What they carry there at the indentation of its gap.
+    /// Compression of the edge cells there at the indentation of the gap of the span.
     compression: f64,
     stretch: f64,
     /// ½ stretch × growth.
@@ -242,8 +242,14 @@ impl EdgeModel for SubCellEdges {
     }
 
     #[inline]
-    fn standing(&self, indentation: f64, totals: Tally, edges: EdgeCells, scale: &GapScale) -> Standing {
-        Standing {
+    fn state(
+        &self,
+        indentation: f64,
+        totals: ContactTotals,
+        edges: EdgeCells,
+        scale: &GapScale,
+    ) -> ContactState {
+        ContactState {
             indentation,
             springs: totals.springs,
             fragments: totals.fragments,
@@ -253,11 +259,11 @@ impl EdgeModel for SubCellEdges {
     }
 
     #[inline]
-    fn stiffness(&self, totals: Tally) -> f64 {
+    fn stiffness(&self, totals: ContactTotals) -> f64 {
         totals.cells() as f64
     }
 
-    fn indentation_of(&self, _: Tally, _: f64, _: &GapScale) -> Option<f64> {
+    fn indentation_of(&self, _: ContactTotals, _: f64, _: &GapScale) -> Option<f64> {
         None
     }
 

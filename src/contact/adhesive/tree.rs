@@ -9,14 +9,14 @@ const BLOCK: usize = 4;
 /// Springs compared at once.
 const LANES: usize = 64;
 
-/// The merge tree of the local maxima of the gap, what lies between them, and sums along the line.
+/// Merge tree of the local maxima of the gap, the turning points, and prefix sums along the line.
 ///
 /// As its level rises past the gaps, the set of springs below it changes its shape only at local minima, where a
 /// component appears, and at local maxima, where two merge. So there is one node for each inner local maximum; the
 /// springs between two turning points form chains, which are walked where they are needed. A line with band limits has
 /// few of them: 0.11 N to 0.26 N.
 ///
-/// Nodes stand in post-order: the subtree of node j fills the places `j + 1 − size ..= j`. It depends on the gaps
+/// Nodes are in post-order: the subtree of node j fills the places `j + 1 − size ..= j`. The tree depends on the gaps
 /// alone, not on the work of adhesion, the modulus or the loading.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ContactTree {
@@ -25,7 +25,7 @@ pub struct ContactTree {
     nodes: Vec<Node>,
     /// Sum before each `BLOCK`-th spring, in quanta: of the gaps, or of the mean gaps of cells.
     sums: Vec<i128>,
-    /// What the sums are taken over.
+    /// Edge model for which the sums are taken.
     edges: Option<Edges>,
     scale: Option<GapScale>,
     pending: Vec<Pending>,
@@ -175,7 +175,7 @@ impl ContactTree {
         ]
     }
 
-    /// Sum of what lies between the first spring and this one, in quanta.
+    /// Sum from the first spring to this one, in quanta.
     #[inline]
     pub(super) fn sum_before(&self, gaps: &[f64], spring: usize) -> i128 {
         let block = spring / BLOCK;
@@ -281,28 +281,22 @@ impl ContactTree {
             sums = reserve(gaps.len() / BLOCK + 1)?;
         }
         let mut sum = 0_i128;
+        sums.push(sum);
+        // Four quanta below 2^62 fit into an u64.
+        let mut add = |block: [i64; BLOCK]| {
+            sum += i128::from(block.into_iter().map(i64::cast_unsigned).sum::<u64>());
+            sums.push(sum);
+        };
         match edges {
             Edges::Grid => {
-                sums.push(0);
-                for block in gaps.chunks(BLOCK) {
-                    block.iter().for_each(|&gap| sum += i128::from(scale.quanta(gap)));
-                    sums.push(sum);
-                }
-                sums.truncate(gaps.len() / BLOCK + 1);
+                gaps.as_chunks()
+                    .0
+                    .iter()
+                    .for_each(|block: &[f64; BLOCK]| add(block.map(|gap| scale.quanta(gap))));
             }
-            Edges::SubCell => {
-                let mut last = gaps.first().copied().unwrap_or(0.0);
-                for block in gaps.chunks(BLOCK) {
-                    // Up to the first spring of the block.
-                    sum += i128::from(scale.mean_quanta(last, block[0]))
-                        * i128::from(u8::from(!sums.is_empty()));
-                    sums.push(sum);
-                    for cell in block.windows(2) {
-                        sum += i128::from(scale.mean_quanta(cell[0], cell[1]));
-                    }
-                    last = block[block.len() - 1];
-                }
-            }
+            Edges::SubCell => gaps.windows(BLOCK + 1).step_by(BLOCK).for_each(|block| {
+                add(std::array::from_fn(|k| scale.mean_quanta(block[k], block[k + 1])));
+            }),
         }
         self.sums = sums;
         Ok(())

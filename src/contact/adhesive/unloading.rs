@@ -1,4 +1,4 @@
-//! Unloading: down to which indentation each part of a contact holds, and the fragments on the way.
+//! Unloading: the indentation at which each part of a contact detaches, and the fragments between.
 
 use super::edge_model::EdgeModel;
 use super::run::{Ground, Held, Run, smaller};
@@ -6,10 +6,10 @@ use super::span::Span;
 use super::tree::Branch;
 use crate::contact::ContactError;
 
-/// Where bounds are compared with thresholds they leave room for rounding.
+/// Margin of the bounds for rounding.
 const ABOVE: f64 = 1.0 + 1e-12;
 
-/// What is left to look at of the contact.
+/// Part of the contact still to be listed.
 #[derive(Clone, Copy, Debug)]
 struct Part {
     branch: Branch,
@@ -17,7 +17,7 @@ struct Part {
     last: u32,
     /// Indentation at which the fragment around it parts, m.
     opens: f64,
-    /// Whether it is a fragment from the beginning of the leg on.
+    /// Whether the part is a fragment at the beginning of the leg.
     is_whole: bool,
 }
 
@@ -42,8 +42,8 @@ impl Opening {
     /// Lists the runs of an unloading leg from indentation `from` (m) in place of `runs`; `held` are the fragments in
     /// contact there, from left to right.
     ///
-    /// A fragment parts, and its most stretched spring detaches, as soon as what contains it has parted or the rule no
-    /// longer holds that spring: t_v = min(t of what contains it, smallest φ of v).
+    /// A fragment parts, and its most stretched spring detaches, as soon as the fragment around it has parted and the
+    /// rule no longer holds that spring: t_v = min(t of the fragment around it, smallest φ of v).
     pub fn list<E: EdgeModel>(
         &mut self,
         ground: &Ground<'_, E>,
@@ -143,7 +143,7 @@ impl<E: EdgeModel> Ground<'_, E> {
                             runs.push(Run::new(part.branch, &span, leaves, to));
                         }
                     }
-                    // Only what slides down to its own gap goes on without a jump.
+                    // A run continues only from a level equal to the gap of the span.
                     goes_on = (leaves == holds).then_some((span, length));
                     opened.separates = smaller(opened.separates, leaves);
                     (opens, is_whole) = (leaves, false);

@@ -14,9 +14,9 @@ pub struct Dissipation {
     from: f64,
     /// By slot, the fragments whose spans have formed on the move, where edges slide.
     formed: HashMap<usize, Formed>,
-    /// ∫ (c − θ)² dx over what attaches or detaches while edges slide, in cells times m².
+    /// ∫ (c − θ)² dx over the places passed while edges slide, in cells times m².
     sliding: CompensatedSum,
-    /// Three times the same over what does so at once.
+    /// Three times ∫ (c − θ)² dx over the parts that attach or detach at once, in cells times m².
     thirds: CompensatedSum,
 }
 
@@ -176,7 +176,7 @@ fn level<E: EdgeModel>(ground: Ground<'_, E>, span: &Span, indentation: f64) -> 
     ground.edges.level(span, ground.edges.length(ground.gaps, span), indentation)
 }
 
-/// Indentation at which a span takes in its wall, m; `None` where it fills the line.
+/// Indentation at which a span attaches its wall, m; `None` for the whole line.
 fn attaches_at<E: EdgeModel>(ground: Ground<'_, E>, span: &Span) -> Option<f64> {
     let length = ground.edges.length(ground.gaps, span);
     span.wall(ground.gaps).map(|wall| ground.edges.attaches_at(span, length, ground.gaps[wall]))

@@ -2,12 +2,12 @@
 
 use super::{Course, Manual};
 use crate::contact::adhesive::{EdgeCells, EdgeModel, bisect, crossing, last_before};
+use crate::contact::contact_model::ContactState;
 use crate::contact::grid::CompensatedSum;
-use crate::contact::law::Standing;
 
 impl<E: EdgeModel> Manual<E> {
     /// The present contact as it carries at this indentation, m.
-    pub(super) fn state_at(&self, indentation: f64) -> Standing {
+    pub(super) fn state_at(&self, indentation: f64) -> ContactState {
         let ground = self.contact.ground();
         let (mut length, mut compression) = (CompensatedSum::default(), CompensatedSum::default());
         if E::SLIDES {
@@ -19,7 +19,7 @@ impl<E: EdgeModel> Manual<E> {
             }
         }
         let cells = EdgeCells { length: length.total(), compression: compression.total() };
-        ground.edges.standing(indentation, self.contact.totals(), cells, &ground.tree.scale())
+        ground.edges.state(indentation, self.contact.totals(), cells, &ground.tree.scale())
     }
 
     fn compression_at(&self, indentation: f64) -> f64 {
@@ -67,7 +67,7 @@ impl<E: EdgeModel> Manual<E> {
     }
 
     /// Pulls until the compression ∫ (d − c) dx is at most `wanted`, and returns the indentation, or the smallest
-    /// compression on the way when everything detaches before.
+    /// compression of the move when everything detaches before.
     pub(super) fn pull_to_compression(&mut self, course: &mut Course, wanted: f64) -> Result<f64, f64> {
         let mut to = self.indentation;
         let mut smallest = self.compression_at(to);
@@ -75,7 +75,7 @@ impl<E: EdgeModel> Manual<E> {
             return Ok(to);
         }
         loop {
-            // Below `to` only what is held further is in contact.
+            // Below `to` only the springs held further are in contact.
             self.pull(course, |holds| holds >= to);
             let Some(from) = self.contact.detaches_next() else { return Err(smallest) };
             match self.falls_to((from, to.next_down().max(from)), wanted) {

@@ -3,7 +3,7 @@
 use super::start::whole_spans;
 use super::winner_tree::WinnerTree;
 use crate::contact::adhesive::{Branch, ContactTree, EdgeModel, Ground, Held, Node, Span};
-use crate::contact::{ContactError, Tally, reserve, resized};
+use crate::contact::{ContactError, ContactTotals, reserve, resized};
 use std::sync::Arc;
 
 /// In place of the parent of the branch that fills the line.
@@ -25,11 +25,11 @@ pub struct FragmentSet<E> {
     /// Node above each branch: that of node j at 2 j, that of leaf j at 2 j + 1.
     parents: Vec<u32>,
     slots: Vec<Slot>,
-    /// Indentations at which a free leaf touches or a fragment takes in its wall.
+    /// Indentations at which a free leaf touches or a fragment attaches its wall, m.
     attaching: WinnerTree,
     /// Indentations, negated, to which fragments hold their most stretched springs.
     detaching: WinnerTree,
-    totals: Tally,
+    totals: ContactTotals,
     /// Fragments that the last one to form was made of, or into which the last one to detach has parted.
     parts: Vec<Fragment>,
     /// Former contents of slots, in the order of their changes, while changes may be taken back.
@@ -100,7 +100,7 @@ impl<E: EdgeModel> FragmentSet<E> {
             slots,
             attaching: WinnerTree::new(Vec::new())?,
             detaching: WinnerTree::new(Vec::new())?,
-            totals: Tally::default(),
+            totals: ContactTotals::default(),
             parts: Vec::new(),
             journal: None,
             touched: 0,
@@ -118,7 +118,7 @@ impl<E: EdgeModel> FragmentSet<E> {
     /// Fills the slots of a span.
     fn put_in_contact(&mut self, span: &Span) {
         let turns = self.tree.turns();
-        // Minima stand at the even places.
+        // Minima are at the even places.
         let leaf_from = |spring: usize| turns.partition_point(|&turn| (turn as usize) < spring).div_ceil(2);
         let (first, end) = (leaf_from(span.first), leaf_from(span.last + 1));
         // The smallest branch from the first leaf on that reaches the last one.
@@ -143,7 +143,7 @@ impl<E: EdgeModel> FragmentSet<E> {
 
     /// Whole springs or cells in contact.
     #[inline]
-    pub fn totals(&self) -> Tally {
+    pub fn totals(&self) -> ContactTotals {
         self.totals
     }
 
@@ -322,7 +322,7 @@ impl<E: EdgeModel> FragmentSet<E> {
     }
 
     /// Takes back all changes since the journal was begun, when these were the totals.
-    pub fn take_back(&mut self, totals: Tally) {
+    pub fn take_back(&mut self, totals: ContactTotals) {
         for (slot, was) in self.journal.take().into_iter().flatten().rev() {
             self.set(slot as usize, was);
             self.settle(slot as usize..slot as usize + 1);

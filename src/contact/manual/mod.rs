@@ -1,7 +1,7 @@
-//! Manual loading: the body moved by steps of any size, either way, at the cost of what changes.
+//! Manual loading: the body moved by steps of any size, either way, at a cost in proportion to the change.
 //!
 //! Where the exact solver finds for a whole leg when each fragment grows or detaches, manual loading knows the next
-//! event alone. A move goes from event to event: a free local minimum of the gap touches, a fragment takes in its wall,
+//! event alone. A move proceeds from event to event: a free local minimum of the gap touches, a fragment attaches its wall,
 //! with the rest of the subtree where it merges, or a fragment detaches its most stretched spring. Both use the same
 //! thresholds of the same spans, so both find the same contact, bit for bit.
 //!
@@ -22,7 +22,7 @@ use fragments::{Event, FragmentSet};
 use std::sync::Arc;
 use thiserror::Error;
 
-/// A body under manual loading, whatever its edges.
+/// A body under manual loading, with either edge model.
 ///
 /// An error leaves the body where it was.
 pub trait ManualLoading {
@@ -60,7 +60,7 @@ pub struct Move {
     pub attaches: u64,
     /// Springs that detached.
     pub detaches: u64,
-    /// Events: a spring touches alone, a fragment takes in its wall, or it detaches a spring.
+    /// Events: a spring touches alone, a fragment attaches its wall, or a fragment detaches a spring.
     pub events: u64,
     /// Entries of all tables looked at or changed: a measure of the time taken, the same on every machine.
     pub touched: u64,
@@ -170,7 +170,7 @@ impl<E: EdgeModel> Manual<E> {
     /// Attaches all that attaches up to this indentation.
     fn press(&mut self, course: &mut Course, indentation: f64) {
         while let Some(attaches) = self.contact.attaches_next().filter(|&attaches| attaches <= indentation) {
-            // A fragment can take in nothing before it has formed.
+            // A fragment attaches nothing before it has formed.
             course.level = course.level.max(attaches);
             let Some(event) = self.contact.attach() else { break };
             course.count(&event);

@@ -1,5 +1,6 @@
 //! Which legs of a loading press and which pull, as far as that is clear without a run.
 
+use crate::contact::Target;
 use crate::scene::Leg;
 
 /// How many legs there are of either kind.
@@ -14,9 +15,9 @@ pub struct Legs {
     from_separation: u64,
 }
 
-/// What is known of the body before a leg.
+/// State of the body before a leg, as far as known without a run.
 #[derive(Clone, Copy)]
-struct Standing {
+struct BodyState {
     /// Whether it touches; `None` where only the run can tell.
     touches: Option<bool>,
     force: Option<f64>,
@@ -33,7 +34,7 @@ enum Way {
 impl Legs {
     pub fn of(loading: &[Leg]) -> Legs {
         let mut legs = Legs::default();
-        let mut standing = Standing { touches: Some(false), force: Some(0.0), indentation: Some(0.0) };
+        let mut standing = BodyState { touches: Some(false), force: Some(0.0), indentation: Some(0.0) };
         for leg in loading {
             let way = standing.way(leg);
             match way {
@@ -72,9 +73,9 @@ impl Legs {
     }
 }
 
-impl Standing {
+impl BodyState {
     fn way(self, leg: &Leg) -> Way {
-        match (self.touches, target(leg)) {
+        match (self.touches, Target::from(*leg)) {
             (Some(false), Target::Indentation(wanted)) if wanted < 0.0 => Way::Idle,
             (Some(false), Target::Separation) => Way::Idle,
             (Some(false), _) => Way::Loading,
@@ -89,33 +90,17 @@ impl Standing {
         }
     }
 
-    fn after(self, leg: &Leg) -> Standing {
-        match target(leg) {
-            Target::Force(force) => Standing { touches: Some(true), force: Some(force), indentation: None },
+    fn after(self, leg: &Leg) -> BodyState {
+        match Target::from(*leg) {
+            Target::Force(force) => BodyState { touches: Some(true), force: Some(force), indentation: None },
             Target::Indentation(indentation) => {
                 // The highest spring touches from d = 0 on; below, adhesion decides.
                 let touches =
                     if indentation >= 0.0 { Some(true) } else { self.touches.filter(|touches| !touches) };
-                Standing { touches, force: None, indentation: Some(indentation) }
+                BodyState { touches, force: None, indentation: Some(indentation) }
             }
-            Target::Separation => Standing { touches: Some(false), force: Some(0.0), indentation: None },
+            Target::Separation => BodyState { touches: Some(false), force: Some(0.0), indentation: None },
         }
-    }
-}
-
-enum Target {
-    Force(f64),
-    Indentation(f64),
-    Separation,
-}
-
-fn target(leg: &Leg) -> Target {
-    match *leg {
-        Leg::ToForce(force) => Target::Force(force),
-        Leg::ToZeroForce => Target::Force(0.0),
-        Leg::ToIndentation(indentation) => Target::Indentation(indentation),
-        Leg::ToTouch => Target::Indentation(0.0),
-        Leg::ToSeparation => Target::Separation,
     }
 }
 

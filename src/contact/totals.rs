@@ -1,10 +1,10 @@
-//! What stands in contact, as sums that do not cancel: exact counts and fixed-point gaps.
+//! Totals of the springs in contact, as sums without cancellation: exact counts and fixed-point gaps.
 
 /// Fixed-point scale of the gaps of one line: a quantum is 2⁻⁶² of the power of two above its largest
 /// gap.
 ///
-/// Sums of quanta are integers: they do not depend on the order of the springs, and what joins and
-/// leaves again leaves no trace, so loading and unloading agree bit for bit where they should.
+/// Sums of quanta are integers: they do not depend on the order of the springs, and a spring that attaches and
+/// detaches again changes no bit, so that loading and unloading agree bit for bit on the same contact.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GapScale {
     quanta_per_metre: f64,
@@ -61,7 +61,7 @@ fn power_of_two(exponent: i32) -> f64 {
 /// The springs in contact at one indentation: how many, in how many fragments, and the sum of their
 /// gaps.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Tally {
+pub struct ContactTotals {
     /// Springs in contact.
     pub springs: i64,
     /// Contact fragments.
@@ -70,7 +70,7 @@ pub struct Tally {
     pub quanta: i128,
 }
 
-impl Tally {
+impl ContactTotals {
     /// Sum of the compressions Σ (d − c_i), m: the force in units of the spring stiffness.
     ///
     /// With n springs, unit roundoff u = 2⁻⁵³ and a largest gap below 2^e the error is at most
@@ -124,18 +124,18 @@ impl Tally {
     }
 }
 
-impl std::ops::Neg for Tally {
-    type Output = Tally;
+impl std::ops::Neg for ContactTotals {
+    type Output = ContactTotals;
 
     #[inline]
-    fn neg(self) -> Tally {
-        Tally { springs: -self.springs, fragments: -self.fragments, quanta: -self.quanta }
+    fn neg(self) -> ContactTotals {
+        ContactTotals { springs: -self.springs, fragments: -self.fragments, quanta: -self.quanta }
     }
 }
 
-impl std::ops::AddAssign for Tally {
+impl std::ops::AddAssign for ContactTotals {
     #[inline]
-    fn add_assign(&mut self, other: Tally) {
+    fn add_assign(&mut self, other: ContactTotals) {
         self.springs += other.springs;
         self.fragments += other.fragments;
         self.quanta += other.quanta;

@@ -1,11 +1,11 @@
-//! What a body asks of its springs on a leg, whichever way the force of a fragment is read.
+//! Interface between the exact solver and a contact model: thresholds, forces and extrema along one leg.
 
 use super::grid::Grid;
 use super::{ContactError, CurvePoint, Foundation, LegContact, Work};
 
-/// What is in contact at one indentation, and what it comes to.
+/// Contact state at one indentation.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Standing {
+pub struct ContactState {
     /// d, m.
     pub indentation: f64,
     /// Springs in contact.
@@ -18,10 +18,10 @@ pub struct Standing {
     pub compression: f64,
 }
 
-impl Standing {
+impl ContactState {
     /// Nothing in contact at this indentation, m.
     pub fn free(indentation: f64) -> Self {
-        Standing { indentation, ..Standing::default() }
+        ContactState { indentation, ..ContactState::default() }
     }
 
     /// The point of the curve on this foundation.
@@ -36,11 +36,11 @@ impl Standing {
     }
 }
 
-/// Springs loaded and unloaded leg by leg under one law for their force.
+/// Springs loaded and unloaded leg by leg under one rule of contact.
 ///
-/// A leg begins with [`Contact::load`] or [`Contact::unload`]; what is asked afterwards is about this leg.
-pub trait Contact {
-    /// What is in contact along an even grid of indentations.
+/// A leg begins with [`ContactModel::load`] or [`ContactModel::unload`]; all other functions refer to this leg.
+pub trait ContactModel {
+    /// Contact states along an even grid of indentations.
     type Leg;
 
     /// Intervals in which extremes are searched when the curve has fewer samples.
@@ -62,37 +62,37 @@ pub trait Contact {
     /// [`ContactError::OutOfMemory`]; the contact is then as it was.
     fn unload(&mut self, from: f64, work: &mut Work) -> Result<f64, ContactError>;
 
-    /// What is in contact along a grid.
+    /// Contact states along a grid.
     ///
     /// # Errors
     /// [`ContactError::OutOfMemory`].
     fn sample(&self, grid: Grid) -> Result<Self::Leg, ContactError>;
 
-    /// The same and, in units of half the stiffness of one spring, the energy of what joins on a loading leg up
-    /// to the end of the grid: from its lowest point on, or whatever joins if the body was `separated`.
+    /// Contact states along a grid of a loading leg, and Σ e² over the springs that attach there with a stretch e, m²;
+    /// those that attach at its lowest point count only for a body that was `separated`.
     ///
     /// # Errors
     /// [`ContactError::OutOfMemory`].
-    fn sample_joins(&self, grid: Grid, separated: bool) -> Result<(Self::Leg, f64), ContactError>;
+    fn sample_attaching(&self, grid: Grid, separated: bool) -> Result<(Self::Leg, f64), ContactError>;
 
-    /// The same of what leaves on an unloading leg down to the lowest point, with what this holds last if the
-    /// body `separates`.
+    /// Contact states along a grid of an unloading leg, and Σ e² over the springs that detach there, m²; those that
+    /// detach at its lowest point count only for a body that `separates`.
     ///
     /// # Errors
     /// [`ContactError::OutOfMemory`].
-    fn sample_leaves(&self, grid: Grid, separates: bool) -> Result<(Self::Leg, f64), ContactError>;
+    fn sample_detaching(&self, grid: Grid, separates: bool) -> Result<(Self::Leg, f64), ContactError>;
 
     /// The grid of a leg.
     fn grid<'l>(&self, leg: &'l Self::Leg) -> &'l Grid;
 
-    /// What is in contact at a point of the grid.
-    fn at(&self, leg: &Self::Leg, index: usize) -> Standing;
+    /// Contact state at a point of the grid.
+    fn at(&self, leg: &Self::Leg, index: usize) -> ContactState;
 
     /// The smallest force on the grid's range; `sorted` counts the events it took to find it.
-    fn smallest(&self, leg: &Self::Leg, sorted: &mut u64) -> Standing;
+    fn smallest(&self, leg: &Self::Leg, sorted: &mut u64) -> ContactState;
 
     /// The largest force on the grid's range.
-    fn largest(&self, leg: &Self::Leg, sorted: &mut u64) -> Standing;
+    fn largest(&self, leg: &Self::Leg, sorted: &mut u64) -> ContactState;
 
     /// The smallest indentation of the range at which the compression is at least `wanted`.
     fn first_at_least(&self, leg: &Self::Leg, wanted: f64, sorted: &mut u64) -> Option<f64>;
