@@ -35,10 +35,12 @@
 pub mod accuracy;
 pub mod analysis;
 pub mod check;
+#[cfg(feature = "tui")]
 pub mod cli;
 pub mod contact;
 pub mod disk;
 pub mod ensemble;
+#[cfg(feature = "tui")]
 pub mod explorer;
 pub mod export;
 mod io;
