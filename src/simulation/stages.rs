@@ -2,7 +2,7 @@
 
 use super::contact_stage::{ContactMemory, ContactStage};
 use super::{LineFacts, Outcome, Plan, RunError, Stage, Timings};
-use crate::analysis::{Amplitude, Figures, Governing, Regime, RegimeEvidence, ideal_adhesion_force};
+use crate::analysis::{Amplitude, Figures, Governing, Regime, ideal_adhesion_force};
 use crate::contact::{ContactError, ContactTree, HessRule, LegRecord, Solver};
 use crate::memory::check_room;
 use crate::parallel::in_parallel;
@@ -301,14 +301,7 @@ impl Simulation {
         let modulus = governing.effective_modulus;
         let work = governing.adhesive_work();
         let smooth = work.map(|work| smooth_adhesion_force(form, scene.length, modulus, work));
-        let regime = match (figures.adhesion_force, zero_load_adhesion_force, smooth) {
-            (Some(_), None, None) => Some(Regime::NonAdhesive),
-            (Some(adhesion), Some(zero_load_adhesion), Some(smooth_adhesion)) => {
-                let preload = figures.preload.unwrap_or(0.0);
-                Some(RegimeEvidence { zero_load_adhesion, adhesion, preload, smooth_adhesion }.regime())
-            }
-            _ => None,
-        };
+        let regime = Regime::of_loading(&figures, zero_load_adhesion_force, smooth);
         let histogram = self.histogram.as_ref().filter(|_| plan.runs(Stage::HeightHistogram)).cloned();
         Ok(Outcome {
             line: facts,
