@@ -3,6 +3,22 @@
 use super::model::{Material, Scene};
 
 impl Material {
+    /// Material given by its effective modulus E*, Pa.
+    #[must_use]
+    pub fn effective(modulus: f64) -> Self {
+        Material { youngs_modulus: None, poisson_ratio: None, effective_modulus: Some(modulus) }
+    }
+
+    /// Isotropic material under a rigid body, given by Young's modulus E (Pa) and Poisson's ratio ν: E* = E/(1 − ν²).
+    #[must_use]
+    pub fn isotropic(youngs_modulus: f64, poisson_ratio: f64) -> Self {
+        Material {
+            youngs_modulus: Some(youngs_modulus),
+            poisson_ratio: Some(poisson_ratio),
+            effective_modulus: None,
+        }
+    }
+
     /// Effective modulus E* of eq. (2), Pa. NaN where the material is not determined, which
     /// [`check`](super::check()) refuses.
     pub fn effective_modulus(&self) -> f64 {
