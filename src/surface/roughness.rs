@@ -1,12 +1,15 @@
 //! Random-phase synthesis of a self-affine line of rms height 1 by one inverse real Fourier transform.
 
-use super::spectrum::{MANY_MODES, MeanSquares};
-use super::{SelfAffine, SurfaceError, phases};
+use super::modes::Modes;
+use super::{SelfAffine, SurfaceError};
 use crate::memory;
 use crate::parallel::in_parallel;
 use realfft::{ComplexToReal, RealFftPlanner};
 use rustfft::num_complex::Complex64;
 use std::sync::Arc;
+
+/// With fewer modes than these another thread takes longer to begin than it saves.
+const MANY_MODES: usize = 1 << 16;
 
 /// Longest line whose transform is kept for the next one. It takes 20 bytes for each spring, which on longer
 /// lines is dearer than the time it saves.
@@ -39,11 +42,9 @@ impl UnitRoughness {
     }
 }
 
-/// Makes one line after the other, and keeps what the next can use: the sums over the spectrum and, once there
-/// has been a second line, the planned transform with its memory.
+/// Makes one line after the other, and keeps the planned transform with its memory for the next.
 #[derive(Default)]
 pub struct Synthesizer {
-    mean_squares: Option<(SelfAffine, MeanSquares)>,
     transform: Option<Transform>,
 }
 
@@ -78,80 +79,51 @@ impl Synthesizer {
         points: usize,
         memory: Vec<f64>,
     ) -> Result<UnitRoughness, SurfaceError> {
-        let many = spectrum.last - spectrum.first >= MANY_MODES;
+        let out_of_memory = |_| SurfaceError::OutOfMemory { points };
         let kept = self.transform.take().filter(|kept| kept.points == points);
-        let is_first = self.mean_squares.is_none();
-        let known = self.mean_squares.filter(|(known, _)| *known == spectrum);
-        let (transform, mean_squares) = in_parallel(
-            many && kept.is_none() && known.is_none(),
-            || kept.map_or_else(|| Transform::planned(points), Ok),
-            || known.map_or_else(|| spectrum.mean_squares(), |(_, mean_squares)| mean_squares),
-        );
-        self.mean_squares = Some((spectrum, mean_squares));
-        let mut transform = transform?;
-        let mut heights =
-            memory::resized(memory, points, 0.0).map_err(|_| SurfaceError::OutOfMemory { points })?;
+        let mut transform = kept.map_or_else(|| Transform::planned(points), Ok)?;
+        let mut heights = memory::resized(memory, points, 0.0).map_err(out_of_memory)?;
 
-        // Of all modes there are, those from the middle on by another thread.
-        let scale = mean_squares.relative_rms.recip();
+        let modes = Modes::new(spectrum, seed, points);
         let coefficients = transform.coefficients.as_mut_slice();
         let (first, end) = (spectrum.first as usize, (spectrum.last as usize).saturating_add(1));
         let end = end.min(coefficients.len());
         let first = first.min(end);
         coefficients[..first].fill(Complex64::ZERO);
         coefficients[end..].fill(Complex64::ZERO);
+        // Those from the middle on by another thread.
         let middle = first + (end - first) / 2;
         let (lower, upper) = coefficients[first..end].split_at_mut(middle - first);
-        let modes = Modes { spectrum, seed, points, scale };
-        in_parallel(many, || modes.draw(middle, upper), || modes.draw(first, lower));
+        in_parallel(
+            end - first >= MANY_MODES,
+            || modes.draw(middle as u64, upper),
+            || modes.draw(first as u64, lower),
+        );
+        if 2 * spectrum.last == points as u64 {
+            // At the grid's Nyquist wave vector both exponentials of the cosine fall together.
+            coefficients[end - 1] = Complex64::new(2.0 * coefficients[end - 1].re, 0.0);
+        }
 
         transform
             .plan
             .process_with_scratch(&mut transform.coefficients, &mut heights, &mut transform.scratch)
             .map_err(|error| SurfaceError::Transform(error.to_string()))?;
-        if !is_first && points <= LONGEST_KEPT {
+        if points <= LONGEST_KEPT {
             self.transform = Some(transform);
         }
         Ok(UnitRoughness {
             heights,
             random_phases: spectrum.last + 1 - spectrum.first,
-            gradient_per_height: mean_squares.gradient_per_height,
+            gradient_per_height: spectrum.gradient_per_height(1.0),
         })
-    }
-}
-
-/// What the coefficients of a line depend on.
-#[derive(Clone, Copy)]
-struct Modes {
-    spectrum: SelfAffine,
-    seed: u64,
-    points: usize,
-    scale: f64,
-}
-
-impl Modes {
-    /// Fills in the coefficients of the modes from `first` on.
-    fn draw(&self, first: usize, coefficients: &mut [Complex64]) {
-        let half_cell = std::f64::consts::PI / self.points as f64;
-        let modes = first as u64..;
-        for ((mode, phase), coefficient) in modes.zip(phases(self.seed, first as u64)).zip(coefficients) {
-            // x = (i + ½)Δx adds half a cell to the phase. Each cosine is a pair of exponentials, so a
-            // coefficient is half its amplitude, save at the grid's Nyquist wave vector, where both of
-            // the pair fall together.
-            let amplitude = self.scale * self.spectrum.relative_amplitude(mode);
-            let angle = phase + half_cell * mode as f64;
-            *coefficient = if 2 * mode == self.points as u64 {
-                Complex64::new(amplitude * angle.cos(), 0.0)
-            } else {
-                Complex64::from_polar(0.5 * amplitude, angle)
-            };
-        }
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::parallel::on_this_thread;
+    use crate::surface::phases;
 
     fn direct(spectrum: SelfAffine, seed: u64, position: f64) -> f64 {
         let sum: f64 = (spectrum.first..=spectrum.last)
@@ -180,14 +152,14 @@ mod tests {
     fn what_is_kept_changes_no_bit() {
         let mut synthesizer = Synthesizer::default();
         let mut memory = Vec::new();
-        let many = 2 * MANY_MODES + 3;
+        let many = 2 * MANY_MODES as u64 + 3;
         for (points, hurst, first, last, seed) in [
             (100, 0.6, 3, 50, 1),
             (100, 0.6, 3, 50, 2),
             (100, 0.6, 3, 20, 2),
             (101, 0.6, 5, 20, 2),
-            (100_000, 0.7, 2, many, 3),
-            (100_000, 0.8, 2, many, 3),
+            (300_000, 0.7, 2, many, 3),
+            (300_000, 0.8, 2, many, 3),
             (2 * many as usize, 0.8, 1, many, 3),
             (64, 0.8, 1, 32, 3),
         ] {
@@ -195,13 +167,9 @@ mod tests {
             let kept = synthesizer.synthesize(spectrum, seed, points, memory).unwrap();
             assert_eq!(kept, UnitRoughness::synthesize(spectrum, seed, points).unwrap());
             assert_eq!(kept.gradient_per_height, spectrum.gradient_per_height(1.0));
-            // As on one thread, mode by mode, and by another plan.
-            let modes = Modes { spectrum, seed, points, scale: spectrum.relative_rms().recip() };
-            let mut transform = Transform::planned(points).unwrap();
-            modes.draw(first as usize, &mut transform.coefficients[first as usize..=last as usize]);
-            let mut heights = vec![0.0; points];
-            transform.plan.process(&mut transform.coefficients, &mut heights).unwrap();
-            assert_eq!(kept.heights, heights);
+            // As on one thread and by another plan.
+            let alone = on_this_thread(|| UnitRoughness::synthesize(spectrum, seed, points).unwrap());
+            assert_eq!(kept, alone);
             memory = kept.heights;
         }
     }
