@@ -10,10 +10,8 @@ use rustfft::num_complex::Complex64;
 /// how the modes are shared out among threads.
 const BLOCK: usize = 64;
 
-/// From this mode on, amplitudes follow from that in the middle of their block by a series.
-const FIRST_IN_SERIES: u64 = 2048;
-
-/// Terms of the series (1 + x)^p − 1. With |x| ≤ 32/2048 and |p| ≤ 3/2 the first term left out is below 1e-19.
+/// Most terms of the series (1 + x)^p − 1 that are used. With |x| ≤ 1/64 and |p| ≤ 3/2 the first term left out is below
+/// 1e-18, and with |x| ≤ 1/1024 already after 6 terms.
 const TERMS: usize = 10;
 
 /// (sin y − y)/y³ and (cos y − 1 + y²/2)/y⁴ as polynomials in y² for |y| ≤ π/4, lowest power first. Minimax: sine and
@@ -90,25 +88,40 @@ impl Modes {
     fn fill(&self, before: u64, words: &[u64; BLOCK], block: &mut [Complex64; BLOCK]) {
         let amplitudes = self.half_amplitudes(before);
         let before = before as f64;
-        for (lane, ((coefficient, &word), amplitude)) in block.iter_mut().zip(words).zip(amplitudes).enumerate() {
-            let mode = before + (lane + 1) as f64;
-            let (sine, cosine) = sine_and_cosine(fraction(word) + self.advance * mode);
+        for (((coefficient, word), amplitude), count) in block.iter_mut().zip(words).zip(amplitudes).zip(COUNTS) {
+            let (sine, cosine) = sine_and_cosine(fraction(*word) + self.advance * (before + count));
             *coefficient = Complex64::new(amplitude * cosine, amplitude * sine);
         }
     }
 
     /// Half the amplitudes of the block of modes after mode `before`.
     fn half_amplitudes(&self, before: u64) -> [f64; BLOCK] {
-        let power = |mode: u64| self.half_amplitude * (mode as f64).powf(self.exponent);
-        if before < FIRST_IN_SERIES {
-            return std::array::from_fn(|lane| power(before + 1 + lane as u64));
+        match before {
+            0..512 => std::array::from_fn(|lane| self.half_amplitude(before + 1 + lane as u64)),
+            512..2048 => self.half_amplitudes_in_series::<16, TERMS>(before),
+            2048..32_768 => self.half_amplitudes_in_series::<64, TERMS>(before),
+            _ => self.half_amplitudes_in_series::<64, 6>(before),
         }
-        let middle = before + BLOCK as u64 / 2;
-        let (at_middle, inverse) = (power(middle), (middle as f64).recip());
-        std::array::from_fn(|lane| {
-            let x = (lane as f64 + 1.0 - (BLOCK / 2) as f64) * inverse;
-            at_middle + at_middle * (x * polynomial(&self.series, x))
-        })
+    }
+
+    /// The same, each from that in the middle of its `SPAN` modes by the first `COUNT` terms of the series.
+    #[inline(always)]
+    fn half_amplitudes_in_series<const SPAN: usize, const COUNT: usize>(&self, before: u64) -> [f64; BLOCK] {
+        let mut amplitudes = [0.0; BLOCK];
+        let mut middle = before + SPAN as u64 / 2;
+        for span in amplitudes.as_chunks_mut::<SPAN>().0 {
+            let (at_middle, inverse) = (self.half_amplitude(middle), (middle as f64).recip());
+            for (amplitude, count) in span.iter_mut().zip(COUNTS) {
+                let x = (count - (SPAN / 2) as f64) * inverse;
+                *amplitude = at_middle + at_middle * (x * polynomial(&self.series[..COUNT], x));
+            }
+            middle += SPAN as u64;
+        }
+        amplitudes
+    }
+
+    fn half_amplitude(&self, mode: u64) -> f64 {
+        self.half_amplitude * (mode as f64).powf(self.exponent)
     }
 }
 
@@ -131,11 +144,30 @@ fn sine_and_cosine(turns: f64) -> (f64, f64) {
     (f64::from_bits(chosen(sine, cosine) ^ sine_sign), f64::from_bits(chosen(cosine, sine) ^ cosine_sign))
 }
 
-/// Σ c_i x^i by Horner's rule.
+/// Σ c_i x^i for an even number of coefficients. Even and odd powers are summed apart, so that one step need not wait
+/// for the other.
 #[inline(always)]
-fn polynomial<const N: usize>(coefficients: &[f64; N], x: f64) -> f64 {
-    coefficients.iter().rev().fold(0.0, |sum, &coefficient| coefficient + x * sum)
+fn polynomial(coefficients: &[f64], x: f64) -> f64 {
+    let square = x * x;
+    let mut pairs = coefficients.as_chunks::<2>().0.iter().rev();
+    let [mut even, mut odd] = pairs.next().copied().unwrap_or_default();
+    for &[next_even, next_odd] in pairs {
+        even = next_even + square * even;
+        odd = next_odd + square * odd;
+    }
+    even + x * odd
 }
+
+/// 1, 2, … as numbers: conversions would be made one at a time.
+const COUNTS: [f64; BLOCK] = {
+    let mut counts = [0.0; BLOCK];
+    let mut lane = 0;
+    while lane < BLOCK {
+        counts[lane] = (lane + 1) as f64;
+        lane += 1;
+    }
+    counts
+};
 
 #[cfg(test)]
 mod tests {
@@ -167,7 +199,7 @@ mod tests {
         for hurst in [1e-300, 0.3, 0.7, 1.0_f64.next_down()] {
             let spectrum = SelfAffine { hurst, first: 1, last: 1 };
             let modes = Modes::new(spectrum, 1, 10);
-            for before in [0, 64, 2048 - 64, 2048, 2048 + 64, 1 << 20, (1 << 27) - 64] {
+            for before in [0, 448, 512, 1984, 2048, 32_704, 32_768, 1 << 20, (1 << 27) - 64] {
                 for (mode, amplitude) in (before + 1..).zip(modes.half_amplitudes(before)) {
                     // A spectrum of mode 1 alone has the rms height √½.
                     let error = amplitude / (0.5_f64.sqrt() * spectrum.relative_amplitude(mode)) - 1.0;
