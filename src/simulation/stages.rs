@@ -34,6 +34,8 @@ const SMALL: u64 = 32 << 20;
 #[derive(Default)]
 pub struct Simulation {
     folder: PathBuf,
+    /// Whether there will be no other line.
+    single: bool,
     synthesizer: Synthesizer,
     roughness: Option<(RoughnessKey, Rough)>,
     line: Option<(LineKey, Line)>,
@@ -56,8 +58,8 @@ struct Kept {
 /// What the heights of the roughness depend on.
 #[derive(Clone, PartialEq)]
 enum RoughnessKey {
-    SelfAffine { spectrum: SelfAffine, seed: u64, points: usize },
-    Measured { file: PathBuf, length: f64, points: usize },
+    SelfAffine { spectrum: SelfAffine, seed: u64, points: usize, shift: f64 },
+    Measured { file: PathBuf, length: f64, points: usize, shift: f64 },
 }
 
 /// Heights of the roughness, before they are scaled.
@@ -91,6 +93,12 @@ impl Simulation {
         Simulation { folder, ..Simulation::default() }
     }
 
+    /// The same for a single scene: the memory of the Fourier transform is given back before the contact is solved.
+    #[must_use]
+    pub fn for_one_scene(self) -> Self {
+        Simulation { single: true, ..self }
+    }
+
     /// The line of the last scene made.
     #[must_use]
     pub fn line(&self) -> Option<&Line> {
@@ -119,6 +127,9 @@ impl Simulation {
                 check_room(Plan::of(scene).line_bytes()).map_err(|_| SurfaceError::OutOfMemory { points })?;
                 let rough = make_roughness(key, &mut self.synthesizer, before.unwrap_or_default())?;
                 self.roughness = Some((key.clone(), rough));
+                if self.single {
+                    self.synthesizer = Synthesizer::default();
+                }
             }
         }
         let rough = self.roughness.as_ref().map(|(_, rough)| rough);
@@ -164,14 +175,16 @@ impl Simulation {
         spectrum: Option<(SelfAffine, u64)>,
         points: usize,
     ) -> Option<RoughnessKey> {
+        let shift = scene.form.map_or(0.0, |form| form.shift(points as u64));
         if let Some((spectrum, seed)) = spectrum {
-            return Some(RoughnessKey::SelfAffine { spectrum, seed, points });
+            return Some(RoughnessKey::SelfAffine { spectrum, seed, points, shift });
         }
         match &scene.roughness {
             Some(Roughness::Measured { file }) => Some(RoughnessKey::Measured {
                 file: self.folder.join(Path::new(file)),
                 length: scene.length,
                 points,
+                shift,
             }),
             _ => None,
         }
@@ -218,7 +231,8 @@ impl Simulation {
 
     /// Keeps nothing of the runs before.
     fn give_back(&mut self) {
-        *self = Simulation::new(take(&mut self.folder));
+        *self =
+            Simulation { folder: take(&mut self.folder), single: self.single, ..Simulation::default() };
     }
 
     /// Runs a checked scene by its plan. `stop` is asked now and then whether to give up; `after` sees
@@ -337,8 +351,8 @@ fn make_roughness(
     memory: Vec<f64>,
 ) -> Result<Rough, RunError> {
     match key {
-        RoughnessKey::SelfAffine { spectrum, seed, points } => {
-            let unit = synthesizer.synthesize(*spectrum, *seed, *points, memory)?;
+        RoughnessKey::SelfAffine { spectrum, seed, points, shift } => {
+            let unit = synthesizer.synthesize(*spectrum, *seed, *points, *shift, memory)?;
             Ok(Rough {
                 heights: unit.heights,
                 random_phases: unit.random_phases,
@@ -346,11 +360,11 @@ fn make_roughness(
                 measured: None,
             })
         }
-        RoughnessKey::Measured { file, length, points } => {
+        RoughnessKey::Measured { file, length, points, shift } => {
             let profile = MeasuredProfile::read(file)?;
             let (rms_height, rms_gradient) = profile.rms_height_and_gradient();
             let heights = profile
-                .sample(*length, *points)
+                .sample(*length, *points, *shift)
                 .map_err(|reason| SurfaceError::Measured { file: file.display().to_string(), reason })?;
             let measured = Some(Amplitude { rms_height, rms_gradient });
             Ok(Rough { heights, random_phases: 0, gradient_per_height: None, measured })

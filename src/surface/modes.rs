@@ -48,8 +48,9 @@ pub(super) struct Modes {
 }
 
 impl Modes {
-    /// The modes of a spectrum and a seed of a line of rms height 1, on `points` points at x = (i + ½)L/N.
-    pub fn new(spectrum: SelfAffine, seed: u64, points: usize) -> Self {
+    /// The modes of a spectrum and a seed of a line of rms height 1, on `points` points, the first of them `start`
+    /// cells along the line.
+    pub fn new(spectrum: SelfAffine, seed: u64, points: usize, start: f64) -> Self {
         let exponent = spectrum.amplitude_exponent();
         let mut binomial = 1.0;
         let series = std::array::from_fn(|index| {
@@ -60,7 +61,7 @@ impl Modes {
             exponent,
             seed,
             half_amplitude: 0.5 / spectrum.relative_rms(),
-            advance: 0.5 / points as f64,
+            advance: start / points as f64,
             series,
         }
     }
@@ -198,7 +199,7 @@ mod tests {
     fn amplitudes_are_their_powers_to_rounding() {
         for hurst in [1e-300, 0.3, 0.7, 1.0_f64.next_down()] {
             let spectrum = SelfAffine { hurst, first: 1, last: 1 };
-            let modes = Modes::new(spectrum, 1, 10);
+            let modes = Modes::new(spectrum, 1, 10, 0.5);
             for before in [0, 448, 512, 1984, 2048, 32_704, 32_768, 1 << 20, (1 << 27) - 64] {
                 for (mode, amplitude) in (before + 1..).zip(modes.half_amplitudes(before)) {
                     // A spectrum of mode 1 alone has the rms height √½.
@@ -212,7 +213,7 @@ mod tests {
     #[test]
     fn drawing_may_begin_at_any_mode() {
         let spectrum = SelfAffine { hurst: 0.7, first: 1, last: 5000 };
-        let modes = Modes::new(spectrum, 3, 10_000);
+        let modes = Modes::new(spectrum, 3, 10_000, 0.5);
         let mut all = vec![Complex64::ZERO; 5000];
         modes.draw(1, &mut all);
         for (mode, (coefficient, phase)) in (1..).zip(all.iter().zip(phases(3, 1))) {

@@ -15,9 +15,9 @@ const MANY_MODES: usize = 1 << 16;
 /// lines is dearer than the time it saves.
 const LONGEST_KEPT: usize = 1 << 22;
 
-/// Heights of a self-affine line of rms height 1 at x = (i + ½)L/N, eqs. (8) and (9).
+/// Heights of a self-affine line of rms height 1, eqs. (8) and (9).
 ///
-/// They depend on spectrum, seed and number of points alone; length and rms height only scale them.
+/// They depend on spectrum, seed, number of points and where these are alone; length and rms height only scale them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct UnitRoughness {
     /// Heights in units of the rms height.
@@ -29,7 +29,7 @@ pub struct UnitRoughness {
 }
 
 impl UnitRoughness {
-    /// The line of a spectrum and a seed on `points` springs; `spectrum.last` must not exceed
+    /// The line of a spectrum and a seed on `points` springs at x = (i + ½)L/N; `spectrum.last` must not exceed
     /// `points`/2.
     ///
     /// The rms height is that of the sum of cosines over the whole length. Two grids sample the same
@@ -38,7 +38,7 @@ impl UnitRoughness {
     /// # Errors
     /// [`SurfaceError::OutOfMemory`], [`SurfaceError::Transform`].
     pub fn synthesize(spectrum: SelfAffine, seed: u64, points: usize) -> Result<Self, SurfaceError> {
-        Synthesizer::default().synthesize(spectrum, seed, points, Vec::new())
+        Synthesizer::default().synthesize(spectrum, seed, points, 0.0, Vec::new())
     }
 }
 
@@ -68,7 +68,8 @@ impl Transform {
 }
 
 impl Synthesizer {
-    /// [`UnitRoughness::synthesize`], bit for bit, with the heights in this memory.
+    /// [`UnitRoughness::synthesize`], bit for bit, with the heights in this memory, of a line that lies `shift` cells
+    /// further along the springs: heights at x = (i + ½ − `shift`)L/N.
     ///
     /// # Errors
     /// [`SurfaceError::OutOfMemory`], [`SurfaceError::Transform`].
@@ -77,6 +78,7 @@ impl Synthesizer {
         spectrum: SelfAffine,
         seed: u64,
         points: usize,
+        shift: f64,
         memory: Vec<f64>,
     ) -> Result<UnitRoughness, SurfaceError> {
         let out_of_memory = |_| SurfaceError::OutOfMemory { points };
@@ -84,7 +86,7 @@ impl Synthesizer {
         let mut transform = kept.map_or_else(|| Transform::planned(points), Ok)?;
         let mut heights = memory::resized(memory, points, 0.0).map_err(out_of_memory)?;
 
-        let modes = Modes::new(spectrum, seed, points);
+        let modes = Modes::new(spectrum, seed, points, 0.5 - shift);
         let coefficients = transform.coefficients.as_mut_slice();
         let (first, end) = (spectrum.first as usize, (spectrum.last as usize).saturating_add(1));
         let end = end.min(coefficients.len());
@@ -164,13 +166,27 @@ mod tests {
             (64, 0.8, 1, 32, 3),
         ] {
             let spectrum = SelfAffine { hurst, first, last };
-            let kept = synthesizer.synthesize(spectrum, seed, points, memory).unwrap();
+            let kept = synthesizer.synthesize(spectrum, seed, points, 0.0, memory).unwrap();
             assert_eq!(kept, UnitRoughness::synthesize(spectrum, seed, points).unwrap());
             assert_eq!(kept.gradient_per_height, spectrum.gradient_per_height(1.0));
             // As on one thread and by another plan.
             let alone = on_this_thread(|| UnitRoughness::synthesize(spectrum, seed, points).unwrap());
             assert_eq!(kept, alone);
             memory = kept.heights;
+        }
+    }
+
+    #[test]
+    fn a_shifted_line_is_the_same_line_at_other_places() {
+        for (points, last) in [(64, 32), (64, 20), (97, 40)] {
+            let spectrum = SelfAffine { hurst: 0.6, first: 1, last };
+            for shift in [0.5, 0.25] {
+                let line = Synthesizer::default().synthesize(spectrum, 42, points, shift, Vec::new()).unwrap();
+                for (i, &height) in line.heights.iter().enumerate() {
+                    let expected = direct(spectrum, 42, (i as f64 + 0.5 - shift) / points as f64);
+                    assert!((height - expected).abs() < 1e-13, "N = {points}, i = {i}: {height} {expected}");
+                }
+            }
         }
     }
 

@@ -13,74 +13,90 @@ fn smooth(form: Option<Form>, length: f64, points: usize, modulus: f64, work: f6
     Body { gaps: line.gaps, foundation, work }
 }
 
-/// Odd and without a pattern that a form shares: 101 to 31 623.
-fn grids() -> Vec<usize> {
-    (0..11).map(|k| (100.0 * 10_f64.powf(f64::from(k) / 4.0)) as usize | 1).collect()
+/// Without a pattern that a form shares, all odd or all even: 100 to 31 623.
+fn grids(odd: bool) -> Vec<usize> {
+    (0..11).map(|k| (100.0 * 10_f64.powf(f64::from(k) / 4.0)) as usize & !1 | usize::from(odd)).collect()
 }
 
 #[test]
-fn a_sphere_of_a_thousand_springs_is_exact_to_a_hundred_thousandth() {
+fn a_sphere_of_a_thousand_springs_is_exact_to_two_hundred_thousandths() {
     let legs = [Leg::ToIndentation(1.5), Leg::ToSeparation];
     let form = Some(Form::Paraboloid { radius: 1.0 });
     let smallest = smooth(form, 12.0, 1000, 1.0, 1.0).history(&legs, 512).legs[1].smallest;
     let error = smallest.force / (-1.5 * PI) - 1.0;
-    assert!(error.abs() < 1e-5, "{error:e}");
+    assert!(error.abs() < 2e-5, "{error:e}");
 }
+
+/// Relative errors of a loop of a body of revolution: smallest force, indentation at which it separates, the curve
+/// over its largest force, and the dissipated energy.
+fn errors(form: Form, length: f64, points: usize) -> [f64; 4] {
+    let body = PowerLaw::of(&form, 1.0, 1.0).unwrap();
+    let (pull_off, last) = (body.force_controlled_pull_off(), body.displacement_controlled_pull_off());
+    let radius = |d: f64| invert(|a| body.indentation(a), d, last.0, 1e3 * last.0);
+    let slope = |a: f64| {
+        let n = body.exponent;
+        n * body.line_coefficient * a.powf(n - 1.0) - (2.0 * PI * a).sqrt() / (2.0 * a)
+    };
+    let lost = -integral(|a| body.force(a) * slope(a), last.0, radius(0.0));
+    let turns_at = body.indentation(pull_off.0);
+    let legs = [Leg::ToIndentation(1.5), Leg::ToSeparation];
+    let history = smooth(Some(form), length, points, 1.0, 1.0).history(&legs, 257);
+    let [loading, unloading] = &history.legs[..] else { panic!() };
+    assert!(loading.largest.springs < points as u64, "{form:?}: the line is too short");
+    let curve = loading.curve.iter().chain(&unloading.curve);
+    let curve = curve.filter(|point| point.springs > 0 && point.indentation >= turns_at);
+    let of_curve = curve.map(|point| (point.force - body.force(radius(point.indentation))).abs());
+    let energy = loading.dissipated_energy + unloading.dissipated_energy;
+    [
+        (unloading.smallest.force / pull_off.1 - 1.0).abs(),
+        (unloading.end() / body.indentation(last.0) - 1.0).abs(),
+        of_curve.fold(0.0, f64::max) / loading.largest.force.abs().max(-pull_off.1),
+        (energy / lost - 1.0).abs(),
+    ]
+}
+
+const FIGURES: [&str; 4] = ["pull-off", "place of separation", "curve", "energy"];
 
 #[test]
 fn power_laws_converge_with_the_square_of_the_distance() {
     for (name, form, length) in [
         ("sphere", Form::Paraboloid { radius: 1.0 }, 12.0),
-        ("cone", Form::Cone { angle: 1.35 }, 1.2),
+        ("n = 1.2", Form::Power { coefficient: 0.8, exponent: 1.2 }, 14.0),
         ("n = 1.5", Form::Power { coefficient: 0.5, exponent: 1.5 }, 14.0),
         ("n = 3", Form::Power { coefficient: 0.4, exponent: 3.0 }, 12.0),
     ] {
-        let body = PowerLaw::of(&form, 1.0, 1.0).unwrap();
-        let (pull_off, last) = (body.force_controlled_pull_off(), body.displacement_controlled_pull_off());
-        let radius = |d: f64| invert(|a| body.indentation(a), d, last.0, 1e3 * last.0);
-        let slope = |a: f64| {
-            let n = body.exponent;
-            n * body.line_coefficient * a.powf(n - 1.0) - (2.0 * PI * a).sqrt() / (2.0 * a)
-        };
-        let lost = |from: f64| -integral(|a| body.force(a) * slope(a), last.0, radius(from));
-        let turns_at = body.indentation(pull_off.0);
-        let mut errors: [Vec<f64>; 3] = Default::default();
-        // With its tip on a spring the line of a cone would be the cone itself.
-        let between = u8::from(body.exponent == 1.0);
-        let grids: Vec<usize> = grids().into_iter().map(|points| points - usize::from(between)).collect();
-        for &points in &grids {
-            // Then the nearest springs touch first, deeper than the tip would: d counts from there.
-            let datum = f64::from(between) * body.line_coefficient * 0.5 * length / points as f64;
-            let lost = lost(datum);
-            let legs = [Leg::ToIndentation(1.5), Leg::ToSeparation];
-            let history = smooth(Some(form), length, points, 1.0, 1.0).history(&legs, 257);
-            let [loading, unloading] = &history.legs[..] else { panic!() };
-            assert!(loading.largest.springs < points as u64, "{name}: the line is too short");
-            let curve = loading.curve.iter().chain(&unloading.curve).filter(|point| point.springs > 0);
-            let curve = curve.filter(|point| point.indentation + datum >= turns_at);
-            let of_curve =
-                curve.map(|point| (point.force - body.force(radius(point.indentation + datum))).abs());
-            let energy = loading.dissipated_energy + unloading.dissipated_energy;
-            errors[0].push((unloading.smallest.force / pull_off.1 - 1.0).abs());
-            errors[1].push(of_curve.fold(0.0, f64::max) / loading.largest.force.abs().max(-pull_off.1));
-            errors[2].push((energy / lost - 1.0).abs());
-        }
-        for (what, errors) in ["pull-off", "curve", "energy"].iter().zip(&errors) {
-            let order = observed_order(&grids, errors);
-            println!("{name}: {what}: {:.1e} falls to {:.1e}, order {order:.2}", errors[0], errors[10]);
-            assert!(order >= 1.8, "{name}: {what}: order {order}, errors {errors:?}");
+        for odd in [true, false] {
+            let grids = grids(odd);
+            // An error depends on where in its cell an edge is: the worst of some grids of about as many springs.
+            let worst = |&points: &usize| {
+                let grids = (0..8).map(|k| points + 2 * (k * points / 100));
+                let worse = |one: [f64; 4], other: [f64; 4]| std::array::from_fn(|index| one[index].max(other[index]));
+                grids.map(|points| errors(form, length, points)).fold([0.0; 4], worse)
+            };
+            let errors: Vec<_> = grids.iter().map(worst).collect();
+            for (index, what) in FIGURES.into_iter().enumerate() {
+                let errors: Vec<f64> = errors.iter().map(|errors| errors[index]).collect();
+                let order = observed_order(&grids, &errors);
+                let parity = if odd { "odd" } else { "even" };
+                println!("{name}, {parity} N: {what}: {:.1e} falls to {:.1e}, order {order:.2}", errors[0], errors[10]);
+                assert!(order >= 1.9, "{name}, {parity} N: {what}: order {order}, errors {errors:?}");
+            }
         }
     }
 }
 
 #[test]
-fn a_cone_with_its_tip_on_a_spring_is_exact_to_rounding() {
-    let form = Form::Cone { angle: 1.35 };
-    let expected = PowerLaw::of(&form, 1.0, 1.0).unwrap().force_controlled_pull_off().1;
-    for points in grids() {
-        let body = smooth(Some(form), 1.2, points, 1.0, 1.0);
-        let found = body.history(&[Leg::ToIndentation(1.5), Leg::ToSeparation], 33).legs[1].smallest.force;
-        assert!((found / expected - 1.0).abs() < 1e-13, "{points}: {found} for {expected}");
+fn a_cone_is_exact_to_rounding() {
+    // With its tip on a spring the line of a cone is the cone itself.
+    let grids = [grids(true), grids(false), vec![4096, 4097]].concat();
+    let mut worst = [0.0_f64; 4];
+    for points in grids {
+        let found = errors(Form::Cone { angle: 1.35 }, 1.2, points);
+        worst = std::array::from_fn(|index| worst[index].max(found[index]));
+    }
+    println!("cone: {worst:?}");
+    for ((what, error), most) in FIGURES.into_iter().zip(worst).zip([1e-13, 1e-12, 1e-11, 1e-9]) {
+        assert!(error <= most, "{what}: error {error:e}, allowed {most:e}");
     }
 }
 
@@ -99,7 +115,7 @@ fn flat_faces_are_exact_to_rounding() {
 fn without_adhesion_loading_and_unloading_agree_bit_for_bit_with_order_two() {
     let (n, c) = (2.0_f64, 0.5);
     let mut errors = Vec::new();
-    for &points in &grids() {
+    for &points in &grids(true) {
         let body = smooth(Some(Form::Paraboloid { radius: 2.0 }), 8.0, points, 5.0, 0.0);
         let history = body.history(&[Leg::ToIndentation(1.0), Leg::ToIndentation(0.0)], 65);
         let [up, down] = &history.legs[..] else { panic!() };
@@ -115,7 +131,7 @@ fn without_adhesion_loading_and_unloading_agree_bit_for_bit_with_order_two() {
         let error = down.curve.iter().map(|point| (point.force - exact(point.indentation)).abs());
         errors.push(error.fold(0.0, f64::max) / exact(1.0));
     }
-    let order = observed_order(&grids(), &errors);
+    let order = observed_order(&grids(true), &errors);
     println!("Hertz: {:.1e} falls to {:.1e}, order {order:.2}", errors[0], errors[10]);
     assert!(order >= 1.8, "order {order}, errors {errors:?}");
 }
