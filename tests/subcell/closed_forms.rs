@@ -4,7 +4,7 @@ use super::numerics::{integral, invert, observed_order};
 use super::*;
 use asperity::reference::PowerLaw;
 use asperity::scene::Form;
-use asperity::surface::{Line, SelfAffine, UnitRoughness};
+use asperity::surface::{Line, SelfAffine, Synthesizer};
 use std::f64::consts::PI;
 
 fn smooth(form: Option<Form>, length: f64, points: usize, modulus: f64, work: f64) -> Body {
@@ -95,7 +95,7 @@ fn a_cone_is_exact_to_rounding() {
         worst = std::array::from_fn(|index| worst[index].max(found[index]));
     }
     println!("cone: {worst:?}");
-    for ((what, error), most) in FIGURES.into_iter().zip(worst).zip([1e-13, 1e-12, 1e-11, 1e-9]) {
+    for ((what, error), most) in FIGURES.into_iter().zip(worst).zip([1e-13, 1e-13, 1e-13, 1e-12]) {
         assert!(error <= most, "{what}: error {error:e}, allowed {most:e}");
     }
 }
@@ -136,14 +136,15 @@ fn without_adhesion_loading_and_unloading_agree_bit_for_bit_with_order_two() {
     assert!(order >= 1.8, "order {order}, errors {errors:?}");
 }
 
-#[test]
-fn rough_lines_of_few_modes_converge_with_the_square_of_the_distance_in_the_median() {
+/// Observed orders of the median errors of pull-off force and dissipated energy of lines with 24 modes, over Hurst
+/// exponents, κ and ten seeds each, on 2⁷ to 2¹³ springs against 2¹⁵.
+fn orders_of_rough_lines(name: &str, form: Option<Form>) -> [f64; 2] {
     let exponents = [7, 8, 9, 10, 11, 12, 13];
-    let mut medians: [Vec<f64>; 2] = Default::default();
     let figures = |hurst: f64, kappa: f64, seed: u64, points: usize| {
         let spectrum = SelfAffine { hurst, first: 1, last: 24 };
-        let rough = UnitRoughness::synthesize(spectrum, seed, points).unwrap();
-        let line = Line::new(1.0, points, None, Some(&rough.heights), 0.01).unwrap();
+        let shift = form.map_or(0.0, |form| form.shift(points as u64));
+        let rough = Synthesizer::default().synthesize(spectrum, seed, points, shift, Vec::new()).unwrap();
+        let line = Line::new(1.0, points, form.as_ref(), Some(&rough.heights), 0.01).unwrap();
         let foundation = Foundation { spacing: line.spacing, effective_modulus: 1.0 };
         let work = 1e-4 * spectrum.gradient_per_height(1.0) / (kappa * kappa);
         let body = Body { gaps: line.gaps, foundation, work };
@@ -156,28 +157,39 @@ fn rough_lines_of_few_modes_converge_with_the_square_of_the_distance_in_the_medi
         .flat_map(|hurst| [1.0, 3.0, 8.0].map(|kappa| (hurst, kappa)))
         .flat_map(|(hurst, kappa)| [1, 2, 3, 4, 5, 6, 7, 8, 9, 10].map(|seed| (hurst, kappa, seed)))
         .collect();
-    let finest: Vec<_> = cases.iter().map(|&(h, k, s)| figures(h, k, s, 1 << 15)).collect();
+    let all = |points: usize| cases.iter().map(|&(h, k, s)| figures(h, k, s, points)).collect::<Vec<_>>();
+    let finest = all(1 << 15);
+    let mut medians: [Vec<f64>; 2] = Default::default();
     for exponent in exponents {
-        let found: Vec<_> = cases.iter().map(|&(h, k, s)| figures(h, k, s, 1 << exponent)).collect();
+        let found = all(1 << exponent);
         for (index, medians) in medians.iter_mut().enumerate() {
-            let mut errors: Vec<f64> = found
-                .iter()
-                .zip(&finest)
-                .map(|(found, finest)| (found[index] / finest[index] - 1.0).abs())
-                .collect();
+            let mut errors: Vec<f64> =
+                found.iter().zip(&finest).map(|(found, fine)| (found[index] / fine[index] - 1.0).abs()).collect();
             errors.sort_by(f64::total_cmp);
-            println!(
-                "2^{exponent}: median {:.1e}, most {:.1e}",
-                errors[errors.len() / 2],
-                errors[errors.len() - 1]
-            );
-            medians.push(errors[errors.len() / 2]);
+            let (median, most) = (errors[errors.len() / 2], errors[errors.len() - 1]);
+            println!("{name}: 2^{exponent}: median {median:.1e}, most {most:.1e}");
+            medians.push(median);
         }
     }
     let grids = exponents.map(|exponent| 1_usize << exponent);
-    for (what, medians) in ["pull-off", "energy"].iter().zip(&medians) {
-        let order = observed_order(&grids, medians);
-        println!("rough, {what}: order {order:.2}");
-        assert!(order >= 1.8, "{what}: order {order}, medians {medians:?}");
+    let orders = medians.map(|medians| observed_order(&grids, &medians));
+    println!("{name}: orders {orders:.2?} of pull-off and energy");
+    orders
+}
+
+#[test]
+fn rough_lines_of_few_modes_converge_with_the_square_of_the_distance_in_the_median() {
+    for order in orders_of_rough_lines("flat", None) {
+        assert!(order >= 1.8, "order {order}");
+    }
+}
+
+#[test]
+fn rough_bodies_of_revolution_converge_with_the_square_of_the_distance_in_the_median() {
+    // Form and roughness lie on each other as they do on any other grid, and the tip is on a spring.
+    for (name, form) in [("sphere", Form::Paraboloid { radius: 0.5 }), ("cone", Form::Cone { angle: 0.3 })] {
+        for order in orders_of_rough_lines(name, Some(form)) {
+            assert!(order >= 1.8, "{name}: order {order}");
+        }
     }
 }
