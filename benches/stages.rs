@@ -115,7 +115,7 @@ impl Rough {
         let points = 1_usize << exponent;
         let spectrum = SelfAffine { hurst, first: 1, last: points as u64 / 4 };
         let line = synthesize(spectrum, points);
-        let foundation = Foundation { spacing: line.spacing, effective_modulus: EFFECTIVE_MODULUS };
+        let foundation = Foundation::endless(line.spacing, EFFECTIVE_MODULUS);
         let last = spectrum.last;
         let force = LOAD * EFFECTIVE_MODULUS * LENGTH * RMS_HEIGHT;
         let scene = format!(

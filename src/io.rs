@@ -102,7 +102,7 @@ fn check_regular(found: &std::fs::Metadata) -> Result<(), ReadError> {
 /// Opening returns at once, and so does reading what the system calls a regular file and is none, as
 /// `/proc/kmsg`. Regular files on disks are read as without it. A terminal does not become that of the process.
 #[cfg(unix)]
-fn without_waiting(options: &mut OpenOptions) {
+pub(crate) fn without_waiting(options: &mut OpenOptions) {
     use rustix::fs::OFlags;
     use std::os::unix::fs::OpenOptionsExt;
     options.custom_flags((OFlags::NONBLOCK | OFlags::NOCTTY).bits().cast_signed());
@@ -110,7 +110,7 @@ fn without_waiting(options: &mut OpenOptions) {
 
 /// Elsewhere a name that is found to be a regular file is opened at once.
 #[cfg(not(unix))]
-fn without_waiting(_: &mut OpenOptions) {}
+pub(crate) fn without_waiting(_: &mut OpenOptions) {}
 
 #[cfg(test)]
 mod tests {

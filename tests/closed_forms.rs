@@ -74,7 +74,7 @@ fn dissipated_energy([loading, unloading]: &[LegRecord; 2]) -> f64 {
 /// The loop of a problem on `points` springs: its loading and its unloading leg.
 fn closed_loop(problem: &Problem, points: usize) -> [LegRecord; 2] {
     let line = Line::new(problem.length, points, problem.form.as_ref(), None, 0.0).unwrap();
-    let foundation = Foundation { spacing: line.spacing, effective_modulus: problem.modulus };
+    let foundation = Foundation::endless(line.spacing, problem.modulus);
     let tree = ContactTree::build(&line.gaps, Edges::Grid).unwrap();
     let rule = GridEdges::new(HessRule::new(foundation, problem.work));
     let mut solver = exact::adhesive(&line.gaps, &tree, rule, foundation, 257);

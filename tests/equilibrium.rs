@@ -222,7 +222,7 @@ fn compare(
     legs: &[(Move, Vec<f64>)],
     compared: &Compared,
 ) -> Result<(), TestCaseError> {
-    let foundation = Foundation { spacing: SPACING, effective_modulus: 1.0 };
+    let foundation = Foundation::endless(SPACING, 1.0);
     let tree = ContactTree::build(gaps, Edges::Grid).unwrap();
     let rule = GridEdges::new(HessRule::new(foundation, range));
     let mut solver = exact::adhesive(gaps, &tree, rule, foundation, 2);

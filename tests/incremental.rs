@@ -1,8 +1,8 @@
-//! The body in hand against the exact solver: the same contact, bit for bit, at the cost of what changes.
+//! Manual loading against the exact solver: the same contact, bit for bit, at the cost of what changes.
 
 use asperity::contact::{
-    ContactError, ContactTree, CurvePoint, Foundation, GridEdges, GridRule, HandError, HandHeld, HessRule,
-    Incremental, LegRecord, Move, NoAdhesion, Solver, SpringTree, exact,
+    ContactError, ContactTree, CurvePoint, Foundation, GridEdges, HessRule, LegRecord, Manual, ManualError,
+    ManualLoading, Move, Solver, exact,
 };
 use asperity::scene::{Edges, Leg};
 use asperity::surface::{SelfAffine, UnitRoughness};
@@ -20,54 +20,35 @@ struct Body {
 }
 
 impl Body {
-    fn tree(&self) -> Arc<SpringTree> {
-        Arc::new(SpringTree::build(&self.gaps).unwrap())
+    fn tree(&self) -> Arc<ContactTree> {
+        Arc::new(ContactTree::build(&self.gaps, Edges::Grid).unwrap())
     }
 
-    /// Its turning points.
-    fn turning(&self) -> ContactTree {
-        ContactTree::build(&self.gaps, Edges::Grid).unwrap()
-    }
-
-    fn rule(&self, work: f64) -> GridRule {
-        GridRule::new(HessRule::new(self.foundation, work))
+    fn edges(&self) -> GridEdges {
+        GridEdges::new(self.work.map_or(HessRule::NO_ADHESION, |work| HessRule::new(self.foundation, work)))
     }
 
     fn exact<'a>(&'a self, tree: &'a ContactTree) -> Box<dyn Solver + 'a> {
         match self.work {
-            Some(work) => {
-                let rule = GridEdges::new(HessRule::new(self.foundation, work));
-                Box::new(exact::adhesive(&self.gaps, tree, rule, self.foundation, 2))
-            }
+            Some(_) => Box::new(exact::adhesive(&self.gaps, tree, self.edges(), self.foundation, 2)),
             None => Box::new(exact::nonadhesive(&self.gaps, Edges::Grid, self.foundation, 2)),
         }
     }
 
-    /// In hand, as it is before first touch.
-    fn in_hand(&self, tree: &Arc<SpringTree>) -> Box<dyn HandHeld + Send> {
-        let tree = Arc::clone(tree);
-        match self.work {
-            Some(work) => Box::new(Incremental::new(tree, self.rule(work), self.foundation).unwrap()),
-            None => Box::new(Incremental::new(tree, NoAdhesion, self.foundation).unwrap()),
-        }
+    /// Under manual loading, as it is before first touch.
+    fn separated(&self, tree: &Arc<ContactTree>) -> Manual<GridEdges> {
+        Manual::new(&self.gaps, Arc::clone(tree), self.edges(), self.foundation).unwrap()
     }
 
-    /// In hand, in this contact.
-    fn standing(
+    /// Under manual loading, in this contact.
+    fn in_contact(
         &self,
-        tree: &Arc<SpringTree>,
+        tree: &Arc<ContactTree>,
         indentation: f64,
-        contacts: &[(usize, usize)],
-    ) -> Box<dyn HandHeld + Send> {
-        let (tree, foundation) = (Arc::clone(tree), self.foundation);
-        match self.work {
-            Some(work) => Box::new(
-                Incremental::standing(tree, self.rule(work), foundation, indentation, contacts).unwrap(),
-            ),
-            None => {
-                Box::new(Incremental::standing(tree, NoAdhesion, foundation, indentation, contacts).unwrap())
-            }
-        }
+        fragments: &[(usize, usize)],
+    ) -> Manual<GridEdges> {
+        let tree = Arc::clone(tree);
+        Manual::in_contact(&self.gaps, tree, self.edges(), self.foundation, indentation, fragments).unwrap()
     }
 
     /// m
@@ -132,7 +113,7 @@ fn body() -> impl Strategy<Value = Body> {
     ];
     (gaps(), range, 0.003..0.03_f64, 0.3..3.0_f64).prop_map(|(gaps, range, spacing, effective_modulus)| {
         let work = range.map(|range| range * effective_modulus);
-        Body { gaps, foundation: Foundation { spacing, effective_modulus }, work }
+        Body { gaps, foundation: Foundation::endless(spacing, effective_modulus), work }
     })
 }
 
@@ -170,11 +151,11 @@ fn goals() -> impl Strategy<Value = Vec<Goal>> {
     prop::collection::vec(goal, 1..14)
 }
 
-fn go(hand: &mut dyn HandHeld, leg: Leg) -> Result<Move, HandError> {
+fn go(body: &mut dyn ManualLoading, leg: Leg) -> Result<Move, ManualError> {
     match leg {
-        Leg::ToIndentation(indentation) => hand.move_to_indentation(indentation),
-        Leg::ToForce(force) => hand.move_to_force(force),
-        _ => Ok(hand.separate()),
+        Leg::ToIndentation(indentation) => body.move_to_indentation(indentation),
+        Leg::ToForce(force) => body.move_to_force(force),
+        _ => Ok(body.separate()),
     }
 }
 
@@ -187,19 +168,27 @@ fn bits(point: &CurvePoint) -> [u64; 4] {
     [point.indentation.to_bits(), point.force.to_bits(), point.springs, point.fragments]
 }
 
-fn fragments(hand: &dyn HandHeld) -> Vec<(usize, usize)> {
-    hand.fragments().collect()
+fn fragments(body: &dyn ManualLoading) -> Vec<(usize, usize)> {
+    body.fragments().collect()
 }
 
 /// Where a body stands: all of its point and its fragments.
-fn state(hand: &dyn HandHeld) -> ([u64; 4], Vec<(usize, usize)>) {
-    (bits(&hand.point()), fragments(hand))
+fn state(body: &dyn ManualLoading) -> ([u64; 4], Vec<(usize, usize)>) {
+    (bits(&body.point()), fragments(body))
 }
 
 /// The fragments a solver has at the end of a leg.
 fn fragments_after(solver: &dyn Solver, record: &LegRecord) -> Vec<(usize, usize)> {
     let end = record.curve.last().unwrap();
     if end.springs == 0 { Vec::new() } else { solver.fragments(end.indentation) }
+}
+
+/// The springs around one that touch before it does, where of equal gaps the leftmost touches last.
+fn span_of(gaps: &[f64], spring: usize) -> (usize, usize) {
+    let gap = gaps[spring];
+    let before = gaps[..spring].iter().rev().take_while(|&&other| other < gap).count();
+    let after = gaps[spring + 1..].iter().take_while(|&&other| other <= gap).count();
+    (spring - before, spring + after)
 }
 
 /// To 1e-12 of the sum of its terms, ½ Δk e² for each spring that moved.
@@ -215,28 +204,27 @@ proptest! {
     #[test]
     fn it_stands_where_the_exact_solver_stands(body in body(), goals in goals()) {
         let tree = body.tree();
-        let turning = body.turning();
-        let (mut solver, mut hand) = (body.exact(&turning), body.in_hand(&tree));
+        let (mut solver, mut manual) = (body.exact(&tree), body.separated(&tree));
         for (index, goal) in goals.iter().enumerate() {
             let leg = goal.leg(&body);
-            let before = state(&*hand);
-            let (found, expected) = (go(&mut *hand, leg), solver.advance(leg));
+            let before = state(&manual);
+            let (found, expected) = (go(&mut manual, leg), solver.advance(leg));
             match (found, expected) {
                 (Ok(found), Ok(record)) => {
                     let end = record.curve.last().unwrap();
-                    prop_assert_eq!(bits(&hand.point()), bits(end), "{} {:?}: {:?} against {:?}",
-                        index, leg, hand.point(), end);
-                    prop_assert_eq!(fragments(&*hand), fragments_after(&*solver, &record));
-                    prop_assert_eq!((found.joins, found.leaves), (record.joins, record.leaves));
+                    prop_assert_eq!(bits(&manual.point()), bits(end), "{} {:?}: {:?} against {:?}",
+                        index, leg, manual.point(), end);
+                    prop_assert_eq!(fragments(&manual), fragments_after(&*solver, &record));
+                    prop_assert_eq!((found.attaches, found.detaches), (record.joins, record.leaves));
                     check_energy(found.dissipated_energy, record.dissipated_energy)?;
                 }
                 (Err(found), Err(expected)) => {
-                    prop_assert_eq!(state(&*hand), before);
+                    prop_assert_eq!(state(&manual), before);
                     let alike = match (&found, &expected) {
-                        (HandError::NothingToPull { .. }, ContactError::NothingToPull { .. })
-                        | (HandError::OutOfReach { .. }, ContactError::OutOfReach { .. }) => true,
+                        (ManualError::NothingToPull { .. }, ContactError::NothingToPull { .. })
+                        | (ManualError::OutOfReach { .. }, ContactError::OutOfReach { .. }) => true,
                         (
-                            HandError::LetsGoBefore { smallest: one, .. },
+                            ManualError::DetachesBefore { smallest: one, .. },
                             ContactError::LetsGoBefore { smallest: other, .. },
                         ) => one.to_bits() == other.to_bits(),
                         _ => false,
@@ -256,10 +244,10 @@ proptest! {
         parts in prop::collection::vec(0.0..1.0_f64, 1..40),
     ) {
         let tree = body.tree();
-        let (mut whole, mut split) = (body.in_hand(&tree), body.in_hand(&tree));
+        let (mut whole, mut split) = (body.separated(&tree), body.separated(&tree));
         for goal in goals {
             let leg = goal.leg(&body);
-            prop_assert_eq!(go(&mut *whole, leg).is_ok(), go(&mut *split, leg).is_ok());
+            prop_assert_eq!(go(&mut whole, leg).is_ok(), go(&mut split, leg).is_ok());
         }
         let from = whole.point().indentation;
         let mut stops: Vec<f64> = parts.iter().map(|part| from + part * (to - from)).collect();
@@ -269,41 +257,40 @@ proptest! {
         let mut sum = Move::default();
         for stop in stops {
             let part = split.move_to_indentation(stop).unwrap();
-            sum.joins += part.joins;
-            sum.leaves += part.leaves;
+            sum.attaches += part.attaches;
+            sum.detaches += part.detaches;
             sum.events += part.events;
             sum.dissipated_energy += part.dissipated_energy;
         }
-        prop_assert_eq!(state(&*whole), state(&*split));
-        prop_assert_eq!((once.joins, once.leaves, once.events), (sum.joins, sum.leaves, sum.events));
+        prop_assert_eq!(state(&whole), state(&split));
+        prop_assert_eq!((once.attaches, once.detaches, once.events), (sum.attaches, sum.detaches, sum.events));
         check_energy(sum.dissipated_energy, once.dissipated_energy)?;
     }
 
     #[test]
     fn minor_loops_close(body in body(), deepest in 0.0..1.2_f64, shares in [0.0..1.0_f64, 0.0..1.0]) {
         let tree = body.tree();
-        let mut hand = body.in_hand(&tree);
+        let mut manual = body.separated(&tree);
         let outer = -0.5 + shares[0] * (deepest + 0.5);
         let inner = outer + shares[1] * (deepest - outer);
         let mut states = Vec::new();
         for to in [deepest, outer, inner, outer, deepest] {
-            hand.move_to_indentation(to).unwrap();
-            states.push(state(&*hand));
+            manual.move_to_indentation(to).unwrap();
+            states.push(state(&manual));
         }
         prop_assert_eq!(&states[1], &states[3]);
         prop_assert_eq!(&states[0], &states[4]);
     }
 
     #[test]
-    fn taken_in_hand_anywhere_it_goes_on_as_if_it_had_come_there(
+    fn begun_in_any_contact_it_goes_on_as_if_it_had_come_there(
         body in body(),
         history in prop::collection::vec(indentation(), 1..6),
         share in 0.0..=1.0_f64,
         goals in goals(),
     ) {
         let tree = body.tree();
-        let turning = body.turning();
-        let (mut solver, mut came) = (body.exact(&turning), body.in_hand(&tree));
+        let (mut solver, mut came) = (body.exact(&tree), body.separated(&tree));
         let mut last = None;
         for &to in &history {
             last = Some(solver.advance(Leg::ToIndentation(to)).unwrap());
@@ -315,63 +302,64 @@ proptest! {
             came.move_to_indentation(to).unwrap();
         }
         came.move_to_indentation(moment).unwrap();
-        let mut taken = body.standing(&tree, moment, &solver.fragments(moment));
-        prop_assert_eq!(state(&*taken), state(&*came));
+        let mut taken = body.in_contact(&tree, moment, &solver.fragments(moment));
+        prop_assert_eq!(state(&taken), state(&came));
         for goal in goals {
             let leg = goal.leg(&body);
-            let (one, other) = (go(&mut *taken, leg), go(&mut *came, leg));
+            let (one, other) = (go(&mut taken, leg), go(&mut came, leg));
             prop_assert_eq!(one.map(|one| Move { touched: 0, ..one }), other.map(|other| Move { touched: 0, ..other }));
-            prop_assert_eq!(state(&*taken), state(&*came));
+            prop_assert_eq!(state(&taken), state(&came));
         }
     }
 
     #[test]
-    fn of_any_contact_the_whole_subtrees_are_taken(
+    fn of_any_contact_the_largest_spans_are_taken(
         body in body(),
         runs in prop::collection::vec((0_usize..310, 0_usize..40), 0..12),
     ) {
         let tree = body.tree();
         let runs: Vec<_> = runs.iter().map(|&(first, more)| (first, first + more)).collect();
         let held = |index| runs.iter().any(|&(first, last)| (first..=last).contains(&index));
-        let mut expected: Vec<(usize, usize)> = (0..tree.len())
-            .map(|node| tree.interval(node))
+        let mut expected: Vec<(usize, usize)> = (0..body.gaps.len())
+            .map(|spring| span_of(&body.gaps, spring))
             .filter(|&(first, last)| (first..=last).all(held))
             .collect();
         let all = expected.clone();
         let within = |one: &(usize, usize), other: &(usize, usize)| other.0 <= one.0 && one.1 <= other.1;
         expected.retain(|one| !all.iter().any(|other| one != other && within(one, other)));
         expected.sort_unstable();
-        let mut hand = body.standing(&tree, 0.1, &runs);
-        prop_assert_eq!(fragments(&*hand), expected.clone());
+        let mut manual = body.in_contact(&tree, 0.1, &runs);
+        prop_assert_eq!(fragments(&manual), expected.clone());
         let springs: usize = expected.iter().map(|&(first, last)| last + 1 - first).sum();
-        let point = hand.point();
+        let point = manual.point();
         prop_assert_eq!((point.springs, point.fragments), (springs as u64, expected.len() as u64));
         let force: f64 = expected.iter().flat_map(|&(first, last)| &body.gaps[first..=last])
             .map(|gap| body.foundation.spring_stiffness() * (0.1 - gap)).sum();
         prop_assert!((point.force - force).abs() <= 1e-12 * body.force_scale());
         // Out of equilibrium or not: pressed beyond all gaps everything touches, pulled apart nothing does.
-        hand.move_to_indentation(body.deepest().max(0.2)).unwrap();
-        prop_assert_eq!(hand.point().springs, tree.len() as u64);
-        prop_assert_eq!(hand.separate().leaves, tree.len() as u64);
-        prop_assert_eq!(fragments(&*hand), vec![]);
+        manual.move_to_indentation(body.deepest().max(0.2)).unwrap();
+        prop_assert_eq!(manual.point().springs, body.gaps.len() as u64);
+        prop_assert_eq!(manual.separate().detaches, body.gaps.len() as u64);
+        prop_assert_eq!(fragments(&manual), vec![]);
     }
 
     #[test]
     fn numbers_that_are_none_are_refused(body in body(), goals in goals()) {
         let tree = body.tree();
-        let mut hand = body.in_hand(&tree);
+        let mut manual = body.separated(&tree);
         for goal in goals {
-            let _ = go(&mut *hand, goal.leg(&body));
-            let before = state(&*hand);
+            let _ = go(&mut manual, goal.leg(&body));
+            let before = state(&manual);
             for value in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
-                let refused = |moved| matches!(moved, Err(HandError::NotFinite { .. }));
-                prop_assert!(refused(hand.move_to_indentation(value)));
-                prop_assert!(refused(hand.move_to_force(value)));
-                let taken = Incremental::standing(Arc::clone(&tree), NoAdhesion, body.foundation, value, &[]);
-                let is_refused = matches!(taken, Err(HandError::NotFinite { .. }));
+                let refused = |moved| matches!(moved, Err(ManualError::NotFinite { .. }));
+                prop_assert!(refused(manual.move_to_indentation(value)));
+                prop_assert!(refused(manual.move_to_force(value)));
+                let tree = Arc::clone(&tree);
+                let taken = Manual::in_contact(&body.gaps, tree, body.edges(), body.foundation, value, &[]);
+                let is_refused = matches!(taken, Err(ManualError::NotFinite { .. }));
                 prop_assert!(is_refused);
             }
-            prop_assert_eq!(state(&*hand), before);
+            prop_assert_eq!(state(&manual), before);
         }
     }
 }
@@ -382,7 +370,7 @@ fn rough(springs: usize, work: Option<f64>) -> Body {
     let heights = UnitRoughness::synthesize(spectrum, 1, springs).unwrap().heights;
     let summit = heights.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     let gaps = heights.iter().map(|height| 0.2 * (summit - height)).collect();
-    Body { gaps, foundation: Foundation { spacing: 1.0 / springs as f64, effective_modulus: 1.0 }, work }
+    Body { gaps, foundation: Foundation::endless(1.0 / springs as f64, 1.0), work }
 }
 
 /// Numbers in [0, 1) without a pattern.
@@ -401,10 +389,9 @@ fn a_step_costs_what_changes() {
     for work in [None, Some(1e-6), Some(1e-3), Some(0.02), Some(0.3), Some(1e3)] {
         let body = rough(SPRINGS, work);
         let tree = body.tree();
-        let turning = body.turning();
-        let (mut solver, mut hand) = (body.exact(&turning), body.in_hand(&tree));
+        let (mut solver, mut manual) = (body.exact(&tree), body.separated(&tree));
         let mut check = |moved: Move| {
-            let changed = moved.joins + moved.leaves;
+            let changed = moved.attaches + moved.detaches;
             assert!(moved.events <= changed, "{moved:?}");
             let touched = moved.touched as f64 / (changed + 1) as f64 / f64::from(rows);
             largest = largest.max(touched);
@@ -420,30 +407,30 @@ fn a_step_costs_what_changes() {
             let middle = 1.1 * share - 0.2;
             for (step, share) in shares().skip(100 * turn).take(300).enumerate() {
                 let size = 10_f64.powi(-(step as i32 % 7) - 1);
-                let changed = check(hand.move_to_indentation(middle + size * (share - 0.5)).unwrap());
+                let changed = check(manual.move_to_indentation(middle + size * (share - 0.5)).unwrap());
                 still += usize::from(changed == 0);
             }
             // The history in between, as the exact solver sees it.
-            let runs = fragments(&*hand);
-            let at = hand.point();
-            let mut taken = body.standing(&tree, at.indentation, &runs);
-            assert_eq!(state(&*taken), state(&*hand));
+            let runs = fragments(&manual);
+            let at = manual.point();
+            let mut taken = body.in_contact(&tree, at.indentation, &runs);
+            assert_eq!(state(&taken), state(&manual));
             for leg in [Leg::ToIndentation(middle), Leg::ToForce(0.01), Leg::ToSeparation] {
-                let one = go(&mut *hand, leg);
-                assert_eq!(one.is_ok(), go(&mut *taken, leg).is_ok());
+                let one = go(&mut manual, leg);
+                assert_eq!(one.is_ok(), go(&mut taken, leg).is_ok());
                 if let Ok(moved) = one {
                     check(moved);
                 }
-                assert_eq!(state(&*taken), state(&*hand));
+                assert_eq!(state(&taken), state(&manual));
             }
-            if hand.point().springs == 0 {
+            if manual.point().springs == 0 {
                 solver.advance(Leg::ToSeparation).unwrap();
             }
             for leg in [Leg::ToIndentation(1.0 - share), Leg::ToIndentation(0.3 * share)] {
                 let record = solver.advance(leg).unwrap();
-                check(go(&mut *hand, leg).unwrap());
-                assert_eq!(bits(&hand.point()), bits(record.curve.last().unwrap()));
-                assert_eq!(fragments(&*hand), fragments_after(&*solver, &record));
+                check(go(&mut manual, leg).unwrap());
+                assert_eq!(bits(&manual.point()), bits(record.curve.last().unwrap()));
+                assert_eq!(fragments(&manual), fragments_after(&*solver, &record));
             }
         }
         assert!(still > 20, "γ = {work:?}: {still} steps without a change");
@@ -453,36 +440,31 @@ fn a_step_costs_what_changes() {
 
 #[test]
 fn a_line_of_no_springs_is_never_touched() {
-    let body = Body {
-        gaps: Vec::new(),
-        foundation: Foundation { spacing: 1.0, effective_modulus: 1.0 },
-        work: None,
-    };
-    let mut hand = body.in_hand(&body.tree());
-    hand.move_to_indentation(3.0).unwrap();
-    assert_eq!(hand.move_to_force(1.0), Err(HandError::OutOfReach { force: 1.0 }));
-    assert_eq!(hand.move_to_force(-1.0), Err(HandError::NothingToPull { force: -1.0 }));
-    assert_eq!(hand.separate(), Move::default());
-    assert_eq!(state(&*hand).1, vec![]);
-    assert_eq!(hand.point().indentation, 3.0);
+    let body = Body { gaps: Vec::new(), foundation: Foundation::endless(1.0, 1.0), work: None };
+    let mut manual = body.separated(&body.tree());
+    manual.move_to_indentation(3.0).unwrap();
+    assert_eq!(manual.move_to_force(1.0), Err(ManualError::OutOfReach { force: 1.0 }));
+    assert_eq!(manual.move_to_force(-1.0), Err(ManualError::NothingToPull { force: -1.0 }));
+    assert_eq!(manual.separate(), Move::default());
+    assert_eq!(state(&manual).1, vec![]);
+    assert_eq!(manual.point().indentation, 3.0);
 }
 
 #[test]
 fn a_force_no_indentation_reaches_is_refused() {
-    let foundation = Foundation { spacing: 1e-3, effective_modulus: 1.0 };
+    let foundation = Foundation::endless(1e-3, 1.0);
     for work in [None, Some(0.1)] {
         let body = Body { gaps: vec![0.3, 0.0, 0.9, 0.2, 0.5], foundation, work };
         let tree = body.tree();
-        let turning = body.turning();
-        let (mut solver, mut hand) = (body.exact(&turning), body.in_hand(&tree));
+        let (mut solver, mut manual) = (body.exact(&tree), body.separated(&tree));
         for leg in [Leg::ToIndentation(0.25), Leg::ToSeparation] {
             solver.advance(leg).unwrap();
-            go(&mut *hand, leg).unwrap();
-            let before = state(&*hand);
+            go(&mut manual, leg).unwrap();
+            let before = state(&manual);
             let refused = solver.advance(Leg::ToForce(1e308));
             assert!(matches!(refused, Err(ContactError::OutOfReach { .. })), "{refused:?}");
-            assert_eq!(hand.move_to_force(1e308), Err(HandError::OutOfReach { force: 1e308 }));
-            assert_eq!(state(&*hand), before);
+            assert_eq!(manual.move_to_force(1e308), Err(ManualError::OutOfReach { force: 1e308 }));
+            assert_eq!(state(&manual), before);
         }
     }
 }

@@ -9,7 +9,7 @@ const SPRINGS: usize = 1 << 20;
 
 /// A line of 1 m with E* = 1 Pa.
 fn foundation(springs: usize) -> Foundation {
-    Foundation { spacing: 1.0 / springs as f64, effective_modulus: 1.0 }
+    Foundation::endless(1.0 / springs as f64, 1.0)
 }
 
 /// The legs of a line on springs of this foundation, with the fragments in contact after the first.

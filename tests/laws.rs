@@ -92,7 +92,7 @@ fn body() -> impl Strategy<Value = Body> {
     (gaps(), -5.0..2.0_f64, 0.003..0.03_f64, 0.3..3.0_f64).prop_map(
         |(gaps, range, spacing, effective_modulus)| Body {
             gaps,
-            foundation: Foundation { spacing, effective_modulus },
+            foundation: Foundation::endless(spacing, effective_modulus),
             work: effective_modulus * 10_f64.powf(range),
         },
     )

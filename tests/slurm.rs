@@ -394,8 +394,8 @@ fn arrays_are_no_larger_than_the_cluster_has_them() {
     assert!(told.starts_with("job 21: 4 tasks; job 21: the merge after them\n"), "{told}");
     let asked = fs::read_to_string(small.path().join("asked")).unwrap();
     let [array, merge] = asked.lines().collect::<Vec<_>>()[..] else { panic!("{asked}") };
-    assert!(array.contains("-p x --array=1-4%2 --requeue "), "{array}");
-    assert!(merge.contains("-p x --dependency=afterok:21 --kill-on-invalid-dep=yes"), "{merge}");
+    assert!(array.contains("--partition=x --array=1-4%2 --requeue "), "{array}");
+    assert!(merge.contains("--partition=x --dependency=afterok:21 --kill-on-invalid-dep=yes"), "{merge}");
 
     // Where the cluster does not say, Slurm's own limit holds.
     let silent = stand_ins(&[]);
@@ -404,6 +404,70 @@ fn arrays_are_no_larger_than_the_cluster_has_them() {
     assert!(said.contains("arrays of at most 1000 tasks"), "{said}");
     let (_, _, said) = submit_to(silent.path(), &["--shards", "4", "--", "--array=1-9"]);
     assert!(said.contains("--array=1-9: this is not for sbatch here"), "{said}");
+}
+
+#[test]
+fn only_known_options_and_no_variables_reach_sbatch() {
+    // Does what sbatch does with the words it is given, as far as it can be told apart.
+    let sbatch = "printf '%s\\n' \"$@\" >>asked; /usr/bin/env >>variables; echo 17";
+    let folder = stand_ins(&[("sbatch", sbatch)]);
+    for words in [
+        &["x.sh"][..],
+        &["--quiet"],
+        &["--arr=1-50"],
+        &["-HW"],
+        &["-pshort"],
+        &["--partition=x", "x.sh"],
+        &["--exclusive", "x.sh"],
+        &["--wrap", "true"],
+        &["--", "x.sh"],
+    ] {
+        let arguments = [&["--shards", "4", "--"], words].concat();
+        let (code, told, said) = submit_to(folder.path(), &arguments);
+        assert_eq!((code, told.as_str()), (Some(1), ""), "{words:?}: {said}");
+        assert!(
+            said.contains("this is not for sbatch here; allowed: --account, --begin,"),
+            "{words:?}: {said}"
+        );
+    }
+    assert!(!folder.path().join("asked").exists() && !folder.path().join("study").exists());
+    let mut command = Command::new(ASPERITY);
+    command.current_dir(folder.path()).env("PATH", folder.path().join("bin"));
+    command.envs([("SBATCH_ARRAY_INX", "1-50"), ("SBATCH_QUIET", "1"), ("SLURM_CONF", "kept")]);
+    command.args([
+        "sweep", "submit", "plan.ron", "-o", "study", "--shards", "4", "--", "-t", "1:00", "--mem=1G",
+    ]);
+    let output = command.output().unwrap();
+    let said = String::from_utf8(output.stderr).unwrap();
+    assert!(output.status.success(), "{said}");
+    assert!(said.contains("not passed on to sbatch: SBATCH_ARRAY_INX, SBATCH_QUIET"), "{said}");
+    let variables = fs::read_to_string(folder.path().join("variables")).unwrap();
+    assert!(variables.contains("SLURM_CONF=kept") && !variables.contains("SBATCH_"), "{variables}");
+    let asked = fs::read_to_string(folder.path().join("asked")).unwrap();
+    assert_eq!(asked.matches("--time=1:00\n--mem=1G\n").count(), 2, "{asked}");
+    assert_eq!(asked.lines().filter(|word| !word.starts_with("--")).count(), 2, "{asked}");
+}
+
+#[test]
+fn an_answer_that_is_no_number_of_a_job_is_an_error() {
+    for answer in ["", "Submitted batch job 17", "17;", "+17", "0", "17\\n18", "17 18"] {
+        let sbatch = format!("printf '{answer}\\n'");
+        let folder = stand_ins(&[("sbatch", &sbatch)]);
+        let (code, told, said) = submit_to(folder.path(), &["--shards", "4"]);
+        assert_eq!((code, told.as_str()), (Some(1), ""), "{answer:?}: {said}");
+        assert!(
+            said.contains("sbatch took the array and did not answer with the number"),
+            "{answer:?}: {said}"
+        );
+        assert!(said.contains("squeue --me lists the array"), "{answer:?}: {said}");
+    }
+    // Where it is that of the merge, the array goes.
+    let sbatch = r#"case "$*" in *--dependency*) echo what ;; *) echo '17;east' ;; esac"#;
+    let folder = stand_ins(&[("sbatch", sbatch), ("scancel", "echo \"$*\" >cancelled")]);
+    let (code, _, said) = submit_to(folder.path(), &["--shards", "4"]);
+    assert_eq!(code, Some(1));
+    assert!(said.contains("no number of a job: what") && said.contains("17 was cancelled"), "{said}");
+    assert_eq!(fs::read_to_string(folder.path().join("cancelled")).unwrap().trim(), "--clusters=east 17");
 }
 
 #[test]

@@ -6,19 +6,18 @@ mod brute_force;
 mod closed_forms;
 #[path = "common/formed.rs"]
 mod formed;
-#[path = "subcell/hand.rs"]
-mod hand;
 #[path = "subcell/laws.rs"]
 mod laws;
+#[path = "subcell/manual.rs"]
+mod manual;
 #[path = "common/numerics.rs"]
 mod numerics;
 #[path = "subcell/rule.rs"]
 mod rule;
 
-use asperity::contact::subcell::LevelSets;
 use asperity::contact::{
     Adhesive, ContactError, ContactTree, CurvePoint, Exact, Foundation, HessRule, History, LegRecord, Solver,
-    SpringTree, SubCellEdges, exact, run,
+    SubCellEdges, exact, run,
 };
 use asperity::scene::{Edges, Leg};
 use proptest::prelude::*;
@@ -35,22 +34,16 @@ struct Body {
 }
 
 impl Body {
-    fn sets(&self) -> Arc<LevelSets> {
-        let tree = Arc::new(SpringTree::build(&self.gaps).unwrap());
-        Arc::new(LevelSets::new(tree, &self.gaps).unwrap())
-    }
-
     fn tree(&self) -> ContactTree {
         ContactTree::build(&self.gaps, Edges::SubCell).unwrap()
     }
 
-    fn hess(&self) -> Option<HessRule> {
-        (self.work > 0.0).then(|| HessRule::new(self.foundation, self.work))
+    fn edges(&self) -> SubCellEdges {
+        SubCellEdges::new(HessRule::new(self.foundation, self.work))
     }
 
     fn on<'a>(&'a self, tree: &'a ContactTree, samples: usize) -> Exact<Adhesive<'a, SubCellEdges>> {
-        let edges = SubCellEdges::new(HessRule::new(self.foundation, self.work));
-        exact::adhesive(&self.gaps, tree, edges, self.foundation, samples)
+        exact::adhesive(&self.gaps, tree, self.edges(), self.foundation, samples)
     }
 
     fn history(&self, legs: &[Leg], samples: usize) -> History {
@@ -111,7 +104,7 @@ fn body(most: usize) -> impl Strategy<Value = Body> {
     (gaps(most), range, 0.003..0.03_f64, 0.3..3.0_f64).prop_map(
         |(gaps, range, spacing, effective_modulus)| Body {
             gaps,
-            foundation: Foundation { spacing, effective_modulus },
+            foundation: Foundation::endless(spacing, effective_modulus),
             work: range * effective_modulus,
         },
     )

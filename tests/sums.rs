@@ -140,7 +140,7 @@ proptest! {
         let largest = gaps.iter().copied().fold(0.0, f64::max);
         let forces = [gaps, other].map(|gaps| {
             let gaps: Vec<f64> = gaps.iter().map(|gap| gap - lowest).collect();
-            let foundation = Foundation { spacing: 1e-3, effective_modulus: 3.0 };
+            let foundation = Foundation::endless(1e-3, 3.0);
             let mut solver = exact::nonadhesive(&gaps, Edges::Grid, foundation, 40);
             let leg = solver.advance(Leg::ToIndentation(share * (largest - lowest))).unwrap();
             leg.curve.iter().map(|point| (point.force.to_bits(), point.springs)).collect::<Vec<_>>()
@@ -185,7 +185,7 @@ fn a_million_terms_keep_the_bound() {
 fn forces_at_full_contact_keep_the_bound_where_they_vanish() {
     let mut gaps = noise();
     gaps[1000] = 0.0;
-    let foundation = Foundation { spacing: 1e-6, effective_modulus: 2.0e6 };
+    let foundation = Foundation::endless(1e-6, 2.0e6);
     let stiffness = foundation.spring_stiffness();
     let tree = ContactTree::build(&gaps, Edges::Grid).unwrap();
     // Adhesion enough to hold everything when hardly pressed.

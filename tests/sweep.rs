@@ -12,6 +12,15 @@ use std::path::{Path, PathBuf};
 use tempfile::TempDir;
 
 #[cfg(unix)]
+#[path = "sweep/foreign.rs"]
+mod foreign;
+#[cfg(unix)]
+#[path = "sweep/many.rs"]
+mod many;
+#[cfg(unix)]
+#[path = "sweep/measured.rs"]
+mod measured;
+#[cfg(unix)]
 #[path = "sweep/processes.rs"]
 mod processes;
 #[path = "sweep/wrong_plans.rs"]

@@ -35,7 +35,8 @@ pub const EFFECTS: &[Effect] = &[
         name: "Hess",
         lines: Lines::Of(&[
             ("src/contact/foundation.rs", "fn largest_stretch("),
-            ("src/contact/subcell/edges.rs", "fn rest("),
+            ("src/contact/adhesive/sub_cell_edges.rs", "fn attaches_at("),
+            ("src/contact/adhesive/sub_cell_edges.rs", "fn holds_to("),
         ]),
         called_for: Case::is_adhesive,
         counted: |work| work.hess_evaluations,
@@ -44,7 +45,7 @@ pub const EFFECTS: &[Effect] = &[
         name: "unloading",
         lines: Lines::Of(&[
             ("src/contact/exact.rs", "fn unload("),
-            ("src/contact/thresholds.rs", "fn unload<"),
+            ("src/contact/adhesive/unloading.rs", "pub fn list<"),
         ]),
         called_for: Case::goes_back,
         counted: |work| work.leaves,

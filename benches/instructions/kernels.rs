@@ -52,8 +52,7 @@ pub fn kernel(case: &Case) -> Given {
     Given { histogram, ..given }
 }
 
-const FOUNDATION: Foundation =
-    Foundation { spacing: LENGTH / POINTS as f64, effective_modulus: EFFECTIVE_MODULUS };
+const FOUNDATION: Foundation = Foundation::endless(LENGTH / POINTS as f64, EFFECTIVE_MODULUS);
 
 fn hess() -> HessRule {
     HessRule::new(FOUNDATION, WORK_OF_ADHESION)

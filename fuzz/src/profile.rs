@@ -64,12 +64,16 @@ fn assert_samples(profile: &MeasuredProfile) {
                     let allowed = low - level - margin..=high - level + margin;
                     heights.iter().all(|height| allowed.contains(height))
                 };
-                assert!(inside(0.0) || inside(first), "{heights:?} from {low} to {high}, the first at {first}");
+                assert!(
+                    inside(0.0) || inside(first),
+                    "{heights:?} from {low} to {high}, the first at {first}"
+                );
             }
         }
     }
     // More memory than there is, and a longer line than the profile, are refused and not tried.
-    let refused = [profile.sample(length, usize::MAX / 4, 0.0), profile.sample(1.01 * length + 1e-300, 2, 0.0)];
+    let refused =
+        [profile.sample(length, usize::MAX / 4, 0.0), profile.sample(1.01 * length + 1e-300, 2, 0.0)];
     for message in refused.map(|sampled| sampled.map(|_| ()).unwrap_err()) {
         assert_message(&message);
     }

@@ -66,13 +66,13 @@ impl Figures {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::contact::{ContactTree, Foundation, GridEdges, HessRule, exact, run};
+    use crate::contact::{ContactTree, CurvePoint, Foundation, GridEdges, HessRule, LegRecord, exact, run};
 
     #[test]
     fn only_a_preload_gives_a_coefficient() {
         let gaps: Vec<f64> = (0..101).map(|index| (f64::from(index - 50) * 0.02).powi(2)).collect();
         let tree = ContactTree::build(&gaps, crate::scene::Edges::Grid).unwrap();
-        let foundation = Foundation { spacing: 0.02, effective_modulus: 1.0 };
+        let foundation = Foundation::endless(0.02, 1.0);
         let rule = GridEdges::new(HessRule::new(foundation, 0.001));
         let figures = |first| {
             let mut body = exact::adhesive(&gaps, &tree, rule, foundation, 16);
@@ -83,5 +83,98 @@ mod tests {
         assert_eq!(pressed.adhesion_coefficient, Some(adhesion / pressed.preload.unwrap()));
         assert!(returned.adhesion_force.unwrap() > 0.0 && returned.preload.is_some());
         assert_eq!(returned.adhesion_coefficient, None);
+    }
+
+    fn point(indentation: f64, force: f64, springs: u64) -> CurvePoint {
+        CurvePoint { indentation, force, contact_length: 0.0, springs, fragments: springs.min(1) }
+    }
+
+    /// A leg whose extremes are this point, with these springs at its end.
+    fn leg(leg: Leg, direction: Direction, extreme: CurvePoint, springs: u64) -> LegRecord {
+        let curve = vec![point(0.0, 0.5, 1), extreme, point(extreme.indentation, 0.0, springs)];
+        LegRecord {
+            leg,
+            direction,
+            curve,
+            largest: extreme,
+            smallest: extreme,
+            joins: 0,
+            leaves: 0,
+            dissipated_energy: 0.25,
+        }
+    }
+
+    fn figures(legs: Vec<LegRecord>) -> Figures {
+        Figures::of(&History { legs, ..History::default() })
+    }
+
+    fn pressed(force: f64) -> LegRecord {
+        leg(Leg::ToForce(force), Direction::Loading, point(force / 10.0, force, 3), 3)
+    }
+
+    fn pulled(force: f64, springs: u64) -> LegRecord {
+        leg(Leg::ToSeparation, Direction::Unloading, point(-0.3, force, 2), springs)
+    }
+
+    #[test]
+    fn figures_are_of_the_largest_press_and_the_last_pull() {
+        let found = figures(vec![pressed(7.0), pulled(-3.0, 1), pressed(5.0), pulled(-2.0, 0)]);
+        let expected = Figures {
+            preload: Some(7.0),
+            preload_indentation: Some(0.7),
+            adhesion_force: Some(2.0),
+            adhesion_coefficient: Some(2.0 / 7.0),
+            pull_off_indentation: Some(-0.3),
+            dissipated_energy: Some(1.0),
+        };
+        assert_eq!(found, expected);
+        // Nothing lost is 0, not −0.
+        let nothing = |leg: LegRecord| LegRecord { dissipated_energy: -0.0, ..leg };
+        let lost = figures(vec![nothing(pressed(7.0)), nothing(pulled(-3.0, 0))]).dissipated_energy;
+        assert!(lost.is_some_and(|lost| lost == 0.0 && lost.is_sign_positive()), "{lost:?}");
+        // What still holds has lost nothing for good.
+        assert_eq!(figures(vec![pressed(7.0), pulled(-3.0, 1)]).dissipated_energy, None);
+        assert_eq!(figures(vec![]), Figures::default());
+    }
+
+    #[test]
+    fn a_separated_body_has_no_extremes() {
+        let free = |direction| {
+            let mut leg = leg(Leg::ToIndentation(-1.0), direction, point(-1.0, 0.0, 0), 0);
+            leg.curve = vec![point(-2.0, 0.0, 0), point(-1.0, 0.0, 0)];
+            leg
+        };
+        let legs = vec![pressed(-7.0), pulled(-3.0, 0), free(Direction::Loading), free(Direction::Unloading)];
+        let found = figures(legs);
+        assert_eq!((found.preload, found.adhesion_force), (Some(-7.0), Some(3.0)));
+        // A body that is pulled all the way has no preload to compare with.
+        assert_eq!(found.adhesion_coefficient, None);
+        assert_eq!(figures(vec![free(Direction::Loading), free(Direction::Unloading)]).preload, None);
+    }
+
+    #[test]
+    fn only_a_leg_that_pulls_has_an_adhesion_force() {
+        let adhesion = |force| figures(vec![pressed(1.0), pulled(force, 0)]).adhesion_force;
+        assert_eq!(adhesion(1e-300), None);
+        let none = adhesion(0.0);
+        assert!(none == Some(0.0) && none.is_some_and(f64::is_sign_positive));
+        assert_eq!(adhesion(-1e-300), Some(1e-300));
+        assert_eq!(figures(vec![pressed(1.0), pulled(1.0, 1)]).pull_off_indentation, None);
+        assert_eq!(figures(vec![pressed(0.0), pulled(-1.0, 0)]).adhesion_coefficient, None);
+        // A coefficient beyond all numbers is none.
+        assert_eq!(figures(vec![pressed(1e-320), pulled(-1.0, 0)]).adhesion_coefficient, None);
+    }
+
+    #[test]
+    fn the_touch_protocol_is_touch_and_separation() {
+        let mut scene = crate::scene::open("jkr-sphere").unwrap().scene().clone();
+        for (loading, is_touch) in [
+            (vec![Leg::ToTouch, Leg::ToSeparation], true),
+            (vec![Leg::ToZeroForce, Leg::ToSeparation], false),
+            (vec![Leg::ToTouch], false),
+        ] {
+            scene.loading = loading;
+            assert_eq!(Figures::is_touch_protocol(&scene), is_touch, "{:?}", scene.loading);
+        }
     }
 }

@@ -93,4 +93,37 @@ mod tests {
         assert_eq!(evidence(0.001, 0.001, 0.0).regime(), Regime::NonAdhesive);
         assert_eq!(evidence(0.0, 0.0, 0.0).regime(), Regime::NonAdhesive);
     }
+
+    #[test]
+    fn thresholds_belong_to_the_stronger_regime() {
+        let evidence = |zero_load_adhesion, adhesion, preload, smooth_adhesion| {
+            RegimeEvidence { zero_load_adhesion, adhesion, preload, smooth_adhesion }.regime()
+        };
+        // Half of the adhesion needs no pressing; a little less does not count.
+        assert_eq!(evidence(0.5, 1.0, 5.0, 1.0), Regime::PressureInsensitive);
+        assert_eq!(evidence(0.5_f64.next_down(), 1.0, 5.0, 1.0), Regime::PressureSensitive);
+        // A twentieth of the smooth body's is there; a little less has vanished.
+        assert_eq!(evidence(VANISHING_SHARE, 0.1, 1.0, 1.0), Regime::PressureInsensitive);
+        assert_eq!(evidence(VANISHING_SHARE.next_down(), 0.09, 1.0, 1.0), Regime::PressureSensitive);
+        assert_eq!(evidence(0.0, 0.0, 0.0, 0.0), Regime::NonAdhesive);
+        // A hundredth of the preload is negligible; a little more is not.
+        assert_eq!(evidence(0.0, NEGLIGIBLE_COEFFICIENT, 1.0, 1.0), Regime::NonAdhesive);
+        assert_eq!(evidence(0.0, NEGLIGIBLE_COEFFICIENT.next_up(), 1.0, 1.0), Regime::PressureSensitive);
+        // The same shares of other forces.
+        assert_eq!(evidence(0.2, 0.1, 1.0, 4.0), Regime::PressureInsensitive);
+        assert_eq!(evidence(0.19, 0.1, 1.0, 4.0), Regime::PressureSensitive);
+        assert_eq!(evidence(0.0, 0.04, 4.0, 1.0), Regime::NonAdhesive);
+        assert_eq!(evidence(0.0, 0.05, 4.0, 1.0), Regime::PressureSensitive);
+        // Without a preload what is left under a twentieth is none, whatever it is against the preload.
+        assert_eq!(evidence(0.01, 0.1, 0.0, 1.0), Regime::NonAdhesive);
+        assert_eq!(evidence(0.01, 0.1, -1.0, 1.0), Regime::NonAdhesive);
+        assert_eq!(evidence(0.3, 1.0, 0.0, 1.0), Regime::PressureSensitive);
+        assert_eq!(evidence(0.3, 1.0, -1.0, 1.0), Regime::PressureSensitive);
+    }
+
+    #[test]
+    fn regimes_have_their_names() {
+        let names = [Regime::PressureInsensitive, Regime::PressureSensitive, Regime::NonAdhesive];
+        assert_eq!(names.map(Regime::name), ["pressure-insensitive", "pressure-sensitive", "non-adhesive"]);
+    }
 }

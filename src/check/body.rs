@@ -36,7 +36,7 @@ impl Body {
     pub fn below(mut heights: Vec<f64>, length: f64, effective_modulus: f64, work: f64) -> Body {
         let summit = heights.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         heights.iter_mut().for_each(|height| *height = summit - *height);
-        let foundation = Foundation { spacing: length / heights.len() as f64, effective_modulus };
+        let foundation = Foundation::endless(length / heights.len() as f64, effective_modulus);
         Body { gaps: heights, foundation, work }
     }
 
@@ -47,7 +47,7 @@ impl Body {
     pub fn rough(spectrum: SelfAffine, seed: u64, points: usize, work: f64) -> Result<Body, Fault> {
         let rough = UnitRoughness::synthesize(spectrum, seed, points)?;
         let line = Line::new(LENGTH, points, None, Some(&rough.heights), RMS_HEIGHT)?;
-        let foundation = Foundation { spacing: line.spacing, effective_modulus: MODULUS };
+        let foundation = Foundation::endless(line.spacing, MODULUS);
         Ok(Body { gaps: line.gaps, foundation, work })
     }
 

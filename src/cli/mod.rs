@@ -36,6 +36,7 @@ pub use sweep::{
     MergeArguments, PlansArguments, StatusArguments, SweepArguments, SweepCommand, SweepRunArguments,
 };
 
+use crate::text::printable_lines;
 use clap::Parser;
 use std::ffi::OsString;
 use std::io::{self, BufWriter, Write};
@@ -58,7 +59,7 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Err(error) => {
             let error = usage::explained(error, &typed);
             // Help and version come this way as well. Where nobody reads them, that is all right.
-            let _ = error.print();
+            let _ = usage::print(&error);
             return if error.use_stderr() { ExitCode::from(WRONG_USAGE) } else { ExitCode::SUCCESS };
         }
     };
@@ -70,7 +71,8 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Err(error) if error.is_closed_pipe() => ExitCode::SUCCESS,
         Err(error) => {
             let _ = stdout.flush();
-            let _ = writeln!(io::stderr(), "{error}");
+            // Errors name files, and repeat what is in them.
+            let _ = writeln!(io::stderr(), "{}", printable_lines(&error.to_string()));
             ExitCode::from(FAILED)
         }
     }

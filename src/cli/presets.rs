@@ -5,6 +5,7 @@ use crate::export::sheet::Sheet;
 use crate::export::write_json_value;
 use crate::scene::{self, Document, Entry, Library, Roughness, Source, line_column, locate};
 use crate::surface::MeasuredProfile;
+use crate::text::printable;
 use clap::{Subcommand, ValueEnum};
 use serde::Serialize;
 use std::io::{self, Write};
@@ -118,7 +119,7 @@ fn check(files: &[String], stdout: &mut dyn Write) -> Result<(), CliError> {
     let mut wrong = Vec::new();
     for file in files {
         match checked(file) {
-            Ok(name) => writeln!(stdout, "{name}: ok")?,
+            Ok(name) => writeln!(stdout, "{}: ok", printable(&name))?,
             Err(errors) => wrong.push(errors),
         }
     }
@@ -156,7 +157,7 @@ fn profile_error(document: &Document) -> Option<String> {
     let Some(Roughness::Measured { file }) = &scene.roughness else { return None };
     let error = match MeasuredProfile::read(&document.resolve(file)) {
         Err(error) => error.to_string(),
-        Ok(profile) => profile.sample(scene.length, 1).err()?,
+        Ok(profile) => profile.sample(scene.length, 1, 0.0).err()?,
     };
     let offset = locate(document.text(), "roughness.file").map_or(0, |place| place.value.start);
     let (line, column) = line_column(document.text(), offset);

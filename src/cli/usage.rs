@@ -1,9 +1,21 @@
 //! What to say about arguments that mean nothing together.
 
 use super::Arguments;
+use crate::text::printable_lines;
 use clap::error::{ContextKind, ErrorKind};
 use clap::{CommandFactory, Error};
+use std::borrow::Cow;
 use std::ffi::OsString;
+use std::io::{self, Write};
+
+/// Prints an error of the parser. One that repeats control characters loses its colours, and has them escaped.
+pub(super) fn print(error: &Error) -> io::Result<()> {
+    let plain = error.render().to_string();
+    match printable_lines(&plain) {
+        Cow::Owned(shown) if error.use_stderr() => io::stderr().write_all(shown.as_bytes()),
+        _ => error.print(),
+    }
+}
 
 /// The error, or a plainer one where a scene and a command got in each other's way: the parser takes
 /// a misspelt command for a scene, and what follows it for another command or for options of none.

@@ -17,7 +17,8 @@ pub struct Exact<C: Contact> {
     foundation: Foundation,
     samples: usize,
     standing: Standing,
-    first: FirstSearch<C::Leg>,
+    /// The contact along the loading that forms it, where a force was sought on it: it goes alike each time.
+    first: Option<C::Leg>,
     /// Whether the present leg touches at all, so that its thresholds hold.
     touching: bool,
     legs: usize,
@@ -25,15 +26,6 @@ pub struct Exact<C: Contact> {
     /// Time spent on whole legs, and in it on the thresholds.
     leg_time: Duration,
     pass_time: Duration,
-}
-
-/// What is in contact along the loading that forms the contact, where a force was sought on it.
-enum FirstSearch<L> {
-    /// Sought anew each time.
-    Forgotten,
-    /// To be kept once it is known.
-    Awaited,
-    Known(L),
 }
 
 /// A body without adhesion; build one with [`nonadhesive`].
@@ -87,21 +79,13 @@ impl<C: Contact> Exact<C> {
             foundation,
             samples: samples.max(2),
             standing: Standing::free(0.0),
-            first: FirstSearch::Forgotten,
+            first: None,
             touching: false,
             legs: 0,
             work,
             leg_time: Duration::ZERO,
             pass_time: Duration::ZERO,
         }
-    }
-
-    /// The same, which computes the loading from separation once and keeps it: for a loading that comes down
-    /// several times. What it gives is the same, bit for bit.
-    #[must_use]
-    pub fn keeping_first_loading(mut self) -> Self {
-        self.first = FirstSearch::Awaited;
-        self
     }
 
     pub(super) fn into_contact(self) -> C {
@@ -231,16 +215,12 @@ impl<C: Contact> Exact<C> {
         low: f64,
         complete: f64,
     ) -> Result<f64, ContactError> {
-        let keeps = self.is_separated() && !matches!(self.first, FirstSearch::Forgotten);
-        let known = if keeps {
-            std::mem::replace(&mut self.first, FirstSearch::Awaited)
-        } else {
-            FirstSearch::Forgotten
-        };
+        let forms = self.is_separated();
+        // From d = 0 to where all is in contact.
+        let known = if forms { self.first.take() } else { None };
         let sampled = match known {
-            // From d = 0 to where all is in contact it is the same each time.
-            FirstSearch::Known(sampled) => sampled,
-            FirstSearch::Awaited | FirstSearch::Forgotten => self.sample(low, complete)?,
+            Some(sampled) => sampled,
+            None => self.sample(low, complete)?,
         };
         let sorted = &mut self.work.events_sorted;
         // Beyond, everything is in contact and the force rises with all springs.
@@ -249,8 +229,8 @@ impl<C: Contact> Exact<C> {
             indentation.map(|indentation| indentation.max(complete))
         };
         let found = self.contact.first_at_least(&sampled, wanted, sorted).or_else(beyond);
-        if keeps {
-            self.first = FirstSearch::Known(sampled);
+        if forms {
+            self.first = Some(sampled);
         }
         found.ok_or(ContactError::OutOfReach { index: self.legs, leg })
     }

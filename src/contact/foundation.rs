@@ -7,9 +7,32 @@ pub struct Foundation {
     pub spacing: f64,
     /// Effective modulus E*, Pa, eq. (2).
     pub effective_modulus: f64,
+    /// Length L of all of it, m; infinite where it reaches beyond any contact.
+    pub length: f64,
 }
 
 impl Foundation {
+    /// So many springs on a length (m) for a half-space of this modulus (Pa).
+    #[must_use]
+    pub fn new(length: f64, springs: usize, effective_modulus: f64) -> Self {
+        Foundation { spacing: length / springs as f64, effective_modulus, length }
+    }
+
+    /// Springs at this distance (m) without end for a half-space of this modulus (Pa).
+    #[must_use]
+    pub const fn endless(spacing: f64, effective_modulus: f64) -> Self {
+        Foundation { spacing, effective_modulus, length: f64::INFINITY }
+    }
+
+    /// Length in contact of so many cells, m: never more than that of the foundation, and exactly this where the
+    /// cells cover the foundation, which N times Δx may miss by a rounding.
+    #[inline]
+    #[must_use]
+    pub fn contact_length(&self, cells: f64) -> f64 {
+        let length = cells * self.spacing;
+        if length > self.length * (1.0 - 2.0 * f64::EPSILON) { self.length } else { length }
+    }
+
     /// Stiffness Δk = E* Δx of one spring, N/m, eq. (1).
     #[must_use]
     pub fn spring_stiffness(&self) -> f64 {
@@ -18,13 +41,16 @@ impl Foundation {
 }
 
 /// The rule of Hess, eqs. (3) and (10): how far the springs of a contact fragment can be stretched
-/// before they let go.
+/// before they detach.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HessRule {
     stretch_of_one: f64,
 }
 
 impl HessRule {
+    /// The rule without adhesion: nothing can be stretched.
+    pub const NO_ADHESION: HessRule = HessRule { stretch_of_one: 0.0 };
+
     /// The rule for a work of adhesion γ in J/m².
     #[must_use]
     pub fn new(foundation: Foundation, work_of_adhesion: f64) -> Self {

@@ -29,7 +29,7 @@ impl Standing {
         CurvePoint {
             indentation: self.indentation,
             force: foundation.spring_stiffness() * self.compression,
-            contact_length: self.length * foundation.spacing,
+            contact_length: foundation.contact_length(self.length),
             springs: self.springs.unsigned_abs(),
             fragments: self.fragments.unsigned_abs(),
         }

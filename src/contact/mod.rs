@@ -10,45 +10,38 @@
 //!   not while its gap is closed.
 //!
 //! [`exact`] solves them for any loading history in one pass over a tree for each leg; [`stepwise`]
-//! moves by small steps and relaxes, as the paper does; [`Incremental`] holds the body in hand and does, for
-//! each small move either way, only the work that changes.
+//! moves by small steps and relaxes, as the paper does; [`Manual`] loading moves the body by steps of any size,
+//! either way, at the cost of what changes.
 
 pub mod adhesive;
-mod edges;
 mod error;
 pub mod exact;
 mod foundation;
-mod fragment_set;
 mod fragments;
 mod grid;
-mod hand;
 mod history;
-mod incremental;
 mod law;
 mod leg_contact;
+mod manual;
 mod nonadhesive;
+mod snapshot;
 mod solver;
 pub mod stepwise;
-pub mod subcell;
 mod tally;
 mod targets;
-mod tournament;
-mod tree;
 
 pub use adhesive::{Adhesive, AdhesiveMemory, ContactTree, EdgeModel, GridEdges, SubCellEdges};
-pub use edges::{EdgeRule, GridRule, NoAdhesion};
 pub use error::ContactError;
 pub use exact::Exact;
 pub use foundation::{Foundation, HessRule};
-pub use hand::{Hand, HandError, HandHeld, Move};
 pub use history::{CurvePoint, Direction, History, LegRecord, Work};
-pub use incremental::Incremental;
 pub use leg_contact::LegContact;
+pub use manual::{Manual, ManualError, ManualLoading, Move};
 pub use nonadhesive::Nonadhesive;
+pub use snapshot::{FragmentState, Snapshot};
 pub use solver::{Solver, run};
 pub use stepwise::Stepwise;
 pub use tally::{GapScale, Tally};
-pub use tree::SpringTree;
 
 /// An empty vector with room for `count` values, or an error instead of an abort.
 pub(crate) fn reserve<T>(count: usize) -> Result<Vec<T>, ContactError> {

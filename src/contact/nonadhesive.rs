@@ -343,8 +343,8 @@ impl Changes {
         let last = points.len() - 1;
         let Range { start, end } = at;
         if end - start <= FEW_POINTS {
-            for index in start..end {
-                self.partial[index].add(low, high, points[index]);
+            for (partial, &point) in self.partial[start..end].iter_mut().zip(&points[start..end]) {
+                partial.add(low, high, point);
             }
             return;
         }
@@ -449,7 +449,7 @@ mod tests {
     use crate::scene::Leg;
     use proptest::prelude::*;
 
-    const FOUNDATION: Foundation = Foundation { spacing: 0.25, effective_modulus: 8.0 };
+    const FOUNDATION: Foundation = Foundation::endless(0.25, 8.0);
 
     /// Length and compression by definition, cell by cell.
     fn by_definition(gaps: &[f64], edges: Edges, d: f64) -> (f64, f64) {

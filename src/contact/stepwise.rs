@@ -5,9 +5,8 @@
 //! is asked of the exact thresholds before the first step.
 
 use super::{
-    ContactError, CurvePoint, Direction, EdgeRule, Foundation, GapScale, GridRule, HandError, HandHeld,
-    HessRule, Incremental, LegContact, LegRecord, NoAdhesion, Solver, SpringTree, Tally, Work, exact,
-    fragments, reserve,
+    ContactError, ContactTree, CurvePoint, Direction, Foundation, GapScale, GridEdges, HessRule, LegContact,
+    LegRecord, Manual, ManualError, ManualLoading, Solver, Tally, Work, exact, fragments, reserve,
 };
 use crate::scene::{Edges, Leg};
 use std::sync::Arc;
@@ -186,7 +185,7 @@ impl<'a> Stepwise<'a> {
         CurvePoint {
             indentation: self.indentation,
             force: self.foundation.spring_stiffness() * compression,
-            contact_length: self.tally.springs as f64 * self.foundation.spacing,
+            contact_length: self.foundation.contact_length(self.tally.springs as f64),
             springs: self.tally.springs.unsigned_abs(),
             fragments: self.tally.fragments.unsigned_abs(),
         }
@@ -208,10 +207,7 @@ impl<'a> Stepwise<'a> {
         let end = match (goal, direction) {
             (Goal::Indentation(end), _) => end,
             (Goal::Force(force), Direction::Loading) => self.least_indentation(force.max(0.0))?,
-            (Goal::Force(_) | Goal::Separation, _) => match self.hess {
-                Some(hess) => self.pulled(GridRule::new(hess), leg, goal)?,
-                None => self.pulled(NoAdhesion, leg, goal)?,
-            },
+            (Goal::Force(_) | Goal::Separation, _) => self.pulled(leg, goal)?,
         };
         // From separation the first step is the touch.
         let start = if self.tally.springs == 0 { self.indentation.max(0.0) } else { self.indentation };
@@ -235,10 +231,11 @@ impl<'a> Stepwise<'a> {
     }
 
     /// Indentation, m, at which the present contact reaches a goal when it is pulled.
-    fn pulled<R: EdgeRule>(&self, rule: R, leg: Leg, goal: Goal) -> Result<f64, ContactError> {
-        let tree = Arc::new(SpringTree::build(self.gaps)?);
+    fn pulled(&self, leg: Leg, goal: Goal) -> Result<f64, ContactError> {
+        let tree = Arc::new(ContactTree::build(self.gaps, Edges::Grid)?);
+        let edges = GridEdges::new(self.hess.unwrap_or(HessRule::NO_ADHESION));
         let contacts = fragments::runs(self.contact.iter().copied());
-        let body = Incremental::standing(tree, rule, self.foundation, self.indentation, &contacts);
+        let body = Manual::in_contact(self.gaps, tree, edges, self.foundation, self.indentation, &contacts);
         let pulled = body.and_then(|mut body| {
             match goal {
                 Goal::Force(force) => body.move_to_force(force)?,
@@ -247,13 +244,13 @@ impl<'a> Stepwise<'a> {
             Ok(body.point().indentation)
         });
         pulled.map_err(|error| match error {
-            HandError::Contact(error) => error,
-            HandError::LetsGoBefore { smallest, .. } => {
+            ManualError::Contact(error) => error,
+            ManualError::DetachesBefore { smallest, .. } => {
                 ContactError::LetsGoBefore { index: self.legs, leg, smallest }
             }
-            HandError::NotFinite { .. } | HandError::NothingToPull { .. } | HandError::OutOfReach { .. } => {
-                ContactError::OutOfReach { index: self.legs, leg }
-            }
+            ManualError::NotFinite { .. }
+            | ManualError::NothingToPull { .. }
+            | ManualError::OutOfReach { .. } => ContactError::OutOfReach { index: self.legs, leg },
         })
     }
 

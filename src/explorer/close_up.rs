@@ -3,64 +3,14 @@
 use super::reduce::{Contact, LineColumns, Part};
 use super::snapshot::{CloseUp, FragmentFacts};
 use super::worker::{Focus, MomentRequest};
-use crate::contact::subcell::SubCellMoment;
-use crate::contact::{Foundation, HessRule};
-
-/// How the edges of fragments are read, and what they bear.
-#[derive(Clone, Copy)]
-pub enum EdgeLaw<'a> {
-    /// A fragment of n springs is n cells long.
-    WholeSprings(Option<HessRule>),
-    /// Its edges lie between springs.
-    BetweenSprings(SubCellMoment<'a>),
-}
-
-/// What a fragment bears.
-struct Bearing {
-    /// Its length in cells.
-    cells: f64,
-    /// Largest stretch, m.
-    largest_stretch: f64,
-    /// Stretch at its edge, or of its most stretched spring, m.
-    most_stretched: f64,
-    /// In cells times metres.
-    compression: f64,
-}
-
-impl EdgeLaw<'_> {
-    fn bearing(self, contact: &Contact<'_>, (first, last): (usize, usize)) -> Bearing {
-        let deepest = || contact.gaps[first..=last].iter().copied().fold(0.0, f64::max);
-        if let EdgeLaw::BetweenSprings(moment) = self {
-            let slider = moment.slider((first, last));
-            let cells = slider.length(contact.indentation);
-            let edges = slider.edges(contact.indentation);
-            return Bearing {
-                cells,
-                largest_stretch: moment.largest_stretch(cells),
-                most_stretched: slider.level(contact.indentation) - contact.indentation,
-                compression: compression_of_cells(contact, (first, last)) + edges.compression,
-            };
-        }
-        let springs = last + 1 - first;
-        let largest_stretch = match self {
-            EdgeLaw::WholeSprings(Some(hess)) => hess.largest_stretch(springs as u32),
-            _ => 0.0,
-        };
-        Bearing {
-            cells: springs as f64,
-            largest_stretch,
-            most_stretched: deepest() - contact.indentation,
-            compression: compression(contact, (first, last)),
-        }
-    }
-}
+use crate::contact::{Foundation, FragmentState, Snapshot};
 
 /// The part of the line that a request asks to see from near.
 pub fn close_up(
     contact: &Contact<'_>,
     request: &MomentRequest,
     foundation: Foundation,
-    law: EdgeLaw<'_>,
+    snapshot: &Snapshot<'_>,
     line: &mut LineColumns,
 ) -> CloseUp {
     let count = contact.gaps.len();
@@ -80,11 +30,12 @@ pub fn close_up(
         .collect();
     let fragment = nearest(contact.fragments, centre).map(|number| {
         let springs = contact.fragments[number];
-        let Bearing { cells, largest_stretch, most_stretched, compression } = law.bearing(contact, springs);
+        let FragmentState { length, compression, largest_stretch, most_stretched } =
+            snapshot.fragment(contact.indentation, springs);
         FragmentFacts {
             number,
             springs,
-            length: cells * foundation.spacing,
+            length: foundation.contact_length(length),
             largest_stretch,
             most_stretched,
             force: foundation.spring_stiffness() * compression,
@@ -122,12 +73,6 @@ fn centre(contact: &Contact<'_>, focus: Focus) -> usize {
 /// Sum of the compressions of a fragment's springs, m.
 fn compression(contact: &Contact<'_>, (first, last): (usize, usize)) -> f64 {
     contact.gaps[first..=last].iter().map(|gap| contact.indentation - gap).sum()
-}
-
-/// The same of the whole cells between them.
-fn compression_of_cells(contact: &Contact<'_>, (first, last): (usize, usize)) -> f64 {
-    let cells = contact.gaps[first..=last].windows(2);
-    cells.map(|cell| contact.indentation - 0.5 * (cell[0] + cell[1])).sum()
 }
 
 /// The number of the fragment nearest to a spring.

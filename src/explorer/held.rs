@@ -3,11 +3,10 @@
 use super::snapshot::Travel;
 use super::worker::HandOrder;
 use crate::analysis::Governing;
-use crate::contact::subcell::{LevelSets, SubCellHand};
 use crate::contact::{
-    CurvePoint, Foundation, GridRule, HandError, HandHeld, HessRule, Incremental, Move, NoAdhesion,
-    SpringTree,
+    ContactTree, CurvePoint, GridEdges, HessRule, Manual, ManualError, ManualLoading, Move, SubCellEdges,
 };
+use crate::scene::Edges;
 use crate::surface::Line;
 use std::sync::Arc;
 
@@ -18,37 +17,39 @@ const MOST_STEPS: u32 = 512;
 
 /// See the module.
 pub struct Held {
-    body: Box<dyn HandHeld + Send>,
+    body: Box<dyn ManualLoading + Send>,
     travel: Travel,
     /// A small part of the range of indentations, m.
     step: f64,
 }
 
 impl Held {
-    /// Takes the body where these fragments are in contact at this indentation, m, with edges between springs
-    /// or not. `step` is how far apart the points of a pull are,
-    /// m.
+    /// Begins manual loading where these fragments are in contact at this indentation, m, with edges of this kind;
+    /// `tree` is that of the line, where there is one. `step` is the distance of the points of a pull, m.
     pub fn take(
         line: &Line,
-        between: bool,
+        tree: Option<&Arc<ContactTree>>,
+        edges: Edges,
         governing: &Governing,
         (indentation, contact): (f64, &[(usize, usize)]),
         step: f64,
     ) -> Option<Self> {
-        let foundation = Foundation { spacing: line.spacing, effective_modulus: governing.effective_modulus };
-        let hess = governing.adhesive_work().map(|work| HessRule::new(foundation, work));
-        let tree = Arc::new(SpringTree::build(&line.gaps).ok()?);
-        let body: Box<dyn HandHeld + Send> = match (between, hess) {
-            (true, hess) => {
-                let levels = Arc::new(LevelSets::new(tree, &line.gaps).ok()?);
-                Box::new(SubCellHand::standing(levels, hess, foundation, indentation, contact).ok()?)
+        let foundation = governing.foundation(line);
+        let hess =
+            governing.adhesive_work().map_or(HessRule::NO_ADHESION, |work| HessRule::new(foundation, work));
+        let tree = match tree.filter(|tree| tree.edges() == edges) {
+            Some(tree) => Arc::clone(tree),
+            None => Arc::new(ContactTree::build(&line.gaps, edges).ok()?),
+        };
+        let gaps = &line.gaps;
+        let body: Box<dyn ManualLoading + Send> = match edges {
+            Edges::Grid => {
+                let edges = GridEdges::new(hess);
+                Box::new(Manual::in_contact(gaps, tree, edges, foundation, indentation, contact).ok()?)
             }
-            (false, Some(hess)) => {
-                let rule = GridRule::new(hess);
-                Box::new(Incremental::standing(tree, rule, foundation, indentation, contact).ok()?)
-            }
-            (false, None) => {
-                Box::new(Incremental::standing(tree, NoAdhesion, foundation, indentation, contact).ok()?)
+            Edges::SubCell => {
+                let edges = SubCellEdges::new(hess);
+                Box::new(Manual::in_contact(gaps, tree, edges, foundation, indentation, contact).ok()?)
             }
         };
         Some(Held { body, travel: Travel::default(), step })
@@ -84,7 +85,7 @@ impl Held {
     }
 
     /// Goes to an indentation, by as many moves as the curve gets points.
-    fn go(&mut self, from: f64, to: f64) -> Result<(), HandError> {
+    fn go(&mut self, from: f64, to: f64) -> Result<(), ManualError> {
         for step in 1..=POINTS {
             let share = f64::from(step) / f64::from(POINTS);
             // The last one exactly.
@@ -98,7 +99,7 @@ impl Held {
 
     /// Goes to a force, by as many moves as the curve gets points: each is passed on the way to the
     /// next. Where the contact does not bear it, the body stands as near as it came.
-    fn find(&mut self, force: f64) -> Result<(), HandError> {
+    fn find(&mut self, force: f64) -> Result<(), ManualError> {
         let from = self.body.point().force;
         for step in 1..=POINTS {
             let share = f64::from(step) / f64::from(POINTS);
@@ -112,7 +113,7 @@ impl Held {
 
     /// Pulls in steps of the curve until nothing touches; however far that is, it takes no more than so
     /// many steps.
-    fn separate(&mut self) -> Result<(), HandError> {
+    fn separate(&mut self) -> Result<(), ManualError> {
         let start = self.body.point();
         for step in 1..=MOST_STEPS {
             if self.body.point().springs == 0 {
@@ -129,7 +130,7 @@ impl Held {
     }
 
     fn count(&mut self, moved: Move) {
-        self.travel.changed += moved.joins + moved.leaves;
+        self.travel.changed += moved.attaches + moved.detaches;
         self.travel.touched += moved.touched;
         self.travel.dissipated_energy += moved.dissipated_energy;
     }

@@ -1,15 +1,12 @@
 //! The scene that was computed last, ready to be played leg by leg or moved by hand.
 
-use super::close_up::{EdgeLaw, close_up};
+use super::close_up::close_up;
 use super::held::Held;
 use super::reduce::{self, Contact, LineColumns, Part};
 use super::snapshot::{Drive, Loop, Moment};
 use super::worker::{Engine, HandOrder, LineView, MomentRequest, Newest, Report};
-use crate::contact::subcell::SubCellMoment;
-use crate::contact::{
-    ContactError, CurvePoint, Foundation, GapScale, HessRule, LegContact, LegRecord, Solver, Tally,
-};
-use crate::scene::{Edges, Observer, Scene};
+use crate::contact::{ContactError, HessRule, LegContact, LegRecord, Snapshot, Solver};
+use crate::scene::{Observer, Scene};
 use std::sync::Arc;
 use std::sync::atomic::Ordering;
 
@@ -47,11 +44,6 @@ pub struct Playback {
 }
 
 impl Playback {
-    /// Whether the edges of the scene's fragments lie between springs.
-    fn finds_edges(&self) -> bool {
-        self.scene.as_ref().is_some_and(|scene| scene.numerics.edges == Edges::SubCell)
-    }
-
     /// Generation of the scene.
     pub fn generation(&self) -> u64 {
         self.generation
@@ -121,8 +113,8 @@ impl Playback {
                 let Some((computed, line)) = self.computed.as_ref().zip(engine.line()) else { return };
                 let governing = &computed.outcome.governing;
                 let step = range_of(computed) / STEPS_OF_A_PULL;
-                let between = self.finds_edges();
-                self.held = Held::take(line, between, governing, (indentation, &contact), step);
+                let edges = computed.scene.numerics.edges;
+                self.held = Held::take(line, engine.tree(), edges, governing, (indentation, &contact), step);
                 self.last = None;
             }
             HandOrder::Give => {
@@ -150,18 +142,12 @@ impl Playback {
             }
         };
         let line = engine.line()?;
-        let outcome = &self.computed.as_ref()?.outcome;
+        let Loop { scene, outcome, .. } = self.computed.as_deref()?;
         let (governing, deepest) = (outcome.governing, outcome.line.deepest);
-        let foundation = Foundation { spacing: line.spacing, effective_modulus: governing.effective_modulus };
+        let foundation = governing.foundation(line);
         let hess = governing.adhesive_work().map(|work| HessRule::new(foundation, work));
-        let between = self.finds_edges().then(|| SubCellMoment::new(&line.gaps, deepest, hess));
-        let point = at.unwrap_or_else(|| {
-            if let Some(moment) = &between {
-                return moment.point(foundation, request.indentation, &fragments);
-            }
-            let scale = GapScale::for_gaps_up_to(deepest);
-            point(&line.gaps, &scale, request.indentation, &fragments, foundation)
-        });
+        let snapshot = Snapshot::new(&line.gaps, deepest, scene.numerics.edges, hess);
+        let point = at.unwrap_or_else(|| snapshot.point(foundation, request.indentation, &fragments));
         let changed = match &self.last {
             Some((drive, before)) if *drive == request.drive => reduce::changed(before, &fragments),
             _ => 0,
@@ -172,11 +158,7 @@ impl Playback {
             indentation: point.indentation,
             fragments: &fragments,
         };
-        let law = match between {
-            Some(moment) => EdgeLaw::BetweenSprings(moment),
-            None => EdgeLaw::WholeSprings(hess),
-        };
-        let close_up = close_up(&contact, request, foundation, law, &mut self.close_up);
+        let close_up = close_up(&contact, request, foundation, &snapshot, &mut self.close_up);
         let middle = close_up.section.first + close_up.section.springs / 2;
         let profile = profile_part(request, line.gaps.len(), middle);
         let moment = Moment {
@@ -251,26 +233,4 @@ fn profile_part(request: &MomentRequest, count: usize, close_up: usize) -> Part 
     let middle = if follow { close_up } else { (count as f64 * centre) as usize };
     let first = middle.saturating_sub(springs / 2).min(count.saturating_sub(springs));
     Part { first, springs, columns: request.profile_columns }
-}
-
-/// The point of the curve with these fragments in contact.
-fn point(
-    gaps: &[f64],
-    scale: &GapScale,
-    indentation: f64,
-    fragments: &[(usize, usize)],
-    foundation: Foundation,
-) -> CurvePoint {
-    let mut tally = Tally { fragments: fragments.len() as i64, ..Tally::default() };
-    for &(first, last) in fragments {
-        tally.springs += (last - first + 1) as i64;
-        tally.quanta += gaps[first..=last].iter().map(|&gap| i128::from(scale.quanta(gap))).sum::<i128>();
-    }
-    CurvePoint {
-        indentation,
-        force: foundation.spring_stiffness() * tally.compression(indentation, scale),
-        contact_length: tally.springs as f64 * foundation.spacing,
-        springs: tally.springs.unsigned_abs(),
-        fragments: fragments.len() as u64,
-    }
 }

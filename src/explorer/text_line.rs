@@ -1,6 +1,7 @@
 //! A line of text that is being typed.
 
 use super::action::Motion;
+use crate::text::is_control;
 
 /// Longest line, characters.
 const LONGEST: usize = 4096;
@@ -16,7 +17,7 @@ impl TextLine {
     /// A line with this text, the cursor at its end.
     #[must_use]
     pub fn new(text: &str) -> Self {
-        let characters: Vec<char> = text.chars().filter(|c| !c.is_control()).take(LONGEST).collect();
+        let characters: Vec<char> = text.chars().filter(|c| !is_control(*c)).take(LONGEST).collect();
         TextLine { cursor: characters.len(), characters }
     }
 
@@ -36,7 +37,7 @@ impl TextLine {
 
     /// Inserts a character before the cursor.
     pub fn insert(&mut self, character: char) {
-        if !character.is_control() && self.characters.len() < LONGEST {
+        if !is_control(character) && self.characters.len() < LONGEST {
             self.characters.insert(self.cursor, character);
             self.cursor += 1;
         }

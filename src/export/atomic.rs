@@ -1,7 +1,9 @@
 //! Writing a file whole or not at all, and never over another one unasked.
 
 use super::unfinished::Unfinished;
-use std::fs::{self, File, OpenOptions, Permissions};
+use crate::disk::{Disk, SystemDisk, folder_of};
+use crate::text::path_name;
+use std::fs::{self, OpenOptions, Permissions};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 use thiserror::Error;
@@ -13,19 +15,19 @@ const BUFFER: usize = 1 << 18;
 #[derive(Debug, Error)]
 pub enum WriteError {
     /// There is a file of that name, and it was not asked to overwrite it.
-    #[error("{}: there is a file of that name already", path.display())]
+    #[error("{}: there is a file of that name already", path_name(path))]
     Exists {
         /// The file.
         path: PathBuf,
     },
     /// The name is that of a folder, or of none.
-    #[error("{}: this is not the name of a file", path.display())]
+    #[error("{}: this is not the name of a file", path_name(path))]
     NoFileName {
         /// The name.
         path: PathBuf,
     },
     /// The folder the file should stand in is not there.
-    #[error("{}: there is no folder {}", path.display(), folder.display())]
+    #[error("{}: there is no folder {}", path_name(path), path_name(folder))]
     NoFolder {
         /// The file.
         path: PathBuf,
@@ -33,19 +35,19 @@ pub enum WriteError {
         folder: PathBuf,
     },
     /// A pipe, a terminal or another device has the name, and a file was asked for.
-    #[error("{}: this is not a regular file; allowed: the name of a file", path.display())]
+    #[error("{}: this is not a regular file; allowed: the name of a file", path_name(path))]
     NotRegular {
         /// The name.
         path: PathBuf,
     },
     /// The file may only be read.
-    #[error("{}: this file may not be written", path.display())]
+    #[error("{}: this file may not be written", path_name(path))]
     ReadOnly {
         /// The file.
         path: PathBuf,
     },
     /// The system refused.
-    #[error("{}: cannot be written: {reason}", path.display())]
+    #[error("{}: cannot be written: {reason}", path_name(path))]
     Failed {
         /// The file.
         path: PathBuf,
@@ -62,7 +64,7 @@ pub enum WriteError {
 pub fn check_writable(path: &Path, overwrite: bool) -> Result<(), WriteError> {
     match Target::of(path, overwrite)? {
         Target::Stream => Ok(()),
-        Target::File { path, .. } => Unfinished::beside(&path).map(drop),
+        Target::File { path, .. } => Unfinished::beside(&path, &SystemDisk).map(drop),
     }
 }
 
@@ -83,13 +85,26 @@ pub fn write_new(
     overwrite: bool,
     write: impl FnOnce(&mut (dyn Write + Send)) -> io::Result<()>,
 ) -> Result<(), WriteError> {
+    write_new_on(&SystemDisk, path, overwrite, write)
+}
+
+/// [`write_new`] on another disk.
+///
+/// # Errors
+/// As [`write_new`].
+pub fn write_new_on(
+    disk: &dyn Disk,
+    path: &Path,
+    overwrite: bool,
+    write: impl FnOnce(&mut (dyn Write + Send)) -> io::Result<()>,
+) -> Result<(), WriteError> {
     let target = Target::of(path, overwrite)?;
     if let Target::Stream = target {
         let failed = |reason| WriteError::Failed { path: path.to_path_buf(), reason };
-        let stream = OpenOptions::new().write(true).open(path).map_err(failed)?;
-        return fill(&stream, write).map_err(failed);
+        let mut stream = OpenOptions::new().write(true).open(path).map_err(failed)?;
+        return fill(&mut stream, write).map_err(failed);
     }
-    write_target(path, target, overwrite, write)
+    write_target(disk, path, target, overwrite, write)
 }
 
 /// The same, and only to a file: a pipe or a device is refused, at once.
@@ -101,10 +116,11 @@ pub fn write_new_file(
     overwrite: bool,
     write: impl FnOnce(&mut (dyn Write + Send)) -> io::Result<()>,
 ) -> Result<(), WriteError> {
-    write_target(path, Target::of(path, overwrite)?, overwrite, write)
+    write_target(&SystemDisk, path, Target::of(path, overwrite)?, overwrite, write)
 }
 
 fn write_target(
+    disk: &dyn Disk,
     path: &Path,
     target: Target,
     overwrite: bool,
@@ -114,20 +130,25 @@ fn write_target(
     let Target::File { path: place, permissions } = target else {
         return Err(WriteError::NotRegular { path: path.to_path_buf() });
     };
-    let unfinished = Unfinished::beside(&place)?;
-    let file = &unfinished.file;
+    let mut unfinished = Unfinished::beside(&place, disk)?;
+    let file = &mut unfinished.file;
     fill(file, write).map_err(failed)?;
     if let Some(permissions) = permissions {
         file.set_permissions(permissions).map_err(failed)?;
     }
-    file.sync_all().map_err(failed)?;
+    file.sync().map_err(failed)?;
     unfinished.publish(&place, overwrite).map_err(|reason| match reason.kind() {
         io::ErrorKind::AlreadyExists => WriteError::Exists { path: path.to_path_buf() },
         _ => failed(reason),
-    })
+    })?;
+    // The name has to last as well.
+    disk.sync_folder(folder_of(&place)).map_err(failed)
 }
 
-fn fill(file: &File, write: impl FnOnce(&mut (dyn Write + Send)) -> io::Result<()>) -> io::Result<()> {
+fn fill(
+    file: &mut (impl Write + Send),
+    write: impl FnOnce(&mut (dyn Write + Send)) -> io::Result<()>,
+) -> io::Result<()> {
     let mut buffered = BufWriter::with_capacity(BUFFER, file);
     write(&mut buffered)?;
     buffered.flush()

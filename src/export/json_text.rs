@@ -1,5 +1,6 @@
 //! JSON that a person can scroll through: outer entries on lines of their own, inner ones together.
 
+use crate::text::is_control;
 use serde::Serialize;
 use serde_json::ser::{Formatter, Serializer};
 use std::io::{self, Write};
@@ -60,6 +61,16 @@ impl Lines {
 }
 
 impl Formatter for Lines {
+    fn write_string_fragment<W: ?Sized + Write>(&mut self, out: &mut W, fragment: &str) -> io::Result<()> {
+        let mut rest = fragment;
+        // What JSON may hold in the open and a terminal may not; read back, the text is the same.
+        while let Some((place, c)) = rest.char_indices().find(|(_, c)| is_control(*c)) {
+            write!(out, "{}\\u{:04x}", &rest[..place], u32::from(c))?;
+            rest = &rest[place + c.len_utf8()..];
+        }
+        out.write_all(rest.as_bytes())
+    }
+
     fn begin_array<W: ?Sized + Write>(&mut self, out: &mut W) -> io::Result<()> {
         self.open(out, b"[")
     }
@@ -93,6 +104,16 @@ impl Formatter for Lines {
 mod tests {
     use super::*;
     use serde_json::{Value, json};
+
+    #[test]
+    fn control_characters_are_escaped_and_read_back() {
+        let value = json!({"a": "\u{9b}2J\u{7f} κ \u{202e}\u{1b}\n"});
+        let mut text = Vec::new();
+        write_json_value(&mut text, &value).unwrap();
+        let text = String::from_utf8(text).unwrap();
+        assert!(text.contains(r#""\u009b2J\u007f κ \u202e\u001b\n""#), "{text}");
+        assert_eq!(serde_json::from_str::<Value>(&text).unwrap(), value);
+    }
 
     #[test]
     fn outer_entries_have_lines_of_their_own() {

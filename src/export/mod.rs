@@ -17,7 +17,7 @@ mod unfinished;
 mod verdict;
 mod work_precision;
 
-pub use atomic::{WriteError, check_writable, write_new, write_new_file};
+pub use atomic::{WriteError, check_writable, write_new, write_new_file, write_new_on};
 pub use check::{check_markdown, check_text, write_check_json};
 pub use cost::{cost_text, write_cost_csv, write_cost_json};
 pub use csv::{write_curve, write_line};

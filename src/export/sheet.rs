@@ -1,5 +1,7 @@
 //! Plain text in aligned columns, at most a hundred wide.
 
+use crate::text::printable;
+
 /// Characters on a line.
 pub(crate) const WIDTH: usize = 100;
 
@@ -65,7 +67,8 @@ impl Sheet {
     }
 
     fn line(&mut self, line: &str) {
-        self.text.push_str(line.trim_end());
+        // Titles and names of files, machines and processes are foreign.
+        self.text.push_str(&printable(line.trim_end()));
         self.text.push('\n');
     }
 }

@@ -4,7 +4,8 @@
 //! it with the process, however that ends. Elsewhere it has a temporary name, which tells its process.
 
 use super::WriteError;
-use std::fs::{self, File};
+use crate::disk::{Disk, DiskFile, folder_of};
+use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -15,29 +16,27 @@ const MOST_NAMES: u32 = 1000;
 const MOST_LOOKED_AT: usize = 10_000;
 
 /// A file that goes away unless it is published.
-pub(super) struct Unfinished {
-    pub file: File,
+pub(super) struct Unfinished<'d> {
+    disk: &'d dyn Disk,
+    pub file: Box<dyn DiskFile>,
     folder: PathBuf,
     /// Its temporary name; `None` for a file without any.
     path: Option<PathBuf>,
 }
 
-impl Unfinished {
+impl<'d> Unfinished<'d> {
     /// A new file in the folder of `target`.
     ///
     /// # Errors
     /// [`WriteError::NoFolder`], [`WriteError::Failed`].
-    pub fn beside(target: &Path) -> Result<Unfinished, WriteError> {
-        let folder = match target.parent() {
-            Some(folder) if folder != Path::new("") => folder,
-            _ => Path::new("."),
-        };
-        if let Some(file) = nameless(folder) {
-            return Ok(Unfinished { file, folder: folder.into(), path: None });
+    pub fn beside(target: &Path, disk: &'d dyn Disk) -> Result<Unfinished<'d>, WriteError> {
+        let folder = folder_of(target);
+        if let Some(file) = disk.make_nameless_file(folder) {
+            return Ok(Unfinished { disk, file, folder: folder.into(), path: None });
         }
         remove_left_behind(folder);
-        match named(folder, |path| File::create_new(path)) {
-            Ok((file, path)) => Ok(Unfinished { file, folder: folder.into(), path: Some(path) }),
+        match named(folder, |path| disk.make_file(path)) {
+            Ok((file, path)) => Ok(Unfinished { disk, file, folder: folder.into(), path: Some(path) }),
             Err(_) if !folder.is_dir() => {
                 Err(WriteError::NoFolder { path: target.into(), folder: folder.into() })
             }
@@ -52,34 +51,34 @@ impl Unfinished {
     pub fn publish(mut self, path: &Path, overwrite: bool) -> io::Result<()> {
         if self.path.is_none() {
             if !overwrite {
-                return link_nameless(&self.file, path);
+                return self.file.give_name(path);
             }
             // Only a renaming replaces a file, and only a name can be renamed.
             remove_left_behind(&self.folder);
-            let ((), name) = named(&self.folder, |name| link_nameless(&self.file, name))?;
+            let ((), name) = named(&self.folder, |name| self.file.give_name(name))?;
             self.path = Some(name);
         }
         let Some(name) = &self.path else { return Ok(()) };
         if overwrite {
-            return fs::rename(name, path);
+            return self.disk.rename(name, path);
         }
         // A link cannot be made where there is a file by now, while a renaming would replace it.
-        match fs::hard_link(name, path) {
+        match self.disk.link(name, path) {
             Err(error) if error.kind() != io::ErrorKind::AlreadyExists => {
                 // Some file systems have no links: there an empty file claims the name.
-                drop(File::create_new(path)?);
-                fs::rename(name, path).inspect_err(|_| drop(fs::remove_file(path)))
+                drop(self.disk.make_file(path)?);
+                self.disk.rename(name, path).inspect_err(|_| drop(self.disk.remove_file(path)))
             }
             done => done,
         }
     }
 }
 
-impl Drop for Unfinished {
+impl Drop for Unfinished<'_> {
     fn drop(&mut self) {
         // After a renaming there is nothing left to remove.
         if let Some(path) = &self.path {
-            let _ = fs::remove_file(path);
+            let _ = self.disk.remove_file(path);
         }
     }
 }
@@ -153,44 +152,10 @@ fn is_gone(_: u32) -> bool {
     false
 }
 
-/// A file without a name in a folder, where system and file system have them.
-#[cfg(target_os = "linux")]
-fn nameless(folder: &Path) -> Option<File> {
-    use rustix::fs::{Mode, OFlags, open};
-    let mode = Mode::from_raw_mode(0o666);
-    let file: File = open(folder, OFlags::TMPFILE | OFlags::WRONLY | OFlags::CLOEXEC, mode).ok()?.into();
-    // Without this folder it could not be given a name.
-    fs::metadata(of_descriptor(&file)).ok()?;
-    Some(file)
-}
-
-#[cfg(not(target_os = "linux"))]
-fn nameless(_: &Path) -> Option<File> {
-    None
-}
-
-/// Gives a file without a name one that no other has.
-#[cfg(target_os = "linux")]
-fn link_nameless(file: &File, path: &Path) -> io::Result<()> {
-    use rustix::fs::{AtFlags, CWD, linkat};
-    Ok(linkat(CWD, of_descriptor(file), CWD, path, AtFlags::SYMLINK_FOLLOW)?)
-}
-
-#[cfg(not(target_os = "linux"))]
-fn link_nameless(_: &File, _: &Path) -> io::Result<()> {
-    Err(io::ErrorKind::Unsupported.into())
-}
-
-#[cfg(target_os = "linux")]
-fn of_descriptor(file: &File) -> PathBuf {
-    use std::os::fd::AsRawFd;
-    PathBuf::from(format!("/proc/self/fd/{}", file.as_raw_fd()))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use std::io::Write;
+    use crate::disk::SystemDisk;
 
     fn names(folder: &Path) -> Vec<String> {
         let entries = fs::read_dir(folder).unwrap();
@@ -201,9 +166,9 @@ mod tests {
     }
 
     /// A file with a temporary name, as where no other is to be had.
-    fn with_name(folder: &Path) -> Unfinished {
-        let (file, path) = named(folder, |path| File::create_new(path)).unwrap();
-        Unfinished { file, folder: folder.into(), path: Some(path) }
+    fn with_name(folder: &Path) -> Unfinished<'static> {
+        let (file, path) = named(folder, |path| SystemDisk.make_file(path)).unwrap();
+        Unfinished { disk: &SystemDisk, file, folder: folder.into(), path: Some(path) }
     }
 
     #[cfg(target_os = "linux")]
@@ -213,18 +178,18 @@ mod tests {
         let target = folder.path().join("curve.csv");
         for (overwrite, text) in [(false, "one"), (true, "two")] {
             let before = names(folder.path());
-            let unfinished = Unfinished::beside(&target).unwrap();
+            let mut unfinished = Unfinished::beside(&target, &SystemDisk).unwrap();
             if unfinished.path.is_some() {
                 println!("skipped: this file system has no files without a name");
                 return;
             }
-            (&unfinished.file).write_all(text.as_bytes()).unwrap();
+            unfinished.file.write_all(text.as_bytes()).unwrap();
             assert_eq!(names(folder.path()), before);
             unfinished.publish(&target, overwrite).unwrap();
             assert_eq!(fs::read_to_string(&target).unwrap(), text);
             assert_eq!(names(folder.path()), ["curve.csv"]);
         }
-        let again = Unfinished::beside(&target).unwrap().publish(&target, false).unwrap_err();
+        let again = Unfinished::beside(&target, &SystemDisk).unwrap().publish(&target, false).unwrap_err();
         assert_eq!(again.kind(), io::ErrorKind::AlreadyExists);
     }
 
@@ -233,8 +198,8 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let target = folder.path().join("curve.csv");
         for (overwrite, text) in [(false, "one"), (true, "two")] {
-            let unfinished = with_name(folder.path());
-            (&unfinished.file).write_all(text.as_bytes()).unwrap();
+            let mut unfinished = with_name(folder.path());
+            unfinished.file.write_all(text.as_bytes()).unwrap();
             assert!(names(folder.path()).iter().any(|name| owner(name) == Some(std::process::id())));
             unfinished.publish(&target, overwrite).unwrap();
             assert_eq!(fs::read_to_string(&target).unwrap(), text);

@@ -335,7 +335,9 @@ mod tests {
             scene.numerics.points = points;
             let spacing = scene.spacing();
             // Below a quarter of the spacing its diameter is nearer to no cell than to one.
-            for (radius, sound) in [(5e-5, true), (5.1e-5, false), (0.26 * spacing, true), (0.24 * spacing, false)] {
+            for (radius, sound) in
+                [(5e-5, true), (5.1e-5, false), (0.26 * spacing, true), (0.24 * spacing, false)]
+            {
                 scene.form = Some(Form::Punch { radius });
                 assert_eq!(check(&scene).is_empty(), sound, "{radius} on {points} points");
             }

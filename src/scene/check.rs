@@ -8,6 +8,7 @@ use super::fields::{LEG_FORCE, LEG_INDENTATION, field};
 use super::model::{Adhesion, Form, Leg, Material, Roughness, Scene, Solver};
 use super::range::Range;
 use super::write::{ron_float, ron_string};
+use crate::text::is_control;
 
 /// Something a scene says that is not allowed.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -102,7 +103,7 @@ impl Found {
             return;
         };
         // Control characters would reach the terminal of whoever opens the scene.
-        let forbidden = |c: char| c.is_control() && !(lines && c == '\n');
+        let forbidden = |c: char| is_control(c) && !(lines && c == '\n');
         if let Some(c) = text.chars().find(|c| forbidden(*c)) {
             let allowed =
                 if lines { "no control characters but line breaks" } else { "no control characters" };

@@ -93,7 +93,10 @@ mod tests {
             for cells in 1..=points {
                 let springs = under(0.5 * cells as f64 / points as f64, points);
                 assert_eq!(springs.end - springs.start, cells);
-                assert!(springs.contains(&Form::spring_on_axis(points)) || cells == 0, "{springs:?} of {points}");
+                assert!(
+                    springs.contains(&Form::spring_on_axis(points)) || cells == 0,
+                    "{springs:?} of {points}"
+                );
             }
         }
     }

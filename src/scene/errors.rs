@@ -3,6 +3,7 @@
 use std::fmt;
 
 use super::check::Violation;
+use crate::text::is_control;
 
 /// Values and names longer than this are shortened in messages.
 const MOST_SHOWN: usize = 80;
@@ -153,7 +154,7 @@ pub(super) fn shown(text: &str) -> String {
         }
         match c {
             '\n' | '\r' | '\t' => shown.push(' '),
-            c if c.is_control() => shown.extend(c.escape_default()),
+            c if is_control(c) => shown.extend(c.escape_default()),
             c => shown.push(c),
         }
     }
@@ -197,6 +198,7 @@ mod tests {
     #[test]
     fn foreign_text_neither_floods_nor_controls_the_terminal() {
         assert_eq!(shown("a\u{1b}[2J\nb"), "a\\u{1b}[2J b");
+        assert_eq!(shown("a\u{202e}b"), "a\\u{202e}b");
         assert_eq!(shown(&"x".repeat(1000)).chars().count(), MOST_SHOWN + 1);
     }
 }

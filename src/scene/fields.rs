@@ -423,3 +423,45 @@ pub const LEG_INDENTATION: Field = Field {
     meaning: "the leg goes to this indentation; 0 is first touch, positive is deeper",
     ..NUMBER
 };
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn all() -> impl Iterator<Item = &'static Field> {
+        FIELDS.iter().chain([&LEG_FORCE, &LEG_INDENTATION])
+    }
+
+    #[test]
+    fn every_field_has_a_name_of_its_own_and_a_meaning() {
+        let mut names: Vec<_> = all().map(|field| field.name).collect();
+        names.sort_unstable();
+        names.dedup();
+        assert_eq!(names.len(), all().count());
+        for field in all() {
+            assert!(!field.name.is_empty() && !field.meaning.is_empty(), "{}", field.path);
+        }
+    }
+
+    #[test]
+    fn units_go_with_numbers_and_steps_with_ranges() {
+        for field in all() {
+            let number = field.range.min().is_some();
+            assert_eq!(field.unit.is_empty(), !number, "{}: {:?}", field.path, field.unit);
+            let suits = match (field.range, field.step) {
+                (Range::Whole { min, max }, Step::Typed) => min == max,
+                (Range::Real { .. }, Step::Linear { fine, coarse }) => fine > 0.0 && fine < coarse,
+                (Range::Real { .. }, Step::Logarithmic)
+                | (Range::Whole { .. }, Step::Doubling)
+                | (Range::Band { .. }, Step::Band) => true,
+                (Range::Whole { .. }, Step::Integer { fine, coarse }) => fine > 0 && fine < coarse,
+                // The material is no list of shapes to go through: its two choices are the same body.
+                (Range::Choice(_), Step::Choice) => field.path != "material",
+                (Range::Choice(_), Step::Typed) => field.path == "material",
+                (Range::Text { .. } | Range::List { .. } | Range::Group, Step::Typed) => true,
+                _ => false,
+            };
+            assert!(suits, "{}: {:?} by {:?}", field.path, field.range, field.step);
+        }
+    }
+}

@@ -10,6 +10,7 @@ use super::document::{Document, LONGEST_TEXT};
 use super::errors::{Origin, SceneError, SceneErrors, shown};
 use super::presets::{Preset, presets};
 use crate::io::{ReadError, read_regular_text};
+use crate::text::is_control;
 
 /// Scene files that are read in one folder; the rest is counted.
 pub const MOST_FILES: usize = 500;
@@ -255,7 +256,7 @@ fn read_within(path: &Path, room: usize) -> Result<String, String> {
 
 /// A name that does not control the terminal.
 pub(super) fn printable(name: &str) -> String {
-    if name.contains(char::is_control) { shown(name) } else { name.to_string() }
+    if name.contains(is_control) { shown(name) } else { name.to_string() }
 }
 
 #[cfg(test)]

@@ -24,6 +24,10 @@ mod document;
 mod effects;
 mod errors;
 mod fields;
+#[cfg(test)]
+// Integration tests include the file and use the rest.
+#[allow(dead_code)]
+mod grammar;
 mod library;
 mod locate;
 mod model;
@@ -42,6 +46,7 @@ mod suggest;
 mod switch;
 mod write;
 
+pub use crate::text::is_control;
 pub use check::{Violation, check};
 pub use document::{Document, LONGEST_TEXT};
 pub use effects::Effect;

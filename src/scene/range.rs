@@ -237,6 +237,7 @@ mod tests {
             (Range::above(-1.0, 0.5), "above -1, at most 0.5"),
             (Range::between(0.0, std::f64::consts::FRAC_PI_2), "above 0 and below π/2"),
             (Range::whole(1, 1), "1"),
+            (Range::closed(1.0, 1.0), "1"),
             (Range::whole(2, 1_000_000), "a whole number from 2 to 1000000"),
             (Range::Choice(&["Cone(angle: 0.1)", "Punch(radius: 1.0)", "None"]), "Cone, Punch or None"),
         ] {

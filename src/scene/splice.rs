@@ -332,5 +332,8 @@ mod tests {
             let message = set(SCENE, path, "1").unwrap_err();
             assert!(message.contains(said), "{path}: {message}");
         }
+        let without = SCENE.replace("observe: []", "form: None");
+        let message = set(&without, "form.radius", "1").unwrap_err();
+        assert!(message.contains("there is no form: set "), "{message}");
     }
 }

@@ -204,6 +204,7 @@ mod tests {
             ("roughness.seed", "18446744073709551615", 1, false, None),
             ("numerics.points", "16384", 1, false, Some("32768")),
             ("numerics.points", "1000", -1, false, Some("512")),
+            ("numerics.points", "16384", -1, false, Some("8192")),
             ("numerics.points", "1", -1, false, None),
             ("numerics.points", "268435456", 1, true, None),
             ("roughness.modes", "(1, 512)", 1, false, Some("(1, 1024)")),

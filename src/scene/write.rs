@@ -1,6 +1,7 @@
 //! Writing a scene as RON: every field that differs from its default, in the order of the table.
 
 use super::model::{Adhesion, Form, Leg, Material, Numerics, Observer, Roughness, Scene, Solver};
+use crate::text::is_control;
 
 /// The scene as canonical RON text, ending in a line break; reading it gives the same scene.
 pub fn to_ron(scene: &Scene) -> String {
@@ -61,7 +62,7 @@ pub fn ron_string(text: &str) -> String {
             '\n' => string.push_str("\\n"),
             '\r' => string.push_str("\\r"),
             '\t' => string.push_str("\\t"),
-            c if c.is_control() => string.push_str(&format!("\\u{{{:x}}}", u32::from(c))),
+            c if is_control(c) => string.push_str(&format!("\\u{{{:x}}}", u32::from(c))),
             c => string.push(c),
         }
     }

@@ -1,7 +1,6 @@
 //! The contact stage of a run: the loading by the solver of the scene and, beside it, F_a(0).
 
 use super::AfterLeg;
-use super::plan::Legs;
 use crate::analysis::Figures;
 use crate::contact::{
     AdhesiveMemory, ContactError, ContactTree, EdgeModel, Foundation, GridEdges, HessRule, History,
@@ -82,9 +81,6 @@ impl ContactStage<'_> {
         let samples = self.scene.numerics.samples as usize;
         let mut body =
             exact::adhesive_in(take(memory), &self.line.gaps, tree, edges, self.foundation, samples);
-        if Legs::of(&self.scene.loading).comes_down_again() {
-            body = body.keeping_first_loading();
-        }
         let contacted = self.load(&mut body, after).and_then(|mut contacted| {
             if zero_load {
                 let clock = Instant::now();

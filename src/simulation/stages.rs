@@ -3,7 +3,7 @@
 use super::contact_stage::{ContactMemory, ContactStage};
 use super::{LineFacts, Outcome, Plan, RunError, Stage, Timings};
 use crate::analysis::{Amplitude, Figures, Governing, Regime, RegimeEvidence, ideal_adhesion_force};
-use crate::contact::{ContactError, ContactTree, Foundation, HessRule, LegRecord, Solver};
+use crate::contact::{ContactError, ContactTree, HessRule, LegRecord, Solver};
 use crate::memory::check_room;
 use crate::parallel::in_parallel;
 use crate::reference::smooth_adhesion_force;
@@ -36,6 +36,8 @@ pub struct Simulation {
     folder: PathBuf,
     /// Whether there will be no other line.
     single: bool,
+    /// A measured profile in place of the files that scenes name.
+    profile: Option<Arc<MeasuredProfile>>,
     synthesizer: Synthesizer,
     roughness: Option<(RoughnessKey, Rough)>,
     line: Option<(LineKey, Line)>,
@@ -99,6 +101,12 @@ impl Simulation {
         Simulation { single: true, ..self }
     }
 
+    /// Uses a measured profile that has been read already, whichever file a scene names.
+    #[must_use]
+    pub fn with_profile(self, profile: Arc<MeasuredProfile>) -> Self {
+        Simulation { profile: Some(profile), ..self }
+    }
+
     /// The line of the last scene made.
     #[must_use]
     pub fn line(&self) -> Option<&Line> {
@@ -125,7 +133,12 @@ impl Simulation {
             if let Some(key) = &key {
                 // The transform allocates what it needs by itself, and would end the process.
                 check_room(Plan::of(scene).line_bytes()).map_err(|_| SurfaceError::OutOfMemory { points })?;
-                let rough = make_roughness(key, &mut self.synthesizer, before.unwrap_or_default())?;
+                let rough = make_roughness(
+                    key,
+                    self.profile.as_deref(),
+                    &mut self.synthesizer,
+                    before.unwrap_or_default(),
+                )?;
                 self.roughness = Some((key.clone(), rough));
                 if self.single {
                     self.synthesizer = Synthesizer::default();
@@ -231,8 +244,8 @@ impl Simulation {
 
     /// Keeps nothing of the runs before.
     fn give_back(&mut self) {
-        *self =
-            Simulation { folder: take(&mut self.folder), single: self.single, ..Simulation::default() };
+        let (single, profile) = (self.single, self.profile.take());
+        *self = Simulation { single, profile, ..Simulation::new(take(&mut self.folder)) };
     }
 
     /// Runs a checked scene by its plan. `stop` is asked now and then whether to give up; `after` sees
@@ -265,7 +278,7 @@ impl Simulation {
         interrupted()?;
 
         let Some((_, line)) = &self.line else { return Err(ContactError::Interrupted.into()) };
-        let foundation = Foundation { spacing: line.spacing, effective_modulus: governing.effective_modulus };
+        let foundation = governing.foundation(line);
         let hess = governing
             .adhesive_work()
             .filter(|_| plan.runs(Stage::RuleOfHess))
@@ -347,6 +360,7 @@ fn build_tree(
 /// The heights of a roughness; those that are synthesized, in this memory.
 fn make_roughness(
     key: &RoughnessKey,
+    known: Option<&MeasuredProfile>,
     synthesizer: &mut Synthesizer,
     memory: Vec<f64>,
 ) -> Result<Rough, RunError> {
@@ -361,7 +375,14 @@ fn make_roughness(
             })
         }
         RoughnessKey::Measured { file, length, points, shift } => {
-            let profile = MeasuredProfile::read(file)?;
+            let read;
+            let profile = match known {
+                Some(known) => known,
+                None => {
+                    read = MeasuredProfile::read(file)?;
+                    &read
+                }
+            };
             let (rms_height, rms_gradient) = profile.rms_height_and_gradient();
             let heights = profile
                 .sample(*length, *points, *shift)

@@ -29,7 +29,9 @@ pub enum SurfaceError {
         reason: String,
     },
     /// No spring lies under the body.
-    #[error("form.radius: no spring lies under the punch; allowed: at least a quarter of the spacing, {least:e} m")]
+    #[error(
+        "form.radius: no spring lies under the punch; allowed: at least a quarter of the spacing, {least:e} m"
+    )]
     NoSprings {
         /// Smallest radius that covers a spring to the nearest whole cell, m.
         least: f64,

@@ -13,9 +13,7 @@ pub fn mdr_profile(form: &Form, distance: f64) -> f64 {
     match *form {
         Form::Paraboloid { radius } => x * x / radius,
         Form::Cone { angle } => std::f64::consts::FRAC_PI_2 * x * angle.tan(),
-        Form::Power { coefficient, exponent } => {
-            power_law_factor(exponent) * coefficient * x.powf(exponent)
-        }
+        Form::Power { coefficient, exponent } => power_law_factor(exponent) * coefficient * x.powf(exponent),
         Form::Punch { .. } => 0.0,
     }
 }

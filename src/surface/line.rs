@@ -13,6 +13,8 @@ pub struct Line {
     pub first: usize,
     /// Springs N of the whole foundation.
     pub points: usize,
+    /// Length L of the whole foundation, m.
+    pub length: f64,
     /// Distance Δx = L/N between springs, m.
     pub spacing: f64,
     /// Height of the highest point, m, above the apex of the form and the mean of the roughness.
@@ -74,7 +76,7 @@ impl Line {
         let mut gaps = heights;
         gaps.iter_mut().for_each(|height| *height = summit - *height);
         let deepest = largest(&gaps).map_err(|index| SurfaceError::NotFinite { index: first + index })?;
-        Ok(Line { gaps, first, points, spacing, summit, deepest })
+        Ok(Line { gaps, first, points, length, spacing, summit, deepest })
     }
 
     /// Heights z, m, of the points under the body, such that summit − z is their gap, bit for bit.
@@ -156,6 +158,26 @@ mod tests {
         assert_eq!((line.first, line.gaps.len()), (3, 4));
         let none = Line::new(1.0, 10, Some(&Form::Punch { radius: 0.02 }), None, 0.0);
         assert_eq!(none, Err(SurfaceError::NoSprings { least: 0.025 }));
+    }
+
+    #[test]
+    fn springs_stand_in_the_middle_of_their_part_of_the_length() {
+        let line = Line::new(2.0, 4, None, None, 0.0).unwrap();
+        assert_eq!([0, 1, 3].map(|index| line.position(index)), [0.25, 0.75, 1.75]);
+        let punch = Line::new(2.0, 8, Some(&Form::Punch { radius: 0.5 }), None, 0.0).unwrap();
+        assert_eq!([0, 3].map(|index| punch.position(index)), [0.625, 1.375]);
+        assert_eq!((line.lowest(), line.deepest()), (0.0, 0.0));
+        let steps = Line::new(2.0, 2, None, Some(&[3.0, 5.0]), 1.0).unwrap();
+        assert_eq!((steps.lowest(), steps.deepest()), (3.0, 2.0));
+    }
+
+    #[test]
+    fn a_gap_beyond_all_numbers_is_refused_at_its_spring() {
+        let rough = [0.0, 0.0, 1e308, 0.0, -1e308, 0.0];
+        let line = |form: Option<&Form>| Line::new(1.0, 6, form, Some(&rough), 1.0);
+        assert_eq!(line(None), Err(SurfaceError::NotFinite { index: 4 }));
+        // The first spring under the punch is the second of the line.
+        assert_eq!(line(Some(&Form::Punch { radius: 0.3 })), Err(SurfaceError::NotFinite { index: 4 }));
     }
 
     #[test]

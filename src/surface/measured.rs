@@ -40,11 +40,16 @@ impl MeasuredProfile {
     /// # Errors
     /// [`SurfaceError::Measured`] when the file cannot be read or is no profile.
     pub fn read(path: &Path) -> Result<Self, SurfaceError> {
-        Self::read_up_to(path, MOST_BYTES)
+        Self::read_seen(path, &mut |_| ())
+    }
+
+    /// [`Self::read`], with all bytes of the file shown to `seen`, one line after the other.
+    pub(crate) fn read_seen(path: &Path, seen: &mut dyn FnMut(&[u8])) -> Result<Self, SurfaceError> {
+        Self::read_up_to(path, MOST_BYTES, seen)
             .map_err(|reason| SurfaceError::Measured { file: path.display().to_string(), reason })
     }
 
-    fn read_up_to(path: &Path, most: u64) -> Result<Self, String> {
+    fn read_up_to(path: &Path, most: u64, seen: &mut dyn FnMut(&[u8])) -> Result<Self, String> {
         let file = open_regular(path).map_err(|error| error.to_string())?;
         // One byte more tells a file of that length from a longer one.
         let mut source = BufReader::new(file.take(most + 1));
@@ -63,6 +68,7 @@ impl MeasuredProfile {
             if taken == 0 {
                 return reader.finish();
             }
+            seen(&line);
             reader.take(&line)?;
         }
     }
@@ -326,7 +332,9 @@ mod tests {
         let rounded = MeasuredProfile::parse("0.1667 3\n0.5 4\n0.8333 -1").unwrap();
         assert!((rounded.length() - 1.0).abs() < 1e-3 && rounded.sample(1.0, 3, 0.0).is_ok());
         // Anything else covers what lies between its points.
-        for (text, length) in [("0 3\n1 4\n2 -1", 2.0), ("0.5 3\n1.5 4\n2.4 -1", 1.9), ("1 3\n2 4\n3 -1", 2.0)] {
+        for (text, length) in
+            [("0 3\n1 4\n2 -1", 2.0), ("0.5 3\n1.5 4\n2.4 -1", 1.9), ("1 3\n2 4\n3 -1", 2.0)]
+        {
             let profile = MeasuredProfile::parse(text).unwrap();
             assert!((profile.length() - length).abs() < 1e-15);
             assert!(profile.sample(length, 3, 0.0).is_ok() && profile.sample(1.01 * length, 3, 0.0).is_err());
@@ -378,8 +386,8 @@ mod tests {
         std::fs::write(&path, text).unwrap();
         assert_eq!(MeasuredProfile::read(&path).unwrap(), MeasuredProfile::parse(text).unwrap());
         let length = text.len() as u64;
-        assert!(MeasuredProfile::read_up_to(&path, length).is_ok());
-        let wrong = MeasuredProfile::read_up_to(&path, length - 1).unwrap_err();
+        assert!(MeasuredProfile::read_up_to(&path, length, &mut |_| ()).is_ok());
+        let wrong = MeasuredProfile::read_up_to(&path, length - 1, &mut |_| ()).unwrap_err();
         assert!(wrong.contains(&format!("longer than {} bytes", length - 1)), "{wrong}");
         let wrong = |bytes: &[u8]| {
             std::fs::write(&path, bytes).unwrap();
@@ -417,6 +425,37 @@ mod tests {
     fn a_byte_order_mark_is_no_number() {
         assert_eq!(MeasuredProfile::parse("\u{feff}0 1\n1 2"), MeasuredProfile::parse("0 1\n1 2"));
         assert!(MeasuredProfile::parse("0 1\n\u{feff}1 2").unwrap_err().contains("line 2"));
+    }
+
+    #[test]
+    fn a_level_is_read_however_high() {
+        let level = MeasuredProfile::parse("0 1e9\n1 1e9").unwrap();
+        assert_eq!((level.heights(), level.length()), (&[1e9, 1e9][..], 1.0));
+    }
+
+    #[test]
+    fn samples_lie_on_the_straight_pieces() {
+        let profile = MeasuredProfile::parse("-2 7\n0 3\n1 6\n4 0").unwrap();
+        // At −1.5, −0.5 … 3.5.
+        assert_eq!(profile.sample(6.0, 6, 0.0).unwrap(), [6.0, 4.0, 4.5, 5.0, 3.0, 1.0]);
+        // From the first point on.
+        assert_eq!(profile.sample(2.0, 4, 0.0).unwrap(), [6.5, 5.5, 4.5, 3.5]);
+        assert_eq!(
+            (profile.positions(), profile.heights()),
+            (&[-2.0, 0.0, 1.0, 4.0][..], &[7.0, 3.0, 6.0, 0.0][..])
+        );
+    }
+
+    #[test]
+    fn uneven_pieces_count_by_their_lengths() {
+        let profile = MeasuredProfile::parse("5 1\n6 3\n9 -3").unwrap();
+        let (height, gradient) = profile.rms_height_and_gradient();
+        // Mean 1/2; ∫ (z − 1/2)² dx is 31/12 and 39/4 on the two pieces, and the slopes are 2 and −2.
+        let square: f64 = (31.0 / 12.0 + 39.0 / 4.0) / 4.0;
+        assert!(
+            (height - square.sqrt()).abs() < 1e-15 && (gradient - 2.0).abs() < 1e-15,
+            "{height} {gradient}"
+        );
     }
 
     #[test]

@@ -89,7 +89,9 @@ impl Modes {
     fn fill(&self, before: u64, words: &[u64; BLOCK], block: &mut [Complex64; BLOCK]) {
         let amplitudes = self.half_amplitudes(before);
         let before = before as f64;
-        for (((coefficient, word), amplitude), count) in block.iter_mut().zip(words).zip(amplitudes).zip(COUNTS) {
+        for (((coefficient, word), amplitude), count) in
+            block.iter_mut().zip(words).zip(amplitudes).zip(COUNTS)
+        {
             let (sine, cosine) = sine_and_cosine(fraction(*word) + self.advance * (before + count));
             *coefficient = Complex64::new(amplitude * cosine, amplitude * sine);
         }

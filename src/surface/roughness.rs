@@ -181,7 +181,8 @@ mod tests {
         for (points, last) in [(64, 32), (64, 20), (97, 40)] {
             let spectrum = SelfAffine { hurst: 0.6, first: 1, last };
             for shift in [0.5, 0.25] {
-                let line = Synthesizer::default().synthesize(spectrum, 42, points, shift, Vec::new()).unwrap();
+                let line =
+                    Synthesizer::default().synthesize(spectrum, 42, points, shift, Vec::new()).unwrap();
                 for (i, &height) in line.heights.iter().enumerate() {
                     let expected = direct(spectrum, 42, (i as f64 + 0.5 - shift) / points as f64);
                     assert!((height - expected).abs() < 1e-13, "N = {points}, i = {i}: {height} {expected}");

@@ -166,32 +166,51 @@ mod tests {
     }
 
     #[test]
+    fn a_longer_line_is_flatter() {
+        let spectrum = SelfAffine { hurst: 0.7, first: 2, last: 99 };
+        for gradient in [SelfAffine::gradient_per_height, SelfAffine::continuum_gradient_per_height] {
+            assert_eq!(gradient(&spectrum, 0.25), 4.0 * gradient(&spectrum, 1.0));
+        }
+    }
+
+    #[test]
     fn sums_are_those_of_their_terms() {
         let direct = |exponent: f64, first: u64, last: u64| {
             let mut sum = Compensated::default();
-            let mut terms: Vec<f64> = (first..=last).map(|k| (k as f64).powf(exponent)).collect();
-            terms.sort_by(f64::total_cmp);
-            terms.into_iter().for_each(|term| sum.add(term));
+            (first..=last).rev().for_each(|k| sum.add((k as f64).powf(exponent)));
             sum.total()
         };
+        let ranges = [
+            (1, 1),
+            (1, 64),
+            (1, 65),
+            (1, 66),
+            (1, 1000),
+            (7, 70_001),
+            (64, 129),
+            (1000, 1064),
+            (1_000_000, 1_000_065),
+            (1, 1 << 20),
+        ];
         for exponent in [-3.0, -2.4, -1.0 - 1e-300, -1.0, -1.0 + 1e-12, -0.4, 0.0, 0.8, 1.0] {
-            for (first, last) in [
-                (1, 1),
-                (1, 64),
-                (1, 65),
-                (1, 66),
-                (1, 1000),
-                (7, 70_001),
-                (64, 129),
-                (1000, 1064),
-                (1_000_000, 1_000_065),
-                (1, 1 << 20),
-            ] {
+            for (first, last) in ranges {
                 let (found, expected) = (sum_of_powers(exponent, first, last), direct(exponent, first, last));
                 let error = (found / expected - 1.0).abs();
                 assert!(error <= 9e-16, "Σ k^{exponent} from {first} to {last}: error {error:e}");
             }
         }
+    }
+
+    #[test]
+    fn sums_keep_what_single_additions_lose() {
+        // Each k⁻² is a whole multiple of 2⁻⁹⁰, and so is their sum.
+        let unit = 2.0_f64.powi(90);
+        for last in [1000, 100_000, 300_000] {
+            let exact: u128 = (1..=last).map(|k| ((k as f64).powf(-2.0) * unit) as u128).sum();
+            let found = SelfAffine { hurst: 0.5, first: 1, last }.moment(0);
+            assert!((found / (exact as f64 / unit) - 1.0).abs() <= f64::EPSILON, "{last}");
+        }
+        assert_eq!(SelfAffine { hurst: 0.5, first: 3, last: 12 }.moment(2), 10.0);
     }
 
     #[test]

@@ -1,6 +1,7 @@
 //! Axes of a parameter study: which number of a scene is varied, and which values it takes.
 
 use super::target::{Target, TargetError};
+use crate::text::printable;
 use serde::{Deserialize, Serialize};
 
 /// Most values on one axis.
@@ -101,7 +102,7 @@ impl Axis {
 
     /// What is wrong with it by itself, if anything.
     pub(super) fn wrong(&self) -> Option<String> {
-        let path = self.path();
+        let path = &*printable(self.path());
         let target = match Target::of(path) {
             Ok(target) => target,
             Err(TargetError { near, .. }) => {

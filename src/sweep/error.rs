@@ -4,6 +4,8 @@ use super::plan::PlanErrors;
 use super::record::Key;
 use crate::export::WriteError;
 use crate::simulation::RunError;
+use crate::surface::SurfaceError;
+use crate::text::path_name;
 use std::path::PathBuf;
 use thiserror::Error;
 
@@ -14,7 +16,7 @@ pub enum SweepError {
     #[error(transparent)]
     Plan(#[from] PlanErrors),
     /// A folder or file of the study cannot be read, or is none.
-    #[error("{}: {reason}", path.display())]
+    #[error("{}: {reason}", path_name(path))]
     Folder {
         /// The folder or file.
         path: PathBuf,
@@ -24,13 +26,45 @@ pub enum SweepError {
     /// The folder holds a study of another plan.
     #[error(
         "{}: this folder holds a study of another plan; choose another folder, or the plan it began with\n{difference}",
-        path.display()
+        path_name(path)
     )]
     OtherPlan {
         /// The folder.
         path: PathBuf,
         /// The first lines that differ.
         difference: String,
+    },
+    /// The measured file of the study cannot be read.
+    #[error(transparent)]
+    Measured(#[from] SurfaceError),
+    /// The measured file is not the one the study began with.
+    #[error(
+        "{}: the content of this measured file has changed: its SHA-256 is {found}, {plan} has {expected}; bring \
+         back the file the study began with, or begin another study in another folder",
+        path_name(file)
+    )]
+    MeasuredChanged {
+        /// The measured file.
+        file: PathBuf,
+        /// Hash of its content now.
+        found: String,
+        /// The plan that expects another, by its name.
+        plan: String,
+        /// Hash it expects.
+        expected: String,
+    },
+    /// The study began without a hash of its measured file.
+    #[error(
+        "{}: this study does not say which content of {} it was computed from, as an earlier version began it; \
+         begin it anew in another folder",
+        path_name(folder),
+        path_name(file)
+    )]
+    MeasuredUnknown {
+        /// The folder.
+        folder: PathBuf,
+        /// The measured file.
+        file: PathBuf,
     },
     /// A file could not be written.
     #[error(transparent)]
@@ -50,8 +84,8 @@ pub enum SweepError {
     /// Two processes have given different results for the same cell and line.
     #[error(
         "{key} ({coordinates}): two records differ, in {} and {}; remove the one that is wrong",
-        one.display(),
-        other.display()
+        path_name(one),
+        path_name(other)
     )]
     Disagree {
         /// Cell and seed.

@@ -5,10 +5,10 @@ use super::measure::REGIMES;
 use super::merge::{REGIME_COLUMNS, RESULTS, SUMMARY};
 use super::plan::Plan;
 use super::quantity::Quantity;
-use super::store::Folder;
+use super::store::{Folder, LONGEST_LINE};
 use crate::analysis::Regime;
-use std::fs::File;
-use std::io::{BufRead, BufReader};
+use crate::io::{ReadError, open_regular};
+use std::io::{self, BufRead, BufReader, Read};
 use std::path::Path;
 
 /// A study whose tables have been published, cell by cell.
@@ -122,19 +122,24 @@ impl Finished {
 /// Calls `each` with the columns of every row but the first, which is checked to have as many.
 fn each_row(path: &Path, plan: &Plan, mut each: impl FnMut(&[&str]) -> Option<()>) -> Result<(), SweepError> {
     let wrong = |reason: String| SweepError::Folder { path: path.to_path_buf(), reason };
-    let file = File::open(path).map_err(|error| {
-        if error.kind() != std::io::ErrorKind::NotFound {
-            return wrong(format!("cannot be read: {error}"));
+    let file = open_regular(path).map_err(|error| match error {
+        ReadError::Failed(error) if error.kind() == io::ErrorKind::NotFound => {
+            not_merged(path.parent().unwrap_or(path))
         }
-        let folder = path.parent().unwrap_or(path);
-        let merge = crate::scene::quoted(&folder.display().to_string());
-        let reason = format!("the study has not been merged yet; asperity sweep merge {merge} does it");
-        SweepError::Folder { path: folder.to_path_buf(), reason }
+        error => wrong(error.to_string()),
     })?;
-    let mut count = None;
-    for (number, line) in BufReader::new(file).lines().enumerate() {
-        let line = line.map_err(|error| wrong(format!("cannot be read: {error}")))?;
-        let columns: Vec<&str> = line.split(',').collect();
+    let mut reader = BufReader::new(file);
+    let (mut count, mut line) = (None, Vec::new());
+    for number in 0.. {
+        line.clear();
+        let read = reader.by_ref().take(LONGEST_LINE).read_until(b'\n', &mut line);
+        if read.map_err(|error| wrong(format!("cannot be read: {error}")))? == 0 {
+            break;
+        }
+        // A line that is too long, torn or no text has no columns that would be accepted.
+        let text =
+            line.strip_suffix(b"\n").and_then(|line| std::str::from_utf8(line).ok()).unwrap_or_default();
+        let columns: Vec<&str> = text.trim_end_matches('\r').split(',').collect();
         match count {
             None => {
                 let start = plan.axes.iter().map(super::Axis::path);
@@ -149,6 +154,12 @@ fn each_row(path: &Path, plan: &Plan, mut each: impl FnMut(&[&str]) -> Option<()
         }
     }
     Ok(())
+}
+
+fn not_merged(folder: &Path) -> SweepError {
+    let merge = crate::scene::quoted(&folder.display().to_string());
+    let reason = format!("the study has not been merged yet; asperity sweep merge {merge} does it");
+    SweepError::Folder { path: folder.to_path_buf(), reason }
 }
 
 fn value(text: &str) -> Option<Option<f64>> {

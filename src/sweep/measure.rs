@@ -7,7 +7,9 @@ use crate::contact::{Direction, History, LegRecord};
 use crate::ensemble::HeightShape;
 use crate::scene::{Leg, Roughness, Scene};
 use crate::simulation::{Outcome, RunError, Simulation};
+use crate::surface::MeasuredProfile;
 use std::path::PathBuf;
+use std::sync::Arc;
 
 /// Curve samples on a leg: what is recorded stands at its ends, and extremes are exact without more.
 const SAMPLES: u64 = 2;
@@ -46,8 +48,14 @@ struct Exponents {
 }
 
 impl<'p> Measurer<'p> {
-    pub fn new(plan: &'p Plan) -> Self {
-        Measurer { plan, simulation: Simulation::new(PathBuf::new()), of_line: None }
+    /// `profile` is that of the plan's measured file, where it has one.
+    pub fn new(plan: &'p Plan, profile: Option<&Arc<MeasuredProfile>>) -> Self {
+        let simulation = Simulation::new(PathBuf::new());
+        let simulation = match profile {
+            Some(profile) => simulation.with_profile(Arc::clone(profile)),
+            None => simulation,
+        };
+        Measurer { plan, simulation, of_line: None }
     }
 
     /// Runs a scene of the plan on the line of a seed and appends, for each preload, what is recorded; NaN

@@ -3,17 +3,17 @@
 use super::SweepError;
 use super::measure::REGIMES;
 use super::plan::{MOST_RECORDS, Plan};
+use super::publish::publish;
 use super::quantity::Quantity;
-use super::record::{Key, key_of, values_of};
+use super::record::{Key, key_of, values_into};
 use super::store::{Folder, Lines, ShardFile};
 use super::target::symbol_and_unit;
 use crate::ensemble::{Statistics, StudentT};
-use crate::export::{WriteError, write_json_value, write_new};
+use crate::export::{WriteError, write_json_value, write_new_on};
 use serde::Serialize;
 use std::collections::BTreeSet;
-use std::fs;
 use std::io::{self, Write};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// Version of the merged files.
 pub const RESULTS_VERSION: u32 = 1;
@@ -60,8 +60,9 @@ struct Index {
     merged: Merged,
 }
 
-/// Merges the shard files of a study and publishes its tables, whole or not at all. With `partial`, those of
-/// what there is. [`PARQUET`] of an earlier merge goes.
+/// Merges the shard files of a study and publishes its tables, all of them or none: whoever looks, and whatever
+/// ends the process or the machine, finds those of this merge or those of the one before. With `partial`, tables
+/// of what there is. [`PARQUET`] of an earlier merge goes.
 ///
 /// # Errors
 /// [`SweepError::Missing`] where records are missing and `partial` is not set; [`SweepError::Disagree`] where
@@ -94,6 +95,8 @@ impl Index {
         let files = folder.files()?;
         let (mut records, mut duplicates, mut damaged, mut holding) = (0, 0, 0, 0);
         let mut programs = BTreeSet::new();
+        // Those that a file repeats are mostly of one other file.
+        let mut others = OneOpen::new(&files, plan.record.len());
         for (number, file) in files.iter().enumerate() {
             let mut here = 0;
             damaged += folder.records(file, &mut |found| {
@@ -101,27 +104,19 @@ impl Index {
                 let Some(place) = folder.place(found.key).map(|place| &mut places[place as usize]) else {
                     return Ok(());
                 };
-                let new = (number as u64) << (64 - FILE_BITS) | found.offset;
                 if *place == NOWHERE {
-                    *place = new;
+                    *place = place_of(number, found.offset).ok_or_else(|| too_large(&file.path))?;
                     records += 1;
                     return Ok(());
                 }
                 duplicates += 1;
-                let other = &files[(*place >> (64 - FILE_BITS)) as usize];
-                let there = Lines::open(&other.path)
-                    .and_then(|mut lines| {
-                        let payload = lines.at(offset_of(*place))?;
-                        Ok(key_of(payload).and_then(|(_, values)| values_of(values, plan.record.len())))
-                    })
-                    .map_err(|error| unreadable(&other.path, &error))?;
-                if same(there.as_deref(), found.values().as_deref()) {
+                if same(others.values(*place)?, found.values) {
                     return Ok(());
                 }
                 Err(SweepError::Disagree {
                     key: found.key,
                     coordinates: plan.coordinates(found.key.cell),
-                    one: other.path.clone(),
+                    one: files[file_of(*place)].path.clone(),
                     other: file.path.clone(),
                 })
             })?;
@@ -154,88 +149,182 @@ impl Index {
     }
 
     fn publish(&self, folder: &Folder) -> Result<(), SweepError> {
-        // Only the files whose records are asked for are opened.
-        let mut readers: Vec<Option<Lines>> = self.files.iter().map(|_| None).collect();
-        let plan = folder.plan();
-        let mut values_at = |place: u64| -> io::Result<Vec<f64>> {
-            let number = (place >> (64 - FILE_BITS)) as usize;
-            let (reader, file) = (&mut readers[number], &self.files[number]);
-            let reader = match reader {
-                Some(reader) => reader,
-                None => reader.insert(Lines::open(&file.path)?),
-            };
-            let payload = reader.at(offset_of(place))?;
-            let values = key_of(payload).and_then(|(_, values)| values_of(values, plan.record.len()));
-            values.ok_or_else(|| io::Error::new(io::ErrorKind::InvalidData, "a record has changed"))
-        };
-        // Rows of the summary are gathered while those of the results are written: each record is read once.
-        let path = folder.path();
-        let summary = path.join(SUMMARY);
-        // One of an earlier merge would stand beside tables that it does not belong to.
-        let earlier = path.join(PARQUET);
-        match fs::remove_file(&earlier) {
-            Err(reason) if reason.kind() != io::ErrorKind::NotFound => {
-                return Err(WriteError::Failed { path: earlier, reason }.into());
+        // A study that has a summary counts as merged: where files are published one by one, that is the last.
+        publish(folder.disk(), folder.path(), &[RESULTS, SIDECAR, SUMMARY], &mut |place| {
+            let [results, summary] = [RESULTS, SUMMARY].map(|name| place.join(name));
+            let mut unreadable = None;
+            let written = write_new_on(folder.disk(), &results, false, |results| {
+                let written = write_new_on(folder.disk(), &summary, false, |summary| {
+                    self.write_tables(folder.plan(), results, summary).map_err(|error| match error {
+                        TableError::Writing(error) => error,
+                        TableError::Reading(error) => {
+                            unreadable = Some(error);
+                            io::Error::other("a shard file cannot be read")
+                        }
+                    })
+                });
+                written.map_err(|error| match error {
+                    WriteError::Failed { reason, .. } => reason,
+                    other => io::Error::other(other.to_string()),
+                })
+            });
+            if let Some(error) = unreadable {
+                return Err(error);
             }
-            _ => {}
-        }
-        let mut write_both = |results: &mut dyn Write, summary: &mut dyn Write| -> io::Result<()> {
-            writeln!(results, "{}", header(plan, true))?;
-            writeln!(summary, "{}", header(plan, false))?;
-            let mut quantiles = StudentT::default();
-            for (cell, places) in (0..).zip(self.places.chunks(plan.lines as usize)) {
-                let coordinates = row_start(plan, cell);
-                let mut lines = Vec::with_capacity(places.len());
-                for (line, &place) in (0..).zip(places) {
+            written?;
+            let sidecar = Sidecar::of(folder.plan(), &self.merged);
+            Ok(write_new_on(folder.disk(), &place.join(SIDECAR), false, |out| {
+                write_json_value(out, &sidecar)
+            })?)
+        })
+    }
+
+    /// Writes results and summary together, so that each record is read once, some cells at a time. The records
+    /// of these are read in the order in which the files have them: one file is open at a time, however many
+    /// there are.
+    fn write_tables(
+        &self,
+        plan: &Plan,
+        results: &mut dyn Write,
+        summary: &mut dyn Write,
+    ) -> Result<(), TableError> {
+        writeln!(results, "{}", header(plan, true))?;
+        writeln!(summary, "{}", header(plan, false))?;
+        let (lines, columns) = (plan.lines as usize, plan.record.len());
+        let mut quantiles = StudentT::default();
+        let mut files = OneOpen::new(&self.files, columns);
+        let cells = cells_at_once(lines, columns);
+        let (mut values, mut order) = (Vec::new(), Vec::new());
+        for (block, places) in self.places.chunks(cells * lines).enumerate() {
+            order.clear();
+            order.extend((0..places.len()).filter(|&row| places[row] != NOWHERE));
+            // A place is the number of the file, then the offset in it.
+            order.sort_unstable_by_key(|&row| places[row]);
+            values.clear();
+            values.resize(places.len() * columns, f64::NAN);
+            for &row in &order {
+                values[row * columns..][..columns].copy_from_slice(files.values(places[row])?);
+            }
+            let rows = places.chunks(lines).zip(values.chunks(lines * columns));
+            for (cell, (places, values)) in ((block * cells) as u64..).zip(rows) {
+                let start = row_start(plan, cell);
+                let mut there = Vec::with_capacity(places.len());
+                for (line, (&place, values)) in (0..).zip(places.iter().zip(values.chunks(columns))) {
                     if place == NOWHERE {
                         continue;
                     }
-                    let values = values_at(place)?;
-                    write!(results, "{coordinates},{}", plan.seed_of(line))?;
-                    for (quantity, value) in plan.record.iter().zip(&values) {
+                    write!(results, "{start},{}", plan.seed_of(line))?;
+                    for (quantity, value) in plan.record.iter().zip(values) {
                         match regime_name(*quantity, *value) {
                             Some(name) => write!(results, ",{name}")?,
                             None => write!(results, ",{}", number(Some(*value)))?,
                         }
                     }
                     writeln!(results)?;
-                    lines.push(values);
+                    there.push(values);
                 }
-                if !lines.is_empty() {
-                    writeln!(summary, "{coordinates},{}", summary_row(plan, &lines, &mut quantiles))?;
+                if !there.is_empty() {
+                    writeln!(summary, "{start},{}", summary_row(plan, &there, &mut quantiles))?;
                 }
             }
-            Ok(())
-        };
-        let mut failure = None;
-        write_new(&path.join(RESULTS), true, |results| {
-            let written = write_new(&summary, true, |summary| write_both(results, summary));
-            written.map_err(|error| match error {
-                WriteError::Failed { reason, .. } => reason,
-                other => {
-                    let text = other.to_string();
-                    failure = Some(other);
-                    io::Error::other(text)
-                }
-            })
-        })
-        .map_err(|error| failure.take().unwrap_or(error))?;
-        write_new(&path.join(SIDECAR), true, |out| write_json_value(out, &Sidecar::of(plan, &self.merged)))?;
+        }
         Ok(())
     }
+}
+
+/// Bytes of the records that are held while tables are written; those of one cell at least.
+const HELD: usize = 8 << 20;
+
+fn cells_at_once(lines: usize, columns: usize) -> usize {
+    // The values of a row, its place in the order, and the values' place in the summary.
+    let row = size_of::<f64>() * columns + size_of::<usize>() + size_of::<&[f64]>();
+    (HELD / (row * lines)).max(1)
+}
+
+/// Why tables were not written.
+enum TableError {
+    Reading(SweepError),
+    Writing(io::Error),
+}
+
+impl From<SweepError> for TableError {
+    fn from(error: SweepError) -> TableError {
+        TableError::Reading(error)
+    }
+}
+
+impl From<io::Error> for TableError {
+    fn from(error: io::Error) -> TableError {
+        TableError::Writing(error)
+    }
+}
+
+/// Reads records from any of many files, of which the last one read is open and no other.
+struct OneOpen<'f> {
+    files: &'f [ShardFile],
+    open: Option<(usize, Lines)>,
+    columns: usize,
+    values: Vec<f64>,
+}
+
+impl<'f> OneOpen<'f> {
+    fn new(files: &'f [ShardFile], columns: usize) -> Self {
+        OneOpen { files, open: None, columns, values: Vec::with_capacity(columns) }
+    }
+
+    /// The values of the record at a place.
+    fn values(&mut self, place: u64) -> Result<&[f64], SweepError> {
+        let number = file_of(place);
+        let file = &self.files[number];
+        let unreadable = |error: io::Error| SweepError::Folder {
+            path: file.path.clone(),
+            reason: format!("cannot be read: {error}"),
+        };
+        if self.open.as_ref().is_none_or(|(open, _)| *open != number) {
+            // The one before is closed first.
+            self.open = None;
+        }
+        let (_, lines) = match &mut self.open {
+            Some(open) => open,
+            None => self.open.insert((number, Lines::open(&file.path).map_err(unreadable)?)),
+        };
+        let payload = lines.at(offset_of(place)).map_err(unreadable)?;
+        let sound =
+            key_of(payload).is_some_and(|(_, text)| values_into(text, self.columns, &mut self.values));
+        if sound { Ok(&self.values) } else { Err(unreadable(changed())) }
+    }
+}
+
+fn changed() -> io::Error {
+    io::Error::new(io::ErrorKind::InvalidData, "a record has changed while it was read")
+}
+
+/// A file and an offset in it as one number; `None` where they are too large for that.
+fn place_of(file: usize, offset: u64) -> Option<u64> {
+    let bits = u64::BITS - FILE_BITS;
+    ((file as u64) < (1 << FILE_BITS) - 1 && offset < 1 << bits).then_some((file as u64) << bits | offset)
+}
+
+fn file_of(place: u64) -> usize {
+    (place >> (u64::BITS - FILE_BITS)) as usize
 }
 
 fn offset_of(place: u64) -> u64 {
     place & (u64::MAX >> FILE_BITS)
 }
 
-fn unreadable(path: &Path, error: &io::Error) -> SweepError {
-    SweepError::Folder { path: PathBuf::from(path), reason: format!("cannot be read: {error}") }
+fn too_large(path: &Path) -> SweepError {
+    let reason = format!(
+        "more than can be merged; allowed: {} shard files of at most {} bytes each",
+        (1_u64 << FILE_BITS) - 1,
+        1_u64 << (u64::BITS - FILE_BITS)
+    );
+    SweepError::Folder { path: path.to_path_buf(), reason }
 }
 
-fn same(one: Option<&[f64]>, other: Option<&[f64]>) -> bool {
-    let (Some(one), Some(other)) = (one, other) else { return false };
-    one.iter().zip(other).all(|(a, b)| a.to_bits() == b.to_bits() || (a.is_nan() && b.is_nan()))
+fn same(one: &[f64], other: &[f64]) -> bool {
+    let equal = |(a, b): (&f64, &f64)| a.to_bits() == b.to_bits() || (a.is_nan() && b.is_nan());
+    one.len() == other.len() && one.iter().zip(other).all(equal)
 }
 
 /// A number in the shortest form that reads back bit for bit; nothing for what there is not.
@@ -294,7 +383,7 @@ fn regime_name(quantity: Quantity, value: f64) -> Option<&'static str> {
 }
 
 /// Number of lines and, for each quantity, mean, standard deviation and confidence interval.
-fn summary_row(plan: &Plan, lines: &[Vec<f64>], quantiles: &mut StudentT) -> String {
+fn summary_row(plan: &Plan, lines: &[&[f64]], quantiles: &mut StudentT) -> String {
     let mut row = lines.len().to_string();
     let mut add = |value: Option<f64>| {
         row.push(',');

@@ -38,13 +38,16 @@ mod error;
 pub mod figure;
 mod finished;
 mod measure;
+mod measured;
 mod merge;
 #[cfg(feature = "parquet")]
 mod parquet;
 mod plan;
+mod publish;
 mod quantity;
 mod record;
 mod run;
+mod sbatch;
 mod select;
 mod shard;
 pub mod slurm;

@@ -7,6 +7,7 @@ use super::SweepError;
 use super::finished::{Finished, Row};
 use super::merge::{PARQUET, RESULTS};
 use super::plan::Plan;
+use super::publish::{place_of, show};
 use super::quantity::Quantity;
 use super::store::Folder;
 use super::target::Target;
@@ -32,7 +33,9 @@ const PLAN: &str = "asperity.plan";
 /// Where the study has not been merged, or the file cannot be written.
 pub fn write_parquet(folder: &Folder) -> Result<(), SweepError> {
     let mut unreadable = None;
-    let written = write_new(&folder.path().join(PARQUET), true, |out| {
+    // In the folder of the tables it belongs to, which it goes with.
+    let place = place_of(folder.path());
+    let written = write_new(&place.join(PARQUET), true, |out| {
         let mut table = Table::new(out, folder.plan()).map_err(io::Error::other)?;
         let mut failure = None;
         let read = Finished::rows(folder.path(), |row| {
@@ -48,7 +51,10 @@ pub fn write_parquet(folder: &Folder) -> Result<(), SweepError> {
     });
     match unreadable {
         Some(error) => Err(error),
-        None => Ok(written?),
+        None => {
+            written?;
+            show(folder.disk(), folder.path(), PARQUET)
+        }
     }
 }
 

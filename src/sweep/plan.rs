@@ -3,11 +3,12 @@
 use super::axis::Axis;
 use super::builtin;
 use super::cells::Cells;
+use super::measured::is_hash;
 use super::quantity::{Needs, Quantity};
 use super::target::Target;
 use crate::scene::{
-    Document, LONGEST_TEXT, Roughness, Scene, SceneErrors, check, line_column, nearest, open, read_file,
-    ron_float, ron_string, to_ron, told_otherwise,
+    Document, LONGEST_TEXT, Roughness, Scene, SceneErrors, Violation, check, line_column, nearest, open,
+    read_file, ron_float, ron_string, to_ron, told_otherwise,
 };
 use ron::extensions::Extensions;
 use serde::{Deserialize, Serialize};
@@ -49,6 +50,8 @@ pub struct Plan {
     pub record: Vec<Quantity>,
     /// Forces between which exponents are fitted.
     pub stiffness: StiffnessRange,
+    /// SHA-256 of the measured file's content, in 64 hexadecimal digits; the folder of a study has it.
+    pub measured_sha256: Option<String>,
 }
 
 /// Forces between which exponents of the contact without adhesion are fitted, in units of E* h L.
@@ -123,6 +126,8 @@ struct PlanText {
     record: Vec<Quantity>,
     #[serde(default)]
     stiffness: StiffnessRange,
+    #[serde(default)]
+    measured_sha256: Option<String>,
 }
 
 impl Plan {
@@ -182,7 +187,7 @@ impl Plan {
     }
 
     fn of(read: PlanText, scene: Scene, lines: Option<u64>) -> Result<Plan, Vec<String>> {
-        let PlanText { title, notice, mut axes, preloads, record, stiffness, .. } = read;
+        let PlanText { title, notice, mut axes, preloads, record, stiffness, measured_sha256, .. } = read;
         let by_axis = axes.iter().position(|axis| axis.path() == "preload");
         let preloads = match (by_axis, preloads.is_empty()) {
             (Some(_), false) => {
@@ -197,7 +202,7 @@ impl Plan {
             _ => read.seed.unwrap_or(0),
         };
         let lines = lines.or(read.lines).unwrap_or(1);
-        Ok(Plan { title, notice, scene, axes, preloads, lines, seed, record, stiffness })
+        Ok(Plan { title, notice, scene, axes, preloads, lines, seed, record, stiffness, measured_sha256 })
     }
 
     /// Everything that can be checked before anything runs. Counts come first, so nothing is made in
@@ -207,6 +212,7 @@ impl Plan {
         if self.axes.len() > MOST_AXES {
             wrong.push(format!("{} axes; allowed: at most {MOST_AXES}", self.axes.len()));
         }
+        wrong.extend(self.check_texts());
         let all = || self.axes.iter().chain(&self.preloads);
         wrong.extend(all().filter_map(Axis::wrong));
         for (index, axis) in self.axes.iter().enumerate() {
@@ -276,6 +282,28 @@ impl Plan {
         self.check_cells()
     }
 
+    /// What is wrong with title and notice, which are held to what a scene may have, and with the hash.
+    fn check_texts(&self) -> Vec<String> {
+        let (title, notice) = (self.title.clone(), self.notice.clone());
+        let texts = Scene { title, notice, ..self.scene.clone() };
+        let is_text = |violation: &&Violation| ["title", "notice"].contains(&violation.field.as_str());
+        let mut wrong: Vec<String> = check(&texts).iter().filter(is_text).map(worded).collect();
+        if let Some(hash) = &self.measured_sha256 {
+            if !is_hash(hash) {
+                wrong.push(format!(
+                    "measured_sha256 = {}: allowed: 64 digits from 0 to 9 and a to f",
+                    ron_string(hash)
+                ));
+            }
+            if !matches!(self.scene.roughness, Some(Roughness::Measured { .. })) {
+                wrong.push(
+                    "measured_sha256: goes with roughness: Measured; this scene has no such file".into(),
+                );
+            }
+        }
+        wrong
+    }
+
     /// The scene of every cell.
     fn check_cells(&self) -> Result<(), Vec<String>> {
         let cells = Cells::of(self);
@@ -284,15 +312,7 @@ impl Plan {
         for run in 0..cells.runs() {
             let reason = match cells.shape(run, &self.scene, &mut scene) {
                 Err((axis, reason)) => Some(format!("axis {axis}: {reason}")),
-                Ok(()) => check(&scene).first().map(|violation| {
-                    let crate::scene::Violation { field, value, allowed, reason, .. } = violation;
-                    let allowed = if allowed.is_empty() {
-                        reason.clone()
-                    } else {
-                        format!("allowed: {allowed} ({reason})")
-                    };
-                    format!("{field} = {value}: {allowed}")
-                }),
+                Ok(()) => check(&scene).first().map(worded),
             };
             let Some(reason) = reason else { continue };
             count += 1;
@@ -396,8 +416,18 @@ impl Plan {
         line("record", format!("[{}]", names.join(", ")));
         let StiffnessRange { from, to, count } = self.stiffness;
         line("stiffness", format!("(from: {}, to: {}, count: {count})", ron_float(from), ron_float(to)));
+        if let Some(hash) = &self.measured_sha256 {
+            line("measured_sha256", ron_string(hash));
+        }
         format!("(\n{})\n", lines.concat())
     }
+}
+
+/// A value that is not allowed, and what is.
+fn worded(violation: &Violation) -> String {
+    let Violation { field, value, allowed, reason, .. } = violation;
+    let allowed = if allowed.is_empty() { reason.clone() } else { format!("allowed: {allowed} ({reason})") };
+    format!("{field} = {value}: {allowed}")
 }
 
 fn ends(kind: &str, path: &str, from: f64, to: f64, count: u64) -> String {

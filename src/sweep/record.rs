@@ -51,11 +51,17 @@ pub(super) fn key_of(payload: &str) -> Option<(Key, &str)> {
     Some((Key { cell, seed }, parts.next()?))
 }
 
-/// The values of a payload: so many, NaN for what is not there.
-pub(super) fn values_of(values: &str, count: usize) -> Option<Vec<f64>> {
-    let number = |text: &str| if text.is_empty() { Some(f64::NAN) } else { text.parse().ok() };
-    let values: Option<Vec<f64>> = values.split(',').map(number).collect();
-    values.filter(|values| values.len() == count)
+/// Reads the values of a payload: so many, NaN for what is not there. False where it has other values.
+pub(super) fn values_into(text: &str, count: usize, values: &mut Vec<f64>) -> bool {
+    values.clear();
+    for text in text.split(',') {
+        let value = if text.is_empty() { Ok(f64::NAN) } else { text.parse() };
+        match value {
+            Ok(value) if values.len() < count => values.push(value),
+            _ => return false,
+        }
+    }
+    values.len() == count
 }
 
 #[cfg(test)]
@@ -76,7 +82,10 @@ mod tests {
             let payload = unseal(text.trim_end_matches('\n').as_bytes()).unwrap();
             let (key, rest) = key_of(payload).unwrap();
             prop_assert_eq!(key, Key { cell, seed });
-            let read = values_of(rest, values.len()).unwrap();
+            let mut read = Vec::new();
+            prop_assert!(values_into(rest, values.len(), &mut read));
+            prop_assert!(!values_into(rest, values.len() + 1, &mut Vec::new()));
+            prop_assert!(!values_into(rest, values.len() - 1, &mut Vec::new()));
             for (read, value) in read.iter().zip(&values) {
                 prop_assert!(read.to_bits() == value.to_bits() || (read.is_nan() && value.is_nan()));
             }

@@ -3,15 +3,18 @@
 use super::SweepError;
 use super::cells::{Cells, Unit};
 use super::measure::Measurer;
+use super::measured::profile;
 use super::record::{Key, encode};
 use super::shard::Shard;
+use super::status::count;
 use super::store::{Done, Folder};
+use crate::disk::DiskFile;
 use crate::export::WriteError;
 use crate::parallel::on_this_thread;
 use crate::simulation::RunError;
-use std::fs::File;
-use std::io::Write;
+use crate::surface::MeasuredProfile;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, sync_channel};
 use std::sync::{Mutex, PoisonError};
@@ -82,8 +85,10 @@ struct Shared<'a> {
     done: Done,
     shard: Shard,
     next: AtomicU64,
-    /// Records written so far.
+    /// Records that have reached the disk so far.
     written: AtomicU64,
+    /// That of the study's measured file, where it has one.
+    profile: Option<Arc<MeasuredProfile>>,
     failed: AtomicBool,
     error: Mutex<Option<SweepError>>,
     stop: &'a (dyn Fn() -> bool + Sync),
@@ -103,13 +108,15 @@ pub fn run(
     let clock = Instant::now();
     let cells = Cells::of(folder.plan());
     let done = folder.done()?;
-    let (total, before) = count(folder, &cells, &done, options.shard);
+    let (total, before) = count(folder.plan(), &cells, &done, options.shard);
     let progress =
         |written: u64| Progress { done: before + written, before, total, elapsed: clock.elapsed() };
     tell(&progress(0));
     if before == total {
         return Ok(Ended { progress: progress(0), complete: true });
     }
+    // Read once, so that all threads compute from the same bytes, whatever becomes of the file meanwhile.
+    let profile = profile(folder.plan(), folder.path())?;
     let (path, file) = folder.new_file(options.shard)?;
     let jobs = options.jobs.max(1);
     let shared = Shared {
@@ -119,6 +126,7 @@ pub fn run(
         shard: options.shard,
         next: AtomicU64::new(0),
         written: AtomicU64::new(0),
+        profile,
         failed: AtomicBool::new(false),
         error: Mutex::new(None),
         stop,
@@ -147,22 +155,6 @@ pub fn run(
     Ok(Ended { progress, complete: progress.done == total })
 }
 
-/// The records of a part of the plan, and those of them that are there.
-fn count(folder: &Folder, cells: &Cells, done: &Done, shard: Shard) -> (u64, u64) {
-    let lines = folder.plan().lines;
-    let (mut total, mut there) = (0, 0);
-    for unit in (0..cells.units()).filter(|&unit| shard.has(unit)) {
-        let unit = cells.unit(unit);
-        total += cells.length_of(&unit) * cells.preloads();
-        for run in cells.runs_of(&unit) {
-            let first = cells.first_cell(run);
-            let places = (first..first + cells.preloads()).map(|cell| cell * lines + unit.line);
-            there += places.filter(|&place| done.has(place)).count() as u64;
-        }
-    }
-    (total, there)
-}
-
 impl Shared<'_> {
     fn fail(&self, error: SweepError) {
         self.failed.store(true, Ordering::SeqCst);
@@ -175,7 +167,7 @@ impl Shared<'_> {
 
     /// Takes one unit after the other until none is left.
     fn work(&self, sender: &SyncSender<String>) {
-        let mut measurer = Measurer::new(self.folder.plan());
+        let mut measurer = Measurer::new(self.folder.plan(), self.profile.as_ref());
         loop {
             let index = self.next.fetch_add(1, Ordering::Relaxed);
             let number = index * u64::from(self.shard.count) + u64::from(self.shard.number) - 1;
@@ -235,14 +227,21 @@ impl Shared<'_> {
     }
 
     /// Writes records as they come. It waits for the disk when it has not done so for a while, and at the end.
-    fn write(&self, path: &Path, mut file: File, receiver: Receiver<String>, tell: &mut dyn FnMut(u64)) {
+    /// Only what has reached the disk is counted.
+    fn write(
+        &self,
+        path: &Path,
+        mut file: Box<dyn DiskFile>,
+        receiver: Receiver<String>,
+        tell: &mut dyn FnMut(u64),
+    ) {
         let mut synced = Instant::now();
         let mut told = Instant::now();
-        let mut pending = false;
+        let mut pending = 0;
         let mut text = String::with_capacity(BUFFER);
         let failed = |reason| SweepError::Write(WriteError::Failed { path: PathBuf::from(path), reason });
         loop {
-            let wait = if pending { SYNC.saturating_sub(synced.elapsed()) } else { TICK };
+            let wait = if pending > 0 { SYNC.saturating_sub(synced.elapsed()) } else { TICK };
             let first = receiver.recv_timeout(wait.min(TICK));
             let ended = matches!(first, Err(RecvTimeoutError::Disconnected));
             text.clear();
@@ -256,15 +255,14 @@ impl Shared<'_> {
                 if let Err(reason) = file.write_all(text.as_bytes()) {
                     return self.fail(failed(reason));
                 }
-                let records = text.bytes().filter(|&byte| byte == b'\n').count() as u64;
-                self.written.fetch_add(records, Ordering::SeqCst);
-                pending = true;
+                pending += text.bytes().filter(|&byte| byte == b'\n').count() as u64;
             }
-            if pending && (ended || synced.elapsed() >= SYNC) {
-                if let Err(reason) = file.sync_data() {
+            if pending > 0 && (ended || synced.elapsed() >= SYNC) {
+                if let Err(reason) = file.sync() {
                     return self.fail(failed(reason));
                 }
-                (synced, pending) = (Instant::now(), false);
+                self.written.fetch_add(pending, Ordering::SeqCst);
+                (synced, pending) = (Instant::now(), 0);
             }
             if told.elapsed() >= TICK {
                 tell(self.written.load(Ordering::SeqCst));

@@ -9,6 +9,7 @@ const MOST: u32 = 1_000_000;
 
 /// The `number`-th of `count` parts, counted from 1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(try_from = "Parts")]
 pub struct Shard {
     /// Which part, from 1.
     pub number: u32,
@@ -16,13 +17,31 @@ pub struct Shard {
     pub count: u32,
 }
 
+/// A shard as a header has it, before it is checked.
+#[derive(Deserialize)]
+struct Parts {
+    number: u32,
+    count: u32,
+}
+
+impl TryFrom<Parts> for Shard {
+    type Error = String;
+
+    fn try_from(parts: Parts) -> Result<Shard, String> {
+        let Parts { number, count } = parts;
+        let sound = (1..=MOST).contains(&count) && (1..=count).contains(&number);
+        let allowed = || format!("shard {number}/{count}: allowed: K/N with K from 1 to N, N at most {MOST}");
+        if sound { Ok(Shard { number, count }) } else { Err(allowed()) }
+    }
+}
+
 impl Shard {
     /// The whole plan.
     pub const WHOLE: Shard = Shard { number: 1, count: 1 };
 
-    /// Whether a unit of work belongs to this part.
-    pub(super) fn has(self, unit: u64) -> bool {
-        unit % u64::from(self.count) == u64::from(self.number) - 1
+    /// The units of work that belong to this part, of so many.
+    pub(super) fn units(self, units: u64) -> impl Iterator<Item = u64> {
+        (u64::from(self.number) - 1..units).step_by(self.count as usize)
     }
 }
 
@@ -37,10 +56,10 @@ impl FromStr for Shard {
 
     fn from_str(text: &str) -> Result<Shard, String> {
         let parts = text.split_once('/').and_then(|(number, count)| {
-            Some(Shard { number: number.trim().parse().ok()?, count: count.trim().parse().ok()? })
+            Some(Parts { number: number.trim().parse().ok()?, count: count.trim().parse().ok()? })
         });
         parts
-            .filter(|shard| (1..=MOST).contains(&shard.count) && (1..=shard.count).contains(&shard.number))
+            .and_then(|parts| Shard::try_from(parts).ok())
             .ok_or_else(|| format!("allowed: K/N with K from 1 to N, N at most {MOST}, such as 3/8"))
     }
 }
@@ -53,10 +72,17 @@ mod tests {
     fn parts_are_read_and_written() {
         let shard: Shard = "3/8".parse().unwrap();
         assert_eq!((shard, shard.to_string()), (Shard { number: 3, count: 8 }, "3/8".into()));
-        assert!((0..100).all(|unit| Shard::WHOLE.has(unit)));
-        assert_eq!((0..20).filter(|&unit| shard.has(unit)).collect::<Vec<_>>(), [2, 10, 18]);
+        assert!(Shard::WHOLE.units(100).eq(0..100));
+        assert_eq!(shard.units(20).collect::<Vec<_>>(), [2, 10, 18]);
+        assert_eq!(shard.units(2).count(), 0);
         for wrong in ["", "3", "0/8", "9/8", "1/0", "-1/2", "1/2/3", "a/b", "1/99999999999", "1/1000001"] {
             assert!(wrong.parse::<Shard>().unwrap_err().contains("such as 3/8"), "{wrong}");
+        }
+        let read = |text: &str| serde_json::from_str::<Shard>(text);
+        assert_eq!(read(r#"{"number":3,"count":8}"#).unwrap(), shard);
+        for wrong in [(1, 0), (0, 1), (2, 1), (1, 1_000_001)] {
+            let text = format!(r#"{{"number":{},"count":{}}}"#, wrong.0, wrong.1);
+            assert!(read(&text).unwrap_err().to_string().contains("allowed: K/N"), "{text}");
         }
     }
 }

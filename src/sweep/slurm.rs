@@ -5,19 +5,18 @@
 //! counts a cell once. What Slurm is slow at is done in the script of the task: a program that was killed
 //! is started again at once, and goes on where its results end.
 
+pub use super::sbatch::{SbatchOption, SbatchOptionError, sbatch_options};
 use super::store::PLAN;
+use crate::text::{is_control, path_name};
 use std::ffi::{OsStr, OsString};
 use std::io;
 use std::path::PathBuf;
-use std::process::{Command, Output};
+use std::process::{Command, Output, Stdio};
 use thiserror::Error;
 
 /// Tasks of an array where the cluster does not say: Slurm's own `MaxArraySize`, one more than the largest
 /// number of a task.
 const USUAL_ARRAY_SIZE: u64 = 1001;
-
-/// Options of sbatch that would undo what is submitted.
-const TAKEN: [&str; 4] = ["--array", "--wrap", "--test-only", "--wait"];
 
 /// A sweep to be computed by a cluster. All paths are those on its nodes, and absolute.
 #[derive(Clone, Debug)]
@@ -35,7 +34,7 @@ pub struct Submission {
     /// What else the program is told, such as `--memory`.
     pub arguments: Vec<OsString>,
     /// Options of sbatch, given to both jobs.
-    pub options: Vec<OsString>,
+    pub options: Vec<SbatchOption>,
 }
 
 /// The two jobs of a sweep, as Slurm numbers them.
@@ -66,16 +65,13 @@ pub enum SlurmError {
         size: u64,
     },
     /// An option of sbatch that is not the user's to give.
-    #[error(
-        "{option}: this is not for sbatch here; allowed: --shards and --at-once for the array, and any \
-             option that both the array and the merge may have"
-    )]
-    Taken {
-        /// The option.
-        option: String,
-    },
+    #[error(transparent)]
+    Option(#[from] SbatchOptionError),
     /// A path cannot be given to a job.
-    #[error("{}: a job of Slurm cannot have this path; allowed: UTF-8 without a backslash", path.display())]
+    #[error(
+        "{}: a job of Slurm cannot have this path; allowed: UTF-8 without a backslash or control characters",
+        path_name(path)
+    )]
     Path {
         /// The path.
         path: PathBuf,
@@ -99,6 +95,15 @@ pub enum SlurmError {
         /// What sbatch said.
         reason: String,
     },
+    /// The array was taken, and nobody knows its number.
+    #[error(
+        "sbatch took the array and did not answer with the number of a job, but: {answer}\n\
+         The merge was not submitted. squeue --me lists the array, scancel ends it"
+    )]
+    NoNumber {
+        /// What sbatch said.
+        answer: String,
+    },
     /// The merge was refused after the array had been taken, which was cancelled.
     #[error("sbatch refuses the merge: {reason}\nThe array {array} {cancelled}")]
     MergeRefused {
@@ -115,8 +120,7 @@ impl Submission {
     /// Checks what can be checked without asking for a job; `array_size` is that of [`array_size`].
     ///
     /// # Errors
-    /// More shards than the cluster's arrays have tasks; options that would undo what is submitted; paths
-    /// that a job of Slurm cannot have.
+    /// More shards than the cluster's arrays have tasks; paths that a job of Slurm cannot have.
     pub fn check(&self, array_size: u64) -> Result<(), SlurmError> {
         let most = array_size.saturating_sub(1);
         if self.shards > most {
@@ -124,19 +128,11 @@ impl Submission {
         }
         for path in [&self.program, &self.folder] {
             // Slurm reads patterns in the names of its output files, and takes a backslash for the end of them.
-            if path.to_str().is_none_or(|path| path.contains(['\\', '\0'])) {
+            if path.to_str().is_none_or(|path| path.contains(|c| c == '\\' || is_control(c))) {
                 return Err(SlurmError::Path { path: path.clone() });
             }
         }
-        let taken = |option: &&OsString| {
-            let option = option.to_string_lossy();
-            let short = option.starts_with("-a") || option.starts_with("-W");
-            short || TAKEN.contains(&option.split('=').next().unwrap_or_default())
-        };
-        self.options
-            .iter()
-            .find(taken)
-            .map_or(Ok(()), |option| Err(SlurmError::Taken { option: option.to_string_lossy().into_owned() }))
+        Ok(())
     }
 
     /// The script of a task of the array.
@@ -230,7 +226,7 @@ done
         let output = format!("--output={folder}/{log}").into();
         let mut arguments = vec!["--parsable".into(), format!("--job-name={name}").into(), output];
         arguments.push("--open-mode=append".into());
-        arguments.extend(self.options.iter().cloned());
+        arguments.extend(self.options.iter().map(|option| OsString::from(option.to_string())));
         arguments
     }
 
@@ -252,31 +248,27 @@ done
     /// There is no Slurm, or it refuses one of the two. An array whose merge is refused is cancelled.
     pub fn submit(&self) -> Result<Jobs, SlurmError> {
         let (array, mut notes) = self.sbatch("the array", &self.array_arguments())?;
-        match self.sbatch("the merge", &self.merge_arguments(number(&array))) {
+        match self.sbatch("the merge", &self.merge_arguments(&array.number)) {
             Ok((merge, more)) => {
                 notes.push_str(&more);
-                Ok(Jobs { array: number(&array).into(), merge: number(&merge).into(), notes })
+                Ok(Jobs { array: array.number, merge: merge.number, notes })
             }
             Err(error) => {
                 let reason = match error {
                     SlurmError::Refused { reason, .. } => reason,
+                    SlurmError::NoNumber { answer } => format!("no number of a job: {answer}"),
                     other => other.to_string(),
                 };
-                let cancelled = Command::new("scancel").arg(number(&array)).output();
-                let done = cancelled.is_ok_and(|output| output.status.success());
-                let cancelled = if done { "was cancelled." } else { "still runs: scancel ends it." };
-                Err(SlurmError::MergeRefused {
-                    array: number(&array).into(),
-                    reason,
-                    cancelled: cancelled.into(),
-                })
+                let cancelled =
+                    if array.cancel() { "was cancelled." } else { "still runs: scancel ends it." };
+                Err(SlurmError::MergeRefused { array: array.number, reason, cancelled: cancelled.into() })
             }
         }
     }
 
-    fn sbatch(&self, job: &'static str, arguments: &[OsString]) -> Result<(String, String), SlurmError> {
+    fn sbatch(&self, job: &'static str, arguments: &[OsString]) -> Result<(Job, String), SlurmError> {
         let Output { status, stdout, stderr } =
-            Command::new("sbatch").args(arguments).output().map_err(|error| {
+            command("sbatch").args(arguments).output().map_err(|error| {
                 if error.kind() == io::ErrorKind::NotFound {
                     SlurmError::NoSlurm { instead: self.without_scheduler() }
                 } else {
@@ -285,25 +277,81 @@ done
             })?;
         let said = String::from_utf8_lossy(&stderr).into_owned();
         let answer = String::from_utf8_lossy(&stdout).trim().to_owned();
-        if status.success() && number(&answer).parse::<u64>().is_ok() {
-            return Ok((answer, said));
+        if status.success()
+            && let Some(job) = Job::of(&answer)
+        {
+            return Ok((job, said));
         }
         let reason = [said.trim(), &answer].into_iter().filter(|text| !text.is_empty());
         let reason = reason.collect::<Vec<_>>().join("\n");
         let reason = if reason.is_empty() { format!("{status}, without a word") } else { reason };
+        if status.success() {
+            return Err(SlurmError::NoNumber { answer: reason });
+        }
         Err(SlurmError::Refused { job, reason })
     }
 }
 
-/// The number in what `sbatch --parsable` prints, `number` or `number;cluster`.
-fn number(answer: &str) -> &str {
-    answer.split(';').next().unwrap_or_default()
+/// A job that sbatch has taken.
+#[derive(Debug, PartialEq, Eq)]
+struct Job {
+    number: String,
+    /// Where there are several.
+    cluster: Option<String>,
+}
+
+impl Job {
+    /// What `sbatch --parsable` prints, `number` or `number;cluster`, and nothing else.
+    fn of(answer: &str) -> Option<Job> {
+        let (number, cluster) = match answer.split_once(';') {
+            Some((number, cluster)) => (number, Some(cluster)),
+            None => (answer, None),
+        };
+        let is_number = number.bytes().all(|byte| byte.is_ascii_digit())
+            && number.parse::<u32>().is_ok_and(|number| number > 0);
+        let named = |byte: u8| byte.is_ascii_alphanumeric() || b"-_.".contains(&byte);
+        let is_cluster = cluster.is_none_or(|name| !name.is_empty() && name.bytes().all(named));
+        (is_number && is_cluster)
+            .then(|| Job { number: number.to_owned(), cluster: cluster.map(str::to_owned) })
+    }
+
+    fn cancel(&self) -> bool {
+        let mut scancel = command("scancel");
+        scancel.args(self.cluster.iter().map(|cluster| format!("--clusters={cluster}"))).arg(&self.number);
+        scancel.output().is_ok_and(|output| output.status.success())
+    }
+}
+
+/// A program of Slurm that does what its arguments say: without the variables that would be options besides.
+fn command(program: &str) -> Command {
+    let mut command = Command::new(program);
+    for name in variables_of(program) {
+        command.env_remove(name);
+    }
+    command.stdin(Stdio::null());
+    command
+}
+
+/// Environment variables that a program of Slurm would take for options.
+fn variables_of(program: &str) -> Vec<OsString> {
+    let beginning = program.to_ascii_uppercase() + "_";
+    let is_option = |name: &OsString| name.to_string_lossy().starts_with(&beginning);
+    std::env::vars_os().map(|(name, _)| name).filter(is_option).collect()
+}
+
+/// Names of the environment variables that sbatch would read, and does not.
+#[must_use]
+pub fn ignored_variables() -> Vec<String> {
+    let mut names: Vec<_> =
+        variables_of("sbatch").iter().map(|name| name.to_string_lossy().into_owned()).collect();
+    names.sort();
+    names
 }
 
 /// The cluster's `MaxArraySize`, one more than the largest number of a task; Slurm's own where it does not say.
 #[must_use]
 pub fn array_size() -> u64 {
-    let output = Command::new("scontrol").args(["show", "config"]).output();
+    let output = command("scontrol").args(["show", "config"]).output();
     let text = output.map(|output| String::from_utf8_lossy(&output.stdout).into_owned()).unwrap_or_default();
     size_in(&text).unwrap_or(USUAL_ARRAY_SIZE)
 }
@@ -323,4 +371,34 @@ pub fn word(word: impl AsRef<OsStr>) -> String {
         return word.into_owned();
     }
     format!("'{}'", word.replace('\'', r"'\''"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_number_of_a_job_is_that_and_nothing_else() {
+        let job = |number: &str, cluster: Option<&str>| {
+            Some(Job { number: number.into(), cluster: cluster.map(str::to_owned) })
+        };
+        assert_eq!(Job::of("17"), job("17", None));
+        assert_eq!(Job::of("21;east"), job("21", Some("east")));
+        for wrong in [
+            "",
+            "0",
+            "+17",
+            "-17",
+            "17 ",
+            "17\n18",
+            "Submitted batch job 17",
+            "17;",
+            "17;a b",
+            "17;east;west",
+            "99999999999",
+            "1 7",
+        ] {
+            assert_eq!(Job::of(wrong), None, "{wrong:?}");
+        }
+    }
 }

@@ -2,10 +2,13 @@
 
 use super::SweepError;
 use super::cells::Cells;
+use super::plan::Plan;
 use super::shard::Shard;
-use super::store::Folder;
+use super::store::{Done, Folder};
+use crate::text::{path_name, printable};
 use serde::Serialize;
 use std::collections::BTreeMap;
+use std::path::Path;
 
 /// How far a study is.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -62,21 +65,22 @@ impl Status {
     pub fn of(folder: &Folder) -> Result<Status, SweepError> {
         let plan = folder.plan();
         let mut damaged = 0;
+        let mut done = Done::none(plan.records_in_all());
         let mut attempts: BTreeMap<Shard, Vec<Attempt>> = BTreeMap::new();
         for file in folder.files()? {
             let mut records = 0;
-            damaged += folder.records(&file, &mut |_| {
+            damaged += folder.records(&file, &mut |found| {
                 records += 1;
+                if let Some(place) = folder.place(found.key) {
+                    done.add(place);
+                }
                 Ok(())
             })?;
             let Some(header) = file.header else { continue };
             let seconds = file.written - header.started as f64;
             attempts.entry(header.shard).or_default().push(Attempt {
-                file: file
-                    .path
-                    .file_name()
-                    .map_or_else(String::new, |name| name.to_string_lossy().into_owned()),
-                host: header.host,
+                file: file.path.file_name().map_or_else(String::new, |name| path_name(Path::new(name))),
+                host: printable(&header.host).into_owned(),
                 process: header.process,
                 started: header.started,
                 written: file.written,
@@ -84,24 +88,29 @@ impl Status {
                 rate: (seconds > 0.0).then(|| records as f64 / seconds),
             });
         }
-        let done = folder.done()?;
         let cells = Cells::of(plan);
         let of_shard = |(shard, attempts): (Shard, Vec<Attempt>)| {
-            let (mut total, mut there) = (0, 0);
-            for unit in (0..cells.units()).filter(|&unit| shard.has(unit)) {
-                let unit = cells.unit(unit);
-                for run in cells.runs_of(&unit) {
-                    let first = cells.first_cell(run);
-                    total += cells.preloads();
-                    let here = (first..first + cells.preloads()).map(|cell| cell * plan.lines + unit.line);
-                    there += here.filter(|&place| done.has(place)).count() as u64;
-                }
-            }
+            let (total, there) = count(plan, &cells, &done, shard);
             ShardStatus { shard: shard.to_string(), total, done: there, attempts }
         };
         let shards = attempts.into_iter().map(of_shard).collect();
-        let total = plan.records_in_all();
-        let found = (0..total).filter(|&place| done.has(place)).count() as u64;
+        let (total, found) = (plan.records_in_all(), done.count());
         Ok(Status { done: found, total, missing: total - found, damaged, shards })
     }
+}
+
+/// The records of a part of a plan, and those of them that are there. All parts of a division together take as
+/// long as the whole plan.
+pub(super) fn count(plan: &Plan, cells: &Cells, done: &Done, shard: Shard) -> (u64, u64) {
+    let (mut total, mut there) = (0, 0);
+    for unit in shard.units(cells.units()) {
+        let unit = cells.unit(unit);
+        total += cells.length_of(&unit) * cells.preloads();
+        for run in cells.runs_of(&unit) {
+            let first = cells.first_cell(run);
+            let places = (first..first + cells.preloads()).map(|cell| cell * plan.lines + unit.line);
+            there += places.filter(|&place| done.has(place)).count() as u64;
+        }
+    }
+    (total, there)
 }

@@ -5,22 +5,27 @@
 //! ends the machine takes what had not reached the disk as well: the records of a moment, which are computed again.
 
 use super::SweepError;
+use super::measured::with_hash;
 use super::plan::{Changes, Plan};
-use super::record::{Key, key_of, seal, unseal, values_of};
+use super::record::{Key, key_of, seal, unseal, values_into};
 use super::shard::Shard;
-use crate::export::{WriteError, write_new};
+use crate::disk::{Disk, DiskFile, SystemDisk, folder_of, make_folders};
+use crate::export::{WriteError, write_new_on};
+use crate::io::open_regular;
 use crate::scene::read_file;
+use crate::text::{path_name, printable};
 use serde::{Deserialize, Serialize};
-use std::fs::{self, File};
+use std::fs::File;
 use std::hash::{BuildHasher, RandomState};
-use std::io::{self, BufRead, BufReader, Read, Seek, SeekFrom, Write};
+use std::io::{self, BufRead, BufReader, Read, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::time::{SystemTime, UNIX_EPOCH};
 
 /// Version of the shard files.
 pub const STORE_VERSION: u32 = 1;
 /// Longest line of a shard file; records are much shorter.
-const LONGEST_LINE: u64 = 1 << 16;
+pub(super) const LONGEST_LINE: u64 = 1 << 16;
 
 pub(super) const PLAN: &str = "plan.ron";
 const SHARDS: &str = "shards";
@@ -28,10 +33,11 @@ const SHARDS: &str = "shards";
 const ENDING: &str = "shard";
 
 /// The folder of a study.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct Folder {
     path: PathBuf,
     plan: Plan,
+    disk: Arc<dyn Disk>,
 }
 
 /// What a shard file says of itself, on its first line.
@@ -51,6 +57,15 @@ pub struct Header {
     pub started: u64,
     /// Version of the program.
     pub program: String,
+    /// SHA-256 of the content of the study's measured file, where it has one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub measured_sha256: Option<String>,
+}
+
+/// What every version of the program can read of a header.
+#[derive(Deserialize)]
+struct AnyHeader {
+    format: u32,
 }
 
 /// A shard file.
@@ -69,32 +84,36 @@ pub(super) struct Found<'l> {
     pub key: Key,
     /// Place of its line in the file.
     pub offset: u64,
-    payload: &'l str,
-    values: usize,
-}
-
-impl Found<'_> {
-    pub fn values(&self) -> Option<Vec<f64>> {
-        values_of(key_of(self.payload)?.1, self.values)
-    }
+    /// A value for each quantity of the plan, NaN for what is not there.
+    pub values: &'l [f64],
 }
 
 impl Folder {
     /// Makes the folder of a plan, or opens it where it has the same plan already.
     ///
     /// # Errors
-    /// Where another plan stands in it, or it cannot be written.
+    /// Where the folder has another plan, the measured file of the plan has changed or cannot be read, or the
+    /// folder cannot be written.
     pub fn create(path: &Path, plan: &Plan) -> Result<Folder, SweepError> {
+        Folder::create_on(SystemDisk::shared(), path, plan)
+    }
+
+    /// [`Folder::create`] on another disk.
+    ///
+    /// # Errors
+    /// As [`Folder::create`].
+    pub fn create_on(disk: Arc<dyn Disk>, path: &Path, plan: &Plan) -> Result<Folder, SweepError> {
         let failed = |path: &Path| {
             let path = path.to_path_buf();
             move |reason| SweepError::Write(WriteError::Failed { path, reason })
         };
-        fs::create_dir_all(path).map_err(failed(path))?;
+        let plan = with_hash(plan)?;
+        make_folders(&*disk, path).map_err(failed(path))?;
         let shards = path.join(SHARDS);
         let file = path.join(PLAN);
         let text = plan.to_ron();
         if !file.exists() {
-            match write_new(&file, false, |out| out.write_all(text.as_bytes())) {
+            match write_new_on(&*disk, &file, false, |out| out.write_all(text.as_bytes())) {
                 // Another process was faster.
                 Ok(()) | Err(WriteError::Exists { .. }) => {}
                 Err(error) => return Err(error.into()),
@@ -102,13 +121,14 @@ impl Folder {
         }
         let there = read_file(&file).map_err(|reason| SweepError::Folder { path: file.clone(), reason })?;
         if there != text {
-            return Err(SweepError::OtherPlan {
-                path: path.to_path_buf(),
-                difference: difference(&there, &text),
-            });
+            return Err(refusal(path, &there, &plan));
         }
-        fs::create_dir_all(&shards).map_err(failed(&shards))?;
-        Ok(Folder { path: path.to_path_buf(), plan: plan.clone() })
+        make_folders(&*disk, &shards).map_err(failed(&shards))?;
+        // A process that was killed may have made them without waiting for the disk.
+        for folder in [folder_of(path), path] {
+            disk.sync_folder(folder).map_err(failed(folder))?;
+        }
+        Ok(Folder { path: path.to_path_buf(), plan, disk })
     }
 
     /// Whether a path is the folder of a study, sound or not.
@@ -122,6 +142,14 @@ impl Folder {
     /// # Errors
     /// Where there is none, or its plan cannot be read.
     pub fn open(path: &Path) -> Result<Folder, SweepError> {
+        Folder::open_on(SystemDisk::shared(), path)
+    }
+
+    /// [`Folder::open`] on another disk.
+    ///
+    /// # Errors
+    /// As [`Folder::open`].
+    pub fn open_on(disk: Arc<dyn Disk>, path: &Path) -> Result<Folder, SweepError> {
         let file = path.join(PLAN);
         if !file.is_file() {
             let reason = format!("this is not the folder of a study: there is no {PLAN} in it");
@@ -129,7 +157,7 @@ impl Folder {
         }
         let text = read_file(&file).map_err(|reason| SweepError::Folder { path: file.clone(), reason })?;
         let plan = Plan::parse(&text, &file.display().to_string(), &Changes::default())?;
-        Ok(Folder { path: path.to_path_buf(), plan })
+        Ok(Folder { path: path.to_path_buf(), plan, disk })
     }
 
     /// Its path.
@@ -144,13 +172,18 @@ impl Folder {
         &self.plan
     }
 
+    /// The disk it is on.
+    pub(super) fn disk(&self) -> &dyn Disk {
+        &*self.disk
+    }
+
     /// Checksum of its plan.
     fn checksum(&self) -> String {
         format!("{:08x}", crc32fast::hash(self.plan.to_ron().as_bytes()))
     }
 
     /// A new shard file for this process, with its header.
-    pub(super) fn new_file(&self, shard: Shard) -> Result<(PathBuf, File), WriteError> {
+    pub(super) fn new_file(&self, shard: Shard) -> Result<(PathBuf, Box<dyn DiskFile>), WriteError> {
         let started = SystemTime::now().duration_since(UNIX_EPOCH).unwrap_or_default().as_secs();
         let (host, process) = (host(), std::process::id());
         let header = Header {
@@ -161,6 +194,7 @@ impl Folder {
             process,
             started,
             program: env!("CARGO_PKG_VERSION").into(),
+            measured_sha256: self.plan.measured_sha256.clone(),
         };
         let random = RandomState::new().hash_one(started) as u32;
         let Shard { number, count } = shard;
@@ -169,70 +203,75 @@ impl Folder {
         let failed = |reason| WriteError::Failed { path: path.clone(), reason };
         let mut text = String::new();
         seal(&serde_json::to_string(&header).map_err(io::Error::from).map_err(failed)?, &mut text);
-        let mut file = File::create_new(&path).map_err(failed)?;
-        file.write_all(text.as_bytes()).and_then(|()| file.sync_all()).map_err(failed)?;
-        // The entry in the folder has to last as well; not all systems let a folder be opened.
-        if let Ok(folder) = File::open(self.path.join(SHARDS)) {
-            let _ = folder.sync_all();
-        }
+        let mut file = self.disk.make_file(&path).map_err(failed)?;
+        file.write_all(text.as_bytes()).and_then(|()| file.sync()).map_err(failed)?;
+        // The name in the folder has to last as well.
+        self.disk.sync_folder(&self.path.join(SHARDS)).map_err(failed)?;
         Ok((path, file))
     }
 
     /// All shard files, by name.
     ///
     /// # Errors
-    /// Where they cannot be read, are of another plan, or of a later version.
+    /// Where they cannot be read, or are of another plan, another measured file or another version.
     pub fn files(&self) -> Result<Vec<ShardFile>, SweepError> {
         let shards = self.path.join(SHARDS);
-        let failed = |path: &Path, reason: io::Error| SweepError::Folder {
-            path: path.to_path_buf(),
-            reason: format!("cannot be read: {reason}"),
-        };
-        let entries = match fs::read_dir(&shards) {
+        let mut paths = match self.disk.list(&shards) {
             Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(Vec::new()),
-            entries => entries.map_err(|error| failed(&shards, error))?,
+            listed => listed.map_err(|error| SweepError::Folder {
+                path: shards,
+                reason: format!("cannot be read: {error}"),
+            })?,
         };
-        let mut paths = Vec::new();
-        for entry in entries {
-            let path = entry.map_err(|error| failed(&shards, error))?.path();
-            if path.extension().is_some_and(|ending| ending == ENDING) {
-                paths.push(path);
-            }
-        }
+        paths.retain(|path| path.extension().is_some_and(|ending| ending == ENDING));
         paths.sort();
         let checksum = self.checksum();
-        let mut files = Vec::with_capacity(paths.len());
-        for path in paths {
-            let file = self.file(&path).map_err(|error| failed(&path, error))?;
-            if let Some(header) = &file.header {
-                let reason = if header.format != STORE_VERSION {
-                    format!("its format is {}; this program reads {STORE_VERSION}", header.format)
-                } else if header.plan != checksum {
-                    "this file belongs to another plan".into()
-                } else {
-                    String::new()
-                };
-                if !reason.is_empty() {
-                    return Err(SweepError::Folder { path, reason });
-                }
-            }
-            files.push(file);
-        }
-        Ok(files)
+        let file =
+            |path: PathBuf| self.file(&path, &checksum).map_err(|reason| SweepError::Folder { path, reason });
+        paths.into_iter().map(file).collect()
     }
 
-    fn file(&self, path: &Path) -> io::Result<ShardFile> {
-        let file = File::open(path)?;
-        let written = file.metadata()?.modified()?.duration_since(UNIX_EPOCH).unwrap_or_default();
+    fn file(&self, path: &Path, checksum: &str) -> Result<ShardFile, String> {
+        let failed = |error: io::Error| format!("cannot be read: {error}");
+        let file = open_regular(path).map_err(|error| error.to_string())?;
+        let written = file.metadata().and_then(|found| found.modified()).map_err(failed)?;
+        let written = written.duration_since(UNIX_EPOCH).unwrap_or_default().as_secs_f64();
         let mut line = Vec::new();
-        BufReader::new(file).take(LONGEST_LINE).read_until(b'\n', &mut line)?;
+        // Of thousands of files, only the first lines are read here.
+        let mut reader = BufReader::with_capacity(1 << 10, file);
+        reader.by_ref().take(LONGEST_LINE).read_until(b'\n', &mut line).map_err(failed)?;
         let header = line.strip_suffix(b"\n").and_then(unseal);
-        let header = header.and_then(|payload| serde_json::from_str(payload).ok());
-        Ok(ShardFile { path: path.to_path_buf(), header, written: written.as_secs_f64() })
+        let header = header.map(|payload| self.header(payload, checksum)).transpose()?;
+        Ok(ShardFile { path: path.to_path_buf(), header, written })
+    }
+
+    /// A whole header, which no crash has made: what is wrong with it was written so.
+    fn header(&self, payload: &str, checksum: &str) -> Result<Header, String> {
+        let unknown = |error: serde_json::Error| {
+            format!(
+                "its first line is no header of a shard file ({error}); remove the file or bring back another"
+            )
+        };
+        let AnyHeader { format } = serde_json::from_str(payload).map_err(unknown)?;
+        if format != STORE_VERSION {
+            return Err(format!("its format is {format}; this program reads {STORE_VERSION}"));
+        }
+        let header: Header = serde_json::from_str(payload).map_err(unknown)?;
+        if header.measured_sha256 != self.plan.measured_sha256 {
+            let [found, expected] = [&header.measured_sha256, &self.plan.measured_sha256]
+                .map(|hash| hash.as_deref().unwrap_or("none"));
+            return Err(format!(
+                "this file was computed from another measured file: its SHA-256 is {found}, the plan has {expected}"
+            ));
+        }
+        if header.plan != checksum {
+            return Err("this file belongs to another plan".into());
+        }
+        Ok(header)
     }
 
     /// Calls `each` with every whole record of a file, in the order in which they were written, and gives the
-    /// number of lines that are damaged: torn, or changed since.
+    /// number of lines that are damaged: torn, changed since, or no records of this plan.
     pub(super) fn records(
         &self,
         file: &ShardFile,
@@ -245,9 +284,14 @@ impl Folder {
             path: file.path.clone(),
             reason: format!("cannot be read: {error}"),
         };
-        let mut reader = BufReader::with_capacity(1 << 18, File::open(&file.path).map_err(failed)?);
+        let opened = open_regular(&file.path)
+            .map_err(|error| SweepError::Folder { path: file.path.clone(), reason: error.to_string() })?;
+        // Most of many files are small.
+        let size = opened.metadata().map_err(failed)?.len().clamp(1 << 10, 1 << 18) as usize;
+        let mut reader = BufReader::with_capacity(size, opened);
         let (mut line, mut offset, mut damaged) = (Vec::new(), 0, 0);
-        let cells = self.plan.cells();
+        let mut values = Vec::new();
+        let (cells, count) = (self.plan.cells(), self.plan.record.len());
         loop {
             line.clear();
             let read =
@@ -255,14 +299,13 @@ impl Folder {
             if read == 0 {
                 return Ok(damaged);
             }
-            let values = self.plan.record.len();
-            let found = line.strip_suffix(b"\n").and_then(unseal).and_then(|payload| {
-                let (key, _) = key_of(payload)?;
-                Some(Found { key, offset, payload, values })
+            let key = line.strip_suffix(b"\n").and_then(unseal).and_then(|payload| {
+                let (key, text) = key_of(payload)?;
+                values_into(text, count, &mut values).then_some(key)
             });
-            match found {
-                Some(found) if found.key.cell < cells && self.line_of(found.key.seed).is_some() => {
-                    each(&found)?;
+            match key {
+                Some(key) if key.cell < cells && self.line_of(key.seed).is_some() => {
+                    each(&Found { key, offset, values: &values })?;
                 }
                 // The header.
                 _ if offset == 0 => {}
@@ -283,7 +326,8 @@ impl Folder {
         Some(key.cell * self.plan.lines + self.line_of(key.seed)?)
     }
 
-    /// The records that there are.
+    /// The records that there are, and will be after a power cut: what a killed process has written without
+    /// waiting for the disk would be counted on and lost.
     pub(super) fn done(&self) -> Result<Done, SweepError> {
         let mut done = Done::none(self.plan.records_in_all());
         for file in self.files()? {
@@ -293,7 +337,13 @@ impl Folder {
                 }
                 Ok(())
             })?;
+            self.disk
+                .sync_file(&file.path)
+                .map_err(|reason| WriteError::Failed { path: file.path.clone(), reason })?;
         }
+        self.disk
+            .sync_folder(&self.path.join(SHARDS))
+            .map_err(|reason| WriteError::Failed { path: self.path.join(SHARDS), reason })?;
         Ok(done)
     }
 }
@@ -302,7 +352,7 @@ impl Folder {
 pub(super) struct Done(Vec<u64>);
 
 impl Done {
-    fn none(count: u64) -> Done {
+    pub fn none(count: u64) -> Done {
         Done(vec![0; count.div_ceil(64) as usize])
     }
 
@@ -312,6 +362,11 @@ impl Done {
         let new = self.0[word] & bit == 0;
         self.0[word] |= bit;
         new
+    }
+
+    /// Number of records.
+    pub fn count(&self) -> u64 {
+        self.0.iter().map(|word| u64::from(word.count_ones())).sum()
     }
 
     pub fn has(&self, place: u64) -> bool {
@@ -328,7 +383,8 @@ pub(super) struct Lines {
 
 impl Lines {
     pub fn open(path: &Path) -> io::Result<Lines> {
-        Ok(Lines { reader: BufReader::with_capacity(1 << 16, File::open(path)?), here: 0, line: Vec::new() })
+        let file = open_regular(path).map_err(|error| io::Error::other(error.to_string()))?;
+        Ok(Lines { reader: BufReader::with_capacity(1 << 14, file), here: 0, line: Vec::new() })
     }
 
     /// The payload of the line at an offset.
@@ -354,11 +410,31 @@ fn host() -> String {
     if name.is_empty() { "host".into() } else { name }
 }
 
+/// Why a folder that has the text `there` for a plan is none of `plan`.
+fn refusal(path: &Path, there: &str, plan: &Plan) -> SweepError {
+    let file = path.join(PLAN);
+    // Where nothing but the content of the measured file is another, that is said.
+    if let (Ok(of_folder), Some(measured)) =
+        (Plan::parse(there, PLAN, &Changes::default()), super::measured::file_of(plan))
+        && (Plan { measured_sha256: plan.measured_sha256.clone(), ..of_folder.clone() }) == *plan
+    {
+        return match (of_folder.measured_sha256, plan.measured_sha256.clone()) {
+            (Some(expected), Some(found)) => {
+                SweepError::MeasuredChanged { file: measured, found, plan: path_name(&file), expected }
+            }
+            _ => SweepError::MeasuredUnknown { folder: path.to_path_buf(), file: measured },
+        };
+    }
+    SweepError::OtherPlan { path: path.to_path_buf(), difference: difference(there, &plan.to_ron()) }
+}
+
 /// The first lines in which two plans differ.
 fn difference(there: &str, asked: &str) -> String {
     let pairs = there.lines().map(Some).chain(std::iter::repeat(None));
     let asked = asked.lines().map(Some).chain(std::iter::repeat(None));
     let first = pairs.zip(asked).take_while(|pair| *pair != (None, None)).find(|(a, b)| a != b);
-    let shown = |line: Option<&str>| line.map_or_else(|| "nothing".into(), |line| line.trim().to_owned());
+    let shown = |line: Option<&str>| {
+        line.map_or_else(|| "nothing".into(), |line| printable(line.trim()).into_owned())
+    };
     first.map_or_else(String::new, |(a, b)| format!("there: {}\nhere:  {}", shown(a), shown(b)))
 }

@@ -81,7 +81,7 @@ fn a_force_that_is_none_or_out_of_reach_is_told() {
             .wait("force of 5 µN", |rows| stands(rows).is_some_and(|(_, f)| (f / 5e-6 - 1.0).abs() < 1e-3));
         terminal.send("F");
         answer(&mut terminal, "Go to the force: ", "-1");
-        terminal.wait_for("the contact lets go before");
+        terminal.wait_for("the contact detaches before");
         // A key takes the line away, and the body is still in hand where it stood.
         terminal.send("k");
         terminal.wait("body in hand", |rows| stands(rows).is_some());

@@ -51,10 +51,10 @@ proptest! {
     ) {
         let [length, height, stress] = [length, height, stress].map(|power| 10.0_f64.powf(power));
         let body = Body::random(seed).unwrap();
-        let Foundation { spacing, effective_modulus } = body.foundation;
+        let Foundation { spacing, effective_modulus, .. } = body.foundation;
         let scaled = Body {
             gaps: body.gaps.iter().map(|gap| height * gap).collect(),
-            foundation: Foundation { spacing: length * spacing, effective_modulus: stress * effective_modulus },
+            foundation: Foundation::endless(length * spacing, stress * effective_modulus),
             work: body.work * height * height / length * stress,
         };
         let legs = legs(&body, &shares);

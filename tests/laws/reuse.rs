@@ -55,14 +55,25 @@ proptest! {
         body in body(), legs in formed::loadings(), samples in 2_usize..40,
     ) {
         let tree = body.tree();
-        let (mut plain, mut keeping) =
-            (body.on(&tree, samples), body.on(&tree, samples).keeping_first_loading());
-        formed::do_the_same(&mut plain, &mut keeping, &legs, body.force_scale())?;
-        // Its memory, with what it kept, serves for the next body.
-        let rule = GridEdges::new(HessRule::new(body.foundation, 0.5 * body.work));
-        let other = exact::adhesive_in(keeping.into_memory(), &body.gaps, &tree, rule, body.foundation, samples);
-        let mut plain = exact::adhesive(&body.gaps, &tree, rule, body.foundation, samples);
-        formed::do_the_same(&mut plain, &mut other.keeping_first_loading(), &legs, body.force_scale())?;
+        formed::as_if_new(|| body.on(&tree, samples), &legs, body.force_scale())?;
+    }
+
+    #[test]
+    fn the_memory_of_another_body_changes_no_bit(
+        bodies in prop::collection::vec(body(), 2), legs in formed::loadings(), samples in 2_usize..40,
+    ) {
+        let [one, other] = [&bodies[0], &bodies[1]];
+        let trees = [one.tree(), other.tree()];
+        let mut before = one.on(&trees[0], samples);
+        let mut fresh = other.on(&trees[1], samples);
+        legs.iter().for_each(|leg| drop(before.advance(*leg)));
+        let rule = GridEdges::new(HessRule::new(other.foundation, other.work));
+        let memory = before.into_memory();
+        let mut again = exact::adhesive_in(memory, &other.gaps, &trees[1], rule, other.foundation, samples);
+        for leg in legs {
+            prop_assert_eq!(again.advance(leg), fresh.advance(leg));
+        }
+        prop_assert_eq!(again.work(), fresh.work());
     }
 }
 

@@ -111,9 +111,9 @@ proptest! {
         exponent in -60_i32..60,
     ) {
         let factor = 2_f64.powi(exponent);
-        let Foundation { spacing, effective_modulus } = body.foundation;
+        let Foundation { spacing, effective_modulus, .. } = body.foundation;
         let stiffer = Body {
-            foundation: Foundation { spacing, effective_modulus: factor * effective_modulus },
+            foundation: Foundation::endless(spacing, factor * effective_modulus),
             work: factor * body.work,
             ..body.clone()
         };

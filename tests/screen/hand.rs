@@ -159,7 +159,7 @@ fn a_force_out_of_reach_is_told_and_nothing_is_lost() {
         let mut driver = pressed("d");
         let before = point(&driver);
         go(&mut driver, "-1");
-        assert!(driver.status().contains("the contact lets go before"), "{}", driver.status());
+        assert!(driver.status().contains("the contact detaches before"), "{}", driver.status());
         let after = point(&driver);
         assert!(driver.model.hand.is_some() && after.springs > 0 && after.force <= before.force);
         // It can be moved as before.

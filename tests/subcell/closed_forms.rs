@@ -9,7 +9,7 @@ use std::f64::consts::PI;
 
 fn smooth(form: Option<Form>, length: f64, points: usize, modulus: f64, work: f64) -> Body {
     let line = Line::new(length, points, form.as_ref(), None, 0.0).unwrap();
-    let foundation = Foundation { spacing: line.spacing, effective_modulus: modulus };
+    let foundation = Foundation::endless(line.spacing, modulus);
     Body { gaps: line.gaps, foundation, work }
 }
 
@@ -70,7 +70,9 @@ fn power_laws_converge_with_the_square_of_the_distance() {
             // An error depends on where in its cell an edge is: the worst of some grids of about as many springs.
             let worst = |&points: &usize| {
                 let grids = (0..8).map(|k| points + 2 * (k * points / 100));
-                let worse = |one: [f64; 4], other: [f64; 4]| std::array::from_fn(|index| one[index].max(other[index]));
+                let worse = |one: [f64; 4], other: [f64; 4]| {
+                    std::array::from_fn(|index| one[index].max(other[index]))
+                };
                 grids.map(|points| errors(form, length, points)).fold([0.0; 4], worse)
             };
             let errors: Vec<_> = grids.iter().map(worst).collect();
@@ -78,7 +80,10 @@ fn power_laws_converge_with_the_square_of_the_distance() {
                 let errors: Vec<f64> = errors.iter().map(|errors| errors[index]).collect();
                 let order = observed_order(&grids, &errors);
                 let parity = if odd { "odd" } else { "even" };
-                println!("{name}, {parity} N: {what}: {:.1e} falls to {:.1e}, order {order:.2}", errors[0], errors[10]);
+                println!(
+                    "{name}, {parity} N: {what}: {:.1e} falls to {:.1e}, order {order:.2}",
+                    errors[0], errors[10]
+                );
                 assert!(order >= 1.9, "{name}, {parity} N: {what}: order {order}, errors {errors:?}");
             }
         }
@@ -145,7 +150,7 @@ fn orders_of_rough_lines(name: &str, form: Option<Form>) -> [f64; 2] {
         let shift = form.map_or(0.0, |form| form.shift(points as u64));
         let rough = Synthesizer::default().synthesize(spectrum, seed, points, shift, Vec::new()).unwrap();
         let line = Line::new(1.0, points, form.as_ref(), Some(&rough.heights), 0.01).unwrap();
-        let foundation = Foundation { spacing: line.spacing, effective_modulus: 1.0 };
+        let foundation = Foundation::endless(line.spacing, 1.0);
         let work = 1e-4 * spectrum.gradient_per_height(1.0) / (kappa * kappa);
         let body = Body { gaps: line.gaps, foundation, work };
         let history = body.history(&[Leg::ToForce(4e-3), Leg::ToSeparation], 64);
@@ -163,8 +168,11 @@ fn orders_of_rough_lines(name: &str, form: Option<Form>) -> [f64; 2] {
     for exponent in exponents {
         let found = all(1 << exponent);
         for (index, medians) in medians.iter_mut().enumerate() {
-            let mut errors: Vec<f64> =
-                found.iter().zip(&finest).map(|(found, fine)| (found[index] / fine[index] - 1.0).abs()).collect();
+            let mut errors: Vec<f64> = found
+                .iter()
+                .zip(&finest)
+                .map(|(found, fine)| (found[index] / fine[index] - 1.0).abs())
+                .collect();
             errors.sort_by(f64::total_cmp);
             let (median, most) = (errors[errors.len() / 2], errors[errors.len() - 1]);
             println!("{name}: 2^{exponent}: median {median:.1e}, most {most:.1e}");

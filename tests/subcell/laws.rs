@@ -53,9 +53,7 @@ proptest! {
         body in body(60), legs in formed::loadings(), samples in 2_usize..40,
     ) {
         let tree = body.tree();
-        let (mut plain, mut keeping) =
-            (body.on(&tree, samples), body.on(&tree, samples).keeping_first_loading());
-        formed::do_the_same(&mut plain, &mut keeping, &legs, body.force_scale())?;
+        formed::as_if_new(|| body.on(&tree, samples), &legs, body.force_scale())?;
     }
 
     #[test]
@@ -168,7 +166,7 @@ fn extreme_values_give_numbers() {
     for gaps in lines {
         for length in [1e-9, 1e-3, 1.0] {
             for work in [0.0, 1e-30, 1e-3, 1e30] {
-                let foundation = Foundation { spacing: length, effective_modulus: 1e6 };
+                let foundation = Foundation::endless(length, 1e6);
                 let gaps: Vec<f64> = gaps.iter().map(|gap| gap * length.min(1.0)).collect();
                 let body = Body { gaps, foundation, work };
                 let tree = body.tree();

@@ -3,9 +3,9 @@
 use super::{SPECTRUM, WORK, ensure, rough};
 use crate::check::catalogue::{Case, Family, Scope};
 use crate::check::{Body, Extended, Fault, LENGTH, MODULUS, RMS_HEIGHT, end, follow, force_error};
-use crate::scene::{Edges, Leg};
+use crate::scene::{Edges, Form, Leg};
 use crate::surface::{Line, MeasuredProfile, SelfAffine, UnitRoughness, phases};
-use std::f64::consts::PI;
+use std::f64::consts::{PI, TAU};
 use std::fmt::Write;
 
 /// What heights on a large offset are on, in units of their rms height.
@@ -141,6 +141,27 @@ pub const CASES: &[Case] = &[
                 ],
             )
         },
+    },
+    Case {
+        name: "near-ties",
+        family: Family::Lines,
+        holds: "On tents and plateaus whose gaps differ by roundings, without adhesion and with, pressed up to a \
+                hundred times their depth, contact and forces are those of the rules.",
+        error_of: "force and loss",
+        scope: Scope::BothEdges(1e-15, 1e-15),
+        large: false,
+        measure: near_ties,
+    },
+    Case {
+        name: "load-far-beyond-roughness",
+        family: Family::Lines,
+        holds: "Pressed by 1 to 1e30 times their depth, to an indentation or to a force, without adhesion and with, \
+                rough and smooth bodies are in contact over a length that only grows, up to the whole line, and \
+                carry the force of all springs.",
+        error_of: "force over what a rounding of the indentation is worth",
+        scope: Scope::BothEdges(4.0, 4.0),
+        large: false,
+        measure: far_beyond_roughness,
     },
     Case {
         name: "height-offset-1e9",
@@ -293,6 +314,76 @@ fn shapes(edges: Edges, shapes: &[fn(usize, usize) -> f64]) -> Result<f64, Fault
         }
     }
     Ok(worst)
+}
+
+fn near_ties(edges: Edges) -> Result<f64, Fault> {
+    let mut worst = 0.0_f64;
+    let mut noise = phases(9, 1).map(|phase| phase / TAU - 0.5);
+    for points in [6, 7, 64, 1000] {
+        let tent = |index: usize| -(index as f64 + 0.5 - points as f64 / 2.0).abs();
+        let plateau = |index: usize| (index * 8 / points % 2) as f64;
+        for shape in [&tent as &dyn Fn(usize) -> f64, &plateau] {
+            let heights: Vec<f64> = (0..points).map(shape).collect();
+            let largest = heights.iter().fold(0.0, |most: f64, height| most.max(height.abs()));
+            // A few units in the last place of the largest height, and far less for those near zero.
+            let mut jitter = |height: f64| {
+                let height = height * (RMS_HEIGHT / largest);
+                height + (height + 1e-6 * RMS_HEIGHT) * f64::EPSILON * 4.0 * noise.next().unwrap_or(0.0)
+            };
+            let heights: Vec<f64> = heights.iter().map(|&height| jitter(height)).collect();
+            for work in [0.0, 0.01 * WORK, WORK] {
+                let body = Body::below(heights.clone(), LENGTH, MODULUS, work);
+                let pressed = [1.0, 2.0, 10.0, 100.0].map(|share| Leg::ToIndentation(share * body.deepest()));
+                let legs = [pressed.to_vec(), body.tour()].concat();
+                worst = worst.max(follow(&body, edges, &legs)?.error());
+            }
+        }
+    }
+    Ok(worst)
+}
+
+fn far_beyond_roughness(edges: Edges) -> Result<f64, Fault> {
+    let sphere = Line::new(LENGTH, 257, Some(&Form::Paraboloid { radius: 1.0e-4 }), None, 0.0)?;
+    let mut worst = 0.0_f64;
+    for work in [0.0, WORK] {
+        let smooth = Body { gaps: sphere.gaps.clone(), ..rough(257, work)? };
+        for body in [rough(257, work)?, smooth] {
+            for power in 0..=30 {
+                worst = worst.max(pressed_far(&body, edges, 10.0_f64.powi(power) * body.deepest())?);
+            }
+        }
+    }
+    Ok(worst)
+}
+
+/// Presses a body to an indentation, back, and by the force found there; the error of the force over that of one
+/// rounding of the indentation for all springs.
+fn pressed_far(body: &Body, edges: Edges, indentation: f64) -> Result<f64, Fault> {
+    // Between springs as well: half a cell at each end makes the integral over straight cells this sum.
+    let whole = Extended::sum(body.gaps.iter().map(|&gap| indentation - gap)).rounded();
+    let stiffness = body.foundation.spring_stiffness();
+    let most = LENGTH * (1.0 + 2.0 * f64::EPSILON);
+    body.with(edges, 17, |solver| {
+        let pressed = solver.advance(Leg::ToIndentation(indentation))?;
+        let back = solver.advance(Leg::ToIndentation(0.5 * body.deepest()))?;
+        let force = end(&pressed).force;
+        let again = solver.advance(Leg::ToForce(force))?;
+        for record in [&pressed, &back, &again] {
+            let mut points: Vec<_> = record.curve.clone();
+            points.sort_by(|a, b| a.indentation.total_cmp(&b.indentation));
+            let grows = points.windows(2).all(|pair| pair[0].contact_length <= pair[1].contact_length);
+            let inside = points.iter().all(|point| (0.0..=most).contains(&point.contact_length));
+            ensure(grows && inside, || format!("contact lengths at {indentation:e} m: {points:?}"))?;
+        }
+        let full = end(&pressed).contact_length;
+        ensure((full / LENGTH - 1.0).abs() <= 2.0 * f64::EPSILON, || {
+            format!("{full:e} m at {indentation:e} m")
+        })?;
+        let place = indentation - indentation.next_down();
+        let unit = stiffness * body.gaps.len() as f64 * place + f64::EPSILON * force;
+        let errors = [force - stiffness * whole, end(&again).force - force];
+        Ok(errors.into_iter().fold(0.0, |worst: f64, error| worst.max(error.abs() / unit)))
+    })
 }
 
 fn offset() -> Result<f64, Fault> {

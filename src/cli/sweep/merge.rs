@@ -2,6 +2,7 @@
 
 use crate::cli::CliError;
 use crate::sweep::{Folder, Merged, PARQUET, RESULTS, SIDECAR, SUMMARY, merge as merge_records};
+use crate::text::path_name;
 use clap::Args;
 use std::io::Write;
 use std::path::PathBuf;
@@ -13,7 +14,7 @@ Examples:
 
 results.csv has one row for each cell and line, summary.csv one for each cell: mean, standard
 deviation and 95 % confidence interval of the mean over the lines. results.json says what the
-columns mean. SI units.";
+columns mean. SI units. All three are links to the folder of the last merge, and change at once.";
 
 /// Arguments of `sweep merge`.
 #[derive(Args, Debug)]
@@ -50,7 +51,7 @@ pub(super) fn merge(arguments: &MergeArguments, stdout: &mut dyn Write) -> Resul
 
 pub(super) fn tell_merged(folder: &Folder, merged: &Merged, stdout: &mut dyn Write) -> Result<(), CliError> {
     let Merged { records, total, duplicates, damaged, missing_cells, .. } = merged;
-    let path = folder.path().display();
+    let path = path_name(folder.path());
     writeln!(stdout, "{records} of {total} records in {path}: {RESULTS}, {SUMMARY}, {SIDECAR}")?;
     for (count, what) in [
         (duplicates, "records were computed twice, with the same bits"),

@@ -3,8 +3,9 @@
 use super::run::size;
 use crate::cli::{CliError, Overrides};
 use crate::export::write_new;
-use crate::sweep::slurm::{Submission, array_size, word};
+use crate::sweep::slurm::{SlurmError, Submission, array_size, ignored_variables, sbatch_options, word};
 use crate::sweep::{Changes, Folder, Plan, SweepError};
+use crate::text::{path_name, printable, printable_lines};
 use clap::Args;
 use std::ffi::OsString;
 use std::fs;
@@ -59,6 +60,8 @@ pub struct SubmitArguments {
     #[command(flatten)]
     pub overrides: Overrides,
     /// Options of sbatch for both jobs, after --
+    ///
+    /// Whole names or letters: --partition=short, -t 2:00:00. SBATCH_… variables are left out.
     #[arg(last = true, value_name = "SBATCH OPTIONS")]
     pub options: Vec<OsString>,
 }
@@ -76,9 +79,18 @@ pub(super) fn submit(arguments: &SubmitArguments, stdout: &mut dyn Write) -> Res
         at_once: arguments.at_once,
         retries: arguments.retries,
         arguments: memory.into_iter().flatten().collect(),
-        options: arguments.options.clone(),
+        options: sbatch_options(&arguments.options).map_err(SlurmError::from)?,
     };
     submission.check(array_size())?;
+    let ignored = ignored_variables();
+    if !ignored.is_empty() {
+        let names = ignored.join(", ");
+        let _ = writeln!(
+            io::stderr(),
+            "not passed on to sbatch: {}; options for both jobs stand after --",
+            printable(&names)
+        );
+    }
     if arguments.dry_run {
         return Ok(tell(&submission, stdout)?);
     }
@@ -94,9 +106,9 @@ pub(super) fn submit(arguments: &SubmitArguments, stdout: &mut dyn Write) -> Res
     }
     let jobs = submission.submit()?;
     // What sbatch warns of is no result.
-    let _ = write!(io::stderr(), "{}", jobs.notes);
+    let _ = write!(io::stderr(), "{}", printable_lines(&jobs.notes));
     let (array, merge) = (&jobs.array, &jobs.merge);
-    let path = folder.path().display();
+    let path = path_name(folder.path());
     let tasks = if arguments.shards == 1 { "1 task".into() } else { format!("{} tasks", arguments.shards) };
     writeln!(stdout, "job {array}: {tasks}; job {merge}: the merge after them")?;
     writeln!(

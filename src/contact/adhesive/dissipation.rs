@@ -66,13 +66,35 @@ impl<E: EdgeModel> Ground<'_, E> {
     pub fn squared_stretch(&self, runs: &[Run], range: Range) -> f64 {
         let (mut thirds, mut sliding) = (CompensatedSum::default(), CompensatedSum::default());
         let slide = |lower: (&Span, f64), upper: (&Span, f64)| {
-            sliding.add(self.edges.squared_stretch_sliding(self.gaps, lower, upper, range.unloading));
+            sliding.add(self.edges.squared_stretch_sliding(self.gaps, lower, upper));
         };
         self.each_change(runs, range, slide, |AtOnce { at, between }| {
             thirds.add(self.edges.squared_stretch(self.gaps, between, at));
         });
         sliding.add(thirds.total() / 3.0);
+        if !E::SLIDES {
+            self.each_spring_of_chains(runs, range.unloading, |spring, at| {
+                if at > range.low && at <= range.high {
+                    let stretch = self.gaps[spring] - at;
+                    sliding.add(stretch * stretch);
+                }
+            });
+        }
         sliding.total()
+    }
+
+    /// Calls `see` with each spring that attaches (or detaches) while a run passes from span to span, and its
+    /// indentation, m.
+    fn each_spring_of_chains(&self, runs: &[Run], unloading: bool, mut see: impl FnMut(usize, f64)) {
+        for run in runs {
+            let mut below: Option<Span> = None;
+            self.each_span(run, unloading, |span, from, _| {
+                if let Some(below) = below.replace(*span) {
+                    see(if span.last > below.last { span.last } else { span.first }, from);
+                }
+                false
+            });
+        }
     }
 
     /// Calls `slide` with the spans and levels between which each run slides on a range, and `jump` with each stretch
@@ -135,19 +157,11 @@ impl<E: EdgeModel> Ground<'_, E> {
                 out[start..end.max(start)].fill(at);
             },
         );
-        for run in runs {
-            let mut below: Option<Span> = None;
-            self.each_span(run, unloading, |span, from, _| {
-                if let Some(below) = below.replace(*span) {
-                    out[if span.last > below.last { span.last } else { span.first }] = from;
-                }
-                false
-            });
-        }
+        self.each_spring_of_chains(runs, unloading, |spring, at| out[spring] = at);
     }
 
     /// Level of the edges of a span at an indentation, m, up to which its run goes.
-    fn level_up_to(&self, span: &Span, indentation: f64, unloading: bool) -> f64 {
+    pub fn level_up_to(&self, span: &Span, indentation: f64, unloading: bool) -> f64 {
         let length = self.edges.length(self.gaps, span);
         match span.wall(self.gaps).map(|wall| self.gaps[wall]) {
             // Where it takes in its wall it has reached it, also after rounding.

@@ -65,14 +65,8 @@ pub trait EdgeModel: Copy + Send + Sync {
     fn squared_stretch(&self, gaps: &[f64], between: (Boundary, Boundary), at: f64) -> f64;
 
     /// ∫ (c − θ)² dx over what attaches (or detaches) while the edges slide between two spans and levels, each place
-    /// at its own indentation θ, in cells times m².
-    fn squared_stretch_sliding(
-        &self,
-        gaps: &[f64],
-        lower: (&Span, f64),
-        upper: (&Span, f64),
-        unloading: bool,
-    ) -> f64;
+    /// at its own indentation θ, in cells times m²; nothing where springs attach one by one.
+    fn squared_stretch_sliding(&self, gaps: &[f64], lower: (&Span, f64), upper: (&Span, f64)) -> f64;
 }
 
 /// What the two cells at the edges of a fragment add to what it holds whole, at one indentation.

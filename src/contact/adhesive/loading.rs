@@ -67,6 +67,11 @@ impl Closing {
         self.ready = false;
     }
 
+    /// Whether the nodes have been closed under the present rule.
+    pub fn is_ready(&self) -> bool {
+        self.ready
+    }
+
     /// Closes all nodes on a loading from separation. Returns the evaluations of the rule.
     pub fn close<E: EdgeModel>(&mut self, ground: &Ground<'_, E>) -> Result<u64, ContactError> {
         while let Some((node, closes)) = self.replaced.pop() {

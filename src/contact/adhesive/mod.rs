@@ -17,12 +17,15 @@ mod sub_cell_edges;
 mod tree;
 mod unloading;
 
+pub(in crate::contact) use dissipation::{AtOnce, Boundary, Edge};
 pub use edge_model::{EdgeCells, EdgeModel};
 pub use grid_edges::GridEdges;
-pub(in crate::contact) use run::Run;
+pub(in crate::contact) use run::{Ground, Held, Run};
 pub(in crate::contact) use search::{bisect, crossing, last_before};
+pub(in crate::contact) use span::Span;
 pub use sub_cell_edges::SubCellEdges;
 pub use tree::ContactTree;
+pub(in crate::contact) use tree::{Branch, Node};
 
 use super::exact::Exact;
 use super::grid::Grid;
@@ -31,7 +34,6 @@ use super::{ContactError, LegContact, Work};
 use curve::Sampled;
 use dissipation::Range;
 use loading::Closing;
-use run::{Ground, Held};
 use search::Search;
 use unloading::Opening;
 
@@ -141,7 +143,8 @@ impl<E: EdgeModel> Contact for Adhesive<'_, E> {
             self.hold(from);
         }
         let AdhesiveMemory { closing, runs, spare, held, .. } = &mut self.memory;
-        work.loading_passes += 1;
+        // A contact that forms again closes as it did the first time.
+        work.loading_passes += u64::from(from.is_some() || !closing.is_ready());
         work.hess_evaluations += closing.close_around(&self.ground, held)?;
         let complete = closing.list(&self.ground, held, spare, &mut work.hess_evaluations)?;
         std::mem::swap(runs, spare);

@@ -300,13 +300,7 @@ impl EdgeModel for SubCellEdges {
         }
     }
 
-    fn squared_stretch_sliding(
-        &self,
-        gaps: &[f64],
-        lower: (&Span, f64),
-        upper: (&Span, f64),
-        _: bool,
-    ) -> f64 {
+    fn squared_stretch_sliding(&self, gaps: &[f64], lower: (&Span, f64), upper: (&Span, f64)) -> f64 {
         // Twice the stretch of an edge times the change of the length, as the stretch is s √ℓ.
         let ([cells0, share0], [cells1, share1]) = (length_at(gaps, lower), length_at(gaps, upper));
         // Whole cells and shares apart: as lengths they would lose digits.

@@ -137,35 +137,35 @@ impl ContactTree {
     }
 
     #[inline]
-    pub(super) fn nodes(&self) -> &[Node] {
+    pub(in crate::contact) fn nodes(&self) -> &[Node] {
         &self.nodes
     }
 
     #[inline]
-    pub(super) fn turns(&self) -> &[u32] {
+    pub(in crate::contact) fn turns(&self) -> &[u32] {
         &self.turns
     }
 
     /// The branch that grows until it fills the line.
-    pub(super) fn root(&self) -> Branch {
+    pub(in crate::contact) fn root(&self) -> Branch {
         self.nodes.len().checked_sub(1).map_or(Branch::leaf(0), Branch::node)
     }
 
     /// Spring of the local minimum of this number.
     #[inline]
-    pub(super) fn minimum(&self, rank: usize) -> usize {
+    pub(in crate::contact) fn minimum(&self, rank: usize) -> usize {
         self.turns[2 * rank] as usize
     }
 
     /// Spring of a node.
     #[inline]
-    pub(super) fn maximum(&self, node: &Node) -> usize {
+    pub(in crate::contact) fn maximum(&self, node: &Node) -> usize {
         self.turns[2 * node.rank as usize + 1] as usize
     }
 
     /// Left and right branch that merge at a node.
     #[inline]
-    pub(super) fn parts(&self, index: usize) -> [Branch; 2] {
+    pub(in crate::contact) fn parts(&self, index: usize) -> [Branch; 2] {
         let node = &self.nodes[index];
         let (rank, right) = (node.rank as usize, node.right as usize);
         let left = node.size as usize - 1 - right;

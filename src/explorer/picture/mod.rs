@@ -16,6 +16,7 @@ pub use cast::Cast;
 pub use svg::{Palette, svg};
 pub use text::text;
 
+use crate::text::is_control;
 use ratatui::buffer::{Buffer, Cell, CellDiffOption, CellWidth};
 
 /// A symbol on the screen, with the cells it covers.
@@ -33,7 +34,7 @@ impl<'a> Glyph<'a> {
     /// What is seen of it: a blank in place of marks without a width and of control characters.
     fn symbol(&self) -> &'a str {
         let symbol = self.cell.symbol();
-        if symbol.contains(char::is_control) || symbol.cell_width() == 0 { " " } else { symbol }
+        if symbol.contains(is_control) || symbol.cell_width() == 0 { " " } else { symbol }
     }
 
     /// Its only character; `None` when there are several.
@@ -64,7 +65,7 @@ fn width_of(cell: &Cell) -> u16 {
     match cell.diff_option {
         CellDiffOption::ForcedWidth(width) => width.get(),
         // ratatui measures no control characters.
-        _ if cell.symbol().contains(char::is_control) => 1,
+        _ if cell.symbol().contains(is_control) => 1,
         _ => cell.cell_width().max(1),
     }
 }

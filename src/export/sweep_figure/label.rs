@@ -1,6 +1,7 @@
 //! Words and numbers on figures: symbols with indices, SI prefixes.
 
 use crate::sweep::figure::{FigureAxis, FigureQuantity};
+use crate::text::for_picture;
 
 /// Stand around an index in text that is to be typeset. They are no characters of any script.
 const INDEX: [char; 2] = ['\u{e000}', '\u{e001}'];
@@ -37,6 +38,11 @@ pub(super) fn symbol_before(text: &str) -> String {
         None => part.to_owned(),
     };
     text.split(", ").map(set).collect::<Vec<_>>().join(", ")
+}
+
+/// Foreign words ready to be typeset: without the characters that mark symbols, indices and exponents.
+pub(super) fn foreign(text: &str) -> String {
+    for_picture(text).replace([INDEX, EXPONENT, SYMBOL].as_flattened(), "\u{fffd}")
 }
 
 /// A power of ten ready to be typeset.

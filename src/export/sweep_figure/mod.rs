@@ -42,8 +42,8 @@ pub fn figure_svg(figure: &Figure) -> String {
     let legend = draw_legend(None, figure, (0.0, 0.0));
     let panels = figure.panels.len().max(1);
     let width = (panels as f64 * wide).max(legend + 40.0);
-    let title = wrapped(&figure.title, TITLE, width - 24.0);
-    let fixed = wrapped(&figure.fixed.join(", "), LABEL - 1.0, width - 24.0);
+    let title = wrapped(&label::foreign(&figure.title), TITLE, width - 24.0);
+    let fixed = wrapped(&label::foreign(&figure.fixed.join(", ")), LABEL - 1.0, width - 24.0);
     let letters = if panels > 1 { 22.0 } else { 6.0 };
     let top = 12.0 + title.len() as f64 * 20.0 + fixed.len() as f64 * 18.0 + letters;
     let bottom = top + PANEL.1 + AXES.1;
@@ -148,6 +148,20 @@ mod tests {
             assert_eq!(svg.matches("<tspan").count(), svg.matches("</tspan>").count());
             assert!(svg.trim_end().ends_with("</svg>"));
         }
+    }
+
+    #[test]
+    fn a_foreign_title_neither_breaks_the_picture_nor_controls_the_terminal() {
+        let mut figure = examples::phase_map();
+        figure.title = "\u{1b}]52;c;eA==\u{7}<&> \u{e000}\u{e004} \u{ffff} a\u{202e}b \u{9b}2J".into();
+        let svg = figure_svg(&figure);
+        let allowed =
+            |c: char| c == '\n' || !(crate::text::is_control(c) || ('\u{e000}'..='\u{f8ff}').contains(&c));
+        assert!(svg.chars().all(|c| allowed(c) && c != '\u{ffff}'), "{svg}");
+        assert_eq!(svg.matches("<tspan").count(), svg.matches("</tspan>").count());
+        assert!(svg.contains("]52;c;eA==") && svg.contains("&lt;&amp;&gt;"), "{svg}");
+        let text = figure_text(&figure, 80, Colours::None);
+        assert!(text.chars().all(|c| c == '\n' || !crate::text::is_control(c)), "{text}");
     }
 
     #[test]

@@ -3,6 +3,7 @@
 use super::label::{plain, short};
 use super::{text_map, text_section};
 use crate::sweep::figure::Figure;
+use crate::text::printable;
 use plotters::prelude::RGBColor;
 
 /// Narrowest text, columns.
@@ -26,8 +27,8 @@ pub enum Colours {
 pub fn figure_text(figure: &Figure, columns: usize, colours: Colours) -> String {
     let columns = columns.clamp(NARROWEST, WIDEST);
     let mut text = String::new();
-    for line in [figure.title.clone(), figure.fixed.join(", ")] {
-        push_words(&mut text, &line, columns);
+    for line in [&figure.title, &figure.fixed.join(", ")] {
+        push_words(&mut text, &printable(line), columns);
     }
     for panel in &figure.panels {
         if !text.is_empty() {

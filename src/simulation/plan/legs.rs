@@ -61,9 +61,9 @@ impl Legs {
         (self.unclear == 0).then_some(self.loading)
     }
 
-    /// Whether the contact is formed more than once, which each time goes as it did the first time.
-    pub fn comes_down_again(self) -> bool {
-        self.from_separation > 1
+    /// Passes over the tree for loading legs, where that is clear: a contact that forms again needs none.
+    pub fn loading_passes(self) -> Option<u64> {
+        self.loading().map(|loading| loading - self.from_separation.saturating_sub(1))
     }
 
     /// Unloading legs, where that is clear for all.

@@ -10,5 +10,5 @@ pub const ROW: Row = Row {
         let reason = if call.adhesive { STEPWISE } else { NO_ADHESION };
         Called::when(call.exact && call.adhesive, "adhesion with the exact solver", reason)
     },
-    cost: |call| call.passes(call.legs.loading(), PASSED),
+    cost: |call| call.passes(call.legs.loading_passes(), PASSED),
 };

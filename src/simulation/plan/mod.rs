@@ -22,7 +22,6 @@ use call::{Call, Called, HEIGHT, Row};
 use serde::Serialize;
 
 pub use call::StageCost;
-pub(super) use legs::Legs;
 
 /// Resident bytes of the program that has computed a small scene: code, tables and stacks.
 const PROGRAM: u64 = 14 << 20;

@@ -1,8 +1,7 @@
-//! The body in hand and the body moved leg by leg stand in the same place.
+//! Manual loading and loading leg by leg find the same contact.
 
 use super::*;
-use asperity::contact::subcell::SubCellHand;
-use asperity::contact::{HandError, HandHeld};
+use asperity::contact::{Manual, ManualError, ManualLoading};
 
 /// Where a move goes; forces in units of those that act.
 #[derive(Clone, Copy, Debug)]
@@ -25,53 +24,53 @@ proptest! {
     #![proptest_config(cases(1500))]
 
     #[test]
-    fn the_hand_goes_as_the_legs_do(body in body(120), goals in goals()) {
-        let (sets, tree) = (body.sets(), body.tree());
+    fn manual_loading_goes_as_the_legs_do(body in body(120), goals in goals()) {
+        let tree = Arc::new(body.tree());
         let mut legs = body.on(&tree, 2);
-        let mut hand: Box<dyn HandHeld + Send> =
-            Box::new(SubCellHand::new(Arc::clone(&sets), body.hess(), body.foundation).unwrap());
+        let mut manual = Manual::new(&body.gaps, Arc::clone(&tree), body.edges(), body.foundation).unwrap();
         let scale = body.gaps.len() as f64 * body.foundation.spring_stiffness();
         let depth = 1.3 + body.largest_stretch();
         for goal in goals {
             let (leg, moved) = match goal {
-                Goal::Indentation(to) => (Leg::ToIndentation(to), hand.move_to_indentation(to)),
+                Goal::Indentation(to) => (Leg::ToIndentation(to), manual.move_to_indentation(to)),
                 Goal::Force(force) => {
                     let force = force * body.force_scale();
-                    (Leg::ToForce(force), hand.move_to_force(force))
+                    (Leg::ToForce(force), manual.move_to_force(force))
                 }
-                Goal::Separation => (Leg::ToSeparation, Ok(hand.separate())),
+                Goal::Separation => (Leg::ToSeparation, Ok(manual.separate())),
             };
             let record = match (legs.advance(leg), moved.clone()) {
                 (Ok(record), Ok(moved)) => {
-                    prop_assert_eq!((record.joins, record.leaves), (moved.joins, moved.leaves), "{:?}", leg);
+                    prop_assert_eq!((record.joins, record.leaves), (moved.attaches, moved.detaches), "{:?}", leg);
                     let lost = (record.dissipated_energy, moved.dissipated_energy);
                     let slack = 1e-12 * scale * depth * depth;
                     prop_assert!((lost.0 - lost.1).abs() <= slack, "{:?}: lost {:?}", leg, lost);
                     record
                 }
-                (Err(ContactError::LetsGoBefore { smallest: a, .. }), Err(HandError::LetsGoBefore { smallest: b, .. })) => {
+                (Err(ContactError::LetsGoBefore { smallest: a, .. }), Err(ManualError::DetachesBefore { smallest: b, .. })) => {
                     prop_assert!((a - b).abs() <= 1e-12 * scale * depth, "{:?}: {} {}", leg, a, b);
                     continue;
                 }
-                (Err(ContactError::NothingToPull { .. }), Err(HandError::NothingToPull { .. })) => continue,
+                (Err(ContactError::NothingToPull { .. }), Err(ManualError::NothingToPull { .. })) => continue,
                 other => panic!("{leg:?}: {other:?}"),
             };
-            let (there, here) = (end(&record), hand.point());
+            let (there, here) = (end(&record), manual.point());
             prop_assert!((there.indentation - here.indentation).abs() <= 1e-12 * depth, "{leg:?}: {there:?} {here:?}");
             if there.indentation == here.indentation {
                 prop_assert_eq!((there.springs, there.fragments), (here.springs, here.fragments));
                 prop_assert!((there.force - here.force).abs() <= 1e-13 * scale * depth, "{leg:?}: {there:?} {here:?}");
                 if there.springs > 0 {
-                    let contacts: Vec<_> = hand.fragments().collect();
+                    let contacts: Vec<_> = manual.fragments().collect();
                     prop_assert_eq!(&contacts, &legs.fragments(here.indentation));
-                    let (sets, at) = (Arc::clone(&sets), here.indentation);
-                    let taken = SubCellHand::standing(sets, body.hess(), body.foundation, at, &contacts);
+                    let (tree, at) = (Arc::clone(&tree), here.indentation);
+                    let taken =
+                        Manual::in_contact(&body.gaps, tree, body.edges(), body.foundation, at, &contacts);
                     prop_assert_eq!(taken.unwrap().point(), here);
                 }
             } else {
                 // Rounding of a crossing: both go on from the same place.
-                hand.move_to_indentation(there.indentation).unwrap();
-                prop_assume!(hand.point().springs == there.springs);
+                manual.move_to_indentation(there.indentation).unwrap();
+                prop_assume!(manual.point().springs == there.springs);
             }
         }
     }

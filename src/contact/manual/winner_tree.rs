@@ -1,22 +1,22 @@
 //! A queue of slots by key in which any slot can be given another key.
 
-use super::{ContactError, reserve};
+use crate::contact::{ContactError, reserve};
 
-/// Slots 0, 1, … with a key each; the one with the smallest key is known at any time.
+/// Slots 0, 1, … with a key each, the smallest of which is known at any time.
 ///
-/// Each node of a complete binary tree over the slots knows the winner below it. Unlike in a heap a slot
-/// is found by its number, so nothing outdated ever stands in the queue and has to be thrown out later.
+/// Each node of a complete binary tree over the slots keeps the slot with the smallest key below it, the winner. Unlike
+/// in a heap a slot is found by its number, so that no outdated entry is ever kept and thrown out later.
 #[derive(Clone, Debug)]
-pub(super) struct Tournament {
+pub struct WinnerTree {
     keys: Vec<f64>,
     /// Slot with the smallest key below nodes 1 … `width` − 1; the children of node i are 2i and 2i + 1.
     winners: Vec<u32>,
-    /// Number of places in the lowest row, a power of two; slot s stands there as node `width` + s.
+    /// Number of places in the lowest row, a power of two; slot s is node `width` + s there.
     width: usize,
 }
 
-impl Tournament {
-    /// A tournament of slots with these keys; one with the key +∞ is empty.
+impl WinnerTree {
+    /// A winner tree of slots with these keys; one with the key +∞ is empty.
     ///
     /// # Errors
     /// [`ContactError::OutOfMemory`].
@@ -24,11 +24,11 @@ impl Tournament {
         let width = keys.len().next_power_of_two();
         let mut winners = reserve(width)?;
         winners.resize(width, 0);
-        let mut tournament = Tournament { keys, winners, width };
+        let mut tree = WinnerTree { keys, winners, width };
         for node in (1..width).rev() {
-            tournament.winners[node] = tournament.decide(node);
+            tree.winners[node] = tree.decide(node);
         }
-        Ok(tournament)
+        Ok(tree)
     }
 
     #[inline]
@@ -60,13 +60,13 @@ impl Tournament {
         (key < f64::INFINITY).then_some((slot as usize, key))
     }
 
-    /// Gives a slot another key. It counts only after [`Tournament::settle`].
+    /// Gives a slot another key. It counts only after [`WinnerTree::settle`].
     #[inline]
     pub fn set(&mut self, slot: usize, key: f64) {
         self.keys[slot] = key;
     }
 
-    /// Decides anew above the slots `first ..= last`. Returns the number of nodes looked at: at most
+    /// Updates the winners above the slots `first ..= last`. Returns the number of nodes looked at: at most
     /// about twice the number of slots and two for each row.
     pub fn settle(&mut self, first: usize, last: usize) -> u64 {
         let (mut low, mut high) = (self.width + first, self.width + last);
@@ -94,7 +94,7 @@ impl Tournament {
             return None;
         }
         let mut node = self.width + slot;
-        // Up to where something stands on the right, and down to the leftmost of it.
+        // Up to a node with an occupied slot on its right, and down to the leftmost of these.
         while !self.is_occupied(node) {
             while node % 2 == 1 {
                 node /= 2;
@@ -121,15 +121,15 @@ mod tests {
     }
 
     /// What all questions must give.
-    fn check(tournament: &Tournament, keys: &[f64]) -> Result<(), TestCaseError> {
+    fn check(tree: &WinnerTree, keys: &[f64]) -> Result<(), TestCaseError> {
         let smallest = keys.iter().copied().fold(f64::INFINITY, f64::min);
-        match tournament.first() {
+        match tree.first() {
             Some((slot, key)) => prop_assert_eq!((keys[slot], key), (smallest, smallest)),
             None => prop_assert_eq!(smallest, f64::INFINITY),
         }
         for from in 0..keys.len() + 2 {
             let expected = (from..keys.len()).find(|&slot| keys[slot] < f64::INFINITY);
-            prop_assert_eq!(tournament.occupied_from(from), expected, "from {}", from);
+            prop_assert_eq!(tree.occupied_from(from), expected, "from {}", from);
         }
         Ok(())
     }
@@ -140,8 +140,8 @@ mod tests {
             mut keys in prop::collection::vec(key(), 0..70),
             changes in prop::collection::vec((any::<prop::sample::Index>(), prop::collection::vec(key(), 1..9)), 0..20),
         ) {
-            let mut tournament = Tournament::new(keys.clone()).unwrap();
-            check(&tournament, &keys)?;
+            let mut tree = WinnerTree::new(keys.clone()).unwrap();
+            check(&tree, &keys)?;
             for (place, new) in changes {
                 if keys.is_empty() {
                     break;
@@ -150,12 +150,12 @@ mod tests {
                 let last = (first + new.len() - 1).min(keys.len() - 1);
                 for (slot, key) in (first..=last).zip(new) {
                     keys[slot] = key;
-                    tournament.set(slot, key);
+                    tree.set(slot, key);
                 }
-                let rows = tournament.width.ilog2() as usize;
-                let looked_at = tournament.settle(first, last) as usize;
+                let rows = tree.width.ilog2() as usize;
+                let looked_at = tree.settle(first, last) as usize;
                 prop_assert!(looked_at <= 2 * (last - first + 1) + 2 * rows);
-                check(&tournament, &keys)?;
+                check(&tree, &keys)?;
             }
         }
     }

@@ -1,0 +1,329 @@
+//! Manual loading: the body moved by steps of any size, either way, at the cost of what changes.
+//!
+//! Where the exact solver finds for a whole leg when each fragment grows or detaches, manual loading knows the next
+//! event alone. A move goes from event to event: a free local minimum of the gap touches, a fragment takes in its wall,
+//! with the rest of the subtree where it merges, or a fragment detaches its most stretched spring. Both use the same
+//! thresholds of the same spans, so both find the same contact, bit for bit.
+//!
+//! A move that changes k springs of N in n fragments takes O((k + 1) log N) time with whole springs, and O(n) more
+//! where edges slide between springs, as they do all the time; there a move to a force takes O(n) for each event on its
+//! way. A start takes O(N).
+
+mod dissipation;
+mod force;
+mod fragments;
+mod start;
+mod winner_tree;
+
+use super::adhesive::{ContactTree, EdgeModel};
+use super::{ContactError, CurvePoint, Direction, Foundation};
+use dissipation::Dissipation;
+use fragments::{Event, FragmentSet};
+use std::sync::Arc;
+use thiserror::Error;
+
+/// A body under manual loading, whatever its edges.
+///
+/// An error leaves the body where it was.
+pub trait ManualLoading {
+    /// Presses or pulls to this indentation, m.
+    ///
+    /// From separation a move to d ≥ 0 touches, also where it has no length.
+    ///
+    /// # Errors
+    /// [`ManualError::NotFinite`].
+    fn move_to_indentation(&mut self, indentation: f64) -> Result<Move, ManualError>;
+
+    /// Presses until the force, N, is at least this for the first time, or pulls until it is at most this, if it is
+    /// not this already.
+    ///
+    /// # Errors
+    /// [`ManualError::NotFinite`], [`ManualError::NothingToPull`], [`ManualError::DetachesBefore`],
+    /// [`ManualError::OutOfReach`].
+    fn move_to_force(&mut self, force: f64) -> Result<Move, ManualError>;
+
+    /// Pulls just until nothing touches any more.
+    fn separate(&mut self) -> Move;
+
+    /// The point of the curve at which the body is.
+    fn point(&self) -> CurvePoint;
+
+    /// First and last spring of each fragment in contact, in ascending order along the line. With n fragments of N
+    /// springs this takes O(n log(N/n)) time.
+    fn fragments(&self) -> Box<dyn Iterator<Item = (usize, usize)> + '_>;
+}
+
+/// The changes of one move.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Move {
+    /// Springs that came into contact.
+    pub attaches: u64,
+    /// Springs that detached.
+    pub detaches: u64,
+    /// Events: a spring touches alone, a fragment takes in its wall, or it detaches a spring.
+    pub events: u64,
+    /// Entries of all tables looked at or changed: a measure of the time taken, the same on every machine.
+    pub touched: u64,
+    /// Dissipated energy, J: ½ Δk Σ e² over the springs that detached with a stretch e, less the same over those that
+    /// attached.
+    pub dissipated_energy: f64,
+}
+
+/// Why a body could not be moved.
+#[derive(Clone, Debug, PartialEq, Error)]
+pub enum ManualError {
+    /// Manual loading could not begin.
+    #[error(transparent)]
+    Contact(#[from] ContactError),
+    /// A number that is no indentation or force.
+    #[error("{value} is neither an indentation nor a force: allowed are finite numbers")]
+    NotFinite {
+        /// The number.
+        value: f64,
+    },
+    /// Nothing touches that could be pulled.
+    #[error("nothing touches that could be pulled with {force:e} N; allowed: at least 0 N")]
+    NothingToPull {
+        /// Force asked for, N.
+        force: f64,
+    },
+    /// The contact detaches before this force.
+    #[error("the contact detaches before {force:e} N; allowed: at least {smallest:e} N")]
+    DetachesBefore {
+        /// Force asked for, N.
+        force: f64,
+        /// Smallest force that the contact bears when it is pulled from where it is, N.
+        smallest: f64,
+    },
+    /// The force lies beyond all indentations.
+    #[error("no finite indentation reaches {force:e} N on this foundation")]
+    OutOfReach {
+        /// Force asked for, N.
+        force: f64,
+    },
+}
+
+/// A body on its foundation under manual loading.
+///
+/// Without adhesion the rule of Hess is that of no work of adhesion: each spring attaches and detaches at its own gap.
+pub struct Manual<E> {
+    contact: FragmentSet<E>,
+    foundation: Foundation,
+    /// m
+    indentation: f64,
+}
+
+impl<E: EdgeModel> Manual<E> {
+    /// A body over springs of these gaps (m, the smallest 0) and the tree of these gaps, separated, at d = 0 just
+    /// before first touch. It copies the gaps.
+    ///
+    /// # Errors
+    /// [`ContactError::OutOfMemory`].
+    pub fn new(
+        gaps: &[f64],
+        tree: Arc<ContactTree>,
+        edges: E,
+        foundation: Foundation,
+    ) -> Result<Self, ContactError> {
+        let contact = FragmentSet::new(gaps, tree, edges, &[])?;
+        Ok(Manual { contact, foundation, indentation: 0.0 })
+    }
+
+    /// A body at `indentation`, m, in the contact given by first and last spring of each fragment, as
+    /// [`Solver::fragments`](super::Solver::fragments) and [`ManualLoading::fragments`] give it.
+    ///
+    /// Of springs that no fragment in equilibrium can be, the largest spans inside that one can be are taken. A contact
+    /// that is not in equilibrium relaxes with the next move.
+    ///
+    /// # Errors
+    /// [`ManualError::NotFinite`], [`ContactError::OutOfMemory`].
+    pub fn in_contact(
+        gaps: &[f64],
+        tree: Arc<ContactTree>,
+        edges: E,
+        foundation: Foundation,
+        indentation: f64,
+        fragments: &[(usize, usize)],
+    ) -> Result<Self, ManualError> {
+        let indentation = finite(indentation)?;
+        let contact = FragmentSet::new(gaps, tree, edges, fragments)?;
+        Ok(Manual { contact, foundation, indentation })
+    }
+
+    fn is_separated(&self) -> bool {
+        self.contact.totals().springs == 0
+    }
+
+    fn begin(&self, direction: Direction) -> Course {
+        // Without adhesion nothing is stretched.
+        let adheres = self.contact.ground().edges.stretch() > 0.0;
+        Course {
+            direction,
+            level: self.indentation,
+            springs: 0,
+            events: 0,
+            touched_before: self.contact.touched(),
+            dissipation: adheres.then(|| Dissipation::new(self.indentation)),
+        }
+    }
+
+    /// Attaches all that attaches up to this indentation.
+    fn press(&mut self, course: &mut Course, indentation: f64) {
+        while let Some(attaches) = self.contact.attaches_next().filter(|&attaches| attaches <= indentation) {
+            // A fragment can take in nothing before it has formed.
+            course.level = course.level.max(attaches);
+            let Some(event) = self.contact.attach() else { break };
+            course.count(&event);
+            if let Some(dissipation) = &mut course.dissipation {
+                dissipation.attach(self.contact.ground(), course.level, &event, self.contact.parts());
+            }
+        }
+    }
+
+    /// Detaches, one by one, the most stretched springs, as long as `detaches` says so of the indentation to which the
+    /// next one is held.
+    fn pull(&mut self, course: &mut Course, detaches: impl Fn(f64) -> bool) {
+        while let Some(holds) = self.contact.detaches_next().filter(|&holds| detaches(holds)) {
+            // A part can detach nothing before the whole has.
+            course.level = course.level.min(holds);
+            let Some(event) = self.contact.detach() else { break };
+            course.count(&event);
+            if let Some(dissipation) = &mut course.dissipation {
+                dissipation.detach(self.contact.ground(), course.level, &event, self.contact.parts());
+            }
+        }
+    }
+
+    /// Ends a move at an indentation.
+    fn end(&mut self, mut course: Course, indentation: f64) -> Move {
+        self.indentation = indentation;
+        let mut touched = self.contact.touched() - course.touched_before;
+        if let Some(dissipation) = course.dissipation.as_mut().filter(|_| E::SLIDES) {
+            for fragment in self.contact.fragments() {
+                touched += 1;
+                match course.direction {
+                    Direction::Loading => {
+                        dissipation.slide_up(self.contact.ground(), &fragment, indentation);
+                    }
+                    Direction::Unloading => {
+                        dissipation.slide_down(self.contact.ground(), &fragment, indentation);
+                    }
+                }
+            }
+        }
+        let squared_stretch = course.dissipation.map_or(0.0, Dissipation::squared_stretch);
+        let energy = 0.5 * self.foundation.spring_stiffness() * squared_stretch;
+        let Course { springs, events, .. } = course;
+        match course.direction {
+            Direction::Loading => Move {
+                attaches: springs,
+                detaches: 0,
+                events,
+                touched,
+                // Not −0 where nothing attached under a stretch.
+                dissipated_energy: 0.0 - energy,
+            },
+            Direction::Unloading => {
+                Move { attaches: 0, detaches: springs, events, touched, dissipated_energy: energy }
+            }
+        }
+    }
+
+    /// Presses until the force is at least this.
+    fn press_to_force(&mut self, force: f64) -> Result<Move, ManualError> {
+        let mut course = self.begin(Direction::Loading);
+        let wanted = force / self.foundation.spring_stiffness();
+        let to = self.press_to_compression(&mut course, wanted).ok_or(ManualError::OutOfReach { force })?;
+        Ok(self.end(course, to))
+    }
+
+    /// Pulls until the force is at most this.
+    fn pull_to_force(&mut self, force: f64) -> Result<Move, ManualError> {
+        let mut course = self.begin(Direction::Unloading);
+        let stiffness = self.foundation.spring_stiffness();
+        let to = self.pull_to_compression(&mut course, force / stiffness);
+        let to =
+            to.map_err(|smallest| ManualError::DetachesBefore { force, smallest: stiffness * smallest })?;
+        Ok(self.end(course, to))
+    }
+}
+
+impl<E: EdgeModel> ManualLoading for Manual<E> {
+    fn move_to_indentation(&mut self, indentation: f64) -> Result<Move, ManualError> {
+        let indentation = finite(indentation)?;
+        if indentation > self.indentation || (self.is_separated() && indentation >= 0.0) {
+            let mut course = self.begin(Direction::Loading);
+            self.press(&mut course, indentation);
+            Ok(self.end(course, indentation))
+        } else if indentation < self.indentation {
+            let mut course = self.begin(Direction::Unloading);
+            self.pull(&mut course, |holds| holds > indentation);
+            Ok(self.end(course, indentation))
+        } else {
+            // Another zero is no other place.
+            Ok(Move::default())
+        }
+    }
+
+    fn move_to_force(&mut self, force: f64) -> Result<Move, ManualError> {
+        let force = finite(force)?;
+        let here = self.point();
+        let separated = self.is_separated();
+        if separated && force < 0.0 {
+            return Err(ManualError::NothingToPull { force });
+        }
+        let before = self.contact.totals();
+        self.contact.keep_journal();
+        // As forces: the division by the stiffness may miss the compression the force came from.
+        let moved = if separated || force > here.force {
+            self.press_to_force(force)
+        } else if force < here.force {
+            self.pull_to_force(force)
+        } else {
+            Ok(Move::default())
+        };
+        if moved.is_err() {
+            self.contact.take_back(before);
+        }
+        self.contact.drop_journal();
+        moved
+    }
+
+    fn separate(&mut self) -> Move {
+        let mut course = self.begin(Direction::Unloading);
+        self.pull(&mut course, |_| true);
+        let end = course.level;
+        self.end(course, end)
+    }
+
+    fn point(&self) -> CurvePoint {
+        self.state_at(self.indentation).point(self.foundation)
+    }
+
+    fn fragments(&self) -> Box<dyn Iterator<Item = (usize, usize)> + '_> {
+        Box::new(self.contact.fragments().map(|fragment| (fragment.span.first, fragment.span.last)))
+    }
+}
+
+/// A move while it goes on.
+struct Course {
+    direction: Direction,
+    /// Indentation of the last event, m; it never turns back.
+    level: f64,
+    springs: u64,
+    events: u64,
+    touched_before: u64,
+    /// `None` where nothing is stretched.
+    dissipation: Option<Dissipation>,
+}
+
+impl Course {
+    fn count(&mut self, event: &Event) {
+        self.springs += event.springs;
+        self.events += 1;
+    }
+}
+
+fn finite(value: f64) -> Result<f64, ManualError> {
+    if value.is_finite() { Ok(value) } else { Err(ManualError::NotFinite { value }) }
+}

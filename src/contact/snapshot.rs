@@ -1,0 +1,124 @@
+//! Forces and lengths of given fragments at one indentation: for a view of a contact that is not solved again.
+
+use super::adhesive::{EdgeCells, EdgeModel, GridEdges, Span, SubCellEdges};
+use super::grid::CompensatedSum;
+use super::law::Standing;
+use super::tally::{GapScale, Tally};
+use super::{CurvePoint, Foundation, HessRule};
+use crate::scene::Edges;
+
+/// A line of springs, looked at one contact at a time.
+#[derive(Clone, Copy, Debug)]
+pub struct Snapshot<'a> {
+    gaps: &'a [f64],
+    scale: GapScale,
+    model: Model,
+}
+
+#[derive(Clone, Copy, Debug)]
+enum Model {
+    Grid(GridEdges),
+    SubCell(SubCellEdges),
+}
+
+/// Length, load and stretch of one fragment.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FragmentState {
+    /// Length in cells.
+    pub length: f64,
+    /// Compression ∫ (d − c) dx, in cells times metres: the force in units of the stiffness of one spring.
+    pub compression: f64,
+    /// Largest stretch Δl_max that its length allows, m, eq. (10).
+    pub largest_stretch: f64,
+    /// Stretch of its edges, or of its most stretched spring, m.
+    pub most_stretched: f64,
+}
+
+impl<'a> Snapshot<'a> {
+    /// A line of these gaps, the largest of which is `deepest`, m; `hess` is the rule of Hess, `None` without adhesion.
+    #[must_use]
+    pub fn new(gaps: &'a [f64], deepest: f64, edges: Edges, hess: Option<HessRule>) -> Self {
+        let hess = hess.unwrap_or(HessRule::NO_ADHESION);
+        let model = match edges {
+            Edges::Grid => Model::Grid(GridEdges::new(hess)),
+            Edges::SubCell => Model::SubCell(SubCellEdges::new(hess)),
+        };
+        Snapshot { gaps, scale: GapScale::for_gaps_up_to(deepest), model }
+    }
+
+    /// The point of the curve at an indentation, m, at which these fragments, given by first and last spring, are in
+    /// contact. Takes as long as there are springs in contact.
+    #[must_use]
+    pub fn point(
+        &self,
+        foundation: Foundation,
+        indentation: f64,
+        fragments: &[(usize, usize)],
+    ) -> CurvePoint {
+        let contact = match self.model {
+            Model::Grid(edges) => self.contact(edges, indentation, fragments),
+            Model::SubCell(edges) => self.contact(edges, indentation, fragments),
+        };
+        contact.point(foundation)
+    }
+
+    /// The fragment with these first and last springs at an indentation, m.
+    #[must_use]
+    pub fn fragment(&self, indentation: f64, ends: (usize, usize)) -> FragmentState {
+        match self.model {
+            Model::Grid(edges) => self.fragment_under(edges, indentation, ends),
+            Model::SubCell(edges) => self.fragment_under(edges, indentation, ends),
+        }
+    }
+
+    fn contact<E: EdgeModel>(&self, edges: E, indentation: f64, fragments: &[(usize, usize)]) -> Standing {
+        let mut totals = Tally::default();
+        let (mut length, mut compression) = (CompensatedSum::default(), CompensatedSum::default());
+        for &ends in fragments {
+            totals += self.totals(E::EDGES, ends);
+            if E::SLIDES {
+                let slider = edges.slider(self.gaps, &self.span(ends));
+                let cells = edges.edge_cells(&slider, indentation);
+                length.add(cells.length);
+                compression.add(cells.compression);
+            }
+        }
+        let cells = EdgeCells { length: length.total(), compression: compression.total() };
+        edges.standing(indentation, totals, cells, &self.scale)
+    }
+
+    fn fragment_under<E: EdgeModel>(
+        &self,
+        edges: E,
+        indentation: f64,
+        ends: (usize, usize),
+    ) -> FragmentState {
+        let Standing { length, compression, .. } = self.contact(edges, indentation, &[ends]);
+        let span = self.span(ends);
+        let level = edges.level(&span, edges.length(self.gaps, &span), indentation);
+        FragmentState {
+            length,
+            compression,
+            largest_stretch: edges.stretch() * length.sqrt(),
+            most_stretched: level - indentation,
+        }
+    }
+
+    fn span(&self, (first, last): (usize, usize)) -> Span {
+        let gap = self.gaps[first..=last].iter().copied().fold(0.0, f64::max);
+        Span { gap, first, last }
+    }
+
+    /// Whole springs or cells of a fragment.
+    fn totals(&self, edges: Edges, (first, last): (usize, usize)) -> Tally {
+        let springs = &self.gaps[first..=last];
+        let quanta = match edges {
+            Edges::Grid => springs.iter().map(|&gap| i128::from(self.scale.quanta(gap))).sum(),
+            Edges::SubCell => {
+                let cells = springs.windows(2);
+                cells.map(|cell| i128::from(self.scale.mean_quanta(cell[0], cell[1]))).sum()
+            }
+        };
+        Tally { springs: springs.len() as i64, fragments: 1, quanta }
+    }
+}

@@ -1,0 +1,234 @@
+//! Changes to files that have to outlast a crash, each step by itself.
+//!
+//! What is written reaches a disk when a file is synchronised, and the name of a file when its folder is. Between
+//! these a crash may leave old, new or torn content under old or new names. Studies and files written whole go
+//! through a [`Disk`], so that tests can let each step fail, or be the last one.
+
+use std::fmt::Debug;
+use std::fs::{self, File, OpenOptions, Permissions};
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// Where files are changed: [`SystemDisk`], or a simulated one in tests. Reading goes past it.
+pub trait Disk: Debug + Send + Sync {
+    /// Makes a folder within one that is there.
+    ///
+    /// # Errors
+    /// [`io::ErrorKind::AlreadyExists`] where the name is taken, and what the system says.
+    fn make_folder(&self, path: &Path) -> io::Result<()>;
+
+    /// Makes a file to write to.
+    ///
+    /// # Errors
+    /// [`io::ErrorKind::AlreadyExists`] where the name is taken, and what the system says.
+    fn make_file(&self, path: &Path) -> io::Result<Box<dyn DiskFile>>;
+
+    /// Makes a file in a folder that has no name yet, and goes with the process unless it is given one; `None`
+    /// where there are no such files.
+    fn make_nameless_file(&self, folder: &Path) -> Option<Box<dyn DiskFile>>;
+
+    /// Gives a file a second name.
+    ///
+    /// # Errors
+    /// [`io::ErrorKind::AlreadyExists`] where the name is taken, and what the system says.
+    fn link(&self, file: &Path, name: &Path) -> io::Result<()>;
+
+    /// Makes a symbolic link that leads to `target`.
+    ///
+    /// # Errors
+    /// [`io::ErrorKind::AlreadyExists`] where the name is taken, [`io::ErrorKind::Unsupported`] on systems
+    /// without, and what the system says.
+    fn symbolic_link(&self, target: &Path, name: &Path) -> io::Result<()>;
+
+    /// Renames a file, a link or a folder. A file or link of the new name is replaced.
+    ///
+    /// # Errors
+    /// What the system says.
+    fn rename(&self, from: &Path, to: &Path) -> io::Result<()>;
+
+    /// Removes a file or a link.
+    ///
+    /// # Errors
+    /// What the system says.
+    fn remove_file(&self, path: &Path) -> io::Result<()>;
+
+    /// Removes an empty folder.
+    ///
+    /// # Errors
+    /// What the system says.
+    fn remove_folder(&self, path: &Path) -> io::Result<()>;
+
+    /// Paths of all that is in a folder, in no order.
+    ///
+    /// # Errors
+    /// What the system says.
+    fn list(&self, folder: &Path) -> io::Result<Vec<PathBuf>>;
+
+    /// Waits until the content of a file that is there has reached the disk, whoever wrote it.
+    ///
+    /// # Errors
+    /// What the system says.
+    fn sync_file(&self, path: &Path) -> io::Result<()>;
+
+    /// Waits until the names in a folder have reached the disk.
+    ///
+    /// # Errors
+    /// What the system says.
+    fn sync_folder(&self, path: &Path) -> io::Result<()>;
+}
+
+/// A file of a [`Disk`] while it is written.
+pub trait DiskFile: Write + Send {
+    /// Waits until all that was written has reached the disk.
+    ///
+    /// # Errors
+    /// What the system says.
+    fn sync(&mut self) -> io::Result<()>;
+
+    /// Sets the permissions.
+    ///
+    /// # Errors
+    /// What the system says.
+    fn set_permissions(&mut self, permissions: Permissions) -> io::Result<()>;
+
+    /// Gives a file without a name one that no other has.
+    ///
+    /// # Errors
+    /// [`io::ErrorKind::AlreadyExists`] where the name is taken, and what the system says.
+    fn give_name(&self, path: &Path) -> io::Result<()>;
+}
+
+/// The file systems of the machine.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct SystemDisk;
+
+impl SystemDisk {
+    /// The disk, to be shared.
+    #[must_use]
+    pub fn shared() -> Arc<dyn Disk> {
+        Arc::new(SystemDisk)
+    }
+}
+
+impl DiskFile for File {
+    fn sync(&mut self) -> io::Result<()> {
+        self.sync_all()
+    }
+
+    fn set_permissions(&mut self, permissions: Permissions) -> io::Result<()> {
+        File::set_permissions(self, permissions)
+    }
+
+    #[cfg(target_os = "linux")]
+    fn give_name(&self, path: &Path) -> io::Result<()> {
+        use rustix::fs::{AtFlags, CWD, linkat};
+        Ok(linkat(CWD, of_descriptor(self), CWD, path, AtFlags::SYMLINK_FOLLOW)?)
+    }
+
+    #[cfg(not(target_os = "linux"))]
+    fn give_name(&self, _: &Path) -> io::Result<()> {
+        Err(io::ErrorKind::Unsupported.into())
+    }
+}
+
+impl Disk for SystemDisk {
+    fn make_folder(&self, path: &Path) -> io::Result<()> {
+        fs::create_dir(path)
+    }
+
+    fn make_file(&self, path: &Path) -> io::Result<Box<dyn DiskFile>> {
+        Ok(Box::new(File::create_new(path)?))
+    }
+
+    #[cfg(target_os = "linux")]
+    fn make_nameless_file(&self, folder: &Path) -> Option<Box<dyn DiskFile>> {
+        use rustix::fs::{Mode, OFlags, open};
+        let mode = Mode::from_raw_mode(0o666);
+        let file: File = open(folder, OFlags::TMPFILE | OFlags::WRONLY | OFlags::CLOEXEC, mode).ok()?.into();
+        // Without this folder it could not be given a name.
+        fs::metadata(of_descriptor(&file)).ok()?;
+        Some(Box::new(file))
+    }
+
+    #[cfg(not(target_os = "linux"))]
+    fn make_nameless_file(&self, _: &Path) -> Option<Box<dyn DiskFile>> {
+        None
+    }
+
+    fn link(&self, file: &Path, name: &Path) -> io::Result<()> {
+        fs::hard_link(file, name)
+    }
+
+    #[cfg(unix)]
+    fn symbolic_link(&self, target: &Path, name: &Path) -> io::Result<()> {
+        std::os::unix::fs::symlink(target, name)
+    }
+
+    #[cfg(not(unix))]
+    fn symbolic_link(&self, _: &Path, _: &Path) -> io::Result<()> {
+        Err(io::ErrorKind::Unsupported.into())
+    }
+
+    fn rename(&self, from: &Path, to: &Path) -> io::Result<()> {
+        fs::rename(from, to)
+    }
+
+    fn remove_file(&self, path: &Path) -> io::Result<()> {
+        fs::remove_file(path)
+    }
+
+    fn remove_folder(&self, path: &Path) -> io::Result<()> {
+        fs::remove_dir(path)
+    }
+
+    fn list(&self, folder: &Path) -> io::Result<Vec<PathBuf>> {
+        fs::read_dir(folder)?.map(|entry| Ok(entry?.path())).collect()
+    }
+
+    fn sync_file(&self, path: &Path) -> io::Result<()> {
+        // Windows asks for the right to write.
+        OpenOptions::new().read(true).write(cfg!(windows)).open(path)?.sync_all()
+    }
+
+    fn sync_folder(&self, path: &Path) -> io::Result<()> {
+        // Some systems let no folder be opened, some folders may not be read, and some file systems cannot
+        // synchronise one: there, names are as safe as the system makes them by itself.
+        let lenient = |error: io::Error| match error.kind() {
+            io::ErrorKind::PermissionDenied | io::ErrorKind::InvalidInput | io::ErrorKind::Unsupported => {
+                Ok(())
+            }
+            _ => Err(error),
+        };
+        File::open(path).and_then(|folder| folder.sync_all()).or_else(lenient)
+    }
+}
+
+#[cfg(target_os = "linux")]
+fn of_descriptor(file: &File) -> PathBuf {
+    use std::os::fd::AsRawFd;
+    PathBuf::from(format!("/proc/self/fd/{}", file.as_raw_fd()))
+}
+
+/// Makes a folder and those it is in, as far as they are not there, so that they outlast a crash.
+pub(crate) fn make_folders(disk: &dyn Disk, path: &Path) -> io::Result<()> {
+    if path.as_os_str().is_empty() || path.is_dir() {
+        return Ok(());
+    }
+    let parent = path.parent().unwrap_or(Path::new(""));
+    make_folders(disk, parent)?;
+    match disk.make_folder(path) {
+        // Another process was faster.
+        Err(error) if error.kind() == io::ErrorKind::AlreadyExists && path.is_dir() => {}
+        made => made?,
+    }
+    disk.sync_folder(folder_of(path))
+}
+
+/// The folder that a path is in.
+pub(crate) fn folder_of(path: &Path) -> &Path {
+    match path.parent() {
+        Some(folder) if folder != Path::new("") => folder,
+        _ => Path::new("."),
+    }
+}

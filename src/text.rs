@@ -1,0 +1,87 @@
+//! Foreign text on its way to a terminal, a picture or a message: titles, names of files, headers, arguments.
+//!
+//! A control character can clear a screen, write to the clipboard or make a picture no XML. A bidirectional
+//! control lets text read otherwise than it is. Either is shown by its number; all other characters stay.
+
+use std::borrow::Cow;
+use std::path::Path;
+
+/// Returns true for characters that act on what displays them: controls (C0, DEL, C1), bidirectional controls
+/// and marks, and separators of lines and paragraphs.
+pub fn is_control(c: char) -> bool {
+    let bidirectional =
+        matches!(c, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
+    c.is_control() || bidirectional || matches!(c, '\u{2028}' | '\u{2029}')
+}
+
+/// Text on one line, with its control characters escaped as in Rust: `\n`, `\u{1b}`.
+pub(crate) fn printable(text: &str) -> Cow<'_, str> {
+    escaped(text, is_control)
+}
+
+/// Text of several lines, of which only the line breaks stay as they are.
+pub(crate) fn printable_lines(text: &str) -> Cow<'_, str> {
+    escaped(text, |c| is_control(c) && c != '\n')
+}
+
+/// Text on one line of a picture: without what XML cannot hold.
+pub(crate) fn for_picture(text: &str) -> String {
+    printable(text).replace(['\u{fffe}', '\u{ffff}'], "\u{fffd}")
+}
+
+/// Name of a file or folder, on one line.
+pub(crate) fn path_name(path: &Path) -> String {
+    printable(&path.to_string_lossy()).into_owned()
+}
+
+fn escaped(text: &str, is_escaped: impl Fn(char) -> bool) -> Cow<'_, str> {
+    if !text.contains(&is_escaped) {
+        return Cow::Borrowed(text);
+    }
+    let mut shown = String::with_capacity(text.len() + 8);
+    for c in text.chars() {
+        if is_escaped(c) {
+            shown.extend(c.escape_default());
+        } else {
+            shown.push(c);
+        }
+    }
+    Cow::Owned(shown)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    #[test]
+    fn control_characters_are_shown_and_do_nothing() {
+        for (text, expected) in [
+            ("\u{1b}]52;c;eA==\u{7}", "\\u{1b}]52;c;eA==\\u{7}"),
+            ("a\u{9b}2Jb\u{7f}", "a\\u{9b}2Jb\\u{7f}"),
+            ("abc\u{202e}nor.exe", "abc\\u{202e}nor.exe"),
+            ("\u{2066}\u{200e}\u{200f}\u{61c}\u{2028}", "\\u{2066}\\u{200e}\\u{200f}\\u{61c}\\u{2028}"),
+            ("two\nlines\r", "two\\nlines\\r"),
+        ] {
+            assert_eq!(printable(text), expected);
+        }
+        assert_eq!(printable_lines("two\nlines\r\u{1b}"), "two\nlines\\r\\u{1b}");
+    }
+
+    #[test]
+    fn ordinary_text_of_any_script_stays() {
+        // A joiner is part of how Persian, Hindi and families of emoji are written.
+        for text in ["κ* = 0.6 µm", "نمونه\u{200c}ها", "क्\u{200d}ष", "👩\u{200d}🔬", "粗糙度", "שלום"]
+        {
+            assert!(matches!(printable(text), Cow::Borrowed(same) if same == text), "{text}");
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn nothing_printable_is_a_control(text in any::<String>()) {
+            prop_assert!(!printable(&text).contains(is_control));
+            prop_assert!(!printable_lines(&text).contains(|c| is_control(c) && c != '\n'));
+        }
+    }
+}

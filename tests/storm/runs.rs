@@ -1,0 +1,229 @@
+//! Scenes that are allowed, computed: a valid result, or one error that says where and what is allowed.
+
+use super::*;
+use asperity::contact::{ContactError, CurvePoint, Direction, LegRecord};
+use asperity::export::write_curve;
+use asperity::scene::{Leg, Roughness};
+use asperity::simulation::{Outcome, RunError, Simulation};
+use asperity::surface::SurfaceError;
+use profiles::{FILE, Shape};
+use std::time::{Duration, Instant};
+
+/// Scenes that are computed.
+const RUNS: u32 = 3000;
+
+/// No scene of so few springs takes so long.
+const PATIENCE: Duration = Duration::from_secs(60);
+
+/// Rounding of a sum over the springs, relative to the size of its terms.
+const ROUNDING: f64 = 1e-12;
+
+/// Computes a scene and asserts what holds for every one.
+fn compute(document: &Document, folder: &std::path::Path) -> Result<(), TestCaseError> {
+    let scene = document.scene();
+    let clock = Instant::now();
+    let stop = || clock.elapsed() > PATIENCE;
+    match Simulation::new(folder.to_path_buf()).run(scene, &stop, &mut |_, _, _| Ok(())) {
+        Ok(outcome) => {
+            assert_numbers(&outcome)?;
+            for (leg, before) in outcome.history.legs.iter().zip(ends(&outcome)) {
+                assert_leg(leg, &before, &outcome)?;
+            }
+            assert_energy(&outcome)?;
+            assert_written(&outcome)
+        }
+        Err(error) => assert_refused(&error, scene),
+    }
+}
+
+/// Where each leg begins: the body separated, then at the end of the leg before.
+fn ends(outcome: &Outcome) -> Vec<CurvePoint> {
+    let ends = outcome.history.legs.iter().filter_map(|leg| leg.curve.last().copied());
+    std::iter::once(CurvePoint::default()).chain(ends).collect()
+}
+
+/// Every number is finite, and those that count something are in order.
+fn assert_numbers(outcome: &Outcome) -> Result<(), TestCaseError> {
+    let all = format!("{outcome:?}");
+    for word in ["NaN", "inf"] {
+        prop_assert!(!all.contains(word), "{all}");
+    }
+    prop_assert_eq!(
+        outcome.history.legs.iter().map(|leg| leg.joins).sum::<u64>(),
+        outcome.history.work.joins
+    );
+    let springs = outcome.history.work.springs;
+    prop_assert!(springs >= 1 && springs <= outcome.line.points as u64);
+    if let Some(histogram) = &outcome.histogram {
+        prop_assert!(histogram.low <= histogram.high);
+    }
+    for fragments in outcome.fragments.iter().chain([&outcome.history.contacts]) {
+        prop_assert!(fragments.iter().all(|(first, last)| first <= last && *last < outcome.line.points));
+        prop_assert!(fragments.windows(2).all(|pair| pair[0].1 < pair[1].0), "{:?}", fragments);
+    }
+    Ok(())
+}
+
+/// The size of the forces that a leg adds up, N: all springs at the deepest compression and the largest gap.
+fn force_scale(leg: &LegRecord, outcome: &Outcome) -> f64 {
+    let gap = outcome.line.deepest.max(f64::MIN_POSITIVE);
+    let deepest = leg.curve.iter().map(|point| point.indentation.abs()).fold(gap, f64::max);
+    outcome.governing.effective_modulus * outcome.line.length * deepest
+}
+
+/// What holds for a leg that begins at a point.
+fn assert_leg(leg: &LegRecord, before: &CurvePoint, outcome: &Outcome) -> Result<(), TestCaseError> {
+    // L/N is rounded, and N of them may be longer than L by that.
+    let length = outcome.line.length.max(outcome.line.points as f64 * outcome.line.spacing);
+    let loading = leg.direction == Direction::Loading;
+    for point in leg.curve.iter().chain([&leg.largest, &leg.smallest]) {
+        prop_assert!((0.0..=length).contains(&point.contact_length), "{:?} on {} m", point, length);
+        prop_assert!(
+            point.springs <= outcome.line.points as u64 && point.fragments <= outcome.line.points as u64
+        );
+        if point.fragments == 0 {
+            prop_assert!(point.force == 0.0 && point.contact_length == 0.0, "{:?}", point);
+        }
+    }
+    for pair in leg.curve.windows(2) {
+        let [one, other] = if loading { [pair[0], pair[1]] } else { [pair[1], pair[0]] };
+        prop_assert!(one.indentation <= other.indentation, "{:?}", pair);
+        // More is in contact the deeper the body is pressed, on one way.
+        prop_assert!(one.springs <= other.springs, "{:?}", pair);
+        prop_assert!(one.contact_length <= other.contact_length + ROUNDING * length, "{:?}", pair);
+    }
+    let rounding = ROUNDING * force_scale(leg, outcome);
+    // Extremes are those of the contact; what is not in contact has no force.
+    for point in leg.curve.iter().filter(|point| point.fragments > 0) {
+        prop_assert!(
+            !loading || point.force <= leg.largest.force + rounding,
+            "{:?} {:?}",
+            point,
+            leg.largest
+        );
+        prop_assert!(
+            loading || point.force >= leg.smallest.force - rounding,
+            "{:?} {:?}",
+            point,
+            leg.smallest
+        );
+        if outcome.governing.adhesive_work().is_none() {
+            prop_assert!(point.force >= 0.0, "{:?} pulls without adhesion", point);
+        }
+    }
+    let Some(end) = leg.curve.last() else { return Err(TestCaseError::fail("a leg without points")) };
+    prop_assert_eq!(before.springs + leg.joins - leg.leaves, end.springs);
+    assert_target(leg, end, rounding)
+}
+
+/// A leg ends where it was to end.
+fn assert_target(leg: &LegRecord, end: &CurvePoint, rounding: f64) -> Result<(), TestCaseError> {
+    let force = |target: f64| {
+        let error = (end.force - target).abs();
+        prop_assert!(
+            error <= rounding + ROUNDING * target.abs(),
+            "{:?} ends at {:?}, {:e} off",
+            leg.leg,
+            end,
+            error
+        );
+        Ok(())
+    };
+    match leg.leg {
+        Leg::ToForce(target) => force(target)?,
+        Leg::ToZeroForce => force(0.0)?,
+        Leg::ToIndentation(target) => prop_assert_eq!(end.indentation, target),
+        Leg::ToTouch => prop_assert_eq!(end.indentation, 0.0),
+        Leg::ToSeparation => prop_assert_eq!((end.springs, end.fragments), (0, 0)),
+    }
+    Ok(())
+}
+
+/// From separation to separation energy is lost, never won; without adhesion none is lost.
+fn assert_energy(outcome: &Outcome) -> Result<(), TestCaseError> {
+    let legs = outcome.history.legs.iter().map(|leg| leg.dissipated_energy);
+    let size = legs.clone().map(f64::abs).sum::<f64>();
+    let (mut sum, mut least) = (0.0, f64::INFINITY);
+    for (energy, leg) in legs.zip(&outcome.history.legs) {
+        sum += energy;
+        if leg.curve.last().is_some_and(|point| point.springs == 0 && point.fragments == 0) {
+            least = least.min(sum);
+        }
+    }
+    // What is stretched by less than a rounding of the gaps attaches and detaches wherever rounding puts it.
+    let place = 2.0 * f64::EPSILON * outcome.line.deepest;
+    let rounded = 0.5 * outcome.governing.effective_modulus * outcome.line.length * place * place;
+    prop_assert!(least >= -ROUNDING * size - rounded, "{:e} J won of {:e}", -least, size);
+    prop_assert!(outcome.governing.adhesive_work().is_some() || size == 0.0, "{:e} J without adhesion", size);
+    Ok(())
+}
+
+/// The curve that is written reads back bit for bit.
+fn assert_written(outcome: &Outcome) -> Result<(), TestCaseError> {
+    let mut table = Vec::new();
+    write_curve(&mut table, outcome).map_err(|error| TestCaseError::fail(error.to_string()))?;
+    let table = String::from_utf8_lossy(&table);
+    let read = table.lines().skip(1).map(|row| {
+        let numbers: Vec<f64> = row.split(',').filter_map(|column| column.parse().ok()).collect();
+        numbers.iter().map(|number| number.to_bits()).collect::<Vec<_>>()
+    });
+    let legs = outcome.history.legs.iter().enumerate();
+    let points = legs.flat_map(|(index, leg)| leg.curve.iter().map(move |point| (index, point)));
+    let computed = points.map(|(index, point)| {
+        let CurvePoint { indentation, force, contact_length, fragments, springs: _ } = *point;
+        [index as f64, indentation, force, contact_length, fragments as f64].map(f64::to_bits).to_vec()
+    });
+    prop_assert!(read.eq(computed), "{}", table);
+    Ok(())
+}
+
+/// An error names a leg, a field or what is too large, and a force that is refused comes with those that are not.
+fn assert_refused(error: &RunError, scene: &Scene) -> Result<(), TestCaseError> {
+    let message = error.to_string();
+    prop_assert_eq!(message.lines().count(), 1);
+    match error {
+        RunError::Contact(
+            ContactError::NothingToPull { index, .. } | ContactError::LetsGoBefore { index, .. },
+        ) => {
+            prop_assert!(message.starts_with(&format!("loading.{index} = ")), "{}", message);
+            prop_assert!(message.contains("; allowed"), "{}", message);
+        }
+        RunError::Contact(ContactError::OutOfReach { index, leg }) => {
+            prop_assert!(message.starts_with(&format!("loading.{index} = ")), "{}", message);
+            // Without adhesion every pressing force has its indentation, unless that is beyond all numbers.
+            let presses = matches!(leg, Leg::ToForce(force) if *force > 0.0);
+            let stiffness = scene.material.effective_modulus() * scene.length;
+            let reaches = matches!(leg, Leg::ToForce(force) if (force / stiffness).is_finite());
+            prop_assert!(scene.adhesion.is_some() || !presses || !reaches, "{}", message);
+        }
+        RunError::Surface(SurfaceError::NotFinite { .. }) => {
+            prop_assert!(message.contains("form and roughness"), "{}", message);
+        }
+        RunError::Surface(SurfaceError::Measured { file, .. }) => {
+            let measured = matches!(scene.roughness, Some(Roughness::Measured { .. }));
+            prop_assert!(measured, "{}", message);
+            prop_assert!(message.contains(file.as_str()), "{}", message);
+        }
+        other => return Err(TestCaseError::fail(other.to_string())),
+    }
+    Ok(())
+}
+
+#[test]
+fn scenes_over_whole_ranges() {
+    let folder = tempfile::tempdir().unwrap();
+    let heights = (-30.0..5.0_f64).prop_map(f64::exp);
+    let scenes = (quick().documents(), profiles::shapes(), heights);
+    proptest!(draws(RUNS), |((document, shape, height) in scenes)| {
+        write_profile(&document, &shape, height, folder.path());
+        compute(&document, folder.path())?;
+    });
+}
+
+/// Writes the profile of a scene that names one: a little longer than the line.
+fn write_profile(document: &Document, shape: &Shape, height: f64, folder: &std::path::Path) {
+    if matches!(document.scene().roughness, Some(Roughness::Measured { .. })) {
+        let text = shape.text(document.scene().length * (1.0 + 1e-9), height);
+        std::fs::write(folder.join(FILE), text).unwrap();
+    }
+}

@@ -1,0 +1,154 @@
+//! Studies of a measured file: its content is part of the plan.
+
+use super::{compute, shard_files, tables};
+use asperity::sweep::{Changes, Folder, Options, Plan, Shard, SweepError, merge, run};
+use std::fs;
+use std::path::Path;
+
+const PLAN: &str = r#"(
+    version: 1,
+    scene: (
+        version: 1,
+        material: (effective_modulus: 2.0e6),
+        length: 1.0e-4,
+        roughness: Measured(file: "line.csv"),
+        adhesion: (work: 0.01),
+        loading: [ToForce(1.0e-3), ToSeparation],
+        numerics: (points: 64, edges: Grid),
+    ),
+    axes: [List(path: "numerics.points", values: [64, 128, 256]), List(path: "adhesion.work", values: [0.01, 0.1])],
+    record: [adhesion_force, preload_indentation],
+)"#;
+
+fn profile(amplitude: f64) -> String {
+    let row = |index: i32| format!("{:e} {:e}\n", f64::from(index) * 1e-6, amplitude * f64::from(index % 7));
+    (0..=110).map(row).collect()
+}
+
+/// A folder with a profile and a plan of it.
+fn place() -> (tempfile::TempDir, Plan) {
+    let place = tempfile::tempdir().unwrap();
+    fs::write(place.path().join("line.csv"), profile(1e-7)).unwrap();
+    fs::write(place.path().join("plan.ron"), PLAN).unwrap();
+    let plan = place.path().join("plan.ron");
+    let plan = Plan::open(plan.to_str().unwrap(), &Changes::default()).unwrap();
+    (place, plan)
+}
+
+fn begin(place: &Path, plan: &Plan) -> Result<Folder, SweepError> {
+    Folder::create(&place.join("study"), plan)
+}
+
+fn hash_of(path: &Path) -> String {
+    let output = std::process::Command::new("sha256sum").arg(path).output().unwrap();
+    String::from_utf8(output.stdout).unwrap()[..64].to_owned()
+}
+
+#[test]
+fn the_hash_of_the_content_is_in_plan_and_headers() {
+    let (place, plan) = place();
+    let folder = begin(place.path(), &plan).unwrap();
+    compute(&folder, 2, Shard::WHOLE);
+    merge(&folder, false).unwrap();
+    let text = fs::read_to_string(folder.path().join("plan.ron")).unwrap();
+    let header = fs::read_to_string(&shard_files(&folder)[0]).unwrap();
+    let sidecar = fs::read_to_string(folder.path().join("results.json")).unwrap();
+    let hash = hash_of(&place.path().join("line.csv"));
+    for text in [text, header.lines().next().unwrap().to_owned(), sidecar] {
+        assert!(text.contains(&hash), "{hash}: {text}");
+    }
+    // The same study is gone on with, and read back, from its own copy of the plan too.
+    begin(place.path(), &plan).unwrap();
+    let again = Plan::open(folder.path().join("plan.ron").to_str().unwrap(), &Changes::default()).unwrap();
+    assert_eq!(&again, Folder::open(folder.path()).unwrap().plan());
+    begin(place.path(), &again).unwrap();
+}
+
+#[test]
+fn a_file_that_has_changed_is_refused() {
+    let (place, plan) = place();
+    let folder = begin(place.path(), &plan).unwrap();
+    compute(&folder, 1, Shard { number: 1, count: 2 });
+    let line = place.path().join("line.csv");
+    let expected = hash_of(&line);
+    fs::write(&line, profile(2e-7)).unwrap();
+    let found = hash_of(&line);
+    let check = |error: SweepError| {
+        let said = error.to_string();
+        for part in [line.to_str().unwrap(), &expected, &found, "has changed", "study/plan.ron"] {
+            assert!(said.contains(part), "{part}: {said}");
+        }
+    };
+    check(begin(place.path(), &plan).unwrap_err());
+    // So is it where the folder was opened before.
+    let options = Options { jobs: 1, shard: Shard::WHOLE };
+    check(run(&folder, options, &|| false, &mut |_| ()).unwrap_err());
+    // Brought back, the study is gone on with.
+    fs::write(&line, profile(1e-7)).unwrap();
+    compute(&begin(place.path(), &plan).unwrap(), 1, Shard::WHOLE);
+    merge(&folder, false).unwrap();
+    // A plan that asks for other content is refused before there is a folder.
+    let other = Plan { measured_sha256: Some(found), ..plan };
+    let refused = Folder::create(&place.path().join("new"), &other).unwrap_err();
+    assert!(matches!(refused, SweepError::MeasuredChanged { .. }), "{refused}");
+    assert!(!place.path().join("new").exists());
+}
+
+#[test]
+fn a_file_that_changes_while_a_study_runs_changes_nothing() {
+    let (place, plan) = place();
+    let folder = begin(place.path(), &plan).unwrap();
+    compute(&folder, 1, Shard::WHOLE);
+    merge(&folder, false).unwrap();
+    let whole = tables(&folder);
+    let line = place.path().join("line.csv");
+    let other = Folder::create(&place.path().join("other"), &plan).unwrap();
+    // Lines of other numbers of points are sampled from the file again: after the first cell it is another one.
+    let asked = std::sync::atomic::AtomicU32::new(0);
+    let change = || {
+        if asked.fetch_add(1, std::sync::atomic::Ordering::SeqCst) == 1 {
+            fs::write(&line, profile(3e-7)).unwrap();
+        }
+        false
+    };
+    let ended = run(&other, Options { jobs: 1, shard: Shard::WHOLE }, &change, &mut |_| ()).unwrap();
+    assert!(ended.complete && asked.into_inner() > 2);
+    merge(&other, false).unwrap();
+    assert_eq!(tables(&other), whole);
+}
+
+#[test]
+fn shards_of_another_content_are_refused() {
+    let (place, plan) = place();
+    let folder = begin(place.path(), &plan).unwrap();
+    compute(&folder, 1, Shard { number: 1, count: 2 });
+    fs::write(place.path().join("line.csv"), profile(2e-7)).unwrap();
+    let other = Folder::create(&place.path().join("other"), &plan).unwrap();
+    compute(&other, 1, Shard { number: 2, count: 2 });
+    let stray = &shard_files(&other)[0];
+    fs::copy(stray, folder.path().join("shards").join(stray.file_name().unwrap())).unwrap();
+    let said = merge(&folder, true).unwrap_err().to_string();
+    assert!(said.contains("computed from another measured file") && said.contains("the plan has"), "{said}");
+}
+
+#[test]
+fn a_study_that_does_not_say_its_content_is_not_gone_on_with() {
+    let (place, plan) = place();
+    let folder = begin(place.path(), &plan).unwrap();
+    let file = folder.path().join("plan.ron");
+    let text = fs::read_to_string(&file).unwrap();
+    let old: String =
+        text.lines().filter(|line| !line.contains("sha256")).map(|line| format!("{line}\n")).collect();
+    assert_ne!(old, text);
+    fs::write(&file, old).unwrap();
+    let said = begin(place.path(), &plan).unwrap_err().to_string();
+    assert!(said.contains("does not say which content of") && said.contains("line.csv"), "{said}");
+    // Nor is a hash that is none, or of nothing.
+    let wrong = PLAN.replace("record:", "measured_sha256: \"abc\", record:");
+    let said = Plan::parse(&wrong, "p.ron", &Changes::default()).unwrap_err().to_string();
+    assert!(said.contains("measured_sha256 = \"abc\": allowed: 64 digits"), "{said}");
+    let smooth =
+        super::SMALL.replace("lines: 3", &format!("lines: 3, measured_sha256: \"{}\"", "0".repeat(64)));
+    let said = Plan::parse(&smooth, "p.ron", &Changes::default()).unwrap_err().to_string();
+    assert!(said.contains("this scene has no such file"), "{said}");
+}
