@@ -30,21 +30,21 @@ impl Scene {
 }
 
 impl Form {
-    /// Index of the spring on the axis of every form, of `points` springs: the middle one, or the first behind the
-    /// middle. Between two springs a tip would be blunt by half a cell, and all that follows from it out by as much.
+    /// Index of the spring on the axis of every form, ⌊N/2⌋ of N = `points` springs. With its axis between two springs
+    /// a form would be blunt by half a cell, an error of first order in force, indentation and energy.
     pub fn spring_on_axis(points: u64) -> u64 {
         points / 2
     }
 
-    /// Cells by which the body lies further along the foundation than with its axis at L/2, so that a spring is on the
-    /// axis: ½ for an even number of springs, else 0. It moves as a whole, roughness with its form: where one lies
-    /// over the other does not depend on the number of springs. A punch has no tip and is not moved.
+    /// Displacement of the body along the foundation, in cells, that puts its axis from L/2 onto a spring: ½ for an even
+    /// number of springs, 0 for an odd one. Form and roughness are displaced together, so that their relative position
+    /// does not depend on the number of springs. A punch has no tip and is not displaced.
     pub fn shift(&self, points: u64) -> f64 {
         if points.is_multiple_of(2) && !matches!(self, Form::Punch { .. }) { 0.5 } else { 0.0 }
     }
 
-    /// Indices of the springs under the form, of `points` springs on `length` m: all of them; under a punch as many
-    /// as make its diameter to the nearest whole cell, as near to the axis as they go. None where that is none.
+    /// Indices of the springs under the form, of `points` springs on `length` m: all of them, except under a punch.
+    /// A punch covers its diameter rounded to whole cells, centred on the axis to half a cell; below half a cell none.
     pub fn springs_under(&self, length: f64, points: u64) -> Range<u64> {
         let Form::Punch { radius } = *self else { return 0..points };
         let cells = (2.0 * radius / (length / points as f64)).round() as u64;

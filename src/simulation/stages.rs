@@ -34,7 +34,7 @@ const SMALL: u64 = 32 << 20;
 #[derive(Default)]
 pub struct Simulation {
     folder: PathBuf,
-    /// Whether there will be no other line.
+    /// Whether only one line is synthesized.
     single: bool,
     /// A measured profile in place of the files that scenes name.
     profile: Option<Arc<MeasuredProfile>>,
@@ -95,7 +95,8 @@ impl Simulation {
         Simulation { folder, ..Simulation::default() }
     }
 
-    /// The same for a single scene: the memory of the Fourier transform is given back before the contact is solved.
+    /// Frees the memory of the Fourier transform before the contact is solved: less memory for a single scene, more time
+    /// for each further line.
     #[must_use]
     pub fn for_one_scene(self) -> Self {
         Simulation { single: true, ..self }

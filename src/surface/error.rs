@@ -33,7 +33,7 @@ pub enum SurfaceError {
         "form.radius: no spring lies under the punch; allowed: at least a quarter of the spacing, {least:e} m"
     )]
     NoSprings {
-        /// Smallest radius that covers a spring to the nearest whole cell, m.
+        /// Smallest radius allowed, m: the diameter is rounded to whole cells.
         least: f64,
     },
 }

@@ -23,10 +23,9 @@ const UNEVEN: f64 = 1.0e-3;
 
 /// A profile measured along a line.
 ///
-/// Where its points are Δx apart and the first lies at x = Δx/2, as `asperity line` writes them, each point is the middle
-/// of a cell of its own: N points cover N Δx, from x = 0 on, at the height of the nearest point before the first and
-/// behind the last. Any other profile gives distances between points alone, and covers what lies between its first and
-/// its last.
+/// Points at x = Δx/2, 3Δx/2, …, as `asperity line` writes them, are middles of cells: N points cover N Δx from x = 0 on,
+/// the first and the last half cell at the height of the point next to it. Any other profile covers the distance from
+/// its first to its last point.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MeasuredProfile {
     positions: Vec<f64>,
@@ -140,9 +139,9 @@ impl MeasuredProfile {
         ((square / length).sqrt(), (gradient / length).sqrt())
     }
 
-    /// Heights, m, at x = (i + ½ − `shift`)L/N from where the profile begins, straight between measured points: where x
-    /// is that of a point, its height, bit for bit. They are as in the file, or, if all are from half to twice the first,
-    /// above the first: then their differences are exact.
+    /// Heights, m, at x = (i + ½ − `shift`)L/N from the beginning of the profile, by linear interpolation; at a measured
+    /// point its own height, bit for bit. If all heights of the profile are from half to twice the first, the first is
+    /// subtracted: the differences are then exact, and roughness on a large offset keeps its digits.
     ///
     /// # Errors
     /// When the profile is shorter than `length` m.
@@ -179,8 +178,7 @@ impl MeasuredProfile {
         Ok(heights)
     }
 
-    /// Height, m, that is taken from all others so that interpolation keeps the digits of roughness on a large offset:
-    /// that of the first point, if all differences to it are exact, else 0.
+    /// Height, m, subtracted from all others: the first one, if all differences are exact, else 0.
     fn level(&self) -> f64 {
         let first = self.heights[0];
         let (low, high) = (0.5 * first.abs(), 2.0 * first.abs());

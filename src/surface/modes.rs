@@ -6,16 +6,16 @@ use super::phases::{fraction, phase_words};
 use rand::Rng;
 use rustfft::num_complex::Complex64;
 
-/// Modes of a block. Block b holds the modes 64 b + 1 … 64 b + 64, wherever drawing begins, so no result depends on
-/// how the modes are shared out among threads.
+/// Modes of a block. Block b holds the modes 64 b + 1 … 64 b + 64, wherever drawing begins: no result depends on the
+/// number of threads.
 const BLOCK: usize = 64;
 
 /// Most terms of the series (1 + x)^p − 1 that are used. With |x| ≤ 1/64 and |p| ≤ 3/2 the first term left out is below
 /// 1e-18, and with |x| ≤ 1/1024 already after 6 terms.
 const TERMS: usize = 10;
 
-/// (sin y − y)/y³ and (cos y − 1 + y²/2)/y⁴ as polynomials in y² for |y| ≤ π/4, lowest power first. Minimax: sine and
-/// cosine are out by at most 4e-18 beside rounding.
+/// (sin y − y)/y³ and (cos y − 1 + y²/2)/y⁴ as polynomials in y² for |y| ≤ π/4, lowest power first. Minimax
+/// approximations: errors of sine and cosine at most 4e-18 beside rounding.
 const SINE: [f64; 6] = [
     -0.166_666_666_666_666_32,
     0.008_333_333_333_322_418,
@@ -213,7 +213,7 @@ mod tests {
     }
 
     #[test]
-    fn drawing_may_begin_at_any_mode() {
+    fn modes_are_the_same_wherever_drawing_begins_and_on_any_number_of_threads() {
         let spectrum = SelfAffine { hurst: 0.7, first: 1, last: 5000 };
         let modes = Modes::new(spectrum, 3, 10_000, 0.5);
         let mut all = vec![Complex64::ZERO; 5000];
@@ -222,6 +222,16 @@ mod tests {
             let amplitude = spectrum.relative_amplitude(mode) / spectrum.relative_rms();
             let expected = Complex64::from_polar(0.5 * amplitude, phase + PI * mode as f64 / 10_000.0);
             assert!((coefficient - expected).norm() <= 4e-15 * expected.norm(), "mode {mode}");
+        }
+        for threads in [1, 2, 3, 8] {
+            let mut shared = vec![Complex64::ZERO; all.len()];
+            let share = all.len().div_ceil(threads);
+            std::thread::scope(|scope| {
+                for (index, share_of_one) in shared.chunks_mut(share).enumerate() {
+                    scope.spawn(move || modes.draw((1 + index * share) as u64, share_of_one));
+                }
+            });
+            assert_eq!(shared, all, "{threads} threads");
         }
         for (first, count) in [(1, 0), (1, 1), (2, 63), (64, 1), (64, 2), (65, 64), (100, 4000), (4999, 2)] {
             let mut some = vec![Complex64::ZERO; count];

@@ -30,8 +30,8 @@ pub(super) fn phase_words(seed: u64, first: u64) -> ChaCha8Rng {
 
 /// Phase of a mode over 2π, from 0 to below 1: the upper 53 bits of its word.
 ///
-/// 52 of them are the digits of a number from 1 to 2, the last counts half a digit more. Unlike a conversion from
-/// whole numbers this takes no more than one instruction for several words on any processor.
+/// 52 bits become the digits of a number from 1 to 2, the last bit adds half a digit. Any processor does this for
+/// several words in one instruction; few convert whole numbers so.
 #[inline(always)]
 pub(super) fn fraction(word: u64) -> f64 {
     const ONE: u64 = 1.0_f64.to_bits();

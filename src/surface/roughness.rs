@@ -11,13 +11,13 @@ use std::sync::Arc;
 /// With fewer modes than these another thread takes longer to begin than it saves.
 const MANY_MODES: usize = 1 << 16;
 
-/// Longest line whose transform is kept for the next one. It takes 20 bytes for each spring, which on longer
-/// lines is dearer than the time it saves.
+/// Largest number of springs whose transform is kept for the next line. A kept transform takes 20 bytes per spring,
+/// which on longer lines is worth more than the time saved.
 const LONGEST_KEPT: usize = 1 << 22;
 
 /// Heights of a self-affine line of rms height 1, eqs. (8) and (9).
 ///
-/// They depend on spectrum, seed, number of points and where these are alone; length and rms height only scale them.
+/// Length and rms height scale them; nothing but spectrum, seed, number and position of the points enters here.
 #[derive(Clone, Debug, PartialEq)]
 pub struct UnitRoughness {
     /// Heights in units of the rms height.
@@ -42,7 +42,7 @@ impl UnitRoughness {
     }
 }
 
-/// Makes one line after the other, and keeps the planned transform with its memory for the next.
+/// Synthesizes lines one after the other, and keeps the planned transform and its memory between them.
 #[derive(Default)]
 pub struct Synthesizer {
     transform: Option<Transform>,
@@ -68,8 +68,8 @@ impl Transform {
 }
 
 impl Synthesizer {
-    /// [`UnitRoughness::synthesize`], bit for bit, with the heights in this memory, of a line that lies `shift` cells
-    /// further along the springs: heights at x = (i + ½ − `shift`)L/N.
+    /// Synthesizes the line of [`UnitRoughness::synthesize`], displaced by `shift` cells along the springs, in `memory`:
+    /// heights at x = (i + ½ − `shift`)L/N. Without displacement the heights are the same bit for bit.
     ///
     /// # Errors
     /// [`SurfaceError::OutOfMemory`], [`SurfaceError::Transform`].
@@ -148,6 +148,62 @@ mod tests {
                 assert!((height - expected).abs() < 1e-12, "N = {points}, i = {i}: {height} {expected}");
             }
         }
+    }
+
+    /// Heights by direct sums, powers and sines, one mode after the other.
+    fn mode_by_mode(spectrum: SelfAffine, seed: u64, points: usize, shift: f64) -> Vec<f64> {
+        let mut squares: Vec<f64> =
+            (spectrum.first..=spectrum.last).map(|k| (k as f64).powf(-1.0 - 2.0 * spectrum.hurst)).collect();
+        squares.sort_by(f64::total_cmp);
+        let scale = (squares.iter().sum::<f64>() / 2.0).sqrt().recip();
+        let plan = RealFftPlanner::<f64>::new().plan_fft_inverse(points);
+        let (mut coefficients, mut heights) = (plan.make_input_vec(), plan.make_output_vec());
+        for (k, phase) in (spectrum.first..=spectrum.last).zip(phases(seed, spectrum.first)) {
+            let amplitude = scale * (k as f64).powf(-spectrum.hurst - 0.5);
+            let advanced = phase + std::f64::consts::TAU * (0.5 - shift) * k as f64 / points as f64;
+            let (sine, cosine) = advanced.sin_cos();
+            // At the grid's Nyquist wave vector both exponentials of the cosine fall together.
+            coefficients[k as usize] = if 2 * k == points as u64 {
+                Complex64::new(amplitude * cosine, 0.0)
+            } else {
+                Complex64::new(0.5 * amplitude * cosine, 0.5 * amplitude * sine)
+            };
+        }
+        plan.process(&mut coefficients, &mut heights).unwrap();
+        heights
+    }
+
+    #[test]
+    fn heights_are_those_of_direct_sums_and_powers_to_rounding() {
+        let mut worst = [0.0_f64; 2];
+        for hurst in [0.1, 0.3, 0.5, 0.7, 0.9] {
+            for (points, first, last) in [
+                (64, 1, 32),
+                (101, 3, 50),
+                (1000, 60, 500),
+                (5000, 1, 700),
+                (5000, 500, 2500),
+                (1 << 15, 1, 1 << 13),
+                (1 << 16, 30_000, 1 << 15),
+                (200_001, 1, 100_000),
+                (1 << 18, 2, 1 << 17),
+            ] {
+                for (seed, shift) in [(1, 0.0), (u64::MAX, 0.5)] {
+                    let spectrum = SelfAffine { hurst, first, last };
+                    let expected = mode_by_mode(spectrum, seed, points, shift);
+                    let found = Synthesizer::default().synthesize(spectrum, seed, points, shift, Vec::new());
+                    let found = found.unwrap().heights;
+                    let differences = found.iter().zip(&expected).map(|(found, expected)| found - expected);
+                    let square = differences.clone().map(|difference| difference * difference).sum::<f64>();
+                    let rms = (square / points as f64).sqrt();
+                    let largest = differences.map(f64::abs).fold(0.0, f64::max);
+                    let of = format!("H = {hurst}, modes {first} to {last} of {points} springs");
+                    assert!(rms <= 2e-15 && largest <= 1e-14, "{of}: {rms:e}, {largest:e}");
+                    worst = [worst[0].max(rms), worst[1].max(largest)];
+                }
+            }
+        }
+        println!("differences in rms heights: rms {:e}, largest {:e}", worst[0], worst[1]);
     }
 
     #[test]
