@@ -105,6 +105,128 @@ fn a_cone_is_exact_to_rounding() {
     }
 }
 
+/// A sphere of radius 1 with a wave about its axis, g(x) = x² + A (1 − cos qx), E* = γ = 1. As g rises on either side
+/// its contact is one piece, and d(a) = g(a) − √(2πa) rises and falls with the contact radius a.
+struct WavySphere {
+    amplitude: f64,
+    wave_vector: f64,
+}
+
+impl WavySphere {
+    /// No contact is wider.
+    const WIDEST: f64 = 4.0;
+
+    fn indentation(&self, a: f64) -> f64 {
+        a * a + self.amplitude * (1.0 - (self.wave_vector * a).cos()) - (2.0 * PI * a).sqrt()
+    }
+
+    /// dd/da.
+    fn slope(&self, a: f64) -> f64 {
+        2.0 * a + self.amplitude * self.wave_vector * (self.wave_vector * a).sin() - (PI / (2.0 * a)).sqrt()
+    }
+
+    /// 2E* ∫ (d − g) dx from 0 to a.
+    fn force(&self, a: f64) -> f64 {
+        let of_wave = self.amplitude * (a - (self.wave_vector * a).sin() / self.wave_vector);
+        2.0 * (a * self.indentation(a) - a.powi(3) / 3.0 - of_wave)
+    }
+
+    /// Intervals of a in which d rises with a: all that an equilibrium is stable in.
+    fn stable(&self) -> Vec<(f64, f64)> {
+        let steps = 4000;
+        let radius = |k: i32| Self::WIDEST * f64::from(k) / f64::from(steps);
+        let mut turns = vec![];
+        for k in 1..steps {
+            let (low, high) = (radius(k), radius(k + 1));
+            let sign = self.slope(high).signum();
+            if self.slope(low).signum() != sign {
+                turns.push(invert(|a| sign * self.slope(a), 0.0, low, high));
+            }
+        }
+        turns.push(Self::WIDEST);
+        // A minimum comes first, and the last rise has no end.
+        turns.chunks(2).map(|ends| (ends[0], ends[1])).collect()
+    }
+
+    /// Pull-off force, indentation at separation and dissipated energy after an indentation. Loading goes along each
+    /// rise from where d is as large as before, unloading back along each to where it is as small as before.
+    fn expected(&self, deepest: f64) -> [f64; 3] {
+        let stable = self.stable();
+        let at = |d: f64, (low, high)| invert(|a| self.indentation(a), d, low, high);
+        let (mut loading, mut level) = (vec![], 0.0);
+        for &(low, high) in &stable {
+            let end = self.indentation(high).min(deepest);
+            if end > level {
+                loading.push((at(level, (low, high)), at(end, (low, high))));
+                level = end;
+            }
+        }
+        let (mut unloading, widest) = (vec![], loading[loading.len() - 1].1);
+        for &(low, high) in stable.iter().rev().filter(|(low, _)| *low < widest) {
+            if unloading.is_empty() {
+                unloading.push((low, widest));
+            } else if self.indentation(low) < level {
+                unloading.push((low, at(level, (low, high))));
+            } else {
+                continue;
+            }
+            level = self.indentation(low);
+        }
+        assert!(unloading.len() > 1, "no jump before the last: {unloading:?}");
+        let work = |(low, high): &(f64, f64)| integral(|a| self.force(a) * self.slope(a), *low, *high);
+        let dissipated = loading.iter().map(work).sum::<f64>() - unloading.iter().map(work).sum::<f64>();
+        let steps = 20_000;
+        let along = |&(low, high): &(f64, f64)| {
+            (0..=steps).map(move |k| low + (high - low) * f64::from(k) / f64::from(steps))
+        };
+        let smallest = unloading.iter().flat_map(along).map(|a| self.force(a)).fold(0.0, f64::min);
+        [smallest, level, dissipated]
+    }
+
+    fn found(&self, deepest: f64, points: usize) -> [f64; 3] {
+        let (length, form) = (12.0, Form::Paraboloid { radius: 1.0 });
+        let axis = Form::spring_on_axis(points as u64) as f64;
+        let distance = |index: usize| (index as f64 - axis) * length / points as f64;
+        let wave: Vec<f64> = (0..points).map(|index| (self.wave_vector * distance(index)).cos()).collect();
+        let line = Line::new(length, points, Some(&form), Some(&wave), self.amplitude).unwrap();
+        let foundation = Foundation::endless(line.spacing, 1.0);
+        let body = Body { gaps: line.gaps, foundation, work: 1.0 };
+        let history = body.history(&[Leg::ToIndentation(deepest), Leg::ToSeparation], 2);
+        let [loading, unloading] = &history.legs[..] else { panic!() };
+        let dissipated = loading.dissipated_energy + unloading.dissipated_energy;
+        [unloading.smallest.force, unloading.end(), dissipated]
+    }
+}
+
+#[test]
+fn wavy_spheres_converge_with_the_square_of_the_distance() {
+    for (amplitude, wave_vector) in [(0.09, 10.0), (0.02, 20.0)] {
+        let body = WavySphere { amplitude, wave_vector };
+        let expected = body.expected(1.5);
+        for odd in [true, false] {
+            let grids = grids(odd);
+            let worst = |&points: &usize| {
+                let mut worst = [0.0_f64; 3];
+                for points in (0..8).map(|k| points + 2 * (k * points / 100)) {
+                    let found = body.found(1.5, points);
+                    worst = std::array::from_fn(|index| {
+                        worst[index].max((found[index] / expected[index] - 1.0).abs())
+                    });
+                }
+                worst
+            };
+            let errors: Vec<_> = grids.iter().map(worst).collect();
+            for (index, what) in ["pull-off", "place of separation", "energy"].into_iter().enumerate() {
+                let errors: Vec<f64> = errors.iter().map(|errors| errors[index]).collect();
+                let order = observed_order(&grids, &errors);
+                let name = format!("wave of {amplitude}, {} N: {what}", if odd { "odd" } else { "even" });
+                println!("{name}: {:.1e} falls to {:.1e}, order {order:.2}", errors[0], errors[10]);
+                assert!(order >= 1.9, "{name}: order {order}, errors {errors:?}");
+            }
+        }
+    }
+}
+
 #[test]
 fn flat_faces_are_exact_to_rounding() {
     for points in [1, 2, 3, 10, 1001] {
