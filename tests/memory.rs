@@ -106,6 +106,28 @@ fn memory_of_a_large_scene_is_given_back_when_a_much_smaller_one_is_computed() {
     assert!(kept_after(&mut simulation, &half, before) > 24 << 20);
 }
 
+#[test]
+fn a_line_of_a_new_seed_takes_the_memory_and_the_transform_of_the_one_before() {
+    for points in ["65536", "65537"] {
+        let mut simulation = Simulation::default();
+        let fields = [("numerics.points", points), ("roughness.modes", "(1, 16384)")];
+        let document = open("million-springs")
+            .unwrap()
+            .set_all(&fields.map(|(path, value)| (path.into(), value.into())));
+        let document = document.unwrap();
+        for seed in ["1", "2", "3"] {
+            let document = document.set("roughness.seed", seed).unwrap();
+            let (made, largest) = allocations::largest(|| {
+                simulation.make_line(document.scene()).map(|(_, facts, _)| facts.seed)
+            });
+            assert_eq!(made.unwrap().unwrap().to_string(), seed);
+            // A plan has its twiddle factors.
+            let again = seed != "1";
+            assert_eq!(largest < 16 << 10, again, "{points} springs, seed {seed}: {largest} bytes at once");
+        }
+    }
+}
+
 /// What a run with so much address space says on standard error; `None` where it is done.
 fn refusal(arguments: &[String], kibibytes: u64) -> Option<String> {
     let mut limited = Command::new("/bin/sh");
