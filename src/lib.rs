@@ -53,3 +53,8 @@ pub mod simulation;
 pub mod surface;
 pub mod sweep;
 mod text;
+
+/// The example of the README, compiled and run as a test.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;
