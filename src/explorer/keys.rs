@@ -1,4 +1,4 @@
-//! The one table of keys: it feeds dispatch, footer, help and the README.
+//! The one table of keys: it feeds dispatch, footer, help and docs/keys.md.
 
 use super::action::{Command, Jump, Motion};
 use super::mode::ModeKind;
@@ -251,7 +251,7 @@ pub fn valid_in(mode: ModeKind) -> impl Iterator<Item = &'static Binding> {
     BINDINGS.iter().filter(move |row| row.modes.contains(&mode))
 }
 
-/// The table as Markdown, for the README: keys and what they do, by section.
+/// The table as Markdown, for docs/keys.md: keys and their functions, by section.
 #[must_use]
 pub fn markdown() -> String {
     let mut text = String::from("| | key | does |\n| --- | --- | --- |\n");

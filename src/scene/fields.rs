@@ -1,7 +1,7 @@
 //! The one table of everything a scene can say: paths, symbols, units, ranges, meanings.
 //!
 //! The checks, the names an override may use, the explorer's list of parameters and the reference
-//! in the README all read this table, so they cannot disagree.
+//! in docs/scene-file.md all read this table, so they cannot disagree.
 
 use std::f64::consts::FRAC_PI_2;
 
