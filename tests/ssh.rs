@@ -208,7 +208,7 @@ fn a_whole_loop_is_edited_and_played_over_a_slow_line() {
         for _ in 0..40 {
             let selected = |rows: &[String]| rows.iter().find(|row| row.contains('›')).cloned();
             let row = selected(&terminal.rows()).expect("a row is selected");
-            if row.contains("force of a leg") {
+            if row.contains("force of a stage") {
                 break;
             }
             terminal.send("j");
