@@ -15,10 +15,11 @@ use asperity::contact::{
 };
 use asperity::scene::{Adhesion, Document, Edges, Leg, Roughness, Scene};
 use asperity::simulation::Simulation;
-use asperity::surface::{Line, SelfAffine, UnitRoughness};
+use asperity::surface::{Line, SelfAffine, Synthesizer, UnitRoughness};
 use realfft::{RealFftPlanner, RealToComplex};
 use rustfft::num_complex::Complex64;
 use std::hint::black_box;
+use std::mem::take;
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -127,7 +128,6 @@ impl Rough {
             kappas[0],
         );
         let scene = Document::parse(&scene, "bench").expect("a valid scene").scene().clone();
-        // Two sums over all modes: not to be made while a loop is measured.
         let rms_gradient = RMS_HEIGHT * spectrum.gradient_per_height(LENGTH);
         Rough { spectrum, points, line, foundation, rms_gradient, scene, kappas }
     }
@@ -147,6 +147,7 @@ fn synthesize(spectrum: SelfAffine, points: usize) -> Line {
 struct Measured {
     transform: f64,
     synthesis: f64,
+    next_line: f64,
     fresh_tree: f64,
     loops: Vec<Loop>,
     edits: Edits,
@@ -178,7 +179,10 @@ fn measure(rough: &Rough, runs: usize) -> Measured {
     let never = f64::INFINITY;
     let loops = rough.kappas.map(Loop::under).into();
     let edits = Edits::of(rough);
-    let mut best = Measured { transform: never, synthesis: never, fresh_tree: never, loops, edits };
+    let mut best =
+        Measured { transform: never, synthesis: never, next_line: never, fresh_tree: never, loops, edits };
+    let mut lines = Lines::default();
+    lines.seconds(rough, 0);
     // The tree's memory is kept from run to run, as the transform's buffers are and as a simulation does.
     let mut tree = ContactTree::default();
     for run in 0..runs {
@@ -190,6 +194,8 @@ fn measure(rough: &Rough, runs: usize) -> Measured {
         let clock = Instant::now();
         black_box(synthesize(black_box(rough.spectrum), rough.points));
         best.synthesis = best.synthesis.min(seconds_since(clock));
+
+        best.next_line = best.next_line.min(lines.seconds(rough, 1 + run as u64));
 
         let clock = Instant::now();
         black_box(ContactTree::build(black_box(gaps), Edges::SubCell).expect("memory for the tree"));
@@ -203,6 +209,28 @@ fn measure(rough: &Rough, runs: usize) -> Measured {
         best.edits.measure(rough, run);
     }
     best
+}
+
+/// Lines of one seed after the other, in the memory of the one before.
+#[derive(Default)]
+struct Lines {
+    synthesizer: Synthesizer,
+    heights: Vec<f64>,
+    gaps: Vec<f64>,
+}
+
+impl Lines {
+    /// Seconds from a seed to the gaps of its line.
+    fn seconds(&mut self, rough: &Rough, seed: u64) -> f64 {
+        let clock = Instant::now();
+        let heights = take(&mut self.heights);
+        let unit = self.synthesizer.synthesize(rough.spectrum, black_box(seed), rough.points, 0.0, heights);
+        self.heights = unit.expect("memory for the line").heights;
+        let gaps = take(&mut self.gaps);
+        let line = Line::new_in(gaps, LENGTH, rough.points, None, Some(&self.heights), RMS_HEIGHT);
+        self.gaps = black_box(line.expect("a finite line")).gaps;
+        seconds_since(clock)
+    }
 }
 
 /// A simulation whose scene is edited as in the explorer: with the histogram of heights, and with a copy of the
@@ -273,7 +301,7 @@ impl Timed {
         let whole = Instant::now();
         let tree = tree.rebuild(gaps, E::EDGES).expect("memory for the tree");
         self.tree = self.tree.min(seconds_since(whole));
-        let memory = std::mem::take(&mut self.memory);
+        let memory = take(&mut self.memory);
         let mut solver = exact::adhesive_in(memory, gaps, &tree, edges, rough.foundation, SAMPLES);
         let legs = [Leg::ToForce(LOAD * EFFECTIVE_MODULUS * LENGTH * RMS_HEIGHT), Leg::ToSeparation];
         let clock = Instant::now();
@@ -330,6 +358,7 @@ impl Measured {
         };
         row("one real FFT", self.transform);
         row("line, in fresh memory", self.synthesis);
+        row("line of a new seed", self.next_line);
         row("tree, in fresh memory", self.fresh_tree);
         for one in &self.loops {
             for (edges, timed) in EDGES.into_iter().zip(&one.edges) {

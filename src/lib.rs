@@ -1,53 +1,117 @@
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]
-//! Asperity: how strongly two rough elastic bodies stick, and whether pressing them together makes
-//! them stick more.
+//! Adhesion of rough elastic contacts: pull-off force, dissipated energy and the whole hysteretic force curve of a
+//! rigid rough profile on an elastic half-space, for any loading history, exactly and in linear time.
 //!
-//! It implements the model of Popov and Filippov (2012): a rigid self-affine line on a foundation of
-//! springs, the method of dimensionality reduction, with the rule of Hess for adhesion. The hysteresis
-//! of any loading history is exact and takes time proportional to the number of springs.
+//! The model is that of V. L. Popov and A. E. Filippov (Physical Mesomechanics 15, 2012): the method of dimensionality
+//! reduction (MDR) with the rule of Hess for adhesion. A three-dimensional contact maps to a one-dimensional
+//! equivalent profile on independent springs of stiffness E\* Δx. A contact patch of length l holds springs that are
+//! stretched by up to √(π l γ/E\*), with the work of adhesion γ and the effective modulus E\*.
+//!
+//! # A contact in five lines
+//!
+//! ```
+//! use asperity::{Contact, Leg, Material, Profile};
+//!
+//! let heights: Vec<f64> = (0..1024).map(|i| 1.0e-7 * (0.3 * f64::from(i)).sin()).collect(); // m
+//! let profile = Profile::from_heights(&heights, 1.0e-7)?; // spacing, m
+//! let mut contact = Contact::new(&profile, Material::effective(1.0e6)).work_of_adhesion(0.05).build()?;
+//! let cycle = contact.load(&[Leg::ToForce(1.0e-4), Leg::ToSeparation])?; // N
+//! println!("{:?} N, {:?} J", cycle.pull_off_force(), cycle.dissipated_energy());
+//! # assert!(cycle.pull_off_force().unwrap() > 0.0);
+//! # Ok::<(), asperity::Error>(())
+//! ```
+//!
+//! # A scene
+//!
+//! A [`scene::Scene`] holds all that a computation needs; the program reads it from RON files and [`scene::open`] finds
+//! the built-in ones. [`run`] computes it:
+//!
+//! ```
+//! let document = asperity::scene::open("jkr-sphere")?;
+//! let outcome = asperity::run(document.scene())?;
+//! // Johnson, Kendall and Roberts: (3/2)πγR.
+//! let expected = 1.5 * std::f64::consts::PI * 0.05 * 1.0e-4;
+//! assert!((outcome.figures.adhesion_force.unwrap() / expected - 1.0).abs() < 2e-3);
+//! # Ok::<(), asperity::Error>(())
+//! ```
+//!
+//! [`simulation::Simulation`] computes many scenes and repeats only the stages whose input has changed.
+//!
+//! # Conventions
+//!
+//! SI units throughout. Heights are positive towards the half-space; the indentation d is 0 at first touch of the
+//! undeformed profile and grows on pressing; compressive forces are positive. N points at a distance Δx cover the
+//! length N Δx.
+//!
+//! # Rooms
 //!
 //! Data flows one way:
 //!
 //! | from | by | to |
 //! | --- | --- | --- |
 //! | a file | [`scene::open`] | [`scene::Scene`], checked |
-//! | its form and roughness | [`surface`] | [`surface::Line`], gaps c at a distance Δx |
-//! | the gaps | [`contact::ContactTree::build`] | the tree of all fragments there can be |
+//! | form and roughness | [`surface`] | [`surface::Line`], gaps c at a distance Δx |
+//! | gaps | [`contact::ContactTree::build`] | merge tree of the local maxima of the gap |
 //! | tree, E\*, γ, loading | [`contact::exact`] or [`contact::stepwise`] | [`contact::History`], legs and curves |
-//! | the history | [`analysis`] | figures and the regime |
+//! | history | [`analysis`] | figures and the regime of adhesion |
 //!
-//! [`simulation::Simulation`] runs these stages, only those a scene calls for, and repeats only those
-//! whose input has changed:
+//! # Features
 //!
-//! ```
-//! use asperity::{scene, simulation::Simulation};
-//!
-//! let document = scene::open("jkr-sphere")?;
-//! let mut simulation = Simulation::new(document.resolve(""));
-//! let outcome = simulation.run(document.scene(), &|| false, &mut |_, _, _| Ok(()))?;
-//! // Johnson, Kendall and Roberts: (3/2)πγR.
-//! let pull_off = outcome.figures.adhesion_force.ok_or("no leg back")?;
-//! assert!((pull_off / (1.5 * std::f64::consts::PI * 0.05 * 1.0e-4) - 1.0).abs() < 2e-3);
-//! # Ok::<(), Box<dyn std::error::Error>>(())
-//! ```
+//! `tui` (default) adds the program: explorer, command line and figures of studies. Without default features the crate
+//! has no terminal packages. `parquet` adds tables of studies in that format.
 
 pub mod accuracy;
 pub mod analysis;
 pub mod check;
+#[cfg(feature = "tui")]
 pub mod cli;
 pub mod contact;
+mod contact_cycle;
 pub mod disk;
 pub mod ensemble;
+#[cfg(feature = "tui")]
 pub mod explorer;
 pub mod export;
 mod io;
 mod memory;
 mod parallel;
 pub mod phase;
+mod profile;
 pub mod reference;
 pub mod scene;
 pub mod simulation;
 pub mod surface;
 pub mod sweep;
 mod text;
+
+pub use contact_cycle::{Contact, ContactBuilder, Cycle};
+pub use profile::{Profile, ProfileError};
+pub use scene::{Edges, Leg, Material, Scene};
+pub use surface::SelfAffine;
+
+use simulation::{Outcome, RunError, Simulation};
+use thiserror::Error;
+
+/// Error of the functions at the root of this crate.
+#[derive(Clone, Debug, PartialEq, Error)]
+pub enum Error {
+    /// Values out of their ranges: field, value and allowed range of each.
+    #[error(transparent)]
+    Values(#[from] scene::SceneErrors),
+    /// A profile that is refused.
+    #[error(transparent)]
+    Profile(#[from] ProfileError),
+    /// A force out of reach, a file that cannot be read, or not enough memory.
+    #[error(transparent)]
+    Run(#[from] RunError),
+}
+
+/// Computes a scene. A measured profile is looked for from the working directory.
+///
+/// # Errors
+/// [`Error::Values`] for values out of range, [`Error::Run`] for a scene that cannot be computed.
+pub fn run(scene: &Scene) -> Result<Outcome, Error> {
+    scene.check()?;
+    Ok(Simulation::default().run(scene, &|| false, &mut |_, _, _| Ok(()))?)
+}

@@ -20,11 +20,13 @@ pub(crate) fn printable(text: &str) -> Cow<'_, str> {
 }
 
 /// Text of several lines, of which only the line breaks stay as they are.
+#[cfg(feature = "tui")]
 pub(crate) fn printable_lines(text: &str) -> Cow<'_, str> {
     escaped(text, |c| is_control(c) && c != '\n')
 }
 
 /// Text on one line of a picture: without what XML cannot hold.
+#[cfg(feature = "tui")]
 pub(crate) fn for_picture(text: &str) -> String {
     printable(text).replace(['\u{fffe}', '\u{ffff}'], "\u{fffd}")
 }

@@ -472,6 +472,61 @@ fn a_line_refines_to_the_same_line() {
 }
 
 #[test]
+fn a_line_that_is_written_and_measured_gives_the_same_loop() {
+    let folder = tempfile::tempdir().unwrap();
+    let rows = (0..=150)
+        .map(|index| format!("{:e} {:e}\n", f64::from(index) * 1e-6, 3.0 + 1e-8 * f64::from(index % 7)));
+    write(folder.path(), "stylus.txt", &rows.collect::<String>());
+    let file = folder.path().join("line.csv");
+    let file = file.to_str().unwrap();
+    let scene = |form: &str, roughness: &str, points: usize, edges: &str| {
+        format!(
+            "(version: 1, material: (effective_modulus: 2.0e6), length: 1.0e-4, form: {form}, roughness: {roughness}, \
+             adhesion: (work: 0.02), observe: [Fragments], \
+             loading: [ToForce(3.0e-4), ToZeroForce, ToForce(6.0e-4), ToSeparation], \
+             numerics: (points: {points}, samples: 50, edges: {edges}))"
+        )
+    };
+    let fine = "SelfAffine(hurst: 0.7, rms_height: 3.0e-7, modes: (1, 100), seed: 4)";
+    let forms = [
+        "None",
+        "Paraboloid(radius: 5.0e-4)",
+        "Cone(angle: 0.05)",
+        "Power(coefficient: 1.0e7, exponent: 3.0)",
+    ];
+    for (form, roughness) in forms
+        .into_iter()
+        .flat_map(|form| [(form, "None"), (form, fine), (form, "Measured(file: \"stylus.txt\")")])
+    {
+        for (points, edges) in
+            [(200, "SubCell"), (201, "SubCell"), (200, "Grid"), (317, "Grid"), (1024, "SubCell")]
+        {
+            let made = write(folder.path(), "made.ron", &scene(form, roughness, points, edges));
+            assert_eq!(done(&["line", &made, "--force", "-o", file]), "");
+            let measured = scene("None", "Measured(file: \"line.csv\")", points, edges);
+            let measured = write(folder.path(), "measured.ron", &measured);
+            let curves = [&made, &measured].map(|scene| done(&["run", scene, "--format", "csv"]));
+            assert!(curves[0].lines().count() > 100);
+            assert_eq!(curves[0], curves[1], "{form}, {roughness}, {points} points, {edges}");
+            let [made, measured] = [&made, &measured].map(|scene| json(&["run", scene, "--format", "json"]));
+            for key in [
+                "zero_load_adhesion_force",
+                "preload",
+                "preload_indentation",
+                "adhesion_force",
+                "pull_off_indentation",
+                "dissipated_energy",
+                "contacts",
+                "fragments",
+            ] {
+                assert_eq!(made[key], measured[key], "{key}: {form}, {roughness}, {points} points, {edges}");
+            }
+            assert!(number(&made["dissipated_energy"]) > 0.0);
+        }
+    }
+}
+
+#[test]
 fn a_line_holds_only_what_stands_under_the_body() {
     let punch = line("kendall-punch", 1000);
     assert_eq!(punch.len(), 400);

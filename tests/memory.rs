@@ -3,11 +3,12 @@
 
 #[path = "common/allocations.rs"]
 mod allocations;
+#[path = "common/peak.rs"]
+mod peak;
 
 use asperity::scene::{Document, open};
 use asperity::simulation::{Plan, Simulation};
-use std::fs;
-use std::io::Read;
+use peak::{Changed, arguments, peak};
 use std::process::{Command, Stdio};
 
 const ASPERITY: &str = env!("CARGO_BIN_EXE_asperity");
@@ -16,9 +17,6 @@ const ASPERITY: &str = env!("CARGO_BIN_EXE_asperity");
 /// more or less in one build than in another.
 const FACTOR: f64 = 1.5;
 const OF_BUILDS: u64 = 6 << 20;
-
-/// A scene by its name, and fields that are changed in it.
-type Changed<'a> = (&'a str, &'a [(&'a str, &'a str)]);
 
 /// Scenes that take memory for different things.
 const SCENES: [Changed<'static>; 14] = [
@@ -45,32 +43,13 @@ const SCENES: [Changed<'static>; 14] = [
 ];
 const LEGS: &str = "[ToForce(1e-3), ToSeparation, ToForce(2e-3), ToSeparation]";
 
-/// Arguments of `asperity run` for a scene.
-fn arguments((scene, fields): Changed<'_>) -> Vec<String> {
-    let set = fields.iter().flat_map(|(path, value)| ["--set".to_owned(), format!("{path}={value}")]);
-    ["run", scene, "--format", "csv"].map(str::to_owned).into_iter().chain(set).collect()
-}
-
-/// Largest resident memory of `asperity run`, bytes, by the time its first results come. They are more than a
-/// pipe holds, so that the process then waits, and all it took can be read.
-fn peak(changed: Changed<'_>) -> u64 {
-    let mut run = Command::new(ASPERITY).args(arguments(changed)).stdout(Stdio::piped()).spawn().unwrap();
-    run.stdout.as_mut().unwrap().read_exact(&mut [0]).unwrap();
-    let status = fs::read_to_string(format!("/proc/{}/status", run.id())).unwrap();
-    run.kill().unwrap();
-    run.wait().unwrap();
-    let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:")).expect("it still runs");
-    let kilobytes: u64 = line.trim().strip_suffix(" kB").unwrap().parse().unwrap();
-    kilobytes << 10
-}
-
 #[test]
 fn a_plan_states_the_memory_that_a_run_takes() {
     let mut wrong = Vec::new();
     for changed in SCENES {
         let fields: Vec<_> = changed.1.iter().map(|&(path, value)| (path.into(), value.into())).collect();
         let document = open(changed.0).unwrap().set_all(&fields).unwrap();
-        let (stated, taken) = (Plan::of(document.scene()).resident_bytes, peak(changed));
+        let (stated, taken) = (Plan::of(document.scene()).resident_bytes, peak(ASPERITY, changed));
         let is_at_most = |one: u64, other: u64| one as f64 <= FACTOR * (other + OF_BUILDS) as f64;
         let row = format!("{changed:?}: {} MiB stated, {} MiB taken", stated >> 20, taken >> 20);
         println!("{row}");
@@ -79,6 +58,22 @@ fn a_plan_states_the_memory_that_a_run_takes() {
         }
     }
     assert!(wrong.is_empty(), "{wrong:#?}");
+}
+
+/// Bounds of the README: bytes for each spring beside those of the program.
+const PER_SPRING: u64 = 48;
+const OF_PROGRAM: u64 = 10 << 20;
+
+#[test]
+fn a_spring_takes_at_most_48_bytes() {
+    for edges in ["SubCell", "Grid"] {
+        let fields =
+            [("numerics.samples", "5000"), ("numerics.points", "1048576"), ("numerics.edges", edges)];
+        // The curves of 5000 samples take the rest.
+        let taken = peak(ASPERITY, ("million-springs", &fields));
+        let most = OF_PROGRAM + OF_BUILDS + (PER_SPRING << 20);
+        assert!(taken <= most, "{edges}: {taken} bytes taken, at most {most}");
+    }
 }
 
 /// What a simulation keeps after a run, bytes; other tests here hold next to nothing.
@@ -109,6 +104,28 @@ fn memory_of_a_large_scene_is_given_back_when_a_much_smaller_one_is_computed() {
     kept_after(&mut simulation, &large, before);
     let half = large.set("numerics.points", "524288").unwrap();
     assert!(kept_after(&mut simulation, &half, before) > 24 << 20);
+}
+
+#[test]
+fn a_line_of_a_new_seed_takes_the_memory_and_the_transform_of_the_one_before() {
+    for points in ["65536", "65537"] {
+        let mut simulation = Simulation::default();
+        let fields = [("numerics.points", points), ("roughness.modes", "(1, 16384)")];
+        let document = open("million-springs")
+            .unwrap()
+            .set_all(&fields.map(|(path, value)| (path.into(), value.into())));
+        let document = document.unwrap();
+        for seed in ["1", "2", "3"] {
+            let document = document.set("roughness.seed", seed).unwrap();
+            let (made, largest) = allocations::largest(|| {
+                simulation.make_line(document.scene()).map(|(_, facts, _)| facts.seed)
+            });
+            assert_eq!(made.unwrap().unwrap().to_string(), seed);
+            // A plan has its twiddle factors.
+            let again = seed != "1";
+            assert_eq!(largest < 16 << 10, again, "{points} springs, seed {seed}: {largest} bytes at once");
+        }
+    }
 }
 
 /// What a run with so much address space says on standard error; `None` where it is done.

@@ -246,7 +246,7 @@ fn summaries_are_the_statistics_of_the_rows() {
             assert_eq!(spread.confidence_interval, Some(expected.confidence_interval));
         }
         let shares = summary.regimes.unwrap();
-        for (share, regime) in shares.into_iter().zip(Finished::REGIMES) {
+        for (share, regime) in shares.into_iter().zip(Regime::ALL) {
             let count = lines.iter().filter(|row| row.regime == Some(regime)).count();
             assert_eq!(share, count as f64 / 3.0);
         }

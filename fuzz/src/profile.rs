@@ -51,20 +51,29 @@ fn assert_points(text: &str, profile: &MeasuredProfile) {
 fn assert_samples(profile: &MeasuredProfile) {
     let length = profile.length();
     let (low, high) = ends(profile.heights());
-    let level = profile.heights()[0];
+    let first = profile.heights()[0];
     let margin = 4.0 * f64::EPSILON * (high - low);
     for part in [1.0, 0.5, 1e-3] {
         for points in [1, 2, 7, 64] {
-            let heights = profile.sample(part * length, points).unwrap_or_else(|error| panic!("{error}"));
-            assert_eq!(heights.len(), points);
-            for height in heights {
-                let inside = (low - level - margin..=high - level + margin).contains(&height);
-                assert!(inside, "{height} is not from {low} to {high} above {level}");
+            for shift in [0.0, 0.5] {
+                let heights = profile.sample(part * length, points, shift);
+                let heights = heights.unwrap_or_else(|error| panic!("{error}"));
+                assert_eq!(heights.len(), points);
+                // As they are, or above the first.
+                let inside = |level: f64| {
+                    let allowed = low - level - margin..=high - level + margin;
+                    heights.iter().all(|height| allowed.contains(height))
+                };
+                assert!(
+                    inside(0.0) || inside(first),
+                    "{heights:?} from {low} to {high}, the first at {first}"
+                );
             }
         }
     }
     // More memory than there is, and a longer line than the profile, are refused and not tried.
-    let refused = [profile.sample(length, usize::MAX / 4), profile.sample(1.01 * length + 1e-300, 2)];
+    let refused =
+        [profile.sample(length, usize::MAX / 4, 0.0), profile.sample(1.01 * length + 1e-300, 2, 0.0)];
     for message in refused.map(|sampled| sampled.map(|_| ()).unwrap_err()) {
         assert_message(&message);
     }

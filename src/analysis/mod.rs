@@ -6,4 +6,7 @@ mod regime;
 
 pub use figures::Figures;
 pub use governing::{Amplitude, Governing, ideal_adhesion_force};
-pub use regime::{INSENSITIVE_SHARE, NEGLIGIBLE_COEFFICIENT, Regime, RegimeEvidence, VANISHING_SHARE};
+pub use regime::{
+    AGREEING_SHARE, CellRegime, INSENSITIVE_SHARE, NEGLIGIBLE_COEFFICIENT, Regime, RegimeEvidence,
+    VANISHING_SHARE,
+};

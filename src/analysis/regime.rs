@@ -1,5 +1,6 @@
-//! The three regimes of adhesion of Fig. 4, told apart by documented thresholds.
+//! The three regimes of adhesion of Fig. 4: the rule for one loading and the rule for many random lines.
 
+use super::Figures;
 use serde::Serialize;
 
 /// Adhesion without a preload is pressure-insensitive when it is at least this share of the adhesion
@@ -15,6 +16,9 @@ pub const VANISHING_SHARE: f64 = 0.05;
 /// hundredth of the force that pressed them together.
 pub const NEGLIGIBLE_COEFFICIENT: f64 = 0.01;
 
+/// Smallest share of random lines in one regime for which the lines agree.
+pub const AGREEING_SHARE: f64 = 0.75;
+
 /// How adhesion depends on the load, Fig. 4.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
@@ -28,6 +32,29 @@ pub enum Regime {
 }
 
 impl Regime {
+    /// All regimes, the one with most adhesion first.
+    pub const ALL: [Regime; 3] =
+        [Regime::PressureInsensitive, Regime::PressureSensitive, Regime::NonAdhesive];
+
+    /// Regime of one loading of one line; `None` for a loading that pulls nothing.
+    ///
+    /// `smooth_adhesion` and `zero_load_adhesion` are `None` without adhesion, N. See [`RegimeEvidence`].
+    #[must_use]
+    pub fn of_loading(
+        figures: &Figures,
+        zero_load_adhesion: Option<f64>,
+        smooth_adhesion: Option<f64>,
+    ) -> Option<Self> {
+        match (figures.adhesion_force, zero_load_adhesion, smooth_adhesion) {
+            (Some(_), None, None) => Some(Regime::NonAdhesive),
+            (Some(adhesion), Some(zero_load_adhesion), Some(smooth_adhesion)) => {
+                let preload = figures.preload.unwrap_or(0.0);
+                Some(RegimeEvidence { zero_load_adhesion, adhesion, preload, smooth_adhesion }.regime())
+            }
+            _ => None,
+        }
+    }
+
     /// The name in words.
     #[must_use]
     pub fn name(self) -> &'static str {
@@ -39,7 +66,43 @@ impl Regime {
     }
 }
 
-/// What the regime is read from; forces in N.
+/// Regime of many random lines of one scene: a cell of a map.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CellRegime {
+    /// Regime of most lines; of two with as many lines the one with more adhesion.
+    pub regime: Regime,
+    /// Share of the lines in this regime, at most 1.
+    pub share: f64,
+    /// Regime of the second largest share, where the first is below [`AGREEING_SHARE`].
+    pub split: Option<Regime>,
+}
+
+impl CellRegime {
+    /// From the shares of lines in the regimes, in the order of [`Regime::ALL`]; `None` where all are zero.
+    #[must_use]
+    pub fn from_shares(shares: [f64; 3]) -> Option<Self> {
+        let mut order = [0, 1, 2];
+        // Stable: of equal shares the one with more adhesion stays first.
+        order.sort_by(|&a, &b| shares[b].total_cmp(&shares[a]));
+        let [first, second, _] = order;
+        let share = shares[first];
+        let split = Some(Regime::ALL[second]).filter(|_| share < AGREEING_SHARE && shares[second] > 0.0);
+        (share > 0.0).then_some(CellRegime { regime: Regime::ALL[first], share, split })
+    }
+
+    /// From the regimes of the lines; lines without one do not count.
+    #[must_use]
+    pub fn from_lines(lines: impl IntoIterator<Item = Option<Regime>>) -> Option<Self> {
+        let mut counts = [0_u32; 3];
+        for regime in lines.into_iter().flatten() {
+            counts[regime as usize] += 1;
+        }
+        let all = counts.iter().sum::<u32>().max(1);
+        Self::from_shares(counts.map(|count| f64::from(count) / f64::from(all)))
+    }
+}
+
+/// Forces from which the regime follows, N.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RegimeEvidence {
     /// Adhesion force F_a(0) by the touch protocol: turned at first touch.
@@ -92,6 +155,26 @@ mod tests {
         assert_eq!(evidence(0.001, 0.001, 5.0).regime(), Regime::NonAdhesive);
         assert_eq!(evidence(0.001, 0.001, 0.0).regime(), Regime::NonAdhesive);
         assert_eq!(evidence(0.0, 0.0, 0.0).regime(), Regime::NonAdhesive);
+    }
+
+    #[test]
+    fn a_cell_has_the_regime_of_most_of_its_lines() {
+        let [insensitive, sensitive, non_adhesive] = Regime::ALL;
+        let found = |shares| CellRegime::from_shares(shares).map(|cell| (cell.regime, cell.split));
+        assert_eq!(found([0.0; 3]), None);
+        assert_eq!(found([0.0, 1.0, 0.0]), Some((sensitive, None)));
+        assert_eq!(found([0.0, AGREEING_SHARE, 0.25]), Some((sensitive, None)));
+        assert_eq!(found([0.3, 0.0, 0.7]), Some((non_adhesive, Some(insensitive))));
+        assert_eq!(found([0.0, 0.5, 0.5]), Some((sensitive, Some(non_adhesive))));
+        assert_eq!(found([0.5, 0.0, 0.5]), Some((insensitive, Some(non_adhesive))));
+        let lines = [Some(non_adhesive), None, Some(sensitive), Some(non_adhesive), None];
+        let cell = CellRegime::from_lines(lines).unwrap();
+        assert_eq!((cell.regime, cell.split), (non_adhesive, Some(sensitive)));
+        assert!((cell.share - 2.0 / 3.0).abs() < 1e-15);
+        assert_eq!(CellRegime::from_lines([None]), None);
+        for (place, regime) in Regime::ALL.into_iter().enumerate() {
+            assert_eq!(regime as usize, place);
+        }
     }
 
     #[test]

@@ -157,7 +157,7 @@ fn profile_error(document: &Document) -> Option<String> {
     let Some(Roughness::Measured { file }) = &scene.roughness else { return None };
     let error = match MeasuredProfile::read(&document.resolve(file)) {
         Err(error) => error.to_string(),
-        Ok(profile) => profile.sample(scene.length, 1).err()?,
+        Ok(profile) => profile.sample(scene.length, 1, 0.0).err()?,
     };
     let offset = locate(document.text(), "roughness.file").map_or(0, |place| place.value.start);
     let (line, column) = line_column(document.text(), offset);

@@ -42,9 +42,9 @@ impl Overrides {
     }
 }
 
-/// A simulation that finds the files a scene names, which are relative to its own.
+/// A simulation of one scene that finds the files it names, which are relative to its own.
 pub(super) fn simulation_of(document: &Document) -> Simulation {
-    Simulation::new(document.resolve(""))
+    Simulation::new(document.resolve("")).for_one_scene()
 }
 
 fn path_and_value(text: &str) -> Result<(String, String), String> {

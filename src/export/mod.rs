@@ -12,6 +12,7 @@ mod json;
 mod json_text;
 pub(crate) mod sheet;
 mod summary;
+#[cfg(feature = "tui")]
 mod sweep_figure;
 mod unfinished;
 mod verdict;
@@ -25,5 +26,6 @@ pub use ensemble::{ensemble_text, write_ensemble_csv, write_ensemble_json};
 pub use json::{write_chosen_json, write_json};
 pub use json_text::write_json_value;
 pub use summary::summary;
+#[cfg(feature = "tui")]
 pub use sweep_figure::{Colours, figure_svg, figure_text};
 pub use work_precision::work_precision_svg;

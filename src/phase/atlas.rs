@@ -3,12 +3,11 @@
 use super::Basis;
 use super::basis::governing;
 use super::plane::{Layer, Plane, Spot, usual};
-use crate::analysis::Regime;
 use crate::scene::{Adhesion, Document, Leg, Roughness, Scene, SceneErrors, quoted, ron_float};
 use crate::sweep::figure::{AxisScale, Estimate};
 use crate::sweep::{
-    Axis, CellSummary, Finished, Plan, Quantity, SweepError, Target, ascending, estimate, figure_axis, fixed,
-    regime, scale_of,
+    Axis, CellSummary, Finished, Plan, Quantity, SweepError, Target, ascending, cell_regime, estimate,
+    figure_axis, fixed, scale_of,
 };
 use std::path::{Path, PathBuf};
 use thiserror::Error;
@@ -16,8 +15,6 @@ use thiserror::Error;
 /// Paths of axes that are κ and H.
 const KAPPA: [&str; 2] = ["kappa", "adhesion.kappa"];
 const HURST: [&str; 1] = ["roughness.hurst"];
-/// Where a smaller share of lines is in one regime, the lines of a cell are divided.
-const AGREED: f64 = 0.75;
 
 /// Why a folder opens as no maps.
 #[derive(Debug, Error)]
@@ -266,20 +263,7 @@ impl Atlas {
 
 /// What a cell of the study says.
 fn spot(cell: &CellSummary) -> Spot {
-    let of_most = regime(cell);
-    let share = |one: Regime| {
-        let place = Finished::REGIMES.iter().position(|regime| *regime == one);
-        cell.regimes.zip(place).map_or(0.0, |(shares, place)| shares[place])
-    };
-    let most = of_most.map_or(0.0, share);
-    let others = Finished::REGIMES.into_iter().filter(|one| Some(*one) != of_most && share(*one) > 0.0);
-    let second = others.max_by(|a, b| share(*a).total_cmp(&share(*b)));
-    Spot {
-        regime: of_most,
-        split: second.filter(|_| most < AGREED),
-        agreeing: (most * cell.lines as f64).round() as u64,
-        lines: cell.lines,
-    }
+    Spot::new(cell_regime(cell), cell.lines)
 }
 
 /// Scale and steps of a quantity by its values: a quarter of their range for each glyph.
@@ -298,6 +282,7 @@ fn glyphs(estimates: &[Option<Estimate>]) -> (AxisScale, [f64; 3]) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::analysis::Regime;
     use crate::phase::Charted;
     use crate::sweep::{Changes, Folder, SUMMARY};
 

@@ -2,15 +2,18 @@
 
 use super::grid::{Level, hurst, kappa};
 use super::{Basis, Cell, PhaseMap};
-use crate::analysis::{Regime, RegimeEvidence};
+use crate::analysis::{CellRegime, Regime};
 use crate::simulation::{Outcome, RunError, Simulation};
 use std::path::Path;
 
-/// What one line gives to a cell.
+/// Contribution of one line to a cell; forces in N, zero where there is none.
 #[derive(Clone, Copy)]
 struct OfLine {
-    evidence: RegimeEvidence,
+    zero_load_adhesion: f64,
+    adhesion: f64,
+    preload: f64,
     ideal_adhesion: f64,
+    regime: Option<Regime>,
 }
 
 /// Computes the cells that a map lacks, from coarse to fine and row by row: all κ of a row are those of the same
@@ -69,47 +72,34 @@ fn cells(
 
 impl OfLine {
     fn of(outcome: &Outcome) -> Self {
-        let evidence = RegimeEvidence {
+        OfLine {
             zero_load_adhesion: outcome.zero_load_adhesion_force.unwrap_or(0.0),
-            // What never pulls does not stick.
             adhesion: outcome.figures.adhesion_force.unwrap_or(0.0),
             preload: outcome.figures.preload.unwrap_or(0.0),
-            smooth_adhesion: outcome.smooth_adhesion_force.unwrap_or(0.0),
-        };
-        OfLine { evidence, ideal_adhesion: outcome.ideal_adhesion_force.unwrap_or(0.0) }
-    }
-
-    fn regime(&self) -> Regime {
-        self.evidence.regime()
+            ideal_adhesion: outcome.ideal_adhesion_force.unwrap_or(0.0),
+            regime: outcome.regime,
+        }
     }
 }
 
 /// A cell of its lines.
 fn mean(lines: &[OfLine]) -> Cell {
     let mean = |of: fn(&OfLine) -> f64| lines.iter().map(of).sum::<f64>() / lines.len() as f64;
-    let evidence = RegimeEvidence {
-        zero_load_adhesion: mean(|line| line.evidence.zero_load_adhesion),
-        adhesion: mean(|line| line.evidence.adhesion),
-        preload: mean(|line| line.evidence.preload),
-        smooth_adhesion: mean(|line| line.evidence.smooth_adhesion),
-    };
-    let regime = evidence.regime();
     Cell {
-        zero_load_adhesion: evidence.zero_load_adhesion,
-        adhesion: evidence.adhesion,
-        preload: evidence.preload,
+        zero_load_adhesion: mean(|line| line.zero_load_adhesion),
+        adhesion: mean(|line| line.adhesion),
+        preload: mean(|line| line.preload),
         ideal_adhesion: mean(|line| line.ideal_adhesion),
-        regime,
-        agreeing: lines.iter().filter(|line| line.regime() == regime).count() as u64,
+        regime: CellRegime::from_lines(lines.iter().map(|line| line.regime)),
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::phase::KAPPAS;
-    use crate::scene::open;
-    use crate::sweep::Quantity;
+    use crate::phase::{Atlas, KAPPAS};
+    use crate::scene::{open, to_ron};
+    use crate::sweep::{Changes, Folder, Options, Plan, Quantity, Shard, merge, run};
     use std::sync::Arc;
 
     /// The map of a small scene.
@@ -162,6 +152,46 @@ mod tests {
             cell.as_ref().unwrap().zero_load_adhesion,
             forces.iter().sum::<f64>() / forces.len() as f64
         );
+    }
+
+    #[test]
+    fn the_map_of_a_study_of_the_same_cells_has_the_same_regimes() {
+        let (mut live, mut rows) = (map(), 0);
+        let is_enough = std::cell::Cell::new(false);
+        chart(&mut live, Path::new(""), &|| is_enough.get(), &mut |_| {
+            rows += 1;
+            is_enough.set(rows == 5);
+        });
+        let basis = Arc::clone(live.basis());
+        let (columns, rows): (Vec<_>, Vec<_>) =
+            (Level::Coarse.columns().collect(), live.rows_of(Level::Coarse).to_vec());
+        let list =
+            |values: Vec<f64>| values.iter().map(|value| format!("{value:?}")).collect::<Vec<_>>().join(", ");
+        let text = format!(
+            "(version: 1, title: \"Map\", scene: {}, lines: {}, record: [regime], axes: [\
+             List(path: \"kappa\", values: [{}]), List(path: \"roughness.hurst\", values: [{}])])",
+            to_ron(&basis.scene(1.0, 0.5, 0)),
+            basis.lines(),
+            list(columns.iter().map(|&column| kappa(column)).collect()),
+            list(rows.iter().map(|&row| hurst(row)).collect()),
+        );
+        let plan = Plan::parse(&text, "map", &Changes::default()).unwrap_or_else(|errors| panic!("{errors}"));
+        let place = tempfile::tempdir().unwrap();
+        let folder = Folder::create(&place.path().join("study"), &plan).unwrap();
+        run(&folder, Options { jobs: 1, shard: Shard::WHOLE }, &|| false, &mut |_| ()).unwrap();
+        merge(&folder, false).unwrap();
+        let study = Atlas::open(folder.path()).unwrap().plane(0);
+        let live = live.plane();
+        let mut divided = 0;
+        for (up, &row) in rows.iter().enumerate() {
+            for (across, &column) in columns.iter().enumerate() {
+                let [studied, shown] = [study.shown(across, up), live.shown(column, row)]
+                    .map(|place| place.unwrap().spot.clone().unwrap());
+                assert_eq!(studied, shown, "κ = {}, H = {}", kappa(column), hurst(row));
+                divided += u64::from(studied.agreeing < studied.lines);
+            }
+        }
+        assert!(divided > 0, "no cell in which lines differ");
     }
 
     #[test]

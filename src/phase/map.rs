@@ -3,7 +3,7 @@
 use super::Basis;
 use super::grid::{HURSTS, KAPPAS, Level, hursts, kappas};
 use super::plane::{Layer, Plane, Spot, usual};
-use crate::analysis::Regime;
+use crate::analysis::CellRegime;
 use crate::sweep::Quantity;
 use crate::sweep::figure::Estimate;
 use std::sync::Arc;
@@ -19,10 +19,8 @@ pub struct Cell {
     pub preload: f64,
     /// Ideal adhesion force F_a,max, eq. (14).
     pub ideal_adhesion: f64,
-    /// The regime of these forces.
-    pub regime: Regime,
-    /// Lines that are in this regime each by itself.
-    pub agreeing: u64,
+    /// Regime of its lines; `None` where nothing is pulled.
+    pub regime: Option<CellRegime>,
 }
 
 impl Cell {
@@ -122,7 +120,7 @@ impl PhaseMap {
     pub fn plane(&self) -> Plane {
         let lines = self.basis.lines();
         let spot = |cell: &Result<Cell, String>| match cell {
-            Ok(cell) => Ok(Spot { regime: Some(cell.regime), split: None, agreeing: cell.agreeing, lines }),
+            Ok(cell) => Ok(Spot::new(cell.regime, lines)),
             Err(why) => Err(why.clone()),
         };
         let layer = |quantity: Quantity, value: fn(&Cell) -> Option<f64>| {

@@ -1,7 +1,7 @@
 //! A map over κ and H as it is shown: the one that is computed while one looks on, and those of a finished
 //! study, fill the same [`Plane`].
 
-use crate::analysis::{NEGLIGIBLE_COEFFICIENT, Regime};
+use crate::analysis::{CellRegime, NEGLIGIBLE_COEFFICIENT, Regime};
 use crate::scene::format_quantity;
 use crate::sweep::Quantity;
 use crate::sweep::figure::{AxisScale, Estimate, FigureAxis};
@@ -46,6 +46,20 @@ pub struct Spot {
     pub agreeing: u64,
     /// Its lines.
     pub lines: u64,
+}
+
+impl Spot {
+    /// A cell of so many lines.
+    #[must_use]
+    pub fn new(regime: Option<CellRegime>, lines: u64) -> Self {
+        let share = regime.map_or(0.0, |cell| cell.share);
+        Spot {
+            regime: regime.map(|cell| cell.regime),
+            split: regime.and_then(|cell| cell.split),
+            agreeing: (share * lines as f64).round() as u64,
+            lines,
+        }
+    }
 }
 
 /// A cell that is shown, and where it stands on the map.

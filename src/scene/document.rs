@@ -27,6 +27,18 @@ pub struct Document {
     overrides: Vec<(String, String)>,
 }
 
+impl Scene {
+    /// Checks all values of a scene that was made in a program.
+    ///
+    /// # Errors
+    ///
+    /// All values that are not allowed, each with its field and its allowed range.
+    pub fn check(&self) -> Result<(), SceneErrors> {
+        let violations = check(self);
+        if violations.is_empty() { Ok(()) } else { Err(told(violations, |_| Origin::Scene)) }
+    }
+}
+
 impl Document {
     /// Reads and checks a scene. `name` is the file's or the built-in scene's; errors carry it.
     ///
@@ -68,12 +80,8 @@ impl Document {
     ///
     /// All values that are not allowed.
     pub fn of_scene(scene: &Scene, name: &str) -> Result<Document, SceneErrors> {
-        let violations = check(scene);
-        if violations.is_empty() {
-            Document::parse(&to_ron(scene), name)
-        } else {
-            Err(told(violations, |_| Origin::Scene))
-        }
+        scene.check()?;
+        Document::parse(&to_ron(scene), name)
     }
 
     /// This document with one field overridden; see [`Document::set_all`].

@@ -9,6 +9,9 @@ use super::model::SCENE_VERSION;
 use super::range::Range;
 use super::step::Step;
 
+/// Largest number of springs.
+pub const MOST_POINTS: u64 = 1 << 28;
+
 /// One field of a scene.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Field {
@@ -343,7 +346,7 @@ pub const FIELDS: &[Field] = &[
         path: "numerics.points",
         name: "points",
         symbol: "N",
-        range: Range::whole(1, 1 << 28),
+        range: Range::whole(1, MOST_POINTS),
         step: Step::Doubling,
         default: "16384",
         meaning: "number of springs along the line",

@@ -51,7 +51,7 @@ pub use check::{Violation, check};
 pub use document::{Document, LONGEST_TEXT};
 pub use effects::Effect;
 pub use errors::{Origin, SceneError, SceneErrors};
-pub use fields::{FIELDS, Field, LEG_FORCE, LEG_INDENTATION, field};
+pub use fields::{FIELDS, Field, LEG_FORCE, LEG_INDENTATION, MOST_POINTS, field};
 pub use library::{Entry, Library, MOST_BYTES, MOST_FILES, Source, typed_path};
 pub use locate::{Place, line_column, locate};
 pub use model::*;

@@ -58,7 +58,7 @@ pub struct Material {
     pub effective_modulus: Option<f64>,
 }
 
-/// Macroscopic form of the rigid body; the axis stands at L/2.
+/// Macroscopic form of the rigid body; its axis is on the spring ⌊N/2⌋ ([`Form::spring_on_axis`]).
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub enum Form {

@@ -2,7 +2,7 @@
 
 use super::contact_stage::{ContactMemory, ContactStage};
 use super::{LineFacts, Outcome, Plan, RunError, Stage, Timings};
-use crate::analysis::{Amplitude, Figures, Governing, Regime, RegimeEvidence, ideal_adhesion_force};
+use crate::analysis::{Amplitude, Figures, Governing, Regime, ideal_adhesion_force};
 use crate::contact::{ContactError, ContactTree, HessRule, LegRecord, Solver};
 use crate::memory::check_room;
 use crate::parallel::in_parallel;
@@ -34,6 +34,8 @@ const SMALL: u64 = 32 << 20;
 #[derive(Default)]
 pub struct Simulation {
     folder: PathBuf,
+    /// Whether only one line is synthesized.
+    single: bool,
     /// A measured profile in place of the files that scenes name.
     profile: Option<Arc<MeasuredProfile>>,
     synthesizer: Synthesizer,
@@ -58,8 +60,8 @@ struct Kept {
 /// What the heights of the roughness depend on.
 #[derive(Clone, PartialEq)]
 enum RoughnessKey {
-    SelfAffine { spectrum: SelfAffine, seed: u64, points: usize },
-    Measured { file: PathBuf, length: f64, points: usize },
+    SelfAffine { spectrum: SelfAffine, seed: u64, points: usize, shift: f64 },
+    Measured { file: PathBuf, length: f64, points: usize, shift: f64 },
 }
 
 /// Heights of the roughness, before they are scaled.
@@ -91,6 +93,13 @@ impl Simulation {
     #[must_use]
     pub fn new(folder: PathBuf) -> Self {
         Simulation { folder, ..Simulation::default() }
+    }
+
+    /// Frees the memory of the Fourier transform before the contact is solved: less memory for a single scene, more time
+    /// for each further line.
+    #[must_use]
+    pub fn for_one_scene(self) -> Self {
+        Simulation { single: true, ..self }
     }
 
     /// Uses a measured profile that has been read already, whichever file a scene names.
@@ -132,6 +141,9 @@ impl Simulation {
                     before.unwrap_or_default(),
                 )?;
                 self.roughness = Some((key.clone(), rough));
+                if self.single {
+                    self.synthesizer = Synthesizer::default();
+                }
             }
         }
         let rough = self.roughness.as_ref().map(|(_, rough)| rough);
@@ -177,14 +189,16 @@ impl Simulation {
         spectrum: Option<(SelfAffine, u64)>,
         points: usize,
     ) -> Option<RoughnessKey> {
+        let shift = scene.form.map_or(0.0, |form| form.shift(points as u64));
         if let Some((spectrum, seed)) = spectrum {
-            return Some(RoughnessKey::SelfAffine { spectrum, seed, points });
+            return Some(RoughnessKey::SelfAffine { spectrum, seed, points, shift });
         }
         match &scene.roughness {
             Some(Roughness::Measured { file }) => Some(RoughnessKey::Measured {
                 file: self.folder.join(Path::new(file)),
                 length: scene.length,
                 points,
+                shift,
             }),
             _ => None,
         }
@@ -231,8 +245,8 @@ impl Simulation {
 
     /// Keeps nothing of the runs before.
     fn give_back(&mut self) {
-        let profile = self.profile.take();
-        *self = Simulation { profile, ..Simulation::new(take(&mut self.folder)) };
+        let (single, profile) = (self.single, self.profile.take());
+        *self = Simulation { single, profile, ..Simulation::new(take(&mut self.folder)) };
     }
 
     /// Runs a checked scene by its plan. `stop` is asked now and then whether to give up; `after` sees
@@ -301,14 +315,7 @@ impl Simulation {
         let modulus = governing.effective_modulus;
         let work = governing.adhesive_work();
         let smooth = work.map(|work| smooth_adhesion_force(form, scene.length, modulus, work));
-        let regime = match (figures.adhesion_force, zero_load_adhesion_force, smooth) {
-            (Some(_), None, None) => Some(Regime::NonAdhesive),
-            (Some(adhesion), Some(zero_load_adhesion), Some(smooth_adhesion)) => {
-                let preload = figures.preload.unwrap_or(0.0);
-                Some(RegimeEvidence { zero_load_adhesion, adhesion, preload, smooth_adhesion }.regime())
-            }
-            _ => None,
-        };
+        let regime = Regime::of_loading(&figures, zero_load_adhesion_force, smooth);
         let histogram = self.histogram.as_ref().filter(|_| plan.runs(Stage::HeightHistogram)).cloned();
         Ok(Outcome {
             line: facts,
@@ -352,8 +359,8 @@ fn make_roughness(
     memory: Vec<f64>,
 ) -> Result<Rough, RunError> {
     match key {
-        RoughnessKey::SelfAffine { spectrum, seed, points } => {
-            let unit = synthesizer.synthesize(*spectrum, *seed, *points, memory)?;
+        RoughnessKey::SelfAffine { spectrum, seed, points, shift } => {
+            let unit = synthesizer.synthesize(*spectrum, *seed, *points, *shift, memory)?;
             Ok(Rough {
                 heights: unit.heights,
                 random_phases: unit.random_phases,
@@ -361,7 +368,7 @@ fn make_roughness(
                 measured: None,
             })
         }
-        RoughnessKey::Measured { file, length, points } => {
+        RoughnessKey::Measured { file, length, points, shift } => {
             let read;
             let profile = match known {
                 Some(known) => known,
@@ -372,7 +379,7 @@ fn make_roughness(
             };
             let (rms_height, rms_gradient) = profile.rms_height_and_gradient();
             let heights = profile
-                .sample(*length, *points)
+                .sample(*length, *points, *shift)
                 .map_err(|reason| SurfaceError::Measured { file: file.display().to_string(), reason })?;
             let measured = Some(Amplitude { rms_height, rms_gradient });
             Ok(Rough { heights, random_phases: 0, gradient_per_height: None, measured })

@@ -29,9 +29,11 @@ pub enum SurfaceError {
         reason: String,
     },
     /// No spring lies under the body.
-    #[error("form.radius: no spring lies under the punch; allowed: at least half the spacing, {least:e} m")]
+    #[error(
+        "form.radius: no spring lies under the punch; allowed: at least a quarter of the spacing, {least:e} m"
+    )]
     NoSprings {
-        /// Smallest radius that covers a spring, m.
+        /// Smallest radius allowed, m: the diameter is rounded to whole cells.
         least: f64,
     },
 }

@@ -23,8 +23,10 @@ pub struct Line {
 }
 
 impl Line {
-    /// The line of a form (`None`: flat), its axis at L/2, with heights of roughness added: one for
-    /// each point, times `scale` m, or none where the line is smooth.
+    /// The line of a form (`None`: flat) with heights of roughness added: one for each point, times `scale` m, or
+    /// none where the line is smooth. The axis of the form is on the spring ⌊N/2⌋, at x = L/2 if N is odd and half a
+    /// cell further if N is even; roughness is to be sampled with the same [`Form::shift`]. See
+    /// [`Form::springs_under`] for a punch.
     ///
     /// # Errors
     /// [`SurfaceError::OutOfMemory`], [`SurfaceError::NotFinite`], [`SurfaceError::NoSprings`].
@@ -51,28 +53,23 @@ impl Line {
         scale: f64,
     ) -> Result<Self, SurfaceError> {
         let spacing = length / points as f64;
-        // Whole and half cells from the axis: exact, so that the line is as symmetric as its form.
-        let distance = |index: usize| (index as f64 + 0.5 - points as f64 / 2.0) * spacing;
-        let (first, end) = match form {
-            Some(Form::Punch { radius }) => {
-                let under = |index: &usize| distance(*index).abs() <= *radius;
-                let first = (0..points).find(under).ok_or_else(|| {
-                    let least = if points.is_multiple_of(2) { spacing / 2.0 } else { 0.0 };
-                    SurfaceError::NoSprings { least }
-                })?;
-                (first, points - first)
-            }
-            _ => (0, points),
-        };
+        // Whole cells from the axis: exact, so that the line is as symmetric as its form.
+        let axis = Form::spring_on_axis(points as u64) as f64;
+        let distance = |index: usize| (index as f64 - axis) * spacing;
+        let springs = form.map_or(0..points as u64, |form| form.springs_under(length, points as u64));
+        let (first, end) = (springs.start as usize, springs.end as usize);
+        if first == end {
+            return Err(SurfaceError::NoSprings { least: spacing / 4.0 });
+        }
         let mut heights =
             memory::emptied(memory, end - first).map_err(|_| SurfaceError::OutOfMemory { points })?;
-        let depth = |index: usize| form.and_then(|form| mdr_profile(form, distance(index)));
+        let depth = |index: usize| form.map_or(0.0, |form| mdr_profile(form, distance(index)));
         match (form, roughness) {
             (None, None) => heights.resize(points, 0.0),
             (None, Some(rough)) => heights.extend(rough.iter().map(|z| scale * z)),
-            (Some(_), None) => heights.extend((first..end).map(|i| -depth(i).unwrap_or(0.0))),
+            (Some(_), None) => heights.extend((first..end).map(|i| 0.0 - depth(i))),
             (Some(_), Some(rough)) => {
-                heights.extend((first..end).map(|i| scale * rough[i] - depth(i).unwrap_or(0.0)));
+                heights.extend((first..end).map(|i| scale * rough[i] - depth(i)));
             }
         }
         let summit = largest(&heights).map_err(|index| SurfaceError::NotFinite { index: first + index })?;
@@ -82,9 +79,14 @@ impl Line {
         Ok(Line { gaps, first, points, length, spacing, summit, deepest })
     }
 
-    /// Heights z, m, of the points under the body.
+    /// Heights z, m, of the points under the body, such that summit − z is their gap, bit for bit.
     pub fn heights(&self) -> impl Iterator<Item = f64> {
-        self.gaps.iter().map(|gap| self.summit - gap)
+        self.gaps.iter().map(|gap| {
+            let height = self.summit - gap;
+            // Rounded, it may give a gap that is one digit off; a number beside it then does not.
+            let nearby = [height, height.next_up(), height.next_down()];
+            nearby.into_iter().find(|height| self.summit - height == *gap).unwrap_or(height)
+        })
     }
 
     /// Position x, m, of the `index`-th spring under the body.
@@ -129,21 +131,33 @@ fn largest(values: &[f64]) -> Result<f64, usize> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::surface::phases;
 
     #[test]
-    fn forms_are_symmetric_about_the_axis() {
-        let line = Line::new(1.0, 7, Some(&Form::Cone { angle: 0.2 }), None, 0.0).unwrap();
-        let mirrored: Vec<f64> = line.gaps.iter().rev().copied().collect();
-        assert_eq!(line.gaps, mirrored);
-        assert_eq!(line.gaps[3], 0.0);
+    fn a_spring_is_on_the_axis_and_forms_are_symmetric_about_it() {
+        for form in [
+            Form::Cone { angle: 0.2 },
+            Form::Paraboloid { radius: 3.0 },
+            Form::Power { coefficient: 0.4, exponent: 1.5 },
+        ] {
+            for points in 1..30 {
+                let line = Line::new(1.0, points, Some(&form), None, 0.0).unwrap();
+                let axis = points / 2;
+                assert_eq!((line.gaps[axis], line.summit), (0.0, 0.0));
+                let middle = line.position(axis) - 0.5;
+                assert!((0.0..=0.5 * line.spacing + 1e-15).contains(&middle.abs()));
+                let left = line.gaps[..axis].iter().rev();
+                assert!(left.zip(&line.gaps[axis + 1..]).all(|(left, right)| left == right));
+            }
+        }
     }
 
     #[test]
     fn only_springs_under_a_punch_belong_to_the_line() {
         let line = Line::new(1.0, 10, Some(&Form::Punch { radius: 0.2 }), None, 0.0).unwrap();
         assert_eq!((line.first, line.gaps.len()), (3, 4));
-        let none = Line::new(1.0, 10, Some(&Form::Punch { radius: 0.04 }), None, 0.0);
-        assert_eq!(none, Err(SurfaceError::NoSprings { least: 0.05 }));
+        let none = Line::new(1.0, 10, Some(&Form::Punch { radius: 0.02 }), None, 0.0);
+        assert_eq!(none, Err(SurfaceError::NoSprings { least: 0.025 }));
     }
 
     #[test]
@@ -171,10 +185,26 @@ mod tests {
         let rough = [0.0, 3.0, -1.0, 2.0];
         let form = Form::Paraboloid { radius: 1.0 };
         let line = Line::new(4.0, 4, Some(&form), Some(&rough), 2.0).unwrap();
-        // z = 2·rough − x²: −2.25, 5.75, −2.25, 1.75.
-        assert_eq!(line.summit, 5.75);
-        assert_eq!(line.gaps, [8.0, 0.0, 8.0, 4.0]);
-        assert_eq!(line.heights().collect::<Vec<_>>(), [-2.25, 5.75, -2.25, 1.75]);
+        // z = 2·rough − x² with x = −2, −1, 0, 1: −4, 5, −2, 3.
+        assert_eq!(line.summit, 5.0);
+        assert_eq!(line.gaps, [9.0, 0.0, 7.0, 2.0]);
+        assert_eq!(line.heights().collect::<Vec<_>>(), [-4.0, 5.0, -2.0, 3.0]);
+    }
+
+    #[test]
+    fn gaps_follow_from_heights_bit_for_bit() {
+        let written = |line: &Line| line.heights().collect::<Vec<f64>>();
+        let digit = f64::EPSILON;
+        // The gap is 1, and summit − 1 = −1 gives one of 1 − ε/2.
+        let line = Line::new(1.0, 2, None, Some(&[-0.5 * digit, -1.0 - digit]), 1.0).unwrap();
+        assert_eq!((line.gaps[1], line.summit - (line.summit - 1.0)), (1.0, 1.0 - 0.5 * digit));
+        assert_eq!(Line::new(1.0, 2, None, Some(&written(&line)), 1.0).unwrap(), line);
+        for seed in 0..200 {
+            let rough: Vec<f64> = phases(seed, 1).take(64).map(|phase| phase - 0.1 * seed as f64).collect();
+            let form = Form::Paraboloid { radius: 3.0 };
+            let line = Line::new(1.0, 64, Some(&form), Some(&rough), 0.3).unwrap();
+            assert_eq!(Line::new(1.0, 64, None, Some(&written(&line)), 1.0).unwrap(), line);
+        }
     }
 
     #[test]

@@ -18,7 +18,14 @@ const LARGEST: f64 = 1.0e9;
 /// Longer columns are shortened in messages.
 const MOST_SHOWN: usize = 40;
 
+/// Share of the distance between points by which those of an even grid may be out, for want of digits.
+const UNEVEN: f64 = 1.0e-3;
+
 /// A profile measured along a line.
+///
+/// Points at x = Δx/2, 3Δx/2, …, as `asperity line` writes them, are middles of cells: N points cover N Δx from x = 0 on,
+/// the first and the last half cell at the height of the point next to it. Any other profile covers the distance from
+/// its first to its last point.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MeasuredProfile {
     positions: Vec<f64>,
@@ -96,14 +103,27 @@ impl MeasuredProfile {
     /// Length covered, m.
     #[must_use]
     pub fn length(&self) -> f64 {
+        self.cell().map_or_else(|| self.span(), |cell| cell * self.positions.len() as f64)
+    }
+
+    /// Distance from the first to the last point, m.
+    fn span(&self) -> f64 {
         self.positions[self.positions.len() - 1] - self.positions[0]
+    }
+
+    /// Distance between points, m, where these are the middles of cells that begin at x = 0.
+    fn cell(&self) -> Option<f64> {
+        let cell = self.span() / (self.positions.len() - 1) as f64;
+        let middles = (0..self.positions.len()).map(|index| (index as f64 + 0.5) * cell);
+        let near = |(x, middle): (&f64, f64)| (x - middle).abs() <= UNEVEN * cell;
+        self.positions.iter().zip(middles).all(near).then_some(cell)
     }
 
     /// Root mean square height about the mean and root mean square gradient of the straight pieces
     /// between the measured points.
     #[must_use]
     pub fn rms_height_and_gradient(&self) -> (f64, f64) {
-        let length = self.length();
+        let length = self.span();
         // Against an offset far larger than the roughness: differences of heights, not heights.
         let level = self.heights[0];
         let pieces = || {
@@ -119,13 +139,17 @@ impl MeasuredProfile {
         ((square / length).sqrt(), (gradient / length).sqrt())
     }
 
-    /// Heights above the first point, m, at x = (i + ½)L/N from the first point on,
-    /// straight between measured points.
+    /// Heights, m, at x = (i + ½ − `shift`)L/N from the beginning of the profile, by linear interpolation; at a measured
+    /// point its own height, bit for bit. If all heights of the profile are from half to twice the first, the first is
+    /// subtracted: the differences are then exact, and roughness on a large offset keeps its digits.
     ///
     /// # Errors
     /// When the profile is shorter than `length` m.
-    pub fn sample(&self, length: f64, points: usize) -> Result<Vec<f64>, String> {
-        if self.length() < length {
+    pub fn sample(&self, length: f64, points: usize, shift: f64) -> Result<Vec<f64>, String> {
+        let cell = self.cell();
+        // The last half cell may be as far out as points are.
+        let margin = cell.map_or(0.0, |cell| UNEVEN * cell);
+        if self.length() + margin < length {
             return Err(format!(
                 "the profile covers {:e} m; allowed: at least length = {length:e} m",
                 self.length()
@@ -133,19 +157,34 @@ impl MeasuredProfile {
         }
         let mut heights = Vec::new();
         heights.try_reserve_exact(points).map_err(|_| format!("not enough memory for {points} points"))?;
-        // Against an offset far larger than the roughness: differences of heights, not heights.
-        let level = self.heights[0];
+        let begins = if cell.is_some() { 0.0 } else { self.positions[0] };
+        let level = self.level();
         let mut piece = 0;
         for index in 0..points {
-            let x = self.positions[0] + (index as f64 + 0.5) * (length / points as f64);
+            let x = begins + (index as f64 + 0.5 - shift) * (length / points as f64);
             while piece + 2 < self.positions.len() && self.positions[piece + 1] < x {
                 piece += 1;
             }
             let (x0, x1) = (self.positions[piece], self.positions[piece + 1]);
             let (z0, z1) = (self.heights[piece] - level, self.heights[piece + 1] - level);
-            heights.push(z0 + (z1 - z0) * ((x - x0) / (x1 - x0)));
+            heights.push(if x <= x0 {
+                z0
+            } else if x >= x1 {
+                z1
+            } else {
+                z0 + (z1 - z0) * ((x - x0) / (x1 - x0))
+            });
         }
         Ok(heights)
+    }
+
+    /// Height, m, subtracted from all others: the first one, if all differences are exact, else 0.
+    fn level(&self) -> f64 {
+        let first = self.heights[0];
+        let (low, high) = (0.5 * first.abs(), 2.0 * first.abs());
+        // By Sterbenz' lemma.
+        let is_exact = |height: &f64| (low..=high).contains(&(height * first.signum()));
+        if self.heights.iter().all(is_exact) { first } else { 0.0 }
     }
 }
 
@@ -270,10 +309,44 @@ mod tests {
     fn reads_what_instruments_write() {
         let profile = MeasuredProfile::parse("# stylus\nx,z\n0.0, 1e-7\n1e-6;3e-7\n\n2e-6\t-1e-7\n").unwrap();
         assert_eq!(profile.positions, [0.0, 1e-6, 2e-6]);
-        let heights = profile.sample(2e-6, 2).unwrap();
-        // Halfway between 1 and 3, and between 3 and −1, above the first.
-        assert!((heights[0] - 1e-7).abs() < 1e-20 && heights[1].abs() < 1e-20, "{heights:?}");
-        assert!(profile.sample(3e-6, 2).unwrap_err().contains("covers 2e-6 m"));
+        let heights = profile.sample(2e-6, 2, 0.0).unwrap();
+        // Halfway between 1 and 3, and between 3 and −1.
+        assert!((heights[0] - 2e-7).abs() < 1e-20 && (heights[1] - 1e-7).abs() < 1e-20, "{heights:?}");
+        assert_eq!(profile.sample(2e-6, 2, 0.5).unwrap(), [1e-7, 3e-7]);
+        assert!(profile.sample(3e-6, 2, 0.0).unwrap_err().contains("covers 2e-6 m"));
+    }
+
+    #[test]
+    fn points_that_begin_at_half_their_distance_are_middles_of_cells() {
+        let profile = MeasuredProfile::parse("0.5 3\n1.5 4\n2.5 -1").unwrap();
+        assert_eq!(profile.length(), 3.0);
+        assert_eq!(profile.sample(3.0, 3, 0.0).unwrap(), [3.0, 4.0, -1.0]);
+        // Before the first and behind the last point at its height, halfway between points at their mean.
+        assert_eq!(profile.sample(3.0, 6, 0.5).unwrap(), [3.0, 3.0, 3.5, 4.0, 1.5, -1.0]);
+        assert_eq!(profile.sample(3.0, 12, 0.0).unwrap()[11], -1.0);
+        assert_eq!(profile.sample(1.0, 1, 0.0).unwrap(), [3.0]);
+        assert!(profile.sample(3.01, 3, 0.0).unwrap_err().contains("covers 3e0 m"));
+        // With so many digits as a file has.
+        let rounded = MeasuredProfile::parse("0.1667 3\n0.5 4\n0.8333 -1").unwrap();
+        assert!((rounded.length() - 1.0).abs() < 1e-3 && rounded.sample(1.0, 3, 0.0).is_ok());
+        // Anything else covers what lies between its points.
+        for (text, length) in
+            [("0 3\n1 4\n2 -1", 2.0), ("0.5 3\n1.5 4\n2.4 -1", 1.9), ("1 3\n2 4\n3 -1", 2.0)]
+        {
+            let profile = MeasuredProfile::parse(text).unwrap();
+            assert!((profile.length() - length).abs() < 1e-15);
+            assert!(profile.sample(length, 3, 0.0).is_ok() && profile.sample(1.01 * length, 3, 0.0).is_err());
+        }
+    }
+
+    #[test]
+    fn an_offset_is_taken_out_where_that_is_exact() {
+        let heights = |text: &str| MeasuredProfile::parse(text).unwrap().sample(2.0, 2, 0.0).unwrap();
+        assert_eq!(heights("0.5 1e8\n1.5 100000001"), [0.0, 1.0]);
+        assert_eq!(heights("0.5 -3\n1.5 -5"), [0.0, -2.0]);
+        assert_eq!(heights("0.5 3\n1.5 7"), [3.0, 7.0]);
+        assert_eq!(heights("0.5 -3\n1.5 3"), [-3.0, 3.0]);
+        assert_eq!(heights("0.5 0\n1.5 0"), [0.0, 0.0]);
     }
 
     #[test]
@@ -361,10 +434,10 @@ mod tests {
     #[test]
     fn samples_lie_on_the_straight_pieces() {
         let profile = MeasuredProfile::parse("-2 7\n0 3\n1 6\n4 0").unwrap();
-        // Above the first height, at −1.5, −0.5 … 3.5.
-        assert_eq!(profile.sample(6.0, 6).unwrap(), [-1.0, -3.0, -2.5, -2.0, -4.0, -6.0]);
+        // At −1.5, −0.5 … 3.5.
+        assert_eq!(profile.sample(6.0, 6, 0.0).unwrap(), [6.0, 4.0, 4.5, 5.0, 3.0, 1.0]);
         // From the first point on.
-        assert_eq!(profile.sample(2.0, 4).unwrap(), [-0.5, -1.5, -2.5, -3.5]);
+        assert_eq!(profile.sample(2.0, 4, 0.0).unwrap(), [6.5, 5.5, 4.5, 3.5]);
         assert_eq!(
             (profile.positions(), profile.heights()),
             (&[-2.0, 0.0, 1.0, 4.0][..], &[7.0, 3.0, 6.0, 0.0][..])

@@ -5,6 +5,7 @@ mod form;
 mod histogram;
 mod line;
 pub mod measured;
+mod modes;
 mod phases;
 mod roughness;
 mod spectrum;

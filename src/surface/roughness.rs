@@ -1,20 +1,23 @@
 //! Random-phase synthesis of a self-affine line of rms height 1 by one inverse real Fourier transform.
 
-use super::spectrum::{MANY_MODES, MeanSquares};
-use super::{SelfAffine, SurfaceError, phases};
+use super::modes::Modes;
+use super::{SelfAffine, SurfaceError};
 use crate::memory;
 use crate::parallel::in_parallel;
 use realfft::{ComplexToReal, RealFftPlanner};
 use rustfft::num_complex::Complex64;
 use std::sync::Arc;
 
-/// Longest line whose transform is kept for the next one. It takes 20 bytes for each spring, which on longer
-/// lines is dearer than the time it saves.
+/// With fewer modes than these another thread takes longer to begin than it saves.
+const MANY_MODES: usize = 1 << 16;
+
+/// Largest number of springs whose transform is kept for the next line. A kept transform takes 20 bytes per spring,
+/// which on longer lines is worth more than the time saved.
 const LONGEST_KEPT: usize = 1 << 22;
 
-/// Heights of a self-affine line of rms height 1 at x = (i + ½)L/N, eqs. (8) and (9).
+/// Heights of a self-affine line of rms height 1, eqs. (8) and (9).
 ///
-/// They depend on spectrum, seed and number of points alone; length and rms height only scale them.
+/// Length and rms height scale them; nothing but spectrum, seed, number and position of the points enters here.
 #[derive(Clone, Debug, PartialEq)]
 pub struct UnitRoughness {
     /// Heights in units of the rms height.
@@ -26,7 +29,7 @@ pub struct UnitRoughness {
 }
 
 impl UnitRoughness {
-    /// The line of a spectrum and a seed on `points` springs; `spectrum.last` must not exceed
+    /// The line of a spectrum and a seed on `points` springs at x = (i + ½)L/N; `spectrum.last` must not exceed
     /// `points`/2.
     ///
     /// The rms height is that of the sum of cosines over the whole length. Two grids sample the same
@@ -35,15 +38,13 @@ impl UnitRoughness {
     /// # Errors
     /// [`SurfaceError::OutOfMemory`], [`SurfaceError::Transform`].
     pub fn synthesize(spectrum: SelfAffine, seed: u64, points: usize) -> Result<Self, SurfaceError> {
-        Synthesizer::default().synthesize(spectrum, seed, points, Vec::new())
+        Synthesizer::default().synthesize(spectrum, seed, points, 0.0, Vec::new())
     }
 }
 
-/// Makes one line after the other, and keeps what the next can use: the sums over the spectrum and, once there
-/// has been a second line, the planned transform with its memory.
+/// Synthesizes lines one after the other, and keeps the planned transform and its memory between them.
 #[derive(Default)]
 pub struct Synthesizer {
-    mean_squares: Option<(SelfAffine, MeanSquares)>,
     transform: Option<Transform>,
 }
 
@@ -67,7 +68,8 @@ impl Transform {
 }
 
 impl Synthesizer {
-    /// [`UnitRoughness::synthesize`], bit for bit, with the heights in this memory.
+    /// Synthesizes the line of [`UnitRoughness::synthesize`], displaced by `shift` cells along the springs, in `memory`:
+    /// heights at x = (i + ½ − `shift`)L/N. Without displacement the heights are the same bit for bit.
     ///
     /// # Errors
     /// [`SurfaceError::OutOfMemory`], [`SurfaceError::Transform`].
@@ -76,82 +78,54 @@ impl Synthesizer {
         spectrum: SelfAffine,
         seed: u64,
         points: usize,
+        shift: f64,
         memory: Vec<f64>,
     ) -> Result<UnitRoughness, SurfaceError> {
-        let many = spectrum.last - spectrum.first >= MANY_MODES;
+        let out_of_memory = |_| SurfaceError::OutOfMemory { points };
         let kept = self.transform.take().filter(|kept| kept.points == points);
-        let is_first = self.mean_squares.is_none();
-        let known = self.mean_squares.filter(|(known, _)| *known == spectrum);
-        let (transform, mean_squares) = in_parallel(
-            many && kept.is_none() && known.is_none(),
-            || kept.map_or_else(|| Transform::planned(points), Ok),
-            || known.map_or_else(|| spectrum.mean_squares(), |(_, mean_squares)| mean_squares),
-        );
-        self.mean_squares = Some((spectrum, mean_squares));
-        let mut transform = transform?;
-        let mut heights =
-            memory::resized(memory, points, 0.0).map_err(|_| SurfaceError::OutOfMemory { points })?;
+        let mut transform = kept.map_or_else(|| Transform::planned(points), Ok)?;
+        let mut heights = memory::resized(memory, points, 0.0).map_err(out_of_memory)?;
 
-        // Of all modes there are, those from the middle on by another thread.
-        let scale = mean_squares.relative_rms.recip();
+        let modes = Modes::new(spectrum, seed, points, 0.5 - shift);
         let coefficients = transform.coefficients.as_mut_slice();
         let (first, end) = (spectrum.first as usize, (spectrum.last as usize).saturating_add(1));
         let end = end.min(coefficients.len());
         let first = first.min(end);
         coefficients[..first].fill(Complex64::ZERO);
         coefficients[end..].fill(Complex64::ZERO);
+        // Those from the middle on by another thread.
         let middle = first + (end - first) / 2;
         let (lower, upper) = coefficients[first..end].split_at_mut(middle - first);
-        let modes = Modes { spectrum, seed, points, scale };
-        in_parallel(many, || modes.draw(middle, upper), || modes.draw(first, lower));
+        in_parallel(
+            end - first >= MANY_MODES,
+            || modes.draw(middle as u64, upper),
+            || modes.draw(first as u64, lower),
+        );
+        if 2 * spectrum.last == points as u64 {
+            // At the grid's Nyquist wave vector both exponentials of the cosine fall together.
+            coefficients[end - 1] = Complex64::new(2.0 * coefficients[end - 1].re, 0.0);
+        }
 
         transform
             .plan
             .process_with_scratch(&mut transform.coefficients, &mut heights, &mut transform.scratch)
             .map_err(|error| SurfaceError::Transform(error.to_string()))?;
-        if !is_first && points <= LONGEST_KEPT {
+        if points <= LONGEST_KEPT {
             self.transform = Some(transform);
         }
         Ok(UnitRoughness {
             heights,
             random_phases: spectrum.last + 1 - spectrum.first,
-            gradient_per_height: mean_squares.gradient_per_height,
+            gradient_per_height: spectrum.gradient_per_height(1.0),
         })
-    }
-}
-
-/// What the coefficients of a line depend on.
-#[derive(Clone, Copy)]
-struct Modes {
-    spectrum: SelfAffine,
-    seed: u64,
-    points: usize,
-    scale: f64,
-}
-
-impl Modes {
-    /// Fills in the coefficients of the modes from `first` on.
-    fn draw(&self, first: usize, coefficients: &mut [Complex64]) {
-        let half_cell = std::f64::consts::PI / self.points as f64;
-        let modes = first as u64..;
-        for ((mode, phase), coefficient) in modes.zip(phases(self.seed, first as u64)).zip(coefficients) {
-            // x = (i + ½)Δx adds half a cell to the phase. Each cosine is a pair of exponentials, so a
-            // coefficient is half its amplitude, save at the grid's Nyquist wave vector, where both of
-            // the pair fall together.
-            let amplitude = self.scale * self.spectrum.relative_amplitude(mode);
-            let angle = phase + half_cell * mode as f64;
-            *coefficient = if 2 * mode == self.points as u64 {
-                Complex64::new(amplitude * angle.cos(), 0.0)
-            } else {
-                Complex64::from_polar(0.5 * amplitude, angle)
-            };
-        }
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::parallel::on_this_thread;
+    use crate::surface::phases;
 
     fn direct(spectrum: SelfAffine, seed: u64, position: f64) -> f64 {
         let sum: f64 = (spectrum.first..=spectrum.last)
@@ -176,33 +150,100 @@ mod tests {
         }
     }
 
+    /// Heights by direct sums, powers and sines, one mode after the other.
+    fn mode_by_mode(spectrum: SelfAffine, seed: u64, points: usize, shift: f64) -> Vec<f64> {
+        let mut squares: Vec<f64> =
+            (spectrum.first..=spectrum.last).map(|k| (k as f64).powf(-1.0 - 2.0 * spectrum.hurst)).collect();
+        squares.sort_by(f64::total_cmp);
+        let scale = (squares.iter().sum::<f64>() / 2.0).sqrt().recip();
+        let plan = RealFftPlanner::<f64>::new().plan_fft_inverse(points);
+        let (mut coefficients, mut heights) = (plan.make_input_vec(), plan.make_output_vec());
+        for (k, phase) in (spectrum.first..=spectrum.last).zip(phases(seed, spectrum.first)) {
+            let amplitude = scale * (k as f64).powf(-spectrum.hurst - 0.5);
+            let advanced = phase + std::f64::consts::TAU * (0.5 - shift) * k as f64 / points as f64;
+            let (sine, cosine) = advanced.sin_cos();
+            // At the grid's Nyquist wave vector both exponentials of the cosine fall together.
+            coefficients[k as usize] = if 2 * k == points as u64 {
+                Complex64::new(amplitude * cosine, 0.0)
+            } else {
+                Complex64::new(0.5 * amplitude * cosine, 0.5 * amplitude * sine)
+            };
+        }
+        plan.process(&mut coefficients, &mut heights).unwrap();
+        heights
+    }
+
+    #[test]
+    fn heights_are_those_of_direct_sums_and_powers_to_rounding() {
+        let mut worst = [0.0_f64; 2];
+        for hurst in [0.1, 0.3, 0.5, 0.7, 0.9] {
+            for (points, first, last) in [
+                (64, 1, 32),
+                (101, 3, 50),
+                (1000, 60, 500),
+                (5000, 1, 700),
+                (5000, 500, 2500),
+                (1 << 15, 1, 1 << 13),
+                (1 << 16, 30_000, 1 << 15),
+                (200_001, 1, 100_000),
+                (1 << 18, 2, 1 << 17),
+            ] {
+                for (seed, shift) in [(1, 0.0), (u64::MAX, 0.5)] {
+                    let spectrum = SelfAffine { hurst, first, last };
+                    let expected = mode_by_mode(spectrum, seed, points, shift);
+                    let found = Synthesizer::default().synthesize(spectrum, seed, points, shift, Vec::new());
+                    let found = found.unwrap().heights;
+                    let differences = found.iter().zip(&expected).map(|(found, expected)| found - expected);
+                    let square = differences.clone().map(|difference| difference * difference).sum::<f64>();
+                    let rms = (square / points as f64).sqrt();
+                    let largest = differences.map(f64::abs).fold(0.0, f64::max);
+                    let of = format!("H = {hurst}, modes {first} to {last} of {points} springs");
+                    assert!(rms <= 2e-15 && largest <= 1e-14, "{of}: {rms:e}, {largest:e}");
+                    worst = [worst[0].max(rms), worst[1].max(largest)];
+                }
+            }
+        }
+        println!("differences in rms heights: rms {:e}, largest {:e}", worst[0], worst[1]);
+    }
+
     #[test]
     fn what_is_kept_changes_no_bit() {
         let mut synthesizer = Synthesizer::default();
         let mut memory = Vec::new();
-        let many = 2 * MANY_MODES + 3;
+        let many = 2 * MANY_MODES as u64 + 3;
         for (points, hurst, first, last, seed) in [
             (100, 0.6, 3, 50, 1),
             (100, 0.6, 3, 50, 2),
             (100, 0.6, 3, 20, 2),
             (101, 0.6, 5, 20, 2),
-            (100_000, 0.7, 2, many, 3),
-            (100_000, 0.8, 2, many, 3),
+            (300_000, 0.7, 2, many, 3),
+            (300_000, 0.8, 2, many, 3),
             (2 * many as usize, 0.8, 1, many, 3),
             (64, 0.8, 1, 32, 3),
         ] {
             let spectrum = SelfAffine { hurst, first, last };
-            let kept = synthesizer.synthesize(spectrum, seed, points, memory).unwrap();
+            let kept = synthesizer.synthesize(spectrum, seed, points, 0.0, memory).unwrap();
             assert_eq!(kept, UnitRoughness::synthesize(spectrum, seed, points).unwrap());
             assert_eq!(kept.gradient_per_height, spectrum.gradient_per_height(1.0));
-            // As on one thread, mode by mode, and by another plan.
-            let modes = Modes { spectrum, seed, points, scale: spectrum.relative_rms().recip() };
-            let mut transform = Transform::planned(points).unwrap();
-            modes.draw(first as usize, &mut transform.coefficients[first as usize..=last as usize]);
-            let mut heights = vec![0.0; points];
-            transform.plan.process(&mut transform.coefficients, &mut heights).unwrap();
-            assert_eq!(kept.heights, heights);
+            // As on one thread and by another plan.
+            let alone = on_this_thread(|| UnitRoughness::synthesize(spectrum, seed, points).unwrap());
+            assert_eq!(kept, alone);
             memory = kept.heights;
+        }
+    }
+
+    #[test]
+    fn a_shifted_line_is_the_same_line_at_other_places() {
+        for (points, last) in [(64, 32), (64, 20), (97, 40)] {
+            let spectrum = SelfAffine { hurst: 0.6, first: 1, last };
+            for shift in [0.5, 0.25] {
+                let line =
+                    Synthesizer::default().synthesize(spectrum, 42, points, shift, Vec::new()).unwrap();
+                for (i, &height) in line.heights.iter().enumerate() {
+                    let expected = direct(spectrum, 42, (i as f64 + 0.5 - shift) / points as f64);
+                    assert!((height - expected).abs() < 1e-13, "N = {points}, i = {i}: {height} {expected}");
+                }
+            }
         }
     }
 

@@ -1,7 +1,6 @@
 //! The merged results of a study, read back: for plots and views.
 
 use super::SweepError;
-use super::measure::REGIMES;
 use super::merge::{REGIME_COLUMNS, RESULTS, SUMMARY};
 use super::plan::Plan;
 use super::quantity::Quantity;
@@ -27,7 +26,7 @@ pub struct CellSummary {
     pub lines: u64,
     /// For each quantity that the plan records, in that order; nothing for the regime.
     pub quantities: Vec<Option<Spread>>,
-    /// Share of lines in each regime, in the order of [`Finished::REGIMES`]; where it is recorded and known.
+    /// Share of lines in each regime, in the order of [`Regime::ALL`]; where it is recorded and known.
     pub regimes: Option<[f64; 3]>,
 }
 
@@ -57,9 +56,6 @@ pub struct Row {
 }
 
 impl Finished {
-    /// The regimes in the order of their shares.
-    pub const REGIMES: [Regime; 3] = REGIMES;
-
     /// Reads the summary of a merged study.
     ///
     /// # Errors
@@ -197,7 +193,7 @@ fn row_of(plan: &Plan, columns: &[&str]) -> Option<Row> {
     for quantity in &plan.record {
         let text = *columns.next()?;
         if *quantity == Quantity::Regime {
-            regime = REGIMES.into_iter().find(|regime| regime.name() == text);
+            regime = Regime::ALL.into_iter().find(|regime| regime.name() == text);
             values.push(None);
         } else {
             values.push(value(text)?);

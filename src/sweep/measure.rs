@@ -2,7 +2,7 @@
 
 use super::plan::{Plan, StiffnessRange};
 use super::quantity::{Needs, Quantity};
-use crate::analysis::{Figures, Governing, Regime, RegimeEvidence};
+use crate::analysis::{Figures, Governing, Regime};
 use crate::contact::{Direction, History, LegRecord};
 use crate::ensemble::HeightShape;
 use crate::scene::{Leg, Roughness, Scene};
@@ -59,7 +59,7 @@ impl<'p> Measurer<'p> {
     }
 
     /// Runs a scene of the plan on the line of a seed and appends, for each preload, what is recorded; NaN
-    /// stands for what there is not. The regime is its place in [`REGIMES`].
+    /// stands for what there is not. The regime is its place in [`Regime::ALL`].
     ///
     /// # Errors
     /// When the line or the contact fails.
@@ -182,10 +182,6 @@ impl<'p> Measurer<'p> {
     }
 }
 
-/// The regimes in the order of the numbers that stand for them.
-pub(super) const REGIMES: [Regime; 3] =
-    [Regime::PressureInsensitive, Regime::PressureSensitive, Regime::NonAdhesive];
-
 /// E* h L, N.
 fn unit_of_force(governing: &Governing, length: f64) -> Option<f64> {
     governing.amplitude.map(|amplitude| governing.effective_modulus * amplitude.rms_height * length)
@@ -245,8 +241,8 @@ impl Run<'_> {
                 .max_by(|a, b| a.force.total_cmp(&b.force))
                 .map(|point| point.fragments as f64),
             Quantity::Regime => {
-                let regime = self.regime(touch, figures)?;
-                REGIMES.iter().position(|one| *one == regime).map(|place| place as f64)
+                let smooth = self.outcome?.smooth_adhesion_force;
+                Regime::of_loading(figures, touch, smooth).map(|regime| f64::from(regime as u8))
             }
             Quantity::StiffnessExponent => self.of_line.exponents.map(|exponents| exponents.stiffness),
             Quantity::ForceExponent => self.of_line.exponents.map(|exponents| exponents.force),
@@ -256,18 +252,6 @@ impl Run<'_> {
             Quantity::SummitHeight => heights.map(|heights| heights.summit),
         }
         .filter(|value| value.is_finite())
-    }
-
-    /// The regime that this loop shows.
-    fn regime(&self, touch: Option<f64>, figures: &Figures) -> Option<Regime> {
-        match (figures.adhesion_force, touch, self.outcome?.smooth_adhesion_force) {
-            (Some(_), None, None) => Some(Regime::NonAdhesive),
-            (Some(adhesion), Some(zero_load_adhesion), Some(smooth_adhesion)) => {
-                let preload = figures.preload.unwrap_or(0.0);
-                Some(RegimeEvidence { zero_load_adhesion, adhesion, preload, smooth_adhesion }.regime())
-            }
-            _ => None,
-        }
     }
 }
 

@@ -1,13 +1,13 @@
 //! All records of a study as tables: each once, sorted, and what the lines of a cell have in common.
 
 use super::SweepError;
-use super::measure::REGIMES;
 use super::plan::{MOST_RECORDS, Plan};
 use super::publish::publish;
 use super::quantity::Quantity;
 use super::record::{Key, key_of, values_into};
 use super::store::{Folder, Lines, ShardFile};
 use super::target::symbol_and_unit;
+use crate::analysis::Regime;
 use crate::ensemble::{Statistics, StudentT};
 use crate::export::{WriteError, write_json_value, write_new_on};
 use serde::Serialize;
@@ -378,7 +378,8 @@ pub(super) const REGIME_COLUMNS: [&str; 3] =
     ["regime_pressure_insensitive", "regime_pressure_sensitive", "regime_non_adhesive"];
 
 fn regime_name(quantity: Quantity, value: f64) -> Option<&'static str> {
-    let regime = REGIMES.get(value as usize).filter(|_| quantity == Quantity::Regime && !value.is_nan())?;
+    let regime =
+        Regime::ALL.get(value as usize).filter(|_| quantity == Quantity::Regime && !value.is_nan())?;
     Some(regime.name())
 }
 
@@ -393,7 +394,7 @@ fn summary_row(plan: &Plan, lines: &[&[f64]], quantiles: &mut StudentT) -> Strin
         let values = lines.iter().map(|line| line[column]).filter(|value| !value.is_nan());
         let values: Vec<f64> = values.collect();
         if *quantity == Quantity::Regime {
-            for regime in 0..REGIMES.len() {
+            for regime in 0..Regime::ALL.len() {
                 let here = values.iter().filter(|value| **value as usize == regime).count();
                 add((!values.is_empty()).then(|| here as f64 / values.len() as f64));
             }

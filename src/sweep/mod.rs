@@ -70,7 +70,7 @@ pub use quantity::Quantity;
 pub use record::Key;
 pub use run::{Ended, Options, Progress, run};
 pub use select::{FigureError, Selection};
-pub(crate) use select::{ascending, estimate, figure_axis, fixed, regime, scale_of};
+pub(crate) use select::{ascending, cell_regime, estimate, figure_axis, fixed, scale_of};
 pub use shard::Shard;
 pub use status::{Attempt, ShardStatus, Status};
 pub use store::{Folder, Header, STORE_VERSION, ShardFile};

@@ -5,7 +5,7 @@ use super::finished::{CellSummary, Finished};
 use super::plan::Plan;
 use super::quantity::Quantity;
 use super::{Axis, symbol_and_unit};
-use crate::analysis::{Regime, VANISHING_SHARE};
+use crate::analysis::{CellRegime, VANISHING_SHARE};
 use crate::scene::{Leg, field, format_quantity, parse_quantity};
 use thiserror::Error;
 
@@ -156,7 +156,7 @@ impl Selection {
             regimes: if series.is_some() || !plan.record.contains(&Quantity::Regime) {
                 Vec::new()
             } else {
-                cells.of(regime)
+                cells.of(|cell| cell_regime(cell).map(|cell| cell.regime))
             },
         })
     }
@@ -373,10 +373,7 @@ pub(crate) fn scale_of(estimates: &[Option<Estimate>]) -> AxisScale {
     if wide { AxisScale::Logarithmic } else { AxisScale::Linear }
 }
 
-/// The regime of most lines; of two with as many the one with more adhesion.
-pub(crate) fn regime(cell: &CellSummary) -> Option<Regime> {
-    let shares = cell.regimes?;
-    let most = shares.into_iter().fold(0.0, f64::max);
-    let index = shares.into_iter().position(|share| share == most && most > 0.0)?;
-    Finished::REGIMES.get(index).copied()
+/// Regime of a cell and of its lines; `None` where it was not recorded.
+pub(crate) fn cell_regime(cell: &CellSummary) -> Option<CellRegime> {
+    CellRegime::from_shares(cell.regimes?)
 }

@@ -405,7 +405,7 @@ fn offset() -> Result<f64, Fault> {
     let mut worst = (height / expected_height - 1.0).abs().max((gradient / expected_gradient - 1.0).abs());
     // Springs midway between the points of the file: half a step further on.
     let length = profile.length();
-    let heights = profile.sample(length, points - 1).map_err(Fault::Wrong)?;
+    let heights = profile.sample(length, points - 1, 0.0).map_err(Fault::Wrong)?;
     let line = Line::new(length, points - 1, None, Some(&heights), 1.0)?;
     let midway: Vec<f64> =
         on_offset.windows(2).map(|z| 0.5 * (z[0] - z[1]) + (z[1] - on_offset[0])).collect();

@@ -25,12 +25,14 @@ pub(in crate::contact) use search::{bisect, crossing, last_before};
 pub(in crate::contact) use span::Span;
 pub use sub_cell_edges::SubCellEdges;
 pub use tree::ContactTree;
+use tree::TWO_THREADS;
 pub(in crate::contact) use tree::{Branch, Node};
 
 use super::contact_model::{ContactModel, ContactState};
 use super::exact::Exact;
 use super::grid::Grid;
 use super::{ContactError, LegContact, Work};
+use crate::parallel::in_parallel;
 use curve::Sampled;
 use dissipation::Range;
 use loading::Closing;
@@ -100,8 +102,14 @@ impl<'a, E: EdgeModel> Adhesive<'a, E> {
 
     fn sample_from(&self, grid: Grid, low: f64) -> Result<(Sampled, f64), ContactError> {
         let range = Range { low, high: grid.high(), unloading: self.unloading };
-        let squared = self.ground.squared_stretch(&self.memory.runs, range);
-        Ok((self.sample(grid)?, squared))
+        let (ground, runs) = (self.ground, &self.memory.runs);
+        let is_long = ground.gaps.len() >= TWO_THREADS;
+        let (sampled, squared) = in_parallel(
+            is_long,
+            || ground.sample(runs, self.unloading, grid),
+            || ground.squared_stretch(runs, range),
+        );
+        Ok((sampled?, squared))
     }
 
     /// Smallest compression of the unloading from first touch, m, and the work counts of the search.

@@ -1,13 +1,17 @@
 //! The contact tree: how the fragments of a line merge, over its local maxima alone.
 
+use super::run::larger;
 use crate::contact::{ContactError, GapScale, reserve};
 use crate::memory;
+use crate::parallel::in_parallel;
 use crate::scene::Edges;
 
 /// Springs between two kept sums.
 const BLOCK: usize = 4;
 /// Springs compared at once.
 const LANES: usize = 64;
+/// Springs from which a second thread costs less than its share of a pass takes.
+pub(super) const TWO_THREADS: usize = 1 << 17;
 
 /// Merge tree of the local maxima of the gap, the turning points, and prefix sums along the line.
 ///
@@ -95,12 +99,17 @@ impl ContactTree {
     /// # Errors
     /// [`ContactError::OutOfMemory`].
     pub fn rebuild(mut self, gaps: &[f64], edges: Edges) -> Result<Self, ContactError> {
-        self.find_turns(gaps)?;
-        self.merge(gaps)?;
-        let largest = self.largest_gap(gaps);
-        let scale = GapScale::for_gaps_up_to(largest);
+        let scale = GapScale::for_gaps_up_to(largest(gaps));
         (self.scale, self.edges) = (Some(scale), Some(edges));
-        self.sum(gaps, edges, scale)?;
+        let sums = std::mem::take(&mut self.sums);
+        let is_long = gaps.len() >= TWO_THREADS;
+        let (merged, sums) = in_parallel(
+            is_long,
+            || self.find_turns(gaps).and_then(|()| self.merge(gaps)),
+            || sums_along(sums, gaps, edges, scale),
+        );
+        merged?;
+        self.sums = sums?;
         Ok(self)
     }
 
@@ -195,11 +204,6 @@ impl ContactTree {
         self.sums[block] + rest
     }
 
-    fn largest_gap(&self, gaps: &[f64]) -> f64 {
-        let ends = [gaps.first(), gaps.last()].into_iter().flatten().copied().fold(0.0, f64::max);
-        self.nodes.last().map_or(ends, |root| root.gap.max(ends))
-    }
-
     /// Finds the turning points: of neighbours with equal gaps the right one counts as lower.
     fn find_turns(&mut self, gaps: &[f64]) -> Result<(), ContactError> {
         let count = gaps.len();
@@ -272,35 +276,49 @@ impl ContactTree {
         (self.nodes, self.pending) = (nodes, pending);
         Ok(())
     }
+}
 
-    /// Sums along the line.
-    fn sum(&mut self, gaps: &[f64], edges: Edges, scale: GapScale) -> Result<(), ContactError> {
-        let mut sums = std::mem::take(&mut self.sums);
-        sums.clear();
-        if sums.capacity() < gaps.len() / BLOCK + 1 {
-            sums = reserve(gaps.len() / BLOCK + 1)?;
-        }
-        let mut sum = 0_i128;
-        sums.push(sum);
-        // Four quanta below 2^62 fit into an u64.
-        let mut add = |block: [i64; BLOCK]| {
-            sum += i128::from(block.into_iter().map(i64::cast_unsigned).sum::<u64>());
-            sums.push(sum);
-        };
-        match edges {
-            Edges::Grid => {
-                gaps.as_chunks()
-                    .0
-                    .iter()
-                    .for_each(|block: &[f64; BLOCK]| add(block.map(|gap| scale.quanta(gap))));
-            }
-            Edges::SubCell => gaps.windows(BLOCK + 1).step_by(BLOCK).for_each(|block| {
-                add(std::array::from_fn(|k| scale.mean_quanta(block[k], block[k + 1])));
-            }),
-        }
-        self.sums = sums;
-        Ok(())
+/// Sums before each `BLOCK`-th spring, in quanta of the scale.
+fn sums_along(
+    mut sums: Vec<i128>,
+    gaps: &[f64],
+    edges: Edges,
+    scale: GapScale,
+) -> Result<Vec<i128>, ContactError> {
+    let count = gaps.len() / BLOCK + 1;
+    sums.clear();
+    if sums.capacity() < count {
+        sums = reserve(count)?;
     }
+    let mut sum = 0_i128;
+    sums.push(sum);
+    // Four quanta below 2^62 fit into 64 bits.
+    let mut add = |block: [i64; BLOCK]| {
+        sum += i128::from(block.into_iter().map(i64::cast_unsigned).sum::<u64>());
+        sums.push(sum);
+    };
+    match edges {
+        Edges::Grid => {
+            let (blocks, _) = gaps.as_chunks::<BLOCK>();
+            blocks.iter().for_each(|block| add(block.map(|gap| scale.quanta(gap))));
+        }
+        Edges::SubCell => gaps.windows(BLOCK + 1).step_by(BLOCK).for_each(|block| {
+            add(std::array::from_fn(|k| scale.mean_quanta(block[k], block[k + 1])));
+        }),
+    }
+    Ok(sums)
+}
+
+/// Largest of finite numbers that are at least zero; zero of none.
+fn largest(gaps: &[f64]) -> f64 {
+    let (blocks, rest) = gaps.as_chunks::<8>();
+    let mut lanes = [0.0; 8];
+    for block in blocks {
+        for (lane, &gap) in lanes.iter_mut().zip(block) {
+            *lane = larger(*lane, gap);
+        }
+    }
+    lanes.iter().chain(rest).fold(0.0, |one, &other| larger(one, other))
 }
 
 /// Whether the gap rises from each spring to the next, one bit for each.

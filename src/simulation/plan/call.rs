@@ -2,7 +2,7 @@
 
 use super::Stage;
 use super::legs::Legs;
-use crate::scene::{Edges, Effect, Form, Roughness, Scene, Solver};
+use crate::scene::{Edges, Effect, Roughness, Scene, Solver};
 use serde::Serialize;
 
 /// Bytes for each spring: a height of the roughness, or a gap of the line.
@@ -90,7 +90,7 @@ impl<'a> Call<'a> {
         Call {
             scene,
             points: scene.numerics.points,
-            springs: springs_under_body(scene),
+            springs: scene.springs_under_body().count() as u64,
             curve_points: scene.numerics.samples * loading.len() as u64,
             legs: Legs::of(loading),
             adhesive: Effect::Adhesion.is_on(scene),
@@ -128,15 +128,4 @@ impl<'a> Call<'a> {
         let springs_touched = passes.map(|passes| passes.saturating_mul(springs));
         StageCost { passes, springs_touched, bytes: bytes_per_spring.saturating_mul(springs) }
     }
-}
-
-/// Springs of the foundation that stand under the body: all of them but those beside a punch.
-fn springs_under_body(scene: &Scene) -> u64 {
-    let points = scene.numerics.points;
-    let Some(Form::Punch { radius }) = scene.form else { return points };
-    let cells = radius / scene.spacing();
-    // Pairs at half or whole cells from the axis, and one on it where the number of springs is odd.
-    let under =
-        if points.is_multiple_of(2) { 2.0 * (cells + 0.5).floor() } else { 2.0 * cells.floor() + 1.0 };
-    (under as u64).min(points)
 }

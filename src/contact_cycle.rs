@@ -1,0 +1,200 @@
+//! Loading cycles for programs: a profile, a material and a work of adhesion, loaded along any history.
+
+use crate::analysis::Figures;
+use crate::contact::{
+    AdhesiveMemory, ContactError, ContactTree, CurvePoint, EdgeModel, Foundation, GridEdges, HessRule,
+    History, LegRecord, Solver, SubCellEdges, exact, run,
+};
+use crate::scene::{Adhesion, Edges, Leg, Material, Numerics, SCENE_VERSION, Scene, Solver as SolverChoice};
+use crate::simulation::RunError;
+use crate::{Error, Profile};
+use std::mem::take;
+
+/// A rigid profile on an elastic half-space, with or without adhesion; the contact of a loading history is exact.
+///
+/// ```
+/// use asperity::{Contact, Leg, Material, Profile};
+///
+/// let sphere = Profile::sphere(1.0e-4, 1.0e-4, 4096)?;
+/// let mut contact = Contact::new(&sphere, Material::effective(1.0e6)).work_of_adhesion(0.05).build()?;
+/// let cycle = contact.load(&[Leg::ToForce(1.0e-4), Leg::ToSeparation])?;
+/// // Johnson, Kendall and Roberts: (3/2)πγR.
+/// let expected = 1.5 * std::f64::consts::PI * 0.05 * 1.0e-4;
+/// assert!((cycle.pull_off_force().unwrap() / expected - 1.0).abs() < 1e-4);
+/// assert!(cycle.dissipated_energy().unwrap() > 0.0);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Contact {
+    gaps: Vec<f64>,
+    foundation: Foundation,
+    /// Rule of Hess and contact tree, with adhesion.
+    adhesion: Option<(HessRule, ContactTree)>,
+    edges: Edges,
+    samples: usize,
+    memory: AdhesiveMemory,
+    /// Scene of the same contact, against which a loading is checked.
+    scene: Scene,
+}
+
+/// Properties of a [`Contact`] to be built.
+#[derive(Clone, Debug)]
+pub struct ContactBuilder<'p> {
+    profile: &'p Profile,
+    scene: Scene,
+}
+
+/// Result of a loading history that begins separated.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Cycle {
+    history: History,
+    figures: Figures,
+}
+
+impl Contact {
+    /// Contact of a profile with a half-space of this material: without adhesion, with sub-cell edges and 512 samples on
+    /// each leg unless the builder says otherwise.
+    // The properties of a contact are set by name, on a builder.
+    #[allow(clippy::new_ret_no_self)]
+    #[must_use]
+    pub fn new(profile: &Profile, material: Material) -> ContactBuilder<'_> {
+        let scene = Scene {
+            version: SCENE_VERSION,
+            title: String::new(),
+            notice: String::new(),
+            material,
+            length: profile.length(),
+            form: None,
+            roughness: None,
+            adhesion: None,
+            loading: vec![Leg::ToTouch, Leg::ToSeparation],
+            numerics: Numerics { points: profile.points() as u64, ..Numerics::default() },
+            observe: Vec::new(),
+        };
+        ContactBuilder { profile, scene }
+    }
+
+    /// Loads the separated body, leg by leg.
+    ///
+    /// # Errors
+    /// [`Error::Values`] for a force or an indentation out of range, or for too many legs;
+    /// [`Error::Run`] for a force that the contact cannot reach.
+    pub fn load(&mut self, legs: &[Leg]) -> Result<Cycle, Error> {
+        self.scene.loading = legs.to_vec();
+        self.scene.check()?;
+        let history = match (&self.adhesion, self.edges) {
+            (None, edges) => {
+                history(&mut exact::nonadhesive(&self.gaps, edges, self.foundation, self.samples), legs)
+            }
+            (Some((hess, _)), Edges::Grid) => self.load_over(GridEdges::new(*hess), legs),
+            (Some((hess, _)), Edges::SubCell) => self.load_over(SubCellEdges::new(*hess), legs),
+        }
+        .map_err(RunError::Contact)?;
+        Ok(Cycle { figures: Figures::of(&history), history })
+    }
+
+    fn load_over<E: EdgeModel>(&mut self, edges: E, legs: &[Leg]) -> Result<History, ContactError> {
+        let memory = take(&mut self.memory);
+        let Some((_, tree)) = &self.adhesion else { return Ok(History::default()) };
+        let mut body = exact::adhesive_in(memory, &self.gaps, tree, edges, self.foundation, self.samples);
+        let history = history(&mut body, legs);
+        self.memory = body.into_memory();
+        history
+    }
+}
+
+fn history<S: Solver>(body: &mut S, legs: &[Leg]) -> Result<History, ContactError> {
+    run(body, legs, |_, _| Ok(()))
+}
+
+impl ContactBuilder<'_> {
+    /// Work of adhesion γ, J/m²; 0 for a contact without adhesion.
+    #[must_use]
+    pub fn work_of_adhesion(mut self, work: f64) -> Self {
+        self.scene.adhesion = Some(Adhesion { work: Some(work), kappa: None });
+        self
+    }
+
+    /// Edge model of the contact patches.
+    #[must_use]
+    pub fn edges(mut self, edges: Edges) -> Self {
+        self.scene.numerics.edges = edges;
+        self
+    }
+
+    /// Samples of the force curve on each leg; its extremes are exact for any number.
+    #[must_use]
+    pub fn samples(mut self, samples: u64) -> Self {
+        self.scene.numerics.samples = samples;
+        self
+    }
+
+    /// Builds the contact.
+    ///
+    /// # Errors
+    /// [`Error::Values`] for a value out of range, [`Error::Run`] without enough memory.
+    pub fn build(self) -> Result<Contact, Error> {
+        let ContactBuilder { profile, scene } = self;
+        debug_assert_eq!(scene.numerics.solver, SolverChoice::Exact);
+        scene.check()?;
+        let (edges, samples) = (scene.numerics.edges, scene.numerics.samples as usize);
+        let foundation = Foundation {
+            spacing: profile.spacing(),
+            effective_modulus: scene.material.effective_modulus(),
+            length: profile.length(),
+        };
+        let work = scene.adhesion.and_then(|adhesion| adhesion.work).filter(|&work| work > 0.0);
+        let adhesion = work
+            .map(|work| {
+                let tree = ContactTree::build(profile.gaps(), edges)?;
+                Ok((HessRule::new(foundation, work), tree))
+            })
+            .transpose()
+            .map_err(RunError::Contact)?;
+        let gaps = profile.gaps().to_vec();
+        Ok(Contact { gaps, foundation, adhesion, edges, samples, memory: AdhesiveMemory::default(), scene })
+    }
+}
+
+impl Cycle {
+    /// Pull-off force, N: minus the smallest force on the last leg that unloads; `None` where it does not pull.
+    #[must_use]
+    pub fn pull_off_force(&self) -> Option<f64> {
+        self.figures.adhesion_force
+    }
+
+    /// Indentation at the pull-off force, m.
+    #[must_use]
+    pub fn pull_off_indentation(&self) -> Option<f64> {
+        self.figures.pull_off_indentation
+    }
+
+    /// Preload, N: largest force on the legs that load.
+    #[must_use]
+    pub fn preload(&self) -> Option<f64> {
+        self.figures.preload
+    }
+
+    /// Dissipated energy of a history that ends separated, J.
+    #[must_use]
+    pub fn dissipated_energy(&self) -> Option<f64> {
+        self.figures.dissipated_energy
+    }
+
+    /// Force curve of all legs in their order.
+    pub fn curve(&self) -> impl Iterator<Item = &CurvePoint> {
+        self.history.legs.iter().flat_map(|leg| &leg.curve)
+    }
+
+    /// Legs with their curves, exact extremes and dissipated energies.
+    #[must_use]
+    pub fn legs(&self) -> &[LegRecord] {
+        &self.history.legs
+    }
+
+    /// First and last point of each contact patch at the end, from left to right.
+    #[must_use]
+    pub fn patches(&self) -> &[(usize, usize)] {
+        &self.history.contacts
+    }
+}
