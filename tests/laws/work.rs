@@ -1,4 +1,4 @@
-//! What is asked for and no more: points of a curve, memory that is held, and work that is counted.
+//! As much as is asked for and no more: points of a curve, memory that is held, and work that is counted.
 
 use super::*;
 use asperity::contact::{AdhesiveMemory, LegContact, Stepwise};
