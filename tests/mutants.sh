@@ -35,13 +35,19 @@ fi
 files=("src/$room")
 own="$room" below="" above="" beside="" slow="" unfit=""
 case "$room" in
-scene) beside="scene fuzz_corpus" below="io memory parallel text" above="analysis contact simulation surface" ;;
-surface) below="analysis contact io memory parallel reference scene text" beside="closed_forms fuzz_corpus" ;;
+scene)
+    below="io memory parallel text" above="analysis contact reference simulation surface"
+    beside="scene readme/scenes fuzz_corpus" slow="nesting_does_not_overflow" unfit="every_target_has"
+    ;;
+surface)
+    below="analysis contact io memory parallel reference scene text" beside="closed_forms fuzz_corpus"
+    unfit="every_target_has"
+    ;;
 analysis) below="contact io memory parallel scene text" ;;
 store)
     own="sweep" files=(src/sweep/{store,record,merge,shard}.rs)
-    below="accuracy analysis check contact disk ensemble io memory parallel reference scene simulation surface text"
-    above="export" beside="simulated_disk sweep"
+    below="analysis contact disk ensemble io memory parallel reference scene simulation surface text"
+    above="accuracy check export" beside="simulated_disk sweep"
     # The unfit ones start the program, which is not there.
     export CARGO_BIN_EXE_asperity=""
     unfit="foreign:: killed_ processes:: two_thousand"
@@ -86,13 +92,13 @@ assemble() {
     local name file
     rm -rf "$tree"
     mkdir -p "$tree/below"
-    cp -r presets fuzz tests "$tree/"
+    cp -r README.md presets fuzz tests "$tree/"
     cp -r presets "$tree/below/"
     rm "$tree"/tests/*.sh "$tree/fuzz/Cargo.toml"
     for name in $below; do copy_room "$name" "$tree/below"; done
     for name in $own $above; do copy_room "$name" "$tree"; done
     for file in tests/snapshots/*.snap; do cp "$file" "$tree/tests/snapshots/asperity__of_$(basename "$file")"; done
-    # What a crate keeps to itself, two of them share.
+    # Items that a crate keeps to itself are shared by two of them.
     find "$tree/below" -name '*.rs' -exec sed -i 's/pub(crate)/pub/' {} +
     {
         echo '#![allow(unused)]'
@@ -103,7 +109,7 @@ assemble() {
         echo 'extern crate self as asperity;'
         for name in $below; do echo "pub use below::$name;"; done
         for name in $own $above; do echo "pub mod $name;"; done
-        for name in $beside; do printf '#[cfg(test)]\n#[path = "../tests/%s.rs"]\nmod of_%s;\n' "$name" "$name"; done
+        for name in $beside; do printf '#[cfg(test)]\n#[path = "../tests/%s.rs"]\nmod of_%s;\n' "$name" "${name/\//_}"; done
     } >"$tree/src/lib.rs"
     # Packages of the same name and version would be taken for one another in a folder that rooms build in.
     awk 'NR == 1 { keep = 1 } /^\[/ { keep = !/^\[(profile|\[)/ } keep && !/^default-run/' Cargo.toml |
@@ -161,17 +167,21 @@ rm -rf "$folder"/{quick,thorough}
 echo "== $room: part $part of $all mutants, against quick tests"
 assemble
 mutants quick "${MUTANTS_TIMEOUT:-20}" "$slow $unfit" --sharding round-robin --shard "$part" "$@"
-# By their names: the numbers of a sample are not those of what is left of it.
-left=()
+# By their names, since the numbers of a sample are not those of what is left of it; and by their lines, since
+# cargo-mutants tries each field left out whatever the names say.
+left=(--in-diff "$folder/left.diff")
 while read -r name; do
     left+=(--re "^$(sed 's/[][\\.*^$+?(){}|]/\\&/g' <<<"$name")\$")
-done < <(cat "$folder/quick/mutants.out/missed.txt")
-if [ "${#left[@]}" != 0 ]; then
+done <"$folder/quick/mutants.out/missed.txt"
+cut -d: -f1,2 "$folder/quick/mutants.out/missed.txt" | sort -u -t: -k1,1 -k2,2n | while IFS=: read -r file line; do
+    printf -- '--- a/%s\n+++ b/%s\n@@ -%d,0 +%d,1 @@\n+' "$file" "$file" $((line - 1)) "$line"
+    sed -n "${line}p" "$tree/$file"
+done >"$folder/left.diff"
+if [ -s "$folder/left.diff" ]; then
     echo "== $room: what is left, against all of its tests"
     CARGO_PROFILE_TEST_OPT_LEVEL=1 PROPTEST_CASES=256 mutants thorough 180 "$unfit" "${left[@]}"
 fi
-# Of those that cargo-mutants tries without being asked, none counts.
-survivors="$(grep -Fxf "$folder"/{quick,thorough}/mutants.out/missed.txt 2>/dev/null || true)"
+survivors="$(cat "$folder/thorough/mutants.out/missed.txt" 2>/dev/null || true)"
 viable=$(($(count caught) + $(count timeout) + $(count missed)))
 echo "== $room: $((viable - $(grep -c . <<<"$survivors"))) of $viable viable mutants killed," \
     "$(count timeout) of them by time; $(count unviable) do not compile"
