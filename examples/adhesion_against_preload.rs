@@ -7,10 +7,10 @@ use asperity::{Contact, Leg, Material, Profile, SelfAffine};
 fn main() -> Result<(), asperity::Error> {
     let spectrum = SelfAffine { hurst: 0.6, first: 2, last: 4096 };
     let profile = Profile::self_affine(spectrum, 2.0e-7, 1.0e-4, 1 << 14, 7)?;
-    let mut contact = Contact::new(&profile, Material::effective(1.0e6)).work_of_adhesion(3.0e-4).build()?;
+    let mut contact = Contact::new(&profile, Material::effective(1.0e6)).work_of_adhesion(1.0e-3).build()?;
     println!("preload, µN   pull-off force, µN");
     let mut before = 0.0;
-    for preload in [0.0, 0.5, 1.0, 1.5, 2.0, 3.0, 6.0, 12.0] {
+    for preload in [0.0, 0.1, 0.2, 0.5, 1.0, 2.0, 3.0, 6.0] {
         let cycle = contact.load(&[Leg::ToForce(1.0e-6 * preload), Leg::ToSeparation])?;
         let pull_off = cycle.pull_off_force().unwrap_or(0.0);
         println!("{preload:>11}   {:.4}", 1.0e6 * pull_off);

@@ -115,3 +115,8 @@ pub fn run(scene: &Scene) -> Result<Outcome, Error> {
     scene.check()?;
     Ok(Simulation::default().run(scene, &|| false, &mut |_, _, _| Ok(()))?)
 }
+
+/// The example of the README, compiled and run as a test.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -667,7 +667,7 @@ fn wrong_usage_is_exit_code_two() {
     }
     let told = failed(2, &["rnu", "jkr-sphere", "--format", "json"]);
     assert!(told.contains("'rnu' is not a command") && told.contains("run, demo, plan"), "{told}");
-    assert!(failed(2, &["--set", "length=1", "run", "jkr-sphere"]).contains("stands first"));
+    assert!(failed(2, &["--set", "length=1", "run", "jkr-sphere"]).contains("comes first"));
 }
 
 #[test]

@@ -240,7 +240,7 @@ fn a_cluster_gives_the_bytes_of_one_machine_even_when_programs_are_killed() {
         assert!(fs::read_to_string(log).unwrap().contains("24 of 24 records"), "{}", cluster.logs());
 
         // Cells so large that the program is killed in the middle of one.
-        let plan = cluster.plan(1 << 19);
+        let plan = cluster.plan(1 << 21);
         let (array, merge) = cluster.submit(&plan, "killed", &["--shards", "2", "--", "--job-name=killed"]);
         cluster.wait_until("there is a record, and shard 1 runs", 30, || {
             cluster.records("killed") > 0 && !cluster.processes("killed", "1/2").is_empty()

@@ -208,7 +208,7 @@ fn a_whole_loop_is_edited_and_played_over_a_slow_line() {
         for _ in 0..40 {
             let selected = |rows: &[String]| rows.iter().find(|row| row.contains('›')).cloned();
             let row = selected(&terminal.rows()).expect("a row is selected");
-            if row.contains("force of a leg") {
+            if row.contains("force of a stage") {
                 break;
             }
             terminal.send("j");
@@ -272,7 +272,7 @@ fn a_held_key_does_not_flood_a_slow_line() {
         assert!(bytes as f64 / 3.0 < MOST_BYTES, "{bytes} bytes in 3 s");
         // The last of them is seen, too, and at once.
         terminal.settle();
-        assert!(terminal.text().contains("in hand: d "), "{}", terminal.text());
+        assert!(terminal.text().contains("manual: d "), "{}", terminal.text());
         terminal.send("q");
         assert!(terminal.wait_end().success());
     });

@@ -1,5 +1,6 @@
 //! Parameter studies: what they give is what single runs give, whoever computes it and however it is ended.
 
+use asperity::analysis::Regime;
 use asperity::scene::{Adhesion, Leg, Roughness, Scene};
 use asperity::simulation::{Outcome, Simulation};
 use asperity::sweep::{

@@ -19,7 +19,7 @@ Examples:
 
 Exit codes: 0 done, 1 the input or the run failed, 2 wrong usage.";
 
-/// How strongly rough elastic bodies stick, and whether pressing them makes them stick more.
+/// Adhesion of rough elastic contacts: pull-off force and hysteresis for any loading history.
 ///
 /// Computes the adhesive contact of a rough body on an elastic half-space by the method of
 /// dimensionality reduction with the rule of Hess: the whole loop of force against
@@ -47,17 +47,17 @@ pub struct Arguments {
 pub enum Command {
     /// Compute a scene: a summary, JSON, or the curve as CSV
     Run(RunArguments),
-    /// Watch the explorer play by itself, print it or record it
+    /// Play the explorer without a keyboard: on screen, as text, or as a recording
     Demo(DemoArguments),
-    /// Tell which stages a scene runs and which it skips, why, and what they cost
+    /// List the computing stages of a scene: run or skipped, reason, cost
     Plan(PlanArguments),
-    /// Measure what accuracy costs: errors against time, for everything that buys accuracy
+    /// Measure errors against computing time for each setting that affects accuracy
     Cost(CostArguments),
-    /// Compute a parameter study: many cells on many random lines
+    /// Compute a parameter study: many cells on many random profiles
     Sweep(SweepArguments),
-    /// Run the catalogue of hard cases: what must hold, and whether it does on this machine
+    /// Run the catalogue of numerically hard cases on this machine
     Check(CheckArguments),
-    /// Print the rigid line of a scene as CSV: x,z in m
+    /// Print the rigid profile of a scene as CSV: x,z in m
     Line(LineArguments),
     /// List, show and check scenes
     #[command(subcommand)]

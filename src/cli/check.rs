@@ -25,7 +25,7 @@ pub struct CheckArguments {
     /// Leave out cases that take seconds and hundreds of megabytes
     #[arg(long)]
     pub quick: bool,
-    /// text or json; left out: by the ending of FILE, else text
+    /// text or json; default: by the extension of FILE, else text
     #[arg(long, value_enum, hide_possible_values = true)]
     pub format: Option<CheckFormat>,
     /// Where it goes.

@@ -31,10 +31,10 @@ pub struct CostArguments {
     /// The scene.
     #[command(flatten)]
     pub scene: SceneArguments,
-    /// Time for the whole of it: 500ms, 30s, 2min
+    /// Time limit of the whole measurement: 500ms, 30s, 2min
     #[arg(long, value_name = "TIME", default_value = "10s", value_parser = budget)]
     pub budget: Duration,
-    /// text, json or csv; left out: by the ending of FILE, else text
+    /// text, json or csv; default: by the extension of FILE, else text
     #[arg(long, value_enum, hide_possible_values = true)]
     pub format: Option<CostFormat>,
     /// Draw errors over times to FILE, in SVG

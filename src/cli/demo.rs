@@ -30,7 +30,7 @@ const READ: f64 = 1.0;
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES)]
 pub struct DemoArguments {
-    /// Scene file or built-in scene; left out, a tour over the built-in scenes
+    /// Scene file or built-in scene; default: a tour of the built-in scenes
     pub scene: Option<String>,
     /// What is changed in it.
     #[command(flatten)]
@@ -38,23 +38,23 @@ pub struct DemoArguments {
     /// Print plain frames, as into a pipe, also where there is a terminal
     #[arg(long)]
     pub frames: bool,
-    /// Frames in a second, 0.1 to 60; left out, 12, and 1 for plain frames
+    /// Frames per second, 0.1 to 60; default: 12, and 1 for plain frames
     #[arg(long, value_name = "N", value_parser = frames_per_second)]
     pub fps: Option<f64>,
-    /// Size of the screen; left out, that of the terminal, else 120x40
+    /// Size of the screen; default: that of the terminal, else 120x40
     #[arg(long, value_name = "COLUMNSxROWS", value_parser = size)]
     pub size: Option<(u16, u16)>,
-    /// Nothing but ASCII: no Braille, no lines, no Greek
+    /// ASCII only: no Braille, no box drawing, no Greek
     #[arg(long, conflicts_with = "marker")]
     pub ascii: bool,
     /// Markers
     ///
-    /// What plots are made of; left out, braille.
+    /// Marker of plots; default: braille.
     #[arg(long, value_enum)]
     pub marker: Option<Marker>,
     /// Colours
     ///
-    /// Left out, dark for a recording and a picture; else NO_COLOR and COLORFGBG tell.
+    /// Default: dark for a recording and a picture, else chosen from NO_COLOR and COLORFGBG.
     #[arg(long, value_enum)]
     pub theme: Option<Theme>,
     /// Record to FILE, an asciicast of version 2
@@ -63,10 +63,10 @@ pub struct DemoArguments {
     /// Print only the frame at so many seconds
     #[arg(long, value_name = "SECONDS", value_parser = seconds)]
     pub at: Option<f64>,
-    /// Draw it to FILE, in SVG
+    /// Write a picture to FILE, as SVG
     #[arg(long, value_name = "FILE", requires = "at")]
     pub svg: Option<PathBuf>,
-    /// Overwrite FILE where it exists
+    /// Overwrite FILE if it exists
     #[arg(long)]
     pub force: bool,
 }

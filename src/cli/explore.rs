@@ -13,19 +13,19 @@ use std::io::{IsTerminal, Write, stdin, stdout};
 pub struct ExploreArguments {
     /// Explore this scene file, built-in scene (see `asperity presets list`), or merged study
     ///
-    /// A study by its folder: its map over κ and H, where it varies both.
+    /// The folder of a merged study opens its map over κ and H, if the study varies both.
     pub scene: Option<String>,
     /// What is changed in it.
     #[command(flatten)]
     pub overrides: Overrides,
     /// Colours
     ///
-    /// Left out, NO_COLOR and COLORFGBG tell.
+    /// Default: chosen from NO_COLOR and COLORFGBG.
     #[arg(long, value_enum)]
     pub theme: Option<Theme>,
     /// Markers
     ///
-    /// What plots are made of; left out, braille.
+    /// Marker of plots; default: braille.
     #[arg(long, value_enum)]
     pub marker: Option<Marker>,
     /// Leave the mouse to the terminal

@@ -12,7 +12,7 @@ pub struct OutputArguments {
     /// Write to FILE, whole or not at all; `-` is standard output
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<PathBuf>,
-    /// Overwrite FILE where it exists
+    /// Overwrite FILE if it exists
     #[arg(long, requires = "output")]
     pub force: bool,
 }

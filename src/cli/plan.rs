@@ -23,7 +23,7 @@ pub struct PlanArguments {
     /// The scene.
     #[command(flatten)]
     pub scene: SceneArguments,
-    /// How it is printed
+    /// Output format
     #[arg(long, value_enum, default_value_t = PlanFormat::Text)]
     pub format: PlanFormat,
 }

@@ -30,9 +30,9 @@ pub struct RunArguments {
     /// The scene.
     #[command(flatten)]
     pub scene: SceneArguments,
-    /// summary, json or csv; left out: by the ending of FILE, else summary
+    /// summary, json or csv; default: by the extension of FILE, else summary
     ///
-    /// A summary is text for a person. JSON is one object with everything: scene, line, figures,
+    /// A summary is text for a person. JSON is one object with everything: scene, profile, figures,
     /// curve, contacts, work. CSV is the curve: leg,indentation,force,contact_length,fragments.
     #[arg(long, value_enum, hide_possible_values = true, verbatim_doc_comment)]
     pub format: Option<RunFormat>,
@@ -43,12 +43,12 @@ pub struct RunArguments {
     /// chosen stands in place of the scene's own numerics.points and numerics.edges.
     #[arg(long, value_name = "T", value_parser = parse_tolerance, verbatim_doc_comment)]
     pub tolerance: Option<f64>,
-    /// Compute random lines, this seed and those after it: mean and spread
+    /// Compute random profiles with this seed and the next ones: mean and spread
     ///
-    /// CSV then has one row for each seed. A tolerance is kept on the first line.
+    /// CSV then has one row for each seed. A tolerance applies to the first profile.
     #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u32).range(2..=MOST_LINES), verbatim_doc_comment)]
     pub lines: Option<u32>,
-    /// Threads that share the lines; left out, one for each core
+    /// Threads that share the profiles; default: one for each core
     #[arg(long, value_name = "COUNT", requires = "lines", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub jobs: Option<u16>,
     /// Where it goes.

@@ -29,7 +29,7 @@ pub(super) fn explained(error: Error, typed: &[OsString]) -> Error {
     let no_command = format!("'{first}' is not a command; the commands are {}", names.join(", "));
     let message = match (error.kind(), misplaced) {
         (ErrorKind::ArgumentConflict, Some(misplaced)) => {
-            format!("the command '{misplaced}' stands first, its scene and options follow it")
+            format!("the command '{misplaced}' comes first, its scene and options follow")
         }
         (ErrorKind::ArgumentConflict, None) if !first.starts_with('-') => no_command,
         (ErrorKind::UnknownArgument, _) if !first.starts_with('-') => {

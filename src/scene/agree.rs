@@ -54,7 +54,7 @@ fn check_material(material: &Material, found: &mut Found) {
             return;
         }
         (Some(_), ..) => {
-            "effective_modulus stands in place of youngs_modulus and poisson_ratio: give one or the other"
+            "effective_modulus replaces youngs_modulus and poisson_ratio: give one or the other"
         }
         (None, Some(_), None) => "youngs_modulus goes with poisson_ratio, which is missing",
         (None, None, Some(_)) => "poisson_ratio goes with youngs_modulus, which is missing",
@@ -111,7 +111,7 @@ fn check_punch(scene: &Scene, radius: f64, found: &mut Found) {
     }
     if !found.has("numerics.points") && scene.springs_under_body().is_empty() {
         let reason = format!(
-            "no spring stands under the punch: the springs are {} m apart; more points or a larger radius",
+            "no spring lies under the punch: the springs are {} m apart; more points or a larger radius",
             ron_float(scene.spacing())
         );
         found.add(disagreement("form.radius", ron_float(radius), reason, &["length", "numerics.points"]));

@@ -1,7 +1,7 @@
 //! The one table of everything a scene can say: paths, symbols, units, ranges, meanings.
 //!
 //! The checks, the names an override may use, the explorer's list of parameters and the reference
-//! in the README all read this table, so they cannot disagree.
+//! in docs/scene-file.md all read this table, so they cannot disagree.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -93,7 +93,7 @@ pub const FIELDS: &[Field] = &[
         name: "title",
         range: Range::Text { most: 200, lines: false },
         default: "\"\"",
-        meaning: "one line naming the scene",
+        meaning: "title of the scene, on one line",
         ..TEXT
     },
     Field {
@@ -101,14 +101,14 @@ pub const FIELDS: &[Field] = &[
         name: "notice",
         range: Range::Text { most: 4000, lines: true },
         default: "\"\"",
-        meaning: "what to look at",
+        meaning: "notes on the scene",
         ..TEXT
     },
     Field {
         path: "material",
         name: "material",
         range: Range::Choice(&["(youngs_modulus: 2.0e6, poisson_ratio: 0.5)", "(effective_modulus: 2.7e6)"]),
-        meaning: "how stiff the bodies are: Young's modulus with Poisson's ratio, or the effective modulus",
+        meaning: "elastic constants: Young's modulus with Poisson's ratio, or the effective modulus",
         ..TEXT
     },
     Field {
@@ -119,7 +119,7 @@ pub const FIELDS: &[Field] = &[
         range: Range::closed(1.0, 1e13),
         step: Step::Logarithmic,
         default: "None",
-        meaning: "stiffness of the elastic body; goes with Poisson's ratio",
+        meaning: "Young's modulus of the elastic body; requires Poisson's ratio",
         ..NUMBER
     },
     Field {
@@ -129,7 +129,7 @@ pub const FIELDS: &[Field] = &[
         range: Range::above(-1.0, 0.5),
         step: Step::Linear { fine: 0.01, coarse: 0.1 },
         default: "None",
-        meaning: "how much the body bulges when pressed; 0.5 keeps its volume, as rubber does",
+        meaning: "Poisson's ratio of the elastic body; 0.5 is incompressible, as rubber",
         ..NUMBER
     },
     Field {
@@ -140,7 +140,7 @@ pub const FIELDS: &[Field] = &[
         range: Range::closed(1.0, 1e13),
         step: Step::Logarithmic,
         default: "None",
-        meaning: "stiffness of the contact, E/(1 − ν²); stands in place of E and ν",
+        meaning: "effective modulus E/(1 − ν²), in place of E and ν",
         ..NUMBER
     },
     Field {
@@ -150,7 +150,7 @@ pub const FIELDS: &[Field] = &[
         unit: "m",
         range: Range::closed(1e-9, 10.0),
         step: Step::Logarithmic,
-        meaning: "apparent diameter of the contact: the length of the line",
+        meaning: "apparent diameter of the contact: length of the profile",
         ..NUMBER
     },
     Field {
@@ -164,7 +164,7 @@ pub const FIELDS: &[Field] = &[
         ]),
         step: Step::Choice,
         default: "None",
-        meaning: "macroscopic shape of the rigid body; left out: nominally flat",
+        meaning: "macroscopic shape of the rigid body; default: nominally flat",
         ..TEXT
     },
     Field {
@@ -175,7 +175,7 @@ pub const FIELDS: &[Field] = &[
         unit: "m",
         range: Range::above(0.0, 1e9),
         step: Step::Logarithmic,
-        meaning: "radius of the sphere of which the paraboloid is the tip",
+        meaning: "radius of curvature of the paraboloid at its apex",
         ..NUMBER
     },
     Field {
@@ -186,7 +186,7 @@ pub const FIELDS: &[Field] = &[
         unit: "rad",
         range: Range::between(0.0, FRAC_PI_2),
         step: Step::Linear { fine: 0.01, coarse: 0.1 },
-        meaning: "angle between the cone's flank and the surface; small is blunt",
+        meaning: "angle between the flank of the cone and the surface; a small angle is blunt",
         ..NUMBER
     },
     Field {
@@ -197,7 +197,7 @@ pub const FIELDS: &[Field] = &[
         unit: "m^(1−n)",
         range: Range::above(0.0, 1e300),
         step: Step::Logarithmic,
-        meaning: "b of the power law b rⁿ",
+        meaning: "coefficient b of the power law b rⁿ",
         ..NUMBER
     },
     Field {
@@ -207,7 +207,7 @@ pub const FIELDS: &[Field] = &[
         symbol: "n",
         range: Range::above(0.5, 100.0),
         step: Step::Linear { fine: 0.1, coarse: 1.0 },
-        meaning: "n of the power law b rⁿ; large is flat in the middle and steep outside",
+        meaning: "exponent n of the power law b rⁿ; a large n is flat in the middle and steep outside",
         ..NUMBER
     },
     Field {
@@ -218,7 +218,7 @@ pub const FIELDS: &[Field] = &[
         unit: "m",
         range: Range::above(0.0, 5.0),
         step: Step::Logarithmic,
-        meaning: "radius of the flat end; nothing outside it touches",
+        meaning: "radius of the flat end; no contact outside",
         ..NUMBER
     },
     Field {
@@ -230,7 +230,7 @@ pub const FIELDS: &[Field] = &[
         ]),
         step: Step::Choice,
         default: "None",
-        meaning: "roughness of the rigid line; left out: smooth",
+        meaning: "roughness of the rigid profile; default: smooth",
         ..TEXT
     },
     Field {
@@ -240,7 +240,7 @@ pub const FIELDS: &[Field] = &[
         symbol: "H",
         range: Range::between(0.0, 1.0),
         step: Step::Linear { fine: 0.01, coarse: 0.1 },
-        meaning: "how fast roughness fades on small scales: low is jagged, high is smooth; Df = 3 − H",
+        meaning: "decay of the roughness towards short waves: low H is jagged, high H is smooth; fractal dimension 3 − H",
         ..NUMBER
     },
     Field {
@@ -252,7 +252,7 @@ pub const FIELDS: &[Field] = &[
         range: Range::closed(1e-30, 100.0),
         step: Step::Logarithmic,
         default: "None",
-        meaning: "root mean square height of the line",
+        meaning: "root mean square height of the profile",
     },
     Field {
         path: "roughness.rms_gradient",
@@ -262,7 +262,7 @@ pub const FIELDS: &[Field] = &[
         range: Range::closed(1e-30, 1e9),
         step: Step::Logarithmic,
         default: "None",
-        meaning: "root mean square slope of the line; stands in place of the rms height",
+        meaning: "root mean square slope of the profile, in place of the rms height",
         ..NUMBER
     },
     Field {
@@ -272,7 +272,7 @@ pub const FIELDS: &[Field] = &[
         symbol: "k",
         range: Range::Band { min: 1, max: 1 << 27 },
         step: Step::Band,
-        meaning: "first and last wave of the line, in waves per length; the last is at most points/2",
+        meaning: "first and last mode of the profile, in waves per length; the last is at most points/2",
         ..NUMBER
     },
     Field {
@@ -281,13 +281,13 @@ pub const FIELDS: &[Field] = &[
         name: "seed",
         range: Range::whole(0, u64::MAX),
         step: Step::Integer { fine: 1, coarse: 100 },
-        meaning: "which random line: the same seed gives the same line",
+        meaning: "seed of the random phases: the same seed gives the same profile",
         ..NUMBER
     },
     Field {
         path: "roughness.file",
         variant: Some("Measured"),
-        name: "measured line",
+        name: "measured profile",
         range: Range::Text { most: 4096, lines: false },
         meaning: "text file with the columns x and z in m, relative to the scene file",
         ..TEXT
@@ -298,7 +298,7 @@ pub const FIELDS: &[Field] = &[
         range: Range::Choice(&["(work: 0.05)", "(kappa: 2.0)"]),
         step: Step::Choice,
         default: "None",
-        meaning: "how strongly the surfaces attract, by work of adhesion or by κ; left out: not at all",
+        meaning: "adhesion of the surfaces, by work of adhesion or by κ; default: none",
         ..TEXT
     },
     Field {
@@ -309,7 +309,7 @@ pub const FIELDS: &[Field] = &[
         range: Range::closed(0.0, 1e6),
         step: Step::Logarithmic,
         default: "None",
-        meaning: "energy it takes to part a unit area of the interface",
+        meaning: "energy per unit area needed to separate the interface",
         ..NUMBER
     },
     Field {
@@ -319,7 +319,7 @@ pub const FIELDS: &[Field] = &[
         range: Range::closed(1e-6, 1e6),
         step: Step::Logarithmic,
         default: "None",
-        meaning: "roughness against adhesion, sqrt(h⟨∇z⟩E*/γ): small sticks, large does not",
+        meaning: "roughness–adhesion parameter sqrt(h⟨∇z⟩E*/γ): adhesion is strong for small κ",
         ..NUMBER
     },
     Field {
@@ -331,7 +331,7 @@ pub const FIELDS: &[Field] = &[
             most: 100_000,
         },
         default: "[ToZeroForce, ToSeparation]",
-        meaning: "how the bodies are pressed and pulled, one leg after the other, from separation",
+        meaning: "loading stages in their order, from separation",
         ..TEXT
     },
     Field {
@@ -339,7 +339,7 @@ pub const FIELDS: &[Field] = &[
         name: "numerics",
         range: Range::Group,
         default: "()",
-        meaning: "how finely the scene is computed",
+        meaning: "resolution and method of the computation",
         ..TEXT
     },
     Field {
@@ -349,7 +349,7 @@ pub const FIELDS: &[Field] = &[
         range: Range::whole(1, MOST_POINTS),
         step: Step::Doubling,
         default: "16384",
-        meaning: "number of springs along the line",
+        meaning: "number of springs along the profile",
         ..NUMBER
     },
     Field {
@@ -358,7 +358,7 @@ pub const FIELDS: &[Field] = &[
         range: Range::Choice(&["Exact", "Stepwise(step: 1.0e-9)"]),
         step: Step::Choice,
         default: "Exact",
-        meaning: "exact loop, or the paper's way of moving by a step and relaxing",
+        meaning: "exact solver, or the stepwise relaxation of the paper",
         ..TEXT
     },
     Field {
@@ -369,7 +369,7 @@ pub const FIELDS: &[Field] = &[
         unit: "m",
         range: Range::closed(1e-30, 1e6),
         step: Step::Logarithmic,
-        meaning: "how far the body moves before it relaxes",
+        meaning: "displacement of the body between two relaxations",
         ..NUMBER
     },
     Field {
@@ -378,7 +378,7 @@ pub const FIELDS: &[Field] = &[
         range: Range::Choice(&["Grid", "SubCell"]),
         step: Step::Choice,
         default: "SubCell",
-        meaning: "where a fragment ends: SubCell finds its edges between springs, Grid counts whole ones, as the paper and the stepwise solver do",
+        meaning: "edge model of the contact patches: SubCell finds edges between springs, Grid counts whole springs, as the paper and the stepwise solver do",
         ..TEXT
     },
     Field {
@@ -387,7 +387,7 @@ pub const FIELDS: &[Field] = &[
         range: Range::whole(2, 1_000_000),
         step: Step::Doubling,
         default: "512",
-        meaning: "points of the force curve on each leg",
+        meaning: "points of the force curve on each loading stage",
         ..NUMBER
     },
     Field {
@@ -395,7 +395,7 @@ pub const FIELDS: &[Field] = &[
         name: "observe",
         range: Range::List { of: &["Fragments", "HeightHistogram"], least: 0, most: 2 },
         default: "[]",
-        meaning: "what is observed beside the force curve",
+        meaning: "observed quantities beside the force curve",
         ..TEXT
     },
 ];
@@ -404,12 +404,12 @@ pub const FIELDS: &[Field] = &[
 pub const LEG_FORCE: Field = Field {
     path: "loading",
     variant: Some("ToForce"),
-    name: "force of a leg",
+    name: "force of a stage",
     symbol: "F",
     unit: "N",
     range: Range::closed(-1e30, 1e30),
     step: Step::Logarithmic,
-    meaning: "the leg goes on until the force first reaches this; compression is positive",
+    meaning: "target: the stage ends where the force first reaches this value; compression is positive",
     ..NUMBER
 };
 
@@ -418,12 +418,12 @@ pub const LEG_FORCE: Field = Field {
 pub const LEG_INDENTATION: Field = Field {
     path: "loading",
     variant: Some("ToIndentation"),
-    name: "indentation of a leg",
+    name: "indentation of a stage",
     symbol: "d",
     unit: "m",
     range: Range::closed(-1e6, 1e6),
     step: Step::Logarithmic,
-    meaning: "the leg goes to this indentation; 0 is first touch, positive is deeper",
+    meaning: "target: the stage ends at this indentation; 0 is first touch, positive is deeper",
     ..NUMBER
 };
 

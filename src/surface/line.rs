@@ -81,12 +81,15 @@ impl Line {
 
     /// Heights z, m, of the points under the body, such that summit − z is their gap, bit for bit.
     pub fn heights(&self) -> impl Iterator<Item = f64> {
-        self.gaps.iter().map(|gap| {
-            let height = self.summit - gap;
-            // Rounded, it may give a gap that is one digit off; a number beside it then does not.
-            let nearby = [height, height.next_up(), height.next_down()];
-            nearby.into_iter().find(|height| self.summit - height == *gap).unwrap_or(height)
-        })
+        self.gaps.iter().map(|gap| self.height(*gap))
+    }
+
+    /// Height, m, of a point with this gap.
+    fn height(&self, gap: f64) -> f64 {
+        let height = self.summit - gap;
+        // The gap of the rounded height may be one digit off; that of a number beside it is then right.
+        let nearby = [height, height.next_up(), height.next_down()];
+        nearby.into_iter().find(|height| self.summit - height == gap).unwrap_or(height)
     }
 
     /// Position x, m, of the `index`-th spring under the body.
@@ -98,7 +101,7 @@ impl Line {
     /// Height of the lowest point, m.
     #[must_use]
     pub fn lowest(&self) -> f64 {
-        self.summit - self.deepest
+        self.height(self.deepest)
     }
 
     /// Largest gap, m.
@@ -204,6 +207,7 @@ mod tests {
             let form = Form::Paraboloid { radius: 3.0 };
             let line = Line::new(1.0, 64, Some(&form), Some(&rough), 0.3).unwrap();
             assert_eq!(Line::new(1.0, 64, None, Some(&written(&line)), 1.0).unwrap(), line);
+            assert_eq!(line.lowest(), written(&line).into_iter().fold(f64::INFINITY, f64::min));
         }
     }
 

@@ -14,7 +14,7 @@ const BLOCK: usize = 64;
 /// 1e-18, and with |x| ≤ 1/1024 already after 6 terms.
 const TERMS: usize = 10;
 
-/// (sin y − y)/y³ and (cos y − 1 + y²/2)/y⁴ as polynomials in y² for |y| ≤ π/4, lowest power first. Minimax
+/// (sin y − y)/y³ and (cos y − 1 + y²/2)/y⁴ as polynomials in y² for |y| ≤ π/4 (1 + 2⁻⁹), lowest power first. Minimax
 /// approximations: errors of sine and cosine at most 4e-18 beside rounding.
 const SINE: [f64; 6] = [
     -0.166_666_666_666_666_32,
@@ -131,11 +131,13 @@ impl Modes {
 /// Sine and cosine of `turns` times 2π, for `turns` from 0 to 2.
 #[inline(always)]
 fn sine_and_cosine(turns: f64) -> (f64, f64) {
-    // Adding 3·2⁵¹ rounds to a whole number, which then stands in the lowest bits.
-    const ROUND: f64 = 6_755_399_441_055_744.0;
-    let rounded = 4.0 * turns + ROUND;
-    let quarters = rounded.to_bits();
-    let y = std::f64::consts::TAU * (turns - 0.25 * (rounded - ROUND));
+    // The sum with 3·2⁴¹ has quarters of a turn and 10 bits of their fraction as its lowest bits. So the nearest quarter is
+    // found to 2⁻¹⁰ whichever way the sum is rounded.
+    const ALIGN: f64 = 6_597_069_766_656.0;
+    let aligned = (4.0 * turns + (ALIGN + 0.5)).to_bits();
+    let nearest = f64::from_bits(aligned & !0x3ff) - ALIGN;
+    let quarters = aligned >> 10;
+    let y = std::f64::consts::TAU * (turns - 0.25 * nearest);
     let z = y * y;
     let sine = (y + y * (z * polynomial(&SINE, z))).to_bits();
     let cosine = (1.0 - (0.5 * z - z * z * polynomial(&COSINE, z))).to_bits();

@@ -155,7 +155,7 @@ impl Axis {
         }
         values.sort_by(f64::total_cmp);
         let twice = values.windows(2).find(|pair| pair[0] == pair[1]);
-        twice.and_then(|pair| wrong(format!("the value {:?} stands there twice", pair[0])))
+        twice.and_then(|pair| wrong(format!("the value {:?} appears twice", pair[0])))
     }
 }
 
@@ -195,8 +195,8 @@ mod tests {
             (Axis::Logarithmic { path: "kappa".into(), from: 0.0, to: 1.0, count: 3 }, "begins above 0"),
             (list(&[]), "no values"),
             (list(&[1.0, f64::INFINITY]), "values must be finite"),
-            (list(&[1.0, 2.0, 1.0]), "the value 1.0 stands there twice"),
-            (linear("numerics.points", 2.0, 4.0, 9), "stands there twice"),
+            (list(&[1.0, 2.0, 1.0]), "the value 1.0 appears twice"),
+            (linear("numerics.points", 2.0, 4.0, 9), "appears twice"),
             (linear("numerics.points", 2.5, 4.0, 2), "2.5: allowed: whole numbers"),
         ] {
             let wrong = axis.wrong().unwrap_or_default();

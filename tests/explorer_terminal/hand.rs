@@ -6,13 +6,13 @@ use crate::driving::{CLEAR_LINE, ENTER, ESCAPE, answer, explorer, paused, quanti
 
 /// Indentation and force of the body in hand, m and N.
 fn stands(rows: &[String]) -> Option<(f64, f64)> {
-    let row: Vec<String> = rows.iter().filter(|row| row.contains("in hand: d ")).cloned().collect();
+    let row: Vec<String> = rows.iter().filter(|row| row.contains("manual: d ")).cloned().collect();
     Some((quantity(&row, "d", "m")?, quantity(&row, "F", "N")?))
 }
 
 /// Numbers of springs that changed on the last move, and of entries looked at for it.
 fn cost(rows: &[String]) -> Option<(u64, u64)> {
-    let row = rows.iter().find(|row| row.contains("in hand: d "))?;
+    let row = rows.iter().find(|row| row.contains("manual: d "))?;
     let number = |words: &str| row.split(words).next()?.rsplit(' ').next()?.parse().ok();
     Some((number(" springs changed")?, number(" looked at")?))
 }

@@ -44,10 +44,10 @@ fn nothing_happens_while_nothing_happens() {
         terminal.wait_without("What you see");
         // With the body in hand.
         terminal.send("}}}");
-        terminal.wait_for("in hand: d ");
+        terminal.wait_for("manual: d ");
         assert_idle(&mut terminal);
         terminal.send("d");
-        terminal.wait_without("in hand: d ");
+        terminal.wait_without("manual: d ");
         // While a scene is looked for, with its curve beside it.
         terminal.send("o");
         terminal.wait_for("built-in");

@@ -33,7 +33,7 @@ fn place_of(terminal: &Terminal, text: &str) -> (usize, usize) {
 
 /// Indentation of the body in hand, m.
 fn in_hand(rows: &[String]) -> Option<f64> {
-    let row: Vec<String> = rows.iter().filter(|row| row.contains("in hand: d ")).cloned().collect();
+    let row: Vec<String> = rows.iter().filter(|row| row.contains("manual: d ")).cloned().collect();
     quantity(&row, "d", "m")
 }
 

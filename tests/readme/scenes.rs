@@ -1,32 +1,38 @@
-//! The README's tables of fields and scenes.
+//! The page of the scene file: fields and scenes are those of the program.
 
 use asperity::scene::{FIELDS, LEG_FORCE, LEG_INDENTATION, Range, presets};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::Mutex;
 
-/// One test at a time writes the README.
-static README: Mutex<()> = Mutex::new(());
+/// One test at a time writes a page.
+static PAGES: Mutex<()> = Mutex::new(());
 
-/// The README is written anew.
+/// The pages are written anew.
 pub fn updating() -> bool {
     std::env::var_os("UPDATE_README").is_some()
 }
 
-fn path() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("README.md")
+/// Folder of the package.
+pub fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
 }
 
-/// The README has this table under this name.
-pub fn check(name: &str, expected: &str) {
-    let _alone = README.lock();
-    let readme = std::fs::read_to_string(path()).unwrap();
+/// A page by its name from the root.
+pub fn read(page: &str) -> String {
+    std::fs::read_to_string(root().join(page)).unwrap_or_else(|error| panic!("{page}: {error}"))
+}
+
+/// Compares the part of this name on a page with what the program gives, or writes it there.
+pub fn check(page: &str, name: &str, expected: &str) {
+    let _alone = PAGES.lock();
+    let text = read(page);
     let (start, end) = (format!("<!-- {name} -->\n"), format!("<!-- end of {name} -->"));
-    let (before, rest) = readme.split_once(&start).unwrap_or_else(|| panic!("README.md has no {start}"));
-    let (found, after) = rest.split_once(&end).unwrap_or_else(|| panic!("README.md has no {end}"));
+    let (before, rest) = text.split_once(&start).unwrap_or_else(|| panic!("{page} has no {start}"));
+    let (found, after) = rest.split_once(&end).unwrap_or_else(|| panic!("{page} has no {end}"));
     if updating() {
-        std::fs::write(path(), format!("{before}{start}{expected}{end}{after}")).unwrap();
+        std::fs::write(root().join(page), format!("{before}{start}{expected}{end}{after}")).unwrap();
     } else {
-        assert_eq!(found, expected, "the table of {name} in README.md is not the program's");
+        assert_eq!(found, expected, "the part {name} of {page} is not the program's");
     }
 }
 
@@ -50,7 +56,7 @@ fn fields_are_those_of_the_table() {
             field.meaning,
         );
     }
-    check("fields", &fields);
+    check("docs/scene-file.md", "fields", &fields);
 }
 
 #[test]
@@ -60,5 +66,5 @@ fn scenes_are_the_presets() {
         let document = asperity::scene::open(preset.name).unwrap();
         scenes += &format!("| `{}` | {} |\n", preset.name, document.scene().notice);
     }
-    check("scenes", &scenes);
+    check("docs/scene-file.md", "scenes", &scenes);
 }

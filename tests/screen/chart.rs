@@ -6,7 +6,7 @@ use super::common::driver::Driver;
 use super::common::scenes::{changed, rough, smooth, without_adhesion};
 use super::{is_up_to_date, keep};
 use asperity::accuracy::{Choice, ChoiceError, CostError, CostTable, Estimate, Progress};
-use asperity::analysis::Regime;
+use asperity::analysis::{CellRegime, Regime};
 use asperity::explorer::action::{Action, Gesture, Mouse};
 use asperity::explorer::layout::{Layout, inside};
 use asperity::explorer::model::{ModeKind, Pane};
@@ -37,8 +37,7 @@ fn cell(kappa: f64, hurst: f64) -> Cell {
         adhesion: 2.0 * (-kappa / 2.0).exp(),
         preload: 1.0,
         ideal_adhesion: 1.0,
-        regime,
-        agreeing: 3,
+        regime: Some(CellRegime { regime, share: 0.75, split: None }),
     }
 }
 

@@ -101,7 +101,7 @@ fn the_status_tells_what_a_move_changed() {
         driver.resize((80, 24));
         assert!(driver.status().contains("springs changed"), "in a common window too: {}", driver.status());
         assert!(hand(&driver).touched > 0);
-        assert!(driver.text().contains("in hand"), "{}", driver.text());
+        assert!(driver.text().contains("manual"), "{}", driver.text());
         // A look around is no move: what the last one changed is still told.
         driver.press("n + z z");
         assert_eq!(hand(&driver).changed, changed);

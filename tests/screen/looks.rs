@@ -172,7 +172,7 @@ fn what_has_a_meaning_has_a_glyph() {
         let mut driver = pressed("d");
         driver.enter("2");
         let text = driver.text();
-        for (glyph, meaning) in [("◆ in hand", "the hand"), ("! ", "what is wrong")] {
+        for (glyph, meaning) in [("◆ manual", "the hand"), ("! ", "what is wrong")] {
             assert!(text.contains(glyph), "{meaning}\n{text}");
         }
     });

@@ -25,7 +25,7 @@ fn each_mistake_has_its_message() {
             "preloads: [0.0, 0.3]",
             "preload 0.0: allowed: above 0, in units of E* h L",
         ),
-        ("preloads: [0.01, 0.3]", "preloads: [0.3, 0.3]", "axis preload: the value 0.3 stands there twice"),
+        ("preloads: [0.01, 0.3]", "preloads: [0.3, 0.3]", "axis preload: the value 0.3 appears twice"),
         ("preloads: [0.01, 0.3]", "preloads: [0.3, NaN]", "values must be finite"),
         ("\"roughness.hurst\"", "\"roughness.hurts\"", "did you mean roughness.hurst?"),
         ("\"roughness.hurst\"", "\"form.radius\"", "the form of the scene has no such number"),

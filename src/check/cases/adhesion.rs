@@ -11,7 +11,7 @@ pub const CASES: &[Case] = &[
     Case {
         name: "no-adhesion",
         family: Family::Adhesion,
-        holds: "At γ = 0 pulling retraces pressing to the last bit, and nothing is lost.",
+        holds: "At γ = 0 unloading retraces loading bit for bit, and no energy is dissipated.",
         error_of: "force, over the largest",
         scope: Scope::BothEdges(0.0, 0.0),
         large: false,
@@ -20,9 +20,9 @@ pub const CASES: &[Case] = &[
     Case {
         name: "vanishing-adhesion",
         family: Family::Adhesion,
-        holds: "For γ from 1e−280 to 1e−3 J/m² contact and forces are those of the rules, and F(γ) goes to \
+        holds: "For γ from 1e−280 to 1e−3 J/m² contact and forces follow the rules, and F(γ) goes to \
                 F(0) no slower than the longest stretch.",
-        error_of: "force and loss",
+        error_of: "force and energy",
         scope: Scope::BothEdges(1e-15, 1e-15),
         large: false,
         measure: vanishing_adhesion,
@@ -30,9 +30,9 @@ pub const CASES: &[Case] = &[
     Case {
         name: "everything-sticks",
         family: Family::Adhesion,
-        holds: "Adhesion far beyond the roughness closes all at first touch and lets go of all at once, where \
-                the deepest spring does.",
-        error_of: "force and place of letting go",
+        holds: "Adhesion far beyond the roughness closes the whole profile at first touch and opens it at once, at \
+                the threshold of the deepest spring.",
+        error_of: "force and place of pull-off",
         scope: Scope::BothEdges(2e-15, 2e-15),
         large: false,
         measure: everything_sticks,
@@ -50,8 +50,8 @@ pub const CASES: &[Case] = &[
     Case {
         name: "preload-at-an-event",
         family: Family::Adhesion,
-        holds: "Pressed exactly to where springs join, or one number beside, the contact is that of the whole \
-                leg, and the force of that place is reached there.",
+        holds: "Loaded exactly to an attachment, or to a neighbouring number, the contact is that of the whole \
+                loading stage, and the force there is reached at that indentation.",
         error_of: "force, in documented units",
         scope: Scope::BothEdges(4e-16, 1e-15),
         large: false,
@@ -185,7 +185,7 @@ fn press_exactly_to(body: &Body, edges: Edges, at: f64, whole: &dyn Solver) -> R
         let error = force_error(body, edges, solver, &point)?;
         let back = solver.advance(Leg::ToSeparation)?;
         ensure(end(&back).springs == 0 && back.leaves == point.springs, || {
-            format!("from {at:e} m not all of it lets go")
+            format!("at {at:e} m some springs stay attached")
         })?;
         // Nothing separated can be pulled. And just before a jump the force is as large as it gets for a
         // while: a rounding more is reached only beyond.

@@ -21,8 +21,8 @@ pub const CASES: &[Case] = &[
     Case {
         name: "jkr-sphere",
         family: Family::ClosedForms,
-        holds: "4001 springs pull a sphere off at (3/2)πγR and let go where Johnson, Kendall and Roberts say.",
-        error_of: "force and place of letting go",
+        holds: "4001 springs pull a sphere off at (3/2)πγR and detach at the indentation of Johnson, Kendall and Roberts.",
+        error_of: "force and place of pull-off",
         scope: Scope::BothEdges(1e-2, 1e-5),
         large: false,
         measure: |edges| power_law(edges, Form::Paraboloid { radius: 1.0 }, 12.0, 1.5),
@@ -30,8 +30,8 @@ pub const CASES: &[Case] = &[
     Case {
         name: "cone",
         family: Family::ClosedForms,
-        holds: "4001 springs pull a cone off at the force, and let go of it where its closed form says.",
-        error_of: "force and place of letting go",
+        holds: "4001 springs pull a cone off at the force and the indentation of the closed form.",
+        error_of: "force and place of pull-off",
         scope: Scope::BothEdges(1e-2, 1e-5),
         large: false,
         measure: |edges| power_law(edges, Form::Cone { angle: 1.0 }, 16.0, 4.0),
@@ -39,9 +39,9 @@ pub const CASES: &[Case] = &[
     Case {
         name: "seventh-power",
         family: Family::ClosedForms,
-        holds: "4001 springs pull a body r⁷, nearly flat with steep flanks, off at the force, and let go of \
-                it where its closed form says.",
-        error_of: "force and place of letting go",
+        holds: "4001 springs pull a body r⁷, nearly flat with steep flanks, off at the force \
+                and the indentation of the closed form.",
+        error_of: "force and place of pull-off",
         scope: Scope::BothEdges(1e-2, 1e-5),
         large: false,
         measure: |edges| power_law(edges, Form::Power { coefficient: 0.3, exponent: 7.0 }, 8.0, 1.0),

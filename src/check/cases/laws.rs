@@ -18,9 +18,9 @@ pub const CASES: &[Case] = &[
     Case {
         name: "random-bodies",
         family: Family::Laws,
-        holds: "On 48 random bodies, self-affine, noise, few levels, random walks, contact and forces are those \
-                of the rules.",
-        error_of: "force and loss",
+        holds: "On 48 random bodies, self-affine, noise, few levels, random walks, contact and forces follow \
+                the rules.",
+        error_of: "force and energy",
         scope: Scope::BothEdges(1e-15, 1e-15),
         large: false,
         measure: random_bodies,
@@ -28,8 +28,8 @@ pub const CASES: &[Case] = &[
     Case {
         name: "thousand-legs",
         family: Family::Laws,
-        holds: "After each of a thousand random legs contact and forces are those of the rules.",
-        error_of: "force and loss",
+        holds: "After each of a thousand random loading stages contact and forces follow the rules.",
+        error_of: "force and energy",
         scope: Scope::BothEdges(1e-15, 1e-15),
         large: false,
         measure: thousand_legs,
@@ -37,7 +37,7 @@ pub const CASES: &[Case] = &[
     Case {
         name: "return-point-memory",
         family: Family::Laws,
-        holds: "A minor loop closes to the last bit, and after a deeper load only that is remembered.",
+        holds: "A minor loop closes to the last bit, and a deeper load erases the memory of earlier turning points.",
         error_of: "force, over the scale",
         scope: Scope::BothEdges(0.0, 0.0),
         large: false,
@@ -46,8 +46,8 @@ pub const CASES: &[Case] = &[
     Case {
         name: "ordered-contact",
         family: Family::Laws,
-        holds: "At the same d more springs hold after a deeper load, on the way back no fewer than on the way \
-                in, and pull-off is no weaker.",
+        holds: "At the same d more springs are in contact after a deeper load and on unloading than on loading, \
+                and pull-off is no weaker.",
         error_of: "pull-off force, over the scale",
         scope: Scope::BothEdges(1e-15, 1e-15),
         large: false,
@@ -56,7 +56,7 @@ pub const CASES: &[Case] = &[
     Case {
         name: "no-energy-for-nothing",
         family: Family::Laws,
-        holds: "No closed loop gains energy, and what is lost from separation to separation is ∮F dd.",
+        holds: "No closed loop gains energy, and the energy dissipated from separation to separation is ∮F dd.",
         error_of: "energy, over the scale",
         scope: Scope::BothEdges(1e-4, 1e-4),
         large: false,
@@ -65,7 +65,7 @@ pub const CASES: &[Case] = &[
     Case {
         name: "mirror",
         family: Family::Laws,
-        holds: "A mirrored line has the mirrored contact and the same forces.",
+        holds: "A mirrored profile has the mirrored contact and the same forces.",
         error_of: "force, over the scale",
         scope: Scope::BothEdges(0.0, 1e-15),
         large: false,
@@ -74,7 +74,7 @@ pub const CASES: &[Case] = &[
     Case {
         name: "refined-line",
         family: Family::Laws,
-        holds: "3, 5 and 9 times as many springs stand on the same line.",
+        holds: "3, 5 and 9 times as many springs lie on the same profile.",
         error_of: "height over rms height",
         scope: Scope::Line(2e-14),
         large: false,
@@ -92,7 +92,7 @@ pub const CASES: &[Case] = &[
     Case {
         name: "any-number-of-threads",
         family: Family::Laws,
-        holds: "16 random lines have the same bits by 1, 2, 3 and 8 threads.",
+        holds: "16 random profiles give the same bits with 1, 2, 3 and 8 threads.",
         error_of: "figures with other bits",
         scope: Scope::BothEdges(0.0, 0.0),
         large: false,

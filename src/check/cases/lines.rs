@@ -35,9 +35,9 @@ pub const CASES: &[Case] = &[
     Case {
         name: "one-mode",
         family: Family::Lines,
-        holds: "A line of one mode, the first, some, or Nyquist's own, is that one cosine, and contact and \
+        holds: "A profile of one mode (first, inner, Nyquist) is one cosine, and contact and \
                 forces on it are those of the rules.",
-        error_of: "height, force and loss",
+        error_of: "height, force and energy",
         scope: Scope::BothEdges(2e-14, 2e-14),
         large: false,
         measure: one_mode,
@@ -55,8 +55,8 @@ pub const CASES: &[Case] = &[
     Case {
         name: "springs-1-2-3-prime",
         family: Family::Lines,
-        holds: "With 1, 2, 3, 5, 17, 127 and 4099 springs contact and forces are those of the rules.",
-        error_of: "force and loss",
+        holds: "With 1, 2, 3, 5, 17, 127 and 4099 springs contact and forces follow the rules.",
+        error_of: "force and energy",
         scope: Scope::BothEdges(1e-15, 1e-15),
         large: false,
         measure: few_springs,
@@ -65,7 +65,7 @@ pub const CASES: &[Case] = &[
         name: "springs-2^24",
         family: Family::Lines,
         holds: "With 2^24 springs and half as many modes, forces at the preload and at pull-off are the sums \
-                over the contact, and what has joined leaves.",
+                over the contact, and all springs that attach detach again.",
         error_of: "force, in documented units",
         scope: Scope::BothEdges(4e-16, 1e-15),
         large: true,
@@ -74,8 +74,8 @@ pub const CASES: &[Case] = &[
     Case {
         name: "flat-line",
         family: Family::Lines,
-        holds: "On a flat line, where all springs tie, all join and leave at once, at Kendall's force.",
-        error_of: "force, place, loss",
+        holds: "On a flat profile with equal gaps all springs attach and detach at once, at Kendall's force.",
+        error_of: "force, indentation, energy",
         scope: Scope::BothEdges(2e-15, 2e-15),
         large: false,
         measure: flat,
@@ -85,7 +85,7 @@ pub const CASES: &[Case] = &[
         family: Family::Lines,
         holds: "On 32 treads of 32 springs each, up, down, and up and down, contact and forces are those of the \
                 rules.",
-        error_of: "force and loss",
+        error_of: "force and energy",
         scope: Scope::BothEdges(1e-15, 1e-15),
         large: false,
         measure: |edges| {
@@ -107,7 +107,7 @@ pub const CASES: &[Case] = &[
         family: Family::Lines,
         holds: "On straight and curved slopes, where the tree is one chain, contact and forces are those of the \
                 rules.",
-        error_of: "force and loss",
+        error_of: "force and energy",
         scope: Scope::BothEdges(1e-15, 1e-15),
         large: false,
         measure: |edges| {
@@ -127,7 +127,7 @@ pub const CASES: &[Case] = &[
         family: Family::Lines,
         holds: "On equal teeth of 2, 3 and 64 springs, leaning left or right, contact and forces are those of \
                 the rules.",
-        error_of: "force and loss",
+        error_of: "force and energy",
         scope: Scope::BothEdges(1e-15, 1e-15),
         large: false,
         measure: |edges| {
@@ -146,8 +146,8 @@ pub const CASES: &[Case] = &[
         name: "near-ties",
         family: Family::Lines,
         holds: "On tents and plateaus whose gaps differ by roundings, without adhesion and with, pressed up to a \
-                hundred times their depth, contact and forces are those of the rules.",
-        error_of: "force and loss",
+                hundred times their depth, contact and forces follow the rules.",
+        error_of: "force and energy",
         scope: Scope::BothEdges(1e-15, 1e-15),
         large: false,
         measure: near_ties,
@@ -156,9 +156,9 @@ pub const CASES: &[Case] = &[
         name: "load-far-beyond-roughness",
         family: Family::Lines,
         holds: "Pressed by 1 to 1e30 times their depth, to an indentation or to a force, without adhesion and with, \
-                rough and smooth bodies are in contact over a length that only grows, up to the whole line, and \
+                rough and smooth bodies are in contact over a length that only grows, up to the whole profile, and \
                 carry the force of all springs.",
-        error_of: "force over what a rounding of the indentation is worth",
+        error_of: "force, over the effect of a rounding of the indentation",
         scope: Scope::BothEdges(4.0, 4.0),
         large: false,
         measure: far_beyond_roughness,
@@ -166,7 +166,7 @@ pub const CASES: &[Case] = &[
     Case {
         name: "height-offset-1e9",
         family: Family::Lines,
-        holds: "A measured line on an offset of 1e9 rms heights has the rms height, rms gradient and gaps of \
+        holds: "A measured profile with an offset of 1e9 rms heights has the rms height, rms gradient and gaps of \
                 its own roughness.",
         error_of: "statistics and gaps",
         scope: Scope::Line(1e-13),

@@ -12,8 +12,8 @@ pub const CASES: &[Case] = &[
         name: "modulus-1-pa-to-10-tpa",
         family: Family::Scales,
         holds: "E* and γ scaled alike, from 1 Pa to 8.8 TPa, change no bit of contact and forces; at 1 Pa and \
-                10 TPa with the same γ both are those of the rules.",
-        error_of: "force and loss",
+                10 TPa with the same γ both follow the rules.",
+        error_of: "force and energy",
         scope: Scope::BothEdges(1e-15, 1e-15),
         large: false,
         measure: modulus,
@@ -21,9 +21,9 @@ pub const CASES: &[Case] = &[
     Case {
         name: "lengths-nm-to-m",
         family: Family::Scales,
-        holds: "A scene from 1 nm to 8.6 m long, all lengths scaled, is one scene to the last bit; made anew at \
-                1 nm, 1 µm, 1 mm and 10 m, contact and forces are those of the rules.",
-        error_of: "force and loss",
+        holds: "A scene from 1 nm to 8.6 m long, all lengths scaled, gives one result bit for bit; made anew at \
+                1 nm, 1 µm, 1 mm and 10 m, contact and forces follow the rules.",
+        error_of: "force and energy",
         scope: Scope::BothEdges(1e-15, 1e-15),
         large: false,
         measure: lengths,
@@ -32,8 +32,8 @@ pub const CASES: &[Case] = &[
         name: "heights-1e-15-to-10-lengths",
         family: Family::Scales,
         holds: "A scene with an rms height from 1e−15 to 8 lengths, γ with its square, is one scene to the last \
-                bit; at one γ contact and forces are those of the rules for all of them.",
-        error_of: "force and loss",
+                bit; at one γ contact and forces follow the rules for all of them.",
+        error_of: "force and energy",
         scope: Scope::BothEdges(1e-15, 1e-15),
         large: false,
         measure: heights,

@@ -23,7 +23,7 @@ pub struct MergeArguments {
     /// Folder of the study
     #[arg(value_name = "DIR")]
     pub folder: PathBuf,
-    /// Publish what there is, even where cells are missing
+    /// Publish the finished cells, even if others are missing
     #[arg(long)]
     pub partial: bool,
     /// Write results.parquet as well, with typed columns

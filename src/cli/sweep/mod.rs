@@ -54,7 +54,7 @@ pub struct SweepArguments {
 pub enum SweepCommand {
     /// Put the records of all processes into tables
     Merge(MergeArguments),
-    /// Tell how far a study is, and who has worked on it
+    /// Show the progress of a study and its processes
     Status(StatusArguments),
     /// Find the κ at which adhesion without a preload vanishes
     Boundary(BoundaryArguments),

@@ -30,7 +30,7 @@ pub struct PlotArguments {
     /// Folder of the study
     #[arg(value_name = "DIR")]
     pub folder: PathBuf,
-    /// Quantity that is drawn, one for each panel; left out: F_a(0) and F_a/F_n
+    /// Quantity of each panel; default: F_a(0) and F_a/F_n
     ///
     /// Where no F_a/F_n was recorded: F_a(0) by both protocols; where neither was: the first one.
     #[arg(long = "quantity", value_name = "NAME")]
@@ -46,10 +46,10 @@ pub struct PlotArguments {
     pub at: Vec<(String, String)>,
     /// Scale of quantities
     ///
-    /// Left out, it is the one that shows more; a single curve is linear with an inset.
+    /// Default: by the range of the values; a single curve is linear with an inset.
     #[arg(long, value_enum)]
     pub scale: Option<PlotScale>,
-    /// Text rather than SVG; so it is where no FILE is given
+    /// Text instead of SVG; the default without FILE
     #[arg(long)]
     pub text: bool,
     /// The file that is written.

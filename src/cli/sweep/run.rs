@@ -19,10 +19,10 @@ pub struct SweepRunArguments {
     /// A plan file, or the name of a built-in plan (see `asperity sweep plans`)
     #[arg(required = true)]
     pub plan: Option<String>,
-    /// Folder of the study; made where it is not there
+    /// Folder of the study; created if missing
     #[arg(short, long, value_name = "DIR", required_unless_present = "check")]
     pub output: Option<PathBuf>,
-    /// Threads; left out, one for each core
+    /// Threads; default: one for each core
     #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub jobs: Option<u16>,
     /// Compute part K of N alone; merging takes the parts together
@@ -33,10 +33,10 @@ pub struct SweepRunArguments {
     /// Most memory for all threads: 500M, 2G; fewer threads run if need be
     #[arg(long, value_name = "SIZE", value_parser = size)]
     pub memory: Option<u64>,
-    /// Random lines of each cell, in place of what the plan says
+    /// Random profiles of each cell, in place of the number in the plan
     #[arg(long, value_name = "COUNT")]
     pub lines: Option<u64>,
-    /// Check the plan and tell what it takes, without computing anything
+    /// Check the plan and print its cost, without computing
     #[arg(long)]
     pub check: bool,
     /// What is changed in the scene of the plan.

@@ -20,7 +20,7 @@ pub struct StatusArguments {
     /// Folder of the study
     #[arg(value_name = "DIR")]
     pub folder: PathBuf,
-    /// How it is printed
+    /// Output format
     #[arg(long, value_enum, default_value_t = StatusFormat::Text)]
     pub format: StatusFormat,
 }

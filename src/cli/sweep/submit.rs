@@ -35,7 +35,7 @@ The same line goes on with what has failed.";
 pub struct SubmitArguments {
     /// A plan file, or the name of a built-in plan
     pub plan: String,
-    /// Folder of the study, seen by all nodes; made where it is not there
+    /// Folder of the study, visible to all nodes; created if missing
     #[arg(short, long, value_name = "DIR")]
     pub output: PathBuf,
     /// Parts the plan is cut into, one task each
@@ -50,7 +50,7 @@ pub struct SubmitArguments {
     /// Most memory for a task: 500M, 2G
     #[arg(long, value_name = "SIZE", value_parser = size)]
     pub memory: Option<u64>,
-    /// Random lines of each cell, in place of what the plan says
+    /// Random profiles of each cell, in place of the number in the plan
     #[arg(long, value_name = "COUNT")]
     pub lines: Option<u64>,
     /// Print the scripts and the commands; write and submit nothing
@@ -113,7 +113,7 @@ pub(super) fn submit(arguments: &SubmitArguments, stdout: &mut dyn Write) -> Res
     writeln!(stdout, "job {array}: {tasks}; job {merge}: the merge after them")?;
     writeln!(
         stdout,
-        "squeue --jobs={array},{merge}, or asperity sweep status {path}, tells how far they are"
+        "squeue --jobs={array},{merge}, or asperity sweep status {path}, shows their progress"
     )?;
     Ok(())
 }

@@ -98,7 +98,7 @@ fn headline(model: &Model, width: u16) -> Line<'static> {
         // What the move cost comes before what it led to.
         let point = moment.point;
         let d = format_quantity(point.indentation, "m");
-        part("  ", format!("in hand: d {d} F {}", format_quantity(point.force, "N")), Meaning::Text);
+        part("  ", format!("manual: d {d} F {}", format_quantity(point.force, "N")), Meaning::Text);
         part(" · ", format!("{} changed", counted(hand.changed, "spring")), Meaning::Text);
         part(" · ", format!("{} looked at", hand.touched), Meaning::Text);
         part(" · ", contact(point), Meaning::Text);

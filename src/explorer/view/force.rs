@@ -258,7 +258,7 @@ fn legend(model: &Model, width: u16, colour: &dyn Fn(Meaning) -> ratatui::style:
     ];
     if model.hand.is_some() {
         let way = Text::styled(way, theme.style(Meaning::Hand));
-        parts.push(vec![way, cursor(), Text::raw(" in hand")]);
+        parts.push(vec![way, cursor(), Text::raw(" manual")]);
     } else {
         parts.push(vec![cursor(), Text::raw(" now")]);
     }
