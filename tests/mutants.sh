@@ -50,7 +50,7 @@ store)
     above="accuracy check export" beside="simulated_disk sweep"
     # The unfit ones start the program, which is not there.
     export CARGO_BIN_EXE_asperity=""
-    unfit="foreign:: killed_ processes:: two_thousand"
+    unfit="foreign:: killed_ processes:: two_thousand" slow="a_study_outlives a_saved_scene every_prefix"
     ;;
 contact)
     below="io memory parallel scene surface text" above="analysis reference simulation"
@@ -92,7 +92,7 @@ assemble() {
     local name file
     rm -rf "$tree"
     mkdir -p "$tree/below"
-    cp -r README.md presets fuzz tests "$tree/"
+    cp -r docs presets fuzz tests "$tree/"
     cp -r presets "$tree/below/"
     rm "$tree"/tests/*.sh "$tree/fuzz/Cargo.toml"
     for name in $below; do copy_room "$name" "$tree/below"; done
