@@ -15,8 +15,14 @@ mod refusals;
 mod reuse;
 #[path = "laws/search.rs"]
 mod search;
+#[path = "laws/snapshot.rs"]
+mod snapshot;
 #[path = "laws/symmetries.rs"]
 mod symmetries;
+#[path = "laws/ties.rs"]
+mod ties;
+#[path = "laws/work.rs"]
+mod work;
 
 use asperity::contact::{
     Adhesive, ContactTree, CurvePoint, Exact, Foundation, GridEdges, HessRule, History, LegRecord, Solver,

@@ -7,10 +7,11 @@
 # on, as k/n, or as many of them as make about a number, as ~60; left out: all. OPTIONs go to cargo-mutants:
 # --in-diff FILE, --re.
 #
-# Each mutant is tried against the unit tests of its room first, in a package of that room and those it needs, which
-# compiles in a fraction of the time; those that are left, against all unit tests and the integration tests of the
-# room. Survivors are shown at the end; it fails where one survives that docs/mutation.md does not list. Packages and
-# what is built of them are in target/mutants, or where MUTANTS_FOLDER says; one run of a room at a time.
+# The room, its unit tests and its integration tests are one small program, compiled anew for each mutant without
+# optimisation; what the room needs is a package that is built once. A mutant that the quick tests leave is tried against
+# all of them, with more cases. Survivors are shown at the end; it fails where one survives that docs/mutation.md does
+# not list. Packages and what is built of them are in target/mutants, or where MUTANTS_FOLDER says; one run of a room at
+# a time.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -28,14 +29,35 @@ if [[ "${1:-}" =~ ^([0-9]+/|~)[0-9]+$ ]]; then
     shift
 fi
 
-# Of each room: its files, the rooms its unit tests need, and its integration tests. The store is tested from outside.
+# Of each room: its files; the rooms below it, which are built once; the rooms above it that its tests need; the
+# integration tests that are tried beside its unit tests; those that take long where nothing is optimised; and
+# those that cannot run so.
 files=("src/$room")
+own="$room" below="" above="" beside="" slow="" unfit=""
 case "$room" in
-scene) rooms="scene" tests="scene fuzz_corpus readme explorer_screen" ;;
-surface) rooms="memory parallel scene surface" tests="closed_forms fuzz_corpus sums sweep" ;;
-analysis) rooms="analysis contact memory parallel scene" tests="closed_forms sums sweep" ;;
-store) rooms="" tests="sweep" files=(src/sweep/{store,record,merge,shard}.rs) ;;
-contact) rooms="contact memory parallel scene" tests="closed_forms laws stepwise subcell sums" ;;
+scene)
+    below="io memory parallel text" above="analysis contact reference simulation surface"
+    beside="scene readme/scenes fuzz_corpus" slow="nesting_does_not_overflow" unfit="every_target_has"
+    ;;
+surface)
+    below="analysis contact io memory parallel reference scene text" beside="closed_forms fuzz_corpus"
+    unfit="every_target_has"
+    ;;
+analysis) below="contact io memory parallel scene text" ;;
+store)
+    own="sweep" files=(src/sweep/{store,record,merge,shard}.rs)
+    below="analysis contact disk ensemble io memory parallel reference scene simulation surface text"
+    above="accuracy check export" beside="simulated_disk sweep"
+    # The unfit ones start the program, which is not there.
+    export CARGO_BIN_EXE_asperity=""
+    unfit="foreign:: killed_ processes:: two_thousand" slow="a_study_outlives a_saved_scene every_prefix"
+    ;;
+contact)
+    below="io memory parallel scene surface text" above="analysis reference simulation"
+    beside="closed_forms incremental laws stepwise subcell sums"
+    slow="a_million_terms a_sphere_in_other_units a_step_costs contact_sets_on_the_way forces_at_full_contact
+        hertz_without power_laws_converge_to rough_lines_of_few what_is_lost"
+    ;;
 *) usage ;;
 esac
 
@@ -51,62 +73,63 @@ without_tests() {
          { print }' "$1"
 }
 
-# Writes the manifest of a package in a folder: without the profiles, and what follows instead of its programs.
-manifest() {
-    local tree="$1" left_out="$2" version
-    # Packages of the same name and version would be taken for one another where what they need is built but once.
-    version="0.1.0+$room.$(basename "$(dirname "$tree")")"
-    awk -v left_out="^\\[($left_out)" 'NR == 1 { keep = 1 } /^\[/ { keep = $0 !~ left_out } keep' Cargo.toml |
-        sed "s/^version = .*/version = \"$version\"/" >"$tree/Cargo.toml"
-    printf '%s\n' '[workspace]' '[profile.test]' 'opt-level = 0' 'debug = false' '[profile.dev]' 'debug = false' \
-        '[profile.test.package."*"]' 'opt-level = 2' '[profile.dev.package."*"]' 'opt-level = 2' >>"$tree/Cargo.toml"
-    sed "/^name = \"asperity\"$/{n;s/.*/version = \"$version\"/}" Cargo.lock >"$tree/Cargo.lock"
-}
-
-# Makes a package of some rooms, with tests beside the code in the one that is tested.
-assemble_rooms() {
-    local tree="$1" name file stripped
-    rm -rf "$tree/src"
-    mkdir -p "$tree/src"
-    for name in $rooms; do
-        while read -r file; do
-            mkdir -p "$(dirname "$tree/$file")"
-            if [[ "$file" == "src/$room"/* || "$file" != *.rs ]]; then
-                cp "$file" "$tree/$file"
-            else
-                without_tests "$file" >"$tree/$file"
-            fi
-        done < <(find "src/$name" "src/$name.rs" -type f 2>/dev/null)
-    done
-    cp -r presets "$tree/"
-    {
-        echo '//! The room under test, and those it needs.'
-        echo '#![allow(unused)]'
-        for name in $rooms; do
-            echo "pub mod $name;"
-        done
-    } >"$tree/src/lib.rs"
-    manifest "$tree" 'profile|\\[bench'
-    sed -i '/^default-run/d' "$tree/Cargo.toml"
-}
-
-# Makes a copy of the whole package.
-assemble_all() {
-    local tree="$1" file
-    rm -rf "$tree"
+# Copies a room into a tree, with the tests beside its code where it is the one under test.
+copy_room() {
+    local name="$1" tree="$2" file
     while read -r file; do
-        if [ -f "$file" ]; then
-            mkdir -p "$tree/$(dirname "$file")"
+        mkdir -p "$(dirname "$tree/$file")"
+        if [[ "$name" == "$own" || "$file" != *.rs ]]; then
             cp "$file" "$tree/$file"
+        else
+            without_tests "$file" >"$tree/$file"
         fi
-    done < <(git ls-files --cached --others --exclude-standard)
-    manifest "$tree" profile
+    done < <(find "src/$name" "src/$name.rs" -type f 2>/dev/null)
+}
+
+# Makes a package of the room, those above it and its tests, all in one program, and a package below it of those that
+# do not change.
+assemble() {
+    local name file
+    rm -rf "$tree"
+    mkdir -p "$tree/below"
+    cp -r docs presets fuzz tests "$tree/"
+    cp -r presets "$tree/below/"
+    rm "$tree"/tests/*.sh "$tree/fuzz/Cargo.toml"
+    for name in $below; do copy_room "$name" "$tree/below"; done
+    for name in $own $above; do copy_room "$name" "$tree"; done
+    for file in tests/snapshots/*.snap; do cp "$file" "$tree/tests/snapshots/asperity__of_$(basename "$file")"; done
+    # Items that a crate keeps to itself are shared by two of them.
+    find "$tree/below" -name '*.rs' -exec sed -i 's/pub(crate)/pub/' {} +
+    {
+        echo '#![allow(unused)]'
+        for name in $below; do echo "pub mod $name;"; done
+    } >"$tree/below/src/lib.rs"
+    {
+        echo '#![allow(unused)]'
+        echo 'extern crate self as asperity;'
+        for name in $below; do echo "pub use below::$name;"; done
+        for name in $own $above; do echo "pub mod $name;"; done
+        for name in $beside; do printf '#[cfg(test)]\n#[path = "../tests/%s.rs"]\nmod of_%s;\n' "$name" "${name/\//_}"; done
+    } >"$tree/src/lib.rs"
+    # Packages of the same name and version would be taken for one another in a folder that rooms build in.
+    awk 'NR == 1 { keep = 1 } /^\[/ { keep = !/^\[(profile|\[)/ } keep && !/^default-run/' Cargo.toml |
+        sed -e "s/^version = .*/version = \"0.1.0+$room\"/" -e 's/^edition/autotests = false\n&/' \
+            -e 's/^\[dependencies\]/&\nbelow = { path = "below" }/' >"$tree/Cargo.toml"
+    sed -e '/^\[dev-dependencies\]/,$d' -e 's/^name = .*/name = "below"/' -e '/^below/d' -e '/^autotests/d' \
+        "$tree/Cargo.toml" >"$tree/below/Cargo.toml"
+    printf '%s\n' '[workspace]' 'exclude = ["below"]' '[profile.test]' 'opt-level = 0' 'debug = false' \
+        '[profile.test.package."*"]' 'opt-level = 2' >>"$tree/Cargo.toml"
+    cp Cargo.lock "$tree/"
 }
 
 export PROPTEST_RNG_SEED="${PROPTEST_RNG_SEED:-2012}" FUZZ_MUTATIONS="${FUZZ_MUTATIONS:-300}"
-# Where next to no draw is allowed any more, that shows soon.
-export PROPTEST_CASES="${PROPTEST_CASES:-48}" PROPTEST_MAX_LOCAL_REJECTS="${PROPTEST_MAX_LOCAL_REJECTS:-8000}"
+# Where next to no draw is allowed any more, that shows soon; a case that fails need not be the smallest, and is not
+# tried on the next mutant.
+export PROPTEST_CASES="${PROPTEST_CASES:-24}" PROPTEST_MAX_LOCAL_REJECTS="${PROPTEST_MAX_LOCAL_REJECTS:-8000}"
+export PROPTEST_MAX_SHRINK_ITERS=0 PROPTEST_DISABLE_FAILURE_PERSISTENCE=1 RUST_BACKTRACE=0
 export CARGO_TARGET_DIR="${MUTANTS_BUILD:-$folder/../build}" INSTA_UPDATE=no
+host="$(rustc -vV | sed -n 's/^host: //p' | tr 'a-z-' 'A-Z_')"
+export "CARGO_TARGET_${host}_RUNNER=env RUSTC_BOOTSTRAP=1"
 file_options=()
 for file in "${files[@]}"; do
     if [ -d "$file" ]; then file="$file/**/*.rs"; fi
@@ -120,64 +143,58 @@ if [[ "$part" == "~"* ]]; then
     if [ "$all" = 0 ]; then part=0/1; fi
 fi
 
-# Tries mutants in one of the packages.
+tree="$folder/tree"
+export INSTA_WORKSPACE_ROOT="$tree"
+
+# A stage: runs the tests, but for some, without a mutation and then with each of the mutants that options choose. The
+# first test that fails ends a run; the toolchain in use knows this only as an unstable option.
 mutants() {
-    local stage="$folder/$1"
-    shift
-    rm -rf "$stage/mutants.out" "$stage/mutants.out.old"
+    local stage="$folder/$1" timeout="$2" run=(-- -Zunstable-options --fail-fast) name
+    for name in $3; do run+=(--skip "$name"); done
+    shift 3
+    (cd "$tree" && cargo test --quiet --lib "${run[@]}")
     # It fails where mutants are left, which is said below.
-    INSTA_WORKSPACE_ROOT="$stage/tree" cargo mutants --dir "$stage/tree" --output "$stage" --in-place --no-shuffle \
-        --colors never --baseline skip --timeout "${MUTANTS_TIMEOUT:-120}" "${file_options[@]}" "$@" || true
+    cargo mutants --dir "$tree" --output "$stage" --in-place --no-shuffle --colors never --baseline skip \
+        --timeout "$timeout" --cargo-arg=--lib "${file_options[@]}" "$@" -- "${run[@]}" || true
 }
 
+# Quick mutants of an outcome.
 count() {
-    cat "$folder/$1/mutants.out/$2.txt" 2>/dev/null | wc -l
+    wc -l <"$folder/quick/mutants.out/$1.txt"
 }
 
-of_all=(--lib)
-for name in $tests; do
-    of_all+=(--test "$name")
-done
-
-# Builds and runs tests without a mutation.
-baseline() {
-    local tree="$folder/$1/tree"
-    shift
-    (cd "$tree" && INSTA_WORKSPACE_ROOT="$PWD" cargo test --locked --quiet "$@")
-}
-
-rm -rf "$folder"/{unit,all}/mutants.out
-sample=(--sharding round-robin --shard "$part" "$@")
-echo "== $room: part $part of $all mutants"
-if [ -n "$rooms" ]; then
-    echo "== $room: against its unit tests"
-    assemble_rooms "$folder/unit/tree"
-    baseline unit --lib -- "$room::"
-    mutants unit "${sample[@]}" -- --lib -- "$room::"
-    # By their names: the numbers of a sample are not those of what is left of it.
-    sample=()
-    while read -r name; do
-        sample+=(--re "^$(sed 's/[][\\.*^$+?(){}|]/\\&/g' <<<"$name")\$")
-    done < <(cat "$folder/unit/mutants.out/missed.txt")
+rm -rf "$folder"/{quick,thorough}
+echo "== $room: part $part of $all mutants, against quick tests"
+assemble
+mutants quick "${MUTANTS_TIMEOUT:-20}" "$slow $unfit" --sharding round-robin --shard "$part" "$@"
+# By their names, since the numbers of a sample are not those of what is left of it; and by their lines, since
+# cargo-mutants tries each field left out whatever the names say.
+left=(--in-diff "$folder/left.diff")
+while read -r name; do
+    left+=(--re "^$(sed 's/[][\\.*^$+?(){}|]/\\&/g' <<<"$name")\$")
+done <"$folder/quick/mutants.out/missed.txt"
+cut -d: -f1,2 "$folder/quick/mutants.out/missed.txt" | sort -u -t: -k1,1 -k2,2n | while IFS=: read -r file line; do
+    printf -- '--- a/%s\n+++ b/%s\n@@ -%d,0 +%d,1 @@\n+' "$file" "$file" $((line - 1)) "$line"
+    sed -n "${line}p" "$tree/$file"
+done >"$folder/left.diff"
+if [ -s "$folder/left.diff" ]; then
+    echo "== $room: what is left, against all of its tests"
+    CARGO_PROFILE_TEST_OPT_LEVEL=1 PROPTEST_CASES=256 mutants thorough 180 "$unfit" "${left[@]}"
 fi
-if [ "${#sample[@]}" != 0 ]; then
-    echo "== $room: against all tests"
-    assemble_all "$folder/all/tree"
-    baseline all "${of_all[@]}"
-    mutants all "${sample[@]}" -- "${of_all[@]}"
-fi
-timeouts=$(($(count unit timeout) + $(count all timeout)))
-killed=$(($(count unit caught) + $(count all caught) + timeouts))
-echo "== $room: $killed of $((killed + $(count all missed))) viable mutants killed, $timeouts of them by time;" \
-    "$(($(count unit unviable) + $(count all unviable))) do not compile"
+survivors="$(cat "$folder/thorough/mutants.out/missed.txt" 2>/dev/null || true)"
+viable=$(($(count caught) + $(count timeout) + $(count missed)))
+echo "== $room: $((viable - $(grep -c . <<<"$survivors"))) of $viable viable mutants killed," \
+    "$(count timeout) of them by time; $(count unviable) do not compile"
 new=0
 while read -r name; do
     # As it is listed: without line and column, which change.
-    if grep -qF -- "$(sed -E 's/:[0-9]+:[0-9]+:/:/' <<<"$name")" docs/mutation.md; then
+    if [ -z "$name" ]; then
+        break
+    elif grep -qF -- "$(sed -E 's/:[0-9]+:[0-9]+:/:/' <<<"$name")" docs/mutation.md; then
         echo "listed:   $name"
     else
         echo "SURVIVES: $name"
         new=1
     fi
-done < <(cat "$folder/all/mutants.out/missed.txt" 2>/dev/null)
+done <<<"$survivors"
 exit "$new"

@@ -2,22 +2,22 @@
 //!
 //! After a change of the program, `UPDATE_README=1 cargo test --test readme` writes the generated parts anew.
 
+#[path = "readme/scenes.rs"]
+mod scenes;
+
 use asperity::check::checks;
 use asperity::explorer::demo::{Demo, ONE_SCENE};
 use asperity::explorer::theme::{Appearance, Marker, Theme};
 use asperity::explorer::{keys, svg_of};
 use asperity::export::check_markdown;
-use asperity::scene::{Document, FIELDS, LEG_FORCE, LEG_INDENTATION, Range, presets};
+use asperity::scene::Document;
 use asperity::simulation::Simulation;
 use asperity::sweep::{Changes, Plan, Quantity};
+use scenes::{check, read, root, updating};
 use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use std::process::Command;
-use std::sync::Mutex;
-
-/// One test at a time writes a page.
-static PAGES: Mutex<()> = Mutex::new(());
 
 /// Longest README, rows.
 const LONGEST_README: usize = 250;
@@ -37,32 +37,6 @@ const PAGES_AND_CONTENTS: [(&str, &str); 12] = [
     ("errors.md", "messages, remedies, exit codes"),
     ("mutation.md", "mutation tests and survivors"),
 ];
-
-fn updating() -> bool {
-    std::env::var_os("UPDATE_README").is_some()
-}
-
-fn root() -> &'static Path {
-    Path::new(env!("CARGO_MANIFEST_DIR"))
-}
-
-fn read(page: &str) -> String {
-    std::fs::read_to_string(root().join(page)).unwrap_or_else(|error| panic!("{page}: {error}"))
-}
-
-/// Compares the part of this name on a page with what the program gives, or writes it there.
-fn check(page: &str, name: &str, expected: &str) {
-    let _alone = PAGES.lock();
-    let text = read(page);
-    let (start, end) = (format!("<!-- {name} -->\n"), format!("<!-- end of {name} -->"));
-    let (before, rest) = text.split_once(&start).unwrap_or_else(|| panic!("{page} has no {start}"));
-    let (found, after) = rest.split_once(&end).unwrap_or_else(|| panic!("{page} has no {end}"));
-    if updating() {
-        std::fs::write(root().join(page), format!("{before}{start}{expected}{end}{after}")).unwrap();
-    } else {
-        assert_eq!(found, expected, "the part {name} of {page} is not the program's");
-    }
-}
 
 /// The first fenced block of a language on a page.
 fn block(page: &str, language: &str) -> String {
@@ -98,31 +72,6 @@ fn shell(command: &str, folder: &Path) -> std::process::Output {
 #[test]
 fn tables_are_those_of_the_program() {
     check("docs/keys.md", "keys", &keys::markdown());
-    let mut fields =
-        String::from("| field | symbol | allowed | left out | means |\n| --- | --- | --- | --- | --- |\n");
-    let legs = [&LEG_FORCE, &LEG_INDENTATION];
-    for field in FIELDS.iter().chain(legs).filter(|field| field.range != Range::Group) {
-        let of = field.variant.map_or(String::new(), |variant| format!(" ({variant})"));
-        let or_none = |text: &str| if text.is_empty() { String::new() } else { format!("`{text}`") };
-        let allowed = match field.range {
-            Range::Choice(choices) => choices.iter().map(|c| format!("`{c}`")).collect::<Vec<_>>().join(", "),
-            _ => field.allowed(),
-        };
-        fields += &format!(
-            "| `{}`{of} | {} | {allowed} | {} | {} |\n",
-            field.path,
-            field.symbol,
-            or_none(field.default),
-            field.meaning,
-        );
-    }
-    check("docs/scene-file.md", "fields", &fields);
-    let mut scenes = String::from("| scene | what it shows |\n| --- | --- |\n");
-    for preset in presets() {
-        let document = asperity::scene::open(preset.name).unwrap();
-        scenes += &format!("| `{}` | {} |\n", preset.name, document.scene().notice);
-    }
-    check("docs/scene-file.md", "scenes", &scenes);
     check("docs/hard-cases.md", "hard cases", &check_markdown(&checks(|_| true)));
 }
 

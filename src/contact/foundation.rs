@@ -73,3 +73,25 @@ impl HessRule {
         self.stretch_of_one * f64::from(springs).sqrt()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        /// All cells are as long as the foundation, to the last bit; fewer have their own length, and more are no
+        /// longer.
+        #[test]
+        fn no_contact_is_longer_than_the_foundation(springs in 2_usize..400, length in 1e-6..10.0_f64) {
+            let foundation = Foundation::new(length, springs, 1.0);
+            prop_assert_eq!(foundation.contact_length(springs as f64), length);
+            prop_assert_eq!(foundation.contact_length(springs as f64 + 0.5), length);
+            for cells in 0..springs {
+                let own = cells as f64 * foundation.spacing;
+                prop_assert_eq!(foundation.contact_length(cells as f64), own);
+                prop_assert_eq!(Foundation::endless(foundation.spacing, 1.0).contact_length(cells as f64), own);
+            }
+        }
+    }
+}

@@ -74,3 +74,65 @@ impl CompensatedSum {
         self.value + self.error
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        /// As many equal intervals as asked for, both ends exact; the search finds what a look at all points finds.
+        #[test]
+        fn points_are_even_and_found(
+            low in -1.0..1.0_f64,
+            width in prop_oneof![1e-9..1.0_f64, Just(0.0)],
+            intervals in 1_usize..70,
+            share in 0.0..=1.0_f64,
+        ) {
+            let high = low + width;
+            let grid = Grid::new(low, high, intervals);
+            let points = grid.points();
+            prop_assert_eq!((points[0], grid.high()), (low, high));
+            prop_assert_eq!(points.len(), if high > low { intervals + 1 } else { 1 });
+            for (k, &point) in points.iter().enumerate() {
+                let even = low + (high - low) * (k as f64 / intervals as f64);
+                prop_assert!((point - even).abs() <= 4.0 * f64::EPSILON, "{} {}", point, even);
+            }
+            let wanted = points.iter().copied().chain([(low + share * width).min(high), low - 1.0]);
+            for wanted in wanted {
+                prop_assert_eq!(grid.first_at_least(wanted), points.partition_point(|&point| point < wanted));
+            }
+        }
+
+        /// Of small numbers added to a large one that is taken away again, none is lost, in whatever groups they are
+        /// added.
+        #[test]
+        fn what_rounding_takes_from_a_sum_is_kept(power in 40..60_i32, small in 1e-3..1.0_f64, count in 1_u32..99) {
+            let large = 2.0_f64.powi(power);
+            let (mut whole, mut parts) = (CompensatedSum::default(), CompensatedSum::default());
+            for _ in 0..count {
+                let mut part = CompensatedSum::default();
+                for term in [small, large, small] {
+                    whole.add(term);
+                    part.add(term);
+                }
+                parts.add_sum(part);
+            }
+            for mut sum in [whole, parts] {
+                sum.add(-large * f64::from(count));
+                prop_assert!((sum.total() / (2.0 * f64::from(count) * small) - 1.0).abs() < 1e-9, "{:?}", sum);
+            }
+        }
+    }
+
+    #[test]
+    fn a_range_too_narrow_for_its_points_is_its_two_ends() {
+        let high = 1.0 + f64::EPSILON;
+        assert_eq!(Grid::new(1.0, high, 8).points(), [1.0, high]);
+        // Narrower than the reciprocal of the largest number.
+        let high = f64::from_bits(1 << 14);
+        let grid = Grid::new(0.0, high, 4);
+        assert_eq!(grid.points(), [0.0, high]);
+        assert_eq!([0.0, 0.5 * high, high].map(|wanted| grid.first_at_least(wanted)), [0, 1, 1]);
+    }
+}

@@ -168,3 +168,51 @@ impl Work {
         self.heights_binned += heights_binned;
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Work of which each count is another power of two: no two sums of some of them are equal.
+    fn counted() -> Work {
+        Work {
+            springs: 1,
+            random_phases: 2,
+            transforms: 4,
+            tree_nodes: 8,
+            loading_passes: 16,
+            unloading_passes: 32,
+            zero_load_passes: 64,
+            hess_evaluations: 128,
+            springs_tallied: 256,
+            events_sorted: 512,
+            joins: 1024,
+            leaves: 2048,
+            steps: 4096,
+            relaxation_sweeps: 8192,
+            spring_updates: 16384,
+            heights_binned: 32768,
+        }
+    }
+
+    #[test]
+    fn work_beside_a_loading_adds_up_and_counts_nothing_of_the_loading() {
+        let mut added = Work::default();
+        added.add_effort(&counted());
+        let once = Work {
+            springs: 0,
+            tree_nodes: 0,
+            loading_passes: 0,
+            unloading_passes: 0,
+            joins: 0,
+            leaves: 0,
+            ..counted()
+        };
+        assert_eq!(added, once);
+        added.add_effort(&counted());
+        let of = |work: Work| {
+            [work.random_phases, work.zero_load_passes, work.hess_evaluations, work.heights_binned]
+        };
+        assert_eq!(of(added), of(once).map(|count| 2 * count));
+    }
+}

@@ -530,4 +530,25 @@ mod tests {
             }
         }
     }
+
+    /// A force between two points of a curve is met in far fewer looks than the fifty-odd that halving takes.
+    #[test]
+    fn a_force_is_met_in_few_looks() {
+        let gaps: Vec<_> = (0..101_u32).map(|k| f64::from(k * 37 % 101) / 101.0).collect();
+        for edges in [Edges::Grid, Edges::SubCell] {
+            let body = Nonadhesive::new(&gaps, edges);
+            let leg = body.sample(Grid::new(0.0, 1.5, 3)).unwrap();
+            let looks = std::cell::Cell::new(0);
+            for part in (1..100).map(|k| f64::from(k) / 100.0) {
+                let wanted = part * leg.states[3].compression;
+                let is_past = |compression| {
+                    looks.set(looks.get() + 1);
+                    compression >= wanted
+                };
+                let [low, high] = body.crossing(&leg, wanted, is_past).unwrap();
+                assert!(low <= high);
+            }
+            assert!(looks.get() <= 32 * 99, "{} looks", looks.get());
+        }
+    }
 }

@@ -438,3 +438,39 @@ impl Solver for Stepwise<'_> {
         0.0
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        /// However many points are pushed, the curve has from as many as wanted to twice as many, evenly spread in
+        /// the order of the steps, and both its ends; on the way back the smallest force as well.
+        #[test]
+        fn a_thinned_curve_is_even(wanted in 2_usize..20, steps in 1_usize..500, lowest in 0.0..1.0_f64) {
+            let pushed: Vec<_> = (0..steps)
+                .map(|k| CurvePoint { indentation: -(k as f64), ..CurvePoint::default() })
+                .collect();
+            let smallest = pushed[(lowest * steps as f64) as usize];
+            for direction in [Direction::Loading, Direction::Unloading] {
+                let mut thinned = Thinned::new(wanted);
+                pushed.iter().for_each(|&point| thinned.push(point));
+                let curve = thinned.finish(smallest, direction);
+                let at: Vec<_> = curve.iter().map(|point| -point.indentation as usize).collect();
+                let mut stride = 1;
+                while (steps - 1) / stride + 1 > 2 * wanted {
+                    stride *= 2;
+                }
+                let mut expected: Vec<_> = (0..steps).step_by(stride).chain([steps - 1]).collect();
+                if direction == Direction::Unloading {
+                    expected.push(-smallest.indentation as usize);
+                }
+                expected.sort_unstable();
+                expected.dedup();
+                prop_assert!(at.len() >= wanted.min(steps));
+                prop_assert_eq!(at, expected);
+            }
+        }
+    }
+}

@@ -369,7 +369,8 @@ mod tests {
             scene.loading = loading;
             assert_eq!(only(&scene).0, field);
         }
-        scene.loading = vec![ToForce(1.0), ToForce(-1e-6), ToTouch, ToSeparation, ToZeroForce];
+        // No force is no pull.
+        scene.loading = vec![ToForce(1.0), ToForce(-1e-6), ToTouch, ToSeparation, ToForce(0.0), ToZeroForce];
         assert_eq!(check(&scene), vec![]);
     }
 

@@ -169,6 +169,7 @@ mod tests {
             (vec![ToForce(2.0), ToForce(-1.0), ToForce(1.0)], vec![ToForce(2.0)]),
             (vec![ToIndentation(-1.0), ToTouch, ToForce(1.0), ToSeparation], vec![ToForce(1.0)]),
             (vec![ToZeroForce, ToForce(1.0)], vec![ToForce(1.0)]),
+            (vec![ToIndentation(-1.0), ToForce(1.0)], vec![ToForce(1.0)]),
             (
                 vec![ToTouch, ToIndentation(1.0), ToIndentation(0.5), ToIndentation(2.0), ToTouch],
                 vec![ToTouch, ToIndentation(1.0), ToIndentation(2.0)],

@@ -354,6 +354,11 @@ mod tests {
             two.contains("material.effective_modulus = 0.0: allowed") && two.ends_with("(and 1 more)"),
             "{two}"
         );
+        // To be opened it is refused with all that is wrong, and not with the one line of the list.
+        let listed = library.list().into_iter().find(|entry| entry.name == "two.ron").unwrap();
+        let errors = listed.document().unwrap_err();
+        let fields: Vec<_> = errors.iter().map(|error| error.field.as_str()).collect();
+        assert_eq!(fields, ["material.effective_modulus", "length"]);
         assert!(!error_of(&library, "empty.ron").is_empty());
         assert_eq!(error_of(&library, "binary.ron"), "this is not UTF-8 text: byte 1 is not");
         assert!(error_of(&library, "long.ron").contains("too long"));

@@ -358,6 +358,18 @@ mod tests {
         }
     }
 
+    #[test]
+    fn overrides_are_as_long_as_what_they_add_to_a_command() {
+        let mut overrides = Overrides::new();
+        let bare = command_line("jkr-sphere", &overrides).len();
+        for (path, value) in
+            [("length", "1e-4"), ("adhesion.work", "0.1"), ("title", ""), ("numerics.points", "64")]
+        {
+            overrides.push((path.to_string(), value.to_string()));
+            assert_eq!(bare + length(&overrides), command_line("jkr-sphere", &overrides).len());
+        }
+    }
+
     #[cfg(unix)]
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(64))]

@@ -300,4 +300,22 @@ mod tests {
             assert_eq!(parse_quantity(&text, field.unit), Ok(1.0), "{}", field.path);
         }
     }
+
+    /// The prefixes of the SI that a field may need, by their powers of ten.
+    #[test]
+    fn prefixes_are_powers_of_a_thousand() {
+        for (place, prefix) in "y z a f p n µ m _ k M G T P E".split(' ').enumerate() {
+            let prefix = prefix.trim_matches('_');
+            let value: f64 = format!("1e{}", 3 * (place as i32 - 8)).parse().unwrap();
+            assert_eq!(parse_quantity(&format!("1 {prefix}Pa"), "Pa"), Ok(value));
+            assert_eq!(format_quantity(value, "Pa"), format!("1 {prefix}Pa"));
+        }
+    }
+
+    #[test]
+    fn binary_multiples_of_counts_are_powers_of_1024() {
+        for (place, prefix) in ["Ki", "Mi", "Gi"].into_iter().enumerate() {
+            assert_eq!(parse_quantity(&format!("3{prefix}"), "1"), Ok(3.0 * 1024_f64.powi(place as i32 + 1)));
+        }
+    }
 }

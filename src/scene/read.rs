@@ -272,4 +272,41 @@ mod tests {
         assert!(wrong_version("(length: 1)").unwrap().message.contains("missing"));
         assert_eq!(wrong_version("(version: 2, nonsense"), None);
     }
+
+    /// Of two mistakes the first is said, also where a bracket or quote behind it stays open.
+    #[test]
+    fn what_stops_the_reader_first_is_said() {
+        let (at, .., message) = unread("(version: 1, nonsense: 2, title: \"a)");
+        assert_eq!(at, (1, 14));
+        assert!(message.starts_with("no such field"), "{message}");
+    }
+
+    #[test]
+    fn another_text_is_explained_by_its_own_fields() {
+        #[derive(Debug, serde::Deserialize)]
+        #[serde(deny_unknown_fields)]
+        #[allow(dead_code, reason = "only read")]
+        struct Other {
+            count: u8,
+            colour: Colour,
+        }
+        #[derive(Debug, serde::Deserialize)]
+        enum Colour {
+            Green,
+            Blue,
+        }
+        for (text, offset, said) in [
+            ("(count: 1, colour: Grren)", 19, "Grren: allowed: Green, Blue (did you mean Green?)"),
+            ("(count: 1, colour: X)", 19, "X: allowed: Green, Blue"),
+            ("(count: 1)", 9, "colour: missing"),
+            ("(count: 1, count: 2)", 11, "count: given twice"),
+            ("(count: 1, size: 2)", 11, "size: "),
+            ("(count: 1, colour: Blue) x", 25, "nothing may follow here"),
+        ] {
+            let error = ron::from_str::<Other>(text).unwrap_err();
+            let (at, message) = told_otherwise(text, &error);
+            assert!(message.starts_with(said), "{text}: {message}");
+            assert_eq!(at, offset, "{text}: {message}");
+        }
+    }
 }

@@ -336,4 +336,10 @@ mod tests {
         let message = set(&without, "form.radius", "1").unwrap_err();
         assert!(message.contains("there is no form: set "), "{message}");
     }
+
+    #[test]
+    fn a_number_is_not_replaced_by_a_group() {
+        let message = set("(length: 1.0, adhesion: 3.0)", "adhesion.work", "0.1").unwrap_err();
+        assert_eq!(message, "adhesion has no fields here");
+    }
 }

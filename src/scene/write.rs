@@ -231,4 +231,18 @@ mod tests {
             prop_assert_eq!(ron::from_str::<String>(&ron_string(&text)), Ok(text));
         }
     }
+
+    #[test]
+    fn numbers_from_a_hundred_thousand_and_from_a_thousandth_have_an_exponent() {
+        for (value, text) in [
+            (1e5, "1.0e5"),
+            (-99_999.5, "-99999.5"),
+            (1e-3, "1.0e-3"),
+            (0.0011, "0.0011"),
+            (-0.0, "-0.0"),
+            (1.25e-7, "1.25e-7"),
+        ] {
+            assert_eq!(ron_float(value), text);
+        }
+    }
 }

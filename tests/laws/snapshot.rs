@@ -1,0 +1,78 @@
+//! A contact looked at by itself: the fragments at a point of a curve give that point again.
+
+use super::*;
+use asperity::contact::{EdgeModel, Snapshot, SubCellEdges};
+
+/// Moves a body along legs and holds points of each curve against snapshots of the fragments there.
+fn looked_at<E: EdgeModel>(body: &Body, edges: E, legs: &[Leg]) -> Result<(), TestCaseError> {
+    let tree = ContactTree::build(&body.gaps, E::EDGES).unwrap();
+    let mut solver = exact::adhesive(&body.gaps, &tree, edges, body.foundation, 12);
+    let hess = HessRule::new(body.foundation, body.work);
+    let snapshot = Snapshot::new(&body.gaps, body.deepest(), E::EDGES, Some(hess));
+    let tolerance = 1e-9 * body.force_scale();
+    for &leg in legs {
+        let record = solver.advance(leg).unwrap();
+        // A point at which part of the contact jumps has it on one side or the other.
+        for point in &record.curve {
+            let fragments = solver.fragments(point.indentation);
+            let springs: u64 = fragments.iter().map(|&(first, last)| (last - first + 1) as u64).sum();
+            if springs != point.springs {
+                continue;
+            }
+            let seen = snapshot.point(body.foundation, point.indentation, &fragments);
+            prop_assert_eq!((seen.springs, seen.fragments), (point.springs, point.fragments));
+            prop_assert_eq!(seen.indentation, point.indentation);
+            prop_assert!((seen.force - point.force).abs() <= tolerance, "{:?} {:?}", seen, point);
+            let spread = 1e-9 * body.foundation.spacing * body.gaps.len() as f64;
+            prop_assert!(
+                (seen.contact_length - point.contact_length).abs() <= spread,
+                "{:?} {:?}",
+                seen,
+                point
+            );
+            // The parts add up to the whole, and none is stretched further than it can be.
+            let parts: Vec<_> =
+                fragments.iter().map(|&ends| snapshot.fragment(point.indentation, ends)).collect();
+            let sum = |of: fn(&asperity::contact::FragmentState) -> f64| parts.iter().map(of).sum::<f64>();
+            let force = body.foundation.spring_stiffness() * sum(|part| part.compression);
+            prop_assert!((force - point.force).abs() <= tolerance);
+            let length = body.foundation.spacing * sum(|part| part.length);
+            prop_assert!((length - point.contact_length).abs() <= spread);
+            for (part, &(first, last)) in parts.iter().zip(&fragments) {
+                prop_assert!(part.most_stretched <= part.largest_stretch * (1.0 + 1e-6) + 1e-9, "{:?}", part);
+                let largest = std::f64::consts::PI * part.length * body.foundation.spacing * body.work
+                    / body.foundation.effective_modulus;
+                prop_assert!((part.largest_stretch / largest.sqrt() - 1.0).abs() < 1e-12);
+                if E::EDGES == Edges::Grid {
+                    let highest = body.gaps[first..=last].iter().copied().fold(0.0, f64::max);
+                    prop_assert_eq!(part.most_stretched, highest - point.indentation);
+                    prop_assert_eq!(part.length, (last - first + 1) as f64);
+                }
+            }
+        }
+    }
+    Ok(())
+}
+
+proptest! {
+    #![proptest_config(cases(100))]
+
+    #[test]
+    fn a_look_at_a_contact_is_the_point_of_its_curve(body in body(), turns in indentations(5)) {
+        let hess = HessRule::new(body.foundation, body.work);
+        looked_at(&body, GridEdges::new(hess), &to_indentations(&turns))?;
+        looked_at(&body, SubCellEdges::new(hess), &to_indentations(&turns))?;
+    }
+
+    /// The contacts a history ends with are as many as its last point says: none after separation.
+    #[test]
+    fn a_history_ends_with_the_contacts_of_its_last_point(body in body(), turns in indentations(5), apart: bool) {
+        let mut legs = to_indentations(&turns);
+        if apart {
+            legs.push(Leg::ToSeparation);
+        }
+        let history = body.history(&legs, 8);
+        prop_assert_eq!(history.contacts.len() as u64, end(&history).fragments);
+        prop_assert_eq!(indices(&history.contacts).len() as u64, end(&history).springs);
+    }
+}

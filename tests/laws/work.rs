@@ -1,0 +1,139 @@
+//! As much as is asked for and no more: points of a curve, memory that is held, and work that is counted.
+
+use super::*;
+use asperity::contact::{AdhesiveMemory, LegContact, Stepwise};
+
+/// As many flat punches of so many springs at one height, far apart, above springs that are never reached.
+fn punches(count: usize, springs: usize) -> Body {
+    let punch = [vec![0.0; springs], vec![100.0; 3 * springs]].concat();
+    Body { gaps: punch.repeat(count), foundation: Foundation::endless(0.01, 1.0), work: 1e-4 }
+}
+
+proptest! {
+    #![proptest_config(cases(200))]
+
+    /// The points of a curve divide the leg evenly; beside them is the extreme of the force where it lies between.
+    #[test]
+    fn curves_have_the_samples_asked_for(
+        body in body(),
+        deep in 0.1..1.2_f64,
+        back in 0.0..0.9_f64,
+        samples in 2_usize..80,
+    ) {
+        let tree = body.tree();
+        let mut adhesive = body.on(&tree, samples);
+        let mut bare = exact::nonadhesive(&body.gaps, Edges::Grid, body.foundation, samples);
+        let solvers: [&mut dyn Solver; 2] = [&mut adhesive, &mut bare];
+        for solver in solvers {
+            solver.advance(Leg::ToIndentation(deep)).unwrap();
+            for to in [back * deep, deep] {
+                let record = solver.advance(Leg::ToIndentation(to)).unwrap();
+                prop_assert!(record.curve.len() >= samples && record.curve.len() <= samples + 1);
+                let step = (record.end() - record.start()) / (samples - 1) as f64;
+                let near = |wanted: f64| {
+                    let distance = |point: &CurvePoint| (point.indentation - wanted).abs();
+                    record.curve.iter().map(distance).fold(f64::INFINITY, f64::min)
+                };
+                for k in 0..samples {
+                    prop_assert!(near(record.start() + step * k as f64) <= 8.0 * f64::EPSILON, "{} of {}", k, samples);
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn a_copy_of_a_leg_takes_memory_as_its_contact_has_parts() {
+    let bytes = |body: &mut dyn Solver| {
+        let mut copy = LegContact::default();
+        assert_eq!(copy.bytes(), 0);
+        body.advance(Leg::ToIndentation(0.1)).unwrap();
+        body.copy_leg(&mut copy).unwrap();
+        copy.bytes()
+    };
+    let of_punches = |count| {
+        let body = punches(count, 8);
+        bytes(&mut body.on(&body.tree(), 2))
+    };
+    let [one, two, twelve] = [1, 2, 12].map(of_punches);
+    // At least two indentations for each.
+    assert!(one >= 16 && two >= one + 16);
+    assert_eq!(twelve - two, 10 * (two - one));
+    let body = punches(2, 8);
+    let rule = HessRule::new(body.foundation, body.work);
+    let mut stepwise = Stepwise::new(&body.gaps, Some(rule), body.foundation, 0.05, 2, &|| false).unwrap();
+    assert_eq!(bytes(&mut stepwise), size_of::<f64>() * body.gaps.len());
+    assert_eq!(bytes(&mut exact::nonadhesive(&body.gaps, Edges::Grid, body.foundation, 2)), 0);
+}
+
+#[test]
+fn memory_left_to_the_next_body_grows_with_the_line() {
+    assert_eq!(AdhesiveMemory::default().bytes(), 0);
+    let left = |count| {
+        let body = punches(count, 8);
+        let tree = body.tree();
+        let mut solver = body.on(&tree, 2);
+        for to in [0.1, 0.0, 0.1] {
+            solver.advance(Leg::ToIndentation(to)).unwrap();
+        }
+        let mut copy = LegContact::default();
+        solver.copy_leg(&mut copy).unwrap();
+        // For each node of the tree an indentation and a range of springs, and two lists of the parts of the contact.
+        let least = 16 * tree.len() + 2 * copy.bytes();
+        let bytes = solver.into_memory().bytes();
+        assert!(bytes >= least && bytes <= 4 * least, "{bytes} {least}");
+    };
+    [1, 10, 300].map(left);
+}
+
+proptest! {
+    #![proptest_config(cases(200))]
+
+    /// F_a(0) takes one pass and looks at the springs that touch first and those they attach.
+    #[test]
+    fn the_way_back_from_first_touch_looks_at_the_springs_in_contact(body in body()) {
+        let tree = body.tree();
+        let touch = body.on(&tree, 2).advance(Leg::ToTouch).unwrap();
+        let back = body.history(&[Leg::ToTouch, Leg::ToSeparation], 2);
+        let (force, work) = body.on(&tree, 2).pull_off_at_touch().unwrap();
+        prop_assert_eq!((work.zero_load_passes, work.springs_tallied), (1, touch.curve.last().unwrap().springs));
+        prop_assert!(work.hess_evaluations > 0);
+        let tolerance = 1e-12 * body.force_scale();
+        prop_assert!((force - back.legs[1].smallest.force).abs() <= tolerance, "{} {:?}", force, back.legs[1].smallest);
+    }
+
+    /// A node for each place inside the line behind which the gap no longer rises; and a tree built in the memory of
+    /// another takes no more than a new one.
+    #[test]
+    fn a_tree_has_a_node_for_each_summit_of_the_gap(gaps in gaps()) {
+        let tree = ContactTree::build(&gaps, Edges::Grid).unwrap();
+        let rises = |k: usize| gaps[k + 1] > gaps[k];
+        let summits = (1..gaps.len().saturating_sub(1)).filter(|&k| rises(k - 1) && !rises(k)).count();
+        prop_assert_eq!(tree.len(), summits);
+        prop_assert_eq!(tree.is_empty(), summits == 0);
+        let bytes = tree.bytes();
+        prop_assert!(bytes >= 16 * (gaps.len() / 4) && bytes <= 64 * (gaps.len() + 80), "{}", bytes);
+        prop_assert_eq!(tree.rebuild(&gaps, Edges::Grid).unwrap().bytes(), bytes);
+    }
+}
+
+#[test]
+fn curves_take_some_of_the_time_and_not_more() {
+    let gaps: Vec<_> = (0..4000).map(|k| (f64::from(k) * 0.05).sin() + 1.0).collect();
+    let lowest = gaps.iter().copied().fold(f64::INFINITY, f64::min);
+    let gaps = gaps.iter().map(|gap| gap - lowest).collect();
+    let body = Body { gaps, foundation: Foundation::endless(0.01, 1.0), work: 1e-3 };
+    let tree = body.tree();
+    let rule = HessRule::new(body.foundation, body.work);
+    let clock = std::time::Instant::now();
+    let mut exact = body.on(&tree, 50);
+    let mut stepwise = Stepwise::new(&body.gaps, Some(rule), body.foundation, 0.5, 2, &|| false).unwrap();
+    for leg in [Leg::ToIndentation(1.0), Leg::ToSeparation] {
+        exact.advance(leg).unwrap();
+        stepwise.advance(leg).unwrap();
+    }
+    let taken = clock.elapsed().as_secs_f64();
+    assert!(exact.curve_seconds() > 0.0 && exact.curve_seconds() < taken);
+    // Each step gives its point of the curve by itself.
+    assert_eq!(stepwise.curve_seconds(), 0.0);
+}
