@@ -73,7 +73,7 @@ pub mod ensemble;
 #[cfg(feature = "tui")]
 pub mod explorer;
 pub mod export;
-mod io;
+pub mod io;
 mod memory;
 mod parallel;
 pub mod phase;

@@ -51,6 +51,19 @@ fn escaped(text: &str, is_escaped: impl Fn(char) -> bool) -> Cow<'_, str> {
     Cow::Owned(shown)
 }
 
+/// A whole number with its thousands apart.
+pub(crate) fn grouped(count: u64) -> String {
+    let digits = count.to_string();
+    let mut grouped = String::new();
+    for (index, digit) in digits.chars().enumerate() {
+        if index > 0 && (digits.len() - index).is_multiple_of(3) {
+            grouped.push(' ');
+        }
+        grouped.push(digit);
+    }
+    grouped
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -85,5 +98,11 @@ mod tests {
             prop_assert!(!printable(&text).contains(is_control));
             prop_assert!(!printable_lines(&text).contains(|c| is_control(c) && c != '\n'));
         }
+    }
+
+    #[test]
+    fn thousands_are_apart() {
+        let counts = [0, 999, 1000, 16_384, 1_048_576];
+        assert_eq!(counts.map(grouped), ["0", "999", "1 000", "16 384", "1 048 576"]);
     }
 }

@@ -6,7 +6,7 @@
 mod disk;
 
 use asperity::disk::Disk;
-use asperity::export::write_new_on;
+use asperity::io::write_new_on;
 use asperity::sweep::{
     Changes, Folder, Options, Plan, RESULTS, SIDECAR, SUMMARY, Shard, Status, SweepError, merge, run,
 };

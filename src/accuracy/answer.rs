@@ -1,8 +1,8 @@
 //! The answer in a sentence or two: how many springs, and how long.
 
 use super::{CostTable, Knob, Row};
-use crate::export::sheet::grouped;
 use crate::scene::format_quantity;
+use crate::text::grouped;
 
 /// Relative errors that are answered for.
 const TARGETS: [(f64, &str); 2] = [(0.01, "1 %"), (0.001, "0.1 %")];

@@ -4,9 +4,9 @@ use super::convergence::{error_of_finest, first_within};
 use super::solution::{
     Solution, Solved, allowed_points, closed_form_adhesion, refined, relative_error, solve,
 };
-use crate::export::sheet::grouped;
 use crate::scene::{Edges, Scene, Solver};
 use crate::simulation::RunError;
+use crate::text::grouped;
 use serde::Serialize;
 use std::path::Path;
 use thiserror::Error;

@@ -2,9 +2,8 @@
 
 use super::{CliError, OutputArguments, SceneArguments};
 use crate::accuracy::{Knob, Progress, measure};
-use crate::export::{
-    check_writable, cost_text, work_precision_svg, write_cost_csv, write_cost_json, write_new,
-};
+use crate::export::{cost_text, work_precision_svg, write_cost_csv, write_cost_json};
+use crate::io::{check_writable, write_new};
 use crate::scene::parse_quantity;
 use crate::text::for_picture;
 use clap::{Args, ValueEnum};

@@ -5,7 +5,7 @@ use crate::explorer::demo::{Demo, ONE_SCENE, TOUR, play};
 use crate::explorer::picture::{Cast, text};
 use crate::explorer::theme::{Appearance, Marker, Theme};
 use crate::explorer::{FrameBytes, Screen, picture_of, svg_of};
-use crate::export::{check_writable, write_new};
+use crate::io::{check_writable, write_new};
 use crate::scene::{open_argument, presets};
 use clap::Args;
 use std::io::{self, IsTerminal, Write, stdout};

@@ -3,7 +3,7 @@
 use crate::accuracy::{ChoiceError, CostError};
 use crate::ensemble::EnsembleError;
 use crate::explorer::OpeningError;
-use crate::export::WriteError;
+use crate::io::WriteError;
 use crate::scene::{SceneErrors, quoted};
 use crate::simulation::RunError;
 use crate::sweep::slurm::SlurmError;

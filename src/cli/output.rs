@@ -1,7 +1,7 @@
 //! Where results go.
 
 use super::CliError;
-use crate::export::{check_writable, write_new};
+use crate::io::{check_writable, write_new};
 use clap::Args;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};

@@ -1,9 +1,10 @@
 //! `asperity plan`: which stages a scene runs, and what they cost.
 
 use super::{CliError, SceneArguments};
-use crate::export::sheet::{Sheet, grouped};
-use crate::export::write_json_value;
+use crate::export::sheet::Sheet;
+use crate::io::write_json_value;
 use crate::simulation::{Plan, PlannedStage};
+use crate::text::grouped;
 use clap::{Args, ValueEnum};
 use std::io::Write;
 

@@ -2,7 +2,7 @@
 
 use super::CliError;
 use crate::export::sheet::Sheet;
-use crate::export::write_json_value;
+use crate::io::write_json_value;
 use crate::scene::{self, Document, Entry, Library, Roughness, Source, line_column, locate};
 use crate::surface::MeasuredProfile;
 use crate::text::printable;

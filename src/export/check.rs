@@ -1,8 +1,8 @@
 //! The table of hard cases.
 
-use super::json_text::write_json_value;
 use super::sheet::Sheet;
 use crate::check::{Check, Verdict, catalogue};
+use crate::io::write_json_value;
 use crate::scene::Edges;
 use serde::Serialize;
 use std::io::{self, Write};

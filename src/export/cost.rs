@@ -1,9 +1,10 @@
 //! What accuracy costs, as text, JSON and CSV.
 
-use super::json_text::write_json_value;
-use super::sheet::{Sheet, grouped};
+use super::sheet::Sheet;
 use crate::accuracy::{CostTable, ErrorFigure, Knob, Row};
+use crate::io::write_json_value;
 use crate::scene::{Scene, format_quantity};
+use crate::text::grouped;
 use serde::Serialize;
 use std::io::{self, Write};
 

@@ -1,10 +1,11 @@
 //! What many random lines gave, as text, JSON and CSV.
 
-use super::json_text::write_json_value;
-use super::sheet::{Sheet, grouped};
+use super::sheet::Sheet;
 use crate::accuracy::Choice;
 use crate::ensemble::{HeightShape, LineResult, Statistics, Summary};
+use crate::io::write_json_value;
 use crate::scene::{Scene, format_quantity};
+use crate::text::grouped;
 use serde::Serialize;
 use std::io::{self, Write};
 

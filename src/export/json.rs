@@ -1,9 +1,9 @@
 //! A computed scene as one JSON object: SI units, numbers that are finite or null.
 
-use super::json_text::write_json_value;
 use crate::accuracy::Choice;
 use crate::analysis::Regime;
 use crate::contact::Work;
+use crate::io::write_json_value;
 use crate::scene::{Observer, Scene};
 use crate::simulation::{Outcome, Timings};
 use serde::{Serialize, Serializer};

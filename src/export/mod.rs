@@ -1,30 +1,24 @@
-//! A computed scene as files: JSON and CSV for other programs, a summary for people, and the one way
-//! a file is written.
+//! Computed scenes, studies, costs and checks as text: JSON and CSV for programs, summaries and pictures for people.
 //!
 //! Numbers are written in SI units and in the shortest form that reads back as the same number.
 
-pub mod atomic;
 mod check;
 mod cost;
 mod csv;
 mod ensemble;
 mod json;
-mod json_text;
 pub(crate) mod sheet;
 mod summary;
 #[cfg(feature = "tui")]
 mod sweep_figure;
-mod unfinished;
 mod verdict;
 mod work_precision;
 
-pub use atomic::{WriteError, check_writable, write_new, write_new_file, write_new_on};
 pub use check::{check_markdown, check_text, write_check_json};
 pub use cost::{cost_text, write_cost_csv, write_cost_json};
 pub use csv::{write_curve, write_line};
 pub use ensemble::{ensemble_text, write_ensemble_csv, write_ensemble_json};
 pub use json::{write_chosen_json, write_json};
-pub use json_text::write_json_value;
 pub use summary::summary;
 #[cfg(feature = "tui")]
 pub use sweep_figure::{Colours, figure_svg, figure_text};

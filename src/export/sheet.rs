@@ -73,19 +73,6 @@ impl Sheet {
     }
 }
 
-/// A whole number with its thousands apart.
-pub(crate) fn grouped(count: u64) -> String {
-    let digits = count.to_string();
-    let mut grouped = String::new();
-    for (index, digit) in digits.chars().enumerate() {
-        if index > 0 && (digits.len() - index).is_multiple_of(3) {
-            grouped.push(' ');
-        }
-        grouped.push(digit);
-    }
-    grouped
-}
-
 fn padded(text: &str, width: usize) -> String {
     let blanks = width.saturating_sub(text.chars().count());
     format!("{text}{}", " ".repeat(blanks))
@@ -128,12 +115,6 @@ mod tests {
         assert_eq!(wrap("a  longword b", 4), ["a", "long", "word", "b"]);
         assert_eq!(wrap("µµµµ µµµµ", 4), ["µµµµ", "µµµµ"]);
         assert_eq!(wrap("", 4), [""]);
-    }
-
-    #[test]
-    fn thousands_stand_apart() {
-        let counts = [0, 999, 1000, 16_384, 1_048_576];
-        assert_eq!(counts.map(grouped), ["0", "999", "1 000", "16 384", "1 048 576"]);
     }
 
     #[test]

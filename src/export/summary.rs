@@ -1,10 +1,11 @@
 //! A computed scene for a person to read.
 
-use super::sheet::{Sheet, grouped};
+use super::sheet::Sheet;
 use super::verdict;
 use crate::contact::Work;
 use crate::scene::{Leg, Scene, format_quantity};
 use crate::simulation::{Outcome, Timings};
+use crate::text::grouped;
 
 /// Legs of a loading that are named; further ones are counted.
 const MOST_LEGS: usize = 8;

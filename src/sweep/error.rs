@@ -2,7 +2,7 @@
 
 use super::plan::PlanErrors;
 use super::record::Key;
-use crate::export::WriteError;
+use crate::io::WriteError;
 use crate::simulation::RunError;
 use crate::surface::SurfaceError;
 use crate::text::path_name;

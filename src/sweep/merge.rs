@@ -9,7 +9,7 @@ use super::store::{Folder, Lines, ShardFile};
 use super::target::symbol_and_unit;
 use crate::analysis::Regime;
 use crate::ensemble::{Statistics, StudentT};
-use crate::export::{WriteError, write_json_value, write_new_on};
+use crate::io::{WriteError, write_json_value, write_new_on};
 use serde::Serialize;
 use std::collections::BTreeSet;
 use std::io::{self, Write};

@@ -11,7 +11,7 @@ use super::publish::{place_of, show};
 use super::quantity::Quantity;
 use super::store::Folder;
 use super::target::Target;
-use crate::export::write_new;
+use crate::io::write_new;
 use parquet::basic::{Compression, LogicalType, Repetition, Type as Physical};
 use parquet::data_type::{ByteArray, ByteArrayType, DataType, DoubleType, Int64Type};
 use parquet::errors::ParquetError;

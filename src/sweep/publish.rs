@@ -16,7 +16,7 @@
 
 use super::SweepError;
 use crate::disk::{Disk, make_folders};
-use crate::export::WriteError;
+use crate::io::WriteError;
 use crate::io::without_waiting;
 use std::ffi::OsString;
 use std::fs::{self, File};

@@ -9,7 +9,7 @@ use super::shard::Shard;
 use super::status::count;
 use super::store::{Done, Folder};
 use crate::disk::DiskFile;
-use crate::export::WriteError;
+use crate::io::WriteError;
 use crate::parallel::on_this_thread;
 use crate::simulation::RunError;
 use crate::surface::MeasuredProfile;

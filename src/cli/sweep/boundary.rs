@@ -2,7 +2,7 @@
 
 use crate::cli::CliError;
 use crate::export::sheet::Sheet;
-use crate::export::write_json_value;
+use crate::io::write_json_value;
 use crate::sweep::{Boundaries, Boundary, Crossing, DEFINITIONS, Quantity, USUAL_LEVELS, boundaries};
 use clap::{Args, ValueEnum};
 use serde_json::{Map, Value, json};

@@ -2,7 +2,7 @@
 
 use crate::cli::CliError;
 use crate::export::sheet::Sheet;
-use crate::export::write_json_value;
+use crate::io::write_json_value;
 use crate::sweep::{Changes, Plan, PlanErrors, SweepError, find, plans as built_in};
 use clap::{Args, ValueEnum};
 use serde::Serialize;

@@ -1,9 +1,10 @@
 //! `asperity sweep status`: how far a study is.
 
 use crate::cli::CliError;
-use crate::export::sheet::{Sheet, grouped};
-use crate::export::write_json_value;
+use crate::export::sheet::Sheet;
+use crate::io::write_json_value;
 use crate::sweep::{Folder, Status};
+use crate::text::grouped;
 use clap::{Args, ValueEnum};
 use std::io::Write;
 use std::path::PathBuf;

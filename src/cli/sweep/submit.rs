@@ -2,7 +2,7 @@
 
 use super::run::size;
 use crate::cli::{CliError, Overrides};
-use crate::export::write_new;
+use crate::io::write_new;
 use crate::sweep::slurm::{SlurmError, Submission, array_size, ignored_variables, sbatch_options, word};
 use crate::sweep::{Changes, Folder, Plan, SweepError};
 use crate::text::{path_name, printable, printable_lines};

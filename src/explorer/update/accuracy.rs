@@ -7,8 +7,8 @@ use crate::explorer::mode::Mode;
 use crate::explorer::model::{Estimated, Model, Notice, Pane};
 use crate::explorer::study::{Finding, Found, Task};
 use crate::explorer::text_line::TextLine;
-use crate::export::sheet::grouped;
 use crate::scene::{Edges, format_quantity};
+use crate::text::grouped;
 
 /// What is still to be worked out about the scene as it stands, in this order.
 #[must_use]

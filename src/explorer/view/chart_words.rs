@@ -5,11 +5,11 @@ use super::wrap::{filled, wrapped};
 use crate::analysis::{INSENSITIVE_SHARE, NEGLIGIBLE_COEFFICIENT, Regime, VANISHING_SHARE};
 use crate::explorer::model::{Model, OpenStudy};
 use crate::explorer::theme::Meaning;
-use crate::export::sheet::grouped;
 use crate::phase::{Basis, Charted, Layer, Level, PhaseMap, Place, Plane};
 use crate::scene::format_quantity;
 use crate::sweep::Quantity;
 use crate::sweep::figure::Estimate;
+use crate::text::grouped;
 use ratatui::layout::Rect;
 use ratatui::text::{Line, Span as Text};
 
