@@ -53,7 +53,7 @@ mod measure {
         Case { what: "kappa, small step", row: "roughness parameter", keys: ["h", "l"], bar: EDIT },
         Case {
             what: "force of the first leg, small step",
-            row: "force of a leg",
+            row: "force of a stage",
             keys: ["h", "l"],
             bar: EDIT,
         },

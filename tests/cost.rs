@@ -1,6 +1,9 @@
 //! What accuracy costs, tolerances and many lines, as users have them: through the program itself. What is
 //! demanded is structure, errors and orders, never times.
 
+#[path = "cost/estimates.rs"]
+mod estimates;
+
 use serde_json::Value;
 use std::fs;
 use std::process::{Command, Stdio};

@@ -1,27 +1,25 @@
-//! What a row of ever finer solutions tells of its own errors.
+//! Errors of ever finer solutions, from their differences.
 
-/// Orders of convergence that an estimate believes in: with less it could promise nothing, and more than
-/// second order no rule of edges has.
-const BELIEVED: (f64, f64) = (0.5, 2.0);
+/// Weight of a difference against that of the next finer one.
+const SHARE_OF_COARSER: f64 = 0.2;
 
-/// Estimated distance of the finest solution from the limit, of solutions of which each has half the spacing
-/// of the one before: `last` is the distance of the two finest from each other, `before` that of the finest
-/// but one from the one before it, where there is one.
+/// Estimated distance of the finest of ever finer solutions from the limit; each has half the spacing of the one
+/// before, and `differences` are their distances from it, the coarsest first. NaN without any.
 ///
-/// Differences that fall by 2^p from one to the next leave last/(2^p − 1) to go. An order p beyond 0.5 to 2 is
-/// taken for the nearer of the two, and where the differences do not fall at all, the larger of them is the
-/// estimate; so is the only difference there is.
+/// Twice the sum of the differences, each with a fifth of the weight of the next finer one:
+/// e = 2 (d_n + d_(n−1)/5 + d_(n−2)/25 + …).
+///
+/// Assumption: the error falls by a factor of two or more with each halving of the spacing, as at first order and above;
+/// the remaining error is then at most the last difference. On rough profiles the error also changes its sign by
+/// chance, so that one difference may be small: hence the factor of two and the coarser differences. On random scenes at
+/// least 95 of 100 true errors are within the estimate, and the estimate is at most ten times the true error in the
+/// median (`tests/cost/estimates.rs`).
 #[must_use]
-pub fn error_of_finest(before: Option<f64>, last: f64) -> f64 {
-    let Some(before) = before else { return last };
-    if last >= before {
-        return last.max(before);
+pub fn error_of_finest(differences: &[f64]) -> f64 {
+    match differences {
+        [] => f64::NAN,
+        all => 2.0 * all.iter().fold(0.0, |sum, difference| SHARE_OF_COARSER * sum + difference),
     }
-    let order = if last > 0.0 { (before / last).log2() } else { f64::INFINITY };
-    let ratio = order.clamp(BELIEVED.0, BELIEVED.1).exp2();
-    // With a believed order of 2 the difference before leaves a twelfth part over: a chance agreement of the
-    // two finest does not make the limit known.
-    (last / (ratio - 1.0)).max(before / (ratio * (ratio - 1.0)))
 }
 
 /// Observed order of convergence between two errors, the second of a solution that is `ratio` times as fine:
@@ -45,35 +43,25 @@ pub fn first_within(errors: impl DoubleEndedIterator<Item = Option<f64>>, bound:
 mod tests {
     use super::*;
 
-    /// Values 1 + c 2^(−pk) of ever finer solutions.
-    fn differences(order: f64, finest: i32) -> (f64, f64, f64) {
-        let value = |k: i32| 1.0 + 0.3 * (-order * f64::from(k)).exp2();
-        let [coarse, middle, fine] = [finest - 2, finest - 1, finest].map(value);
-        ((coarse - middle).abs(), (middle - fine).abs(), (fine - 1.0).abs())
-    }
-
     #[test]
-    fn known_orders_give_known_errors() {
-        for order in [0.5, 1.0, 1.5, 2.0] {
-            let (before, last, error) = differences(order, 6);
-            let estimate = error_of_finest(Some(before), last);
-            assert!((estimate / error - 1.0).abs() < 1e-9, "order {order}: {estimate} for {error}");
-            let (_, _, coarse) = differences(order, 5);
-            assert!((observed_order(coarse, error, 2.0).unwrap() - order).abs() < 1e-9);
+    fn known_orders_are_within_the_estimate() {
+        for order in [1.0, 1.5, 2.0, 4.0] {
+            let error = |k: i32| 0.3 * (-order * f64::from(k)).exp2();
+            let differences: Vec<f64> = (0..4).map(|k| error(k) - error(k + 1)).collect();
+            let estimate = error_of_finest(&differences);
+            assert!(error(4) <= estimate, "{order}: {estimate}");
+            assert!(order > 2.0 || estimate <= 20.0 * error(4), "{order}: {estimate}");
+            assert!((observed_order(error(2), error(3), 2.0).unwrap() - order).abs() < 1e-9);
         }
     }
 
     #[test]
-    fn estimates_do_not_promise_what_they_cannot_know() {
-        // Better than second order, by chance or not.
-        let (before, last, error) = differences(4.0, 3);
-        assert!(error_of_finest(Some(before), last) > error);
-        assert!((error_of_finest(Some(1.2), 0.0) - 0.1).abs() < 1e-15);
-        // None at all.
-        assert_eq!(error_of_finest(Some(1.0), 2.0), 2.0);
-        assert_eq!(error_of_finest(Some(2.0), 2.0), 2.0);
-        assert_eq!(error_of_finest(None, 0.25), 0.25);
-        assert_eq!(error_of_finest(Some(0.0), 0.0), 0.0);
+    fn a_small_last_difference_does_not_hide_those_before() {
+        assert!((error_of_finest(&[1.0, 0.5, 0.0]) - 0.28).abs() < 1e-15);
+        assert_eq!(error_of_finest(&[1.0, 2.0]), 4.4);
+        assert_eq!(error_of_finest(&[0.25]), 0.5);
+        assert_eq!(error_of_finest(&[0.0, 0.0]), 0.0);
+        assert!(error_of_finest(&[]).is_nan());
         assert_eq!(observed_order(1.0, 0.0, 2.0), None);
     }
 

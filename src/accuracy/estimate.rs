@@ -1,6 +1,7 @@
 //! How large the error of one outcome is: cheaply, and without promising what is not known.
 
 use super::Target;
+use super::convergence::error_of_finest;
 use super::solution::{Solution, Solved, closed_form_adhesion, refined, relative_error, solve};
 use crate::scene::{Edges, Scene, Solver, check};
 use crate::simulation::{Outcome, RunError};
@@ -18,8 +19,6 @@ const FEWEST_SPRINGS: u64 = 16;
 const WANTED: usize = 4;
 /// Fewest that are enough, so that no finer ones are needed.
 const ENOUGH: usize = 3;
-/// Lowest order of convergence that is believed in.
-const LOWEST_ORDER: f64 = 0.5;
 
 /// The estimated relative error of an outcome.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -45,8 +44,7 @@ pub enum Evidence {
 /// Estimates the error of the adhesion force of an outcome, or of its force curve where nothing pulls.
 ///
 /// With a closed form it is the error itself. Otherwise the same line is solved with half, a quarter and an
-/// eighth of the springs by the same rule of edges, and what is left to go follows from how the differences
-/// fall. A line whose modes need too many springs for that is solved with twice and four times as many instead.
+/// eighth of the springs by the same rule of edges, and [`error_of_finest`] gives the error from the differences. A line whose modes need too many springs for that is solved with twice and four times as many instead.
 /// What the step of the stepwise solver adds is its distance from the exact solver on the same springs.
 ///
 /// `None` where nothing can be told: there is no figure to be wrong, no other number of springs is allowed,
@@ -114,42 +112,9 @@ pub fn estimate(
         return Ok(None);
     };
     let to_finest: f64 = differences.iter().skip(place).sum();
-    let error = of_step + to_finest + left_to_go(&differences, highest_order(scene));
+    let error = of_step + to_finest + error_of_finest(&differences);
     let others = solutions.iter().map(|solution| solution.points).filter(|&others| others != points);
     Ok(Some(Estimate { target, error, evidence: Evidence::Solutions(others.collect()) }))
-}
-
-/// The order that a rule of edges is trusted with. Edges at the springs are of first order. Edges between them
-/// are of second order where the line is smooth between springs; on rough lines jumps come in between.
-fn highest_order(scene: &Scene) -> f64 {
-    match on_springs(scene, scene.numerics.points).numerics.edges {
-        Edges::Grid => 1.0,
-        Edges::SubCell => 1.5,
-    }
-}
-
-/// Estimated distance of the finest of some solutions from the limit, by the differences of each, which has
-/// half the spacing of the one before, from that one.
-///
-/// A last difference that is smaller than the one before by 2^p leaves 1/(2^p − 1) of itself to go, p being
-/// believed between 0.5 and the highest order P; one that is not smaller leaves all of itself; and the only
-/// one there is, twice itself. That it may be small by chance is what those before it tell: with order P the
-/// difference j steps earlier leaves 1/(2^(Pj)(2^P − 1)) of itself.
-fn left_to_go(differences: &[f64], highest_order: f64) -> f64 {
-    let by_last = match differences {
-        [] => return f64::NAN,
-        [only] => return 2.0 * only,
-        [.., before, last] if last < before => {
-            let order = if *last > 0.0 { (before / last).log2() } else { f64::INFINITY };
-            last / (order.clamp(LOWEST_ORDER, highest_order).exp2() - 1.0)
-        }
-        [.., last] => *last,
-    };
-    let ratio = highest_order.exp2();
-    let by_those_before = differences.iter().rev().enumerate().skip(1).map(|(steps, difference)| {
-        difference / (ratio.powi(steps.try_into().unwrap_or(i32::MAX)) * (ratio - 1.0))
-    });
-    by_those_before.fold(by_last, f64::max)
 }
 
 /// This scene on so many springs, solved exactly by its own rule of edges.
@@ -177,21 +142,6 @@ mod tests {
         let fields: Vec<_> =
             fields.iter().map(|(path, value)| (path.to_string(), value.to_string())).collect();
         open(scene).unwrap().set_all(&fields).unwrap()
-    }
-
-    #[test]
-    fn a_known_order_gives_what_is_left() {
-        for (order, highest) in [(0.5, 1.0), (1.0, 1.0), (1.0, 1.5), (1.5, 1.5)] {
-            let difference = |k: i32| (-order * f64::from(k)).exp2();
-            let left: f64 = (3..200).map(difference).sum();
-            let estimate = left_to_go(&[difference(0), difference(1), difference(2)], highest);
-            assert!((estimate / left - 1.0).abs() < 1e-9, "{order}: {estimate} for {left}");
-        }
-        // Small by chance, not falling, alone, nothing.
-        assert!((left_to_go(&[1.0, 0.5, 0.0], 1.0) - 0.25).abs() < 1e-15);
-        assert_eq!(left_to_go(&[1.0, 2.0], 1.0), 2.0);
-        assert_eq!(left_to_go(&[1.0], 1.5), 2.0);
-        assert_eq!(left_to_go(&[0.0, 0.0], 1.0), 0.0);
     }
 
     #[test]

@@ -231,7 +231,10 @@ impl Bench<'_> {
             [.., one, other] => one.solution.errors(&other.solution),
             _ => Measures::default(),
         };
-        let mut errors = before.zip(&last, |&before, &last| Some(error_of_finest(before, last?)));
+        let mut errors = before.zip(&last, |&before, &last| {
+            let differences: Vec<f64> = before.into_iter().chain([last?]).collect();
+            Some(error_of_finest(&differences))
+        });
         let mut target = finest.solution.clone();
         if let Some(force) = finest.closed_form {
             target.adhesion_force = Some(force);

@@ -32,18 +32,18 @@ pub struct RunArguments {
     pub scene: SceneArguments,
     /// summary, json or csv; default: by the extension of FILE, else summary
     ///
-    /// A summary is text for a person. JSON is one object with everything: scene, profile, figures,
-    /// curve, contacts, work. CSV is the curve: leg,indentation,force,contact_length,fragments.
+    /// A summary is text for a person. JSON is one object with scene, profile, figures, curve,
+    /// contacts and work. CSV is the curve: leg,indentation,force,contact_length,fragments.
     #[arg(long, value_enum, hide_possible_values = true, verbatim_doc_comment)]
     pub format: Option<RunFormat>,
     /// Choose springs and edges for an adhesion force within T, as 1e-3 or 0.1%
     ///
-    /// Springs are doubled until the error is small enough: that from the closed form where
-    /// there is one, else an estimate; where nothing pulls, that of the force curve. What is
-    /// chosen stands in place of the scene's own numerics.points and numerics.edges.
+    /// Doubles the springs until the error is small enough: the error from the closed form of
+    /// the scene, else an estimate; without a pull-off, the error of the force curve. Replaces
+    /// numerics.points and numerics.edges of the scene.
     #[arg(long, value_name = "T", value_parser = parse_tolerance, verbatim_doc_comment)]
     pub tolerance: Option<f64>,
-    /// Compute random profiles with this seed and the next ones: mean and spread
+    /// Compute random profiles from this seed on: mean and spread
     ///
     /// CSV then has one row for each seed. A tolerance applies to the first profile.
     #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u32).range(2..=MOST_LINES), verbatim_doc_comment)]

@@ -53,9 +53,7 @@ fn check_material(material: &Material, found: &mut Found) {
             }
             return;
         }
-        (Some(_), ..) => {
-            "effective_modulus replaces youngs_modulus and poisson_ratio: give one or the other"
-        }
+        (Some(_), ..) => "effective_modulus replaces youngs_modulus and poisson_ratio: give one or the other",
         (None, Some(_), None) => "youngs_modulus goes with poisson_ratio, which is missing",
         (None, None, Some(_)) => "poisson_ratio goes with youngs_modulus, which is missing",
         (None, None, None) => "give youngs_modulus with poisson_ratio, or effective_modulus",

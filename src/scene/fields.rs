@@ -319,7 +319,7 @@ pub const FIELDS: &[Field] = &[
         range: Range::closed(1e-6, 1e6),
         step: Step::Logarithmic,
         default: "None",
-        meaning: "roughness–adhesion parameter sqrt(h⟨∇z⟩E*/γ): adhesion is strong for small κ",
+        meaning: "roughness-adhesion parameter sqrt(h⟨∇z⟩E*/γ): adhesion is strong for small κ",
         ..NUMBER
     },
     Field {

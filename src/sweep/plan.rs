@@ -215,8 +215,8 @@ impl Plan {
         wrong.extend(self.check_texts());
         let all = || self.axes.iter().chain(&self.preloads);
         wrong.extend(all().filter_map(Axis::wrong));
-        for (index, axis) in self.axes.iter().enumerate() {
-            if self.axes[..index].iter().any(|other| other.path() == axis.path()) {
+        for (index, axis) in all().enumerate() {
+            if all().take(index).any(|other| other.path() == axis.path()) {
                 wrong.push(format!("axis {}: given twice", axis.path()));
             }
         }

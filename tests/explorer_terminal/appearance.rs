@@ -123,7 +123,7 @@ fn ascii_is_ascii_to_the_last_cell() {
             terminal.wait_without(what);
         }
         terminal.send("}");
-        terminal.wait_for("in hand");
+        terminal.wait_for("manual");
         check(&terminal, "hand");
         quit(&mut terminal);
     });

@@ -42,7 +42,7 @@ fn in_hand(rows: &[String]) -> Option<f64> {
 fn cursor(terminal: &Terminal) -> usize {
     let rows = terminal.rows();
     let place = |row: &String| row.chars().position(|character| character == '◆');
-    let found = rows.iter().filter(|row| !row.contains("◆ in hand")).find_map(place);
+    let found = rows.iter().filter(|row| !row.contains("◆ manual")).find_map(place);
     found.unwrap_or_else(|| panic!("no ◆:\n{}", terminal.text())) + 1
 }
 

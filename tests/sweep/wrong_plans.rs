@@ -25,6 +25,11 @@ fn each_mistake_has_its_message() {
             "preloads: [0.0, 0.3]",
             "preload 0.0: allowed: above 0, in units of E* h L",
         ),
+        (
+            "\n    ],\n    preloads: [0.01, 0.3],",
+            "List(path: \"preload\", values: [0.1]), List(path: \"preload\", values: [0.2])],",
+            "axis preload: given twice",
+        ),
         ("preloads: [0.01, 0.3]", "preloads: [0.3, 0.3]", "axis preload: the value 0.3 appears twice"),
         ("preloads: [0.01, 0.3]", "preloads: [0.3, NaN]", "values must be finite"),
         ("\"roughness.hurst\"", "\"roughness.hurts\"", "did you mean roughness.hurst?"),

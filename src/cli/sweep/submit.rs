@@ -111,10 +111,7 @@ pub(super) fn submit(arguments: &SubmitArguments, stdout: &mut dyn Write) -> Res
     let path = path_name(folder.path());
     let tasks = if arguments.shards == 1 { "1 task".into() } else { format!("{} tasks", arguments.shards) };
     writeln!(stdout, "job {array}: {tasks}; job {merge}: the merge after them")?;
-    writeln!(
-        stdout,
-        "squeue --jobs={array},{merge}, or asperity sweep status {path}, shows their progress"
-    )?;
+    writeln!(stdout, "squeue --jobs={array},{merge}, or asperity sweep status {path}, shows their progress")?;
     Ok(())
 }
 

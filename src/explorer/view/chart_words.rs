@@ -184,8 +184,8 @@ fn computed_so_far(model: &Model, say: &mut impl FnMut(Line<'static>)) {
 fn note_of_computed() -> String {
     format!(
         "Eq. (15) has the first boundary at κ ≈ 0.6. Pressure-insensitive: F_a(0) is at least {} % of F_a and {} % of that of the smooth body. \
-         Non-adhesive: F_a is below {} % of F_n. All forces are means; the lines have the seed of the scene and \
-         those after it, exact, with edges between springs.",
+         Non-adhesive: F_a is below {} % of F_n. The regime of a cell is that of most of its profiles, forces are \
+         means; profiles have the seed of the scene and the next ones, exact, with sub-cell edges.",
         100.0 * INSENSITIVE_SHARE,
         100.0 * VANISHING_SHARE,
         100.0 * NEGLIGIBLE_COEFFICIENT
@@ -194,9 +194,9 @@ fn note_of_computed() -> String {
 
 fn note_of_study(study: &OpenStudy, plane: &Plane) -> String {
     let regimes = if plane.charted().contains(&Charted::Regime) {
-        "Colours are the regime of most lines, ▓ and ░ cells where fewer than three quarters agree. "
+        "Colours: regime of most profiles; ▓ and ░: fewer than three quarters agree. "
     } else {
-        "It has recorded no regimes, so the map has one colour. "
+        "One colour: no regimes were recorded. "
     };
     let plan = study.atlas.plan();
     format!(

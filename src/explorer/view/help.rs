@@ -15,35 +15,30 @@ const PANES: &[(&str, &str)] = &[
     ),
     (
         "Profile",
-        "rigid line below, elastic surface above it, ■ below where they touch; beside it the heights, and ¦ \
-         the bell curve of the same rms height",
+        "rigid profile below, elastic surface above; ■ marks contact. Beside it the histogram of heights, and ¦ the \
+         normal distribution of the same rms height",
     ),
     (
         "Fragments",
-        "close-up; ○ are the boundary points of contact fragments; below it the whole contact, [ ] around \
-         what is seen",
+        "close-up of a contact patch; ○ marks its edges. Below it the whole contact, [ ] around the close-up",
     ),
     (
         "Accuracy",
-        "A shows it: relative error over the time of a run, one line for each thing that buys accuracy; ◆ the \
-         scene as it stands; below it what 1 % and 0.1 % take, and what ran",
+        "A: relative error against the time of a run, one line for each setting that affects accuracy; ◆ is the \
+         scene. Below it the cost of 1 % and 0.1 %, and the computing stages",
     ),
     (
         "Map",
-        "m shows it: the regime under other κ and H, the mean of a few random lines of few springs; █ sticks at \
-         first touch, ▒ after pressing, · hardly ever, × cannot be computed; ◆ the scene as it stands, moved by \
-         the arrows",
+        "m: regime under other κ and H, of most of a few random profiles with few springs; █ adhesion at first \
+         touch, ▒ after pressing, · hardly any, × not computable; ◆ is the scene, moved by the arrows",
     ),
     (
         "Study",
-        "its map in place of that one, opened by the path of its folder: means over its lines, ▓ ░ where they are \
-         divided between regimes; ◆ goes from cell to cell, and P to the next preload; W shows the map around the \
-         scene instead, and the study again",
+        "map of a merged study, opened by the path of its folder: means over its profiles, ▓ ░ where profiles \
+         differ in their regimes; ◆ moves from cell to cell, P selects the next preload, W switches between the \
+         study and the live map",
     ),
-    (
-        "Parameters",
-        "everything the scene says; ● is an effect that is on, = a value that follows from others",
-    ),
+    ("Parameters", "fields of the scene; ● marks an effect that is on, = a derived value"),
 ];
 
 /// Columns for the keys.
