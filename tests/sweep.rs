@@ -382,3 +382,35 @@ fn a_scene_may_be_varied_alone() {
     assert!(results.starts_with("cell,adhesion.work,loading.0.0,preload,seed,adhesion_force,"), "{results}");
     assert!(results.contains("\n0,0.01,1e-5,,0,"), "{results}");
 }
+
+#[test]
+fn a_study_is_a_folder_with_a_plan_and_shards() {
+    let (place, folder) = study(&plan(SMALL));
+    assert!(Folder::is_at(folder.path()) && !Folder::is_at(place.path()));
+    let shards = folder.path().join("shards");
+    fs::remove_dir(&shards).unwrap();
+    assert!(folder.files().unwrap().is_empty());
+    fs::write(&shards, "a file").unwrap();
+    let error = folder.files().unwrap_err().to_string();
+    assert!(error.contains("shards: cannot be read: "), "{error}");
+}
+
+#[test]
+fn records_of_no_cell_or_line_of_the_plan_count_as_damaged() {
+    let plan = plan(SMALL);
+    let (_place, folder) = study(&plan);
+    compute(&folder, 1, Shard::WHOLE);
+    let expected = undisturbed(&plan);
+    let file = shard_files(&folder).remove(0);
+    let text = fs::read_to_string(&file).unwrap();
+    let payload = text.lines().nth(1).unwrap().split_once(',').unwrap().1;
+    let [cell, seed, values] = payload.splitn(3, ',').collect::<Vec<_>>().try_into().unwrap();
+    let beyond = plan.seed.wrapping_add(plan.lines);
+    let foreign = [format!("{},{seed},{values}", plan.cells()), format!("{cell},{beyond},{values}")];
+    let sealed = foreign.map(|payload| format!("{:08x},{payload}\n", crc32fast::hash(payload.as_bytes())));
+    fs::write(&file, text + &sealed.concat()).unwrap();
+    let status = Status::of(&folder).unwrap();
+    assert_eq!((status.done, status.damaged), (plan.records_in_all(), 2));
+    assert_eq!(merge(&folder, false).unwrap().damaged, 2);
+    assert_eq!(tables(&folder), expected);
+}

@@ -155,7 +155,9 @@ impl Index {
             let mut unreadable = None;
             let written = write_new_on(folder.disk(), &results, false, |results| {
                 let written = write_new_on(folder.disk(), &summary, false, |summary| {
-                    self.write_tables(folder.plan(), results, summary).map_err(|error| match error {
+                    let plan = folder.plan();
+                    let cells = cells_at_once(plan.lines as usize, plan.record.len());
+                    self.write_tables(plan, cells, results, summary).map_err(|error| match error {
                         TableError::Writing(error) => error,
                         TableError::Reading(error) => {
                             unreadable = Some(error);
@@ -179,12 +181,13 @@ impl Index {
         })
     }
 
-    /// Writes results and summary together, so that each record is read once, some cells at a time. The records
+    /// Writes results and summary together, so that each record is read once, `cells` cells at a time. The records
     /// of these are read in the order in which the files have them: one file is open at a time, however many
     /// there are.
     fn write_tables(
         &self,
         plan: &Plan,
+        cells: usize,
         results: &mut dyn Write,
         summary: &mut dyn Write,
     ) -> Result<(), TableError> {
@@ -193,7 +196,6 @@ impl Index {
         let (lines, columns) = (plan.lines as usize, plan.record.len());
         let mut quantiles = StudentT::default();
         let mut files = OneOpen::new(&self.files, columns);
-        let cells = cells_at_once(lines, columns);
         let (mut values, mut order) = (Vec::new(), Vec::new());
         for (block, places) in self.places.chunks(cells * lines).enumerate() {
             order.clear();
@@ -493,5 +495,144 @@ impl<'a> Sidecar<'a> {
 impl std::fmt::Display for Key {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         write!(f, "cell {}, seed {}", self.cell, self.seed)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{Changes, Options, Shard, run};
+    use super::*;
+    use proptest::prelude::*;
+
+    /// A study of twelve cells and three lines without records.
+    fn empty(place: &Path) -> Folder {
+        let text = r#"(
+            version: 1,
+            title: "Small",
+            scene: (
+                version: 1,
+                material: (effective_modulus: 2.0e6),
+                length: 1.0e-4,
+                roughness: SelfAffine(hurst: 0.5, rms_height: 2.0e-7, modes: (1, 8), seed: 1),
+                adhesion: (kappa: 1.0),
+                numerics: (points: 32, edges: Grid),
+            ),
+            axes: [Linear(path: "kappa", from: 0.5, to: 2.0, count: 12)],
+            preloads: [0.01],
+            lines: 3,
+            record: [adhesion_force, regime],
+        )"#;
+        let plan = Plan::parse(text, "test", &Changes::default()).unwrap();
+        Folder::create(&place.join("study"), &plan).unwrap()
+    }
+
+    /// Half of its records in one file and half in another.
+    fn study(place: &Path) -> Folder {
+        let folder = empty(place);
+        for number in [1, 2] {
+            let shard = Shard { number, count: 2 };
+            run(&folder, Options { jobs: 1, shard }, &|| false, &mut |_| ()).unwrap();
+        }
+        folder
+    }
+
+    #[test]
+    fn the_first_missing_cells_are_named() {
+        let place = tempfile::tempdir().unwrap();
+        let merged = Index::of(&empty(place.path())).unwrap().merged;
+        assert_eq!((merged.records, merged.missing_cells, merged.files), (0, 12, 0));
+        assert_eq!(merged.first_missing, [0, 1, 2, 3, 4, 5, 6, 7]);
+    }
+
+    #[test]
+    fn tables_do_not_depend_on_the_cells_that_are_held() {
+        let place = tempfile::tempdir().unwrap();
+        let folder = study(place.path());
+        let index = Index::of(&folder).unwrap();
+        let tables = |cells| {
+            let (mut results, mut summary) = (Vec::new(), Vec::new());
+            assert!(index.write_tables(folder.plan(), cells, &mut results, &mut summary).is_ok());
+            [results, summary].map(|table| String::from_utf8(table).unwrap())
+        };
+        let whole = tables(12);
+        let cells = |table: &str| -> Vec<usize> {
+            table.lines().skip(1).map(|row| row.split(',').next().unwrap().parse().unwrap()).collect()
+        };
+        assert_eq!(cells(&whole[1]), (0..12).collect::<Vec<_>>());
+        assert_eq!(cells(&whole[0]), (0..36).map(|row| row / 3).collect::<Vec<_>>());
+        for cells in [1, 2, 3, 5, 100] {
+            assert_eq!(tables(cells), whole, "{cells}");
+        }
+    }
+
+    #[test]
+    fn files_count_where_they_hold_records() {
+        let place = tempfile::tempdir().unwrap();
+        let folder = study(place.path());
+        let merged = Index::of(&folder).unwrap().merged;
+        assert_eq!((merged.files, merged.programs.len(), merged.records), (2, 1, 36));
+        // A file of another program, stopped before its first record.
+        let file = &folder.files().unwrap()[0].path;
+        let text = std::fs::read_to_string(file).unwrap();
+        let header = text.lines().next().unwrap().split_once(',').unwrap().1;
+        let program = merged.programs[0].as_str();
+        assert!(header.contains(program));
+        let header = header.replace(program, "another");
+        let sealed = format!("{:08x},{header}\n", crc32fast::hash(header.as_bytes()));
+        std::fs::write(file.with_file_name("zz.shard"), sealed).unwrap();
+        let again = Index::of(&folder).unwrap().merged;
+        assert_eq!((again.files, again.programs), (2, merged.programs));
+    }
+
+    #[test]
+    fn eight_mebibytes_are_held_and_at_least_one_cell() {
+        // 32 bytes for a row of one value.
+        assert_eq!(cells_at_once(1, 1), 1 << 18);
+        assert_eq!(cells_at_once(1000, 1), 262);
+        // 128 bytes.
+        assert_eq!(cells_at_once(1 << 10, 13), 64);
+        assert_eq!(cells_at_once(1 << 24, 13), 1);
+    }
+
+    proptest! {
+        /// A place gives its file and offset again, and places are in the order of files and offsets.
+        #[test]
+        fn places_are_files_and_offsets(
+            files in [0_usize..(1 << FILE_BITS) - 1, 0_usize..(1 << FILE_BITS) - 1],
+            offsets in [0_u64..1 << (64 - FILE_BITS), 0_u64..1 << (64 - FILE_BITS)],
+        ) {
+            let places = [0, 1].map(|k| place_of(files[k], offsets[k]).unwrap());
+            for k in [0, 1] {
+                prop_assert_eq!((file_of(places[k]), offset_of(places[k])), (files[k], offsets[k]));
+                prop_assert_ne!(places[k], NOWHERE);
+            }
+            let order = (files[0], offsets[0]).cmp(&(files[1], offsets[1]));
+            prop_assert_eq!(places[0].cmp(&places[1]), order);
+        }
+    }
+
+    #[test]
+    fn files_and_offsets_have_an_end() {
+        let (files, bytes) = (1_usize << FILE_BITS, 1_u64 << (64 - FILE_BITS));
+        assert!(place_of(files - 2, bytes - 1).is_some_and(|place| place != NOWHERE));
+        assert_eq!(place_of(files - 1, 0), None);
+        assert_eq!(place_of(0, bytes), None);
+    }
+
+    #[test]
+    fn records_agree_bit_by_bit_but_for_the_kind_of_nan() {
+        let other_nan = f64::from_bits(f64::NAN.to_bits() | 1);
+        assert!(same(&[1.0, f64::NAN], &[1.0, other_nan]));
+        for (one, other) in [(1.0, 1.0_f64.next_up()), (0.0, -0.0), (f64::NAN, 1.0), (1.0, f64::NAN)] {
+            assert!(!same(&[2.0, one], &[2.0, other]), "{one} {other}");
+        }
+        assert!(!same(&[1.0], &[1.0, 1.0]));
+    }
+
+    #[test]
+    fn whole_coordinates_are_written_so() {
+        assert_eq!(coordinate("numerics.points", 1024.0), "1024");
+        assert_eq!(coordinate("roughness.hurst", 1.0), "1.0");
+        assert_eq!(Key { cell: 3, seed: 7 }.to_string(), "cell 3, seed 7");
     }
 }

@@ -356,12 +356,8 @@ impl Done {
         Done(vec![0; count.div_ceil(64) as usize])
     }
 
-    /// Adds one; whether it is new.
-    pub fn add(&mut self, place: u64) -> bool {
-        let (word, bit) = (place as usize / 64, 1 << (place % 64));
-        let new = self.0[word] & bit == 0;
-        self.0[word] |= bit;
-        new
+    pub fn add(&mut self, place: u64) {
+        self.0[place as usize / 64] |= 1 << (place % 64);
     }
 
     /// Number of records.
@@ -406,6 +402,10 @@ fn host() -> String {
     let name = rustix::system::uname().nodename().to_string_lossy().into_owned();
     #[cfg(not(unix))]
     let name = std::env::var("COMPUTERNAME").unwrap_or_default();
+    in_letters_for_files(&name)
+}
+
+fn in_letters_for_files(name: &str) -> String {
     let name: String = name.chars().filter(|c| c.is_ascii_alphanumeric() || *c == '_').take(40).collect();
     if name.is_empty() { "host".into() } else { name }
 }
@@ -437,4 +437,31 @@ fn difference(there: &str, asked: &str) -> String {
         line.map_or_else(|| "nothing".into(), |line| printable(line.trim()).into_owned())
     };
     first.map_or_else(String::new, |(a, b)| format!("there: {}\nhere:  {}", shown(a), shown(b)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_of_machines_keep_letters_for_files() {
+        let long = "n".repeat(64);
+        for (name, kept) in [
+            ("node_7", "node_7"),
+            ("login-1.example.org", "login1exampleorg"),
+            ("../Rechner ä\u{1b}", "Rechner"),
+            ("-.-", "host"),
+            ("", "host"),
+            (&long, &long[..40]),
+        ] {
+            assert_eq!(in_letters_for_files(name), kept);
+        }
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn the_host_is_this_machine() {
+        let uname = std::process::Command::new("uname").arg("-n").output().unwrap();
+        assert_eq!(host(), in_letters_for_files(String::from_utf8_lossy(&uname.stdout).trim()));
+    }
 }
