@@ -40,10 +40,12 @@ scene)
     beside="scene readme/scenes fuzz_corpus" slow="nesting_does_not_overflow" unfit="every_target_has"
     ;;
 surface)
-    below="analysis contact io memory parallel reference scene text" beside="closed_forms fuzz_corpus"
-    unfit="every_target_has"
+    below="contact io memory parallel scene text" above="analysis reference simulation"
+    beside="closed_forms subcell fuzz_corpus" unfit="every_target_has"
+    slow="a_sphere_in_other_units heights_are_those hertz_without power_laws_converge rough_bodies rough_lines
+        what_is_kept what_is_lost"
     ;;
-analysis) below="contact io memory parallel scene text" ;;
+analysis) below="contact io memory parallel scene surface text" ;;
 store)
     own="sweep" files=(src/sweep/{store,record,merge,shard}.rs)
     below="analysis contact disk ensemble io memory parallel reference scene simulation surface text"
