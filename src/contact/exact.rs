@@ -19,7 +19,7 @@ pub struct Exact<C: ContactModel> {
     state: ContactState,
     /// Contact states of the loading from separation, once a force has been sought there: the same each time.
     first: Option<C::Leg>,
-    /// Whether the body touches on the present leg, so that the thresholds are those of this leg.
+    /// True if the body touches on the present leg, so that the thresholds are those of this leg.
     touching: bool,
     legs: usize,
     work: Work,

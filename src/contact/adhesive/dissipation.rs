@@ -46,7 +46,7 @@ struct Open {
     right: Edge,
     /// Left edge of the part met last.
     met: Option<Edge>,
-    /// Whether the fragment forms on the range.
+    /// True for a fragment that forms on the range.
     counts: bool,
 }
 

@@ -18,7 +18,7 @@ pub trait EdgeModel: Copy + Send + Sync {
 
     /// Name of this model in a scene; selects the sums of the contact tree.
     const EDGES: Edges;
-    /// Whether edges slide between springs: the force is then curved between two events.
+    /// True for edges that slide between springs: the force is then curved between two events.
     const SLIDES: bool;
 
     /// Largest stretch s of a fragment of unit length, m: Δl_max = s √ℓ, eq. (10).

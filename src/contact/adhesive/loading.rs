@@ -67,7 +67,7 @@ impl Closing {
         self.ready = false;
     }
 
-    /// Whether the nodes have been closed under the present rule.
+    /// True once the nodes have been closed under the present rule.
     pub fn is_ready(&self) -> bool {
         self.ready
     }

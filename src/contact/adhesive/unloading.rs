@@ -17,7 +17,7 @@ struct Part {
     last: u32,
     /// Indentation at which the fragment around it parts, m.
     opens: f64,
-    /// Whether the part is a fragment at the beginning of the leg.
+    /// True for a fragment at the beginning of the leg.
     is_whole: bool,
 }
 
