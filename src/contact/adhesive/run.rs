@@ -52,7 +52,7 @@ impl Run {
         (self.from, self.bottom) = (from, span.ends());
     }
 
-    /// Returns true where the run exists: at an indentation, m.
+    /// Returns true for an indentation (m) at which the run exists.
     #[inline]
     pub fn is_at(&self, indentation: f64) -> bool {
         self.from <= indentation && indentation < self.to
