@@ -47,8 +47,8 @@ surface)
     ;;
 analysis) below="contact disk io memory parallel scene surface text" ;;
 store)
-    own="sweep" files=(src/sweep/{store,record,merge,shard}.rs)
-    below="analysis contact disk ensemble io memory parallel reference scene simulation surface text"
+    own="study" files=(src/study/{store,record,merge,shard}.rs)
+    below="analysis contact disk io memory parallel reference scene simulation surface text"
     above="accuracy check export" beside="simulated_disk sweep"
     # The unfit ones start the program, which is not there, or do not always pass.
     export CARGO_BIN_EXE_asperity=""

@@ -7,8 +7,8 @@ mod disk;
 
 use asperity::disk::Disk;
 use asperity::io::write_new_on;
-use asperity::sweep::{
-    Changes, Folder, Options, Plan, RESULTS, SIDECAR, SUMMARY, Shard, Status, SweepError, merge, run,
+use asperity::study::{
+    Changes, Folder, Options, Plan, RESULTS, SIDECAR, SUMMARY, Shard, Status, StudyError, merge, run,
 };
 use disk::{Fault, SimulatedDisk, Survival};
 use std::fs;
@@ -69,7 +69,7 @@ struct Reported {
 }
 
 /// A study from its beginning to its end, by two processes one after the other.
-fn study(disk: &Arc<dyn Disk>, root: &Path, reported: &mut Reported) -> Result<(), SweepError> {
+fn study(disk: &Arc<dyn Disk>, root: &Path, reported: &mut Reported) -> Result<(), StudyError> {
     let folder = Folder::create_on(Arc::clone(disk), &root.join("study"), &plan())?;
     reported.folder = true;
     for number in [1, 2] {
@@ -126,7 +126,7 @@ impl Expected {
 
     /// Checks what is found of a study, takes it up again, and checks what that gives; what is lost otherwise.
     fn check(&self, root: &Path, reported: Reported) -> Result<(), String> {
-        let told = |error: SweepError| error.to_string();
+        let told = |error: StudyError| error.to_string();
         let path = root.join("study");
         if reported.folder {
             let done = Status::of(&Folder::open(&path).map_err(told)?).map_err(told)?.done;

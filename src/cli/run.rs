@@ -3,12 +3,12 @@
 use super::scene::simulation_of;
 use super::{CliError, OutputArguments, SceneArguments};
 use crate::accuracy::{Choice, Estimate, choose, estimate, parse_tolerance};
-use crate::ensemble;
 use crate::export::{
     ensemble_text, summary, write_curve, write_ensemble_csv, write_ensemble_json, write_json,
 };
 use crate::scene::{Document, Scene};
 use crate::simulation::Outcome;
+use crate::study;
 use clap::{Args, ValueEnum};
 use std::io::{self, Write};
 use std::thread::available_parallelism;
@@ -141,7 +141,7 @@ fn on_lines(
 ) -> Result<(), CliError> {
     let jobs =
         arguments.jobs.map_or_else(|| available_parallelism().map_or(1, std::num::NonZero::get), usize::from);
-    let results = ensemble::run(scene, &document.resolve(""), lines as usize, jobs)
+    let results = study::solve_lines(scene, &document.resolve(""), lines as usize, jobs)
         .map_err(|error| CliError::Lines { scene: document.name().into(), error })?;
     arguments.output.write(stdout, |out| match arguments.chosen_format() {
         RunFormat::Summary => {
