@@ -2,6 +2,8 @@
 //!
 //! After a change of the program, `UPDATE_README=1 cargo test --test readme` writes the generated parts anew.
 
+#[path = "readme/notices.rs"]
+mod notices;
 #[path = "readme/scenes.rs"]
 mod scenes;
 
