@@ -107,7 +107,7 @@ fn nothing_yet(model: &Model) -> String {
         return "first the scene itself…".to_owned();
     }
     match (&costs.ended, model.is_current()) {
-        (_, false) => "the scene has no curve whose error could be told".to_owned(),
+        (_, false) => "the scene has no curve to estimate an error of".to_owned(),
         (Some(Err(why)), _) => format!("nothing is measured: {why}"),
         (Some(Ok(())), _) => {
             "nothing to show: no force in this scene whose error depends on springs, steps, samples or lines"
@@ -279,7 +279,7 @@ fn texts(
         let steps = table.rows_of(Knob::Step).next().map_or_else(String::new, |row| {
             format!("; of steps, from the exact solver on {} springs", grouped(row.springs))
         });
-        let note = format!("{from}{steps}. · is below what they can tell.");
+        let note = format!("{from}{steps}. · is below what they resolve.");
         lines.extend(wrapped(&Line::styled(note, theme.style(Meaning::Quiet)), area.width));
     }
     lines
