@@ -279,7 +279,7 @@ impl<E: EdgeModel> FragmentSet<E> {
         Some(Event { whole: Fragment { slot, span }, springs: 1 })
     }
 
-    /// Whether a span is the one with which its branch begins. Among equal gaps the leftmost is the outermost.
+    /// Returns true for the span with which its branch begins. Among equal gaps the leftmost is the outermost.
     fn is_lowest(&self, branch: Branch, span: &Span) -> bool {
         let (left, right) = (self.gaps[span.first], self.gaps[span.last]);
         match branch.origin() {
