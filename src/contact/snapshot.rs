@@ -1,8 +1,8 @@
 //! Forces and lengths of given fragments at one indentation: for a view of a contact that is not solved again.
 
-use super::adhesive::{EdgeCells, EdgeModel, GridEdges, Span, SubCellEdges};
+use super::adhesive::{EdgeModel, GridEdges, Span, SubCellEdges};
 use super::contact_model::ContactState;
-use super::grid::CompensatedSum;
+use super::steady::state;
 use super::totals::{ContactTotals, GapScale};
 use super::{CurvePoint, Foundation, HessRule};
 use crate::scene::Edges;
@@ -78,18 +78,9 @@ impl<'a> Snapshot<'a> {
         fragments: &[(usize, usize)],
     ) -> ContactState {
         let mut totals = ContactTotals::default();
-        let (mut length, mut compression) = (CompensatedSum::default(), CompensatedSum::default());
-        for &ends in fragments {
-            totals += self.totals(E::EDGES, ends);
-            if E::SLIDES {
-                let slider = edges.slider(self.gaps, &self.span(ends));
-                let cells = edges.edge_cells(&slider, indentation);
-                length.add(cells.length);
-                compression.add(cells.compression);
-            }
-        }
-        let cells = EdgeCells { length: length.total(), compression: compression.total() };
-        edges.state(indentation, totals, cells, &self.scale)
+        fragments.iter().for_each(|&ends| totals += self.totals(E::EDGES, ends));
+        let sliders = fragments.iter().map(|&ends| edges.slider(self.gaps, &self.span(ends)));
+        state(edges, &self.scale, totals, sliders, indentation)
     }
 
     fn fragment_under<E: EdgeModel>(

@@ -297,7 +297,7 @@ impl<E: EdgeModel> ManualLoading for Manual<E> {
     }
 
     fn point(&self) -> CurvePoint {
-        self.state_at(self.indentation).point(self.foundation)
+        self.steady().state(self.indentation).point(self.foundation)
     }
 
     fn fragments(&self) -> Box<dyn Iterator<Item = (usize, usize)> + '_> {
