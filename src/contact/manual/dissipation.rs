@@ -42,12 +42,12 @@ impl Dissipation {
         event: &Event,
         parts: &[Fragment],
     ) {
-        let Fragment { slot, span } = event.whole;
+        let Fragment { slot, span, .. } = event.whole;
         for part in parts {
             self.slide_up(ground, part, at);
         }
         let level = level(ground, &span, at);
-        self.jump(ground, at, (&span, level), parts, |part| ground.level_up_to(&part.span, at, false));
+        self.jump(ground, at, (&span, level), parts, |part| level_up_to(ground, part, at));
         if E::SLIDES {
             for part in parts {
                 self.levels.remove(&part.slot);
@@ -64,9 +64,11 @@ impl Dissipation {
         event: &Event,
         parts: &[Fragment],
     ) {
-        let Fragment { slot, span } = event.whole;
+        let Fragment { slot, span, .. } = event.whole;
         self.slide_down(ground, &event.whole, at);
-        self.jump(ground, at, (&span, level(ground, &span, at)), parts, |part| level(ground, &part.span, at));
+        self.jump(ground, at, (&span, level_down_to(ground, &event.whole, at)), parts, |part| {
+            level(ground, &part.span, at)
+        });
         if E::SLIDES {
             self.levels.remove(&slot);
             for part in parts {
@@ -75,11 +77,18 @@ impl Dissipation {
         }
     }
 
+    /// The pinned edges of a fragment begin to slide.
+    pub fn release(&mut self, fragment: &Fragment) {
+        if let Some(rise) = fragment.pin {
+            self.levels.insert(fragment.slot, fragment.span.gap + rise);
+        }
+    }
+
     /// The edges of a fragment slide up to those of an indentation, m.
     pub fn slide_up<E: EdgeModel>(&mut self, ground: Ground<'_, E>, fragment: &Fragment, to: f64) {
         if E::SLIDES {
             let from = self.level_before(ground, fragment);
-            let to = ground.level_up_to(&fragment.span, to, false);
+            let to = level_up_to(ground, fragment, to);
             self.slide(ground, (&fragment.span, from), (&fragment.span, to));
         }
     }
@@ -88,7 +97,7 @@ impl Dissipation {
     pub fn slide_down<E: EdgeModel>(&mut self, ground: Ground<'_, E>, fragment: &Fragment, to: f64) {
         if E::SLIDES {
             let from = self.level_before(ground, fragment);
-            let to = level(ground, &fragment.span, to);
+            let to = level_down_to(ground, fragment, to);
             self.slide(ground, (&fragment.span, to), (&fragment.span, from));
         }
     }
@@ -96,7 +105,7 @@ impl Dissipation {
     /// Level of the edges of a fragment where its span began on this move.
     fn level_before<E: EdgeModel>(&self, ground: Ground<'_, E>, fragment: &Fragment) -> f64 {
         let begun = self.levels.get(&fragment.slot).copied();
-        begun.unwrap_or_else(|| level(ground, &fragment.span, self.from))
+        begun.unwrap_or_else(|| level_down_to(ground, fragment, self.from))
     }
 
     fn slide<E: EdgeModel>(&mut self, ground: Ground<'_, E>, lower: (&Span, f64), upper: (&Span, f64)) {
@@ -124,6 +133,18 @@ impl Dissipation {
         }
         add(AtOnce { at, between: (from, Boundary::Outer(Edge { spring: whole.last, level })) });
     }
+}
+
+/// Level of the edges of a fragment at the upper end of the range in which it fills its span or below, m.
+fn level_up_to<E: EdgeModel>(ground: Ground<'_, E>, fragment: &Fragment, indentation: f64) -> f64 {
+    let Fragment { span, pin, .. } = fragment;
+    pin.map_or_else(|| ground.level_up_to(span, indentation, false), |rise| span.gap + rise)
+}
+
+/// The same at the lower end or above.
+fn level_down_to<E: EdgeModel>(ground: Ground<'_, E>, fragment: &Fragment, indentation: f64) -> f64 {
+    let Fragment { span, pin, .. } = fragment;
+    pin.map_or_else(|| level(ground, span, indentation), |rise| span.gap + rise)
 }
 
 /// Level of the edges of a span at an indentation, m.

@@ -1,5 +1,6 @@
 //! The force of a body under manual loading, and the indentation of a force.
 
+use super::fragments::Fragment;
 use super::{Course, Manual};
 use crate::contact::adhesive::{EdgeModel, Ground};
 use crate::contact::steady::SteadyContact;
@@ -9,7 +10,11 @@ impl<E: EdgeModel> Manual<E> {
     pub(super) fn steady(&self) -> SteadyContact<E> {
         let Ground { gaps, tree, edges } = self.contact.ground();
         let sliders = if E::SLIDES {
-            self.contact.fragments().map(|fragment| edges.slider(gaps, &fragment.span)).collect()
+            let slider = |Fragment { span, pin, .. }: Fragment| {
+                let slider = edges.slider(gaps, &span);
+                pin.map_or(slider, |rise| edges.pin(slider, rise))
+            };
+            self.contact.fragments().map(slider).collect()
         } else {
             Vec::new()
         };
