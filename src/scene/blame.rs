@@ -2,7 +2,7 @@
 
 use super::check::Violation;
 use super::errors::{Origin, SceneError, SceneErrors};
-use super::locate::{Outline, line_column};
+use super::text::{Text, line_column};
 
 /// More errors than this are counted, not told one by one.
 const MOST_TOLD: usize = 100;
@@ -13,15 +13,15 @@ pub(super) fn place(text: &str, name: &str, offset: usize) -> Origin {
 }
 
 /// Where a field's value starts, or that of the group nearest around it.
-pub(super) fn nearest_place(outline: &Outline, field: &str) -> usize {
+pub(super) fn nearest_place(text: &Text, field: &str) -> usize {
     let mut path = field;
     loop {
-        if let Some(place) = outline.find(path) {
+        if let Some(place) = text.span(path) {
             return place.value.start;
         }
         match path.rsplit_once('.') {
             Some((parent, _)) => path = parent,
-            None => return outline.body("").map_or(0, |body| outline.inside(body).start.saturating_sub(1)),
+            None => return text.opening("").unwrap_or(0),
         }
     }
 }

@@ -3,10 +3,10 @@
 use super::blame::within;
 use super::document::Document;
 use super::effects::{Effect, pressing};
-use super::locate::Outline;
 use super::model::{Adhesion, Leg, Observer, Roughness};
 use super::switch::{by_work, has_amplitude, others, pair, suited_height};
-use super::write::{legs, ron_float, to_ron};
+use super::text::{Text, ron_float};
+use super::write::{legs, to_ron};
 
 /// Paths and values to set together.
 type Overrides = Vec<(String, String)>;
@@ -118,6 +118,6 @@ fn set_as_in(from: &Document, path: &str, others: &[(String, String)]) -> Vec<Ov
 /// extension of RON may write what another one cannot.
 fn values(from: &Document, path: &str) -> Vec<String> {
     let text = to_ron(from.scene());
-    let canonical = Outline::of(&text).ok().and_then(|outline| outline.inner(path).map(str::to_string));
+    let canonical = Text::new(&text).ok().and_then(|outline| outline.value(path).map(str::to_string));
     from.value(path).map(str::to_string).into_iter().chain(canonical).collect()
 }

@@ -8,8 +8,8 @@ use super::field::Field;
 use super::fields::FIELDS;
 use super::model::{Leg, Scene};
 use super::range::Range;
+use super::text::{ron_float, ron_string};
 use super::value::Value;
-use super::write::{ron_float, ron_string};
 use crate::text::is_control;
 
 /// A value or combination of values that is not allowed.

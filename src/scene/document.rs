@@ -4,14 +4,13 @@ use std::path::{Path, PathBuf};
 
 use super::blame::{all_of, blamed, nearest_place, place, remember, told};
 use super::check::check;
+use super::edit;
 use super::errors::{Origin, SceneError, SceneErrors};
 use super::field::Field;
 use super::fields::FIELDS;
-use super::locate::Outline;
 use super::model::Scene;
 use super::read::{Unread, read, wrong_version};
-use super::scan::comments;
-use super::splice;
+use super::text::Text;
 use super::write::to_ron;
 
 /// Longer texts are refused before they are read; scenes are a few hundred bytes.
@@ -67,7 +66,7 @@ impl Document {
             let (name, text) = (name.to_string(), text.to_string());
             return Ok(Document { name, opened: text.clone(), text, scene, overrides: Vec::new() });
         }
-        let outline = Outline::of(text).ok();
+        let outline = Text::new(text).ok();
         let locate = |field: &str| {
             let offset = outline.as_ref().map_or(0, |outline| nearest_place(outline, field));
             place(text, name, offset)
@@ -126,7 +125,7 @@ impl Document {
     /// Changes text and scene, leaving both as they are where that fails.
     fn splice(&mut self, path: &str, value: &str) -> Result<(), SceneErrors> {
         let origin = Origin::Overrides(vec![format!("{path}={value}")]);
-        let text = splice::set(&self.text, path, value)
+        let text = edit::set(&self.text, path, value)
             .and_then(|text| check_length(&text).map(|()| text))
             .map_err(|message| SceneError::whole(origin.clone(), message))?;
         self.scene = read(&text).map_err(|unread| unread.told(origin))?;
@@ -147,8 +146,8 @@ impl Document {
     /// The value of a field as it is written; where it is left out, what stands in its place. `None`
     /// where the scene has no such field, such as the radius of a form that is not there.
     pub fn value(&self, path: &str) -> Option<&str> {
-        let outline = Outline::of(&self.text).ok()?;
-        outline.inner(path).or_else(|| {
+        let outline = Text::new(&self.text).ok()?;
+        outline.value(path).or_else(|| {
             let field = fields_of(&outline).find(|field| field.path == path)?;
             let default = field.default_in(&self.scene);
             (!default.is_empty()).then_some(default)
@@ -158,7 +157,7 @@ impl Document {
     /// The fields this scene has or could be given as it stands: all but those of choices it did not
     /// make.
     pub fn fields(&self) -> Vec<&'static Field> {
-        Outline::of(&self.text).map_or_else(|_| Vec::new(), |outline| fields_of(&outline).collect())
+        Text::new(&self.text).map_or_else(|_| Vec::new(), |outline| fields_of(&outline).collect())
     }
 
     /// Name of the file or of the built-in scene.
@@ -175,7 +174,7 @@ impl Document {
     /// How many comments the text has: where one fewer is left after a change, it stood inside what was
     /// replaced.
     pub fn comments(&self) -> usize {
-        comments(&self.text)
+        Text::new(&self.text).map_or(0, |text| text.comments())
     }
 
     /// Whether the text differs from the one that was opened.
@@ -196,8 +195,8 @@ impl Unread {
     }
 }
 
-fn fields_of(outline: &Outline) -> impl Iterator<Item = &'static Field> {
-    FIELDS.iter().filter(|field| field.variant.is_none() || field.variant == outline.head(field.parent()))
+fn fields_of(outline: &Text) -> impl Iterator<Item = &'static Field> {
+    FIELDS.iter().filter(|field| field.variant.is_none() || field.variant == outline.variant(field.parent()))
 }
 
 fn check_length(text: &str) -> Result<(), String> {

@@ -1,13 +1,14 @@
 //! What must be overridden in one scene to make it another, and the command that does it.
 
 use super::document::Document;
+use super::edit;
 use super::field::Field;
 use super::fields::fields_inside;
 use super::model::{Leg, Scene};
 use super::read::read;
-use super::splice;
+use super::text::ron_float;
 use super::value::Value;
-use super::write::{leg, ron_float};
+use super::write::leg;
 
 /// Paths and values to set together.
 type Overrides = Vec<(String, String)>;
@@ -106,7 +107,7 @@ fn length(overrides: &[(String, String)]) -> usize {
 
 /// Whether overrides of one field's parts give that field this value.
 fn leads_to(base: &Document, overrides: &[(String, String)], field: &Field, value: &str) -> bool {
-    let set = |text: String, (path, value): &(String, String)| splice::set(&text, path, value).ok();
+    let set = |text: String, (path, value): &(String, String)| edit::set(&text, path, value).ok();
     let text = overrides.iter().try_fold(base.text().to_string(), set);
     let scene = text.and_then(|text| read(&text).ok());
     scene.is_some_and(|scene| field.written(&scene).as_deref() == Some(value))

@@ -2,7 +2,7 @@
 
 use super::field::{Field, Step};
 use super::range::{Range, choice_name};
-use super::write::ron_float;
+use super::text::ron_float;
 
 /// The Renard series R20 of ISO 3.
 const FINE_SERIES: &[f64] = &[

@@ -9,7 +9,8 @@ use super::document::Document;
 use super::effects::{Effect, pressing};
 use super::errors::{Origin, SceneError, SceneErrors};
 use super::model::{Adhesion, Leg, Observer, Roughness, Scene};
-use super::write::{legs, observers, ron_float};
+use super::text::ron_float;
+use super::write::{legs, observers};
 
 /// What a scene determines through its line, known once it has been computed.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
