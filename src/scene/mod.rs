@@ -15,14 +15,14 @@
 //! # Ok::<(), scene::SceneErrors>(())
 //! ```
 
-mod blame;
-mod bring_back;
 mod check;
+mod choose;
 mod consistency;
 mod derived;
 mod document;
 mod edit;
 mod effects;
+mod error_source;
 mod errors;
 mod field;
 mod fields;
@@ -42,6 +42,7 @@ mod strategies;
 mod suggest;
 mod switch;
 mod text;
+mod undo;
 mod value;
 mod write;
 
@@ -60,7 +61,7 @@ pub(crate) use presets::read_file;
 pub use presets::{DEFAULT, Preset, find, open, open_argument, presets};
 pub use quantity::{QuantityError, format_quantity, parse_quantity};
 pub use range::{End, Range};
-pub(crate) use read::told_otherwise;
+pub(crate) use read::describe_error;
 pub use search::search;
 pub(crate) use suggest::nearest;
 pub use switch::Computed;

@@ -189,7 +189,7 @@ mod tests {
             &[("loading", "[ToTouch, ToForce(1.0), ToZeroForce]")],
         ] {
             let changed = document().set_all(&pairs(overrides)).unwrap();
-            let canonical = Document::of_scene(changed.scene(), "other").unwrap();
+            let canonical = Document::from_scene(changed.scene(), "other").unwrap();
             let expected =
                 pairs(overrides).into_iter().map(|(path, value)| (path, value.replace("0.1e7", "1.0e6")));
             let expected: Overrides = expected.collect();
@@ -335,11 +335,11 @@ mod tests {
             if mixed[7] { near.numerics.samples = base.numerics.samples; }
             if mixed[8] { near.observe.clone_from(&base.observe); }
             let preset = Document::parse(preset.text, preset.name).unwrap();
-            let base = Document::of_scene(&base, "base").unwrap();
-            let target = Document::of_scene(&target, "target").unwrap();
+            let base = Document::from_scene(&base, "base").unwrap();
+            let target = Document::from_scene(&target, "target").unwrap();
             let mut lists = vec![assert_leads(&preset, &target), assert_leads(&base, &target)];
             assert_leads(&target, &preset);
-            if let Ok(near) = Document::of_scene(&near, "near") {
+            if let Ok(near) = Document::from_scene(&near, "near") {
                 lists.push(assert_leads(&base, &near));
                 lists.push(assert_leads(&near, &target));
             }

@@ -47,7 +47,7 @@ pub(super) fn wrong_version(text: &str) -> Option<Unread> {
 }
 
 /// Where and why text that is no scene, but written like one, cannot be read.
-pub(crate) fn told_otherwise(text: &str, error: &ron::error::SpannedError) -> (usize, String) {
+pub(crate) fn describe_error(text: &str, error: &ron::error::SpannedError) -> (usize, String) {
     let message = match &error.code {
         ron::Error::NoSuchEnumVariant { expected, found, .. } => {
             let near = nearest(found, expected.iter().copied());
@@ -303,7 +303,7 @@ mod tests {
             ("(count: 1, colour: Blue) x", 25, "nothing may follow here"),
         ] {
             let error = ron::from_str::<Other>(text).unwrap_err();
-            let (at, message) = told_otherwise(text, &error);
+            let (at, message) = describe_error(text, &error);
             assert!(message.starts_with(said), "{text}: {message}");
             assert_eq!(at, offset, "{text}: {message}");
         }

@@ -9,6 +9,6 @@ mod scan;
 
 pub(super) use edit::one_value;
 pub use literal::{ron_float, ron_string};
-pub(super) use outline::offset_of;
 pub use outline::{Span, Text, line_column};
+pub(super) use outline::{is_within, offset_of};
 pub use scan::Unreadable;

@@ -42,6 +42,11 @@ pub(in crate::scene) fn offset_of(text: &str, line: usize, column: usize) -> usi
     start + within.map_or(line.len(), |(offset, _)| offset)
 }
 
+/// A path is another path or inside it.
+pub(in crate::scene) fn is_within(path: &str, other: &str) -> bool {
+    path.strip_prefix(other).is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
+}
+
 /// RON text whose brackets and quotes match.
 pub struct Text<'t> {
     pub(super) text: &'t str,
