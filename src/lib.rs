@@ -69,6 +69,7 @@ pub mod cli;
 pub mod contact;
 mod contact_cycle;
 pub mod disk;
+pub mod draw;
 pub mod ensemble;
 #[cfg(feature = "tui")]
 pub mod explorer;

@@ -2,10 +2,10 @@
 
 use super::{CliError, OutputArguments, SceneArguments};
 use crate::accuracy::{Knob, Progress, measure};
-use crate::export::{cost_text, work_precision_svg, write_cost_csv, write_cost_json};
+use crate::draw::figure_svg;
+use crate::export::{cost_text, work_precision, write_cost_csv, write_cost_json};
 use crate::io::{check_writable, write_new};
 use crate::scene::parse_quantity;
-use crate::text::for_picture;
 use clap::{Args, ValueEnum};
 use std::io::{self, IsTerminal, Write};
 use std::path::PathBuf;
@@ -87,7 +87,7 @@ pub(super) fn cost(arguments: &CostArguments, stdout: &mut dyn Write) -> Result<
     let table = measured.map_err(|error| CliError::Cost { scene: document.name().into(), error })?;
     if let Some(svg) = &arguments.svg {
         let title = if scene.title.is_empty() { document.name() } else { &scene.title };
-        let picture = work_precision_svg(&for_picture(title), &table);
+        let picture = figure_svg(&work_precision(title, &table));
         write_new(svg, arguments.force, |out| out.write_all(picture.as_bytes()))?;
     }
     let by_ending = match output.file().and_then(|path| path.extension()?.to_str()) {

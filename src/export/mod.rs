@@ -8,9 +8,10 @@ mod csv;
 mod ensemble;
 mod json;
 pub(crate) mod sheet;
+#[cfg(test)]
+mod study_example;
+mod study_figure;
 mod summary;
-#[cfg(feature = "tui")]
-mod sweep_figure;
 mod verdict;
 mod work_precision;
 
@@ -19,7 +20,6 @@ pub use cost::{cost_text, write_cost_csv, write_cost_json};
 pub use csv::{write_curve, write_line};
 pub use ensemble::{ensemble_text, write_ensemble_csv, write_ensemble_json};
 pub use json::{write_chosen_json, write_json};
+pub use study_figure::study_figure;
 pub use summary::summary;
-#[cfg(feature = "tui")]
-pub use sweep_figure::{Colours, figure_svg, figure_text};
-pub use work_precision::work_precision_svg;
+pub use work_precision::work_precision;

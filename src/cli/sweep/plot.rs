@@ -1,7 +1,8 @@
 //! `asperity sweep plot`: figures of a merged study.
 
 use crate::cli::{CliError, OutputArguments};
-use crate::export::{Colours, figure_svg, figure_text};
+use crate::draw::{Colours, figure_svg, figure_text};
+use crate::export::study_figure;
 use crate::sweep::figure::AxisScale;
 use crate::sweep::{Finished, Selection};
 use clap::{Args, ValueEnum};
@@ -86,7 +87,7 @@ pub(super) fn plot(arguments: &PlotArguments, stdout: &mut dyn Write) -> Result<
             PlotScale::Logarithmic => AxisScale::Logarithmic,
         }),
     };
-    let figure = selection.figure(&study)?;
+    let figure = study_figure(&selection.figure(&study)?);
     let to_file = arguments.output.file().is_some();
     // `-o -` is an SVG into a pipe.
     let picture = if arguments.text || arguments.output.output.is_none() {
