@@ -70,20 +70,18 @@ pub mod contact;
 mod contact_cycle;
 pub mod disk;
 pub mod draw;
-pub mod ensemble;
 #[cfg(feature = "tui")]
 pub mod explorer;
 pub mod export;
 pub mod io;
 mod memory;
 mod parallel;
-pub mod phase;
 mod profile;
 pub mod reference;
 pub mod scene;
 pub mod simulation;
+pub mod study;
 pub mod surface;
-pub mod sweep;
 mod text;
 
 pub use contact_cycle::{Contact, ContactBuilder, Cycle};

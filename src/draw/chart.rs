@@ -87,6 +87,8 @@ pub enum Shape {
     },
     /// The inside of a closed line.
     Inside(Vec<(f64, f64)>),
+    /// Filled boxes: ends in x and in y.
+    Boxes(Vec<((f64, f64), (f64, f64))>),
     /// A line across the chart at this x.
     Upright(f64),
     /// A line across the chart at this y.
@@ -225,7 +227,7 @@ impl Figure {
             match shape {
                 Shape::Curve { stroke, sign, .. } => add(name, *ink, Sample::Line(*stroke, *sign)),
                 Shape::Envelope { .. } => add(name, *ink, Sample::Line(Some(Stroke::Solid), None)),
-                Shape::Band(_) | Shape::Inside(_) => add(name, *ink, Sample::Area),
+                Shape::Band(_) | Shape::Inside(_) | Shape::Boxes(_) => add(name, *ink, Sample::Area),
                 Shape::Upright(_) | Shape::Level(_) => add(name, *ink, Sample::Guide),
                 Shape::Map(map) => {
                     for (class, (sign, _, name)) in map.class_names.iter().enumerate() {

@@ -7,6 +7,7 @@ mod cost;
 mod csv;
 mod ensemble;
 mod json;
+mod scene_figure;
 pub(crate) mod sheet;
 #[cfg(test)]
 mod study_example;
@@ -19,7 +20,8 @@ pub use check::{check_markdown, check_text, write_check_json};
 pub use cost::{cost_text, write_cost_csv, write_cost_json};
 pub use csv::{write_curve, write_line};
 pub use ensemble::{ensemble_text, write_ensemble_csv, write_ensemble_json};
-pub use json::{write_chosen_json, write_json};
+pub use json::write_json;
+pub use scene_figure::{ContactSets, force_figure, sign};
 pub use study_figure::study_figure;
-pub use summary::summary;
+pub use summary::{brief_summary, summary};
 pub use work_precision::work_precision;

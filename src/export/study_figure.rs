@@ -5,7 +5,7 @@ use crate::draw::{
     Axis, AxisScale, Chart, Contour, Figure, HeatMap, Ink, Label, Layer, Shape, Sign, Span, Stroke,
     value_label,
 };
-use crate::sweep::figure::{Estimate, Figure as Study, FigureAxis, Panel};
+use crate::study::figure::{Estimate, Figure as Study, FigureAxis, Panel};
 
 /// Decades a quantity must span before an inset shows it on a logarithmic scale.
 const DECADES_FOR_INSET: f64 = 1.5;

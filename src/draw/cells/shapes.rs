@@ -154,6 +154,15 @@ impl CanvasShape for LayerShape<'_> {
             }
             Shape::Envelope { x, columns } => self.envelope(painter, *x, columns),
             Shape::Inside(border) => self.inside(painter, border),
+            Shape::Boxes(boxes) => {
+                for ((left, right), (low, high)) in boxes {
+                    let corners = (self.dot(painter, (*left, *high)), self.dot(painter, (*right, *low)));
+                    let (Some(from), Some(to)) = corners else { continue };
+                    for y in from.1..=to.1 {
+                        (from.0..=to.0).for_each(|x| self.paint(painter, (x, y)));
+                    }
+                }
+            }
             Shape::Upright(x) => {
                 let line = ends(&self.chart.y).map(|y| (*x, y));
                 if (0.0..=1.0).contains(&self.chart.x.share(*x)) {

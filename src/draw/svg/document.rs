@@ -119,6 +119,20 @@ impl Document {
         self.element(format_args!("<polygon points=\"{points}\" fill=\"{fill}\"{opacity}/>"));
     }
 
+    /// Boxes by their upper left and lower right corners, at least half a pixel wide and high.
+    pub(super) fn boxes(&mut self, boxes: impl Iterator<Item = (Place, Place)>, fill: Rgb) {
+        let path: String = boxes
+            .map(|(from, to)| {
+                let (width, height) = (px((to.0 - from.0).max(0.5)), px((to.1 - from.1).max(0.5)));
+                format!("M{} {}h{width}v{height}h-{width}z", px(from.0), px(from.1))
+            })
+            .collect();
+        if !path.is_empty() {
+            let fill = hex(fill);
+            self.element(format_args!("<path d=\"{path}\" fill=\"{fill}\"/>"));
+        }
+    }
+
     pub(super) fn circle(&mut self, at: Place, radius: f64, fill: Rgb, pen: Option<Pen>) {
         let (x, y, radius, fill) = (px(at.0), px(at.1), px(radius), hex(fill));
         let pen = pen.map_or_else(String::new, |pen| format!(" {}", pen.attributes()));

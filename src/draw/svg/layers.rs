@@ -30,6 +30,12 @@ pub(super) fn draw(document: &mut Document, frame: &Frame<'_>, layers: &[Layer])
                 let places: Vec<_> = border.iter().filter_map(|point| frame.place(*point)).collect();
                 document.area(&places, colour, AREA_OPACITY);
             }
+            Shape::Boxes(boxes) => {
+                let corners = boxes.iter().filter_map(|((left, right), (low, high))| {
+                    Some((frame.place((*left, *high))?, frame.place((*right, *low))?))
+                });
+                document.boxes(corners, colour);
+            }
             Shape::Upright(x) => {
                 if let Some((x, _)) = inside(frame.x, *x).then(|| frame.place_at_end((*x, 0.0))).flatten() {
                     document.line(&[(x, frame.from.1), (x, frame.to.1)], guide());
