@@ -15,7 +15,7 @@ mod ticks;
 
 pub use axis::{Axis, AxisScale, Span};
 #[cfg(feature = "tui")]
-pub use cells::{CellPlot, CellStyle, Colours, dry, figure_text, legend};
+pub use cells::{CellPlot, CellStyle, Colours, dry, figure_text, glyph, legend};
 pub use chart::{Chart, Contour, Entry, Figure, HeatMap, Layer, Sample, Shape, Sign, Stroke};
 pub use colour::{Ink, Palette, Rgb, hex, ink_on, shade};
 pub use label::{Label, prefixed, short, value_label};

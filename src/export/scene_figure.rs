@@ -325,9 +325,12 @@ mod tests {
         let preload = outcome.history.legs[0].largest;
         assert_eq!(columns.iter().flatten().count() as u64, preload.springs, "one column for each spring");
         assert_eq!(columns.len(), line.gaps.len());
-        let free = computed(&[("loading", "[ToTouch]"), ("adhesion", "None")]);
-        let figure = free.1.profile_figure("", &free.0, &free.2);
-        assert!(figure.notes[0].to_string().starts_with("first touch"), "{:?}", figure.notes);
+        for (loading, note) in
+            [("[ToTouch]", "largest force: F = 0 N, d = 0 m"), ("[ToSeparation]", "first touch: d = 0 m")]
+        {
+            let (outcome, sets, line) = computed(&[("loading", loading), ("adhesion", "None")]);
+            assert_eq!(sets.profile_figure("", &outcome, &line).notes[0].to_string(), note);
+        }
     }
 
     #[test]

@@ -67,6 +67,12 @@ impl CellPlot {
         CellPlot { plot, left, line, below, label }
     }
 
+    /// A plot that fills its area.
+    #[must_use]
+    pub fn without_scales(area: Rect) -> CellPlot {
+        CellPlot { plot: area, left: 0, line: false, below: false, label: false }
+    }
+
     /// Number on the horizontal axis at the middle of a column of the screen, within the plot.
     #[must_use]
     pub fn number_at(&self, x: &Axis, column: u16) -> f64 {
@@ -225,7 +231,9 @@ fn label_hides_numbers(chart: &Chart, width: u16) -> bool {
     numbers.iter().any(|(column, text)| usize::from(*column) + text.chars().count().div_ceil(2) > end)
 }
 
-fn glyph(sign: Sign) -> &'static str {
+/// Character of a sign.
+#[must_use]
+pub fn glyph(sign: Sign) -> &'static str {
     match sign {
         Sign::Dot => "●",
         Sign::Square => "■",
