@@ -1,6 +1,52 @@
-//! Reduces a line with a million springs to the columns of a pane.
+//! A profile and its contact, reduced to the columns of a pane or a picture.
 
-use super::snapshot::{Column, LengthBin, Section, Share};
+/// A part of the line, reduced to one column for each column of dots.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Section {
+    /// First spring shown.
+    pub first: usize,
+    /// Springs shown.
+    pub springs: usize,
+    /// Lowest and highest z shown by the line over all springs of the section, m.
+    pub heights: (f64, f64),
+    /// Height of the undeformed elastic surface, m.
+    pub level: f64,
+    /// What stands in each column.
+    pub columns: Vec<Column>,
+}
+
+/// One column of dots: the springs it stands for.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Column {
+    /// Lowest and highest point of the rigid line, m.
+    pub line: (f64, f64),
+    /// Lowest and highest point of the elastic surface, m.
+    pub surface: (f64, f64),
+    /// Lowest and highest point of the line where it is in contact, m.
+    pub contact: Option<(f64, f64)>,
+}
+
+/// How much of a part of the line touches.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Share {
+    /// No spring.
+    Nothing,
+    /// Some springs.
+    Something,
+    /// All springs.
+    Everything,
+}
+
+/// Fragments of about one length.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct LengthBin {
+    /// Shortest length, springs.
+    pub from: u64,
+    /// The shortest length that is too long, springs.
+    pub to: u64,
+    /// Fragments of these lengths.
+    pub fragments: u64,
+}
 
 /// The line and its contact at one moment.
 #[derive(Clone, Copy)]

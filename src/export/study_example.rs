@@ -1,10 +1,15 @@
-//! Figures with known numbers, for tests.
+//! Figures of studies with known numbers, for tests.
 
 use crate::analysis::Regime;
 use crate::study::figure::{AxisScale, Boundary, Estimate, Figure, FigureAxis, FigureQuantity, Panel};
 
-pub(super) fn axis(name: &str, symbol: &str, scale: AxisScale, values: Vec<f64>) -> FigureAxis {
+fn axis(name: &str, symbol: &str, scale: AxisScale, values: Vec<f64>) -> FigureAxis {
     FigureAxis { name: name.into(), symbol: symbol.into(), unit: "1".into(), scale, values }
+}
+
+/// An axis of preloads without values.
+pub(super) fn preloads() -> FigureAxis {
+    FigureAxis { unit: "N".into(), ..axis("preload", "F_n", AxisScale::Logarithmic, Vec::new()) }
 }
 
 fn quantity(name: &str, symbol: &str) -> FigureQuantity {

@@ -1,20 +1,20 @@
-//! Where an axis has its marks, and what stands at them.
+//! Ticks of axes.
 
-use super::label::{number, power_of_ten};
-use crate::study::figure::AxisScale;
+use super::axis::{AxisScale, Span};
+use super::label::{Label, number};
 
-/// A mark.
+/// A tick.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Tick {
-    /// Where, in the coordinate of the axis.
+pub struct Tick {
+    /// Coordinate on the axis.
     pub at: f64,
-    /// What stands there, to be typeset; nothing at the small ones between.
-    pub label: Option<String>,
+    /// Number at the tick; none at a minor tick.
+    pub label: Option<Label>,
 }
 
-/// Marks of an axis from `low` to `high` in its coordinate, about `most` of them labelled. Numbers are
-/// divided by `divisor`, that of the prefix of the unit.
-pub(super) fn ticks(scale: AxisScale, (low, high): (f64, f64), divisor: f64, most: usize) -> Vec<Tick> {
+/// Ticks over a range of coordinates, about `most` of them labelled. Numbers are divided by `divisor`, that of
+/// the prefix of the unit.
+pub(super) fn ticks(scale: AxisScale, Span { low, high }: Span, divisor: f64, most: usize) -> Vec<Tick> {
     if high <= low || !(high - low).is_finite() {
         return Vec::new();
     }
@@ -33,7 +33,7 @@ pub(super) fn ticks(scale: AxisScale, (low, high): (f64, f64), divisor: f64, mos
     }
 }
 
-/// A step of 1, 2 or 5 times a power of ten that makes at most `most` marks.
+/// Step of 1, 2 or 5 times a power of ten that makes at most `most` ticks, and its number of minor steps.
 fn step_for(width: f64, most: usize) -> (f64, usize) {
     let least = width / most.max(1) as f64;
     let power = 10_f64.powf(least.log10().floor());
@@ -53,7 +53,7 @@ fn linear(low: f64, high: f64, most: usize) -> Vec<Tick> {
         .map(|index| {
             let at = index as f64 * small;
             let large = index.rem_euclid(between as i64) == 0;
-            Tick { at, label: large.then(|| number(at, step)) }
+            Tick { at, label: large.then(|| Label::plain(&number(at, step))) }
         })
         .collect()
 }
@@ -80,15 +80,17 @@ fn logarithmic(low: f64, high: f64, most: usize) -> Vec<Tick> {
                 continue;
             }
             let shown = labelled.contains(&digit) && decade.rem_euclid(every) == 0;
-            let label = match (powers, digit) {
-                (true, 1) => power_of_ten(decade),
-                (true, digit) => format!("{digit}·{}", power_of_ten(decade)),
-                (false, digit) => number(f64::from(digit) * 10_f64.powi(decade), 10_f64.powi(decade)),
+            let label = || match (powers, digit) {
+                (true, 1) => Label::power_of_ten(decade),
+                (true, digit) => Label::plain(&format!("{digit}·")).join(&Label::power_of_ten(decade)),
+                (false, digit) => {
+                    Label::plain(&number(f64::from(digit) * 10_f64.powi(decade), 10_f64.powi(decade)))
+                }
             };
-            ticks.push(Tick { at, label: shown.then_some(label) });
+            ticks.push(Tick { at, label: shown.then(label) });
         }
     }
-    // Within a factor of two nothing round may be there.
+    // A range of less than a factor of two may hold no round number.
     if ticks.iter().filter(|tick| tick.label.is_some()).count() < 2 {
         let numbers = linear(10_f64.powf(low), 10_f64.powf(high), most);
         return numbers.into_iter().map(|tick| Tick { at: tick.at.log10(), ..tick }).collect();
@@ -100,12 +102,13 @@ fn logarithmic(low: f64, high: f64, most: usize) -> Vec<Tick> {
 mod tests {
     use super::*;
 
-    fn labels(scale: AxisScale, span: (f64, f64), divisor: f64) -> Vec<String> {
-        ticks(scale, span, divisor, 6).into_iter().filter_map(|tick| tick.label).collect()
+    fn labels(scale: AxisScale, (low, high): (f64, f64), divisor: f64) -> Vec<String> {
+        let ticks = ticks(scale, Span { low, high }, divisor, 6).into_iter();
+        ticks.filter_map(|tick| Some(tick.label?.to_string())).collect()
     }
 
     #[test]
-    fn marks_are_round_numbers() {
+    fn ticks_are_round_numbers() {
         use AxisScale::{Linear, Logarithmic};
         assert_eq!(labels(Linear, (0.1, 0.9), 1.0), ["0.2", "0.4", "0.6", "0.8"]);
         assert_eq!(labels(Linear, (0.0, 2.5e-5), 1e-6), ["0", "5", "10", "15", "20", "25"]);
@@ -118,10 +121,10 @@ mod tests {
     }
 
     #[test]
-    fn marks_lie_within() {
+    fn ticks_lie_within() {
         for (low, high) in [(-1.3, 4.2), (0.0, 1e-12), (5.0, 5.001), (-8.1, 9.3)] {
             for scale in [AxisScale::Linear, AxisScale::Logarithmic] {
-                let ticks = ticks(scale, (low, high), 1.0, 6);
+                let ticks = ticks(scale, Span { low, high }, 1.0, 6);
                 let room = 1e-5 * (high - low) + 1e-8;
                 assert!(ticks.iter().all(|tick| (low - room..=high + room).contains(&tick.at)), "{ticks:?}");
                 assert!(ticks.iter().filter(|tick| tick.label.is_some()).count() <= 10, "{ticks:?}");

@@ -1,10 +1,10 @@
-//! The line on which a field of numbers has a level, by marching squares.
+//! Level lines of a field on a grid, by marching squares.
 
-/// A point, in the coordinates of the axes.
-pub(super) type Point = (f64, f64);
+/// A point in the coordinates of the grid.
+type Point = (f64, f64);
 
-/// The lines on which the field, linear along the edges of the grid, has the level. Squares with a missing
-/// corner have none. A square that the level crosses twice is cut as its mean says.
+/// Level lines of a field that is linear along the edges of the grid. Squares with a missing corner have none.
+/// In a square that the level crosses twice the mean of the corners decides which of them are connected.
 pub(super) fn contour(across: &[f64], up: &[f64], field: &[Option<f64>], level: f64) -> Vec<Vec<Point>> {
     let mut pieces = Vec::new();
     for row in 1..up.len() {
@@ -24,7 +24,7 @@ pub(super) fn contour(across: &[f64], up: &[f64], field: &[Option<f64>], level: 
                 [(_, from), (_, to)] => pieces.push((*from, *to)),
                 [(_, south), (_, east), (_, north), (_, west)] => {
                     let middle = square.iter().map(|corner| corner.2).sum::<f64>();
-                    // The corners on the side of the middle hang together.
+                    // The corners on the side of the mean are connected.
                     if (middle < 0.0) == (square[0].2 < 0.0) {
                         pieces.extend([(*south, *east), (*north, *west)]);
                     } else {
@@ -38,17 +38,17 @@ pub(super) fn contour(across: &[f64], up: &[f64], field: &[Option<f64>], level: 
     joined(pieces)
 }
 
-/// Where an edge has the level, if it does.
+/// Point of an edge at the level.
 fn cut(from: (f64, f64, f64), to: (f64, f64, f64)) -> Option<Point> {
     ((from.2 < 0.0) != (to.2 < 0.0)).then(|| {
-        // From the lower corner, whichever comes first: two squares find the same point to the last bit.
+        // Always from the lower corner, so that two squares find the same point to the last bit.
         let (low, high) = if from.2 < to.2 { (from, to) } else { (to, from) };
         let share = low.2 / (low.2 - high.2);
         (low.0 + (high.0 - low.0) * share, low.1 + (high.1 - low.1) * share)
     })
 }
 
-/// Pieces put together at their common ends.
+/// Pieces joined at their common ends.
 fn joined(mut pieces: Vec<(Point, Point)>) -> Vec<Vec<Point>> {
     let mut lines = Vec::new();
     while let Some((from, to)) = pieces.pop() {
