@@ -84,6 +84,7 @@ pub mod simulation;
 pub mod surface;
 pub mod sweep;
 mod text;
+pub mod topography;
 
 pub use contact_cycle::{Contact, ContactBuilder, Cycle};
 pub use profile::{Profile, ProfileError};

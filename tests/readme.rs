@@ -350,12 +350,14 @@ fn the_citation_is_of_this_version() {
 }
 
 /// Rooms of the source from the ground up: each imports only rooms before it.
-const ROOMS: [&str; 22] = [
+const ROOMS: [&str; 24] = [
     "text",
     "memory",
     "parallel",
     "disk",
     "io",
+    "topography",
+    "spectrum",
     "scene",
     "surface",
     "contact",
