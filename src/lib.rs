@@ -81,6 +81,7 @@ mod profile;
 pub mod reference;
 pub mod scene;
 pub mod simulation;
+pub mod spectrum;
 pub mod surface;
 pub mod sweep;
 mod text;
