@@ -69,21 +69,19 @@ pub mod cli;
 pub mod contact;
 mod contact_cycle;
 pub mod disk;
-pub mod ensemble;
 #[cfg(feature = "tui")]
 pub mod explorer;
 pub mod export;
 pub mod io;
 mod memory;
 mod parallel;
-pub mod phase;
 mod profile;
 pub mod reference;
 pub mod scene;
 pub mod simulation;
 pub mod spectrum;
+pub mod study;
 pub mod surface;
-pub mod sweep;
 mod text;
 pub mod topography;
 

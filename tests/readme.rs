@@ -12,7 +12,7 @@ use asperity::explorer::{keys, svg_of};
 use asperity::export::check_markdown;
 use asperity::scene::Document;
 use asperity::simulation::Simulation;
-use asperity::sweep::{Changes, Plan, Quantity};
+use asperity::study::{Changes, Plan, Quantity};
 use scenes::{check, read, root, updating};
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -79,9 +79,9 @@ fn tables_are_those_of_the_program() {
 #[test]
 fn tables_of_studies_are_those_of_the_program() {
     let mut plans = String::from("| plan | cells | random profiles | title |\n| --- | --- | --- | --- |\n");
-    for plan in asperity::sweep::plans() {
+    for plan in asperity::study::plans() {
         let read = Plan::open(plan.name, &Changes::default()).unwrap();
-        let cells: u64 = read.axes.iter().chain(&read.preloads).map(asperity::sweep::Axis::count).product();
+        let cells: u64 = read.axes.iter().chain(&read.preloads).map(asperity::study::Axis::count).product();
         writeln!(plans, "| `{}` | {cells} | {} | {} |", plan.name, read.lines, read.title).unwrap();
     }
     check("docs/studies.md", "plans", &plans);
@@ -350,7 +350,7 @@ fn the_citation_is_of_this_version() {
 }
 
 /// Rooms of the source from the ground up: each imports only rooms before it.
-const ROOMS: [&str; 24] = [
+const ROOMS: [&str; 22] = [
     "text",
     "memory",
     "parallel",
@@ -366,9 +366,7 @@ const ROOMS: [&str; 24] = [
     "simulation",
     "profile",
     "contact_cycle",
-    "ensemble",
-    "sweep",
-    "phase",
+    "study",
     "accuracy",
     "check",
     "export",

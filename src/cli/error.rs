@@ -1,13 +1,13 @@
 //! Why a command failed.
 
 use crate::accuracy::{ChoiceError, CostError};
-use crate::ensemble::EnsembleError;
 use crate::explorer::OpeningError;
 use crate::io::WriteError;
 use crate::scene::{SceneErrors, quoted};
 use crate::simulation::RunError;
-use crate::sweep::slurm::SlurmError;
-use crate::sweep::{FigureError, SweepError};
+use crate::study::LinesError;
+use crate::study::slurm::SlurmError;
+use crate::study::{FigureError, StudyError};
 use std::io;
 use thiserror::Error;
 
@@ -66,7 +66,7 @@ pub enum CliError {
         /// Name of the scene.
         scene: String,
         /// Why not.
-        error: EnsembleError,
+        error: LinesError,
     },
     /// No hard case has this word in its name.
     #[error("{word}: no case has this in its name; allowed: parts of {allowed}")]
@@ -89,7 +89,7 @@ pub enum CliError {
     },
     /// A study could not go on.
     #[error(transparent)]
-    Sweep(#[from] SweepError),
+    Sweep(#[from] StudyError),
     /// A study was not submitted to a cluster.
     #[error(transparent)]
     Slurm(#[from] SlurmError),

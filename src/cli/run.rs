@@ -2,13 +2,13 @@
 
 use super::scene::simulation_of;
 use super::{CliError, OutputArguments, SceneArguments};
-use crate::accuracy::{Choice, choose, parse_tolerance};
-use crate::ensemble;
+use crate::accuracy::{Choice, Estimate, choose, estimate, parse_tolerance};
 use crate::export::{
-    ensemble_text, summary, write_chosen_json, write_curve, write_ensemble_csv, write_ensemble_json,
-    write_json,
+    ensemble_text, summary, write_curve, write_ensemble_csv, write_ensemble_json, write_json,
 };
 use crate::scene::{Document, Scene};
+use crate::simulation::Outcome;
+use crate::study;
 use clap::{Args, ValueEnum};
 use std::io::{self, Write};
 use std::thread::available_parallelism;
@@ -93,15 +93,32 @@ pub(super) fn run(arguments: &RunArguments, stdout: &mut dyn Write) -> Result<()
     let outcome = simulation_of(&document)
         .run(scene, &|| false, &mut |_, _, _| Ok(()))
         .map_err(|error| CliError::Run { scene: document.name().into(), error })?;
-    arguments.output.write(stdout, |out| match (arguments.chosen_format(), &choice) {
-        (RunFormat::Summary, choice) => {
-            out.write_all(summary(scene, &outcome).as_bytes())?;
-            choice.as_ref().map_or(Ok(()), |choice| writeln!(out, "\n{}", choice.sentence()))
+    let (format, choice) = (arguments.chosen_format(), choice.as_ref());
+    let estimate = estimate_for(format, &document, scene, &outcome, choice)?;
+    arguments.output.write(stdout, |out| match format {
+        RunFormat::Summary => {
+            out.write_all(summary(scene, &outcome, estimate.as_ref()).as_bytes())?;
+            choice.map_or(Ok(()), |choice| writeln!(out, "\n{}", choice.sentence()))
         }
-        (RunFormat::Json, None) => write_json(out, scene, &outcome),
-        (RunFormat::Json, Some(choice)) => write_chosen_json(out, scene, &outcome, choice),
-        (RunFormat::Csv, _) => write_curve(out, &outcome),
+        RunFormat::Json => write_json(out, scene, &outcome, choice, estimate.as_ref()),
+        RunFormat::Csv => write_curve(out, &outcome),
     })
+}
+
+/// The estimated error of an outcome, for a format that states it: that of the choice where springs were chosen.
+fn estimate_for(
+    format: RunFormat,
+    document: &Document,
+    scene: &Scene,
+    outcome: &Outcome,
+    choice: Option<&Choice>,
+) -> Result<Option<Estimate>, CliError> {
+    match (format, choice) {
+        (RunFormat::Csv, _) => Ok(None),
+        (_, Some(choice)) => Ok(Some(choice.estimate())),
+        (_, None) => estimate(scene, &document.resolve(""), outcome, &|| false)
+            .map_err(|error| CliError::Run { scene: document.name().into(), error }),
+    }
 }
 
 /// The springs and edges for a tolerance, told on standard error.
@@ -124,7 +141,7 @@ fn on_lines(
 ) -> Result<(), CliError> {
     let jobs =
         arguments.jobs.map_or_else(|| available_parallelism().map_or(1, std::num::NonZero::get), usize::from);
-    let results = ensemble::run(scene, &document.resolve(""), lines as usize, jobs)
+    let results = study::solve_lines(scene, &document.resolve(""), lines as usize, jobs)
         .map_err(|error| CliError::Lines { scene: document.name().into(), error })?;
     arguments.output.write(stdout, |out| match arguments.chosen_format() {
         RunFormat::Summary => {

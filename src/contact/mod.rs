@@ -15,12 +15,14 @@
 
 pub mod adhesive;
 mod contact_model;
+mod crossing;
 mod error;
 pub mod exact;
 mod foundation;
 mod fragments;
 mod grid;
 mod history;
+mod interval;
 mod leg_contact;
 mod leg_plan;
 mod manual;

@@ -37,7 +37,10 @@ fn write_content(file: &mut dyn Write, model: &Model, content: Content) -> io::R
     match content {
         Content::Scene => file.write_all(model.document.text().as_bytes()),
         Content::Curve => write_curve(file, &computed()?.outcome),
-        Content::Outcome => write_json(file, model.document.scene(), &computed()?.outcome),
+        Content::Outcome => {
+            let estimate = model.appraisal.estimate();
+            write_json(file, model.document.scene(), &computed()?.outcome, None, estimate)
+        }
         Content::Picture => file.write_all(svg_of(model).as_bytes()),
         Content::Text => file.write_all(text(&picture_of(model)).as_bytes()),
     }

@@ -18,8 +18,8 @@ pub use check::{check_markdown, check_text, write_check_json};
 pub use cost::{cost_text, write_cost_csv, write_cost_json};
 pub use csv::{write_curve, write_line};
 pub use ensemble::{ensemble_text, write_ensemble_csv, write_ensemble_json};
-pub use json::{write_chosen_json, write_json};
-pub use summary::summary;
+pub use json::write_json;
+pub use summary::{brief_summary, summary};
 #[cfg(feature = "tui")]
 pub use sweep_figure::{Colours, figure_svg, figure_text};
 pub use work_precision::work_precision_svg;

@@ -5,9 +5,10 @@ use std::path::{Path, PathBuf};
 use super::blame::{all_of, blamed, nearest_place, place, remember, told};
 use super::check::check;
 use super::errors::{Origin, SceneError, SceneErrors};
-use super::fields::{FIELDS, Field};
+use super::field::Field;
+use super::fields::FIELDS;
 use super::locate::Outline;
-use super::model::{Edges, Scene};
+use super::model::Scene;
 use super::read::{Unread, read, wrong_version};
 use super::scan::comments;
 use super::splice;
@@ -149,11 +150,7 @@ impl Document {
         let outline = Outline::of(&self.text).ok()?;
         outline.inner(path).or_else(|| {
             let field = fields_of(&outline).find(|field| field.path == path)?;
-            let default = match (field.path, self.scene.numerics.edges) {
-                // The stepwise solver has others as usual.
-                ("numerics.edges", Edges::Grid) => "Grid",
-                _ => field.default,
-            };
+            let default = field.default_in(&self.scene);
             (!default.is_empty()).then_some(default)
         })
     }
@@ -213,7 +210,7 @@ fn check_length(text: &str) -> Result<(), String> {
 #[cfg(test)]
 mod tests {
     use super::super::model::{Adhesion, Form, Leg, Roughness, Solver};
-    use super::super::samples::sound;
+    use super::super::strategies::sound;
     use super::*;
 
     const SCENE: &str = r#"(

@@ -15,19 +15,16 @@
 //! # Ok::<(), scene::SceneErrors>(())
 //! ```
 
-mod agree;
 mod blame;
 mod bring_back;
 mod check;
+mod consistency;
 mod derived;
 mod document;
 mod effects;
 mod errors;
+mod field;
 mod fields;
-#[cfg(test)]
-// Integration tests include the file and use the rest.
-#[allow(dead_code)]
-mod grammar;
 mod library;
 mod locate;
 mod model;
@@ -36,14 +33,17 @@ mod presets;
 mod quantity;
 mod range;
 mod read;
-#[cfg(test)]
-mod samples;
 mod scan;
 mod search;
 mod splice;
 mod step;
+#[cfg(test)]
+// Integration tests include the file and use the rest.
+#[allow(dead_code)]
+mod strategies;
 mod suggest;
 mod switch;
+mod value;
 mod write;
 
 pub use crate::text::is_control;
@@ -51,7 +51,8 @@ pub use check::{Violation, check};
 pub use document::{Document, LONGEST_TEXT};
 pub use effects::Effect;
 pub use errors::{Origin, SceneError, SceneErrors};
-pub use fields::{FIELDS, Field, LEG_FORCE, LEG_INDENTATION, MOST_POINTS, field};
+pub use field::{Field, Step};
+pub use fields::{FIELDS, LEG_FORCE, LEG_INDENTATION, MOST_POINTS, field};
 pub use library::{Entry, Library, MOST_BYTES, MOST_FILES, Source, typed_path};
 pub use locate::{Place, line_column, locate};
 pub use model::*;
@@ -63,7 +64,7 @@ pub use quantity::{QuantityError, format_quantity, parse_quantity};
 pub use range::{End, Range};
 pub(crate) use read::told_otherwise;
 pub use search::search;
-pub use step::Step;
 pub(crate) use suggest::nearest;
 pub use switch::Computed;
+pub use value::Value;
 pub use write::{ron_float, ron_string, to_ron};

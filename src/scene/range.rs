@@ -44,8 +44,10 @@ pub enum Range {
         /// Largest.
         max: u64,
     },
-    /// Text of at most this many characters, without control characters.
+    /// Text without control characters.
     Text {
+        /// Fewest characters.
+        least: usize,
         /// Most characters.
         most: usize,
         /// Whether line breaks are allowed.
@@ -161,8 +163,13 @@ impl fmt::Display for Range {
             Range::Band { min, max } => {
                 write!(f, "a pair (first, last) of whole numbers from {min} to {max}, first ≤ last")
             }
-            Range::Text { most, lines: true } => write!(f, "text of at most {most} characters"),
-            Range::Text { most, lines: false } => write!(f, "one line of at most {most} characters"),
+            Range::Text { least, most, lines } => {
+                f.write_str(if lines { "text of " } else { "one line of " })?;
+                match least {
+                    0 => write!(f, "at most {most} characters"),
+                    least => write!(f, "{least} to {most} characters"),
+                }
+            }
             Range::Choice(choices) => write_choices(f, choices, "or"),
             Range::List { of, least, most } => {
                 match least {

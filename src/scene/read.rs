@@ -2,7 +2,8 @@
 
 use ron::extensions::Extensions;
 
-use super::fields::{Field, LEG_FORCE, LEG_INDENTATION, field};
+use super::field::Field;
+use super::fields::{LEG_FORCE, LEG_INDENTATION, field};
 use super::locate::{Outline, offset_of};
 use super::model::{SCENE_VERSION, Scene};
 use super::range::Range;

@@ -2,7 +2,8 @@
 
 use std::ops::Range;
 
-use super::fields::{FIELDS, Field};
+use super::field::Field;
+use super::fields::FIELDS;
 use super::locate::{Body, Entry, Outline};
 use super::range::choice_name;
 use super::scan::comment_end;

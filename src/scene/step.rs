@@ -1,38 +1,8 @@
 //! How a key steps a field: from the text of one value to the text of the next.
 
-use super::fields::Field;
+use super::field::{Field, Step};
 use super::range::{Range, choice_name};
 use super::write::ron_float;
-
-/// How a key steps a field.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Step {
-    /// By adding; the result is a multiple of `fine`.
-    Linear {
-        /// Small step.
-        fine: f64,
-        /// Large step.
-        coarse: f64,
-    },
-    /// To the next preferred number: twenty to a decade (the Renard series R20) as the small step,
-    /// 1–2–5 as the large one.
-    Logarithmic,
-    /// By adding to a whole number.
-    Integer {
-        /// Small step.
-        fine: u64,
-        /// Large step.
-        coarse: u64,
-    },
-    /// To the next power of two; the large step is four of them.
-    Doubling,
-    /// The last mode of a pair to the next power of two; the large step moves the first mode.
-    Band,
-    /// To the next choice.
-    Choice,
-    /// Not stepped, only typed.
-    Typed,
-}
 
 /// The Renard series R20 of ISO 3.
 const FINE_SERIES: &[f64] = &[

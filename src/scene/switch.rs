@@ -181,7 +181,7 @@ mod tests {
     use proptest::prelude::*;
 
     use super::super::model::Form;
-    use super::super::samples::sound_scenes;
+    use super::super::strategies::sound_scenes;
     use super::*;
 
     const SCENE: &str = "(

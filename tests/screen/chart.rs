@@ -14,10 +14,10 @@ use asperity::explorer::snapshot::Loop;
 use asperity::explorer::study::{Appraiser, Finding, Found, Study, Task};
 use asperity::explorer::theme::Marker;
 use asperity::explorer::update::{Effect, study_tasks};
-use asperity::phase::{Basis, Cell, Charted, HURSTS, KAPPAS, Level, PhaseMap, hurst, kappa};
 use asperity::scene::{Document, Scene};
 use asperity::simulation::RunError;
-use asperity::sweep::Quantity;
+use asperity::study::Quantity;
+use asperity::study::map::{Cell, Charted, HURSTS, KAPPAS, Level, LiveMap, Template, hurst, kappa};
 use std::sync::Arc;
 use std::sync::mpsc::{Sender, channel};
 use std::time::Duration;
@@ -65,7 +65,7 @@ impl Appraiser for Mapper {
         Err(ChoiceError::Stopped)
     }
 
-    fn chart(&mut self, map: &mut PhaseMap, _: &dyn Fn() -> bool, tell: &mut dyn FnMut(&PhaseMap)) {
+    fn chart(&mut self, map: &mut LiveMap, _: &dyn Fn() -> bool, tell: &mut dyn FnMut(&LiveMap)) {
         for level in &self.0 {
             for &row in map.rows_of(*level) {
                 level.columns().for_each(|column| map.set(column, row, Ok(cell(kappa(column), hurst(row)))));
@@ -252,7 +252,7 @@ fn other_edits_begin_the_map_anew_and_wait_for_quiet() {
         assert!(driver.text().contains("computing the map"), "{}", driver.text());
         // What comes late is of no use.
         let generation = driver.model.generation - 1;
-        let late = Arc::new(PhaseMap::new(Arc::new(Basis::of(rough().scene()).unwrap())));
+        let late = Arc::new(LiveMap::new(Arc::new(Template::of(rough().scene()).unwrap())));
         driver.act(Action::Found(Found { generation, finding: Finding::Charted(late) }));
         assert!(driver.model.chart.map.is_none());
         // Nobody looks on.
@@ -281,7 +281,7 @@ fn a_scene_without_a_map_says_why() {
         }
         // A cell that cannot be computed.
         let mut driver = charted(rough());
-        let mut map = PhaseMap::clone(driver.model.chart.map.as_deref().unwrap());
+        let mut map = LiveMap::clone(driver.model.chart.map.as_deref().unwrap());
         for (column, row) in (0..KAPPAS).flat_map(|column| (0..HURSTS).map(move |row| (column, row))) {
             map.set(column, row, Err("the force is never reached".to_owned()));
         }
@@ -323,7 +323,7 @@ impl Appraiser for Endless {
         self.1.choose(scene, tolerance, stop, trying)
     }
 
-    fn chart(&mut self, map: &mut PhaseMap, stop: &dyn Fn() -> bool, tell: &mut dyn FnMut(&PhaseMap)) {
+    fn chart(&mut self, map: &mut LiveMap, stop: &dyn Fn() -> bool, tell: &mut dyn FnMut(&LiveMap)) {
         self.1.chart(map, stop, tell);
         self.0.send("begun").unwrap();
         while !stop() {
@@ -341,7 +341,7 @@ fn an_edit_ends_the_computing_of_the_map() {
         let (report, reports) = channel();
         let endless = Endless(says, Mapper(vec![Level::Coarse]));
         let study = Study::start(Box::new(endless), move |found| report.send(found).is_ok()).unwrap();
-        let map = Arc::new(PhaseMap::new(Arc::new(Basis::of(rough().scene()).unwrap())));
+        let map = Arc::new(LiveMap::new(Arc::new(Template::of(rough().scene()).unwrap())));
         study.ask(1, vec![Task::Chart { map, waits: false }]);
         assert_eq!(said.recv_timeout(PATIENCE), Ok("begun"));
         study.stop();

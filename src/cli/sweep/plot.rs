@@ -2,8 +2,8 @@
 
 use crate::cli::{CliError, OutputArguments};
 use crate::export::{Colours, figure_svg, figure_text};
-use crate::sweep::figure::AxisScale;
-use crate::sweep::{Finished, Selection};
+use crate::study::figure::AxisScale;
+use crate::study::{Finished, Selection};
 use clap::{Args, ValueEnum};
 use std::io::{self, IsTerminal, Write};
 use std::path::PathBuf;

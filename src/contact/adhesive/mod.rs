@@ -21,7 +21,6 @@ pub(in crate::contact) use dissipation::{AtOnce, Boundary, Edge};
 pub use edge_model::{EdgeCells, EdgeModel};
 pub use grid_edges::GridEdges;
 pub(in crate::contact) use run::{Ground, Held, Run};
-pub(in crate::contact) use search::{bisect, crossing, last_before};
 pub(in crate::contact) use span::Span;
 pub use sub_cell_edges::SubCellEdges;
 pub use tree::ContactTree;

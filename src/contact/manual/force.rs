@@ -1,8 +1,9 @@
 //! The force of a body under manual loading, and the indentation of a force.
 
 use super::{Course, Manual};
-use crate::contact::adhesive::{EdgeCells, EdgeModel, bisect, crossing, last_before};
+use crate::contact::adhesive::{EdgeCells, EdgeModel};
 use crate::contact::contact_model::ContactState;
+use crate::contact::crossing::{bisect, crossing, last_before};
 use crate::contact::grid::CompensatedSum;
 
 impl<E: EdgeModel> Manual<E> {

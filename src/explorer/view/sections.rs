@@ -6,8 +6,8 @@ use super::plot::{Polyline, Span, Stroke};
 use super::wrap::filled;
 use crate::explorer::model::Model;
 use crate::explorer::theme::Meaning;
-use crate::phase::{Layer, Plane};
-use crate::sweep::figure::{AxisScale, Estimate, FigureAxis};
+use crate::study::figure::{AxisScale, Estimate, FigureAxis};
+use crate::study::map::{Layer, MapModel};
 use ratatui::Frame;
 use ratatui::layout::Rect;
 use ratatui::text::{Line, Span as Text};
@@ -52,7 +52,7 @@ struct Section {
 impl Section {
     /// A section along an axis, of layers with their values on it.
     fn along(
-        plane: &Plane,
+        plane: &MapModel,
         (axis, across): (&FigureAxis, &'static str),
         values: &[(&Layer, Vec<(f64, Estimate)>)],
         mark: f64,
@@ -118,7 +118,7 @@ impl Section {
 }
 
 /// Draws both sections one above the other, or that over κ where there is no H or no room.
-pub fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model, plane: &Plane) {
+pub fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model, plane: &MapModel) {
     let Some((at_kappa, at_hurst)) = model.place() else { return };
     let Some(place) = plane.nearest(at_kappa, at_hurst) else { return };
     let layers = told(model.chart.charted(), plane);

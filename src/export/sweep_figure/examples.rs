@@ -1,7 +1,7 @@
 //! Figures with known numbers, for tests.
 
 use crate::analysis::Regime;
-use crate::sweep::figure::{AxisScale, Boundary, Estimate, Figure, FigureAxis, FigureQuantity, Panel};
+use crate::study::figure::{AxisScale, Boundary, Estimate, Figure, FigureAxis, FigureQuantity, Panel};
 
 pub(super) fn axis(name: &str, symbol: &str, scale: AxisScale, values: Vec<f64>) -> FigureAxis {
     FigureAxis { name: name.into(), symbol: symbol.into(), unit: "1".into(), scale, values }

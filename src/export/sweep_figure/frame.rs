@@ -4,7 +4,7 @@ use super::canvas::Anchor;
 use super::canvas::{Canvas, INK, Place, stroke};
 use super::label::width;
 use super::ticks::{Tick, ticks};
-use crate::sweep::figure::AxisScale;
+use crate::study::figure::AxisScale;
 
 /// Size of the words of axes, px.
 pub(super) const LABEL: f64 = 13.0;

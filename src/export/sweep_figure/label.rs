@@ -1,6 +1,6 @@
 //! Words and numbers on figures: symbols with indices, SI prefixes.
 
-use crate::sweep::figure::{FigureAxis, FigureQuantity};
+use crate::study::figure::{FigureAxis, FigureQuantity};
 use crate::text::for_picture;
 
 /// Stand around an index in text that is to be typeset. They are no characters of any script.
@@ -217,7 +217,7 @@ mod tests {
             name: "points".into(),
             symbol: symbol.into(),
             unit: unit.into(),
-            scale: crate::sweep::figure::AxisScale::Linear,
+            scale: crate::study::figure::AxisScale::Linear,
             values: Vec::new(),
         };
         assert_eq!(plain(&value_label(&axis("N", "1"), 65536.0)), "N = 65536");

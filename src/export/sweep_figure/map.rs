@@ -8,7 +8,7 @@ use super::label::{axis_label, prefixed, quantity_label, symbol};
 use super::legend::Legend;
 use super::shades::{Shades, ink_on, shade};
 use crate::analysis::Regime;
-use crate::sweep::figure::{AxisScale, Figure, FigureAxis, Panel};
+use crate::study::figure::{AxisScale, Figure, FigureAxis, Panel};
 use plotters::prelude::RGBColor;
 
 /// Least distance of two signs of regimes, px.

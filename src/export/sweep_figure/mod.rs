@@ -17,7 +17,7 @@ mod ticks;
 
 pub use text::{Colours, figure_text};
 
-use crate::sweep::figure::Figure;
+use crate::study::figure::Figure;
 use canvas::{Anchor, Canvas, Place, picture};
 use frame::LABEL;
 
@@ -89,7 +89,7 @@ fn rooms(figure: &Figure) -> (f64, f64) {
 fn draw_panel(
     canvas: &Canvas<'_>,
     figure: &Figure,
-    panel: &crate::sweep::figure::Panel,
+    panel: &crate::study::figure::Panel,
     place: (Place, Place),
 ) {
     match &figure.up {
@@ -119,7 +119,7 @@ mod examples;
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sweep::figure::Estimate;
+    use crate::study::figure::Estimate;
 
     /// The numbers of an attribute of all elements of a kind.
     fn elements<'a>(svg: &'a str, tag: &'a str) -> impl Iterator<Item = &'a str> {
@@ -271,11 +271,11 @@ mod tests {
             figure.regimes.clear();
             for value in [0.0, -2.0, 1e-300] {
                 for scale in
-                    [crate::sweep::figure::AxisScale::Linear, crate::sweep::figure::AxisScale::Logarithmic]
+                    [crate::study::figure::AxisScale::Linear, crate::study::figure::AxisScale::Logarithmic]
                 {
                     for panel in &mut figure.panels {
                         let estimate =
-                            crate::sweep::figure::Estimate { mean: value, low: value, high: value };
+                            crate::study::figure::Estimate { mean: value, low: value, high: value };
                         panel.estimates =
                             vec![Some(estimate); figure.up.as_ref().map_or(1, |up| up.values.len())];
                         panel.scale = scale;

@@ -5,7 +5,7 @@ use super::frame::{Frame, NUMBER, Ruler};
 use super::label::{axis_label, prefixed, quantity_label, symbol, value_label};
 use super::legend::Legend;
 use super::shades::NO_SPREAD;
-use crate::sweep::figure::{AxisScale, Estimate, Figure, Panel};
+use crate::study::figure::{AxisScale, Estimate, Figure, Panel};
 use plotters::prelude::RGBColor;
 
 /// Colours of curves and of their bands, told apart with any colour vision (after Okabe and Ito) and, dark beside

@@ -1,7 +1,7 @@
 //! Colours of numbers: a scale that people with any colour vision read, and that stays in order in grey.
 
 use super::canvas::{INK, PAPER};
-use crate::sweep::figure::AxisScale;
+use crate::study::figure::AxisScale;
 use plotters::prelude::RGBColor;
 
 /// Viridis (van der Walt and Smith, 2015) at equal distances: as far apart for people who see no red or no

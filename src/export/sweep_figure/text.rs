@@ -2,7 +2,7 @@
 
 use super::label::{plain, short};
 use super::{text_map, text_section};
-use crate::sweep::figure::Figure;
+use crate::study::figure::Figure;
 use crate::text::printable;
 use plotters::prelude::RGBColor;
 

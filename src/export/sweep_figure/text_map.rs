@@ -4,7 +4,7 @@ use super::label::{axis_label, plain, prefixed, quantity_label};
 use super::shades::{Shades, ink_on};
 use super::text::{Colours, centred, numbers_below, painted, push_words, scaled};
 use crate::analysis::Regime;
-use crate::sweep::figure::{AxisScale, Boundary, Figure, FigureAxis, Panel};
+use crate::study::figure::{AxisScale, Boundary, Figure, FigureAxis, Panel};
 
 /// Shades from low to high where there are no colours; a cell without a value is blank.
 const SHADES: [char; 5] = ['·', '░', '▒', '▓', '█'];

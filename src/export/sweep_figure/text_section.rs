@@ -4,7 +4,7 @@ use super::label::{axis_label, plain, prefixed, quantity_label, short, value_lab
 use super::section::{Point, around, curves, heights};
 use super::text::{centred, numbers_below, push_words};
 use super::ticks::ticks;
-use crate::sweep::figure::{AxisScale, Figure, Panel};
+use crate::study::figure::{AxisScale, Figure, Panel};
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::style::Color;

@@ -1,7 +1,7 @@
 //! Where an axis has its marks, and what stands at them.
 
 use super::label::{number, power_of_ten};
-use crate::sweep::figure::AxisScale;
+use crate::study::figure::AxisScale;
 
 /// A mark.
 #[derive(Clone, Debug, PartialEq)]

@@ -11,7 +11,7 @@ use thiserror::Error;
 
 /// Why a study could not go on. What was computed before is kept.
 #[derive(Debug, Error)]
-pub enum SweepError {
+pub enum StudyError {
     /// The plan is wrong.
     #[error(transparent)]
     Plan(#[from] PlanErrors),

@@ -4,7 +4,7 @@
 //! SHA-256 rather than the checksum of records: one in 4e9 accidental changes would pass a CRC of 32 bits, and
 //! anyone can find out which copy of a file is meant, with `sha256sum`.
 
-use super::SweepError;
+use super::StudyError;
 use super::plan::Plan;
 use super::store::PLAN;
 use crate::scene::Roughness;
@@ -31,7 +31,7 @@ pub(super) fn file_of(plan: &Plan) -> Option<PathBuf> {
 ///
 /// # Errors
 /// Where the file cannot be read, or the plan asks for another hash.
-pub(super) fn with_hash(plan: &Plan) -> Result<Plan, SweepError> {
+pub(super) fn with_hash(plan: &Plan) -> Result<Plan, StudyError> {
     let Some(file) = file_of(plan) else { return Ok(plan.clone()) };
     let (_, found) = read(&file)?;
     expect(plan, &file, &found, || "the plan".into())?;
@@ -42,16 +42,16 @@ pub(super) fn with_hash(plan: &Plan) -> Result<Plan, SweepError> {
 ///
 /// # Errors
 /// Where the file cannot be read, is no profile, or is not the one the plan has the hash of.
-pub(super) fn profile(plan: &Plan, folder: &Path) -> Result<Option<Arc<MeasuredProfile>>, SweepError> {
+pub(super) fn profile(plan: &Plan, folder: &Path) -> Result<Option<Arc<MeasuredProfile>>, StudyError> {
     let Some(file) = file_of(plan) else { return Ok(None) };
     let (profile, found) = read(&file)?;
     expect(plan, &file, &found, || path_name(&folder.join(PLAN)))?;
     Ok(Some(Arc::new(profile)))
 }
 
-fn expect(plan: &Plan, file: &Path, found: &str, origin: impl Fn() -> String) -> Result<(), SweepError> {
+fn expect(plan: &Plan, file: &Path, found: &str, origin: impl Fn() -> String) -> Result<(), StudyError> {
     match &plan.measured_sha256 {
-        Some(expected) if expected != found => Err(SweepError::MeasuredChanged {
+        Some(expected) if expected != found => Err(StudyError::MeasuredChanged {
             file: file.to_path_buf(),
             found: found.to_owned(),
             plan: origin(),
@@ -62,7 +62,7 @@ fn expect(plan: &Plan, file: &Path, found: &str, origin: impl Fn() -> String) ->
 }
 
 /// A profile, and the hash of the bytes it was read from.
-fn read(file: &Path) -> Result<(MeasuredProfile, String), SweepError> {
+fn read(file: &Path) -> Result<(MeasuredProfile, String), StudyError> {
     let mut hasher = Sha256::new();
     let profile = MeasuredProfile::read_seen(file, &mut |bytes| hasher.update(bytes))?;
     Ok((profile, hasher.finalize().iter().map(|byte| format!("{byte:02x}")).collect()))

@@ -1,7 +1,7 @@
 //! Computes a map.
 
 use super::grid::{Level, hurst, kappa};
-use super::{Basis, Cell, PhaseMap};
+use super::{Cell, LiveMap, Template};
 use crate::analysis::{CellRegime, Regime};
 use crate::simulation::{Outcome, RunError, Simulation};
 use std::path::Path;
@@ -21,7 +21,7 @@ struct OfLine {
 /// soon as `stop` says so; the row under way is then lost.
 ///
 /// A cell that cannot be computed tells why in its place.
-pub fn chart(map: &mut PhaseMap, folder: &Path, stop: &dyn Fn() -> bool, tell: &mut dyn FnMut(&PhaseMap)) {
+pub fn chart(map: &mut LiveMap, folder: &Path, stop: &dyn Fn() -> bool, tell: &mut dyn FnMut(&LiveMap)) {
     let basis = std::sync::Arc::clone(map.basis());
     let mut simulation = Simulation::new(folder.to_path_buf());
     for level in Level::ALL.into_iter().take_while(|level| *level <= basis.finest()) {
@@ -43,7 +43,7 @@ pub fn chart(map: &mut PhaseMap, folder: &Path, stop: &dyn Fn() -> bool, tell: &
 /// Cells of one row; `None` when told to stop.
 fn cells(
     simulation: &mut Simulation,
-    basis: &Basis,
+    basis: &Template,
     hurst: f64,
     columns: &[usize],
     stop: &dyn Fn() -> bool,
@@ -97,18 +97,18 @@ fn mean(lines: &[OfLine]) -> Cell {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::phase::{Atlas, KAPPAS};
     use crate::scene::{open, to_ron};
-    use crate::sweep::{Changes, Folder, Options, Plan, Quantity, Shard, merge, run};
+    use crate::study::map::{KAPPAS, StudyMap};
+    use crate::study::{Changes, Folder, Options, Plan, Quantity, Shard, merge, run};
     use std::sync::Arc;
 
     /// The map of a small scene.
-    fn map() -> PhaseMap {
+    fn map() -> LiveMap {
         let document = open("pressure-sensitive").unwrap();
         let small = [("numerics.points", "128"), ("roughness.modes", "(1, 32)")];
         let small = small.map(|(path, value)| (path.to_owned(), value.to_owned()));
         let document = document.set_all(&small).unwrap();
-        PhaseMap::new(Arc::new(Basis::of(document.scene()).unwrap()))
+        LiveMap::new(Arc::new(Template::of(document.scene()).unwrap()))
     }
 
     #[test]
@@ -180,7 +180,7 @@ mod tests {
         let folder = Folder::create(&place.path().join("study"), &plan).unwrap();
         run(&folder, Options { jobs: 1, shard: Shard::WHOLE }, &|| false, &mut |_| ()).unwrap();
         merge(&folder, false).unwrap();
-        let study = Atlas::open(folder.path()).unwrap().plane(0);
+        let study = StudyMap::open(folder.path()).unwrap().plane(0);
         let live = live.plane();
         let mut divided = 0;
         for (up, &row) in rows.iter().enumerate() {
@@ -226,7 +226,7 @@ mod tests {
     fn what_cannot_be_computed_says_why() {
         let document = open("pressure-sensitive").unwrap();
         let never = document.set("loading", "[ToForce(1.0e-5), ToForce(-1.0)]").unwrap();
-        let mut map = PhaseMap::new(Arc::new(Basis::of(never.scene()).unwrap()));
+        let mut map = LiveMap::new(Arc::new(Template::of(never.scene()).unwrap()));
         let told = std::cell::Cell::new(false);
         chart(&mut map, Path::new(""), &|| told.get(), &mut |_| told.set(true));
         assert!(map.cell(0, 0).is_some_and(|cell| cell.as_ref().is_err_and(|why| !why.is_empty())));

@@ -9,7 +9,7 @@ use super::axis::Axis;
 use super::finished::Finished;
 use super::plan::Plan;
 use super::quantity::Quantity;
-use super::{SweepError, symbol_and_unit};
+use super::{StudyError, symbol_and_unit};
 use rand::RngExt;
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
@@ -73,10 +73,10 @@ pub const DEFINITIONS: [(&str, f64); 3] = [
 ///
 /// # Errors
 /// Where the study has no such axis, records no share of F_a(0), or as [`Finished::open`].
-pub fn boundaries(path: &Path, levels: &[f64]) -> Result<Boundaries, SweepError> {
+pub fn boundaries(path: &Path, levels: &[f64]) -> Result<Boundaries, StudyError> {
     let finished = Finished::open(path)?;
     let plan = finished.plan();
-    let refuse = |reason: &str| SweepError::Folder { path: path.to_path_buf(), reason: reason.to_string() };
+    let refuse = |reason: &str| StudyError::Folder { path: path.to_path_buf(), reason: reason.to_string() };
     let axes = || plan.axes.iter().chain(&plan.preloads);
     let along = axes().position(|axis| axis.path() == "kappa");
     let along = along.ok_or_else(|| refuse("this study has no axis `kappa`, along which a boundary lies"))?;

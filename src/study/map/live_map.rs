@@ -1,11 +1,11 @@
 //! The cells of a map.
 
-use super::Basis;
+use super::Template;
 use super::grid::{HURSTS, KAPPAS, Level, hursts, kappas};
-use super::plane::{Layer, Plane, Spot, usual};
+use super::model::{Layer, MapCell, MapModel, usual};
 use crate::analysis::CellRegime;
-use crate::sweep::Quantity;
-use crate::sweep::figure::Estimate;
+use crate::study::Quantity;
+use crate::study::figure::Estimate;
 use std::sync::Arc;
 
 /// What the lines of a cell give in the mean; forces in N.
@@ -39,23 +39,23 @@ impl Cell {
 
 /// A map, as far as it has been computed.
 #[derive(Clone, Debug, PartialEq)]
-pub struct PhaseMap {
-    basis: Arc<Basis>,
+pub struct LiveMap {
+    basis: Arc<Template>,
     /// Row by row; a cell that could not be computed has the reason.
     cells: Vec<Option<Result<Cell, String>>>,
 }
 
-impl PhaseMap {
+impl LiveMap {
     /// A map of which nothing is known.
     #[must_use]
-    pub fn new(basis: Arc<Basis>) -> Self {
+    pub fn new(basis: Arc<Template>) -> Self {
         let rows = if basis.has_hurst() { HURSTS } else { 1 };
-        PhaseMap { basis, cells: vec![None; rows * KAPPAS] }
+        LiveMap { basis, cells: vec![None; rows * KAPPAS] }
     }
 
     /// What it belongs to.
     #[must_use]
-    pub fn basis(&self) -> &Arc<Basis> {
+    pub fn basis(&self) -> &Arc<Template> {
         &self.basis
     }
 
@@ -117,10 +117,10 @@ impl PhaseMap {
 
     /// The map as it is shown.
     #[must_use]
-    pub fn plane(&self) -> Plane {
+    pub fn plane(&self) -> MapModel {
         let lines = self.basis.lines();
         let spot = |cell: &Result<Cell, String>| match cell {
-            Ok(cell) => Ok(Spot::new(cell.regime, lines)),
+            Ok(cell) => Ok(MapCell::new(cell.regime, lines)),
             Err(why) => Err(why.clone()),
         };
         let layer = |quantity: Quantity, value: fn(&Cell) -> Option<f64>| {
@@ -136,7 +136,7 @@ impl PhaseMap {
             layer(Quantity::ZeroLoadAdhesionShare, |cell| Some(cell.zero_load_share())),
             layer(Quantity::AdhesionCoefficient, Cell::coefficient),
         ];
-        Plane::new(
+        MapModel::new(
             (kappas(), self.basis.has_hurst().then(hursts)),
             layers.into_iter().flatten().collect(),
             self.cells.iter().map(|cell| cell.as_ref().map(spot)).collect(),

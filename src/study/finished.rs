@@ -1,6 +1,6 @@
 //! The merged results of a study, read back: for plots and views.
 
-use super::SweepError;
+use super::StudyError;
 use super::merge::{REGIME_COLUMNS, RESULTS, SUMMARY};
 use super::plan::Plan;
 use super::quantity::Quantity;
@@ -60,7 +60,7 @@ impl Finished {
     ///
     /// # Errors
     /// Where the folder is none of a study, or its tables have not been published or were changed.
-    pub fn open(path: &Path) -> Result<Finished, SweepError> {
+    pub fn open(path: &Path) -> Result<Finished, StudyError> {
         let plan = Folder::open(path)?.plan().clone();
         let mut cells: Vec<Option<CellSummary>> = vec![None; plan.cells() as usize];
         each_row(&path.join(SUMMARY), &plan, |columns| {
@@ -106,7 +106,7 @@ impl Finished {
     ///
     /// # Errors
     /// As [`Finished::open`].
-    pub fn rows(path: &Path, mut each: impl FnMut(Row)) -> Result<(), SweepError> {
+    pub fn rows(path: &Path, mut each: impl FnMut(Row)) -> Result<(), StudyError> {
         let plan = Folder::open(path)?.plan().clone();
         each_row(&path.join(RESULTS), &plan, |columns| {
             each(row_of(&plan, columns)?);
@@ -116,8 +116,8 @@ impl Finished {
 }
 
 /// Calls `each` with the columns of every row but the first, which is checked to have as many.
-fn each_row(path: &Path, plan: &Plan, mut each: impl FnMut(&[&str]) -> Option<()>) -> Result<(), SweepError> {
-    let wrong = |reason: String| SweepError::Folder { path: path.to_path_buf(), reason };
+fn each_row(path: &Path, plan: &Plan, mut each: impl FnMut(&[&str]) -> Option<()>) -> Result<(), StudyError> {
+    let wrong = |reason: String| StudyError::Folder { path: path.to_path_buf(), reason };
     let file = open_regular(path).map_err(|error| match error {
         ReadError::Failed(error) if error.kind() == io::ErrorKind::NotFound => {
             not_merged(path.parent().unwrap_or(path))
@@ -152,10 +152,10 @@ fn each_row(path: &Path, plan: &Plan, mut each: impl FnMut(&[&str]) -> Option<()
     Ok(())
 }
 
-fn not_merged(folder: &Path) -> SweepError {
+fn not_merged(folder: &Path) -> StudyError {
     let merge = crate::scene::quoted(&folder.display().to_string());
     let reason = format!("the study has not been merged yet; asperity sweep merge {merge} does it");
-    SweepError::Folder { path: folder.to_path_buf(), reason }
+    StudyError::Folder { path: folder.to_path_buf(), reason }
 }
 
 fn value(text: &str) -> Option<Option<f64>> {

@@ -4,7 +4,7 @@
 //! checksum. So whatever ends a process, what it wrote before stays, and a line torn by that is left out. What
 //! ends the machine takes what had not reached the disk as well: the records of a moment, which are computed again.
 
-use super::SweepError;
+use super::StudyError;
 use super::measured::with_hash;
 use super::plan::{Changes, Plan};
 use super::record::{Key, key_of, seal, unseal, values_into};
@@ -94,7 +94,7 @@ impl Folder {
     /// # Errors
     /// Where the folder has another plan, the measured file of the plan has changed or cannot be read, or the
     /// folder cannot be written.
-    pub fn create(path: &Path, plan: &Plan) -> Result<Folder, SweepError> {
+    pub fn create(path: &Path, plan: &Plan) -> Result<Folder, StudyError> {
         Folder::create_on(SystemDisk::shared(), path, plan)
     }
 
@@ -102,10 +102,10 @@ impl Folder {
     ///
     /// # Errors
     /// As [`Folder::create`].
-    pub fn create_on(disk: Arc<dyn Disk>, path: &Path, plan: &Plan) -> Result<Folder, SweepError> {
+    pub fn create_on(disk: Arc<dyn Disk>, path: &Path, plan: &Plan) -> Result<Folder, StudyError> {
         let failed = |path: &Path| {
             let path = path.to_path_buf();
-            move |reason| SweepError::Write(WriteError::Failed { path, reason })
+            move |reason| StudyError::Write(WriteError::Failed { path, reason })
         };
         let plan = with_hash(plan)?;
         make_folders(&*disk, path).map_err(failed(path))?;
@@ -119,7 +119,7 @@ impl Folder {
                 Err(error) => return Err(error.into()),
             }
         }
-        let there = read_file(&file).map_err(|reason| SweepError::Folder { path: file.clone(), reason })?;
+        let there = read_file(&file).map_err(|reason| StudyError::Folder { path: file.clone(), reason })?;
         if there != text {
             return Err(refusal(path, &there, &plan));
         }
@@ -141,7 +141,7 @@ impl Folder {
     ///
     /// # Errors
     /// Where there is none, or its plan cannot be read.
-    pub fn open(path: &Path) -> Result<Folder, SweepError> {
+    pub fn open(path: &Path) -> Result<Folder, StudyError> {
         Folder::open_on(SystemDisk::shared(), path)
     }
 
@@ -149,13 +149,13 @@ impl Folder {
     ///
     /// # Errors
     /// As [`Folder::open`].
-    pub fn open_on(disk: Arc<dyn Disk>, path: &Path) -> Result<Folder, SweepError> {
+    pub fn open_on(disk: Arc<dyn Disk>, path: &Path) -> Result<Folder, StudyError> {
         let file = path.join(PLAN);
         if !file.is_file() {
             let reason = format!("this is not the folder of a study: there is no {PLAN} in it");
-            return Err(SweepError::Folder { path: path.to_path_buf(), reason });
+            return Err(StudyError::Folder { path: path.to_path_buf(), reason });
         }
-        let text = read_file(&file).map_err(|reason| SweepError::Folder { path: file.clone(), reason })?;
+        let text = read_file(&file).map_err(|reason| StudyError::Folder { path: file.clone(), reason })?;
         let plan = Plan::parse(&text, &file.display().to_string(), &Changes::default())?;
         Ok(Folder { path: path.to_path_buf(), plan, disk })
     }
@@ -214,11 +214,11 @@ impl Folder {
     ///
     /// # Errors
     /// Where they cannot be read, or are of another plan, another measured file or another version.
-    pub fn files(&self) -> Result<Vec<ShardFile>, SweepError> {
+    pub fn files(&self) -> Result<Vec<ShardFile>, StudyError> {
         let shards = self.path.join(SHARDS);
         let mut paths = match self.disk.list(&shards) {
             Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(Vec::new()),
-            listed => listed.map_err(|error| SweepError::Folder {
+            listed => listed.map_err(|error| StudyError::Folder {
                 path: shards,
                 reason: format!("cannot be read: {error}"),
             })?,
@@ -227,7 +227,7 @@ impl Folder {
         paths.sort();
         let checksum = self.checksum();
         let file =
-            |path: PathBuf| self.file(&path, &checksum).map_err(|reason| SweepError::Folder { path, reason });
+            |path: PathBuf| self.file(&path, &checksum).map_err(|reason| StudyError::Folder { path, reason });
         paths.into_iter().map(file).collect()
     }
 
@@ -275,17 +275,17 @@ impl Folder {
     pub(super) fn records(
         &self,
         file: &ShardFile,
-        each: &mut dyn FnMut(&Found<'_>) -> Result<(), SweepError>,
-    ) -> Result<u64, SweepError> {
+        each: &mut dyn FnMut(&Found<'_>) -> Result<(), StudyError>,
+    ) -> Result<u64, StudyError> {
         if file.header.is_none() {
             return Ok(0);
         }
-        let failed = |error: io::Error| SweepError::Folder {
+        let failed = |error: io::Error| StudyError::Folder {
             path: file.path.clone(),
             reason: format!("cannot be read: {error}"),
         };
         let opened = open_regular(&file.path)
-            .map_err(|error| SweepError::Folder { path: file.path.clone(), reason: error.to_string() })?;
+            .map_err(|error| StudyError::Folder { path: file.path.clone(), reason: error.to_string() })?;
         // Most of many files are small.
         let size = opened.metadata().map_err(failed)?.len().clamp(1 << 10, 1 << 18) as usize;
         let mut reader = BufReader::with_capacity(size, opened);
@@ -328,7 +328,7 @@ impl Folder {
 
     /// The records that there are, and will be after a power cut: what a killed process has written without
     /// waiting for the disk would be counted on and lost.
-    pub(super) fn done(&self) -> Result<Done, SweepError> {
+    pub(super) fn done(&self) -> Result<Done, StudyError> {
         let mut done = Done::none(self.plan.records_in_all());
         for file in self.files()? {
             self.records(&file, &mut |found| {
@@ -411,7 +411,7 @@ fn in_letters_for_files(name: &str) -> String {
 }
 
 /// Why a folder that has the text `there` for a plan is none of `plan`.
-fn refusal(path: &Path, there: &str, plan: &Plan) -> SweepError {
+fn refusal(path: &Path, there: &str, plan: &Plan) -> StudyError {
     let file = path.join(PLAN);
     // Where nothing but the content of the measured file is another, that is said.
     if let (Ok(of_folder), Some(measured)) =
@@ -420,12 +420,12 @@ fn refusal(path: &Path, there: &str, plan: &Plan) -> SweepError {
     {
         return match (of_folder.measured_sha256, plan.measured_sha256.clone()) {
             (Some(expected), Some(found)) => {
-                SweepError::MeasuredChanged { file: measured, found, plan: path_name(&file), expected }
+                StudyError::MeasuredChanged { file: measured, found, plan: path_name(&file), expected }
             }
-            _ => SweepError::MeasuredUnknown { folder: path.to_path_buf(), file: measured },
+            _ => StudyError::MeasuredUnknown { folder: path.to_path_buf(), file: measured },
         };
     }
-    SweepError::OtherPlan { path: path.to_path_buf(), difference: difference(there, &plan.to_ron()) }
+    StudyError::OtherPlan { path: path.to_path_buf(), difference: difference(there, &plan.to_ron()) }
 }
 
 /// The first lines in which two plans differ.

@@ -1,6 +1,6 @@
 //! How far a study is, and who has worked on it.
 
-use super::SweepError;
+use super::StudyError;
 use super::cells::Cells;
 use super::plan::Plan;
 use super::shard::Shard;
@@ -62,7 +62,7 @@ impl Status {
     ///
     /// # Errors
     /// Where it cannot be read.
-    pub fn of(folder: &Folder) -> Result<Status, SweepError> {
+    pub fn of(folder: &Folder) -> Result<Status, StudyError> {
         let plan = folder.plan();
         let mut damaged = 0;
         let mut done = Done::none(plan.records_in_all());

@@ -1,19 +1,19 @@
 //! A map over κ and H as it is shown: the one that is computed while one looks on, and those of a finished
-//! study, fill the same [`Plane`].
+//! study, fill the same [`MapModel`].
 
 use crate::analysis::{CellRegime, NEGLIGIBLE_COEFFICIENT, Regime};
 use crate::scene::format_quantity;
-use crate::sweep::Quantity;
-use crate::sweep::figure::{AxisScale, Estimate, FigureAxis};
+use crate::study::Quantity;
+use crate::study::figure::{AxisScale, Estimate, FigureAxis};
 
 /// A map as it is shown.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Plane {
+pub struct MapModel {
     across: FigureAxis,
     up: Option<FigureAxis>,
     layers: Vec<Layer>,
     /// Row by row, the lowest H first.
-    cells: Vec<Option<Result<Spot, String>>>,
+    cells: Vec<Option<Result<MapCell, String>>>,
     /// The cell that stands for each: itself, or one of a coarser map.
     stand_ins: Vec<Option<usize>>,
     /// Whether the regime of any cell is known, and whether lines of any are divided.
@@ -37,7 +37,7 @@ pub struct Layer {
 
 /// What a cell says beside its quantities.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Spot {
+pub struct MapCell {
     /// Its regime; `None` where that is not known.
     pub regime: Option<Regime>,
     /// Another regime, where too many of its lines are in that one to call the first the cell's.
@@ -48,12 +48,12 @@ pub struct Spot {
     pub lines: u64,
 }
 
-impl Spot {
+impl MapCell {
     /// A cell of so many lines.
     #[must_use]
     pub fn new(regime: Option<CellRegime>, lines: u64) -> Self {
         let share = regime.map_or(0.0, |cell| cell.share);
-        Spot {
+        MapCell {
             regime: regime.map(|cell| cell.regime),
             split: regime.and_then(|cell| cell.split),
             agreeing: (share * lines as f64).round() as u64,
@@ -70,7 +70,7 @@ pub struct Place<'p> {
     /// Its row.
     pub row: usize,
     /// What it says, or why it says nothing.
-    pub spot: &'p Result<Spot, String>,
+    pub spot: &'p Result<MapCell, String>,
 }
 
 /// What the glyphs of a map tell. Colours tell the regime, where it is known.
@@ -137,16 +137,16 @@ impl Layer {
     }
 }
 
-impl Plane {
+impl MapModel {
     /// A map of its cells, row by row, and of the cell that stands for each.
     pub(super) fn new(
         (across, up): (FigureAxis, Option<FigureAxis>),
         layers: Vec<Layer>,
-        cells: Vec<Option<Result<Spot, String>>>,
+        cells: Vec<Option<Result<MapCell, String>>>,
         stand_ins: Vec<Option<usize>>,
-    ) -> Plane {
+    ) -> MapModel {
         let spots = || cells.iter().flatten().flatten();
-        Plane {
+        MapModel {
             has_regimes: spots().any(|spot| spot.regime.is_some()),
             is_split: spots().any(|spot| spot.split.is_some()),
             labels: [labels(&across), up.as_ref().map(labels).unwrap_or_default()],
@@ -268,7 +268,7 @@ impl Plane {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::phase::{hursts, kappas};
+    use crate::study::map::{hursts, kappas};
 
     #[test]
     fn short_values_are_written_beside_a_map() {

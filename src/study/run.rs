@@ -1,6 +1,6 @@
 //! Computes what is missing of a plan: all cores, the same bits however many there are.
 
-use super::SweepError;
+use super::StudyError;
 use super::cells::{Cells, Unit};
 use super::measure::Measurer;
 use super::measured::profile;
@@ -90,7 +90,7 @@ struct Shared<'a> {
     /// That of the study's measured file, where it has one.
     profile: Option<Arc<MeasuredProfile>>,
     failed: AtomicBool,
-    error: Mutex<Option<SweepError>>,
+    error: Mutex<Option<StudyError>>,
     stop: &'a (dyn Fn() -> bool + Sync),
 }
 
@@ -104,7 +104,7 @@ pub fn run(
     options: Options,
     stop: &(dyn Fn() -> bool + Sync),
     tell: &mut dyn FnMut(&Progress),
-) -> Result<Ended, SweepError> {
+) -> Result<Ended, StudyError> {
     let clock = Instant::now();
     let cells = Cells::of(folder.plan());
     let done = folder.done()?;
@@ -141,7 +141,7 @@ pub fn run(
         // A system that gives fewer threads than asked for has those do all.
         let begun = (0..jobs).filter(|_| begin().is_ok()).count();
         if begun == 0 {
-            shared.fail(SweepError::NoThread);
+            shared.fail(StudyError::NoThread);
         }
         drop(sender);
         shared.write(&path, file, receiver, &mut |written| tell(&progress(written)));
@@ -156,7 +156,7 @@ pub fn run(
 }
 
 impl Shared<'_> {
-    fn fail(&self, error: SweepError) {
+    fn fail(&self, error: StudyError) {
         self.failed.store(true, Ordering::SeqCst);
         self.error.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(error);
     }
@@ -187,7 +187,7 @@ impl Shared<'_> {
         unit: &Unit,
         measurer: &mut Measurer<'_>,
         sender: &SyncSender<String>,
-    ) -> Result<(), SweepError> {
+    ) -> Result<(), StudyError> {
         let plan = self.folder.plan();
         let seed = plan.seed_of(unit.line);
         let mut scene = plan.prototype();
@@ -201,7 +201,7 @@ impl Shared<'_> {
             if self.ends() {
                 return Ok(());
             }
-            let failed = |error: RunError| SweepError::Run {
+            let failed = |error: RunError| StudyError::Run {
                 cell: first,
                 coordinates: plan.coordinates(first),
                 seed,
@@ -239,7 +239,7 @@ impl Shared<'_> {
         let mut told = Instant::now();
         let mut pending = 0;
         let mut text = String::with_capacity(BUFFER);
-        let failed = |reason| SweepError::Write(WriteError::Failed { path: PathBuf::from(path), reason });
+        let failed = |reason| StudyError::Write(WriteError::Failed { path: PathBuf::from(path), reason });
         loop {
             let wait = if pending > 0 { SYNC.saturating_sub(synced.elapsed()) } else { TICK };
             let first = receiver.recv_timeout(wait.min(TICK));

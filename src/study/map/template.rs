@@ -32,11 +32,11 @@ pub enum NoMap {
 /// What a map belongs to. Scenes that differ in κ and H alone, or in how finely their curve is computed, have
 /// the same.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Basis {
+pub struct Template {
     scene: Scene,
 }
 
-impl Basis {
+impl Template {
     /// The basis of a checked scene.
     ///
     /// # Errors
@@ -65,7 +65,7 @@ impl Basis {
         let points = points.min(scene.numerics.points);
         // Edges between springs: a map of few springs is then as good as one of very many.
         scene.numerics = Numerics { points, solver: Solver::Exact, edges: Edges::SubCell, samples: 2 };
-        Ok(Basis { scene })
+        Ok(Template { scene })
     }
 
     /// Springs of each of its lines.
@@ -162,7 +162,7 @@ mod tests {
     #[test]
     fn a_basis_is_that_of_all_kappa_and_hurst() {
         let document = document();
-        let of = |document: &Document| Basis::of(document.scene()).unwrap();
+        let of = |document: &Document| Template::of(document.scene()).unwrap();
         let basis = of(&document);
         assert_eq!((basis.springs(), basis.has_hurst(), basis.lines()), (2048, true, LINES));
         for (path, value) in [
@@ -191,16 +191,16 @@ mod tests {
         let short = of(&document.set_all(&short).unwrap());
         assert_eq!((short.springs(), short.finest()), (1 << 18, Level::Medium));
         assert_eq!(basis.finest(), Level::Whole);
-        assert_eq!(Basis::of(document.set("adhesion", "None").unwrap().scene()), Err(NoMap::NoAdhesion));
-        assert_eq!(Basis::of(open("jkr-sphere").unwrap().scene()), Err(NoMap::Smooth));
+        assert_eq!(Template::of(document.set("adhesion", "None").unwrap().scene()), Err(NoMap::NoAdhesion));
+        assert_eq!(Template::of(open("jkr-sphere").unwrap().scene()), Err(NoMap::Smooth));
     }
 
     #[test]
     fn the_scene_of_a_cell_is_a_sound_one() {
-        let basis = Basis::of(document().scene()).unwrap();
+        let basis = Template::of(document().scene()).unwrap();
         let scene = basis.scene(0.125, 0.95, 3);
         assert_eq!(crate::scene::check(&scene), []);
-        assert_eq!(Basis::place(&scene), Some((0.125, 0.95)));
+        assert_eq!(Template::place(&scene), Some((0.125, 0.95)));
         assert!(matches!(scene.roughness, Some(Roughness::SelfAffine { seed: 4, .. })));
     }
 
@@ -213,17 +213,17 @@ mod tests {
         ]);
         let by_work = by_kappa.set("adhesion", "(work: 0.05)").unwrap();
         for document in [by_kappa, both.unwrap(), by_work] {
-            let moved = Basis::moved(&document, 3.0, 0.4).unwrap();
+            let moved = Template::moved(&document, 3.0, 0.4).unwrap();
             let (before, after) = (document.scene().adhesion.unwrap(), moved.scene().adhesion.unwrap());
             assert_eq!(before.work.is_some(), after.work.is_some());
             assert_eq!(before.kappa.is_some(), after.kappa.is_some());
-            let (kappa, hurst) = Basis::place(moved.scene()).unwrap();
+            let (kappa, hurst) = Template::place(moved.scene()).unwrap();
             assert!((kappa / 3.0 - 1.0).abs() < 1e-12 && hurst == 0.4, "{kappa} {hurst}");
             // What runs agrees.
             let (_, _, governing) =
                 Simulation::default().make_line(moved.scene()).map(|(a, b, c)| (a.first, b, c)).unwrap();
             assert!((governing.kappa.unwrap() / 3.0 - 1.0).abs() < 1e-9, "{governing:?}");
         }
-        assert!(Basis::moved(&document(), f64::NAN, 0.4).is_err());
+        assert!(Template::moved(&document(), f64::NAN, 0.4).is_err());
     }
 }

@@ -3,13 +3,8 @@
 //! Heights of self-affine lines do not average themselves: long waves carry most of them, and there are few of
 //! those however many springs a line has. So one line is one sample, and a mean needs many.
 
-mod heights;
-mod statistics;
-
-pub use heights::HeightShape;
-pub use statistics::Statistics;
-pub(crate) use statistics::{CONFIDENCE, StudentT};
-
+use super::height_shape::HeightShape;
+use super::statistics::Statistics;
 use crate::analysis::Regime;
 use crate::parallel::on_this_thread;
 use crate::scene::{Roughness, Scene};
@@ -41,7 +36,7 @@ pub struct LineResult {
 
 /// Why an ensemble could not be computed.
 #[derive(Clone, Debug, PartialEq, Error)]
-pub enum EnsembleError {
+pub enum LinesError {
     /// There is but one line.
     #[error("several lines go with roughness: SelfAffine, which has seeds; this scene has but one line")]
     OneLine,
@@ -59,15 +54,15 @@ pub enum EnsembleError {
 /// first. `jobs` threads share them; no bit of a result depends on how many.
 ///
 /// # Errors
-/// [`EnsembleError`]; of several lines that fail, the first.
-pub fn run(
+/// [`LinesError`]; of several lines that fail, the first.
+pub fn solve_lines(
     scene: &Scene,
     folder: &Path,
     lines: usize,
     jobs: usize,
-) -> Result<Vec<LineResult>, EnsembleError> {
+) -> Result<Vec<LineResult>, LinesError> {
     let Some(Roughness::SelfAffine { seed: first, .. }) = scene.roughness else {
-        return Err(EnsembleError::OneLine);
+        return Err(LinesError::OneLine);
     };
     let next = AtomicUsize::new(0);
     let done = Mutex::new(Vec::new());
@@ -98,7 +93,7 @@ pub fn run(
     let mut done = done.into_inner().unwrap_or_else(PoisonError::into_inner);
     done.sort_by_key(|&(index, ..)| index);
     done.into_iter()
-        .map(|(_, seed, result)| result.map_err(|error| EnsembleError::Run { seed, error }))
+        .map(|(_, seed, result)| result.map_err(|error| LinesError::Run { seed, error }))
         .collect()
 }
 
@@ -133,7 +128,7 @@ impl LineResult {
 
 /// Statistics over lines; a figure that fewer than two of them have is `None`.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Summary {
+pub struct LinesSummary {
     /// Of the adhesion force, N.
     pub adhesion_force: Option<Statistics>,
     /// Of the indentation at the preload, m.
@@ -163,7 +158,7 @@ pub struct RegimeCounts {
     pub none: usize,
 }
 
-impl Summary {
+impl LinesSummary {
     /// Of what the lines gave.
     #[must_use]
     pub fn of(lines: &[LineResult]) -> Self {
@@ -184,7 +179,7 @@ impl Summary {
                 None => &mut regimes.none,
             } += 1;
         }
-        Summary {
+        LinesSummary {
             adhesion_force: statistics(|line| line.adhesion_force),
             preload_indentation: statistics(|line| line.preload_indentation),
             dissipated_energy: statistics(|line| line.dissipated_energy),
@@ -209,7 +204,7 @@ mod tests {
         if let Some(Roughness::SelfAffine { seed, .. }) = &mut scene.roughness {
             *seed = u64::MAX - 2;
         }
-        let of = |jobs| run(&scene, &document.resolve(""), 7, jobs).unwrap();
+        let of = |jobs| solve_lines(&scene, &document.resolve(""), 7, jobs).unwrap();
         let alone = of(1);
         assert_eq!(
             alone.iter().map(|line| line.seed).take(4).collect::<Vec<_>>(),
@@ -225,7 +220,7 @@ mod tests {
             Simulation::new(document.resolve("")).run(&scene, &|| false, &mut |_, _, _| Ok(())).unwrap();
         assert_eq!(alone[3].adhesion_force, outcome.figures.adhesion_force);
         assert_eq!(alone[3].dissipated_energy, outcome.figures.dissipated_energy);
-        let summary = Summary::of(&alone);
+        let summary = LinesSummary::of(&alone);
         assert_eq!(summary.adhesion_force.unwrap().count, 7);
         let regimes = summary.regimes;
         assert_eq!(
@@ -233,6 +228,6 @@ mod tests {
             7
         );
         let smooth = open("jkr-sphere").unwrap();
-        assert_eq!(run(smooth.scene(), &smooth.resolve(""), 2, 1), Err(EnsembleError::OneLine));
+        assert_eq!(solve_lines(smooth.scene(), &smooth.resolve(""), 2, 1), Err(LinesError::OneLine));
     }
 }

@@ -3,7 +3,7 @@
 //! Numbers without a value are null. Cells, seeds and whole axes are unsigned integers, all else has the bits of
 //! the CSV. The plan stands in the metadata of the file.
 
-use super::SweepError;
+use super::StudyError;
 use super::finished::{Finished, Row};
 use super::merge::{PARQUET, RESULTS};
 use super::plan::Plan;
@@ -31,7 +31,7 @@ const PLAN: &str = "asperity.plan";
 ///
 /// # Errors
 /// Where the study has not been merged, or the file cannot be written.
-pub fn write_parquet(folder: &Folder) -> Result<(), SweepError> {
+pub fn write_parquet(folder: &Folder) -> Result<(), StudyError> {
     let mut unreadable = None;
     // In the folder of the tables it belongs to, which it goes with.
     let place = place_of(folder.path());

@@ -1,6 +1,6 @@
 //! The values of κ and H that a map has, and the order in which it gets them.
 
-use crate::sweep::figure::{AxisScale, FigureAxis};
+use crate::study::figure::{AxisScale, FigureAxis};
 
 /// Values of κ: quarters of octaves from 1/8 to 32.
 pub const KAPPAS: usize = 33;

@@ -1,12 +1,12 @@
 //! The maps of a finished study: one for each preload, and each value of what else it varies beside κ and H.
 
-use super::Basis;
-use super::basis::governing;
-use super::plane::{Layer, Plane, Spot, usual};
+use super::Template;
+use super::model::{Layer, MapCell, MapModel, usual};
+use super::template::governing;
 use crate::scene::{Adhesion, Document, Leg, Roughness, Scene, SceneErrors, quoted, ron_float};
-use crate::sweep::figure::{AxisScale, Estimate};
-use crate::sweep::{
-    Axis, CellSummary, Finished, Plan, Quantity, SweepError, Target, ascending, cell_regime, estimate,
+use crate::study::figure::{AxisScale, Estimate};
+use crate::study::{
+    Axis, CellSummary, Finished, Plan, Quantity, StudyError, Target, ascending, cell_regime, estimate,
     figure_axis, fixed, scale_of,
 };
 use std::path::{Path, PathBuf};
@@ -18,10 +18,10 @@ const HURST: [&str; 1] = ["roughness.hurst"];
 
 /// Why a folder opens as no maps.
 #[derive(Debug, Error)]
-pub enum AtlasError {
+pub enum StudyMapError {
     /// It is not the folder of a merged study.
     #[error(transparent)]
-    Study(#[from] SweepError),
+    Study(#[from] StudyError),
     /// The study does not vary κ and H.
     #[error(
         "{folder}: this study has no map over κ and H: {axes}; allowed: axes kappa and roughness.hurst, each with two \
@@ -41,7 +41,7 @@ pub enum AtlasError {
 
 /// See the module.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Atlas {
+pub struct StudyMap {
     folder: PathBuf,
     study: Finished,
     /// Places among the axes: κ, H, and the others, the preload's last.
@@ -52,20 +52,20 @@ pub struct Atlas {
     quantities: Vec<(Quantity, AxisScale, [f64; 3])>,
 }
 
-impl Atlas {
+impl StudyMap {
     /// Opens the folder of a merged study.
     ///
     /// # Errors
     /// Where it is none, or has no map over κ and H.
-    pub fn open(folder: &Path) -> Result<Atlas, AtlasError> {
-        Atlas::of(Finished::open(folder)?, folder)
+    pub fn open(folder: &Path) -> Result<StudyMap, StudyMapError> {
+        StudyMap::of(Finished::open(folder)?, folder)
     }
 
     /// The maps of a study that was read from a folder.
     ///
     /// # Errors
     /// Where it does not vary κ and H.
-    pub fn of(study: Finished, folder: &Path) -> Result<Atlas, AtlasError> {
+    pub fn of(study: Finished, folder: &Path) -> Result<StudyMap, StudyMapError> {
         let axes: Vec<&Axis> = study.plan().axes.iter().chain(&study.plan().preloads).collect();
         let find = |paths: &[&str]| {
             let is = |path: &str| axes.iter().position(|axis| axis.path() == path && axis.count() > 1);
@@ -79,7 +79,7 @@ impl Atlas {
             let said: Vec<String> = axes.iter().map(said).collect();
             let axes =
                 if said.is_empty() { "it has no axes".into() } else { format!("it has {}", said.join(", ")) };
-            return Err(AtlasError::NoMap { folder: folder.display().to_string(), axes });
+            return Err(StudyMapError::NoMap { folder: folder.display().to_string(), axes });
         };
         let others = (0..axes.len()).filter(|axis| ![kappa, hurst].contains(axis)).collect();
         let told = study.plan().record.iter().copied().filter(|quantity| *quantity != Quantity::Regime);
@@ -93,7 +93,7 @@ impl Atlas {
         let quantities = quantities.collect();
         // Without a separator at its end.
         let folder = folder.components().collect();
-        Ok(Atlas { folder, kappa, hurst, others, quantities, study })
+        Ok(StudyMap { folder, kappa, hurst, others, quantities, study })
     }
 
     /// The folder.
@@ -147,7 +147,7 @@ impl Atlas {
 
     /// One of its maps.
     #[must_use]
-    pub fn plane(&self, slice: u64) -> Plane {
+    pub fn plane(&self, slice: u64) -> MapModel {
         let (plan, axes) = (self.plan(), self.axes());
         let mut places = vec![0; axes.len()];
         for (_, other, place) in self.at(slice) {
@@ -164,7 +164,7 @@ impl Atlas {
             let estimates = found.iter().map(|cell| estimate(&self.study, (*cell)?, quantity)).collect();
             Layer { quantity, scale, steps, estimates }
         };
-        Plane::new(
+        MapModel::new(
             (figure_axis(plan, axes[self.kappa]), Some(figure_axis(plan, axes[self.hurst]))),
             self.quantities.iter().map(layer).collect(),
             found.iter().map(|cell| cell.map(|cell| Ok(spot(cell)))).collect(),
@@ -224,8 +224,8 @@ impl Atlas {
     #[must_use]
     pub fn is_of(&self, slice: u64, scene: &Scene) -> bool {
         let Some(Roughness::SelfAffine { hurst, .. }) = scene.roughness else { return false };
-        let of_map = Basis::of(&self.scene(slice, Some(hurst)));
-        of_map.is_ok() && of_map == Basis::of(scene)
+        let of_map = Template::of(&self.scene(slice, Some(hurst)));
+        of_map.is_ok() && of_map == Template::of(scene)
     }
 
     /// A document with all that makes its scene that of a map, but for κ and H.
@@ -262,8 +262,8 @@ impl Atlas {
 }
 
 /// What a cell of the study says.
-fn spot(cell: &CellSummary) -> Spot {
-    Spot::new(cell_regime(cell), cell.lines)
+fn spot(cell: &CellSummary) -> MapCell {
+    MapCell::new(cell_regime(cell), cell.lines)
 }
 
 /// Scale and steps of a quantity by its values: a quarter of their range for each glyph.
@@ -283,8 +283,8 @@ fn glyphs(estimates: &[Option<Estimate>]) -> (AxisScale, [f64; 3]) {
 mod tests {
     use super::*;
     use crate::analysis::Regime;
-    use crate::phase::Charted;
-    use crate::sweep::{Changes, Folder, SUMMARY};
+    use crate::study::map::Charted;
+    use crate::study::{Changes, Folder, SUMMARY};
 
     /// κ not in the order of its values, two preloads, another axis, five lines.
     const PLAN: &str = r#"(
@@ -328,8 +328,8 @@ mod tests {
         folder
     }
 
-    fn atlas() -> Atlas {
-        Atlas::open(merged(PLAN).path()).unwrap()
+    fn atlas() -> StudyMap {
+        StudyMap::open(merged(PLAN).path()).unwrap()
     }
 
     /// The number of a cell by its places on the axes of the plan.
@@ -366,7 +366,7 @@ mod tests {
                         (Regime::PressureSensitive, None, 4),
                         (Regime::NonAdhesive, Some(Regime::PressureSensitive), 3),
                     ][number as usize % 3];
-                    let spot = Spot { regime: Some(regime), split, agreeing, lines: 5 };
+                    let spot = MapCell { regime: Some(regime), split, agreeing, lines: 5 };
                     assert_eq!((place.column, place.row, place.spot), (column, row as usize, &Ok(spot)));
                 }
             }
@@ -401,7 +401,7 @@ mod tests {
             let columns = "cell,kappa,roughness.modes.1,roughness.hurst,preload,lines".to_owned();
             let more = ",x".repeat(row.matches(',').count() - columns.matches(',').count());
             std::fs::write(folder.path().join(SUMMARY), format!("{columns}{more}\n{row}\n")).unwrap();
-            Atlas::open(folder.path()).unwrap().plane(0)
+            StudyMap::open(folder.path()).unwrap().plane(0)
         };
         assert_eq!(plane("record: [regime]").charted(), [Charted::Regime]);
         let plane = plane("record: [fragments]");
@@ -423,14 +423,14 @@ mod tests {
         assert!((force / (0.5 * 2.0e6 * 1.0e-7 * 1.0e-4) - 1.0).abs() < 1e-12, "{force}");
         for slice in 0..4 {
             assert_eq!(atlas.is_of(slice, scene), slice == 0);
-            let moved = Basis::moved(&document, 3.0, 0.25).unwrap();
+            let moved = Template::moved(&document, 3.0, 0.25).unwrap();
             assert_eq!(atlas.is_of(slice, moved.scene()), slice == 0, "κ and H are the mark's");
             let followed = atlas.follow(slice, &moved).unwrap();
             assert!(atlas.is_of(slice, followed.scene()), "{}", followed.text());
-            assert_eq!(Basis::place(followed.scene()), Some((3.0, 0.25)));
+            assert_eq!(Template::place(followed.scene()), Some((3.0, 0.25)));
         }
         let without = PLAN.replace("preloads: [0.5, 2.0],", "");
-        let unpressed = Atlas::open(merged(&without).path()).unwrap();
+        let unpressed = StudyMap::open(merged(&without).path()).unwrap();
         let legs = unpressed.document().unwrap().scene().loading.clone();
         assert_eq!(legs, unpressed.plan().scene.loading, "that of the plan");
         assert_eq!(unpressed.stands_at(0), ["k_max = 16"]);
@@ -455,8 +455,8 @@ mod tests {
             let plan = PLAN
                 .replace(axis, by)
                 .replace("numerics: (points: 128)", "numerics: (points: 128), adhesion: (kappa: 1.0)");
-            let error = Atlas::open(merged(&plan).path()).unwrap_err();
-            assert!(matches!(error, AtlasError::NoMap { .. }), "{error}");
+            let error = StudyMap::open(merged(&plan).path()).unwrap_err();
+            assert!(matches!(error, StudyMapError::NoMap { .. }), "{error}");
             let told = error.to_string();
             assert!(
                 told.contains(said) && told.contains("allowed: axes kappa and roughness.hurst"),
@@ -466,6 +466,6 @@ mod tests {
         let plan = PLAN
             .replace("\"kappa\"", "\"adhesion.kappa\"")
             .replace("numerics:", "adhesion: (kappa: 1.0), numerics:");
-        assert_eq!(Atlas::open(merged(&plan).path()).unwrap().slices(), 4);
+        assert_eq!(StudyMap::open(merged(&plan).path()).unwrap().slices(), 4);
     }
 }

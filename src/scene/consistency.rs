@@ -9,7 +9,7 @@ use super::write::ron_float;
 /// Most samples of all legs together; a curve of this size still fits the memory of a small machine.
 const MOST_SAMPLES: u64 = 1 << 24;
 
-pub(super) fn check_agreement(scene: &Scene, found: &mut Found) {
+pub(super) fn check_consistency(scene: &Scene, found: &mut Found) {
     check_material(&scene.material, found);
     check_form(scene, found);
     check_modes(scene, found);
@@ -21,11 +21,11 @@ pub(super) fn check_agreement(scene: &Scene, found: &mut Found) {
 fn check_edges(scene: &Scene, found: &mut Found) {
     if matches!(scene.numerics.solver, Solver::Stepwise { .. }) && scene.numerics.edges == Edges::SubCell {
         let reason = "the stepwise solver moves whole springs: edges: Grid";
-        found.add(disagreement("numerics.edges", "SubCell", reason, &["numerics.solver"]));
+        found.add(inconsistency("numerics.edges", "SubCell", reason, &["numerics.solver"]));
     }
 }
 
-fn disagreement(
+fn inconsistency(
     field: &str,
     value: impl Into<String>,
     reason: impl Into<String>,
@@ -59,7 +59,7 @@ fn check_material(material: &Material, found: &mut Found) {
         (None, None, None) => "give youngs_modulus with poisson_ratio, or effective_modulus",
     };
     let involves = &["material.effective_modulus", "material.youngs_modulus", "material.poisson_ratio"];
-    found.add(disagreement("material", "", reason, involves));
+    found.add(inconsistency("material", "", reason, involves));
 }
 
 fn check_form(scene: &Scene, found: &mut Found) {
@@ -84,7 +84,7 @@ fn check_form(scene: &Scene, found: &mut Found) {
             "the body rises too steeply: at the ends of the line it is higher than the {} m an indentation can reach",
             LEG_INDENTATION.range.max().unwrap_or_default()
         );
-        found.add(disagreement(path, ron_float(value), reason, &["form", "form.exponent", "length"]));
+        found.add(inconsistency(path, ron_float(value), reason, &["form", "form.exponent", "length"]));
     }
 }
 
@@ -104,7 +104,7 @@ fn check_punch(scene: &Scene, radius: f64, found: &mut Found) {
             "a punch is not wider than the line: at most length/2 = {}",
             ron_float(scene.length / 2.0)
         );
-        found.add(disagreement("form.radius", ron_float(radius), reason, &["length"]));
+        found.add(inconsistency("form.radius", ron_float(radius), reason, &["length"]));
         return;
     }
     if !found.has("numerics.points") && scene.springs_under_body().is_empty() {
@@ -112,7 +112,7 @@ fn check_punch(scene: &Scene, radius: f64, found: &mut Found) {
             "no spring lies under the punch: the springs are {} m apart; more points or a larger radius",
             ron_float(scene.spacing())
         );
-        found.add(disagreement("form.radius", ron_float(radius), reason, &["length", "numerics.points"]));
+        found.add(inconsistency("form.radius", ron_float(radius), reason, &["length", "numerics.points"]));
     }
 }
 
@@ -136,7 +136,7 @@ fn check_modes(scene: &Scene, found: &mut Found) {
 fn check_amplitude(scene: &Scene, found: &mut Found) {
     let (work, kappa) = match scene.adhesion {
         Some(Adhesion { work: None, kappa: None }) => {
-            found.add(disagreement(
+            found.add(inconsistency(
                 "adhesion",
                 "",
                 "give work or kappa",
@@ -150,14 +150,14 @@ fn check_amplitude(scene: &Scene, found: &mut Found) {
     let amplitude = match scene.roughness {
         None if kappa => {
             let reason = "κ measures adhesion against roughness, and there is none: give roughness, or adhesion by work";
-            found.add(disagreement("adhesion.kappa", "", reason, &["roughness", "adhesion"]));
+            found.add(inconsistency("adhesion.kappa", "", reason, &["roughness", "adhesion"]));
             return;
         }
         None => return,
         Some(Roughness::Measured { .. }) => true,
         Some(Roughness::SelfAffine { rms_height: Some(_), rms_gradient: Some(_), .. }) => {
             let reason = "rms_height and rms_gradient determine each other: give one of them";
-            found.add(disagreement(
+            found.add(inconsistency(
                 "roughness",
                 "",
                 reason,
@@ -174,18 +174,18 @@ fn check_amplitude(scene: &Scene, found: &mut Found) {
     match (amplitude, work, kappa) {
         (true, Some(_), true) => {
             let reason = "roughness amplitude, work and kappa: two determine the third, so leave one out or set it to None";
-            found.add(disagreement("adhesion", "", reason, involves));
+            found.add(inconsistency("adhesion", "", reason, involves));
         }
         (false, Some(0.0), true) => {
             let reason =
                 "without work of adhesion κ does not set an amplitude: give rms_height or rms_gradient";
-            found.add(disagreement("roughness", "", reason, involves));
+            found.add(inconsistency("roughness", "", reason, involves));
         }
         (false, Some(_), true) | (true, ..) => {}
         (false, ..) => {
             let reason =
                 "the amplitude is missing: give rms_height or rms_gradient, or adhesion by work and kappa";
-            found.add(disagreement("roughness", "", reason, involves));
+            found.add(inconsistency("roughness", "", reason, involves));
         }
     }
 }
@@ -201,7 +201,7 @@ fn check_loading(scene: &Scene, found: &mut Found) {
         if let (true, Some(value)) = (separated, pulls) {
             let reason =
                 "from separation nothing can pull: press first, with ToTouch, ToForce or ToIndentation";
-            found.add(disagreement(&format!("loading.{index}"), value, reason, &["loading"]));
+            found.add(inconsistency(&format!("loading.{index}"), value, reason, &["loading"]));
         }
         separated = *leg == Leg::ToSeparation;
     }
@@ -220,7 +220,7 @@ fn check_loading(scene: &Scene, found: &mut Found) {
 #[cfg(test)]
 mod tests {
     use super::super::check::check;
-    use super::super::samples::sound;
+    use super::super::strategies::sound;
     use super::*;
 
     fn only(scene: &Scene) -> (String, String) {

@@ -8,7 +8,7 @@
 //! cells share is made once: a line and its tree serve every κ, γ and load.
 //!
 //! ```
-//! use asperity::sweep::{Changes, Finished, Folder, Options, Plan, Quantity, Shard, merge, run};
+//! use asperity::study::{Changes, Finished, Folder, Options, Plan, Quantity, Shard, merge, run};
 //!
 //! let text = r#"(
 //!     version: 1,
@@ -37,6 +37,9 @@ mod cells;
 mod error;
 pub mod figure;
 mod finished;
+mod height_shape;
+mod lines;
+pub mod map;
 mod measure;
 mod measured;
 mod merge;
@@ -51,6 +54,7 @@ mod sbatch;
 mod select;
 mod shard;
 pub mod slurm;
+mod statistics;
 mod status;
 mod store;
 mod target;
@@ -58,8 +62,10 @@ mod target;
 pub use axis::{Axis, MOST_VALUES};
 pub use boundary::{Boundaries, Boundary, Crossing, DEFINITIONS, USUAL_LEVELS, boundaries};
 pub use builtin::{BuiltInPlan, find, plans};
-pub use error::SweepError;
+pub use error::StudyError;
 pub use finished::{CellSummary, Finished, Row, Spread};
+pub use height_shape::HeightShape;
+pub use lines::{LineResult, LinesError, LinesSummary, RegimeCounts, solve_lines};
 pub use merge::{Merged, PARQUET, RESULTS, RESULTS_VERSION, SIDECAR, SUMMARY, merge};
 #[cfg(feature = "parquet")]
 pub use parquet::write_parquet;
@@ -72,6 +78,7 @@ pub use run::{Ended, Options, Progress, run};
 pub use select::{FigureError, Selection};
 pub(crate) use select::{ascending, cell_regime, estimate, figure_axis, fixed, scale_of};
 pub use shard::Shard;
+pub use statistics::Statistics;
 pub use status::{Attempt, ShardStatus, Status};
 pub use store::{Folder, Header, STORE_VERSION, ShardFile};
 pub(crate) use target::Target;

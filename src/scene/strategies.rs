@@ -1,4 +1,4 @@
-//! Random scenes as text, drawn from the table of fields: a field that is added there is drawn as well.
+//! Scenes for tests: a sound one, and strategies for random ones, which draw every field of the table of fields.
 //!
 //! The tests of this room use the file as a module; the integration tests include it.
 
@@ -77,7 +77,7 @@ impl Drawn {
             Range::Band { min, max } => (whole(min, max), whole(min, max))
                 .prop_map(|(one, other)| format!("({}, {})", one.min(other), one.max(other)))
                 .boxed(),
-            Range::Text { most, lines } => text(most.min(MOST_CHARACTERS), lines),
+            Range::Text { most, lines, .. } => text(most.min(MOST_CHARACTERS), lines),
             Range::Choice(of) => {
                 let choice = |template: &&'static str| self.choice(field, template);
                 proptest::strategy::Union::new(of.iter().map(choice)).boxed()
@@ -235,7 +235,22 @@ fn usual(field: &Field) -> Option<f64> {
     })
 }
 
-/// Scenes that [`check`](super::check()) has nothing to say against.
+/// Scenes without a violation.
 pub fn sound_scenes() -> impl Strategy<Value = Scene> {
     Drawn::default().documents().prop_map(|document| document.scene().clone())
+}
+
+/// A rough scene with adhesion that violates nothing.
+pub fn sound() -> Scene {
+    const TEXT: &str = r#"(
+        version: 1,
+        title: "A line",
+        material: (youngs_modulus: 2.0e6, poisson_ratio: 0.5),
+        length: 1.0e-4,
+        roughness: SelfAffine(hurst: 0.7, rms_height: 1.0e-7, modes: (1, 512), seed: 1),
+        adhesion: (work: 0.05),
+        loading: [ToForce(1.0e-5), ToSeparation],
+        numerics: (points: 4096, edges: Grid),
+    )"#;
+    Document::parse(TEXT, "sound").unwrap_or_else(|errors| panic!("{errors}")).scene().clone()
 }

@@ -14,7 +14,7 @@
 //! On systems without such links the files of an earlier merge go before new ones come: there, a crash may leave
 //! fewer files, never new ones beside old.
 
-use super::SweepError;
+use super::StudyError;
 use crate::disk::{Disk, make_folders};
 use crate::io::WriteError;
 use crate::io::without_waiting;
@@ -37,8 +37,8 @@ pub(super) fn publish(
     disk: &dyn Disk,
     study: &Path,
     names: &[&str],
-    write: &mut dyn FnMut(&Path) -> Result<(), SweepError>,
-) -> Result<(), SweepError> {
+    write: &mut dyn FnMut(&Path) -> Result<(), StudyError>,
+) -> Result<(), StudyError> {
     let _lock = lock(study);
     let publication = Publication { disk, study, names };
     let place = publication.new_place().map_err(|reason| failed(study, reason))?;
@@ -53,7 +53,7 @@ pub(super) fn publish(
 
 /// Makes a file of a published folder known in the study by its own name.
 #[cfg(feature = "parquet")]
-pub(super) fn show(disk: &dyn Disk, study: &Path, name: &str) -> Result<(), SweepError> {
+pub(super) fn show(disk: &dyn Disk, study: &Path, name: &str) -> Result<(), StudyError> {
     if !is_link(&study.join(TABLES)) {
         return Ok(());
     }
@@ -69,7 +69,7 @@ pub(super) fn place_of(study: &Path) -> PathBuf {
     if is_link(&tables) { tables } else { study.to_path_buf() }
 }
 
-fn failed(path: &Path, reason: io::Error) -> SweepError {
+fn failed(path: &Path, reason: io::Error) -> StudyError {
     WriteError::Failed { path: path.to_path_buf(), reason }.into()
 }
 

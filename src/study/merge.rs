@@ -1,14 +1,14 @@
 //! All records of a study as tables: each once, sorted, and what the lines of a cell have in common.
 
-use super::SweepError;
+use super::StudyError;
 use super::plan::{MOST_RECORDS, Plan};
 use super::publish::publish;
 use super::quantity::Quantity;
 use super::record::{Key, key_of, values_into};
+use super::statistics::{CONFIDENCE, Statistics, StudentT};
 use super::store::{Folder, Lines, ShardFile};
 use super::target::symbol_and_unit;
 use crate::analysis::Regime;
-use crate::ensemble::{Statistics, StudentT};
 use crate::io::{WriteError, write_json_value, write_new_on};
 use serde::Serialize;
 use std::collections::BTreeSet;
@@ -65,15 +65,15 @@ struct Index {
 /// of what there is. [`PARQUET`] of an earlier merge goes.
 ///
 /// # Errors
-/// [`SweepError::Missing`] where records are missing and `partial` is not set; [`SweepError::Disagree`] where
+/// [`StudyError::Missing`] where records are missing and `partial` is not set; [`StudyError::Disagree`] where
 /// two records of one cell and line differ.
-pub fn merge(folder: &Folder, partial: bool) -> Result<Merged, SweepError> {
+pub fn merge(folder: &Folder, partial: bool) -> Result<Merged, StudyError> {
     let index = Index::of(folder)?;
     if index.merged.records < index.merged.total && !partial {
         let plan = folder.plan();
         let cells = index.merged.first_missing.iter();
         let named = cells.map(|&cell| format!("cell {cell} ({})", plan.coordinates(cell))).collect();
-        return Err(SweepError::Missing {
+        return Err(StudyError::Missing {
             records: index.merged.total - index.merged.records,
             total: index.merged.total,
             cells: index.merged.missing_cells,
@@ -85,12 +85,12 @@ pub fn merge(folder: &Folder, partial: bool) -> Result<Merged, SweepError> {
 }
 
 impl Index {
-    fn of(folder: &Folder) -> Result<Index, SweepError> {
+    fn of(folder: &Folder) -> Result<Index, StudyError> {
         let plan = folder.plan();
         let total = plan.records_in_all();
         debug_assert!(total <= MOST_RECORDS);
         let mut places = Vec::new();
-        places.try_reserve_exact(total as usize).map_err(|_| SweepError::OutOfMemory { records: total })?;
+        places.try_reserve_exact(total as usize).map_err(|_| StudyError::OutOfMemory { records: total })?;
         places.resize(total as usize, NOWHERE);
         let files = folder.files()?;
         let (mut records, mut duplicates, mut damaged, mut holding) = (0, 0, 0, 0);
@@ -113,7 +113,7 @@ impl Index {
                 if same(others.values(*place)?, found.values) {
                     return Ok(());
                 }
-                Err(SweepError::Disagree {
+                Err(StudyError::Disagree {
                     key: found.key,
                     coordinates: plan.coordinates(found.key.cell),
                     one: files[file_of(*place)].path.clone(),
@@ -148,7 +148,7 @@ impl Index {
         Ok(Index { files, places, merged })
     }
 
-    fn publish(&self, folder: &Folder) -> Result<(), SweepError> {
+    fn publish(&self, folder: &Folder) -> Result<(), StudyError> {
         // A study that has a summary counts as merged: where files are published one by one, that is the last.
         publish(folder.disk(), folder.path(), &[RESULTS, SIDECAR, SUMMARY], &mut |place| {
             let [results, summary] = [RESULTS, SUMMARY].map(|name| place.join(name));
@@ -245,12 +245,12 @@ fn cells_at_once(lines: usize, columns: usize) -> usize {
 
 /// Why tables were not written.
 enum TableError {
-    Reading(SweepError),
+    Reading(StudyError),
     Writing(io::Error),
 }
 
-impl From<SweepError> for TableError {
-    fn from(error: SweepError) -> TableError {
+impl From<StudyError> for TableError {
+    fn from(error: StudyError) -> TableError {
         TableError::Reading(error)
     }
 }
@@ -275,10 +275,10 @@ impl<'f> OneOpen<'f> {
     }
 
     /// The values of the record at a place.
-    fn values(&mut self, place: u64) -> Result<&[f64], SweepError> {
+    fn values(&mut self, place: u64) -> Result<&[f64], StudyError> {
         let number = file_of(place);
         let file = &self.files[number];
-        let unreadable = |error: io::Error| SweepError::Folder {
+        let unreadable = |error: io::Error| StudyError::Folder {
             path: file.path.clone(),
             reason: format!("cannot be read: {error}"),
         };
@@ -315,13 +315,13 @@ fn offset_of(place: u64) -> u64 {
     place & (u64::MAX >> FILE_BITS)
 }
 
-fn too_large(path: &Path) -> SweepError {
+fn too_large(path: &Path) -> StudyError {
     let reason = format!(
         "more than can be merged; allowed: {} shard files of at most {} bytes each",
         (1_u64 << FILE_BITS) - 1,
         1_u64 << (u64::BITS - FILE_BITS)
     );
-    SweepError::Folder { path: path.to_path_buf(), reason }
+    StudyError::Folder { path: path.to_path_buf(), reason }
 }
 
 fn same(one: &[f64], other: &[f64]) -> bool {
@@ -485,7 +485,7 @@ impl<'a> Sidecar<'a> {
             cells: plan.cells(),
             lines: plan.lines,
             first_seed: plan.seed,
-            confidence: crate::ensemble::CONFIDENCE,
+            confidence: CONFIDENCE,
             merged,
         }
     }

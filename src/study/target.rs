@@ -1,0 +1,220 @@
+//! Quantities that an axis may vary: the numbers of a scene by their paths, and others that are derived from several.
+
+use crate::scene::{Adhesion, FIELDS, Field, Leg, Range, Scene, Value, field, nearest};
+
+/// Quantities that are no fields of a scene.
+pub const DERIVED: &[&str] = &["kappa", "preload", "springs_per_wave"];
+
+/// Numbers that no axis varies: the version is no parameter, and seeds are counted from the plan's.
+const FIXED: &[&str] = &["version", "roughness.seed"];
+
+/// A quantity that an axis varies.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Target {
+    /// A number, or an end of a pair; fields of several variants may share its path.
+    Field(&'static Field, Part),
+    /// The force, N, or indentation, m, of a loading stage.
+    Leg(usize),
+    /// κ of eq. (11), by the work of adhesion; replaces the work of the scene.
+    Kappa,
+    /// Preload F_n in units of E* h L.
+    Preload,
+    /// Springs for each of the shortest waves: the last mode is points over this number.
+    SpringsPerWave,
+}
+
+/// Part of a field's value.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Part {
+    /// The number itself.
+    All,
+    /// First number of a pair.
+    First,
+    /// Last number of a pair.
+    Last,
+}
+
+impl Part {
+    /// End of the path after that of the field.
+    fn suffix(self) -> &'static str {
+        match self {
+            Part::All => "",
+            Part::First => ".0",
+            Part::Last => ".1",
+        }
+    }
+}
+
+/// Every number of a scene that an axis may vary, with its path.
+fn numbers() -> impl Iterator<Item = (String, &'static Field, Part)> {
+    let parts = |field: &'static Field| match field.range {
+        _ if FIXED.contains(&field.path) => &[][..],
+        Range::Real { .. } | Range::Whole { .. } => &[Part::All],
+        Range::Band { .. } => &[Part::First, Part::Last],
+        _ => &[],
+    };
+    let all = FIELDS.iter().flat_map(move |field| parts(field).iter().map(move |part| (field, *part)));
+    all.map(|(field, part)| (format!("{}{}", field.path, part.suffix()), field, part))
+}
+
+/// No number of a scene has this path.
+pub struct TargetError {
+    /// The nearest path that a number has.
+    pub near: Option<String>,
+}
+
+/// Part of a computation that a changed number repeats; later ones need least.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Shapes {
+    /// The heights of the roughness, by a transform.
+    Roughness,
+    /// The profile, from known heights.
+    Line,
+    /// Nothing but the passes over the tree.
+    Passes,
+}
+
+impl Target {
+    /// The quantity at a path.
+    pub fn of(path: &str) -> Result<Target, TargetError> {
+        match path {
+            "kappa" => return Ok(Target::Kappa),
+            "preload" => return Ok(Target::Preload),
+            "springs_per_wave" => return Ok(Target::SpringsPerWave),
+            _ => {}
+        }
+        let number = numbers().find(|(number, ..)| number == path);
+        let leg = || path.strip_prefix("loading.")?.strip_suffix(".0")?.parse().ok().map(Target::Leg);
+        number.map(|(_, field, part)| Target::Field(field, part)).or_else(leg).ok_or_else(|| {
+            let names: Vec<String> =
+                numbers().map(|(path, ..)| path).chain(DERIVED.iter().map(ToString::to_string)).collect();
+            TargetError { near: nearest(path, names.iter().map(String::as_str)).map(str::to_string) }
+        })
+    }
+
+    /// The quantity is a whole number.
+    pub fn is_whole(self) -> bool {
+        matches!(self, Target::Field(field, _) if !matches!(field.range, Range::Real { .. }))
+    }
+
+    /// Part of the computation that is repeated where the quantity changes.
+    pub fn shapes(self) -> Shapes {
+        let field = match self {
+            Target::SpringsPerWave => return Shapes::Roughness,
+            Target::Leg(_) | Target::Kappa | Target::Preload => return Shapes::Passes,
+            Target::Field(field, _) => field,
+        };
+        match (field.parent(), field.path) {
+            // Heights are scaled to their amplitude.
+            ("form", _) | (_, "length" | "roughness.rms_height" | "roughness.rms_gradient") => Shapes::Line,
+            ("roughness", _) | (_, "numerics.points") => Shapes::Roughness,
+            _ => Shapes::Passes,
+        }
+    }
+
+    /// Gives the quantity a value in a scene; the preload, which is no part of a scene, is left to the run.
+    ///
+    /// # Errors
+    /// The scene has no such number.
+    pub fn set(self, scene: &mut Scene, value: f64) -> Result<(), String> {
+        match self {
+            Target::Preload => {}
+            Target::Kappa => scene.adhesion = Some(Adhesion { work: None, kappa: Some(value) }),
+            Target::SpringsPerWave => {
+                let last = (scene.numerics.points as f64 / value).round();
+                set(scene, "roughness.modes", Part::Last, last)?;
+            }
+            Target::Leg(index) => match scene.loading.get_mut(index) {
+                Some(Leg::ToForce(to) | Leg::ToIndentation(to)) => *to = value,
+                Some(_) => return Err(format!("leg {index} of the scene has no number")),
+                None => return Err(format!("the scene has {} legs, the first is 0", scene.loading.len())),
+            },
+            Target::Field(field, part) => set(scene, field.path, part, value)?,
+        }
+        Ok(())
+    }
+}
+
+/// Sets the number at a path in the variant that the scene has.
+fn set(scene: &mut Scene, path: &str, part: Part, number: f64) -> Result<(), String> {
+    let whole = number as u64;
+    let done = FIELDS.iter().filter(|field| field.path == path).any(|field| {
+        let value = match (part, field.get(scene), field.range) {
+            (Part::First, Some(Value::Band(_, last)), _) => Value::Band(whole, last),
+            (Part::Last, Some(Value::Band(first, _)), _) => Value::Band(first, whole),
+            (.., Range::Whole { .. }) => Value::Whole(whole),
+            _ => Value::Real(number),
+        };
+        field.set(scene, value)
+    });
+    if done { Ok(()) } else { Err(format!("the scene has no {path}")) }
+}
+
+/// Symbol and SI unit of the quantity at a path; `1` for numbers without a unit, empty where there is no symbol.
+#[must_use]
+pub fn symbol_and_unit(path: &str) -> (&'static str, &'static str) {
+    match Target::of(path) {
+        Ok(Target::Kappa) => ("κ", "1"),
+        Ok(Target::Preload) => ("F_n/(E* h L)", "1"),
+        Ok(Target::SpringsPerWave) => ("", "1"),
+        Ok(Target::Field(_, Part::First)) => ("k_min", "1"),
+        Ok(Target::Field(_, Part::Last)) => ("k_max", "1"),
+        _ => field(path, None).map_or(("", "1"), |field| (field.symbol, field.unit)),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::open;
+
+    #[test]
+    fn numbers_are_set_as_by_overrides() {
+        let rough = open("rough-sphere").unwrap();
+        for (base, path, value, overrides) in [
+            ("rough-sphere", "roughness.hurst", 0.55, vec![("roughness.hurst", "0.55")]),
+            ("rough-sphere", "roughness.modes.1", 64.0, vec![("roughness.modes.1", "64")]),
+            ("rough-sphere", "numerics.points", 8192.0, vec![("numerics.points", "8192")]),
+            ("rough-sphere", "length", 1.5e-4, vec![("length", "1.5e-4")]),
+            ("rough-sphere", "form.radius", 2.5e-3, vec![("form.radius", "2.5e-3")]),
+            ("rough-sphere", "loading.0.0", 2.5e-5, vec![("loading.0.0", "2.5e-5")]),
+            ("rough-sphere", "kappa", 1.5, vec![("adhesion", "(kappa: 1.5)")]),
+            ("rough-sphere", "adhesion.work", 0.015, vec![("adhesion.work", "0.015")]),
+            ("kendall-punch", "form.radius", 2.5e-5, vec![("form.radius", "2.5e-5")]),
+        ] {
+            let document = open(base).unwrap();
+            let overrides: Vec<_> =
+                overrides.iter().map(|(path, value)| (path.to_string(), value.to_string())).collect();
+            let expected = document.set_all(&overrides).unwrap();
+            let mut scene = document.scene().clone();
+            Target::of(path).ok().unwrap().set(&mut scene, value).unwrap();
+            assert_eq!(&scene, expected.scene(), "{path}");
+        }
+        let mut scene = rough.scene().clone();
+        Target::SpringsPerWave.set(&mut scene, 8.0).unwrap();
+        let points = scene.numerics.points;
+        let modes = field("roughness.modes", None).unwrap().get(&scene).unwrap();
+        assert!(matches!(modes, Value::Band(_, last) if last == points / 8), "{modes:?}");
+    }
+
+    #[test]
+    fn every_number_of_the_table_can_be_varied() {
+        use crate::scene::{FIELDS, Range};
+        for field in FIELDS {
+            let number = matches!(field.range, Range::Real { .. } | Range::Whole { .. });
+            // The version is no parameter, and seeds are counted from the plan's.
+            let meant = number && !["version", "roughness.seed"].contains(&field.path);
+            assert_eq!(Target::of(field.path).is_ok(), meant, "{}", field.path);
+        }
+    }
+
+    #[test]
+    fn what_a_scene_does_not_have_is_told() {
+        let mut scene = open("jkr-sphere").unwrap().scene().clone();
+        for path in
+            ["roughness.hurst", "form.angle", "loading.7.0", "numerics.solver.step", "springs_per_wave"]
+        {
+            assert!(Target::of(path).ok().unwrap().set(&mut scene, 1.0).is_err(), "{path}");
+        }
+    }
+}
