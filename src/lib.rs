@@ -51,6 +51,7 @@
 //! | from | by | to |
 //! | --- | --- | --- |
 //! | a file | [`scene::open`] | [`scene::Scene`], checked |
+//! | measured files | [`topography::read`] and [`spectrum::analyse`] | equivalent line, its moments |
 //! | form and roughness | [`surface`] | [`surface::Line`], gaps c at a distance Δx |
 //! | gaps | [`contact::ContactTree::build`] | merge tree of the local maxima of the gap |
 //! | tree, E\*, γ, loading | [`contact::exact`] or [`contact::stepwise`] | [`contact::History`], legs and curves |

@@ -5,9 +5,11 @@ use crate::explorer::OpeningError;
 use crate::io::WriteError;
 use crate::scene::{SceneErrors, quoted};
 use crate::simulation::RunError;
+use crate::spectrum::SpectrumError;
 use crate::study::LinesError;
 use crate::study::slurm::SlurmError;
 use crate::study::{FigureError, StudyError};
+use crate::topography::TopographyError;
 use std::io;
 use thiserror::Error;
 
@@ -28,6 +30,22 @@ pub enum CliError {
     /// Scenes that were checked are wrong.
     #[error("{}", .0.join("\n"))]
     Checked(Vec<String>),
+    /// A measured surface cannot be read.
+    #[error("{file}: {error}")]
+    Surface {
+        /// Its file.
+        file: String,
+        /// Why not.
+        error: TopographyError,
+    },
+    /// Measured surfaces cannot be analysed.
+    #[error("{file}: {error}")]
+    Spectrum {
+        /// File of the first surface, or of the one that is refused.
+        file: String,
+        /// Why not.
+        error: SpectrumError,
+    },
     /// There is no built-in scene of this name.
     #[error("{name}: there is no such built-in scene; allowed: {allowed}")]
     NoPreset {

@@ -9,6 +9,7 @@ mod ensemble;
 mod json;
 pub(crate) mod sheet;
 mod summary;
+mod surface;
 #[cfg(feature = "tui")]
 mod sweep_figure;
 mod verdict;
@@ -20,6 +21,7 @@ pub use csv::{write_curve, write_line};
 pub use ensemble::{ensemble_text, write_ensemble_csv, write_ensemble_json};
 pub use json::write_json;
 pub use summary::{brief_summary, summary};
+pub use surface::{SurfaceFile, surface_text, write_surface_csv, write_surface_json};
 #[cfg(feature = "tui")]
 pub use sweep_figure::{Colours, figure_svg, figure_text};
 pub use work_precision::work_precision_svg;

@@ -4,9 +4,9 @@ use super::fit::Model;
 use super::isotropic::Estimate;
 use super::linear::Cholesky;
 
-/// Least gain of the likelihood at which a roll-off counts as found: for one more parameter, chance exceeds this once in
-/// ten thousand times.
-const LEAST_GAIN: f64 = 7.6;
+/// Least gain of the log-likelihood at which a roll-off counts as found: for one more parameter, chance exceeds this once
+/// in a hundred times.
+const LEAST_GAIN: f64 = 3.3;
 
 /// First wave numbers of the roll-off, for each decade.
 const STARTS_PER_DECADE: f64 = 4.0;
