@@ -4,9 +4,6 @@
 //! `STORM_TIMES=100 cargo test --test storm` draws a hundred times as many; `PROPTEST_RNG_SEED=7` draws others.
 
 // What is not used of either serves other tests.
-#[allow(dead_code)]
-#[path = "../src/scene/grammar.rs"]
-mod grammar;
 #[path = "storm/plans.rs"]
 mod plans;
 #[path = "storm/profiles.rs"]
@@ -16,16 +13,19 @@ mod profiles;
 mod properties;
 #[path = "storm/runs.rs"]
 mod runs;
+#[allow(dead_code)]
+#[path = "../src/scene/strategies.rs"]
+mod strategies;
 #[path = "storm/texts.rs"]
 mod texts;
 
-// For the grammar, which names them as the room of the scene does.
+// For the strategies, which name them as the room of the scene does.
 use asperity::scene::{
     DEFAULT, Document, End, FIELDS, Field, LEG_FORCE, LEG_INDENTATION, Range, Scene, find, is_control,
     ron_float, ron_string,
 };
-use grammar::Drawn;
 use proptest::prelude::*;
+use strategies::Drawn;
 
 /// Most springs of a line that is computed.
 const MOST_POINTS: u64 = 2000;

@@ -1,57 +1,41 @@
-//! What a scene may not say: every field against its range, then the fields against each other.
+//! Values that a scene may not have: every field against its range, then the fields against each other.
 //!
-//! Nothing here allocates in proportion to what a scene asks for, so a scene that asks for too much
-//! is refused before anything is built.
+//! Nothing here allocates in proportion to what a scene asks for, so a scene that asks for too much is refused before
+//! anything is built.
 
-use super::agree::check_agreement;
-use super::fields::{LEG_FORCE, LEG_INDENTATION, field};
-use super::model::{Adhesion, Form, Leg, Material, Roughness, Scene, Solver};
+use super::consistency::check_consistency;
+use super::field::Field;
+use super::fields::FIELDS;
+use super::model::{Leg, Scene};
 use super::range::Range;
-use super::write::{ron_float, ron_string};
+use super::text::{is_within, ron_float, ron_string};
+use super::value::Value;
 use crate::text::is_control;
 
-/// Something a scene says that is not allowed.
+/// A value or combination of values that is not allowed.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Violation {
-    /// Path of the field; a leg is `loading.0`.
+    /// Path of the field; a loading stage is `loading.0`.
     pub field: String,
     /// Its value as it would be written; empty where nothing is written.
     pub value: String,
-    /// What is allowed there; empty where `reason` says it all.
+    /// Allowed values; empty where `reason` says it all.
     pub allowed: String,
-    /// Why, or the field's name.
+    /// The reason, or the field's name.
     pub reason: String,
     /// Other fields that take part, by path: changing one of them may mend it as well.
     pub involves: &'static [&'static str],
 }
 
-/// All that is not allowed in a scene, in the order of its fields; empty for a scene that can be
-/// computed.
+/// Everything that is not allowed in a scene, in the order of its fields; empty for a scene that can be computed.
 pub fn check(scene: &Scene) -> Vec<Violation> {
     let mut found = Found::default();
-    found.whole("version", None, u64::from(scene.version));
-    found.text("title", None, &scene.title);
-    found.text("notice", None, &scene.notice);
-    check_material(&scene.material, &mut found);
-    found.number("length", None, scene.length);
-    if let Some(form) = &scene.form {
-        check_form(form, &mut found);
+    for field in FIELDS {
+        if let Some(value) = field.get(scene) {
+            found.check(field, value);
+        }
     }
-    if let Some(roughness) = &scene.roughness {
-        check_roughness(roughness, &mut found);
-    }
-    if let Some(Adhesion { work, kappa }) = scene.adhesion {
-        found.optional("adhesion.work", None, work);
-        found.optional("adhesion.kappa", None, kappa);
-    }
-    check_loading(&scene.loading, &mut found);
-    found.whole("numerics.points", None, scene.numerics.points);
-    if let Solver::Stepwise { step } = scene.numerics.solver {
-        found.number("numerics.solver.step", Some("Stepwise"), step);
-    }
-    found.whole("numerics.samples", None, scene.numerics.samples);
-    found.count("observe", scene.observe.len());
-    check_agreement(scene, &mut found);
+    check_consistency(scene, &mut found);
     found.violations
 }
 
@@ -62,137 +46,92 @@ pub(super) struct Found {
 }
 
 impl Found {
-    /// Adds a violation that the fields' own ranges do not tell.
+    /// Adds a violation that no range of a field expresses.
     pub(super) fn add(&mut self, violation: Violation) {
         self.violations.push(violation);
     }
 
-    /// Whether a field, or anything inside it, has been found wrong already.
+    /// A violation of this field, or of anything inside it, is among those found.
     pub(super) fn has(&self, path: &str) -> bool {
-        self.violations.iter().any(|violation| {
-            violation.field.strip_prefix(path).is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
-        })
+        self.violations.iter().any(|violation| is_within(&violation.field, path))
     }
 
-    fn outside(&mut self, path: &str, variant: Option<&str>, value: String) {
-        let (allowed, reason) = field(path, variant)
-            .map_or_else(Default::default, |field| (field.allowed(), field.name.to_string()));
-        self.add(Violation { field: path.to_string(), value, allowed, reason, involves: &[] });
-    }
-
-    fn number(&mut self, path: &str, variant: Option<&str>, value: f64) {
-        if !field(path, variant).is_some_and(|field| field.range.contains(value)) {
-            self.outside(path, variant, ron_float(value));
+    fn check(&mut self, field: &Field, value: Value<'_>) {
+        let range = &field.range;
+        match value {
+            Value::Real(value) if !range.contains(value) => self.outside(field, ron_float(value)),
+            Value::Whole(value) if !range.contains_whole(value) => self.outside(field, value.to_string()),
+            Value::Band(first, last)
+                if first > last || !range.contains_whole(first) || !range.contains_whole(last) =>
+            {
+                self.outside(field, format!("({first}, {last})"));
+            }
+            Value::Text(text) => self.check_text(field, text),
+            Value::Observers(observers) => self.check_count(field, observers.len()),
+            Value::Legs(legs) => {
+                self.check_count(field, legs.len());
+                self.check_targets(legs);
+            }
+            _ => {}
         }
     }
 
-    fn optional(&mut self, path: &str, variant: Option<&str>, value: Option<f64>) {
-        if let Some(value) = value {
-            self.number(path, variant, value);
-        }
+    fn outside(&mut self, field: &Field, value: String) {
+        let (path, allowed, reason) = (field.path.to_string(), field.allowed(), field.name.to_string());
+        self.add(Violation { field: path, value, allowed, reason, involves: &[] });
     }
 
-    fn whole(&mut self, path: &str, variant: Option<&str>, value: u64) {
-        if !field(path, variant).is_some_and(|field| field.range.contains_whole(value)) {
-            self.outside(path, variant, value.to_string());
-        }
-    }
-
-    fn text(&mut self, path: &str, variant: Option<&str>, text: &str) {
-        let Some(Range::Text { most, lines }) = field(path, variant).map(|field| field.range) else {
-            return;
-        };
+    fn check_text(&mut self, field: &Field, text: &str) {
+        let Range::Text { least, most, lines } = field.range else { return };
         // Control characters would reach the terminal of whoever opens the scene.
         let forbidden = |c: char| is_control(c) && !(lines && c == '\n');
+        let count = text.chars().count();
         if let Some(c) = text.chars().find(|c| forbidden(*c)) {
             let allowed =
                 if lines { "no control characters but line breaks" } else { "no control characters" };
             self.add(Violation {
-                field: path.to_string(),
-                value: format!("text with {:?}", c),
+                field: field.path.to_string(),
+                value: format!("text with {c:?}"),
                 allowed: allowed.to_string(),
-                reason: field(path, variant).map_or_else(String::new, |field| field.name.to_string()),
-                involves: &[],
-            });
-        } else if text.chars().count() > most {
-            self.outside(path, variant, format!("{} characters", text.chars().count()));
-        }
-    }
-
-    fn count(&mut self, path: &str, count: usize) {
-        let Some(Range::List { least, most, .. }) = field(path, None).map(|field| field.range) else {
-            return;
-        };
-        if count < least || count > most {
-            let value = if count == 0 { "[]".to_string() } else { format!("a list of {count}") };
-            self.outside(path, None, value);
-        }
-    }
-}
-
-fn check_material(material: &Material, found: &mut Found) {
-    found.optional("material.youngs_modulus", None, material.youngs_modulus);
-    found.optional("material.poisson_ratio", None, material.poisson_ratio);
-    found.optional("material.effective_modulus", None, material.effective_modulus);
-}
-
-fn check_form(form: &Form, found: &mut Found) {
-    match *form {
-        Form::Paraboloid { radius } => found.number("form.radius", Some("Paraboloid"), radius),
-        Form::Cone { angle } => found.number("form.angle", Some("Cone"), angle),
-        Form::Power { coefficient, exponent } => {
-            found.number("form.coefficient", Some("Power"), coefficient);
-            found.number("form.exponent", Some("Power"), exponent);
-        }
-        Form::Punch { radius } => found.number("form.radius", Some("Punch"), radius),
-    }
-}
-
-fn check_roughness(roughness: &Roughness, found: &mut Found) {
-    match roughness {
-        Roughness::SelfAffine { hurst, rms_height, rms_gradient, modes: (first, last), seed: _ } => {
-            let variant = Some("SelfAffine");
-            found.number("roughness.hurst", variant, *hurst);
-            found.optional("roughness.rms_height", variant, *rms_height);
-            found.optional("roughness.rms_gradient", variant, *rms_gradient);
-            let modes = field("roughness.modes", variant).map(|field| field.range);
-            let inside = |mode: u64| modes.is_some_and(|modes| modes.contains_whole(mode));
-            if first > last || !inside(*first) || !inside(*last) {
-                found.outside("roughness.modes", variant, format!("({first}, {last})"));
-            }
-        }
-        Roughness::Measured { file } => {
-            found.text("roughness.file", Some("Measured"), file);
-            if file.is_empty() {
-                found.outside("roughness.file", Some("Measured"), ron_string(file));
-            }
-        }
-    }
-}
-
-fn check_loading(loading: &[Leg], found: &mut Found) {
-    found.count("loading", loading.len());
-    for (index, leg) in loading.iter().enumerate() {
-        let (value, field) = match *leg {
-            Leg::ToForce(force) => (force, LEG_FORCE),
-            Leg::ToIndentation(indentation) => (indentation, LEG_INDENTATION),
-            Leg::ToTouch | Leg::ToZeroForce | Leg::ToSeparation => continue,
-        };
-        if !field.range.contains(value) {
-            found.add(Violation {
-                field: format!("loading.{index}.0"),
-                value: ron_float(value),
-                allowed: field.allowed(),
                 reason: field.name.to_string(),
                 involves: &[],
             });
+        } else if count > most {
+            self.outside(field, format!("{count} characters"));
+        } else if count < least {
+            self.outside(field, ron_string(text));
+        }
+    }
+
+    fn check_count(&mut self, field: &Field, count: usize) {
+        if let Range::List { least, most, .. } = field.range
+            && !(least..=most).contains(&count)
+        {
+            self.outside(field, if count == 0 { "[]".to_string() } else { format!("a list of {count}") });
+        }
+    }
+
+    fn check_targets(&mut self, legs: &[Leg]) {
+        for (index, leg) in legs.iter().enumerate() {
+            if let Some((field, value)) = leg.target()
+                && !field.range.contains(value)
+            {
+                self.add(Violation {
+                    field: format!("loading.{index}.0"),
+                    value: ron_float(value),
+                    allowed: field.allowed(),
+                    reason: field.name.to_string(),
+                    involves: &[],
+                });
+            }
         }
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::samples::sound;
+    use super::super::model::{Adhesion, Form, Material, Roughness, Solver};
+    use super::super::strategies::sound;
     use super::*;
 
     fn fields_of(scene: &Scene) -> Vec<String> {

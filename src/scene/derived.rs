@@ -72,7 +72,7 @@ impl Form {
 
 #[cfg(test)]
 mod tests {
-    use super::super::samples::sound;
+    use super::super::strategies::sound;
     use super::*;
 
     #[test]

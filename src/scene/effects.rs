@@ -132,7 +132,7 @@ mod tests {
 
     use super::super::fields::field;
     use super::super::model::Adhesion;
-    use super::super::samples::{sound, sound_scenes};
+    use super::super::strategies::{sound, sound_scenes};
     use super::*;
     use Leg::{ToForce, ToIndentation, ToSeparation, ToTouch, ToZeroForce};
 

@@ -1,61 +1,17 @@
-//! The one table of everything a scene can say: paths, symbols, units, ranges, meanings.
+//! The table of everything that a scene holds: paths, symbols, units, ranges, meanings, access.
 //!
-//! The checks, the names an override may use, the explorer's list of parameters and the reference
-//! in docs/scene-file.md all read this table, so they cannot disagree.
+//! Reading and writing, checks of ranges, overrides, steps of the keys, axes of studies, the explorer's list of
+//! parameters, random scenes of the tests and the reference in docs/scene-file.md are loops over this table.
 
 use std::f64::consts::FRAC_PI_2;
 
-use super::model::SCENE_VERSION;
+use super::field::{Field, Step};
+use super::model::{Edges, Form, Leg, Roughness, SCENE_VERSION, Scene, Solver};
 use super::range::Range;
-use super::step::Step;
+use super::value::{Access, Part, at};
 
 /// Largest number of springs.
 pub const MOST_POINTS: u64 = 1 << 28;
-
-/// One field of a scene.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Field {
-    /// Path from the top of the scene, components joined by dots: `roughness.hurst`.
-    pub path: &'static str,
-    /// The variant of the enclosing choice that has this field: `Paraboloid` for `form.radius`.
-    /// `None` where the field does not depend on a choice.
-    pub variant: Option<&'static str>,
-    /// Its name in the terms of the field: `Hurst exponent`.
-    pub name: &'static str,
-    /// Its symbol in the equations, empty where it has none.
-    pub symbol: &'static str,
-    /// SI unit; `1` for numbers without one, empty for what is not a number.
-    pub unit: &'static str,
-    /// What is allowed.
-    pub range: Range,
-    /// How a key steps it.
-    pub step: Step,
-    /// What stands where the field is left out, as it would be written; empty where it may not be
-    /// left out.
-    pub default: &'static str,
-    /// What it does, in one plain line.
-    pub meaning: &'static str,
-}
-
-impl Field {
-    /// What is allowed, with the unit: `from 1 to 1e13 Pa`.
-    pub fn allowed(&self) -> String {
-        match self.unit {
-            "" | "1" => self.range.to_string(),
-            unit => format!("{} {unit}", self.range),
-        }
-    }
-
-    /// Path of the enclosing group; empty at the top of the scene.
-    pub fn parent(&self) -> &'static str {
-        self.path.rsplit_once('.').map_or("", |(parent, _)| parent)
-    }
-
-    /// The last component of the path.
-    pub fn last(&self) -> &'static str {
-        self.path.rsplit_once('.').map_or(self.path, |(_, last)| last)
-    }
-}
 
 /// The field at a path. Where variants of a choice share the name, `variant` decides; with `None`
 /// the first of them is returned.
@@ -63,6 +19,13 @@ pub fn field(path: &str, variant: Option<&str>) -> Option<&'static Field> {
     FIELDS.iter().find(|field| {
         field.path == path && (variant.is_none() || field.variant.is_none() || field.variant == variant)
     })
+}
+
+/// Fields inside the group or choice at a path, with this variant; the top level for an empty path.
+pub(super) fn fields_inside(path: &str, variant: Option<&str>) -> impl Iterator<Item = &'static Field> {
+    let inside =
+        move |field: &&Field| field.parent() == path && (field.variant.is_none() || field.variant == variant);
+    FIELDS.iter().filter(inside)
 }
 
 const TEXT: Field = Field {
@@ -75,6 +38,7 @@ const TEXT: Field = Field {
     step: Step::Typed,
     default: "",
     meaning: "",
+    access: Access::NONE,
 };
 
 const NUMBER: Field = Field { unit: "1", ..TEXT };
@@ -86,22 +50,25 @@ pub const FIELDS: &[Field] = &[
         name: "version",
         range: Range::whole(SCENE_VERSION as u64, SCENE_VERSION as u64),
         meaning: "version of the scene file format",
+        access: at!(version),
         ..NUMBER
     },
     Field {
         path: "title",
         name: "title",
-        range: Range::Text { most: 200, lines: false },
+        range: Range::Text { least: 0, most: 200, lines: false },
         default: "\"\"",
         meaning: "title of the scene, on one line",
+        access: at!(title),
         ..TEXT
     },
     Field {
         path: "notice",
         name: "notice",
-        range: Range::Text { most: 4000, lines: true },
+        range: Range::Text { least: 0, most: 4000, lines: true },
         default: "\"\"",
         meaning: "notes on the scene",
+        access: at!(notice),
         ..TEXT
     },
     Field {
@@ -109,6 +76,7 @@ pub const FIELDS: &[Field] = &[
         name: "material",
         range: Range::Choice(&["(youngs_modulus: 2.0e6, poisson_ratio: 0.5)", "(effective_modulus: 2.7e6)"]),
         meaning: "elastic constants: Young's modulus with Poisson's ratio, or the effective modulus",
+        access: at!(material),
         ..TEXT
     },
     Field {
@@ -120,6 +88,7 @@ pub const FIELDS: &[Field] = &[
         step: Step::Logarithmic,
         default: "None",
         meaning: "Young's modulus of the elastic body; requires Poisson's ratio",
+        access: at!(material.youngs_modulus),
         ..NUMBER
     },
     Field {
@@ -130,6 +99,7 @@ pub const FIELDS: &[Field] = &[
         step: Step::Linear { fine: 0.01, coarse: 0.1 },
         default: "None",
         meaning: "Poisson's ratio of the elastic body; 0.5 is incompressible, as rubber",
+        access: at!(material.poisson_ratio),
         ..NUMBER
     },
     Field {
@@ -141,6 +111,7 @@ pub const FIELDS: &[Field] = &[
         step: Step::Logarithmic,
         default: "None",
         meaning: "effective modulus E/(1 − ν²), in place of E and ν",
+        access: at!(material.effective_modulus),
         ..NUMBER
     },
     Field {
@@ -151,6 +122,7 @@ pub const FIELDS: &[Field] = &[
         range: Range::closed(1e-9, 10.0),
         step: Step::Logarithmic,
         meaning: "apparent diameter of the contact: length of the profile",
+        access: at!(length),
         ..NUMBER
     },
     Field {
@@ -165,6 +137,7 @@ pub const FIELDS: &[Field] = &[
         step: Step::Choice,
         default: "None",
         meaning: "macroscopic shape of the rigid body; default: nominally flat",
+        access: at!(form),
         ..TEXT
     },
     Field {
@@ -176,6 +149,7 @@ pub const FIELDS: &[Field] = &[
         range: Range::above(0.0, 1e9),
         step: Step::Logarithmic,
         meaning: "radius of curvature of the paraboloid at its apex",
+        access: at!(form, Some(Form::Paraboloid { radius }) => radius),
         ..NUMBER
     },
     Field {
@@ -187,6 +161,7 @@ pub const FIELDS: &[Field] = &[
         range: Range::between(0.0, FRAC_PI_2),
         step: Step::Linear { fine: 0.01, coarse: 0.1 },
         meaning: "angle between the flank of the cone and the surface; a small angle is blunt",
+        access: at!(form, Some(Form::Cone { angle }) => angle),
         ..NUMBER
     },
     Field {
@@ -198,6 +173,7 @@ pub const FIELDS: &[Field] = &[
         range: Range::above(0.0, 1e300),
         step: Step::Logarithmic,
         meaning: "coefficient b of the power law b rⁿ",
+        access: at!(form, Some(Form::Power { coefficient, .. }) => coefficient),
         ..NUMBER
     },
     Field {
@@ -208,6 +184,7 @@ pub const FIELDS: &[Field] = &[
         range: Range::above(0.5, 100.0),
         step: Step::Linear { fine: 0.1, coarse: 1.0 },
         meaning: "exponent n of the power law b rⁿ; a large n is flat in the middle and steep outside",
+        access: at!(form, Some(Form::Power { exponent, .. }) => exponent),
         ..NUMBER
     },
     Field {
@@ -219,6 +196,7 @@ pub const FIELDS: &[Field] = &[
         range: Range::above(0.0, 5.0),
         step: Step::Logarithmic,
         meaning: "radius of the flat end; no contact outside",
+        access: at!(form, Some(Form::Punch { radius }) => radius),
         ..NUMBER
     },
     Field {
@@ -231,6 +209,7 @@ pub const FIELDS: &[Field] = &[
         step: Step::Choice,
         default: "None",
         meaning: "roughness of the rigid profile; default: smooth",
+        access: at!(roughness),
         ..TEXT
     },
     Field {
@@ -241,6 +220,7 @@ pub const FIELDS: &[Field] = &[
         range: Range::between(0.0, 1.0),
         step: Step::Linear { fine: 0.01, coarse: 0.1 },
         meaning: "decay of the roughness towards short waves: low H is jagged, high H is smooth; fractal dimension 3 − H",
+        access: at!(roughness, Some(Roughness::SelfAffine { hurst, .. }) => hurst),
         ..NUMBER
     },
     Field {
@@ -253,6 +233,7 @@ pub const FIELDS: &[Field] = &[
         step: Step::Logarithmic,
         default: "None",
         meaning: "root mean square height of the profile",
+        access: at!(roughness, Some(Roughness::SelfAffine { rms_height, .. }) => rms_height),
     },
     Field {
         path: "roughness.rms_gradient",
@@ -263,6 +244,7 @@ pub const FIELDS: &[Field] = &[
         step: Step::Logarithmic,
         default: "None",
         meaning: "root mean square slope of the profile, in place of the rms height",
+        access: at!(roughness, Some(Roughness::SelfAffine { rms_gradient, .. }) => rms_gradient),
         ..NUMBER
     },
     Field {
@@ -273,6 +255,7 @@ pub const FIELDS: &[Field] = &[
         range: Range::Band { min: 1, max: 1 << 27 },
         step: Step::Band,
         meaning: "first and last mode of the profile, in waves per length; the last is at most points/2",
+        access: at!(roughness, Some(Roughness::SelfAffine { modes, .. }) => modes),
         ..NUMBER
     },
     Field {
@@ -282,14 +265,16 @@ pub const FIELDS: &[Field] = &[
         range: Range::whole(0, u64::MAX),
         step: Step::Integer { fine: 1, coarse: 100 },
         meaning: "seed of the random phases: the same seed gives the same profile",
+        access: at!(roughness, Some(Roughness::SelfAffine { seed, .. }) => seed),
         ..NUMBER
     },
     Field {
         path: "roughness.file",
         variant: Some("Measured"),
         name: "measured profile",
-        range: Range::Text { most: 4096, lines: false },
+        range: Range::Text { least: 1, most: 4096, lines: false },
         meaning: "text file with the columns x and z in m, relative to the scene file",
+        access: at!(roughness, Some(Roughness::Measured { file }) => file),
         ..TEXT
     },
     Field {
@@ -299,6 +284,7 @@ pub const FIELDS: &[Field] = &[
         step: Step::Choice,
         default: "None",
         meaning: "adhesion of the surfaces, by work of adhesion or by κ; default: none",
+        access: at!(adhesion),
         ..TEXT
     },
     Field {
@@ -310,6 +296,7 @@ pub const FIELDS: &[Field] = &[
         step: Step::Logarithmic,
         default: "None",
         meaning: "energy per unit area needed to separate the interface",
+        access: at!(adhesion?.work),
         ..NUMBER
     },
     Field {
@@ -320,6 +307,7 @@ pub const FIELDS: &[Field] = &[
         step: Step::Logarithmic,
         default: "None",
         meaning: "roughness-adhesion parameter sqrt(h⟨∇z⟩E*/γ): adhesion is strong for small κ",
+        access: at!(adhesion?.kappa),
         ..NUMBER
     },
     Field {
@@ -332,6 +320,7 @@ pub const FIELDS: &[Field] = &[
         },
         default: "[ToZeroForce, ToSeparation]",
         meaning: "loading stages in their order, from separation",
+        access: at!(loading),
         ..TEXT
     },
     Field {
@@ -340,6 +329,7 @@ pub const FIELDS: &[Field] = &[
         range: Range::Group,
         default: "()",
         meaning: "resolution and method of the computation",
+        access: at!(numerics),
         ..TEXT
     },
     Field {
@@ -350,6 +340,7 @@ pub const FIELDS: &[Field] = &[
         step: Step::Doubling,
         default: "16384",
         meaning: "number of springs along the profile",
+        access: at!(numerics.points),
         ..NUMBER
     },
     Field {
@@ -359,6 +350,7 @@ pub const FIELDS: &[Field] = &[
         step: Step::Choice,
         default: "Exact",
         meaning: "exact solver, or the stepwise relaxation of the paper",
+        access: at!(numerics.solver),
         ..TEXT
     },
     Field {
@@ -370,6 +362,7 @@ pub const FIELDS: &[Field] = &[
         range: Range::closed(1e-30, 1e6),
         step: Step::Logarithmic,
         meaning: "displacement of the body between two relaxations",
+        access: at!(numerics.solver, Solver::Stepwise { step } => step),
         ..NUMBER
     },
     Field {
@@ -379,6 +372,7 @@ pub const FIELDS: &[Field] = &[
         step: Step::Choice,
         default: "SubCell",
         meaning: "edge model of the contact patches: SubCell finds edges between springs, Grid counts whole springs, as the paper and the stepwise solver do",
+        access: at!(numerics.edges),
         ..TEXT
     },
     Field {
@@ -388,6 +382,7 @@ pub const FIELDS: &[Field] = &[
         step: Step::Doubling,
         default: "512",
         meaning: "points of the force curve on each loading stage",
+        access: at!(numerics.samples),
         ..NUMBER
     },
     Field {
@@ -396,6 +391,7 @@ pub const FIELDS: &[Field] = &[
         range: Range::List { of: &["Fragments", "HeightHistogram"], least: 0, most: 2 },
         default: "[]",
         meaning: "observed quantities beside the force curve",
+        access: at!(observe),
         ..TEXT
     },
 ];
@@ -427,8 +423,35 @@ pub const LEG_INDENTATION: Field = Field {
     ..NUMBER
 };
 
+impl Field {
+    /// Value of the field in a scene that leaves it out, as it would be written; empty where it is required.
+    pub fn default_in(&self, scene: &Scene) -> &'static str {
+        match (self.path, scene.numerics.solver.usual_edges()) {
+            ("numerics.edges", Edges::Grid) => "Grid",
+            _ => self.default,
+        }
+    }
+}
+
+impl Leg {
+    /// Field and value of the target, where the stage has a number as target.
+    pub fn target(&self) -> Option<(&'static Field, f64)> {
+        match *self {
+            Leg::ToForce(force) => Some((&LEG_FORCE, force)),
+            Leg::ToIndentation(indentation) => Some((&LEG_INDENTATION, indentation)),
+            Leg::ToTouch | Leg::ToZeroForce | Leg::ToSeparation => None,
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
+    use proptest::prelude::*;
+
+    use super::super::document::Document;
+    use super::super::model::Observer;
+    use super::super::strategies::{sound, sound_scenes};
+    use super::super::value::Value;
     use super::*;
 
     fn all() -> impl Iterator<Item = &'static Field> {
@@ -443,6 +466,72 @@ mod tests {
         assert_eq!(names.len(), all().count());
         for field in all() {
             assert!(!field.name.is_empty() && !field.meaning.is_empty(), "{}", field.path);
+        }
+    }
+
+    /// A value of the field's kind that no scene has by chance.
+    fn unusual(field: &Field) -> Option<Value<'static>> {
+        Some(match field.range {
+            Range::Real { .. } => Value::Real(0.123),
+            Range::Whole { .. } => Value::Whole(12_345),
+            Range::Band { .. } => Value::Band(123, 1234),
+            Range::Text { .. } => Value::Text("unusual"),
+            Range::List { .. } if field.path == "loading" => Value::Legs(&[Leg::ToTouch; 7]),
+            Range::List { .. } => Value::Observers(&[Observer::Fragments; 7]),
+            Range::Choice(_) | Range::Group => return None,
+        })
+    }
+
+    /// A scene for every variant of every choice.
+    fn scenes_of_all_variants() -> Vec<Scene> {
+        let base = Document::from_scene(&sound(), "base").unwrap();
+        let all = |path: &'static str| match field(path, None).map(|field| field.range) {
+            Some(Range::Choice(of)) => of.iter().map(|value| base.set(path, value).unwrap()).collect(),
+            _ => Vec::new(),
+        };
+        let documents = ["form", "roughness", "numerics.solver"].into_iter().flat_map(all);
+        documents.map(|document| document.scene().clone()).collect()
+    }
+
+    #[test]
+    fn each_field_is_a_member_of_its_own() {
+        let mut met = Vec::new();
+        for scene in scenes_of_all_variants() {
+            for field in FIELDS {
+                let (Some(value), Some(before)) = (unusual(field), field.get(&scene)) else { continue };
+                let mut changed = scene.clone();
+                assert!(field.set(&mut changed, value) && field.get(&changed) == Some(value), "{field:?}");
+                let mut others = FIELDS.iter().filter(|other| *other != field);
+                assert!(others.all(|other| other.get(&changed) == other.get(&scene)), "{field:?}");
+                assert!(field.set(&mut changed, before) && changed == scene, "{field:?}");
+                assert!(!field.set(&mut changed, Value::Choice("Cone")) && changed == scene, "{field:?}");
+                met.push((field.path, field.variant));
+            }
+        }
+        let unmet = |field: &&Field| unusual(field).is_some() && !met.contains(&(field.path, field.variant));
+        assert_eq!(FIELDS.iter().find(unmet), None);
+    }
+
+    proptest! {
+        #[test]
+        fn fields_together_are_the_scene(scene in sound_scenes(), other in sound_scenes()) {
+            // The choices are those of the one scene, all else that both have is taken from the other.
+            let mut mixed = scene.clone();
+            for field in FIELDS {
+                if let (Some(_), Some(value)) = (unusual(field), field.get(&other))
+                    && field.get(&mixed).is_some()
+                {
+                    prop_assert!(field.set(&mut mixed, value), "{}", field.path);
+                    prop_assert_eq!(field.get(&mixed), Some(value));
+                }
+            }
+            for field in FIELDS {
+                match field.get(&scene) {
+                    Some(Value::Choice(_)) | None => {}
+                    Some(value) => prop_assert!(field.set(&mut mixed, value), "{}", field.path),
+                }
+            }
+            prop_assert_eq!(mixed, scene);
         }
     }
 

@@ -114,7 +114,7 @@ pub enum Roughness {
 }
 
 /// Adhesion by the work of adhesion γ, or by the governing parameter κ of eq. (11).
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Adhesion {
     /// Work of adhesion γ, J/m².

@@ -1,12 +1,14 @@
 //! What must be overridden in one scene to make it another, and the command that does it.
 
 use super::document::Document;
-use super::fields::{FIELDS, Field};
-use super::locate::Outline;
-use super::model::Leg;
+use super::edit;
+use super::field::Field;
+use super::fields::fields_inside;
+use super::model::{Leg, Scene};
 use super::read::read;
-use super::splice;
-use super::write::{leg, ron_float, to_ron};
+use super::text::ron_float;
+use super::value::Value;
+use super::write::leg;
 
 /// Paths and values to set together.
 type Overrides = Vec<(String, String)>;
@@ -22,77 +24,67 @@ impl Document {
         if self.scene() == base.scene() {
             return Vec::new();
         }
-        let (mine, theirs) = (to_ron(self.scene()), to_ron(base.scene()));
-        let (mine, theirs) = (Values::of(&mine), Values::of(&theirs));
-        let legs = (&self.scene().loading[..], &base.scene().loading[..]);
+        let (mine, theirs) = (self.scene(), base.scene());
         let mut overrides = Vec::new();
         for field in top_level() {
-            let whole = vec![pair(field.path, mine.value(field))];
+            let whole = vec![pair(field.path, value(field, mine))];
             let fine = match field.path {
-                "loading" => different_legs(legs.0, legs.1).filter(|fine| length(fine) < length(&whole)),
-                _ => Some(differences(field, &mine, &theirs)),
+                "loading" => different_legs(&mine.loading, &theirs.loading)
+                    .filter(|fine| length(fine) < length(&whole)),
+                _ => Some(differences(field, mine, theirs)),
             };
-            // What the base's text leaves out cannot always be set by itself.
-            let led = |fine: &Overrides| fine.is_empty() || leads_to(base, fine, field, &mine.value(field));
-            overrides.extend(fine.filter(led).unwrap_or(whole));
+            // A field that the base's text leaves out cannot always be set by itself.
+            let leads =
+                |fine: &Overrides| fine.is_empty() || leads_to(base, fine, field, &value(field, mine));
+            overrides.extend(fine.filter(leads).unwrap_or(whole));
         }
         let equal = |overrides: &Overrides| {
             base.set_all(overrides).is_ok_and(|document| document.scene() == self.scene())
         };
         if !equal(&overrides) {
-            overrides = top_level().map(|field| pair(field.path, mine.value(field))).collect();
+            overrides = top_level().map(|field| pair(field.path, value(field, mine))).collect();
         }
         overrides
     }
 }
 
 fn top_level() -> impl Iterator<Item = &'static Field> {
-    FIELDS.iter().filter(|field| field.parent().is_empty())
+    fields_inside("", None)
 }
 
 fn pair(path: &str, value: impl Into<String>) -> (String, String) {
     (path.to_string(), value.into())
 }
 
-/// The values of a scene in canonical form.
-struct Values<'t> {
-    outline: Option<Outline<'t>>,
+/// A field's value as it is written.
+fn value(field: &Field, scene: &Scene) -> String {
+    field.written(scene).unwrap_or_else(|| field.default_in(scene).to_string())
 }
 
-impl<'t> Values<'t> {
-    fn of(text: &'t str) -> Values<'t> {
-        Values { outline: Outline::of(text).ok() }
-    }
-
-    /// A field's value, that of its default where it is left out.
-    fn value(&self, field: &Field) -> String {
-        let written = self.outline.as_ref().and_then(|outline| outline.inner(field.path));
-        written.unwrap_or(field.default).to_string()
-    }
-
-    /// The fields inside a field, of the choice that is made there.
-    fn inside(&self, field: &Field) -> Vec<&'static Field> {
-        let head = self.outline.as_ref().and_then(|outline| outline.head(field.path));
-        let inside = FIELDS.iter().filter(|one| one.parent() == field.path);
-        inside.filter(|one| one.variant.is_none() || one.variant == head).collect()
+/// The fields inside a field, of the choice that a scene makes there.
+fn inside(field: &Field, scene: &Scene) -> Vec<&'static Field> {
+    match field.get(scene) {
+        Some(Value::Choice(variant)) => fields_inside(field.path, Some(variant)).collect(),
+        _ => Vec::new(),
     }
 }
 
 /// The fields that differ, each by itself where both scenes have the same fields there, else the
 /// group around them.
-fn differences(field: &Field, mine: &Values, theirs: &Values) -> Overrides {
-    let (value, other) = (mine.value(field), theirs.value(field));
-    if value == other {
+fn differences(field: &Field, mine: &Scene, theirs: &Scene) -> Overrides {
+    // What both leave at its default is equal, though the default may depend on another field.
+    let stated = |scene| field.written(scene).filter(|value| value != field.default_in(scene));
+    if stated(mine) == stated(theirs) {
         return Vec::new();
     }
-    let inside = mine.inside(field);
-    let absent = |values: &Values, field: &Field| values.value(field) == "None";
+    let fields = inside(field, mine);
+    let absent = |scene: &Scene, field: &Field| field.get(scene) == Some(Value::None);
     let same =
-        inside == theirs.inside(field) && inside.iter().all(|one| absent(mine, one) == absent(theirs, one));
-    if inside.is_empty() || !same || absent(mine, field) || absent(theirs, field) {
-        return vec![pair(field.path, value)];
+        fields == inside(field, theirs) && fields.iter().all(|one| absent(mine, one) == absent(theirs, one));
+    if fields.is_empty() || !same {
+        return vec![pair(field.path, value(field, mine))];
     }
-    inside.into_iter().flat_map(|one| differences(one, mine, theirs)).collect()
+    fields.into_iter().flat_map(|one| differences(one, mine, theirs)).collect()
 }
 
 /// The legs that differ, or the number in them, where there are as many of them.
@@ -115,10 +107,10 @@ fn length(overrides: &[(String, String)]) -> usize {
 
 /// Whether overrides of one field's parts give that field this value.
 fn leads_to(base: &Document, overrides: &[(String, String)], field: &Field, value: &str) -> bool {
-    let set = |text: String, (path, value): &(String, String)| splice::set(&text, path, value).ok();
+    let set = |text: String, (path, value): &(String, String)| edit::set(&text, path, value).ok();
     let text = overrides.iter().try_fold(base.text().to_string(), set);
     let scene = text.and_then(|text| read(&text).ok());
-    scene.is_some_and(|scene| Values::of(&to_ron(&scene)).value(field) == value)
+    scene.is_some_and(|scene| field.written(&scene).as_deref() == Some(value))
 }
 
 /// The command that opens a scene with overrides, to be pasted into a POSIX shell: every word is
@@ -156,7 +148,7 @@ mod tests {
     use proptest::prelude::*;
 
     use super::super::presets::presets;
-    use super::super::samples::sound_scenes;
+    use super::super::strategies::sound_scenes;
     use super::*;
 
     const SCENE: &str = "(
@@ -197,7 +189,7 @@ mod tests {
             &[("loading", "[ToTouch, ToForce(1.0), ToZeroForce]")],
         ] {
             let changed = document().set_all(&pairs(overrides)).unwrap();
-            let canonical = Document::of_scene(changed.scene(), "other").unwrap();
+            let canonical = Document::from_scene(changed.scene(), "other").unwrap();
             let expected =
                 pairs(overrides).into_iter().map(|(path, value)| (path, value.replace("0.1e7", "1.0e6")));
             let expected: Overrides = expected.collect();
@@ -343,11 +335,11 @@ mod tests {
             if mixed[7] { near.numerics.samples = base.numerics.samples; }
             if mixed[8] { near.observe.clone_from(&base.observe); }
             let preset = Document::parse(preset.text, preset.name).unwrap();
-            let base = Document::of_scene(&base, "base").unwrap();
-            let target = Document::of_scene(&target, "target").unwrap();
+            let base = Document::from_scene(&base, "base").unwrap();
+            let target = Document::from_scene(&target, "target").unwrap();
             let mut lists = vec![assert_leads(&preset, &target), assert_leads(&base, &target)];
             assert_leads(&target, &preset);
-            if let Ok(near) = Document::of_scene(&near, "near") {
+            if let Ok(near) = Document::from_scene(&near, "near") {
                 lists.push(assert_leads(&base, &near));
                 lists.push(assert_leads(&near, &target));
             }

@@ -44,8 +44,10 @@ pub enum Range {
         /// Largest.
         max: u64,
     },
-    /// Text of at most this many characters, without control characters.
+    /// Text without control characters.
     Text {
+        /// Fewest characters.
+        least: usize,
         /// Most characters.
         most: usize,
         /// Whether line breaks are allowed.
@@ -130,12 +132,19 @@ impl Range {
     }
 }
 
-/// The name a choice starts with: `Cone` of `Cone(angle: 0.1)`, the whole text where there is none.
+/// The name with which a choice begins: `Cone` of `Cone(angle: 0.1)`, the whole text where there is none.
 pub(super) fn choice_name(choice: &str) -> &str {
     match choice.find('(') {
         Some(0) | None => choice,
         Some(end) => &choice[..end],
     }
+}
+
+/// The part of a choice that distinguishes it from the others: its name, or the first field of a group without a name.
+pub(super) fn choice_key(choice: &str) -> &str {
+    let choice = choice.trim();
+    let key = choice_name(choice);
+    key.split_once(':').filter(|_| key.starts_with('(')).map_or(key, |(key, _)| key)
 }
 
 impl fmt::Display for Range {
@@ -161,8 +170,13 @@ impl fmt::Display for Range {
             Range::Band { min, max } => {
                 write!(f, "a pair (first, last) of whole numbers from {min} to {max}, first ≤ last")
             }
-            Range::Text { most, lines: true } => write!(f, "text of at most {most} characters"),
-            Range::Text { most, lines: false } => write!(f, "one line of at most {most} characters"),
+            Range::Text { least, most, lines } => {
+                f.write_str(if lines { "text of " } else { "one line of " })?;
+                match least {
+                    0 => write!(f, "at most {most} characters"),
+                    least => write!(f, "{least} to {most} characters"),
+                }
+            }
             Range::Choice(choices) => write_choices(f, choices, "or"),
             Range::List { of, least, most } => {
                 match least {

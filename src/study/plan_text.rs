@@ -5,8 +5,8 @@ use super::builtin;
 use super::plan::{Plan, StiffnessRange};
 use super::quantity::Quantity;
 use crate::scene::{
-    Document, LONGEST_TEXT, Roughness, Scene, SceneErrors, line_column, nearest, open, read_file, ron_float,
-    ron_string, to_ron, told_otherwise,
+    Document, LONGEST_TEXT, Roughness, Scene, SceneErrors, describe_error, line_column, nearest, open,
+    read_file, ron_float, ron_string, to_ron,
 };
 use ron::extensions::Extensions;
 use serde::Deserialize;
@@ -108,7 +108,7 @@ impl Plan {
         }
         let options = ron::Options::default().with_default_extension(Extensions::IMPLICIT_SOME);
         let read: PlanText = options.from_str(text).map_err(|error| {
-            let (offset, what) = told_otherwise(text, &error);
+            let (offset, what) = describe_error(text, &error);
             let (line, column) = line_column(text, offset);
             PlanErrors(vec![format!("{name}:{line}:{column}: {what}")])
         })?;
@@ -204,7 +204,7 @@ fn resolved_scene(read: &PlanText, name: &str, set: &[(String, String)]) -> Resu
                 "{name}: neither `base` nor `scene` is given; allowed: one of them"
             )]));
         }
-        (None, Some(scene)) => Document::of_scene(scene, name).map_err(in_scene)?,
+        (None, Some(scene)) => Document::from_scene(scene, name).map_err(in_scene)?,
         (Some(base), None) => {
             let beside = Path::new(name).parent().unwrap_or(Path::new("")).join(base);
             let beside = beside.to_string_lossy();

@@ -1,235 +1,164 @@
-//! What an axis may vary: the numbers of a scene by their paths, and quantities derived from several of them.
+//! Quantities that an axis may vary: the numbers of a scene by their paths, and others that are derived from several.
 
-use crate::scene::{Adhesion, Form, Leg, Roughness, Scene, Solver, field, nearest};
+use crate::scene::{Adhesion, FIELDS, Field, Leg, Range, Scene, Value, field, nearest};
 
 /// Quantities that are no fields of a scene.
 pub const DERIVED: &[&str] = &["kappa", "preload", "springs_per_wave"];
 
-/// Something an axis varies.
+/// Numbers that no axis varies: the version is no parameter, and seeds are counted from the plan's.
+const FIXED: &[&str] = &["version", "roughness.seed"];
+
+/// A quantity that an axis varies.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Target {
-    /// A field.
-    Field(Number),
-    /// The force, N, or indentation, m, of a leg.
+    /// A number, or an end of a pair; fields of several variants may share its path.
+    Field(&'static Field, Part),
+    /// The force, N, or indentation, m, of a loading stage.
     Leg(usize),
-    /// κ of eq. (11), by the work of adhesion; takes the place of the work the scene has.
+    /// κ of eq. (11), by the work of adhesion; replaces the work of the scene.
     Kappa,
     /// Preload F_n in units of E* h L.
     Preload,
-    /// Springs for each of the shortest waves: the last mode is points over this.
+    /// Springs for each of the shortest waves: the last mode is points over this number.
     SpringsPerWave,
 }
 
-/// The numbers of a scene.
+/// Part of a field's value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Number {
-    /// `material.youngs_modulus`
-    YoungsModulus,
-    /// `material.poisson_ratio`
-    PoissonRatio,
-    /// `material.effective_modulus`
-    EffectiveModulus,
-    /// `length`
-    Length,
-    /// `form.radius`
-    Radius,
-    /// `form.angle`
-    Angle,
-    /// `form.coefficient`
-    Coefficient,
-    /// `form.exponent`
-    Exponent,
-    /// `roughness.hurst`
-    Hurst,
-    /// `roughness.rms_height`
-    RmsHeight,
-    /// `roughness.rms_gradient`
-    RmsGradient,
-    /// `roughness.modes.0`
-    FirstMode,
-    /// `roughness.modes.1`
-    LastMode,
-    /// `adhesion.work`
-    Work,
-    /// `adhesion.kappa`
-    AdhesionKappa,
-    /// `numerics.points`
-    Points,
-    /// `numerics.samples`
-    Samples,
-    /// `numerics.solver.step`
-    Step,
+pub enum Part {
+    /// The number itself.
+    All,
+    /// First number of a pair.
+    First,
+    /// Last number of a pair.
+    Last,
 }
 
-const NUMBERS: &[(&str, Number)] = &[
-    ("material.youngs_modulus", Number::YoungsModulus),
-    ("material.poisson_ratio", Number::PoissonRatio),
-    ("material.effective_modulus", Number::EffectiveModulus),
-    ("length", Number::Length),
-    ("form.radius", Number::Radius),
-    ("form.angle", Number::Angle),
-    ("form.coefficient", Number::Coefficient),
-    ("form.exponent", Number::Exponent),
-    ("roughness.hurst", Number::Hurst),
-    ("roughness.rms_height", Number::RmsHeight),
-    ("roughness.rms_gradient", Number::RmsGradient),
-    ("roughness.modes.0", Number::FirstMode),
-    ("roughness.modes.1", Number::LastMode),
-    ("adhesion.work", Number::Work),
-    ("adhesion.kappa", Number::AdhesionKappa),
-    ("numerics.points", Number::Points),
-    ("numerics.samples", Number::Samples),
-    ("numerics.solver.step", Number::Step),
-];
+impl Part {
+    /// End of the path after that of the field.
+    fn suffix(self) -> &'static str {
+        match self {
+            Part::All => "",
+            Part::First => ".0",
+            Part::Last => ".1",
+        }
+    }
+}
+
+/// Every number of a scene that an axis may vary, with its path.
+fn numbers() -> impl Iterator<Item = (String, &'static Field, Part)> {
+    let parts = |field: &'static Field| match field.range {
+        _ if FIXED.contains(&field.path) => &[][..],
+        Range::Real { .. } | Range::Whole { .. } => &[Part::All],
+        Range::Band { .. } => &[Part::First, Part::Last],
+        _ => &[],
+    };
+    let all = FIELDS.iter().flat_map(move |field| parts(field).iter().map(move |part| (field, *part)));
+    all.map(|(field, part)| (format!("{}{}", field.path, part.suffix()), field, part))
+}
 
 /// No number of a scene has this path.
 pub struct TargetError {
-    /// What may have been meant.
-    pub near: Option<&'static str>,
+    /// The nearest path that a number has.
+    pub near: Option<String>,
 }
 
-/// What must be made again where a number changes; later ones need least.
+/// Part of a computation that a changed number repeats; later ones need least.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Shapes {
     /// The heights of the roughness, by a transform.
     Roughness,
-    /// The line, from heights that are there.
+    /// The profile, from known heights.
     Line,
     /// Nothing but the passes over the tree.
     Passes,
 }
 
 impl Target {
-    /// What a path means.
+    /// The quantity at a path.
     pub fn of(path: &str) -> Result<Target, TargetError> {
-        let known = |(name, number): &(&str, Number)| (*name == path).then_some(Target::Field(*number));
-        let leg = || path.strip_prefix("loading.")?.strip_suffix(".0")?.parse().ok().map(Target::Leg);
         match path {
             "kappa" => return Ok(Target::Kappa),
             "preload" => return Ok(Target::Preload),
             "springs_per_wave" => return Ok(Target::SpringsPerWave),
             _ => {}
         }
-        NUMBERS.iter().find_map(known).or_else(leg).ok_or_else(|| {
-            let names = NUMBERS.iter().map(|(name, _)| *name).chain(DERIVED.iter().copied());
-            TargetError { near: nearest(path, names) }
+        let number = numbers().find(|(number, ..)| number == path);
+        let leg = || path.strip_prefix("loading.")?.strip_suffix(".0")?.parse().ok().map(Target::Leg);
+        number.map(|(_, field, part)| Target::Field(field, part)).or_else(leg).ok_or_else(|| {
+            let names: Vec<String> =
+                numbers().map(|(path, ..)| path).chain(DERIVED.iter().map(ToString::to_string)).collect();
+            TargetError { near: nearest(path, names.iter().map(String::as_str)).map(str::to_string) }
         })
     }
 
-    /// Whether it is a whole number.
+    /// The quantity is a whole number.
     pub fn is_whole(self) -> bool {
-        matches!(self, Target::Field(Number::FirstMode | Number::LastMode | Number::Points | Number::Samples))
+        matches!(self, Target::Field(field, _) if !matches!(field.range, Range::Real { .. }))
     }
 
-    /// What must be made again where it changes.
+    /// Part of the computation that is repeated where the quantity changes.
     pub fn shapes(self) -> Shapes {
-        match self {
-            Target::SpringsPerWave
-            | Target::Field(Number::Hurst | Number::FirstMode | Number::LastMode | Number::Points) => {
-                Shapes::Roughness
-            }
-            Target::Field(
-                Number::Length
-                | Number::Radius
-                | Number::Angle
-                | Number::Coefficient
-                | Number::Exponent
-                | Number::RmsHeight
-                | Number::RmsGradient,
-            ) => Shapes::Line,
-            Target::Leg(_) | Target::Kappa | Target::Preload | Target::Field(_) => Shapes::Passes,
+        let field = match self {
+            Target::SpringsPerWave => return Shapes::Roughness,
+            Target::Leg(_) | Target::Kappa | Target::Preload => return Shapes::Passes,
+            Target::Field(field, _) => field,
+        };
+        match (field.parent(), field.path) {
+            // Heights are scaled to their amplitude.
+            ("form", _) | (_, "length" | "roughness.rms_height" | "roughness.rms_gradient") => Shapes::Line,
+            ("roughness", _) | (_, "numerics.points") => Shapes::Roughness,
+            _ => Shapes::Passes,
         }
     }
 
-    /// Gives it a value in a scene; the preload, which is no part of one, is left to the run.
+    /// Gives the quantity a value in a scene; the preload, which is no part of a scene, is left to the run.
     ///
     /// # Errors
-    /// Why the scene has no such number.
+    /// The scene has no such number.
     pub fn set(self, scene: &mut Scene, value: f64) -> Result<(), String> {
-        let adhesion = |scene: &mut Scene| scene.adhesion.unwrap_or(Adhesion { work: None, kappa: None });
         match self {
             Target::Preload => {}
             Target::Kappa => scene.adhesion = Some(Adhesion { work: None, kappa: Some(value) }),
             Target::SpringsPerWave => {
-                let last = (scene.numerics.points as f64 / value).round() as u64;
-                *modes(scene).ok_or("the scene has no self-affine roughness")? =
-                    (modes(scene).map_or(1, |modes| modes.0), last);
+                let last = (scene.numerics.points as f64 / value).round();
+                set(scene, "roughness.modes", Part::Last, last)?;
             }
             Target::Leg(index) => match scene.loading.get_mut(index) {
                 Some(Leg::ToForce(to) | Leg::ToIndentation(to)) => *to = value,
                 Some(_) => return Err(format!("leg {index} of the scene has no number")),
                 None => return Err(format!("the scene has {} legs, the first is 0", scene.loading.len())),
             },
-            Target::Field(number) => match number {
-                Number::YoungsModulus => scene.material.youngs_modulus = Some(value),
-                Number::PoissonRatio => scene.material.poisson_ratio = Some(value),
-                Number::EffectiveModulus => scene.material.effective_modulus = Some(value),
-                Number::Length => scene.length = value,
-                Number::Radius | Number::Angle | Number::Coefficient | Number::Exponent => {
-                    *form(scene, number).ok_or("the form of the scene has no such number")? = value;
-                }
-                Number::Hurst | Number::RmsHeight | Number::RmsGradient => {
-                    let Some(Roughness::SelfAffine { hurst, rms_height, rms_gradient, .. }) =
-                        &mut scene.roughness
-                    else {
-                        return Err("the scene has no self-affine roughness".into());
-                    };
-                    match number {
-                        Number::Hurst => *hurst = value,
-                        Number::RmsHeight => *rms_height = Some(value),
-                        _ => *rms_gradient = Some(value),
-                    }
-                }
-                Number::FirstMode => {
-                    modes(scene).ok_or("the scene has no self-affine roughness")?.0 = value as u64;
-                }
-                Number::LastMode => {
-                    modes(scene).ok_or("the scene has no self-affine roughness")?.1 = value as u64;
-                }
-                Number::Work => {
-                    scene.adhesion = Some(Adhesion { work: Some(value), ..adhesion(scene) });
-                }
-                Number::AdhesionKappa => {
-                    scene.adhesion = Some(Adhesion { kappa: Some(value), ..adhesion(scene) });
-                }
-                Number::Points => scene.numerics.points = value as u64,
-                Number::Samples => scene.numerics.samples = value as u64,
-                Number::Step => match &mut scene.numerics.solver {
-                    Solver::Stepwise { step } => *step = value,
-                    Solver::Exact => return Err("the exact solver has no step".into()),
-                },
-            },
+            Target::Field(field, part) => set(scene, field.path, part, value)?,
         }
         Ok(())
     }
 }
 
-fn modes(scene: &mut Scene) -> Option<&mut (u64, u64)> {
-    match &mut scene.roughness {
-        Some(Roughness::SelfAffine { modes, .. }) => Some(modes),
-        _ => None,
-    }
+/// Sets the number at a path in the variant that the scene has.
+fn set(scene: &mut Scene, path: &str, part: Part, number: f64) -> Result<(), String> {
+    let whole = number as u64;
+    let done = FIELDS.iter().filter(|field| field.path == path).any(|field| {
+        let value = match (part, field.get(scene), field.range) {
+            (Part::First, Some(Value::Band(_, last)), _) => Value::Band(whole, last),
+            (Part::Last, Some(Value::Band(first, _)), _) => Value::Band(first, whole),
+            (.., Range::Whole { .. }) => Value::Whole(whole),
+            _ => Value::Real(number),
+        };
+        field.set(scene, value)
+    });
+    if done { Ok(()) } else { Err(format!("the scene has no {path}")) }
 }
 
-fn form(scene: &mut Scene, number: Number) -> Option<&mut f64> {
-    match (scene.form.as_mut()?, number) {
-        (Form::Paraboloid { radius } | Form::Punch { radius }, Number::Radius) => Some(radius),
-        (Form::Cone { angle }, Number::Angle) => Some(angle),
-        (Form::Power { coefficient, .. }, Number::Coefficient) => Some(coefficient),
-        (Form::Power { exponent, .. }, Number::Exponent) => Some(exponent),
-        _ => None,
-    }
-}
-
-/// Symbol and SI unit of what an axis varies; `1` for numbers without a unit, empty where there is no symbol.
+/// Symbol and SI unit of the quantity at a path; `1` for numbers without a unit, empty where there is no symbol.
 #[must_use]
 pub fn symbol_and_unit(path: &str) -> (&'static str, &'static str) {
     match Target::of(path) {
         Ok(Target::Kappa) => ("κ", "1"),
         Ok(Target::Preload) => ("F_n/(E* h L)", "1"),
         Ok(Target::SpringsPerWave) => ("", "1"),
-        Ok(Target::Field(Number::FirstMode)) => ("k_min", "1"),
-        Ok(Target::Field(Number::LastMode)) => ("k_max", "1"),
+        Ok(Target::Field(_, Part::First)) => ("k_min", "1"),
+        Ok(Target::Field(_, Part::Last)) => ("k_max", "1"),
         _ => field(path, None).map_or(("", "1"), |field| (field.symbol, field.unit)),
     }
 }
@@ -264,7 +193,8 @@ mod tests {
         let mut scene = rough.scene().clone();
         Target::SpringsPerWave.set(&mut scene, 8.0).unwrap();
         let points = scene.numerics.points;
-        assert_eq!(modes(&mut scene).unwrap().1, points / 8);
+        let modes = field("roughness.modes", None).unwrap().get(&scene).unwrap();
+        assert!(matches!(modes, Value::Band(_, last) if last == points / 8), "{modes:?}");
     }
 
     #[test]

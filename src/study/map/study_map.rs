@@ -208,7 +208,7 @@ impl StudyMap {
     pub fn document(&self) -> Result<Document, SceneErrors> {
         // As it is typed, so that the command that opens it again is this name.
         let name = self.folder.display().to_string();
-        Document::of_scene(&self.scene(0, None), &name)
+        Document::from_scene(&self.scene(0, None), &name)
     }
 
     /// Whether a scene is that of a map, but for κ and H and how finely its curve is computed.

@@ -213,7 +213,7 @@ mod tests {
                 run += 1;
             }
         }
-        assert_eq!((plan.cells(), plan.lines, plan.seed_of(3)), (run, LINES, 4));
+        assert_eq!((plan.cells(), plan.lines, plan.seed_of(3)), (run, LINES, 8));
     }
 
     #[test]

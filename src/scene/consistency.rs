@@ -1,0 +1,386 @@
+//! Fields against each other: what over- or under-determines a scene, and what one field makes
+//! impossible in another.
+
+use super::check::{Found, Violation};
+use super::fields::{LEG_INDENTATION, field};
+use super::model::{Adhesion, Edges, Form, Leg, Material, Roughness, Scene, Solver};
+use super::text::ron_float;
+
+/// Most samples of all legs together; a curve of this size still fits the memory of a small machine.
+const MOST_SAMPLES: u64 = 1 << 24;
+
+pub(super) fn check_consistency(scene: &Scene, found: &mut Found) {
+    check_material(&scene.material, found);
+    check_form(scene, found);
+    check_modes(scene, found);
+    check_amplitude(scene, found);
+    check_loading(scene, found);
+    check_edges(scene, found);
+}
+
+fn check_edges(scene: &Scene, found: &mut Found) {
+    if matches!(scene.numerics.solver, Solver::Stepwise { .. }) && scene.numerics.edges == Edges::SubCell {
+        let reason = "the stepwise solver moves whole springs: edges: Grid";
+        found.add(inconsistency("numerics.edges", "SubCell", reason, &["numerics.solver"]));
+    }
+}
+
+fn inconsistency(
+    field: &str,
+    value: impl Into<String>,
+    reason: impl Into<String>,
+    involves: &'static [&'static str],
+) -> Violation {
+    let (field, value, reason) = (field.to_string(), value.into(), reason.into());
+    Violation { field, value, allowed: String::new(), reason, involves }
+}
+
+fn check_material(material: &Material, found: &mut Found) {
+    let reason = match (material.effective_modulus, material.youngs_modulus, material.poisson_ratio) {
+        (Some(_), None, None) => return,
+        (None, Some(_), Some(_)) => {
+            let modulus = material.effective_modulus();
+            let range = field("material.effective_modulus", None).map(|field| field.range);
+            if !found.has("material") && !range.is_some_and(|range| range.contains(modulus)) {
+                found.add(Violation {
+                    field: "material".into(),
+                    value: format!("E* = {}", ron_float(modulus)),
+                    allowed: field("material.effective_modulus", None)
+                        .map_or_else(String::new, |field| field.allowed()),
+                    reason: "effective modulus E/(1 − ν²)".into(),
+                    involves: &["material.youngs_modulus", "material.poisson_ratio"],
+                });
+            }
+            return;
+        }
+        (Some(_), ..) => "effective_modulus replaces youngs_modulus and poisson_ratio: give one or the other",
+        (None, Some(_), None) => "youngs_modulus goes with poisson_ratio, which is missing",
+        (None, None, Some(_)) => "poisson_ratio goes with youngs_modulus, which is missing",
+        (None, None, None) => "give youngs_modulus with poisson_ratio, or effective_modulus",
+    };
+    let involves = &["material.effective_modulus", "material.youngs_modulus", "material.poisson_ratio"];
+    found.add(inconsistency("material", "", reason, involves));
+}
+
+fn check_form(scene: &Scene, found: &mut Found) {
+    let Some(form) = scene.form else {
+        return;
+    };
+    if found.has("form") || found.has("length") {
+        return;
+    }
+    if let Form::Punch { radius } = form {
+        return check_punch(scene, radius, found);
+    }
+    // The line carries the transformed profile, which is at most this many times higher.
+    let rise = 20.0 * rise_at_end(form, scene.length / 2.0);
+    if !LEG_INDENTATION.range.contains(rise) {
+        let (path, value) = match form {
+            Form::Paraboloid { radius } | Form::Punch { radius } => ("form.radius", radius),
+            Form::Cone { angle } => ("form.angle", angle),
+            Form::Power { coefficient, .. } => ("form.coefficient", coefficient),
+        };
+        let reason = format!(
+            "the body rises too steeply: at the ends of the line it is higher than the {} m an indentation can reach",
+            LEG_INDENTATION.range.max().unwrap_or_default()
+        );
+        found.add(inconsistency(path, ron_float(value), reason, &["form", "form.exponent", "length"]));
+    }
+}
+
+/// The body's own profile f(r) at a radius, m.
+fn rise_at_end(form: Form, radius: f64) -> f64 {
+    match form {
+        Form::Paraboloid { radius: curvature } => radius * radius / (2.0 * curvature),
+        Form::Cone { angle } => radius * angle.tan(),
+        Form::Power { coefficient, exponent } => coefficient * radius.powf(exponent),
+        Form::Punch { .. } => 0.0,
+    }
+}
+
+fn check_punch(scene: &Scene, radius: f64, found: &mut Found) {
+    if radius > scene.length / 2.0 {
+        let reason = format!(
+            "a punch is not wider than the line: at most length/2 = {}",
+            ron_float(scene.length / 2.0)
+        );
+        found.add(inconsistency("form.radius", ron_float(radius), reason, &["length"]));
+        return;
+    }
+    if !found.has("numerics.points") && scene.springs_under_body().is_empty() {
+        let reason = format!(
+            "no spring lies under the punch: the springs are {} m apart; more points or a larger radius",
+            ron_float(scene.spacing())
+        );
+        found.add(inconsistency("form.radius", ron_float(radius), reason, &["length", "numerics.points"]));
+    }
+}
+
+fn check_modes(scene: &Scene, found: &mut Found) {
+    if let Some(Roughness::SelfAffine { modes: (first, last), .. }) = scene.roughness
+        && last > scene.numerics.points / 2
+        && !found.has("roughness.modes")
+        && !found.has("numerics.points")
+    {
+        found.add(Violation {
+            field: "roughness.modes".into(),
+            value: format!("({first}, {last})"),
+            allowed: format!("last mode at most points/2 = {}", scene.numerics.points / 2),
+            reason: format!("{} springs carry no shorter wave", scene.numerics.points),
+            involves: &["numerics.points"],
+        });
+    }
+}
+
+/// Amplitude of the roughness, work of adhesion and κ: any two determine the third.
+fn check_amplitude(scene: &Scene, found: &mut Found) {
+    let (work, kappa) = match scene.adhesion {
+        Some(Adhesion { work: None, kappa: None }) => {
+            found.add(inconsistency(
+                "adhesion",
+                "",
+                "give work or kappa",
+                &["adhesion.work", "adhesion.kappa"],
+            ));
+            return;
+        }
+        Some(Adhesion { work, kappa }) => (work, kappa.is_some()),
+        None => (None, false),
+    };
+    let amplitude = match scene.roughness {
+        None if kappa => {
+            let reason = "κ measures adhesion against roughness, and there is none: give roughness, or adhesion by work";
+            found.add(inconsistency("adhesion.kappa", "", reason, &["roughness", "adhesion"]));
+            return;
+        }
+        None => return,
+        Some(Roughness::Measured { .. }) => true,
+        Some(Roughness::SelfAffine { rms_height: Some(_), rms_gradient: Some(_), .. }) => {
+            let reason = "rms_height and rms_gradient determine each other: give one of them";
+            found.add(inconsistency(
+                "roughness",
+                "",
+                reason,
+                &["roughness.rms_height", "roughness.rms_gradient"],
+            ));
+            return;
+        }
+        Some(Roughness::SelfAffine { rms_height, rms_gradient, .. }) => {
+            rms_height.is_some() || rms_gradient.is_some()
+        }
+    };
+    let involves: &[&str] =
+        &["roughness", "roughness.rms_height", "roughness.rms_gradient", "adhesion.work", "adhesion.kappa"];
+    match (amplitude, work, kappa) {
+        (true, Some(_), true) => {
+            let reason = "roughness amplitude, work and kappa: two determine the third, so leave one out or set it to None";
+            found.add(inconsistency("adhesion", "", reason, involves));
+        }
+        (false, Some(0.0), true) => {
+            let reason =
+                "without work of adhesion κ does not set an amplitude: give rms_height or rms_gradient";
+            found.add(inconsistency("roughness", "", reason, involves));
+        }
+        (false, Some(_), true) | (true, ..) => {}
+        (false, ..) => {
+            let reason =
+                "the amplitude is missing: give rms_height or rms_gradient, or adhesion by work and kappa";
+            found.add(inconsistency("roughness", "", reason, involves));
+        }
+    }
+}
+
+fn check_loading(scene: &Scene, found: &mut Found) {
+    let mut separated = true;
+    for (index, leg) in scene.loading.iter().enumerate() {
+        let pulls = match *leg {
+            Leg::ToSeparation => Some("ToSeparation".to_string()),
+            Leg::ToForce(force) if force < 0.0 => Some(format!("ToForce({})", ron_float(force))),
+            _ => None,
+        };
+        if let (true, Some(value)) = (separated, pulls) {
+            let reason =
+                "from separation nothing can pull: press first, with ToTouch, ToForce or ToIndentation";
+            found.add(inconsistency(&format!("loading.{index}"), value, reason, &["loading"]));
+        }
+        separated = *leg == Leg::ToSeparation;
+    }
+    let samples = (scene.loading.len() as u64).saturating_mul(scene.numerics.samples);
+    if samples > MOST_SAMPLES && !found.has("numerics.samples") && !found.has("loading") {
+        found.add(Violation {
+            field: "numerics.samples".into(),
+            value: scene.numerics.samples.to_string(),
+            allowed: format!("at most {}", MOST_SAMPLES / (scene.loading.len() as u64).max(1)),
+            reason: format!("{} legs have at most {MOST_SAMPLES} samples together", scene.loading.len()),
+            involves: &["loading"],
+        });
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::check::check;
+    use super::super::strategies::sound;
+    use super::*;
+
+    fn only(scene: &Scene) -> (String, String) {
+        let violations = check(scene);
+        assert_eq!(violations.len(), 1, "{violations:?}");
+        (violations[0].field.clone(), violations[0].reason.clone())
+    }
+
+    #[test]
+    fn a_material_is_determined_once() {
+        for (effective_modulus, youngs_modulus, poisson_ratio, said) in [
+            (Some(1e6), Some(1e6), Some(0.5), "one or the other"),
+            (Some(1e6), Some(1e6), None, "one or the other"),
+            (Some(1e6), None, Some(0.5), "one or the other"),
+            (None, Some(1e6), None, "poisson_ratio, which is missing"),
+            (None, None, Some(0.5), "youngs_modulus, which is missing"),
+            (None, None, None, "give youngs_modulus with poisson_ratio, or"),
+        ] {
+            let mut scene = sound();
+            scene.material = Material { youngs_modulus, poisson_ratio, effective_modulus };
+            let (field, reason) = only(&scene);
+            assert_eq!(field, "material");
+            assert!(reason.contains(said), "{reason}");
+        }
+    }
+
+    #[test]
+    fn the_effective_modulus_is_in_its_range_too() {
+        let material = |poisson_ratio| Material {
+            youngs_modulus: Some(1e6),
+            poisson_ratio: Some(poisson_ratio),
+            effective_modulus: None,
+        };
+        let mut scene = sound();
+        // Nearly −1: E* is enormous, though E and ν are in their ranges.
+        scene.material = material(-1.0 + 1e-9);
+        assert_eq!(only(&scene).0, "material");
+        scene.material = material(-1.0 + 1e-6);
+        assert_eq!(check(&scene), vec![]);
+    }
+
+    #[test]
+    fn amplitude_work_and_kappa_determine_each_other() {
+        let set = |height: bool, gradient: bool, adhesion: Option<(Option<f64>, Option<f64>)>| {
+            let mut scene = sound();
+            if let Some(Roughness::SelfAffine { rms_height, rms_gradient, .. }) = &mut scene.roughness {
+                *rms_height = height.then_some(1e-7);
+                *rms_gradient = gradient.then_some(0.1);
+            }
+            scene.adhesion = adhesion.map(|(work, kappa)| Adhesion { work, kappa });
+            scene
+        };
+        let (work, kappa) = (Some(0.05), Some(2.0));
+        for sound in [
+            set(true, false, None),
+            set(false, true, Some((work, None))),
+            set(true, false, Some((Some(0.0), None))),
+            set(true, false, Some((None, kappa))),
+            set(false, false, Some((work, kappa))),
+        ] {
+            assert_eq!(check(&sound), vec![]);
+        }
+        for (scene, field, said) in [
+            (set(true, true, None), "roughness", "determine each other"),
+            (set(true, true, Some((work, kappa))), "roughness", "determine each other"),
+            (set(true, false, Some((work, kappa))), "adhesion", "determine the third"),
+            (set(false, false, None), "roughness", "the amplitude is missing"),
+            (set(false, false, Some((work, None))), "roughness", "the amplitude is missing"),
+            (set(false, false, Some((None, kappa))), "roughness", "the amplitude is missing"),
+            (set(false, false, Some((Some(0.0), kappa))), "roughness", "does not set an amplitude"),
+            (set(true, false, Some((None, None))), "adhesion", "give work or kappa"),
+        ] {
+            let (path, reason) = only(&scene);
+            assert_eq!(path, field);
+            assert!(reason.contains(said), "{reason}");
+        }
+    }
+
+    #[test]
+    fn kappa_needs_roughness() {
+        let mut scene = sound();
+        scene.roughness = None;
+        assert_eq!(check(&scene), vec![]);
+        scene.adhesion = Some(Adhesion { work: None, kappa: Some(2.0) });
+        assert_eq!(only(&scene).0, "adhesion.kappa");
+        scene.roughness = Some(Roughness::Measured { file: "line.csv".into() });
+        assert_eq!(check(&scene), vec![]);
+        scene.adhesion = Some(Adhesion { work: Some(0.05), kappa: Some(2.0) });
+        assert_eq!(only(&scene).0, "adhesion");
+    }
+
+    #[test]
+    fn no_wave_is_shorter_than_two_springs() {
+        let mut scene = sound();
+        for (points, sound) in [(1024, true), (1025, true), (1023, false), (1, false)] {
+            scene.numerics.points = points;
+            assert_eq!(check(&scene).is_empty(), sound, "{points}");
+        }
+        scene.numerics.points = 64;
+        let violations = check(&scene);
+        assert_eq!(violations[0].allowed, "last mode at most points/2 = 32");
+        assert_eq!(violations[0].value, "(1, 512)");
+    }
+
+    #[test]
+    fn a_punch_is_on_the_line_and_over_a_spring() {
+        let mut scene = sound();
+        scene.roughness = None;
+        for points in [1, 2, 3, 4096, 4097] {
+            scene.numerics.points = points;
+            let spacing = scene.spacing();
+            // Below a quarter of the spacing its diameter is nearer to no cell than to one.
+            for (radius, sound) in
+                [(5e-5, true), (5.1e-5, false), (0.26 * spacing, true), (0.24 * spacing, false)]
+            {
+                scene.form = Some(Form::Punch { radius });
+                assert_eq!(check(&scene).is_empty(), sound, "{radius} on {points} points");
+            }
+        }
+    }
+
+    #[test]
+    fn a_body_does_not_rise_beyond_all_indentations() {
+        let mut scene = sound();
+        scene.length = 10.0;
+        for form in [
+            Form::Paraboloid { radius: 1e-300 },
+            Form::Cone { angle: std::f64::consts::FRAC_PI_2 - 1e-9 },
+            Form::Power { coefficient: 1e300, exponent: 100.0 },
+        ] {
+            scene.form = Some(form);
+            assert!(only(&scene).1.contains("rises too steeply"));
+        }
+    }
+
+    #[test]
+    fn nothing_is_pulled_that_does_not_touch() {
+        use Leg::*;
+        let mut scene = sound();
+        for (loading, field) in [
+            (vec![ToSeparation], "loading.0"),
+            (vec![ToForce(-1e-6)], "loading.0"),
+            (vec![ToTouch, ToSeparation, ToForce(-1.0)], "loading.2"),
+            (vec![ToTouch, ToSeparation, ToSeparation], "loading.2"),
+        ] {
+            scene.loading = loading;
+            assert_eq!(only(&scene).0, field);
+        }
+        // No force is no pull.
+        scene.loading = vec![ToForce(1.0), ToForce(-1e-6), ToTouch, ToSeparation, ToForce(0.0), ToZeroForce];
+        assert_eq!(check(&scene), vec![]);
+    }
+
+    #[test]
+    fn samples_of_all_legs_are_bounded_together() {
+        let mut scene = sound();
+        scene.loading = vec![Leg::ToTouch; 1 << 14];
+        scene.numerics.samples = 1 << 10;
+        assert_eq!(check(&scene), vec![]);
+        scene.numerics.samples += 1;
+        assert_eq!(only(&scene).0, "numerics.samples");
+    }
+}

@@ -1,0 +1,102 @@
+//! One field of a scene: path, symbol, unit, range, meaning, and access to its value.
+
+use super::model::Scene;
+use super::range::Range;
+use super::value::{Access, Value};
+
+/// One field of a scene.
+#[derive(Clone, Copy, Debug)]
+pub struct Field {
+    /// Path from the top of the scene, components joined by dots: `roughness.hurst`.
+    pub path: &'static str,
+    /// Variant of the enclosing choice that has this field: `Paraboloid` for `form.radius`. `None` where the field does
+    /// not depend on a choice.
+    pub variant: Option<&'static str>,
+    /// Name in the terms of contact mechanics: `Hurst exponent`.
+    pub name: &'static str,
+    /// Symbol in the equations, empty where there is none.
+    pub symbol: &'static str,
+    /// SI unit; `1` for numbers without one, empty for other values.
+    pub unit: &'static str,
+    /// Allowed values.
+    pub range: Range,
+    /// Steps of the keys.
+    pub step: Step,
+    /// Value of a field that is left out, as it would be written; empty where the field is required.
+    pub default: &'static str,
+    /// Meaning in one line.
+    pub meaning: &'static str,
+    /// Access to the value.
+    pub(super) access: Access,
+}
+
+/// How a key steps a field.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Step {
+    /// By adding; the result is a multiple of `fine`.
+    Linear {
+        /// Small step.
+        fine: f64,
+        /// Large step.
+        coarse: f64,
+    },
+    /// To the next preferred number: twenty to a decade (the Renard series R20) as the small step,
+    /// 1–2–5 as the large one.
+    Logarithmic,
+    /// By adding to a whole number.
+    Integer {
+        /// Small step.
+        fine: u64,
+        /// Large step.
+        coarse: u64,
+    },
+    /// To the next power of two; the large step is four of them.
+    Doubling,
+    /// The last mode of a pair to the next power of two; the large step moves the first mode.
+    Band,
+    /// To the next choice.
+    Choice,
+    /// Not stepped, only typed.
+    Typed,
+}
+
+impl Field {
+    /// Value in a scene; `None` where the field belongs to a choice that the scene does not make.
+    pub fn get<'s>(&self, scene: &'s Scene) -> Option<Value<'s>> {
+        (self.access.get)(scene)
+    }
+
+    /// Gives the field a value, in its range or not. A group that may be left out is made for it.
+    ///
+    /// Returns `false`, with the scene as it was, for a value of another kind, for a field of a choice that the scene
+    /// does not make, and for a choice as a whole, which [`Document::set`](super::Document::set) exchanges.
+    #[must_use]
+    pub fn set(&self, scene: &mut Scene, value: Value<'_>) -> bool {
+        (self.access.set)(scene, value)
+    }
+
+    /// Allowed values with the unit: `from 1 to 1e13 Pa`.
+    pub fn allowed(&self) -> String {
+        match self.unit {
+            "" | "1" => self.range.to_string(),
+            unit => format!("{} {unit}", self.range),
+        }
+    }
+
+    /// Path of the enclosing group; empty at the top of the scene.
+    pub fn parent(&self) -> &'static str {
+        self.path.rsplit_once('.').map_or("", |(parent, _)| parent)
+    }
+
+    /// The last component of the path.
+    pub fn last(&self) -> &'static str {
+        self.path.rsplit_once('.').map_or(self.path, |(_, last)| last)
+    }
+}
+
+/// Fields are the same where path and variant are.
+impl PartialEq for Field {
+    fn eq(&self, other: &Field) -> bool {
+        (self.path, self.variant) == (other.path, other.variant)
+    }
+}

@@ -1,0 +1,256 @@
+//! Scenes for tests: a sound one, and strategies for random ones, which draw every field of the table of fields.
+//!
+//! The tests of this room use the file as a module; the integration tests include it.
+
+use super::{
+    DEFAULT, Document, End, FIELDS, Field, LEG_FORCE, LEG_INDENTATION, Range, Scene, find, is_control,
+    ron_float, ron_string,
+};
+use proptest::prelude::*;
+
+/// Most elements of a list that is drawn; longer lists add time and no other case.
+const MOST_ELEMENTS: usize = 6;
+
+/// Most characters of a text that is drawn.
+const MOST_CHARACTERS: usize = 40;
+
+/// How many values of ten are ends of their range, or drawn over all its orders of magnitude.
+const EXTREME: [u32; 3] = [1, 5, 10];
+
+/// Which values are drawn.
+#[derive(Clone, Default)]
+pub struct Drawn {
+    /// Fields whose values are drawn otherwise, by path: because a whole range takes too long to compute.
+    narrowed: Vec<(&'static str, BoxedStrategy<String>)>,
+    /// Whether values outside their ranges, of other types, missing and unknown fields are drawn now and then.
+    wrong: bool,
+    /// Values of ten that are extreme.
+    extreme: u32,
+}
+
+impl Drawn {
+    /// Draws the value of one field otherwise.
+    pub fn narrowed(mut self, path: &'static str, value: BoxedStrategy<String>) -> Self {
+        self.narrowed.push((path, value));
+        self
+    }
+
+    /// Draws mistakes as well.
+    pub fn with_mistakes(self) -> Self {
+        Drawn { wrong: true, ..self }
+    }
+
+    /// Texts of scenes: from ordinary ones to those with each value at an end of its range.
+    pub fn scene_texts(&self) -> BoxedStrategy<String> {
+        let of = |extreme| Drawn { extreme, ..self.clone() }.group("", None, "");
+        proptest::strategy::Union::new(EXTREME.map(of)).boxed()
+    }
+
+    /// Scenes that can be computed.
+    pub fn documents(&self) -> impl Strategy<Value = Document> + use<> {
+        self.scene_texts()
+            .prop_filter_map("a scene that is allowed", |text| Document::parse(&text, "drawn").ok())
+    }
+
+    /// Overrides as `--set` takes them: path and value.
+    pub fn overrides(&self, most: usize) -> BoxedStrategy<Vec<(String, String)>> {
+        let of = |field: &'static Field| {
+            let drawn = Drawn { extreme: EXTREME[0], ..self.clone() };
+            drawn.value(field).prop_map(|value| (field.path.to_string(), value)).boxed()
+        };
+        let legs = [&LEG_FORCE, &LEG_INDENTATION].map(|leg| {
+            let value = Drawn { extreme: EXTREME[0], ..self.clone() }.value(leg);
+            (0..3_usize, value).prop_map(|(index, value)| (format!("loading.{index}.0"), value)).boxed()
+        });
+        let one = proptest::strategy::Union::new(FIELDS.iter().map(of).chain(legs));
+        prop::collection::vec(one, 1..=most).boxed()
+    }
+
+    /// A value of a field as it is written.
+    fn value(&self, field: &'static Field) -> BoxedStrategy<String> {
+        if let Some((_, value)) = self.narrowed.iter().find(|(path, _)| *path == field.path) {
+            return value.clone();
+        }
+        let value = match field.range {
+            Range::Real { min, max } => self.number(field, min, max).prop_map(ron_float).boxed(),
+            Range::Whole { min, max } => whole(min, max).prop_map(|value| value.to_string()).boxed(),
+            Range::Band { min, max } => (whole(min, max), whole(min, max))
+                .prop_map(|(one, other)| format!("({}, {})", one.min(other), one.max(other)))
+                .boxed(),
+            Range::Text { most, lines, .. } => text(most.min(MOST_CHARACTERS), lines),
+            Range::Choice(of) => {
+                let choice = |template: &&'static str| self.choice(field, template);
+                proptest::strategy::Union::new(of.iter().map(choice)).boxed()
+            }
+            Range::List { of, least, most } => {
+                let element = |template: &&'static str| self.choice(field, template);
+                let element = proptest::strategy::Union::new(of.iter().map(element));
+                prop::collection::vec(element, least..=most.min(MOST_ELEMENTS))
+                    .prop_map(|elements| format!("[{}]", elements.join(", ")))
+                    .boxed()
+            }
+            Range::Group => self.group(field.path, None, ""),
+        };
+        if self.wrong { prop_oneof![24 => value, 1 => mistake(field)].boxed() } else { value }
+    }
+
+    /// One of the choices of a field, given as a template: `Cone(angle: 0.1)`, `(work: 0.05)`,
+    /// `ToForce(1.0e-5)` or `Exact`.
+    fn choice(&self, field: &'static Field, template: &'static str) -> BoxedStrategy<String> {
+        let (name, arguments) = template.split_once('(').unwrap_or((template, ""));
+        if arguments.is_empty() {
+            return Just(name.to_string()).boxed();
+        }
+        let argument = [&LEG_FORCE, &LEG_INDENTATION]
+            .into_iter()
+            .find(|leg| (leg.path, leg.variant) == (field.path, Some(name)));
+        match argument {
+            Some(argument) => self.value(argument).prop_map(move |value| format!("{name}({value})")).boxed(),
+            None => {
+                let variant = Some(name).filter(|name| !name.is_empty());
+                self.group(field.path, variant, arguments)
+                    .prop_map(move |group| format!("{name}{group}"))
+                    .boxed()
+            }
+        }
+    }
+
+    /// The fields below a path, in parentheses. A template names those of them that make a whole; others that may
+    /// be left out are mostly left out.
+    fn group(&self, parent: &str, variant: Option<&str>, template: &str) -> BoxedStrategy<String> {
+        let belongs = |field: &&Field| {
+            field.parent() == parent
+                && field.path != parent
+                && (field.variant.is_none() || variant.is_none() || field.variant == variant)
+        };
+        let entry = |field: &'static Field| {
+            let named = template.contains(&format!("{}:", field.last()));
+            let given = match field.default {
+                "" if self.wrong => 0.99,
+                "" => 1.0,
+                "None" if named => 0.95,
+                "None" if !template.is_empty() => 0.05,
+                _ => 0.7,
+            };
+            let name = if self.wrong {
+                prop_oneof![60 => Just(field.last()), 1 => Just("colour")].boxed()
+            } else {
+                Just(field.last()).boxed()
+            };
+            let entry = (name, self.value(field)).prop_map(|(name, value)| format!("{name}: {value}"));
+            if given < 1.0 {
+                prop::option::weighted(given, entry).boxed()
+            } else {
+                entry.prop_map(Some).boxed()
+            }
+        };
+        let entries: Vec<_> = FIELDS.iter().filter(belongs).map(entry).collect();
+        entries
+            .prop_map(|entries| format!("({})", entries.into_iter().flatten().collect::<Vec<_>>().join(", ")))
+            .boxed()
+    }
+
+    /// Numbers around what is usual in the field, and extreme ones: the ends of the range, and all its orders of
+    /// magnitude alike.
+    fn number(&self, field: &'static Field, min: End, max: End) -> BoxedStrategy<f64> {
+        let least = if let End::Open(end) = min { end.next_up() } else { min.value() };
+        let most = if let End::Open(end) = max { end.next_down() } else { max.value() };
+        let size = least.abs().max(most.abs());
+        let smallest = if least > 0.0 { least } else { 1e-300_f64.max(f64::MIN_POSITIVE / size) };
+        let signed = |size: BoxedStrategy<f64>| {
+            (size, any::<bool>()).prop_map(move |(size, negative)| {
+                let value = if negative && least < 0.0 { -size } else { size };
+                value.clamp(least, most)
+            })
+        };
+        let decades = (smallest.ln()..size.ln()).prop_map(f64::exp).boxed();
+        let usual = usual(field).unwrap_or((smallest.max(1e-3) * size.min(1e3)).sqrt());
+        let near = (-5.0..5.0_f64).prop_map(move |power| usual * power.exp()).boxed();
+        let ends = prop_oneof![Just(least), Just(most), Just(0.0_f64.clamp(least, most))];
+        let inside =
+            (0.0..1.0_f64).prop_map(move |share| (least + share * (most - least)).clamp(least, most));
+        let extreme = prop_oneof![1 => ends, 2 => inside, 4 => signed(decades)];
+        prop_oneof![10 - self.extreme.min(9) => signed(near), self.extreme.max(1) => extreme].boxed()
+    }
+}
+
+/// Whole numbers, all orders of magnitude alike, and the ends of their range.
+fn whole(min: u64, max: u64) -> BoxedStrategy<u64> {
+    let decades = ((min.max(1) as f64).ln()..=(max as f64).ln())
+        .prop_map(move |log| (log.exp().round() as u64).clamp(min, max));
+    prop_oneof![1 => Just(min), 1 => Just(max), 10 => decades].boxed()
+}
+
+/// Text with characters of all kinds, but control characters.
+fn text(most: usize, lines: bool) -> BoxedStrategy<String> {
+    let character = prop_oneof![4 => proptest::char::range(' ', '~'), 1 => any::<char>(), 1 => Just('\n')];
+    let allowed = move |c: &char| !is_control(*c) || (lines && *c == '\n');
+    prop::collection::vec(character, 1..=most.max(1))
+        .prop_map(move |text| {
+            let mut text: String = text.into_iter().filter(allowed).collect();
+            if text.is_empty() {
+                text.push('x');
+            }
+            ron_string(&text)
+        })
+        .boxed()
+}
+
+/// What a field does not allow: beyond the ends of the range, another type, nothing.
+fn mistake(field: &'static Field) -> BoxedStrategy<String> {
+    let mut values: Vec<String> =
+        ["", "NaN", "-inf", "-1", "1e999", "None", "()", "[]", "\"\\u{1b}[2J\"", "Nothing"]
+            .map(str::to_string)
+            .to_vec();
+    for end in [field.range.min(), field.range.max()].into_iter().flatten() {
+        let away = end.abs().max(f64::MIN_POSITIVE) * 1e-9;
+        values.extend([ron_float(end - away), ron_float(end + away)]);
+    }
+    prop::sample::select(values).boxed()
+}
+
+/// A usual value of a number: that of the template of its choice, or of the default scene.
+fn usual(field: &Field) -> Option<f64> {
+    let number = |text: &str| {
+        let end = text.find([',', ')']).unwrap_or(text.len());
+        text[..end].trim().parse::<f64>().ok()
+    };
+    let of_templates = |templates: &[&str]| {
+        templates.iter().filter(|template| template.starts_with(field.variant.unwrap_or(""))).find_map(
+            |template| match template.split_once(&format!("{}: ", field.last())) {
+                Some((_, rest)) => number(rest),
+                None => number(template.split_once('(')?.1),
+            },
+        )
+    };
+    let parent = if field.parent().is_empty() { field.path } else { field.parent() };
+    let templates = FIELDS.iter().find(|other| other.path == parent).map(|other| other.range);
+    let found = match templates {
+        Some(Range::Choice(of) | Range::List { of, .. }) => of_templates(of),
+        _ => None,
+    };
+    found.or_else(|| {
+        let scene = find(DEFAULT)?;
+        number(Document::parse(scene.text, scene.name).ok()?.value(field.path)?)
+    })
+}
+
+/// Scenes without a violation.
+pub fn sound_scenes() -> impl Strategy<Value = Scene> {
+    Drawn::default().documents().prop_map(|document| document.scene().clone())
+}
+
+/// A rough scene with adhesion that violates nothing.
+pub fn sound() -> Scene {
+    const TEXT: &str = r#"(
+        version: 1,
+        title: "A line",
+        material: (youngs_modulus: 2.0e6, poisson_ratio: 0.5),
+        length: 1.0e-4,
+        roughness: SelfAffine(hurst: 0.7, rms_height: 1.0e-7, modes: (1, 512), seed: 1),
+        adhesion: (work: 0.05),
+        loading: [ToForce(1.0e-5), ToSeparation],
+        numerics: (points: 4096, edges: Grid),
+    )"#;
+    Document::parse(TEXT, "sound").unwrap_or_else(|errors| panic!("{errors}")).scene().clone()
+}
