@@ -45,6 +45,7 @@ mod lines;
 pub mod map;
 mod measured;
 mod merge;
+mod numbering;
 #[cfg(feature = "parquet")]
 mod parquet;
 mod plan;
