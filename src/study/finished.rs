@@ -57,7 +57,7 @@ impl Finished {
         &self.plan
     }
 
-    /// What a cell gave; `None` where the tables were published without it. Cells are counted with the last
+    /// Summary of a cell; `None` where the tables were published without it. Cells are counted with the last
     /// axis fastest, and the preload faster than that; [`Plan::values`] tells their coordinates.
     #[must_use]
     pub fn cell(&self, cell: u64) -> Option<&CellSummary> {

@@ -25,7 +25,7 @@ pub const RESULTS: &str = "results.csv";
 pub const SUMMARY: &str = "summary.csv";
 /// The results with types, where they are asked for.
 pub const PARQUET: &str = "results.parquet";
-/// What the columns mean.
+/// Name of the file with the meanings of the columns.
 pub const SIDECAR: &str = "results.json";
 
 /// Missing cells that are named.
@@ -34,7 +34,7 @@ const MOST_NAMED: usize = 8;
 const FILE_BITS: u32 = 24;
 const NOWHERE: u64 = u64::MAX;
 
-/// What a merge has found.
+/// Contents found by a merge.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Merged {
     /// Records there are, each counted once.
@@ -55,7 +55,7 @@ pub struct Merged {
     pub programs: Vec<String>,
 }
 
-/// Where every record stands.
+/// Place of every record.
 struct Index {
     files: Vec<ShardFile>,
     places: Vec<u64>,
@@ -246,7 +246,7 @@ fn cells_at_once(lines: usize, columns: usize) -> usize {
     (HELD / (row * lines)).max(1)
 }
 
-/// Why tables were not written.
+/// Reason why tables were not written.
 enum TableError {
     Reading(StudyError),
     Writing(io::Error),

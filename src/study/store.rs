@@ -40,7 +40,7 @@ pub struct Folder {
     disk: Arc<dyn Disk>,
 }
 
-/// What a shard file says of itself, on its first line.
+/// Header of a shard file: its first line.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Header {
     /// [`STORE_VERSION`].
@@ -62,7 +62,7 @@ pub struct Header {
     pub measured_sha256: Option<String>,
 }
 
-/// What every version of the program can read of a header.
+/// Part of a header that every version of the program can read.
 #[derive(Deserialize)]
 struct AnyHeader {
     format: u32,
@@ -71,9 +71,9 @@ struct AnyHeader {
 /// A shard file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ShardFile {
-    /// Its path.
+    /// Path.
     pub path: PathBuf,
-    /// What it says of itself; `None` where the process ended before that was written.
+    /// Header; `None` where the process ended before writing it.
     pub header: Option<Header>,
     /// When something was last written to it, s since 1970.
     pub written: f64,
@@ -131,7 +131,7 @@ impl Folder {
         Ok(Folder { path: path.to_path_buf(), plan, disk })
     }
 
-    /// Whether a path is the folder of a study, sound or not.
+    /// Returns true for the folder of a study, sound or not.
     #[must_use]
     pub fn is_at(path: &Path) -> bool {
         path.join(PLAN_FILE).is_file()
@@ -160,13 +160,13 @@ impl Folder {
         Ok(Folder { path: path.to_path_buf(), plan, disk })
     }
 
-    /// Its path.
+    /// Path.
     #[must_use]
     pub fn path(&self) -> &Path {
         &self.path
     }
 
-    /// Its plan.
+    /// Plan of the study.
     #[must_use]
     pub fn plan(&self) -> &Plan {
         &self.plan
@@ -410,7 +410,7 @@ fn in_letters_for_files(name: &str) -> String {
     if name.is_empty() { "host".into() } else { name }
 }
 
-/// Why a folder that has the text `there` for a plan is none of `plan`.
+/// Error for a folder that holds the text `there` of another plan than `plan`.
 fn refusal(path: &Path, there: &str, plan: &Plan) -> StudyError {
     let file = path.join(PLAN_FILE);
     // Where nothing but the content of the measured file is another, that is said.

@@ -19,10 +19,10 @@ use thiserror::Error;
 const KAPPA: [&str; 2] = ["kappa", "adhesion.kappa"];
 const HURST: [&str; 1] = ["roughness.hurst"];
 
-/// Why a folder opens as no maps.
+/// Reason why a folder opens as no maps.
 #[derive(Debug, Error)]
 pub enum StudyMapError {
-    /// It is not the folder of a merged study.
+    /// The folder holds no merged study.
     #[error(transparent)]
     Study(#[from] StudyError),
     /// The study does not vary κ and H.
@@ -37,7 +37,7 @@ pub enum StudyMapError {
         /// The axes it has, each with its number of values.
         axes: String,
     },
-    /// Its scene is not one that can be explored.
+    /// The scene cannot be explored.
     #[error(transparent)]
     Scene(#[from] SceneErrors),
 }
@@ -103,7 +103,7 @@ impl StudyMap {
         &self.folder
     }
 
-    /// Its name, without the folders it is in.
+    /// Name of the folder, without those above it.
     #[must_use]
     pub fn name(&self) -> String {
         let whole = std::path::absolute(&self.folder).unwrap_or_else(|_| self.folder.clone());
@@ -120,7 +120,7 @@ impl StudyMap {
         self.plan().all_axes()
     }
 
-    /// How many maps it has.
+    /// Number of maps.
     #[must_use]
     pub fn slices(&self) -> u64 {
         let axes = self.axes();
@@ -134,7 +134,7 @@ impl StudyMap {
         self.others.iter().zip(places).map(|(&other, place)| (axes[other], other, place)).collect()
     }
 
-    /// Where a map stands on the axes that are neither κ nor H, as people read it: `F_n/(E* h L) = 0.1`.
+    /// Place of a map on the axes that are neither κ nor H, in words: `F_n/(E* h L) = 0.1`.
     #[must_use]
     pub fn stands_at(&self, slice: u64) -> Vec<String> {
         self.at(slice).into_iter().map(|(axis, _, place)| fixed(self.plan(), axis, place)).collect()
@@ -200,7 +200,7 @@ impl StudyMap {
         Document::from_scene(&self.scene(0, None), &name)
     }
 
-    /// Whether a scene is that of a map, but for κ and H and how finely its curve is computed.
+    /// Returns true for the scene of a map, but for κ, H and the resolution of its curve.
     #[must_use]
     pub fn is_of(&self, slice: u64, scene: &Scene) -> bool {
         let Some(Roughness::SelfAffine { hurst, .. }) = scene.roughness else { return false };
