@@ -2,13 +2,14 @@
 
 use super::StudyError;
 use super::cells::Cells;
+use super::done::Done;
 use super::measured::profile;
 use super::record::{Key, encode};
 use super::recorder::Records;
 use super::shard::Shard;
 use super::solve::{Case, Next, SharedWork, Sink};
 use super::status::count;
-use super::store::{Done, Folder};
+use super::store::Folder;
 use crate::disk::DiskFile;
 use crate::io::WriteError;
 use crate::parallel::begin_threads;

@@ -2,9 +2,10 @@
 
 use super::StudyError;
 use super::cells::Cells;
+use super::done::Done;
 use super::plan::Plan;
 use super::shard::Shard;
-use super::store::{Done, Folder};
+use super::store::Folder;
 use crate::text::{path_name, printable};
 use serde::Serialize;
 use std::collections::BTreeMap;
