@@ -53,7 +53,7 @@ struct Index {
 
 /// Merges the shard files of a study and publishes its tables, all of them or none: whoever looks, and whatever
 /// ends the process or the machine, finds those of this merge or those of the one before. With `partial`, tables
-/// of what there is. [`PARQUET`] of an earlier merge goes.
+/// of what there is. [`super::PARQUET`] of an earlier merge goes.
 ///
 /// # Errors
 /// [`StudyError::Missing`] where records are missing and `partial` is not set; [`StudyError::Disagree`] where
