@@ -1,8 +1,8 @@
 //! The neighbourhood of one fragment: where it is, what it bears, what it carries.
 
-use super::reduce::{Contact, LineColumns, Part};
 use super::snapshot::{CloseUp, FragmentFacts};
 use super::worker::{Focus, MomentRequest};
+use crate::analysis::section::{Contact, LineColumns, Part};
 use crate::contact::{Foundation, FragmentState, Snapshot};
 
 /// The part of the line that a request asks to see from near.

@@ -2,9 +2,9 @@
 
 use super::close_up::close_up;
 use super::held::Held;
-use super::reduce::{self, Contact, LineColumns, Part};
 use super::snapshot::{Drive, Loop, Moment};
 use super::worker::{Engine, HandOrder, LineView, MomentRequest, Newest, Report};
+use crate::analysis::section::{self, Contact, LineColumns, Part};
 use crate::contact::{ContactError, LegContact, LegRecord, Snapshot, Solver};
 use crate::scene::{Observer, Scene};
 use std::sync::Arc;
@@ -147,7 +147,7 @@ impl Playback {
         let snapshot = Snapshot::new(&line.gaps, deepest, scene.numerics.edges, hess);
         let point = at.unwrap_or_else(|| snapshot.point(foundation, request.indentation, &fragments, &rises));
         let changed = match &self.last {
-            Some((drive, before)) if *drive == request.drive => reduce::changed(before, &fragments),
+            Some((drive, before)) if *drive == request.drive => section::changed(before, &fragments),
             _ => 0,
         };
         let contact = Contact {
@@ -167,8 +167,8 @@ impl Playback {
             changed,
             profile: contact.section(profile, &mut self.profile),
             close_up,
-            strip: reduce::strip(&fragments, line.gaps.len(), request.strip_cells),
-            lengths: request.lengths.then(|| reduce::lengths(&fragments)),
+            strip: section::strip(&fragments, line.gaps.len(), request.strip_cells),
+            lengths: request.lengths.then(|| section::lengths(&fragments)),
             hand: match request.drive {
                 Drive::Leg(_) => None,
                 Drive::Hand => self.held.as_mut().map(Held::travel),
