@@ -104,11 +104,11 @@ impl Document {
         self.set_all(&[(path.to_string(), value.to_string())])
     }
 
-    /// This document with fields overridden, one after the other. Values are written in RON.
+    /// This document with fields overridden, one after the other. Values are written in RON; a number may have an SI
+    /// prefix and its unit, `50 mJ/m²`.
     ///
-    /// A field that is not in the text is inserted there, with its group; `None` takes an optional
-    /// part away. Ranges are checked once, at the end, so overrides that are allowed only together
-    /// may be given in any order.
+    /// A field that the text leaves out is inserted, with its group; `None` removes an optional part. Ranges are checked
+    /// once, at the end, so that overrides that are allowed only together may be given in any order.
     ///
     /// # Errors
     ///
@@ -200,7 +200,17 @@ impl Document {
     /// Changes text and scene, leaving both as they are where that fails.
     fn splice(&mut self, path: &str, value: &str) -> Result<(), SceneErrors> {
         let origin = Origin::Overrides(vec![format!("{path}={value}")]);
-        let text = edit::set(&self.text, path, value)
+        let value = match edit::field_at(&self.text, path) {
+            Some(field) => field.read_typed(value).map_err(|error| SceneError {
+                origin: origin.clone(),
+                field: path.to_string(),
+                value: value.to_string(),
+                allowed: field.allowed(),
+                message: error.to_string(),
+            })?,
+            None => value.to_string(),
+        };
+        let text = edit::set(&self.text, path, &value)
             .and_then(|text| check_length(&text).map(|()| text))
             .map_err(|message| SceneError::whole(origin.clone(), message))?;
         self.scene = read(&text).map_err(|unread| unread.into_error(origin))?;
