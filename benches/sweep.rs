@@ -7,7 +7,7 @@
 
 use asperity::scene::{Adhesion, Leg, Roughness, Scene};
 use asperity::simulation::Simulation;
-use asperity::sweep::{Changes, Folder, Options, Plan, Shard, merge, run};
+use asperity::study::{Changes, Folder, Options, Plan, Shard, merge, run};
 use realfft::RealFftPlanner;
 use std::hint::black_box;
 use std::path::PathBuf;

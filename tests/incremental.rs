@@ -48,7 +48,8 @@ impl Body {
         fragments: &[(usize, usize)],
     ) -> Manual<GridEdges> {
         let tree = Arc::clone(tree);
-        Manual::in_contact(&self.gaps, tree, self.edges(), self.foundation, indentation, fragments).unwrap()
+        Manual::in_contact(&self.gaps, tree, self.edges(), self.foundation, indentation, fragments, &[])
+            .unwrap()
     }
 
     /// m
@@ -355,13 +356,34 @@ proptest! {
                 prop_assert!(refused(manual.move_to_indentation(value)));
                 prop_assert!(refused(manual.move_to_force(value)));
                 let tree = Arc::clone(&tree);
-                let taken = Manual::in_contact(&body.gaps, tree, body.edges(), body.foundation, value, &[]);
+                let taken = Manual::in_contact(&body.gaps, tree, body.edges(), body.foundation, value, &[], &[]);
                 let is_refused = matches!(taken, Err(ManualError::NotFinite { .. }));
                 prop_assert!(is_refused);
             }
             prop_assert_eq!(state(&manual), before);
         }
     }
+}
+
+/// Far beyond full contact the force passes its target between two neighbouring indentations: the leg back to the same
+/// force ends below it.
+#[test]
+fn a_force_passed_by_a_rounding_is_met_again_from_above() {
+    let gaps: Vec<f64> = (0..10).map(|k| (f64::from(k) / 50.0).powi(2)).collect();
+    let body = Body { gaps, foundation: Foundation::endless(0.003, 0.3), work: None };
+    let tree = body.tree();
+    let leg = Goal::Force(1e9).leg(&body);
+    let Leg::ToForce(force) = leg else { panic!("{leg:?}") };
+    let (mut solver, mut manual) = (body.exact(&tree), body.separated(&tree));
+    let mut reached = Vec::new();
+    for _ in 0..2 {
+        go(&mut manual, leg).unwrap();
+        let record = solver.advance(leg).unwrap();
+        let end = *record.curve.last().unwrap();
+        assert_eq!(bits(&manual.point()), bits(&end));
+        reached.push(end.force);
+    }
+    assert!(reached[0] > force && reached[1] <= force, "{reached:?} for {force}");
 }
 
 /// A self-affine line about 1 m deep.

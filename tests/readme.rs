@@ -2,6 +2,8 @@
 //!
 //! After a change of the program, `UPDATE_README=1 cargo test --test readme` writes the generated parts anew.
 
+#[path = "readme/notices.rs"]
+mod notices;
 #[path = "readme/scenes.rs"]
 mod scenes;
 
@@ -12,7 +14,7 @@ use asperity::explorer::{keys, svg_of};
 use asperity::export::check_markdown;
 use asperity::scene::Document;
 use asperity::simulation::Simulation;
-use asperity::sweep::{Changes, Plan, Quantity};
+use asperity::study::{Changes, Plan, Quantity};
 use scenes::{check, read, root, updating};
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -24,9 +26,10 @@ use std::process::Command;
 const LONGEST_README: usize = 250;
 
 /// Pages of the documentation and their contents, in the order of the README's table.
-const PAGES_AND_CONTENTS: [(&str, &str); 12] = [
+const PAGES_AND_CONTENTS: [(&str, &str); 13] = [
     ("keys.md", "panes and keys of the explorer, typed values, appearance, recordings"),
     ("scene-file.md", "fields of a scene, loading, measured profiles, results, built-in scenes"),
+    ("surfaces.md", "measured surfaces: formats, equivalent line, spectrum, accuracy"),
     ("model.md", "equations, exact solution, regimes, validity"),
     ("conventions.md", "units, signs, zero points, E\\*, numbers in results"),
     ("glossary.md", "terms and symbols, words to avoid"),
@@ -79,9 +82,9 @@ fn tables_are_those_of_the_program() {
 #[test]
 fn tables_of_studies_are_those_of_the_program() {
     let mut plans = String::from("| plan | cells | random profiles | title |\n| --- | --- | --- | --- |\n");
-    for plan in asperity::sweep::plans() {
+    for plan in asperity::study::plans() {
         let read = Plan::open(plan.name, &Changes::default()).unwrap();
-        let cells: u64 = read.axes.iter().chain(&read.preloads).map(asperity::sweep::Axis::count).product();
+        let cells: u64 = read.axes.iter().chain(&read.preloads).map(asperity::study::Axis::count).product();
         writeln!(plans, "| `{}` | {cells} | {} | {} |", plan.name, read.lines, read.title).unwrap();
     }
     check("docs/studies.md", "plans", &plans);
@@ -350,12 +353,15 @@ fn the_citation_is_of_this_version() {
 }
 
 /// Rooms of the source from the ground up: each imports only rooms before it.
-const ROOMS: [&str; 22] = [
+const ROOMS: [&str; 23] = [
     "text",
+    "draw",
     "memory",
     "parallel",
     "disk",
     "io",
+    "topography",
+    "spectrum",
     "scene",
     "surface",
     "contact",
@@ -364,9 +370,7 @@ const ROOMS: [&str; 22] = [
     "simulation",
     "profile",
     "contact_cycle",
-    "ensemble",
-    "sweep",
-    "phase",
+    "study",
     "accuracy",
     "check",
     "export",

@@ -7,8 +7,8 @@ mod disk;
 
 use asperity::disk::Disk;
 use asperity::io::write_new_on;
-use asperity::sweep::{
-    Changes, Folder, Options, Plan, RESULTS, SIDECAR, SUMMARY, Shard, Status, SweepError, merge, run,
+use asperity::study::{
+    Changes, Folder, Options, Plan, RESULTS, SIDECAR, SUMMARY, Shard, Status, StudyError, merge, run,
 };
 use disk::{Fault, SimulatedDisk, Survival};
 use std::fs;
@@ -69,7 +69,7 @@ struct Reported {
 }
 
 /// A study from its beginning to its end, by two processes one after the other.
-fn study(disk: &Arc<dyn Disk>, root: &Path, reported: &mut Reported) -> Result<(), SweepError> {
+fn study(disk: &Arc<dyn Disk>, root: &Path, reported: &mut Reported) -> Result<(), StudyError> {
     let folder = Folder::create_on(Arc::clone(disk), &root.join("study"), &plan())?;
     reported.folder = true;
     for number in [1, 2] {
@@ -126,7 +126,7 @@ impl Expected {
 
     /// Checks what is found of a study, takes it up again, and checks what that gives; what is lost otherwise.
     fn check(&self, root: &Path, reported: Reported) -> Result<(), String> {
-        let told = |error: SweepError| error.to_string();
+        let told = |error: StudyError| error.to_string();
         let path = root.join("study");
         if reported.folder {
             let done = Status::of(&Folder::open(&path).map_err(told)?).map_err(told)?.done;
@@ -273,16 +273,12 @@ fn a_disk_that_does_not_keep_its_word_is_found_out() {
         disk.after_power_cut(Survival::Nothing, &found);
         assert!(expected.check(&found, reported).is_err(), "{kind}");
     }
-    // What a killed process wrote: with the word kept, nothing is lost; without, something is.
-    let (_place, root) = place();
-    let records = SimulatedDisk::new(&root);
-    study(&records.shared(), &root, &mut Reported::default()).unwrap();
-    let is_write = |operation: &String| operation.starts_with("write study/shards/1-of-2");
-    let last = records.operations().iter().rposition(is_write).unwrap();
+    // What a killed process wrote: with the word kept, nothing is lost; without, something is. The first write of a
+    // shard is its header, the second its first records.
     for (kind, loses) in [("none", false), ("sync file", true)] {
         let (_place, root) = place();
         let disk = SimulatedDisk::deceiving(&root, kind);
-        disk.kill_at(last);
+        disk.kill_at_nth("write study/shards/1-of-2", 2);
         study(&disk.shared(), &root, &mut Reported::default()).unwrap_err();
         disk.go_on();
         assert_eq!(lost(&disk, &root), loses, "{kind}");

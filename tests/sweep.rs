@@ -3,8 +3,8 @@
 use asperity::analysis::Regime;
 use asperity::scene::{Adhesion, Leg, Roughness, Scene};
 use asperity::simulation::{Outcome, Simulation};
-use asperity::sweep::{
-    Changes, Finished, Folder, Options, Plan, Quantity, RESULTS, SUMMARY, Shard, Status, SweepError, merge,
+use asperity::study::{
+    Changes, Finished, Folder, Options, Plan, Quantity, RESULTS, SUMMARY, Shard, Status, StudyError, merge,
     run,
 };
 use proptest::prelude::*;
@@ -193,7 +193,7 @@ fn results_that_differ_are_told() {
     let other = format!("{start},{:?}", last.parse::<f64>().unwrap() * (1.0 + f64::EPSILON));
     let other = format!("{header}\n{:08x},{other}\n", crc32fast::hash(other.as_bytes()));
     fs::write(file.with_file_name("zz.shard"), other).unwrap();
-    let Err(SweepError::Disagree { key, one, other, .. }) = merge(&folder, false) else {
+    let Err(StudyError::Disagree { key, one, other, .. }) = merge(&folder, false) else {
         panic!("they differ by one bit")
     };
     assert_eq!((key.cell, key.seed, one.as_path()), (0, u64::MAX - 1, file.as_path()));
@@ -210,7 +210,7 @@ fn what_is_missing_is_named() {
     assert!(error.starts_with("48 of 96 records are missing, in 32 cells: cell 0 (kappa = 0.5, "), "{error}");
     assert!(error.contains("preload = 0.01)") && error.ends_with("--partial"), "{error}");
     assert!(!folder.path().join(RESULTS).exists());
-    assert!(matches!(Finished::open(folder.path()), Err(SweepError::Folder { .. })));
+    assert!(matches!(Finished::open(folder.path()), Err(StudyError::Folder { .. })));
     let merged = merge(&folder, true).unwrap();
     assert_eq!((merged.records, merged.missing_cells), (48, 32));
     let [results, summary] = tables(&folder);
@@ -240,7 +240,7 @@ fn summaries_are_the_statistics_of_the_rows() {
         for (column, quantity) in plan.record.iter().enumerate().filter(|(_, one)| **one != Quantity::Regime)
         {
             let values: Vec<f64> = lines.iter().map(|row| row.values[column].unwrap()).collect();
-            let expected = asperity::ensemble::Statistics::of(&values).unwrap();
+            let expected = asperity::study::Statistics::of(&values).unwrap();
             let spread = finished.spread(cell, *quantity).unwrap();
             assert_eq!(spread.mean, expected.mean);
             assert_eq!(spread.standard_deviation, Some(expected.standard_deviation));
@@ -276,7 +276,7 @@ fn another_plan_is_refused() {
 
 #[test]
 fn plans_read_back_the_same() {
-    for text in asperity::sweep::plans().iter().map(|plan| plan.text).chain([SMALL]) {
+    for text in asperity::study::plans().iter().map(|plan| plan.text).chain([SMALL]) {
         let plan = plan(text);
         assert_eq!(self::plan(&plan.to_ron()), plan);
     }

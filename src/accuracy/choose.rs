@@ -1,6 +1,7 @@
 //! The fewest springs that reach a tolerance.
 
 use super::convergence::{error_of_finest, first_within};
+use super::estimate::{Estimate, Evidence};
 use super::solution::{
     Solution, Solved, allowed_points, closed_form_adhesion, refined, relative_error, solve,
 };
@@ -80,6 +81,14 @@ impl Choice {
     #[must_use]
     pub fn apply(&self, scene: &Scene) -> Scene {
         refined(scene, self.points, self.edges)
+    }
+
+    /// The error of the scene with these springs and edges.
+    #[must_use]
+    pub fn estimate(&self) -> Estimate {
+        let evidence =
+            if self.closed_form { Evidence::ClosedForm } else { Evidence::Solutions(vec![self.finest]) };
+        Estimate { target: self.target, error: self.error, evidence }
     }
 
     /// What was picked and why, in a sentence.

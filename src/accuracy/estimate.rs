@@ -31,6 +31,31 @@ pub struct Estimate {
     pub evidence: Evidence,
 }
 
+impl Estimate {
+    /// Absolute error of the adhesion force of an outcome, N; `None` where the estimate is that of the curve.
+    #[must_use]
+    pub fn of_adhesion_force(&self, outcome: &Outcome) -> Option<f64> {
+        let force = outcome.figures.adhesion_force.filter(|_| self.target == Target::AdhesionForce)?;
+        Some(self.error * force.abs()).filter(|error| error.is_finite())
+    }
+
+    /// The error in per cent, with one digit, or two after a leading one: an estimate supports no more.
+    #[must_use]
+    pub fn per_cent(&self) -> String {
+        let per_cent = 100.0 * self.error;
+        if per_cent > 100.0 {
+            return "> 100 %".to_owned();
+        }
+        if per_cent < 1e-3 {
+            return "< 0.001 %".to_owned();
+        }
+        let two: f64 = format!("{per_cent:.1e}").parse().unwrap_or(per_cent);
+        let one: f64 = format!("{per_cent:.0e}").parse().unwrap_or(per_cent);
+        let leads_with_one = format!("{two:e}").starts_with('1');
+        format!("{} %", if leads_with_one { two } else { one })
+    }
+}
+
 /// What an estimate rests on.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
@@ -142,6 +167,25 @@ mod tests {
         let fields: Vec<_> =
             fields.iter().map(|(path, value)| (path.to_string(), value.to_string())).collect();
         open(scene).unwrap().set_all(&fields).unwrap()
+    }
+
+    #[test]
+    fn errors_have_one_digit_and_two_after_a_one() {
+        for (error, text) in [
+            (0.0042, "0.4 %"),
+            (0.0104, "1 %"),
+            (0.0148, "1.5 %"),
+            (0.0096, "1 %"),
+            (0.123, "12 %"),
+            (0.9, "90 %"),
+            (1.5, "> 100 %"),
+            (2.3e-5, "0.002 %"),
+            (9e-6, "< 0.001 %"),
+            (0.0, "< 0.001 %"),
+        ] {
+            let estimate = Estimate { target: Target::Curve, error, evidence: Evidence::ClosedForm };
+            assert_eq!(estimate.per_cent(), text, "{error}");
+        }
     }
 
     #[test]

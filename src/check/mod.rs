@@ -20,9 +20,9 @@ pub use reference::{Agreement, follow, force_error};
 pub use relaxation::Relaxation;
 
 use crate::contact::ContactError;
-use crate::ensemble::EnsembleError;
 use crate::scene::SceneErrors;
 use crate::simulation::RunError;
+use crate::study::LinesError;
 use crate::surface::SurfaceError;
 use thiserror::Error;
 
@@ -43,7 +43,7 @@ pub enum Fault {
     Run(#[from] RunError),
     /// Several lines could not be computed.
     #[error(transparent)]
-    Lines(#[from] EnsembleError),
+    Lines(#[from] LinesError),
     /// A scene is not allowed.
     #[error(transparent)]
     Scene(Box<SceneErrors>),

@@ -1,13 +1,15 @@
 //! Why a command failed.
 
 use crate::accuracy::{ChoiceError, CostError};
-use crate::ensemble::EnsembleError;
 use crate::explorer::OpeningError;
 use crate::io::WriteError;
 use crate::scene::{SceneErrors, quoted};
 use crate::simulation::RunError;
-use crate::sweep::slurm::SlurmError;
-use crate::sweep::{FigureError, SweepError};
+use crate::spectrum::SpectrumError;
+use crate::study::LinesError;
+use crate::study::slurm::SlurmError;
+use crate::study::{FigureError, StudyError};
+use crate::topography::TopographyError;
 use std::io;
 use thiserror::Error;
 
@@ -28,6 +30,44 @@ pub enum CliError {
     /// Scenes that were checked are wrong.
     #[error("{}", .0.join("\n"))]
     Checked(Vec<String>),
+    /// A file would hold something else than its ending says.
+    #[error("{path}: not an ending of what is written; allowed: {allowed}")]
+    Ending {
+        /// The file.
+        path: String,
+        /// Endings of what is written.
+        allowed: String,
+    },
+    /// Several scenes, or the profile or patches of a scene, in a format that cannot hold them.
+    #[error("{what}: only a picture shows {what}; allowed: -o FILE.svg, or --format svg")]
+    OnlyInPicture {
+        /// What the format cannot hold.
+        what: &'static str,
+    },
+    /// A picture of something that no picture shows.
+    #[error("{what}: {allowed}")]
+    NoPicture {
+        /// What no picture shows.
+        what: &'static str,
+        /// What is allowed in its place.
+        allowed: &'static str,
+    },
+    /// A measured surface cannot be read.
+    #[error("{file}: {error}")]
+    Surface {
+        /// Its file.
+        file: String,
+        /// Why not.
+        error: TopographyError,
+    },
+    /// Measured surfaces cannot be analysed.
+    #[error("{file}: {error}")]
+    Spectrum {
+        /// File of the first surface, or of the one that is refused.
+        file: String,
+        /// Why not.
+        error: SpectrumError,
+    },
     /// There is no built-in scene of this name.
     #[error("{name}: there is no such built-in scene; allowed: {allowed}")]
     NoPreset {
@@ -66,7 +106,7 @@ pub enum CliError {
         /// Name of the scene.
         scene: String,
         /// Why not.
-        error: EnsembleError,
+        error: LinesError,
     },
     /// No hard case has this word in its name.
     #[error("{word}: no case has this in its name; allowed: parts of {allowed}")]
@@ -89,7 +129,7 @@ pub enum CliError {
     },
     /// A study could not go on.
     #[error(transparent)]
-    Sweep(#[from] SweepError),
+    Sweep(#[from] StudyError),
     /// A study was not submitted to a cluster.
     #[error(transparent)]
     Slurm(#[from] SlurmError),

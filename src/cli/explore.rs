@@ -3,7 +3,7 @@
 use super::{Arguments, CliError, Overrides};
 use crate::explorer::theme::{Marker, Theme};
 use crate::explorer::{self, Opening, OpeningError, Options};
-use crate::export::summary;
+use crate::export::brief_summary;
 use crate::scene::DEFAULT;
 use clap::{Args, CommandFactory};
 use std::io::{IsTerminal, Write, stdin, stdout};
@@ -35,7 +35,7 @@ pub struct ExploreArguments {
 
 /// Opens the explorer on a scene or a study.
 ///
-/// When it is left, the summary of its last scene stays to be read.
+/// On leaving, prints a brief summary of the last scene.
 pub(super) fn explore(arguments: &ExploreArguments, out: &mut dyn Write) -> Result<(), CliError> {
     let opening = opening(arguments)?;
     if !stdin().is_terminal() || !stdout().is_terminal() {
@@ -52,7 +52,7 @@ pub(super) fn explore(arguments: &ExploreArguments, out: &mut dyn Write) -> Resu
         explorer::end_by(signal);
     }
     if let Some(computed) = &left.computed {
-        out.write_all(summary(left.document.scene(), &computed.outcome).as_bytes())?;
+        out.write_all(brief_summary(left.document.scene(), &computed.outcome).as_bytes())?;
     }
     Ok(())
 }

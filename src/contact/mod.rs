@@ -15,18 +15,21 @@
 
 pub mod adhesive;
 mod contact_model;
+mod crossing;
 mod error;
 pub mod exact;
 mod foundation;
 mod fragments;
 mod grid;
 mod history;
+mod interval;
 mod leg_contact;
 mod leg_plan;
 mod manual;
 mod nonadhesive;
 mod snapshot;
 mod solver;
+mod steady;
 pub mod stepwise;
 mod totals;
 

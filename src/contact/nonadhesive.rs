@@ -8,10 +8,13 @@
 //! digit for any slope and any indentation; only cells that are partly filled at
 //! many points of a curve in a row add as quadratics, whose coefficients their height bounds there.
 
-use super::adhesive::bisect;
+use super::HessRule;
+use super::adhesive::GridEdges;
 use super::contact_model::{ContactModel, ContactState};
+use super::crossing::bisect;
 use super::fragments::runs;
 use super::grid::{CompensatedSum, Grid};
+use super::interval::Interval;
 use super::totals::{ContactTotals, GapScale};
 use super::{ContactError, LegContact, Work, resized};
 use crate::scene::Edges;
@@ -100,10 +103,8 @@ struct Changes {
 /// The contact in an interval of indentations.
 struct Between<'s> {
     contact: &'s Nonadhesive<'s>,
-    /// Totals of the full springs or cells at the lower end.
-    full: ContactTotals,
-    /// Springs that come into contact inside, by their gaps.
-    springs: Vec<(f64, ContactTotals)>,
+    /// Full springs or cells.
+    full: Interval<GridEdges>,
     /// Cells that are filled in part anywhere inside.
     cells: Vec<[f64; 2]>,
 }
@@ -124,15 +125,15 @@ impl<'a> Nonadhesive<'a> {
     }
 
     /// The half cells beyond the first and the last spring lie level with them.
-    fn ends(&self) -> impl Iterator<Item = f64> {
+    fn half_cells(&self) -> impl Iterator<Item = f64> {
         let ends =
             if self.edges == Edges::SubCell { [self.gaps.first(), self.gaps.last()] } else { [None, None] };
         ends.into_iter().flatten().copied()
     }
 
     /// Adds the half cells at an indentation, m.
-    fn add_ends(&self, partial: &mut Partial, indentation: f64) {
-        for gap in self.ends().filter(|&gap| gap <= indentation) {
+    fn add_half_cells(&self, partial: &mut Partial, indentation: f64) {
+        for gap in self.half_cells().filter(|&gap| gap <= indentation) {
             partial.length.add(0.5);
             partial.compression.add(0.5 * (indentation - gap));
         }
@@ -190,7 +191,7 @@ impl<'a> Nonadhesive<'a> {
             quadratic: resized(Vec::new(), count, Quadratic::default())?,
         };
         for (partial, &point) in changes.partial.iter_mut().zip(points) {
-            self.add_ends(partial, point);
+            self.add_half_cells(partial, point);
         }
         let place = |gap: f64| if gap > grid.high() { count } else { grid.first_at_least(gap) };
         let sub_cell = self.edges == Edges::SubCell;
@@ -237,58 +238,42 @@ impl<'a> Nonadhesive<'a> {
             .collect()
     }
 
-    /// Contact at any indentation in `low..high` (m), from the totals at `low` and the changes in the interval.
+    /// Contact at any indentation in `low..=high` (m), from the totals at `low` and the changes in the interval.
     fn between(&self, low: f64, high: f64) -> Between<'_> {
-        let mut full = ContactTotals::default();
-        let mut springs = Vec::new();
+        let mut touched = ContactTotals::default();
+        let mut later = Vec::new();
         self.each_spring(|adds, gap, _| {
             if gap <= low {
-                full += adds;
-            } else if gap < high {
-                springs.push((gap, adds));
+                touched += adds;
+            } else if gap <= high {
+                later.push((gap, adds));
             }
         });
+        let mut full = Interval::new(GridEdges::new(HessRule::NO_ADHESION), self.scale, low, touched);
+        later.into_iter().for_each(|(gap, adds)| full.add(gap, adds));
+        full.sort();
         let mut cells = Vec::new();
         if self.edges == Edges::SubCell {
-            cells.extend(self.cells().filter(|&[from, to]| from < high && to > low));
+            cells.extend(self.cells().filter(|&[from, to]| from <= high && to > low));
         }
-        Between { contact: self, full, springs, cells }
+        Between { contact: self, full, cells }
     }
 
-    /// Neighbouring numbers between which the compression passes `wanted` on a leg, the lower first; the end of the
-    /// leg twice where it lies beyond.
-    fn crossing(&self, leg: &Sampled, wanted: f64, is_past: impl Fn(f64) -> bool) -> Option<[f64; 2]> {
+    /// The contact at the two neighbouring points of a leg between which the compression passes a value: `is_past`
+    /// holds at the higher one. The lower one is `None` before the leg, and there is none beyond its end.
+    fn ends(leg: &Sampled, is_past: impl Fn(f64) -> bool) -> Option<(Option<&ContactState>, &ContactState)> {
         let past = leg.states.partition_point(|state| !is_past(state.compression));
-        let high = leg.states.get(past)?.indentation;
-        let Some(low) = past.checked_sub(1).map(|index| leg.states[index].indentation) else {
-            return Some([high; 2]);
-        };
-        let between = self.between(low, high.next_up());
-        Some(match self.edges {
-            Edges::Grid => [between.crossing_of_springs((low, high), wanted); 2],
-            // It rises from there on, though perhaps by less than a number can hold.
-            Edges::SubCell if leg.states[past - 1].compression == wanted => [low, low.next_up()],
-            Edges::SubCell => between.crossing((low, high), wanted, is_past),
-        })
+        Some((past.checked_sub(1).map(|index| &leg.states[index]), leg.states.get(past)?))
     }
 }
 
 impl Between<'_> {
     fn at(&self, indentation: f64) -> ContactState {
-        let mut full = self.full;
-        self.springs.iter().filter(|(gap, _)| *gap <= indentation).for_each(|(_, adds)| full += *adds);
         let mut partial = Partial::default();
-        self.contact.add_ends(&mut partial, indentation);
+        self.contact.add_half_cells(&mut partial, indentation);
         let cells = self.cells.iter().filter(|&&[low, high]| low <= indentation && indentation < high);
         cells.for_each(|&[low, high]| partial.add(low, high, indentation));
-        self.contact.state(indentation, full, partial)
-    }
-
-    /// Springs in contact at an indentation, m.
-    fn full_at(&self, indentation: f64) -> ContactTotals {
-        let mut full = self.full;
-        self.springs.iter().filter(|(gap, _)| *gap <= indentation).for_each(|(_, adds)| full += *adds);
-        full
+        self.contact.state(indentation, self.full.totals(indentation), partial)
     }
 
     /// Neighbouring numbers (m) in `low..=high` between which the compression passes `wanted`: `is_past` holds at
@@ -322,17 +307,6 @@ impl Between<'_> {
         }
         let found = bisect(low.max(high - width), high, past);
         [found.next_down().max(low), found]
-    }
-
-    /// The indentation of a compression between springs, where it is a straight line, found from above.
-    fn crossing_of_springs(&self, (low, high): (f64, f64), wanted: f64) -> f64 {
-        let mut at = high;
-        loop {
-            match self.full_at(at).indentation(wanted, &self.contact.scale) {
-                Some(next) if next < at => at = next.max(low),
-                _ => return at,
-            }
-        }
     }
 }
 
@@ -406,23 +380,41 @@ impl ContactModel for Nonadhesive<'_> {
     }
 
     fn first_at_least(&self, leg: &Sampled, wanted: f64, _: &mut u64) -> Option<f64> {
-        self.crossing(leg, wanted, |compression| compression >= wanted).map(|[_, found]| found)
+        let is_past = |compression| compression >= wanted;
+        let (low, high) = Self::ends(leg, is_past)?;
+        let end = high.indentation;
+        let Some(low) = low else { return Some(end) };
+        let between = self.between(low.indentation, end);
+        match self.edges {
+            Edges::Grid => between.full.first_of(&[], (low, high), wanted).or(Some(end)),
+            Edges::SubCell => Some(between.crossing((low.indentation, end), wanted, is_past)[1]),
+        }
     }
 
     fn last_at_most(&self, leg: &Sampled, wanted: f64, _: &mut u64) -> Option<f64> {
-        if leg.states[0].compression > wanted {
-            return None;
+        let is_past = |compression| compression > wanted;
+        let Some((low, high)) = Self::ends(leg, is_past) else {
+            return leg.states.last().map(|last| last.indentation);
+        };
+        let low = low?;
+        let start = low.indentation;
+        let between = self.between(start, high.indentation);
+        match self.edges {
+            Edges::Grid => between.full.last_of(&[], (low, high), wanted).or(Some(start)),
+            // It rises from there on, though perhaps by less than a number can hold.
+            Edges::SubCell if low.compression == wanted => Some(start),
+            Edges::SubCell => Some(between.crossing((start, high.indentation), wanted, is_past)[0]),
         }
-        let found = self.crossing(leg, wanted, |compression| compression > wanted).map(|[found, _]| found);
-        found.or(leg.states.last().map(|last| last.indentation))
     }
 
     fn beyond(&self, leg: &Sampled, wanted: f64) -> Option<f64> {
         let end = leg.states.last()?;
         match self.edges {
-            Edges::Grid => {
-                self.between(end.indentation, end.indentation).full.indentation(wanted, &self.scale)
-            }
+            Edges::Grid => self
+                .between(end.indentation, end.indentation)
+                .full
+                .totals(end.indentation)
+                .indentation(wanted, &self.scale),
             Edges::SubCell => Some(end.indentation + (wanted - end.compression) / end.length),
         }
     }
@@ -435,6 +427,10 @@ impl ContactModel for Nonadhesive<'_> {
     fn copy_leg(&self, copy: &mut LegContact) -> Result<(), ContactError> {
         copy.keep_gaps();
         Ok(())
+    }
+
+    fn rises(&self, _: f64) -> Vec<f64> {
+        Vec::new()
     }
 
     fn fragments(&self, indentation: f64) -> Vec<(usize, usize)> {
@@ -535,20 +531,20 @@ mod tests {
     #[test]
     fn a_force_is_met_in_few_looks() {
         let gaps: Vec<_> = (0..101_u32).map(|k| f64::from(k * 37 % 101) / 101.0).collect();
-        for edges in [Edges::Grid, Edges::SubCell] {
-            let body = Nonadhesive::new(&gaps, edges);
-            let leg = body.sample(Grid::new(0.0, 1.5, 3)).unwrap();
-            let looks = std::cell::Cell::new(0);
-            for part in (1..100).map(|k| f64::from(k) / 100.0) {
-                let wanted = part * leg.states[3].compression;
-                let is_past = |compression| {
-                    looks.set(looks.get() + 1);
-                    compression >= wanted
-                };
-                let [low, high] = body.crossing(&leg, wanted, is_past).unwrap();
-                assert!(low <= high);
-            }
-            assert!(looks.get() <= 32 * 99, "{} looks", looks.get());
+        let body = Nonadhesive::new(&gaps, Edges::SubCell);
+        let leg = body.sample(Grid::new(0.0, 1.5, 3)).unwrap();
+        let looks = std::cell::Cell::new(0);
+        for part in (1..100).map(|k| f64::from(k) / 100.0) {
+            let wanted = part * leg.states[3].compression;
+            let is_past = |compression| {
+                looks.set(looks.get() + 1);
+                compression >= wanted
+            };
+            let (Some(low), high) = Nonadhesive::ends(&leg, is_past).unwrap() else { panic!("{wanted}") };
+            let ends = (low.indentation, high.indentation);
+            let [low, high] = body.between(ends.0, ends.1).crossing(ends, wanted, is_past);
+            assert!(low <= high);
         }
+        assert!(looks.get() <= 32 * 99, "{} looks", looks.get());
     }
 }

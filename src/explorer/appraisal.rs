@@ -31,6 +31,17 @@ pub enum Estimated {
     Unknown,
 }
 
+impl Appraisal {
+    /// Estimated error of the result, where known.
+    #[must_use]
+    pub fn estimate(&self) -> Option<&Estimate> {
+        match &self.estimated {
+            Estimated::Known(estimate) => Some(estimate),
+            Estimated::Waiting | Estimated::Unknown => None,
+        }
+    }
+}
+
 /// The table of costs, as far as it is.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Costs {

@@ -1,8 +1,8 @@
 //! What the explorer shows of the map over κ and H, and what is still to be computed of it.
 
-use crate::phase::{Atlas, Basis, Charted, NoMap, PhaseMap, Plane, hursts, kappas};
 use crate::scene::Scene;
-use crate::sweep::figure::FigureAxis;
+use crate::study::figure::FigureAxis;
+use crate::study::map::{Charted, LiveMap, MapModel, NoMap, StudyMap, Template, hursts, kappas};
 use std::sync::Arc;
 
 /// See the module.
@@ -15,9 +15,9 @@ pub struct Chart {
     /// Whether the sections through the mark stand in place of the map.
     pub sections: bool,
     /// The map that is computed here, so far. Kept while κ and H change, whether it is shown or not.
-    pub map: Option<Arc<PhaseMap>>,
+    pub map: Option<Arc<LiveMap>>,
     /// The same as it is shown.
-    live: Option<Arc<Plane>>,
+    live: Option<Arc<MapModel>>,
     /// A finished study, kept until another one is opened.
     pub study: Option<OpenStudy>,
     /// Whether its map is shown rather than the one that is computed here.
@@ -34,17 +34,17 @@ pub struct Chart {
 #[derive(Clone, Debug, PartialEq)]
 pub struct OpenStudy {
     /// Its maps.
-    pub atlas: Arc<Atlas>,
+    pub atlas: Arc<StudyMap>,
     /// Number of the one that is shown.
     pub slice: u64,
-    plane: Arc<Plane>,
+    plane: Arc<MapModel>,
 }
 
 impl OpenStudy {
     /// One map of a study.
     #[must_use]
-    pub fn at(atlas: Arc<Atlas>, slice: u64) -> Self {
-        OpenStudy { plane: Arc::new(atlas.plane(slice)), atlas, slice }
+    pub fn at(atlas: Arc<StudyMap>, slice: u64) -> Self {
+        OpenStudy { plane: Arc::new(atlas.model(slice)), atlas, slice }
     }
 
     /// The map so many after this one, from the last on to the first.
@@ -59,7 +59,7 @@ impl OpenStudy {
 impl Chart {
     /// The map that is shown, as far as there is one.
     #[must_use]
-    pub fn plane(&self) -> Option<&Plane> {
+    pub fn plane(&self) -> Option<&MapModel> {
         match self.shown_study() {
             Some(study) => Some(&study.plane),
             None => self.live.as_deref(),
@@ -84,7 +84,7 @@ impl Chart {
     /// What the glyphs tell: what was chosen, where the map that is shown has it.
     #[must_use]
     pub fn charted(&self) -> Charted {
-        let all = self.plane().map(Plane::charted).unwrap_or_default();
+        let all = self.plane().map(MapModel::charted).unwrap_or_default();
         let chosen = all.iter().find(|one| **one == self.quantity);
         *chosen.or(all.first()).unwrap_or(&self.quantity)
     }
@@ -92,15 +92,15 @@ impl Chart {
     /// What they can tell after that.
     #[must_use]
     pub fn next_charted(&self) -> Charted {
-        let all = self.plane().map(Plane::charted).unwrap_or_default();
+        let all = self.plane().map(MapModel::charted).unwrap_or_default();
         let now = self.charted();
         let place = all.iter().position(|one| *one == now).map_or(0, |place| place + 1);
         all.get(place).or(all.first()).copied().unwrap_or(now)
     }
 
     /// Takes in what has been computed of the map.
-    pub fn take_in(&mut self, map: Arc<PhaseMap>) {
-        self.live = Some(Arc::new(map.plane()));
+    pub fn take_in(&mut self, map: Arc<LiveMap>) {
+        self.live = Some(Arc::new(map.model()));
         self.map = Some(map);
     }
 
@@ -109,8 +109,8 @@ impl Chart {
         self.edited = true;
         self.moving = false;
         self.failed = None;
-        let basis = Basis::of(scene).ok();
-        self.map = self.map.take().filter(|map| Some(map.basis().as_ref()) == basis.as_ref());
+        let template = Template::of(scene).ok();
+        self.map = self.map.take().filter(|map| Some(map.template().as_ref()) == template.as_ref());
         self.live = self.live.take().filter(|_| self.map.is_some());
     }
 
@@ -118,11 +118,11 @@ impl Chart {
     ///
     /// # Errors
     /// When the scene has none.
-    pub fn wanted(&self, scene: &Scene) -> Result<Option<Arc<PhaseMap>>, NoMap> {
-        let basis = Basis::of(scene)?;
+    pub fn wanted(&self, scene: &Scene) -> Result<Option<Arc<LiveMap>>, NoMap> {
+        let template = Template::of(scene)?;
         let map = match &self.map {
-            Some(map) if **map.basis() == basis => Arc::clone(map),
-            _ => Arc::new(PhaseMap::new(Arc::new(basis))),
+            Some(map) if **map.template() == template => Arc::clone(map),
+            _ => Arc::new(LiveMap::new(Arc::new(template))),
         };
         Ok(Some(map).filter(|map| !map.is_whole()))
     }

@@ -9,9 +9,9 @@ use super::theme::Appearance;
 use super::worker::{Focus, LineView};
 use crate::analysis::Governing;
 use crate::contact::{CurvePoint, LegRecord};
-pub use crate::phase::Charted;
-use crate::phase::{Atlas, Basis};
 use crate::scene::{Document, Scene, ron_float};
+pub use crate::study::map::Charted;
+use crate::study::map::{StudyMap, Template};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -347,7 +347,7 @@ impl Model {
     }
 
     /// Shows the map of a study, the first of them.
-    pub fn show_study(&mut self, atlas: Arc<Atlas>) {
+    pub fn show_study(&mut self, atlas: Arc<StudyMap>) {
         self.chart.study = Some(OpenStudy::at(atlas, 0));
         (self.chart.of_study, self.chart.shown) = (true, true);
         self.appraisal.hide();
@@ -359,10 +359,10 @@ impl Model {
     #[must_use]
     pub fn place(&self) -> Option<(f64, Option<f64>)> {
         let scene = self.document.scene();
-        if !Basis::of(scene).ok()?.has_hurst() {
+        if !Template::of(scene).ok()?.has_hurst() {
             return Some((self.governing()?.kappa?, None));
         }
-        Basis::place(scene).map(|(kappa, hurst)| (kappa, Some(hurst)))
+        Template::place(scene).map(|(kappa, hurst)| (kappa, Some(hurst)))
     }
 
     /// What moves the body.

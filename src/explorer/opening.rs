@@ -1,8 +1,8 @@
 //! What the explorer opens: a scene, or a finished study around one.
 
-use crate::phase::{Atlas, AtlasError};
 use crate::scene::{Document, SceneErrors, open, open_argument};
-use crate::sweep::Folder;
+use crate::study::Folder;
+use crate::study::map::{StudyMap, StudyMapError};
 use std::path::Path;
 use std::sync::Arc;
 use thiserror::Error;
@@ -13,7 +13,7 @@ pub struct Opening {
     /// The scene.
     pub document: Document,
     /// The study it is from, whose maps are shown.
-    pub atlas: Option<Arc<Atlas>>,
+    pub atlas: Option<Arc<StudyMap>>,
 }
 
 /// Why nothing was opened.
@@ -30,7 +30,7 @@ pub enum OpeningError {
     Folder(String),
     /// It is the folder of a study that cannot be shown.
     #[error(transparent)]
-    Study(Box<AtlasError>),
+    Study(Box<StudyMapError>),
 }
 
 impl From<Document> for Opening {
@@ -68,8 +68,8 @@ impl Opening {
         open(name).map(Opening::from).map_err(|_| OpeningError::Folder(name.to_owned()))
     }
 
-    fn of_study(folder: &Path) -> Result<Self, AtlasError> {
-        let atlas = Atlas::open(folder)?;
+    fn of_study(folder: &Path) -> Result<Self, StudyMapError> {
+        let atlas = StudyMap::open(folder)?;
         Ok(Opening { document: atlas.document()?, atlas: Some(Arc::new(atlas)) })
     }
 }

@@ -5,9 +5,9 @@ use super::snapshot::Loop;
 use crate::accuracy::{
     Choice, ChoiceError, CostError, CostTable, Estimate, Knob, Progress, choose, estimate, measure,
 };
-use crate::phase::{PhaseMap, chart};
 use crate::scene::Scene;
 use crate::simulation::RunError;
+use crate::study::map::{LiveMap, chart};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 use std::sync::Arc;
@@ -32,7 +32,7 @@ pub enum Task {
     /// What a map over κ and H still lacks.
     Chart {
         /// The map so far.
-        map: Arc<PhaseMap>,
+        map: Arc<LiveMap>,
         /// Whether it waits until it is quiet.
         waits: bool,
     },
@@ -63,7 +63,7 @@ pub enum Finding {
     /// What reaches a tolerance, or why nothing does.
     Chosen(f64, Result<Choice, ChoiceError>),
     /// The map over κ and H so far.
-    Charted(Arc<PhaseMap>),
+    Charted(Arc<LiveMap>),
     /// There is no more of it, and why.
     NotCharted(String),
 }
@@ -109,7 +109,7 @@ pub trait Appraiser: Send {
     ) -> Result<Choice, ChoiceError>;
 
     /// See [`chart()`].
-    fn chart(&mut self, map: &mut PhaseMap, stop: &dyn Fn() -> bool, tell: &mut dyn FnMut(&PhaseMap));
+    fn chart(&mut self, map: &mut LiveMap, stop: &dyn Fn() -> bool, tell: &mut dyn FnMut(&LiveMap));
 }
 
 /// The appraiser of the program.
@@ -143,7 +143,7 @@ impl Appraiser for Accuracy {
         choose(scene, Path::new(FOLDER), tolerance, stop, trying)
     }
 
-    fn chart(&mut self, map: &mut PhaseMap, stop: &dyn Fn() -> bool, tell: &mut dyn FnMut(&PhaseMap)) {
+    fn chart(&mut self, map: &mut LiveMap, stop: &dyn Fn() -> bool, tell: &mut dyn FnMut(&LiveMap)) {
         chart(map, Path::new(FOLDER), stop, tell);
     }
 }
@@ -182,7 +182,7 @@ pub fn perform(
             Finding::Chosen(*tolerance, choice)
         }
         Task::Chart { map, .. } => {
-            let mut map = PhaseMap::clone(map);
+            let mut map = LiveMap::clone(map);
             appraiser.chart(&mut map, stop, &mut |map| tell(Finding::Charted(Arc::new(map.clone()))));
             Finding::Charted(Arc::new(map))
         }

@@ -2,9 +2,10 @@
 
 use super::action::{Content, WriteFailure, Written};
 use super::model::{Mode, Model, Notice};
-use super::picture::{Palette, svg, text};
+use super::picture::{svg, text};
 use super::theme::Theme;
 use super::view;
+use crate::draw::Palette;
 use crate::export::{write_curve, write_json};
 use crate::io::{WriteError, write_new_file};
 use ratatui::Terminal;
@@ -37,7 +38,10 @@ fn write_content(file: &mut dyn Write, model: &Model, content: Content) -> io::R
     match content {
         Content::Scene => file.write_all(model.document.text().as_bytes()),
         Content::Curve => write_curve(file, &computed()?.outcome),
-        Content::Outcome => write_json(file, model.document.scene(), &computed()?.outcome),
+        Content::Outcome => {
+            let estimate = model.appraisal.estimate();
+            write_json(file, model.document.scene(), &computed()?.outcome, None, estimate)
+        }
         Content::Picture => file.write_all(svg_of(model).as_bytes()),
         Content::Text => file.write_all(text(&picture_of(model)).as_bytes()),
     }

@@ -2,9 +2,9 @@
 
 use super::sheet::Sheet;
 use crate::accuracy::Choice;
-use crate::ensemble::{HeightShape, LineResult, Statistics, Summary};
 use crate::io::write_json_value;
 use crate::scene::{Scene, format_quantity};
+use crate::study::{HeightShape, LineResult, LinesSummary, Statistics};
 use crate::text::grouped;
 use serde::Serialize;
 use std::io::{self, Write};
@@ -12,7 +12,7 @@ use std::io::{self, Write};
 /// Statistics over the lines in plain text of at most a hundred columns.
 #[must_use]
 pub fn ensemble_text(scene: &Scene, lines: &[LineResult]) -> String {
-    let summary = Summary::of(lines);
+    let summary = LinesSummary::of(lines);
     let mut sheet = Sheet::default();
     if !scene.title.is_empty() {
         sheet.paragraph(&scene.title);
@@ -72,7 +72,7 @@ struct Report<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     choice: Option<&'a Choice>,
     #[serde(flatten)]
-    summary: Summary,
+    summary: LinesSummary,
     lines: &'a [LineResult],
 }
 
@@ -87,7 +87,7 @@ pub fn write_ensemble_json(
     choice: Option<&Choice>,
     lines: &[LineResult],
 ) -> io::Result<()> {
-    write_json_value(out, &Report { scene, choice, summary: Summary::of(lines), lines })
+    write_json_value(out, &Report { scene, choice, summary: LinesSummary::of(lines), lines })
 }
 
 /// Writes one row for each line, in SI units; what a line does not have is empty.

@@ -1,6 +1,6 @@
 //! A computed scene as one JSON object: SI units, numbers that are finite or null.
 
-use crate::accuracy::Choice;
+use crate::accuracy::{Choice, Estimate};
 use crate::analysis::Regime;
 use crate::contact::Work;
 use crate::io::write_json_value;
@@ -9,28 +9,24 @@ use crate::simulation::{Outcome, Timings};
 use serde::{Serialize, Serializer};
 use std::io::{self, Write};
 
-/// Writes what a scene gave, the scene itself with its defaults filled in first.
+/// Writes the result of a scene: the scene with its defaults filled in, the choice of its springs where they were chosen
+/// for a tolerance, and the estimated error of the adhesion force where there is one.
 ///
 /// # Errors
 /// Those of `out`.
-pub fn write_json(out: &mut (impl Write + ?Sized), scene: &Scene, outcome: &Outcome) -> io::Result<()> {
-    write_json_value(out, &Report::of(scene, outcome, None))
-}
-
-/// Writes the same of a scene whose springs were chosen for a tolerance, and the choice beside it.
-///
-/// # Errors
-/// Those of `out`.
-pub fn write_chosen_json(
+pub fn write_json(
     out: &mut (impl Write + ?Sized),
     scene: &Scene,
     outcome: &Outcome,
-    choice: &Choice,
+    choice: Option<&Choice>,
+    estimate: Option<&Estimate>,
 ) -> io::Result<()> {
-    write_json_value(out, &Report::of(scene, outcome, Some(choice)))
+    let mut report = Report::new(scene, outcome, choice);
+    report.adhesion_force_error = estimate.and_then(|estimate| estimate.of_adhesion_force(outcome));
+    write_json_value(out, &report)
 }
 
-/// The object; its keys stand in the order of these fields.
+/// The object, with its keys in the order of these fields.
 #[derive(Serialize)]
 struct Report<'a> {
     scene: &'a Scene,
@@ -47,6 +43,7 @@ struct Report<'a> {
     preload: Option<f64>,
     preload_indentation: Option<f64>,
     adhesion_force: Option<f64>,
+    adhesion_force_error: Option<f64>,
     adhesion_coefficient: Option<f64>,
     pull_off_indentation: Option<f64>,
     dissipated_energy: Option<f64>,
@@ -88,7 +85,7 @@ struct CurveReport {
 }
 
 impl<'a> Report<'a> {
-    fn of(scene: &'a Scene, outcome: &'a Outcome, choice: Option<&'a Choice>) -> Report<'a> {
+    fn new(scene: &'a Scene, outcome: &'a Outcome, choice: Option<&'a Choice>) -> Report<'a> {
         let Outcome { line, governing, figures, history, .. } = outcome;
         let amplitude = governing.amplitude;
         Report {
@@ -113,6 +110,7 @@ impl<'a> Report<'a> {
             preload: figures.preload,
             preload_indentation: figures.preload_indentation,
             adhesion_force: figures.adhesion_force,
+            adhesion_force_error: None,
             adhesion_coefficient: figures.adhesion_coefficient,
             pull_off_indentation: figures.pull_off_indentation,
             dissipated_energy: figures.dissipated_energy,

@@ -7,10 +7,13 @@ mod cost;
 mod csv;
 mod ensemble;
 mod json;
+mod scene_figure;
 pub(crate) mod sheet;
+#[cfg(test)]
+mod study_example;
+mod study_figure;
 mod summary;
-#[cfg(feature = "tui")]
-mod sweep_figure;
+mod surface;
 mod verdict;
 mod work_precision;
 
@@ -18,8 +21,9 @@ pub use check::{check_markdown, check_text, write_check_json};
 pub use cost::{cost_text, write_cost_csv, write_cost_json};
 pub use csv::{write_curve, write_line};
 pub use ensemble::{ensemble_text, write_ensemble_csv, write_ensemble_json};
-pub use json::{write_chosen_json, write_json};
-pub use summary::summary;
-#[cfg(feature = "tui")]
-pub use sweep_figure::{Colours, figure_svg, figure_text};
-pub use work_precision::work_precision_svg;
+pub use json::write_json;
+pub use scene_figure::{ContactSets, force_figure, sign};
+pub use study_figure::study_figure;
+pub use summary::{brief_summary, summary};
+pub use surface::{SurfaceFile, surface_text, write_surface_csv, write_surface_json};
+pub use work_precision::work_precision;

@@ -2,6 +2,7 @@
 
 use super::sheet::Sheet;
 use super::verdict;
+use crate::accuracy::{Estimate, Target};
 use crate::contact::Work;
 use crate::scene::{Leg, Scene, format_quantity};
 use crate::simulation::{Outcome, Timings};
@@ -10,19 +11,38 @@ use crate::text::grouped;
 /// Legs of a loading that are named; further ones are counted.
 const MOST_LEGS: usize = 8;
 
-/// What a scene gave, in plain text of at most a hundred columns that ends in a line break.
+/// Said where there is no adhesion force.
+const NO_PULL: &str = "none: no stage unloads";
+
+/// Result of a scene in plain text of at most 80 columns that ends in a line break, the adhesion force with its
+/// estimated error where there is one.
 #[must_use]
-pub fn summary(scene: &Scene, outcome: &Outcome) -> String {
+pub fn summary(scene: &Scene, outcome: &Outcome, estimate: Option<&Estimate>) -> String {
     let mut sheet = Sheet::default();
     for text in [&scene.title, &scene.notice].into_iter().filter(|text| !text.is_empty()) {
         sheet.paragraph(text);
     }
     line(&mut sheet, outcome);
     bodies(&mut sheet, outcome);
-    adhesion(&mut sheet, scene, outcome);
+    adhesion(&mut sheet, scene, outcome, estimate);
     contact(&mut sheet, outcome);
     cost(&mut sheet, &outcome.history.work, &outcome.timings);
     sheet.into_text().trim_start_matches('\n').to_string()
+}
+
+/// The result of a scene in a few rows: title, κ, regime, forces and dissipated energy, as in [`summary`].
+#[must_use]
+pub fn brief_summary(scene: &Scene, outcome: &Outcome) -> String {
+    let figures = &outcome.figures;
+    let mut sheet = Sheet::default();
+    sheet.paragraph(&scene.title);
+    sheet.row_of("κ = √(h⟨∇z⟩E*/γ)", quantity(outcome.governing.kappa, "1"));
+    sheet.row("regime", verdict::sentence(outcome));
+    sheet.row_of("preload F_n", quantity(figures.preload, "N"));
+    sheet.row("adhesion force F_a", adhesion_force(outcome, None));
+    sheet.row_of("at first touch F_a(0)", quantity(outcome.zero_load_adhesion_force, "N"));
+    sheet.row_of("dissipated energy", quantity(figures.dissipated_energy, "J"));
+    sheet.into_text()
 }
 
 fn quantity(value: Option<f64>, unit: &str) -> Option<String> {
@@ -31,11 +51,11 @@ fn quantity(value: Option<f64>, unit: &str) -> Option<String> {
 
 fn line(sheet: &mut Sheet, outcome: &Outcome) {
     let (facts, amplitude) = (&outcome.line, outcome.governing.amplitude);
-    sheet.heading("Line");
+    sheet.heading("Profile");
     sheet.row("springs N", grouped(facts.points as u64));
     let under_body = outcome.history.work.springs;
     if under_body != facts.points as u64 {
-        sheet.row("under the body", grouped(under_body));
+        sheet.row("below the form", grouped(under_body));
     }
     sheet.row("length L", format_quantity(facts.length, "m"));
     sheet.row("spacing Δx", format_quantity(facts.spacing, "m"));
@@ -63,21 +83,31 @@ fn bodies(sheet: &mut Sheet, outcome: &Outcome) {
     sheet.row_of("κ = √(h⟨∇z⟩E*/γ)", kappa);
 }
 
-fn adhesion(sheet: &mut Sheet, scene: &Scene, outcome: &Outcome) {
+fn adhesion(sheet: &mut Sheet, scene: &Scene, outcome: &Outcome, estimate: Option<&Estimate>) {
     let figures = &outcome.figures;
     sheet.heading("Adhesion");
     sheet.row("loading", loading(&scene.loading));
     verdict::rows(sheet, outcome);
     sheet.row_of("preload F_n", quantity(figures.preload, "N"));
     sheet.row_of("at indentation", quantity(figures.preload_indentation, "m"));
-    let adhesion_force = quantity(figures.adhesion_force, "N");
-    sheet.row("adhesion force F_a", adhesion_force.unwrap_or_else(|| "none: no leg pulls".into()));
+    sheet.row("adhesion force F_a", adhesion_force(outcome, estimate));
     sheet.row_of("pull-off indentation", quantity(figures.pull_off_indentation, "m"));
     sheet.row_of("coefficient F_a/F_n", quantity(figures.adhesion_coefficient, "1"));
     sheet.row_of("at first touch F_a(0)", quantity(outcome.zero_load_adhesion_force, "N"));
     sheet.row_of("smooth body F_smooth", quantity(outcome.smooth_adhesion_force, "N"));
     sheet.row_of("ideal F_a,max", quantity(outcome.ideal_adhesion_force, "N"));
     sheet.row_of("dissipated energy", quantity(figures.dissipated_energy, "J"));
+}
+
+/// Adhesion force and its error, or that of the curve where nothing pulls.
+fn adhesion_force(outcome: &Outcome, estimate: Option<&Estimate>) -> String {
+    let force = quantity(outcome.figures.adhesion_force, "N");
+    let (of, error) = match estimate {
+        None => return force.unwrap_or_else(|| NO_PULL.into()),
+        Some(estimate) if estimate.target == Target::Curve => ("; force curve", estimate.per_cent()),
+        Some(estimate) => ("", estimate.per_cent()),
+    };
+    format!("{}{of} ± {error}", force.unwrap_or_else(|| NO_PULL.into()))
 }
 
 fn loading(legs: &[Leg]) -> String {
@@ -90,7 +120,7 @@ fn loading(legs: &[Leg]) -> String {
     };
     let mut named: Vec<String> = legs.iter().take(MOST_LEGS).map(words).collect();
     if legs.len() > MOST_LEGS {
-        named.push(format!("and {} more legs", legs.len() - MOST_LEGS));
+        named.push(format!("and {} more stages", legs.len() - MOST_LEGS));
     }
     named.join(", ")
 }
@@ -139,10 +169,10 @@ fn cost(sheet: &mut Sheet, work: &Work, timings: &Timings) {
         ("unloading passes", unloading_passes),
         ("passes for F_a(0)", zero_load_passes),
         ("rule of Hess applied", hess_evaluations),
-        ("springs tallied", springs_tallied),
+        ("springs in totals", springs_tallied),
         ("events sorted", events_sorted),
-        ("springs joining", joins),
-        ("springs leaving", leaves),
+        ("springs attached", joins),
+        ("springs detached", leaves),
         ("steps", steps),
         ("relaxation sweeps", relaxation_sweeps),
         ("spring updates", spring_updates),
@@ -193,7 +223,7 @@ mod tests {
         outcome.timings = Timings { line: 1.5e-3, ..Timings::default() };
         let springs = outcome.history.work.springs;
         outcome.history.work = Work { springs, tree_nodes: springs, joins: 1_234_567, ..Work::default() };
-        summary(scene, &outcome)
+        summary(scene, &outcome, None)
     }
 
     #[test]
@@ -205,11 +235,35 @@ mod tests {
     }
 
     #[test]
+    fn an_adhesion_force_has_its_error() {
+        use crate::accuracy::Evidence;
+        let document = Document::parse(ROUGH, "test").unwrap();
+        let outcome = Simulation::default().run(document.scene(), &|| false, &mut |_, _, _| Ok(())).unwrap();
+        let text = |target, error| {
+            let estimate = Estimate { target, error, evidence: Evidence::ClosedForm };
+            summary(document.scene(), &outcome, Some(&estimate))
+        };
+        let row = |text: &str| text.lines().find(|line| line.contains("force F_a ")).unwrap().to_owned();
+        let force = format_quantity(outcome.figures.adhesion_force.unwrap(), "N");
+        let of_force = text(Target::AdhesionForce, 0.0123);
+        assert!(row(&of_force).ends_with(&format!("{force} ± 1.2 %")), "{of_force}");
+        let of_curve = text(Target::Curve, 2e-3);
+        assert!(row(&of_curve).ends_with(&format!("{force}; force curve ± 0.2 %")), "{of_curve}");
+        let brief = brief_summary(document.scene(), &outcome);
+        assert!(brief.lines().count() <= 10, "{brief}");
+        let whole = text(Target::AdhesionForce, 0.01);
+        assert!(
+            brief.lines().all(|line| whole.lines().any(|other| other.starts_with(line))),
+            "{brief}{whole}"
+        );
+    }
+
+    #[test]
     fn a_regime_is_named_only_where_something_pulls() {
         for (overrides, said) in [
-            (&[("loading", "[ToTouch]")][..], "not known: no leg pulls"),
+            (&[("loading", "[ToTouch]")][..], "not known: no stage unloads"),
             (&[("adhesion", "None")], "non-adhesive: the scene has no adhesion"),
-            (&[("adhesion", "None"), ("loading", "[ToTouch]")], "none: there is no adhesion"),
+            (&[("adhesion", "None"), ("loading", "[ToTouch]")], "none: no adhesion"),
             (&[("adhesion.kappa", "0.1")], "pressure-insensitive: adhesion is there"),
             (&[("adhesion.kappa", "100.0")], "non-adhesive: almost no adhesion"),
         ] {
@@ -224,7 +278,7 @@ mod tests {
         let notice = format!("\"{}\\n\\n{}\"", "x".repeat(300), "notice ".repeat(60));
         let loading = format!("[{}ToSeparation]", "ToForce(1.2345e-5), ToZeroForce, ".repeat(20));
         let text = summary_of(ROUGH, &[("title", &title), ("notice", &notice), ("loading", &loading)]);
-        assert!(text.lines().all(|line| line.chars().count() <= 100), "{text}");
-        assert!(text.contains("and 33 more legs"), "{text}");
+        assert!(text.lines().all(|line| line.chars().count() <= 80), "{text}");
+        assert!(text.contains("and 33 more stages"), "{text}");
     }
 }

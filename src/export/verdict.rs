@@ -5,12 +5,12 @@ use crate::analysis::{INSENSITIVE_SHARE, NEGLIGIBLE_COEFFICIENT, Regime, VANISHI
 use crate::scene::format_quantity;
 use crate::simulation::Outcome;
 
-/// The regime and, one row for each, the shares that decided it.
-pub(super) fn rows(sheet: &mut Sheet, outcome: &Outcome) {
+/// The regime and its meaning.
+pub(super) fn sentence(outcome: &Outcome) -> String {
     let adhesive = outcome.governing.adhesive_work().is_some();
     let meaning = match outcome.regime {
-        None if adhesive => return sheet.row("regime", "not known: no leg pulls"),
-        None => return sheet.row("regime", "none: there is no adhesion, and no leg pulls"),
+        None if adhesive => return "not known: no stage unloads".to_owned(),
+        None => return "none: no adhesion, and no stage unloads".to_owned(),
         Some(Regime::NonAdhesive) if !adhesive => "the scene has no adhesion",
         Some(Regime::PressureInsensitive) => {
             "adhesion is there at first touch and hardly depends on the preload"
@@ -19,8 +19,15 @@ pub(super) fn rows(sheet: &mut Sheet, outcome: &Outcome) {
         Some(Regime::NonAdhesive) => "almost no adhesion",
     };
     let name = outcome.regime.map_or("", Regime::name);
-    sheet.row("regime", format!("{name}: {meaning}"));
+    format!("{name}: {meaning}")
+}
 
+/// The regime and, one row for each, the shares that decided it.
+pub(super) fn rows(sheet: &mut Sheet, outcome: &Outcome) {
+    sheet.row("regime", sentence(outcome));
+    if outcome.regime.is_none() {
+        return;
+    }
     let (zero_load, adhesion) = (outcome.zero_load_adhesion_force, outcome.figures.adhesion_force);
     let (smooth, preload) = (outcome.smooth_adhesion_force, outcome.figures.preload);
     let says = ["it sticks unpressed", "pressing makes most of it"];

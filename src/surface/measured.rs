@@ -317,6 +317,14 @@ mod tests {
     }
 
     #[test]
+    fn a_row_has_at_most_so_many_bytes() {
+        let row = |bytes: usize| format!("0 1\n1 2{}\n2 3", " ".repeat(bytes - 3));
+        assert_eq!(MeasuredProfile::parse(&row(LONGEST_LINE)).unwrap().positions, [0.0, 1.0, 2.0]);
+        let error = MeasuredProfile::parse(&row(LONGEST_LINE + 1)).unwrap_err();
+        assert!(error.starts_with("line 2: longer than 65536 bytes"), "{error}");
+    }
+
+    #[test]
     fn points_that_begin_at_half_their_distance_are_middles_of_cells() {
         let profile = MeasuredProfile::parse("0.5 3\n1.5 4\n2.5 -1").unwrap();
         assert_eq!(profile.length(), 3.0);

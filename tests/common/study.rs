@@ -1,6 +1,6 @@
 //! A small study over κ and H at three preloads, finished.
 
-use asperity::sweep::{Changes, Folder, Options, Plan, Shard, merge, run};
+use asperity::study::{Changes, Folder, Options, Plan, Shard, merge, run};
 use std::path::Path;
 
 pub const PLAN: &str = r#"(

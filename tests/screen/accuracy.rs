@@ -14,9 +14,9 @@ use asperity::explorer::model::{Costs, Estimated, Notice, Pane};
 use asperity::explorer::snapshot::Loop;
 use asperity::explorer::study::{Appraiser, Finding, Found, Study, Task};
 use asperity::explorer::update::Effect;
-use asperity::phase::PhaseMap;
 use asperity::scene::{Document, Edges, Scene};
 use asperity::simulation::RunError;
+use asperity::study::map::LiveMap;
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::time::Duration;
@@ -66,7 +66,7 @@ impl Appraiser for Scripted {
         Err(ChoiceError::Unreached { tolerance, best: Some(Box::new(choice)) })
     }
 
-    fn chart(&mut self, _: &mut PhaseMap, _: &dyn Fn() -> bool, _: &mut dyn FnMut(&PhaseMap)) {}
+    fn chart(&mut self, _: &mut LiveMap, _: &dyn Fn() -> bool, _: &mut dyn FnMut(&LiveMap)) {}
 }
 
 /// A row whose error falls with a power of its setting, and whose time grows with it.
@@ -309,7 +309,7 @@ impl Appraiser for Endless {
         Err(ChoiceError::Stepwise)
     }
 
-    fn chart(&mut self, _: &mut PhaseMap, _: &dyn Fn() -> bool, _: &mut dyn FnMut(&PhaseMap)) {}
+    fn chart(&mut self, _: &mut LiveMap, _: &dyn Fn() -> bool, _: &mut dyn FnMut(&LiveMap)) {}
 }
 
 fn endless() -> (Study, Receiver<Found>, Receiver<&'static str>) {

@@ -6,7 +6,7 @@ use super::common::driver::Driver;
 use super::common::scenes::{changed, rough, smooth, without_adhesion};
 use super::{is_up_to_date, keep};
 use asperity::accuracy::{Choice, ChoiceError, CostError, CostTable, Estimate, Progress};
-use asperity::analysis::{CellRegime, Regime};
+use asperity::analysis::Regime;
 use asperity::explorer::action::{Action, Gesture, Mouse};
 use asperity::explorer::layout::{Layout, inside};
 use asperity::explorer::model::{ModeKind, Pane};
@@ -14,10 +14,10 @@ use asperity::explorer::snapshot::Loop;
 use asperity::explorer::study::{Appraiser, Finding, Found, Study, Task};
 use asperity::explorer::theme::Marker;
 use asperity::explorer::update::{Effect, study_tasks};
-use asperity::phase::{Basis, Cell, Charted, HURSTS, KAPPAS, Level, PhaseMap, hurst, kappa};
 use asperity::scene::{Document, Scene};
 use asperity::simulation::RunError;
-use asperity::sweep::Quantity;
+use asperity::study::map::{Charted, HURSTS, KAPPAS, Level, LiveMap, RECORD, Template, hurst, kappa};
+use asperity::study::{CellSummary, Quantity, Spread};
 use std::sync::Arc;
 use std::sync::mpsc::{Sender, channel};
 use std::time::Duration;
@@ -26,19 +26,23 @@ use std::time::Duration;
 struct Mapper(Vec<Level>);
 
 /// Adhesion falls with κ, and with it the regime.
-fn cell(kappa: f64, hurst: f64) -> Cell {
+fn cell(kappa: f64, hurst: f64) -> CellSummary {
     let regime = match kappa * (0.5 + hurst) {
         ..2.0 => Regime::PressureInsensitive,
         2.0..12.0 => Regime::PressureSensitive,
         _ => Regime::NonAdhesive,
     };
-    Cell {
-        zero_load_adhesion: (-kappa).exp(),
-        adhesion: 2.0 * (-kappa / 2.0).exp(),
-        preload: 1.0,
-        ideal_adhesion: 1.0,
-        regime: Some(CellRegime { regime, share: 0.75, split: None }),
-    }
+    let spread = |mean| Some(Spread { mean, standard_deviation: None, confidence_interval: None });
+    // Of four profiles one is in another regime.
+    let mut regimes = [0.0; 3];
+    regimes[regime as usize] = 0.75;
+    regimes[(regime as usize + 1) % 3] = 0.25;
+    let values = RECORD.map(|quantity| match quantity {
+        Quantity::ZeroLoadAdhesionShare => spread((-kappa).exp()),
+        Quantity::AdhesionCoefficient => spread(2.0 * (-kappa / 2.0).exp()),
+        _ => None,
+    });
+    CellSummary { cell: 0, lines: 4, quantities: values.to_vec(), regimes: Some(regimes) }
 }
 
 impl Appraiser for Mapper {
@@ -65,7 +69,7 @@ impl Appraiser for Mapper {
         Err(ChoiceError::Stopped)
     }
 
-    fn chart(&mut self, map: &mut PhaseMap, _: &dyn Fn() -> bool, tell: &mut dyn FnMut(&PhaseMap)) {
+    fn chart(&mut self, map: &mut LiveMap, _: &dyn Fn() -> bool, tell: &mut dyn FnMut(&LiveMap)) {
         for level in &self.0 {
             for &row in map.rows_of(*level) {
                 level.columns().for_each(|column| map.set(column, row, Ok(cell(kappa(column), hurst(row)))));
@@ -252,7 +256,7 @@ fn other_edits_begin_the_map_anew_and_wait_for_quiet() {
         assert!(driver.text().contains("computing the map"), "{}", driver.text());
         // What comes late is of no use.
         let generation = driver.model.generation - 1;
-        let late = Arc::new(PhaseMap::new(Arc::new(Basis::of(rough().scene()).unwrap())));
+        let late = Arc::new(LiveMap::new(Arc::new(Template::of(rough().scene()).unwrap())));
         driver.act(Action::Found(Found { generation, finding: Finding::Charted(late) }));
         assert!(driver.model.chart.map.is_none());
         // Nobody looks on.
@@ -281,7 +285,7 @@ fn a_scene_without_a_map_says_why() {
         }
         // A cell that cannot be computed.
         let mut driver = charted(rough());
-        let mut map = PhaseMap::clone(driver.model.chart.map.as_deref().unwrap());
+        let mut map = LiveMap::clone(driver.model.chart.map.as_deref().unwrap());
         for (column, row) in (0..KAPPAS).flat_map(|column| (0..HURSTS).map(move |row| (column, row))) {
             map.set(column, row, Err("the force is never reached".to_owned()));
         }
@@ -323,7 +327,7 @@ impl Appraiser for Endless {
         self.1.choose(scene, tolerance, stop, trying)
     }
 
-    fn chart(&mut self, map: &mut PhaseMap, stop: &dyn Fn() -> bool, tell: &mut dyn FnMut(&PhaseMap)) {
+    fn chart(&mut self, map: &mut LiveMap, stop: &dyn Fn() -> bool, tell: &mut dyn FnMut(&LiveMap)) {
         self.1.chart(map, stop, tell);
         self.0.send("begun").unwrap();
         while !stop() {
@@ -341,7 +345,7 @@ fn an_edit_ends_the_computing_of_the_map() {
         let (report, reports) = channel();
         let endless = Endless(says, Mapper(vec![Level::Coarse]));
         let study = Study::start(Box::new(endless), move |found| report.send(found).is_ok()).unwrap();
-        let map = Arc::new(PhaseMap::new(Arc::new(Basis::of(rough().scene()).unwrap())));
+        let map = Arc::new(LiveMap::new(Arc::new(Template::of(rough().scene()).unwrap())));
         study.ask(1, vec![Task::Chart { map, waits: false }]);
         assert_eq!(said.recv_timeout(PATIENCE), Ok("begun"));
         study.stop();

@@ -92,7 +92,7 @@ fn the_curve_and_the_figures_are_those_of_the_command_line() {
         write_curve(&mut curve, &outcome).unwrap();
         assert_eq!(exported(&mut driver, "a.csv").into_bytes(), curve);
         let mut figures = Vec::new();
-        write_json(&mut figures, &scene, &outcome).unwrap();
+        write_json(&mut figures, &scene, &outcome, None, driver.model.appraisal.estimate()).unwrap();
         assert_eq!(exported(&mut driver, "a.json").into_bytes(), figures);
         assert!(serde_json::from_slice::<serde_json::Value>(&figures).is_ok());
         // A scene that failed has neither, but may be seen.

@@ -11,9 +11,9 @@ use asperity::explorer::layout::{Layout, inside};
 use asperity::explorer::model::{Mode, ModeKind, Pane};
 use asperity::explorer::study::Task;
 use asperity::explorer::update::{Effect, study_tasks};
-use asperity::phase::Charted;
 use asperity::scene::{Leg, Roughness};
-use asperity::sweep::Quantity;
+use asperity::study::Quantity;
+use asperity::study::map::Charted;
 use tempfile::TempDir;
 
 /// The explorer on a study of this plan, in a folder of its own.
@@ -254,7 +254,7 @@ fn cells_that_are_missing_are_blank() {
     within(60, || {
         let folder = tempfile::tempdir().unwrap();
         let study = begun(folder.path(), PLAN);
-        asperity::sweep::merge(&study, true).unwrap();
+        asperity::study::merge(&study, true).unwrap();
         let mut driver = Driver::start(Opening::of(folder.path().to_str().unwrap()).unwrap());
         assert!(driver.text().contains("the study was merged without this cell"), "{}", driver.text());
         driver.press("V V X Right");

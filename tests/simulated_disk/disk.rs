@@ -81,6 +81,8 @@ struct State {
     pending: Vec<(PathBuf, Change)>,
     operations: Vec<String>,
     fault: Option<(usize, Fault)>,
+    /// Beginning of the names of operations, and the one of these, from 1, that ends the process.
+    kill_at: Option<(&'static str, usize)>,
     ended: bool,
     /// The kind of operation that says it has synchronised, and has not.
     deceit: Option<&'static str>,
@@ -159,15 +161,16 @@ impl SimulatedDisk {
         self
     }
 
-    /// Lets the process end at the operation with this number.
-    pub fn kill_at(&self, operation: usize) {
-        self.lock().fault = Some((operation, Fault::Kill));
+    /// Ends the process with the operation that is the `count`-th of those whose name begins with `prefix`. A study
+    /// synchronises by the clock, so that the number among all operations differs between runs.
+    pub fn kill_at_nth(&self, prefix: &'static str, count: usize) {
+        self.lock().kill_at = Some((prefix, count));
     }
 
     /// Another process uses the disk, of which no operation goes wrong.
     pub fn go_on(&self) {
         let mut state = self.lock();
-        (state.fault, state.ended) = (None, false);
+        (state.fault, state.kill_at, state.ended) = (None, None, false);
     }
 
     /// Makes the folder that is found after a power cut.
@@ -230,6 +233,15 @@ impl SimulatedDisk {
         let number = state.operations.len();
         let name = path.strip_prefix(&self.root).unwrap_or(path).display().to_string();
         state.operations.push(format!("{what} {name}"));
+        if let Some((prefix, count)) = state.kill_at {
+            let is_one = |operation: &String| operation.starts_with(prefix);
+            if state.operations.last().is_some_and(is_one)
+                && state.operations.iter().filter(|operation| is_one(operation)).count() == count
+            {
+                state.ended = true;
+                return Ok((state, true));
+            }
+        }
         match state.fault {
             Some((operation, Fault::Failure)) if operation == number => Err(failure("failure")),
             // Writing does this by itself.

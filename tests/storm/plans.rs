@@ -2,8 +2,8 @@
 
 use super::*;
 use asperity::scene::check;
-use asperity::sweep::{
-    Axis, Changes, DERIVED, Finished, Folder, MOST_CELLS, Options, Plan, Quantity, Shard, SweepError, merge,
+use asperity::study::{
+    Axis, Changes, DERIVED, Finished, Folder, MOST_CELLS, Options, Plan, Quantity, Shard, StudyError, merge,
     run,
 };
 
@@ -141,7 +141,7 @@ fn is_small(plan: &Plan) -> bool {
 /// The study is computed and merged, or one of its cells is named with the reason; what has been merged reads back.
 fn assert_study(plan: &Plan) -> Result<(), TestCaseError> {
     let place = tempfile::tempdir().unwrap();
-    let fail = |error: SweepError| TestCaseError::fail(error.to_string());
+    let fail = |error: StudyError| TestCaseError::fail(error.to_string());
     let folder = match Folder::create(&place.path().join("study"), plan) {
         // Measured files of these names are not there, and the field is named.
         Err(error) if error.to_string().starts_with("roughness.file = ") => return Ok(()),
@@ -149,7 +149,7 @@ fn assert_study(plan: &Plan) -> Result<(), TestCaseError> {
     };
     match run(&folder, Options { jobs: 1, shard: Shard::WHOLE }, &|| false, &mut |_| ()) {
         Ok(ended) => prop_assert!(ended.complete),
-        Err(SweepError::Run { cell, coordinates, .. }) => {
+        Err(StudyError::Run { cell, coordinates, .. }) => {
             prop_assert!(cell < plan.cells());
             prop_assert_eq!(coordinates, plan.coordinates(cell));
             return Ok(());

@@ -2,7 +2,7 @@
 //! but as text.
 
 use super::{SMALL, compute, plan, shard_files, study, tables};
-use asperity::sweep::{Changes, Finished, Folder, Plan, Shard, Status, SweepError, merge};
+use asperity::study::{Changes, Finished, Folder, Plan, Shard, Status, StudyError, merge};
 use std::fs;
 use std::os::unix::fs::symlink;
 use std::path::Path;
@@ -174,7 +174,7 @@ fn titles_of_plans_are_held_to_what_scenes_may_have() {
     let file = folder.path().join("plan.ron");
     let text = fs::read_to_string(&file).unwrap().replacen("\"Small\"", "\"\\u{1b}[2J\"", 1);
     fs::write(&file, text).unwrap();
-    assert!(matches!(Folder::open(folder.path()), Err(SweepError::Plan(_))));
+    assert!(matches!(Folder::open(folder.path()), Err(StudyError::Plan(_))));
 }
 
 #[test]

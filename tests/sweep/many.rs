@@ -1,7 +1,7 @@
 //! Studies of many shards: few files are open at a time, and tables appear together.
 
 use super::{SMALL, compute, plan, shard_files, study, tables, undisturbed};
-use asperity::sweep::{Folder, RESULTS, SIDECAR, SUMMARY, Shard, Status, merge};
+use asperity::study::{Folder, RESULTS, SIDECAR, SUMMARY, Shard, Status, merge};
 use std::fs;
 use std::path::Path;
 use std::process::{Command, Stdio};

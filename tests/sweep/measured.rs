@@ -1,7 +1,7 @@
 //! Studies of a measured file: its content is part of the plan.
 
 use super::{compute, shard_files, tables};
-use asperity::sweep::{Changes, Folder, Options, Plan, Shard, SweepError, merge, run};
+use asperity::study::{Changes, Folder, Options, Plan, Shard, StudyError, merge, run};
 use std::fs;
 use std::path::Path;
 
@@ -35,7 +35,7 @@ fn place() -> (tempfile::TempDir, Plan) {
     (place, plan)
 }
 
-fn begin(place: &Path, plan: &Plan) -> Result<Folder, SweepError> {
+fn begin(place: &Path, plan: &Plan) -> Result<Folder, StudyError> {
     Folder::create(&place.join("study"), plan)
 }
 
@@ -73,7 +73,7 @@ fn a_file_that_has_changed_is_refused() {
     let expected = hash_of(&line);
     fs::write(&line, profile(2e-7)).unwrap();
     let found = hash_of(&line);
-    let check = |error: SweepError| {
+    let check = |error: StudyError| {
         let said = error.to_string();
         for part in [line.to_str().unwrap(), &expected, &found, "has changed", "study/plan.ron"] {
             assert!(said.contains(part), "{part}: {said}");
@@ -90,7 +90,7 @@ fn a_file_that_has_changed_is_refused() {
     // A plan that asks for other content is refused before there is a folder.
     let other = Plan { measured_sha256: Some(found), ..plan };
     let refused = Folder::create(&place.path().join("new"), &other).unwrap_err();
-    assert!(matches!(refused, SweepError::MeasuredChanged { .. }), "{refused}");
+    assert!(matches!(refused, StudyError::MeasuredChanged { .. }), "{refused}");
     assert!(!place.path().join("new").exists());
 }
 

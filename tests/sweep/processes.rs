@@ -1,7 +1,7 @@
 //! Processes that are killed, stopped, or run out of disk: nothing is lost, nothing is counted twice.
 
 use super::{plan, tables, undisturbed};
-use asperity::sweep::{Folder, Status};
+use asperity::study::{Folder, Status};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use std::fs;

@@ -1,7 +1,7 @@
 //! What is wrong with a plan is told before anything runs.
 
 use super::SMALL;
-use asperity::sweep::{Changes, Plan};
+use asperity::study::{Changes, Plan};
 use std::time::Instant;
 
 fn wrong(text: &str) -> String {

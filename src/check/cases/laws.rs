@@ -4,8 +4,8 @@ use super::{WORK, ensure, indices, points, rough};
 use crate::check::catalogue::{Case, Family, Scope};
 use crate::check::{Body, Fault, end, follow};
 use crate::contact::{CurvePoint, Foundation};
-use crate::ensemble;
 use crate::scene::{Document, Edges, Leg};
+use crate::study;
 use crate::surface::{SelfAffine, UnitRoughness, phases};
 use std::cell::Cell;
 use std::f64::consts::TAU;
@@ -300,11 +300,11 @@ fn threads(edges: Edges) -> Result<f64, Fault> {
         numerics: (points: 2048, samples: 33))";
     let mut scene = Document::parse(text, "check")?.scene().clone();
     scene.numerics.edges = edges;
-    let alone = ensemble::run(&scene, Path::new(""), 16, 1)?;
+    let alone = study::solve_lines(&scene, Path::new(""), 16, 1)?;
     ensure(alone.iter().all(|line| line.adhesion_force.is_some()), || "a line gives no force".into())?;
     let mut others = 0;
     for jobs in [2, 3, 8] {
-        let shared = ensemble::run(&scene, Path::new(""), 16, jobs)?;
+        let shared = study::solve_lines(&scene, Path::new(""), 16, jobs)?;
         ensure(shared.len() == alone.len(), || format!("{} lines by {jobs} threads", shared.len()))?;
         others += alone
             .iter()

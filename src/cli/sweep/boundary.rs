@@ -3,7 +3,7 @@
 use crate::cli::CliError;
 use crate::export::sheet::Sheet;
 use crate::io::write_json_value;
-use crate::sweep::{Boundaries, Boundary, Crossing, DEFINITIONS, Quantity, USUAL_LEVELS, boundaries};
+use crate::study::{Boundaries, Boundary, Crossing, DEFINITIONS, Quantity, USUAL_LEVELS, boundaries};
 use clap::{Args, ValueEnum};
 use serde_json::{Map, Value, json};
 use std::io::Write;

@@ -1,7 +1,7 @@
 //! `asperity sweep merge`: the tables of a study.
 
 use crate::cli::CliError;
-use crate::sweep::{Folder, Merged, PARQUET, RESULTS, SIDECAR, SUMMARY, merge as merge_records};
+use crate::study::{Folder, Merged, PARQUET, RESULTS, SIDECAR, SUMMARY, merge as merge_records};
 use crate::text::path_name;
 use clap::Args;
 use std::io::Write;
@@ -40,7 +40,7 @@ pub(super) fn merge(arguments: &MergeArguments, stdout: &mut dyn Write) -> Resul
     let merged = merge_records(&folder, arguments.partial)?;
     #[cfg(feature = "parquet")]
     if arguments.parquet {
-        crate::sweep::write_parquet(&folder)?;
+        crate::study::write_parquet(&folder)?;
     }
     tell_merged(&folder, &merged, stdout)?;
     if arguments.parquet {

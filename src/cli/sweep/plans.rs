@@ -3,7 +3,7 @@
 use crate::cli::CliError;
 use crate::export::sheet::Sheet;
 use crate::io::write_json_value;
-use crate::sweep::{Changes, Plan, PlanErrors, SweepError, find, plans as built_in};
+use crate::study::{Changes, Plan, PlanErrors, StudyError, find, plans as built_in};
 use clap::{Args, ValueEnum};
 use serde::Serialize;
 use std::io::Write;
@@ -49,13 +49,13 @@ pub(super) fn plans(arguments: &PlansArguments, stdout: &mut dyn Write) -> Resul
         let Some(plan) = find(name) else {
             let names = built_in().iter().map(|plan| plan.name).collect::<Vec<_>>().join(", ");
             let error = format!("{name}: there is no such built-in plan; allowed: {names}");
-            return Err(SweepError::Plan(PlanErrors(vec![error])).into());
+            return Err(StudyError::Plan(PlanErrors(vec![error])).into());
         };
         return Ok(stdout.write_all(plan.text.as_bytes())?);
     }
     let mut listed = Vec::new();
     for one in built_in() {
-        let plan = Plan::open(one.name, &Changes::default()).map_err(SweepError::from)?;
+        let plan = Plan::open(one.name, &Changes::default()).map_err(StudyError::from)?;
         let (cells, lines) = (plan.cells(), plan.lines);
         listed.push(Listed { name: one.name, title: plan.title, notice: plan.notice, cells, lines });
     }

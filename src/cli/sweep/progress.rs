@@ -1,6 +1,6 @@
 //! How far a study is, on standard error: on a terminal one line that changes, elsewhere a line now and then.
 
-use crate::sweep::Progress;
+use crate::study::Progress;
 use std::io::{self, IsTerminal, Write};
 use std::time::{Duration, Instant};
 

@@ -5,7 +5,7 @@ use super::progress::Teller;
 use crate::cli::{CliError, Overrides};
 use crate::scene::Scene;
 use crate::simulation;
-use crate::sweep::{Changes, Folder, Options, Plan, Shard, SweepError, merge, run as compute};
+use crate::study::{Changes, Folder, Options, Plan, Shard, StudyError, merge, run as compute};
 use clap::Args;
 use std::io::{self, Write};
 use std::path::PathBuf;
@@ -89,7 +89,7 @@ impl Memory {
             spare = spare.max(16 * scene.numerics.samples * scene.loading.len() as u64);
         });
         // One bit for each record, and each axis written out by every thread.
-        let values: u64 = plan.axes.iter().map(crate::sweep::Axis::count).sum();
+        let values: u64 = plan.axes.iter().map(crate::study::Axis::count).sum();
         Memory { job: job + spare + 8 * values, shared: BESIDE + plan.records_in_all() / 8 }
     }
 
@@ -103,7 +103,7 @@ pub(super) fn run(arguments: &SweepRunArguments, stdout: &mut dyn Write) -> Resu
     let changes = Changes { set: arguments.overrides.set.clone(), lines: arguments.lines };
     // The parser asks for a plan where there is no command.
     let plan =
-        Plan::open(arguments.plan.as_deref().unwrap_or_default(), &changes).map_err(SweepError::from)?;
+        Plan::open(arguments.plan.as_deref().unwrap_or_default(), &changes).map_err(StudyError::from)?;
     let memory = Memory::of(&plan);
     let wanted = arguments
         .jobs

@@ -3,7 +3,7 @@
 use crate::cli::CliError;
 use crate::export::sheet::Sheet;
 use crate::io::write_json_value;
-use crate::sweep::{Folder, Status};
+use crate::study::{Folder, Status};
 use crate::text::grouped;
 use clap::{Args, ValueEnum};
 use std::io::Write;

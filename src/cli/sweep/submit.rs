@@ -3,8 +3,8 @@
 use super::run::size;
 use crate::cli::{CliError, Overrides};
 use crate::io::write_new;
-use crate::sweep::slurm::{SlurmError, Submission, array_size, ignored_variables, sbatch_options, word};
-use crate::sweep::{Changes, Folder, Plan, SweepError};
+use crate::study::slurm::{SlurmError, Submission, array_size, ignored_variables, sbatch_options, word};
+use crate::study::{Changes, Folder, Plan, StudyError};
 use crate::text::{path_name, printable, printable_lines};
 use clap::Args;
 use std::ffi::OsString;
@@ -69,7 +69,7 @@ pub struct SubmitArguments {
 /// Submits a study, or tells how that would be done.
 pub(super) fn submit(arguments: &SubmitArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
     let changes = Changes { set: arguments.overrides.set.clone(), lines: arguments.lines };
-    let plan = Plan::open(&arguments.plan, &changes).map_err(SweepError::from)?;
+    let plan = Plan::open(&arguments.plan, &changes).map_err(StudyError::from)?;
     let absolute = |path: &Path| std::path::absolute(path).unwrap_or_else(|_| path.to_path_buf());
     let memory = arguments.memory.map(|bytes| [OsString::from("--memory"), bytes.to_string().into()]);
     let submission = Submission {
@@ -97,7 +97,7 @@ pub(super) fn submit(arguments: &SubmitArguments, stdout: &mut dyn Write) -> Res
     let folder = Folder::create(&arguments.output, &plan)?;
     let own = submission.own_folder();
     fs::create_dir_all(&own)
-        .map_err(|error| SweepError::Folder { path: own, reason: format!("cannot be made: {error}") })?;
+        .map_err(|error| StudyError::Folder { path: own, reason: format!("cannot be made: {error}") })?;
     for (path, script) in [
         (submission.shard_path(), submission.shard_script()),
         (submission.merge_path(), submission.merge_script()),

@@ -4,8 +4,8 @@ use super::{Effect, edit};
 use crate::explorer::action::Command;
 use crate::explorer::model::{Model, Notice, Pane};
 use crate::explorer::opening::Opening;
-use crate::phase::{Basis, next_beyond};
 use crate::scene::{Document, SceneErrors};
+use crate::study::map::{Template, next_beyond};
 
 /// Obeys a command that has to do with the map.
 pub fn obey(model: &mut Model, command: Command) -> Vec<Effect> {
@@ -93,7 +93,7 @@ fn step_slice(model: &mut Model, steps: i32) -> Vec<Effect> {
 /// Moves the mark by columns and rows of the map.
 fn step(model: &mut Model, columns: i32, rows: i32) -> Vec<Effect> {
     let Some((at_kappa, at_hurst)) = model.place() else {
-        let why = match Basis::of(model.document.scene()) {
+        let why = match Template::of(model.document.scene()) {
             Err(why) => why.to_string(),
             Ok(_) => "not before the scene is computed: its κ follows from its profile".to_owned(),
         };
@@ -132,7 +132,7 @@ pub fn move_to(model: &mut Model, kappa: f64, hurst: f64) -> Vec<Effect> {
 
 /// The scene with another κ and H. A preload in units of E* h L may change with them.
 fn moved(model: &Model, kappa: f64, hurst: f64) -> Result<Document, SceneErrors> {
-    let moved = Basis::moved(&model.document, kappa, hurst)?;
+    let moved = Template::moved(&model.document, kappa, hurst)?;
     match model.chart.shown_study() {
         Some(study)
             if study.atlas.is_of(study.slice, model.document.scene())

@@ -6,7 +6,7 @@ use super::{chart_words as words, sections};
 use crate::analysis::Regime;
 use crate::explorer::model::Model;
 use crate::explorer::theme::{Meaning, Theme};
-use crate::phase::{Charted, Place, Plane, Spot};
+use crate::study::map::{Charted, MapCell, MapModel, Place};
 use ratatui::Frame;
 use ratatui::layout::{Position, Rect};
 use ratatui::text::{Line, Span as Text};
@@ -42,7 +42,7 @@ pub(super) fn glyph_between(one: Regime, other: Regime) -> &'static str {
     if [one, other].contains(&Regime::PressureInsensitive) { "▓" } else { "░" }
 }
 
-fn glyph(plane: &Plane, place: &Place<'_>, spot: &Spot, charted: Charted) -> &'static str {
+fn glyph(plane: &MapModel, place: &Place<'_>, spot: &MapCell, charted: Charted) -> &'static str {
     match (charted, spot.regime) {
         (Charted::Regime, None) => "?",
         (Charted::Regime, Some(regime)) => {
@@ -136,7 +136,7 @@ fn write(frame: &mut Frame<'_>, area: Rect, lines: Vec<Line<'static>>) {
     }
 }
 
-fn cells(frame: &mut Frame<'_>, plot: Rect, model: &Model, plane: &Plane) {
+fn cells(frame: &mut Frame<'_>, plot: Rect, model: &Model, plane: &MapModel) {
     let theme = model.appearance.theme;
     let (columns, rows) = plane.size();
     let charted = model.chart.charted();
@@ -144,7 +144,7 @@ fn cells(frame: &mut Frame<'_>, plot: Rect, model: &Model, plane: &Plane) {
         let row = index(plot.height - 1 - y, plot.height, rows);
         let spans = (0..plot.width).map(|x| {
             let Some(place) = plane.shown(index(x, plot.width, columns), row) else { return Text::raw(" ") };
-            match place.spot {
+            match place.cell {
                 Ok(spot) => {
                     let meaning = spot.regime.map_or(Meaning::Text, meaning);
                     Text::styled(glyph(plane, &place, spot, charted), theme.style(meaning))
@@ -157,7 +157,7 @@ fn cells(frame: &mut Frame<'_>, plot: Rect, model: &Model, plane: &Plane) {
     }
 }
 
-fn axes(frame: &mut Frame<'_>, area: Rect, plot: Rect, plane: &Plane, theme: Theme) {
+fn axes(frame: &mut Frame<'_>, area: Rect, plot: Rect, plane: &MapModel, theme: Theme) {
     let ([across, up], (columns, rows)) = (plane.labels(), plane.size());
     let quiet = theme.style(Meaning::Quiet);
     if plot.is_empty() {
@@ -196,7 +196,7 @@ fn axes(frame: &mut Frame<'_>, area: Rect, plot: Rect, plane: &Plane, theme: The
 }
 
 /// The scene as it stands, with a pointer on each axis.
-fn mark(frame: &mut Frame<'_>, area: Rect, plot: Rect, model: &Model, plane: &Plane) {
+fn mark(frame: &mut Frame<'_>, area: Rect, plot: Rect, model: &Model, plane: &MapModel) {
     let Some((kappa, Some(hurst))) = model.place().filter(|_| !plot.is_empty()) else { return };
     let style = model.appearance.theme.style(Meaning::Cursor);
     let (column, row) = plane.coordinates(kappa, Some(hurst));

@@ -5,10 +5,10 @@ use super::wrap::{filled, wrapped};
 use crate::analysis::{INSENSITIVE_SHARE, NEGLIGIBLE_COEFFICIENT, Regime, VANISHING_SHARE};
 use crate::explorer::model::{Model, OpenStudy};
 use crate::explorer::theme::Meaning;
-use crate::phase::{Basis, Charted, Layer, Level, PhaseMap, Place, Plane};
 use crate::scene::format_quantity;
-use crate::sweep::Quantity;
-use crate::sweep::figure::Estimate;
+use crate::study::Quantity;
+use crate::study::figure::Estimate;
+use crate::study::map::{Charted, Layer, Level, LiveMap, MapModel, Place, Template};
 use crate::text::grouped;
 use ratatui::layout::Rect;
 use ratatui::text::{Line, Span as Text};
@@ -20,13 +20,17 @@ const ROOMY: u16 = 24;
 pub fn title(model: &Model) -> String {
     if let Some(study) = model.chart.shown_study() {
         let plan = study.atlas.plan();
-        let (columns, rows) = model.chart.plane().map(Plane::size).unwrap_or_default();
+        let (columns, rows) = model.chart.plane().map(MapModel::size).unwrap_or_default();
         return format!(" Study {}: {columns} × {rows} cells, {} ", study.atlas.name(), lines(plan.lines));
     }
-    match Basis::of(model.document.scene()) {
-        Ok(basis) => {
-            let over = if basis.has_hurst() { "κ, H" } else { "κ" };
-            format!(" Map over {over}: {} of {} springs ", lines(basis.lines()), grouped(basis.springs()))
+    match Template::of(model.document.scene()) {
+        Ok(template) => {
+            let over = if template.has_hurst() { "κ, H" } else { "κ" };
+            format!(
+                " Map over {over}: {} of {} springs ",
+                lines(template.lines()),
+                grouped(template.springs())
+            )
         }
         Err(_) => " Map over κ, H ".to_owned(),
     }
@@ -38,7 +42,7 @@ fn lines(count: u64) -> String {
 
 /// Why there is no map.
 pub fn nothing_yet(model: &Model) -> String {
-    if let Err(why) = Basis::of(model.document.scene()) {
+    if let Err(why) = Template::of(model.document.scene()) {
         return why.to_string();
     }
     if let Some(why) = &model.chart.failed {
@@ -53,7 +57,7 @@ pub fn nothing_yet(model: &Model) -> String {
 }
 
 /// The name of a quantity: its symbol, where no other quantity of the map has the same.
-pub fn name_of(plane: &Plane, quantity: Quantity) -> String {
+pub fn name_of(plane: &MapModel, quantity: Quantity) -> String {
     let symbol = quantity.symbol();
     let is_only = plane.layers().iter().filter(|layer| layer.quantity.symbol() == symbol).count() == 1;
     if is_only && !symbol.is_empty() { symbol.to_owned() } else { quantity.name().replace('_', " ") }
@@ -145,7 +149,7 @@ pub fn below(model: &Model, area: Rect) -> Vec<Line<'static>> {
             }
         }
         None if study.is_some() => {
-            let why = Basis::of(model.document.scene()).err();
+            let why = Template::of(model.document.scene()).err();
             let why = why.map_or_else(String::new, |why| why.to_string().replacen("no map", "no mark", 1));
             say(Line::styled(why, theme.style(Meaning::Quiet)));
         }
@@ -173,7 +177,7 @@ fn computed_so_far(model: &Model, say: &mut impl FnMut(Line<'static>)) {
     let sides = |level: Level| format!("{} × {} cells", level.columns().count(), map.rows_of(level).len());
     match (map.level(), &model.chart.failed) {
         (_, Some(why)) => say(Line::styled(format!("the map ends here: {why}"), theme.style(Meaning::Error))),
-        (Some(_), None) if PhaseMap::is_whole(map) => {}
+        (Some(_), None) if LiveMap::is_whole(map) => {}
         (Some(level), None) => {
             say(Line::styled(format!("{} so far…", sides(level)), theme.style(Meaning::Key)))
         }
@@ -192,7 +196,7 @@ fn note_of_computed() -> String {
     )
 }
 
-fn note_of_study(study: &OpenStudy, plane: &Plane) -> String {
+fn note_of_study(study: &OpenStudy, plane: &MapModel) -> String {
     let regimes = if plane.charted().contains(&Charted::Regime) {
         "Colours: regime of most profiles; ▓ and ░: fewer than three quarters agree. "
     } else {
@@ -208,7 +212,7 @@ fn note_of_study(study: &OpenStudy, plane: &Plane) -> String {
 }
 
 /// The scene itself.
-fn here(model: &Model, plane: &Plane, at_kappa: f64, at_hurst: Option<f64>) -> Line<'static> {
+fn here(model: &Model, plane: &MapModel, at_kappa: f64, at_hurst: Option<f64>) -> Line<'static> {
     let hurst = at_hurst.map_or_else(String::new, |hurst| format!(", H {}", number(hurst)));
     let outside = if plane.contains(at_kappa, at_hurst) { "" } else { ", outside the map" };
     let regime = model.computed.as_ref().filter(|_| model.is_current());
@@ -225,7 +229,7 @@ const WITH_REGIME: [Quantity; 2] = [Quantity::ZeroLoadAdhesionShare, Quantity::A
 
 /// The layers that are told together: with the regime those it follows from, as far as there are any, else the
 /// one that the glyphs tell.
-pub fn told(charted: Charted, plane: &Plane) -> Vec<&Layer> {
+pub fn told(charted: Charted, plane: &MapModel) -> Vec<&Layer> {
     match charted {
         Charted::Quantity(quantity) => plane.layer(quantity).into_iter().collect(),
         Charted::Regime => {
@@ -238,7 +242,7 @@ pub fn told(charted: Charted, plane: &Plane) -> Vec<&Layer> {
 /// What the map says there, or where it says it, in case that is not where the mark is.
 fn there(
     model: &Model,
-    plane: &Plane,
+    plane: &MapModel,
     at: Option<(Option<String>, Option<String>)>,
     place: &Place<'_>,
 ) -> String {
@@ -250,7 +254,7 @@ fn there(
         }
         _ => whose.to_owned(),
     };
-    let spot = match place.spot {
+    let spot = match place.cell {
         Ok(spot) => spot,
         Err(why) => return format!("{at}: {why}"),
     };

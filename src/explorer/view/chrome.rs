@@ -2,7 +2,7 @@
 
 use super::typed::typed;
 use super::wrap::{fitting, wrapped};
-use crate::accuracy::{Estimate, Target};
+use crate::accuracy::Target;
 use crate::contact::CurvePoint;
 use crate::explorer::action::Command;
 use crate::explorer::keys;
@@ -122,7 +122,7 @@ fn headline(model: &Model, width: u16) -> Line<'static> {
     }
     if model.is_computing() {
         let legs = model.document.scene().loading.len();
-        part("  ", format!("computing, leg {} of {legs}", model.progress.unwrap_or(0) + 1), Meaning::Quiet);
+        part("  ", format!("computing, stage {} of {legs}", model.progress.unwrap_or(0) + 1), Meaning::Quiet);
     }
     fitting(parts, "", usize::from(width))
 }
@@ -130,28 +130,13 @@ fn headline(model: &Model, width: u16) -> Line<'static> {
 /// The estimated error of the headline, `…` until it is known; nothing where it cannot be.
 fn error(model: &Model) -> Option<String> {
     match &model.appraisal.estimated {
-        Estimated::Known(Estimate { target, error, .. }) => {
-            let of = if *target == Target::Curve { "curve " } else { "" };
-            Some(format!("{of}± {}", per_cent(*error)))
+        Estimated::Known(estimate) => {
+            let of = if estimate.target == Target::Curve { "curve " } else { "" };
+            Some(format!("{of}± {}", estimate.per_cent()))
         }
         Estimated::Waiting if model.shows_times => Some("± …".to_owned()),
         Estimated::Waiting | Estimated::Unknown => None,
     }
-}
-
-/// A relative error in per cent: one digit, and another after a one. An estimate is worth no more.
-fn per_cent(error: f64) -> String {
-    let per_cent = 100.0 * error;
-    if per_cent > 100.0 {
-        return "> 100 %".to_owned();
-    }
-    if per_cent < 1e-3 {
-        return "< 0.001 %".to_owned();
-    }
-    let two: f64 = format!("{per_cent:.1e}").parse().unwrap_or(per_cent);
-    let one: f64 = format!("{per_cent:.0e}").parse().unwrap_or(per_cent);
-    let leads_with_one = format!("{two:e}").starts_with('1');
-    format!("{} %", if leads_with_one { two } else { one })
 }
 
 /// That springs are searched for a tolerance, and how far.
@@ -206,29 +191,5 @@ pub fn footer(frame: &mut Frame<'_>, area: Rect, model: &Model) {
     if let Some(traffic) = traffic {
         let width = traffic.width() as u16;
         frame.render_widget(traffic, Rect { x: area.right() - width, width, ..area });
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn errors_are_told_to_one_digit_and_two_after_a_one() {
-        let told = [
-            (0.0042, "0.4 %"),
-            (0.0104, "1 %"),
-            (0.0148, "1.5 %"),
-            (0.0096, "1 %"),
-            (0.123, "12 %"),
-            (0.9, "90 %"),
-            (1.5, "> 100 %"),
-            (2.3e-5, "0.002 %"),
-            (9e-6, "< 0.001 %"),
-            (0.0, "< 0.001 %"),
-        ];
-        for (error, text) in told {
-            assert_eq!(per_cent(error), text, "{error}");
-        }
     }
 }

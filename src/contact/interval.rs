@@ -1,0 +1,217 @@
+//! One interval of indentations of a leg, searched for extremes and crossings of the force.
+//!
+//! The interval is parted at its middle event until bounds exclude a part or nothing happens inside.
+
+use super::adhesive::EdgeModel;
+use super::contact_model::ContactState;
+use super::steady::{SteadyContact, state};
+use super::totals::{ContactTotals, GapScale};
+
+/// From this indentation on so much is whole in contact, until the next step.
+#[derive(Clone, Copy, Debug)]
+struct Step {
+    threshold: f64,
+    totals: ContactTotals,
+}
+
+/// A fragment whose edges slide, while it fills one span.
+#[derive(Clone, Copy, Debug)]
+pub struct Piece<S> {
+    pub slider: S,
+    pub from: f64,
+    pub to: f64,
+}
+
+/// An interval of indentations and its events.
+pub struct Interval<E: EdgeModel> {
+    edges: E,
+    scale: GapScale,
+    /// The first one at its lowest indentation; then, once they are sorted, its events.
+    steps: Vec<Step>,
+    pub pieces: Vec<Piece<E::Slider>>,
+}
+
+/// Contact at the lowest and at the highest indentation of a part.
+pub type Ends<'s> = (&'s ContactState, &'s ContactState);
+
+/// A bound below any force between two indentations.
+pub fn lower_bound(low: &ContactState, high: &ContactState) -> f64 {
+    let rise = (high.indentation - low.indentation) * high.length;
+    high.compression - rise - slack(low, high, rise)
+}
+
+/// A bound above.
+pub fn upper_bound(low: &ContactState, high: &ContactState) -> f64 {
+    let rise = (high.indentation - low.indentation) * high.length;
+    low.compression + rise + slack(low, high, rise)
+}
+
+/// Bound of the rounding of a bound.
+fn slack(low: &ContactState, high: &ContactState, rise: f64) -> f64 {
+    8.0 * f64::EPSILON * (low.compression.abs() + high.compression.abs() + rise)
+}
+
+impl<E: EdgeModel> Interval<E> {
+    /// An interval with this contact at its lowest indentation, m.
+    pub fn new(edges: E, scale: GapScale, low: f64, totals: ContactTotals) -> Self {
+        Interval { edges, scale, steps: vec![Step { threshold: low, totals }], pieces: Vec::new() }
+    }
+
+    /// Adds an event at an indentation, m; [`Interval::sort`] follows the last one.
+    pub fn add(&mut self, threshold: f64, totals: ContactTotals) {
+        self.steps.push(Step { threshold, totals });
+    }
+
+    /// Sorts its steps, each with the totals of all before it.
+    pub fn sort(&mut self) {
+        self.steps[1..].sort_unstable_by(|a, b| a.threshold.total_cmp(&b.threshold));
+        self.steps.dedup_by(|next, step| {
+            let together = next.threshold == step.threshold;
+            if together {
+                step.totals += next.totals;
+            }
+            together
+        });
+        let mut total = ContactTotals::default();
+        for step in &mut self.steps {
+            total += step.totals;
+            step.totals = total;
+        }
+    }
+
+    /// Whole springs or cells in contact at an indentation, m.
+    pub fn totals(&self, indentation: f64) -> ContactTotals {
+        let above = self.steps.partition_point(|step| step.threshold <= indentation);
+        self.steps[above.saturating_sub(1)].totals
+    }
+
+    /// The contact at an indentation.
+    fn at(&self, pieces: &[Piece<E::Slider>], indentation: f64) -> ContactState {
+        let there = pieces.iter().filter(|piece| piece.is_at(indentation)).map(|piece| piece.slider);
+        state(self.edges, &self.scale, self.totals(indentation), there, indentation)
+    }
+
+    /// The contact at an indentation, as it is up to the next event.
+    fn steady(&self, pieces: &[Piece<E::Slider>], indentation: f64) -> SteadyContact<E> {
+        let there = pieces.iter().filter(|piece| piece.is_at(indentation));
+        let (edges, scale, totals) = (self.edges, self.scale, self.totals(indentation));
+        SteadyContact { edges, scale, totals, sliders: there.map(|piece| piece.slider).collect() }
+    }
+
+    /// The middle event of all inside a part.
+    fn middle_event(&self, low: f64, high: f64) -> Option<f64> {
+        let first = self.steps.partition_point(|step| step.threshold <= low);
+        let end = self.steps.partition_point(|step| step.threshold < high);
+        (first < end).then(|| self.steps[first + (end - first) / 2].threshold)
+    }
+
+    /// The pieces that matter on a part.
+    fn part(pieces: &[Piece<E::Slider>], low: f64, high: f64) -> Vec<Piece<E::Slider>> {
+        pieces.iter().copied().filter(|piece| piece.from <= high && piece.to > low).collect()
+    }
+
+    /// Makes `best` the smallest force between two ends, both of which it knows already.
+    pub fn smallest(&self, pieces: &[Piece<E::Slider>], (low, high): Ends<'_>, best: &mut ContactState) {
+        let (from, to) = (low.indentation, high.indentation);
+        if lower_bound(low, high) >= best.compression || from.next_up() >= to {
+            return;
+        }
+        match self.middle_event(from, to) {
+            None => {
+                let at = self.steady(pieces, from).flattest(from, to).min(to.next_down());
+                self.take(pieces, at, best, |a, b| a < b);
+            }
+            Some(event) => {
+                let middle = self.take(pieces, event, best, |a, b| a < b);
+                self.smallest(&Self::part(pieces, event, to), (&middle, high), best);
+                self.smallest(&Self::part(pieces, from, event), (low, &middle), best);
+            }
+        }
+    }
+
+    /// Makes `best` the largest force between two ends, both of which it knows already. Where the force falls at once,
+    /// the largest number before counts.
+    pub fn largest(&self, pieces: &[Piece<E::Slider>], (low, high): Ends<'_>, best: &mut ContactState) {
+        let (from, to) = (low.indentation, high.indentation);
+        if upper_bound(low, high) <= best.compression || from.next_up() >= to {
+            return;
+        }
+        match self.middle_event(from, to) {
+            None => {
+                self.take(pieces, to.next_down(), best, |a, b| a > b);
+            }
+            Some(event) => {
+                let middle = self.take(pieces, event, best, |a, b| a > b);
+                self.largest(&Self::part(pieces, event, to), (&middle, high), best);
+                self.largest(&Self::part(pieces, from, event), (low, &middle), best);
+            }
+        }
+    }
+
+    fn take(
+        &self,
+        pieces: &[Piece<E::Slider>],
+        at: f64,
+        best: &mut ContactState,
+        is_better: impl Fn(f64, f64) -> bool,
+    ) -> ContactState {
+        let state = self.at(pieces, at);
+        if is_better(state.compression, best.compression) {
+            *best = state;
+        }
+        state
+    }
+
+    /// The smallest indentation above the lower end, up to the higher one, with at least this compression; at the
+    /// lower end it is smaller.
+    pub fn first_of(&self, pieces: &[Piece<E::Slider>], (low, high): Ends<'_>, wanted: f64) -> Option<f64> {
+        if upper_bound(low, high) < wanted {
+            return None;
+        }
+        let (from, to) = (low.indentation, high.indentation);
+        match self.middle_event(from, to) {
+            None => match self.steady(pieces, from).rises_to((from, to), wanted) {
+                Some(found) if found < to || high.compression >= wanted => Some(found),
+                Some(_) => Some(to.next_down()),
+                None => (high.compression >= wanted).then_some(to),
+            },
+            Some(event) => {
+                let middle = self.at(pieces, event);
+                let lower = Self::part(pieces, from, event);
+                self.first_of(&lower, (low, &middle), wanted)
+                    .or_else(|| self.first_of(&Self::part(pieces, event, to), (&middle, high), wanted))
+            }
+        }
+    }
+
+    /// The largest indentation below the higher end, down to the lower one, with at most this compression; at the
+    /// higher end it is larger.
+    pub fn last_of(&self, pieces: &[Piece<E::Slider>], (low, high): Ends<'_>, wanted: f64) -> Option<f64> {
+        let (from, to) = (low.indentation, high.indentation);
+        if lower_bound(low, high) > wanted || from >= to {
+            return None;
+        }
+        match self.middle_event(from, to) {
+            None => {
+                let before = to.next_down().max(from);
+                let found = self.steady(pieces, from).falls_to((from, before), wanted);
+                found.ok().or_else(|| (low.compression <= wanted).then_some(from))
+            }
+            Some(event) => {
+                let middle = self.at(pieces, event);
+                self.last_of(&Self::part(pieces, event, to), (&middle, high), wanted).or_else(|| {
+                    if middle.compression <= wanted {
+                        return Some(event);
+                    }
+                    self.last_of(&Self::part(pieces, from, event), (low, &middle), wanted)
+                })
+            }
+        }
+    }
+}
+
+impl<S> Piece<S> {
+    fn is_at(&self, indentation: f64) -> bool {
+        self.from <= indentation && indentation < self.to
+    }
+}

@@ -1,0 +1,159 @@
+//! The cells of a plan, and in which order and parts they are computed.
+//!
+//! A *run* is one loading: all cells that differ in the preload alone. A *unit* is a piece of work that one
+//! thread does from end to end: runs on one random line whose roughness is the same, so that the line and its
+//! tree are made once. Within it the numbers that shape the line vary slowest.
+
+use super::axis::Axis;
+use super::plan::{Plan, targets};
+use super::target::{Shapes, Target};
+use crate::scene::Scene;
+use std::ops::Range;
+
+/// Lines are divided into several units until there are so many units, so that many processes can share a plan
+/// of few lines.
+const ENOUGH_UNITS: u64 = 256;
+/// Fewest runs of a divided line: below it, making the line would cost more than the runs.
+const LEAST_RUNS: u64 = 16;
+
+/// How the cells of a plan are counted.
+pub(super) struct Cells {
+    /// Values of each axis, in the order of the plan.
+    values: Vec<Vec<f64>>,
+    targets: Vec<Target>,
+    /// Axes that shape the roughness, in the order of the plan.
+    outer: Vec<usize>,
+    /// The others, those that shape the line first.
+    inner: Vec<usize>,
+    preloads: u64,
+    lines: u64,
+    /// Runs of one unit, and units of one line.
+    chunk: u64,
+    chunks: u64,
+}
+
+/// Runs on one line.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Unit {
+    /// Which line, counted from 0.
+    pub line: u64,
+    group: u64,
+    steps: Range<u64>,
+}
+
+impl Cells {
+    pub fn of(plan: &Plan) -> Cells {
+        let targets = targets(plan);
+        let with = |shapes: Shapes| {
+            (0..targets.len()).filter(|&axis| targets[axis].shapes() == shapes).collect::<Vec<_>>()
+        };
+        let outer = with(Shapes::Roughness);
+        let inner = [with(Shapes::Line), with(Shapes::Passes)].concat();
+        let values: Vec<Vec<f64>> = plan.axes.iter().map(Axis::values).collect();
+        let count = |axes: &[usize]| axes.iter().map(|&axis| values[axis].len() as u64).product::<u64>();
+        let (groups, steps) = (count(&outer), count(&inner));
+        let wanted = ENOUGH_UNITS.div_ceil(groups * plan.lines).min(steps / LEAST_RUNS).max(1);
+        let chunk = steps.div_ceil(wanted);
+        let preloads = plan.preloads.as_ref().map_or(1, Axis::count);
+        let chunks = steps.div_ceil(chunk);
+        Cells { values, targets, outer, inner, preloads, lines: plan.lines, chunk, chunks }
+    }
+
+    fn count(&self, axes: &[usize]) -> u64 {
+        axes.iter().map(|&axis| self.values[axis].len() as u64).product()
+    }
+
+    /// Number of runs, whatever their lines.
+    pub fn runs(&self) -> u64 {
+        self.values.iter().map(|values| values.len() as u64).product()
+    }
+
+    /// Cells of one run.
+    pub fn preloads(&self) -> u64 {
+        self.preloads
+    }
+
+    /// Number of units.
+    pub fn units(&self) -> u64 {
+        self.count(&self.outer) * self.lines * self.chunks
+    }
+
+    /// A unit; those of one spectrum follow each other.
+    pub fn unit(&self, index: u64) -> Unit {
+        let (rest, chunk) = (index / self.chunks, index % self.chunks);
+        let steps = self.count(&self.inner);
+        let start = chunk * self.chunk;
+        Unit {
+            group: rest / self.lines,
+            line: rest % self.lines,
+            steps: start.min(steps)..(start + self.chunk).min(steps),
+        }
+    }
+
+    /// All runs of one line whose roughness is the same, by the number of the roughness.
+    pub fn whole_unit(&self, group: u64, line: u64) -> Unit {
+        Unit { group, line, steps: 0..self.count(&self.inner) }
+    }
+
+    /// The runs of a unit, in the order in which they are best done.
+    pub fn runs_of(&self, unit: &Unit) -> impl Iterator<Item = u64> + use<'_> {
+        let group = unit.group;
+        unit.steps.clone().map(move |step| {
+            let mut places = vec![0; self.values.len()];
+            for (axes, number) in [(&self.outer, group), (&self.inner, step)] {
+                let mut rest = number;
+                for &axis in axes.iter().rev() {
+                    let count = self.values[axis].len() as u64;
+                    places[axis] = rest % count;
+                    rest /= count;
+                }
+            }
+            places.iter().zip(&self.values).fold(0, |run, (place, values)| run * values.len() as u64 + place)
+        })
+    }
+
+    /// How many runs a unit has.
+    pub fn length_of(&self, unit: &Unit) -> u64 {
+        unit.steps.end - unit.steps.start
+    }
+
+    /// The cells of a run, one for each preload.
+    pub fn cells_of(&self, run: u64) -> Range<u64> {
+        run * self.preloads..(run + 1) * self.preloads
+    }
+
+    /// Makes `scene` that of a run: the base with its values, the loading as it stands there.
+    ///
+    /// # Errors
+    /// The index of an axis whose number the scene does not have, and why.
+    pub fn shape(&self, run: u64, base: &Scene, scene: &mut Scene) -> Result<(), (usize, String)> {
+        restore(base, scene);
+        let mut rest = run;
+        let mut places = vec![0; self.values.len()];
+        for (place, values) in places.iter_mut().zip(&self.values).rev() {
+            *place = rest % values.len() as u64;
+            rest /= values.len() as u64;
+        }
+        // What is derived from other numbers comes after them.
+        for late in [false, true] {
+            for (axis, target) in self.targets.iter().enumerate() {
+                if matches!(target, Target::SpringsPerWave) == late {
+                    let value = self.values[axis][places[axis] as usize];
+                    target.set(scene, value).map_err(|reason| (axis, reason))?;
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Takes back what an axis may have changed.
+fn restore(base: &Scene, scene: &mut Scene) {
+    scene.material = base.material;
+    scene.length = base.length;
+    scene.form = base.form;
+    scene.adhesion = base.adhesion;
+    scene.numerics = base.numerics;
+    scene.loading.clone_from(&base.loading);
+    scene.roughness.clone_from(&base.roughness);
+}

@@ -1,0 +1,126 @@
+//! Why a study could not go on.
+
+use super::plan_text::PlanErrors;
+use super::record::Key;
+use crate::io::WriteError;
+use crate::simulation::RunError;
+use crate::surface::SurfaceError;
+use crate::text::path_name;
+use std::path::PathBuf;
+use thiserror::Error;
+
+/// Why a study could not go on. What was computed before is kept.
+#[derive(Debug, Error)]
+pub enum StudyError {
+    /// The plan is wrong.
+    #[error(transparent)]
+    Plan(#[from] PlanErrors),
+    /// A folder or file of the study cannot be read, or is none.
+    #[error("{}: {reason}", path_name(path))]
+    Folder {
+        /// The folder or file.
+        path: PathBuf,
+        /// What is wrong with it.
+        reason: String,
+    },
+    /// The folder holds a study of another plan.
+    #[error(
+        "{}: this folder holds a study of another plan; choose another folder, or the plan it began with\n{difference}",
+        path_name(path)
+    )]
+    OtherPlan {
+        /// The folder.
+        path: PathBuf,
+        /// The first lines that differ.
+        difference: String,
+    },
+    /// The measured file of the study cannot be read.
+    #[error(transparent)]
+    Measured(#[from] SurfaceError),
+    /// The measured file is not the one the study began with.
+    #[error(
+        "{}: the content of this measured file has changed: its SHA-256 is {found}, {plan} has {expected}; bring \
+         back the file the study began with, or begin another study in another folder",
+        path_name(file)
+    )]
+    MeasuredChanged {
+        /// The measured file.
+        file: PathBuf,
+        /// Hash of its content now.
+        found: String,
+        /// The plan that expects another, by its name.
+        plan: String,
+        /// Hash it expects.
+        expected: String,
+    },
+    /// The study began without a hash of its measured file.
+    #[error(
+        "{}: this study does not say which content of {} it was computed from, as an earlier version began it; \
+         begin it anew in another folder",
+        path_name(folder),
+        path_name(file)
+    )]
+    MeasuredUnknown {
+        /// The folder.
+        folder: PathBuf,
+        /// The measured file.
+        file: PathBuf,
+    },
+    /// A file could not be written.
+    #[error(transparent)]
+    Write(#[from] WriteError),
+    /// A cell could not be computed.
+    #[error("cell {cell} ({coordinates}), seed {seed}: {error}")]
+    Run {
+        /// Index of the cell.
+        cell: u64,
+        /// Its coordinates.
+        coordinates: String,
+        /// Seed of the line.
+        seed: u64,
+        /// Why not.
+        error: RunError,
+    },
+    /// Two processes have given different results for the same cell and line.
+    #[error(
+        "{key} ({coordinates}): two records differ, in {} and {}; remove the one that is wrong",
+        path_name(one),
+        path_name(other)
+    )]
+    Disagree {
+        /// Cell and seed.
+        key: Key,
+        /// The cell's coordinates.
+        coordinates: String,
+        /// A file.
+        one: PathBuf,
+        /// The other.
+        other: PathBuf,
+    },
+    /// Records are missing.
+    #[error(
+        "{records} of {total} records are missing, in {cells} cells: {}{}; run the study to its end, or merge with \
+         --partial",
+        named.join(", "),
+        if *cells > named.len() as u64 { ", …" } else { "" }
+    )]
+    Missing {
+        /// How many.
+        records: u64,
+        /// Of how many.
+        total: u64,
+        /// Cells of which lines are missing.
+        cells: u64,
+        /// The first of them.
+        named: Vec<String>,
+    },
+    /// There is no memory for the table of records.
+    #[error("there is not enough memory for {records} records")]
+    OutOfMemory {
+        /// How many.
+        records: u64,
+    },
+    /// The system gives no thread.
+    #[error("the system gives no thread to compute on")]
+    NoThread,
+}

@@ -1,0 +1,171 @@
+//! What a figure of a sweep shows: a map over two axes, or a section along one. It knows numbers and their
+//! names; how they are drawn is the export's.
+
+use crate::analysis::Regime;
+pub use crate::draw::AxisScale;
+
+/// An axis of a figure.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FigureAxis {
+    /// Its name in the terms of the field: `Hurst exponent`.
+    pub name: String,
+    /// Its symbol, with `_` before what stands below the line: `F_n`. Empty where it has none.
+    pub symbol: String,
+    /// SI unit; `1` or empty for numbers without one.
+    pub unit: String,
+    /// How values lie on it.
+    pub scale: AxisScale,
+    /// Its values in SI units, ascending.
+    pub values: Vec<f64>,
+}
+
+impl FigureAxis {
+    /// Where its values stand.
+    #[must_use]
+    pub fn coordinates(&self) -> Vec<f64> {
+        self.values.iter().map(|value| self.scale.coordinate(*value)).collect()
+    }
+
+    /// Where a number stands among its values, the first of them at 0: between two by its share of their
+    /// distance, and beyond the ends as the last distance goes on.
+    #[must_use]
+    pub fn place(&self, number: f64) -> f64 {
+        let places = self.coordinates();
+        let at = self.scale.coordinate(number);
+        let after = places.partition_point(|place| *place <= at).clamp(1, places.len().max(2) - 1);
+        match places.get(after - 1..=after) {
+            Some(&[low, high]) if high > low => (after - 1) as f64 + (at - low) / (high - low),
+            _ => 0.0,
+        }
+    }
+}
+
+/// A quantity that is shown.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FigureQuantity {
+    /// Its name in the terms of the field.
+    pub name: String,
+    /// Its symbol, as in [`FigureAxis::symbol`].
+    pub symbol: String,
+    /// SI unit, as in [`FigureAxis::unit`].
+    pub unit: String,
+    /// Whether it may be below zero.
+    pub signed: bool,
+}
+
+/// A mean over random lines with its confidence.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Estimate {
+    /// The mean.
+    pub mean: f64,
+    /// Lower end of the 95 % confidence interval of the mean.
+    pub low: f64,
+    /// Its upper end.
+    pub high: f64,
+}
+
+/// One quantity in all cells; `None` in those that are missing or do not have it. In a map row by row, the
+/// row of the first value of the axis up first; in a section curve by curve.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Panel {
+    /// What is shown.
+    pub quantity: FigureQuantity,
+    /// Its values.
+    pub estimates: Vec<Option<Estimate>>,
+    /// How they lie on their scale.
+    pub scale: AxisScale,
+    /// Whether it is itself F_a(0)/F_a,max, by whichever protocol: then the boundary is where it vanishes.
+    pub vanishes: bool,
+}
+
+/// Where adhesion without a load vanishes: where these values fall through the level.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Boundary {
+    /// F_a(0) in all cells, in the order of [`Panel::estimates`].
+    pub values: Vec<Option<f64>>,
+    /// Below this it has vanished.
+    pub level: f64,
+    /// What the line is: `F_a(0) = 0.05 F_a,max`.
+    pub label: String,
+}
+
+/// A figure.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Figure {
+    /// One line above it; may be empty.
+    pub title: String,
+    /// Axes that are fixed, as `H = 0.3`.
+    pub fixed: Vec<String>,
+    /// The axis across.
+    pub across: FigureAxis,
+    /// The axis up; a section has none.
+    pub up: Option<FigureAxis>,
+    /// The axis of the curves of a section, where there are several: one for each value.
+    pub series: Option<FigureAxis>,
+    /// What is shown, side by side.
+    pub panels: Vec<Panel>,
+    /// Where adhesion without a load vanishes, where that is known.
+    pub boundary: Option<Boundary>,
+    /// The regime of most lines of each cell, where that is known; empty otherwise.
+    pub regimes: Vec<Option<Regime>>,
+}
+
+impl Figure {
+    /// The boundary as a panel shows it: where its own F_a(0) vanishes, if that is what it shows.
+    #[must_use]
+    pub fn boundary_of(&self, panel: &Panel) -> Option<Boundary> {
+        let boundary = self.boundary.clone()?;
+        let own = || panel.estimates.iter().map(|estimate| estimate.map(|estimate| estimate.mean));
+        Some(if panel.vanishes { Boundary { values: own().collect(), ..boundary } } else { boundary })
+    }
+
+    /// Points on the axis across, in its coordinates, where a section crosses the boundary.
+    #[must_use]
+    pub fn crossings(&self, panel: &Panel) -> Vec<f64> {
+        if self.up.is_some() {
+            return Vec::new();
+        }
+        let Some(boundary) = self.boundary_of(panel) else { return Vec::new() };
+        let places = self.across.coordinates();
+        // Without a load all curves have the same; where they do not, there is no one place.
+        let mut curves = boundary.values.chunks(places.len().max(1));
+        let first = curves.next();
+        if curves.any(|curve| Some(curve) != first) {
+            return Vec::new();
+        }
+        let ends = places.windows(2).zip(first.unwrap_or_default().windows(2));
+        ends.filter_map(|(x, value)| {
+            let (first, second) = (value[0]? - boundary.level, value[1]? - boundary.level);
+            let crosses = (first < 0.0) != (second < 0.0);
+            crosses.then(|| x[0] + (x[1] - x[0]) * first / (first - second))
+        })
+        .collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_have_a_place_among_the_values() {
+        let axis = |scale, values: &[f64]| FigureAxis {
+            name: String::new(),
+            symbol: String::new(),
+            unit: String::new(),
+            scale,
+            values: values.to_vec(),
+        };
+        let linear = axis(AxisScale::Linear, &[1.0, 2.0, 6.0]);
+        for (number, place) in
+            [(1.0, 0.0), (1.5, 0.5), (2.0, 1.0), (4.0, 1.5), (6.0, 2.0), (10.0, 3.0), (0.0, -1.0)]
+        {
+            assert_eq!(linear.place(number), place, "{number}");
+        }
+        let decades = axis(AxisScale::Logarithmic, &[0.1, 1.0, 10.0]);
+        assert!((decades.place(10_f64.sqrt()) - 1.5).abs() < 1e-12);
+        assert_eq!((decades.place(100.0), decades.place(0.0)), (3.0, f64::NEG_INFINITY));
+        assert_eq!(axis(AxisScale::Linear, &[3.0]).place(7.0), 0.0);
+        assert_eq!(axis(AxisScale::Linear, &[]).place(7.0), 0.0);
+    }
+}

@@ -1,0 +1,244 @@
+//! One scene on many random lines: the mean of what they give, and how far they differ.
+//!
+//! Heights of self-affine lines do not average themselves: long waves carry most of them, and there are few of
+//! those however many springs a line has. So one line is one sample, and a mean needs many.
+
+use super::cells::Cells;
+use super::height_shape::HeightShape;
+use super::plan::Plan;
+use super::quantity::Quantity;
+use super::recorder::Records;
+use super::solve::{Case, Next, SharedWork, Sink};
+use super::statistics::Statistics;
+use crate::analysis::Regime;
+use crate::parallel::{begin_threads, on_this_thread};
+use crate::scene::{Roughness, Scene};
+use crate::simulation::{RunError, Simulation};
+use serde::Serialize;
+use std::ops::ControlFlow;
+use std::path::Path;
+use std::sync::{Mutex, PoisonError};
+use thiserror::Error;
+
+/// What one line gave, in SI units.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct LineResult {
+    /// Its seed.
+    pub seed: u64,
+    /// Adhesion force F_a, N.
+    pub adhesion_force: Option<f64>,
+    /// Indentation at the preload, m.
+    pub preload_indentation: Option<f64>,
+    /// Energy lost, J.
+    pub dissipated_energy: Option<f64>,
+    /// Largest length in contact over the length of the line.
+    pub contact_fraction: f64,
+    /// Regime of Fig. 4.
+    pub regime: Option<Regime>,
+    /// Shape of the distribution of its heights, without the form.
+    pub heights: Option<HeightShape>,
+}
+
+/// Why an ensemble could not be computed.
+#[derive(Clone, Debug, PartialEq, Error)]
+pub enum LinesError {
+    /// There is but one line.
+    #[error("several lines go with roughness: SelfAffine, which has seeds; this scene has but one line")]
+    OneLine,
+    /// A line could not be computed.
+    #[error("seed {seed}: {error}")]
+    Run {
+        /// Its seed.
+        seed: u64,
+        /// Why not.
+        error: RunError,
+    },
+}
+
+/// Quantities of a profile, read by [`LineResult::new`].
+const RECORD: [Quantity; 7] = [
+    Quantity::AdhesionForce,
+    Quantity::PreloadIndentation,
+    Quantity::DissipatedEnergy,
+    Quantity::ContactFraction,
+    Quantity::Regime,
+    Quantity::Skewness,
+    Quantity::ExcessKurtosis,
+];
+
+/// Solves a checked scene on `lines` profiles: its seed and the seeds that follow, after the last of all seeds the
+/// first. `jobs` threads share them; no bit of a result depends on their number.
+///
+/// # Errors
+/// [`LinesError`]; of several profiles that fail, the first.
+pub fn solve_lines(
+    scene: &Scene,
+    folder: &Path,
+    lines: usize,
+    jobs: usize,
+) -> Result<Vec<LineResult>, LinesError> {
+    if !matches!(scene.roughness, Some(Roughness::SelfAffine { .. })) {
+        return Err(LinesError::OneLine);
+    }
+    let plan = Plan::of_scene(scene, lines as u64, &RECORD);
+    let cells = Cells::of(&plan);
+    let work = &SharedWork::new(&plan, &cells, (0..cells.units()).map(|unit| cells.unit(unit)));
+    let solved = Mutex::new(Vec::new());
+    let solve = || work.solve(Simulation::new(folder.to_path_buf()), &mut &solved);
+    std::thread::scope(|scope| {
+        begin_threads(scope, jobs.min(lines).saturating_sub(1), solve);
+        on_this_thread(solve);
+    });
+    let mut solved = solved.into_inner().unwrap_or_else(PoisonError::into_inner);
+    solved.sort_by_key(|&(line, _)| line);
+    let result = |(line, records): (u64, Result<Records, RunError>)| {
+        let seed = plan.seed_of(line);
+        match records {
+            Ok(records) => Ok(LineResult::new(seed, &records.concat())),
+            Err(error) => Err(LinesError::Run { seed, error }),
+        }
+    };
+    solved.into_iter().map(result).collect()
+}
+
+/// Profiles that have been solved, by their numbers.
+type Solved = Mutex<Vec<(u64, Result<Records, RunError>)>>;
+
+impl Sink for &Solved {
+    fn next(&mut self, _: Case) -> Next {
+        Next::Solve
+    }
+
+    fn take(&mut self, case: Case, records: Result<Records, RunError>) -> ControlFlow<()> {
+        // After a failure the profiles that follow are of no use; those before are under way or done.
+        let flow = if records.is_err() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) };
+        self.lock().unwrap_or_else(PoisonError::into_inner).push((case.line, records));
+        flow
+    }
+}
+
+impl LineResult {
+    /// The result of a seed from the values of [`RECORD`].
+    fn new(seed: u64, values: &[f64]) -> Self {
+        let value = |quantity| {
+            let column = RECORD.iter().position(|one| *one == quantity)?;
+            values.get(column).copied().filter(|value| !value.is_nan())
+        };
+        let shape = value(Quantity::Skewness).zip(value(Quantity::ExcessKurtosis));
+        LineResult {
+            seed,
+            adhesion_force: value(Quantity::AdhesionForce),
+            preload_indentation: value(Quantity::PreloadIndentation),
+            dissipated_energy: value(Quantity::DissipatedEnergy),
+            contact_fraction: value(Quantity::ContactFraction).unwrap_or(0.0),
+            regime: value(Quantity::Regime).and_then(|place| Regime::ALL.get(place as usize).copied()),
+            heights: shape.map(|(skewness, excess_kurtosis)| HeightShape { skewness, excess_kurtosis }),
+        }
+    }
+}
+
+/// Statistics over lines; a figure that fewer than two of them have is `None`.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct LinesSummary {
+    /// Of the adhesion force, N.
+    pub adhesion_force: Option<Statistics>,
+    /// Of the indentation at the preload, m.
+    pub preload_indentation: Option<Statistics>,
+    /// Of the energy lost, J.
+    pub dissipated_energy: Option<Statistics>,
+    /// Of the largest length in contact over the length of the line.
+    pub contact_fraction: Option<Statistics>,
+    /// Lines of each regime.
+    pub regimes: RegimeCounts,
+    /// Root mean square over the lines of the skewness of their heights; zero if they averaged themselves.
+    pub rms_skewness: Option<f64>,
+    /// The same of the excess kurtosis.
+    pub rms_excess_kurtosis: Option<f64>,
+}
+
+/// How many lines are of which regime.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+pub struct RegimeCounts {
+    /// Pressure-insensitive adhesion.
+    pub pressure_insensitive: usize,
+    /// Pressure-sensitive adhesion.
+    pub pressure_sensitive: usize,
+    /// No adhesion.
+    pub non_adhesive: usize,
+    /// Nothing is pulled.
+    pub none: usize,
+}
+
+impl LinesSummary {
+    /// Of what the lines gave.
+    #[must_use]
+    pub fn of(lines: &[LineResult]) -> Self {
+        let statistics = |figure: fn(&LineResult) -> Option<f64>| {
+            Statistics::of(&lines.iter().filter_map(figure).collect::<Vec<_>>())
+        };
+        let rms = |figure: fn(&HeightShape) -> f64| {
+            let squares: Vec<_> =
+                lines.iter().filter_map(|line| Some(figure(line.heights.as_ref()?).powi(2))).collect();
+            (!squares.is_empty()).then(|| (squares.iter().sum::<f64>() / squares.len() as f64).sqrt())
+        };
+        let mut regimes = RegimeCounts::default();
+        for line in lines {
+            *match line.regime {
+                Some(Regime::PressureInsensitive) => &mut regimes.pressure_insensitive,
+                Some(Regime::PressureSensitive) => &mut regimes.pressure_sensitive,
+                Some(Regime::NonAdhesive) => &mut regimes.non_adhesive,
+                None => &mut regimes.none,
+            } += 1;
+        }
+        LinesSummary {
+            adhesion_force: statistics(|line| line.adhesion_force),
+            preload_indentation: statistics(|line| line.preload_indentation),
+            dissipated_energy: statistics(|line| line.dissipated_energy),
+            contact_fraction: statistics(|line| Some(line.contact_fraction)),
+            regimes,
+            rms_skewness: rms(|shape| shape.skewness),
+            rms_excess_kurtosis: rms(|shape| shape.excess_kurtosis),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::open;
+
+    #[test]
+    fn lines_do_not_depend_on_how_many_threads_share_them() {
+        let document = open("rough-sphere").unwrap();
+        let mut scene = document.scene().clone();
+        scene.numerics.points = 1024;
+        if let Some(Roughness::SelfAffine { seed, .. }) = &mut scene.roughness {
+            *seed = u64::MAX - 2;
+        }
+        let of = |jobs| solve_lines(&scene, &document.resolve(""), 7, jobs).unwrap();
+        let alone = of(1);
+        assert_eq!(
+            alone.iter().map(|line| line.seed).take(4).collect::<Vec<_>>(),
+            [u64::MAX - 2, u64::MAX - 1, u64::MAX, 0]
+        );
+        assert_eq!(of(3), alone);
+        assert_eq!(of(64), alone);
+        // Each is the scene itself with that seed.
+        if let Some(Roughness::SelfAffine { seed, .. }) = &mut scene.roughness {
+            *seed = 0;
+        }
+        let outcome =
+            Simulation::new(document.resolve("")).run(&scene, &|| false, &mut |_, _, _| Ok(())).unwrap();
+        assert_eq!(alone[3].adhesion_force, outcome.figures.adhesion_force);
+        assert_eq!(alone[3].dissipated_energy, outcome.figures.dissipated_energy);
+        let summary = LinesSummary::of(&alone);
+        assert_eq!(summary.adhesion_force.unwrap().count, 7);
+        let regimes = summary.regimes;
+        assert_eq!(
+            regimes.pressure_insensitive + regimes.pressure_sensitive + regimes.non_adhesive + regimes.none,
+            7
+        );
+        let smooth = open("jkr-sphere").unwrap();
+        assert_eq!(solve_lines(smooth.scene(), &smooth.resolve(""), 2, 1), Err(LinesError::OneLine));
+    }
+}

@@ -1,0 +1,137 @@
+//! The values of κ and H that a map has, and the order in which it gets them.
+
+use crate::study::figure::{AxisScale, FigureAxis};
+
+/// Values of κ: quarters of octaves from 1/8 to 32.
+pub const KAPPAS: usize = 33;
+/// Values of H, from 0.05 to 0.95.
+pub const HURSTS: usize = 19;
+
+/// The κ of a column, to three digits: what a scene is set to is what the map has been computed for.
+#[must_use]
+pub fn kappa(column: usize) -> f64 {
+    let exact = ((column as f64 - 12.0) / 4.0).exp2();
+    format!("{exact:.2e}").parse().unwrap_or(exact)
+}
+
+/// The H of a row.
+#[must_use]
+pub fn hurst(row: usize) -> f64 {
+    (row + 1) as f64 * 5.0 / 100.0
+}
+
+/// A value differs from another on a grid, rather than by rounding.
+const APART: f64 = 1e-6;
+
+/// The κ of all columns.
+#[must_use]
+pub fn kappas() -> FigureAxis {
+    axis("governing parameter", "κ", AxisScale::Logarithmic, (0..KAPPAS).map(kappa).collect())
+}
+
+/// The H of all rows.
+#[must_use]
+pub fn hursts() -> FigureAxis {
+    axis("Hurst exponent", "H", AxisScale::Linear, (0..HURSTS).map(hurst).collect())
+}
+
+fn axis(name: &str, symbol: &str, scale: AxisScale, values: Vec<f64>) -> FigureAxis {
+    FigureAxis { name: name.into(), symbol: symbol.into(), unit: "1".into(), scale, values }
+}
+
+/// The one of ascending values so many steps above `value`, or below it; the first or last of them where they
+/// go no further, and `None` where `value` is there already.
+#[must_use]
+pub fn next_beyond(value: f64, steps: i32, values: &[f64]) -> Option<f64> {
+    let apart = APART * value.abs();
+    let last = values.len().checked_sub(1)?;
+    let first_step = if steps > 0 {
+        values.iter().position(|one| *one > value + apart)
+    } else {
+        values.iter().rposition(|one| *one < value - apart)
+    }?;
+    let further = steps.unsigned_abs().saturating_sub(1) as usize;
+    let index = if steps > 0 {
+        (first_step.saturating_add(further)).min(last)
+    } else {
+        first_step.saturating_sub(further)
+    };
+    values.get(index).copied().filter(|_| steps != 0)
+}
+
+/// How finely a map is known. Every level has the cells of the one before.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Level {
+    /// 5 × 5 cells.
+    Coarse,
+    /// 9 × 9 cells.
+    Medium,
+    /// 17 values of κ, all of H.
+    Fine,
+    /// All cells.
+    Whole,
+}
+
+impl Level {
+    /// All of them, the coarsest first.
+    pub const ALL: [Level; 4] = [Level::Coarse, Level::Medium, Level::Fine, Level::Whole];
+
+    /// Its columns.
+    pub fn columns(self) -> impl Iterator<Item = usize> {
+        let stride = match self {
+            Level::Coarse => 8,
+            Level::Medium => 4,
+            Level::Fine => 2,
+            Level::Whole => 1,
+        };
+        (0..KAPPAS).step_by(stride)
+    }
+
+    /// Its rows, the lowest H first.
+    #[must_use]
+    pub fn rows(self) -> &'static [usize] {
+        match self {
+            Level::Coarse => &[0, 4, 9, 14, 18],
+            Level::Medium => &[0, 2, 4, 7, 9, 11, 14, 16, 18],
+            Level::Fine | Level::Whole => &[0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18],
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_values_are_round() {
+        assert_eq!([0, 4, 8, 12, 16, 24, 32].map(kappa), [0.125, 0.25, 0.5, 1.0, 2.0, 8.0, 32.0]);
+        assert_eq!(kappa(13), 1.19);
+        assert_eq!([0, 9, 13, 18].map(hurst), [0.05, 0.5, 0.7, 0.95]);
+        assert!((1..KAPPAS).all(|column| kappa(column) > kappa(column - 1)));
+    }
+
+    #[test]
+    fn every_level_has_the_cells_of_the_one_before() {
+        for pair in Level::ALL.windows(2) {
+            let finer: Vec<_> = pair[1].columns().collect();
+            assert!(pair[0].columns().all(|column| finer.contains(&column)));
+            assert!(pair[0].rows().iter().all(|row| pair[1].rows().contains(row)));
+        }
+        let counts = Level::ALL.map(|level| (level.columns().count(), level.rows().len()));
+        assert_eq!(counts, [(5, 5), (9, 9), (17, 19), (KAPPAS, HURSTS)]);
+        assert!(Level::ALL.iter().all(|level| level.columns().last() == Some(KAPPAS - 1)));
+        assert!(Level::ALL.iter().all(|level| level.rows().last() == Some(&(HURSTS - 1))));
+    }
+
+    #[test]
+    fn steps_go_to_the_next_value_of_the_grid_and_end_with_it() {
+        let to = |value, steps| next_beyond(value, steps, &kappas().values);
+        assert_eq!((to(6.0, 1), to(6.0, -1), to(6.0, 4)), (Some(6.73), Some(5.66), Some(11.3)));
+        // A value that is one of the grid but for rounding.
+        assert_eq!((to(1.0 + 1e-12, 1), to(1.0 - 1e-12, -1)), (Some(1.19), Some(0.841)));
+        assert_eq!((to(31.0, 100), to(32.0, 1), to(0.125, -1)), (Some(32.0), None, None));
+        assert_eq!((to(100.0, -1), to(100.0, 1), to(1e-3, 1)), (Some(32.0), None, Some(0.125)));
+        assert_eq!((to(6.0, 0), to(6.0, i32::MIN), to(6.0, i32::MAX)), (None, Some(0.125), Some(32.0)));
+        assert_eq!(next_beyond(1.0, 1, &[]), None);
+    }
+}

@@ -1,0 +1,110 @@
+//! The live map over κ and H, as far as it has been computed.
+
+use super::grid::{HURSTS, KAPPAS, Level, hursts, kappas};
+use super::model::{MapModel, MapScale};
+use super::template::{RECORD, Template};
+use crate::study::cell_summary::CellSummary;
+use crate::study::quantity::Quantity;
+use std::sync::Arc;
+
+/// A map, as far as it has been computed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LiveMap {
+    template: Arc<Template>,
+    /// Row by row; a cell that could not be computed has the reason.
+    cells: Vec<Option<Result<CellSummary, String>>>,
+}
+
+impl LiveMap {
+    /// A map of which nothing is known.
+    #[must_use]
+    pub fn new(template: Arc<Template>) -> Self {
+        let rows = if template.has_hurst() { HURSTS } else { 1 };
+        LiveMap { template, cells: vec![None; rows * KAPPAS] }
+    }
+
+    /// What it belongs to.
+    #[must_use]
+    pub fn template(&self) -> &Arc<Template> {
+        &self.template
+    }
+
+    /// Its rows: one where there is no H.
+    #[must_use]
+    pub fn rows(&self) -> usize {
+        self.cells.len() / KAPPAS
+    }
+
+    /// The rows that a level has of it.
+    #[must_use]
+    pub fn rows_of(&self, level: Level) -> &'static [usize] {
+        if self.template.has_hurst() { level.rows() } else { &[0] }
+    }
+
+    /// A cell, once it has been computed, or why it could not be.
+    #[must_use]
+    pub fn cell(&self, column: usize, row: usize) -> Option<&Result<CellSummary, String>> {
+        self.cells.get(row * KAPPAS + column).filter(|_| column < KAPPAS)?.as_ref()
+    }
+
+    /// The number of a cell in the plan of its template.
+    pub(super) fn index(&self, column: usize, row: usize) -> u64 {
+        (row * KAPPAS + column) as u64
+    }
+
+    /// Sets a cell.
+    pub fn set(&mut self, column: usize, row: usize, cell: Result<CellSummary, String>) {
+        if let Some(place) = self.cells.get_mut(row * KAPPAS + column).filter(|_| column < KAPPAS) {
+            *place = Some(cell);
+        }
+    }
+
+    /// Whether all cells of a level are there.
+    #[must_use]
+    pub fn has(&self, level: Level) -> bool {
+        self.rows_of(level).iter().all(|&row| level.columns().all(|column| self.cell(column, row).is_some()))
+    }
+
+    /// The finest level that is there whole.
+    #[must_use]
+    pub fn level(&self) -> Option<Level> {
+        Level::ALL.into_iter().take_while(|level| self.has(*level)).last()
+    }
+
+    /// Whether nothing of it is missing.
+    #[must_use]
+    pub fn is_whole(&self) -> bool {
+        self.has(self.template.finest())
+    }
+
+    /// The computed cell that stands for one: itself or, while it has not been computed, one of a coarser
+    /// level.
+    fn stand_in(&self, column: usize, row: usize) -> Option<usize> {
+        let near = |all: &mut dyn Iterator<Item = usize>, wanted: usize| {
+            all.min_by_key(|one| one.abs_diff(wanted)).unwrap_or(wanted)
+        };
+        Level::ALL.into_iter().rev().find_map(|level| {
+            let column = near(&mut level.columns(), column);
+            let row = near(&mut self.rows_of(level).iter().copied(), row);
+            self.cell(column, row).map(|_| row * KAPPAS + column)
+        })
+    }
+
+    /// The map as it is shown.
+    #[must_use]
+    pub fn model(&self) -> MapModel {
+        let cells: Vec<_> = self.cells.iter().map(|cell| cell.as_ref().map(Result::as_ref)).collect();
+        let record = RECORD.into_iter().enumerate();
+        let drawn = record.filter(|(_, quantity)| *quantity != Quantity::Regime);
+        let scale = |(column, quantity)| {
+            let estimates = || cells.iter().map(|cell| (*cell)?.ok()?.estimate(column)).collect();
+            (column, MapScale::new(quantity, estimates))
+        };
+        MapModel::new(
+            (kappas(), self.template.has_hurst().then(hursts)),
+            &drawn.map(scale).collect::<Vec<_>>(),
+            &cells,
+            (0..cells.len()).map(|index| self.stand_in(index % KAPPAS, index / KAPPAS)).collect(),
+        )
+    }
+}

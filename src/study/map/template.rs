@@ -1,0 +1,241 @@
+//! Template of a map: a scene without its κ and H.
+
+use super::grid::{Level, hursts, kappas};
+use crate::analysis::Governing;
+use crate::scene::{Adhesion, Document, Edges, Numerics, Roughness, Scene, SceneErrors, Solver};
+use crate::study::axis::Axis;
+use crate::study::figure::FigureAxis;
+use crate::study::plan::Plan;
+use crate::study::quantity::Quantity;
+use crate::surface::SelfAffine;
+use thiserror::Error;
+
+/// Random lines of each cell.
+pub const LINES: u64 = 4;
+/// Quantities of each cell.
+pub const RECORD: [Quantity; 3] =
+    [Quantity::ZeroLoadAdhesionShare, Quantity::AdhesionCoefficient, Quantity::Regime];
+/// Fewest and most springs of a map; a scene with fewer has its own number, shorter waves need more.
+const SPRINGS: (u64, u64) = (1 << 10, 1 << 12);
+/// Springs for each period of the shortest wave, where that is not too many.
+const SPRINGS_PER_WAVE: u64 = 4;
+/// With more springs than these a map gets fewer cells, and with more than those fewer still.
+const MANY: u64 = 1 << 14;
+const VERY_MANY: u64 = 1 << 17;
+/// Stand for all κ and H.
+const ANY: (f64, f64) = (1.0, 0.5);
+
+/// Why there is no map.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+pub enum NoMap {
+    /// Nothing attracts.
+    #[error("no map: the scene has no adhesion, so no κ; switch adhesion on with t in its row")]
+    NoAdhesion,
+    /// Nothing is rough.
+    #[error("no map: a smooth body has neither κ nor H; switch roughness on with t in its row")]
+    Smooth,
+}
+
+/// Template of a map. Scenes that differ in κ and H alone, or in the resolution of their curve, have the same.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Template {
+    scene: Scene,
+}
+
+impl Template {
+    /// Template of a checked scene.
+    ///
+    /// # Errors
+    /// When it has no κ.
+    pub fn of(scene: &Scene) -> Result<Self, NoMap> {
+        let adhesion = scene.adhesion.ok_or(NoMap::NoAdhesion)?;
+        let mut scene = scene.clone();
+        let points = match &mut scene.roughness {
+            None => return Err(NoMap::Smooth),
+            Some(Roughness::SelfAffine { hurst, rms_height, rms_gradient, modes, .. }) => {
+                *hurst = ANY.1;
+                let last = modes.1;
+                // Without an amplitude of its own it follows from γ and κ.
+                let work = adhesion.work.filter(|_| rms_height.is_none() && rms_gradient.is_none());
+                scene.adhesion = Some(Adhesion { work, kappa: Some(ANY.0) });
+                last.saturating_mul(SPRINGS_PER_WAVE).clamp(SPRINGS.0, SPRINGS.1).max(last.saturating_mul(2))
+            }
+            Some(Roughness::Measured { .. }) => {
+                scene.adhesion = Some(Adhesion { work: None, kappa: Some(ANY.0) });
+                SPRINGS.1
+            }
+        };
+        scene.title.clear();
+        scene.notice.clear();
+        scene.observe.clear();
+        let points = points.min(scene.numerics.points);
+        // Edges between springs: a map of few springs is then as good as one of very many.
+        scene.numerics = Numerics { points, solver: Solver::Exact, edges: Edges::SubCell, samples: 2 };
+        Ok(Template { scene })
+    }
+
+    /// Springs of each of its lines.
+    #[must_use]
+    pub fn springs(&self) -> u64 {
+        self.scene.numerics.points
+    }
+
+    /// How finely a map of it is computed: waves that need very many springs get fewer cells.
+    #[must_use]
+    pub fn finest(&self) -> Level {
+        let springs = self.springs();
+        if springs <= MANY {
+            Level::Whole
+        } else if springs <= VERY_MANY {
+            Level::Fine
+        } else {
+            Level::Medium
+        }
+    }
+
+    /// Whether its roughness has an H; a measured one is what it is.
+    #[must_use]
+    pub fn has_hurst(&self) -> bool {
+        matches!(self.scene.roughness, Some(Roughness::SelfAffine { .. }))
+    }
+
+    /// Random lines of each cell.
+    #[must_use]
+    pub fn lines(&self) -> u64 {
+        if self.has_hurst() { LINES } else { 1 }
+    }
+
+    /// The study of all cells of the map: number row · [`super::KAPPAS`] + column.
+    pub(super) fn plan(&self) -> Plan {
+        let list = |path: &str, axis: FigureAxis| Axis::List { path: path.into(), values: axis.values };
+        let mut plan = Plan::of_scene(&self.scene, self.lines(), &RECORD);
+        if self.has_hurst() {
+            plan.axes.push(list("roughness.hurst", hursts()));
+        }
+        plan.axes.push(list("adhesion.kappa", kappas()));
+        plan
+    }
+
+    /// κ and H of a scene, as far as the scene itself says them. Those of a measured profile follow only
+    /// from its file.
+    #[must_use]
+    pub fn place(scene: &Scene) -> Option<(f64, f64)> {
+        let Some(Roughness::SelfAffine { hurst, .. }) = scene.roughness else { return None };
+        Some((governing(scene)?.kappa?, hurst))
+    }
+
+    /// A document with another κ and H; γ where it gives its adhesion so, and κ otherwise.
+    ///
+    /// # Errors
+    /// When one of them is not allowed.
+    pub fn moved(document: &Document, kappa: f64, hurst: f64) -> Result<Document, SceneErrors> {
+        let moved = match document.scene().roughness {
+            Some(Roughness::SelfAffine { .. }) => {
+                document.set("roughness.hurst", &crate::scene::ron_float(hurst))?
+            }
+            _ => document.clone(),
+        };
+        let by_work = matches!(moved.scene().adhesion, Some(Adhesion { work: Some(_), kappa: None }));
+        match governing(moved.scene()).and_then(|governing| governing.work_for_kappa(kappa)) {
+            Some(work) if by_work => moved.with_work_of_adhesion(work),
+            _ => moved.with_kappa(kappa),
+        }
+    }
+}
+
+/// What governs a scene with a self-affine line.
+pub(super) fn governing(scene: &Scene) -> Option<Governing> {
+    let Some(Roughness::SelfAffine { hurst, modes: (first, last), .. }) = scene.roughness else {
+        return None;
+    };
+    let ratio = SelfAffine { hurst, first, last }.gradient_per_height(scene.length);
+    Some(Governing::of(scene, Some(ratio), None))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::open;
+    use crate::simulation::Simulation;
+    use crate::study::cells::Cells;
+    use crate::study::map::grid::{HURSTS, KAPPAS, hurst, kappa};
+
+    fn document() -> Document {
+        open("pressure-sensitive").unwrap().set("numerics.points", "2048").unwrap()
+    }
+
+    #[test]
+    fn a_template_is_that_of_all_kappa_and_hurst() {
+        let document = document();
+        let of = |document: &Document| Template::of(document.scene()).unwrap();
+        let template = of(&document);
+        assert_eq!((template.springs(), template.has_hurst(), template.lines()), (2048, true, LINES));
+        for (path, value) in [
+            ("adhesion.kappa", "2.0"),
+            ("roughness.hurst", "0.2"),
+            ("title", "\"another\""),
+            ("numerics.samples", "64"),
+            ("numerics.points", "65536"),
+            ("numerics.edges", "Grid"),
+            ("adhesion", "(work: 0.05)"),
+        ] {
+            assert_eq!(of(&document.set(path, value).unwrap()), template, "{path}");
+        }
+        for (path, value) in [
+            ("roughness.seed", "2"),
+            ("roughness.rms_height", "1.0e-7"),
+            ("loading", "[ToForce(2.0e-5), ToSeparation]"),
+            ("material.youngs_modulus", "1.0e6"),
+            ("numerics.points", "1024"),
+        ] {
+            assert_ne!(of(&document.set(path, value).unwrap()), template, "{path}");
+        }
+        // Short waves have their springs, and very many springs have fewer cells.
+        let short = [("numerics.points", "1048576"), ("roughness.modes", "(1, 131072)")];
+        let short = short.map(|(path, value)| (path.to_owned(), value.to_owned()));
+        let short = of(&document.set_all(&short).unwrap());
+        assert_eq!((short.springs(), short.finest()), (1 << 18, Level::Medium));
+        assert_eq!(template.finest(), Level::Whole);
+        assert_eq!(Template::of(document.set("adhesion", "None").unwrap().scene()), Err(NoMap::NoAdhesion));
+        assert_eq!(Template::of(open("jkr-sphere").unwrap().scene()), Err(NoMap::Smooth));
+    }
+
+    #[test]
+    fn the_scene_of_a_cell_is_a_sound_one() {
+        let plan = Template::of(document().scene()).unwrap().plan();
+        let (cells, mut scene) = (Cells::of(&plan), plan.scene.clone());
+        let mut run = 0;
+        for row in 0..HURSTS {
+            for column in 0..KAPPAS {
+                cells.shape(run, &plan.scene, &mut scene).unwrap();
+                assert_eq!(crate::scene::check(&scene), []);
+                assert_eq!(Template::place(&scene), Some((kappa(column), hurst(row))));
+                run += 1;
+            }
+        }
+        assert_eq!((plan.cells(), plan.lines, plan.seed_of(3)), (run, LINES, 8));
+    }
+
+    #[test]
+    fn a_document_is_moved_in_its_own_terms() {
+        let by_kappa = document();
+        let both = by_kappa.set_all(&[
+            ("roughness".to_owned(), "SelfAffine(hurst: 0.7, modes: (1, 512), seed: 1)".to_owned()),
+            ("adhesion".to_owned(), "(work: 0.05, kappa: 2.0)".to_owned()),
+        ]);
+        let by_work = by_kappa.set("adhesion", "(work: 0.05)").unwrap();
+        for document in [by_kappa, both.unwrap(), by_work] {
+            let moved = Template::moved(&document, 3.0, 0.4).unwrap();
+            let (before, after) = (document.scene().adhesion.unwrap(), moved.scene().adhesion.unwrap());
+            assert_eq!(before.work.is_some(), after.work.is_some());
+            assert_eq!(before.kappa.is_some(), after.kappa.is_some());
+            let (kappa, hurst) = Template::place(moved.scene()).unwrap();
+            assert!((kappa / 3.0 - 1.0).abs() < 1e-12 && hurst == 0.4, "{kappa} {hurst}");
+            // What runs agrees.
+            let (_, _, governing) =
+                Simulation::default().make_line(moved.scene()).map(|(a, b, c)| (a.first, b, c)).unwrap();
+            assert!((governing.kappa.unwrap() / 3.0 - 1.0).abs() < 1e-9, "{governing:?}");
+        }
+        assert!(Template::moved(&document(), f64::NAN, 0.4).is_err());
+    }
+}

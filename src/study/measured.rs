@@ -1,0 +1,87 @@
+//! The measured file of a study. Its content decides the results as much as the plan does, so the plan has its
+//! hash, and a run computes with the bytes that were hashed and no others.
+//!
+//! SHA-256 rather than the checksum of records: one in 4e9 accidental changes would pass a CRC of 32 bits, and
+//! anyone can find out which copy of a file is meant, with `sha256sum`.
+
+use super::StudyError;
+use super::plan::{PLAN_FILE, Plan};
+use crate::scene::Roughness;
+use crate::surface::MeasuredProfile;
+use crate::text::path_name;
+use sha2::{Digest, Sha256};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// Returns true for a hash as plans write it.
+pub(super) fn is_hash(text: &str) -> bool {
+    text.len() == 64 && text.bytes().all(|byte| matches!(byte, b'0'..=b'9' | b'a'..=b'f'))
+}
+
+/// The measured file of a plan, where its scene has one.
+pub(super) fn file_of(plan: &Plan) -> Option<PathBuf> {
+    match &plan.scene.roughness {
+        Some(Roughness::Measured { file }) => Some(PathBuf::from(file)),
+        _ => None,
+    }
+}
+
+/// The plan with the hash of its measured file as the file is now.
+///
+/// # Errors
+/// Where the file cannot be read, or the plan asks for another hash.
+pub(super) fn with_hash(plan: &Plan) -> Result<Plan, StudyError> {
+    let Some(file) = file_of(plan) else { return Ok(plan.clone()) };
+    let (_, found) = read(&file)?;
+    expect(plan, &file, &found, || "the plan".into())?;
+    Ok(Plan { measured_sha256: Some(found), ..plan.clone() })
+}
+
+/// The measured profile of a study in a folder, where it has one.
+///
+/// # Errors
+/// Where the file cannot be read, is no profile, or is not the one the plan has the hash of.
+pub(super) fn profile(plan: &Plan, folder: &Path) -> Result<Option<Arc<MeasuredProfile>>, StudyError> {
+    let Some(file) = file_of(plan) else { return Ok(None) };
+    let (profile, found) = read(&file)?;
+    expect(plan, &file, &found, || path_name(&folder.join(PLAN_FILE)))?;
+    Ok(Some(Arc::new(profile)))
+}
+
+fn expect(plan: &Plan, file: &Path, found: &str, origin: impl Fn() -> String) -> Result<(), StudyError> {
+    match &plan.measured_sha256 {
+        Some(expected) if expected != found => Err(StudyError::MeasuredChanged {
+            file: file.to_path_buf(),
+            found: found.to_owned(),
+            plan: origin(),
+            expected: expected.clone(),
+        }),
+        _ => Ok(()),
+    }
+}
+
+/// A profile, and the hash of the bytes it was read from.
+fn read(file: &Path) -> Result<(MeasuredProfile, String), StudyError> {
+    let mut hasher = Sha256::new();
+    let profile = MeasuredProfile::read_seen(file, &mut |bytes| hasher.update(bytes))?;
+    Ok((profile, hasher.finalize().iter().map(|byte| format!("{byte:02x}")).collect()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn hashes_are_those_of_sha256sum() {
+        let folder = tempfile::tempdir().unwrap();
+        let file = folder.path().join("line.csv");
+        // A mark, a comment, both kinds of line breaks, and none at the end.
+        std::fs::write(&file, "\u{feff}# heights\r\n0 0\n1e-6 1e-9").unwrap();
+        let known = "3301e005145807de31f1e613c0705281eacbe8fc66deec574eba4d53402a7e71";
+        assert_eq!(read(&file).unwrap().1, known);
+        assert!(is_hash(known));
+        for wrong in [&known[1..], &known.to_uppercase(), &format!("{known}0"), "", &"x".repeat(64)] {
+            assert!(!is_hash(wrong), "{wrong}");
+        }
+    }
+}

@@ -1,0 +1,636 @@
+//! All records of a study as tables: each once, sorted, and what the lines of a cell have in common.
+
+use super::StudyError;
+use super::cell_summary::CellSummary;
+use super::plan::Plan;
+use super::plan_check::MOST_RECORDS;
+use super::publish::publish;
+use super::quantity::Quantity;
+use super::record::{Key, key_of, values_into};
+use super::statistics::{CONFIDENCE, StudentT};
+use super::store::{Folder, Lines, ShardFile};
+use super::target::symbol_and_unit;
+use crate::analysis::Regime;
+use crate::io::{WriteError, write_json_value, write_new_on};
+use serde::Serialize;
+use std::collections::BTreeSet;
+use std::io::{self, Write};
+use std::path::Path;
+
+/// Version of the merged files.
+pub const RESULTS_VERSION: u32 = 1;
+/// One row for each cell and line.
+pub const RESULTS: &str = "results.csv";
+/// One row for each cell.
+pub const SUMMARY: &str = "summary.csv";
+/// The results with types, where they are asked for.
+pub const PARQUET: &str = "results.parquet";
+/// What the columns mean.
+pub const SIDECAR: &str = "results.json";
+
+/// Missing cells that are named.
+const MOST_NAMED: usize = 8;
+/// Bits of a place that tell the file; the others tell where in it.
+const FILE_BITS: u32 = 24;
+const NOWHERE: u64 = u64::MAX;
+
+/// What a merge has found.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct Merged {
+    /// Records there are, each counted once.
+    pub records: u64,
+    /// Records there are to be.
+    pub total: u64,
+    /// Records that were there more than once, bit for bit the same.
+    pub duplicates: u64,
+    /// Lines of shard files that were torn or damaged, and left out.
+    pub damaged: u64,
+    /// Cells of which lines are missing.
+    pub missing_cells: u64,
+    /// The first of them.
+    pub first_missing: Vec<u64>,
+    /// Files that hold records.
+    pub files: usize,
+    /// Versions of the program that wrote them.
+    pub programs: Vec<String>,
+}
+
+/// Where every record stands.
+struct Index {
+    files: Vec<ShardFile>,
+    places: Vec<u64>,
+    merged: Merged,
+}
+
+/// Merges the shard files of a study and publishes its tables, all of them or none: whoever looks, and whatever
+/// ends the process or the machine, finds those of this merge or those of the one before. With `partial`, tables
+/// of what there is. [`PARQUET`] of an earlier merge goes.
+///
+/// # Errors
+/// [`StudyError::Missing`] where records are missing and `partial` is not set; [`StudyError::Disagree`] where
+/// two records of one cell and line differ.
+pub fn merge(folder: &Folder, partial: bool) -> Result<Merged, StudyError> {
+    let index = Index::of(folder)?;
+    if index.merged.records < index.merged.total && !partial {
+        let plan = folder.plan();
+        let cells = index.merged.first_missing.iter();
+        let named = cells.map(|&cell| format!("cell {cell} ({})", plan.coordinates(cell))).collect();
+        return Err(StudyError::Missing {
+            records: index.merged.total - index.merged.records,
+            total: index.merged.total,
+            cells: index.merged.missing_cells,
+            named,
+        });
+    }
+    index.publish(folder)?;
+    Ok(index.merged)
+}
+
+impl Index {
+    fn of(folder: &Folder) -> Result<Index, StudyError> {
+        let plan = folder.plan();
+        let total = plan.records_in_all();
+        debug_assert!(total <= MOST_RECORDS);
+        let mut places = Vec::new();
+        places.try_reserve_exact(total as usize).map_err(|_| StudyError::OutOfMemory { records: total })?;
+        places.resize(total as usize, NOWHERE);
+        let files = folder.files()?;
+        let (mut records, mut duplicates, mut damaged, mut holding) = (0, 0, 0, 0);
+        let mut programs = BTreeSet::new();
+        // Those that a file repeats are mostly of one other file.
+        let mut others = OneOpen::new(&files, plan.record.len());
+        for (number, file) in files.iter().enumerate() {
+            let mut here = 0;
+            damaged += folder.records(file, &mut |found| {
+                here += 1;
+                let Some(place) = folder.place(found.key).map(|place| &mut places[place as usize]) else {
+                    return Ok(());
+                };
+                if *place == NOWHERE {
+                    *place = place_of(number, found.offset).ok_or_else(|| too_large(&file.path))?;
+                    records += 1;
+                    return Ok(());
+                }
+                duplicates += 1;
+                if same(others.values(*place)?, found.values) {
+                    return Ok(());
+                }
+                Err(StudyError::Disagree {
+                    key: found.key,
+                    coordinates: plan.coordinates(found.key.cell),
+                    one: files[file_of(*place)].path.clone(),
+                    other: file.path.clone(),
+                })
+            })?;
+            if here > 0 {
+                holding += 1;
+                programs.extend(file.header.as_ref().map(|header| header.program.clone()));
+            }
+        }
+        let lines = plan.lines as usize;
+        let (mut missing_cells, mut first_missing) = (0, Vec::new());
+        for (cell, places) in places.chunks(lines).enumerate() {
+            if places.contains(&NOWHERE) {
+                missing_cells += 1;
+                if first_missing.len() < MOST_NAMED {
+                    first_missing.push(cell as u64);
+                }
+            }
+        }
+        let merged = Merged {
+            records,
+            total,
+            duplicates,
+            damaged,
+            missing_cells,
+            first_missing,
+            files: holding,
+            programs: programs.into_iter().collect(),
+        };
+        Ok(Index { files, places, merged })
+    }
+
+    fn publish(&self, folder: &Folder) -> Result<(), StudyError> {
+        // A study that has a summary counts as merged: where files are published one by one, that is the last.
+        publish(folder.disk(), folder.path(), &[RESULTS, SIDECAR, SUMMARY], &mut |place| {
+            let [results, summary] = [RESULTS, SUMMARY].map(|name| place.join(name));
+            let mut unreadable = None;
+            let written = write_new_on(folder.disk(), &results, false, |results| {
+                let written = write_new_on(folder.disk(), &summary, false, |summary| {
+                    let plan = folder.plan();
+                    let cells = cells_at_once(plan.lines as usize, plan.record.len());
+                    self.write_tables(plan, cells, results, summary).map_err(|error| match error {
+                        TableError::Writing(error) => error,
+                        TableError::Reading(error) => {
+                            unreadable = Some(error);
+                            io::Error::other("a shard file cannot be read")
+                        }
+                    })
+                });
+                written.map_err(|error| match error {
+                    WriteError::Failed { reason, .. } => reason,
+                    other => io::Error::other(other.to_string()),
+                })
+            });
+            if let Some(error) = unreadable {
+                return Err(error);
+            }
+            written?;
+            let sidecar = Sidecar::of(folder.plan(), &self.merged);
+            Ok(write_new_on(folder.disk(), &place.join(SIDECAR), false, |out| {
+                write_json_value(out, &sidecar)
+            })?)
+        })
+    }
+
+    /// Writes results and summary together, so that each record is read once, `cells` cells at a time. The records
+    /// of these are read in the order in which the files have them: one file is open at a time, however many
+    /// there are.
+    fn write_tables(
+        &self,
+        plan: &Plan,
+        cells: usize,
+        results: &mut dyn Write,
+        summary: &mut dyn Write,
+    ) -> Result<(), TableError> {
+        writeln!(results, "{}", header(plan, true))?;
+        writeln!(summary, "{}", header(plan, false))?;
+        let (lines, columns) = (plan.lines as usize, plan.record.len());
+        let mut quantiles = StudentT::default();
+        let mut files = OneOpen::new(&self.files, columns);
+        let (mut values, mut order) = (Vec::new(), Vec::new());
+        for (block, places) in self.places.chunks(cells * lines).enumerate() {
+            order.clear();
+            order.extend((0..places.len()).filter(|&row| places[row] != NOWHERE));
+            // A place is the number of the file, then the offset in it.
+            order.sort_unstable_by_key(|&row| places[row]);
+            values.clear();
+            values.resize(places.len() * columns, f64::NAN);
+            for &row in &order {
+                values[row * columns..][..columns].copy_from_slice(files.values(places[row])?);
+            }
+            let rows = places.chunks(lines).zip(values.chunks(lines * columns));
+            for (cell, (places, values)) in ((block * cells) as u64..).zip(rows) {
+                let start = row_start(plan, cell);
+                let mut there = Vec::with_capacity(places.len());
+                for (line, (&place, values)) in (0..).zip(places.iter().zip(values.chunks(columns))) {
+                    if place == NOWHERE {
+                        continue;
+                    }
+                    write!(results, "{start},{}", plan.seed_of(line))?;
+                    for (quantity, value) in plan.record.iter().zip(values) {
+                        match regime_name(*quantity, *value) {
+                            Some(name) => write!(results, ",{name}")?,
+                            None => write!(results, ",{}", number(Some(*value)))?,
+                        }
+                    }
+                    writeln!(results)?;
+                    there.push(values);
+                }
+                if !there.is_empty() {
+                    let cell = CellSummary::new(cell, &plan.record, &there, &mut quantiles);
+                    writeln!(summary, "{start},{}", summary_row(plan, &cell))?;
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Bytes of the records that are held while tables are written; those of one cell at least.
+const HELD: usize = 8 << 20;
+
+fn cells_at_once(lines: usize, columns: usize) -> usize {
+    // The values of a row, its place in the order, and the values' place in the summary.
+    let row = size_of::<f64>() * columns + size_of::<usize>() + size_of::<&[f64]>();
+    (HELD / (row * lines)).max(1)
+}
+
+/// Why tables were not written.
+enum TableError {
+    Reading(StudyError),
+    Writing(io::Error),
+}
+
+impl From<StudyError> for TableError {
+    fn from(error: StudyError) -> TableError {
+        TableError::Reading(error)
+    }
+}
+
+impl From<io::Error> for TableError {
+    fn from(error: io::Error) -> TableError {
+        TableError::Writing(error)
+    }
+}
+
+/// Reads records from any of many files, of which the last one read is open and no other.
+struct OneOpen<'f> {
+    files: &'f [ShardFile],
+    open: Option<(usize, Lines)>,
+    columns: usize,
+    values: Vec<f64>,
+}
+
+impl<'f> OneOpen<'f> {
+    fn new(files: &'f [ShardFile], columns: usize) -> Self {
+        OneOpen { files, open: None, columns, values: Vec::with_capacity(columns) }
+    }
+
+    /// The values of the record at a place.
+    fn values(&mut self, place: u64) -> Result<&[f64], StudyError> {
+        let number = file_of(place);
+        let file = &self.files[number];
+        let unreadable = |error: io::Error| StudyError::Folder {
+            path: file.path.clone(),
+            reason: format!("cannot be read: {error}"),
+        };
+        if self.open.as_ref().is_none_or(|(open, _)| *open != number) {
+            // The one before is closed first.
+            self.open = None;
+        }
+        let (_, lines) = match &mut self.open {
+            Some(open) => open,
+            None => self.open.insert((number, Lines::open(&file.path).map_err(unreadable)?)),
+        };
+        let payload = lines.at(offset_of(place)).map_err(unreadable)?;
+        let sound =
+            key_of(payload).is_some_and(|(_, text)| values_into(text, self.columns, &mut self.values));
+        if sound { Ok(&self.values) } else { Err(unreadable(changed())) }
+    }
+}
+
+fn changed() -> io::Error {
+    io::Error::new(io::ErrorKind::InvalidData, "a record has changed while it was read")
+}
+
+/// A file and an offset in it as one number; `None` where they are too large for that.
+fn place_of(file: usize, offset: u64) -> Option<u64> {
+    let bits = u64::BITS - FILE_BITS;
+    ((file as u64) < (1 << FILE_BITS) - 1 && offset < 1 << bits).then_some((file as u64) << bits | offset)
+}
+
+fn file_of(place: u64) -> usize {
+    (place >> (u64::BITS - FILE_BITS)) as usize
+}
+
+fn offset_of(place: u64) -> u64 {
+    place & (u64::MAX >> FILE_BITS)
+}
+
+fn too_large(path: &Path) -> StudyError {
+    let reason = format!(
+        "more than can be merged; allowed: {} shard files of at most {} bytes each",
+        (1_u64 << FILE_BITS) - 1,
+        1_u64 << (u64::BITS - FILE_BITS)
+    );
+    StudyError::Folder { path: path.to_path_buf(), reason }
+}
+
+fn same(one: &[f64], other: &[f64]) -> bool {
+    let equal = |(a, b): (&f64, &f64)| a.to_bits() == b.to_bits() || (a.is_nan() && b.is_nan());
+    one.len() == other.len() && one.iter().zip(other).all(equal)
+}
+
+/// A number in the shortest form that reads back bit for bit; nothing for what there is not.
+fn number(value: Option<f64>) -> String {
+    value.filter(|value| !value.is_nan()).map_or_else(String::new, |value| format!("{value:?}"))
+}
+
+/// A value of an axis: whole where it is.
+fn coordinate(path: &str, value: f64) -> String {
+    match super::target::Target::of(path) {
+        Ok(target) if target.is_whole() => format!("{}", value as u64),
+        _ => format!("{value:?}"),
+    }
+}
+
+/// Cell, axes and preload.
+fn row_start(plan: &Plan, cell: u64) -> String {
+    let mut row = cell.to_string();
+    let values = plan.values(cell);
+    for (axis, value) in plan.axes.iter().zip(&values) {
+        row.push(',');
+        row.push_str(&coordinate(axis.path(), *value));
+    }
+    row.push(',');
+    if plan.preloads.is_some() {
+        row.push_str(&number(values.last().copied()));
+    }
+    row
+}
+
+fn header(plan: &Plan, single: bool) -> String {
+    let mut columns = vec!["cell".to_string()];
+    columns.extend(plan.axes.iter().map(|axis| axis.path().to_string()));
+    columns.push("preload".into());
+    columns.push(if single { "seed" } else { "lines" }.into());
+    for quantity in &plan.record {
+        let name = quantity.name();
+        match (single, quantity) {
+            (true, _) => columns.push(name.into()),
+            (false, Quantity::Regime) => columns.extend(REGIME_COLUMNS.map(String::from)),
+            (false, _) => {
+                columns.extend(["mean", "sd", "low", "high"].map(|of| format!("{name}_{of}")));
+            }
+        }
+    }
+    columns.join(",")
+}
+
+/// Columns of the summary for the share of lines in each regime.
+pub(super) const REGIME_COLUMNS: [&str; 3] =
+    ["regime_pressure_insensitive", "regime_pressure_sensitive", "regime_non_adhesive"];
+
+fn regime_name(quantity: Quantity, value: f64) -> Option<&'static str> {
+    let regime =
+        Regime::ALL.get(value as usize).filter(|_| quantity == Quantity::Regime && !value.is_nan())?;
+    Some(regime.name())
+}
+
+/// Number of lines and, for each quantity, mean, standard deviation and confidence interval.
+fn summary_row(plan: &Plan, summary: &CellSummary) -> String {
+    let mut row = summary.lines.to_string();
+    let mut add = |value: Option<f64>| {
+        row.push(',');
+        row.push_str(&number(value));
+    };
+    for (quantity, spread) in plan.record.iter().zip(&summary.quantities) {
+        if *quantity == Quantity::Regime {
+            (0..Regime::ALL.len()).for_each(|place| add(summary.regimes.map(|shares| shares[place])));
+            continue;
+        }
+        let interval = spread.and_then(|spread| spread.confidence_interval);
+        add(spread.map(|spread| spread.mean));
+        add(spread.and_then(|spread| spread.standard_deviation));
+        add(interval.map(|(low, _)| low));
+        add(interval.map(|(_, high)| high));
+    }
+    row
+}
+
+/// The sidecar; its keys stand in the order of these fields.
+#[derive(Serialize)]
+struct Sidecar<'a> {
+    format: u32,
+    program: String,
+    plan: PlanReport<'a>,
+    axes: Vec<AxisReport<'a>>,
+    preloads: Option<Vec<f64>>,
+    quantities: Vec<QuantityReport>,
+    cells: u64,
+    lines: u64,
+    first_seed: u64,
+    confidence: f64,
+    #[serde(flatten)]
+    merged: &'a Merged,
+}
+
+#[derive(Serialize)]
+struct PlanReport<'a> {
+    title: &'a str,
+    notice: &'a str,
+    scene: &'a crate::scene::Scene,
+    text: String,
+}
+
+#[derive(Serialize)]
+struct AxisReport<'a> {
+    path: &'a str,
+    symbol: &'static str,
+    unit: &'static str,
+    scale: &'static str,
+    values: Vec<f64>,
+}
+
+#[derive(Serialize)]
+struct QuantityReport {
+    name: &'static str,
+    symbol: &'static str,
+    unit: &'static str,
+    meaning: &'static str,
+}
+
+impl<'a> Sidecar<'a> {
+    fn of(plan: &'a Plan, merged: &'a Merged) -> Sidecar<'a> {
+        let axis = |axis: &'a super::Axis| {
+            let (symbol, unit) = symbol_and_unit(axis.path());
+            let scale = match axis {
+                super::Axis::Linear { .. } => "linear",
+                super::Axis::Logarithmic { .. } => "logarithmic",
+                super::Axis::List { .. } => "list",
+            };
+            AxisReport { path: axis.path(), symbol, unit, scale, values: axis.values() }
+        };
+        let quantity = |quantity: &Quantity| QuantityReport {
+            name: quantity.name(),
+            symbol: quantity.symbol(),
+            unit: quantity.unit(),
+            meaning: quantity.meaning(),
+        };
+        Sidecar {
+            format: RESULTS_VERSION,
+            program: format!("{} {}", env!("CARGO_PKG_NAME"), env!("CARGO_PKG_VERSION")),
+            plan: PlanReport {
+                title: &plan.title,
+                notice: &plan.notice,
+                scene: &plan.scene,
+                text: plan.to_ron(),
+            },
+            axes: plan.axes.iter().map(axis).collect(),
+            preloads: plan.preloads.as_ref().map(super::Axis::values),
+            quantities: plan.record.iter().map(quantity).collect(),
+            cells: plan.cells(),
+            lines: plan.lines,
+            first_seed: plan.seed,
+            confidence: CONFIDENCE,
+            merged,
+        }
+    }
+}
+
+/// The key of a record, for messages.
+impl std::fmt::Display for Key {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "cell {}, seed {}", self.cell, self.seed)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{Changes, Options, Shard, run};
+    use super::*;
+    use proptest::prelude::*;
+
+    /// A study of twelve cells and three lines without records.
+    fn empty(place: &Path) -> Folder {
+        let text = r#"(
+            version: 1,
+            title: "Small",
+            scene: (
+                version: 1,
+                material: (effective_modulus: 2.0e6),
+                length: 1.0e-4,
+                roughness: SelfAffine(hurst: 0.5, rms_height: 2.0e-7, modes: (1, 8), seed: 1),
+                adhesion: (kappa: 1.0),
+                numerics: (points: 32, edges: Grid),
+            ),
+            axes: [Linear(path: "kappa", from: 0.5, to: 2.0, count: 12)],
+            preloads: [0.01],
+            lines: 3,
+            record: [adhesion_force, regime],
+        )"#;
+        let plan = Plan::parse(text, "test", &Changes::default()).unwrap();
+        Folder::create(&place.join("study"), &plan).unwrap()
+    }
+
+    /// Half of its records in one file and half in another.
+    fn study(place: &Path) -> Folder {
+        let folder = empty(place);
+        for number in [1, 2] {
+            let shard = Shard { number, count: 2 };
+            run(&folder, Options { jobs: 1, shard }, &|| false, &mut |_| ()).unwrap();
+        }
+        folder
+    }
+
+    #[test]
+    fn the_first_missing_cells_are_named() {
+        let place = tempfile::tempdir().unwrap();
+        let merged = Index::of(&empty(place.path())).unwrap().merged;
+        assert_eq!((merged.records, merged.missing_cells, merged.files), (0, 12, 0));
+        assert_eq!(merged.first_missing, [0, 1, 2, 3, 4, 5, 6, 7]);
+    }
+
+    #[test]
+    fn tables_do_not_depend_on_the_cells_that_are_held() {
+        let place = tempfile::tempdir().unwrap();
+        let folder = study(place.path());
+        let index = Index::of(&folder).unwrap();
+        let tables = |cells| {
+            let (mut results, mut summary) = (Vec::new(), Vec::new());
+            assert!(index.write_tables(folder.plan(), cells, &mut results, &mut summary).is_ok());
+            [results, summary].map(|table| String::from_utf8(table).unwrap())
+        };
+        let whole = tables(12);
+        let cells = |table: &str| -> Vec<usize> {
+            table.lines().skip(1).map(|row| row.split(',').next().unwrap().parse().unwrap()).collect()
+        };
+        assert_eq!(cells(&whole[1]), (0..12).collect::<Vec<_>>());
+        assert_eq!(cells(&whole[0]), (0..36).map(|row| row / 3).collect::<Vec<_>>());
+        for cells in [1, 2, 3, 5, 100] {
+            assert_eq!(tables(cells), whole, "{cells}");
+        }
+    }
+
+    #[test]
+    fn files_count_where_they_hold_records() {
+        let place = tempfile::tempdir().unwrap();
+        let folder = study(place.path());
+        let merged = Index::of(&folder).unwrap().merged;
+        assert_eq!((merged.files, merged.programs.len(), merged.records), (2, 1, 36));
+        // A file of another program, stopped before its first record.
+        let file = &folder.files().unwrap()[0].path;
+        let text = std::fs::read_to_string(file).unwrap();
+        let header = text.lines().next().unwrap().split_once(',').unwrap().1;
+        let program = merged.programs[0].as_str();
+        assert!(header.contains(program));
+        let header = header.replace(program, "another");
+        let sealed = format!("{:08x},{header}\n", crc32fast::hash(header.as_bytes()));
+        std::fs::write(file.with_file_name("zz.shard"), sealed).unwrap();
+        let again = Index::of(&folder).unwrap().merged;
+        assert_eq!((again.files, again.programs), (2, merged.programs));
+    }
+
+    #[test]
+    fn eight_mebibytes_are_held_and_at_least_one_cell() {
+        // 32 bytes for a row of one value.
+        assert_eq!(cells_at_once(1, 1), 1 << 18);
+        assert_eq!(cells_at_once(1000, 1), 262);
+        // 128 bytes.
+        assert_eq!(cells_at_once(1 << 10, 13), 64);
+        assert_eq!(cells_at_once(1 << 24, 13), 1);
+    }
+
+    proptest! {
+        /// A place gives its file and offset again, and places are in the order of files and offsets.
+        #[test]
+        fn places_are_files_and_offsets(
+            files in [0_usize..(1 << FILE_BITS) - 1, 0_usize..(1 << FILE_BITS) - 1],
+            offsets in [0_u64..1 << (64 - FILE_BITS), 0_u64..1 << (64 - FILE_BITS)],
+        ) {
+            let places = [0, 1].map(|k| place_of(files[k], offsets[k]).unwrap());
+            for k in [0, 1] {
+                prop_assert_eq!((file_of(places[k]), offset_of(places[k])), (files[k], offsets[k]));
+                prop_assert_ne!(places[k], NOWHERE);
+            }
+            let order = (files[0], offsets[0]).cmp(&(files[1], offsets[1]));
+            prop_assert_eq!(places[0].cmp(&places[1]), order);
+        }
+    }
+
+    #[test]
+    fn files_and_offsets_have_an_end() {
+        let (files, bytes) = (1_usize << FILE_BITS, 1_u64 << (64 - FILE_BITS));
+        assert!(place_of(files - 2, bytes - 1).is_some_and(|place| place != NOWHERE));
+        assert_eq!(place_of(files - 1, 0), None);
+        assert_eq!(place_of(0, bytes), None);
+    }
+
+    #[test]
+    fn records_agree_bit_by_bit_but_for_the_kind_of_nan() {
+        let other_nan = f64::from_bits(f64::NAN.to_bits() | 1);
+        assert!(same(&[1.0, f64::NAN], &[1.0, other_nan]));
+        for (one, other) in [(1.0, 1.0_f64.next_up()), (0.0, -0.0), (f64::NAN, 1.0), (1.0, f64::NAN)] {
+            assert!(!same(&[2.0, one], &[2.0, other]), "{one} {other}");
+        }
+        assert!(!same(&[1.0], &[1.0, 1.0]));
+    }
+
+    #[test]
+    fn whole_coordinates_are_written_so() {
+        assert_eq!(coordinate("numerics.points", 1024.0), "1024");
+        assert_eq!(coordinate("roughness.hurst", 1.0), "1.0");
+        assert_eq!(Key { cell: 3, seed: 7 }.to_string(), "cell 3, seed 7");
+    }
+}

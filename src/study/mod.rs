@@ -1,0 +1,90 @@
+//! Parameter studies: many cells on many random lines, computed once, kept safely and put into tables.
+//!
+//! A [`Plan`] names a scene, the [`Axis`]es along which numbers of it vary, a number of random lines, and what
+//! is recorded. [`run()`] computes what is missing of it in a [`Folder`], by as many threads and processes as
+//! there are; [`merge()`] publishes the tables, and [`Finished`] reads them back.
+//!
+//! Lines have the same seeds in all cells, so a curve over an axis is as smooth as that of a single line. What
+//! cells share is made once: a line and its tree serve every κ, γ and load.
+//!
+//! ```
+//! use asperity::study::{Changes, Finished, Folder, Options, Plan, Quantity, Shard, merge, run};
+//!
+//! let text = r#"(
+//!     version: 1,
+//!     base: "rough-sphere",
+//!     set: {"numerics.points": "256", "roughness.modes": "(1, 64)"},
+//!     axes: [Linear(path: "kappa", from: 1.0, to: 3.0, count: 3)],
+//!     preloads: [0.01, 0.1],
+//!     lines: 2,
+//!     record: [adhesion_force, regime],
+//! )"#;
+//! let plan = Plan::parse(text, "example", &Changes::default())?;
+//! assert_eq!(plan.cells(), 6);
+//! let place = tempfile::tempdir()?;
+//! let folder = Folder::create(place.path(), &plan)?;
+//! run(&folder, Options { jobs: 2, shard: Shard::WHOLE }, &|| false, &mut |_| ())?;
+//! merge(&folder, false)?;
+//! let finished = Finished::open(place.path())?;
+//! assert!(finished.spread(5, Quantity::AdhesionForce).is_some_and(|force| force.mean > 0.0));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod axis;
+mod boundary;
+mod builtin;
+mod case_outcome;
+mod cell_summary;
+mod cells;
+mod error;
+pub mod figure;
+mod figure_axis;
+mod finished;
+mod height_shape;
+mod lines;
+pub mod map;
+mod measured;
+mod merge;
+#[cfg(feature = "parquet")]
+mod parquet;
+mod plan;
+mod plan_check;
+mod plan_text;
+mod publish;
+mod quantity;
+mod record;
+mod recorder;
+mod run;
+mod sbatch;
+mod select;
+mod shard;
+pub mod slurm;
+mod solve;
+mod statistics;
+mod status;
+mod store;
+mod target;
+
+pub use axis::{Axis, MOST_VALUES};
+pub use boundary::{Boundaries, Boundary, Crossing, DEFINITIONS, USUAL_LEVELS, boundaries};
+pub use builtin::{BuiltInPlan, find, plans};
+pub use cell_summary::{CellSummary, Spread};
+pub use error::StudyError;
+pub use finished::{Finished, Row};
+pub use height_shape::HeightShape;
+pub use lines::{LineResult, LinesError, LinesSummary, RegimeCounts, solve_lines};
+pub use merge::{Merged, PARQUET, RESULTS, RESULTS_VERSION, SIDECAR, SUMMARY, merge};
+#[cfg(feature = "parquet")]
+pub use parquet::write_parquet;
+pub use plan::{Plan, StiffnessRange};
+pub use plan_check::{MOST_CELLS, MOST_LINES, MOST_RECORDS};
+pub use plan_text::{Changes, PLAN_VERSION, PlanErrors};
+pub use quantity::Quantity;
+pub use record::Key;
+pub use run::{Ended, Options, Progress, run};
+pub use select::{FigureError, Selection};
+pub use shard::Shard;
+pub use statistics::Statistics;
+pub use status::{Attempt, ShardStatus, Status};
+pub use store::{Folder, Header, STORE_VERSION, ShardFile};
+pub use target::{DERIVED, symbol_and_unit};

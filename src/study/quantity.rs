@@ -1,0 +1,251 @@
+//! Quantities that a study records for each cell and profile: one row each.
+
+use super::case_outcome::CaseOutcome;
+use crate::analysis::NEGLIGIBLE_COEFFICIENT;
+use serde::{Deserialize, Serialize};
+
+/// All that is known of a quantity.
+struct Row {
+    /// Name in plans and of columns.
+    name: &'static str,
+    /// Symbol; may be empty.
+    symbol: &'static str,
+    /// SI unit; `1` for a number without one, empty for the regime, which is no number.
+    unit: &'static str,
+    /// Meaning in one line.
+    meaning: &'static str,
+    /// Returns true for a quantity that may be negative.
+    signed: bool,
+    /// Computation that the quantity calls for.
+    needs: Needs,
+    /// Least values of the three densest glyphs of a map, the densest first; `None`: by the values of the map.
+    steps: Option<[f64; 3]>,
+    /// Value of a case, if the case has one.
+    of: fn(&CaseOutcome<'_>) -> Option<f64>,
+}
+
+/// Computation that a quantity calls for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Needs {
+    /// The profile and its governing parameters.
+    Profile,
+    /// Statistics of the heights without the form.
+    Heights,
+    /// F_a(0) by the touch protocol: turned at first touch.
+    Touch,
+    /// F_a(0) by the zero-force protocol: turned where the force is back at zero.
+    ZeroForce,
+    /// The loading to the preload, or the scene's own.
+    Loading,
+    /// The force curve without adhesion.
+    Stiffness,
+}
+
+const ROW: Row = Row {
+    name: "",
+    symbol: "",
+    unit: "1",
+    meaning: "",
+    signed: false,
+    needs: Needs::Loading,
+    steps: None,
+    of: |_| None,
+};
+
+/// Glyph steps of forces over F_a,max and of contact fractions: the same on all maps.
+const SHARE_STEPS: Option<[f64; 3]> = Some([0.5, 0.05, 0.005]);
+/// Glyph steps of the adhesion coefficient.
+const COEFFICIENT_STEPS: Option<[f64; 3]> = Some([1.0, 0.1, NEGLIGIBLE_COEFFICIENT]);
+
+/// Makes the enum of the quantities and the table of their rows.
+macro_rules! quantities {
+    ($($variant:ident { name: $name:literal, meaning: $meaning:literal, $($field:ident: $value:expr),* $(,)? })*) => {
+        /// A recorded quantity.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+        pub enum Quantity {
+            $(#[doc = concat!("`", $name, "`: ", $meaning, ".")] #[serde(rename = $name)] $variant,)*
+        }
+
+        const ROWS: &[Row] = &[$(Row { name: $name, meaning: $meaning, $($field: $value,)* ..ROW },)*];
+
+        impl Quantity {
+            /// All quantities, in the order of the table.
+            pub const ALL: [Quantity; ROWS.len()] = [$(Quantity::$variant,)*];
+        }
+    };
+}
+
+quantities! {
+    Kappa {
+        name: "kappa", meaning: "governing parameter, eq. (11)",
+        symbol: "κ", needs: Needs::Profile, of: |case| case.governing.kappa,
+    }
+    WorkOfAdhesion {
+        name: "work_of_adhesion", meaning: "work of adhesion",
+        symbol: "γ", unit: "J/m²", needs: Needs::Profile, of: |case| case.governing.work_of_adhesion,
+    }
+    IdealAdhesionForce {
+        name: "ideal_adhesion_force", meaning: "adhesion force of a flat face, eq. (14)",
+        symbol: "F_a,max", unit: "N", needs: Needs::Profile, of: |case| case.ideal(),
+    }
+    ZeroLoadAdhesionForce {
+        name: "zero_load_adhesion_force", meaning: "adhesion force after turning at first touch",
+        symbol: "F_a(0)", unit: "N", needs: Needs::Touch, of: |case| case.zero_load(),
+    }
+    ZeroLoadAdhesionShare {
+        name: "zero_load_adhesion_share",
+        meaning: "adhesion force after turning at first touch, over that of a flat face",
+        symbol: "F_a(0)/F_a,max", needs: Needs::Touch, steps: SHARE_STEPS,
+        of: |case| case.share(case.zero_load()),
+    }
+    ZeroForceAdhesionForce {
+        name: "zero_force_adhesion_force",
+        meaning: "adhesion force after turning where the force is back at zero",
+        symbol: "F_a(0)", unit: "N", needs: Needs::ZeroForce, of: |case| case.zero_force,
+    }
+    ZeroForceAdhesionShare {
+        name: "zero_force_adhesion_share",
+        meaning: "adhesion force after turning where the force is back at zero, over that of a flat face",
+        symbol: "F_a(0)/F_a,max", needs: Needs::ZeroForce, steps: SHARE_STEPS,
+        of: |case| case.share(case.zero_force),
+    }
+    PreloadForce {
+        name: "preload_force", meaning: "largest force of the loading",
+        symbol: "F_n", unit: "N", of: |case| case.figures.preload,
+    }
+    PreloadIndentation {
+        name: "preload_indentation", meaning: "indentation at the preload",
+        symbol: "d", unit: "m", signed: true, of: |case| case.figures.preload_indentation,
+    }
+    AdhesionForce {
+        name: "adhesion_force", meaning: "adhesion force after the preload",
+        symbol: "F_a", unit: "N", of: |case| case.figures.adhesion_force,
+    }
+    AdhesionShare {
+        name: "adhesion_share", meaning: "adhesion force after the preload, over that of a flat face",
+        symbol: "F_a/F_a,max", steps: SHARE_STEPS, of: |case| case.share(case.figures.adhesion_force),
+    }
+    AdhesionCoefficient {
+        name: "adhesion_coefficient", meaning: "adhesion force over preload",
+        symbol: "F_a/F_n", steps: COEFFICIENT_STEPS, of: |case| case.figures.adhesion_coefficient,
+    }
+    PullOffIndentation {
+        name: "pull_off_indentation", meaning: "indentation at the smallest force",
+        symbol: "d", unit: "m", signed: true, of: |case| case.figures.pull_off_indentation,
+    }
+    DissipatedEnergy {
+        name: "dissipated_energy", meaning: "energy lost over the loop",
+        symbol: "ΔW", unit: "J", of: |case| case.figures.dissipated_energy,
+    }
+    ContactFraction {
+        name: "contact_fraction", meaning: "largest length in contact over the length",
+        steps: SHARE_STEPS, of: |case| case.contact_fraction(),
+    }
+    Fragments {
+        name: "fragments", meaning: "contact fragments at the preload",
+        of: |case| case.preload().map(|point| point.fragments as f64),
+    }
+    Regime {
+        name: "regime", meaning: "regime of adhesion, Fig. 4",
+        unit: "", of: |case| case.regime().map(|regime| f64::from(regime as u8)),
+    }
+    StiffnessExponent {
+        name: "stiffness_exponent",
+        meaning: "exponent of the stiffness over the force without adhesion, k ∝ F^α; 1/(1+H) is expected",
+        symbol: "α", needs: Needs::Stiffness, of: |case| Some(case.profile.exponents?.stiffness),
+    }
+    ForceExponent {
+        name: "force_exponent",
+        meaning: "exponent of the force over the indentation without adhesion, F ∝ dⁿ",
+        symbol: "n", needs: Needs::Stiffness, of: |case| Some(case.profile.exponents?.force),
+    }
+    RmsHeight {
+        name: "rms_height", meaning: "rms height of the line",
+        symbol: "h", unit: "m", needs: Needs::Heights, of: |case| Some(case.profile.heights?.rms),
+    }
+    Skewness {
+        name: "skewness", meaning: "skewness of the heights of the line",
+        signed: true, needs: Needs::Heights, of: |case| Some(case.profile.heights?.shape?.skewness),
+    }
+    ExcessKurtosis {
+        name: "excess_kurtosis", meaning: "excess kurtosis of the heights of the line",
+        signed: true, needs: Needs::Heights, of: |case| Some(case.profile.heights?.shape?.excess_kurtosis),
+    }
+    SummitHeight {
+        name: "summit_height", meaning: "height of the summit over the rms height",
+        needs: Needs::Heights, of: |case| Some(case.profile.heights?.summit),
+    }
+}
+
+impl Quantity {
+    const fn row(self) -> &'static Row {
+        &ROWS[self as usize]
+    }
+
+    /// Name in plans and of columns.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        self.row().name
+    }
+
+    /// Symbol; empty where the quantity has none.
+    #[must_use]
+    pub const fn symbol(self) -> &'static str {
+        self.row().symbol
+    }
+
+    /// SI unit; `1` for a number without one, empty for the regime, which is no number.
+    #[must_use]
+    pub const fn unit(self) -> &'static str {
+        self.row().unit
+    }
+
+    /// Meaning in one line.
+    #[must_use]
+    pub const fn meaning(self) -> &'static str {
+        self.row().meaning
+    }
+
+    /// Returns true for a quantity that may be negative.
+    #[must_use]
+    pub const fn is_signed(self) -> bool {
+        self.row().signed
+    }
+
+    /// Least values of the three densest glyphs on every map, the densest first; `None` where they follow from the
+    /// values of a map.
+    #[must_use]
+    pub const fn steps(self) -> Option<[f64; 3]> {
+        self.row().steps
+    }
+
+    /// Quantity of a name.
+    #[must_use]
+    pub fn named(name: &str) -> Option<Quantity> {
+        Quantity::ALL.into_iter().find(|quantity| quantity.name() == name)
+    }
+
+    pub(super) const fn needs(self) -> Needs {
+        self.row().needs
+    }
+
+    /// Finite value of a case, SI unit; NaN where the case has none. The regime is its place in
+    /// [`crate::analysis::Regime::ALL`].
+    pub(super) fn of(self, case: &CaseOutcome<'_>) -> f64 {
+        (self.row().of)(case).filter(|value| value.is_finite()).unwrap_or(f64::NAN)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_are_those_of_the_plan() {
+        for quantity in Quantity::ALL {
+            assert_eq!(ron::to_string(&quantity).unwrap(), quantity.name());
+            assert_eq!(Quantity::named(quantity.name()), Some(quantity));
+        }
+        assert_eq!(Quantity::named("force"), None);
+    }
+}

@@ -1,0 +1,250 @@
+//! Computes what is missing of a plan: all cores, the same bits however many there are.
+
+use super::StudyError;
+use super::cells::Cells;
+use super::measured::profile;
+use super::record::{Key, encode};
+use super::recorder::Records;
+use super::shard::Shard;
+use super::solve::{Case, Next, SharedWork, Sink};
+use super::status::count;
+use super::store::{Done, Folder};
+use crate::disk::DiskFile;
+use crate::io::WriteError;
+use crate::parallel::begin_threads;
+use crate::simulation::{RunError, Simulation};
+use std::ops::ControlFlow;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, sync_channel};
+use std::sync::{Mutex, PoisonError};
+use std::time::{Duration, Instant};
+
+/// How long written records wait for the disk at the most; a power cut loses them, and they are computed again.
+/// Syncing each costs tenths of a millisecond or, on network file systems, many of them: on a local disk 100 000
+/// records of 256 springs take 11 s with this, 12 s where each sync takes what has come during the one before,
+/// and 190 s where each record has its own. Cells of thousands of springs show no difference.
+const SYNC: Duration = Duration::from_millis(50);
+/// Records on their way to the file.
+const WAITING: usize = 4096;
+/// Bytes that are gathered before they are written.
+const BUFFER: usize = 1 << 16;
+/// How often progress is told.
+const TICK: Duration = Duration::from_millis(200);
+
+/// How a run is done.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Options {
+    /// Threads.
+    pub jobs: usize,
+    /// The part of the plan.
+    pub shard: Shard,
+}
+
+/// How far a run is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Progress {
+    /// Records that there are, of this part of the plan.
+    pub done: u64,
+    /// Those that were there before.
+    pub before: u64,
+    /// Those there are to be.
+    pub total: u64,
+    /// Time since the run began.
+    pub elapsed: Duration,
+}
+
+impl Progress {
+    /// Records each second.
+    #[must_use]
+    pub fn rate(&self) -> f64 {
+        (self.done - self.before) as f64 / self.elapsed.as_secs_f64().max(1e-9)
+    }
+
+    /// Time left, by the rate so far; `None` before the first record.
+    #[must_use]
+    pub fn left(&self) -> Option<Duration> {
+        let seconds = (self.total - self.done) as f64 / self.rate();
+        Duration::try_from_secs_f64(seconds).ok()
+    }
+}
+
+/// How a run ended.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ended {
+    /// How far it came.
+    pub progress: Progress,
+    /// Whether everything of this part of the plan is there.
+    pub complete: bool,
+}
+
+/// State of a run that all of its threads see.
+struct Shared<'a> {
+    folder: &'a Folder,
+    cells: &'a Cells,
+    done: Done,
+    /// Records that have reached the disk so far.
+    written: AtomicU64,
+    failed: AtomicBool,
+    error: Mutex<Option<StudyError>>,
+    stop: &'a (dyn Fn() -> bool + Sync),
+}
+
+/// Computes the records of a part of the plan that are not in the folder yet. `stop` is asked after each run;
+/// `tell` is called now and then and at the end.
+///
+/// # Errors
+/// When a record cannot be computed or written. What was written before stays.
+pub fn run(
+    folder: &Folder,
+    options: Options,
+    stop: &(dyn Fn() -> bool + Sync),
+    tell: &mut dyn FnMut(&Progress),
+) -> Result<Ended, StudyError> {
+    let clock = Instant::now();
+    let cells = Cells::of(folder.plan());
+    let done = folder.done()?;
+    let (total, before) = count(folder.plan(), &cells, &done, options.shard);
+    let progress =
+        |written: u64| Progress { done: before + written, before, total, elapsed: clock.elapsed() };
+    tell(&progress(0));
+    if before == total {
+        return Ok(Ended { progress: progress(0), complete: true });
+    }
+    // Read once, so that all threads compute from the same bytes, whatever becomes of the file meanwhile.
+    let profile = profile(folder.plan(), folder.path())?;
+    let (path, file) = folder.new_file(options.shard)?;
+    let units = options.shard.units(cells.units()).map(|unit| cells.unit(unit));
+    let work = &SharedWork::new(folder.plan(), &cells, units);
+    let (written, failed, error) = (AtomicU64::new(0), AtomicBool::new(false), Mutex::new(None));
+    let shared = &Shared { folder, cells: &cells, done, written, failed, error, stop };
+    std::thread::scope(|scope| {
+        let (sender, receiver) = sync_channel(WAITING);
+        let begun = begin_threads(scope, options.jobs.max(1), move || {
+            let simulation = Simulation::new(PathBuf::new());
+            let simulation = match profile {
+                Some(profile) => simulation.with_profile(profile),
+                None => simulation,
+            };
+            work.solve(simulation, &mut FolderSink { shared, sender });
+        });
+        // A system that gives fewer threads than asked for has those do all.
+        if begun == 0 {
+            shared.fail(StudyError::NoThread);
+        }
+        shared.write(&path, file, receiver, &mut |written| tell(&progress(written)));
+    });
+    let error = shared.error.lock().unwrap_or_else(PoisonError::into_inner).take();
+    if let Some(error) = error {
+        return Err(error);
+    }
+    let progress = progress(shared.written.load(Ordering::SeqCst));
+    tell(&progress);
+    Ok(Ended { progress, complete: progress.done == total })
+}
+
+impl Shared<'_> {
+    fn fail(&self, error: StudyError) {
+        self.failed.store(true, Ordering::SeqCst);
+        self.error.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(error);
+    }
+
+    fn ends(&self) -> bool {
+        self.failed.load(Ordering::SeqCst) || (self.stop)()
+    }
+
+    /// Writes records as they come. It waits for the disk when it has not done so for a while, and at the end.
+    /// Only what has reached the disk is counted.
+    fn write(
+        &self,
+        path: &Path,
+        mut file: Box<dyn DiskFile>,
+        receiver: Receiver<String>,
+        tell: &mut dyn FnMut(u64),
+    ) {
+        let mut synced = Instant::now();
+        let mut told = Instant::now();
+        let mut pending = 0;
+        let mut text = String::with_capacity(BUFFER);
+        let failed = |reason| StudyError::Write(WriteError::Failed { path: PathBuf::from(path), reason });
+        loop {
+            let wait = if pending > 0 { SYNC.saturating_sub(synced.elapsed()) } else { TICK };
+            let first = receiver.recv_timeout(wait.min(TICK));
+            let ended = matches!(first, Err(RecvTimeoutError::Disconnected));
+            text.clear();
+            if let Ok(first) = first {
+                text.push_str(&first);
+                while text.len() < BUFFER
+                    && let Ok(next) = receiver.try_recv()
+                {
+                    text.push_str(&next);
+                }
+                if let Err(reason) = file.write_all(text.as_bytes()) {
+                    return self.fail(failed(reason));
+                }
+                pending += text.bytes().filter(|&byte| byte == b'\n').count() as u64;
+            }
+            if pending > 0 && (ended || synced.elapsed() >= SYNC) {
+                if let Err(reason) = file.sync() {
+                    return self.fail(failed(reason));
+                }
+                self.written.fetch_add(pending, Ordering::SeqCst);
+                (synced, pending) = (Instant::now(), 0);
+            }
+            if told.elapsed() >= TICK {
+                tell(self.written.load(Ordering::SeqCst));
+                told = Instant::now();
+            }
+            if ended {
+                return;
+            }
+        }
+    }
+}
+
+/// Sink of one thread: lines of text for the file of the run.
+struct FolderSink<'a> {
+    shared: &'a Shared<'a>,
+    sender: SyncSender<String>,
+}
+
+impl FolderSink<'_> {
+    /// The cells of a case that have no record yet.
+    fn missing(&self, case: Case) -> impl Fn(u64) -> bool + '_ {
+        let lines = self.shared.folder.plan().lines;
+        move |cell| !self.shared.done.has(cell * lines + case.line)
+    }
+}
+
+impl Sink for FolderSink<'_> {
+    fn next(&mut self, case: Case) -> Next {
+        let mut cells = self.shared.cells.cells_of(case.run);
+        match cells.any(self.missing(case)) {
+            false => Next::Skip,
+            true if self.shared.ends() => Next::End,
+            true => Next::Solve,
+        }
+    }
+
+    fn take(&mut self, case: Case, records: Result<Records, RunError>) -> ControlFlow<()> {
+        let Shared { folder, cells, .. } = *self.shared;
+        let (plan, cells) = (folder.plan(), cells.cells_of(case.run));
+        let seed = plan.seed_of(case.line);
+        let records = match records {
+            Ok(records) => records,
+            Err(error) => {
+                let (cell, coordinates) = (cells.start, plan.coordinates(cells.start));
+                self.shared.fail(StudyError::Run { cell, coordinates, seed, error });
+                return ControlFlow::Break(());
+            }
+        };
+        let (mut text, missing) = (String::new(), self.missing(case));
+        for (cell, values) in cells.zip(&records) {
+            if missing(cell) {
+                encode(Key { cell, seed }, values, &mut text);
+            }
+        }
+        // The writer has ended where nothing receives the text.
+        if self.sender.send(text).is_ok() { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+    }
+}

@@ -1,0 +1,467 @@
+//! The folder of a study: its plan, and one file for each process that has worked on it.
+//!
+//! A shard file is only ever appended to, by the one process that made it; each record is a line with a
+//! checksum. So whatever ends a process, what it wrote before stays, and a line torn by that is left out. What
+//! ends the machine takes what had not reached the disk as well: the records of a moment, which are computed again.
+
+use super::StudyError;
+use super::measured::with_hash;
+use super::plan::{PLAN_FILE, Plan};
+use super::plan_text::Changes;
+use super::record::{Key, key_of, seal, unseal, values_into};
+use super::shard::Shard;
+use crate::disk::{Disk, DiskFile, SystemDisk, folder_of, make_folders};
+use crate::io::open_regular;
+use crate::io::{WriteError, write_new_on};
+use crate::scene::read_file;
+use crate::text::{path_name, printable};
+use serde::{Deserialize, Serialize};
+use std::fs::File;
+use std::hash::{BuildHasher, RandomState};
+use std::io::{self, BufRead, BufReader, Read, Seek, SeekFrom};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::time::{SystemTime, UNIX_EPOCH};
+
+/// Version of the shard files.
+pub const STORE_VERSION: u32 = 1;
+/// Longest line of a shard file; records are much shorter.
+pub(super) const LONGEST_LINE: u64 = 1 << 16;
+
+const SHARDS: &str = "shards";
+/// Ending of a shard file.
+const ENDING: &str = "shard";
+
+/// The folder of a study.
+#[derive(Clone, Debug)]
+pub struct Folder {
+    path: PathBuf,
+    plan: Plan,
+    disk: Arc<dyn Disk>,
+}
+
+/// What a shard file says of itself, on its first line.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Header {
+    /// [`STORE_VERSION`].
+    pub format: u32,
+    /// Checksum of the plan.
+    pub plan: String,
+    /// The part of the plan that the process was given.
+    pub shard: Shard,
+    /// Name of the machine.
+    pub host: String,
+    /// Number of the process on it.
+    pub process: u32,
+    /// When it began, s since 1970.
+    pub started: u64,
+    /// Version of the program.
+    pub program: String,
+    /// SHA-256 of the content of the study's measured file, where it has one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub measured_sha256: Option<String>,
+}
+
+/// What every version of the program can read of a header.
+#[derive(Deserialize)]
+struct AnyHeader {
+    format: u32,
+}
+
+/// A shard file.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ShardFile {
+    /// Its path.
+    pub path: PathBuf,
+    /// What it says of itself; `None` where the process ended before that was written.
+    pub header: Option<Header>,
+    /// When something was last written to it, s since 1970.
+    pub written: f64,
+}
+
+/// A record as it was found.
+pub(super) struct Found<'l> {
+    pub key: Key,
+    /// Place of its line in the file.
+    pub offset: u64,
+    /// A value for each quantity of the plan, NaN for what is not there.
+    pub values: &'l [f64],
+}
+
+impl Folder {
+    /// Makes the folder of a plan, or opens it where it has the same plan already.
+    ///
+    /// # Errors
+    /// Where the folder has another plan, the measured file of the plan has changed or cannot be read, or the
+    /// folder cannot be written.
+    pub fn create(path: &Path, plan: &Plan) -> Result<Folder, StudyError> {
+        Folder::create_on(SystemDisk::shared(), path, plan)
+    }
+
+    /// [`Folder::create`] on another disk.
+    ///
+    /// # Errors
+    /// As [`Folder::create`].
+    pub fn create_on(disk: Arc<dyn Disk>, path: &Path, plan: &Plan) -> Result<Folder, StudyError> {
+        let failed = |path: &Path| {
+            let path = path.to_path_buf();
+            move |reason| StudyError::Write(WriteError::Failed { path, reason })
+        };
+        let plan = with_hash(plan)?;
+        make_folders(&*disk, path).map_err(failed(path))?;
+        let shards = path.join(SHARDS);
+        let file = path.join(PLAN_FILE);
+        let text = plan.to_ron();
+        if !file.exists() {
+            match write_new_on(&*disk, &file, false, |out| out.write_all(text.as_bytes())) {
+                // Another process was faster.
+                Ok(()) | Err(WriteError::Exists { .. }) => {}
+                Err(error) => return Err(error.into()),
+            }
+        }
+        let there = read_file(&file).map_err(|reason| StudyError::Folder { path: file.clone(), reason })?;
+        if there != text {
+            return Err(refusal(path, &there, &plan));
+        }
+        make_folders(&*disk, &shards).map_err(failed(&shards))?;
+        // A process that was killed may have made them without waiting for the disk.
+        for folder in [folder_of(path), path] {
+            disk.sync_folder(folder).map_err(failed(folder))?;
+        }
+        Ok(Folder { path: path.to_path_buf(), plan, disk })
+    }
+
+    /// Whether a path is the folder of a study, sound or not.
+    #[must_use]
+    pub fn is_at(path: &Path) -> bool {
+        path.join(PLAN_FILE).is_file()
+    }
+
+    /// Opens the folder of a study.
+    ///
+    /// # Errors
+    /// Where there is none, or its plan cannot be read.
+    pub fn open(path: &Path) -> Result<Folder, StudyError> {
+        Folder::open_on(SystemDisk::shared(), path)
+    }
+
+    /// [`Folder::open`] on another disk.
+    ///
+    /// # Errors
+    /// As [`Folder::open`].
+    pub fn open_on(disk: Arc<dyn Disk>, path: &Path) -> Result<Folder, StudyError> {
+        let file = path.join(PLAN_FILE);
+        if !file.is_file() {
+            let reason = format!("this is not the folder of a study: there is no {PLAN_FILE} in it");
+            return Err(StudyError::Folder { path: path.to_path_buf(), reason });
+        }
+        let text = read_file(&file).map_err(|reason| StudyError::Folder { path: file.clone(), reason })?;
+        let plan = Plan::parse(&text, &file.display().to_string(), &Changes::default())?;
+        Ok(Folder { path: path.to_path_buf(), plan, disk })
+    }
+
+    /// Its path.
+    #[must_use]
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Its plan.
+    #[must_use]
+    pub fn plan(&self) -> &Plan {
+        &self.plan
+    }
+
+    /// The disk it is on.
+    pub(super) fn disk(&self) -> &dyn Disk {
+        &*self.disk
+    }
+
+    /// Checksum of its plan.
+    fn checksum(&self) -> String {
+        format!("{:08x}", crc32fast::hash(self.plan.to_ron().as_bytes()))
+    }
+
+    /// A new shard file for this process, with its header.
+    pub(super) fn new_file(&self, shard: Shard) -> Result<(PathBuf, Box<dyn DiskFile>), WriteError> {
+        let started = SystemTime::now().duration_since(UNIX_EPOCH).unwrap_or_default().as_secs();
+        let (host, process) = (host(), std::process::id());
+        let header = Header {
+            format: STORE_VERSION,
+            plan: self.checksum(),
+            shard,
+            host: host.clone(),
+            process,
+            started,
+            program: env!("CARGO_PKG_VERSION").into(),
+            measured_sha256: self.plan.measured_sha256.clone(),
+        };
+        let random = RandomState::new().hash_one(started) as u32;
+        let Shard { number, count } = shard;
+        let name = format!("{number}-of-{count}-{host}-{process}-{started}-{random:08x}.{ENDING}");
+        let path = self.path.join(SHARDS).join(name);
+        let failed = |reason| WriteError::Failed { path: path.clone(), reason };
+        let mut text = String::new();
+        seal(&serde_json::to_string(&header).map_err(io::Error::from).map_err(failed)?, &mut text);
+        let mut file = self.disk.make_file(&path).map_err(failed)?;
+        file.write_all(text.as_bytes()).and_then(|()| file.sync()).map_err(failed)?;
+        // The name in the folder has to last as well.
+        self.disk.sync_folder(&self.path.join(SHARDS)).map_err(failed)?;
+        Ok((path, file))
+    }
+
+    /// All shard files, by name.
+    ///
+    /// # Errors
+    /// Where they cannot be read, or are of another plan, another measured file or another version.
+    pub fn files(&self) -> Result<Vec<ShardFile>, StudyError> {
+        let shards = self.path.join(SHARDS);
+        let mut paths = match self.disk.list(&shards) {
+            Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(Vec::new()),
+            listed => listed.map_err(|error| StudyError::Folder {
+                path: shards,
+                reason: format!("cannot be read: {error}"),
+            })?,
+        };
+        paths.retain(|path| path.extension().is_some_and(|ending| ending == ENDING));
+        paths.sort();
+        let checksum = self.checksum();
+        let file =
+            |path: PathBuf| self.file(&path, &checksum).map_err(|reason| StudyError::Folder { path, reason });
+        paths.into_iter().map(file).collect()
+    }
+
+    fn file(&self, path: &Path, checksum: &str) -> Result<ShardFile, String> {
+        let failed = |error: io::Error| format!("cannot be read: {error}");
+        let file = open_regular(path).map_err(|error| error.to_string())?;
+        let written = file.metadata().and_then(|found| found.modified()).map_err(failed)?;
+        let written = written.duration_since(UNIX_EPOCH).unwrap_or_default().as_secs_f64();
+        let mut line = Vec::new();
+        // Of thousands of files, only the first lines are read here.
+        let mut reader = BufReader::with_capacity(1 << 10, file);
+        reader.by_ref().take(LONGEST_LINE).read_until(b'\n', &mut line).map_err(failed)?;
+        let header = line.strip_suffix(b"\n").and_then(unseal);
+        let header = header.map(|payload| self.header(payload, checksum)).transpose()?;
+        Ok(ShardFile { path: path.to_path_buf(), header, written })
+    }
+
+    /// A whole header, which no crash has made: what is wrong with it was written so.
+    fn header(&self, payload: &str, checksum: &str) -> Result<Header, String> {
+        let unknown = |error: serde_json::Error| {
+            format!(
+                "its first line is no header of a shard file ({error}); remove the file or bring back another"
+            )
+        };
+        let AnyHeader { format } = serde_json::from_str(payload).map_err(unknown)?;
+        if format != STORE_VERSION {
+            return Err(format!("its format is {format}; this program reads {STORE_VERSION}"));
+        }
+        let header: Header = serde_json::from_str(payload).map_err(unknown)?;
+        if header.measured_sha256 != self.plan.measured_sha256 {
+            let [found, expected] = [&header.measured_sha256, &self.plan.measured_sha256]
+                .map(|hash| hash.as_deref().unwrap_or("none"));
+            return Err(format!(
+                "this file was computed from another measured file: its SHA-256 is {found}, the plan has {expected}"
+            ));
+        }
+        if header.plan != checksum {
+            return Err("this file belongs to another plan".into());
+        }
+        Ok(header)
+    }
+
+    /// Calls `each` with every whole record of a file, in the order in which they were written, and gives the
+    /// number of lines that are damaged: torn, changed since, or no records of this plan.
+    pub(super) fn records(
+        &self,
+        file: &ShardFile,
+        each: &mut dyn FnMut(&Found<'_>) -> Result<(), StudyError>,
+    ) -> Result<u64, StudyError> {
+        if file.header.is_none() {
+            return Ok(0);
+        }
+        let failed = |error: io::Error| StudyError::Folder {
+            path: file.path.clone(),
+            reason: format!("cannot be read: {error}"),
+        };
+        let opened = open_regular(&file.path)
+            .map_err(|error| StudyError::Folder { path: file.path.clone(), reason: error.to_string() })?;
+        // Most of many files are small.
+        let size = opened.metadata().map_err(failed)?.len().clamp(1 << 10, 1 << 18) as usize;
+        let mut reader = BufReader::with_capacity(size, opened);
+        let (mut line, mut offset, mut damaged) = (Vec::new(), 0, 0);
+        let mut values = Vec::new();
+        let (cells, count) = (self.plan.cells(), self.plan.record.len());
+        loop {
+            line.clear();
+            let read =
+                reader.by_ref().take(LONGEST_LINE).read_until(b'\n', &mut line).map_err(failed)? as u64;
+            if read == 0 {
+                return Ok(damaged);
+            }
+            let key = line.strip_suffix(b"\n").and_then(unseal).and_then(|payload| {
+                let (key, text) = key_of(payload)?;
+                values_into(text, count, &mut values).then_some(key)
+            });
+            match key {
+                Some(key) if key.cell < cells && self.line_of(key.seed).is_some() => {
+                    each(&Found { key, offset, values: &values })?;
+                }
+                // The header.
+                _ if offset == 0 => {}
+                _ => damaged += 1,
+            }
+            offset += read;
+        }
+    }
+
+    /// Which line has a seed.
+    pub(super) fn line_of(&self, seed: u64) -> Option<u64> {
+        let line = seed.wrapping_sub(self.plan.seed);
+        (line < self.plan.lines).then_some(line)
+    }
+
+    /// Place of a record among all there are to be, by cell, then by seed.
+    pub(super) fn place(&self, key: Key) -> Option<u64> {
+        Some(key.cell * self.plan.lines + self.line_of(key.seed)?)
+    }
+
+    /// The records that there are, and will be after a power cut: what a killed process has written without
+    /// waiting for the disk would be counted on and lost.
+    pub(super) fn done(&self) -> Result<Done, StudyError> {
+        let mut done = Done::none(self.plan.records_in_all());
+        for file in self.files()? {
+            self.records(&file, &mut |found| {
+                if let Some(place) = self.place(found.key) {
+                    done.add(place);
+                }
+                Ok(())
+            })?;
+            self.disk
+                .sync_file(&file.path)
+                .map_err(|reason| WriteError::Failed { path: file.path.clone(), reason })?;
+        }
+        self.disk
+            .sync_folder(&self.path.join(SHARDS))
+            .map_err(|reason| WriteError::Failed { path: self.path.join(SHARDS), reason })?;
+        Ok(done)
+    }
+}
+
+/// Which records there are, one bit for each.
+pub(super) struct Done(Vec<u64>);
+
+impl Done {
+    pub fn none(count: u64) -> Done {
+        Done(vec![0; count.div_ceil(64) as usize])
+    }
+
+    pub fn add(&mut self, place: u64) {
+        self.0[place as usize / 64] |= 1 << (place % 64);
+    }
+
+    /// Number of records.
+    pub fn count(&self) -> u64 {
+        self.0.iter().map(|word| u64::from(word.count_ones())).sum()
+    }
+
+    pub fn has(&self, place: u64) -> bool {
+        self.0[place as usize / 64] & (1 << (place % 64)) != 0
+    }
+}
+
+/// Reads single lines of a file from wherever they stand, cheaply where they follow each other.
+pub(super) struct Lines {
+    reader: BufReader<File>,
+    here: u64,
+    line: Vec<u8>,
+}
+
+impl Lines {
+    pub fn open(path: &Path) -> io::Result<Lines> {
+        let file = open_regular(path).map_err(|error| io::Error::other(error.to_string()))?;
+        Ok(Lines { reader: BufReader::with_capacity(1 << 14, file), here: 0, line: Vec::new() })
+    }
+
+    /// The payload of the line at an offset.
+    pub fn at(&mut self, offset: u64) -> io::Result<&str> {
+        // Within what has been read this moves nothing.
+        let by = offset as i64 - self.here as i64;
+        self.reader.seek_relative(by).or_else(|_| self.reader.seek(SeekFrom::Start(offset)).map(drop))?;
+        self.line.clear();
+        let read = self.reader.by_ref().take(LONGEST_LINE).read_until(b'\n', &mut self.line)?;
+        self.here = offset + read as u64;
+        let payload = self.line.strip_suffix(b"\n").and_then(unseal);
+        payload.ok_or_else(|| io::Error::new(io::ErrorKind::InvalidData, "a record has changed"))
+    }
+}
+
+/// Name of this machine, in letters that a file name can hold.
+fn host() -> String {
+    #[cfg(unix)]
+    let name = rustix::system::uname().nodename().to_string_lossy().into_owned();
+    #[cfg(not(unix))]
+    let name = std::env::var("COMPUTERNAME").unwrap_or_default();
+    in_letters_for_files(&name)
+}
+
+fn in_letters_for_files(name: &str) -> String {
+    let name: String = name.chars().filter(|c| c.is_ascii_alphanumeric() || *c == '_').take(40).collect();
+    if name.is_empty() { "host".into() } else { name }
+}
+
+/// Why a folder that has the text `there` for a plan is none of `plan`.
+fn refusal(path: &Path, there: &str, plan: &Plan) -> StudyError {
+    let file = path.join(PLAN_FILE);
+    // Where nothing but the content of the measured file is another, that is said.
+    if let (Ok(of_folder), Some(measured)) =
+        (Plan::parse(there, PLAN_FILE, &Changes::default()), super::measured::file_of(plan))
+        && (Plan { measured_sha256: plan.measured_sha256.clone(), ..of_folder.clone() }) == *plan
+    {
+        return match (of_folder.measured_sha256, plan.measured_sha256.clone()) {
+            (Some(expected), Some(found)) => {
+                StudyError::MeasuredChanged { file: measured, found, plan: path_name(&file), expected }
+            }
+            _ => StudyError::MeasuredUnknown { folder: path.to_path_buf(), file: measured },
+        };
+    }
+    StudyError::OtherPlan { path: path.to_path_buf(), difference: difference(there, &plan.to_ron()) }
+}
+
+/// The first lines in which two plans differ.
+fn difference(there: &str, asked: &str) -> String {
+    let pairs = there.lines().map(Some).chain(std::iter::repeat(None));
+    let asked = asked.lines().map(Some).chain(std::iter::repeat(None));
+    let first = pairs.zip(asked).take_while(|pair| *pair != (None, None)).find(|(a, b)| a != b);
+    let shown = |line: Option<&str>| {
+        line.map_or_else(|| "nothing".into(), |line| printable(line.trim()).into_owned())
+    };
+    first.map_or_else(String::new, |(a, b)| format!("there: {}\nhere:  {}", shown(a), shown(b)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_of_machines_keep_letters_for_files() {
+        let long = "n".repeat(64);
+        for (name, kept) in [
+            ("node_7", "node_7"),
+            ("login-1.example.org", "login1exampleorg"),
+            ("../Rechner ä\u{1b}", "Rechner"),
+            ("-.-", "host"),
+            ("", "host"),
+            (&long, &long[..40]),
+        ] {
+            assert_eq!(in_letters_for_files(name), kept);
+        }
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn the_host_is_this_machine() {
+        let uname = std::process::Command::new("uname").arg("-n").output().unwrap();
+        assert_eq!(host(), in_letters_for_files(String::from_utf8_lossy(&uname.stdout).trim()));
+    }
+}
