@@ -198,8 +198,10 @@ pub struct Entry {
 pub enum Sample {
     /// A line with a sign on it.
     Line(Option<Stroke>, Option<Sign>),
-    /// A filled area.
+    /// A filled area that shows what is below.
     Area,
+    /// A filled area.
+    Solid,
     /// A line across the chart, upright or level.
     Guide,
     /// A level line of a map.
@@ -227,7 +229,8 @@ impl Figure {
             match shape {
                 Shape::Curve { stroke, sign, .. } => add(name, *ink, Sample::Line(*stroke, *sign)),
                 Shape::Envelope { .. } => add(name, *ink, Sample::Line(Some(Stroke::Solid), None)),
-                Shape::Band(_) | Shape::Inside(_) | Shape::Boxes(_) => add(name, *ink, Sample::Area),
+                Shape::Band(_) | Shape::Inside(_) => add(name, *ink, Sample::Area),
+                Shape::Boxes(_) => add(name, *ink, Sample::Solid),
                 Shape::Upright(_) | Shape::Level(_) => add(name, *ink, Sample::Guide),
                 Shape::Map(map) => {
                     for (class, (sign, _, name)) in map.class_names.iter().enumerate() {

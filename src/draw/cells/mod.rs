@@ -7,7 +7,7 @@ mod text;
 pub use shapes::dry;
 pub use text::{Colours, figure_text};
 
-use super::axis::{Axis, Span};
+use super::axis::Axis;
 use super::chart::{Chart, Figure, Sample, Shape, Sign, Stroke};
 use super::colour::Ink;
 use super::label::Label;
@@ -59,7 +59,7 @@ impl CellPlot {
         let height = area.height - u16::from(below) - u16::from(line) - u16::from(label);
         let mut left = 0;
         if area.width >= WITH_LEFT_SCALE.0 && area.height >= WITH_LEFT_SCALE.1 {
-            let labels = scale_beside(chart, height);
+            let labels = scale_beside(chart, height, Marker::Braille);
             left = labels.iter().map(|(_, text)| text.chars().count() as u16).max().unwrap_or(0) + 2;
         }
         let left = if left > area.width / 2 { 0 } else { left };
@@ -85,15 +85,10 @@ impl CellPlot {
     pub fn cell(&self, chart: &Chart, marker: Marker, (x, y): (f64, f64)) -> Option<(u16, u16)> {
         let (across, down) = (chart.x.share(x), 1.0 - chart.y.share(y));
         let inside = (0.0..=1.0).contains(&across) && (0.0..=1.0).contains(&down) && !self.plot.is_empty();
-        // As the canvas rounds to dots, so that a sign is in a cell of its curve.
         let (columns, rows) = dots_of(marker);
-        let cell = |share: f64, cells: u16, dots: u16| {
-            let last = f64::from(cells) * f64::from(dots) - 1.0;
-            (share * last).round() as u16 / dots
-        };
         inside.then(|| {
-            let column = cell(across, self.plot.width, columns);
-            (self.plot.x + column, self.plot.y + cell(down, self.plot.height, rows))
+            let column = cell_at(across, self.plot.width, columns);
+            (self.plot.x + column, self.plot.y + cell_at(down, self.plot.height, rows))
         })
     }
 
@@ -142,7 +137,7 @@ impl CellPlot {
     fn draw_scales(&self, buffer: &mut Buffer, chart: &Chart, style: &CellStyle<'_>) {
         let (plot, quiet) = (self.plot, (style.ink)(Ink::Quiet));
         if self.left > 0 {
-            let labels = scale_beside(chart, plot.height);
+            let labels = scale_beside(chart, plot.height, style.marker);
             for row in 0..plot.height {
                 let label = labels.iter().find(|(at, _)| *at == row).map(|(_, text)| text.as_str());
                 let mark = if label.is_some() { '┤' } else { '│' };
@@ -152,7 +147,7 @@ impl CellPlot {
             }
         }
         let mut y = plot.bottom();
-        let (numbers, label) = scale_below(chart, plot.width);
+        let (numbers, label) = scale_below(chart, plot.width, style.marker);
         if self.line {
             let mut line: Vec<char> = vec!['─'; usize::from(plot.width)];
             for (column, _) in &numbers {
@@ -195,30 +190,33 @@ fn dots_of(marker: Marker) -> (u16, u16) {
     }
 }
 
+/// Cell at a share of a plot, as the canvas rounds to dots, so that signs and ticks are in cells of their curves.
+fn cell_at(share: f64, cells: u16, dots: u16) -> u16 {
+    let last = f64::from(cells) * f64::from(dots) - 1.0;
+    (share * last).round().max(0.0) as u16 / dots.max(1)
+}
+
 /// Rows of a plot of this height with their numbers.
-fn scale_beside(chart: &Chart, height: u16) -> Vec<(u16, String)> {
+fn scale_beside(chart: &Chart, height: u16, marker: Marker) -> Vec<(u16, String)> {
     if let Some(map) = map::of(chart) {
         return map::row_labels(&chart.y, map, height);
     }
-    let last = f64::from(height.max(1) - 1);
     let place = |Tick { at, label }: Tick| {
         let down = (chart.y.span.high - at) / chart.y.span.width();
-        Some(((down * last).round() as u16, label?.to_string()))
+        Some((cell_at(down, height, dots_of(marker).1), label?.to_string()))
     };
     chart.y.ticks(usize::from(height / 3).clamp(2, 6)).into_iter().filter_map(place).collect()
 }
 
 /// Columns of a plot of this width with their numbers, and the label of the axis.
-fn scale_below(chart: &Chart, width: u16) -> (Vec<(u16, String)>, String) {
+fn scale_below(chart: &Chart, width: u16, marker: Marker) -> (Vec<(u16, String)>, String) {
     let label = chart.x.label_with_unit().to_string();
     if let Some(map) = map::of(chart) {
         return (map::column_labels(&chart.x, map, width), label);
     }
-    let last = f64::from(width.max(1) - 1);
     let place = |Tick { at, label }: Tick| {
-        let Span { low, .. } = chart.x.span;
-        let share = (at - low) / chart.x.span.width();
-        Some(((share * last).round() as u16, label?.to_string()))
+        let share = (at - chart.x.span.low) / chart.x.span.width();
+        Some((cell_at(share, width, dots_of(marker).0), label?.to_string()))
     };
     let numbers = chart.x.ticks(usize::from(width / 10).clamp(2, 9)).into_iter().filter_map(place);
     (numbers.filter(|(column, _)| *column < width).collect(), label)
@@ -226,7 +224,7 @@ fn scale_below(chart: &Chart, width: u16) -> (Vec<(u16, String)>, String) {
 
 /// Whether the label of the horizontal axis would take the place of a number beside it.
 fn label_hides_numbers(chart: &Chart, width: u16) -> bool {
-    let (numbers, label) = scale_below(chart, width);
+    let (numbers, label) = scale_below(chart, width, Marker::Braille);
     let end = usize::from(width).saturating_sub(label.chars().count() + 1);
     numbers.iter().any(|(column, text)| usize::from(*column) + text.chars().count().div_ceil(2) > end)
 }
@@ -274,6 +272,7 @@ pub fn legend(figure: &Figure, style: &CellStyle<'_>) -> Vec<Vec<Text<'static>>>
                     format!("{left}{}{right}", sign.map_or(middle, glyph))
                 }
                 Sample::Area => strokes(Stroke::Sparse, style.marker).concat(),
+                Sample::Solid => "■".to_owned(),
                 Sample::Guide => "┊".to_owned(),
                 Sample::Contour => "▁▕".to_owned(),
                 Sample::Empty => "blank:".to_owned(),

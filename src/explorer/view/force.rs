@@ -173,7 +173,9 @@ pub fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
     let mut parts =
         vec![vec![Text::styled(chart.y.label_with_unit().to_string(), theme.style(Meaning::Quiet))]];
     parts.extend(legend);
-    let rows = [fitting(parts, "  ", usize::from(area.width))];
+    let widths: usize = parts.iter().flatten().map(Text::width).sum::<usize>() + 2 * (parts.len() - 1);
+    let between = if widths <= usize::from(area.width) { "  " } else { " " };
+    let rows = [fitting(parts, between, usize::from(area.width))];
     let values = model.is_current().then(|| values(model.legs(), area.width, theme));
     let ghosts = model.ghosts.iter().enumerate().rev().map(|(number, ghost)| {
         Line::styled(format!("{} {}", letter(number), ghost.differs), theme.style(Meaning::Ghost))
@@ -218,7 +220,8 @@ fn chart(model: &Model, units: Units) -> Chart {
     if let Some(moment) = model.present() {
         let (at, value) = units.place(&moment.point);
         let at = (at.clamp(x.low, x.high), value.clamp(y.low, y.high));
-        layers.push(Layer::new(Label::plain("now"), Ink::Cursor, point(at, Sign::Diamond)));
+        let name = if model.hand.is_some() { "manual" } else { "now" };
+        layers.push(Layer::new(Label::plain(name), Ink::Cursor, point(at, Sign::Diamond)));
     }
     let (x, y) = units.axes(x, y);
     plot::chart(x, y, layers)
