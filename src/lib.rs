@@ -51,6 +51,7 @@
 //! | from | by | to |
 //! | --- | --- | --- |
 //! | a file | [`scene::open`] | [`scene::Scene`], checked |
+//! | measured files | [`topography::read`] and [`spectrum::analyse`] | equivalent line, its moments |
 //! | form and roughness | [`surface`] | [`surface::Line`], gaps c at a distance Δx |
 //! | gaps | [`contact::ContactTree::build`] | merge tree of the local maxima of the gap |
 //! | tree, E\*, γ, loading | [`contact::exact`] or [`contact::stepwise`] | [`contact::History`], legs and curves |
@@ -80,9 +81,11 @@ mod profile;
 pub mod reference;
 pub mod scene;
 pub mod simulation;
+pub mod spectrum;
 pub mod study;
 pub mod surface;
 mod text;
+pub mod topography;
 
 pub use contact_cycle::{Contact, ContactBuilder, Cycle};
 pub use profile::{Profile, ProfileError};

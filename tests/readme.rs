@@ -26,9 +26,10 @@ use std::process::Command;
 const LONGEST_README: usize = 250;
 
 /// Pages of the documentation and their contents, in the order of the README's table.
-const PAGES_AND_CONTENTS: [(&str, &str); 12] = [
+const PAGES_AND_CONTENTS: [(&str, &str); 13] = [
     ("keys.md", "panes and keys of the explorer, typed values, appearance, recordings"),
     ("scene-file.md", "fields of a scene, loading, measured profiles, results, built-in scenes"),
+    ("surfaces.md", "measured surfaces: formats, equivalent line, spectrum, accuracy"),
     ("model.md", "equations, exact solution, regimes, validity"),
     ("conventions.md", "units, signs, zero points, E\\*, numbers in results"),
     ("glossary.md", "terms and symbols, words to avoid"),
@@ -352,13 +353,15 @@ fn the_citation_is_of_this_version() {
 }
 
 /// Rooms of the source from the ground up: each imports only rooms before it.
-const ROOMS: [&str; 21] = [
+const ROOMS: [&str; 23] = [
     "text",
     "draw",
     "memory",
     "parallel",
     "disk",
     "io",
+    "topography",
+    "spectrum",
     "scene",
     "surface",
     "contact",

@@ -7,11 +7,13 @@ mod overrides;
 mod profile;
 mod quantity;
 mod scene;
+mod surface;
 
 pub use overrides::overrides;
 pub use profile::profile;
 pub use quantity::quantity;
 pub use scene::scene;
+pub use surface::surface;
 
 use asperity::scene::{Document, Origin, SceneError, SceneErrors, to_ron};
 use std::borrow::Cow;
@@ -20,8 +22,13 @@ use std::borrow::Cow;
 pub type Property = fn(&[u8]);
 
 /// All targets: the name is that of the file in `fuzz_targets` and of the folders of seeds and corpus.
-pub const TARGETS: &[(&str, Property)] =
-    &[("scene", scene), ("overrides", overrides), ("quantity", quantity), ("profile", profile)];
+pub const TARGETS: &[(&str, Property)] = &[
+    ("scene", scene),
+    ("overrides", overrides),
+    ("quantity", quantity),
+    ("profile", profile),
+    ("surface", surface),
+];
 
 /// Longest line of a message, in characters: names, values and the field's own words, none without end.
 const LONGEST_MESSAGE: usize = 2000;

@@ -2,7 +2,7 @@
 
 use super::{
     CheckArguments, CompletionsArguments, CostArguments, DemoArguments, ExploreArguments, LineArguments,
-    PlanArguments, PresetsCommand, RunArguments, SweepArguments,
+    PlanArguments, PresetsCommand, RunArguments, SurfaceArguments, SweepArguments,
 };
 use clap::{Parser, Subcommand};
 
@@ -59,6 +59,8 @@ pub enum Command {
     Check(CheckArguments),
     /// Print the rigid profile of a scene as CSV: x,z in m
     Line(LineArguments),
+    /// Analyse measured surfaces: statistics, spectrum, equivalent line
+    Surface(SurfaceArguments),
     /// List, show and check scenes
     #[command(subcommand)]
     Presets(PresetsCommand),

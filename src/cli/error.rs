@@ -5,9 +5,11 @@ use crate::explorer::OpeningError;
 use crate::io::WriteError;
 use crate::scene::{SceneErrors, quoted};
 use crate::simulation::RunError;
+use crate::spectrum::SpectrumError;
 use crate::study::LinesError;
 use crate::study::slurm::SlurmError;
 use crate::study::{FigureError, StudyError};
+use crate::topography::TopographyError;
 use std::io;
 use thiserror::Error;
 
@@ -49,6 +51,22 @@ pub enum CliError {
         what: &'static str,
         /// What is allowed in its place.
         allowed: &'static str,
+    },
+    /// A measured surface cannot be read.
+    #[error("{file}: {error}")]
+    Surface {
+        /// Its file.
+        file: String,
+        /// Why not.
+        error: TopographyError,
+    },
+    /// Measured surfaces cannot be analysed.
+    #[error("{file}: {error}")]
+    Spectrum {
+        /// File of the first surface, or of the one that is refused.
+        file: String,
+        /// Why not.
+        error: SpectrumError,
     },
     /// There is no built-in scene of this name.
     #[error("{name}: there is no such built-in scene; allowed: {allowed}")]

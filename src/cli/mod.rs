@@ -16,6 +16,7 @@ mod plan;
 mod presets;
 mod run;
 mod scene;
+mod surface;
 mod sweep;
 mod usage;
 
@@ -32,6 +33,7 @@ pub use plan::{PlanArguments, PlanFormat};
 pub use presets::{ListFormat, PresetsCommand};
 pub use run::{RunArguments, RunFormat};
 pub use scene::{Overrides, SceneArguments};
+pub use surface::{AnalysisArguments, DetrendArgument, ReadingArguments, SurfaceArguments, SurfaceFormat};
 pub use sweep::{
     MergeArguments, PlansArguments, StatusArguments, SweepArguments, SweepCommand, SweepRunArguments,
 };
@@ -88,6 +90,7 @@ fn dispatch(arguments: &Arguments, stdout: &mut dyn Write) -> Result<(), CliErro
         Some(Command::Check(arguments)) => check::check(arguments, stdout),
         Some(Command::Plan(arguments)) => plan::plan(arguments, stdout),
         Some(Command::Line(arguments)) => line::line(arguments, stdout),
+        Some(Command::Surface(arguments)) => surface::surface(arguments, stdout),
         Some(Command::Presets(command)) => presets::presets(command, stdout),
         Some(Command::Completions(arguments)) => completions::completions(arguments, stdout),
     }

@@ -7,7 +7,7 @@ use crate::contact::{Foundation, FragmentState, Snapshot};
 
 /// The part of the line that a request asks to see from near.
 pub fn close_up(
-    contact: &Contact<'_>,
+    (contact, rises): (&Contact<'_>, &[f64]),
     request: &MomentRequest,
     foundation: Foundation,
     snapshot: &Snapshot<'_>,
@@ -31,7 +31,7 @@ pub fn close_up(
     let fragment = nearest(contact.fragments, centre).map(|number| {
         let springs = contact.fragments[number];
         let FragmentState { length, compression, largest_stretch, most_stretched } =
-            snapshot.fragment(contact.indentation, springs);
+            snapshot.fragment(contact.indentation, springs, rises.get(number).copied());
         FragmentFacts {
             number,
             springs,

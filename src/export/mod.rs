@@ -13,6 +13,7 @@ pub(crate) mod sheet;
 mod study_example;
 mod study_figure;
 mod summary;
+mod surface;
 mod verdict;
 mod work_precision;
 
@@ -24,4 +25,5 @@ pub use json::write_json;
 pub use scene_figure::{ContactSets, force_figure, sign};
 pub use study_figure::study_figure;
 pub use summary::{brief_summary, summary};
+pub use surface::{SurfaceFile, surface_text, write_surface_csv, write_surface_json};
 pub use work_precision::work_precision;

@@ -4,7 +4,7 @@
 use super::check::{Found, Violation};
 use super::fields::{LEG_INDENTATION, field};
 use super::model::{Adhesion, Edges, Form, Leg, Material, Roughness, Scene, Solver};
-use super::write::ron_float;
+use super::text::ron_float;
 
 /// Most samples of all legs together; a curve of this size still fits the memory of a small machine.
 const MOST_SAMPLES: u64 = 1 << 24;

@@ -81,7 +81,7 @@ fn nothing_yet(model: &Model) -> String {
         return "first the scene itself…".to_owned();
     }
     match (&costs.ended, model.is_current()) {
-        (_, false) => "the scene has no curve whose error could be told".to_owned(),
+        (_, false) => "the scene has no curve to estimate an error of".to_owned(),
         (Some(Err(why)), _) => format!("nothing is measured: {why}"),
         (Some(Ok(())), _) => {
             "nothing to show: no force in this scene whose error depends on springs, steps, samples or lines"

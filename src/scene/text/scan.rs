@@ -1,8 +1,7 @@
-//! The tokens of RON text, just fine enough to find values in it.
+//! Tokens of RON text, just fine enough to find values in it.
 //!
-//! The reader proper says what is wrong with a text; this scanner says where things stand in it, so
-//! that they can be pointed at and exchanged without touching the comments around them. It keeps no
-//! stack but a list of open brackets, so no depth of nesting overflows anything.
+//! The reader of the `ron` package says which text is wrong; this scanner finds the places of values, so that messages
+//! name them and edits exchange them without the comments around them. Nesting of any depth is read without recursion.
 
 /// Kinds of brackets.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -34,11 +33,13 @@ pub(super) struct Token {
     pub(super) end: usize,
 }
 
-/// Why text has no tokens: what is wrong and at which byte.
+/// Reason why text has no tokens, and its byte.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Unreadable {
-    pub(super) offset: usize,
-    pub(super) reason: &'static str,
+pub struct Unreadable {
+    /// Byte of the bracket, quote or comment that does not close.
+    pub offset: usize,
+    /// The reason.
+    pub reason: &'static str,
 }
 
 /// The tokens of a text whose brackets match.
@@ -88,9 +89,8 @@ pub(super) fn tokens(text: &str) -> Result<Vec<Token>, Unreadable> {
     }
 }
 
-/// How many comments a text has; none where it cannot be read.
-pub(super) fn comments(text: &str) -> usize {
-    let Ok(tokens) = tokens(text) else { return 0 };
+/// Number of comments of a text with these tokens.
+pub(super) fn comments(text: &str, tokens: &[Token]) -> usize {
     let starts = tokens.iter().map(|token| token.start).chain([text.len()]);
     let ends = [0].into_iter().chain(tokens.iter().map(|token| token.end));
     ends.zip(starts).map(|(from, to)| comments_between(text, from, to)).sum()
@@ -116,7 +116,7 @@ fn bracket(c: char) -> Bracket {
     }
 }
 
-/// What RON takes for white space.
+/// White space of RON.
 fn is_blank(c: char) -> bool {
     matches!(
         c,
@@ -237,8 +237,8 @@ mod tests {
     #[test]
     fn comments_are_counted_wherever_they_stand() {
         let text = "// one\n( /* two /* within */ */ a: \"// no\", // three\n// four\n) /* five */";
-        assert_eq!(comments(text), 5);
-        assert_eq!((comments(""), comments("(a: 1)"), comments("(")), (0, 0, 0));
+        let comments = |text: &str| super::comments(text, &tokens(text).unwrap());
+        assert_eq!((comments(text), comments(""), comments("(a: 1)")), (5, 0, 0));
     }
 
     #[test]

@@ -1,26 +1,20 @@
-//! Where a field stands in the text of a scene.
+//! Places of values in RON text.
 //!
-//! Paths go by names and, in lists and tuples, by position: `roughness.hurst`, `loading.0`,
-//! `roughness.modes.1`. The names of structs and variants and `Some(…)` are transparent, so
-//! `roughness: Some(SelfAffine(hurst: 0.7))` has its 0.7 at `roughness.hurst`.
+//! Paths consist of names and, in lists and tuples, of positions: `roughness.hurst`, `loading.0`, `roughness.modes.1`.
+//! Names of structs and variants and `Some(…)` are transparent: `roughness: Some(SelfAffine(hurst: 0.7))` has its 0.7
+//! at `roughness.hurst`.
 
 use std::ops::Range;
 
-use super::scan::{Bracket, Kind, Token, Unreadable, tokens};
+use super::scan::{Bracket, Kind, Token, Unreadable, comments, tokens};
 
-/// Where a field stands, in bytes of the text.
+/// Place of an entry, in bytes of the text.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Place {
+pub struct Span {
     /// The whole entry, `name: value`; the same as `value` in a list.
     pub entry: Range<usize>,
     /// The value alone.
     pub value: Range<usize>,
-}
-
-/// Where a field stands in a text; `None` where it does not, or where brackets and quotes do not
-/// match.
-pub fn locate(text: &str, path: &str) -> Option<Place> {
-    Outline::of(text).ok()?.find(path)
 }
 
 /// Line and column of a byte, both from 1, columns counted in characters.
@@ -35,7 +29,7 @@ pub fn line_column(text: &str, offset: usize) -> (usize, usize) {
 }
 
 /// The byte at a line and column, the end of the line or of the text where there is none.
-pub(super) fn offset_of(text: &str, line: usize, column: usize) -> usize {
+pub(in crate::scene) fn offset_of(text: &str, line: usize, column: usize) -> usize {
     let mut start = 0;
     for _ in 1..line {
         match text[start..].find('\n') {
@@ -48,13 +42,18 @@ pub(super) fn offset_of(text: &str, line: usize, column: usize) -> usize {
     start + within.map_or(line.len(), |(offset, _)| offset)
 }
 
-/// The values of a text and how they contain each other.
-pub(super) struct Outline<'t> {
-    text: &'t str,
+/// A path is another path or inside it.
+pub(in crate::scene) fn is_within(path: &str, other: &str) -> bool {
+    path.strip_prefix(other).is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
+}
+
+/// RON text whose brackets and quotes match.
+pub struct Text<'t> {
+    pub(super) text: &'t str,
     tokens: Vec<Token>,
 }
 
-/// What stands between two brackets: the indices of their tokens.
+/// The inside of two brackets: the indices of their tokens.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Body {
     open: usize,
@@ -64,45 +63,67 @@ pub(super) struct Body {
 /// One entry of a body.
 #[derive(Clone, Debug)]
 pub(super) struct Entry<'t> {
-    /// The name, for `name: value`.
+    /// Name, for `name: value`.
     pub(super) name: Option<&'t str>,
-    /// The bytes of the entry and of its value.
-    pub(super) place: Place,
-    /// The byte after the comma that follows.
+    /// Bytes of the entry and of its value.
+    pub(super) span: Span,
+    /// Byte after the comma that follows.
     pub(super) comma: Option<usize>,
     /// Token with which the value starts.
     first: usize,
 }
 
-impl<'t> Outline<'t> {
-    pub(super) fn of(text: &'t str) -> Result<Outline<'t>, Unreadable> {
-        Ok(Outline { text, tokens: tokens(text)? })
+impl<'t> Text<'t> {
+    /// Reads a text as tokens.
+    ///
+    /// # Errors
+    /// A bracket, quote or comment that does not close.
+    pub fn new(text: &'t str) -> Result<Text<'t>, Unreadable> {
+        Ok(Text { text, tokens: tokens(text)? })
     }
 
-    /// Whether the text is one value and nothing else but blanks and comments.
-    pub(super) fn is_one_value(&self) -> bool {
-        self.value_end(0) == Some(self.tokens.len())
+    /// Place of the entry at a path.
+    pub fn span(&self, path: &str) -> Option<Span> {
+        self.entry(path).map(|entry| entry.span)
     }
 
-    /// Where a field stands.
-    pub(super) fn find(&self, path: &str) -> Option<Place> {
-        self.entry(path).map(|entry| entry.place)
+    /// The value at a path as it is written, with any `Some(…)` around it.
+    pub(in crate::scene) fn written(&self, path: &str) -> Option<&'t str> {
+        self.text.get(self.span(path)?.value)
     }
 
-    /// The name a value starts with, that of its variant: `Cone` for `Some(Cone(angle: 0.1))`.
-    pub(super) fn head(&self, path: &str) -> Option<&'t str> {
+    /// Name of the variant at a path: `Cone` for `Some(Cone(angle: 0.1))`.
+    pub(in crate::scene) fn variant(&self, path: &str) -> Option<&'t str> {
         let first = self.inside_some(self.entry(path)?.first);
         self.word(first)
     }
 
     /// The value at a path without any `Some(…)` around it.
-    pub(super) fn inner(&self, path: &str) -> Option<&'t str> {
+    pub(in crate::scene) fn value(&self, path: &str) -> Option<&'t str> {
         let first = self.inside_some(self.entry(path)?.first);
         let end = self.value_end(first)?;
         self.text.get(self.tokens[first].start..self.tokens[end - 1].end)
     }
 
-    /// The body of the value at a path; the scene's own for the empty path.
+    /// Byte of the bracket that opens the value at a path, of the whole for an empty path; `None` for a value without
+    /// brackets.
+    pub(in crate::scene) fn opening(&self, path: &str) -> Option<usize> {
+        self.body(path).map(|body| self.tokens[body.open].start)
+    }
+
+    /// Number of comments.
+    pub(in crate::scene) fn comments(&self) -> usize {
+        comments(self.text, &self.tokens)
+    }
+
+    /// The text is one value and nothing else.
+    pub(super) fn is_one_value(&self) -> bool {
+        let ends = self.tokens.first().zip(self.tokens.last());
+        let fills = ends.is_some_and(|(first, last)| first.start == 0 && last.end == self.text.len());
+        fills && self.value_end(0) == Some(self.tokens.len())
+    }
+
+    /// The body of the value at a path; of the whole for an empty path.
     pub(super) fn body(&self, path: &str) -> Option<Body> {
         let first = if path.is_empty() { self.root()? } else { self.entry(path)?.first };
         self.body_of(first)
@@ -123,22 +144,22 @@ impl<'t> Outline<'t> {
             let comma = self.is(end, Kind::Comma).then(|| self.tokens[end].end);
             // Without a comma this is the last entry, whatever follows it.
             next = if comma.is_some() { end + 1 } else { body.close };
-            Some(Entry { name, place: Place { entry, value }, comma, first })
+            Some(Entry { name, span: Span { entry, value }, comma, first })
         })
     }
 
-    /// The byte after the opening bracket and that of the closing one.
+    /// Byte after the opening bracket and that of the closing one.
     pub(super) fn inside(&self, body: Body) -> Range<usize> {
         self.tokens[body.open].end..self.tokens[body.close].start
     }
 
     /// Path of the innermost entry that contains a byte; empty where none does.
-    pub(super) fn path_at(&self, offset: usize) -> String {
+    pub(in crate::scene) fn path_at(&self, offset: usize) -> String {
         let mut path = String::new();
         let mut body = self.root().and_then(|root| self.body_of(root));
         while let Some(here) = body {
             let mut entries = self.entries(here).enumerate();
-            let inside = entries.find(|(_, Entry { place: Place { entry, .. }, .. })| {
+            let inside = entries.find(|(_, Entry { span: Span { entry, .. }, .. })| {
                 entry.start <= offset && offset < entry.end
             });
             let Some((index, entry)) = inside else {
@@ -170,7 +191,7 @@ impl<'t> Outline<'t> {
         }
     }
 
-    /// The token with which the scene starts, after attributes such as `#![enable(…)]`.
+    /// The token with which the value starts, after attributes such as `#![enable(…)]`.
     fn root(&self) -> Option<usize> {
         let mut index = 0;
         loop {
@@ -255,7 +276,7 @@ Scene(
 "##;
 
     fn value(path: &str) -> Option<&'static str> {
-        locate(SCENE, path).map(|place| &SCENE[place.value])
+        Text::new(SCENE).unwrap().written(path)
     }
 
     #[test]
@@ -288,25 +309,27 @@ Scene(
 
     #[test]
     fn entries_start_with_their_names() {
-        let place = locate(SCENE, "roughness.seed").unwrap();
-        assert_eq!(&SCENE[place.entry], "seed: 7");
-        let place = locate(SCENE, "loading.2").unwrap();
-        assert_eq!(place.entry, place.value);
+        let text = Text::new(SCENE).unwrap();
+        assert_eq!(&SCENE[text.span("roughness.seed").unwrap().entry], "seed: 7");
+        let span = text.span("loading.2").unwrap();
+        assert_eq!(span.entry, span.value);
     }
 
     #[test]
-    fn heads_are_variants() {
-        let outline = Outline::of(SCENE).unwrap();
-        assert_eq!(outline.head("roughness"), Some("SelfAffine"));
-        assert_eq!(outline.head("loading.0"), Some("ToForce"));
-        assert_eq!(outline.head("material"), None);
-        assert_eq!(outline.inner("material.youngs_modulus"), Some("2.0e6"));
-        assert_eq!(outline.inner("adhesion"), Some("Some(work: 0.05)"));
+    fn variants_are_read_through_some() {
+        let text = Text::new(SCENE).unwrap();
+        assert_eq!(text.variant("roughness"), Some("SelfAffine"));
+        assert_eq!(text.variant("loading.0"), Some("ToForce"));
+        assert_eq!(text.variant("material"), None);
+        assert_eq!(text.value("material.youngs_modulus"), Some("2.0e6"));
+        assert_eq!(text.value("adhesion"), Some("Some(work: 0.05)"));
+        assert_eq!(text.opening(""), SCENE.find("Scene(").map(|start| start + "Scene".len()));
+        assert_eq!((text.opening("length"), text.opening("version")), (None, None));
     }
 
     #[test]
     fn bytes_know_their_paths() {
-        let outline = Outline::of(SCENE).unwrap();
+        let outline = Text::new(SCENE).unwrap();
         for (needle, path) in [
             ("0.7", "roughness.hurst"),
             ("512", "roughness.modes.1"),
@@ -332,9 +355,10 @@ Scene(
 
     #[test]
     fn nested_somes_do_not_recurse() {
-        let text = format!("(form: {}1{})", "Some(".repeat(100_000), ")".repeat(100_000));
-        assert!(locate(&text, "form").is_some());
-        assert_eq!(locate(&text, "form.radius"), None);
-        assert_eq!(Outline::of(&text).unwrap().path_at(text.find('1').unwrap()).len(), "form".len());
+        let nested = format!("(form: {}1{})", "Some(".repeat(100_000), ")".repeat(100_000));
+        let text = Text::new(&nested).unwrap();
+        assert!(text.span("form").is_some());
+        assert_eq!(text.span("form.radius"), None);
+        assert_eq!(text.path_at(nested.find('1').unwrap()), "form");
     }
 }

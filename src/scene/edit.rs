@@ -1,54 +1,34 @@
-//! Changing one field of a scene in its text, leaving every comment where it stands.
-
-use std::ops::Range;
+//! Change of one field of a scene in its text, which leaves every comment in its place.
 
 use super::field::Field;
 use super::fields::FIELDS;
-use super::locate::{Body, Entry, Outline};
 use super::range::choice_name;
-use super::scan::comment_end;
 use super::suggest::nearest;
-
-const NOT_ONE_VALUE: &str = "not one RON value by itself, such as 1.0e-3 or (1, 512)";
+use super::text::{Text, one_value};
 
 /// Gives the field at `path` the value `value`, written as RON, and returns the new text.
 ///
-/// A field that is not there is inserted, with the group around it where that is missing too; a part
-/// set to `None` that is not there stays away. Whatever the value is, it changes this one place.
+/// A missing field is inserted, with the group around it where that is missing too; a missing part that is set to
+/// `None` stays away. Whatever the value is, it changes this one place.
 ///
 /// # Errors
 ///
-/// A sentence that says why not: no such field, not one value, or no place for it.
+/// The reason in a sentence: no such field, not one value, or no place for it.
 pub(super) fn set(text: &str, path: &str, value: &str) -> Result<String, String> {
     let value = one_value(value)?;
     let fields = fields_at(path)?;
-    let outline = Outline::of(text).map_err(|unreadable| unreadable.reason.to_string())?;
-    let new = if let Some(place) = outline.find(path) {
-        apply(text, vec![(place.value, value.to_string())])
+    let outline = Text::new(text).map_err(|unreadable| unreadable.reason.to_string())?;
+    if outline.span(path).is_some() {
+        outline.replace(path, value)
     } else if value == "None" && fields.iter().any(|field| field.default == "None" && field.path == path) {
-        return Ok(text.to_string());
+        Ok(text.to_string())
     } else {
-        insert(text, &outline, path, value, &fields)?
-    };
-    // Whatever was spliced in must now be the value of that field, all of it and nothing else: a
-    // comment in it must not swallow what follows.
-    let stands = Outline::of(&new).ok().and_then(|outline| outline.find(path)).map(|place| &new[place.value]);
-    if stands == Some(value) { Ok(new) } else { Err(NOT_ONE_VALUE.into()) }
-}
-
-/// The value without blanks around it, if it is one RON value and nothing else.
-fn one_value(value: &str) -> Result<&str, String> {
-    let value = value.trim();
-    if value.is_empty() {
-        return Err("a value is missing".into());
+        insert(text, &outline, path, value, &fields)
     }
-    let outline =
-        Outline::of(value).map_err(|unreadable| format!("not one RON value: {}", unreadable.reason))?;
-    if outline.is_one_value() { Ok(value) } else { Err(NOT_ONE_VALUE.into()) }
 }
 
-/// The fields a path may mean: more than one where variants of a choice share a name. A position in
-/// a list or pair means that list or pair.
+/// Fields that a path may mean: more than one where variants of a choice share a name. A position in a list or pair
+/// means that list or pair.
 fn fields_at(path: &str) -> Result<Vec<&'static Field>, String> {
     let mut base = path;
     while let Some((before, last)) = base.rsplit_once('.')
@@ -71,7 +51,7 @@ fn fields_at(path: &str) -> Result<Vec<&'static Field>, String> {
 
 fn insert(
     text: &str,
-    outline: &Outline,
+    outline: &Text,
     path: &str,
     value: &str,
     fields: &[&'static Field],
@@ -79,24 +59,25 @@ fn insert(
     let Some(field) = fields.iter().find(|field| field.path == path) else {
         return Err("there is no such element".into());
     };
-    let parent = field.parent();
-    let head = outline.head(parent);
-    if field.variant.is_some() && !fields.iter().any(|field| field.variant == head) {
-        return Err(wrong_variant(parent, head, fields));
+    let (parent, name) = (field.parent(), field.last());
+    let variant = outline.variant(parent);
+    if field.variant.is_some() && !fields.iter().any(|field| field.variant == variant) {
+        return Err(wrong_variant(parent, variant, fields));
     }
-    let grouped = format!("({}: {value})", field.last());
-    match (outline.body(parent), outline.find(parent)) {
-        (Some(body), _) => Ok(insert_entry(text, outline, body, field, value)),
-        (None, Some(place)) if &text[place.value.clone()] == "None" => {
-            Ok(apply(text, vec![(place.value, grouped)]))
-        }
-        (None, Some(_)) => Err(format!("{parent} has no fields here")),
+    let group = format!("({name}: {value})");
+    match (outline.opening(parent), outline.written(parent)) {
+        (None, Some("None")) => outline.replace(parent, &group),
         (None, None) if parent.is_empty() => Err("the scene is not a group of fields".into()),
-        (None, None) => set(text, parent, &grouped),
+        (None, None) => set(text, parent, &group),
+        _ => {
+            let siblings = FIELDS.iter().filter(|field| field.parent() == parent);
+            let order: Vec<&str> = siblings.map(|field| field.last()).collect();
+            outline.insert(parent, name, value, &order)
+        }
     }
 }
 
-/// Says how to get the variant that has the field.
+/// Message that names the values of the choice that have the field.
 fn wrong_variant(parent: &str, head: Option<&str>, fields: &[&Field]) -> String {
     let choices = FIELDS.iter().find(|field| field.path == parent).map(|field| field.range);
     let Some(super::range::Range::Choice(choices)) = choices else {
@@ -111,80 +92,6 @@ fn wrong_variant(parent: &str, head: Option<&str>, fields: &[&Field]) -> String 
         _ => format!("there is no {parent}"),
     };
     format!("{here}: set {}", with_it.collect::<Vec<_>>().join(" or "))
-}
-
-/// Inserts `name: value` where the table has it: after the last of the fields that come before it.
-fn insert_entry(text: &str, outline: &Outline, body: Body, field: &Field, value: &str) -> String {
-    let rank = |name: Option<&str>| {
-        FIELDS.iter().position(|other| other.parent() == field.parent() && Some(other.last()) == name)
-    };
-    let here = rank(Some(field.last()));
-    let entries: Vec<Entry> = outline.entries(body).collect();
-    let before = entries.iter().filter(|entry| rank(entry.name) < here).max_by_key(|entry| rank(entry.name));
-    let new = format!("{}: {value}", field.last());
-    let inside = outline.inside(body);
-    let Some(anchor) = before.or(entries.last()) else {
-        return apply(text, vec![(inside.start..inside.start, new)]);
-    };
-    let after = anchor.comma.unwrap_or(anchor.place.value.end);
-    let next = entries.iter().map(|entry| entry.place.entry.start).find(|start| *start >= after);
-    let gap = after..next.unwrap_or(inside.end);
-    apply(text, edits_after(text, anchor, gap, &new))
-}
-
-/// The edits that put an entry after another one, in the way the other one is written: on a line of
-/// its own, after the comment on the line before, or on the same line.
-fn edits_after(text: &str, anchor: &Entry, gap: Range<usize>, new: &str) -> Vec<(Range<usize>, String)> {
-    let comma = if anchor.comma.is_some() { "," } else { "" };
-    let at = |offset: usize, text: String| (offset..offset, text);
-    let own_line = indentation(text, anchor.place.entry.start);
-    match (own_line, line_break(text, gap.clone())) {
-        (Some(indentation), Some(end)) => {
-            let newline = if text[..end].ends_with('\r') { "\r\n" } else { "\n" };
-            let end = end + 1 - newline.len();
-            let missing_comma = if anchor.comma.is_some() { "" } else { "," };
-            vec![
-                at(anchor.place.value.end, missing_comma.into()),
-                at(end, format!("{newline}{indentation}{new}{comma}")),
-            ]
-        }
-        _ if anchor.comma.is_some() => vec![at(gap.start, format!(" {new},"))],
-        _ => vec![at(gap.start, format!(", {new}"))],
-    }
-}
-
-/// The blanks before a byte, if nothing else stands before it on its line and it is not the first.
-fn indentation(text: &str, offset: usize) -> Option<&str> {
-    let line = text[..offset].rfind('\n')? + 1;
-    let before = &text[line..offset];
-    before.chars().all(|c| matches!(c, ' ' | '\t')).then_some(before)
-}
-
-/// The first line break in a stretch of blanks and comments that is not inside a block comment.
-fn line_break(text: &str, gap: Range<usize>) -> Option<usize> {
-    let mut at = gap.start;
-    while at < gap.end {
-        if let Some(end) = comment_end(text, at).ok()? {
-            at = end;
-            continue;
-        }
-        let c = text[at..].chars().next()?;
-        if c == '\n' {
-            return Some(at);
-        }
-        at += c.len_utf8();
-    }
-    None
-}
-
-/// Applies edits that do not overlap.
-fn apply(text: &str, mut edits: Vec<(Range<usize>, String)>) -> String {
-    edits.sort_by_key(|(range, _)| range.start);
-    let mut text = text.to_string();
-    for (range, new) in edits.into_iter().rev() {
-        text.replace_range(range, &new);
-    }
-    text
 }
 
 #[cfg(test)]

@@ -1,0 +1,86 @@
+//! Measured surfaces.
+
+use super::assert_message;
+use asperity::spectrum::{Options, analyse};
+use asperity::topography::{Grid, Missing, ReadOptions, Topography, TopographyError, Unit, parse};
+
+/// Most points of a surface that is analysed as well, so that no input takes long.
+const MOST_ANALYSED: usize = 128;
+
+/// A surface that is read has finite heights at ascending positions and gives a spectrum or a reason; one that is refused
+/// is refused with its place and what is allowed, whatever the user states.
+pub fn surface(bytes: &[u8]) {
+    let stated = ReadOptions {
+        unit: Some(Unit::METRE),
+        height_unit: None,
+        spacing: Some(1.0e-6),
+        missing: Missing::Interpolate,
+        channel: None,
+    };
+    let unstated = ReadOptions { missing: Missing::Interpolate, ..ReadOptions::default() };
+    let mut read = Vec::new();
+    for options in [ReadOptions::default(), unstated, stated, ReadOptions { channel: Some(0), ..stated }] {
+        match parse(bytes, &options) {
+            Ok(surface) => {
+                assert_surface(&surface);
+                read.push(surface);
+            }
+            Err(error) => assert_error(&error),
+        }
+    }
+    // What a user adds changes nothing that the file states.
+    if let [first, second, ..] = &read[..] {
+        assert_eq!((first.format(), first.columns()), (second.format(), second.columns()));
+    }
+    if let Some(surface) = read.pop().filter(|surface| surface.heights().len() <= MOST_ANALYSED) {
+        assert_analysis(surface);
+    }
+}
+
+fn assert_error(error: &TopographyError) {
+    let message = error.to_string();
+    assert_message(&message);
+    match error {
+        TopographyError::Content { fault, allowed, .. } => {
+            assert!(!fault.is_empty() && !allowed.is_empty(), "{message}");
+        }
+        TopographyError::Read(_) | TopographyError::OutOfMemory { .. } => {}
+    }
+}
+
+fn assert_surface(surface: &Topography) {
+    let heights = surface.heights();
+    assert_eq!(heights.len(), surface.columns() * surface.rows());
+    assert!(heights.len() >= 2 && surface.interpolated() <= heights.len());
+    assert!(heights.iter().all(|height| height.abs() <= 1e9), "{heights:?}");
+    match surface.grid() {
+        Grid::Positions(positions) => {
+            assert_eq!(positions.len(), heights.len());
+            assert!(positions.windows(2).all(|pair| pair[0] < pair[1]), "{positions:?}");
+        }
+        Grid::Profile { spacing } => assert!(*spacing > 0.0 && spacing.is_finite()),
+        Grid::Map { spacing, .. } => assert!(spacing.iter().all(|one| *one > 0.0 && one.is_finite())),
+    }
+}
+
+fn assert_analysis(surface: Topography) {
+    let points = surface.heights().len();
+    let surface = surface.resampled().unwrap_or_else(|error| panic!("{error}"));
+    assert_eq!(surface.heights().len(), points);
+    match analyse(&[surface], &Options { tip_radius: Some(1e-8), ..Options::default() }) {
+        Ok(analysis) => {
+            let line =
+                [analysis.line.rms_height, analysis.line.rms_gradient, analysis.line.energy_per_modulus];
+            assert!(
+                line.iter().all(|estimate| estimate.value > 0.0 && estimate.value.is_finite()),
+                "{line:?}"
+            );
+            assert!(
+                line.iter().all(|estimate| estimate.error >= 0.0 && estimate.error.is_finite()),
+                "{line:?}"
+            );
+            assert!(analysis.isotropic.nodes().all(|(q, c2d, _)| q > 0.0 && c2d >= 0.0));
+        }
+        Err(error) => assert_message(&error.to_string()),
+    }
+}

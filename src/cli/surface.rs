@@ -1,0 +1,204 @@
+//! `asperity surface`: measured surfaces, their statistics and spectrum, and the equivalent line.
+
+use super::{CliError, OutputArguments};
+use crate::export::{SurfaceFile, surface_text, write_surface_csv, write_surface_json};
+use crate::scene::parse_quantity;
+use crate::spectrum::{Analysis, Detrend, End, Options, SpectrumError, analyse};
+use crate::text::path_name;
+use crate::topography::{Missing, ReadOptions, Topography, Unit, read};
+use clap::{Args, ValueEnum};
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+const EXAMPLES: &str = "\
+Examples:
+  asperity surface stylus.txt --unit um
+  asperity surface afm.gwy --tip-radius 10nm --modulus 2.7MPa
+  asperity surface a.x3p b.x3p c.x3p --format json -o surface.json
+  asperity surface profile.csv --unit um -o spectrum.csv
+
+Files are profiles or maps: text in columns or as a matrix, SDF, GSF, NumPy, X3P, GWY, SUR, and
+these in gzip. Several files are samples of the same roughness. A profile is a cut through the
+surface; the equivalent line is what the contact computation needs.";
+
+/// Arguments of `surface`.
+#[derive(Args, Debug)]
+#[command(after_help = EXAMPLES)]
+pub struct SurfaceArguments {
+    /// Files of profiles or maps
+    #[arg(required = true, value_name = "FILE")]
+    pub files: Vec<PathBuf>,
+    /// How the files are read.
+    #[command(flatten)]
+    pub reading: ReadingArguments,
+    /// How they are analysed.
+    #[command(flatten)]
+    pub analysis: AnalysisArguments,
+    /// summary, json or csv; default: by the extension of FILE, else summary
+    ///
+    /// A summary is text for a person. JSON is one object with statistics, fit, spectra and warnings.
+    /// CSV holds the spectra: spectrum,wave_number,power,waves.
+    #[arg(long, value_enum, hide_possible_values = true, verbatim_doc_comment)]
+    pub format: Option<SurfaceFormat>,
+    /// Where the results go.
+    #[command(flatten)]
+    pub output: OutputArguments,
+}
+
+/// Reading of files that leave something open.
+#[derive(Args, Debug)]
+pub struct ReadingArguments {
+    /// Unit of lengths where a file states none: m, cm, mm, um, nm, Å, pm
+    #[arg(long)]
+    pub unit: Option<Unit>,
+    /// Unit of heights where a file states none; default: as --unit
+    #[arg(long, value_name = "UNIT")]
+    pub height_unit: Option<Unit>,
+    /// Distance between points where a file states none, as 0.5um
+    #[arg(long, value_name = "LENGTH", value_parser = length)]
+    pub spacing: Option<f64>,
+    /// Fill missing points from their neighbours
+    #[arg(long)]
+    pub interpolate: bool,
+    /// Resample profiles with uneven distances, linearly, at their mean distance
+    #[arg(long)]
+    pub resample: bool,
+    /// Number of the channel of files with several
+    #[arg(long, value_name = "NUMBER")]
+    pub channel: Option<u32>,
+}
+
+/// Analysis of surfaces.
+#[derive(Args, Debug)]
+pub struct AnalysisArguments {
+    /// Part that is removed before: none, mean, tilt or curvature
+    #[arg(long, value_enum, default_value = "tilt", hide_possible_values = true)]
+    pub detrend: DetrendArgument,
+    /// The surface repeats itself at its borders: no window
+    #[arg(long)]
+    pub periodic: bool,
+    /// Shortest wavelength down to which the spectrum continues as a power law; default: it ends at the last resolved wave
+    #[arg(long, value_name = "LENGTH", value_parser = length)]
+    pub continue_to: Option<f64>,
+    /// Radius of the tip that measured the surface, as 10nm: gives the reliability cut-off
+    #[arg(long, value_name = "LENGTH", value_parser = length)]
+    pub tip_radius: Option<f64>,
+    /// Effective modulus E*, as 2.7MPa: gives the elastic energy of full contact
+    #[arg(long, value_name = "PRESSURE", value_parser = pressure)]
+    pub modulus: Option<f64>,
+}
+
+/// Detrending.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum DetrendArgument {
+    /// Nothing.
+    None,
+    /// Mean height.
+    Mean,
+    /// Mean height and tilt.
+    Tilt,
+    /// Mean height, tilt and curvature.
+    Curvature,
+}
+
+/// Form of the results.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum SurfaceFormat {
+    /// Text for a person.
+    Summary,
+    /// One object with everything.
+    Json,
+    /// The spectra.
+    Csv,
+}
+
+impl ReadingArguments {
+    fn options(&self) -> ReadOptions {
+        ReadOptions {
+            unit: self.unit,
+            height_unit: self.height_unit,
+            spacing: self.spacing,
+            missing: if self.interpolate { Missing::Interpolate } else { Missing::Refuse },
+            channel: self.channel,
+        }
+    }
+
+    fn read(&self, file: &Path) -> Result<Topography, CliError> {
+        let refused = |error| CliError::Surface { file: path_name(file), error };
+        let surface = read(file, &self.options()).map_err(refused)?;
+        if self.resample { surface.resampled().map_err(refused) } else { Ok(surface) }
+    }
+}
+
+impl AnalysisArguments {
+    fn options(&self) -> Options {
+        Options {
+            detrend: match self.detrend {
+                DetrendArgument::None => Detrend::None,
+                DetrendArgument::Mean => Detrend::Mean,
+                DetrendArgument::Tilt => Detrend::Tilt,
+                DetrendArgument::Curvature => Detrend::Curvature,
+            },
+            periodic: self.periodic,
+            end: self.continue_to.map_or(End::Ends, |length| End::Continues(std::f64::consts::TAU / length)),
+            tip_radius: self.tip_radius,
+        }
+    }
+}
+
+impl SurfaceArguments {
+    fn chosen_format(&self) -> SurfaceFormat {
+        self.format.unwrap_or_else(|| match self.output.file().and_then(|path| path.extension()?.to_str()) {
+            Some("json") => SurfaceFormat::Json,
+            Some("csv") => SurfaceFormat::Csv,
+            _ => SurfaceFormat::Summary,
+        })
+    }
+}
+
+/// Reads and analyses the files and writes the results.
+pub(super) fn surface(arguments: &SurfaceArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
+    arguments.output.check()?;
+    let (mut surfaces, mut files) = (Vec::new(), Vec::new());
+    for file in &arguments.files {
+        let surface = arguments.reading.read(file)?;
+        files.push(SurfaceFile::new(file.clone(), &surface));
+        surfaces.push(surface);
+    }
+    let analysis = analysed(arguments, &surfaces)?;
+    let modulus = arguments.analysis.modulus;
+    arguments.output.write(stdout, |out| match arguments.chosen_format() {
+        SurfaceFormat::Summary => out.write_all(surface_text(&files, &analysis, modulus).as_bytes()),
+        SurfaceFormat::Json => write_surface_json(out, &files, &analysis, modulus),
+        SurfaceFormat::Csv => write_surface_csv(out, &analysis),
+    })
+}
+
+fn analysed(arguments: &SurfaceArguments, surfaces: &[Topography]) -> Result<Analysis, CliError> {
+    analyse(surfaces, &arguments.analysis.options()).map_err(|error| {
+        let index = match &error {
+            SpectrumError::Surface { index, .. } | SpectrumError::TooFew { index, .. } => *index,
+            _ => 0,
+        };
+        let file = arguments.files.get(index).map_or_else(String::new, |file| path_name(file));
+        CliError::Spectrum { file, error }
+    })
+}
+
+/// Length above 0, m.
+fn length(text: &str) -> Result<f64, String> {
+    positive(text, "m")
+}
+
+/// Pressure above 0, Pa.
+fn pressure(text: &str) -> Result<f64, String> {
+    positive(text, "Pa")
+}
+
+fn positive(text: &str, unit: &str) -> Result<f64, String> {
+    match parse_quantity(text, unit) {
+        Ok(value) if value > 0.0 => Ok(value),
+        Ok(_) => Err(format!("allowed: above 0 {unit}")),
+        Err(error) => Err(error.to_string()),
+    }
+}

@@ -1,0 +1,261 @@
+//! Analysed surfaces: text for people, JSON and CSV for programs.
+
+use super::sheet::Sheet;
+use crate::io::write_json_value;
+use crate::scene::format_quantity;
+use crate::spectrum::{Analysis, Bin, End, Estimate, LineMoments};
+use crate::text::{grouped, path_name};
+use crate::topography::Topography;
+use serde::Serialize;
+use serde_json::{Value, json};
+use std::io::{self, Write};
+use std::path::PathBuf;
+
+/// Points of the equivalent line's spectrum in CSV, for each decade.
+const LINE_PER_DECADE: f64 = 10.0;
+
+/// A surface and the file it came from.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SurfaceFile {
+    /// File.
+    pub path: PathBuf,
+    /// Format.
+    pub format: &'static str,
+    /// Points of a row, and rows.
+    pub points: [usize; 2],
+    /// Lengths along and between rows, m; of a profile the first alone.
+    pub lengths: [f64; 2],
+    /// Points with heights from their neighbours.
+    pub interpolated: usize,
+}
+
+impl SurfaceFile {
+    /// Facts of a surface with points at even distances; lengths of others are 0.
+    #[must_use]
+    pub fn new(path: PathBuf, surface: &Topography) -> Self {
+        let points = [surface.columns(), surface.rows()];
+        let spacing = surface.spacing().unwrap_or_default();
+        SurfaceFile {
+            path,
+            format: surface.format().name(),
+            points,
+            lengths: [0, 1].map(|axis| points[axis] as f64 * spacing[axis]),
+            interpolated: surface.interpolated(),
+        }
+    }
+}
+
+impl SurfaceFile {
+    /// One axis of a profile, two of a map.
+    fn axes(&self) -> usize {
+        if self.points[1] > 1 { 2 } else { 1 }
+    }
+}
+
+/// Analysed surfaces in plain text. `modulus` is the effective modulus, Pa, for the elastic energy.
+#[must_use]
+pub fn surface_text(files: &[SurfaceFile], analysis: &Analysis, modulus: Option<f64>) -> String {
+    let mut sheet = Sheet::default();
+    sheet.heading("Measured surface");
+    for file in files {
+        sheet.row("file", describe(file));
+    }
+    measured(&mut sheet, analysis);
+    sheet.heading("Self-affine fit");
+    match &analysis.power_law {
+        None => sheet.row("fit", "none converges"),
+        Some(fit) => {
+            sheet.row("Hurst exponent H", with_error(fit.hurst, "1"));
+            let wavelength = fit.roll_off.map(|roll_off| {
+                let length = std::f64::consts::TAU / roll_off.value;
+                let error = length * roll_off.error / roll_off.value;
+                with_error(Estimate { value: length, error }, "m")
+            });
+            sheet.row(
+                "roll-off wavelength",
+                wavelength.unwrap_or_else(|| "none found inside the scan".to_owned()),
+            );
+        }
+    }
+    sheet.heading("Equivalent line");
+    line(&mut sheet, &analysis.line, modulus);
+    let [low, high] = analysis.isotropic.range();
+    let wave = |q: f64| format_quantity(std::f64::consts::TAU / q, "m");
+    let end = match analysis.end {
+        End::Ends => "the last resolved wave; shorter ones are left out",
+        End::Continues(_) => "continued as a power law",
+    };
+    sheet.row("wavelengths", format!("{} to {} ({end})", wave(low), wave(high)));
+    sheet.row("accuracy", analysis.promise());
+    let cut = analysis.line.of_cut();
+    let energy = 100.0 * cut.energy_per_modulus.value / analysis.line.energy_per_modulus.value;
+    let gradient = format_quantity(cut.rms_gradient.value, "1");
+    sheet.row("a profile as the line", format!("⟨∇z⟩ = {gradient} and {energy:.0} % of the elastic energy"));
+    let warnings = analysis.warnings();
+    if !warnings.is_empty() {
+        sheet.heading("Warnings");
+        warnings.iter().for_each(|warning| sheet.row("", warning));
+    }
+    sheet.into_text().trim_start_matches('\n').to_owned()
+}
+
+fn describe(file: &SurfaceFile) -> String {
+    let [columns, rows] = file.points;
+    let length = |axis: usize| format_quantity(file.lengths[axis], "m");
+    let shape = if rows > 1 {
+        format!(
+            "map of {} × {} points, {} × {}",
+            grouped(columns as u64),
+            grouped(rows as u64),
+            length(0),
+            length(1)
+        )
+    } else {
+        format!("profile of {} points, {}", grouped(columns as u64), length(0))
+    };
+    let interpolated = match file.interpolated {
+        0 => String::new(),
+        some => format!(", {:.2} % interpolated", 100.0 * some as f64 / (columns * rows) as f64),
+    };
+    format!("{} ({}): {shape}{interpolated}", path_name(&file.path), file.format)
+}
+
+fn measured(sheet: &mut Sheet, analysis: &Analysis) {
+    let statistics = &analysis.statistics;
+    sheet.row("rms height Rq, Sq", format_quantity(statistics.rms_height, "m"));
+    sheet.row("rms slope RΔq", format_quantity(statistics.rms_slope, "1"));
+    sheet.row_of("rms gradient Sdq", statistics.rms_gradient.map(|gradient| format_quantity(gradient, "1")));
+    sheet.row("skewness", format_quantity(statistics.skewness, "1"));
+    sheet.row("kurtosis", format!("{} (3: normal)", format_quantity(statistics.kurtosis, "1")));
+    sheet.row_of(
+        "reliability cut-off",
+        analysis.reliability_cutoff.map(|length| format_quantity(length, "m")),
+    );
+}
+
+fn line(sheet: &mut Sheet, moments: &LineMoments, modulus: Option<f64>) {
+    sheet.row("rms height h", with_error(moments.rms_height, "m"));
+    sheet.row("rms gradient ⟨∇z⟩", with_error(moments.rms_gradient, "1"));
+    let energy = moments.energy_per_modulus;
+    match modulus {
+        None => sheet.row("e_el/E*", with_error(energy, "m")),
+        Some(modulus) => {
+            let energy = Estimate { value: modulus * energy.value, error: modulus * energy.error };
+            sheet.row("elastic energy e_el", with_error(energy, "J/m²"));
+        }
+    }
+}
+
+fn with_error(estimate: Estimate, unit: &str) -> String {
+    let share = 100.0 * estimate.error / estimate.value.abs();
+    format!("{} ± {} %", format_quantity(estimate.value, unit), format_quantity(share, "1"))
+}
+
+/// Writes analysed surfaces as one JSON object.
+///
+/// # Errors
+/// Those of `out`.
+pub fn write_surface_json(
+    out: &mut (impl Write + ?Sized),
+    files: &[SurfaceFile],
+    analysis: &Analysis,
+    modulus: Option<f64>,
+) -> io::Result<()> {
+    write_json_value(out, &Report::new(files, analysis, modulus))
+}
+
+/// The object; its keys are in the order of these fields. SI units.
+#[derive(Serialize)]
+struct Report {
+    version: &'static str,
+    files: Vec<Value>,
+    points: usize,
+    rms_height: f64,
+    rms_slope: f64,
+    rms_gradient: Option<f64>,
+    skewness: f64,
+    kurtosis: f64,
+    reliability_cutoff: Option<f64>,
+    hurst_exponent: Value,
+    roll_off_wave_number: Value,
+    equivalent_line: Value,
+    spectrum: Vec<Value>,
+    profile_spectra: Vec<Value>,
+    accuracy: &'static str,
+    warnings: Vec<String>,
+}
+
+impl Report {
+    fn new(files: &[SurfaceFile], analysis: &Analysis, modulus: Option<f64>) -> Self {
+        let statistics = &analysis.statistics;
+        let fit = analysis.power_law;
+        let moments = &analysis.line;
+        let energy = moments.energy_per_modulus;
+        let energy =
+            modulus.map(|modulus| Estimate { value: modulus * energy.value, error: modulus * energy.error });
+        let file = |file: &SurfaceFile| {
+            json!({
+                "file": file.path.to_string_lossy(), "format": file.format, "points": &file.points[..file.axes()],
+                "lengths": &file.lengths[..file.axes()], "interpolated": file.interpolated,
+            })
+        };
+        let nodes = analysis.isotropic.nodes().map(|(wave_number, c2d, error)| {
+            json!({
+                "wave_number": wave_number, "c2d": c2d, "relative_error": error,
+                "line": analysis.isotropic.line(wave_number),
+            })
+        });
+        let spectra = analysis.spectra.iter().map(|(direction, bins)| {
+            let bin =
+                |bin: &Bin| json!({"wave_number": bin.wave_number, "power": bin.power, "waves": bin.waves});
+            json!({"name": direction.name(), "bins": bins.iter().map(bin).collect::<Vec<_>>()})
+        });
+        Report {
+            version: env!("CARGO_PKG_VERSION"),
+            files: files.iter().map(file).collect(),
+            points: statistics.points,
+            rms_height: statistics.rms_height,
+            rms_slope: statistics.rms_slope,
+            rms_gradient: statistics.rms_gradient,
+            skewness: statistics.skewness,
+            kurtosis: statistics.kurtosis,
+            reliability_cutoff: analysis.reliability_cutoff,
+            hurst_exponent: estimate(fit.map(|fit| fit.hurst)),
+            roll_off_wave_number: estimate(fit.and_then(|fit| fit.roll_off)),
+            equivalent_line: json!({
+                "rms_height": estimate(Some(moments.rms_height)),
+                "rms_gradient": estimate(Some(moments.rms_gradient)),
+                "energy_per_modulus": estimate(Some(moments.energy_per_modulus)),
+                "elastic_energy": estimate(energy),
+            }),
+            spectrum: nodes.collect(),
+            profile_spectra: spectra.collect(),
+            accuracy: analysis.promise(),
+            warnings: analysis.warnings(),
+        }
+    }
+}
+
+fn estimate(estimate: Option<Estimate>) -> Value {
+    estimate.map_or(Value::Null, |estimate| json!({"value": estimate.value, "error": estimate.error}))
+}
+
+/// Writes spectra as CSV: kind, wave number in rad/m, power in m³, waves averaged (empty for the equivalent line).
+///
+/// # Errors
+/// Those of `out`.
+pub fn write_surface_csv(out: &mut (impl Write + ?Sized), analysis: &Analysis) -> io::Result<()> {
+    writeln!(out, "spectrum,wave_number,power,waves")?;
+    for (direction, bins) in &analysis.spectra {
+        for Bin { wave_number, power, waves } in bins {
+            writeln!(out, "{},{wave_number:?},{power:?},{waves}", direction.name())?;
+        }
+    }
+    let [low, high] = analysis.isotropic.range();
+    let pieces = (LINE_PER_DECADE * (high / low).log10()).ceil().max(1.0) as i32;
+    for piece in 0..=pieces {
+        let wave_number = (low * (high / low).powf(f64::from(piece) / f64::from(pieces))).min(high);
+        writeln!(out, "equivalent line,{wave_number:?},{:?},", analysis.isotropic.line(wave_number))?;
+    }
+    Ok(())
+}

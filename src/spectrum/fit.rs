@@ -1,0 +1,160 @@
+//! Spectrum of the largest penalised likelihood (Whittle): powers of waves are exponentially distributed about their means.
+//!
+//! Over the values x = ln C2D at the nodes, Σ w (P/m + ln m) + λ Σ (x_{i−1} − 2x_i + x_{i+1})² is minimised, with the
+//! observed powers P of w waves and their means m(x). Steps are those of Fisher's scoring, halved until they descend.
+
+use super::isotropic::{End, IsotropicSpectrum, Nodes};
+use super::linear::Cholesky;
+use super::observation::{Observation, Term};
+
+/// Weight λ of the second differences.
+const SMOOTHNESS: f64 = 1.0;
+
+/// Nodes of a decade.
+const NODES_PER_DECADE: f64 = 6.0;
+
+/// Most steps, and the decrease of the objective at which the search ends.
+const MOST_STEPS: usize = 200;
+const SMALL_DECREASE: f64 = 1e-9;
+
+/// Largest change of a value in a step.
+const LARGEST_STEP: f64 = 1.5;
+
+/// Observations with the terms of their means.
+pub(super) struct Model<'a> {
+    pub observations: &'a [Observation],
+    pub terms: Vec<Vec<Term>>,
+    pub nodes: Nodes,
+}
+
+impl<'a> Model<'a> {
+    /// Model with nodes from the smallest to the largest observed wave number, half a wave included.
+    pub fn new(observations: &'a [Observation], [low, high]: [f64; 2], end: End) -> Self {
+        let nodes = Nodes::new(low, high, NODES_PER_DECADE, end);
+        let terms = observations.iter().map(|observation| observation.terms(&nodes, end)).collect();
+        Model { observations, terms, nodes }
+    }
+
+    /// Objective without the penalty, of means.
+    pub fn misfit(&self, means: impl Iterator<Item = f64>) -> f64 {
+        let each = self.observations.iter().zip(means);
+        each.map(|(observed, mean)| observed.waves * (observed.power / mean + mean.ln())).sum()
+    }
+
+    fn means<'b>(&'b self, values: &'b [f64]) -> impl Iterator<Item = f64> + 'b {
+        self.terms.iter().map(|terms| terms.iter().map(|term| value(term, values)).sum::<f64>())
+    }
+
+    fn objective(&self, values: &[f64]) -> f64 {
+        let rough: f64 = values.windows(3).map(|x| (x[0] - 2.0 * x[1] + x[2]).powi(2)).sum();
+        self.misfit(self.means(values)) + SMOOTHNESS * rough
+    }
+
+    /// Gradient and information matrix of the objective.
+    fn linearise(&self, values: &[f64]) -> (Vec<f64>, Vec<f64>) {
+        let count = values.len();
+        let (mut gradient, mut information) = (vec![0.0; count], vec![0.0; count * count]);
+        let mut slope = vec![0.0; count];
+        for (observed, terms) in self.observations.iter().zip(&self.terms) {
+            slope.fill(0.0);
+            let mut mean = 0.0;
+            for term in terms {
+                let value = value(term, values);
+                mean += value;
+                slope[term.index] += (1.0 - term.share) * value;
+                slope[term.index + 1] += term.share * value;
+            }
+            slope.iter_mut().for_each(|slope| *slope /= mean);
+            let residual = observed.waves * (1.0 - observed.power / mean);
+            for row in 0..count {
+                gradient[row] += residual * slope[row];
+                for column in 0..=row {
+                    information[row * count + column] += observed.waves * slope[row] * slope[column];
+                }
+            }
+        }
+        for (first, x) in values.windows(3).enumerate() {
+            let difference = x[0] - 2.0 * x[1] + x[2];
+            for (row, a) in [1.0, -2.0, 1.0].into_iter().enumerate() {
+                gradient[first + row] += 2.0 * SMOOTHNESS * a * difference;
+                for (column, b) in [1.0, -2.0, 1.0].into_iter().enumerate().take(row + 1) {
+                    information[(first + row) * count + first + column] += 2.0 * SMOOTHNESS * a * b;
+                }
+            }
+        }
+        (gradient, information)
+    }
+
+    /// Values to begin with: powers of cuts as if C2D were a power law with the exponent −3, level where nothing is
+    /// observed.
+    fn start(&self) -> Vec<f64> {
+        let count = self.nodes.count;
+        let mut sums = vec![(0.0, 0.0); count];
+        for (observed, terms) in self.observations.iter().zip(&self.terms) {
+            // The mean of a spectrum of ones normalises.
+            let weight: f64 = terms
+                .iter()
+                .map(|term| term.weight * ((observed.wave_number.ln() - term.ln_q) * 3.0).exp())
+                .sum();
+            if observed.power > 0.0 && weight > 0.0 {
+                let (index, share) = self.nodes.place(observed.wave_number.ln());
+                let nearest = if share < 0.5 { index } else { (index + 1).min(count - 1) };
+                sums[nearest].0 += observed.waves * (observed.power / weight).ln();
+                sums[nearest].1 += observed.waves;
+            }
+        }
+        let known: Vec<(usize, f64)> = sums
+            .iter()
+            .enumerate()
+            .filter(|(_, sum)| sum.1 > 0.0)
+            .map(|(index, sum)| (index, sum.0 / sum.1))
+            .collect();
+        let between = |index: usize| {
+            let after = known.iter().find(|(place, _)| *place >= index);
+            let before = known.iter().rev().find(|(place, _)| *place <= index);
+            match (before, after) {
+                (Some((i, a)), Some((j, b))) if i < j => a + (b - a) * (index - i) as f64 / (j - i) as f64,
+                (Some((_, value)), _) | (None, Some((_, value))) => *value,
+                (None, None) => 0.0,
+            }
+        };
+        (0..count).map(between).collect()
+    }
+
+    /// Spectrum of the smallest objective; `None` where the information matrix is not positive definite, as for powers
+    /// that are zero or not finite.
+    pub fn fit(&self) -> Option<IsotropicSpectrum> {
+        let mut values = self.start();
+        let mut objective = self.objective(&values);
+        for _ in 0..MOST_STEPS {
+            let (gradient, information) = self.linearise(&values);
+            let factor = Cholesky::new(information, values.len())?;
+            let mut step = factor.solve(gradient);
+            let largest = step.iter().fold(0.0_f64, |largest, change| largest.max(change.abs()));
+            if largest > LARGEST_STEP {
+                step.iter_mut().for_each(|change| *change *= LARGEST_STEP / largest);
+            }
+            let mut decrease = 0.0;
+            for halvings in 0..30 {
+                let share = 0.5_f64.powi(halvings);
+                let next: Vec<f64> = values.iter().zip(&step).map(|(x, change)| x - share * change).collect();
+                let found = self.objective(&next);
+                if found < objective {
+                    decrease = objective - found;
+                    (values, objective) = (next, found);
+                    break;
+                }
+            }
+            if decrease <= SMALL_DECREASE * objective.abs().max(1.0) {
+                break;
+            }
+        }
+        let (_, information) = self.linearise(&values);
+        let information = Cholesky::new(information, values.len())?;
+        Some(IsotropicSpectrum { nodes: self.nodes, values, information })
+    }
+}
+
+fn value(term: &Term, values: &[f64]) -> f64 {
+    term.weight * ((1.0 - term.share) * values[term.index] + term.share * values[term.index + 1]).exp()
+}

@@ -1,0 +1,246 @@
+//! Isotropic spectra C2D(q) between nodes, and their equivalent lines.
+
+use super::linear::Cholesky;
+use std::f64::consts::{FRAC_PI_2, PI, SQRT_2};
+
+/// Nodes and weights of Gauss and Legendre's rule on (−1, 1), half of them: errors below 1e-9 for the pieces used here.
+const GAUSS: [(f64, f64); 3] = [
+    (0.238_619_186_083_196_9, 0.467_913_934_572_691),
+    (0.661_209_386_466_264_5, 0.360_761_573_048_138_6),
+    (0.932_469_514_203_152, 0.171_324_492_379_170_36),
+];
+
+/// Points and weights of the rule on a piece.
+pub(super) fn gauss(low: f64, high: f64) -> impl Iterator<Item = (f64, f64)> {
+    let (middle, half) = (0.5 * (low + high), 0.5 * (high - low));
+    GAUSS
+        .into_iter()
+        .flat_map(move |(place, weight)| [-place, place].map(|place| (middle + half * place, half * weight)))
+}
+
+/// End of a spectrum beyond the last resolved wave.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum End {
+    /// No waves beyond it.
+    #[default]
+    Ends,
+    /// Waves continue as the power law of the last decade part up to a wave number, rad/m.
+    Continues(f64),
+}
+
+/// Value with its standard error.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Estimate {
+    /// Value.
+    pub value: f64,
+    /// Standard error.
+    pub error: f64,
+}
+
+/// Moments of the equivalent line of a spectrum.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LineMoments {
+    /// Rms height h, m.
+    pub rms_height: Estimate,
+    /// Rms gradient ⟨∇z⟩.
+    pub rms_gradient: Estimate,
+    /// Elastic energy of full contact over the effective modulus, e_el/E*, m.
+    pub energy_per_modulus: Estimate,
+}
+
+impl LineMoments {
+    /// Moments of a cut through the same surface: a measured profile.
+    #[must_use]
+    pub fn of_cut(self) -> LineMoments {
+        let divided =
+            |estimate: Estimate, by: f64| Estimate { value: estimate.value / by, error: estimate.error / by };
+        LineMoments {
+            rms_height: self.rms_height,
+            rms_gradient: divided(self.rms_gradient, SQRT_2),
+            energy_per_modulus: divided(self.energy_per_modulus, FRAC_PI_2),
+        }
+    }
+}
+
+/// Nodes at even distances of ln q.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Nodes {
+    /// ln q of the first node.
+    pub first: f64,
+    /// Distance of ln q.
+    pub step: f64,
+    pub count: usize,
+    /// Largest wave number of the spectrum, rad/m; beyond the last node where the spectrum continues.
+    pub end: f64,
+}
+
+impl Nodes {
+    /// Nodes from a wave number to another, so many for each decade, of a spectrum with this end.
+    pub fn new(low: f64, high: f64, per_decade: f64, end: End) -> Self {
+        let decades = (high / low).log10();
+        let pieces = (per_decade * decades).ceil().max(2.0);
+        let first = low.ln();
+        let end = match end {
+            End::Ends => high,
+            End::Continues(end) => end.max(high),
+        };
+        Nodes { first, step: (high / low).ln() / pieces, count: pieces as usize + 1, end }
+    }
+
+    /// Wave number of a node, rad/m.
+    pub fn wave_number(&self, index: usize) -> f64 {
+        (self.first + index as f64 * self.step).exp()
+    }
+
+    /// Node below ln q and the share of the node above: below 0 is the value of the first node, beyond the last node the
+    /// last piece goes on.
+    pub fn place(&self, ln_q: f64) -> (usize, f64) {
+        let place = ((ln_q - self.first) / self.step).max(0.0);
+        let index = (place as usize).min(self.count - 2);
+        (index, place - index as f64)
+    }
+
+    /// Wave numbers between which the spectrum is one power law: the given one, nodes, the end.
+    pub fn pieces_from(&self, low: f64) -> impl Iterator<Item = (f64, f64)> {
+        let last = ((self.end.ln() - self.first) / self.step).ceil() as usize;
+        let first = if low > 0.0 {
+            (((low.ln() - self.first) / self.step).floor() + 1.0).max(0.0) as usize
+        } else {
+            0
+        };
+        let end = self.end;
+        let node = |index: usize| self.wave_number(index).min(end);
+        let mut begin = low.min(end);
+        let bounds: Vec<f64> = (first..=last).map(node).chain([end]).collect();
+        bounds.into_iter().filter_map(move |bound| {
+            let piece = (begin, bound);
+            begin = begin.max(bound);
+            (piece.1 > piece.0).then_some(piece)
+        })
+    }
+}
+
+/// Isotropic spectrum C2D(q), m⁴, of which ln C2D is linear in ln q between nodes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct IsotropicSpectrum {
+    pub(super) nodes: Nodes,
+    /// ln C2D at the nodes.
+    pub(super) values: Vec<f64>,
+    /// Information matrix of the values.
+    pub(super) information: Cholesky,
+}
+
+impl IsotropicSpectrum {
+    /// C2D, m⁴, at a wave number, rad/m. Zero beyond the end; the value of the first node before.
+    #[must_use]
+    pub fn c2d(&self, wave_number: f64) -> f64 {
+        if wave_number > self.nodes.end { 0.0 } else { self.value(wave_number.ln()) }
+    }
+
+    /// PSD of the equivalent line, m³, at a wave number, rad/m: q C2D/2.
+    #[must_use]
+    pub fn line(&self, wave_number: f64) -> f64 {
+        0.5 * wave_number * self.c2d(wave_number)
+    }
+
+    /// First and last wave number, rad/m.
+    #[must_use]
+    pub fn range(&self) -> [f64; 2] {
+        [self.nodes.wave_number(0), self.nodes.end]
+    }
+
+    /// Wave number (rad/m), C2D (m⁴) and standard error of ln C2D at each node.
+    pub fn nodes(&self) -> impl Iterator<Item = (f64, f64, f64)> {
+        self.values.iter().enumerate().map(|(index, value)| {
+            let mut gradient = vec![0.0; self.values.len()];
+            gradient[index] = 1.0;
+            (self.nodes.wave_number(index), value.exp(), self.information.variance(&gradient).sqrt())
+        })
+    }
+
+    fn value(&self, ln_q: f64) -> f64 {
+        let (index, share) = self.nodes.place(ln_q);
+        ((1.0 - share) * self.values[index] + share * self.values[index + 1]).exp()
+    }
+
+    /// ∫ q^power C2D dq over waves from half the first wave number on, and its derivatives by the values.
+    fn moment(&self, power: i32) -> (f64, Vec<f64>) {
+        let (mut sum, mut gradient) = (0.0, vec![0.0; self.values.len()]);
+        for (low, high) in self.nodes.pieces_from(0.5 * self.nodes.wave_number(0)) {
+            for (ln_q, weight) in gauss(low.ln(), high.ln()) {
+                let term = weight * self.value(ln_q) * (f64::from(power + 1) * ln_q).exp();
+                let (index, share) = self.nodes.place(ln_q);
+                sum += term;
+                gradient[index] += (1.0 - share) * term;
+                gradient[index + 1] += share * term;
+            }
+        }
+        (sum, gradient)
+    }
+
+    /// Moments of the equivalent line, with the waves that begin at half the first wave number: wave 1 of a length
+    /// stands for the range from ½ to 1½.
+    #[must_use]
+    pub fn line_moments(&self) -> LineMoments {
+        let estimate = |power: i32, factor: f64, root: bool| {
+            let (sum, gradient) = self.moment(power);
+            let relative = self.information.variance(&gradient).sqrt() / sum;
+            if root {
+                let value = (factor * sum).sqrt();
+                Estimate { value, error: 0.5 * relative * value }
+            } else {
+                Estimate { value: factor * sum, error: relative * factor * sum }
+            }
+        };
+        let two_pi = 0.5 / PI;
+        LineMoments {
+            rms_height: estimate(1, two_pi, true),
+            rms_gradient: estimate(3, two_pi, true),
+            energy_per_modulus: estimate(2, 0.25 * two_pi, false),
+        }
+    }
+}
+
+#[cfg(test)]
+pub(super) mod tests {
+    use super::*;
+
+    /// Spectrum with these values of ln C2D, known exactly.
+    pub fn known(nodes: Nodes, c2d: impl Fn(f64) -> f64) -> IsotropicSpectrum {
+        let values = (0..nodes.count).map(|index| c2d(nodes.wave_number(index)).ln()).collect();
+        let mut identity = vec![0.0; nodes.count * nodes.count];
+        (0..nodes.count).for_each(|index| identity[index * (nodes.count + 1)] = 1.0);
+        IsotropicSpectrum { nodes, values, information: Cholesky::new(identity, nodes.count).unwrap() }
+    }
+
+    #[test]
+    fn pieces_cover_the_spectrum_once() {
+        for end in [End::Ends, End::Continues(5e4)] {
+            let nodes = Nodes::new(1.0, 1000.0, 6.0, end);
+            assert_eq!(nodes.count, 19);
+            for low in [0.0, 0.5, 1.0, 3.3, 999.0] {
+                let pieces: Vec<_> = nodes.pieces_from(low).collect();
+                assert_eq!((pieces[0].0, pieces[pieces.len() - 1].1), (low, nodes.end));
+                assert!(pieces.windows(2).all(|two| two[0].1 == two[1].0), "{pieces:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn moments_of_a_power_law_are_those_of_its_integrals() {
+        // C2D = q⁻³ from 1 on, level below.
+        let spectrum = known(Nodes::new(1.0, 100.0, 6.0, End::Ends), |q| q.powi(-3));
+        let moments = spectrum.line_moments();
+        // ∫ q C2D from ½ to 1 is 3/8, from 1 to 100 it is 1 − 1/100.
+        let expected = ((0.375 + 0.99) / (2.0 * PI)).sqrt();
+        assert!((moments.rms_height.value / expected - 1.0).abs() < 1e-8, "{moments:?}");
+        let expected = ((15.0 / 64.0 + 99.0) / (2.0 * PI)).sqrt();
+        assert!((moments.rms_gradient.value / expected - 1.0).abs() < 1e-8);
+        let expected = (7.0 / 24.0 + 100.0_f64.ln()) / (8.0 * PI);
+        assert!((moments.energy_per_modulus.value / expected - 1.0).abs() < 1e-8);
+        assert_eq!((spectrum.c2d(200.0), spectrum.c2d(0.1)), (0.0, 1.0));
+        assert!((spectrum.line(10.0) / 5e-3 - 1.0).abs() < 1e-12);
+        let further = known(Nodes::new(1.0, 100.0, 6.0, End::Continues(200.0)), |q| q.powi(-3));
+        assert!((further.c2d(200.0) / 1.25e-7 - 1.0).abs() < 1e-12);
+    }
+}

@@ -1,0 +1,33 @@
+//! Spectrum of a measured surface: from profiles and maps to the isotropic spectrum C2D(q) behind them, its equivalent
+//! line, and their uncertainty.
+//!
+//! A measured profile is a cut through a surface, not the line of the method of dimensionality reduction. For an isotropic
+//! surface both follow from one spectrum,
+//!
+//! C_cut(k) = (1/π) ∫₀^∞ C2D(√(k² + t²)) dt,  C_line(q) = q C2D(q)/2,
+//!
+//! so that the line has the rms height of the cut, √2 times its rms gradient and π/2 times its elastic energy. Inverting
+//! one periodogram amplifies its noise; [`fit`] maximises the likelihood of the periodograms instead, over spectra that
+//! are positive and smooth.
+//!
+//! Conventions: wave number q = 2π/wavelength in rad/m; C1D in m³ with h² = (1/π) ∫₀^∞ C1D dq; C2D in m⁴ with
+//! h² = (1/2π) ∫₀^∞ q C2D dq. Steps are described in `docs/surfaces.md`.
+
+mod analysis;
+mod detrend;
+mod fit;
+mod isotropic;
+mod linear;
+mod observation;
+mod periodogram;
+mod power_law;
+mod reliability;
+mod statistics;
+
+pub use analysis::{Analysis, LEAST_POINTS, Options, SpectrumError, analyse};
+pub use detrend::Detrend;
+pub use isotropic::{End, Estimate, IsotropicSpectrum, LineMoments};
+pub use periodogram::{Bin, Direction};
+pub use power_law::PowerLaw;
+pub use reliability::reliability_cutoff;
+pub use statistics::Statistics;

@@ -1,0 +1,233 @@
+//! Observed powers with the model of their means: integrals of the isotropic spectrum.
+
+use super::isotropic::{End, Nodes, gauss};
+use super::periodogram::{MapPower, ProfilePower};
+use std::f64::consts::PI;
+
+/// Waves of a profile that are observed one by one; those beyond are averaged in bands.
+const SINGLE: usize = 32;
+
+/// Bands of a decade: within one a power law with the exponent −3 departs from its mean by 0.1 %.
+const BANDS_PER_DECADE: f64 = 60.0;
+
+/// Waves of a window of Hann are correlated: powers with the squares of 2/3 and 1/6 at distances of 1 and 2 waves. So
+/// many waves count as one.
+const HANN_CORRELATED: f64 = 1.0 + 2.0 * (4.0 / 9.0 + 1.0 / 36.0);
+
+/// Shares of its neighbours in the mean power of a wave under a window of Hann.
+const HANN_SHARES: [(f64, f64); 3] = [(-1.0, 1.0 / 6.0), (0.0, 2.0 / 3.0), (1.0, 1.0 / 6.0)];
+
+/// Most aliases of a wave of which the power is added.
+const MOST_ALIASES: u32 = 4;
+
+/// Mean power of the waves of a band.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Observation {
+    /// Wave number, rad/m.
+    pub wave_number: f64,
+    /// Mean power: C1D in m³ or C2D in m⁴.
+    pub power: f64,
+    /// Number of independent waves.
+    pub waves: f64,
+    pub kind: Kind,
+}
+
+/// Kind of a power.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Kind {
+    /// Of a cut: C1D.
+    Cut {
+        /// Wave number of wave 1, rad/m.
+        step: f64,
+        windowed: bool,
+        /// Nyquist wave number, rad/m.
+        nyquist: f64,
+    },
+    /// Of a map: C2D.
+    Plane {
+        /// Wave numbers of wave 1 along and between rows, rad/m.
+        steps: [f64; 2],
+        windowed: bool,
+    },
+}
+
+/// Bands of the powers of profiles, from wave 1 on, or from wave 2 on under a window: detrending takes from wave 1.
+pub(super) fn of_profiles(power: &ProfilePower) -> Vec<Observation> {
+    let kind = Kind::Cut { step: power.step(), windowed: power.windowed, nyquist: PI / power.spacing };
+    let correlated = if power.windowed { HANN_CORRELATED } else { 1.0 };
+    let first = if power.windowed { 2 } else { 1 };
+    let profiles = power.profiles as f64;
+    let mut observed = Vec::new();
+    let mut low = first;
+    while low <= power.power.len() {
+        let ratio = 10.0_f64.powf(1.0 / BANDS_PER_DECADE);
+        let next = if low <= SINGLE { low + 1 } else { ((low as f64 * ratio) as usize).max(low + 1) };
+        let next = next.min(power.power.len() + 1);
+        let waves = (next - low) as f64;
+        let sum: f64 = power.power[low - 1..next - 1].iter().sum();
+        observed.push(Observation {
+            wave_number: 0.5 * (low + next - 1) as f64 * power.step(),
+            power: sum / (waves * profiles),
+            waves: waves * profiles / correlated,
+            kind,
+        });
+        low = next;
+    }
+    observed
+}
+
+/// Bands of the powers of a map.
+pub(super) fn of_map(power: &MapPower) -> Vec<Observation> {
+    let kind = Kind::Plane { steps: power.steps, windowed: power.windowed };
+    let correlated = if power.windowed { HANN_CORRELATED * HANN_CORRELATED } else { 1.0 };
+    // Under a window detrending takes from waves around wave 1.
+    let least = if power.windowed { 2.0 * power.steps[0].max(power.steps[1]) } else { 0.0 };
+    let mut observed: Vec<Observation> = Vec::new();
+    let mut band = None;
+    for (q, power) in power.waves.iter().filter(|(q, _)| *q >= least * (1.0 - 1e-9)) {
+        let number = (BANDS_PER_DECADE * q.log10()).floor() as i64;
+        match observed.last_mut() {
+            Some(last) if band == Some(number) => {
+                last.wave_number += q;
+                last.power += power;
+                last.waves += 1.0;
+            }
+            _ => {
+                observed.push(Observation { wave_number: *q, power: *power, waves: 1.0, kind });
+                band = Some(number);
+            }
+        }
+    }
+    for band in &mut observed {
+        band.wave_number /= band.waves;
+        band.power /= band.waves;
+        band.waves /= correlated;
+    }
+    observed
+}
+
+/// A term of the mean of an observation: a weight times C2D at ln q, which lies between two nodes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Term {
+    pub weight: f64,
+    pub ln_q: f64,
+    pub index: usize,
+    pub share: f64,
+}
+
+impl Observation {
+    /// Terms of the mean of the power for a spectrum with these nodes.
+    pub fn terms(&self, nodes: &Nodes, end: End) -> Vec<Term> {
+        let mut terms = Vec::new();
+        match self.kind {
+            Kind::Cut { step, windowed, nyquist } => {
+                let shares: &[(f64, f64)] = if windowed { &HANN_SHARES } else { &[(0.0, 1.0)] };
+                for (waves, share) in shares {
+                    let q = self.wave_number + waves * step;
+                    add_cut(&mut terms, nodes, q.abs(), *share);
+                    if let End::Continues(_) = end {
+                        for alias in 1..=MOST_ALIASES {
+                            let period = 2.0 * nyquist * f64::from(alias);
+                            add_cut(&mut terms, nodes, period - q, *share);
+                            add_cut(&mut terms, nodes, period + q, *share);
+                        }
+                    }
+                }
+            }
+            Kind::Plane { steps, windowed } => {
+                let shares: &[(f64, f64)] = if windowed { &HANN_SHARES } else { &[(0.0, 1.0)] };
+                for (along, x) in shares {
+                    for (between, y) in shares {
+                        let q = (self.wave_number + along * steps[0]).hypot(between * steps[1]);
+                        let q = q.max(f64::MIN_POSITIVE);
+                        let (index, share) = nodes.place(q.ln());
+                        terms.push(Term { weight: x * y, ln_q: q.ln(), index, share });
+                    }
+                }
+            }
+        }
+        terms
+    }
+}
+
+/// Adds `factor` times (1/π) ∫ C2D(√(k² + t²)) dt, piece by piece between the nodes. In t the integrand has no pole.
+fn add_cut(terms: &mut Vec<Term>, nodes: &Nodes, k: f64, factor: f64) {
+    for (low, high) in nodes.pieces_from(k) {
+        let along = |q: f64| ((q - k) * (q + k)).max(0.0).sqrt();
+        for (t, weight) in gauss(along(low), along(high)) {
+            let ln_q = k.hypot(t).ln();
+            let (index, share) = nodes.place(ln_q);
+            terms.push(Term { weight: factor * weight / PI, ln_q, index, share });
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::isotropic::tests::known;
+    use super::*;
+
+    fn mean(terms: &[Term], values: &[f64]) -> f64 {
+        let term = |term: &Term| {
+            let value = (1.0 - term.share) * values[term.index] + term.share * values[term.index + 1];
+            term.weight * value.exp()
+        };
+        terms.iter().map(term).sum()
+    }
+
+    fn cut(nodes: &Nodes, k: f64) -> f64 {
+        let spectrum = known(*nodes, |q| q.powi(-3));
+        let mut terms = Vec::new();
+        add_cut(&mut terms, nodes, k, 1.0);
+        mean(&terms, &spectrum.values)
+    }
+
+    #[test]
+    fn cuts_of_a_power_law_have_their_closed_form() {
+        // ∫ (k² + t²)^(−3/2) dt = t/(k² √(k² + t²)).
+        let nodes = Nodes::new(1.0, 1000.0, 6.0, End::Ends);
+        for k in [1.0, 2.0, 31.4, 500.0, 990.0] {
+            let t = (1000.0_f64.powi(2) - k * k).sqrt();
+            let expected = t / (k * k * 1000.0) / PI;
+            let found = cut(&nodes, k);
+            assert!((found / expected - 1.0).abs() < 1e-7, "{k}: {found} {expected}");
+        }
+        assert_eq!(cut(&nodes, 1001.0), 0.0);
+    }
+
+    #[test]
+    fn line_and_cut_of_a_surface_differ_as_the_identities_say() {
+        let nodes = Nodes::new(1.0, 300.0, 12.0, End::Ends);
+        for hurst in [0.3, 0.8] {
+            // Roll-off at 10.
+            let spectrum = known(nodes, |q: f64| (q / 10.0).max(1.0).powf(-2.0 - 2.0 * hurst));
+            // Moments of the cut from its own spectrum; below half the first wave number the line has no waves, but the
+            // cut has the projections of waves across it.
+            let mut sums = [0.0; 3];
+            let wave_numbers: Vec<f64> =
+                (0..=600).map(|i| 0.5e-3 * 600_000_f64.powf(f64::from(i) / 600.0)).collect();
+            for piece in wave_numbers.windows(2) {
+                for (ln_k, weight) in gauss(piece[0].ln(), piece[1].ln()) {
+                    let k = ln_k.exp();
+                    let mut terms = Vec::new();
+                    add_cut(&mut terms, &nodes, k, 1.0);
+                    let power = weight * k * mean(&terms, &spectrum.values);
+                    for (sum, factor) in sums.iter_mut().zip([1.0, k * k, k]) {
+                        *sum += factor * power;
+                    }
+                }
+            }
+            let moments = spectrum.line_moments();
+            let ratios = [
+                moments.rms_height.value / (sums[0] / PI).sqrt(),
+                moments.rms_gradient.value / (sums[1] / PI).sqrt(),
+                moments.energy_per_modulus.value / (sums[2] / (4.0 * PI)),
+            ];
+            let expected = [1.0, 2.0_f64.sqrt(), 0.5 * PI];
+            for (ratio, expected) in ratios.into_iter().zip(expected) {
+                // The line leaves out the waves below half the first wave number, 0.1 % of the height.
+                assert!((ratio / expected - 1.0).abs() < 2e-3, "H = {hurst}: {ratios:?}");
+            }
+        }
+    }
+}

@@ -1,0 +1,252 @@
+//! Periodograms: power of each wave of a profile or a map.
+
+use super::analysis::SpectrumError;
+use crate::memory::{check_room, resized};
+use realfft::RealFftPlanner;
+use rustfft::FftPlanner;
+use rustfft::num_complex::Complex64;
+use std::f64::consts::{PI, TAU};
+
+/// Bins of a decade of wave numbers for display.
+const BINS_PER_DECADE: f64 = 10.0;
+
+/// Direction of a spectrum.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Direction {
+    /// Along the rows of a map, or along a profile: C1D, m³.
+    X,
+    /// Between the rows of a map: C1D, m³.
+    Y,
+    /// All directions of a map: q C2D/π, m³.
+    Radial,
+}
+
+impl Direction {
+    /// Name for people.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Direction::X => "1D PSD along x",
+            Direction::Y => "1D PSD along y",
+            Direction::Radial => "q/π × 2D PSD",
+        }
+    }
+}
+
+/// Mean power of the waves within a range of wave numbers.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bin {
+    /// Mean wave number of the waves, rad/m.
+    pub wave_number: f64,
+    /// Mean power, m³.
+    pub power: f64,
+    /// Waves of the bin.
+    pub waves: u64,
+}
+
+/// Power of the waves of profiles of one length, summed over the profiles.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct ProfilePower {
+    pub points: usize,
+    pub spacing: f64,
+    pub windowed: bool,
+    /// Profiles summed.
+    pub profiles: u64,
+    /// C1D, m³, of the waves 1, 2, … below half the number of points, summed.
+    pub power: Vec<f64>,
+}
+
+impl ProfilePower {
+    pub fn new(points: usize, spacing: f64, windowed: bool) -> Self {
+        ProfilePower { points, spacing, windowed, profiles: 0, power: vec![0.0; (points - 1) / 2] }
+    }
+
+    /// Wave number of wave 1, rad/m.
+    pub fn step(&self) -> f64 {
+        TAU / (self.points as f64 * self.spacing)
+    }
+
+    /// Adds the power of profiles of the same points: rows one behind the other.
+    pub fn add(
+        &mut self,
+        rows: impl Iterator<Item = impl Iterator<Item = f64>>,
+    ) -> Result<(), SpectrumError> {
+        let plan = RealFftPlanner::<f64>::new().plan_fft_forward(self.points);
+        let (mut input, mut output) = (plan.make_input_vec(), plan.make_output_vec());
+        let mut scratch = plan.make_scratch_vec();
+        let window = window(self.points, self.windowed);
+        let scale = self.spacing / self.points as f64;
+        for row in rows {
+            for ((value, height), weight) in input.iter_mut().zip(row).zip(&window) {
+                *value = height * weight;
+            }
+            plan.process_with_scratch(&mut input, &mut output, &mut scratch)
+                .map_err(|error| SpectrumError::Transform(error.to_string()))?;
+            for (sum, coefficient) in self.power.iter_mut().zip(&output[1..]) {
+                *sum += scale * coefficient.norm_sqr();
+            }
+            self.profiles += 1;
+        }
+        Ok(())
+    }
+}
+
+/// Power of the waves of a map.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct MapPower {
+    pub windowed: bool,
+    /// Wave numbers of wave 1 along and between rows, rad/m.
+    pub steps: [f64; 2],
+    /// Wave number and C2D, m⁴, of the waves of half the plane up to the smaller of the Nyquist wave numbers, in order of
+    /// wave numbers.
+    pub waves: Vec<(f64, f64)>,
+}
+
+impl MapPower {
+    /// Power of the heights (m) of rows of so many columns.
+    pub fn new(
+        heights: &[f64],
+        columns: usize,
+        [along, between]: [f64; 2],
+        windowed: bool,
+    ) -> Result<Self, SpectrumError> {
+        let rows = heights.len() / columns;
+        let half = columns / 2 + 1;
+        let points = heights.len();
+        let out_of_memory = |_| SpectrumError::OutOfMemory { points };
+        check_room(48 * points as u64).map_err(out_of_memory)?;
+        let mut coefficients = resized(Vec::new(), half * rows, Complex64::ZERO).map_err(out_of_memory)?;
+        transform_rows(heights, columns, windowed, &mut coefficients)?;
+        let steps = [TAU / (columns as f64 * along), TAU / (rows as f64 * between)];
+        let largest = (PI / along).min(PI / between);
+        let scale = along * between / points as f64;
+        let plan = FftPlanner::<f64>::new().plan_fft_forward(rows);
+        let mut scratch = vec![Complex64::ZERO; plan.get_inplace_scratch_len()];
+        let mut column = vec![Complex64::ZERO; rows];
+        let row_window = window(rows, windowed);
+        let mut waves = Vec::new();
+        waves.try_reserve_exact(half * rows).map_err(out_of_memory)?;
+        for x in 0..half {
+            for (y, value) in column.iter_mut().enumerate() {
+                *value = coefficients[y * half + x] * row_window[y];
+            }
+            plan.process_with_scratch(&mut column, &mut scratch);
+            for (y, value) in column.iter().enumerate() {
+                let y = if 2 * y > rows { y as f64 - rows as f64 } else { y as f64 };
+                // Waves and their mirror images have the same power: one of them counts.
+                let is_first = x > 0 || y > 0.0;
+                let q = (x as f64 * steps[0]).hypot(y * steps[1]);
+                if is_first && q < largest {
+                    waves.push((q, scale * value.norm_sqr()));
+                }
+            }
+        }
+        waves.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
+        Ok(MapPower { windowed, steps, waves })
+    }
+}
+
+fn transform_rows(
+    heights: &[f64],
+    columns: usize,
+    windowed: bool,
+    coefficients: &mut [Complex64],
+) -> Result<(), SpectrumError> {
+    let plan = RealFftPlanner::<f64>::new().plan_fft_forward(columns);
+    let mut input = plan.make_input_vec();
+    let mut scratch = plan.make_scratch_vec();
+    let window = window(columns, windowed);
+    let half = columns / 2 + 1;
+    for (row, output) in heights.chunks_exact(columns).zip(coefficients.chunks_exact_mut(half)) {
+        for ((value, height), weight) in input.iter_mut().zip(row).zip(&window) {
+            *value = height * weight;
+        }
+        plan.process_with_scratch(&mut input, output, &mut scratch)
+            .map_err(|error| SpectrumError::Transform(error.to_string()))?;
+    }
+    Ok(())
+}
+
+/// Hann window with a mean square of 1, or ones for a periodic profile.
+fn window(points: usize, windowed: bool) -> Vec<f64> {
+    if !windowed {
+        return vec![1.0; points];
+    }
+    let hann = |index: usize| 0.5 - 0.5 * (TAU * index as f64 / points as f64).cos();
+    let squares: f64 = (0..points).map(|index| hann(index).powi(2)).sum();
+    let scale = (points as f64 / squares).sqrt();
+    (0..points).map(|index| scale * hann(index)).collect()
+}
+
+/// Mean power in 10 bins for each decade of wave numbers, from waves of (wave number, power, number).
+pub(super) fn bins(waves: impl Iterator<Item = (f64, f64, u64)>) -> Vec<Bin> {
+    let mut bins: std::collections::BTreeMap<i64, (f64, f64, u64)> = std::collections::BTreeMap::new();
+    for (wave_number, power, count) in waves {
+        let bin = bins.entry((BINS_PER_DECADE * wave_number.log10()).floor() as i64).or_default();
+        let weight = count as f64;
+        *bin = (bin.0 + weight * wave_number, bin.1 + weight * power, bin.2 + count);
+    }
+    let mean = |(wave_number, power, waves): (f64, f64, u64)| Bin {
+        wave_number: wave_number / waves as f64,
+        power: power / waves as f64,
+        waves,
+    };
+    bins.into_values().map(mean).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn wave(points: usize, number: f64) -> Vec<f64> {
+        (0..points).map(|i| 3.0 * (TAU * number * i as f64 / points as f64 + 0.3).cos()).collect()
+    }
+
+    #[test]
+    fn a_wave_has_its_power_at_its_wave_number() {
+        for points in [64, 65] {
+            let mut power = ProfilePower::new(points, 0.5, false);
+            power.add([wave(points, 5.0).into_iter()].into_iter()).unwrap();
+            // h² = 9/2 = (1/π) C1D Δq.
+            let expected = 4.5 * PI / power.step();
+            assert!((power.power[4] / expected - 1.0).abs() < 1e-12);
+            let others: f64 = power.power.iter().sum::<f64>() - power.power[4];
+            assert!(others.abs() < 1e-12 * expected, "{others}");
+        }
+    }
+
+    #[test]
+    fn a_window_keeps_the_power_of_a_wave() {
+        let points = 128;
+        let mut power = ProfilePower::new(points, 1.0, true);
+        power.add([wave(points, 20.0).into_iter()].into_iter()).unwrap();
+        let total: f64 = power.power.iter().sum::<f64>() * power.step() / PI;
+        assert!((total - 4.5).abs() < 1e-10, "{total}");
+    }
+
+    #[test]
+    fn a_wave_of_a_map_has_its_power() {
+        let (columns, rows) = (24, 30);
+        for (kx, ky) in [(3.0, 0.0), (0.0, 4.0), (2.0, -3.0)] {
+            let phase = |i: usize| {
+                kx * (i % columns) as f64 / columns as f64 + ky * (i / columns) as f64 / rows as f64
+            };
+            let heights: Vec<f64> = (0..columns * rows).map(|i| 2.0 * (TAU * phase(i) + 0.4).sin()).collect();
+            let map = MapPower::new(&heights, columns, [0.5, 0.25], false).unwrap();
+            let largest = map.waves.iter().copied().max_by(|a, b| a.1.total_cmp(&b.1)).unwrap();
+            let q = (kx * map.steps[0]).hypot(ky * map.steps[1]);
+            assert!((largest.0 - q).abs() < 1e-12, "{largest:?}");
+            // h² = 2 = (1/4π²) 2 C2D ΔqxΔqy, for the wave and its mirror image.
+            let expected = 2.0 * 2.0 * PI * PI / (map.steps[0] * map.steps[1]);
+            assert!((largest.1 / expected - 1.0).abs() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn bins_are_means() {
+        let found = bins([(1.0, 2.0, 1), (1.1, 4.0, 3), (10.0, 5.0, 1)].into_iter());
+        assert_eq!(found.len(), 2);
+        assert!((found[0].wave_number - 4.3 / 4.0).abs() < 1e-15 && (found[0].power - 3.5).abs() < 1e-15);
+        assert_eq!((found[0].waves, found[1].wave_number), (4, 10.0));
+    }
+}

@@ -1,0 +1,86 @@
+//! Reasons for which a file is no surface.
+
+use crate::io::ReadError;
+use crate::text::printable;
+use std::fmt;
+use thiserror::Error;
+
+/// Longer texts of a file are shortened in messages, characters.
+const MOST_SHOWN: usize = 40;
+
+/// Place of a fault within a file.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Place {
+    /// The file as a whole.
+    File,
+    /// Line of a text, from 1 on.
+    Line(usize),
+    /// Point of a profile or a list of points, from 1 on.
+    Point(usize),
+    /// Byte of a binary file (after decompression), from 0 on.
+    Byte(usize),
+    /// Named part of a container: a file of an archive, an element, a channel.
+    Part(String),
+}
+
+impl fmt::Display for Place {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Place::File => Ok(()),
+            Place::Line(number) => write!(f, "line {number}: "),
+            Place::Point(number) => write!(f, "point {number}: "),
+            Place::Byte(offset) => write!(f, "byte {offset}: "),
+            Place::Part(name) => write!(f, "{}: ", shown(name)),
+        }
+    }
+}
+
+/// Reason for which a file is no surface. The caller puts the name of the file before the message.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+pub enum TopographyError {
+    /// The system does not give the content, or the file is too long.
+    #[error("{0}")]
+    Read(String),
+    /// The content is refused.
+    #[error("{place}{fault}; allowed: {allowed}")]
+    Content {
+        /// Place within the file.
+        place: Place,
+        /// Fault.
+        fault: String,
+        /// Allowed content.
+        allowed: String,
+    },
+    /// The memory does not suffice.
+    #[error("not enough memory for {points} points")]
+    OutOfMemory {
+        /// Points of the surface.
+        points: usize,
+    },
+}
+
+impl From<ReadError> for TopographyError {
+    fn from(error: ReadError) -> Self {
+        TopographyError::Read(error.to_string())
+    }
+}
+
+impl From<std::io::Error> for TopographyError {
+    fn from(error: std::io::Error) -> Self {
+        ReadError::from(error).into()
+    }
+}
+
+/// Refused content.
+pub(super) fn refused(place: Place, fault: impl Into<String>, allowed: impl Into<String>) -> TopographyError {
+    TopographyError::Content { place, fault: fault.into(), allowed: allowed.into() }
+}
+
+/// Text of a file for a message: on one line, of limited length.
+pub(super) fn shown(text: &str) -> String {
+    let short = match text.char_indices().nth(MOST_SHOWN) {
+        Some((end, _)) => format!("{}…", &text[..end]),
+        None => text.to_owned(),
+    };
+    printable(&short).into_owned()
+}

@@ -1,0 +1,129 @@
+//! Missing points: heights from neighbours.
+
+use super::error::{Place, TopographyError, refused};
+
+/// Least share of points that are measured, for interpolation.
+const LEAST_MEASURED: f64 = 0.5;
+
+/// Number of heights that are not finite.
+pub(super) fn count(heights: &[f64]) -> usize {
+    heights.iter().filter(|height| !height.is_finite()).count()
+}
+
+/// Fills in missing heights of a map of so many columns, or of a profile, which is one row.
+///
+/// A missing point gets the mean of two straight lines, one along its row and one along its column, each from the
+/// nearest measured point before to the nearest one behind. Before the first or behind the last measured point
+/// of a row or column the line is level; a row or column without any measured point has no line.
+///
+/// # Errors
+/// When fewer than half of the points are measured, or a point has no measured one in its row or column.
+pub(super) fn interpolate(heights: &mut [f64], columns: usize) -> Result<(), TopographyError> {
+    let missing = count(heights);
+    let share = 1.0 - missing as f64 / heights.len() as f64;
+    if share < LEAST_MEASURED {
+        let fault = format!("{:.1} % of the points are measured", 100.0 * share);
+        return Err(refused(Place::File, fault, format!("at least {:.0} %", 100.0 * LEAST_MEASURED)));
+    }
+    let rows = heights.len() / columns;
+    let mut filled: Vec<(usize, f64)> = Vec::new();
+    filled.try_reserve_exact(missing).map_err(|_| TopographyError::OutOfMemory { points: missing })?;
+    for row in 0..rows {
+        let at = |column: usize| row * columns + column;
+        for_each_gap(
+            columns,
+            |column| heights[at(column)],
+            |column, height| {
+                filled.push((at(column), height));
+            },
+        );
+    }
+    // Sums of lines along rows are in order; those along columns are added to them, or put behind.
+    let along_rows = filled.len();
+    if rows > 1 {
+        for column in 0..columns {
+            let at = |row: usize| row * columns + column;
+            for_each_gap(
+                rows,
+                |row| heights[at(row)],
+                |row, height| match filled[..along_rows].binary_search_by_key(&at(row), |(index, _)| *index) {
+                    Ok(place) => filled[place].1 = 0.5 * (filled[place].1 + height),
+                    Err(_) => filled.push((at(row), height)),
+                },
+            );
+        }
+    }
+    for (index, height) in filled {
+        heights[index] = height;
+    }
+    match heights.iter().position(|height| !height.is_finite()) {
+        Some(index) => Err(refused(
+            Place::Point(index + 1),
+            "missing like all points of its row and its column",
+            "a measured point in the row or the column",
+        )),
+        None => Ok(()),
+    }
+}
+
+/// Calls `fill` for each missing one of `count` values with its height on the line between its neighbours.
+fn for_each_gap(count: usize, value: impl Fn(usize) -> f64, mut fill: impl FnMut(usize, f64)) {
+    let mut before = None;
+    let mut index = 0;
+    while index < count {
+        if value(index).is_finite() {
+            before = Some(index);
+            index += 1;
+            continue;
+        }
+        let end = (index..count).find(|index| value(*index).is_finite());
+        for gap in index..end.unwrap_or(count) {
+            match (before, end) {
+                (Some(from), Some(to)) => {
+                    let share = (gap - from) as f64 / (to - from) as f64;
+                    fill(gap, value(from) + share * (value(to) - value(from)));
+                }
+                (Some(near), None) | (None, Some(near)) => fill(gap, value(near)),
+                (None, None) => {}
+            }
+        }
+        index = end.unwrap_or(count);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const NONE: f64 = f64::NAN;
+
+    #[test]
+    fn gaps_of_a_profile_are_straight_and_its_ends_level() {
+        let mut heights = [NONE, 1.0, NONE, NONE, 4.0, 6.0, 7.0, NONE];
+        assert!(interpolate(&mut heights, 8).is_ok());
+        assert_eq!(heights, [1.0, 1.0, 2.0, 3.0, 4.0, 6.0, 7.0, 7.0]);
+    }
+
+    #[test]
+    fn a_point_of_a_map_is_the_mean_of_row_and_column() {
+        let mut heights = [0.0, 1.0, 2.0, 3.0, NONE, 7.0, 6.0, 9.0, 8.0];
+        assert!(interpolate(&mut heights, 3).is_ok());
+        assert_eq!(heights[4], 0.5 * (5.0 + 5.0));
+        // A row without any measured point follows its columns.
+        let mut heights = [0.0, 1.0, NONE, NONE, 4.0, 5.0];
+        assert!(interpolate(&mut heights, 2).is_ok());
+        assert_eq!(heights, [0.0, 1.0, 2.0, 3.0, 4.0, 5.0]);
+    }
+
+    #[test]
+    fn too_few_points_are_refused() {
+        let mut few = [NONE, NONE, 1.0];
+        assert!(interpolate(&mut few, 3).unwrap_err().to_string().contains("allowed: at least 50 %"));
+        let mut cross = [NONE, NONE, NONE, 1.0, NONE, 2.0, 3.0, 4.0, NONE, 6.0, 7.0, 8.0];
+        cross[1] = NONE;
+        assert!(interpolate(&mut cross, 3).is_ok());
+        let mut corner = [NONE, NONE, NONE, 1.0, NONE, 3.0];
+        // The middle column and the upper row are empty.
+        assert!(interpolate(&mut corner, 3).unwrap_err().to_string().contains("33.3 % of the points"));
+    }
+}

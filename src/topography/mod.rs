@@ -1,0 +1,28 @@
+//! Measured surfaces: files of instruments and programs, read into heights in m.
+//!
+//! [`read`] finds the format by the content, not by the name. Units are never guessed: where a file states none,
+//! [`ReadOptions`] has to. Every refusal names the place within the file and what is allowed. A file of n bytes
+//! takes at most 1 MiB + 64 n bytes of memory, n counted after decompression, and decompression ends at 1 MiB + 32
+//! bytes for each byte of the file.
+
+mod bytes;
+mod error;
+mod gsf;
+mod gwy;
+mod missing;
+mod npy;
+mod open;
+mod reading;
+mod sdf;
+mod sur;
+mod surface;
+mod text;
+mod unit;
+mod x3p;
+
+pub use error::{Place, TopographyError};
+pub use open::{MOST_BYTES, parse, read, read_observed};
+pub use reading::{Format, Missing, ReadOptions};
+pub(crate) use surface::UNEVEN;
+pub use surface::{Grid, Topography};
+pub use unit::{Unit, UnitError};

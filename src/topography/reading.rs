@@ -1,0 +1,229 @@
+//! From the numbers of a file to heights in m: units, distances between points, missing points.
+
+use super::error::{Place, TopographyError, refused};
+use super::{Grid, Topography, Unit, missing};
+use std::fmt;
+
+/// Largest position and height, m, and largest slope between neighbours: beyond these, lengths and mean squares would
+/// leave the range of numbers.
+pub(super) const LARGEST: f64 = 1.0e9;
+
+/// Most points of a surface: 2 GiB of heights.
+const MOST_POINTS: usize = 1 << 28;
+
+/// Choices of a user where a file leaves something open.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct ReadOptions {
+    /// Unit of positions and heights where the file states none.
+    pub unit: Option<Unit>,
+    /// Unit of heights where the file states none; `None`: as `unit`.
+    pub height_unit: Option<Unit>,
+    /// Distance between points, m, where the file states none.
+    pub spacing: Option<f64>,
+    /// Treatment of missing points.
+    pub missing: Missing,
+    /// Number of the channel of a file that has several.
+    pub channel: Option<u32>,
+}
+
+/// Treatment of missing points.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Missing {
+    /// A missing point is an error.
+    #[default]
+    Refuse,
+    /// A missing point gets a height from its neighbours along its row and its column.
+    Interpolate,
+}
+
+/// Format of a file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Format {
+    /// Columns of text: x z, or x y z, or z.
+    Columns,
+    /// Matrix of text.
+    Matrix,
+    /// SDF of ISO 25178-71.
+    Sdf,
+    /// Gwyddion Simple Field.
+    Gsf,
+    /// Array of NumPy.
+    Npy,
+    /// X3P of ISO 25178-72.
+    X3p,
+    /// Gwyddion's own format.
+    Gwy,
+    /// Digital Surf SUR.
+    Sur,
+}
+
+impl Format {
+    /// Name for people.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Format::Columns => "text columns",
+            Format::Matrix => "text matrix",
+            Format::Sdf => "SDF",
+            Format::Gsf => "GSF",
+            Format::Npy => "NumPy array",
+            Format::X3p => "X3P",
+            Format::Gwy => "GWY",
+            Format::Sur => "SUR",
+        }
+    }
+}
+
+impl fmt::Display for Format {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+/// Positions of the heights of a file, in its unit.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum RawGrid {
+    /// Position of each height, ascending.
+    Positions(Vec<f64>),
+    /// Profile at an even distance, where the file states one.
+    Profile(Option<f64>),
+    /// Rows of so many columns at even distances along and between rows, where the file states them.
+    Map { columns: usize, spacing: Option<[f64; 2]> },
+}
+
+impl RawGrid {
+    /// Grid of so many columns and rows: one row, or one column, is a profile.
+    pub fn of(columns: usize, rows: usize, spacing: Option<[f64; 2]>) -> RawGrid {
+        match (columns, rows) {
+            (_, 1) => RawGrid::Profile(spacing.map(|[along, _]| along)),
+            (1, _) => RawGrid::Profile(spacing.map(|[_, between]| between)),
+            _ => RawGrid::Map { columns, spacing },
+        }
+    }
+}
+
+/// Numbers of a file before units.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Reading {
+    pub format: Format,
+    /// Row by row; not finite where a point is missing.
+    pub heights: Vec<f64>,
+    pub grid: RawGrid,
+    /// Unit of positions and distances; `None` where the file states none.
+    pub lateral_unit: Option<Unit>,
+    pub height_unit: Option<Unit>,
+    /// Place of the first missing point, where the reader knows a better one than its number.
+    pub first_missing: Option<Place>,
+}
+
+impl Reading {
+    /// Heights and positions in m.
+    ///
+    /// # Errors
+    /// A unit or a distance that is unknown, points that are missing or too many, values out of range.
+    pub fn resolve(self, options: &ReadOptions) -> Result<Topography, TopographyError> {
+        let Reading { format, mut heights, grid, lateral_unit, height_unit, first_missing } = self;
+        check_points(&heights, &grid)?;
+        let height_option = options.height_unit.or(options.unit);
+        let height_unit = unit("heights", height_unit, height_option, "--height-unit or --unit")?;
+        let missing = missing::count(&heights);
+        if missing > 0 && options.missing == Missing::Refuse {
+            let first = heights.iter().position(|height| !height.is_finite()).unwrap_or(0);
+            let share = 100.0 * missing as f64 / heights.len() as f64;
+            return Err(refused(
+                first_missing.unwrap_or(Place::Point(first + 1)),
+                format!("{missing} of {} points are missing ({share:.2} %), the first here", heights.len()),
+                "--interpolate, which fills them from their neighbours",
+            ));
+        }
+        for (index, height) in heights.iter_mut().enumerate() {
+            *height = height_unit.to_metres(*height);
+            if height.abs() > LARGEST && height.is_finite() {
+                return Err(refused(
+                    Place::Point(index + 1),
+                    format!("a height of {height:e} m"),
+                    format!("from -{LARGEST:e} to {LARGEST:e} m"),
+                ));
+            }
+        }
+        let lateral = |value: f64, name: &str| {
+            let unit = unit(name, lateral_unit, options.unit, "--unit")?;
+            Ok::<f64, TopographyError>(unit.to_metres(value))
+        };
+        let even = |stated: Option<f64>, name: &str| match (stated, options.spacing) {
+            (Some(stated), _) => check_spacing(lateral(stated, name)?),
+            (None, Some(spacing)) => check_spacing(spacing),
+            (None, None) => Err(refused(
+                Place::File,
+                format!("{} without a distance between points", format.name()),
+                "--spacing with a unit, such as --spacing 0.5um",
+            )),
+        };
+        let grid = match grid {
+            RawGrid::Positions(mut positions) => {
+                let unit = unit("positions", lateral_unit, options.unit, "--unit")?;
+                positions.iter_mut().for_each(|x| *x = unit.to_metres(*x));
+                Grid::Positions(positions)
+            }
+            RawGrid::Profile(spacing) => Grid::Profile { spacing: even(spacing, "distances")? },
+            RawGrid::Map { columns, spacing } => {
+                let [along, between] = spacing.map_or([None; 2], |spacing| spacing.map(Some));
+                Grid::Map { columns, spacing: [even(along, "distances")?, even(between, "distances")?] }
+            }
+        };
+        let columns = match &grid {
+            Grid::Map { columns, .. } => *columns,
+            Grid::Profile { .. } | Grid::Positions(_) => heights.len(),
+        };
+        if missing > 0 {
+            missing::interpolate(&mut heights, columns)?;
+        }
+        Topography::new(format, heights, grid, missing)
+    }
+}
+
+fn check_points(heights: &[f64], grid: &RawGrid) -> Result<(), TopographyError> {
+    let points = heights.len();
+    if !(2..=MOST_POINTS).contains(&points) {
+        return Err(refused(Place::File, format!("{points} points"), format!("from 2 to {MOST_POINTS}")));
+    }
+    match grid {
+        RawGrid::Map { columns, .. } if *columns == 0 || !points.is_multiple_of(*columns) => {
+            Err(refused(Place::File, format!("{points} points in rows of {columns}"), "whole rows"))
+        }
+        RawGrid::Positions(positions) if positions.len() != points => {
+            Err(refused(Place::File, format!("{points} heights at {} positions", positions.len()), "as many"))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Unit of a quantity: stated by the file, else by the user.
+fn unit(
+    name: &str,
+    stated: Option<Unit>,
+    option: Option<Unit>,
+    flags: &str,
+) -> Result<Unit, TopographyError> {
+    match (stated, option) {
+        (Some(stated), Some(option)) if stated != option => Err(refused(
+            Place::File,
+            format!("the file states {stated} as the unit of {name}, the options state {option}"),
+            "the unit of the file, or none",
+        )),
+        (Some(unit), _) | (None, Some(unit)) => Ok(unit),
+        (None, None) => Err(refused(
+            Place::File,
+            format!("no unit of {name} is stated"),
+            format!("{flags}, such as --unit um"),
+        )),
+    }
+}
+
+fn check_spacing(spacing: f64) -> Result<f64, TopographyError> {
+    if spacing > 0.0 && (1.0 / LARGEST / LARGEST..=LARGEST).contains(&spacing) {
+        return Ok(spacing);
+    }
+    let fault = format!("a distance of {spacing:e} m between points");
+    Err(refused(Place::File, fault, format!("from 1e-18 to {LARGEST:e} m")))
+}

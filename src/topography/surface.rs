@@ -1,0 +1,229 @@
+//! Measured heights in m with their positions.
+
+use super::Format;
+use super::error::{Place, TopographyError, refused};
+use super::reading::LARGEST;
+
+/// Share of the distance between points by which points of an even grid may be displaced, for want of digits.
+pub(crate) const UNEVEN: f64 = 1.0e-3;
+
+/// Positions of heights.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Grid {
+    /// Positions of a profile, m, ascending.
+    Positions(Vec<f64>),
+    /// Profile with points at an even distance.
+    Profile {
+        /// Distance, m.
+        spacing: f64,
+    },
+    /// Map of rows.
+    Map {
+        /// Points of a row.
+        columns: usize,
+        /// Distances along and between rows, m.
+        spacing: [f64; 2],
+    },
+}
+
+/// Measured heights of a profile or a map, m.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Topography {
+    format: Format,
+    heights: Vec<f64>,
+    grid: Grid,
+    interpolated: usize,
+}
+
+impl Topography {
+    /// Heights (m) row by row on a grid, `interpolated` of them made up from neighbours.
+    ///
+    /// # Errors
+    /// Slopes of a profile above 1e9.
+    pub(super) fn new(
+        format: Format,
+        heights: Vec<f64>,
+        grid: Grid,
+        interpolated: usize,
+    ) -> Result<Self, TopographyError> {
+        let surface = Topography { format, heights, grid, interpolated };
+        let columns = surface.columns();
+        let distance = |index: usize| match &surface.grid {
+            Grid::Positions(positions) => positions[index + 1] - positions[index],
+            Grid::Profile { spacing } => *spacing,
+            Grid::Map { spacing: [along, between], .. } => along.min(*between),
+        };
+        for index in 1..surface.heights.len() {
+            if index % columns != 0 {
+                let slope = (surface.heights[index] - surface.heights[index - 1]).abs() / distance(index - 1);
+                if slope.is_nan() || slope > LARGEST {
+                    let fault = format!("a slope of {slope:e} from the point before");
+                    return Err(refused(Place::Point(index + 1), fault, format!("at most {LARGEST:e}")));
+                }
+            }
+        }
+        Ok(surface)
+    }
+
+    /// Format of the file.
+    #[must_use]
+    pub fn format(&self) -> Format {
+        self.format
+    }
+
+    /// Heights, m, row by row.
+    #[must_use]
+    pub fn heights(&self) -> &[f64] {
+        &self.heights
+    }
+
+    /// Positions of the heights.
+    #[must_use]
+    pub fn grid(&self) -> &Grid {
+        &self.grid
+    }
+
+    /// Number of points with heights from their neighbours.
+    #[must_use]
+    pub fn interpolated(&self) -> usize {
+        self.interpolated
+    }
+
+    /// Points of a row: all points of a profile.
+    #[must_use]
+    pub fn columns(&self) -> usize {
+        match &self.grid {
+            Grid::Map { columns, .. } => *columns,
+            Grid::Positions(_) | Grid::Profile { .. } => self.heights.len(),
+        }
+    }
+
+    /// Rows: one of a profile.
+    #[must_use]
+    pub fn rows(&self) -> usize {
+        self.heights.len() / self.columns()
+    }
+
+    /// Positions of a profile, m, and its heights, m; points at an even distance begin at x = 0.
+    ///
+    /// # Errors
+    /// A map.
+    pub fn into_profile(self) -> Result<(Vec<f64>, Vec<f64>), TopographyError> {
+        match self.grid {
+            Grid::Positions(positions) => Ok((positions, self.heights)),
+            Grid::Profile { spacing } => {
+                let points = self.heights.len();
+                let mut positions = Vec::new();
+                positions.try_reserve_exact(points).map_err(|_| TopographyError::OutOfMemory { points })?;
+                positions.extend((0..points).map(|index| index as f64 * spacing));
+                Ok((positions, self.heights))
+            }
+            Grid::Map { columns, .. } => {
+                let fault = format!("a map of {} rows of {columns} points", self.heights.len() / columns);
+                Err(refused(Place::File, fault, "a profile"))
+            }
+        }
+    }
+
+    /// Distances between points along and between rows, m; those of a profile are equal.
+    ///
+    /// # Errors
+    /// A profile with points at uneven distances: the first that lies off the even grid from the first to the last
+    /// point by more than 0.1 % of the mean distance.
+    pub fn spacing(&self) -> Result<[f64; 2], TopographyError> {
+        match &self.grid {
+            Grid::Map { spacing, .. } => Ok(*spacing),
+            Grid::Profile { spacing } => Ok([*spacing; 2]),
+            Grid::Positions(positions) => {
+                let (first, mean) = (positions[0], mean_distance(positions));
+                let off = |(index, x): (usize, &f64)| (x - first - index as f64 * mean).abs() > UNEVEN * mean;
+                match positions.iter().enumerate().position(off) {
+                    None => Ok([mean; 2]),
+                    Some(index) => Err(refused(
+                        Place::Point(index + 1),
+                        format!(
+                            "x = {:e} m is off the even grid by {:.1e} of the mean distance {mean:e} m",
+                            positions[index],
+                            (positions[index] - first) / mean - index as f64
+                        ),
+                        format!("at most {UNEVEN}, or --resample, which interpolates linearly"),
+                    )),
+                }
+            }
+        }
+    }
+
+    /// The same profile with points at an even distance, the mean one: heights by linear interpolation. A profile that
+    /// is even already, or a map, stays as it is.
+    ///
+    /// # Errors
+    /// Not enough memory.
+    pub fn resampled(mut self) -> Result<Self, TopographyError> {
+        let Grid::Positions(positions) = &self.grid else { return Ok(self) };
+        let (first, spacing, points) = (positions[0], mean_distance(positions), positions.len());
+        let mut heights = Vec::new();
+        heights.try_reserve_exact(points).map_err(|_| TopographyError::OutOfMemory { points })?;
+        let mut piece = 0;
+        for index in 0..points {
+            let x = first + index as f64 * spacing;
+            while piece + 2 < points && positions[piece + 1] < x {
+                piece += 1;
+            }
+            let (x0, x1) = (positions[piece], positions[piece + 1]);
+            let share = ((x - x0) / (x1 - x0)).clamp(0.0, 1.0);
+            heights.push(self.heights[piece] + share * (self.heights[piece + 1] - self.heights[piece]));
+        }
+        self.heights = heights;
+        self.grid = Grid::Profile { spacing };
+        Ok(self)
+    }
+}
+
+/// Mean distance between positions, m.
+fn mean_distance(positions: &[f64]) -> f64 {
+    (positions[positions.len() - 1] - positions[0]) / (positions.len() - 1) as f64
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn profile(positions: &[f64], heights: &[f64]) -> Topography {
+        Topography::new(Format::Columns, heights.to_vec(), Grid::Positions(positions.to_vec()), 0).unwrap()
+    }
+
+    #[test]
+    fn uneven_points_are_named_and_resampled() {
+        let uneven = profile(&[0.0, 1.0, 2.5, 3.0], &[0.0, 2.0, 5.0, 6.0]);
+        let error = uneven.spacing().unwrap_err().to_string();
+        assert!(error.starts_with("point 3: x = 2.5e0 m is off") && error.contains("--resample"), "{error}");
+        let even = uneven.resampled().unwrap();
+        assert_eq!((even.spacing(), even.heights()), (Ok([1.0; 2]), &[0.0, 2.0, 4.0, 6.0][..]));
+        let digits = profile(&[0.0, 0.3333, 0.6667, 1.0], &[0.0; 4]);
+        assert!((digits.spacing().unwrap()[0] - 1.0 / 3.0).abs() < 1e-15);
+    }
+
+    #[test]
+    fn slopes_beyond_all_measure_are_refused() {
+        let steep = Topography::new(
+            Format::Npy,
+            vec![0.0, 1e5, 0.0, 0.0],
+            Grid::Map { columns: 2, spacing: [1e-5; 2] },
+            0,
+        );
+        assert!(steep.unwrap_err().to_string().starts_with("point 2: a slope of 1e10"));
+    }
+
+    #[test]
+    fn a_map_is_no_profile() {
+        let grid = Grid::Map { columns: 2, spacing: [1.0; 2] };
+        let map = Topography::new(Format::Matrix, vec![0.0; 6], grid, 0).unwrap();
+        assert_eq!((map.columns(), map.rows()), (2, 3));
+        assert!(
+            map.into_profile()
+                .unwrap_err()
+                .to_string()
+                .contains("a map of 3 rows of 2 points; allowed: a profile")
+        );
+    }
+}

@@ -1,0 +1,142 @@
+//! Columns of a line of numbers: separators and decimal marks.
+
+/// Separator of the columns of a text, found in its first line of numbers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Separator {
+    Semicolon,
+    Tab,
+    Comma,
+    Space,
+}
+
+impl Separator {
+    /// Separator of a line of numbers: a semicolon if there is one, else a tab, else a comma, else spaces. Commas
+    /// are decimal marks beside semicolons and tabs, and where each word between spaces is a number with a comma inside,
+    /// as in `0,5 1,25`; `0.5, 1.25` and `0,5` are two columns.
+    pub fn of(line: &str) -> Separator {
+        if line.contains(';') {
+            Separator::Semicolon
+        } else if line.contains('\t') {
+            Separator::Tab
+        } else if line.contains(',') && !has_decimal_commas(line) {
+            Separator::Comma
+        } else {
+            Separator::Space
+        }
+    }
+
+    /// Columns of a line without spaces around it. Separators other than spaces have columns on both sides, which may
+    /// be empty.
+    pub fn split(self, line: &str) -> impl Iterator<Item = &str> + Clone {
+        let (mark, space) = match self {
+            Separator::Semicolon => (Some(';'), None),
+            Separator::Tab => (Some('\t'), None),
+            Separator::Comma => (Some(','), None),
+            Separator::Space => (None, Some(())),
+        };
+        let marked = mark.map(|mark| line.split(mark).map(str::trim));
+        let spaced = space.map(|()| line.split_ascii_whitespace());
+        marked.into_iter().flatten().chain(spaced.into_iter().flatten())
+    }
+}
+
+/// Returns true for two or more words, each a number, at least one with a comma inside and none with a point.
+fn has_decimal_commas(line: &str) -> bool {
+    let is_number = |word: &str| {
+        let parts = word.split_once(',');
+        let inside = parts.is_none_or(|(before, after)| {
+            before.ends_with(|c: char| c.is_ascii_digit()) && after.starts_with(|c: char| c.is_ascii_digit())
+        });
+        inside && !word.contains('.') && word.replacen(',', ".", 1).parse::<f64>().is_ok()
+    };
+    line.split_ascii_whitespace().count() > 1 && line.split_ascii_whitespace().all(is_number)
+}
+
+/// Content of a column.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Cell {
+    Number(f64),
+    /// A mark of a point that was not measured, or an empty column.
+    Missing,
+    /// A number with a decimal comma, in a text with decimal points, or the other way round.
+    OtherMark,
+    NoNumber,
+}
+
+/// Marks of points that were not measured, beside an empty column and `NaN`.
+const MISSING: [&str; 9] = ["bad", "missing", "void", "n/a", "#n/a", "--", "---", "***", "*"];
+
+/// Decimal mark of a text: the first that is found.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct Decimal {
+    found: Option<u8>,
+}
+
+impl Decimal {
+    /// Reads a column.
+    pub fn read(&mut self, cell: &str, separator: Separator) -> Cell {
+        // Most numbers take this way alone.
+        if let Ok(value) = cell.parse::<f64>() {
+            if value.is_nan() {
+                return Cell::Missing;
+            }
+            return if self.found == Some(b',') && cell.contains('.') {
+                Cell::OtherMark
+            } else {
+                if self.found.is_none() && cell.contains('.') {
+                    self.found = Some(b'.');
+                }
+                Cell::Number(value)
+            };
+        }
+        if cell.is_empty() || MISSING.iter().any(|mark| mark.eq_ignore_ascii_case(cell)) {
+            return Cell::Missing;
+        }
+        if separator == Separator::Comma || !cell.contains(',') || cell.contains('.') {
+            return Cell::NoNumber;
+        }
+        match cell.replacen(',', ".", 1).parse::<f64>() {
+            Ok(_) if self.found == Some(b'.') => Cell::OtherMark,
+            Ok(value) => {
+                self.found = Some(b',');
+                Cell::Number(value)
+            }
+            Err(_) => Cell::NoNumber,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn read(line: &str) -> Vec<Cell> {
+        let separator = Separator::of(line);
+        let mut decimal = Decimal::default();
+        separator.split(line).map(|cell| decimal.read(cell, separator)).collect()
+    }
+
+    #[test]
+    fn separators_and_decimal_marks_are_told_apart() {
+        use Cell::{Missing, NoNumber, Number, OtherMark};
+        for (line, expected) in [
+            ("0.5 1.25", vec![Number(0.5), Number(1.25)]),
+            ("0.5\t1.25", vec![Number(0.5), Number(1.25)]),
+            ("0.5, 1.25", vec![Number(0.5), Number(1.25)]),
+            ("0.5,1.25", vec![Number(0.5), Number(1.25)]),
+            ("0,5", vec![Number(0.0), Number(5.0)]),
+            ("0,5 1,25", vec![Number(0.5), Number(1.25)]),
+            ("0,5 1,25e-3 7", vec![Number(0.5), Number(1.25e-3), Number(7.0)]),
+            ("0,5;1,25", vec![Number(0.5), Number(1.25)]),
+            ("0,5\t-1,25E+2", vec![Number(0.5), Number(-125.0)]),
+            ("0,5; 1.25", vec![Number(0.5), OtherMark]),
+            ("0.5;1,25", vec![Number(0.5), OtherMark]),
+            ("1,234.5;2", vec![NoNumber, Number(2.0)]),
+            ("1;;NaN;bad;x", vec![Number(1.0), Missing, Missing, Missing, NoNumber]),
+            ("1,,2", vec![Number(1.0), Missing, Number(2.0)]),
+            ("12", vec![Number(12.0)]),
+        ] {
+            assert_eq!(read(line), expected, "{line}");
+        }
+    }
+}

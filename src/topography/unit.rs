@@ -1,0 +1,121 @@
+//! Units of length that files state.
+
+use super::error::{Place, TopographyError, refused, shown};
+use std::fmt;
+use std::str::FromStr;
+use thiserror::Error;
+
+/// Spellings of each unit, the first of them the usual one, and how many make one metre: powers of ten that are exact
+/// numbers, so that a division by them rounds once.
+const UNITS: [(&[&str], f64); 7] = [
+    (&["m", "meter", "metre", "meters", "metres"], 1.0),
+    (&["cm", "centimeter", "centimetre"], 1e2),
+    (&["mm", "millimeter", "millimetre", "millimeters", "millimetres"], 1e3),
+    (
+        &[
+            "µm",
+            "μm",
+            "um",
+            "mum",
+            "micron",
+            "microns",
+            "micrometer",
+            "micrometre",
+            "micrometers",
+            "micrometres",
+        ],
+        1e6,
+    ),
+    (&["nm", "nanometer", "nanometre", "nanometers", "nanometres"], 1e9),
+    (&["Å", "Å", "Ang", "angstrom", "ångström", "angstroms"], 1e10),
+    (&["pm", "picometer", "picometre"], 1e12),
+];
+
+const ALLOWED: &str = "m, cm, mm, µm (or um), nm, Å, pm";
+
+/// Unit of length.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Unit {
+    name: &'static str,
+    per_metre: f64,
+}
+
+/// Text that is no unit of length.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[error("{:?} is no unit of length; allowed: {ALLOWED}", shown(.0))]
+pub struct UnitError(String);
+
+impl Unit {
+    /// Metre.
+    pub const METRE: Unit = Unit { name: "m", per_metre: 1.0 };
+
+    /// Usual name.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        self.name
+    }
+
+    /// Unit that a file states at a place.
+    pub(super) fn stated(text: &str, place: Place) -> Result<Unit, TopographyError> {
+        let fault = || format!("{:?} is no unit of length", shown(text));
+        text.parse().map_err(|_| refused(place, fault(), ALLOWED))
+    }
+
+    /// Value in m of a value in this unit.
+    #[must_use]
+    pub fn to_metres(self, value: f64) -> f64 {
+        value / self.per_metre
+    }
+}
+
+impl FromStr for Unit {
+    type Err = UnitError;
+
+    /// Reads the name of a unit. Symbols keep their case, since `Mm` is no `mm`; words do not.
+    fn from_str(text: &str) -> Result<Unit, UnitError> {
+        let text = text.trim();
+        let is_name =
+            |name: &&&str| **name == text || (name.chars().count() > 3 && name.eq_ignore_ascii_case(text));
+        UNITS
+            .iter()
+            .find(|(names, _)| names.iter().any(|name| is_name(&name)))
+            .map(|(names, per_metre)| Unit { name: names[0], per_metre: *per_metre })
+            .ok_or_else(|| UnitError(text.to_owned()))
+    }
+}
+
+impl fmt::Display for Unit {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn units_have_names_and_values() {
+        for (text, metres) in [
+            ("m", 1.0),
+            ("mm", 1e-3),
+            ("um", 1e-6),
+            ("\u{b5}m", 1e-6),
+            ("\u{3bc}m", 1e-6),
+            (" Micron ", 1e-6),
+            ("nm", 1e-9),
+            ("Å", 1e-10),
+        ] {
+            assert_eq!(text.parse::<Unit>().unwrap().to_metres(1.0), metres, "{text}");
+        }
+        for text in ["", "Mm", "V", "MM", "px", "a.u.", "m²"] {
+            assert!(text.parse::<Unit>().unwrap_err().to_string().contains("allowed: m, cm"), "{text}");
+        }
+    }
+
+    #[test]
+    fn a_number_keeps_its_digits() {
+        let nanometre: Unit = "nm".parse().unwrap();
+        assert_eq!(nanometre.to_metres(123.456), 123.456e-9);
+    }
+}

@@ -1,0 +1,163 @@
+//! Isotropic random surfaces with a known spectrum, on maps and along cuts.
+
+use asperity::topography::{ReadOptions, Topography, Unit, parse};
+use realfft::{ComplexToReal, RealFftPlanner};
+use rustfft::FftPlanner;
+use rustfft::num_complex::Complex64;
+use std::f64::consts::TAU;
+use std::sync::Arc;
+
+/// C2D ∝ 1 below the roll-off and q^(−2−2H) above, up to the last wave; wave numbers in waves per unit length.
+pub struct Spectrum {
+    pub hurst: f64,
+    pub roll_off: f64,
+    pub last: f64,
+}
+
+impl Spectrum {
+    /// Power of a wave of wave number k per area of wave numbers: h² is its integral over the plane.
+    pub fn power(&self, k: f64) -> f64 {
+        if k > self.last { 0.0 } else { 1e-6 * (k / self.roll_off).max(1.0).powf(-2.0 - 2.0 * self.hurst) }
+    }
+
+    /// Rms height, rms gradient and e_el/E* of the equivalent line, of the waves from ½ on.
+    pub fn line(&self) -> [f64; 3] {
+        let mut sums = [0.0; 3];
+        let (low, pieces) = (0.5_f64.ln(), 20_000);
+        let step = (self.last.ln() - low) / f64::from(pieces);
+        for piece in 0..pieces {
+            let k = (low + (f64::from(piece) + 0.5) * step).exp();
+            // d²k = 2πk dk.
+            let power = self.power(k) * TAU * k * k * step;
+            let q = TAU * k;
+            for (sum, factor) in sums.iter_mut().zip([1.0, q * q, 0.25 * q]) {
+                *sum += factor * power;
+            }
+        }
+        [sums[0].sqrt(), sums[1].sqrt(), sums[2]]
+    }
+}
+
+/// Normally distributed numbers of a seed: the polar method of Marsaglia over a splitmix generator.
+pub struct Normal(u64);
+
+impl Normal {
+    pub fn new(seed: u64) -> Self {
+        Normal(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ 0x2545_f491_4f6c_dd1d)
+    }
+
+    fn uniform(&mut self) -> f64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
+    }
+
+    /// Complex number with independent parts of variance ½.
+    fn complex(&mut self) -> Complex64 {
+        loop {
+            let (a, b) = (2.0 * self.uniform() - 1.0, 2.0 * self.uniform() - 1.0);
+            let square: f64 = a * a + b * b;
+            if square > 0.0 && square < 1.0 {
+                let scale = (-square.ln() / square).sqrt();
+                return Complex64::new(scale * a, scale * b);
+            }
+        }
+    }
+}
+
+/// Map of `points` × `points` on a square of side 1, a quarter of a periodic one, so that it does not repeat.
+pub fn map(spectrum: &Spectrum, points: usize, seed: u64) -> Topography {
+    let (all, length) = (2 * points, 2.0);
+    let mut normal = Normal::new(seed);
+    let mut waves = vec![Complex64::ZERO; all * all];
+    let plan = FftPlanner::<f64>::new().plan_fft_inverse(all);
+    let signed = |index: usize| if 2 * index > all { index as f64 - all as f64 } else { index as f64 };
+    for y in 0..all {
+        for x in 0..all {
+            let k = signed(x).hypot(signed(y)) / length;
+            // The real part of a sum of independent waves has half their power.
+            let power = if x + y == 0 { 0.0 } else { 2.0 * spectrum.power(k) / (length * length) };
+            waves[y * all + x] = normal.complex() * power.sqrt();
+        }
+    }
+    for row in waves.chunks_exact_mut(all) {
+        plan.process(row);
+    }
+    let mut heights = Vec::with_capacity(points * points);
+    let mut turned = vec![Complex64::ZERO; all * points];
+    for x in 0..points {
+        for y in 0..all {
+            turned[x * all + y] = waves[y * all + x];
+        }
+    }
+    for row in turned.chunks_exact_mut(all) {
+        plan.process(row);
+        heights.extend(row[..points].iter().map(|z| z.re));
+    }
+    topography(&heights, points)
+}
+
+/// Profiles on a length of 1: parts of cuts twice as long, so that they do not repeat.
+pub struct Profiles {
+    amplitudes: Vec<f64>,
+    points: usize,
+    stride: usize,
+    transform: Arc<dyn ComplexToReal<f64>>,
+}
+
+impl Profiles {
+    /// Profiles of so many points. Waves beyond their Nyquist wave number are sampled as an instrument would, at points.
+    pub fn new(spectrum: &Spectrum, points: usize) -> Self {
+        let stride = (2.0 * spectrum.last / points as f64).ceil().max(1.0) as usize;
+        let all = 2 * points * stride;
+        let amplitudes = (0..=all / 2).map(|wave| (0.5 * cut(spectrum, 0.5 * wave as f64)).sqrt()).collect();
+        Profiles { amplitudes, points, stride, transform: RealFftPlanner::new().plan_fft_inverse(all) }
+    }
+
+    /// The profile of a seed.
+    pub fn profile(&self, seed: u64) -> Topography {
+        let mut normal = Normal::new(seed);
+        let mut waves: Vec<Complex64> = self.amplitudes.iter().map(|a| normal.complex() * a).collect();
+        let last = waves.len() - 1;
+        waves[0].im = 0.0;
+        waves[last].im = 0.0;
+        let mut heights = self.transform.make_output_vec();
+        self.transform.process(&mut waves, &mut heights).unwrap();
+        let sampled: Vec<f64> = heights.iter().step_by(self.stride).take(self.points).copied().collect();
+        topography(&sampled, 0)
+    }
+}
+
+/// Two-sided power of a cut per wave number: the integral over waves across.
+fn cut(spectrum: &Spectrum, k: f64) -> f64 {
+    let most = (spectrum.last.powi(2) - k * k).max(0.0).sqrt();
+    // t = e^u − 1 resolves the roll-off.
+    let pieces = 2000;
+    let step = (1.0 + most).ln() / f64::from(pieces);
+    let sum: f64 = (0..pieces)
+        .map(|piece| {
+            let u = (f64::from(piece) + 0.5) * step;
+            spectrum.power(k.hypot(u.exp() - 1.0)) * u.exp()
+        })
+        .sum();
+    2.0 * sum * step
+}
+
+/// The heights as a file of NumPy would give them: a profile (`columns` of 0) or a map on a length of 1 m.
+fn topography(heights: &[f64], columns: usize) -> Topography {
+    let points = if columns == 0 { heights.len() } else { columns };
+    let shape = if columns == 0 {
+        format!("({points},)")
+    } else {
+        format!("({}, {columns})", heights.len() / columns)
+    };
+    let header = format!("{{'descr': '<f8', 'fortran_order': False, 'shape': {shape}, }}\n");
+    let mut bytes =
+        [b"\x93NUMPY\x01\x00", &(header.len() as u16).to_le_bytes()[..], header.as_bytes()].concat();
+    bytes.extend(heights.iter().flat_map(|z| z.to_le_bytes()));
+    let options =
+        ReadOptions { unit: Some(Unit::METRE), spacing: Some(1.0 / points as f64), ..ReadOptions::default() };
+    parse(&bytes, &options).unwrap()
+}
