@@ -8,7 +8,7 @@ pub use shapes::dry;
 pub use text::{Colours, figure_text};
 
 use super::axis::Axis;
-use super::chart::{Chart, Figure, Sample, Shape, Sign, Stroke};
+use super::chart::{Chart, Entry, Sample, Shape, Sign, Stroke};
 use super::colour::Ink;
 use super::label::Label;
 use super::ticks::Tick;
@@ -258,11 +258,11 @@ fn strokes(stroke: Stroke, marker: Marker) -> [&'static str; 3] {
     }
 }
 
-/// Entries of the legend of a figure: sample and name.
+/// Entries of the legend of charts: sample and name.
 #[must_use]
-pub fn legend(figure: &Figure, style: &CellStyle<'_>) -> Vec<Vec<Text<'static>>> {
+pub fn legend(charts: &[Chart], style: &CellStyle<'_>) -> Vec<Vec<Text<'static>>> {
     let mut parts = Vec::new();
-    for entry in figure.legend() {
+    for entry in Entry::of_charts(charts) {
         let mut part: Vec<Text<'static>> = Vec::new();
         for (ink, sample) in entry.samples {
             let text = match sample {
@@ -290,4 +290,112 @@ pub fn legend(figure: &Figure, style: &CellStyle<'_>) -> Vec<Vec<Text<'static>>>
 /// Label of the vertical axis with its unit, or of the values of a map.
 fn heading(chart: &Chart) -> Label {
     map::of(chart).map_or_else(|| chart.y.label_with_unit(), |map| map.key.label_with_unit())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::draw::{AxisScale, Layer, Span};
+
+    const MARKERS: [Marker; 3] = [Marker::Braille, Marker::Octant, Marker::HalfBlock];
+    const SIZES: [(u16, u16); 6] = [(20, 5), (32, 8), (47, 13), (60, 20), (80, 24), (118, 37)];
+
+    fn axis(low: f64, high: f64, symbol: &str, unit: &str) -> Axis {
+        Axis::new(AxisScale::Linear, Span { low, high }, "", symbol, unit)
+    }
+
+    fn chart(layers: Vec<Layer>) -> Chart {
+        let (x, y) = (axis(-1.3e-7, 6.4e-7, "d", "m"), axis(-2.1e-5, 1.2e-5, "F", "N"));
+        Chart { heading: String::new(), x, y, layers, inset: None }
+    }
+
+    fn drawn(chart: &Chart, (width, height): (u16, u16), marker: Marker) -> (CellPlot, Buffer) {
+        let area = Rect::new(3, 2, width, height);
+        let (place, mut buffer) = (CellPlot::within(area, chart), Buffer::empty(area));
+        place.draw(&mut buffer, chart, &CellStyle { marker, ink: &|_| Style::new(), colours: Colours::None });
+        (place, buffer)
+    }
+
+    fn curve(points: &[(f64, f64)], sign: Option<Sign>) -> Layer {
+        Layer::unnamed(Ink::Text, Shape::Curve { points: points.to_vec(), stroke: Some(Stroke::Solid), sign })
+    }
+
+    #[test]
+    fn signs_are_in_cells_of_their_curves() {
+        let points: Vec<(f64, f64)> = (0..12)
+            .map(|at| (-1.3e-7 + 6.9e-8 * f64::from(at), 3e-6 * f64::from((at * 7) % 11) - 2e-5))
+            .collect();
+        let (without, with) =
+            (chart(vec![curve(&points, None)]), chart(vec![curve(&points, Some(Sign::Up))]));
+        for (size, marker) in SIZES.into_iter().flat_map(|size| MARKERS.map(|marker| (size, marker))) {
+            let (place, line) = drawn(&without, size, marker);
+            let (_, signs) = drawn(&with, size, marker);
+            let mut seen = 0;
+            for point in &points {
+                let cell = place.cell(&without, marker, *point).unwrap();
+                let blank = [" ", "\u{2800}"].contains(&line[cell].symbol());
+                assert!(!blank, "{size:?} {marker} {point:?}");
+                seen += usize::from(signs[cell].symbol() == "▲");
+            }
+            let all = signs.content.iter().filter(|cell| cell.symbol() == "▲").count();
+            assert!(all > 0 && seen >= all, "{size:?} {marker}: {seen} of {all}");
+        }
+        assert_eq!(drawn(&without, SIZES[0], MARKERS[0]).0.cell(&without, MARKERS[0], (1.0, 0.0)), None);
+    }
+
+    #[test]
+    fn ticks_are_beside_the_dots_of_their_values() {
+        let mut labelled = 0;
+        for (size, marker) in SIZES.into_iter().flat_map(|size| MARKERS.map(|marker| (size, marker))) {
+            let level = chart(vec![Layer::unnamed(Ink::Quiet, Shape::Level(0.0))]);
+            let (place, buffer) = drawn(&level, size, marker);
+            let row_of = |row: u16| -> String {
+                (buffer.area.x..buffer.area.right()).map(|column| buffer[(column, row)].symbol()).collect()
+            };
+            for row in place.plot.y..place.plot.bottom() {
+                let text = row_of(row);
+                if let Some((number, _)) = text.split_once(" ┤") {
+                    let is_level = !["", " ", "\u{2800}"].contains(&buffer[(place.plot.x, row)].symbol());
+                    assert_eq!(number.trim() == "0", is_level, "{size:?} {marker}\n{text}");
+                    labelled += 1;
+                }
+            }
+            if size.1 >= WITH_LINE_BELOW {
+                let numbers = row_of(place.plot.bottom() + 1);
+                assert!(numbers.trim_end().ends_with("d (nm)") && numbers.contains(" 0"), "{numbers}");
+            }
+        }
+        assert!(labelled > 20, "{labelled}");
+    }
+
+    #[test]
+    fn a_column_of_the_screen_is_a_number_of_the_axis() {
+        let empty = chart(Vec::new());
+        for size in SIZES {
+            let place = drawn(&empty, size, Marker::Braille).0;
+            for column in place.plot.x..place.plot.right() {
+                let number = place.number_at(&empty.x, column);
+                let (back, _) = place.cell(&empty, Marker::Braille, (number, 0.0)).unwrap();
+                assert!(back.abs_diff(column) <= 1, "{size:?} {column} {back}");
+            }
+            assert_eq!(place.number_at(&empty.x, u16::MAX), empty.x.span.high);
+        }
+    }
+
+    #[test]
+    fn a_chart_is_drawn_like_this() {
+        let area = [(0.0, -1.5e-5), (5e-7, -1.5e-5), (5e-7, 0.0)];
+        let columns = (0..40).map(|at| (at % 9 > 1).then(|| (2e-7 * f64::from(at), 2.4e-7 * f64::from(at))));
+        let chart = chart(vec![
+            Layer::unnamed(Ink::Quiet, Shape::Inside(area.to_vec())),
+            Layer::unnamed(Ink::Quiet, Shape::Upright(1e-7)),
+            Layer::unnamed(Ink::Contact, Shape::Boxes(vec![((5.2e-7, 6e-7), (-1.8e-5, -1e-5))])),
+            Layer::unnamed(Ink::Profile, Shape::Envelope { x: (-1e-7, 6e-7), columns: columns.collect() }),
+            curve(&[(-1e-7, 0.0), (2e-7, f64::NAN), (3e-7, -5e-6), (6e-7, -2e-5)], Some(Sign::Ring)),
+        ]);
+        let (_, buffer) = drawn(&chart, (64, 18), Marker::Braille);
+        let rows =
+            buffer.content.chunks(64).map(|row| row.iter().map(|cell| cell.symbol()).collect::<String>());
+        insta::assert_snapshot!(rows.map(|row| row.trim_end().to_owned()).collect::<Vec<_>>().join("\n"));
+    }
 }

@@ -169,7 +169,7 @@ pub fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
     let chart = chart(model, units);
     let place = plot::draw_chart(frame, below(area, above), &chart, model.appearance);
     draw_letters(frame, &place, &chart, model, units);
-    let legend = plot::in_theme(model.appearance, |style| legend(&plot::figure(&chart), style));
+    let legend = plot::in_theme(model.appearance, |style| legend(std::slice::from_ref(&chart), style));
     let mut parts =
         vec![vec![Text::styled(chart.y.label_with_unit().to_string(), theme.style(Meaning::Quiet))]];
     parts.extend(legend);
