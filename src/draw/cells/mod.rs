@@ -361,8 +361,8 @@ mod tests {
                 }
             }
             if size.1 >= WITH_LINE_BELOW {
-                let numbers = row_of(place.plot.bottom() + 1);
-                assert!(numbers.trim_end().ends_with("d (nm)") && numbers.contains(" 0"), "{numbers}");
+                let below: String = (place.plot.bottom() + 1..buffer.area.bottom()).map(row_of).collect();
+                assert!(below.trim_end().ends_with("d (nm)") && below.contains(" 0"), "{below}");
             }
         }
         assert!(labelled > 20, "{labelled}");
