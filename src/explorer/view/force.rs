@@ -7,6 +7,7 @@ use crate::contact::{CurvePoint, Direction, LegRecord};
 use crate::draw::{
     Axis, AxisScale, CellPlot, Chart, Ink, Label, Layer, Shape, Sign, Span, Stroke, glyph, legend,
 };
+use crate::explorer::caption::caption;
 use crate::explorer::model::{Ghost, Model, Quantities};
 use crate::explorer::snapshot::Loop;
 use crate::explorer::theme::{Meaning, Theme};
@@ -36,8 +37,12 @@ pub fn title(model: &Model) -> String {
     } else {
         String::new()
     };
-    let computing = if model.is_computing() { " · computing" } else { "" };
-    format!(" {name}{loss}{computing} ")
+    let event = match caption(model) {
+        _ if model.is_computing() => " · computing".to_owned(),
+        Some(event) => format!(" · {event}"),
+        None => String::new(),
+    };
+    format!(" {name}{loss}{event} ")
 }
 
 /// In what the axes count: metres and newtons, or what governs the scene.
