@@ -4,7 +4,7 @@ use super::measure::{Bench, CostError, Rows, Tried};
 use super::single::errors_of_single_precision;
 use super::solution::{Solution, Solved, allowed_points, refined};
 use super::{Knob, Measures, Timing};
-use crate::scene::{Edges, Roughness, Scene, Solver, check, format_quantity};
+use crate::scene::{Edges, Scene, Solver, check, format_quantity};
 use crate::simulation::Simulation;
 use std::time::Instant;
 
@@ -166,7 +166,7 @@ fn single_precision(bench: &mut Bench<'_>, points: u64, rows: &mut Rows<'_, '_>)
 /// Random lines: how well the mean of their adhesion forces is known, and what they take one after the other.
 fn lines(bench: &mut Bench<'_>, points: u64, rows: &mut Rows<'_, '_>) -> Result<(), CostError> {
     let knob = Knob::Lines;
-    let Some(Roughness::SelfAffine { seed, .. }) = bench.scene.roughness else { return Ok(()) };
+    let Some(seed) = bench.scene.seed() else { return Ok(()) };
     let scene = refined(bench.scene, points, Edges::SubCell);
     let mut simulation = Simulation::new(bench.folder.to_path_buf());
     let (mut forces, mut seconds, mut next) = (Vec::new(), 0.0, FEWEST_LINES);
@@ -204,9 +204,7 @@ fn lines(bench: &mut Bench<'_>, points: u64, rows: &mut Rows<'_, '_>) -> Result<
 /// This scene with another random line.
 fn of_seed(scene: &Scene, wanted: u64) -> Scene {
     let mut scene = scene.clone();
-    if let Some(Roughness::SelfAffine { seed, .. }) = &mut scene.roughness {
-        *seed = wanted;
-    }
+    scene.set_seed(wanted);
     scene
 }
 

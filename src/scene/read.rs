@@ -5,7 +5,7 @@ use ron::extensions::Extensions;
 use super::field::Field;
 use super::fields::{LEG_FORCE, LEG_INDENTATION, field};
 use super::locate::{Outline, offset_of};
-use super::model::{SCENE_VERSION, Scene};
+use super::model::{SCENE_VERSIONS, Scene};
 use super::range::Range;
 use super::suggest::nearest;
 
@@ -35,7 +35,7 @@ pub(super) fn wrong_version(text: &str) -> Option<Unread> {
     let (offset, value, message) = match outline.find("version") {
         Some(place) => {
             let value = text[place.value.clone()].to_string();
-            if value.parse() == Ok(SCENE_VERSION) {
+            if value.parse().is_ok_and(|version| SCENE_VERSIONS.contains(&version)) {
                 return None;
             }
             (place.value.start, value, "version of the scene file")
@@ -44,7 +44,8 @@ pub(super) fn wrong_version(text: &str) -> Option<Unread> {
             (inside.start.saturating_sub(1), String::new(), "version of the scene file, which is missing")
         }
     };
-    let (field, allowed, message) = ("version".into(), SCENE_VERSION.to_string(), message.into());
+    let allowed = format!("{} or {}", SCENE_VERSIONS.start(), SCENE_VERSIONS.end());
+    let (field, message) = ("version".into(), message.into());
     Some(Unread { offset, field, value, allowed, message })
 }
 
@@ -269,9 +270,9 @@ mod tests {
     #[test]
     fn the_version_is_told_whatever_else_is_wrong() {
         assert_eq!(wrong_version("(version: 1, nonsense)"), None);
-        assert_eq!(wrong_version("(version: 2, nonsense)").unwrap().value, "2");
+        assert_eq!(wrong_version("(version: 3, nonsense)").unwrap().value, "3");
         assert!(wrong_version("(length: 1)").unwrap().message.contains("missing"));
-        assert_eq!(wrong_version("(version: 2, nonsense"), None);
+        assert_eq!(wrong_version("(version: 3, nonsense"), None);
     }
 
     /// Of two mistakes the first is said, also where a bracket or quote behind it stays open.

@@ -7,7 +7,7 @@ use super::height_shape::HeightShape;
 use super::statistics::Statistics;
 use crate::analysis::Regime;
 use crate::parallel::on_this_thread;
-use crate::scene::{Roughness, Scene};
+use crate::scene::Scene;
 use crate::simulation::{Outcome, RunError, Simulation};
 use serde::Serialize;
 use std::path::Path;
@@ -38,7 +38,7 @@ pub struct LineResult {
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum LinesError {
     /// There is but one line.
-    #[error("several lines go with roughness: SelfAffine, which has seeds; this scene has but one line")]
+    #[error("several lines go with random roughness, which has seeds; this scene has one line")]
     OneLine,
     /// A line could not be computed.
     #[error("seed {seed}: {error}")]
@@ -61,9 +61,7 @@ pub fn solve_lines(
     lines: usize,
     jobs: usize,
 ) -> Result<Vec<LineResult>, LinesError> {
-    let Some(Roughness::SelfAffine { seed: first, .. }) = scene.roughness else {
-        return Err(LinesError::OneLine);
-    };
+    let first = scene.seed().ok_or(LinesError::OneLine)?;
     let next = AtomicUsize::new(0);
     let done = Mutex::new(Vec::new());
     let work = || {
@@ -99,9 +97,7 @@ pub fn solve_lines(
 
 fn one_line(simulation: &mut Simulation, scene: &Scene, wanted: u64) -> Result<LineResult, RunError> {
     let mut scene = scene.clone();
-    if let Some(Roughness::SelfAffine { seed, .. }) = &mut scene.roughness {
-        *seed = wanted;
-    }
+    scene.set_seed(wanted);
     // The form is the same for all of them.
     let flat = Scene { form: None, ..scene.clone() };
     let heights = HeightShape::of(simulation.make_line(&flat)?.0.gaps.iter().map(|gap| -gap));
@@ -201,9 +197,7 @@ mod tests {
         let document = open("rough-sphere").unwrap();
         let mut scene = document.scene().clone();
         scene.numerics.points = 1024;
-        if let Some(Roughness::SelfAffine { seed, .. }) = &mut scene.roughness {
-            *seed = u64::MAX - 2;
-        }
+        scene.set_seed(u64::MAX - 2);
         let of = |jobs| solve_lines(&scene, &document.resolve(""), 7, jobs).unwrap();
         let alone = of(1);
         assert_eq!(
@@ -213,9 +207,7 @@ mod tests {
         assert_eq!(of(3), alone);
         assert_eq!(of(64), alone);
         // Each is the scene itself with that seed.
-        if let Some(Roughness::SelfAffine { seed, .. }) = &mut scene.roughness {
-            *seed = 0;
-        }
+        scene.set_seed(0);
         let outcome =
             Simulation::new(document.resolve("")).run(&scene, &|| false, &mut |_, _, _| Ok(())).unwrap();
         assert_eq!(alone[3].adhesion_force, outcome.figures.adhesion_force);

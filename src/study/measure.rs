@@ -7,7 +7,7 @@ use crate::contact::{Direction, History, LegRecord};
 use crate::scene::{Leg, Roughness, Scene};
 use crate::simulation::{Outcome, RunError, Simulation};
 use crate::study::HeightShape;
-use crate::surface::MeasuredProfile;
+use crate::surface::MeasuredRoughness;
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -49,10 +49,10 @@ struct Exponents {
 
 impl<'p> Measurer<'p> {
     /// `profile` is that of the plan's measured file, where it has one.
-    pub fn new(plan: &'p Plan, profile: Option<&Arc<MeasuredProfile>>) -> Self {
+    pub fn new(plan: &'p Plan, profile: Option<&Arc<MeasuredRoughness>>) -> Self {
         let simulation = Simulation::new(PathBuf::new());
         let simulation = match profile {
-            Some(profile) => simulation.with_profile(Arc::clone(profile)),
+            Some(profile) => simulation.with_measured(Arc::clone(profile)),
             None => simulation,
         };
         Measurer { plan, simulation, of_line: None }
@@ -65,9 +65,7 @@ impl<'p> Measurer<'p> {
     /// When the line or the contact fails.
     pub fn run(&mut self, scene: &mut Scene, seed: u64, into: &mut Vec<Vec<f64>>) -> Result<(), RunError> {
         let plan = self.plan;
-        if let Some(Roughness::SelfAffine { seed: of_scene, .. }) = &mut scene.roughness {
-            *of_scene = seed;
-        }
+        scene.set_seed(seed);
         scene.numerics.samples = scene.numerics.samples.min(SAMPLES);
         let of_line = self.of_line(scene)?;
         let (_, _, governing) = self.simulation.make_line(scene)?;

@@ -12,7 +12,7 @@ use crate::disk::DiskFile;
 use crate::io::WriteError;
 use crate::parallel::on_this_thread;
 use crate::simulation::RunError;
-use crate::surface::MeasuredProfile;
+use crate::surface::MeasuredRoughness;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
@@ -88,7 +88,7 @@ struct Shared<'a> {
     /// Records that have reached the disk so far.
     written: AtomicU64,
     /// That of the study's measured file, where it has one.
-    profile: Option<Arc<MeasuredProfile>>,
+    profile: Option<Arc<MeasuredRoughness>>,
     failed: AtomicBool,
     error: Mutex<Option<StudyError>>,
     stop: &'a (dyn Fn() -> bool + Sync),
