@@ -70,6 +70,7 @@ pub mod cli;
 pub mod contact;
 mod contact_cycle;
 pub mod disk;
+pub mod draw;
 #[cfg(feature = "tui")]
 pub mod explorer;
 pub mod export;

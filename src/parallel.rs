@@ -19,6 +19,20 @@ pub(crate) fn on_this_thread<A>(work: impl FnOnce() -> A) -> A {
     result
 }
 
+/// Begins `work` on so many threads of a scope, each of which stays alone. Returns the number of threads that the system
+/// gave.
+pub(crate) fn begin_threads<'scope>(
+    scope: &'scope Scope<'scope, '_>,
+    count: usize,
+    work: impl FnOnce() + Clone + Send + 'scope,
+) -> usize {
+    let begin = || {
+        let work = work.clone();
+        Builder::new().spawn_scoped(scope, || on_this_thread(work)).is_ok()
+    };
+    (0..count).filter(|_| begin()).count()
+}
+
 /// Does both, the first on a thread of its own if that is `worth` it and the system gives one.
 pub(crate) fn in_parallel<A: Send, B>(
     worth: bool,

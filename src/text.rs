@@ -25,12 +25,6 @@ pub(crate) fn printable_lines(text: &str) -> Cow<'_, str> {
     escaped(text, |c| is_control(c) && c != '\n')
 }
 
-/// Text on one line of a picture: without what XML cannot hold.
-#[cfg(feature = "tui")]
-pub(crate) fn for_picture(text: &str) -> String {
-    printable(text).replace(['\u{fffe}', '\u{ffff}'], "\u{fffd}")
-}
-
 /// Name of a file or folder, on one line.
 pub(crate) fn path_name(path: &Path) -> String {
     printable(&path.to_string_lossy()).into_owned()

@@ -48,7 +48,8 @@ impl Body {
         fragments: &[(usize, usize)],
     ) -> Manual<GridEdges> {
         let tree = Arc::clone(tree);
-        Manual::in_contact(&self.gaps, tree, self.edges(), self.foundation, indentation, fragments).unwrap()
+        Manual::in_contact(&self.gaps, tree, self.edges(), self.foundation, indentation, fragments, &[])
+            .unwrap()
     }
 
     /// m
@@ -355,7 +356,7 @@ proptest! {
                 prop_assert!(refused(manual.move_to_indentation(value)));
                 prop_assert!(refused(manual.move_to_force(value)));
                 let tree = Arc::clone(&tree);
-                let taken = Manual::in_contact(&body.gaps, tree, body.edges(), body.foundation, value, &[]);
+                let taken = Manual::in_contact(&body.gaps, tree, body.edges(), body.foundation, value, &[], &[]);
                 let is_refused = matches!(taken, Err(ManualError::NotFinite { .. }));
                 prop_assert!(is_refused);
             }

@@ -2,6 +2,8 @@
 //!
 //! After a change of the program, `UPDATE_README=1 cargo test --test readme` writes the generated parts anew.
 
+#[path = "readme/notices.rs"]
+mod notices;
 #[path = "readme/scenes.rs"]
 mod scenes;
 
@@ -351,8 +353,9 @@ fn the_citation_is_of_this_version() {
 }
 
 /// Rooms of the source from the ground up: each imports only rooms before it.
-const ROOMS: [&str; 22] = [
+const ROOMS: [&str; 23] = [
     "text",
+    "draw",
     "memory",
     "parallel",
     "disk",

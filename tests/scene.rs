@@ -2,11 +2,15 @@
 //! one field is a change to that field alone.
 
 use asperity::scene::{
-    DEFAULT, Document, Effect, FIELDS, Form, LONGEST_TEXT, Leg, Range, Scene, line_column, locate, open,
+    DEFAULT, Document, Effect, FIELDS, Form, LONGEST_TEXT, Leg, Range, Scene, Span, Text, line_column, open,
     presets, to_ron,
 };
 use asperity::simulation::{Plan, Stage};
 use proptest::prelude::*;
+
+fn locate(text: &str, path: &str) -> Option<Span> {
+    Text::new(text).ok()?.span(path)
+}
 
 fn message(text: &str) -> String {
     Document::parse(text, "scene.ron").unwrap_err().to_string()
@@ -347,20 +351,29 @@ fn scene_of(text: &str) -> Scene {
     Document::parse(text, "x").unwrap().scene().clone()
 }
 
+/// Edits at any path: whatever comes of them, the text is read.
+fn edits_of(text: &str, path: &str) {
+    let Ok(read) = Text::new(text) else { return };
+    for edited in [read.replace(path, "0"), read.insert(path, "a", "0", &["b", "a"])].into_iter().flatten() {
+        assert!(Text::new(&edited).is_ok(), "{text} {path}: {edited}");
+    }
+    let _ = read.remove(path);
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(1000))]
 
     #[test]
     fn no_text_makes_the_room_panic(text in any::<String>(), path in any::<String>(), offset in any::<usize>()) {
         everything_about(&text);
-        locate(&text, &path);
+        edits_of(&text, &path);
         line_column(&text, offset);
     }
 
     #[test]
     fn no_ron_like_text_makes_the_room_panic(text in "[()\\[\\]{},:\"'/*#!rb a-cSome0-9.\\\\\n-]{0,60}", path in "[a-c.0-9]{0,8}") {
         everything_about(&text);
-        locate(&text, &path);
+        edits_of(&text, &path);
     }
 
     #[test]

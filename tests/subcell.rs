@@ -31,6 +31,8 @@ struct Body {
     foundation: Foundation,
     /// γ, J/m².
     work: f64,
+    /// γ₁ on closing, at most γ, J/m².
+    closing_work: f64,
 }
 
 impl Body {
@@ -39,7 +41,7 @@ impl Body {
     }
 
     fn edges(&self) -> SubCellEdges {
-        SubCellEdges::new(HessRule::new(self.foundation, self.work))
+        SubCellEdges::new(HessRule::from_works(self.foundation, self.closing_work, self.work))
     }
 
     fn on<'a>(&'a self, tree: &'a ContactTree, samples: usize) -> Exact<Adhesive<'a, SubCellEdges>> {
@@ -106,8 +108,20 @@ fn body(most: usize) -> impl Strategy<Value = Body> {
             gaps,
             foundation: Foundation::endless(spacing, effective_modulus),
             work: range * effective_modulus,
+            closing_work: range * effective_modulus,
         },
     )
+}
+
+/// The same with a smaller work of adhesion on closing: none, hardly less than on opening, or any.
+fn two_works(most: usize) -> impl Strategy<Value = Body> {
+    let share = prop_oneof![1 => Just(0.0), 1 => Just(1.0 - 1e-6), 3 => 0.0..1.0_f64];
+    (body(most), share).prop_map(|(body, share)| Body { closing_work: share * body.work, ..body })
+}
+
+/// Bodies with one and with two works of adhesion.
+fn any_body(most: usize) -> impl Strategy<Value = Body> {
+    prop_oneof![body(most), two_works(most)]
 }
 
 fn cases(cases: u32) -> ProptestConfig {

@@ -68,8 +68,8 @@ fn a_study_is_drawn_as_map_and_as_section() {
     let map = plot(&["--at", "preload=0.1", "-o", "-"]).unwrap();
     assert_eq!(map, plot(&["--at", "preload=0.1", "-o", "-"]).unwrap());
     assert!(map.starts_with("<svg ") && map.contains("Small"), "{map}");
-    // Two panels of 63 cells with a scale of colours of 128 stripes each, on paper.
-    assert_eq!(map.matches("<rect ").count(), 1 + 2 * (63 + 128));
+    // Two panels of 63 cells with a scale of colours of 128 stripes each, their frames, and the paper.
+    assert_eq!(map.matches("<rect ").count(), 1 + 2 * (63 + 128 + 2));
     plot(&["--at", "preload=0.1", "-o", "map.svg"]).unwrap();
     assert_eq!(fs::read_to_string(at.join("map.svg")).unwrap(), map);
     assert!(plot(&["--at", "preload=0.1", "-o", "map.svg"]).unwrap_err().contains("--force overwrites it"));
@@ -85,7 +85,7 @@ fn a_study_is_drawn_as_map_and_as_section() {
 
     // One free axis, and three preloads as curves.
     let curves = plot(&["--at", "roughness.hurst=0.3"]).unwrap();
-    assert!(curves.contains("3: F_n/(E* h L) = 1"), "{curves}");
+    assert!(curves.contains("⠒▲⠒ F_n/(E* h L) = 1\n"), "{curves}");
     let section = plot(&["--at", "roughness.hurst=0.3", "--at", "preload=1", "--quantity", "adhesion_force"]);
     let section = section.unwrap();
     assert!(section.contains("F_a (") && section.contains("95 % confidence"), "{section}");
@@ -109,7 +109,7 @@ fn curves_lie_along_the_longer_axis_and_protocols_stand_side_by_side() {
     asperity(at, &["sweep", "plan.ron", "-o", "study"]).unwrap();
     let plot = |more: &[&str]| asperity(at, &[&["sweep", "plot", "study"], more].concat()).unwrap();
     let text = plot(&[]);
-    assert_eq!(text.matches("1: H = 0.1, 2: H = 0.5, 3: H = 0.9").count(), 2, "{text}");
+    assert_eq!(text.matches("⠒●⠒ H = 0.1  ⠒■⠒ H = 0.5  ⠒▲⠒ H = 0.9").count(), 2, "{text}");
     assert!(text.contains("governing parameter κ") && !text.contains('↑'), "{text}");
     let picture = plot(&["-o", "-"]);
     assert!(picture.contains("(a) zero load adhesion share"), "{picture}");

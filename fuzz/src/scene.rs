@@ -58,7 +58,7 @@ fn assert_fields(document: &Document) {
 
 /// An effect that is switched off is off, and comes back.
 fn assert_effects(document: &Document) {
-    let computed = Computed { work_of_adhesion: Some(0.05), rms_height: Some(1.0e-7) };
+    let computed = Computed { work_of_adhesion: Some(0.05), kappa: Some(2.0), rms_height: Some(1.0e-7) };
     let sound = |changed: &Result<Document, _>, effect: Effect, on: bool| match changed {
         Ok(changed) => {
             assert_document(changed);
@@ -73,10 +73,10 @@ fn assert_effects(document: &Document) {
         let off = document.without(effect, &computed);
         sound(&off, effect, false);
         let Ok(off) = off else { continue };
-        let back = off.with(effect, Some(document));
+        let back = off.with(effect);
         sound(&back, effect, true);
         if let (true, Ok(back)) = (effect.is_on(document.scene()), back) {
-            assert_eq!(back.scene(), document.scene(), "{}", effect.name());
+            assert_eq!(back.text(), document.text(), "{}", effect.name());
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use super::Measures;
 use super::solution::Solution;
-use crate::contact::{ContactError, ContactTree, HessRule, SubCellEdges, exact, run};
+use crate::contact::{ContactError, ContactTree, SubCellEdges, exact, run};
 use crate::scene::{Edges, Scene};
 use crate::simulation::{RunError, Simulation};
 use std::path::Path;
@@ -17,7 +17,7 @@ pub(super) fn errors_of_single_precision(
     let mut simulation = Simulation::new(folder.to_path_buf());
     let (line, _, governing) = simulation.make_line(scene)?;
     let foundation = governing.foundation(line);
-    let hess = governing.adhesive_work().map(|work| HessRule::new(foundation, work));
+    let hess = governing.hess_rule(foundation);
     let solve = |gaps: &[f64]| -> Result<Solution, RunError> {
         let goes_on = || if stop() { Err(ContactError::Interrupted) } else { Ok(()) };
         goes_on()?;

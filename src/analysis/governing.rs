@@ -1,6 +1,6 @@
 //! The governing parameter κ and what it ties together, eqs. (11) and (14).
 
-use crate::contact::Foundation;
+use crate::contact::{Foundation, HessRule};
 use crate::scene::{Adhesion, Roughness, Scene};
 use crate::surface::Line;
 
@@ -76,6 +76,12 @@ impl Governing {
     /// h⟨∇z⟩E*, J/m².
     fn stiffness(&self) -> Option<f64> {
         self.amplitude.map(|a| a.rms_height * a.rms_gradient * self.effective_modulus)
+    }
+
+    /// The rule of Hess on the foundation under a line; `None` without adhesion.
+    #[must_use]
+    pub fn hess_rule(&self, foundation: Foundation) -> Option<HessRule> {
+        self.adhesive_work().map(|work| HessRule::new(foundation, work))
     }
 
     /// The work of adhesion where there is any, J/m².

@@ -64,6 +64,8 @@ impl CheckArguments {
 /// Runs the cases and writes what came of them.
 pub(super) fn check(arguments: &CheckArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
     let chosen = arguments.chosen()?;
+    let endings = [("json", CheckFormat::Json)];
+    let format = arguments.output.format(arguments.format, &endings, CheckFormat::Text)?;
     arguments.output.check()?;
     let progress = Progress { count: chosen.len() };
     let run = |(index, check): (usize, Check)| {
@@ -72,11 +74,7 @@ pub(super) fn check(arguments: &CheckArguments, stdout: &mut dyn Write) -> Resul
     };
     let verdicts: Vec<Verdict> = chosen.into_iter().enumerate().map(run).collect();
     progress.end();
-    let by_ending = match arguments.output.file().and_then(|path| path.extension()?.to_str()) {
-        Some("json") => CheckFormat::Json,
-        _ => CheckFormat::Text,
-    };
-    arguments.output.write(stdout, |out| match arguments.format.unwrap_or(by_ending) {
+    arguments.output.write(stdout, |out| match format {
         CheckFormat::Text => out.write_all(check_text(&verdicts).as_bytes()),
         CheckFormat::Json => write_check_json(out, &verdicts),
     })?;

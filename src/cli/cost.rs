@@ -2,10 +2,10 @@
 
 use super::{CliError, OutputArguments, SceneArguments};
 use crate::accuracy::{Knob, Progress, measure};
-use crate::export::{cost_text, work_precision_svg, write_cost_csv, write_cost_json};
+use crate::draw::figure_svg;
+use crate::export::{cost_text, work_precision, write_cost_csv, write_cost_json};
 use crate::io::{check_writable, write_new};
 use crate::scene::parse_quantity;
-use crate::text::for_picture;
 use clap::{Args, ValueEnum};
 use std::io::{self, IsTerminal, Write};
 use std::path::PathBuf;
@@ -33,7 +33,7 @@ pub struct CostArguments {
     /// Time limit of the whole measurement: 500ms, 30s, 2min
     #[arg(long, value_name = "TIME", default_value = "10s", value_parser = budget)]
     pub budget: Duration,
-    /// text, json or csv; default: by the extension of FILE, else text
+    /// text, json, csv or svg; default: by the extension of FILE, else text
     #[arg(long, value_enum, hide_possible_values = true)]
     pub format: Option<CostFormat>,
     /// Draw errors over times to FILE, in SVG
@@ -56,7 +56,13 @@ pub enum CostFormat {
     Json,
     /// One row for each setting.
     Csv,
+    /// A picture of errors over times.
+    Svg,
 }
+
+/// Endings of files in each format.
+const ENDINGS: [(&str, CostFormat); 3] =
+    [("json", CostFormat::Json), ("csv", CostFormat::Csv), ("svg", CostFormat::Svg)];
 
 /// A time as people write it.
 fn budget(text: &str) -> Result<Duration, String> {
@@ -70,9 +76,12 @@ fn budget(text: &str) -> Result<Duration, String> {
 
 /// Measures what accuracy costs and writes it.
 pub(super) fn cost(arguments: &CostArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
+    let output = OutputArguments { output: arguments.output.clone(), force: arguments.force };
+    let format = output.format(arguments.format, &ENDINGS, CostFormat::Text)?;
+    let svg_ending = OutputArguments { output: arguments.svg.clone(), force: arguments.force };
+    svg_ending.format(Some(CostFormat::Svg), &ENDINGS, CostFormat::Svg)?;
     let document = arguments.scene.open()?;
     let scene = document.scene();
-    let output = OutputArguments { output: arguments.output.clone(), force: arguments.force };
     output.check()?;
     if let Some(svg) = &arguments.svg {
         check_writable(svg, arguments.force)?;
@@ -85,20 +94,16 @@ pub(super) fn cost(arguments: &CostArguments, stdout: &mut dyn Write) -> Result<
         });
     told.end();
     let table = measured.map_err(|error| CliError::Cost { scene: document.name().into(), error })?;
+    let title = if scene.title.is_empty() { document.name() } else { &scene.title };
+    let picture = || figure_svg(&work_precision(title, &table));
     if let Some(svg) = &arguments.svg {
-        let title = if scene.title.is_empty() { document.name() } else { &scene.title };
-        let picture = work_precision_svg(&for_picture(title), &table);
-        write_new(svg, arguments.force, |out| out.write_all(picture.as_bytes()))?;
+        write_new(svg, arguments.force, |out| out.write_all(picture().as_bytes()))?;
     }
-    let by_ending = match output.file().and_then(|path| path.extension()?.to_str()) {
-        Some("json") => CostFormat::Json,
-        Some("csv") => CostFormat::Csv,
-        _ => CostFormat::Text,
-    };
-    output.write(stdout, |out| match arguments.format.unwrap_or(by_ending) {
+    output.write(stdout, |out| match format {
         CostFormat::Text => out.write_all(cost_text(&table).as_bytes()),
         CostFormat::Json => write_cost_json(out, scene, &table),
         CostFormat::Csv => write_cost_csv(out, &table),
+        CostFormat::Svg => out.write_all(picture().as_bytes()),
     })
 }
 

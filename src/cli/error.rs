@@ -30,6 +30,28 @@ pub enum CliError {
     /// Scenes that were checked are wrong.
     #[error("{}", .0.join("\n"))]
     Checked(Vec<String>),
+    /// A file would hold something else than its ending says.
+    #[error("{path}: not an ending of what is written; allowed: {allowed}")]
+    Ending {
+        /// The file.
+        path: String,
+        /// Endings of what is written.
+        allowed: String,
+    },
+    /// Several scenes, or the profile or patches of a scene, in a format that cannot hold them.
+    #[error("{what}: only a picture shows {what}; allowed: -o FILE.svg, or --format svg")]
+    OnlyInPicture {
+        /// What the format cannot hold.
+        what: &'static str,
+    },
+    /// A picture of something that no picture shows.
+    #[error("{what}: {allowed}")]
+    NoPicture {
+        /// What no picture shows.
+        what: &'static str,
+        /// What is allowed in its place.
+        allowed: &'static str,
+    },
     /// A measured surface cannot be read.
     #[error("{file}: {error}")]
     Surface {

@@ -27,6 +27,7 @@ pub struct LineArguments {
 
 /// Makes the line of a scene and writes it.
 pub(super) fn line(arguments: &LineArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
+    arguments.output.format(None, &[("csv", ())], ())?;
     let document = arguments.scene.open()?;
     arguments.output.check()?;
     let mut simulation = simulation_of(&document);

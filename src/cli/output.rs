@@ -2,9 +2,13 @@
 
 use super::CliError;
 use crate::io::{check_writable, write_new};
+use crate::text::path_name;
 use clap::Args;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
+
+/// Endings of pictures.
+const PICTURES: [&str; 9] = ["svg", "svgz", "png", "pdf", "eps", "ps", "jpg", "jpeg", "gif"];
 
 /// A file for results in place of standard output.
 #[derive(Args, Debug)]
@@ -28,6 +32,36 @@ impl OutputArguments {
         Ok(self.file().map_or(Ok(()), |path| check_writable(path, self.force))?)
     }
 
+    /// The chosen format, else that of the ending of FILE, else the usual one. `endings` are those of the formats;
+    /// under the ending of a picture nothing but that picture is written, and a picture under no other ending.
+    pub(super) fn format<F: Copy + PartialEq>(
+        &self,
+        chosen: Option<F>,
+        endings: &[(&str, F)],
+        usual: F,
+    ) -> Result<F, CliError> {
+        let path = self.file();
+        let ending = path.and_then(Path::extension).map(|ending| ending.to_string_lossy().to_lowercase());
+        let of = |ending: &str| endings.iter().find(|(one, _)| *one == ending).map(|(_, format)| *format);
+        let by_ending = ending.as_deref().and_then(of);
+        let format = chosen.or(by_ending).unwrap_or(usual);
+        let is_picture = PICTURES.contains(&ending.as_deref().unwrap_or_default());
+        let (true, Some(path)) = (is_picture || of("svg") == Some(format) && ending.is_some(), path) else {
+            return Ok(format);
+        };
+        if by_ending == Some(format) {
+            return Ok(format);
+        }
+        let allowed = |(ending, one): &(&str, F)| {
+            chosen.is_none_or(|chosen| chosen == *one).then_some(format!(".{ending}"))
+        };
+        let mut allowed: Vec<String> = endings.iter().filter_map(|ending| allowed(ending)).collect();
+        if allowed.is_empty() {
+            allowed.push(".txt".to_owned());
+        }
+        Err(CliError::Ending { path: path_name(path), allowed: allowed.join(", ") })
+    }
+
     /// Writes results to where they go.
     pub(super) fn write(
         &self,
@@ -38,5 +72,48 @@ impl OutputArguments {
             Some(path) => Ok(write_new(path, self.force, |out| write(out))?),
             None => Ok(write(stdout)?),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const ENDINGS: [(&str, char); 2] = [("json", 'j'), ("svg", 's')];
+
+    fn format(path: &str, chosen: Option<char>) -> Result<char, String> {
+        let output = OutputArguments { output: Some(path.into()), force: false };
+        output.format(chosen, &ENDINGS, 't').map_err(|error| error.to_string())
+    }
+
+    #[test]
+    fn formats_follow_the_ending() {
+        for (path, chosen, expected) in [
+            ("a.json", None, 'j'),
+            ("a.SVG", None, 's'),
+            ("a.txt", None, 't'),
+            ("svg", None, 't'),
+            ("-", Some('s'), 's'),
+            ("a", Some('s'), 's'),
+            ("a.json", Some('t'), 't'),
+        ] {
+            assert_eq!(format(path, chosen), Ok(expected), "{path}");
+        }
+    }
+
+    #[test]
+    fn a_picture_is_written_under_its_ending_and_nothing_else() {
+        for (path, chosen, allowed) in [
+            ("a.svg", Some('j'), ".json"),
+            ("a.svg", Some('t'), ".txt"),
+            ("a.png", None, ".json, .svg"),
+            ("a.PDF", Some('s'), ".svg"),
+            ("a.json", Some('s'), ".svg"),
+        ] {
+            let error = format(path, chosen).unwrap_err();
+            assert_eq!(error, format!("{path}: not an ending of what is written; allowed: {allowed}"));
+        }
+        let output = OutputArguments { output: Some("a.svg".into()), force: false };
+        assert!(output.format(None, &[("csv", 'c')], 'c').is_err());
     }
 }

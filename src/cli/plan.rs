@@ -50,17 +50,21 @@ pub(super) fn plan(arguments: &PlanArguments, stdout: &mut dyn Write) -> Result<
 }
 
 fn text(plan: &Plan) -> String {
-    let mut rows = vec![["stage", "", "passes", "springs touched", "memory", "because"].map(String::from)];
+    let mut rows = vec![["stage", "passes", "springs", "memory", "because"].map(String::from)];
     let count = |count: Option<u64>| match count {
         None => "?".into(),
         Some(0) => String::new(),
         Some(count) => grouped(count),
     };
     for PlannedStage { stage, runs, because, cost } in &plan.stages {
-        let runs = if *runs { "runs" } else { "skipped" };
         let memory = if cost.bytes > 0 { memory(cost.bytes) } else { String::new() };
-        let (passes, touched) = (count(cost.passes), count(cost.springs_touched));
-        rows.push([stage.name().into(), runs.into(), passes, touched, memory, (*because).into()]);
+        let passes = match count(cost.passes) {
+            _ if !runs => "skipped".to_owned(),
+            passes if passes.is_empty() => "runs".to_owned(),
+            passes => passes,
+        };
+        let touched = count(cost.springs_touched);
+        rows.push([stage.name().into(), passes, touched, memory, (*because).into()]);
     }
     let mut sheet = Sheet::default();
     sheet.table(&rows);

@@ -3,7 +3,7 @@
 use super::CliError;
 use crate::export::sheet::Sheet;
 use crate::io::write_json_value;
-use crate::scene::{self, Document, Entry, Library, Roughness, Source, line_column, locate};
+use crate::scene::{self, Document, Entry, Library, Roughness, Source, Text, line_column};
 use crate::simulation::measured_options;
 use crate::surface::MeasuredRoughness;
 use crate::text::printable;
@@ -161,7 +161,10 @@ fn profile_error(document: &Document) -> Option<String> {
         Err(error) => error.to_string(),
         Ok(measured) => measured.check(scene.length, scene.numerics.points as usize).err()?,
     };
-    let offset = locate(document.text(), "roughness.file").map_or(0, |place| place.value.start);
+    let offset = Text::new(document.text())
+        .ok()
+        .and_then(|text| text.span("roughness.file"))
+        .map_or(0, |span| span.value.start);
     let (line, column) = line_column(document.text(), offset);
     Some(format!("{}:{line}:{column}: {error}", document.name()))
 }

@@ -3,10 +3,13 @@
 use super::scene::simulation_of;
 use super::{CliError, OutputArguments, SceneArguments};
 use crate::accuracy::{Choice, Estimate, choose, estimate, parse_tolerance};
+use crate::contact::{LegRecord, Solver};
+use crate::draw::{Figure, figure_svg};
 use crate::export::{
-    ensemble_text, summary, write_curve, write_ensemble_csv, write_ensemble_json, write_json,
+    ContactSets, ensemble_text, force_figure, summary, write_curve, write_ensemble_csv, write_ensemble_json,
+    write_json,
 };
-use crate::scene::{Document, Scene};
+use crate::scene::{Document, Scene, open_argument};
 use crate::simulation::Outcome;
 use crate::study;
 use clap::{Args, ValueEnum};
@@ -20,6 +23,9 @@ Examples:
   asperity run jkr-sphere --set numerics.points=65536 -o jkr.csv
   asperity run jkr-sphere --tolerance 0.1%
   asperity run pressure-sensitive --lines 32 --format csv
+  asperity run pressure-sensitive -o loop.svg
+  asperity run pressure-sensitive --profile -o profile.svg
+  asperity run ideal-adhesion pressure-sensitive non-adhesive -o loops.svg
 
 JSON and CSV are in SI units. Compression is positive, indentation counts from first touch.";
 
@@ -30,12 +36,22 @@ pub struct RunArguments {
     /// The scene.
     #[command(flatten)]
     pub scene: SceneArguments,
-    /// summary, json or csv; default: by the extension of FILE, else summary
+    /// More scenes, whose force curves are drawn into the same picture
+    #[arg(value_name = "SCENE")]
+    pub more: Vec<String>,
+    /// summary, json, csv or svg; default: by the extension of FILE, else summary
     ///
     /// A summary is text for a person. JSON is one object with scene, profile, figures, curve,
     /// contacts and work. CSV is the curve: leg,indentation,force,contact_length,fragments.
+    /// SVG is a picture of the curve.
     #[arg(long, value_enum, hide_possible_values = true, verbatim_doc_comment)]
     pub format: Option<RunFormat>,
+    /// Draw the profile and its contact at the largest force instead of the curve
+    #[arg(long, conflicts_with_all = ["fragments", "more", "lines"])]
+    pub profile: bool,
+    /// Draw the contact patches over the indentation instead of the curve
+    #[arg(long, conflicts_with_all = ["more", "lines"])]
+    pub fragments: bool,
     /// Choose springs and edges for an adhesion force within T, as 1e-3 or 0.1%
     ///
     /// Doubles the springs until the error is small enough: the error from the closed form of
@@ -68,41 +84,93 @@ pub enum RunFormat {
     Json,
     /// The force curve.
     Csv,
+    /// A picture of the force curve, the profile or the contact patches.
+    Svg,
 }
 
+/// Endings of files in each format.
+const ENDINGS: [(&str, RunFormat); 3] =
+    [("json", RunFormat::Json), ("csv", RunFormat::Csv), ("svg", RunFormat::Svg)];
+
 impl RunArguments {
-    fn chosen_format(&self) -> RunFormat {
-        self.format.unwrap_or_else(|| match self.output.file().and_then(|path| path.extension()?.to_str()) {
-            Some("json") => RunFormat::Json,
-            Some("csv") => RunFormat::Csv,
-            _ => RunFormat::Summary,
-        })
+    fn chosen_format(&self) -> Result<RunFormat, CliError> {
+        let needs_picture = [
+            (!self.more.is_empty(), "several scenes"),
+            (self.profile, "--profile"),
+            (self.fragments, "--fragments"),
+        ];
+        let needs_picture = needs_picture.into_iter().find(|(is_asked, _)| *is_asked);
+        let usual = if needs_picture.is_some() { RunFormat::Svg } else { RunFormat::Summary };
+        let format = self.output.format(self.format, &ENDINGS, usual)?;
+        match needs_picture {
+            Some((_, what)) if format != RunFormat::Svg => Err(CliError::OnlyInPicture { what }),
+            _ if format == RunFormat::Svg && self.lines.is_some() => Err(CliError::NoPicture {
+                what: "--lines",
+                allowed: "a picture shows one profile; allowed: summary, json and csv",
+            }),
+            _ => Ok(format),
+        }
     }
 }
 
 /// Computes a scene and writes what it gave.
 pub(super) fn run(arguments: &RunArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
+    let format = arguments.chosen_format()?;
     let document = arguments.scene.open()?;
     arguments.output.check()?;
+    if format == RunFormat::Svg {
+        let figure = figure(arguments, document)?;
+        return arguments.output.write(stdout, |out| out.write_all(figure_svg(&figure).as_bytes()));
+    }
     let choice = arguments.tolerance.map(|tolerance| choice(&document, tolerance)).transpose()?;
     let chosen = choice.as_ref().map(|choice| choice.apply(document.scene()));
     let scene = chosen.as_ref().unwrap_or(document.scene());
     if let Some(lines) = arguments.lines {
-        return on_lines(arguments, &document, scene, choice.as_ref(), lines, stdout);
+        return on_lines(arguments, &document, scene, (format, choice.as_ref()), lines, stdout);
     }
     let outcome = simulation_of(&document)
         .run(scene, &|| false, &mut |_, _, _| Ok(()))
         .map_err(|error| CliError::Run { scene: document.name().into(), error })?;
-    let (format, choice) = (arguments.chosen_format(), choice.as_ref());
+    let choice = choice.as_ref();
     let estimate = estimate_for(format, &document, scene, &outcome, choice)?;
     arguments.output.write(stdout, |out| match format {
-        RunFormat::Summary => {
+        RunFormat::Summary | RunFormat::Svg => {
             out.write_all(summary(scene, &outcome, estimate.as_ref()).as_bytes())?;
             choice.map_or(Ok(()), |choice| writeln!(out, "\n{}", choice.sentence()))
         }
         RunFormat::Json => write_json(out, scene, &outcome, choice, estimate.as_ref()),
         RunFormat::Csv => write_curve(out, &outcome),
     })
+}
+
+/// Computes the scenes and draws what is asked for.
+fn figure(arguments: &RunArguments, document: Document) -> Result<Figure, CliError> {
+    let more = arguments.more.iter().map(|scene| arguments.scene.overrides.apply(open_argument(scene)?));
+    let documents = std::iter::once(Ok(document)).chain(more).collect::<Result<Vec<_>, CliError>>()?;
+    let mut computed = Vec::new();
+    for document in &documents {
+        let choice = arguments.tolerance.map(|tolerance| choice(document, tolerance)).transpose()?;
+        let chosen = choice.as_ref().map(|choice| choice.apply(document.scene()));
+        let scene = chosen.as_ref().unwrap_or(document.scene());
+        let failed = |error| CliError::Run { scene: document.name().into(), error };
+        let title = if scene.title.is_empty() { document.name() } else { scene.title.as_str() }.to_owned();
+        let mut simulation = simulation_of(document);
+        if !(arguments.profile || arguments.fragments) {
+            let outcome = simulation.run(scene, &|| false, &mut |_, _, _| Ok(())).map_err(failed)?;
+            computed.push((title, outcome));
+            continue;
+        }
+        let mut sets = ContactSets::new(arguments.fragments);
+        let mut observe = |_, record: &LegRecord, solver: &dyn Solver| sets.observe(record, solver);
+        let outcome = simulation.run(scene, &|| false, &mut observe).map_err(failed)?;
+        if arguments.fragments {
+            return Ok(sets.patches_figure(&title, &outcome));
+        }
+        let (line, ..) = simulation.make_line(scene).map_err(failed)?;
+        return Ok(sets.profile_figure(&title, &outcome, line));
+    }
+    let scenes: Vec<_> = computed.iter().map(|(title, outcome)| (title.as_str(), outcome)).collect();
+    Ok(force_figure(&scenes))
 }
 
 /// The estimated error of an outcome, for a format that states it: that of the choice where springs were chosen.
@@ -114,7 +182,7 @@ fn estimate_for(
     choice: Option<&Choice>,
 ) -> Result<Option<Estimate>, CliError> {
     match (format, choice) {
-        (RunFormat::Csv, _) => Ok(None),
+        (RunFormat::Csv | RunFormat::Svg, _) => Ok(None),
         (_, Some(choice)) => Ok(Some(choice.estimate())),
         (_, None) => estimate(scene, &document.resolve(""), outcome, &|| false)
             .map_err(|error| CliError::Run { scene: document.name().into(), error }),
@@ -135,7 +203,7 @@ fn on_lines(
     arguments: &RunArguments,
     document: &Document,
     scene: &Scene,
-    choice: Option<&Choice>,
+    (format, choice): (RunFormat, Option<&Choice>),
     lines: u32,
     stdout: &mut dyn Write,
 ) -> Result<(), CliError> {
@@ -143,8 +211,8 @@ fn on_lines(
         arguments.jobs.map_or_else(|| available_parallelism().map_or(1, std::num::NonZero::get), usize::from);
     let results = study::solve_lines(scene, &document.resolve(""), lines as usize, jobs)
         .map_err(|error| CliError::Lines { scene: document.name().into(), error })?;
-    arguments.output.write(stdout, |out| match arguments.chosen_format() {
-        RunFormat::Summary => {
+    arguments.output.write(stdout, |out| match format {
+        RunFormat::Summary | RunFormat::Svg => {
             out.write_all(ensemble_text(scene, &results).as_bytes())?;
             choice.map_or(Ok(()), |choice| writeln!(out, "\n{}", choice.sentence()))
         }

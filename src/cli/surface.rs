@@ -269,7 +269,7 @@ fn scene_text(
         numerics: Numerics { points, ..Numerics::default() },
         observe: Vec::new(),
     };
-    let document = Document::of_scene(&scene, &path_name(path))?;
+    let document = Document::from_scene(&scene, &path_name(path))?;
     Ok(document.text().to_owned())
 }
 

@@ -113,6 +113,9 @@ pub trait ContactModel {
     /// [`ContactError::OutOfMemory`].
     fn copy_leg(&self, copy: &mut LegContact) -> Result<(), ContactError>;
 
+    /// See [`super::Solver::rises`].
+    fn rises(&self, indentation: f64) -> Vec<f64>;
+
     /// See [`super::Solver::fragments`].
     fn fragments(&self, indentation: f64) -> Vec<(usize, usize)>;
 }

@@ -24,7 +24,7 @@ pub enum ContactError {
     },
     /// The contact detaches above this force.
     #[error(
-        "loading.{index} = {leg:?}: the contact detaches above that force; allowed on this leg: at least {smallest:e} N"
+        "loading.{index} = {leg:?}: the contact detaches above that force; allowed in this stage: at least {smallest:e} N"
     )]
     DetachesBefore {
         /// Index of the leg.

@@ -299,6 +299,10 @@ impl<C: ContactModel> super::Solver for Exact<C> {
         if self.touching { self.contact.fragments(indentation) } else { Vec::new() }
     }
 
+    fn rises(&self, indentation: f64) -> Vec<f64> {
+        if self.touching { self.contact.rises(indentation) } else { Vec::new() }
+    }
+
     fn thresholds_along_line(&self, out: &mut Vec<f64>) {
         self.contact.thresholds_along_line(out);
         if !self.touching {

@@ -1,5 +1,7 @@
 //! The elastic foundation of the method of dimensionality reduction and the rule of Hess on it.
 
+use super::Direction;
+
 /// A foundation of independent springs, equivalent to an elastic half-space.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Foundation {
@@ -42,35 +44,68 @@ impl Foundation {
 
 /// The rule of Hess, eqs. (3) and (10): how far the springs of a contact fragment can be stretched
 /// before they detach.
+///
+/// Where the work of adhesion is larger on opening than on closing, a fragment attaches springs by the closing rule and
+/// detaches them by the opening one. In between its edges are pinned.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HessRule {
-    stretch_of_one: f64,
+    /// Largest stretch of a single spring on detaching, m.
+    opening: f64,
+    /// The same on attaching, at most as large.
+    closing: f64,
 }
 
 impl HessRule {
     /// The rule without adhesion: nothing can be stretched.
-    pub const NO_ADHESION: HessRule = HessRule { stretch_of_one: 0.0 };
+    pub const NO_ADHESION: HessRule = HessRule { opening: 0.0, closing: 0.0 };
 
     /// The rule for a work of adhesion γ in J/m².
     #[must_use]
     pub fn new(foundation: Foundation, work_of_adhesion: f64) -> Self {
-        // The quotient γ/E* first: scaling both by one power of two then changes no bit.
-        let range = work_of_adhesion / foundation.effective_modulus;
-        HessRule { stretch_of_one: (std::f64::consts::PI * foundation.spacing * range).sqrt() }
+        Self::from_works(foundation, work_of_adhesion, work_of_adhesion)
+    }
+
+    /// The rule for a work of adhesion γ₁ on closing and γ₂ ≥ γ₁ on opening, both in J/m².
+    ///
+    /// A smaller γ₂ counts as γ₁: a spring would detach where it had just attached.
+    #[must_use]
+    pub fn from_works(foundation: Foundation, closing_work: f64, opening_work: f64) -> Self {
+        let stretch = |work: f64| {
+            // The quotient γ/E* first: scaling both by one power of two then changes no bit.
+            let range = work / foundation.effective_modulus;
+            (std::f64::consts::PI * foundation.spacing * range).sqrt()
+        };
+        let closing = stretch(closing_work);
+        HessRule { opening: stretch(opening_work).max(closing), closing }
     }
 
     /// The rule under which a fragment of one spring can be stretched by so much, m.
-    pub(super) fn with_stretch(stretch_of_one: f64) -> Self {
-        HessRule { stretch_of_one }
+    pub(super) fn with_stretch(stretch: f64) -> Self {
+        HessRule { opening: stretch, closing: stretch }
     }
 
-    /// Largest stretch Δl_max = sqrt(π n Δx γ/E*), m, of a fragment of `springs` springs, eq. (10).
+    /// The rule by which springs attach alone, or detach alone.
+    #[must_use]
+    pub fn on(&self, direction: Direction) -> Self {
+        Self::with_stretch(match direction {
+            Direction::Loading => self.closing,
+            Direction::Unloading => self.opening,
+        })
+    }
+
+    /// Returns true if springs attach and detach by one rule.
+    #[must_use]
+    pub fn is_one(&self) -> bool {
+        self.opening == self.closing
+    }
+
+    /// Largest stretch Δl_max = sqrt(π n Δx γ/E*) before a fragment of `springs` springs detaches, m, eq. (10).
     ///
     /// Rounding keeps the order: more springs never give a smaller value.
     #[inline]
     #[must_use]
     pub fn largest_stretch(&self, springs: u32) -> f64 {
-        self.stretch_of_one * f64::from(springs).sqrt()
+        self.opening * f64::from(springs).sqrt()
     }
 }
 

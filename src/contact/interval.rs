@@ -2,10 +2,9 @@
 //!
 //! The interval is parted at its middle event until bounds exclude a part or nothing happens inside.
 
-use super::adhesive::{EdgeCells, EdgeModel};
+use super::adhesive::EdgeModel;
 use super::contact_model::ContactState;
-use super::crossing::{bisect, crossing, last_before};
-use super::grid::CompensatedSum;
+use super::steady::{SteadyContact, state};
 use super::totals::{ContactTotals, GapScale};
 
 /// From this indentation on so much is whole in contact, until the next step.
@@ -88,31 +87,15 @@ impl<E: EdgeModel> Interval<E> {
 
     /// The contact at an indentation.
     fn at(&self, pieces: &[Piece<E::Slider>], indentation: f64) -> ContactState {
-        self.state(pieces, indentation, indentation)
+        let there = pieces.iter().filter(|piece| piece.is_at(indentation)).map(|piece| piece.slider);
+        state(self.edges, &self.scale, self.totals(indentation), there, indentation)
     }
 
-    /// The contact at the indentation `contact` as it carries at another one.
-    fn state(&self, pieces: &[Piece<E::Slider>], contact: f64, indentation: f64) -> ContactState {
-        let (mut length, mut compression) = (CompensatedSum::default(), CompensatedSum::default());
-        for piece in pieces.iter().filter(|piece| piece.is_at(contact)) {
-            let cells = self.edges.edge_cells(&piece.slider, indentation);
-            length.add(cells.length);
-            compression.add(cells.compression);
-        }
-        let cells = EdgeCells { length: length.total(), compression: compression.total() };
-        self.edges.state(indentation, self.totals(contact), cells, &self.scale)
-    }
-
-    /// The compression just below `indentation`, as that of the contact at `low`.
-    fn below(&self, pieces: &[Piece<E::Slider>], low: f64, indentation: f64) -> f64 {
-        self.state(pieces, low, indentation).compression
-    }
-
-    /// Growth of the compression with the indentation for the contact at `low`.
-    fn stiffness(&self, pieces: &[Piece<E::Slider>], low: f64, indentation: f64) -> f64 {
-        let there = pieces.iter().filter(|piece| piece.is_at(low));
-        let of_edges = there.map(|piece| self.edges.edge_stiffness(&piece.slider, indentation));
-        self.edges.stiffness(self.totals(low)) + of_edges.sum::<f64>()
+    /// The contact at an indentation, as it is up to the next event.
+    fn steady(&self, pieces: &[Piece<E::Slider>], indentation: f64) -> SteadyContact<E> {
+        let there = pieces.iter().filter(|piece| piece.is_at(indentation));
+        let (edges, scale, totals) = (self.edges, self.scale, self.totals(indentation));
+        SteadyContact { edges, scale, totals, sliders: there.map(|piece| piece.slider).collect() }
     }
 
     /// The middle event of all inside a part.
@@ -127,17 +110,6 @@ impl<E: EdgeModel> Interval<E> {
         pieces.iter().copied().filter(|piece| piece.from <= high && piece.to > low).collect()
     }
 
-    /// Indentation of the smallest force between `low` and `high`, m; the force of the contact at `low` is convex.
-    fn flat(&self, pieces: &[Piece<E::Slider>], low: f64, high: f64) -> f64 {
-        if self.stiffness(pieces, low, low) >= 0.0 {
-            return low;
-        }
-        if self.stiffness(pieces, low, high) <= 0.0 {
-            return high;
-        }
-        bisect(low, high, |at| self.stiffness(pieces, low, at) >= 0.0)
-    }
-
     /// Makes `best` the smallest force between two ends, both of which it knows already.
     pub fn smallest(&self, pieces: &[Piece<E::Slider>], (low, high): Ends<'_>, best: &mut ContactState) {
         let (from, to) = (low.indentation, high.indentation);
@@ -146,7 +118,7 @@ impl<E: EdgeModel> Interval<E> {
         }
         match self.middle_event(from, to) {
             None => {
-                let at = self.flat(pieces, from, to).min(to.next_down());
+                let at = self.steady(pieces, from).flattest(from, to).min(to.next_down());
                 self.take(pieces, at, best, |a, b| a < b);
             }
             Some(event) => {
@@ -198,21 +170,11 @@ impl<E: EdgeModel> Interval<E> {
         }
         let (from, to) = (low.indentation, high.indentation);
         match self.middle_event(from, to) {
-            None => {
-                if let Some(straight) = self.straight(from, wanted) {
-                    return if straight < to {
-                        Some(straight.max(from))
-                    } else {
-                        (high.compression >= wanted).then_some(to)
-                    };
-                }
-                if self.below(pieces, from, to) < wanted {
-                    return (high.compression >= wanted).then_some(to);
-                }
-                // Convex and below it at first: it gets there once.
-                let found = crossing(from, to, |at| self.below(pieces, from, at) - wanted);
-                Some(if found < to || high.compression >= wanted { found } else { to.next_down() })
-            }
+            None => match self.steady(pieces, from).rises_to((from, to), wanted) {
+                Some(found) if found < to || high.compression >= wanted => Some(found),
+                Some(_) => Some(to.next_down()),
+                None => (high.compression >= wanted).then_some(to),
+            },
             Some(event) => {
                 let middle = self.at(pieces, event);
                 let lower = Self::part(pieces, from, event);
@@ -231,16 +193,9 @@ impl<E: EdgeModel> Interval<E> {
         }
         match self.middle_event(from, to) {
             None => {
-                let flat = self.flat(pieces, from, to);
-                if self.below(pieces, from, flat) > wanted {
-                    return (low.compression <= wanted).then_some(from);
-                }
-                if let Some(straight) = self.straight(from, wanted) {
-                    return Some(straight.clamp(from, to.next_down().max(from)));
-                }
-                // It rises from there on: the last place where it has not passed.
-                let passes = |at: f64| self.below(pieces, from, at) - wanted;
-                Some(if passes(to) > 0.0 { last_before(flat, to, passes) } else { flat })
+                let before = to.next_down().max(from);
+                let found = self.steady(pieces, from).falls_to((from, before), wanted);
+                found.ok().or_else(|| (low.compression <= wanted).then_some(from))
             }
             Some(event) => {
                 let middle = self.at(pieces, event);
@@ -252,11 +207,6 @@ impl<E: EdgeModel> Interval<E> {
                 })
             }
         }
-    }
-
-    /// Indentation of a compression where the force is a straight line, for the contact at `low`.
-    fn straight(&self, low: f64, wanted: f64) -> Option<f64> {
-        self.edges.indentation_of(self.totals(low), wanted, &self.scale)
     }
 }
 

@@ -1,6 +1,6 @@
 //! Contact at all indentations of one leg, kept after the body has moved on.
 
-use super::adhesive::{Adhesive, ContactTree, GridEdges, Run, SubCellEdges};
+use super::adhesive::{ContactTree, EdgeModel, GridEdges, Ground, Held, Run, SubCellEdges};
 use super::fragments::runs;
 use super::{ContactError, resized};
 use crate::scene::Edges;
@@ -24,8 +24,8 @@ enum Kind {
     Apart,
     /// Each spring touches at its own gap.
     Gaps,
-    /// The runs of an adhesive contact.
-    Runs { unloading: bool, stretch: f64, edges: Edges },
+    /// The runs of an adhesive contact; `stretch` is the largest one of a fragment of unit length on the leg, m.
+    Runs { unloading: bool, stretch: f64, edges: Edges, pins: bool },
     /// A threshold for each spring along the line.
     Line,
 }
@@ -46,16 +46,34 @@ impl LegContact {
         let touching =
             |thresholds: &[f64]| runs(thresholds.iter().map(|&threshold| threshold <= indentation));
         match (self.kind, tree) {
-            (Kind::Apart, _) | (Kind::Runs { .. }, None) => Vec::new(),
+            (Kind::Apart, _) => Vec::new(),
             (Kind::Gaps, _) => touching(gaps),
             (Kind::Line, _) => touching(&self.thresholds),
-            (Kind::Runs { unloading, stretch, edges: Edges::Grid }, Some(tree)) => {
-                let rule = GridEdges::with_stretch(stretch);
-                Adhesive::fragments_of(gaps, tree, rule, &self.runs, unloading, indentation)
+            (Kind::Runs { .. }, tree) => {
+                let held = tree.map_or_else(Vec::new, |tree| self.held_at(indentation, gaps, tree));
+                held.iter().map(|held| (held.first as usize, held.last as usize)).collect()
             }
-            (Kind::Runs { unloading, stretch, edges: Edges::SubCell }, Some(tree)) => {
-                let rule = SubCellEdges::with_stretch(stretch);
-                Adhesive::fragments_of(gaps, tree, rule, &self.runs, unloading, indentation)
+        }
+    }
+
+    /// See [`Solver::rises`](super::Solver::rises); arguments as in [`LegContact::fragments_at`].
+    #[must_use]
+    pub fn rises_at(&self, indentation: f64, gaps: &[f64], tree: Option<&ContactTree>) -> Vec<f64> {
+        let held = tree.map_or_else(Vec::new, |tree| self.held_at(indentation, gaps, tree));
+        held.iter().filter_map(|held| held.pin).collect()
+    }
+
+    /// The fragments of the runs of an adhesive contact at an indentation, m; none of another contact.
+    fn held_at(&self, indentation: f64, gaps: &[f64], tree: &ContactTree) -> Vec<Held> {
+        let Kind::Runs { unloading, stretch, edges, pins } = self.kind else { return Vec::new() };
+        match edges {
+            Edges::Grid => {
+                let ground = Ground { gaps, tree, edges: GridEdges::with_stretch(stretch) };
+                ground.held_at(&self.runs, unloading, indentation, pins).collect()
+            }
+            Edges::SubCell => {
+                let ground = Ground { gaps, tree, edges: SubCellEdges::with_stretch(stretch) };
+                ground.held_at(&self.runs, unloading, indentation, pins).collect()
             }
         }
     }
@@ -76,20 +94,20 @@ impl LegContact {
         self.kind = Kind::Gaps;
     }
 
-    /// The runs of an adhesive contact; `stretch` is the largest one of a fragment of unit length, m.
-    pub(super) fn keep_runs(
+    /// The runs of an adhesive contact under these edges of the leg; `pins`: they are pinned where the next leg begins.
+    pub(super) fn keep_runs<E: EdgeModel>(
         &mut self,
         runs: &[Run],
         unloading: bool,
-        stretch: f64,
-        edges: Edges,
+        edges: E,
+        pins: bool,
     ) -> Result<(), ContactError> {
         self.kind = Kind::Apart;
         self.runs.clear();
         let springs = runs.len();
         self.runs.try_reserve_exact(springs).map_err(|_| ContactError::OutOfMemory { springs })?;
         self.runs.extend_from_slice(runs);
-        self.kind = Kind::Runs { unloading, stretch, edges };
+        self.kind = Kind::Runs { unloading, stretch: edges.stretch(), edges: E::EDGES, pins };
         Ok(())
     }
 

@@ -29,6 +29,7 @@ mod manual;
 mod nonadhesive;
 mod snapshot;
 mod solver;
+mod steady;
 pub mod stepwise;
 mod totals;
 

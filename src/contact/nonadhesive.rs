@@ -429,6 +429,10 @@ impl ContactModel for Nonadhesive<'_> {
         Ok(())
     }
 
+    fn rises(&self, _: f64) -> Vec<f64> {
+        Vec::new()
+    }
+
     fn fragments(&self, indentation: f64) -> Vec<(usize, usize)> {
         runs(self.gaps.iter().map(|&gap| gap <= indentation))
     }

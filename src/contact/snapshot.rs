@@ -1,8 +1,8 @@
 //! Forces and lengths of given fragments at one indentation: for a view of a contact that is not solved again.
 
-use super::adhesive::{EdgeCells, EdgeModel, GridEdges, Span, SubCellEdges};
+use super::adhesive::{EdgeModel, GridEdges, Span, SubCellEdges};
 use super::contact_model::ContactState;
-use super::grid::CompensatedSum;
+use super::steady::state;
 use super::totals::{ContactTotals, GapScale};
 use super::{CurvePoint, Foundation, HessRule};
 use crate::scene::Edges;
@@ -47,27 +47,29 @@ impl<'a> Snapshot<'a> {
     }
 
     /// The point of the curve at an indentation, m, at which these fragments, given by first and last spring, are in
-    /// contact. Takes as long as there are springs in contact.
+    /// contact; their `rises` are those of [`Solver::rises`](super::Solver::rises). Takes as long as there are springs
+    /// in contact.
     #[must_use]
     pub fn point(
         &self,
         foundation: Foundation,
         indentation: f64,
         fragments: &[(usize, usize)],
+        rises: &[f64],
     ) -> CurvePoint {
         let contact = match self.model {
-            Model::Grid(edges) => self.contact(edges, indentation, fragments),
-            Model::SubCell(edges) => self.contact(edges, indentation, fragments),
+            Model::Grid(edges) => self.contact(edges, indentation, fragments, rises),
+            Model::SubCell(edges) => self.contact(edges, indentation, fragments, rises),
         };
         contact.point(foundation)
     }
 
-    /// The fragment with these first and last springs at an indentation, m.
+    /// The fragment with these first and last springs at an indentation, m, and where it has one its rise, m.
     #[must_use]
-    pub fn fragment(&self, indentation: f64, ends: (usize, usize)) -> FragmentState {
+    pub fn fragment(&self, indentation: f64, ends: (usize, usize), rise: Option<f64>) -> FragmentState {
         match self.model {
-            Model::Grid(edges) => self.fragment_under(edges, indentation, ends),
-            Model::SubCell(edges) => self.fragment_under(edges, indentation, ends),
+            Model::Grid(edges) => self.fragment_under(edges, indentation, ends, rise),
+            Model::SubCell(edges) => self.fragment_under(edges, indentation, ends, rise),
         }
     }
 
@@ -76,20 +78,15 @@ impl<'a> Snapshot<'a> {
         edges: E,
         indentation: f64,
         fragments: &[(usize, usize)],
+        rises: &[f64],
     ) -> ContactState {
         let mut totals = ContactTotals::default();
-        let (mut length, mut compression) = (CompensatedSum::default(), CompensatedSum::default());
-        for &ends in fragments {
-            totals += self.totals(E::EDGES, ends);
-            if E::SLIDES {
-                let slider = edges.slider(self.gaps, &self.span(ends));
-                let cells = edges.edge_cells(&slider, indentation);
-                length.add(cells.length);
-                compression.add(cells.compression);
-            }
-        }
-        let cells = EdgeCells { length: length.total(), compression: compression.total() };
-        edges.state(indentation, totals, cells, &self.scale)
+        fragments.iter().for_each(|&ends| totals += self.totals(E::EDGES, ends));
+        let sliders = fragments.iter().enumerate().map(|(index, &ends)| {
+            let slider = edges.slider(self.gaps, &self.span(ends));
+            rises.get(index).map_or(slider, |&rise| edges.pin(slider, rise))
+        });
+        state(edges, &self.scale, totals, sliders, indentation)
     }
 
     fn fragment_under<E: EdgeModel>(
@@ -97,10 +94,13 @@ impl<'a> Snapshot<'a> {
         edges: E,
         indentation: f64,
         ends: (usize, usize),
+        rise: Option<f64>,
     ) -> FragmentState {
-        let ContactState { length, compression, .. } = self.contact(edges, indentation, &[ends]);
+        let ContactState { length, compression, .. } =
+            self.contact(edges, indentation, &[ends], rise.as_slice());
         let span = self.span(ends);
-        let level = edges.level(&span, edges.length(self.gaps, &span), indentation);
+        let of_indentation = || edges.rise(&span, edges.length(self.gaps, &span), indentation);
+        let level = span.gap + rise.unwrap_or_else(of_indentation);
         FragmentState {
             length,
             compression,

@@ -16,6 +16,10 @@ pub trait Solver {
     /// ascending order.
     fn fragments(&self, indentation: f64) -> Vec<(usize, usize)>;
 
+    /// Height of the level of the edges above the largest gap of each of these fragments, m, in their order, where
+    /// edges can be pinned: between springs and under two works of adhesion. Empty elsewhere.
+    fn rises(&self, indentation: f64) -> Vec<f64>;
+
     /// Writes, for each spring in its order along the line, the smallest indentation at which it is in
     /// contact on the present leg (−∞ always, +∞ never).
     fn thresholds_along_line(&self, out: &mut Vec<f64>);

@@ -71,9 +71,9 @@ impl<'a> Stepwise<'a> {
         })
     }
 
-    fn largest_stretch(&self, springs: usize) -> f64 {
+    fn largest_stretch(&self, springs: usize, direction: Direction) -> f64 {
         // Without the rule nothing is stretched at all.
-        self.hess.map_or(0.0, |hess| hess.largest_stretch(springs as u32))
+        self.hess.map_or(0.0, |hess| hess.on(direction).largest_stretch(springs as u32))
     }
 
     fn join(&mut self, index: usize) {
@@ -133,7 +133,7 @@ impl<'a> Stepwise<'a> {
                 while start > 0 && self.contact[start - 1] {
                     start -= 1;
                 }
-                let stretch = self.largest_stretch(end - start);
+                let stretch = self.largest_stretch(end - start, Direction::Loading);
                 self.work.spring_updates += 2;
                 let takes = |index: usize| self.gaps[index] - stretch <= self.indentation;
                 if end < count && takes(end) {
@@ -160,7 +160,7 @@ impl<'a> Stepwise<'a> {
                     end += 1;
                 }
                 self.work.spring_updates += 2 * (end - first) as u64 + 1;
-                let stretch = self.largest_stretch(end - first);
+                let stretch = self.largest_stretch(end - first, Direction::Unloading);
                 for index in first..end {
                     let gap = self.gaps[index];
                     // Whatever is stretched too far here is so in each part of the fragment as well.
@@ -237,7 +237,8 @@ impl<'a> Stepwise<'a> {
         let tree = Arc::new(ContactTree::build(self.gaps, Edges::Grid)?);
         let edges = GridEdges::new(self.hess.unwrap_or(HessRule::NO_ADHESION));
         let contacts = fragments::runs(self.contact.iter().copied());
-        let body = Manual::in_contact(self.gaps, tree, edges, self.foundation, self.indentation, &contacts);
+        let body =
+            Manual::in_contact(self.gaps, tree, edges, self.foundation, self.indentation, &contacts, &[]);
         let pulled = body.and_then(|mut body| {
             match target {
                 Target::Force(force) => body.move_to_force(force)?,
@@ -418,6 +419,10 @@ impl Solver for Stepwise<'_> {
 
     fn fragments(&self, indentation: f64) -> Vec<(usize, usize)> {
         super::fragments::runs(self.thresholds.iter().map(|&threshold| threshold <= indentation))
+    }
+
+    fn rises(&self, _: f64) -> Vec<f64> {
+        Vec::new()
     }
 
     fn thresholds_along_line(&self, out: &mut Vec<f64>) {

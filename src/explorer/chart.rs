@@ -44,7 +44,7 @@ impl OpenStudy {
     /// One map of a study.
     #[must_use]
     pub fn at(atlas: Arc<StudyMap>, slice: u64) -> Self {
-        OpenStudy { plane: Arc::new(atlas.plane(slice)), atlas, slice }
+        OpenStudy { plane: Arc::new(atlas.model(slice)), atlas, slice }
     }
 
     /// The map so many after this one, from the last on to the first.
@@ -100,7 +100,7 @@ impl Chart {
 
     /// Takes in what has been computed of the map.
     pub fn take_in(&mut self, map: Arc<LiveMap>) {
-        self.live = Some(Arc::new(map.plane()));
+        self.live = Some(Arc::new(map.model()));
         self.map = Some(map);
     }
 
@@ -109,8 +109,8 @@ impl Chart {
         self.edited = true;
         self.moving = false;
         self.failed = None;
-        let basis = Template::of(scene).ok();
-        self.map = self.map.take().filter(|map| Some(map.basis().as_ref()) == basis.as_ref());
+        let template = Template::of(scene).ok();
+        self.map = self.map.take().filter(|map| Some(map.template().as_ref()) == template.as_ref());
         self.live = self.live.take().filter(|_| self.map.is_some());
     }
 
@@ -119,10 +119,10 @@ impl Chart {
     /// # Errors
     /// When the scene has none.
     pub fn wanted(&self, scene: &Scene) -> Result<Option<Arc<LiveMap>>, NoMap> {
-        let basis = Template::of(scene)?;
+        let template = Template::of(scene)?;
         let map = match &self.map {
-            Some(map) if **map.basis() == basis => Arc::clone(map),
-            _ => Arc::new(LiveMap::new(Arc::new(basis))),
+            Some(map) if **map.template() == template => Arc::clone(map),
+            _ => Arc::new(LiveMap::new(Arc::new(template))),
         };
         Ok(Some(map).filter(|map| !map.is_whole()))
     }

@@ -1,13 +1,13 @@
 //! The neighbourhood of one fragment: where it is, what it bears, what it carries.
 
-use super::reduce::{Contact, LineColumns, Part};
 use super::snapshot::{CloseUp, FragmentFacts};
 use super::worker::{Focus, MomentRequest};
+use crate::analysis::section::{Contact, LineColumns, Part};
 use crate::contact::{Foundation, FragmentState, Snapshot};
 
 /// The part of the line that a request asks to see from near.
 pub fn close_up(
-    contact: &Contact<'_>,
+    (contact, rises): (&Contact<'_>, &[f64]),
     request: &MomentRequest,
     foundation: Foundation,
     snapshot: &Snapshot<'_>,
@@ -31,7 +31,7 @@ pub fn close_up(
     let fragment = nearest(contact.fragments, centre).map(|number| {
         let springs = contact.fragments[number];
         let FragmentState { length, compression, largest_stretch, most_stretched } =
-            snapshot.fragment(contact.indentation, springs);
+            snapshot.fragment(contact.indentation, springs, rises.get(number).copied());
         FragmentFacts {
             number,
             springs,

@@ -104,7 +104,7 @@ impl Headless {
         for task in study_tasks(&self.model) {
             match &task {
                 Task::Measure(_) => continue,
-                Task::Chart { map, .. } if map.basis().springs() > MOST_CHARTED => continue,
+                Task::Chart { map, .. } if map.template().springs() > MOST_CHARTED => continue,
                 Task::Estimate(of) if of.scene.numerics.points > MOST_ESTIMATED => continue,
                 _ => {}
             }

@@ -31,12 +31,11 @@ impl Held {
         tree: Option<&Arc<ContactTree>>,
         edges: Edges,
         governing: &Governing,
-        (indentation, contact): (f64, &[(usize, usize)]),
+        (indentation, contact, rises): (f64, &[(usize, usize)], &[f64]),
         step: f64,
     ) -> Option<Self> {
         let foundation = governing.foundation(line);
-        let hess =
-            governing.adhesive_work().map_or(HessRule::NO_ADHESION, |work| HessRule::new(foundation, work));
+        let hess = governing.hess_rule(foundation).unwrap_or(HessRule::NO_ADHESION);
         let tree = match tree.filter(|tree| tree.edges() == edges) {
             Some(tree) => Arc::clone(tree),
             None => Arc::new(ContactTree::build(&line.gaps, edges).ok()?),
@@ -45,11 +44,11 @@ impl Held {
         let body: Box<dyn ManualLoading + Send> = match edges {
             Edges::Grid => {
                 let edges = GridEdges::new(hess);
-                Box::new(Manual::in_contact(gaps, tree, edges, foundation, indentation, contact).ok()?)
+                Box::new(Manual::in_contact(gaps, tree, edges, foundation, indentation, contact, rises).ok()?)
             }
             Edges::SubCell => {
                 let edges = SubCellEdges::new(hess);
-                Box::new(Manual::in_contact(gaps, tree, edges, foundation, indentation, contact).ok()?)
+                Box::new(Manual::in_contact(gaps, tree, edges, foundation, indentation, contact, rises).ok()?)
             }
         };
         Some(Held { body, travel: Travel::default(), step })
@@ -58,6 +57,11 @@ impl Held {
     /// Where it stands.
     pub fn point(&self) -> CurvePoint {
         self.body.point()
+    }
+
+    /// Rise of the edges of each fragment; see [`ManualLoading::rises`].
+    pub fn rises(&self) -> Vec<f64> {
+        self.body.rises()
     }
 
     /// First and last spring of each fragment, in ascending order.

@@ -19,7 +19,6 @@ mod opening;
 pub mod parameters;
 pub mod picture;
 mod playback;
-pub mod reduce;
 mod rescue;
 mod screen;
 mod session;

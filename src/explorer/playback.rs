@@ -2,10 +2,10 @@
 
 use super::close_up::close_up;
 use super::held::Held;
-use super::reduce::{self, Contact, LineColumns, Part};
 use super::snapshot::{Drive, Loop, Moment};
 use super::worker::{Engine, HandOrder, LineView, MomentRequest, Newest, Report};
-use crate::contact::{ContactError, HessRule, LegContact, LegRecord, Snapshot, Solver};
+use crate::analysis::section::{self, Contact, LineColumns, Part};
+use crate::contact::{ContactError, LegContact, LegRecord, Snapshot, Solver};
 use crate::scene::{Observer, Scene};
 use std::sync::Arc;
 use std::sync::atomic::Ordering;
@@ -109,12 +109,13 @@ impl Playback {
         match order {
             HandOrder::Take { leg, indentation } => {
                 self.held = None;
-                let Some(contact) = self.contact_on_leg(engine, leg, indentation) else { return };
+                let Some((contact, rises)) = self.contact_on_leg(engine, leg, indentation) else { return };
                 let Some((computed, line)) = self.computed.as_ref().zip(engine.line()) else { return };
                 let governing = &computed.outcome.governing;
                 let step = range_of(computed) / STEPS_OF_A_PULL;
                 let edges = computed.scene.numerics.edges;
-                self.held = Held::take(line, engine.tree(), edges, governing, (indentation, &contact), step);
+                self.held =
+                    Held::take(line, engine.tree(), edges, governing, (indentation, &contact, &rises), step);
                 self.last = None;
             }
             HandOrder::Give => {
@@ -131,25 +132,22 @@ impl Playback {
 
     /// The moment asked for; `None` where there is no such leg, or nothing in hand.
     pub fn show(&mut self, engine: &mut dyn Engine, request: &MomentRequest) -> Option<Moment> {
-        let (fragments, at) = match request.drive {
-            Drive::Leg(leg) => {
-                let fragments = self.contact_on_leg(engine, leg, request.indentation)?;
-                (fragments, None)
-            }
+        let ((fragments, rises), at) = match request.drive {
+            Drive::Leg(leg) => (self.contact_on_leg(engine, leg, request.indentation)?, None),
             Drive::Hand => {
                 let held = self.held.as_ref()?;
-                (held.fragments(), Some(held.point()))
+                ((held.fragments(), held.rises()), Some(held.point()))
             }
         };
         let line = engine.line()?;
         let Loop { scene, outcome, .. } = self.computed.as_deref()?;
         let (governing, deepest) = (outcome.governing, outcome.line.deepest);
         let foundation = governing.foundation(line);
-        let hess = governing.adhesive_work().map(|work| HessRule::new(foundation, work));
+        let hess = governing.hess_rule(foundation);
         let snapshot = Snapshot::new(&line.gaps, deepest, scene.numerics.edges, hess);
-        let point = at.unwrap_or_else(|| snapshot.point(foundation, request.indentation, &fragments));
+        let point = at.unwrap_or_else(|| snapshot.point(foundation, request.indentation, &fragments, &rises));
         let changed = match &self.last {
-            Some((drive, before)) if *drive == request.drive => reduce::changed(before, &fragments),
+            Some((drive, before)) if *drive == request.drive => section::changed(before, &fragments),
             _ => 0,
         };
         let contact = Contact {
@@ -158,7 +156,7 @@ impl Playback {
             indentation: point.indentation,
             fragments: &fragments,
         };
-        let close_up = close_up(&contact, request, foundation, &snapshot, &mut self.close_up);
+        let close_up = close_up((&contact, &rises), request, foundation, &snapshot, &mut self.close_up);
         let middle = close_up.section.first + close_up.section.springs / 2;
         let profile = profile_part(request, line.gaps.len(), middle);
         let moment = Moment {
@@ -169,8 +167,8 @@ impl Playback {
             changed,
             profile: contact.section(profile, &mut self.profile),
             close_up,
-            strip: reduce::strip(&fragments, line.gaps.len(), request.strip_cells),
-            lengths: request.lengths.then(|| reduce::lengths(&fragments)),
+            strip: section::strip(&fragments, line.gaps.len(), request.strip_cells),
+            lengths: request.lengths.then(|| section::lengths(&fragments)),
             hand: match request.drive {
                 Drive::Leg(_) => None,
                 Drive::Hand => self.held.as_mut().map(Held::travel),
@@ -180,14 +178,21 @@ impl Playback {
         Some(moment)
     }
 
-    /// What is in contact on a leg.
-    fn contact_on_leg(&mut self, engine: &mut dyn Engine, leg: usize, indentation: f64) -> Option<Fragments> {
+    /// The fragments in contact on a leg, and the rises of their edges.
+    fn contact_on_leg(
+        &mut self,
+        engine: &mut dyn Engine,
+        leg: usize,
+        indentation: f64,
+    ) -> Option<(Fragments, Vec<f64>)> {
         if self.legs.get(leg)?.is_none() {
             self.recall(engine, leg);
         }
         let contact = self.legs.get(leg)?.as_ref()?;
         let tree = engine.tree().map(AsRef::as_ref);
-        Some(contact.fragments_at(indentation, &engine.line()?.gaps, tree))
+        let gaps = &engine.line()?.gaps;
+        let rises = contact.rises_at(indentation, gaps, tree);
+        Some((contact.fragments_at(indentation, gaps, tree), rises))
     }
 
     /// Computes a leg that was not kept.

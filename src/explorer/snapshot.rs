@@ -2,6 +2,7 @@
 //! already reduced to what a pane can show.
 
 use super::worker::Focus;
+pub use crate::analysis::{Column, LengthBin, Section, Share};
 use crate::contact::CurvePoint;
 use crate::scene::Scene;
 use crate::simulation::Outcome;
@@ -67,43 +68,6 @@ pub struct Travel {
     pub refused: Option<String>,
 }
 
-/// A part of the line, reduced to one column for each column of dots.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Section {
-    /// First spring shown.
-    pub first: usize,
-    /// Springs shown.
-    pub springs: usize,
-    /// Lowest and highest z shown by the line over all springs of the section, m.
-    pub heights: (f64, f64),
-    /// Height of the undeformed elastic surface, m.
-    pub level: f64,
-    /// What stands in each column.
-    pub columns: Vec<Column>,
-}
-
-/// One column of dots: the springs it stands for.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Column {
-    /// Lowest and highest point of the rigid line, m.
-    pub line: (f64, f64),
-    /// Lowest and highest point of the elastic surface, m.
-    pub surface: (f64, f64),
-    /// Lowest and highest point of the line where it is in contact, m.
-    pub contact: Option<(f64, f64)>,
-}
-
-/// How much of a part of the line touches.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Share {
-    /// No spring.
-    Nothing,
-    /// Some springs.
-    Something,
-    /// All springs.
-    Everything,
-}
-
 /// The neighbourhood of one contact fragment.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct CloseUp {
@@ -139,17 +103,6 @@ impl FragmentFacts {
         let (first, last) = self.springs;
         first + (last - first) / 2
     }
-}
-
-/// Fragments of about one length.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct LengthBin {
-    /// Shortest length, springs.
-    pub from: u64,
-    /// The shortest length that is too long, springs.
-    pub to: u64,
-    /// Fragments of these lengths.
-    pub fragments: u64,
 }
 
 /// The curve of a scene in the library.

@@ -2,9 +2,10 @@
 
 use super::action::{Content, WriteFailure, Written};
 use super::model::{Mode, Model, Notice};
-use super::picture::{Palette, svg, text};
+use super::picture::{svg, text};
 use super::theme::Theme;
 use super::view;
+use crate::draw::Palette;
 use crate::export::{write_curve, write_json};
 use crate::io::{WriteError, write_new_file};
 use ratatui::Terminal;

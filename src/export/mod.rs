@@ -7,11 +7,13 @@ mod cost;
 mod csv;
 mod ensemble;
 mod json;
+mod scene_figure;
 pub(crate) mod sheet;
+#[cfg(test)]
+mod study_example;
+mod study_figure;
 mod summary;
 mod surface;
-#[cfg(feature = "tui")]
-mod sweep_figure;
 mod verdict;
 mod work_precision;
 
@@ -20,8 +22,8 @@ pub use cost::{cost_text, write_cost_csv, write_cost_json};
 pub use csv::{write_curve, write_line};
 pub use ensemble::{ensemble_text, write_ensemble_csv, write_ensemble_json};
 pub use json::write_json;
+pub use scene_figure::{ContactSets, force_figure, sign};
+pub use study_figure::study_figure;
 pub use summary::{brief_summary, summary};
 pub use surface::{SurfaceFile, surface_text, write_surface_csv, write_surface_json};
-#[cfg(feature = "tui")]
-pub use sweep_figure::{Colours, figure_svg, figure_text};
-pub use work_precision::work_precision_svg;
+pub use work_precision::work_precision;

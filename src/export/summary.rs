@@ -12,9 +12,9 @@ use crate::text::grouped;
 const MOST_LEGS: usize = 8;
 
 /// Said where there is no adhesion force.
-const NO_PULL: &str = "none: no leg pulls";
+const NO_PULL: &str = "none: no stage unloads";
 
-/// Result of a scene in plain text of at most a hundred columns that ends in a line break, the adhesion force with its
+/// Result of a scene in plain text of at most 80 columns that ends in a line break, the adhesion force with its
 /// estimated error where there is one.
 #[must_use]
 pub fn summary(scene: &Scene, outcome: &Outcome, estimate: Option<&Estimate>) -> String {
@@ -51,11 +51,11 @@ fn quantity(value: Option<f64>, unit: &str) -> Option<String> {
 
 fn line(sheet: &mut Sheet, outcome: &Outcome) {
     let (facts, amplitude) = (&outcome.line, outcome.governing.amplitude);
-    sheet.heading("Line");
+    sheet.heading("Profile");
     sheet.row("springs N", grouped(facts.points as u64));
     let under_body = outcome.history.work.springs;
     if under_body != facts.points as u64 {
-        sheet.row("under the body", grouped(under_body));
+        sheet.row("below the form", grouped(under_body));
     }
     sheet.row("length L", format_quantity(facts.length, "m"));
     sheet.row("spacing Δx", format_quantity(facts.spacing, "m"));
@@ -120,7 +120,7 @@ fn loading(legs: &[Leg]) -> String {
     };
     let mut named: Vec<String> = legs.iter().take(MOST_LEGS).map(words).collect();
     if legs.len() > MOST_LEGS {
-        named.push(format!("and {} more legs", legs.len() - MOST_LEGS));
+        named.push(format!("and {} more stages", legs.len() - MOST_LEGS));
     }
     named.join(", ")
 }
@@ -169,10 +169,10 @@ fn cost(sheet: &mut Sheet, work: &Work, timings: &Timings) {
         ("unloading passes", unloading_passes),
         ("passes for F_a(0)", zero_load_passes),
         ("rule of Hess applied", hess_evaluations),
-        ("springs tallied", springs_tallied),
+        ("springs in totals", springs_tallied),
         ("events sorted", events_sorted),
-        ("springs joining", joins),
-        ("springs leaving", leaves),
+        ("springs attached", joins),
+        ("springs detached", leaves),
         ("steps", steps),
         ("relaxation sweeps", relaxation_sweeps),
         ("spring updates", spring_updates),
@@ -261,9 +261,9 @@ mod tests {
     #[test]
     fn a_regime_is_named_only_where_something_pulls() {
         for (overrides, said) in [
-            (&[("loading", "[ToTouch]")][..], "not known: no leg pulls"),
+            (&[("loading", "[ToTouch]")][..], "not known: no stage unloads"),
             (&[("adhesion", "None")], "non-adhesive: the scene has no adhesion"),
-            (&[("adhesion", "None"), ("loading", "[ToTouch]")], "none: there is no adhesion"),
+            (&[("adhesion", "None"), ("loading", "[ToTouch]")], "none: no adhesion"),
             (&[("adhesion.kappa", "0.1")], "pressure-insensitive: adhesion is there"),
             (&[("adhesion.kappa", "100.0")], "non-adhesive: almost no adhesion"),
         ] {
@@ -278,7 +278,7 @@ mod tests {
         let notice = format!("\"{}\\n\\n{}\"", "x".repeat(300), "notice ".repeat(60));
         let loading = format!("[{}ToSeparation]", "ToForce(1.2345e-5), ToZeroForce, ".repeat(20));
         let text = summary_of(ROUGH, &[("title", &title), ("notice", &notice), ("loading", &loading)]);
-        assert!(text.lines().all(|line| line.chars().count() <= 100), "{text}");
-        assert!(text.contains("and 33 more legs"), "{text}");
+        assert!(text.lines().all(|line| line.chars().count() <= 80), "{text}");
+        assert!(text.contains("and 33 more stages"), "{text}");
     }
 }

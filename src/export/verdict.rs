@@ -9,8 +9,8 @@ use crate::simulation::Outcome;
 pub(super) fn sentence(outcome: &Outcome) -> String {
     let adhesive = outcome.governing.adhesive_work().is_some();
     let meaning = match outcome.regime {
-        None if adhesive => return "not known: no leg pulls".to_owned(),
-        None => return "none: there is no adhesion, and no leg pulls".to_owned(),
+        None if adhesive => return "not known: no stage unloads".to_owned(),
+        None => return "none: no adhesion, and no stage unloads".to_owned(),
         Some(Regime::NonAdhesive) if !adhesive => "the scene has no adhesion",
         Some(Regime::PressureInsensitive) => {
             "adhesion is there at first touch and hardly depends on the preload"

@@ -8,8 +8,8 @@ use super::field::Field;
 use super::fields::FIELDS;
 use super::model::{Leg, Scene};
 use super::range::Range;
+use super::text::{is_within, ron_float, ron_string};
 use super::value::Value;
-use super::write::{ron_float, ron_string};
 use crate::text::is_control;
 
 /// A value or combination of values that is not allowed.
@@ -53,9 +53,7 @@ impl Found {
 
     /// A violation of this field, or of anything inside it, is among those found.
     pub(super) fn has(&self, path: &str) -> bool {
-        self.violations.iter().any(|violation| {
-            violation.field.strip_prefix(path).is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
-        })
+        self.violations.iter().any(|violation| is_within(&violation.field, path))
     }
 
     fn check(&mut self, field: &Field, value: Value<'_>) {

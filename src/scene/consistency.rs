@@ -4,7 +4,7 @@
 use super::check::{Found, Violation};
 use super::fields::{LEG_INDENTATION, field};
 use super::model::{Adhesion, Edges, Form, Leg, Material, Roughness, Scene, Solver};
-use super::write::{ron_float, ron_string};
+use super::text::{ron_float, ron_string};
 use crate::topography::{Unit, UnitError};
 
 /// Most samples of all legs together; a curve of this size still fits the memory of a small machine.

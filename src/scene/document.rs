@@ -2,23 +2,24 @@
 
 use std::path::{Path, PathBuf};
 
-use super::blame::{all_of, blamed, nearest_place, place, remember, told};
 use super::check::check;
+use super::edit;
+use super::effects::Effect;
+use super::error_source::{all_errors, errors_of, nearest_byte, origin_at, overrides_behind};
 use super::errors::{Origin, SceneError, SceneErrors};
 use super::field::Field;
-use super::fields::FIELDS;
-use super::locate::Outline;
-use super::model::Scene;
+use super::fields::{FIELDS, field};
+use super::model::{Roughness, Scene};
 use super::read::{Unread, read, wrong_version};
-use super::scan::comments;
-use super::splice;
+use super::text::{Text, is_within};
+use super::undo::Edit;
 use super::write::to_ron;
 
 /// Longer texts are refused before they are read; scenes are a few hundred bytes.
 pub const LONGEST_TEXT: usize = 1 << 20;
 
-/// A checked scene, its text, and what was overridden in it. Changing it gives a new document;
-/// where the change is refused, the old one stands as it was.
+/// A checked scene, its text, and the overrides of its fields. A change gives a new document; a change that is refused
+/// leaves the old one as it was.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Document {
     name: String,
@@ -26,6 +27,8 @@ pub struct Document {
     text: String,
     scene: Scene,
     overrides: Vec<(String, String)>,
+    /// Effects that edits have switched off, with the edits that bring each of them back when undone.
+    switched_off: Vec<(Effect, Vec<Edit>)>,
 }
 
 impl Scene {
@@ -36,7 +39,7 @@ impl Scene {
     /// All values that are not allowed, each with its field and its allowed range.
     pub fn check(&self) -> Result<(), SceneErrors> {
         let violations = check(self);
-        if violations.is_empty() { Ok(()) } else { Err(told(violations, |_| Origin::Scene)) }
+        if violations.is_empty() { Ok(()) } else { Err(errors_of(violations, |_| Origin::Scene)) }
     }
 }
 
@@ -46,7 +49,7 @@ impl Document {
     /// # Errors
     ///
     /// The first place where the text is not a scene, or all values that are not allowed, each with
-    /// line and column. A wrong version is told first, whatever else is wrong.
+    /// line and column. A wrong version is the first of them, whatever else is wrong.
     pub fn parse(text: &str, name: &str) -> Result<Document, SceneErrors> {
         // Some editors put a byte order mark before the text.
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
@@ -54,25 +57,32 @@ impl Document {
             SceneErrors::from(SceneError::whole(Origin::File { name: name.into() }, message))
         })?;
         let scene = read(text).map_err(|unread| {
-            let tell = |unread: Unread| {
-                let origin = place(text, name, unread.offset);
-                unread.told(origin)
+            let error = |unread: Unread| {
+                let origin = origin_at(text, name, unread.offset);
+                unread.into_error(origin)
             };
-            let mut errors: Vec<_> = wrong_version(text).into_iter().chain([unread]).map(tell).collect();
+            let mut errors: Vec<_> = wrong_version(text).into_iter().chain([unread]).map(error).collect();
             errors.dedup_by(|second, first| second.field == "version" && first.field == "version");
-            all_of(errors)
+            all_errors(errors)
         })?;
         let violations = check(&scene);
         if violations.is_empty() {
             let (name, text) = (name.to_string(), text.to_string());
-            return Ok(Document { name, opened: text.clone(), text, scene, overrides: Vec::new() });
+            return Ok(Document {
+                name,
+                opened: text.clone(),
+                text,
+                scene,
+                overrides: Vec::new(),
+                switched_off: Vec::new(),
+            });
         }
-        let outline = Outline::of(text).ok();
+        let outline = Text::new(text).ok();
         let locate = |field: &str| {
-            let offset = outline.as_ref().map_or(0, |outline| nearest_place(outline, field));
-            place(text, name, offset)
+            let offset = outline.as_ref().map_or(0, |outline| nearest_byte(outline, field));
+            origin_at(text, name, offset)
         };
-        Err(told(violations, |violation| locate(&violation.field)))
+        Err(errors_of(violations, |violation| locate(&violation.field)))
     }
 
     /// A document for a scene that was made in the program, written in canonical form.
@@ -80,7 +90,7 @@ impl Document {
     /// # Errors
     ///
     /// All values that are not allowed.
-    pub fn of_scene(scene: &Scene, name: &str) -> Result<Document, SceneErrors> {
+    pub fn from_scene(scene: &Scene, name: &str) -> Result<Document, SceneErrors> {
         scene.check()?;
         Document::parse(&to_ron(scene), name)
     }
@@ -112,29 +122,93 @@ impl Document {
                 Err(refused) => errors.extend(refused.iter().cloned()),
             }
         }
-        if let Some(errors) = SceneErrors::of(errors) {
+        if let Some(errors) = SceneErrors::new(errors) {
             return Err(errors);
         }
         let violations = check(&new.scene);
         if violations.is_empty() {
+            new.record_switches(self);
             Ok(new)
         } else {
-            Err(told(violations, |violation| blamed(violation, overrides)))
+            Err(errors_of(violations, |violation| overrides_behind(violation, overrides)))
+        }
+    }
+
+    /// As [`Document::set_all`], for overrides that switch an effect off: all of them are undone where the effect is
+    /// switched on again.
+    pub(super) fn switch_off(
+        &self,
+        effect: Effect,
+        overrides: &[(String, String)],
+    ) -> Result<Document, SceneErrors> {
+        let mut new = self.set_all(overrides)?;
+        let edits =
+            overrides.iter().filter_map(|(path, _)| Edit::between(&self.text, &new.text, path)).collect();
+        new.switched_off.retain(|(other, _)| *other != effect);
+        new.switched_off.push((effect, edits));
+        Ok(new)
+    }
+
+    /// This document with an effect as it was before an edit switched it off; `None` where no edit did, or where the
+    /// effect as it was is not allowed in the scene as it is now. What has been changed since stays changed.
+    pub(super) fn restored(&self, effect: Effect) -> Option<Document> {
+        let (_, edits) = self.switched_off.iter().find(|(other, _)| *other == effect)?;
+        let own: Vec<Edit> =
+            edits.iter().filter(|edit| is_within(&edit.path, effect.path())).cloned().collect();
+        [edits, &own].into_iter().find_map(|edits| self.undone(edits).filter(|new| effect.is_on(&new.scene)))
+    }
+
+    /// This document without these edits, the last of them first; those whose values have been changed since stay.
+    fn undone(&self, edits: &[Edit]) -> Option<Document> {
+        let mut new = self.clone();
+        let mut paths = Vec::new();
+        for edit in edits.iter().rev() {
+            if let Some(text) = edit.undone(&new.text) {
+                new.text = text;
+                paths.push(edit.path.as_str());
+            }
+        }
+        new.scene = read(&new.text).ok()?;
+        if let Some(Roughness::SelfAffine { modes: (first, last), .. }) = new.scene.roughness {
+            // Waves too short for the springs that there are now are left out.
+            let last = last.min(new.scene.numerics.points / 2);
+            new.splice("roughness.modes", &format!("({}, {last})", first.min(last))).ok()?;
+        }
+        for path in paths {
+            let value = field(path, None).and_then(|field| field.written(&new.scene));
+            remember(&mut new.overrides, path, &value.unwrap_or_else(|| "None".to_string()));
+        }
+        if new.text == new.opened {
+            new.overrides.clear();
+        }
+        new.record_switches(self);
+        check(&new.scene).is_empty().then_some(new)
+    }
+
+    /// Records which effects the change from an earlier document has switched off, and forgets those that are on.
+    fn record_switches(&mut self, before: &Document) {
+        for effect in Effect::ALL {
+            if effect.is_on(&self.scene) {
+                self.switched_off.retain(|(other, _)| *other != effect);
+            } else if effect.is_on(&before.scene) {
+                let edit = Edit::between(&before.text, &self.text, effect.path());
+                self.switched_off.push((effect, edit.into_iter().collect()));
+            }
         }
     }
 
     /// Changes text and scene, leaving both as they are where that fails.
     fn splice(&mut self, path: &str, value: &str) -> Result<(), SceneErrors> {
         let origin = Origin::Overrides(vec![format!("{path}={value}")]);
-        let text = splice::set(&self.text, path, value)
+        let text = edit::set(&self.text, path, value)
             .and_then(|text| check_length(&text).map(|()| text))
             .map_err(|message| SceneError::whole(origin.clone(), message))?;
-        self.scene = read(&text).map_err(|unread| unread.told(origin))?;
+        self.scene = read(&text).map_err(|unread| unread.into_error(origin))?;
         self.text = text;
         Ok(())
     }
 
-    /// The text as it stands now, with all comments.
+    /// The present text, with all comments.
     pub fn text(&self) -> &str {
         &self.text
     }
@@ -144,21 +218,20 @@ impl Document {
         &self.scene
     }
 
-    /// The value of a field as it is written; where it is left out, what stands in its place. `None`
-    /// where the scene has no such field, such as the radius of a form that is not there.
+    /// Value of a field as it is written, or its default where the field is left out. `None` where the scene has no such
+    /// field, such as the radius of a form that it does not have.
     pub fn value(&self, path: &str) -> Option<&str> {
-        let outline = Outline::of(&self.text).ok()?;
-        outline.inner(path).or_else(|| {
+        let outline = Text::new(&self.text).ok()?;
+        outline.value(path).or_else(|| {
             let field = fields_of(&outline).find(|field| field.path == path)?;
             let default = field.default_in(&self.scene);
             (!default.is_empty()).then_some(default)
         })
     }
 
-    /// The fields this scene has or could be given as it stands: all but those of choices it did not
-    /// make.
+    /// Fields that this scene has or could be given: all but those of choices that it does not make.
     pub fn fields(&self) -> Vec<&'static Field> {
-        Outline::of(&self.text).map_or_else(|_| Vec::new(), |outline| fields_of(&outline).collect())
+        Text::new(&self.text).map_or_else(|_| Vec::new(), |outline| fields_of(&outline).collect())
     }
 
     /// Name of the file or of the built-in scene.
@@ -172,32 +245,37 @@ impl Document {
         &self.overrides
     }
 
-    /// How many comments the text has: where one fewer is left after a change, it stood inside what was
-    /// replaced.
+    /// Number of comments in the text; fewer after a change that replaces a value with a comment inside.
     pub fn comments(&self) -> usize {
-        comments(&self.text)
+        Text::new(&self.text).map_or(0, |text| text.comments())
     }
 
-    /// Whether the text differs from the one that was opened.
+    /// The text differs from the one that was opened.
     pub fn is_changed(&self) -> bool {
         self.text != self.opened
     }
 
-    /// The file a scene names, which is relative to the scene's own.
+    /// Path of a file that the scene names, which is relative to the scene's own file.
     pub fn resolve(&self, file: &str) -> PathBuf {
         Path::new(&self.name).parent().unwrap_or(Path::new("")).join(file)
     }
 }
 
 impl Unread {
-    fn told(self, origin: Origin) -> SceneError {
+    fn into_error(self, origin: Origin) -> SceneError {
         let Unread { field, value, allowed, message, .. } = self;
         SceneError { origin, field, value, allowed, message }
     }
 }
 
-fn fields_of(outline: &Outline) -> impl Iterator<Item = &'static Field> {
-    FIELDS.iter().filter(|field| field.variant.is_none() || field.variant == outline.head(field.parent()))
+fn fields_of(outline: &Text) -> impl Iterator<Item = &'static Field> {
+    FIELDS.iter().filter(|field| field.variant.is_none() || field.variant == outline.variant(field.parent()))
+}
+
+/// Adds an override in place of earlier ones of the same field or of fields inside it.
+fn remember(overrides: &mut Vec<(String, String)>, path: &str, value: &str) {
+    overrides.retain(|(earlier, _)| !is_within(earlier, path));
+    overrides.push((path.to_string(), value.to_string()));
 }
 
 fn check_length(text: &str) -> Result<(), String> {
@@ -415,9 +493,18 @@ mod tests {
     #[test]
     fn scenes_made_in_the_program_are_checked_too() {
         let mut scene = sound();
-        assert_eq!(Document::of_scene(&scene, "x").unwrap().scene(), &scene);
+        assert_eq!(Document::from_scene(&scene, "x").unwrap().scene(), &scene);
         scene.roughness = Some(Roughness::measured(""));
-        let errors = Document::of_scene(&scene, "x").unwrap_err();
+        let errors = Document::from_scene(&scene, "x").unwrap_err();
         assert!(errors.to_string().starts_with("roughness.file = \"\": allowed: "), "{errors}");
+    }
+
+    #[test]
+    fn later_overrides_replace_what_they_cover() {
+        let mut overrides = pairs(&[("form.radius", "1"), ("form", "2"), ("formal", "3"), ("length", "4")]);
+        remember(&mut overrides, "form", "5");
+        assert_eq!(overrides, pairs(&[("formal", "3"), ("length", "4"), ("form", "5")]));
+        remember(&mut overrides, "form.radius", "6");
+        assert_eq!(overrides.len(), 4);
     }
 }

@@ -67,7 +67,8 @@ impl SceneError {
         SceneError { origin, field: String::new(), value: String::new(), allowed: String::new(), message }
     }
 
-    pub(super) fn of_violation(origin: Origin, violation: Violation) -> SceneError {
+    /// The error of a violation.
+    pub(super) fn new(origin: Origin, violation: Violation) -> SceneError {
         let Violation { field, value, allowed, reason, .. } = violation;
         SceneError { origin, field, value, allowed, message: reason }
     }
@@ -113,7 +114,7 @@ pub struct SceneErrors {
 
 impl SceneErrors {
     /// The errors of a list; `None` where there are none.
-    pub fn of(errors: Vec<SceneError>) -> Option<SceneErrors> {
+    pub fn new(errors: Vec<SceneError>) -> Option<SceneErrors> {
         let mut errors = errors.into_iter();
         Some(SceneErrors { first: Box::new(errors.next()?), rest: errors.collect() })
     }
@@ -189,10 +190,10 @@ mod tests {
 
     #[test]
     fn errors_are_lines() {
-        let errors = SceneErrors::of(vec![error(), error()]).unwrap();
+        let errors = SceneErrors::new(vec![error(), error()]).unwrap();
         assert_eq!(errors.to_string().lines().count(), 2);
         assert_eq!(errors.iter().count(), 2);
-        assert_eq!(SceneErrors::of(vec![]), None);
+        assert_eq!(SceneErrors::new(vec![]), None);
     }
 
     #[test]

@@ -528,7 +528,7 @@ mod tests {
 
     /// A scene for every variant of every choice.
     fn scenes_of_all_variants() -> Vec<Scene> {
-        let base = Document::of_scene(&sound(), "base").unwrap();
+        let base = Document::from_scene(&sound(), "base").unwrap();
         let all = |path: &'static str| match field(path, None).map(|field| field.range) {
             Some(Range::Choice(of)) => of.iter().map(|value| base.set(path, value).unwrap()).collect(),
             _ => Vec::new(),

@@ -15,27 +15,25 @@
 //! # Ok::<(), scene::SceneErrors>(())
 //! ```
 
-mod blame;
-mod bring_back;
 mod check;
+mod choose;
 mod consistency;
 mod derived;
 mod document;
+mod edit;
 mod effects;
+mod error_source;
 mod errors;
 mod field;
 mod fields;
 mod library;
-mod locate;
 mod model;
 mod overrides;
 mod presets;
 mod quantity;
 mod range;
 mod read;
-mod scan;
 mod search;
-mod splice;
 mod step;
 #[cfg(test)]
 // Integration tests include the file and use the rest.
@@ -43,6 +41,8 @@ mod step;
 mod strategies;
 mod suggest;
 mod switch;
+mod text;
+mod undo;
 mod value;
 mod write;
 
@@ -54,7 +54,6 @@ pub use errors::{Origin, SceneError, SceneErrors};
 pub use field::{Field, Step};
 pub use fields::{FIELDS, LEG_FORCE, LEG_INDENTATION, MOST_POINTS, field};
 pub use library::{Entry, Library, MOST_BYTES, MOST_FILES, Source, typed_path};
-pub use locate::{Place, line_column, locate};
 pub use model::*;
 pub use overrides::command_line;
 pub(crate) use overrides::quoted;
@@ -62,9 +61,10 @@ pub(crate) use presets::read_file;
 pub use presets::{DEFAULT, Preset, find, open, open_argument, presets};
 pub use quantity::{QuantityError, format_quantity, parse_quantity};
 pub use range::{End, Range};
-pub(crate) use read::told_otherwise;
+pub(crate) use read::describe_error;
 pub use search::search;
 pub(crate) use suggest::nearest;
 pub use switch::Computed;
+pub use text::{Span, Text, Unreadable, line_column, ron_float, ron_string};
 pub use value::Value;
-pub use write::{ron_float, ron_string, to_ron};
+pub use write::to_ron;

@@ -1,13 +1,14 @@
 //! What must be overridden in one scene to make it another, and the command that does it.
 
 use super::document::Document;
+use super::edit;
 use super::field::Field;
 use super::fields::fields_inside;
 use super::model::{Leg, Scene};
 use super::read::read;
-use super::splice;
+use super::text::ron_float;
 use super::value::Value;
-use super::write::{leg, ron_float};
+use super::write::leg;
 
 /// Paths and values to set together.
 type Overrides = Vec<(String, String)>;
@@ -106,7 +107,7 @@ fn length(overrides: &[(String, String)]) -> usize {
 
 /// Whether overrides of one field's parts give that field this value.
 fn leads_to(base: &Document, overrides: &[(String, String)], field: &Field, value: &str) -> bool {
-    let set = |text: String, (path, value): &(String, String)| splice::set(&text, path, value).ok();
+    let set = |text: String, (path, value): &(String, String)| edit::set(&text, path, value).ok();
     let text = overrides.iter().try_fold(base.text().to_string(), set);
     let scene = text.and_then(|text| read(&text).ok());
     scene.is_some_and(|scene| field.written(&scene).as_deref() == Some(value))
@@ -188,7 +189,7 @@ mod tests {
             &[("loading", "[ToTouch, ToForce(1.0), ToZeroForce]")],
         ] {
             let changed = document().set_all(&pairs(overrides)).unwrap();
-            let canonical = Document::of_scene(changed.scene(), "other").unwrap();
+            let canonical = Document::from_scene(changed.scene(), "other").unwrap();
             let expected =
                 pairs(overrides).into_iter().map(|(path, value)| (path, value.replace("0.1e7", "1.0e6")));
             let expected: Overrides = expected.collect();
@@ -334,11 +335,11 @@ mod tests {
             if mixed[7] { near.numerics.samples = base.numerics.samples; }
             if mixed[8] { near.observe.clone_from(&base.observe); }
             let preset = Document::parse(preset.text, preset.name).unwrap();
-            let base = Document::of_scene(&base, "base").unwrap();
-            let target = Document::of_scene(&target, "target").unwrap();
+            let base = Document::from_scene(&base, "base").unwrap();
+            let target = Document::from_scene(&target, "target").unwrap();
             let mut lists = vec![assert_leads(&preset, &target), assert_leads(&base, &target)];
             assert_leads(&target, &preset);
-            if let Ok(near) = Document::of_scene(&near, "near") {
+            if let Ok(near) = Document::from_scene(&near, "near") {
                 lists.push(assert_leads(&base, &near));
                 lists.push(assert_leads(&near, &target));
             }

@@ -129,15 +129,15 @@ fn whole(name: &str, message: String) -> SceneErrors {
 
 /// Text of a regular file, of which no more than a scene can be long is read.
 pub(crate) fn read_file(path: &Path) -> Result<String, String> {
-    read_regular_text(path, LONGEST_TEXT).map_err(told)
+    read_regular_text(path, LONGEST_TEXT).map_err(describe)
 }
 
 /// Text that a stream gives up to its end, of which no more than a scene can be long is read.
 fn read_stream(stream: impl Read) -> Result<String, String> {
-    read_limited(stream, LONGEST_TEXT).and_then(into_text).map_err(told)
+    read_limited(stream, LONGEST_TEXT).and_then(into_text).map_err(describe)
 }
 
-fn told(error: ReadError) -> String {
+fn describe(error: ReadError) -> String {
     match error {
         ReadError::Folder => "this is a directory, not a scene file".into(),
         ReadError::TooLong { limit } => format!("the scene is too long: at most {limit} bytes are read"),
@@ -206,7 +206,7 @@ mod tests {
     }
 
     #[test]
-    fn files_are_read_and_their_errors_told() {
+    fn files_are_read_and_their_errors_describe() {
         let directory = tempfile::tempdir().unwrap();
         let path = |name: &str| directory.path().join(name).to_str().unwrap().to_string();
         let message = |name: &str| open(&path(name)).unwrap_err().to_string();

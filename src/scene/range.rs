@@ -132,12 +132,19 @@ impl Range {
     }
 }
 
-/// The name a choice starts with: `Cone` of `Cone(angle: 0.1)`, the whole text where there is none.
+/// The name with which a choice begins: `Cone` of `Cone(angle: 0.1)`, the whole text where there is none.
 pub(super) fn choice_name(choice: &str) -> &str {
     match choice.find('(') {
         Some(0) | None => choice,
         Some(end) => &choice[..end],
     }
+}
+
+/// The part of a choice that distinguishes it from the others: its name, or the first field of a group without a name.
+pub(super) fn choice_key(choice: &str) -> &str {
+    let choice = choice.trim();
+    let key = choice_name(choice);
+    key.split_once(':').filter(|_| key.starts_with('(')).map_or(key, |(key, _)| key)
 }
 
 impl fmt::Display for Range {

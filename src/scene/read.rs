@@ -4,10 +4,10 @@ use ron::extensions::Extensions;
 
 use super::field::Field;
 use super::fields::{LEG_FORCE, LEG_INDENTATION, field};
-use super::locate::{Outline, offset_of};
 use super::model::{SCENE_VERSIONS, Scene};
 use super::range::Range;
 use super::suggest::nearest;
+use super::text::{Text, offset_of};
 
 /// Longer values than this are not repeated in messages.
 const MOST_REPEATED: usize = 60;
@@ -30,19 +30,17 @@ pub(super) fn read(text: &str) -> Result<Scene, Unread> {
 
 /// What is wrong with the version a text gives, whether or not the rest of it can be read.
 pub(super) fn wrong_version(text: &str) -> Option<Unread> {
-    let outline = Outline::of(text).ok()?;
-    let inside = outline.inside(outline.body("")?);
-    let (offset, value, message) = match outline.find("version") {
-        Some(place) => {
-            let value = text[place.value.clone()].to_string();
+    let outline = Text::new(text).ok()?;
+    let opening = outline.opening("")?;
+    let (offset, value, message) = match outline.span("version") {
+        Some(span) => {
+            let value = text[span.value.clone()].to_string();
             if value.parse().is_ok_and(|version| SCENE_VERSIONS.contains(&version)) {
                 return None;
             }
-            (place.value.start, value, "version of the scene file")
+            (span.value.start, value, "version of the scene file")
         }
-        None => {
-            (inside.start.saturating_sub(1), String::new(), "version of the scene file, which is missing")
-        }
+        None => (opening, String::new(), "version of the scene file, which is missing"),
     };
     let allowed = format!("{} or {}", SCENE_VERSIONS.start(), SCENE_VERSIONS.end());
     let (field, message) = ("version".into(), message.into());
@@ -50,7 +48,7 @@ pub(super) fn wrong_version(text: &str) -> Option<Unread> {
 }
 
 /// Where and why text that is no scene, but written like one, cannot be read.
-pub(crate) fn told_otherwise(text: &str, error: &ron::error::SpannedError) -> (usize, String) {
+pub(crate) fn describe_error(text: &str, error: &ron::error::SpannedError) -> (usize, String) {
     let message = match &error.code {
         ron::Error::NoSuchEnumVariant { expected, found, .. } => {
             let near = nearest(found, expected.iter().copied());
@@ -78,7 +76,7 @@ fn place_of(text: &str, error: &ron::error::SpannedError) -> (usize, usize) {
 
 fn explain(text: &str, error: &ron::error::SpannedError) -> Unread {
     let (offset, end) = place_of(text, error);
-    match Outline::of(text) {
+    match Text::new(text) {
         Ok(outline) => explain_at(text, &outline, offset, &error.code),
         // Where the reader only found the end of the text, the bracket that stays open says more.
         Err(unreadable) if end >= text.trim_end().len() || is_lost(&error.code) => {
@@ -94,7 +92,7 @@ fn is_lost(error: &ron::Error) -> bool {
     matches!(error, Error::Eof | Error::ExpectedStringEnd | Error::UnclosedBlockComment)
 }
 
-fn explain_at(text: &str, outline: &Outline, offset: usize, error: &ron::Error) -> Unread {
+fn explain_at(text: &str, outline: &Text, offset: usize, error: &ron::Error) -> Unread {
     use ron::Error;
 
     let field = outline.path_at(offset);
@@ -120,8 +118,8 @@ fn explain_at(text: &str, outline: &Outline, offset: usize, error: &ron::Error) 
 }
 
 /// A value that stands by itself is pointed at as a whole and repeated, with what is allowed there.
-fn explain_value(text: &str, outline: &Outline, at: Unread, error: &ron::Error) -> Unread {
-    let scalar = outline.find(&at.field).filter(|place| {
+fn explain_value(text: &str, outline: &Text, at: Unread, error: &ron::Error) -> Unread {
+    let scalar = outline.span(&at.field).filter(|place| {
         let value = &text[place.value.clone()];
         value.len() <= MOST_REPEATED && !value.contains(['(', '[', '{'])
     });
@@ -149,9 +147,9 @@ impl Unread {
 }
 
 /// The field at a path, by the variant the text gives to the group or leg around it.
-fn known(outline: &Outline, path: &str) -> Option<&'static Field> {
+fn known(outline: &Text, path: &str) -> Option<&'static Field> {
     let parent = path.rsplit_once('.').map_or("", |(parent, _)| parent);
-    let head = outline.head(parent);
+    let head = outline.variant(parent);
     if parent.starts_with("loading.") {
         return [&LEG_FORCE, &LEG_INDENTATION].into_iter().find(|field| field.variant == head);
     }
@@ -194,7 +192,7 @@ fn plain(error: &ron::Error) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::super::locate::line_column;
+    use super::super::text::line_column;
     use super::*;
 
     fn unread(text: &str) -> ((usize, usize), String, String, String, String) {
@@ -306,7 +304,7 @@ mod tests {
             ("(count: 1, colour: Blue) x", 25, "nothing may follow here"),
         ] {
             let error = ron::from_str::<Other>(text).unwrap_err();
-            let (at, message) = told_otherwise(text, &error);
+            let (at, message) = describe_error(text, &error);
             assert!(message.starts_with(said), "{text}: {message}");
             assert_eq!(at, offset, "{text}: {message}");
         }

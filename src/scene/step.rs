@@ -1,8 +1,9 @@
 //! How a key steps a field: from the text of one value to the text of the next.
 
 use super::field::{Field, Step};
-use super::range::{Range, choice_name};
-use super::write::ron_float;
+use super::fields::fields_inside;
+use super::range::{Range, choice_key, choice_name};
+use super::text::ron_float;
 
 /// The Renard series R20 of ISO 3.
 const FINE_SERIES: &[f64] = &[
@@ -14,11 +15,11 @@ const COARSE_SERIES: &[f64] = &[1.0, 2.0, 5.0];
 const SAME: f64 = 1e-9;
 
 impl Field {
-    /// The value that `steps` key presses away from `value` (both as written in a scene) stands, or
-    /// `None` where there is no other: at the end of the range, or where the field is only typed.
+    /// The value `steps` key presses away from `value`, both as written in a scene; `None` where there is no other: at
+    /// the end of the range, or where the field is only typed.
     ///
-    /// Numbers stay inside the field's range. A choice goes round in a circle, with `None` as one
-    /// of its members where the field may be left out.
+    /// Numbers stay inside the field's range. Choices form a circle, with `None` as one of them where the field may be
+    /// left out, and without those that require a text.
     pub fn stepped(&self, value: &str, steps: i32, coarse: bool) -> Option<String> {
         if steps == 0 {
             return None;
@@ -83,11 +84,14 @@ impl Field {
         let Range::Choice(choices) = self.range else {
             return None;
         };
-        let mut choices = choices.to_vec();
-        if self.default == "None" {
-            choices.insert(0, "None");
-        }
-        let here = choices.iter().position(|choice| choice_name(choice) == choice_name(value.trim()));
+        // A text such as the name of a file is not invented; where it is required the choice is only typed.
+        let is_stepped = |choice: &&str| {
+            let mut fields = fields_inside(self.path, Some(choice_name(choice)));
+            !fields.any(|field| field.default.is_empty() && matches!(field.range, Range::Text { .. }))
+        };
+        let none = (self.default == "None").then_some("None");
+        let choices: Vec<&str> = none.into_iter().chain(choices.iter().copied().filter(is_stepped)).collect();
+        let here = choices.iter().position(|choice| choice_key(choice) == choice_key(value));
         let count = i64::try_from(choices.len()).ok()?;
         let next = (i64::try_from(here.unwrap_or(0)).ok()? + i64::from(steps)).rem_euclid(count);
         choices.get(usize::try_from(next).ok()?).map(|choice| (*choice).to_string())

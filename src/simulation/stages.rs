@@ -3,7 +3,7 @@
 use super::contact_stage::{ContactMemory, ContactStage};
 use super::{LineFacts, Outcome, Plan, RunError, Stage, Timings};
 use crate::analysis::{Amplitude, Figures, Governing, Regime, ideal_adhesion_force};
-use crate::contact::{ContactError, ContactTree, HessRule, LegRecord, Solver};
+use crate::contact::{ContactError, ContactTree, LegRecord, Solver};
 use crate::memory::check_room;
 use crate::parallel::in_parallel;
 use crate::reference::smooth_adhesion_force;
@@ -297,10 +297,7 @@ impl Simulation {
 
         let Some((_, line)) = &self.line else { return Err(ContactError::Interrupted.into()) };
         let foundation = governing.foundation(line);
-        let hess = governing
-            .adhesive_work()
-            .filter(|_| plan.runs(Stage::RuleOfHess))
-            .map(|work| HessRule::new(foundation, work));
+        let hess = governing.hess_rule(foundation).filter(|_| plan.runs(Stage::RuleOfHess));
         let tree = self.tree.as_deref();
         let contact = ContactStage { line, tree, foundation, hess, scene, stop };
 

@@ -100,6 +100,13 @@ impl Axis {
         (0..self.count()).map(|index| self.value(index)).collect()
     }
 
+    /// Places of the values, by ascending values.
+    pub(super) fn ascending(&self) -> Vec<u64> {
+        let mut places: Vec<u64> = (0..self.count()).collect();
+        places.sort_by(|a, b| self.value(*a).total_cmp(&self.value(*b)));
+        places
+    }
+
     /// What is wrong with it by itself, if anything.
     pub(super) fn wrong(&self) -> Option<String> {
         let path = &*printable(self.path());

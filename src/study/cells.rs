@@ -90,6 +90,11 @@ impl Cells {
         }
     }
 
+    /// All runs of one line whose roughness is the same, by the number of the roughness.
+    pub fn whole_unit(&self, group: u64, line: u64) -> Unit {
+        Unit { group, line, steps: 0..self.count(&self.inner) }
+    }
+
     /// The runs of a unit, in the order in which they are best done.
     pub fn runs_of(&self, unit: &Unit) -> impl Iterator<Item = u64> + use<'_> {
         let group = unit.group;
@@ -112,9 +117,9 @@ impl Cells {
         unit.steps.end - unit.steps.start
     }
 
-    /// The first cell of a run; those of its other preloads follow.
-    pub fn first_cell(&self, run: u64) -> u64 {
-        run * self.preloads
+    /// The cells of a run, one for each preload.
+    pub fn cells_of(&self, run: u64) -> Range<u64> {
+        run * self.preloads..(run + 1) * self.preloads
     }
 
     /// Makes `scene` that of a run: the base with its values, the loading as it stands there.

@@ -1,6 +1,6 @@
 //! Why a study could not go on.
 
-use super::plan::PlanErrors;
+use super::plan_text::PlanErrors;
 use super::record::Key;
 use crate::io::WriteError;
 use crate::simulation::RunError;

@@ -2,6 +2,7 @@
 //! names; how they are drawn is the export's.
 
 use crate::analysis::Regime;
+pub use crate::draw::AxisScale;
 
 /// An axis of a figure.
 #[derive(Clone, Debug, PartialEq)]
@@ -16,29 +17,6 @@ pub struct FigureAxis {
     pub scale: AxisScale,
     /// Its values in SI units, ascending.
     pub values: Vec<f64>,
-}
-
-/// How values lie on an axis.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum AxisScale {
-    /// In proportion.
-    Linear,
-    /// Equal ratios are equal distances; all values are above zero.
-    Logarithmic,
-}
-
-impl AxisScale {
-    /// Where a number stands: itself, or its decimal logarithm.
-    #[must_use]
-    pub fn coordinate(self, number: f64) -> f64 {
-        if self == AxisScale::Logarithmic { number.log10() } else { number }
-    }
-
-    /// The number that stands at a coordinate.
-    #[must_use]
-    pub fn number(self, coordinate: f64) -> f64 {
-        if self == AxisScale::Logarithmic { 10_f64.powf(coordinate) } else { coordinate }
-    }
 }
 
 impl FigureAxis {

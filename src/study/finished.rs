@@ -1,6 +1,8 @@
 //! The merged results of a study, read back: for plots and views.
 
 use super::StudyError;
+use super::axis::Axis;
+use super::cell_summary::{CellSummary, Spread};
 use super::merge::{REGIME_COLUMNS, RESULTS, SUMMARY};
 use super::plan::Plan;
 use super::quantity::Quantity;
@@ -15,30 +17,6 @@ use std::path::Path;
 pub struct Finished {
     plan: Plan,
     cells: Vec<Option<CellSummary>>,
-}
-
-/// What the lines of one cell gave.
-#[derive(Clone, Debug, PartialEq)]
-pub struct CellSummary {
-    /// Index of the cell.
-    pub cell: u64,
-    /// Number of lines.
-    pub lines: u64,
-    /// For each quantity that the plan records, in that order; nothing for the regime.
-    pub quantities: Vec<Option<Spread>>,
-    /// Share of lines in each regime, in the order of [`Regime::ALL`]; where it is recorded and known.
-    pub regimes: Option<[f64; 3]>,
-}
-
-/// Mean and spread of a quantity over the lines of a cell, in SI units.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Spread {
-    /// Mean.
-    pub mean: f64,
-    /// Standard deviation; `None` for one line.
-    pub standard_deviation: Option<f64>,
-    /// 95 % confidence interval of the mean; `None` for one line.
-    pub confidence_interval: Option<(f64, f64)>,
 }
 
 /// One row of the results: one cell on one line.
@@ -88,18 +66,45 @@ impl Finished {
     /// The cell at these places on the axes, the preload's last where there are preloads.
     #[must_use]
     pub fn at(&self, places: &[u64]) -> Option<&CellSummary> {
-        let axes = || self.plan.axes.iter().chain(&self.plan.preloads);
-        if places.len() != axes().count() || axes().zip(places).any(|(axis, &place)| place >= axis.count()) {
+        let axes = self.plan.all_axes();
+        if places.len() != axes.len() || axes.iter().zip(places).any(|(axis, &place)| place >= axis.count()) {
             return None;
         }
-        self.cell(axes().zip(places).fold(0, |cell, (axis, place)| cell * axis.count() + place))
+        self.cell(axes.iter().zip(places).fold(0, |cell, (axis, place)| cell * axis.count() + place))
+    }
+
+    /// The cells over one axis or two, by their numbers, at these places on the others: row by row, both by ascending
+    /// values.
+    pub(super) fn grid(
+        &self,
+        across: usize,
+        up: Option<usize>,
+        mut places: Vec<u64>,
+    ) -> Vec<Option<&CellSummary>> {
+        let axes = self.plan.all_axes();
+        let columns = axes[across].ascending();
+        let mut cells = Vec::with_capacity(columns.len());
+        for row in up.map_or(vec![0], |up| axes[up].ascending()) {
+            if let Some(up) = up {
+                places[up] = row;
+            }
+            for column in &columns {
+                places[across] = *column;
+                cells.push(self.at(&places));
+            }
+        }
+        cells
+    }
+
+    /// Place of a quantity among the recorded.
+    pub(super) fn column(&self, quantity: Quantity) -> Option<usize> {
+        self.plan.record.iter().position(|one| *one == quantity)
     }
 
     /// A quantity in a cell.
     #[must_use]
     pub fn spread(&self, cell: u64, quantity: Quantity) -> Option<Spread> {
-        let column = self.plan.record.iter().position(|one| *one == quantity)?;
-        self.cell(cell)?.quantities[column]
+        self.cell(cell)?.quantities[self.column(quantity)?]
     }
 
     /// Calls `each` with every row of the results, sorted by cell, then by seed.
@@ -138,7 +143,7 @@ fn each_row(path: &Path, plan: &Plan, mut each: impl FnMut(&[&str]) -> Option<()
         let columns: Vec<&str> = text.trim_end_matches('\r').split(',').collect();
         match count {
             None => {
-                let start = plan.axes.iter().map(super::Axis::path);
+                let start = plan.axes.iter().map(Axis::path);
                 let known = ["cell"].into_iter().chain(start).zip(&columns).all(|(a, b)| a == *b);
                 if !known {
                     return Err(wrong("its columns are not those of the plan".into()));

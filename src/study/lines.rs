@@ -3,15 +3,20 @@
 //! Heights of self-affine lines do not average themselves: long waves carry most of them, and there are few of
 //! those however many springs a line has. So one line is one sample, and a mean needs many.
 
+use super::cells::Cells;
 use super::height_shape::HeightShape;
+use super::plan::Plan;
+use super::quantity::Quantity;
+use super::recorder::Records;
+use super::solve::{Case, Next, SharedWork, Sink};
 use super::statistics::Statistics;
 use crate::analysis::Regime;
-use crate::parallel::on_this_thread;
+use crate::parallel::{begin_threads, on_this_thread};
 use crate::scene::Scene;
-use crate::simulation::{Outcome, RunError, Simulation};
+use crate::simulation::{RunError, Simulation};
 use serde::Serialize;
+use std::ops::ControlFlow;
 use std::path::Path;
-use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 use thiserror::Error;
 
@@ -38,7 +43,9 @@ pub struct LineResult {
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum LinesError {
     /// There is but one line.
-    #[error("several lines go with random roughness, which has seeds; this scene has one line")]
+    #[error(
+        "several lines go with roughness: SelfAffine or an equivalent line, which have seeds; this scene has but one line"
+    )]
     OneLine,
     /// A line could not be computed.
     #[error("seed {seed}: {error}")]
@@ -50,74 +57,84 @@ pub enum LinesError {
     },
 }
 
-/// Runs a checked scene on `lines` lines: its seed and those that follow, after the last of all seeds the
-/// first. `jobs` threads share them; no bit of a result depends on how many.
+/// Quantities of a profile, read by [`LineResult::new`].
+const RECORD: [Quantity; 7] = [
+    Quantity::AdhesionForce,
+    Quantity::PreloadIndentation,
+    Quantity::DissipatedEnergy,
+    Quantity::ContactFraction,
+    Quantity::Regime,
+    Quantity::Skewness,
+    Quantity::ExcessKurtosis,
+];
+
+/// Solves a checked scene on `lines` profiles: its seed and the seeds that follow, after the last of all seeds the
+/// first. `jobs` threads share them; no bit of a result depends on their number.
 ///
 /// # Errors
-/// [`LinesError`]; of several lines that fail, the first.
+/// [`LinesError`]; of several profiles that fail, the first.
 pub fn solve_lines(
     scene: &Scene,
     folder: &Path,
     lines: usize,
     jobs: usize,
 ) -> Result<Vec<LineResult>, LinesError> {
-    let first = scene.seed().ok_or(LinesError::OneLine)?;
-    let next = AtomicUsize::new(0);
-    let done = Mutex::new(Vec::new());
-    let work = || {
-        let mut simulation = Simulation::new(folder.to_path_buf());
-        loop {
-            let index = next.fetch_add(1, Ordering::Relaxed);
-            if index >= lines {
-                return;
-            }
-            let seed = first.wrapping_add(index as u64);
-            let result = one_line(&mut simulation, scene, seed);
-            if result.is_err() {
-                // Lines after it are of no use any more; those before it are being computed or done.
-                next.fetch_max(lines, Ordering::Relaxed);
-            }
-            done.lock().unwrap_or_else(PoisonError::into_inner).push((index, seed, result));
+    if scene.seed().is_none() {
+        return Err(LinesError::OneLine);
+    }
+    let plan = Plan::of_scene(scene, lines as u64, &RECORD);
+    let cells = Cells::of(&plan);
+    let work = &SharedWork::new(&plan, &cells, (0..cells.units()).map(|unit| cells.unit(unit)));
+    let solved = Mutex::new(Vec::new());
+    let solve = || work.solve(Simulation::new(folder.to_path_buf()), &mut &solved);
+    std::thread::scope(|scope| {
+        begin_threads(scope, jobs.min(lines).saturating_sub(1), solve);
+        on_this_thread(solve);
+    });
+    let mut solved = solved.into_inner().unwrap_or_else(PoisonError::into_inner);
+    solved.sort_by_key(|&(line, _)| line);
+    let result = |(line, records): (u64, Result<Records, RunError>)| {
+        let seed = plan.seed_of(line);
+        match records {
+            Ok(records) => Ok(LineResult::new(seed, &records.concat())),
+            Err(error) => Err(LinesError::Run { seed, error }),
         }
     };
-    std::thread::scope(|scope| {
-        // A system that gives no further thread has those do all that it gave.
-        let threads = jobs.min(lines);
-        for _ in 1..threads {
-            let _ = std::thread::Builder::new().spawn_scoped(scope, || on_this_thread(work));
-        }
-        if threads > 1 { on_this_thread(work) } else { work() }
-    });
-    let mut done = done.into_inner().unwrap_or_else(PoisonError::into_inner);
-    done.sort_by_key(|&(index, ..)| index);
-    done.into_iter()
-        .map(|(_, seed, result)| result.map_err(|error| LinesError::Run { seed, error }))
-        .collect()
+    solved.into_iter().map(result).collect()
 }
 
-fn one_line(simulation: &mut Simulation, scene: &Scene, wanted: u64) -> Result<LineResult, RunError> {
-    let mut scene = scene.clone();
-    scene.set_seed(wanted);
-    // The form is the same for all of them.
-    let flat = Scene { form: None, ..scene.clone() };
-    let heights = HeightShape::of(simulation.make_line(&flat)?.0.gaps.iter().map(|gap| -gap));
-    let outcome = simulation.run(&scene, &|| false, &mut |_, _, _| Ok(()))?;
-    Ok(LineResult::of(wanted, &outcome, heights))
+/// Profiles that have been solved, by their numbers.
+type Solved = Mutex<Vec<(u64, Result<Records, RunError>)>>;
+
+impl Sink for &Solved {
+    fn next(&mut self, _: Case) -> Next {
+        Next::Solve
+    }
+
+    fn take(&mut self, case: Case, records: Result<Records, RunError>) -> ControlFlow<()> {
+        // After a failure the profiles that follow are of no use; those before are under way or done.
+        let flow = if records.is_err() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) };
+        self.lock().unwrap_or_else(PoisonError::into_inner).push((case.line, records));
+        flow
+    }
 }
 
 impl LineResult {
-    fn of(seed: u64, outcome: &Outcome, heights: Option<HeightShape>) -> Self {
-        let lengths =
-            outcome.history.legs.iter().flat_map(|leg| &leg.curve).map(|point| point.contact_length);
-        let figures = &outcome.figures;
+    /// The result of a seed from the values of [`RECORD`].
+    fn new(seed: u64, values: &[f64]) -> Self {
+        let value = |quantity| {
+            let column = RECORD.iter().position(|one| *one == quantity)?;
+            values.get(column).copied().filter(|value| !value.is_nan())
+        };
+        let shape = value(Quantity::Skewness).zip(value(Quantity::ExcessKurtosis));
         LineResult {
             seed,
-            adhesion_force: figures.adhesion_force,
-            preload_indentation: figures.preload_indentation,
-            dissipated_energy: figures.dissipated_energy,
-            contact_fraction: lengths.fold(0.0, f64::max) / outcome.line.length,
-            regime: outcome.regime,
-            heights,
+            adhesion_force: value(Quantity::AdhesionForce),
+            preload_indentation: value(Quantity::PreloadIndentation),
+            dissipated_energy: value(Quantity::DissipatedEnergy),
+            contact_fraction: value(Quantity::ContactFraction).unwrap_or(0.0),
+            regime: value(Quantity::Regime).and_then(|place| Regime::ALL.get(place as usize).copied()),
+            heights: shape.map(|(skewness, excess_kurtosis)| HeightShape { skewness, excess_kurtosis }),
         }
     }
 }

@@ -5,8 +5,7 @@
 //! anyone can find out which copy of a file is meant, with `sha256sum`.
 
 use super::StudyError;
-use super::plan::Plan;
-use super::store::PLAN;
+use super::plan::{PLAN_FILE, Plan};
 use crate::scene::{Roughness, Scene};
 use crate::simulation::measured_options;
 use crate::surface::MeasuredRoughness;
@@ -46,7 +45,7 @@ pub(super) fn with_hash(plan: &Plan) -> Result<Plan, StudyError> {
 pub(super) fn profile(plan: &Plan, folder: &Path) -> Result<Option<Arc<MeasuredRoughness>>, StudyError> {
     let Some(file) = file_of(plan) else { return Ok(None) };
     let (profile, found) = read(&file, &plan.scene)?;
-    expect(plan, &file, &found, || path_name(&folder.join(PLAN)))?;
+    expect(plan, &file, &found, || path_name(&folder.join(PLAN_FILE)))?;
     Ok(Some(Arc::new(profile)))
 }
 

@@ -1,11 +1,13 @@
 //! All records of a study as tables: each once, sorted, and what the lines of a cell have in common.
 
 use super::StudyError;
-use super::plan::{MOST_RECORDS, Plan};
+use super::cell_summary::CellSummary;
+use super::plan::Plan;
+use super::plan_check::MOST_RECORDS;
 use super::publish::publish;
 use super::quantity::Quantity;
 use super::record::{Key, key_of, values_into};
-use super::statistics::{CONFIDENCE, Statistics, StudentT};
+use super::statistics::{CONFIDENCE, StudentT};
 use super::store::{Folder, Lines, ShardFile};
 use super::target::symbol_and_unit;
 use crate::analysis::Regime;
@@ -226,7 +228,8 @@ impl Index {
                     there.push(values);
                 }
                 if !there.is_empty() {
-                    writeln!(summary, "{start},{}", summary_row(plan, &there, &mut quantiles))?;
+                    let cell = CellSummary::new(cell, &plan.record, &there, &mut quantiles);
+                    writeln!(summary, "{start},{}", summary_row(plan, &cell))?;
                 }
             }
         }
@@ -386,27 +389,22 @@ fn regime_name(quantity: Quantity, value: f64) -> Option<&'static str> {
 }
 
 /// Number of lines and, for each quantity, mean, standard deviation and confidence interval.
-fn summary_row(plan: &Plan, lines: &[&[f64]], quantiles: &mut StudentT) -> String {
-    let mut row = lines.len().to_string();
+fn summary_row(plan: &Plan, summary: &CellSummary) -> String {
+    let mut row = summary.lines.to_string();
     let mut add = |value: Option<f64>| {
         row.push(',');
         row.push_str(&number(value));
     };
-    for (column, quantity) in plan.record.iter().enumerate() {
-        let values = lines.iter().map(|line| line[column]).filter(|value| !value.is_nan());
-        let values: Vec<f64> = values.collect();
+    for (quantity, spread) in plan.record.iter().zip(&summary.quantities) {
         if *quantity == Quantity::Regime {
-            for regime in 0..Regime::ALL.len() {
-                let here = values.iter().filter(|value| **value as usize == regime).count();
-                add((!values.is_empty()).then(|| here as f64 / values.len() as f64));
-            }
+            (0..Regime::ALL.len()).for_each(|place| add(summary.regimes.map(|shares| shares[place])));
             continue;
         }
-        let statistics = Statistics::with(&values, quantiles);
-        add(statistics.map(|all| all.mean).or(values.first().copied()));
-        add(statistics.map(|all| all.standard_deviation));
-        add(statistics.map(|all| all.confidence_interval.0));
-        add(statistics.map(|all| all.confidence_interval.1));
+        let interval = spread.and_then(|spread| spread.confidence_interval);
+        add(spread.map(|spread| spread.mean));
+        add(spread.and_then(|spread| spread.standard_deviation));
+        add(interval.map(|(low, _)| low));
+        add(interval.map(|(_, high)| high));
     }
     row
 }

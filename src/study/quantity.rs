@@ -1,244 +1,238 @@
-//! What a study records for each cell and line.
+//! Quantities that a study records for each cell and profile: one row each.
 
+use super::case_outcome::CaseOutcome;
+use crate::analysis::NEGLIGIBLE_COEFFICIENT;
 use serde::{Deserialize, Serialize};
 
-/// A quantity; its name in a plan is that of its column.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Quantity {
-    /// κ of eq. (11).
-    Kappa,
-    /// Work of adhesion γ, J/m².
-    WorkOfAdhesion,
-    /// Ideal adhesion force F_a,max of eq. (14), N.
-    IdealAdhesionForce,
-    /// F_a(0) by the touch protocol, N: turned at first touch.
-    ZeroLoadAdhesionForce,
-    /// The same over F_a,max.
-    ZeroLoadAdhesionShare,
-    /// F_a(0) by the zero-force protocol, N: turned where the force is back at zero.
-    ZeroForceAdhesionForce,
-    /// The same over F_a,max.
-    ZeroForceAdhesionShare,
-    /// Preload F_n, N.
-    PreloadForce,
-    /// Indentation at the preload, m.
-    PreloadIndentation,
-    /// Adhesion force F_a(F_n), N.
-    AdhesionForce,
-    /// The same over F_a,max.
-    AdhesionShare,
-    /// Adhesion coefficient F_a/F_n.
-    AdhesionCoefficient,
-    /// Indentation at pull-off, m.
-    PullOffIndentation,
-    /// Energy lost over the loop, J.
-    DissipatedEnergy,
-    /// Largest length in contact over L.
-    ContactFraction,
-    /// Contact fragments at the preload.
-    Fragments,
-    /// Regime of Fig. 4.
-    Regime,
-    /// Exponent α of k ∝ F^α without adhesion, over the plan's `stiffness` range of forces.
-    StiffnessExponent,
-    /// Exponent n of F ∝ d^n without adhesion, over the same range.
-    ForceExponent,
-    /// Rms height of the line about its mean, m.
-    RmsHeight,
-    /// ⟨z³⟩/⟨z²⟩^(3/2) of the line.
-    Skewness,
-    /// ⟨z⁴⟩/⟨z²⟩² − 3 of the line.
-    ExcessKurtosis,
-    /// Height of the summit above the mean, over the rms height.
-    SummitHeight,
+/// All that is known of a quantity.
+struct Row {
+    /// Name in plans and of columns.
+    name: &'static str,
+    /// Symbol; may be empty.
+    symbol: &'static str,
+    /// SI unit; `1` for a number without one, empty for the regime, which is no number.
+    unit: &'static str,
+    /// Meaning in one line.
+    meaning: &'static str,
+    /// Returns true for a quantity that may be negative.
+    signed: bool,
+    /// Computation that the quantity calls for.
+    needs: Needs,
+    /// Least values of the three densest glyphs of a map, the densest first; `None`: by the values of the map.
+    steps: Option<[f64; 3]>,
+    /// Value of a case, if the case has one.
+    of: fn(&CaseOutcome<'_>) -> Option<f64>,
 }
 
-/// What must be done for a quantity.
+/// Computation that a quantity calls for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Needs {
-    /// The line and what governs it.
-    Line,
+    /// The profile and its governing parameters.
+    Profile,
     /// Statistics of the heights without the form.
     Heights,
-    /// F_a(0) by the touch protocol.
+    /// F_a(0) by the touch protocol: turned at first touch.
     Touch,
-    /// The loop by the zero-force protocol.
+    /// F_a(0) by the zero-force protocol: turned where the force is back at zero.
     ZeroForce,
-    /// The loop to the preload, or the scene's own loading.
-    Loop,
+    /// The loading to the preload, or the scene's own.
+    Loading,
     /// The force curve without adhesion.
     Stiffness,
 }
 
-impl Quantity {
-    /// All of them.
-    pub const ALL: [Quantity; 23] = [
-        Quantity::Kappa,
-        Quantity::WorkOfAdhesion,
-        Quantity::IdealAdhesionForce,
-        Quantity::ZeroLoadAdhesionForce,
-        Quantity::ZeroLoadAdhesionShare,
-        Quantity::ZeroForceAdhesionForce,
-        Quantity::ZeroForceAdhesionShare,
-        Quantity::PreloadForce,
-        Quantity::PreloadIndentation,
-        Quantity::AdhesionForce,
-        Quantity::AdhesionShare,
-        Quantity::AdhesionCoefficient,
-        Quantity::PullOffIndentation,
-        Quantity::DissipatedEnergy,
-        Quantity::ContactFraction,
-        Quantity::Fragments,
-        Quantity::Regime,
-        Quantity::StiffnessExponent,
-        Quantity::ForceExponent,
-        Quantity::RmsHeight,
-        Quantity::Skewness,
-        Quantity::ExcessKurtosis,
-        Quantity::SummitHeight,
-    ];
+const ROW: Row = Row {
+    name: "",
+    symbol: "",
+    unit: "1",
+    meaning: "",
+    signed: false,
+    needs: Needs::Loading,
+    steps: None,
+    of: |_| None,
+};
 
-    const fn row(self) -> (&'static str, &'static str, &'static str, &'static str, Needs) {
-        match self {
-            Quantity::Kappa => ("kappa", "κ", "1", "governing parameter, eq. (11)", Needs::Line),
-            Quantity::WorkOfAdhesion => ("work_of_adhesion", "γ", "J/m²", "work of adhesion", Needs::Line),
-            Quantity::IdealAdhesionForce => (
-                "ideal_adhesion_force",
-                "F_a,max",
-                "N",
-                "adhesion force of a flat face, eq. (14)",
-                Needs::Line,
-            ),
-            Quantity::ZeroLoadAdhesionForce => (
-                "zero_load_adhesion_force",
-                "F_a(0)",
-                "N",
-                "adhesion force after turning at first touch",
-                Needs::Touch,
-            ),
-            Quantity::ZeroLoadAdhesionShare => (
-                "zero_load_adhesion_share",
-                "F_a(0)/F_a,max",
-                "1",
-                "adhesion force after turning at first touch, over that of a flat face",
-                Needs::Touch,
-            ),
-            Quantity::ZeroForceAdhesionForce => (
-                "zero_force_adhesion_force",
-                "F_a(0)",
-                "N",
-                "adhesion force after turning where the force is back at zero",
-                Needs::ZeroForce,
-            ),
-            Quantity::ZeroForceAdhesionShare => (
-                "zero_force_adhesion_share",
-                "F_a(0)/F_a,max",
-                "1",
-                "adhesion force after turning where the force is back at zero, over that of a flat face",
-                Needs::ZeroForce,
-            ),
-            Quantity::PreloadForce => {
-                ("preload_force", "F_n", "N", "largest force of the loading", Needs::Loop)
-            }
-            Quantity::PreloadIndentation => {
-                ("preload_indentation", "d", "m", "indentation at the preload", Needs::Loop)
-            }
-            Quantity::AdhesionForce => {
-                ("adhesion_force", "F_a", "N", "adhesion force after the preload", Needs::Loop)
-            }
-            Quantity::AdhesionShare => (
-                "adhesion_share",
-                "F_a/F_a,max",
-                "1",
-                "adhesion force after the preload, over that of a flat face",
-                Needs::Loop,
-            ),
-            Quantity::AdhesionCoefficient => {
-                ("adhesion_coefficient", "F_a/F_n", "1", "adhesion force over preload", Needs::Loop)
-            }
-            Quantity::PullOffIndentation => {
-                ("pull_off_indentation", "d", "m", "indentation at the smallest force", Needs::Loop)
-            }
-            Quantity::DissipatedEnergy => {
-                ("dissipated_energy", "ΔW", "J", "energy lost over the loop", Needs::Loop)
-            }
-            Quantity::ContactFraction => {
-                ("contact_fraction", "", "1", "largest length in contact over the length", Needs::Loop)
-            }
-            Quantity::Fragments => ("fragments", "", "1", "contact fragments at the preload", Needs::Loop),
-            Quantity::Regime => ("regime", "", "", "regime of adhesion, Fig. 4", Needs::Loop),
-            Quantity::StiffnessExponent => (
-                "stiffness_exponent",
-                "α",
-                "1",
-                "exponent of the stiffness over the force without adhesion, k ∝ F^α; 1/(1+H) is expected",
-                Needs::Stiffness,
-            ),
-            Quantity::ForceExponent => (
-                "force_exponent",
-                "n",
-                "1",
-                "exponent of the force over the indentation without adhesion, F ∝ dⁿ",
-                Needs::Stiffness,
-            ),
-            Quantity::RmsHeight => ("rms_height", "h", "m", "rms height of the line", Needs::Heights),
-            Quantity::Skewness => {
-                ("skewness", "", "1", "skewness of the heights of the line", Needs::Heights)
-            }
-            Quantity::ExcessKurtosis => {
-                ("excess_kurtosis", "", "1", "excess kurtosis of the heights of the line", Needs::Heights)
-            }
-            Quantity::SummitHeight => {
-                ("summit_height", "", "1", "height of the summit over the rms height", Needs::Heights)
-            }
+/// Glyph steps of forces over F_a,max and of contact fractions: the same on all maps.
+const SHARE_STEPS: Option<[f64; 3]> = Some([0.5, 0.05, 0.005]);
+/// Glyph steps of the adhesion coefficient.
+const COEFFICIENT_STEPS: Option<[f64; 3]> = Some([1.0, 0.1, NEGLIGIBLE_COEFFICIENT]);
+
+/// Makes the enum of the quantities and the table of their rows.
+macro_rules! quantities {
+    ($($variant:ident { name: $name:literal, meaning: $meaning:literal, $($field:ident: $value:expr),* $(,)? })*) => {
+        /// A recorded quantity.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+        pub enum Quantity {
+            $(#[doc = concat!("`", $name, "`: ", $meaning, ".")] #[serde(rename = $name)] $variant,)*
         }
+
+        const ROWS: &[Row] = &[$(Row { name: $name, meaning: $meaning, $($field: $value,)* ..ROW },)*];
+
+        impl Quantity {
+            /// All quantities, in the order of the table.
+            pub const ALL: [Quantity; ROWS.len()] = [$(Quantity::$variant,)*];
+        }
+    };
+}
+
+quantities! {
+    Kappa {
+        name: "kappa", meaning: "governing parameter, eq. (11)",
+        symbol: "κ", needs: Needs::Profile, of: |case| case.governing.kappa,
+    }
+    WorkOfAdhesion {
+        name: "work_of_adhesion", meaning: "work of adhesion",
+        symbol: "γ", unit: "J/m²", needs: Needs::Profile, of: |case| case.governing.work_of_adhesion,
+    }
+    IdealAdhesionForce {
+        name: "ideal_adhesion_force", meaning: "adhesion force of a flat face, eq. (14)",
+        symbol: "F_a,max", unit: "N", needs: Needs::Profile, of: |case| case.ideal(),
+    }
+    ZeroLoadAdhesionForce {
+        name: "zero_load_adhesion_force", meaning: "adhesion force after turning at first touch",
+        symbol: "F_a(0)", unit: "N", needs: Needs::Touch, of: |case| case.zero_load(),
+    }
+    ZeroLoadAdhesionShare {
+        name: "zero_load_adhesion_share",
+        meaning: "adhesion force after turning at first touch, over that of a flat face",
+        symbol: "F_a(0)/F_a,max", needs: Needs::Touch, steps: SHARE_STEPS,
+        of: |case| case.share(case.zero_load()),
+    }
+    ZeroForceAdhesionForce {
+        name: "zero_force_adhesion_force",
+        meaning: "adhesion force after turning where the force is back at zero",
+        symbol: "F_a(0)", unit: "N", needs: Needs::ZeroForce, of: |case| case.zero_force,
+    }
+    ZeroForceAdhesionShare {
+        name: "zero_force_adhesion_share",
+        meaning: "adhesion force after turning where the force is back at zero, over that of a flat face",
+        symbol: "F_a(0)/F_a,max", needs: Needs::ZeroForce, steps: SHARE_STEPS,
+        of: |case| case.share(case.zero_force),
+    }
+    PreloadForce {
+        name: "preload_force", meaning: "largest force of the loading",
+        symbol: "F_n", unit: "N", of: |case| case.figures.preload,
+    }
+    PreloadIndentation {
+        name: "preload_indentation", meaning: "indentation at the preload",
+        symbol: "d", unit: "m", signed: true, of: |case| case.figures.preload_indentation,
+    }
+    AdhesionForce {
+        name: "adhesion_force", meaning: "adhesion force after the preload",
+        symbol: "F_a", unit: "N", of: |case| case.figures.adhesion_force,
+    }
+    AdhesionShare {
+        name: "adhesion_share", meaning: "adhesion force after the preload, over that of a flat face",
+        symbol: "F_a/F_a,max", steps: SHARE_STEPS, of: |case| case.share(case.figures.adhesion_force),
+    }
+    AdhesionCoefficient {
+        name: "adhesion_coefficient", meaning: "adhesion force over preload",
+        symbol: "F_a/F_n", steps: COEFFICIENT_STEPS, of: |case| case.figures.adhesion_coefficient,
+    }
+    PullOffIndentation {
+        name: "pull_off_indentation", meaning: "indentation at the smallest force",
+        symbol: "d", unit: "m", signed: true, of: |case| case.figures.pull_off_indentation,
+    }
+    DissipatedEnergy {
+        name: "dissipated_energy", meaning: "energy lost over the loop",
+        symbol: "ΔW", unit: "J", of: |case| case.figures.dissipated_energy,
+    }
+    ContactFraction {
+        name: "contact_fraction", meaning: "largest length in contact over the length",
+        steps: SHARE_STEPS, of: |case| case.contact_fraction(),
+    }
+    Fragments {
+        name: "fragments", meaning: "contact fragments at the preload",
+        of: |case| case.preload().map(|point| point.fragments as f64),
+    }
+    Regime {
+        name: "regime", meaning: "regime of adhesion, Fig. 4",
+        unit: "", of: |case| case.regime().map(|regime| f64::from(regime as u8)),
+    }
+    StiffnessExponent {
+        name: "stiffness_exponent",
+        meaning: "exponent of the stiffness over the force without adhesion, k ∝ F^α; 1/(1+H) is expected",
+        symbol: "α", needs: Needs::Stiffness, of: |case| Some(case.profile.exponents?.stiffness),
+    }
+    ForceExponent {
+        name: "force_exponent",
+        meaning: "exponent of the force over the indentation without adhesion, F ∝ dⁿ",
+        symbol: "n", needs: Needs::Stiffness, of: |case| Some(case.profile.exponents?.force),
+    }
+    RmsHeight {
+        name: "rms_height", meaning: "rms height of the line",
+        symbol: "h", unit: "m", needs: Needs::Heights, of: |case| Some(case.profile.heights?.rms),
+    }
+    Skewness {
+        name: "skewness", meaning: "skewness of the heights of the line",
+        signed: true, needs: Needs::Heights, of: |case| Some(case.profile.heights?.shape?.skewness),
+    }
+    ExcessKurtosis {
+        name: "excess_kurtosis", meaning: "excess kurtosis of the heights of the line",
+        signed: true, needs: Needs::Heights, of: |case| Some(case.profile.heights?.shape?.excess_kurtosis),
+    }
+    SummitHeight {
+        name: "summit_height", meaning: "height of the summit over the rms height",
+        needs: Needs::Heights, of: |case| Some(case.profile.heights?.summit),
+    }
+}
+
+impl Quantity {
+    const fn row(self) -> &'static Row {
+        &ROWS[self as usize]
     }
 
-    /// Its name, that of its column.
+    /// Name in plans and of columns.
     #[must_use]
     pub const fn name(self) -> &'static str {
-        self.row().0
+        self.row().name
     }
 
-    /// Its symbol; empty where it has none.
+    /// Symbol; empty where the quantity has none.
     #[must_use]
     pub const fn symbol(self) -> &'static str {
-        self.row().1
+        self.row().symbol
     }
 
-    /// SI unit; `1` for numbers without one, empty for the regime, which is no number.
+    /// SI unit; `1` for a number without one, empty for the regime, which is no number.
     #[must_use]
     pub const fn unit(self) -> &'static str {
-        self.row().2
+        self.row().unit
     }
 
-    /// What it is, in one line.
+    /// Meaning in one line.
     #[must_use]
     pub const fn meaning(self) -> &'static str {
-        self.row().3
+        self.row().meaning
     }
 
-    /// Whether it may be below zero.
+    /// Returns true for a quantity that may be negative.
     #[must_use]
     pub const fn is_signed(self) -> bool {
-        matches!(
-            self,
-            Quantity::PreloadIndentation
-                | Quantity::PullOffIndentation
-                | Quantity::Skewness
-                | Quantity::ExcessKurtosis
-        )
+        self.row().signed
     }
 
-    pub(super) const fn needs(self) -> Needs {
-        self.row().4
+    /// Least values of the three densest glyphs on every map, the densest first; `None` where they follow from the
+    /// values of a map.
+    #[must_use]
+    pub const fn steps(self) -> Option<[f64; 3]> {
+        self.row().steps
     }
 
-    /// The quantity of a name.
+    /// Quantity of a name.
     #[must_use]
     pub fn named(name: &str) -> Option<Quantity> {
         Quantity::ALL.into_iter().find(|quantity| quantity.name() == name)
+    }
+
+    pub(super) const fn needs(self) -> Needs {
+        self.row().needs
+    }
+
+    /// Finite value of a case, SI unit; NaN where the case has none. The regime is its place in
+    /// [`crate::analysis::Regime::ALL`].
+    pub(super) fn of(self, case: &CaseOutcome<'_>) -> f64 {
+        (self.row().of)(case).filter(|value| value.is_finite()).unwrap_or(f64::NAN)
     }
 }
 

@@ -1,20 +1,20 @@
 //! Computes what is missing of a plan: all cores, the same bits however many there are.
 
 use super::StudyError;
-use super::cells::{Cells, Unit};
-use super::measure::Measurer;
+use super::cells::Cells;
 use super::measured::profile;
 use super::record::{Key, encode};
+use super::recorder::Records;
 use super::shard::Shard;
+use super::solve::{Case, Next, SharedWork, Sink};
 use super::status::count;
 use super::store::{Done, Folder};
 use crate::disk::DiskFile;
 use crate::io::WriteError;
-use crate::parallel::on_this_thread;
-use crate::simulation::RunError;
-use crate::surface::MeasuredRoughness;
+use crate::parallel::begin_threads;
+use crate::simulation::{RunError, Simulation};
+use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, sync_channel};
 use std::sync::{Mutex, PoisonError};
@@ -78,17 +78,13 @@ pub struct Ended {
     pub complete: bool,
 }
 
-/// What all threads of a run see.
+/// State of a run that all of its threads see.
 struct Shared<'a> {
     folder: &'a Folder,
-    cells: Cells,
+    cells: &'a Cells,
     done: Done,
-    shard: Shard,
-    next: AtomicU64,
     /// Records that have reached the disk so far.
     written: AtomicU64,
-    /// That of the study's measured file, where it has one.
-    profile: Option<Arc<MeasuredRoughness>>,
     failed: AtomicBool,
     error: Mutex<Option<StudyError>>,
     stop: &'a (dyn Fn() -> bool + Sync),
@@ -118,32 +114,24 @@ pub fn run(
     // Read once, so that all threads compute from the same bytes, whatever becomes of the file meanwhile.
     let profile = profile(folder.plan(), folder.path())?;
     let (path, file) = folder.new_file(options.shard)?;
-    let jobs = options.jobs.max(1);
-    let shared = Shared {
-        folder,
-        cells,
-        done,
-        shard: options.shard,
-        next: AtomicU64::new(0),
-        written: AtomicU64::new(0),
-        profile,
-        failed: AtomicBool::new(false),
-        error: Mutex::new(None),
-        stop,
-    };
-    let shared = &shared;
+    let units = options.shard.units(cells.units()).map(|unit| cells.unit(unit));
+    let work = &SharedWork::new(folder.plan(), &cells, units);
+    let (written, failed, error) = (AtomicU64::new(0), AtomicBool::new(false), Mutex::new(None));
+    let shared = &Shared { folder, cells: &cells, done, written, failed, error, stop };
     std::thread::scope(|scope| {
         let (sender, receiver) = sync_channel(WAITING);
-        let begin = || {
-            let sender = sender.clone();
-            std::thread::Builder::new().spawn_scoped(scope, move || on_this_thread(|| shared.work(&sender)))
-        };
+        let begun = begin_threads(scope, options.jobs.max(1), move || {
+            let simulation = Simulation::new(PathBuf::new());
+            let simulation = match profile {
+                Some(profile) => simulation.with_measured(profile),
+                None => simulation,
+            };
+            work.solve(simulation, &mut FolderSink { shared, sender });
+        });
         // A system that gives fewer threads than asked for has those do all.
-        let begun = (0..jobs).filter(|_| begin().is_ok()).count();
         if begun == 0 {
             shared.fail(StudyError::NoThread);
         }
-        drop(sender);
         shared.write(&path, file, receiver, &mut |written| tell(&progress(written)));
     });
     let error = shared.error.lock().unwrap_or_else(PoisonError::into_inner).take();
@@ -163,67 +151,6 @@ impl Shared<'_> {
 
     fn ends(&self) -> bool {
         self.failed.load(Ordering::SeqCst) || (self.stop)()
-    }
-
-    /// Takes one unit after the other until none is left.
-    fn work(&self, sender: &SyncSender<String>) {
-        let mut measurer = Measurer::new(self.folder.plan(), self.profile.as_ref());
-        loop {
-            let index = self.next.fetch_add(1, Ordering::Relaxed);
-            let number = index * u64::from(self.shard.count) + u64::from(self.shard.number) - 1;
-            if number >= self.cells.units() || self.failed.load(Ordering::SeqCst) {
-                return;
-            }
-            let unit = self.cells.unit(number);
-            if let Err(error) = self.work_on(&unit, &mut measurer, sender) {
-                self.fail(error);
-                return;
-            }
-        }
-    }
-
-    fn work_on(
-        &self,
-        unit: &Unit,
-        measurer: &mut Measurer<'_>,
-        sender: &SyncSender<String>,
-    ) -> Result<(), StudyError> {
-        let plan = self.folder.plan();
-        let seed = plan.seed_of(unit.line);
-        let mut scene = plan.prototype();
-        let mut values = Vec::new();
-        for run in self.cells.runs_of(unit) {
-            let first = self.cells.first_cell(run);
-            let missing = |cell: u64| !self.done.has(cell * plan.lines + unit.line);
-            if !(first..first + self.cells.preloads()).any(missing) {
-                continue;
-            }
-            if self.ends() {
-                return Ok(());
-            }
-            let failed = |error: RunError| StudyError::Run {
-                cell: first,
-                coordinates: plan.coordinates(first),
-                seed,
-                error,
-            };
-            // The scene of every cell has been checked.
-            if self.cells.shape(run, &plan.scene, &mut scene).is_err() {
-                continue;
-            }
-            values.clear();
-            measurer.run(&mut scene, seed, &mut values).map_err(failed)?;
-            let mut text = String::new();
-            for (cell, values) in (first..).zip(&values) {
-                if missing(cell) {
-                    encode(Key { cell, seed }, values, &mut text);
-                }
-            }
-            if sender.send(text).is_err() {
-                return Ok(());
-            }
-        }
-        Ok(())
     }
 
     /// Writes records as they come. It waits for the disk when it has not done so for a while, and at the end.
@@ -272,5 +199,52 @@ impl Shared<'_> {
                 return;
             }
         }
+    }
+}
+
+/// Sink of one thread: lines of text for the file of the run.
+struct FolderSink<'a> {
+    shared: &'a Shared<'a>,
+    sender: SyncSender<String>,
+}
+
+impl FolderSink<'_> {
+    /// The cells of a case that have no record yet.
+    fn missing(&self, case: Case) -> impl Fn(u64) -> bool + '_ {
+        let lines = self.shared.folder.plan().lines;
+        move |cell| !self.shared.done.has(cell * lines + case.line)
+    }
+}
+
+impl Sink for FolderSink<'_> {
+    fn next(&mut self, case: Case) -> Next {
+        let mut cells = self.shared.cells.cells_of(case.run);
+        match cells.any(self.missing(case)) {
+            false => Next::Skip,
+            true if self.shared.ends() => Next::End,
+            true => Next::Solve,
+        }
+    }
+
+    fn take(&mut self, case: Case, records: Result<Records, RunError>) -> ControlFlow<()> {
+        let Shared { folder, cells, .. } = *self.shared;
+        let (plan, cells) = (folder.plan(), cells.cells_of(case.run));
+        let seed = plan.seed_of(case.line);
+        let records = match records {
+            Ok(records) => records,
+            Err(error) => {
+                let (cell, coordinates) = (cells.start, plan.coordinates(cells.start));
+                self.shared.fail(StudyError::Run { cell, coordinates, seed, error });
+                return ControlFlow::Break(());
+            }
+        };
+        let (mut text, missing) = (String::new(), self.missing(case));
+        for (cell, values) in cells.zip(&records) {
+            if missing(cell) {
+                encode(Key { cell, seed }, values, &mut text);
+            }
+        }
+        // The writer has ended where nothing receives the text.
+        if self.sender.send(text).is_ok() { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
     }
 }

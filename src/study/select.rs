@@ -1,18 +1,17 @@
 //! What of a merged study a figure shows: which quantities, along which axes, at which values of the others.
 
-use super::figure::{AxisScale, Boundary, Estimate, Figure, FigureAxis, FigureQuantity, Panel};
-use super::finished::{CellSummary, Finished};
+use super::axis::Axis;
+use super::figure::{AxisScale, Boundary, Estimate, Figure, FigureQuantity, Panel};
+use super::figure_axis::{figure_axis, fixed, scale_of};
+use super::finished::Finished;
 use super::plan::Plan;
 use super::quantity::Quantity;
-use super::{Axis, symbol_and_unit};
-use crate::analysis::{CellRegime, VANISHING_SHARE};
-use crate::scene::{Leg, field, format_quantity, parse_quantity};
+use crate::analysis::VANISHING_SHARE;
+use crate::scene::parse_quantity;
 use thiserror::Error;
 
 /// A second axis of at most so many values makes curves of a section rather than rows of a map.
 const MOST_CURVES: usize = 5;
-/// What spans this ratio is drawn on a logarithmic scale.
-const LOGARITHMIC_RATIO: f64 = 50.0;
 /// F_a(0)/F_a,max by the two protocols.
 const SHARES: [Quantity; 2] = [Quantity::ZeroLoadAdhesionShare, Quantity::ZeroForceAdhesionShare];
 /// Values that are named in a message.
@@ -120,11 +119,16 @@ impl Selection {
             None => (across, second),
         };
         let series = second.filter(|&second| self.up.is_none() && few(second) && !few(across));
-        let cells = Cells { study, chosen: &chosen, across, second };
+        let places = chosen.iter().map(|one| one.at.unwrap_or(0)).collect();
+        let cells = study.grid(across, second, places);
+        let estimates = |quantity: Quantity| -> Vec<Option<Estimate>> {
+            let column = study.column(quantity);
+            cells.iter().map(|cell| cell.as_ref()?.estimate(column?)).collect()
+        };
         let axis = |index: usize| figure_axis(plan, chosen[index].axis);
         let fixed = chosen.iter().filter_map(|one| Some(fixed(plan, one.axis, one.at?)));
         let panel = |&quantity: &Quantity| {
-            let estimates = cells.of(|cell| estimate(study, cell, quantity));
+            let estimates = estimates(quantity);
             // A single curve has an inset for what is small; of several the highest would hide the others.
             let mut curves = estimates.chunks(chosen[across].axis.count().max(1) as usize);
             let first = curves.next();
@@ -149,14 +153,14 @@ impl Selection {
             series: series.map(axis),
             panels,
             boundary: boundary.map(|quantity| Boundary {
-                values: cells.of(|cell| Some(estimate(study, cell, quantity)?.mean)),
+                values: estimates(quantity).into_iter().map(|estimate| Some(estimate?.mean)).collect(),
                 level: VANISHING_SHARE,
                 label: format!("F_a(0) = {VANISHING_SHARE} F_a,max"),
             }),
             regimes: if series.is_some() || !plan.record.contains(&Quantity::Regime) {
                 Vec::new()
             } else {
-                cells.of(|cell| cell_regime(cell).map(|cell| cell.regime))
+                cells.iter().map(|cell| Some((*cell)?.regime()?.regime)).collect()
             },
         })
     }
@@ -281,47 +285,6 @@ fn values_of(axis: &Axis) -> String {
     format!("{}, … {last}", first.join(", "))
 }
 
-/// An axis at one of its values, as people read it: `H = 0.3`.
-pub(crate) fn fixed(plan: &Plan, axis: &Axis, place: u64) -> String {
-    let FigureAxis { name, symbol, unit, .. } = figure_axis(plan, axis);
-    let value = format_quantity(axis.value(place), &unit);
-    if symbol.is_empty() { format!("{name} {value}") } else { format!("{symbol} = {value}") }
-}
-
-/// The places of an axis, by ascending values.
-pub(crate) fn ascending(axis: &Axis) -> Vec<u64> {
-    let mut places: Vec<u64> = (0..axis.count()).collect();
-    places.sort_by(|a, b| axis.value(*a).total_cmp(&axis.value(*b)));
-    places
-}
-
-pub(crate) fn figure_axis(plan: &Plan, axis: &Axis) -> FigureAxis {
-    let path = axis.path();
-    let values: Vec<f64> = ascending(axis).into_iter().map(|place| axis.value(place)).collect();
-    let ends = values.first().copied().zip(values.last().copied());
-    let wide = ends.is_some_and(|(low, high)| low > 0.0 && high >= LOGARITHMIC_RATIO * low);
-    let list = matches!(axis, Axis::List { .. });
-    let logarithmic = axis.is_logarithmic() || list && wide;
-    let (symbol, unit) = symbol_and_unit(path);
-    let leg = path.strip_prefix("loading.").and_then(|rest| rest.strip_suffix(".0")?.parse::<usize>().ok());
-    let (name, unit) = match (path, leg.and_then(|leg| plan.scene.loading.get(leg).zip(Some(leg + 1)))) {
-        (_, Some((Leg::ToIndentation(_), leg))) => (format!("indentation of leg {leg}"), "m"),
-        (_, Some((_, leg))) => (format!("force of leg {leg}"), "N"),
-        ("kappa" | "adhesion.kappa", _) => ("governing parameter".into(), unit),
-        ("springs_per_wave", _) => ("springs per wave".into(), unit),
-        ("roughness.modes.0", _) => ("first mode".into(), unit),
-        ("roughness.modes.1", _) => ("last mode".into(), unit),
-        _ => (field(path, None).map_or(path, |field| field.name).to_owned(), unit),
-    };
-    FigureAxis {
-        name,
-        symbol: symbol.into(),
-        unit: unit.into(),
-        scale: if logarithmic { AxisScale::Logarithmic } else { AxisScale::Linear },
-        values,
-    }
-}
-
 fn figure_quantity(quantity: Quantity) -> FigureQuantity {
     FigureQuantity {
         name: quantity.name().replace('_', " "),
@@ -329,51 +292,4 @@ fn figure_quantity(quantity: Quantity) -> FigureQuantity {
         unit: quantity.unit().into(),
         signed: quantity.is_signed(),
     }
-}
-
-/// The cells a figure shows, in its order.
-struct Cells<'a> {
-    study: &'a Finished,
-    chosen: &'a [Chosen<'a>],
-    across: usize,
-    second: Option<usize>,
-}
-
-impl Cells<'_> {
-    fn of<T>(&self, value: impl Fn(&CellSummary) -> Option<T>) -> Vec<Option<T>> {
-        let mut places: Vec<u64> = self.chosen.iter().map(|one| one.at.unwrap_or(0)).collect();
-        let columns = ascending(self.chosen[self.across].axis);
-        let rows = self.second.map_or(vec![0], |second| ascending(self.chosen[second].axis));
-        let mut values = Vec::with_capacity(columns.len() * rows.len());
-        for row in rows {
-            if let Some(second) = self.second {
-                places[second] = row;
-            }
-            for column in &columns {
-                places[self.across] = *column;
-                values.push(self.study.at(&places).and_then(&value));
-            }
-        }
-        values
-    }
-}
-
-pub(crate) fn estimate(study: &Finished, cell: &CellSummary, quantity: Quantity) -> Option<Estimate> {
-    let spread = study.spread(cell.cell, quantity)?;
-    let (low, high) = spread.confidence_interval.unwrap_or((spread.mean, spread.mean));
-    spread.mean.is_finite().then_some(Estimate { mean: spread.mean, low, high })
-}
-
-/// Logarithmic where all means are above zero and half of them below a fiftieth of the largest.
-pub(crate) fn scale_of(estimates: &[Option<Estimate>]) -> AxisScale {
-    let means: Vec<f64> = estimates.iter().flatten().map(|estimate| estimate.mean).collect();
-    let largest = means.iter().copied().fold(0.0, f64::max);
-    let small = means.iter().filter(|mean| **mean < largest / LOGARITHMIC_RATIO).count();
-    let wide = means.iter().all(|mean| *mean > 0.0) && 2 * small >= means.len().max(1);
-    if wide { AxisScale::Logarithmic } else { AxisScale::Linear }
-}
-
-/// Regime of a cell and of its lines; `None` where it was not recorded.
-pub(crate) fn cell_regime(cell: &CellSummary) -> Option<CellRegime> {
-    CellRegime::from_shares(cell.regimes?)
 }

@@ -5,8 +5,8 @@
 //! counts a cell once. What Slurm is slow at is done in the script of the task: a program that was killed
 //! is started again at once, and goes on where its results end.
 
+use super::plan::PLAN_FILE;
 pub use super::sbatch::{SbatchOption, SbatchOptionError, sbatch_options};
-use super::store::PLAN;
 use crate::text::{is_control, path_name};
 use std::ffi::{OsStr, OsString};
 use std::io;
@@ -145,7 +145,7 @@ impl Submission {
 retries={retries}
 retry=0
 while :; do
-    "$program" sweep "$folder/{PLAN}" -o "$folder" --shard "$SLURM_ARRAY_TASK_ID/{shards}" \
+    "$program" sweep "$folder/{PLAN_FILE}" -o "$folder" --shard "$SLURM_ARRAY_TASK_ID/{shards}" \
         --jobs "${{SLURM_CPUS_PER_TASK:-${{SLURM_CPUS_ON_NODE:-1}}}}"{arguments}
     status=$?
     case $status in
@@ -233,7 +233,7 @@ done
     /// What to run on hosts without a scheduler, with GNU parallel.
     #[must_use]
     pub fn without_scheduler(&self) -> String {
-        let plan = self.folder.join(PLAN);
+        let plan = self.folder.join(PLAN_FILE);
         let [program, plan, folder] = [&self.program, &plan, &self.folder].map(word);
         let shards = self.shards;
         format!(

@@ -107,8 +107,7 @@ pub(super) fn count(plan: &Plan, cells: &Cells, done: &Done, shard: Shard) -> (u
         let unit = cells.unit(unit);
         total += cells.length_of(&unit) * cells.preloads();
         for run in cells.runs_of(&unit) {
-            let first = cells.first_cell(run);
-            let places = (first..first + cells.preloads()).map(|cell| cell * plan.lines + unit.line);
+            let places = cells.cells_of(run).map(|cell| cell * plan.lines + unit.line);
             there += places.filter(|&place| done.has(place)).count() as u64;
         }
     }

@@ -6,7 +6,8 @@
 
 use super::StudyError;
 use super::measured::with_hash;
-use super::plan::{Changes, Plan};
+use super::plan::{PLAN_FILE, Plan};
+use super::plan_text::Changes;
 use super::record::{Key, key_of, seal, unseal, values_into};
 use super::shard::Shard;
 use crate::disk::{Disk, DiskFile, SystemDisk, folder_of, make_folders};
@@ -27,7 +28,6 @@ pub const STORE_VERSION: u32 = 1;
 /// Longest line of a shard file; records are much shorter.
 pub(super) const LONGEST_LINE: u64 = 1 << 16;
 
-pub(super) const PLAN: &str = "plan.ron";
 const SHARDS: &str = "shards";
 /// Ending of a shard file.
 const ENDING: &str = "shard";
@@ -110,7 +110,7 @@ impl Folder {
         let plan = with_hash(plan)?;
         make_folders(&*disk, path).map_err(failed(path))?;
         let shards = path.join(SHARDS);
-        let file = path.join(PLAN);
+        let file = path.join(PLAN_FILE);
         let text = plan.to_ron();
         if !file.exists() {
             match write_new_on(&*disk, &file, false, |out| out.write_all(text.as_bytes())) {
@@ -134,7 +134,7 @@ impl Folder {
     /// Whether a path is the folder of a study, sound or not.
     #[must_use]
     pub fn is_at(path: &Path) -> bool {
-        path.join(PLAN).is_file()
+        path.join(PLAN_FILE).is_file()
     }
 
     /// Opens the folder of a study.
@@ -150,9 +150,9 @@ impl Folder {
     /// # Errors
     /// As [`Folder::open`].
     pub fn open_on(disk: Arc<dyn Disk>, path: &Path) -> Result<Folder, StudyError> {
-        let file = path.join(PLAN);
+        let file = path.join(PLAN_FILE);
         if !file.is_file() {
-            let reason = format!("this is not the folder of a study: there is no {PLAN} in it");
+            let reason = format!("this is not the folder of a study: there is no {PLAN_FILE} in it");
             return Err(StudyError::Folder { path: path.to_path_buf(), reason });
         }
         let text = read_file(&file).map_err(|reason| StudyError::Folder { path: file.clone(), reason })?;
@@ -412,10 +412,10 @@ fn in_letters_for_files(name: &str) -> String {
 
 /// Why a folder that has the text `there` for a plan is none of `plan`.
 fn refusal(path: &Path, there: &str, plan: &Plan) -> StudyError {
-    let file = path.join(PLAN);
+    let file = path.join(PLAN_FILE);
     // Where nothing but the content of the measured file is another, that is said.
     if let (Ok(of_folder), Some(measured)) =
-        (Plan::parse(there, PLAN, &Changes::default()), super::measured::file_of(plan))
+        (Plan::parse(there, PLAN_FILE, &Changes::default()), super::measured::file_of(plan))
         && (Plan { measured_sha256: plan.measured_sha256.clone(), ..of_folder.clone() }) == *plan
     {
         return match (of_folder.measured_sha256, plan.measured_sha256.clone()) {

@@ -38,7 +38,8 @@ fn contact_on_ties_and_chains_is_that_of_the_rule() {
                 let heights = shape.iter().map(|height| -RMS_HEIGHT * height).collect();
                 let body = Body::below(heights, LENGTH, MODULUS, work);
                 // With hardly more and hardly less adhesion: where these differ rounding decides.
-                let relaxed = |factor: f64| Relaxed::new(&body.gaps, body.foundation, work * factor);
+                let relaxed =
+                    |factor: f64| Relaxed::new(&body.gaps, body.foundation, work * factor, work * factor);
                 let mut relaxed = [relaxed(1.0), relaxed(1.0 + 1e-11), relaxed(1.0 - 1e-11)];
                 let done = body.with(Edges::SubCell, 9, |solver| {
                     for leg in body.tour() {

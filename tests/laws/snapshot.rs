@@ -4,10 +4,9 @@ use super::*;
 use asperity::contact::{EdgeModel, Snapshot, SubCellEdges};
 
 /// Moves a body along legs and holds points of each curve against snapshots of the fragments there.
-fn looked_at<E: EdgeModel>(body: &Body, edges: E, legs: &[Leg]) -> Result<(), TestCaseError> {
+fn looked_at<E: EdgeModel>(body: &Body, hess: HessRule, edges: E, legs: &[Leg]) -> Result<(), TestCaseError> {
     let tree = ContactTree::build(&body.gaps, E::EDGES).unwrap();
     let mut solver = exact::adhesive(&body.gaps, &tree, edges, body.foundation, 12);
-    let hess = HessRule::new(body.foundation, body.work);
     let snapshot = Snapshot::new(&body.gaps, body.deepest(), E::EDGES, Some(hess));
     let tolerance = 1e-9 * body.force_scale();
     for &leg in legs {
@@ -15,11 +14,12 @@ fn looked_at<E: EdgeModel>(body: &Body, edges: E, legs: &[Leg]) -> Result<(), Te
         // A point at which part of the contact jumps has it on one side or the other.
         for point in &record.curve {
             let fragments = solver.fragments(point.indentation);
+            let rises = solver.rises(point.indentation);
             let springs: u64 = fragments.iter().map(|&(first, last)| (last - first + 1) as u64).sum();
             if springs != point.springs {
                 continue;
             }
-            let seen = snapshot.point(body.foundation, point.indentation, &fragments);
+            let seen = snapshot.point(body.foundation, point.indentation, &fragments, &rises);
             prop_assert_eq!((seen.springs, seen.fragments), (point.springs, point.fragments));
             prop_assert_eq!(seen.indentation, point.indentation);
             prop_assert!((seen.force - point.force).abs() <= tolerance, "{:?} {:?}", seen, point);
@@ -31,8 +31,11 @@ fn looked_at<E: EdgeModel>(body: &Body, edges: E, legs: &[Leg]) -> Result<(), Te
                 point
             );
             // The parts add up to the whole, and none is stretched further than it can be.
-            let parts: Vec<_> =
-                fragments.iter().map(|&ends| snapshot.fragment(point.indentation, ends)).collect();
+            let parts: Vec<_> = fragments
+                .iter()
+                .enumerate()
+                .map(|(index, &ends)| snapshot.fragment(point.indentation, ends, rises.get(index).copied()))
+                .collect();
             let sum = |of: fn(&asperity::contact::FragmentState) -> f64| parts.iter().map(of).sum::<f64>();
             let force = body.foundation.spring_stiffness() * sum(|part| part.compression);
             prop_assert!((force - point.force).abs() <= tolerance);
@@ -58,10 +61,15 @@ proptest! {
     #![proptest_config(cases(100))]
 
     #[test]
-    fn a_look_at_a_contact_is_the_point_of_its_curve(body in body(), turns in indentations(5)) {
+    fn a_look_at_a_contact_is_the_point_of_its_curve(
+        body in body(), turns in indentations(5), closing in 0.0..1.0_f64,
+    ) {
         let hess = HessRule::new(body.foundation, body.work);
-        looked_at(&body, GridEdges::new(hess), &to_indentations(&turns))?;
-        looked_at(&body, SubCellEdges::new(hess), &to_indentations(&turns))?;
+        let two_works = HessRule::from_works(body.foundation, closing * body.work, body.work);
+        for hess in [hess, two_works] {
+            looked_at(&body, hess, GridEdges::new(hess), &to_indentations(&turns))?;
+            looked_at(&body, hess, SubCellEdges::new(hess), &to_indentations(&turns))?;
+        }
     }
 
     /// The contacts a history ends with are as many as its last point says: none after separation.

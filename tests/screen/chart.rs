@@ -6,7 +6,7 @@ use super::common::driver::Driver;
 use super::common::scenes::{changed, rough, smooth, without_adhesion};
 use super::{is_up_to_date, keep};
 use asperity::accuracy::{Choice, ChoiceError, CostError, CostTable, Estimate, Progress};
-use asperity::analysis::{CellRegime, Regime};
+use asperity::analysis::Regime;
 use asperity::explorer::action::{Action, Gesture, Mouse};
 use asperity::explorer::layout::{Layout, inside};
 use asperity::explorer::model::{ModeKind, Pane};
@@ -16,8 +16,8 @@ use asperity::explorer::theme::Marker;
 use asperity::explorer::update::{Effect, study_tasks};
 use asperity::scene::{Document, Scene};
 use asperity::simulation::RunError;
-use asperity::study::Quantity;
-use asperity::study::map::{Cell, Charted, HURSTS, KAPPAS, Level, LiveMap, Template, hurst, kappa};
+use asperity::study::map::{Charted, HURSTS, KAPPAS, Level, LiveMap, RECORD, Template, hurst, kappa};
+use asperity::study::{CellSummary, Quantity, Spread};
 use std::sync::Arc;
 use std::sync::mpsc::{Sender, channel};
 use std::time::Duration;
@@ -26,19 +26,23 @@ use std::time::Duration;
 struct Mapper(Vec<Level>);
 
 /// Adhesion falls with κ, and with it the regime.
-fn cell(kappa: f64, hurst: f64) -> Cell {
+fn cell(kappa: f64, hurst: f64) -> CellSummary {
     let regime = match kappa * (0.5 + hurst) {
         ..2.0 => Regime::PressureInsensitive,
         2.0..12.0 => Regime::PressureSensitive,
         _ => Regime::NonAdhesive,
     };
-    Cell {
-        zero_load_adhesion: (-kappa).exp(),
-        adhesion: 2.0 * (-kappa / 2.0).exp(),
-        preload: 1.0,
-        ideal_adhesion: 1.0,
-        regime: Some(CellRegime { regime, share: 0.75, split: None }),
-    }
+    let spread = |mean| Some(Spread { mean, standard_deviation: None, confidence_interval: None });
+    // Of four profiles one is in another regime.
+    let mut regimes = [0.0; 3];
+    regimes[regime as usize] = 0.75;
+    regimes[(regime as usize + 1) % 3] = 0.25;
+    let values = RECORD.map(|quantity| match quantity {
+        Quantity::ZeroLoadAdhesionShare => spread((-kappa).exp()),
+        Quantity::AdhesionCoefficient => spread(2.0 * (-kappa / 2.0).exp()),
+        _ => None,
+    });
+    CellSummary { cell: 0, lines: 4, quantities: values.to_vec(), regimes: Some(regimes) }
 }
 
 impl Appraiser for Mapper {

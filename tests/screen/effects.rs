@@ -67,6 +67,79 @@ fn an_effect_goes_and_comes_back_as_it_was() {
 }
 
 #[test]
+fn a_row_of_an_effect_switches_the_same_effect_off_and_on() {
+    within(60, || {
+        for (path, head) in [
+            ("roughness.seed", "roughness"),
+            ("roughness.rms_height", "roughness"),
+            ("form.angle", "form"),
+            ("adhesion.kappa", "adhesion"),
+            ("adhesion.work", "adhesion"),
+            ("loading.3.0", "loading"),
+            ("loading.2.0", "loading"),
+        ] {
+            let mut driver = full();
+            if path == "loading.3.0" {
+                driver = Driver::start(changed(
+                    &rough(),
+                    &[("loading", "[ToForce(1.0e-5), ToSeparation, ToForce(2.0e-5), ToForce(1.0e-6)]")],
+                ));
+            }
+            let text = driver.model.document.text().to_owned();
+            select(&mut driver, path);
+            driver.press("t");
+            let off: Vec<Effect> =
+                Effect::ALL.into_iter().filter(|effect| !is_on(&driver, *effect)).collect();
+            assert_eq!(driver.model.parameter().unwrap().path, head, "{path}: {off:?}");
+            driver.press("t");
+            assert_eq!(driver.model.document.text(), text, "{path}: {off:?}");
+            assert!(is_up_to_date(&driver.model), "{path}");
+        }
+    });
+}
+
+#[test]
+fn adhesion_given_the_other_way_is_the_same() {
+    within(60, || {
+        let mut driver = pressed("");
+        let text = driver.model.document.text().to_owned();
+        let (kappa, work, _) = governing(&driver);
+        let force =
+            |driver: &Driver| driver.model.computed.as_ref().unwrap().outcome.figures.adhesion_force.unwrap();
+        let before = force(&driver);
+        select(&mut driver, "adhesion");
+        driver.press("h");
+        let adhesion = driver.model.document.scene().adhesion.unwrap();
+        assert_eq!((adhesion.work, adhesion.kappa), (Some(work), None));
+        assert!(near(governing(&driver).0, kappa) && near(force(&driver), before));
+        driver.press("l");
+        assert_eq!(driver.model.document.text(), text, "κ is the one that was typed");
+        assert!(near(force(&driver), before));
+        // Beyond both ways there is no adhesion, and back it is the same again.
+        driver.press("l");
+        assert!(!is_on(&driver, Effect::Adhesion));
+        driver.press("h");
+        assert_eq!(driver.model.document.text(), text);
+    });
+}
+
+#[test]
+fn steps_of_the_roughness_lead_to_scenes_that_can_be_computed() {
+    within(60, || {
+        for keys in ["l", "h", "l l", "h h", "l l l"] {
+            let mut driver = pressed("");
+            let text = driver.model.document.text().to_owned();
+            select(&mut driver, "roughness");
+            driver.press(keys);
+            assert!(is_up_to_date(&driver.model), "{keys}: {:?}", driver.model.notice);
+            let is_back = keys.split(' ').count() % 2 == 0;
+            assert_eq!(driver.model.document.text() == text, is_back, "{keys}");
+            assert_eq!(is_on(&driver, Effect::Roughness), is_back, "{keys}");
+        }
+    });
+}
+
+#[test]
 fn an_effect_that_never_was_comes_as_it_suits() {
     within(60, || {
         let bare =

@@ -33,17 +33,20 @@ impl Part {
 pub struct Relaxed<'a> {
     gaps: &'a [f64],
     foundation: Foundation,
-    /// Largest stretch of a fragment one cell long, m.
-    stretch: f64,
+    /// Largest stretch of a fragment one cell long before it grows, m.
+    closing: f64,
+    /// The same before it recedes.
+    opening: f64,
     indentation: f64,
     fragments: Vec<Fragment>,
 }
 
 impl<'a> Relaxed<'a> {
-    pub fn new(gaps: &'a [f64], foundation: Foundation, work: f64) -> Self {
-        let stretch =
-            (std::f64::consts::PI * foundation.spacing * work / foundation.effective_modulus).sqrt();
-        Relaxed { gaps, foundation, stretch, indentation: 0.0, fragments: Vec::new() }
+    pub fn new(gaps: &'a [f64], foundation: Foundation, closing_work: f64, work: f64) -> Self {
+        let [closing, opening] = [closing_work, work].map(|work| {
+            (std::f64::consts::PI * foundation.spacing * work / foundation.effective_modulus).sqrt()
+        });
+        Relaxed { gaps, foundation, closing, opening, indentation: 0.0, fragments: Vec::new() }
     }
 
     /// The component of {c ≤ level} (`closed`) or {c < level} around a spring in it.
@@ -65,9 +68,9 @@ impl<'a> Relaxed<'a> {
         Part { from, to, first, last }
     }
 
-    /// φ at a level.
-    fn rest(&self, spring: usize, level: f64, closed: bool) -> f64 {
-        level - self.stretch * self.part(spring, level, closed).length().sqrt()
+    /// φ at a level for the stretch of one cell.
+    fn rest(&self, stretch: f64, spring: usize, level: f64, closed: bool) -> f64 {
+        level - stretch * self.part(spring, level, closed).length().sqrt()
     }
 
     /// Springs' gaps next above and below a level.
@@ -125,7 +128,7 @@ impl<'a> Relaxed<'a> {
 
     /// The level to which a fragment grows, up to the next spring's gap.
     fn grow(&self, spring: usize, level: f64, next: f64) -> f64 {
-        let holds = |at: f64| self.rest(spring, at, at < next) <= self.indentation;
+        let holds = |at: f64| self.rest(self.closing, spring, at, at < next) <= self.indentation;
         let point =
             |k: usize| if k == POINTS { next } else { level + (next - level) * k as f64 / POINTS as f64 };
         let mut reached = level;
@@ -183,7 +186,7 @@ impl<'a> Relaxed<'a> {
 
     /// The level down to which a fragment sinks, above `stop`; `None` when it sinks to there.
     fn sink(&self, spring: usize, level: f64, stop: f64, closed: bool) -> Option<f64> {
-        let rest = |at: f64| self.rest(spring, at, closed || at < level);
+        let rest = |at: f64| self.rest(self.opening, spring, at, closed || at < level);
         if rest(level) < self.indentation {
             return Some(level);
         }

@@ -10,7 +10,7 @@ use std::f64::consts::PI;
 fn smooth(form: Option<Form>, length: f64, points: usize, modulus: f64, work: f64) -> Body {
     let line = Line::new(length, points, form.as_ref(), None, 0.0).unwrap();
     let foundation = Foundation::endless(line.spacing, modulus);
-    Body { gaps: line.gaps, foundation, work }
+    Body { gaps: line.gaps, foundation, work, closing_work: work }
 }
 
 /// Without a pattern that a form shares, all odd or all even: 100 to 31 623.
@@ -190,7 +190,7 @@ impl WavySphere {
         let wave: Vec<f64> = (0..points).map(|index| (self.wave_vector * distance(index)).cos()).collect();
         let line = Line::new(length, points, Some(&form), Some(&wave), self.amplitude).unwrap();
         let foundation = Foundation::endless(line.spacing, 1.0);
-        let body = Body { gaps: line.gaps, foundation, work: 1.0 };
+        let body = Body { gaps: line.gaps, foundation, work: 1.0, closing_work: 1.0 };
         let history = body.history(&[Leg::ToIndentation(deepest), Leg::ToSeparation], 2);
         let [loading, unloading] = &history.legs[..] else { panic!() };
         let dissipated = loading.dissipated_energy + unloading.dissipated_energy;
@@ -274,7 +274,7 @@ fn orders_of_rough_lines(name: &str, form: Option<Form>) -> [f64; 2] {
         let line = Line::new(1.0, points, form.as_ref(), Some(&rough.heights), 0.01).unwrap();
         let foundation = Foundation::endless(line.spacing, 1.0);
         let work = 1e-4 * spectrum.gradient_per_height(1.0) / (kappa * kappa);
-        let body = Body { gaps: line.gaps, foundation, work };
+        let body = Body { gaps: line.gaps, foundation, work, closing_work: work };
         let history = body.history(&[Leg::ToForce(4e-3), Leg::ToSeparation], 64);
         let energy: f64 = history.legs.iter().map(|leg| leg.dissipated_energy).sum();
         [history.legs[1].smallest.force, energy]

@@ -1,7 +1,8 @@
 //! `asperity sweep plot`: figures of a merged study.
 
 use crate::cli::{CliError, OutputArguments};
-use crate::export::{Colours, figure_svg, figure_text};
+use crate::draw::{Colours, figure_svg, figure_text};
+use crate::export::study_figure;
 use crate::study::figure::AxisScale;
 use crate::study::{Finished, Selection};
 use clap::{Args, ValueEnum};
@@ -75,6 +76,10 @@ fn fixed(text: &str) -> Result<(String, String), String> {
 
 /// Draws a study.
 pub(super) fn plot(arguments: &PlotArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
+    // `-o -` is an SVG into a pipe.
+    let usual = arguments.text || arguments.output.output.is_none();
+    let is_text =
+        arguments.output.format(arguments.text.then_some(true), &[("svg", false), ("txt", true)], usual)?;
     let study = Finished::open(&arguments.folder)?;
     let selection = Selection {
         quantities: arguments.quantities.clone(),
@@ -86,10 +91,9 @@ pub(super) fn plot(arguments: &PlotArguments, stdout: &mut dyn Write) -> Result<
             PlotScale::Logarithmic => AxisScale::Logarithmic,
         }),
     };
-    let figure = selection.figure(&study)?;
+    let figure = study_figure(&selection.figure(&study)?);
     let to_file = arguments.output.file().is_some();
-    // `-o -` is an SVG into a pipe.
-    let picture = if arguments.text || arguments.output.output.is_none() {
+    let picture = if is_text {
         let terminal = !to_file && io::stdout().is_terminal();
         let size = crossterm::terminal::size().ok().filter(|_| terminal);
         let columns = size.map_or(COLUMNS, |(columns, _)| usize::from(columns));

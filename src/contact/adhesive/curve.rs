@@ -41,7 +41,7 @@ impl<E: EdgeModel> Ground<'_, E> {
                     totals[first] += whole;
                     totals[next] += -whole;
                     if E::SLIDES {
-                        let slider = self.edges.slider(self.gaps, span);
+                        let slider = self.slider(run, span);
                         for (sums, &point) in sums[first..next].iter_mut().zip(&points[first..next]) {
                             add(sums, self.edges.edge_cells(&slider, point));
                         }

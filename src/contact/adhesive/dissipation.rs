@@ -111,8 +111,13 @@ impl<E: EdgeModel> Ground<'_, E> {
         for run in runs.iter().filter(|run| run.from <= high && run.to > low) {
             let top = if run.to > high { self.span_at(run, unloading, high) } else { self.top(run) };
             let bottom = if run.from < low { self.span_at(run, unloading, low) } else { self.bottom(run) };
-            let upper = self.level_up_to(&top, run.to.min(high), unloading);
-            let lower = self.edges.level(&bottom, self.edges.length(self.gaps, &bottom), run.from.max(low));
+            let (lower, upper) = match run.pin() {
+                Some(rise) => (bottom.gap + rise, top.gap + rise),
+                None => (
+                    self.edges.level(&bottom, self.edges.length(self.gaps, &bottom), run.from.max(low)),
+                    self.level_up_to(&top, run.to.min(high), unloading),
+                ),
+            };
             slide((&bottom, lower), (&top, upper));
 
             while let Some(done) = open.pop_if(|open| open.left.spring > top.last) {

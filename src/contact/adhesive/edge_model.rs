@@ -2,6 +2,7 @@
 
 use super::dissipation::Boundary;
 use super::span::Span;
+use crate::contact::Direction;
 use crate::contact::contact_model::ContactState;
 use crate::contact::totals::{ContactTotals, GapScale};
 use crate::scene::Edges;
@@ -21,6 +22,13 @@ pub trait EdgeModel: Copy + Send + Sync {
     /// True for edges that slide between springs: the force is then curved between two events.
     const SLIDES: bool;
 
+    /// The same edges under the rule of one direction alone. All other functions belong to this direction.
+    fn on(&self, direction: Direction) -> Self;
+
+    /// Returns true for edges that keep their place at first when the direction turns, since the rules of loading and
+    /// of unloading differ.
+    fn are_pinned(&self) -> bool;
+
     /// Largest stretch s of a fragment of unit length, m: Δl_max = s √ℓ, eq. (10).
     fn stretch(&self) -> f64;
 
@@ -36,14 +44,27 @@ pub trait EdgeModel: Copy + Send + Sync {
     /// Smallest indentation at which the span holds its most stretched spring, m; at most its gap.
     fn holds_to(&self, span: &Span, length: Self::Length) -> f64;
 
+    /// Height of the level of the edges at an indentation above the largest gap of the span, m.
+    fn rise(&self, span: &Span, length: Self::Length, indentation: f64) -> f64;
+
     /// Level of the edges at an indentation, m.
-    fn level(&self, span: &Span, length: Self::Length, indentation: f64) -> f64;
+    #[inline]
+    fn level(&self, span: &Span, length: Self::Length, indentation: f64) -> f64 {
+        span.gap + self.rise(span, length, indentation)
+    }
+
+    /// Indentation at which edges pinned at this rise (m) begin to move, and true if they then slide instead of
+    /// running away.
+    fn release(&self, span: &Span, length: Self::Length, rise: f64) -> (f64, bool);
 
     /// Whether the edges pass from a span to the next larger one without a jump.
     fn slides_on(&self, lower: (&Span, Self::Length), upper: (&Span, Self::Length)) -> bool;
 
     /// The edge cells of a span.
     fn slider(&self, gaps: &[f64], span: &Span) -> Self::Slider;
+
+    /// The same edge cells pinned at a rise, m.
+    fn pin(&self, slider: Self::Slider, rise: f64) -> Self::Slider;
 
     /// Contribution of the edge cells at an indentation.
     fn edge_cells(&self, slider: &Self::Slider, indentation: f64) -> EdgeCells;

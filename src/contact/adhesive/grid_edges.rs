@@ -3,9 +3,9 @@
 use super::dissipation::{Boundary, squares};
 use super::edge_model::{EdgeCells, EdgeModel};
 use super::span::Span;
-use crate::contact::HessRule;
 use crate::contact::contact_model::ContactState;
 use crate::contact::totals::{ContactTotals, GapScale};
+use crate::contact::{Direction, HessRule};
 use crate::scene::Edges;
 
 /// The paper's rule for edges.
@@ -28,12 +28,23 @@ impl GridEdges {
 }
 
 impl EdgeModel for GridEdges {
-    /// Δl_max, m.
+    /// √n of n springs.
     type Length = f64;
     type Slider = ();
 
     const EDGES: Edges = Edges::Grid;
     const SLIDES: bool = false;
+
+    #[inline]
+    fn on(&self, direction: Direction) -> Self {
+        GridEdges::new(self.hess.on(direction))
+    }
+
+    #[inline]
+    fn are_pinned(&self) -> bool {
+        // Between springs an edge has no place of its own to keep.
+        false
+    }
 
     fn stretch(&self) -> f64 {
         self.hess.largest_stretch(1)
@@ -41,7 +52,7 @@ impl EdgeModel for GridEdges {
 
     #[inline]
     fn length(&self, _: &[f64], span: &Span) -> f64 {
-        self.hess.largest_stretch(span.springs() as u32)
+        f64::from(span.springs() as u32).sqrt()
     }
 
     #[inline]
@@ -50,20 +61,25 @@ impl EdgeModel for GridEdges {
     }
 
     #[inline]
-    fn attaches_at(&self, _: &Span, largest_stretch: f64, wall: f64) -> f64 {
-        wall - largest_stretch
+    fn attaches_at(&self, _: &Span, root: f64, wall: f64) -> f64 {
+        wall - self.stretch() * root
     }
 
     #[inline]
-    fn holds_to(&self, span: &Span, largest_stretch: f64) -> f64 {
+    fn holds_to(&self, span: &Span, root: f64) -> f64 {
         // At this indentation the spring is stretched by just Δl_max and detaches, so the smallest that still holds it
         // is the next number above; but a spring whose gap is closed stays under any rule.
-        (span.gap - largest_stretch).next_up().min(span.gap)
+        (span.gap - self.stretch() * root).next_up().min(span.gap)
     }
 
     #[inline]
-    fn level(&self, span: &Span, _: f64, _: f64) -> f64 {
-        span.gap
+    fn rise(&self, _: &Span, _: f64, _: f64) -> f64 {
+        0.0
+    }
+
+    #[inline]
+    fn release(&self, span: &Span, root: f64, _: f64) -> (f64, bool) {
+        (self.holds_to(span, root), false)
     }
 
     #[inline]
@@ -73,6 +89,9 @@ impl EdgeModel for GridEdges {
 
     #[inline]
     fn slider(&self, _: &[f64], _: &Span) {}
+
+    #[inline]
+    fn pin(&self, (): (), _: f64) {}
 
     #[inline]
     fn edge_cells(&self, (): &(), _: f64) -> EdgeCells {

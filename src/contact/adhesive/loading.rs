@@ -216,7 +216,8 @@ impl Closing {
                 continue;
             }
             if start.closes < joins {
-                self.climb_and_list(ground, &climb, start, runs, &mut complete, evaluations)?;
+                let pin = state.and_then(|held| held.pin);
+                self.climb_and_list(ground, &climb, (start, pin), runs, &mut complete, evaluations)?;
             }
             if let (Some((index, node)), None) = (node, state) {
                 let joins = smaller(start.closes, joins);
@@ -236,12 +237,12 @@ impl Closing {
         Ok(complete)
     }
 
-    /// Lists the runs of one branch, the largest first.
+    /// Lists the runs of one branch, the largest first; the edges of a fragment in contact may be pinned at a rise, m.
     fn climb_and_list<E: EdgeModel>(
         &self,
         ground: &Ground<'_, E>,
         climb: &Climb,
-        start: Start,
+        (start, mut pin): (Start, Option<f64>),
         runs: &mut Vec<Run>,
         complete: &mut f64,
         evaluations: &mut u64,
@@ -270,6 +271,12 @@ impl Closing {
                 let length = edges.length(gaps, &span);
                 attaches = larger(closes, edges.attaches_at(&span, length, gaps[wall]));
                 let end = smaller(attaches, climb.joins);
+                if let Some(rise) = pin.take() {
+                    let released = smaller(edges.release(&span, length, rise).0, end);
+                    runs.try_reserve(1).map_err(|_| ground.out_of_memory())?;
+                    runs.push(Run::pinned(climb.branch, &span, rise, closes, released));
+                    closes = released;
+                }
                 if closes < end {
                     match (runs.last_mut(), below) {
                         (Some(run), Some((lower, of_lower)))

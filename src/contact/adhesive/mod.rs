@@ -30,7 +30,7 @@ pub(in crate::contact) use tree::{Branch, Node};
 use super::contact_model::{ContactModel, ContactState};
 use super::exact::Exact;
 use super::grid::Grid;
-use super::{ContactError, LegContact, Work};
+use super::{ContactError, Direction, LegContact, Work};
 use crate::parallel::in_parallel;
 use curve::Sampled;
 use dissipation::Range;
@@ -75,33 +75,25 @@ impl<'a, E: EdgeModel> Adhesive<'a, E> {
         Adhesive { ground: Ground { gaps, tree, edges }, memory, unloading: false, forms: false }
     }
 
-    /// First and last spring of each fragment at an indentation (m) of a leg with these runs, in ascending order.
-    pub(super) fn fragments_of(
-        gaps: &[f64],
-        tree: &ContactTree,
-        edges: E,
-        runs: &[Run],
-        unloading: bool,
-        indentation: f64,
-    ) -> Vec<(usize, usize)> {
-        let ground = Ground { gaps, tree, edges };
-        let held = ground.held_at(runs, unloading, indentation);
-        held.map(|held| (held.first as usize, held.last as usize)).collect()
+    /// The line under the rule of the present leg.
+    fn on_leg(&self) -> Ground<'a, E> {
+        self.ground.on(if self.unloading { Direction::Unloading } else { Direction::Loading })
     }
 
     fn hold(&mut self, indentation: f64) {
-        let held = self.ground.held_at(&self.memory.runs, self.unloading, indentation);
+        let (ground, pins) = (self.on_leg(), self.ground.edges.are_pinned());
+        let held = ground.held_at(&self.memory.runs, self.unloading, indentation, pins);
         self.memory.held.clear();
         self.memory.held.extend(held);
     }
 
     fn search(&self) -> Search<'_, E> {
-        Search { ground: self.ground, runs: &self.memory.runs, unloading: self.unloading }
+        Search { ground: self.on_leg(), runs: &self.memory.runs, unloading: self.unloading }
     }
 
     fn sample_from(&self, grid: Grid, low: f64) -> Result<(Sampled, f64), ContactError> {
         let range = Range { low, high: grid.high(), unloading: self.unloading };
-        let (ground, runs) = (self.ground, &self.memory.runs);
+        let (ground, runs) = (self.on_leg(), &self.memory.runs);
         let is_long = ground.gaps.len() >= TWO_THREADS;
         let (sampled, squared) = in_parallel(
             is_long,
@@ -114,21 +106,23 @@ impl<'a, E: EdgeModel> Adhesive<'a, E> {
     /// Smallest compression of the unloading from first touch, m, and the work counts of the search.
     fn pull_off_at_touch(&mut self) -> Result<(f64, Work), ContactError> {
         let mut work = Work { zero_load_passes: 1, ..Work::default() };
+        let [loading, unloading] = [Direction::Loading, Direction::Unloading].map(|leg| self.ground.on(leg));
         if !self.forms {
-            work.hess_evaluations += self.memory.closing.close(&self.ground)?;
+            work.hess_evaluations += self.memory.closing.close(&loading)?;
         }
         let AdhesiveMemory { closing, opening, runs, spare, held } = &mut self.memory;
         if !self.forms {
-            closing.list(&self.ground, &[], spare, &mut work.hess_evaluations)?;
+            closing.list(&loading, &[], spare, &mut work.hess_evaluations)?;
         }
         held.clear();
-        held.extend(self.ground.held_at(if self.forms { runs } else { spare }, false, 0.0));
-        let opened = opening.list(&self.ground, held, 0.0, spare)?;
+        let pins = self.ground.edges.are_pinned();
+        held.extend(loading.held_at(if self.forms { runs } else { spare }, false, 0.0, pins));
+        let opened = opening.list(&unloading, held, 0.0, spare)?;
         work.hess_evaluations += opened.evaluations;
         work.springs_tallied = opened.springs;
         let grid = Grid::new(opened.separates.min(0.0), 0.0, Self::SEARCH_INTERVALS);
-        let leg = self.ground.sample(spare, true, grid)?;
-        let search = Search { ground: self.ground, runs: spare, unloading: true };
+        let leg = unloading.sample(spare, true, grid)?;
+        let search = Search { ground: unloading, runs: spare, unloading: true };
         let smallest = search.smallest(&leg, &mut work.events_sorted);
         Ok((smallest.compression, work))
     }
@@ -152,8 +146,9 @@ impl<E: EdgeModel> ContactModel for Adhesive<'_, E> {
         let AdhesiveMemory { closing, runs, spare, held, .. } = &mut self.memory;
         // A contact that forms again closes as it did the first time.
         work.loading_passes += u64::from(from.is_some() || !closing.is_ready());
-        work.hess_evaluations += closing.close_around(&self.ground, held)?;
-        let complete = closing.list(&self.ground, held, spare, &mut work.hess_evaluations)?;
+        let ground = self.ground.on(Direction::Loading);
+        work.hess_evaluations += closing.close_around(&ground, held)?;
+        let complete = closing.list(&ground, held, spare, &mut work.hess_evaluations)?;
         std::mem::swap(runs, spare);
         (self.unloading, self.forms) = (false, from.is_none());
         Ok(complete)
@@ -163,7 +158,7 @@ impl<E: EdgeModel> ContactModel for Adhesive<'_, E> {
         self.hold(from);
         let AdhesiveMemory { opening, runs, spare, held, .. } = &mut self.memory;
         work.unloading_passes += 1;
-        let opened = opening.list(&self.ground, held, from, spare)?;
+        let opened = opening.list(&self.ground.on(Direction::Unloading), held, from, spare)?;
         work.hess_evaluations += opened.evaluations;
         std::mem::swap(runs, spare);
         (self.unloading, self.forms) = (true, false);
@@ -171,7 +166,7 @@ impl<E: EdgeModel> ContactModel for Adhesive<'_, E> {
     }
 
     fn sample(&self, grid: Grid) -> Result<Sampled, ContactError> {
-        self.ground.sample(&self.memory.runs, self.unloading, grid)
+        self.on_leg().sample(&self.memory.runs, self.unloading, grid)
     }
 
     fn sample_attaching(&self, grid: Grid, separated: bool) -> Result<(Sampled, f64), ContactError> {
@@ -216,16 +211,25 @@ impl<E: EdgeModel> ContactModel for Adhesive<'_, E> {
     }
 
     fn thresholds_along_line(&self, out: &mut Vec<f64>) {
-        self.ground.thresholds(&self.memory.runs, self.unloading, out);
+        self.on_leg().thresholds(&self.memory.runs, self.unloading, out);
     }
 
     fn copy_leg(&self, copy: &mut LegContact) -> Result<(), ContactError> {
-        copy.keep_runs(&self.memory.runs, self.unloading, self.ground.edges.stretch(), E::EDGES)
+        let pins = self.ground.edges.are_pinned();
+        copy.keep_runs(&self.memory.runs, self.unloading, self.on_leg().edges, pins)
+    }
+
+    fn rises(&self, indentation: f64) -> Vec<f64> {
+        let pins = self.ground.edges.are_pinned();
+        let ground = self.on_leg();
+        let held = ground.held_at(&self.memory.runs, self.unloading, indentation, pins);
+        held.filter_map(|held| held.pin).collect()
     }
 
     fn fragments(&self, indentation: f64) -> Vec<(usize, usize)> {
-        let Ground { gaps, tree, edges } = self.ground;
-        Self::fragments_of(gaps, tree, edges, &self.memory.runs, self.unloading, indentation)
+        let ground = self.on_leg();
+        let held = ground.held_at(&self.memory.runs, self.unloading, indentation, false);
+        held.map(|held| (held.first as usize, held.last as usize)).collect()
     }
 }
 

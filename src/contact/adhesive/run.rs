@@ -3,6 +3,7 @@
 use super::edge_model::EdgeModel;
 use super::span::Span;
 use super::tree::{Branch, ContactTree};
+use crate::contact::Direction;
 
 /// One fragment from an indentation on until it jumps, merges or parts: on the way from its bottom to its top each
 /// span passes into the next.
@@ -16,8 +17,11 @@ pub struct Run {
     /// Upper bound (exclusive), m; +∞ for a fragment in contact when an unloading leg begins.
     pub to: f64,
     bottom: [u32; 2],
+    /// Its largest span, or the bits of the rise of pinned edges.
     top: [u32; 2],
     pub branch: Branch,
+    /// True for a run over one span, between the edges of which nothing moves.
+    is_pinned: bool,
 }
 
 /// A fragment in contact between two legs.
@@ -26,6 +30,8 @@ pub struct Held {
     pub branch: Branch,
     pub first: u32,
     pub last: u32,
+    /// Height of the level of pinned edges above its largest gap, m.
+    pub pin: Option<f64>,
 }
 
 /// Gaps, contact tree and edge model: the input of all passes of a leg.
@@ -39,7 +45,21 @@ pub struct Ground<'a, E> {
 impl Run {
     /// A run over one span.
     pub fn new(branch: Branch, span: &Span, from: f64, to: f64) -> Self {
-        Run { from, to, bottom: span.ends(), top: span.ends(), branch }
+        Run { from, to, bottom: span.ends(), top: span.ends(), branch, is_pinned: false }
+    }
+
+    /// A run over one span with its edges pinned at a rise above its largest gap, m.
+    pub fn pinned(branch: Branch, span: &Span, rise: f64, from: f64, to: f64) -> Self {
+        let bits = rise.to_bits();
+        let top = [(bits >> 32) as u32, bits as u32];
+        Run { top, is_pinned: true, ..Run::new(branch, span, from, to) }
+    }
+
+    /// Rise of pinned edges, m.
+    #[inline]
+    pub fn pin(&self) -> Option<f64> {
+        let [high, low] = self.top.map(u64::from);
+        self.is_pinned.then(|| f64::from_bits(high << 32 | low))
     }
 
     /// Goes on upwards, to the next larger span.
@@ -79,7 +99,23 @@ impl<E: EdgeModel> Ground<'_, E> {
     /// The largest one.
     #[inline]
     pub fn top(&self, run: &Run) -> Span {
-        self.span(run.branch, run.top)
+        self.span(run.branch, if run.is_pinned { run.bottom } else { run.top })
+    }
+
+    /// The edge cells of a run on one of its spans.
+    #[inline]
+    pub fn slider(&self, run: &Run, span: &Span) -> E::Slider {
+        let slider = self.edges.slider(self.gaps, span);
+        match run.pin() {
+            Some(rise) => self.edges.pin(slider, rise),
+            None => slider,
+        }
+    }
+
+    /// The same line under the rule of one direction alone.
+    #[inline]
+    pub fn on(&self, direction: Direction) -> Self {
+        Ground { edges: self.edges.on(direction), ..*self }
     }
 
     /// Whole springs or cells of a span, and the fragment they form.
@@ -96,7 +132,7 @@ impl<E: EdgeModel> Ground<'_, E> {
     pub fn each_span(&self, run: &Run, unloading: bool, mut see: impl FnMut(&Span, f64, f64) -> bool) {
         let mut span = self.bottom(run);
         let mut from = run.from;
-        while span.ends() != run.top {
+        while !run.is_pinned && span.ends() != run.top {
             let above = span.grown(self.gaps);
             let to = if unloading {
                 // The span above parts where this one would go on.
@@ -123,10 +159,23 @@ impl<E: EdgeModel> Ground<'_, E> {
     }
 
     /// Fragments in contact at an indentation (m) of a leg, from left to right.
-    pub fn held_at(&self, runs: &[Run], unloading: bool, indentation: f64) -> impl Iterator<Item = Held> {
+    ///
+    /// Edges are pinned where the next leg `pins` them.
+    pub fn held_at(
+        &self,
+        runs: &[Run],
+        unloading: bool,
+        indentation: f64,
+        pins: bool,
+    ) -> impl Iterator<Item = Held> {
         runs.iter().rev().filter(move |run| run.is_at(indentation)).map(move |run| {
-            let [first, last] = self.span_at(run, unloading, indentation).ends();
-            Held { branch: run.branch, first, last }
+            let span = self.span_at(run, unloading, indentation);
+            let [first, last] = span.ends();
+            let rise = || {
+                let length = self.edges.length(self.gaps, &span);
+                run.pin().unwrap_or_else(|| self.edges.rise(&span, length, indentation))
+            };
+            Held { branch: run.branch, first, last, pin: pins.then(rise) }
         })
     }
 }

@@ -114,7 +114,7 @@ impl<E: EdgeModel> Search<'_, E> {
                     }
                 }
                 if E::SLIDES {
-                    let piece = Piece { slider: self.ground.edges.slider(self.ground.gaps, span), from, to };
+                    let piece = Piece { slider: self.ground.slider(run, span), from, to };
                     // Intervals from below its beginning to above its end.
                     let from = above(from).saturating_sub(1).max(first);
                     for place in marks[from..above(to).min(last + 1)].iter().flatten() {

@@ -4,9 +4,9 @@
 use super::dissipation::{Boundary, squares_of_cells};
 use super::edge_model::{EdgeCells, EdgeModel};
 use super::span::Span;
-use crate::contact::HessRule;
 use crate::contact::contact_model::ContactState;
 use crate::contact::totals::{ContactTotals, GapScale};
+use crate::contact::{Direction, HessRule};
 use crate::scene::Edges;
 
 /// Sub-cell edges under a rule of Hess.
@@ -16,6 +16,7 @@ use crate::scene::Edges;
 /// convex: it falls to its lowest value and then rises, and only where it rises does a fragment rest.
 #[derive(Clone, Copy, Debug)]
 pub struct SubCellEdges {
+    hess: HessRule,
     /// Largest stretch of a fragment of one cell, m.
     stretch: f64,
 }
@@ -82,12 +83,12 @@ impl SubCellEdges {
     /// Edges under the rule of Hess.
     #[must_use]
     pub fn new(hess: HessRule) -> Self {
-        Self::with_stretch(hess.largest_stretch(1))
+        SubCellEdges { hess, stretch: hess.largest_stretch(1) }
     }
 
     /// Edges of fragments, one of one cell of which can be stretched by so much, m.
     pub(in crate::contact) fn with_stretch(stretch: f64) -> Self {
-        SubCellEdges { stretch }
+        Self::new(HessRule::with_stretch(stretch))
     }
 }
 
@@ -137,6 +138,16 @@ impl EdgeModel for SubCellEdges {
     const EDGES: Edges = Edges::SubCell;
     const SLIDES: bool = true;
 
+    #[inline]
+    fn on(&self, direction: Direction) -> Self {
+        Self::new(self.hess.on(direction))
+    }
+
+    #[inline]
+    fn are_pinned(&self) -> bool {
+        !self.hess.is_one()
+    }
+
     fn stretch(&self) -> f64 {
         self.stretch
     }
@@ -173,9 +184,9 @@ impl EdgeModel for SubCellEdges {
     }
 
     #[inline]
-    fn level(&self, span: &Span, levels: Levels, indentation: f64) -> f64 {
+    fn rise(&self, span: &Span, levels: Levels, indentation: f64) -> f64 {
         if levels.growth <= 0.0 {
-            return span.gap;
+            return 0.0;
         }
         let half = 0.5 * self.stretch * levels.growth;
         let above = indentation - span.gap;
@@ -183,7 +194,15 @@ impl EdgeModel for SubCellEdges {
         let rise = above + self.stretch * (half + if square > 0.0 { square.sqrt() } else { 0.0 });
         let most = levels.top - span.gap;
         let rise = if rise > 0.0 { rise } else { 0.0 };
-        span.gap + if rise < most { rise } else { most }
+        if rise < most { rise } else { most }
+    }
+
+    #[inline]
+    fn release(&self, span: &Span, levels: Levels, rise: f64) -> (f64, bool) {
+        let length = levels.length + levels.growth * rise;
+        let root = 0.5 * self.stretch * levels.growth;
+        // φ rises with the level where √ℓ is more than half of the stretch that a unit of growth gives.
+        ((span.gap + rise) - self.stretch * length.sqrt(), root * root <= length)
     }
 
     #[inline]
@@ -209,6 +228,14 @@ impl EdgeModel for SubCellEdges {
             half,
             square: half * half + levels.length,
         }
+    }
+
+    #[inline]
+    fn pin(&self, slider: Slider, rise: f64) -> Slider {
+        let grown = slider.levels.growth * rise;
+        let levels = Levels { length: slider.levels.length + grown, growth: 0.0, ..slider.levels };
+        let compression = slider.compression - 0.5 * grown * rise;
+        Slider { levels, edges: slider.edges + grown, compression, ..slider }
     }
 
     #[inline]

@@ -55,11 +55,13 @@ impl Opening {
         let out_of_memory = |_| ContactError::OutOfMemory { springs: ground.gaps.len() };
         let mut opened = Opened { separates: f64::INFINITY, springs: 0, evaluations: 0 };
         let mut parts = std::mem::take(&mut self.parts);
-        for &Held { branch, first, last } in held.iter().rev() {
+        for &Held { branch, first, last, pin } in held.iter().rev() {
             opened.springs += u64::from(last + 1 - first);
             parts.push(Part { branch, first, last, opens: from, is_whole: true });
             while let Some(part) = parts.pop() {
-                let Some((opens, bottom, place)) = ground.descend(part, runs, &mut opened)? else { continue };
+                let Some((opens, bottom, place)) = ground.descend(part, pin, runs, &mut opened)? else {
+                    continue;
+                };
                 if let Ok(node) = part.branch.origin() {
                     parts.try_reserve(2).map_err(out_of_memory)?;
                     let [left, right] = ground.tree.parts(node);
@@ -85,11 +87,13 @@ impl<E: EdgeModel> Ground<'_, E> {
         need <= 0.0 || need * need < stretch * stretch * ABOVE * (springs + 1) as f64
     }
 
-    /// Lists the runs of one branch from its largest span down. Returns the indentation at which its smallest span
+    /// Lists the runs of one branch from its largest span down; the edges of a fragment at the beginning of the leg may
+    /// be pinned at a rise, m. Returns the indentation at which its smallest span
     /// parts (m), that span and the spring that then detaches; `None` where no fragment is left inside.
     fn descend(
         &self,
         part: Part,
+        pin: Option<f64>,
         runs: &mut Vec<Run>,
         opened: &mut Opened,
     ) -> Result<Option<(f64, Span, usize)>, ContactError> {
@@ -129,22 +133,32 @@ impl<E: EdgeModel> Ground<'_, E> {
                 let length = edges.length(gaps, &span);
                 let holds = edges.holds_to(&span, length);
                 if is_whole || holds < opens {
-                    let leaves = smaller(opens, holds);
+                    let mut leaves = smaller(opens, holds);
+                    let mut to = if is_whole { f64::INFINITY } else { opens };
+                    if let Some(rise) = pin.filter(|_| is_whole) {
+                        let (released, slides) = edges.release(&span, length, rise);
+                        let released = smaller(opens, released);
+                        leaves = if slides { smaller(leaves, released) } else { released };
+                        runs.try_reserve(1).map_err(|_| ContactError::OutOfMemory { springs: gaps.len() })?;
+                        runs.push(Run::pinned(part.branch, &span, rise, released, to));
+                        to = released;
+                    }
                     match (runs.last_mut(), above) {
+                        // Pinned edges run away at once.
+                        _ if leaves == to => {}
                         (Some(run), Some((upper, of_upper)))
                             if edges.slides_on((&span, length), (&upper, of_upper)) =>
                         {
                             run.lower(&span, leaves);
                         }
                         _ => {
-                            let to = if is_whole { f64::INFINITY } else { opens };
                             runs.try_reserve(1)
                                 .map_err(|_| ContactError::OutOfMemory { springs: gaps.len() })?;
                             runs.push(Run::new(part.branch, &span, leaves, to));
                         }
                     }
                     // A run continues only from a level equal to the gap of the span.
-                    goes_on = (leaves == holds).then_some((span, length));
+                    goes_on = (leaves == holds && leaves < to).then_some((span, length));
                     opened.separates = smaller(opened.separates, leaves);
                     (opens, is_whole) = (leaves, false);
                 }

@@ -7,33 +7,25 @@ use std::collections::HashMap;
 
 /// Squared stretches of the parts of the line that have attached or detached on a move.
 ///
-/// Whole springs attach and detach one by one, or many at once. Edges between springs slide from span to span until the
-/// fragment jumps, merges or parts, as on the runs of a leg.
+/// Whole springs attach and detach one by one, or many at once. Edges between springs slide, and jump where the fragment
+/// passes to another span. Where they only slide on, the jump has no width but that of rounding, which changes the
+/// energy by its square: a jump by a small width and a slide over the same width differ in that order alone.
 pub struct Dissipation {
     /// Indentation at which the move begins, m.
     from: f64,
-    /// By slot, the fragments whose spans have formed on the move, where edges slide.
-    formed: HashMap<usize, Formed>,
+    /// By slot, where edges slide: the level at which the fragment began to fill its span on the move, m.
+    levels: HashMap<usize, f64>,
     /// ∫ (c − θ)² dx over the places passed while edges slide, in cells times m².
     sliding: CompensatedSum,
     /// Three times ∫ (c − θ)² dx over the parts that attach or detach at once, in cells times m².
     thirds: CompensatedSum,
 }
 
-/// The beginning of a span of a fragment.
-#[derive(Clone, Copy)]
-struct Formed {
-    /// Indentation, m.
-    at: f64,
-    /// Level of the edges then, m.
-    level: f64,
-}
-
 impl Dissipation {
     /// Nothing yet on a move from an indentation, m.
     pub fn new(from: f64) -> Self {
         let (sliding, thirds) = (CompensatedSum::default(), CompensatedSum::default());
-        Dissipation { from, formed: HashMap::new(), sliding, thirds }
+        Dissipation { from, levels: HashMap::new(), sliding, thirds }
     }
 
     /// ∫ (c − θ)² dx, in cells times m².
@@ -50,28 +42,17 @@ impl Dissipation {
         event: &Event,
         parts: &[Fragment],
     ) {
-        let Fragment { slot, span } = event.whole;
-        if E::SLIDES
-            && let ([part], 1) = (parts, event.springs)
-            && attaches_at(ground, &part.span) == Some(at)
-            && attaches_at(ground, &span).is_none_or(|next| next > at)
-            && self.slides_on(ground, at, part.slot, (&part.span, &span))
-        {
-            let from = self.level_before(ground, part);
-            self.slide(ground, (&part.span, from), (&span, span.gap));
-            self.formed.insert(slot, Formed { at, level: span.gap });
-            return;
-        }
+        let Fragment { slot, span, .. } = event.whole;
         for part in parts {
             self.slide_up(ground, part, at);
         }
         let level = level(ground, &span, at);
-        self.jump(ground, at, (&span, level), parts, |part| ground.level_up_to(&part.span, at, false));
+        self.jump(ground, at, (&span, level), parts, |part| level_up_to(ground, part, at));
         if E::SLIDES {
             for part in parts {
-                self.formed.remove(&part.slot);
+                self.levels.remove(&part.slot);
             }
-            self.formed.insert(slot, Formed { at, level });
+            self.levels.insert(slot, level);
         }
     }
 
@@ -83,25 +64,23 @@ impl Dissipation {
         event: &Event,
         parts: &[Fragment],
     ) {
-        let Fragment { slot, span } = event.whole;
-        if E::SLIDES
-            && let [part] = parts
-            && holds_to(ground, &span) == at
-            && holds_to(ground, &part.span) < at
-            && self.slides_on(ground, at, slot, (&part.span, &span))
-        {
-            let from = self.level_before(ground, &event.whole);
-            self.slide(ground, (&part.span, span.gap), (&span, from));
-            self.formed.insert(slot, Formed { at, level: span.gap });
-            return;
-        }
+        let Fragment { slot, span, .. } = event.whole;
         self.slide_down(ground, &event.whole, at);
-        self.jump(ground, at, (&span, level(ground, &span, at)), parts, |part| level(ground, &part.span, at));
+        self.jump(ground, at, (&span, level_down_to(ground, &event.whole, at)), parts, |part| {
+            level(ground, &part.span, at)
+        });
         if E::SLIDES {
-            self.formed.remove(&slot);
+            self.levels.remove(&slot);
             for part in parts {
-                self.formed.insert(part.slot, Formed { at, level: level(ground, &part.span, at) });
+                self.levels.insert(part.slot, level(ground, &part.span, at));
             }
+        }
+    }
+
+    /// The pinned edges of a fragment begin to slide.
+    pub fn release(&mut self, fragment: &Fragment) {
+        if let Some(rise) = fragment.pin {
+            self.levels.insert(fragment.slot, fragment.span.gap + rise);
         }
     }
 
@@ -109,7 +88,7 @@ impl Dissipation {
     pub fn slide_up<E: EdgeModel>(&mut self, ground: Ground<'_, E>, fragment: &Fragment, to: f64) {
         if E::SLIDES {
             let from = self.level_before(ground, fragment);
-            let to = ground.level_up_to(&fragment.span, to, false);
+            let to = level_up_to(ground, fragment, to);
             self.slide(ground, (&fragment.span, from), (&fragment.span, to));
         }
     }
@@ -118,30 +97,15 @@ impl Dissipation {
     pub fn slide_down<E: EdgeModel>(&mut self, ground: Ground<'_, E>, fragment: &Fragment, to: f64) {
         if E::SLIDES {
             let from = self.level_before(ground, fragment);
-            let to = level(ground, &fragment.span, to);
+            let to = level_down_to(ground, fragment, to);
             self.slide(ground, (&fragment.span, to), (&fragment.span, from));
         }
     }
 
-    /// Whether the edges of a fragment that was at rest before `at` pass between two of its spans without a jump.
-    fn slides_on<E: EdgeModel>(
-        &self,
-        ground: Ground<'_, E>,
-        at: f64,
-        slot: usize,
-        (lower, upper): (&Span, &Span),
-    ) -> bool {
-        let was_at_rest = self.formed.get(&slot).is_none_or(|formed| formed.at != at);
-        let length = |span: &Span| ground.edges.length(ground.gaps, span);
-        was_at_rest && ground.edges.slides_on((lower, length(lower)), (upper, length(upper)))
-    }
-
     /// Level of the edges of a fragment where its span began on this move.
     fn level_before<E: EdgeModel>(&self, ground: Ground<'_, E>, fragment: &Fragment) -> f64 {
-        match self.formed.get(&fragment.slot) {
-            Some(formed) => formed.level,
-            None => level(ground, &fragment.span, self.from),
-        }
+        let begun = self.levels.get(&fragment.slot).copied();
+        begun.unwrap_or_else(|| level_down_to(ground, fragment, self.from))
     }
 
     fn slide<E: EdgeModel>(&mut self, ground: Ground<'_, E>, lower: (&Span, f64), upper: (&Span, f64)) {
@@ -171,18 +135,19 @@ impl Dissipation {
     }
 }
 
+/// Level of the edges of a fragment at the upper end of the range in which it fills its span or below, m.
+fn level_up_to<E: EdgeModel>(ground: Ground<'_, E>, fragment: &Fragment, indentation: f64) -> f64 {
+    let Fragment { span, pin, .. } = fragment;
+    pin.map_or_else(|| ground.level_up_to(span, indentation, false), |rise| span.gap + rise)
+}
+
+/// The same at the lower end or above.
+fn level_down_to<E: EdgeModel>(ground: Ground<'_, E>, fragment: &Fragment, indentation: f64) -> f64 {
+    let Fragment { span, pin, .. } = fragment;
+    pin.map_or_else(|| level(ground, span, indentation), |rise| span.gap + rise)
+}
+
 /// Level of the edges of a span at an indentation, m.
 fn level<E: EdgeModel>(ground: Ground<'_, E>, span: &Span, indentation: f64) -> f64 {
     ground.edges.level(span, ground.edges.length(ground.gaps, span), indentation)
-}
-
-/// Indentation at which a span attaches its wall, m; `None` for the whole line.
-fn attaches_at<E: EdgeModel>(ground: Ground<'_, E>, span: &Span) -> Option<f64> {
-    let length = ground.edges.length(ground.gaps, span);
-    span.wall(ground.gaps).map(|wall| ground.edges.attaches_at(span, length, ground.gaps[wall]))
-}
-
-/// Indentation to which a span holds its most stretched spring, m.
-fn holds_to<E: EdgeModel>(ground: Ground<'_, E>, span: &Span) -> f64 {
-    ground.edges.holds_to(span, ground.edges.length(ground.gaps, span))
 }

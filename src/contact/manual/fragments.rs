@@ -3,7 +3,7 @@
 use super::start::whole_spans;
 use super::winner_tree::WinnerTree;
 use crate::contact::adhesive::{Branch, ContactTree, EdgeModel, Ground, Held, Node, Span};
-use crate::contact::{ContactError, ContactTotals, reserve, resized};
+use crate::contact::{ContactError, ContactTotals, Direction, reserve, resized};
 use std::sync::Arc;
 
 /// In place of the parent of the branch that fills the line.
@@ -21,7 +21,13 @@ const NEVER: f64 = f64::INFINITY;
 pub struct FragmentSet<E> {
     gaps: Vec<f64>,
     tree: Arc<ContactTree>,
-    edges: E,
+    /// Edges under the rule by which springs attach.
+    closing: E,
+    /// Edges under the rule by which springs detach.
+    opening: E,
+    /// True where edges keep their place at first when the direction turns.
+    pins: bool,
+    direction: Direction,
     /// Node above each branch: that of node j at 2 j, that of leaf j at 2 j + 1.
     parents: Vec<u32>,
     slots: Vec<Slot>,
@@ -32,8 +38,9 @@ pub struct FragmentSet<E> {
     totals: ContactTotals,
     /// Fragments that the last one to form was made of, or into which the last one to detach has parted.
     parts: Vec<Fragment>,
-    /// Former contents of slots, in the order of their changes, while changes may be taken back.
-    journal: Option<Vec<(u32, Slot)>>,
+    /// While changes may be taken back: the direction before them, and former contents of slots in the order of their
+    /// changes.
+    journal: Option<(Direction, Vec<(u32, Slot)>)>,
     /// Springs, slots and nodes of the winner trees looked at or changed so far.
     touched: u64,
 }
@@ -56,6 +63,8 @@ pub struct Fragment {
     pub slot: usize,
     /// Its springs.
     pub span: Span,
+    /// Height of the level of pinned edges above its largest gap, m; `None` where the edges slide.
+    pub pin: Option<f64>,
 }
 
 /// One change of the contact, between a fragment and the parts it is made of ([`FragmentSet::parts`]).
@@ -63,13 +72,14 @@ pub struct Fragment {
 pub struct Event {
     /// The fragment that forms or that detaches a spring.
     pub whole: Fragment,
-    /// Springs that attach or detach.
+    /// Springs that attach or detach; none where pinned edges begin to slide.
     pub springs: u64,
 }
 
 impl<E: EdgeModel> FragmentSet<E> {
     /// The largest spans that a fragment can fill with springs of these runs alone, given by first and last spring;
-    /// O(N) and O(n log n) of n runs. Springs beyond the line are left out.
+    /// O(N) and O(n log n) of n runs. Springs beyond the line are left out. Where edges can be pinned, they are, each
+    /// fragment at the rise `rise_of` its span, m.
     ///
     /// # Errors
     /// [`ContactError::OutOfMemory`].
@@ -78,6 +88,7 @@ impl<E: EdgeModel> FragmentSet<E> {
         tree: Arc<ContactTree>,
         edges: E,
         runs: &[(usize, usize)],
+        rise_of: impl Fn(Ground<'_, E>, &Span) -> f64,
     ) -> Result<Self, ContactError> {
         debug_assert_eq!(tree.edges(), E::EDGES, "the tree sums for other edges");
         let mut own: Vec<f64> = reserve(gaps.len())?;
@@ -95,7 +106,10 @@ impl<E: EdgeModel> FragmentSet<E> {
         let mut set = FragmentSet {
             gaps: own,
             tree,
-            edges,
+            closing: edges.on(Direction::Loading),
+            opening: edges.on(Direction::Unloading),
+            pins: edges.are_pinned(),
+            direction: Direction::Loading,
             parents,
             slots,
             attaching: WinnerTree::new(Vec::new())?,
@@ -106,7 +120,8 @@ impl<E: EdgeModel> FragmentSet<E> {
             touched: 0,
         };
         for span in whole_spans(&set.gaps, runs)? {
-            set.put_in_contact(&span);
+            let pin = set.pins.then(|| rise_of(set.ground(), &span));
+            set.put_in_contact(&span, pin);
         }
         for (slot, (attaches, detaches)) in attaching.iter_mut().zip(&mut detaching).enumerate() {
             (*attaches, *detaches) = set.keys(slot);
@@ -116,7 +131,7 @@ impl<E: EdgeModel> FragmentSet<E> {
     }
 
     /// Fills the slots of a span.
-    fn put_in_contact(&mut self, span: &Span) {
+    fn put_in_contact(&mut self, span: &Span, pin: Option<f64>) {
         let turns = self.tree.turns();
         // Minima are at the even places.
         let leaf_from = |spring: usize| turns.partition_point(|&turn| (turn as usize) < spring).div_ceil(2);
@@ -131,14 +146,37 @@ impl<E: EdgeModel> FragmentSet<E> {
         debug_assert_eq!(self.leaves(branch), (first, end - 1), "a span holds whole subtrees");
         let [first_spring, last_spring] = span.ends();
         self.slots[first..end].fill(Slot::Inside);
-        self.slots[first] = Slot::Fragment(Held { branch, first: first_spring, last: last_spring });
+        self.slots[first] = Slot::Fragment(Held { branch, first: first_spring, last: last_spring, pin });
         self.totals += self.ground().totals(span);
     }
 
-    /// The line under its rule.
+    /// The line under the rule of the present direction.
     #[inline]
     pub fn ground(&self) -> Ground<'_, E> {
-        Ground { gaps: &self.gaps, tree: &self.tree, edges: self.edges }
+        let edges = match self.direction {
+            Direction::Loading => self.closing,
+            Direction::Unloading => self.opening,
+        };
+        Ground { gaps: &self.gaps, tree: &self.tree, edges }
+    }
+
+    /// Goes on in a direction from an indentation, m: on a turn, edges that slide are pinned.
+    pub fn turn(&mut self, direction: Direction, indentation: f64) {
+        if direction != self.direction && self.pins {
+            let sliding: Vec<Fragment> = self.fragments().filter(|fragment| fragment.pin.is_none()).collect();
+            for fragment in sliding {
+                let Slot::Fragment(held) = self.slots[fragment.slot] else { continue };
+                let pin = Some(self.rise(&fragment, indentation));
+                self.replace(fragment.slot, Held { pin, ..held });
+            }
+        }
+        self.direction = direction;
+    }
+
+    /// Returns true if a spring can be stretched before it detaches.
+    #[inline]
+    pub fn adheres(&self) -> bool {
+        self.opening.stretch() > 0.0
     }
 
     /// Whole springs or cells in contact.
@@ -153,13 +191,25 @@ impl<E: EdgeModel> FragmentSet<E> {
         self.touched
     }
 
+    /// Height of the level of the edges of a fragment above its largest gap at an indentation, m.
+    fn rise(&self, Fragment { span, pin, .. }: &Fragment, indentation: f64) -> f64 {
+        let Ground { gaps, edges, .. } = self.ground();
+        pin.unwrap_or_else(|| edges.rise(span, edges.length(gaps, span), indentation))
+    }
+
+    /// The same of all fragments where edges can be pinned, in their order along the line.
+    pub fn rises(&self, indentation: f64) -> Vec<f64> {
+        let fragments = self.fragments().filter(|_| self.pins);
+        fragments.map(|fragment| self.rise(&fragment, indentation)).collect()
+    }
+
     /// The fragments, in ascending order along the line.
     pub fn fragments(&self) -> impl Iterator<Item = Fragment> {
         let slots = std::iter::successors(self.detaching.occupied_from(0), |slot| {
             self.detaching.occupied_from(slot + 1)
         });
         slots.filter_map(|slot| match self.slots[slot] {
-            Slot::Fragment(held) => Some(Fragment { slot, span: self.span(held) }),
+            Slot::Fragment(held) => Some(self.fragment(slot, held)),
             Slot::Free | Slot::Inside => None,
         })
     }
@@ -191,16 +241,20 @@ impl<E: EdgeModel> FragmentSet<E> {
         let whole = match self.slots[slot] {
             Slot::Free => {
                 let spring = self.tree.minimum(slot) as u32;
-                self.replace(slot, Held { branch: Branch::leaf(slot), first: spring, last: spring })
+                self.replace(
+                    slot,
+                    Held { branch: Branch::leaf(slot), first: spring, last: spring, pin: None },
+                )
             }
             Slot::Inside => return None,
+            Slot::Fragment(held) if held.pin.is_some() => return Some(self.release(slot, held)),
             Slot::Fragment(held) => {
                 let span = self.span(held);
                 let wall = span.wall(&self.gaps)?;
                 match self.parent(held.branch) {
                     Some(node) if self.tree.maximum(&self.tree.nodes()[node]) == wall => self.merge(node),
                     _ => {
-                        self.take_part(Fragment { slot, span });
+                        self.take_part(self.fragment(slot, held));
                         let [first, last] = span.with(&self.gaps, wall).ends();
                         self.replace(slot, Held { first, last, ..held })
                     }
@@ -226,7 +280,7 @@ impl<E: EdgeModel> FragmentSet<E> {
         while slot <= last {
             let (held, next) = match self.slots[slot] {
                 Slot::Fragment(held) => {
-                    self.take_part(Fragment { slot, span: self.span(held) });
+                    self.take_part(self.fragment(slot, held));
                     ((held.first as usize, held.last as usize), self.leaves(held.branch).1 + 1)
                 }
                 Slot::Free | Slot::Inside => ((self.tree.minimum(slot), self.tree.minimum(slot)), slot + 1),
@@ -244,7 +298,7 @@ impl<E: EdgeModel> FragmentSet<E> {
         let spring = self.tree.maximum(&self.tree.nodes()[node]);
         let [first_spring, last_spring] =
             Span::around(&self.gaps, known.unwrap_or((spring, spring)), gap).ends();
-        self.replace(first, Held { branch, first: first_spring, last: last_spring })
+        self.replace(first, Held { branch, first: first_spring, last: last_spring, pin: None })
     }
 
     /// Detaches the next spring, the most stretched one of a fragment: an outermost one as long as the fragment fills
@@ -253,9 +307,17 @@ impl<E: EdgeModel> FragmentSet<E> {
     pub fn detach(&mut self) -> Option<Event> {
         let (slot, _) = self.detaching.first()?;
         let Slot::Fragment(held) = self.slots[slot] else { return None };
-        let span = self.span(held);
         self.parts.clear();
+        let whole = self.fragment(slot, held);
+        let span = whole.span;
+        if let Some(rise) = held.pin {
+            let (_, slides) = self.opening.release(&span, self.opening.length(&self.gaps, &span), rise);
+            if slides {
+                return Some(self.release(slot, held));
+            }
+        }
         self.totals += -self.ground().totals(&span);
+        let held = Held { pin: None, ..held };
         let [first, last] = span.ends();
         if self.is_lowest(held.branch, &span) {
             match held.branch.origin() {
@@ -267,8 +329,8 @@ impl<E: EdgeModel> FragmentSet<E> {
                     let node = self.tree.nodes()[index];
                     let place = self.tree.maximum(&node) as u32;
                     let [left, right] = self.tree.parts(index);
-                    self.part(slot, Held { branch: left, first, last: place - 1 });
-                    self.part(node.rank as usize + 1, Held { branch: right, first: place + 1, last });
+                    self.part(slot, Held { branch: left, last: place - 1, ..held });
+                    self.part(node.rank as usize + 1, Held { branch: right, first: place + 1, ..held });
                 }
             }
         } else if self.gaps[span.first] >= self.gaps[span.last] {
@@ -276,10 +338,17 @@ impl<E: EdgeModel> FragmentSet<E> {
         } else {
             self.part(slot, Held { last: last - 1, ..held });
         }
-        Some(Event { whole: Fragment { slot, span }, springs: 1 })
+        Some(Event { whole, springs: 1 })
     }
 
-    /// Whether a span is the one with which its branch begins. Among equal gaps the leftmost is the outermost.
+    /// Lets pinned edges slide.
+    fn release(&mut self, slot: usize, held: Held) -> Event {
+        let whole = self.fragment(slot, held);
+        self.replace(slot, Held { pin: None, ..held });
+        Event { whole, springs: 0 }
+    }
+
+    /// Returns true for the span with which its branch begins. Among equal gaps the leftmost is the outermost.
     fn is_lowest(&self, branch: Branch, span: &Span) -> bool {
         let (left, right) = (self.gaps[span.first], self.gaps[span.last]);
         match branch.origin() {
@@ -308,12 +377,17 @@ impl<E: EdgeModel> FragmentSet<E> {
     fn replace(&mut self, slot: usize, held: Held) -> Fragment {
         self.set(slot, Slot::Fragment(held));
         self.settle(slot..slot + 1);
-        Fragment { slot, span: self.span(held) }
+        self.fragment(slot, held)
+    }
+
+    #[inline]
+    fn fragment(&self, slot: usize, held: Held) -> Fragment {
+        Fragment { slot, span: self.span(held), pin: held.pin }
     }
 
     /// From here on changes can be taken back.
     pub fn keep_journal(&mut self) {
-        self.journal = Some(Vec::new());
+        self.journal = Some((self.direction, Vec::new()));
     }
 
     /// Forgets the changes that could be taken back.
@@ -323,9 +397,12 @@ impl<E: EdgeModel> FragmentSet<E> {
 
     /// Takes back all changes since the journal was begun, when these were the totals.
     pub fn take_back(&mut self, totals: ContactTotals) {
-        for (slot, was) in self.journal.take().into_iter().flatten().rev() {
-            self.set(slot as usize, was);
-            self.settle(slot as usize..slot as usize + 1);
+        if let Some((direction, changes)) = self.journal.take() {
+            for (slot, was) in changes.into_iter().rev() {
+                self.set(slot as usize, was);
+                self.settle(slot as usize..slot as usize + 1);
+            }
+            self.direction = direction;
         }
         self.totals = totals;
     }
@@ -360,12 +437,21 @@ impl<E: EdgeModel> FragmentSet<E> {
             Slot::Inside => (NEVER, NEVER),
             Slot::Fragment(held) => {
                 let span = self.span(held);
-                let length = self.edges.length(&self.gaps, &span);
-                let attaches = span
-                    .wall(&self.gaps)
-                    .map_or(NEVER, |wall| self.edges.attaches_at(&span, length, self.gaps[wall]));
+                let (closing, opening) = (self.closing, self.opening);
+                let length = opening.length(&self.gaps, &span);
+                let wall = span.wall(&self.gaps).map(|wall| self.gaps[wall]);
+                let (attaches, holds) = match held.pin {
+                    Some(rise) => {
+                        let released = |edges: E| edges.release(&span, length, rise).0;
+                        (wall.map(|_| released(closing)), released(opening))
+                    }
+                    None => (
+                        wall.map(|wall| closing.attaches_at(&span, length, wall)),
+                        opening.holds_to(&span, length),
+                    ),
+                };
                 // A slot with a fragment must not seem empty, however far it holds.
-                (attaches, (-self.edges.holds_to(&span, length)).min(f64::MAX))
+                (attaches.unwrap_or(NEVER), (-holds).min(f64::MAX))
             }
         }
     }
@@ -373,8 +459,8 @@ impl<E: EdgeModel> FragmentSet<E> {
     /// Sets a slot and its keys, which count from [`FragmentSet::settle`] on.
     fn set(&mut self, slot: usize, becomes: Slot) {
         let was = std::mem::replace(&mut self.slots[slot], becomes);
-        if let Some(journal) = &mut self.journal {
-            journal.push((slot as u32, was));
+        if let Some((_, changes)) = &mut self.journal {
+            changes.push((slot as u32, was));
         }
         let (attaches, detaches) = self.keys(slot);
         self.attaching.set(slot, attaches);

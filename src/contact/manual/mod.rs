@@ -15,10 +15,11 @@ mod fragments;
 mod start;
 mod winner_tree;
 
-use super::adhesive::{ContactTree, EdgeModel};
+use super::adhesive::{ContactTree, EdgeModel, Ground};
 use super::{ContactError, CurvePoint, Direction, Foundation};
 use dissipation::Dissipation;
 use fragments::{Event, FragmentSet};
+use std::collections::HashMap;
 use std::sync::Arc;
 use thiserror::Error;
 
@@ -51,6 +52,9 @@ pub trait ManualLoading {
     /// First and last spring of each fragment in contact, in ascending order along the line. With n fragments of N
     /// springs this takes O(n log(N/n)) time.
     fn fragments(&self) -> Box<dyn Iterator<Item = (usize, usize)> + '_>;
+
+    /// See [`Solver::rises`](super::Solver::rises).
+    fn rises(&self) -> Vec<f64>;
 }
 
 /// The changes of one move.
@@ -125,12 +129,16 @@ impl<E: EdgeModel> Manual<E> {
         edges: E,
         foundation: Foundation,
     ) -> Result<Self, ContactError> {
-        let contact = FragmentSet::new(gaps, tree, edges, &[])?;
+        let contact = FragmentSet::new(gaps, tree, edges, &[], |_, _| 0.0)?;
         Ok(Manual { contact, foundation, indentation: 0.0 })
     }
 
     /// A body at `indentation`, m, in the contact given by first and last spring of each fragment, as
     /// [`Solver::fragments`](super::Solver::fragments) and [`ManualLoading::fragments`] give it.
+    ///
+    /// Under two works of adhesion the edges of each fragment are pinned at these `rises`, m, as
+    /// [`Solver::rises`](super::Solver::rises) gives them; those of a fragment without one lie where loading would have
+    /// left them. Under one work of adhesion they follow from the indentation.
     ///
     /// Of springs that no fragment in equilibrium can be, the largest spans inside that one can be are taken. A contact
     /// that is not in equilibrium relaxes with the next move.
@@ -144,9 +152,14 @@ impl<E: EdgeModel> Manual<E> {
         foundation: Foundation,
         indentation: f64,
         fragments: &[(usize, usize)],
+        rises: &[f64],
     ) -> Result<Self, ManualError> {
         let indentation = finite(indentation)?;
-        let contact = FragmentSet::new(gaps, tree, edges, fragments)?;
+        let known: HashMap<_, _> = fragments.iter().copied().zip(rises.iter().copied()).collect();
+        let contact = FragmentSet::new(gaps, tree, edges, fragments, |Ground { gaps, edges, .. }, span| {
+            let rise = known.get(&(span.first, span.last)).copied();
+            rise.unwrap_or_else(|| edges.rise(span, edges.length(gaps, span), indentation))
+        })?;
         Ok(Manual { contact, foundation, indentation })
     }
 
@@ -154,15 +167,17 @@ impl<E: EdgeModel> Manual<E> {
         self.contact.totals().springs == 0
     }
 
-    fn begin(&self, direction: Direction) -> Course {
+    fn begin(&mut self, direction: Direction) -> Course {
+        let touched_before = self.contact.touched();
+        self.contact.turn(direction, self.indentation);
         // Without adhesion nothing is stretched.
-        let adheres = self.contact.ground().edges.stretch() > 0.0;
+        let adheres = self.contact.adheres();
         Course {
             direction,
             level: self.indentation,
             springs: 0,
             events: 0,
-            touched_before: self.contact.touched(),
+            touched_before,
             dissipation: adheres.then(|| Dissipation::new(self.indentation)),
         }
     }
@@ -175,7 +190,12 @@ impl<E: EdgeModel> Manual<E> {
             let Some(event) = self.contact.attach() else { break };
             course.count(&event);
             if let Some(dissipation) = &mut course.dissipation {
-                dissipation.attach(self.contact.ground(), course.level, &event, self.contact.parts());
+                match event.springs {
+                    0 => dissipation.release(&event.whole),
+                    _ => {
+                        dissipation.attach(self.contact.ground(), course.level, &event, self.contact.parts())
+                    }
+                }
             }
         }
     }
@@ -189,7 +209,12 @@ impl<E: EdgeModel> Manual<E> {
             let Some(event) = self.contact.detach() else { break };
             course.count(&event);
             if let Some(dissipation) = &mut course.dissipation {
-                dissipation.detach(self.contact.ground(), course.level, &event, self.contact.parts());
+                match event.springs {
+                    0 => dissipation.release(&event.whole),
+                    _ => {
+                        dissipation.detach(self.contact.ground(), course.level, &event, self.contact.parts())
+                    }
+                }
             }
         }
     }
@@ -297,11 +322,15 @@ impl<E: EdgeModel> ManualLoading for Manual<E> {
     }
 
     fn point(&self) -> CurvePoint {
-        self.state_at(self.indentation).point(self.foundation)
+        self.steady().state(self.indentation).point(self.foundation)
     }
 
     fn fragments(&self) -> Box<dyn Iterator<Item = (usize, usize)> + '_> {
         Box::new(self.contact.fragments().map(|fragment| (fragment.span.first, fragment.span.last)))
+    }
+
+    fn rises(&self) -> Vec<f64> {
+        self.contact.rises(self.indentation)
     }
 }
 
@@ -320,7 +349,7 @@ struct Course {
 impl Course {
     fn count(&mut self, event: &Event) {
         self.springs += event.springs;
-        self.events += 1;
+        self.events += u64::from(event.springs > 0);
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::Glyph;
 use super::outline::{HEIGHT, WIDTH};
-use super::palette::{Rgb, hex};
+use crate::draw::{Rgb, escaped, hex};
 use ratatui::style::Modifier;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -111,22 +111,4 @@ impl Letters {
 /// Whether a character is in the common fonts of one width.
 fn is_common(character: char) -> bool {
     matches!(character, ' '..='~' | '\u{a1}'..='ſ' | 'Α'..='ω' | '–' | '—' | '‘'..='”' | '…' | '−')
-}
-
-/// A text in which nothing is taken for markup.
-pub fn escaped(text: &str) -> String {
-    let mut escaped = String::with_capacity(text.len());
-    for character in text.chars() {
-        match character {
-            '&' => escaped.push_str("&amp;"),
-            '<' => escaped.push_str("&lt;"),
-            '>' => escaped.push_str("&gt;"),
-            '"' => escaped.push_str("&quot;"),
-            // These may not stand in XML at all.
-            '\0'..=' ' if character != ' ' => escaped.push('\u{fffd}'),
-            '\u{fffe}' | '\u{ffff}' => escaped.push('\u{fffd}'),
-            _ => escaped.push(character),
-        }
-    }
-    escaped
 }

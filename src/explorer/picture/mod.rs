@@ -13,7 +13,7 @@ mod text;
 
 pub use ascii::to_ascii;
 pub use cast::Cast;
-pub use svg::{Palette, svg};
+pub use svg::svg;
 pub use text::text;
 
 use crate::text::is_control;

@@ -1,110 +1,45 @@
 //! Colours of the terminal as red, green and blue.
 
+use crate::draw::{Palette, Rgb};
 use ratatui::style::Color;
 
-/// Red, green and blue.
-pub type Rgb = [u8; 3];
-
-/// What the colours that a terminal chooses look like.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Palette {
-    /// Of text without a colour of its own.
-    pub foreground: Rgb,
-    /// Behind all.
-    pub background: Rgb,
-    /// The sixteen colours in the order of ANSI: black, red, green, yellow, blue, magenta, cyan, gray,
-    /// and the same again bright.
-    pub ansi: [Rgb; 16],
+/// A colour of a palette; `reset` where the terminal chooses.
+pub(super) fn rgb(palette: &Palette, colour: Color, reset: Rgb) -> Rgb {
+    let ansi = match colour {
+        Color::Reset => return reset,
+        Color::Rgb(red, green, blue) => return [red, green, blue],
+        Color::Indexed(index) => return indexed(palette, index),
+        Color::Black => 0,
+        Color::Red => 1,
+        Color::Green => 2,
+        Color::Yellow => 3,
+        Color::Blue => 4,
+        Color::Magenta => 5,
+        Color::Cyan => 6,
+        Color::Gray => 7,
+        Color::DarkGray => 8,
+        Color::LightRed => 9,
+        Color::LightGreen => 10,
+        Color::LightYellow => 11,
+        Color::LightBlue => 12,
+        Color::LightMagenta => 13,
+        Color::LightCyan => 14,
+        Color::White => 15,
+    };
+    palette.ansi[ansi]
 }
 
-impl Palette {
-    /// Light on dark. Red, green, blue and magenta stay apart, in brightness too, for those who see two
-    /// primary colours.
-    pub const DARK: Palette = Palette {
-        foreground: [0xe1, 0xe6, 0xeb],
-        background: [0x10, 0x15, 0x1b],
-        ansi: [
-            [0x10, 0x15, 0x1b],
-            [0xff, 0x6b, 0x3d],
-            [0x1a, 0xb4, 0x85],
-            [0xf0, 0xd6, 0x55],
-            [0x3b, 0x94, 0xf5],
-            [0xee, 0x97, 0xdd],
-            [0x5f, 0xd0, 0xe6],
-            [0xc4, 0xcb, 0xd2],
-            [0x85, 0x8f, 0x9a],
-            [0xff, 0x93, 0x70],
-            [0x52, 0xd6, 0xac],
-            [0xf7, 0xe4, 0x86],
-            [0x7a, 0xb8, 0xff],
-            [0xf5, 0xc4, 0xea],
-            [0x96, 0xe4, 0xf2],
-            [0xff, 0xff, 0xff],
-        ],
-    };
-
-    /// Dark on light, as in [`Palette::DARK`].
-    pub const LIGHT: Palette = Palette {
-        foreground: [0x1b, 0x20, 0x26],
-        background: [0xff, 0xff, 0xff],
-        ansi: [
-            [0x1b, 0x20, 0x26],
-            [0xcc, 0x3f, 0x00],
-            [0x00, 0x80, 0x5e],
-            [0x7d, 0x63, 0x00],
-            [0x00, 0x5c, 0xc2],
-            [0x8e, 0x2a, 0x7c],
-            [0x00, 0x70, 0x88],
-            [0x52, 0x5c, 0x66],
-            [0x6a, 0x74, 0x7e],
-            [0xb3, 0x38, 0x00],
-            [0x00, 0x6b, 0x4f],
-            [0x69, 0x53, 0x00],
-            [0x00, 0x4b, 0x9e],
-            [0x75, 0x1f, 0x66],
-            [0x00, 0x5c, 0x70],
-            [0xff, 0xff, 0xff],
-        ],
-    };
-
-    /// A colour; `reset` where the terminal chooses.
-    pub(super) fn rgb(&self, colour: Color, reset: Rgb) -> Rgb {
-        let ansi = match colour {
-            Color::Reset => return reset,
-            Color::Rgb(red, green, blue) => return [red, green, blue],
-            Color::Indexed(index) => return self.indexed(index),
-            Color::Black => 0,
-            Color::Red => 1,
-            Color::Green => 2,
-            Color::Yellow => 3,
-            Color::Blue => 4,
-            Color::Magenta => 5,
-            Color::Cyan => 6,
-            Color::Gray => 7,
-            Color::DarkGray => 8,
-            Color::LightRed => 9,
-            Color::LightGreen => 10,
-            Color::LightYellow => 11,
-            Color::LightBlue => 12,
-            Color::LightMagenta => 13,
-            Color::LightCyan => 14,
-            Color::White => 15,
-        };
-        self.ansi[ansi]
-    }
-
-    /// One of the 256 colours of xterm: the sixteen, a cube of six steps each way, and 24 grays.
-    fn indexed(&self, index: u8) -> Rgb {
-        /// Levels of the cube's steps.
-        const STEPS: [u8; 6] = [0, 95, 135, 175, 215, 255];
-        match index {
-            0..16 => self.ansi[usize::from(index)],
-            16..232 => {
-                let place = usize::from(index - 16);
-                [STEPS[place / 36], STEPS[place / 6 % 6], STEPS[place % 6]]
-            }
-            232.. => [8 + 10 * (index - 232); 3],
+/// One of the 256 colours of xterm: the sixteen, a cube of six steps each way, and 24 grays.
+fn indexed(palette: &Palette, index: u8) -> Rgb {
+    /// Levels of the cube's steps.
+    const STEPS: [u8; 6] = [0, 95, 135, 175, 215, 255];
+    match index {
+        0..16 => palette.ansi[usize::from(index)],
+        16..232 => {
+            let place = usize::from(index - 16);
+            [STEPS[place / 36], STEPS[place / 6 % 6], STEPS[place % 6]]
         }
+        232.. => [8 + 10 * (index - 232); 3],
     }
 }
 
@@ -116,11 +51,6 @@ pub(super) fn mixed(one: Rgb, other: Rgb, percent: u8) -> Rgb {
         // At most 255, as both are.
         (parts / 100) as u8
     })
-}
-
-/// A colour as documents for the web write it.
-pub(super) fn hex([red, green, blue]: Rgb) -> String {
-    format!("#{red:02x}{green:02x}{blue:02x}")
 }
 
 #[cfg(test)]
@@ -205,14 +135,14 @@ mod tests {
 
     #[test]
     fn indices_are_those_of_xterm() {
-        let rgb = |index| Palette::DARK.rgb(Color::Indexed(index), [1, 2, 3]);
-        assert_eq!(rgb(5), Palette::DARK.rgb(Color::Magenta, [0; 3]));
+        let rgb = |index| super::rgb(&Palette::DARK, Color::Indexed(index), [1, 2, 3]);
+        assert_eq!(rgb(5), super::rgb(&Palette::DARK, Color::Magenta, [0; 3]));
         assert_eq!([rgb(16), rgb(196), rgb(46), rgb(21)], [[0; 3], [255, 0, 0], [0, 255, 0], [0, 0, 255]]);
         assert_eq!([rgb(67), rgb(231)], [[95, 135, 175], [255; 3]]);
         assert_eq!([rgb(232), rgb(255)], [[8; 3], [238; 3]]);
-        assert_eq!(Palette::DARK.rgb(Color::Reset, [1, 2, 3]), [1, 2, 3]);
-        assert_eq!(Palette::DARK.rgb(Color::Rgb(4, 5, 6), [1, 2, 3]), [4, 5, 6]);
-        assert_eq!(Palette::LIGHT.rgb(Color::White, [0; 3]), Palette::LIGHT.ansi[15]);
+        assert_eq!(super::rgb(&Palette::DARK, Color::Reset, [1, 2, 3]), [1, 2, 3]);
+        assert_eq!(super::rgb(&Palette::DARK, Color::Rgb(4, 5, 6), [1, 2, 3]), [4, 5, 6]);
+        assert_eq!(super::rgb(&Palette::LIGHT, Color::White, [0; 3]), Palette::LIGHT.ansi[15]);
     }
 
     #[test]

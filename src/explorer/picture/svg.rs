@@ -3,14 +3,13 @@
 //! Only letters need a font. Dots, blocks, lines and marks are drawn, so that they meet from cell to
 //! cell whatever the font, and text is stretched to the grid of cells.
 
-pub use super::palette::{Palette, Rgb};
-
-use super::letters::{Letters, escaped};
+use super::letters::Letters;
 use super::outline::{Area, Dots, HEIGHT, Lines, WIDTH};
-use super::palette::{hex, mixed};
+use super::palette::{mixed, rgb};
 use super::raster::{Raster, blocks, dots, shade};
 use super::strokes::{Weight, strokes};
 use super::{Glyph, glyphs};
+use crate::draw::{Document, Palette, Rgb, hex};
 use ratatui::buffer::Buffer;
 use ratatui::style::Modifier;
 use std::collections::BTreeMap;
@@ -93,7 +92,7 @@ impl<'a> Sheet<'a> {
             (column..column + width).for_each(|column| grounds.fill(column, row, Raster::FULL));
         }
         if cell.modifier.contains(Modifier::UNDERLINED) {
-            let colour = self.palette.rgb(cell.underline_color, ink);
+            let colour = rgb(self.palette, cell.underline_color, ink);
             self.lines.entry((Pen::Rule, colour)).or_default().across(column, row, width, UNDER);
         }
         if cell.modifier.contains(Modifier::CROSSED_OUT) {
@@ -112,8 +111,8 @@ impl<'a> Sheet<'a> {
     /// Colours of a symbol and of what is behind it.
     fn colours(&self, glyph: &Glyph<'_>) -> (Rgb, Rgb) {
         let (cell, modifier) = (glyph.cell, glyph.cell.modifier);
-        let mut ink = self.palette.rgb(cell.fg, self.palette.foreground);
-        let mut ground = self.palette.rgb(cell.bg, self.palette.background);
+        let mut ink = rgb(self.palette, cell.fg, self.palette.foreground);
+        let mut ground = rgb(self.palette, cell.bg, self.palette.background);
         if modifier.contains(Modifier::DIM) {
             ink = mixed(ink, ground, DIMMED);
         }
@@ -151,13 +150,10 @@ impl<'a> Sheet<'a> {
     }
 
     fn write(self, width: u32, height: u32, title: &str) -> String {
-        let title = escaped(title);
         let ground = hex(self.palette.background);
+        let mut document = Document::new(f64::from(width), f64::from(height), title);
         let mut svg = format!(
-            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
-             viewBox=\"0 0 {width} {height}\" role=\"img\" aria-label=\"{title}\">\n\
-             <title>{title}</title>\n\
-             <rect width=\"{width}\" height=\"{height}\" rx=\"6\" fill=\"{ground}\"/>\n\
+            "<rect width=\"{width}\" height=\"{height}\" rx=\"6\" fill=\"{ground}\"/>\n\
              <g transform=\"translate({MARGIN} {MARGIN})\">\n"
         );
         for (colour, area) in self.grounds.into_iter().chain(self.blocks) {
@@ -184,7 +180,8 @@ impl<'a> Sheet<'a> {
         for (colour, path) in self.marks {
             let _ = writeln!(svg, "<path fill=\"{}\" d=\"{path}\"/>", hex(colour));
         }
-        svg + &self.letters.elements() + "</g>\n</svg>\n"
+        document.push(&(svg + &self.letters.elements() + "</g>\n"));
+        document.finish()
     }
 }
 
@@ -209,6 +206,7 @@ fn mark(character: char) -> Option<&'static str> {
 mod tests {
     use super::super::letters::FONTS;
     use super::*;
+    use crate::draw::svg_tests::parsed;
     use ratatui::Terminal;
     use ratatui::backend::TestBackend;
     use ratatui::layout::{Constraint, Layout, Rect};
@@ -216,47 +214,6 @@ mod tests {
     use ratatui::symbols::Marker;
     use ratatui::widgets::Block;
     use ratatui::widgets::canvas::{Canvas, Line};
-
-    /// The elements of a document, names and attributes, and its text. Panics where it is not well-formed.
-    fn parsed(svg: &str) -> (Vec<String>, String) {
-        let (mut elements, mut open, mut text) = (Vec::new(), Vec::new(), String::new());
-        let mut rest = svg;
-        while let Some((before, behind)) = rest.split_once('<') {
-            assert!(!before.contains('>'), "{before}");
-            text += &unescaped(before);
-            let (tag, behind) = behind.split_once('>').expect("a tag ends");
-            rest = behind;
-            if let Some(name) = tag.strip_prefix('/') {
-                assert_eq!(open.pop(), Some(name), "{tag}");
-                continue;
-            }
-            let (tag, empty) = tag.strip_suffix('/').map_or((tag, false), |tag| (tag, true));
-            let (name, attributes) = tag.split_once(' ').unwrap_or((tag, ""));
-            assert!(name.chars().all(char::is_alphabetic), "{tag}");
-            // Names and values in turns; values in quotes.
-            let mut pieces = attributes.split('"');
-            while let Some(name) = pieces.next().filter(|name| !name.is_empty()) {
-                let name = name.trim_start().strip_suffix('=').expect(tag);
-                assert!(name.chars().all(|one| one.is_ascii_alphabetic() || "-:".contains(one)), "{tag}");
-                let _ = unescaped(pieces.next().expect("a value"));
-            }
-            elements.push(tag.to_owned());
-            if !empty {
-                open.push(name);
-            }
-        }
-        assert!(open.is_empty() && rest.trim().is_empty(), "{open:?} {rest}");
-        (elements, text)
-    }
-
-    fn unescaped(text: &str) -> String {
-        assert!(!text.chars().any(|one| one.is_control() && one != '\n'), "{text:?}");
-        for entity in text.split('&').skip(1) {
-            let known = ["amp;", "lt;", "gt;", "quot;"];
-            assert!(known.iter().any(|name| entity.starts_with(name)), "{text}");
-        }
-        text.replace("&lt;", "<").replace("&gt;", ">").replace("&quot;", "\"").replace("&amp;", "&")
-    }
 
     /// The elements between the background and the end, of a screen of one row.
     fn drawn(buffer: &Buffer) -> Vec<String> {

@@ -10,7 +10,7 @@ use crate::explorer::parameters::{Setting, parameters};
 use crate::explorer::session::scene_of;
 use crate::explorer::text_line::TextLine;
 use crate::explorer::worker::{Focus, LineView};
-use crate::scene::{Computed, Document, SceneErrors, presets};
+use crate::scene::{Computed, Document, SceneErrors, Step, presets};
 
 /// Edits that can be taken back.
 const UNDO_DEPTH: usize = 1000;
@@ -96,14 +96,21 @@ fn step_value(model: &mut Model, steps: i32, coarse: bool) -> Vec<Effect> {
     if let Setting::Switch(_) = parameter.setting {
         return toggle(model);
     }
+    let no_step = format!("no further step; allowed: {}", parameter.field.allowed());
+    if parameter.field.step == Step::Choice {
+        return match model.document.with_next_choice(parameter.field, steps > 0, &computed(model)) {
+            Ok(Some(document)) => take_over(model, Ok(document)),
+            Ok(None) => refuse(model, no_step),
+            Err(errors) => take_over(model, Err(errors)),
+        };
+    }
     let Some(written) = model.written(parameter) else {
         return refuse(model, "not before the scene is computed".to_owned());
     };
-    let Some(next) = parameter.field.stepped(&written, steps, coarse) else {
-        let allowed = parameter.field.allowed();
-        return refuse(model, format!("no further step; allowed: {allowed}"));
-    };
-    set_selected(model, &next)
+    match parameter.field.stepped(&written, steps, coarse) {
+        Some(next) => set_selected(model, &next),
+        None => refuse(model, no_step),
+    }
 }
 
 /// Takes over the value that was typed for the selected parameter.
@@ -152,17 +159,17 @@ fn toggle(model: &mut Model) -> Vec<Effect> {
     let changed = if effect.is_on(document.scene()) {
         document.without(effect, &computed(model))
     } else {
-        let had_it = model.undo.iter().rev().find(|before| effect.is_on(before.scene()));
-        document.with(effect, had_it)
+        document.with(effect)
     };
     take_over(model, changed)
 }
 
-/// What a switched-off effect may leave to another.
+/// Values of the computed scene, which may replace others in the scene.
 fn computed(model: &Model) -> Computed {
     let governing = model.governing();
     Computed {
         work_of_adhesion: governing.and_then(|governing| governing.work_of_adhesion),
+        kappa: governing.and_then(|governing| governing.kappa),
         rms_height: governing.and_then(|governing| governing.amplitude).map(|amplitude| amplitude.rms_height),
     }
 }
@@ -225,13 +232,19 @@ pub fn undo(model: &mut Model, back: bool) -> Vec<Effect> {
     renew(model)
 }
 
+/// Row of the field at a path, or of the group around it: the selection stays in place when rows come and go, and the
+/// row that has switched an effect off switches the effect on again.
+fn row_of(model: &Model, path: &str) -> usize {
+    let around = std::iter::successors(Some(path), |path| path.rsplit_once('.').map(|(group, _)| group));
+    let row = |path: &str| model.parameters.iter().position(|parameter| parameter.path == path);
+    around.filter_map(row).next().unwrap_or(model.selected).min(model.parameters.len().saturating_sub(1))
+}
+
 /// Asks for the scene as it is now.
 fn renew(model: &mut Model) -> Vec<Effect> {
-    let selected = model.parameter().map(|parameter| parameter.path.clone());
+    let selected = model.parameter().map(|parameter| parameter.path.clone()).unwrap_or_default();
     model.parameters = parameters(&model.document);
-    // The selection stays on its field when rows come and go.
-    let place = model.parameters.iter().position(|parameter| Some(&parameter.path) == selected.as_ref());
-    model.selected = place.unwrap_or(model.selected).min(model.parameters.len().saturating_sub(1));
+    model.selected = row_of(model, &selected);
     model.refused = None;
     model.generation += 1;
     model.progress = Some(0);

@@ -144,7 +144,7 @@ fn cells(frame: &mut Frame<'_>, plot: Rect, model: &Model, plane: &MapModel) {
         let row = index(plot.height - 1 - y, plot.height, rows);
         let spans = (0..plot.width).map(|x| {
             let Some(place) = plane.shown(index(x, plot.width, columns), row) else { return Text::raw(" ") };
-            match place.spot {
+            match place.cell {
                 Ok(spot) => {
                     let meaning = spot.regime.map_or(Meaning::Text, meaning);
                     Text::styled(glyph(plane, &place, spot, charted), theme.style(meaning))

@@ -24,9 +24,13 @@ pub fn title(model: &Model) -> String {
         return format!(" Study {}: {columns} × {rows} cells, {} ", study.atlas.name(), lines(plan.lines));
     }
     match Template::of(model.document.scene()) {
-        Ok(basis) => {
-            let over = if basis.has_hurst() { "κ, H" } else { "κ" };
-            format!(" Map over {over}: {} of {} springs ", lines(basis.lines()), grouped(basis.springs()))
+        Ok(template) => {
+            let over = if template.has_hurst() { "κ, H" } else { "κ" };
+            format!(
+                " Map over {over}: {} of {} springs ",
+                lines(template.lines()),
+                grouped(template.springs())
+            )
         }
         Err(_) => " Map over κ, H ".to_owned(),
     }
@@ -250,7 +254,7 @@ fn there(
         }
         _ => whose.to_owned(),
     };
-    let spot = match place.spot {
+    let spot = match place.cell {
         Ok(spot) => spot,
         Err(why) => return format!("{at}: {why}"),
     };

@@ -122,7 +122,7 @@ fn headline(model: &Model, width: u16) -> Line<'static> {
     }
     if model.is_computing() {
         let legs = model.document.scene().loading.len();
-        part("  ", format!("computing, leg {} of {legs}", model.progress.unwrap_or(0) + 1), Meaning::Quiet);
+        part("  ", format!("computing, stage {} of {legs}", model.progress.unwrap_or(0) + 1), Meaning::Quiet);
     }
     fitting(parts, "", usize::from(width))
 }

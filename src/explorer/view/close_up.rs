@@ -1,8 +1,8 @@
 //! The close-up of contact fragments, with their boundary points as the paper's white circles, and a strip
 //! of the whole contact.
 
-use super::plot::Span;
 use super::profile::{draw_section, short};
+use crate::draw::Span;
 use crate::explorer::model::Model;
 use crate::explorer::snapshot::{FragmentFacts, Section, Share};
 use crate::explorer::theme::{Meaning, Theme};
@@ -35,16 +35,12 @@ pub fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
     let text_rows = u16::from(area.height >= 4) + u16::from(area.height >= 7);
     let plot = Rect { height: area.height - text_rows - strip_rows, ..area };
     let z = heights(section);
-    draw_section(frame, plot, section, z, model.appearance);
-    let buffer = frame.buffer_mut();
+    let (place, chart) = draw_section(frame, plot, section, z, model.appearance);
     for &(spring, height) in &close_up.boundaries {
         // The middle of the columns of dots that this spring fills.
-        let along = ((spring - section.first) as f64 + 0.5) / section.springs as f64;
-        let down = (z.high - height) / (z.high - z.low);
-        if (0.0..1.0).contains(&along) && (0.0..1.0).contains(&down) {
-            let x = plot.x + (along * f64::from(plot.width)) as u16;
-            let y = plot.y + (down * f64::from(plot.height)) as u16;
-            buffer.set_string(x, y, "○", theme.style(Meaning::Contact));
+        let at = ((spring - section.first) as f64 + 0.5, height);
+        if let Some(cell) = place.cell(&chart, model.appearance.marker.symbols(), at) {
+            frame.buffer_mut()[cell].set_symbol("○").set_style(theme.style(Meaning::Contact));
         }
     }
     if strip_rows > 0 {

@@ -1,19 +1,21 @@
 //! The curve: the hysteresis loop with its two branches, what is compared with it, and the hand.
 
-use super::axes::{Axis, Places};
-use super::plot::{Inside, Polyline, Span, Stroke};
+use super::plot;
 use super::wrap::fitting;
+use crate::analysis::{Mark, marks};
 use crate::contact::{CurvePoint, Direction, LegRecord};
+use crate::draw::{
+    Axis, AxisScale, CellPlot, Chart, Ink, Label, Layer, Shape, Sign, Span, Stroke, glyph, legend,
+};
 use crate::explorer::model::{Ghost, Model, Quantities};
 use crate::explorer::snapshot::Loop;
-use crate::explorer::theme::{Marker, Meaning, Theme};
+use crate::explorer::theme::{Meaning, Theme};
+use crate::export::sign;
 use crate::scene::format_quantity;
 use ratatui::Frame;
 use ratatui::layout::Rect;
-use ratatui::style::Style;
 use ratatui::text::{Line, Span as Text};
 use ratatui::widgets::Paragraph;
-use ratatui::widgets::canvas::Canvas;
 
 /// Title of the pane.
 pub fn title(model: &Model) -> String {
@@ -95,17 +97,17 @@ impl Units {
     }
 
     fn axes(&self, x: Span, y: Span) -> (Axis, Axis) {
-        let axis = |span, symbol, unit, normalised: bool| Axis {
-            span,
-            symbol,
-            unit: if normalised { "1" } else { unit },
+        let axis = |span, symbol: &str, over: &str, unit: &str, normalised: bool| {
+            let (symbol, unit) =
+                if normalised { (format!("{symbol}/{over}"), "1") } else { (symbol.to_owned(), unit) };
+            Axis::new(AxisScale::Linear, span, "", &symbol, unit)
         };
-        let indentation = |span| axis(span, "d", "m", self.indentation.is_some());
-        let force = |span| axis(span, "F", "N", self.force.is_some());
+        let indentation = |span| axis(span, "d", "h", "m", self.indentation.is_some());
+        let force = |span| axis(span, "F", "F_a,max", "N", self.force.is_some());
         match self.quantities {
             Quantities::ForceIndentation => (indentation(x), force(y)),
-            Quantities::LengthForce => (force(x), axis(y, "l", "m", self.in_lengths)),
-            Quantities::FragmentsIndentation => (indentation(x), axis(y, "n", "1", false)),
+            Quantities::LengthForce => (force(x), axis(y, "l", "L", "m", self.in_lengths)),
+            Quantities::FragmentsIndentation => (indentation(x), axis(y, "n", "", "1", false)),
         }
     }
 }
@@ -141,11 +143,16 @@ pub fn indentation_at(model: &Model, area: Rect, column: u16) -> Option<f64> {
         return None;
     }
     let units = Units::of(model, computed);
-    let plot = Places::within(area, rows_above(model, area)).plot;
-    let (x, _) = spans(model, units);
-    let along = (f64::from(column) + 0.5 - f64::from(plot.x)) / f64::from(plot.width.max(1));
-    let at = x.low + along.clamp(0.0, 1.0) * (x.high - x.low);
+    let (x, y) = spans(model, units);
+    let (x, y) = units.axes(x, y);
+    let chart = plot::chart(x, y, Vec::new());
+    let at = CellPlot::within(below(area, rows_above(model, area)), &chart).number_at(&chart.x, column);
     Some(at * units.indentation.unwrap_or(1.0))
+}
+
+fn below(area: Rect, rows: u16) -> Rect {
+    let rows = rows.min(area.height);
+    Rect { y: area.y + rows, height: area.height - rows, ..area }
 }
 
 /// Draws the curve with its axes.
@@ -157,131 +164,64 @@ pub fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
         frame.render_widget(Paragraph::new(text).style(theme.style(Meaning::Quiet)), area);
         return;
     };
-    let legs = model.legs();
     let above = rows_above(model, area);
-    let places = Places::within(area, above);
     let units = Units::of(model, computed);
-    let (x, y) = spans(model, units);
-    let stale = !model.is_current();
-    // A curve of a scene that has been changed since stands back until the new one is there.
-    let colour = |meaning| theme.colour(if stale { Meaning::Quiet } else { meaning });
-    let along =
-        |points: &[CurvePoint]| -> Vec<(f64, f64)> { points.iter().map(|p| units.place(p)).collect() };
-    let canvas = Canvas::default()
-        .marker(model.appearance.marker.symbols())
-        .x_bounds(x.bounds())
-        .y_bounds(y.bounds())
-        .paint(|ctx| {
-            let zero = [(x.low, 0.0), (x.high, 0.0)];
-            ctx.draw(&Polyline {
-                points: &zero,
-                colour: theme.colour(Meaning::Quiet),
-                stroke: Stroke::Dotted,
-            });
-            if model.curve.loss && units.quantities == Quantities::ForceIndentation {
-                let border: Vec<_> = legs.iter().flat_map(|leg| along(&leg.curve)).collect();
-                ctx.draw(&Inside { border: &border, colour: theme.colour(Meaning::Quiet) });
-            }
-            for ghost in &model.ghosts {
-                for leg in &ghost.computed.outcome.history.legs {
-                    let points = along(&leg.curve);
-                    ctx.draw(&Polyline {
-                        points: &points,
-                        colour: theme.colour(Meaning::Ghost),
-                        stroke: Stroke::Sparse,
-                    });
-                }
-            }
-            for (direction, meaning, stroke) in [
-                (Direction::Loading, Meaning::Approach, Stroke::Dotted),
-                (Direction::Unloading, Meaning::Retraction, Stroke::Solid),
-            ] {
-                ctx.layer();
-                for leg in legs.iter().filter(|leg| leg.direction == direction) {
-                    ctx.draw(&Polyline { points: &along(&leg.curve), colour: colour(meaning), stroke });
-                }
-            }
-            if let Some(hand) = &model.hand {
-                ctx.layer();
-                let colour = theme.colour(Meaning::Hand);
-                ctx.draw(&Polyline { points: &along(&hand.path), colour, stroke: Stroke::Dashed });
-            }
-            let mut glyphs = Vec::new();
-            if !stale {
-                let title = theme.style(Meaning::Title);
-                glyphs
-                    .extend(marks(legs).iter().map(|(point, glyph, _)| (units.place(point), *glyph, title)));
-            }
-            if let Some(moment) = model.present() {
-                let (at, value) = units.place(&moment.point);
-                let at = (at.clamp(x.low, x.high), value.clamp(y.low, y.high));
-                glyphs.push((at, "◆", theme.style(Meaning::Cursor)));
-            }
-            let mut cells = Cells { x, y, plot: places.plot, taken: Vec::new() };
-            glyphs.iter().for_each(|&(at, ..)| cells.take(at));
-            for (number, ghost) in model.ghosts.iter().enumerate() {
-                if let Some(point) = marked(ghost) {
-                    let at = cells.take_free(units.place(&point));
-                    ctx.print(at.0, at.1, Line::styled(letter(number), theme.style(Meaning::Ghost)));
-                }
-            }
-            for ((at, value), glyph, style) in glyphs {
-                ctx.print(at, value, Line::styled(glyph, style));
-            }
-        });
-    frame.render_widget(canvas, places.plot);
-    let rows = [legend(model, area.width, &colour)];
-    let rows = rows.into_iter().chain((!stale).then(|| values(legs, area.width, theme)));
+    let chart = chart(model, units);
+    let place = plot::draw_chart(frame, below(area, above), &chart, model.appearance);
+    draw_letters(frame, &place, &chart, model, units);
+    let legend = plot::in_theme(model.appearance, |style| legend(&plot::figure(&chart), style));
+    let mut parts =
+        vec![vec![Text::styled(chart.y.label_with_unit().to_string(), theme.style(Meaning::Quiet))]];
+    parts.extend(legend);
+    let rows = [fitting(parts, "  ", usize::from(area.width))];
+    let values = model.is_current().then(|| values(model.legs(), area.width, theme));
     let ghosts = model.ghosts.iter().enumerate().rev().map(|(number, ghost)| {
         Line::styled(format!("{} {}", letter(number), ghost.differs), theme.style(Meaning::Ghost))
     });
-    for (y, line) in (area.y..area.y + above).zip(rows.chain(ghosts)) {
+    for (y, line) in (area.y..area.y + above).zip(rows.into_iter().chain(values).chain(ghosts)) {
         frame.render_widget(Paragraph::new(line), Rect { y, height: 1, ..area });
     }
-    let (x, y) = units.axes(x, y);
-    places.draw(frame, x, y, theme);
 }
 
-/// How the branches are told apart, as far as there is room.
-fn legend(model: &Model, width: u16, colour: &dyn Fn(Meaning) -> ratatui::style::Color) -> Line<'static> {
-    let theme = model.appearance.theme;
-    let cursor = || Text::styled("◆", theme.style(Meaning::Cursor));
-    let branch = |glyphs, meaning| Text::styled(glyphs, Style::new().fg(colour(meaning)));
-    // Of what the plot is made of; ASCII is made from dots.
-    let [approach, retraction, way] = match model.appearance.marker {
-        Marker::Braille | Marker::Ascii => ["⠒ ⠒ ", "⠒⠒⠒ ", "⠒⠂⠒⠂"],
-        Marker::Octant | Marker::HalfBlock => ["▄ ▄ ", "▄▄▄ ", "▄▖▄▖"],
-    };
-    let mut parts = vec![
-        vec![branch(approach, Meaning::Approach), Text::raw("approach")],
-        vec![branch(retraction, Meaning::Retraction), Text::raw("retraction")],
-    ];
-    if model.hand.is_some() {
-        let way = Text::styled(way, theme.style(Meaning::Hand));
-        parts.push(vec![way, cursor(), Text::raw(" manual")]);
-    } else {
-        parts.push(vec![cursor(), Text::raw(" now")]);
+/// The curve, what is compared with it, the way of manual loading, and marks.
+fn chart(model: &Model, units: Units) -> Chart {
+    // A curve of a scene that has been changed since stays in the background until the new one is there.
+    let stale = !model.is_current();
+    let ink = |ink| if stale { Ink::Quiet } else { ink };
+    let legs = model.legs();
+    let along =
+        |points: &[CurvePoint]| -> Vec<(f64, f64)> { points.iter().map(|p| units.place(p)).collect() };
+    let line = |points, stroke| Shape::Curve { points, stroke: Some(stroke), sign: None };
+    let point = |at, sign| Shape::Curve { points: vec![at], stroke: None, sign: Some(sign) };
+    let mut layers = vec![Layer::unnamed(Ink::Quiet, Shape::Level(0.0))];
+    if model.curve.loss && units.quantities == Quantities::ForceIndentation {
+        let border = legs.iter().flat_map(|leg| along(&leg.curve)).collect();
+        layers.push(Layer::unnamed(Ink::Quiet, Shape::Inside(border)));
     }
-    fitting(parts, "  ", usize::from(width))
-}
-
-/// Jump-in, preload and pull-off: where, with which glyph, and what it is called.
-fn marks(legs: &[LegRecord]) -> Vec<(CurvePoint, &'static str, &'static str)> {
-    let mut marks = Vec::new();
-    let loading = || legs.iter().filter(|leg| leg.direction == Direction::Loading);
-    let touch = loading().find(|leg| leg.curve.iter().any(|point| point.springs > 0));
-    // Where the contact forms at once, under a pull.
-    let jump = touch.and_then(|leg| {
-        let pairs = leg.curve.windows(2).find(|pair| pair[0].springs == 0 && pair[1].springs > 0)?;
-        Some(pairs[1]).filter(|point| point.force < 0.0)
-    });
-    marks.extend(jump.map(|point| (point, "◇", "jump-in")));
-    let preload = loading().map(|leg| leg.largest).max_by(|a, b| a.force.total_cmp(&b.force));
-    marks.extend(preload.filter(|point| point.springs > 0).map(|point| (point, "▲", "preload")));
-    let unloading = legs.iter().rev().find(|leg| leg.direction == Direction::Unloading);
-    let pull_off = unloading.map(|leg| leg.smallest).filter(|point| point.force < 0.0);
-    marks.extend(pull_off.map(|point| (point, "▼", "pull-off")));
-    marks
+    for leg in model.ghosts.iter().flat_map(|ghost| &ghost.computed.outcome.history.legs) {
+        layers.push(Layer::unnamed(Ink::Kept, line(along(&leg.curve), Stroke::Sparse)));
+    }
+    for (direction, name, of, stroke) in [
+        (Direction::Loading, "loading", Ink::Loading, Stroke::Dotted),
+        (Direction::Unloading, "unloading", Ink::Unloading, Stroke::Solid),
+    ] {
+        for leg in legs.iter().filter(|leg| leg.direction == direction) {
+            layers.push(Layer::new(name.into(), ink(of), line(along(&leg.curve), stroke)));
+        }
+    }
+    if let Some(hand) = &model.hand {
+        layers.push(Layer::new("manual".into(), Ink::Manual, line(along(&hand.path), Stroke::Dashed)));
+    }
+    let marks = marks(legs).into_iter().filter(|_| !stale);
+    layers.extend(marks.map(|(mark, at)| Layer::unnamed(Ink::Text, point(units.place(&at), sign(mark)))));
+    let (x, y) = spans(model, units);
+    if let Some(moment) = model.present() {
+        let (at, value) = units.place(&moment.point);
+        let at = (at.clamp(x.low, x.high), value.clamp(y.low, y.high));
+        layers.push(Layer::new(Label::plain("now"), Ink::Cursor, point(at, Sign::Diamond)));
+    }
+    let (x, y) = units.axes(x, y);
+    plot::chart(x, y, layers)
 }
 
 /// The marked forces with their values, in words where there is room. Where there is none for all, the
@@ -289,10 +229,13 @@ fn marks(legs: &[LegRecord]) -> Vec<(CurvePoint, &'static str, &'static str)> {
 fn values(legs: &[LegRecord], width: u16, theme: Theme) -> Line<'static> {
     let marks = marks(legs);
     let parts = |words: bool, from: usize| -> Vec<Vec<Text<'static>>> {
-        let text = |&(point, glyph, name): &(CurvePoint, &'static str, &'static str)| {
+        let text = |&(mark, point): &(Mark, CurvePoint)| {
             let force = format_quantity(short(point.force), "N");
-            let name = if words { format!(" {name}") } else { String::new() };
-            vec![Text::styled(glyph, theme.style(Meaning::Title)), Text::raw(format!("{name} {force}"))]
+            let name = if words { format!(" {}", mark.name()) } else { String::new() };
+            vec![
+                Text::styled(glyph(sign(mark)), theme.style(Meaning::Title)),
+                Text::raw(format!("{name} {force}")),
+            ]
         };
         marks.iter().skip(from).map(text).collect()
     };
@@ -304,53 +247,31 @@ fn values(legs: &[LegRecord], width: u16, theme: Theme) -> Line<'static> {
         .unwrap_or_default()
 }
 
-/// Where the letter of a ghost stands: at its pull-off force, or where it ends.
+/// Point of the letter of a ghost: its pull-off, or its end.
 fn marked(ghost: &Ghost) -> Option<CurvePoint> {
     let legs = &ghost.computed.outcome.history.legs;
-    let at = marks(legs).into_iter().next_back().map(|(point, ..)| point);
+    let at = marks(legs).into_iter().rev().find(|(mark, _)| *mark != Mark::JumpOut).map(|(_, point)| point);
     at.or_else(|| legs.last().and_then(|leg| leg.curve.last().copied()))
 }
 
-/// Which cells of the plot have a glyph already, so that no letter hides behind one.
-struct Cells {
-    x: Span,
-    y: Span,
-    plot: Rect,
-    taken: Vec<(i32, i32)>,
-}
-
-impl Cells {
-    /// Column and row of a place, as the canvas counts them.
-    fn cell(&self, (x, y): (f64, f64)) -> (i32, i32) {
-        let part = |value: f64, low: f64, high: f64, cells: u16| {
-            ((value - low) / (high - low) * f64::from(cells.max(1) - 1)) as i32
-        };
-        (
-            part(x, self.x.low, self.x.high, self.plot.width),
-            part(-y, -self.y.high, -self.y.low, self.plot.height),
-        )
-    }
-
-    fn take(&mut self, at: (f64, f64)) {
-        let cell = self.cell(at);
-        self.taken.push(cell);
-    }
-
-    /// Takes the cell of a place, or the nearest one of its row that is free.
-    fn take_free(&mut self, at: (f64, f64)) -> (f64, f64) {
-        let (column, row) = self.cell(at);
-        let last = i32::from(self.plot.width) - 1;
-        let beside = (0..=last).flat_map(|step| [column + step, column - step]);
-        let free = beside.filter(|column| (0..=last).contains(column));
-        let free = free.map(|column| (column, row)).find(|cell| !self.taken.contains(cell));
-        let Some((free, _)) = free.filter(|&(free, _)| free != column) else {
-            self.taken.push((column, row));
-            return at;
-        };
-        self.taken.push((free, row));
-        // Well inside the cell.
-        let share = (f64::from(free) + 0.25) / f64::from(last.max(1));
-        ((self.x.low + share * (self.x.high - self.x.low)).min(self.x.high), at.1)
+/// Draws the letters of ghosts, each in the nearest cell of its row without a sign.
+fn draw_letters(frame: &mut Frame<'_>, place: &CellPlot, chart: &Chart, model: &Model, units: Units) {
+    let marker = model.appearance.marker.symbols();
+    let signs = chart.layers.iter().filter_map(|layer| match &layer.shape {
+        Shape::Curve { points, sign: Some(_), .. } => points.first(),
+        _ => None,
+    });
+    let mut taken: Vec<(u16, u16)> = signs.filter_map(|at| place.cell(chart, marker, *at)).collect();
+    let columns = place.plot.x..place.plot.right();
+    for (number, ghost) in model.ghosts.iter().enumerate() {
+        let at = marked(ghost).and_then(|point| place.cell(chart, marker, units.place(&point)));
+        let Some((column, row)) = at else { continue };
+        let beside = (0..place.plot.width).flat_map(|step| [column + step, column.wrapping_sub(step)]);
+        let mut free = beside.filter(|column| columns.contains(column)).map(|column| (column, row));
+        let cell = free.find(|cell| !taken.contains(cell)).unwrap_or((column, row));
+        taken.push(cell);
+        let style = model.appearance.theme.style(Meaning::Ghost);
+        frame.buffer_mut()[cell].set_symbol(letter(number)).set_style(style);
     }
 }
 

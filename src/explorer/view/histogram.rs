@@ -1,6 +1,6 @@
 //! The histogram of heights beside the profile, on the same axis.
 
-use super::plot::Span;
+use crate::draw::Span;
 use crate::explorer::theme::{Meaning, Theme};
 use crate::surface::Histogram;
 use ratatui::Frame;

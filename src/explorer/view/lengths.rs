@@ -1,15 +1,13 @@
 //! How long the contact fragments are: their number over their length, both logarithmic.
 
-use super::axes::{Axis, Places};
-use super::plot::{Polyline, Span, Stroke};
+use super::plot;
+use crate::draw::{Axis, AxisScale, Ink, Layer, Shape, Sign, Span, Stroke};
 use crate::explorer::model::Model;
 use crate::explorer::snapshot::LengthBin;
 use crate::explorer::theme::Meaning;
 use ratatui::Frame;
 use ratatui::layout::Rect;
-use ratatui::text::Line;
 use ratatui::widgets::Paragraph;
-use ratatui::widgets::canvas::Canvas;
 
 /// Title of the pane.
 pub const TITLE: &str = " Fragments by length, log–log ";
@@ -30,37 +28,17 @@ pub fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
         // Lengths from `from` to `to` − 1: their geometric mean.
         .map(|bin| ((bin.from as f64 * (bin.to - 1) as f64).sqrt() * spacing, bin.fragments as f64))
         .collect();
-    let logarithms: Vec<(f64, f64)> = points.iter().map(|(x, y)| (x.log10(), y.log10())).collect();
-    let decades = |values: &mut dyn Iterator<Item = f64>| {
-        let (low, high) = values
-            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(value), high.max(value)));
-        Span { low: low.floor(), high: high.ceil().max(low.floor() + 1.0) }
+    let axis = |numbers: &mut dyn Iterator<Item = f64>, symbol: &str, unit: &str| {
+        let span = Span::decades(numbers.map(f64::log10));
+        Axis::new(AxisScale::Logarithmic, span, "", symbol, unit)
     };
-    let x = decades(&mut logarithms.iter().map(|point| point.0));
-    let y = decades(&mut logarithms.iter().map(|point| point.1));
+    let x = axis(&mut points.iter().map(|point| point.0), "δx", "m");
+    let y = axis(&mut points.iter().map(|point| point.1), "n", "1");
     let text_rows = u16::from(area.height >= 6);
-    let places = Places::within(Rect { height: area.height - text_rows, ..area }, 0);
-    let canvas = Canvas::default()
-        .marker(model.appearance.marker.symbols())
-        // Without room at the ends: the values beside them stand for the first and last row.
-        .x_bounds(x.bounds())
-        .y_bounds(y.bounds())
-        .paint(|ctx| {
-            let colour = theme.colour(Meaning::Contact);
-            ctx.draw(&Polyline { points: &logarithms, colour, stroke: Stroke::Dotted });
-            for &(x, y) in &logarithms {
-                ctx.print(x, y, Line::styled("○", theme.style(Meaning::Contact)));
-            }
-        });
-    frame.render_widget(canvas, places.plot);
-    // The axes count in decades; their ends are told as lengths and numbers.
-    let ends = |span: Span| Span { low: 10_f64.powf(span.low), high: 10_f64.powf(span.high) };
-    places.draw(
-        frame,
-        Axis { span: ends(x), unit: "m", symbol: "δx" },
-        Axis { span: ends(y), unit: "1", symbol: "n" },
-        theme,
-    );
+    let shape = Shape::Curve { points, stroke: Some(Stroke::Dotted), sign: Some(Sign::Ring) };
+    let chart = plot::chart(x, y, vec![Layer::unnamed(Ink::Contact, shape)]);
+    let plot = Rect { height: area.height - text_rows, ..area };
+    plot::draw_chart(frame, plot, &chart, model.appearance);
     if text_rows > 0 {
         let count: u64 = bins.iter().map(|bin| bin.fragments).sum();
         let text = format!("○ number of fragments in each step of length by √2; {count} in all");

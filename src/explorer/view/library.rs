@@ -1,16 +1,15 @@
 //! The library: scenes to choose from on the left, the selected one on the right.
 
-use super::plot::{Polyline, Span, Stroke};
+use super::plot::draw_chart;
 use super::wrap::wrapped;
-use crate::contact::Direction;
 use crate::explorer::mode::Library;
 use crate::explorer::model::Model;
 use crate::explorer::theme::Meaning;
+use crate::export::force_figure;
 use crate::scene::{Entry, Source, format_quantity};
 use ratatui::Frame;
 use ratatui::layout::Rect;
 use ratatui::text::{Line, Span as Text};
-use ratatui::widgets::canvas::Canvas;
 use ratatui::widgets::{Block, Paragraph};
 
 /// Draws the library.
@@ -99,28 +98,9 @@ fn draw_curve(frame: &mut Frame<'_>, area: Rect, model: &Model, entry: &Entry) {
             return frame.render_widget(Paragraph::new(lines), area);
         }
     };
-    let legs = &outcome.history.legs;
-    let points = || legs.iter().flat_map(|leg| &leg.curve);
-    let x = Span::around(points().map(|point| point.indentation), 0.06);
-    let y = Span::around(points().map(|point| point.force).chain([0.0]), 0.08);
     let plot = Rect { height: area.height - 1, ..area };
-    let canvas = Canvas::default()
-        .marker(model.appearance.marker.symbols())
-        .x_bounds(x.bounds())
-        .y_bounds(y.bounds())
-        .paint(|ctx| {
-            for (direction, meaning, stroke) in [
-                (Direction::Loading, Meaning::Approach, Stroke::Dotted),
-                (Direction::Unloading, Meaning::Retraction, Stroke::Solid),
-            ] {
-                ctx.layer();
-                for leg in legs.iter().filter(|leg| leg.direction == direction) {
-                    let points: Vec<_> = leg.curve.iter().map(|p| (p.indentation, p.force)).collect();
-                    ctx.draw(&Polyline { points: &points, colour: theme.colour(meaning), stroke });
-                }
-            }
-        });
-    frame.render_widget(canvas, plot);
+    let figure = force_figure(&[("", outcome)]);
+    figure.charts.iter().for_each(|chart| drop(draw_chart(frame, plot, chart, model.appearance)));
     let mut text = Vec::new();
     if let Some(force) = outcome.figures.adhesion_force {
         text.push(format!("F_a {}", format_quantity(force, "N")));

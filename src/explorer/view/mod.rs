@@ -1,7 +1,6 @@
 //! Draws the model. Nothing here changes it or computes anything.
 
 mod accuracy;
-mod axes;
 mod chart;
 mod chart_words;
 mod chrome;
@@ -49,7 +48,7 @@ pub fn draw(frame: &mut Frame<'_>, model: &Model) {
             }
         }
     }
-    plot::dry(frame.buffer_mut());
+    crate::draw::dry(frame.buffer_mut());
     chrome::status(frame, layout.status, model);
     if let Some(area) = layout.footer {
         chrome::footer(frame, area, model);

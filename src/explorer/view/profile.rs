@@ -1,17 +1,17 @@
 //! The profile: the rigid line, the elastic surface above it, and where they touch.
 
 use super::histogram;
-use super::plot::{Columns, Part, Span};
+use super::plot;
+use crate::draw::{Axis, AxisScale, CellPlot, Chart, Ink, Layer, Shape, Span};
 use crate::explorer::layout::split_profile;
 use crate::explorer::model::Model;
-use crate::explorer::snapshot::Section;
+use crate::explorer::snapshot::{Column, Section};
 use crate::explorer::theme::{Appearance, Meaning, Theme};
 use crate::scene::format_quantity;
 use ratatui::Frame;
 use ratatui::layout::Rect;
 use ratatui::text::Line;
 use ratatui::widgets::Paragraph;
-use ratatui::widgets::canvas::Canvas;
 
 /// Title of the pane.
 pub fn title(model: &Model) -> String {
@@ -65,22 +65,30 @@ fn heights(section: &Section) -> Span {
     Span::around([low, high, section.level.min(far)].into_iter(), 0.05)
 }
 
-/// Draws rigid line, elastic surface and contact of a section.
-pub fn draw_section(frame: &mut Frame<'_>, area: Rect, section: &Section, z: Span, appearance: Appearance) {
-    let canvas = Canvas::default()
-        .marker(appearance.marker.symbols())
-        .x_bounds([0.0, 1.0])
-        .y_bounds(z.bounds())
-        .paint(|ctx| {
-            for (part, meaning) in [
-                (Part::Surface, Meaning::Surface),
-                (Part::Line, Meaning::Line),
-                (Part::Contact, Meaning::Contact),
-            ] {
-                ctx.draw(&Columns { section, part, colour: appearance.theme.colour(meaning) });
-            }
-        });
-    frame.render_widget(canvas, area);
+/// Draws rigid line, elastic surface and contact of a section without scales; x counts springs of the section.
+/// Heights are drawn on the returned chart.
+pub fn draw_section(
+    frame: &mut Frame<'_>,
+    area: Rect,
+    section: &Section,
+    z: Span,
+    appearance: Appearance,
+) -> (CellPlot, Chart) {
+    let x = Span { low: 0.0, high: section.springs.max(1) as f64 };
+    let layer = |ink, ends: &dyn Fn(&Column) -> Option<(f64, f64)>| {
+        let columns = section.columns.iter().map(ends).collect();
+        Layer::unnamed(ink, Shape::Envelope { x: (x.low, x.high), columns })
+    };
+    let layers = vec![
+        layer(Ink::Surface, &|column| Some(column.surface)),
+        layer(Ink::Profile, &|column| Some(column.line)),
+        layer(Ink::Contact, &|column| column.contact),
+    ];
+    let axis = |span, symbol, unit| Axis::new(AxisScale::Linear, span, "", symbol, unit);
+    let chart = plot::chart(axis(x, "", "1"), axis(z, "z", "m"), layers);
+    let place = CellPlot::without_scales(area);
+    plot::in_theme(appearance, |style| place.draw(frame.buffer_mut(), &chart, style));
+    (place, chart)
 }
 
 /// One row that shows by its glyphs where along the section there is contact.

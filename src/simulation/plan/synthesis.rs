@@ -5,7 +5,7 @@ use super::call::{Called, HEIGHT, Row};
 
 pub const ROW: Row = Row {
     stage: Stage::Synthesis,
-    name: "random line (phases, Fourier transform)",
+    name: "random profile",
     called: |call| match (call.is_synthesised(), call.is_measured()) {
         (true, true) => Called::For("roughness: Measured, its equivalent line"),
         (true, false) => Called::For("roughness: SelfAffine"),

@@ -1,104 +1,89 @@
-//! Computes a map.
+//! Computes the live map: its cells from coarse to fine, by the runner of studies.
 
-use super::grid::{Level, hurst, kappa};
-use super::{Cell, LiveMap, Template};
-use crate::analysis::{CellRegime, Regime};
-use crate::simulation::{Outcome, RunError, Simulation};
+use super::grid::Level;
+use super::live_map::LiveMap;
+use crate::simulation::{RunError, Simulation};
+use crate::study::cell_summary::CellSummary;
+use crate::study::cells::Cells;
+use crate::study::recorder::Records;
+use crate::study::solve::{Case, Next, Sink, Solver};
+use crate::study::statistics::StudentT;
+use std::collections::BTreeMap;
+use std::ops::ControlFlow;
 use std::path::Path;
+use std::sync::Arc;
 
-/// Contribution of one line to a cell; forces in N, zero where there is none.
-#[derive(Clone, Copy)]
-struct OfLine {
-    zero_load_adhesion: f64,
-    adhesion: f64,
-    preload: f64,
-    ideal_adhesion: f64,
-    regime: Option<Regime>,
-}
-
-/// Computes the cells that a map lacks, from coarse to fine and row by row: all κ of a row are those of the same
-/// lines. `tell` sees the map after each row. Files the scene names are looked for in `folder`. Gives up as
-/// soon as `stop` says so; the row under way is then lost.
+/// Computes the cells that a map lacks, from coarse to fine and row by row: all κ of a row are on the same profiles.
+/// `tell` sees the map after each row. Files that the scene names are looked for in `folder`. Gives up as soon as `stop`
+/// returns true; the row under way is then lost.
 ///
-/// A cell that cannot be computed tells why in its place.
+/// A cell that cannot be computed has the reason in its place.
 pub fn chart(map: &mut LiveMap, folder: &Path, stop: &dyn Fn() -> bool, tell: &mut dyn FnMut(&LiveMap)) {
-    let basis = std::sync::Arc::clone(map.basis());
-    let mut simulation = Simulation::new(folder.to_path_buf());
-    for level in Level::ALL.into_iter().take_while(|level| *level <= basis.finest()) {
+    let template = Arc::clone(map.template());
+    let plan = template.plan();
+    let cells = Cells::of(&plan);
+    let mut solver = Solver::new(&plan, &cells, Simulation::new(folder.to_path_buf()), stop);
+    let mut quantiles = StudentT::default();
+    for level in Level::ALL.into_iter().take_while(|level| *level <= template.finest()) {
         for &row in map.rows_of(level) {
-            let columns: Vec<usize> =
-                level.columns().filter(|&column| map.cell(column, row).is_none()).collect();
-            if columns.is_empty() {
+            let missing = level.columns().filter(|&column| map.cell(column, row).is_none());
+            let missing: Vec<(u64, usize)> = missing.map(|column| (map.index(column, row), column)).collect();
+            if missing.is_empty() {
                 continue;
             }
-            let Some(cells) = cells(&mut simulation, &basis, hurst(row), &columns, stop) else { return };
-            for (column, cell) in columns.into_iter().zip(cells) {
-                map.set(column, row, cell);
+            let solved = missing.iter().map(|(run, _)| (*run, Ok(Vec::new()))).collect();
+            let mut sink = RowSink { solved, stop };
+            for line in 0..plan.lines {
+                if solver.solve(&cells.whole_unit(row as u64, line), &mut sink).is_break() {
+                    return;
+                }
+            }
+            for (run, column) in missing {
+                let Some(lines) = sink.solved.remove(&run) else { continue };
+                let cell = lines.map(|lines| {
+                    let lines: Vec<&[f64]> = lines.iter().map(Vec::as_slice).collect();
+                    // Of so few profiles no confidence is stated.
+                    CellSummary::new(run, &plan.record, &lines, &mut quantiles).of_means()
+                });
+                map.set(column, row, cell.map_err(|error: RunError| error.to_string()));
             }
             tell(map);
         }
     }
 }
 
-/// Cells of one row; `None` when told to stop.
-fn cells(
-    simulation: &mut Simulation,
-    basis: &Template,
-    hurst: f64,
-    columns: &[usize],
-    stop: &dyn Fn() -> bool,
-) -> Option<Vec<Result<Cell, String>>> {
-    let mut lines: Vec<Result<Vec<OfLine>, RunError>> = vec![Ok(Vec::new()); columns.len()];
-    for line in 0..basis.lines() {
-        for (&column, cell) in columns.iter().zip(&mut lines) {
-            let Ok(so_far) = cell else { continue };
-            if stop() {
-                return None;
-            }
-            match simulation.run(&basis.scene(kappa(column), hurst, line), stop, &mut |_, _, _| Ok(())) {
-                Ok(outcome) => so_far.push(OfLine::of(&outcome)),
-                Err(error) if error.is_interruption() => return None,
-                Err(error) => *cell = Err(error),
-            }
-        }
-    }
-    Some(
-        lines
-            .into_iter()
-            .map(|lines| lines.map(|lines| mean(&lines)).map_err(|error| error.to_string()))
-            .collect(),
-    )
+/// Sink of the missing cells of a row: by the number of the run the values of each profile so far, or a failure.
+struct RowSink<'a> {
+    solved: BTreeMap<u64, Result<Vec<Vec<f64>>, RunError>>,
+    stop: &'a dyn Fn() -> bool,
 }
 
-impl OfLine {
-    fn of(outcome: &Outcome) -> Self {
-        OfLine {
-            zero_load_adhesion: outcome.zero_load_adhesion_force.unwrap_or(0.0),
-            adhesion: outcome.figures.adhesion_force.unwrap_or(0.0),
-            preload: outcome.figures.preload.unwrap_or(0.0),
-            ideal_adhesion: outcome.ideal_adhesion_force.unwrap_or(0.0),
-            regime: outcome.regime,
+impl Sink for RowSink<'_> {
+    fn next(&mut self, case: Case) -> Next {
+        match self.solved.get(&case.run) {
+            Some(Ok(_)) if (self.stop)() => Next::End,
+            Some(Ok(_)) => Next::Solve,
+            _ => Next::Skip,
         }
     }
-}
 
-/// A cell of its lines.
-fn mean(lines: &[OfLine]) -> Cell {
-    let mean = |of: fn(&OfLine) -> f64| lines.iter().map(of).sum::<f64>() / lines.len() as f64;
-    Cell {
-        zero_load_adhesion: mean(|line| line.zero_load_adhesion),
-        adhesion: mean(|line| line.adhesion),
-        preload: mean(|line| line.preload),
-        ideal_adhesion: mean(|line| line.ideal_adhesion),
-        regime: CellRegime::from_lines(lines.iter().map(|line| line.regime)),
+    fn take(&mut self, case: Case, records: Result<Records, RunError>) -> ControlFlow<()> {
+        match (self.solved.get_mut(&case.run), records) {
+            (_, Err(error)) if error.is_interruption() => return ControlFlow::Break(()),
+            (Some(lines), Err(error)) => *lines = Err(error),
+            (Some(Ok(lines)), Ok(records)) => lines.extend(records),
+            _ => {}
+        }
+        ControlFlow::Continue(())
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::{open, to_ron};
-    use crate::study::map::{KAPPAS, StudyMap};
+    use crate::analysis::Regime;
+    use crate::scene::{Roughness, Scene, open, to_ron};
+    use crate::study::map::{KAPPAS, MapModel, StudyMap, Template, hurst, kappa};
     use crate::study::{Changes, Folder, Options, Plan, Quantity, Shard, merge, run};
     use std::sync::Arc;
 
@@ -111,6 +96,16 @@ mod tests {
         LiveMap::new(Arc::new(Template::of(document.scene()).unwrap()))
     }
 
+    /// The scene of a cell on one of its profiles.
+    fn scene(map: &LiveMap, kappa: f64, wanted: f64, line: u64) -> Scene {
+        let mut scene = map.template().plan().scene;
+        scene.adhesion.as_mut().unwrap().kappa = Some(kappa);
+        if let Some(Roughness::SelfAffine { hurst, seed, .. }) = &mut scene.roughness {
+            (*hurst, *seed) = (wanted, *seed + line);
+        }
+        scene
+    }
+
     #[test]
     fn a_map_goes_from_coarse_to_fine_and_from_what_sticks_to_what_does_not() {
         let (mut map, mut levels, mut rows) = (map(), Vec::new(), 0);
@@ -121,57 +116,53 @@ mod tests {
         levels.dedup();
         assert_eq!(levels, Level::ALL);
         assert_eq!(rows, 5 + 9 + 19 + 19);
-        let plane = map.plane();
-        assert_eq!(plane.size(), (KAPPAS, map.rows()));
-        let share = plane.layer(Quantity::ZeroLoadAdhesionShare).unwrap();
+        let shown = map.model();
+        assert_eq!(shown.size(), (KAPPAS, map.rows()));
+        let share = shown.layer(Quantity::ZeroLoadAdhesionShare).unwrap();
         for row in 0..map.rows() {
             let spots: Vec<_> =
-                (0..KAPPAS).map(|column| plane.shown(column, row).unwrap().spot.clone().unwrap()).collect();
+                (0..KAPPAS).map(|column| shown.shown(column, row).unwrap().cell.clone().unwrap()).collect();
             assert_eq!(spots[0].regime, Some(Regime::PressureInsensitive));
             assert_eq!(spots[KAPPAS - 1].regime, Some(Regime::NonAdhesive));
             assert!(spots.iter().all(|spot| (1..=4).contains(&spot.agreeing) && spot.lines == 4));
-            let along = plane.along_kappa(share, row);
+            let along = shown.along_kappa(share, row);
             assert_eq!(along.len(), KAPPAS);
             assert!(along[0].1.mean > 0.5 && along[KAPPAS - 1].1.mean < 0.01);
         }
-        let place = plane.nearest(1.02, Some(0.31)).unwrap();
+        let place = shown.nearest(1.02, Some(0.31)).unwrap();
         assert_eq!((kappa(place.column), hurst(place.row)), (1.0, 0.3));
-        let cell = map.cell(place.column, place.row).unwrap();
-        assert_eq!(
-            plane.along_hurst(share, place.column)[place.row].1.mean,
-            cell.as_ref().unwrap().zero_load_share()
-        );
-        // What it says is what the scene of the cell gives.
-        let mut forces = Vec::new();
-        for line in 0..map.basis().lines() {
-            let scene = map.basis().scene(1.0, 0.3, line);
+        // The cell is the mean over the scenes that it is made of.
+        let mut shares = Vec::new();
+        for line in 0..map.template().lines() {
+            let scene = scene(&map, 1.0, 0.3, line);
             let outcome = Simulation::default().run(&scene, &|| false, &mut |_, _, _| Ok(())).unwrap();
-            forces.push(outcome.zero_load_adhesion_force.unwrap());
+            shares.push(outcome.zero_load_adhesion_force.unwrap() / outcome.ideal_adhesion_force.unwrap());
         }
-        assert_eq!(
-            cell.as_ref().unwrap().zero_load_adhesion,
-            forces.iter().sum::<f64>() / forces.len() as f64
-        );
+        let mean = shares.iter().sum::<f64>() / shares.len() as f64;
+        let cell = map.cell(place.column, place.row).unwrap().as_ref().unwrap();
+        let shown = shown.along_hurst(share, place.column)[place.row].1.mean;
+        assert_eq!(Some(shown), cell.quantities[0].map(|spread| spread.mean));
+        assert!((shown / mean - 1.0).abs() < 1e-14, "{shown} {mean}");
     }
 
     #[test]
-    fn the_map_of_a_study_of_the_same_cells_has_the_same_regimes() {
+    fn the_map_of_a_study_of_the_same_cells_is_the_same() {
         let (mut live, mut rows) = (map(), 0);
         let is_enough = std::cell::Cell::new(false);
         chart(&mut live, Path::new(""), &|| is_enough.get(), &mut |_| {
             rows += 1;
             is_enough.set(rows == 5);
         });
-        let basis = Arc::clone(live.basis());
+        let template = Arc::clone(live.template());
         let (columns, rows): (Vec<_>, Vec<_>) =
             (Level::Coarse.columns().collect(), live.rows_of(Level::Coarse).to_vec());
         let list =
             |values: Vec<f64>| values.iter().map(|value| format!("{value:?}")).collect::<Vec<_>>().join(", ");
         let text = format!(
-            "(version: 1, title: \"Map\", scene: {}, lines: {}, record: [regime], axes: [\
+            "(version: 1, title: \"Map\", scene: {}, lines: {}, record: [zero_load_adhesion_share, adhesion_coefficient, regime], axes: [\
              List(path: \"kappa\", values: [{}]), List(path: \"roughness.hurst\", values: [{}])])",
-            to_ron(&basis.scene(1.0, 0.5, 0)),
-            basis.lines(),
+            to_ron(&scene(&live, 1.0, 0.5, 0)),
+            template.lines(),
             list(columns.iter().map(|&column| kappa(column)).collect()),
             list(rows.iter().map(|&row| hurst(row)).collect()),
         );
@@ -180,14 +171,21 @@ mod tests {
         let folder = Folder::create(&place.path().join("study"), &plan).unwrap();
         run(&folder, Options { jobs: 1, shard: Shard::WHOLE }, &|| false, &mut |_| ()).unwrap();
         merge(&folder, false).unwrap();
-        let study = StudyMap::open(folder.path()).unwrap().plane(0);
-        let live = live.plane();
+        let study = StudyMap::open(folder.path()).unwrap().model(0);
+        let live = live.model();
         let mut divided = 0;
         for (up, &row) in rows.iter().enumerate() {
             for (across, &column) in columns.iter().enumerate() {
                 let [studied, shown] = [study.shown(across, up), live.shown(column, row)]
-                    .map(|place| place.unwrap().spot.clone().unwrap());
+                    .map(|place| place.unwrap().cell.clone().unwrap());
                 assert_eq!(studied, shown, "κ = {}, H = {}", kappa(column), hurst(row));
+                for quantity in [Quantity::ZeroLoadAdhesionShare, Quantity::AdhesionCoefficient] {
+                    let mean = |map: &MapModel, column, row| {
+                        Some(map.estimate(map.layer(quantity)?, column, row)?.mean.to_bits())
+                    };
+                    assert_eq!(mean(&study, across, up), mean(&live, column, row), "{quantity:?}");
+                    assert!(mean(&live, column, row).is_some());
+                }
                 divided += u64::from(studied.agreeing < studied.lines);
             }
         }
@@ -210,16 +208,16 @@ mod tests {
     #[test]
     fn what_is_missing_is_shown_by_the_nearest_of_a_coarser_map() {
         let (mut map, rows) = (map(), std::cell::Cell::new(0));
-        assert_eq!(map.plane().shown(3, 3), None);
+        assert_eq!(map.model().shown(3, 3), None);
         chart(&mut map, Path::new(""), &|| rows.get() == 5, &mut |_| rows.set(rows.get() + 1));
-        let plane = map.plane();
+        let shown = map.model();
         for (asked, stands) in [((0, 0), (0, 0)), ((3, 1), (0, 0)), ((5, 3), (8, 4)), ((32, 18), (32, 18))] {
-            let place = plane.shown(asked.0, asked.1).unwrap();
+            let place = shown.shown(asked.0, asked.1).unwrap();
             assert_eq!((place.column, place.row), stands, "{asked:?}");
         }
         // A section has what was computed, and nothing that only stands for it.
-        assert_eq!(plane.along_kappa(&plane.layers()[0], 0).len(), 5);
-        assert_eq!((plane.shown(KAPPAS, 0), plane.shown(0, 19)), (None, None));
+        assert_eq!(shown.along_kappa(&shown.layers()[0], 0).len(), 5);
+        assert_eq!((shown.shown(KAPPAS, 0), shown.shown(0, 19)), (None, None));
     }
 
     #[test]

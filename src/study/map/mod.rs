@@ -16,7 +16,7 @@ mod template;
 
 pub use compute::chart;
 pub use grid::{HURSTS, KAPPAS, Level, hurst, hursts, kappa, kappas, next_beyond};
-pub use live_map::{Cell, LiveMap};
+pub use live_map::LiveMap;
 pub use model::{Charted, Layer, MapCell, MapModel, Place};
 pub use study_map::{StudyMap, StudyMapError};
-pub use template::{LINES, NoMap, Template};
+pub use template::{LINES, NoMap, RECORD, Template};

@@ -1,10 +1,12 @@
 //! A map over κ and H as it is shown: the one that is computed while one looks on, and those of a finished
 //! study, fill the same [`MapModel`].
 
-use crate::analysis::{CellRegime, NEGLIGIBLE_COEFFICIENT, Regime};
+use crate::analysis::Regime;
 use crate::scene::format_quantity;
-use crate::study::Quantity;
+use crate::study::cell_summary::CellSummary;
 use crate::study::figure::{AxisScale, Estimate, FigureAxis};
+use crate::study::figure_axis::scale_of;
+use crate::study::quantity::Quantity;
 
 /// A map as it is shown.
 #[derive(Clone, Debug, PartialEq)]
@@ -35,6 +37,41 @@ pub struct Layer {
     pub estimates: Vec<Option<Estimate>>,
 }
 
+/// A quantity of a map with its scale.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct MapScale {
+    /// The quantity.
+    pub quantity: Quantity,
+    /// How values lie on their scale.
+    pub scale: AxisScale,
+    /// Least values of the three densest glyphs, the densest first.
+    pub steps: [f64; 3],
+}
+
+impl MapScale {
+    /// The scale of a quantity, from its estimates on all maps unless it is the same on every map.
+    pub fn new(quantity: Quantity, estimates: impl FnOnce() -> Vec<Option<Estimate>>) -> Self {
+        let (scale, steps) = match quantity.steps() {
+            Some(steps) => (AxisScale::Logarithmic, steps),
+            None => quarters(&estimates()),
+        };
+        MapScale { quantity, scale, steps }
+    }
+}
+
+/// Scale and steps of a quantity by its values: a quarter of their range for each glyph.
+fn quarters(estimates: &[Option<Estimate>]) -> (AxisScale, [f64; 3]) {
+    let scale = scale_of(estimates);
+    let places = || estimates.iter().flatten().map(|estimate| scale.coordinate(estimate.mean));
+    let (low, high) =
+        places().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), at| (low.min(at), high.max(at)));
+    let step = |share: f64| {
+        let value = scale.number(low + share * (high - low));
+        format!("{value:.1e}").parse().unwrap_or(value)
+    };
+    if low > high { (AxisScale::Linear, [0.0; 3]) } else { (scale, [0.75, 0.5, 0.25].map(step)) }
+}
+
 /// What a cell says beside its quantities.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MapCell {
@@ -49,9 +86,10 @@ pub struct MapCell {
 }
 
 impl MapCell {
-    /// A cell of so many lines.
+    /// The cell of a summary.
     #[must_use]
-    pub fn new(regime: Option<CellRegime>, lines: u64) -> Self {
+    pub fn new(summary: &CellSummary) -> Self {
+        let (regime, lines) = (summary.regime(), summary.lines);
         let share = regime.map_or(0.0, |cell| cell.share);
         MapCell {
             regime: regime.map(|cell| cell.regime),
@@ -70,7 +108,7 @@ pub struct Place<'p> {
     /// Its row.
     pub row: usize,
     /// What it says, or why it says nothing.
-    pub spot: &'p Result<MapCell, String>,
+    pub cell: &'p Result<MapCell, String>,
 }
 
 /// What the glyphs of a map tell. Colours tell the regime, where it is known.
@@ -81,22 +119,6 @@ pub enum Charted {
     Regime,
     /// A quantity.
     Quantity(Quantity),
-}
-
-/// Steps of shares of the ideal adhesion, and of the adhesion coefficient: the same on all maps.
-const SHARE_STEPS: [f64; 3] = [0.5, 0.05, 0.005];
-const COEFFICIENT_STEPS: [f64; 3] = [1.0, 0.1, NEGLIGIBLE_COEFFICIENT];
-
-/// The glyphs and the scale that a quantity has on every map; `None` where they follow from its values.
-pub(super) fn usual(quantity: Quantity) -> Option<(AxisScale, [f64; 3])> {
-    match quantity {
-        Quantity::ZeroLoadAdhesionShare
-        | Quantity::ZeroForceAdhesionShare
-        | Quantity::AdhesionShare
-        | Quantity::ContactFraction => Some((AxisScale::Logarithmic, SHARE_STEPS)),
-        Quantity::AdhesionCoefficient => Some((AxisScale::Logarithmic, COEFFICIENT_STEPS)),
-        _ => None,
-    }
 }
 
 /// Fewest and most values that are written along a side, as far as there are so many.
@@ -138,21 +160,30 @@ impl Layer {
 }
 
 impl MapModel {
-    /// A map of its cells, row by row, and of the cell that stands for each.
+    /// A map from the summaries of its cells, row by row, or the reasons why they could not be computed, and the cell
+    /// that stands for each. `scales` are the quantities beside the regime, each with its place among the recorded.
     pub(super) fn new(
         (across, up): (FigureAxis, Option<FigureAxis>),
-        layers: Vec<Layer>,
-        cells: Vec<Option<Result<MapCell, String>>>,
+        scales: &[(usize, MapScale)],
+        summaries: &[Option<Result<&CellSummary, &String>>],
         stand_ins: Vec<Option<usize>>,
     ) -> MapModel {
-        let spots = || cells.iter().flatten().flatten();
+        let cells: Vec<_> = summaries
+            .iter()
+            .map(|cell| cell.map(|cell| cell.map(MapCell::new).map_err(String::clone)))
+            .collect();
+        let layer = |&(column, MapScale { quantity, scale, steps }): &(usize, MapScale)| {
+            let estimate = |cell: &Option<Result<&CellSummary, &String>>| (*cell)?.ok()?.estimate(column);
+            Layer { quantity, scale, steps, estimates: summaries.iter().map(estimate).collect() }
+        };
+        let known = || cells.iter().flatten().flatten();
         MapModel {
-            has_regimes: spots().any(|spot| spot.regime.is_some()),
-            is_split: spots().any(|spot| spot.split.is_some()),
+            has_regimes: known().any(|cell| cell.regime.is_some()),
+            is_split: known().any(|cell| cell.split.is_some()),
             labels: [labels(&across), up.as_ref().map(labels).unwrap_or_default()],
+            layers: scales.iter().map(layer).collect(),
             across,
             up,
-            layers,
             cells,
             stand_ins,
         }
@@ -213,8 +244,8 @@ impl MapModel {
     pub fn shown(&self, column: usize, row: usize) -> Option<Place<'_>> {
         let columns = self.across.values.len();
         let index = (*self.stand_ins.get(row * columns + column).filter(|_| column < columns)?)?;
-        let spot = self.cells.get(index)?.as_ref()?;
-        Some(Place { column: index % columns, row: index / columns, spot })
+        let cell = self.cells.get(index)?.as_ref()?;
+        Some(Place { column: index % columns, row: index / columns, cell })
     }
 
     /// The column and the row of a place, between whole ones where it lies between cells.

@@ -1,14 +1,16 @@
 //! The maps of a finished study: one for each preload, and each value of what else it varies beside κ and H.
 
 use super::Template;
-use super::model::{Layer, MapCell, MapModel, usual};
+use super::model::{MapModel, MapScale};
 use super::template::governing;
 use crate::scene::{Adhesion, Document, Leg, Roughness, Scene, SceneErrors, quoted, ron_float};
-use crate::study::figure::{AxisScale, Estimate};
-use crate::study::{
-    Axis, CellSummary, Finished, Plan, Quantity, StudyError, Target, ascending, cell_regime, estimate,
-    figure_axis, fixed, scale_of,
-};
+use crate::study::axis::Axis;
+use crate::study::error::StudyError;
+use crate::study::figure_axis::{figure_axis, fixed};
+use crate::study::finished::Finished;
+use crate::study::plan::Plan;
+use crate::study::quantity::Quantity;
+use crate::study::target::Target;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
@@ -48,8 +50,8 @@ pub struct StudyMap {
     kappa: usize,
     hurst: usize,
     others: Vec<usize>,
-    /// What it tells beside the regime, with scale and glyphs: those of all its maps.
-    quantities: Vec<(Quantity, AxisScale, [f64; 3])>,
+    /// Quantities beside the regime by their places among the recorded, with the scales of all maps.
+    scales: Vec<(usize, MapScale)>,
 }
 
 impl StudyMap {
@@ -66,7 +68,7 @@ impl StudyMap {
     /// # Errors
     /// Where it does not vary κ and H.
     pub fn of(study: Finished, folder: &Path) -> Result<StudyMap, StudyMapError> {
-        let axes: Vec<&Axis> = study.plan().axes.iter().chain(&study.plan().preloads).collect();
+        let axes = study.plan().all_axes();
         let find = |paths: &[&str]| {
             let is = |path: &str| axes.iter().position(|axis| axis.path() == path && axis.count() > 1);
             paths.iter().find_map(|path| is(path))
@@ -82,18 +84,16 @@ impl StudyMap {
             return Err(StudyMapError::NoMap { folder: folder.display().to_string(), axes });
         };
         let others = (0..axes.len()).filter(|axis| ![kappa, hurst].contains(axis)).collect();
-        let told = study.plan().record.iter().copied().filter(|quantity| *quantity != Quantity::Regime);
-        let quantities = told.map(|quantity| {
-            let (scale, steps) = usual(quantity).unwrap_or_else(|| {
-                let cells = (0..study.plan().cells()).filter_map(|cell| study.cell(cell));
-                glyphs(&cells.map(|cell| estimate(&study, cell, quantity)).collect::<Vec<_>>())
-            });
-            (quantity, scale, steps)
+        let record = study.plan().record.iter().enumerate();
+        let drawn = record.filter(|(_, quantity)| **quantity != Quantity::Regime);
+        let scales = drawn.map(|(column, quantity)| {
+            let cells = || (0..study.plan().cells()).map(|cell| study.cell(cell)?.estimate(column)).collect();
+            (column, MapScale::new(*quantity, cells))
         });
-        let quantities = quantities.collect();
+        let scales = scales.collect();
         // Without a separator at its end.
         let folder = folder.components().collect();
-        Ok(StudyMap { folder, kappa, hurst, others, quantities, study })
+        Ok(StudyMap { folder, kappa, hurst, others, scales, study })
     }
 
     /// The folder.
@@ -116,7 +116,7 @@ impl StudyMap {
     }
 
     fn axes(&self) -> Vec<&Axis> {
-        self.plan().axes.iter().chain(&self.plan().preloads).collect()
+        self.plan().all_axes()
     }
 
     /// How many maps it has.
@@ -147,28 +147,19 @@ impl StudyMap {
 
     /// One of its maps.
     #[must_use]
-    pub fn plane(&self, slice: u64) -> MapModel {
+    pub fn model(&self, slice: u64) -> MapModel {
         let (plan, axes) = (self.plan(), self.axes());
         let mut places = vec![0; axes.len()];
         for (_, other, place) in self.at(slice) {
             places[other] = place;
         }
-        let mut found: Vec<Option<&CellSummary>> = Vec::new();
-        for row in ascending(axes[self.hurst]) {
-            for column in ascending(axes[self.kappa]) {
-                (places[self.hurst], places[self.kappa]) = (row, column);
-                found.push(self.study.at(&places));
-            }
-        }
-        let layer = |&(quantity, scale, steps): &(Quantity, AxisScale, [f64; 3])| {
-            let estimates = found.iter().map(|cell| estimate(&self.study, (*cell)?, quantity)).collect();
-            Layer { quantity, scale, steps, estimates }
-        };
+        let cells = self.study.grid(self.kappa, Some(self.hurst), places);
+        let cells: Vec<_> = cells.into_iter().map(|cell| cell.map(Ok)).collect();
         MapModel::new(
             (figure_axis(plan, axes[self.kappa]), Some(figure_axis(plan, axes[self.hurst]))),
-            self.quantities.iter().map(layer).collect(),
-            found.iter().map(|cell| cell.map(|cell| Ok(spot(cell)))).collect(),
-            found.iter().enumerate().map(|(index, cell)| cell.map(|_| index)).collect(),
+            &self.scales,
+            &cells,
+            cells.iter().enumerate().map(|(index, cell)| cell.map(|_| index)).collect(),
         )
     }
 
@@ -217,7 +208,7 @@ impl StudyMap {
     pub fn document(&self) -> Result<Document, SceneErrors> {
         // As it is typed, so that the command that opens it again is this name.
         let name = self.folder.display().to_string();
-        Document::of_scene(&self.scene(0, None), &name)
+        Document::from_scene(&self.scene(0, None), &name)
     }
 
     /// Whether a scene is that of a map, but for κ and H and how finely its curve is computed.
@@ -261,29 +252,12 @@ impl StudyMap {
     }
 }
 
-/// What a cell of the study says.
-fn spot(cell: &CellSummary) -> MapCell {
-    MapCell::new(cell_regime(cell), cell.lines)
-}
-
-/// Scale and steps of a quantity by its values: a quarter of their range for each glyph.
-fn glyphs(estimates: &[Option<Estimate>]) -> (AxisScale, [f64; 3]) {
-    let scale = scale_of(estimates);
-    let places = || estimates.iter().flatten().map(|estimate| scale.coordinate(estimate.mean));
-    let (low, high) =
-        places().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), at| (low.min(at), high.max(at)));
-    let step = |share: f64| {
-        let value = scale.number(low + share * (high - low));
-        format!("{value:.1e}").parse().unwrap_or(value)
-    };
-    if low > high { (AxisScale::Linear, [0.0; 3]) } else { (scale, [0.75, 0.5, 0.25].map(step)) }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::analysis::Regime;
-    use crate::study::map::Charted;
+    use crate::study::figure::{AxisScale, Estimate};
+    use crate::study::map::{Charted, MapCell};
     use crate::study::{Changes, Folder, SUMMARY};
 
     /// κ not in the order of its values, two preloads, another axis, five lines.
@@ -345,7 +319,7 @@ mod tests {
         assert_eq!(atlas.stands_at(1), ["k_max = 16", "F_n/(E* h L) = 2"]);
         assert_eq!(atlas.stands_at(2), ["k_max = 32", "F_n/(E* h L) = 0.5"]);
         for (slice, modes, preload) in [(0, 0, 0), (1, 0, 1), (2, 1, 0), (3, 1, 1)] {
-            let plane = atlas.plane(slice);
+            let plane = atlas.model(slice);
             assert_eq!(plane.size(), (3, 2));
             assert_eq!(plane.across().values, [1.0, 2.0, 4.0], "κ ascends");
             assert_eq!(plane.up().unwrap().values, [0.25, 0.75]);
@@ -367,7 +341,7 @@ mod tests {
                         (Regime::NonAdhesive, Some(Regime::PressureSensitive), 3),
                     ][number as usize % 3];
                     let spot = MapCell { regime: Some(regime), split, agreeing, lines: 5 };
-                    assert_eq!((place.column, place.row, place.spot), (column, row as usize, &Ok(spot)));
+                    assert_eq!((place.column, place.row, place.cell), (column, row as usize, &Ok(spot)));
                 }
             }
         }
@@ -375,7 +349,7 @@ mod tests {
 
     #[test]
     fn glyphs_tell_the_regime_and_all_that_was_recorded() {
-        let plane = atlas().plane(0);
+        let plane = atlas().model(0);
         assert_eq!(
             plane.charted(),
             [
@@ -401,7 +375,7 @@ mod tests {
             let columns = "cell,kappa,roughness.modes.1,roughness.hurst,preload,lines".to_owned();
             let more = ",x".repeat(row.matches(',').count() - columns.matches(',').count());
             std::fs::write(folder.path().join(SUMMARY), format!("{columns}{more}\n{row}\n")).unwrap();
-            StudyMap::open(folder.path()).unwrap().plane(0)
+            StudyMap::open(folder.path()).unwrap().model(0)
         };
         assert_eq!(plane("record: [regime]").charted(), [Charted::Regime]);
         let plane = plane("record: [fragments]");

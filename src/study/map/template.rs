@@ -1,13 +1,20 @@
-//! What a map belongs to: a scene but for its κ and H.
+//! Template of a map: a scene without its κ and H.
 
-use super::Level;
+use super::grid::{Level, hursts, kappas};
 use crate::analysis::Governing;
 use crate::scene::{Adhesion, Document, Edges, Numerics, Roughness, Scene, SceneErrors, Solver};
+use crate::study::axis::Axis;
+use crate::study::figure::FigureAxis;
+use crate::study::plan::Plan;
+use crate::study::quantity::Quantity;
 use crate::surface::SelfAffine;
 use thiserror::Error;
 
 /// Random lines of each cell.
 pub const LINES: u64 = 4;
+/// Quantities of each cell.
+pub const RECORD: [Quantity; 3] =
+    [Quantity::ZeroLoadAdhesionShare, Quantity::AdhesionCoefficient, Quantity::Regime];
 /// Fewest and most springs of a map; a scene with fewer has its own number, shorter waves need more.
 const SPRINGS: (u64, u64) = (1 << 10, 1 << 12);
 /// Springs for each period of the shortest wave, where that is not too many.
@@ -29,15 +36,14 @@ pub enum NoMap {
     Smooth,
 }
 
-/// What a map belongs to. Scenes that differ in κ and H alone, or in how finely their curve is computed, have
-/// the same.
+/// Template of a map. Scenes that differ in κ and H alone, or in the resolution of their curve, have the same.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Template {
     scene: Scene,
 }
 
 impl Template {
-    /// The basis of a checked scene.
+    /// Template of a checked scene.
     ///
     /// # Errors
     /// When it has no κ.
@@ -99,18 +105,15 @@ impl Template {
         if self.has_hurst() { LINES } else { 1 }
     }
 
-    /// The scene of a cell on one of its lines: the first has the seed of the scene, the others those after it.
-    #[must_use]
-    pub fn scene(&self, kappa: f64, wanted: f64, line: u64) -> Scene {
-        let mut scene = self.scene.clone();
-        if let Some(adhesion) = &mut scene.adhesion {
-            adhesion.kappa = Some(kappa);
+    /// The study of all cells of the map: number row · [`super::KAPPAS`] + column.
+    pub(super) fn plan(&self) -> Plan {
+        let list = |path: &str, axis: FigureAxis| Axis::List { path: path.into(), values: axis.values };
+        let mut plan = Plan::of_scene(&self.scene, self.lines(), &RECORD);
+        if self.has_hurst() {
+            plan.axes.push(list("roughness.hurst", hursts()));
         }
-        if let Some(Roughness::SelfAffine { hurst, seed, .. }) = &mut scene.roughness {
-            *hurst = wanted;
-            *seed = seed.wrapping_add(line);
-        }
-        scene
+        plan.axes.push(list("adhesion.kappa", kappas()));
+        plan
     }
 
     /// κ and H of a scene, as far as the scene itself says them. Those of a measured profile follow only
@@ -154,17 +157,19 @@ mod tests {
     use super::*;
     use crate::scene::open;
     use crate::simulation::Simulation;
+    use crate::study::cells::Cells;
+    use crate::study::map::grid::{HURSTS, KAPPAS, hurst, kappa};
 
     fn document() -> Document {
         open("pressure-sensitive").unwrap().set("numerics.points", "2048").unwrap()
     }
 
     #[test]
-    fn a_basis_is_that_of_all_kappa_and_hurst() {
+    fn a_template_is_that_of_all_kappa_and_hurst() {
         let document = document();
         let of = |document: &Document| Template::of(document.scene()).unwrap();
-        let basis = of(&document);
-        assert_eq!((basis.springs(), basis.has_hurst(), basis.lines()), (2048, true, LINES));
+        let template = of(&document);
+        assert_eq!((template.springs(), template.has_hurst(), template.lines()), (2048, true, LINES));
         for (path, value) in [
             ("adhesion.kappa", "2.0"),
             ("roughness.hurst", "0.2"),
@@ -174,7 +179,7 @@ mod tests {
             ("numerics.edges", "Grid"),
             ("adhesion", "(work: 0.05)"),
         ] {
-            assert_eq!(of(&document.set(path, value).unwrap()), basis, "{path}");
+            assert_eq!(of(&document.set(path, value).unwrap()), template, "{path}");
         }
         for (path, value) in [
             ("roughness.seed", "2"),
@@ -183,25 +188,32 @@ mod tests {
             ("material.youngs_modulus", "1.0e6"),
             ("numerics.points", "1024"),
         ] {
-            assert_ne!(of(&document.set(path, value).unwrap()), basis, "{path}");
+            assert_ne!(of(&document.set(path, value).unwrap()), template, "{path}");
         }
         // Short waves have their springs, and very many springs have fewer cells.
         let short = [("numerics.points", "1048576"), ("roughness.modes", "(1, 131072)")];
         let short = short.map(|(path, value)| (path.to_owned(), value.to_owned()));
         let short = of(&document.set_all(&short).unwrap());
         assert_eq!((short.springs(), short.finest()), (1 << 18, Level::Medium));
-        assert_eq!(basis.finest(), Level::Whole);
+        assert_eq!(template.finest(), Level::Whole);
         assert_eq!(Template::of(document.set("adhesion", "None").unwrap().scene()), Err(NoMap::NoAdhesion));
         assert_eq!(Template::of(open("jkr-sphere").unwrap().scene()), Err(NoMap::Smooth));
     }
 
     #[test]
     fn the_scene_of_a_cell_is_a_sound_one() {
-        let basis = Template::of(document().scene()).unwrap();
-        let scene = basis.scene(0.125, 0.95, 3);
-        assert_eq!(crate::scene::check(&scene), []);
-        assert_eq!(Template::place(&scene), Some((0.125, 0.95)));
-        assert!(matches!(scene.roughness, Some(Roughness::SelfAffine { seed: 4, .. })));
+        let plan = Template::of(document().scene()).unwrap().plan();
+        let (cells, mut scene) = (Cells::of(&plan), plan.scene.clone());
+        let mut run = 0;
+        for row in 0..HURSTS {
+            for column in 0..KAPPAS {
+                cells.shape(run, &plan.scene, &mut scene).unwrap();
+                assert_eq!(crate::scene::check(&scene), []);
+                assert_eq!(Template::place(&scene), Some((kappa(column), hurst(row))));
+                run += 1;
+            }
+        }
+        assert_eq!((plan.cells(), plan.lines, plan.seed_of(3)), (run, LINES, 8));
     }
 
     #[test]

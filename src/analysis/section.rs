@@ -1,0 +1,348 @@
+//! A profile and its contact, reduced to the columns of a pane or a picture.
+
+/// A part of the line, reduced to one column for each column of dots.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Section {
+    /// First spring shown.
+    pub first: usize,
+    /// Springs shown.
+    pub springs: usize,
+    /// Lowest and highest z shown by the line over all springs of the section, m.
+    pub heights: (f64, f64),
+    /// Height of the undeformed elastic surface, m.
+    pub level: f64,
+    /// What stands in each column.
+    pub columns: Vec<Column>,
+}
+
+/// One column of dots: the springs it stands for.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Column {
+    /// Lowest and highest point of the rigid line, m.
+    pub line: (f64, f64),
+    /// Lowest and highest point of the elastic surface, m.
+    pub surface: (f64, f64),
+    /// Lowest and highest point of the line where it is in contact, m.
+    pub contact: Option<(f64, f64)>,
+}
+
+/// How much of a part of the line touches.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Share {
+    /// No spring.
+    Nothing,
+    /// Some springs.
+    Something,
+    /// All springs.
+    Everything,
+}
+
+/// Fragments of about one length.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct LengthBin {
+    /// Shortest length, springs.
+    pub from: u64,
+    /// The shortest length that is too long, springs.
+    pub to: u64,
+    /// Fragments of these lengths.
+    pub fragments: u64,
+}
+
+/// The line and its contact at one moment.
+#[derive(Clone, Copy)]
+pub struct Contact<'a> {
+    /// Gaps below the summit, m.
+    pub gaps: &'a [f64],
+    /// Height of the summit, m.
+    pub summit: f64,
+    /// Indentation, m.
+    pub indentation: f64,
+    /// First and last spring of each fragment in contact, in ascending order.
+    pub fragments: &'a [(usize, usize)],
+}
+
+/// Lowest and highest point of the line in each column of a pane: kept from moment to moment, since
+/// only the contact changes.
+#[derive(Default)]
+pub struct LineColumns {
+    part: Part,
+    extremes: Vec<(f64, f64)>,
+}
+
+/// The springs that a pane shows, and in how many columns.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Part {
+    /// The first one.
+    pub first: usize,
+    /// How many.
+    pub springs: usize,
+    /// Columns of dots.
+    pub columns: usize,
+}
+
+impl Part {
+    /// The part of a line of `count` springs that lies on it.
+    fn within(self, count: usize) -> Self {
+        let first = self.first.min(count);
+        Part { first, springs: self.springs.min(count - first), columns: self.columns }
+    }
+
+    /// First spring of a column and the one after its last. Where there are more columns than springs, a
+    /// spring fills several.
+    fn springs_of(self, column: usize) -> (usize, usize) {
+        let start = |column: usize| {
+            self.first + (column as u128 * self.springs as u128 / self.columns.max(1) as u128) as usize
+        };
+        let from = start(column);
+        (from, start(column + 1).max(from + 1))
+    }
+}
+
+fn extremes(heights: impl Iterator<Item = f64>) -> (f64, f64) {
+    heights
+        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), height| (low.min(height), high.max(height)))
+}
+
+impl Contact<'_> {
+    /// Height of the line at a spring, m.
+    #[must_use]
+    pub fn height(&self, spring: usize) -> f64 {
+        self.summit - self.gaps[spring]
+    }
+
+    fn line(&self, from: usize, to: usize) -> (f64, f64) {
+        extremes(self.gaps[from..to].iter().map(|gap| self.summit - gap))
+    }
+
+    /// Reduces a part of the line to its columns: the lowest and highest of each. `line` keeps what
+    /// depends on the line alone; another line needs another one.
+    #[must_use]
+    pub fn section(&self, part: Part, line: &mut LineColumns) -> Section {
+        let part = part.within(self.gaps.len());
+        let level = self.summit - self.indentation;
+        let mut section = Section {
+            first: part.first,
+            springs: part.springs,
+            heights: (level, level),
+            level,
+            columns: Vec::new(),
+        };
+        if part.springs == 0 {
+            return section;
+        }
+        if line.part != part {
+            line.part = part;
+            line.extremes.clear();
+            line.extremes.extend((0..part.columns).map(|column| {
+                let (from, to) = part.springs_of(column);
+                self.line(from, to)
+            }));
+        }
+        let mut fragments = self.fragments;
+        section.columns = line
+            .extremes
+            .iter()
+            .enumerate()
+            .map(|(column, &line)| {
+                let (from, to) = part.springs_of(column);
+                let gone = fragments.partition_point(|&(_, last)| last < from);
+                fragments = &fragments[gone..];
+                self.column(from, to, line, fragments)
+            })
+            .collect();
+        let whole = || self.line(part.first, part.first + part.springs);
+        section.heights = section
+            .columns
+            .iter()
+            .map(|column| column.line)
+            .reduce(|(low, high), (a, b)| (low.min(a), high.max(b)))
+            // A pane that is not shown has no columns, and may be shown before its next picture comes.
+            .unwrap_or_else(whole);
+        section
+    }
+
+    /// A column from its springs, `line` their extremes, and the fragments that do not end before it.
+    fn column(&self, from: usize, to: usize, line: (f64, f64), fragments: &[(usize, usize)]) -> Column {
+        let level = self.summit - self.indentation;
+        let mut contact: Option<(f64, f64)> = None;
+        let mut held = 0;
+        for &(first, last) in fragments.iter().take_while(|(first, _)| *first < to) {
+            let (first, end) = (first.max(from), (last + 1).min(to));
+            held += end - first;
+            let part = if end - first == to - from { line } else { self.line(first, end) };
+            contact = Some(contact.map_or(part, |(low, high)| (low.min(part.0), high.max(part.1))));
+        }
+        // Where springs are free the surface stands at its level, where they touch it follows the line.
+        let surface = match contact {
+            Some(contact) if held == to - from => contact,
+            Some((low, high)) => (low.min(level), high.max(level)),
+            None => (level, level),
+        };
+        Column { line, surface, contact }
+    }
+}
+
+/// How much of each of `cells` equal parts of a line of `count` springs touches.
+#[must_use]
+pub fn strip(fragments: &[(usize, usize)], count: usize, cells: usize) -> Vec<Share> {
+    let part = Part { first: 0, springs: count, columns: cells };
+    let mut rest = fragments;
+    (0..if count == 0 { 0 } else { cells })
+        .map(|cell| {
+            let (from, to) = part.springs_of(cell);
+            rest = &rest[rest.partition_point(|&(_, last)| last < from)..];
+            let touching = rest.iter().take_while(|(first, _)| *first < to);
+            match touching.map(|&(first, last)| (last + 1).min(to) - first.max(from)).sum::<usize>() {
+                0 => Share::Nothing,
+                held if held == to - from => Share::Everything,
+                _ => Share::Something,
+            }
+        })
+        .collect()
+}
+
+/// Counts fragments into lengths that grow by a factor √2, from one spring on; lengths of no whole
+/// number of springs have no bin.
+#[must_use]
+pub fn lengths(fragments: &[(usize, usize)]) -> Vec<LengthBin> {
+    let mut lengths: Vec<u64> = fragments.iter().map(|&(first, last)| (last - first + 1) as u64).collect();
+    lengths.sort_unstable();
+    let mut bins: Vec<LengthBin> = Vec::new();
+    let mut ends = (1_u32..).map(|half| 2_f64.powf(f64::from(half) / 2.0).ceil() as u64);
+    let mut from = 1;
+    let mut rest = lengths.as_slice();
+    while let (false, Some(to)) = (rest.is_empty(), ends.next()) {
+        if to > from {
+            let count = rest.partition_point(|&length| length < to);
+            bins.push(LengthBin { from, to, fragments: count as u64 });
+            rest = &rest[count..];
+            from = to;
+        }
+    }
+    bins
+}
+
+/// Springs that are in one of two contacts and not in the other, each given by its fragments in
+/// ascending order.
+#[must_use]
+pub fn changed(before: &[(usize, usize)], after: &[(usize, usize)]) -> u64 {
+    let springs = |fragments: &[(usize, usize)]| -> u64 {
+        fragments.iter().map(|&(first, last)| (last - first + 1) as u64).sum()
+    };
+    let (mut a, mut b) = (before, after);
+    let mut common = 0_u64;
+    while let (Some(&(a_first, a_last)), Some(&(b_first, b_last))) = (a.first(), b.first()) {
+        let (first, last) = (a_first.max(b_first), a_last.min(b_last));
+        common += (last + 1).saturating_sub(first) as u64;
+        if a_last <= b_last { a = &a[1..] } else { b = &b[1..] }
+    }
+    springs(before) + springs(after) - 2 * common
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    const LINE: Contact<'static> = Contact {
+        gaps: &[0.0, 1.0, 2.0, 3.0, 2.5, 0.5],
+        summit: 10.0,
+        indentation: 0.5,
+        fragments: &[(0, 1), (5, 5)],
+    };
+
+    fn section(first: usize, springs: usize, columns: usize) -> Section {
+        LINE.section(Part { first, springs, columns }, &mut LineColumns::default())
+    }
+
+    #[test]
+    fn columns_hold_the_extremes_of_their_springs() {
+        let section = section(0, 6, 3);
+        assert_eq!(section.heights, (7.0, 10.0));
+        assert_eq!(section.level, 9.5);
+        let free = Column { line: (7.0, 8.0), surface: (9.5, 9.5), contact: None };
+        let mixed = Column { line: (7.5, 9.5), surface: (9.5, 9.5), contact: Some((9.5, 9.5)) };
+        let held = Column { line: (9.0, 10.0), surface: (9.0, 10.0), contact: Some((9.0, 10.0)) };
+        assert_eq!(section.columns, [held, free, mixed]);
+    }
+
+    #[test]
+    fn a_spring_fills_several_columns_when_there_are_more() {
+        let part = section(4, 99, 5);
+        assert_eq!((part.first, part.springs), (4, 2));
+        let heights: Vec<f64> = part.columns.iter().map(|column| column.line.0).collect();
+        assert_eq!(heights, [7.5, 7.5, 7.5, 9.5, 9.5]);
+        assert_eq!(section(6, 1, 5).columns, []);
+    }
+
+    #[test]
+    fn a_strip_tells_what_touches() {
+        use Share::{Everything, Nothing, Something};
+        assert_eq!(strip(&[(0, 3), (5, 5)], 8, 4), [Everything, Everything, Something, Nothing]);
+        assert_eq!(strip(&[(1, 1)], 2, 4), [Nothing, Nothing, Everything, Everything]);
+        assert_eq!(strip(&[], 0, 4), []);
+    }
+
+    #[test]
+    fn lengths_are_counted_without_gaps() {
+        assert_eq!(lengths(&[]), []);
+        let bins = lengths(&[(0, 0), (2, 2), (4, 6), (10, 19)]);
+        let counts: Vec<_> = bins.iter().map(|bin| (bin.from, bin.to, bin.fragments)).collect();
+        assert_eq!(counts, [(1, 2, 2), (2, 3, 0), (3, 4, 1), (4, 6, 0), (6, 8, 0), (8, 12, 1)]);
+    }
+
+    proptest! {
+        #[test]
+        fn a_section_is_what_its_springs_are(
+            touching in prop::collection::vec(any::<bool>(), 1..40),
+            first in 0_usize..40,
+            springs in 1_usize..40,
+            columns in 1_usize..20,
+        ) {
+            let gaps: Vec<f64> = (0..touching.len()).map(|i| ((i * 37) % 11) as f64).collect();
+            let fragments = runs(&touching);
+            let contact = Contact { gaps: &gaps, summit: 20.0, indentation: 3.0, fragments: &fragments };
+            let part = Part { first, springs, columns }.within(gaps.len());
+            let section = contact.section(part, &mut LineColumns::default());
+            for (column, found) in section.columns.iter().enumerate() {
+                let (from, to) = part.springs_of(column);
+                let held: Vec<usize> = (from..to).filter(|&spring| touching[spring]).collect();
+                let heights = |springs: &[usize]| extremes(springs.iter().map(|&spring| 20.0 - gaps[spring]));
+                prop_assert_eq!(found.line, heights(&(from..to).collect::<Vec<_>>()));
+                prop_assert_eq!(found.contact, (!held.is_empty()).then(|| heights(&held)));
+            }
+        }
+
+        #[test]
+        fn changed_springs_are_those_of_either_contact_alone(
+            states in prop::collection::vec(any::<(bool, bool)>(), 0..60)
+        ) {
+            let (before, after): (Vec<bool>, Vec<bool>) = states.iter().copied().unzip();
+            let expected = states.iter().filter(|(a, b)| a != b).count() as u64;
+            prop_assert_eq!(changed(&runs(&before), &runs(&after)), expected);
+        }
+
+        #[test]
+        fn every_length_is_in_one_bin(springs in prop::collection::vec(1_usize..5000, 1..50)) {
+            let fragments: Vec<_> = springs.iter().map(|&count| (0, count - 1)).collect();
+            let bins = lengths(&fragments);
+            for bin in &bins {
+                let inside = springs.iter().filter(|&&count| (bin.from..bin.to).contains(&(count as u64)));
+                prop_assert_eq!(bin.fragments, inside.count() as u64);
+            }
+            prop_assert!(bins.windows(2).all(|pair| pair[0].to == pair[1].from));
+            prop_assert_eq!(bins.iter().map(|bin| bin.fragments).sum::<u64>(), springs.len() as u64);
+        }
+    }
+
+    fn runs(touching: &[bool]) -> Vec<(usize, usize)> {
+        let mut runs: Vec<(usize, usize)> = Vec::new();
+        for spring in (0..touching.len()).filter(|&spring| touching[spring]) {
+            match runs.last_mut() {
+                Some((_, last)) if *last + 1 == spring => *last = spring,
+                _ => runs.push((spring, spring)),
+            }
+        }
+        runs
+    }
+}

@@ -1,0 +1,294 @@
+//! Charts in the cells of a terminal: the panes of the explorer and the text of `sweep plot`.
+
+mod map;
+mod shapes;
+mod text;
+
+pub use shapes::dry;
+pub use text::{Colours, figure_text};
+
+use super::axis::{Axis, Span};
+use super::chart::{Chart, Figure, Sample, Shape, Sign, Stroke};
+use super::colour::Ink;
+use super::label::Label;
+use super::ticks::Tick;
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
+use ratatui::style::Style;
+use ratatui::symbols::Marker;
+use ratatui::text::Span as Text;
+use ratatui::widgets::Widget;
+use ratatui::widgets::canvas::Canvas;
+use shapes::LayerShape;
+
+/// How charts look in cells.
+pub struct CellStyle<'a> {
+    /// What lines are made of.
+    pub marker: Marker,
+    /// Style of each ink.
+    pub ink: &'a dyn Fn(Ink) -> Style,
+    /// Colours of heat maps.
+    pub colours: Colours,
+}
+
+/// Least size of an area whose plot has a scale on the left: columns and rows.
+const WITH_LEFT_SCALE: (u16, u16) = (30, 6);
+/// Least rows of an area whose plot has a scale below, and those of one with a line between plot and scale.
+const WITH_SCALE_BELOW: u16 = 5;
+const WITH_LINE_BELOW: u16 = 12;
+/// Least rows of an area where the label below has a row of its own, if it hides a number.
+const WITH_LABEL_BELOW: u16 = 16;
+
+/// Place of a chart in an area: plot and scales.
+pub struct CellPlot {
+    /// Cells of the plot.
+    pub plot: Rect,
+    left: u16,
+    line: bool,
+    below: bool,
+    label: bool,
+}
+
+impl CellPlot {
+    /// Divides an area between the plot and the scales of a chart.
+    #[must_use]
+    pub fn within(area: Rect, chart: &Chart) -> CellPlot {
+        let below = area.height >= WITH_SCALE_BELOW;
+        let line = area.height >= WITH_LINE_BELOW;
+        let label = area.height >= WITH_LABEL_BELOW && label_hides_numbers(chart, area.width);
+        let height = area.height - u16::from(below) - u16::from(line) - u16::from(label);
+        let mut left = 0;
+        if area.width >= WITH_LEFT_SCALE.0 && area.height >= WITH_LEFT_SCALE.1 {
+            let labels = scale_beside(chart, height);
+            left = labels.iter().map(|(_, text)| text.chars().count() as u16).max().unwrap_or(0) + 2;
+        }
+        let left = if left > area.width / 2 { 0 } else { left };
+        let plot = Rect { x: area.x + left, width: area.width - left, height, ..area };
+        CellPlot { plot, left, line, below, label }
+    }
+
+    /// A plot that fills its area.
+    #[must_use]
+    pub fn without_scales(area: Rect) -> CellPlot {
+        CellPlot { plot: area, left: 0, line: false, below: false, label: false }
+    }
+
+    /// Number on the horizontal axis at the middle of a column of the screen, within the plot.
+    #[must_use]
+    pub fn number_at(&self, x: &Axis, column: u16) -> f64 {
+        let share = (f64::from(column) + 0.5 - f64::from(self.plot.x)) / f64::from(self.plot.width.max(1));
+        x.scale.number(x.span.low + share.clamp(0.0, 1.0) * x.span.width())
+    }
+
+    /// Cell of a point; `None` outside the chart.
+    #[must_use]
+    pub fn cell(&self, chart: &Chart, marker: Marker, (x, y): (f64, f64)) -> Option<(u16, u16)> {
+        let (across, down) = (chart.x.share(x), 1.0 - chart.y.share(y));
+        let inside = (0.0..=1.0).contains(&across) && (0.0..=1.0).contains(&down) && !self.plot.is_empty();
+        // As the canvas rounds to dots, so that a sign is in a cell of its curve.
+        let (columns, rows) = dots_of(marker);
+        let cell = |share: f64, cells: u16, dots: u16| {
+            let last = f64::from(cells) * f64::from(dots) - 1.0;
+            (share * last).round() as u16 / dots
+        };
+        inside.then(|| {
+            let column = cell(across, self.plot.width, columns);
+            (self.plot.x + column, self.plot.y + cell(down, self.plot.height, rows))
+        })
+    }
+
+    /// Draws scales and layers.
+    pub fn draw(&self, buffer: &mut Buffer, chart: &Chart, style: &CellStyle<'_>) {
+        if self.plot.is_empty() {
+            return;
+        }
+        self.draw_scales(buffer, chart, style);
+        for layer in &chart.layers {
+            if let Shape::Map(map) = &layer.shape {
+                map::draw(buffer, self.plot, map, style);
+            }
+        }
+        let drawn = |layer: &&super::chart::Layer| !matches!(layer.shape, Shape::Map(_));
+        if chart.layers.iter().any(|layer| drawn(&layer)) {
+            Canvas::default()
+                .marker(style.marker)
+                .x_bounds([0.0, 1.0])
+                .y_bounds([0.0, 1.0])
+                .paint(|context| {
+                    for layer in chart.layers.iter().filter(drawn) {
+                        context.layer();
+                        let colour = (style.ink)(layer.ink).fg.unwrap_or_default();
+                        context.draw(&LayerShape { chart, shape: &layer.shape, colour });
+                    }
+                })
+                .render(self.plot, buffer);
+        }
+        self.draw_signs(buffer, chart, style);
+    }
+
+    fn draw_signs(&self, buffer: &mut Buffer, chart: &Chart, style: &CellStyle<'_>) {
+        for layer in &chart.layers {
+            let Shape::Curve { points, sign: Some(sign), .. } = &layer.shape else { continue };
+            // No more signs than every other column.
+            let every = (2 * points.len()).div_ceil(usize::from(self.plot.width)).max(1);
+            for point in points.iter().step_by(every) {
+                if let Some((column, row)) = self.cell(chart, style.marker, *point) {
+                    buffer[(column, row)].set_symbol(glyph(*sign)).set_style((style.ink)(layer.ink));
+                }
+            }
+        }
+    }
+
+    fn draw_scales(&self, buffer: &mut Buffer, chart: &Chart, style: &CellStyle<'_>) {
+        let (plot, quiet) = (self.plot, (style.ink)(Ink::Quiet));
+        if self.left > 0 {
+            let labels = scale_beside(chart, plot.height);
+            for row in 0..plot.height {
+                let label = labels.iter().find(|(at, _)| *at == row).map(|(_, text)| text.as_str());
+                let mark = if label.is_some() { '┤' } else { '│' };
+                let width = usize::from(self.left) - 2;
+                let text = format!("{:>width$} {mark}", label.unwrap_or_default());
+                buffer.set_string(plot.x - self.left, plot.y + row, text, quiet);
+            }
+        }
+        let mut y = plot.bottom();
+        let (numbers, label) = scale_below(chart, plot.width);
+        if self.line {
+            let mut line: Vec<char> = vec!['─'; usize::from(plot.width)];
+            for (column, _) in &numbers {
+                line[usize::from(*column)] = '┬';
+            }
+            if self.left > 0 {
+                buffer.set_string(plot.x - 1, y, "└", quiet);
+            }
+            buffer.set_string(plot.x, y, line.into_iter().collect::<String>(), quiet);
+            y += 1;
+        }
+        if self.below {
+            let from = plot.x - self.left;
+            let width = (label.chars().count() as u16).min(plot.width);
+            let end = plot.right() - if self.label { 0 } else { width };
+            let mut free = from;
+            for (column, text) in numbers {
+                let width = text.chars().count() as u16;
+                let x = (plot.x + column).saturating_sub(width / 2).max(from);
+                let right = x + width;
+                if x >= free && right < end.max(from + 1) + u16::from(self.label) {
+                    buffer.set_string(x, y, text, quiet);
+                    free = right + 1;
+                }
+            }
+            let (x, y) = if self.label { (plot.x + (plot.width - width) / 2, y + 1) } else { (end, y) };
+            buffer.set_stringn(x, y, label, usize::from(width), quiet);
+        }
+    }
+}
+
+/// Dots of a marker in a cell: columns and rows.
+fn dots_of(marker: Marker) -> (u16, u16) {
+    match marker {
+        Marker::Braille | Marker::Octant => (2, 4),
+        Marker::HalfBlock => (1, 2),
+        Marker::Quadrant => (2, 2),
+        Marker::Sextant => (2, 3),
+        _ => (1, 1),
+    }
+}
+
+/// Rows of a plot of this height with their numbers.
+fn scale_beside(chart: &Chart, height: u16) -> Vec<(u16, String)> {
+    if let Some(map) = map::of(chart) {
+        return map::row_labels(&chart.y, map, height);
+    }
+    let last = f64::from(height.max(1) - 1);
+    let place = |Tick { at, label }: Tick| {
+        let down = (chart.y.span.high - at) / chart.y.span.width();
+        Some(((down * last).round() as u16, label?.to_string()))
+    };
+    chart.y.ticks(usize::from(height / 3).clamp(2, 6)).into_iter().filter_map(place).collect()
+}
+
+/// Columns of a plot of this width with their numbers, and the label of the axis.
+fn scale_below(chart: &Chart, width: u16) -> (Vec<(u16, String)>, String) {
+    let label = chart.x.label_with_unit().to_string();
+    if let Some(map) = map::of(chart) {
+        return (map::column_labels(&chart.x, map, width), label);
+    }
+    let last = f64::from(width.max(1) - 1);
+    let place = |Tick { at, label }: Tick| {
+        let Span { low, .. } = chart.x.span;
+        let share = (at - low) / chart.x.span.width();
+        Some(((share * last).round() as u16, label?.to_string()))
+    };
+    let numbers = chart.x.ticks(usize::from(width / 10).clamp(2, 9)).into_iter().filter_map(place);
+    (numbers.filter(|(column, _)| *column < width).collect(), label)
+}
+
+/// Whether the label of the horizontal axis would take the place of a number beside it.
+fn label_hides_numbers(chart: &Chart, width: u16) -> bool {
+    let (numbers, label) = scale_below(chart, width);
+    let end = usize::from(width).saturating_sub(label.chars().count() + 1);
+    numbers.iter().any(|(column, text)| usize::from(*column) + text.chars().count().div_ceil(2) > end)
+}
+
+/// Character of a sign.
+#[must_use]
+pub fn glyph(sign: Sign) -> &'static str {
+    match sign {
+        Sign::Dot => "●",
+        Sign::Square => "■",
+        Sign::Up => "▲",
+        Sign::Diamond => "◆",
+        Sign::Ring => "○",
+        Sign::Down => "▼",
+        Sign::Cross => "×",
+        Sign::HollowDiamond => "◇",
+    }
+}
+
+/// Sample of a stroke, made of what lines are made of.
+fn strokes(stroke: Stroke, marker: Marker) -> [&'static str; 3] {
+    match (stroke, marker) {
+        (Stroke::Solid, Marker::Braille) => ["⠒", "⠒", "⠒"],
+        (Stroke::Dashed, Marker::Braille) => ["⠒", "⠂", "⠒"],
+        (Stroke::Dotted, Marker::Braille) => ["⠒", " ", "⠒"],
+        (Stroke::Sparse, Marker::Braille) => ["⠂", " ", "⠂"],
+        (Stroke::Solid, _) => ["▄", "▄", "▄"],
+        (Stroke::Dashed, _) => ["▄", "▖", "▄"],
+        (Stroke::Dotted, _) => ["▄", " ", "▄"],
+        (Stroke::Sparse, _) => ["▖", " ", "▖"],
+    }
+}
+
+/// Entries of the legend of a figure: sample and name.
+#[must_use]
+pub fn legend(figure: &Figure, style: &CellStyle<'_>) -> Vec<Vec<Text<'static>>> {
+    let mut parts = Vec::new();
+    for entry in figure.legend() {
+        let mut part: Vec<Text<'static>> = Vec::new();
+        for (ink, sample) in entry.samples {
+            let text = match sample {
+                Sample::Line(stroke, sign) => {
+                    let [left, middle, right] =
+                        stroke.map_or(["", "", ""], |stroke| strokes(stroke, style.marker));
+                    format!("{left}{}{right}", sign.map_or(middle, glyph))
+                }
+                Sample::Area => strokes(Stroke::Sparse, style.marker).concat(),
+                Sample::Guide => "┊".to_owned(),
+                Sample::Contour => "▁▕".to_owned(),
+                Sample::Empty => "blank:".to_owned(),
+            };
+            if part.last().is_none_or(|last| *last.content != text) {
+                part.push(Text::styled(text, (style.ink)(ink)));
+            }
+        }
+        part.push(Text::raw(format!(" {}", entry.name)));
+        parts.push(part);
+    }
+    parts
+}
+
+/// Label of the vertical axis with its unit, or of the values of a map.
+fn heading(chart: &Chart) -> Label {
+    map::of(chart).map_or_else(|| chart.y.label_with_unit(), |map| map.key.label_with_unit())
+}

@@ -1,0 +1,201 @@
+//! Layers as dots of a canvas whose bounds are those of the axes, 0 to 1.
+
+use crate::draw::chart::{Chart, Shape, Stroke};
+use ratatui::buffer::Buffer;
+use ratatui::style::Color;
+use ratatui::widgets::canvas::{Painter, Shape as CanvasShape};
+
+/// Stands on a canvas for the colour of the terminal's text, which the grid of half blocks would take for
+/// that of its background where it meets another colour. No theme has it.
+const INK: Color = Color::Indexed(16);
+
+/// Gives what was drawn on canvases the colour of the terminal's text where the text has that colour.
+pub fn dry(buffer: &mut Buffer) {
+    for cell in &mut buffer.content {
+        // Of a cell in two colours the one of the text can only be that of the foreground.
+        let other = match cell.symbol() {
+            "▀" => "▄",
+            "▄" => "▀",
+            _ => "",
+        };
+        if cell.bg == INK && !other.is_empty() {
+            cell.set_symbol(if cell.fg == INK { "█" } else { other });
+            std::mem::swap(&mut cell.fg, &mut cell.bg);
+        }
+        for colour in [&mut cell.fg, &mut cell.bg] {
+            if *colour == INK {
+                *colour = Color::Reset;
+            }
+        }
+    }
+}
+
+/// A layer of a chart.
+pub(super) struct LayerShape<'a> {
+    pub chart: &'a Chart,
+    pub shape: &'a Shape,
+    pub colour: Color,
+}
+
+/// A column and a row of dots.
+type Dot = (usize, usize);
+
+impl LayerShape<'_> {
+    /// Dot of a point, at the edge where the point is outside; `None` without coordinates.
+    fn dot(&self, painter: &Painter<'_, '_>, (x, y): (f64, f64)) -> Option<Dot> {
+        let (x, y) = (self.chart.x.share(x), self.chart.y.share(y));
+        let known = x.is_finite() && !y.is_nan();
+        known.then(|| painter.get_point(x.clamp(0.0, 1.0), y.clamp(0.0, 1.0))).flatten()
+    }
+
+    fn paint(&self, painter: &mut Painter<'_, '_>, (x, y): Dot) {
+        painter.paint(x, y, if self.colour == Color::Reset { INK } else { self.colour });
+    }
+
+    fn line(&self, painter: &mut Painter<'_, '_>, points: impl Iterator<Item = (f64, f64)>, stroke: Stroke) {
+        let (mut painted, mut last) = (0_usize, None);
+        for point in points {
+            let finite = self.chart.y.share(point.1).is_finite();
+            let Some(dot) = self.dot(painter, point).filter(|_| finite) else {
+                last = None;
+                continue;
+            };
+            for dot in between(last.unwrap_or(dot), dot) {
+                if paints(stroke, painted) {
+                    self.paint(painter, dot);
+                }
+                painted += 1;
+            }
+            last = Some(dot);
+        }
+    }
+
+    /// One bar for each column of dots, joined with its neighbours.
+    fn envelope(
+        &self,
+        painter: &mut Painter<'_, '_>,
+        (from, to): (f64, f64),
+        columns: &[Option<(f64, f64)>],
+    ) {
+        let Some((last, _)) = painter.get_point(1.0, 0.0) else { return };
+        let [from, to] = [from, to].map(|x| self.chart.x.share(x) * (last + 1) as f64);
+        let edge = |column: usize| {
+            let place = from + (to - from) * column as f64 / columns.len() as f64;
+            (place + 1e-9).clamp(0.0, (last + 1) as f64) as usize
+        };
+        let mut before: Option<(f64, f64)> = None;
+        for (column, ends) in columns.iter().enumerate() {
+            let Some(ends) = *ends else {
+                before = None;
+                continue;
+            };
+            let (mut low, mut high) = ends;
+            // Up to the end of the neighbour, so that steep flanks are whole.
+            if let Some((other_low, other_high)) = before {
+                (low, high) = (low.min(other_high), high.max(other_low));
+            }
+            before = Some(ends);
+            let [low, high] = [low, high].map(|y| self.chart.y.share(y));
+            if high < 0.0 || low > 1.0 {
+                continue;
+            }
+            let row = |share: f64| painter.get_point(0.0, share.clamp(0.0, 1.0)).map(|(_, row)| row);
+            let (Some(bottom), Some(top)) = (row(low), row(high)) else { continue };
+            for x in edge(column)..edge(column + 1).max(edge(column) + 1).min(last + 1) {
+                (top..=bottom).for_each(|y| self.paint(painter, (x, y)));
+            }
+        }
+    }
+
+    /// Every other dot of the inside of a closed line: where an upright line meets the border an odd number of times
+    /// below.
+    fn inside(&self, painter: &mut Painter<'_, '_>, border: &[(f64, f64)]) {
+        let Some((last, _)) = painter.get_point(1.0, 0.0) else { return };
+        let shares: Vec<(f64, f64)> =
+            border.iter().map(|(x, y)| (self.chart.x.share(*x), self.chart.y.share(*y))).collect();
+        let ends = || shares.iter().zip(shares.iter().cycle().skip(1));
+        for column in 0..=last {
+            let x = column as f64 / last.max(1) as f64;
+            let mut crossings: Vec<f64> = ends()
+                .filter(|(a, b)| (a.0 <= x) != (b.0 <= x))
+                .map(|(a, b)| a.1 + (b.1 - a.1) * (x - a.0) / (b.0 - a.0))
+                .filter(|y| y.is_finite())
+                .collect();
+            crossings.sort_unstable_by(f64::total_cmp);
+            for pair in crossings.chunks_exact(2) {
+                let row = |y: f64| painter.get_point(x, y.clamp(0.0, 1.0)).map(|(_, row)| row);
+                let (Some(low), Some(high)) = (row(pair[0]), row(pair[1])) else { continue };
+                (high..=low)
+                    .filter(|y| (column + y).is_multiple_of(2))
+                    .for_each(|y| self.paint(painter, (column, y)));
+            }
+        }
+    }
+}
+
+impl CanvasShape for LayerShape<'_> {
+    fn draw(&self, painter: &mut Painter<'_, '_>) {
+        let ends = |axis: &crate::draw::Axis| axis.span.bounds().map(|end| axis.scale.number(end));
+        match self.shape {
+            Shape::Curve { points, stroke: Some(stroke), .. } => {
+                self.line(painter, points.iter().copied(), *stroke);
+                // A point alone between gaps is no line.
+                points.iter().for_each(|point| {
+                    if let (Stroke::Solid, Some(dot)) = (stroke, self.dot(painter, *point)) {
+                        self.paint(painter, dot);
+                    }
+                });
+            }
+            Shape::Band(points) => {
+                for end in [|point: &(f64, f64, f64)| point.1, |point: &(f64, f64, f64)| point.2] {
+                    let line = points.iter().map(|point| (point.0, end(point)));
+                    self.line(painter, line, Stroke::Sparse);
+                }
+            }
+            Shape::Envelope { x, columns } => self.envelope(painter, *x, columns),
+            Shape::Inside(border) => self.inside(painter, border),
+            Shape::Boxes(boxes) => {
+                for ((left, right), (low, high)) in boxes {
+                    let corners = (self.dot(painter, (*left, *high)), self.dot(painter, (*right, *low)));
+                    let (Some(from), Some(to)) = corners else { continue };
+                    for y in from.1..=to.1 {
+                        (from.0..=to.0).for_each(|x| self.paint(painter, (x, y)));
+                    }
+                }
+            }
+            Shape::Upright(x) => {
+                let line = ends(&self.chart.y).map(|y| (*x, y));
+                if (0.0..=1.0).contains(&self.chart.x.share(*x)) {
+                    self.line(painter, line.into_iter(), Stroke::Sparse);
+                }
+            }
+            Shape::Level(y) => {
+                let line = ends(&self.chart.x).map(|x| (x, *y));
+                if (0.0..=1.0).contains(&self.chart.y.share(*y)) {
+                    self.line(painter, line.into_iter(), Stroke::Sparse);
+                }
+            }
+            Shape::Curve { stroke: None, .. } | Shape::Map(_) => {}
+        }
+    }
+}
+
+/// Dots of a line that are painted: lines are told apart without colours.
+fn paints(stroke: Stroke, dot: usize) -> bool {
+    match stroke {
+        Stroke::Solid => true,
+        Stroke::Dashed => dot % 8 < 6,
+        Stroke::Dotted => dot % 4 < 2,
+        Stroke::Sparse => dot.is_multiple_of(4),
+    }
+}
+
+/// The dots from one to another, without the first unless they are the same.
+fn between(from: Dot, to: Dot) -> impl Iterator<Item = Dot> {
+    let (dx, dy) = (to.0 as f64 - from.0 as f64, to.1 as f64 - from.1 as f64);
+    let steps = dx.abs().max(dy.abs()).max(1.0) as usize;
+    (1..=steps).map(move |step| {
+        let share = step as f64 / steps as f64;
+        ((from.0 as f64 + dx * share).round() as usize, (from.1 as f64 + dy * share).round() as usize)
+    })
+}

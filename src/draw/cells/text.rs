@@ -1,0 +1,220 @@
+//! Figures as text for a terminal, or for a file.
+
+use super::{CellPlot, CellStyle, heading, legend, map};
+use crate::draw::chart::{Chart, Figure};
+use crate::draw::colour::{Ink, Rgb};
+use crate::draw::label::Label;
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
+use ratatui::style::{Color, Style};
+use ratatui::symbols::Marker;
+
+/// Narrowest and widest text, columns.
+const COLUMNS: (usize, usize) = (40, 160);
+/// Widest plot of curves, columns, and its rows with those of the scale below.
+const WIDEST_PLOT: u16 = 110;
+const ROWS: u16 = 20;
+/// Widest cell of a map, columns, and fewest and most rows of a map.
+const WIDEST_CELL: usize = 5;
+const FEWEST_ROWS: usize = 10;
+const MOST_ROWS: usize = 48;
+
+/// Colours of a terminal.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Colours {
+    /// None: shades are characters.
+    None,
+    /// 256 fixed ones.
+    Palette,
+    /// Any.
+    All,
+}
+
+impl Colours {
+    /// A colour as the terminal has it.
+    #[must_use]
+    pub fn colour(self, [red, green, blue]: Rgb) -> Color {
+        // The cube of 6 × 6 × 6 colours: 0, 95, 135, … 255.
+        let level = |value: u8| value.saturating_sub(35) / 40;
+        match self {
+            Colours::None => Color::Reset,
+            Colours::Palette => Color::Indexed(16 + 36 * level(red) + 6 * level(green) + level(blue)),
+            Colours::All => Color::Rgb(red, green, blue),
+        }
+    }
+}
+
+/// A figure as text of at most so many columns, one chart below the other.
+#[must_use]
+pub fn figure_text(figure: &Figure, columns: usize, colours: Colours) -> String {
+    let columns = columns.clamp(COLUMNS.0, COLUMNS.1);
+    let ink = |ink: Ink| match (ink, colours) {
+        (Ink::Text | Ink::Quiet, _) | (_, Colours::None) => Style::new(),
+        (ink, colours) => Style::new().fg(colours.colour(ink.on_paper())),
+    };
+    let style = CellStyle { marker: Marker::Braille, ink: &ink, colours };
+    let mut text = String::new();
+    for line in std::iter::once(&Label::plain(&figure.title)).chain(&figure.notes) {
+        push_words(&mut text, &line.to_string(), columns);
+    }
+    for (index, chart) in figure.charts.iter().enumerate() {
+        if !text.is_empty() {
+            text.push('\n');
+        }
+        if figure.charts.len() > 1 {
+            push_words(&mut text, &format!("({}) {}", letter(index), chart.heading), columns);
+        }
+        push_words(&mut text, &heading(chart).to_string(), columns);
+        push_chart(&mut text, chart, columns as u16, &style);
+        let of_chart = Figure { charts: vec![chart.clone()], ..Figure::clone(figure) };
+        push_legend(&mut text, &of_chart, columns, &style);
+    }
+    text
+}
+
+fn letter(index: usize) -> char {
+    char::from(b'a' + (index % 26) as u8)
+}
+
+fn push_chart(text: &mut String, chart: &Chart, columns: u16, style: &CellStyle<'_>) {
+    let mut area = Rect::new(0, 0, columns.min(WIDEST_PLOT), ROWS);
+    if let Some(map) = map::of(chart) {
+        // Every value has as many columns and rows as the others, where there is room.
+        let rows = map.rows.len().max(1);
+        let rows = rows.div_ceil(rows.div_ceil(MOST_ROWS)) * FEWEST_ROWS.div_ceil(rows);
+        let left = area.width - CellPlot::within(area, chart).plot.width;
+        let (room, values) = (usize::from(columns - left), map.columns.len().max(1));
+        let plot = if values > room { room } else { values * (room / values).min(WIDEST_CELL) };
+        area.width = (plot as u16 + left).max(super::WITH_LEFT_SCALE.0);
+        area.height = rows as u16;
+        while usize::from(CellPlot::within(area, chart).plot.height) < rows {
+            area.height += 1;
+        }
+        push_words(text, &format!("↑ {}", chart.y.label_with_unit()), usize::from(columns));
+    }
+    let mut buffer = Buffer::empty(area);
+    let place = CellPlot::within(area, chart);
+    place.draw(&mut buffer, chart, style);
+    super::dry(&mut buffer);
+    for row in 0..area.height {
+        let cells = (0..area.width).map(|column| &buffer[(column, row)]);
+        let runs: Vec<(&str, Style)> = cells.map(|cell| (cell.symbol(), cell.style())).collect();
+        push_line(text, &runs);
+    }
+    if let Some(map) = map::of(chart) {
+        text.push('\n');
+        let parts = map::key(map, usize::from(columns), style.colours);
+        let runs: Vec<(&str, Style)> = parts.iter().map(|(text, style)| (text.as_str(), *style)).collect();
+        push_line(text, &runs);
+        for (axis, values, cells) in
+            [("across", &map.columns, place.plot.width), ("up", &map.rows, place.plot.height)]
+        {
+            if values.len() > usize::from(cells) {
+                let note = format!("{axis}: {cells} of {} values are shown", values.len());
+                push_words(text, &note, usize::from(columns));
+            }
+        }
+    }
+}
+
+fn push_legend(text: &mut String, figure: &Figure, columns: usize, style: &CellStyle<'_>) {
+    let classes = figure.charts.iter().filter_map(map::of).flat_map(|map| {
+        let has = |class: usize| map.classes.contains(&Some(class));
+        map.class_names.iter().enumerate().filter(move |(class, _)| has(*class))
+    });
+    let letters: Vec<(String, char)> =
+        classes.map(|(_, (_, letter, name))| (format!(" {name}"), *letter)).collect();
+    let mut lines: Vec<Vec<(String, Style)>> = Vec::new();
+    let mut width = 0;
+    for mut part in legend(figure, style) {
+        // Cells of a map hold letters.
+        let letter = letters.iter().find(|(name, _)| part.last().is_some_and(|last| last.content == *name));
+        if let Some((name, letter)) = letter {
+            part = vec![format!("{letter}{name}").into()];
+        }
+        let own: usize = part.iter().map(|span| span.content.chars().count()).sum();
+        if lines.is_empty() || width + 2 + own > columns {
+            lines.push(Vec::new());
+            width = 0;
+        } else if let Some(line) = lines.last_mut() {
+            line.push(("  ".to_owned(), Style::new()));
+            width += 2;
+        }
+        width += own;
+        if let Some(line) = lines.last_mut() {
+            line.extend(part.into_iter().map(|span| (span.content.into_owned(), span.style)));
+        }
+    }
+    for line in lines {
+        push_line(text, &line.iter().map(|(text, style)| (text.as_str(), *style)).collect::<Vec<_>>());
+    }
+}
+
+/// Adds a line without the blanks at its end, with what a terminal takes for its colours.
+fn push_line(text: &mut String, runs: &[(&str, Style)]) {
+    let is_blank = |(text, style): &&(&str, Style)| {
+        text.trim_matches([' ', '\u{2800}']).is_empty() && code(style).is_empty()
+    };
+    let end = runs.len() - runs.iter().rev().take_while(is_blank).count();
+    let mut last = String::new();
+    for (run, style) in &runs[..end] {
+        let code = code(style);
+        if code != last {
+            text.push_str(if last.is_empty() { "" } else { "\x1b[0m" });
+            text.push_str(&code);
+            last = code;
+        }
+        text.push_str(run);
+    }
+    text.push_str(if last.is_empty() { "" } else { "\x1b[0m" });
+    text.push('\n');
+}
+
+/// What gives a terminal the colours of a style.
+fn code(style: &Style) -> String {
+    let parameters = |kind: u8, colour: Option<Color>| match colour {
+        Some(Color::Rgb(red, green, blue)) => Some(format!("{kind};2;{red};{green};{blue}")),
+        Some(Color::Indexed(index)) => Some(format!("{kind};5;{index}")),
+        _ => None,
+    };
+    let both: Vec<String> = parameters(38, style.fg).into_iter().chain(parameters(48, style.bg)).collect();
+    if both.is_empty() { String::new() } else { format!("\x1b[{}m", both.join(";")) }
+}
+
+/// Adds words, on as many lines as they take.
+fn push_words(text: &mut String, words: &str, columns: usize) {
+    let mut line = String::new();
+    for word in words.split_whitespace() {
+        if !line.is_empty() && line.chars().count() + 1 + word.chars().count() > columns {
+            text.push_str(&line);
+            text.push('\n');
+            line.clear();
+        }
+        if !line.is_empty() {
+            line.push(' ');
+        }
+        line.push_str(word);
+    }
+    if !line.is_empty() {
+        text.push_str(&line);
+        text.push('\n');
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn colours_are_those_of_the_cube() {
+        let line = |colours: Colours| {
+            let looks = Style::new().fg(colours.colour([255; 3])).bg(colours.colour([0; 3]));
+            let mut text = String::new();
+            push_line(&mut text, &[("x", looks), (" ", looks), (" ", Style::new())]);
+            text
+        };
+        assert_eq!(line(Colours::Palette), "\x1b[38;5;231;48;5;16mx \x1b[0m\n");
+        assert_eq!(line(Colours::All), "\x1b[38;2;255;255;255;48;2;0;0;0mx \x1b[0m\n");
+        assert_eq!(line(Colours::None), "x\n");
+    }
+}

@@ -1,0 +1,251 @@
+//! What a figure shows: charts with axes and layers of data in SI units. How it looks is up to the backend.
+
+use super::axis::{Axis, AxisScale, Span};
+use super::colour::Ink;
+use super::label::Label;
+
+/// Charts side by side under one title, with one legend.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Figure {
+    /// Title; may be empty.
+    pub title: String,
+    /// Lines below the title.
+    pub notes: Vec<Label>,
+    /// The charts.
+    pub charts: Vec<Chart>,
+    /// Width and height of the frame of each chart in a picture, px.
+    pub size: (f64, f64),
+}
+
+impl Figure {
+    /// Frame of a map or of one of several charts, px.
+    pub const SMALL: (f64, f64) = (330.0, 270.0);
+    /// Frame of a chart with the figure to itself, px.
+    pub const WIDE: (f64, f64) = (480.0, 300.0);
+}
+
+/// Data over two axes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Chart {
+    /// Heading, shown where a figure has several charts.
+    pub heading: String,
+    /// Horizontal axis.
+    pub x: Axis,
+    /// Vertical axis.
+    pub y: Axis,
+    /// Layers, the lowest first.
+    pub layers: Vec<Layer>,
+    /// The same data on other scales, drawn into a corner that the curves leave free.
+    pub inset: Option<Box<Chart>>,
+}
+
+/// One kind of data, and its entry in the legend. Layers of the same name share an entry.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Layer {
+    /// Name in the legend; none where empty.
+    pub name: Label,
+    /// Colour.
+    pub ink: Ink,
+    /// Data.
+    pub shape: Shape,
+}
+
+impl Layer {
+    /// A named layer.
+    #[must_use]
+    pub fn new(name: Label, ink: Ink, shape: Shape) -> Layer {
+        Layer { name, ink, shape }
+    }
+
+    /// A layer without an entry in the legend.
+    #[must_use]
+    pub fn unnamed(ink: Ink, shape: Shape) -> Layer {
+        Layer::new(Label::default(), ink, shape)
+    }
+}
+
+/// Data of a layer, in numbers on the axes. A point that an axis has no coordinate for interrupts a curve or band.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Shape {
+    /// A line through points, signs at the points, or both.
+    Curve {
+        /// x and y.
+        points: Vec<(f64, f64)>,
+        /// How the line is drawn.
+        stroke: Option<Stroke>,
+        /// Sign at each point.
+        sign: Option<Sign>,
+    },
+    /// An area between two curves: x, lower and upper y. Ends beyond the axis are drawn at its end.
+    Band(Vec<(f64, f64, f64)>),
+    /// A line finer than a picture shows, by its lowest and highest y in columns of equal width.
+    Envelope {
+        /// x at the outer edges of the first and the last column.
+        x: (f64, f64),
+        /// Ends of each column; none where the line is interrupted.
+        columns: Vec<Option<(f64, f64)>>,
+    },
+    /// The inside of a closed line.
+    Inside(Vec<(f64, f64)>),
+    /// Filled boxes: ends in x and in y.
+    Boxes(Vec<((f64, f64), (f64, f64))>),
+    /// A line across the chart at this x.
+    Upright(f64),
+    /// A line across the chart at this y.
+    Level(f64),
+    /// A coloured cell for each pair of values of the axes.
+    Map(HeatMap),
+}
+
+/// Stroke of a line.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stroke {
+    /// Whole.
+    Solid,
+    /// Long dashes.
+    Dashed,
+    /// Short dashes.
+    Dotted,
+    /// Dots far apart.
+    Sparse,
+}
+
+/// Sign at a point.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[allow(missing_docs)]
+pub enum Sign {
+    Dot,
+    Square,
+    Up,
+    Diamond,
+    Ring,
+    Down,
+    Cross,
+    HollowDiamond,
+}
+
+impl Sign {
+    /// Sign of one of several curves, counted from 0.
+    #[must_use]
+    pub fn of_series(number: usize) -> Sign {
+        [Sign::Dot, Sign::Square, Sign::Up, Sign::Diamond, Sign::Ring][number % 5]
+    }
+}
+
+/// Values on a grid, row by row from the lower left.
+#[derive(Clone, Debug, PartialEq)]
+pub struct HeatMap {
+    /// Values of the columns on the horizontal axis, ascending.
+    pub columns: Vec<f64>,
+    /// Values of the rows on the vertical axis, ascending.
+    pub rows: Vec<f64>,
+    /// Value of each cell.
+    pub values: Vec<Option<f64>>,
+    /// Axis of the values.
+    pub key: Axis,
+    /// Class of each cell, an index of `class_names`; empty without classes.
+    pub classes: Vec<Option<usize>>,
+    /// Sign, letter and name of each class.
+    pub class_names: Vec<(Sign, char, String)>,
+    /// A level line of another field on the same grid.
+    pub contour: Option<Contour>,
+}
+
+/// Line on which a field has a level.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Contour {
+    /// The field, in the order of [`HeatMap::values`].
+    pub field: Vec<Option<f64>>,
+    /// The level.
+    pub level: f64,
+    /// Name in the legend.
+    pub name: Label,
+}
+
+impl HeatMap {
+    /// Borders of cells with these values on an axis, in coordinates: halfway between the values.
+    #[must_use]
+    pub fn borders(scale: AxisScale, values: &[f64]) -> Vec<f64> {
+        let places: Vec<f64> = values.iter().map(|value| scale.coordinate(*value)).collect();
+        let (Some(first), Some(last)) = (places.first(), places.last()) else { return vec![0.0, 1.0] };
+        let between: Vec<f64> = places.windows(2).map(|pair| f64::midpoint(pair[0], pair[1])).collect();
+        let (before, after) = match (between.first(), between.last()) {
+            (Some(second), Some(before_last)) => (2.0 * first - second, 2.0 * last - before_last),
+            _ => (first - 0.5, last + 0.5),
+        };
+        [vec![before], between, vec![after]].concat()
+    }
+
+    /// Range of an axis that shows cells with these values.
+    #[must_use]
+    pub fn span(scale: AxisScale, values: &[f64]) -> Span {
+        let borders = HeatMap::borders(scale, values);
+        Span { low: borders[0], high: borders[borders.len() - 1] }
+    }
+}
+
+/// An entry of a legend.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Entry {
+    /// Name of the layers.
+    pub name: Label,
+    /// Sample of each layer of this name; several for layers in several colours.
+    pub samples: Vec<(Ink, Sample)>,
+}
+
+/// Sample of a layer in a legend.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Sample {
+    /// A line with a sign on it.
+    Line(Option<Stroke>, Option<Sign>),
+    /// A filled area.
+    Area,
+    /// A line across the chart, upright or level.
+    Guide,
+    /// A level line of a map.
+    Contour,
+    /// A cell without a value.
+    Empty,
+}
+
+impl Figure {
+    /// Entries of the legend: names of the layers, each once, in the order of drawing.
+    #[must_use]
+    pub fn legend(&self) -> Vec<Entry> {
+        let mut entries: Vec<Entry> = Vec::new();
+        let mut add = |name: &Label, ink: Ink, sample: Sample| {
+            if name.is_empty() {
+                return;
+            }
+            match entries.iter_mut().find(|entry| entry.name == *name) {
+                Some(entry) if entry.samples.contains(&(ink, sample)) => {}
+                Some(entry) => entry.samples.push((ink, sample)),
+                None => entries.push(Entry { name: name.clone(), samples: vec![(ink, sample)] }),
+            }
+        };
+        for Layer { name, ink, shape } in self.charts.iter().flat_map(|chart| &chart.layers) {
+            match shape {
+                Shape::Curve { stroke, sign, .. } => add(name, *ink, Sample::Line(*stroke, *sign)),
+                Shape::Envelope { .. } => add(name, *ink, Sample::Line(Some(Stroke::Solid), None)),
+                Shape::Band(_) | Shape::Inside(_) | Shape::Boxes(_) => add(name, *ink, Sample::Area),
+                Shape::Upright(_) | Shape::Level(_) => add(name, *ink, Sample::Guide),
+                Shape::Map(map) => {
+                    for (class, (sign, _, name)) in map.class_names.iter().enumerate() {
+                        if map.classes.contains(&Some(class)) {
+                            add(&Label::plain(name), Ink::Text, Sample::Line(None, Some(*sign)));
+                        }
+                    }
+                    if let Some(contour) = &map.contour {
+                        add(&contour.name, Ink::Text, Sample::Contour);
+                    }
+                    if map.values.contains(&None) {
+                        add(&"no value".into(), Ink::Quiet, Sample::Empty);
+                    }
+                }
+            }
+        }
+        // Lines first: an area explains a line.
+        entries.sort_by_key(|entry| entry.samples.iter().any(|(_, sample)| *sample == Sample::Area));
+        entries
+    }
+}

@@ -1,0 +1,188 @@
+//! Colours of figures and screenshots.
+
+/// Red, green and blue.
+pub type Rgb = [u8; 3];
+
+/// Colours of a screen.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Palette {
+    /// Text.
+    pub foreground: Rgb,
+    /// Background.
+    pub background: Rgb,
+    /// The sixteen colours in the order of ANSI: black, red, green, yellow, blue, magenta, cyan, gray, and their
+    /// bright variants.
+    pub ansi: [Rgb; 16],
+}
+
+impl Palette {
+    /// Light on dark. Red, green, blue and magenta differ, in lightness too, for readers without red or green
+    /// cones.
+    pub const DARK: Palette = Palette {
+        foreground: [0xe1, 0xe6, 0xeb],
+        background: [0x10, 0x15, 0x1b],
+        ansi: [
+            [0x10, 0x15, 0x1b],
+            [0xff, 0x6b, 0x3d],
+            [0x1a, 0xb4, 0x85],
+            [0xf0, 0xd6, 0x55],
+            [0x3b, 0x94, 0xf5],
+            [0xee, 0x97, 0xdd],
+            [0x5f, 0xd0, 0xe6],
+            [0xc4, 0xcb, 0xd2],
+            [0x85, 0x8f, 0x9a],
+            [0xff, 0x93, 0x70],
+            [0x52, 0xd6, 0xac],
+            [0xf7, 0xe4, 0x86],
+            [0x7a, 0xb8, 0xff],
+            [0xf5, 0xc4, 0xea],
+            [0x96, 0xe4, 0xf2],
+            [0xff, 0xff, 0xff],
+        ],
+    };
+
+    /// Dark on light, as [`Palette::DARK`].
+    pub const LIGHT: Palette = Palette {
+        foreground: [0x1b, 0x20, 0x26],
+        background: [0xff, 0xff, 0xff],
+        ansi: [
+            [0x1b, 0x20, 0x26],
+            [0xcc, 0x3f, 0x00],
+            [0x00, 0x80, 0x5e],
+            [0x7d, 0x63, 0x00],
+            [0x00, 0x5c, 0xc2],
+            [0x8e, 0x2a, 0x7c],
+            [0x00, 0x70, 0x88],
+            [0x52, 0x5c, 0x66],
+            [0x6a, 0x74, 0x7e],
+            [0xb3, 0x38, 0x00],
+            [0x00, 0x6b, 0x4f],
+            [0x69, 0x53, 0x00],
+            [0x00, 0x4b, 0x9e],
+            [0x75, 0x1f, 0x66],
+            [0x00, 0x5c, 0x70],
+            [0xff, 0xff, 0xff],
+        ],
+    };
+}
+
+/// What a colour means; each backend has a colour for each.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Ink {
+    /// Text, frames, outlines.
+    Text,
+    /// Guides and whatever stays in the background.
+    Quiet,
+    /// The rigid profile.
+    Profile,
+    /// The elastic surface.
+    Surface,
+    /// Contact.
+    Contact,
+    /// Loading.
+    Loading,
+    /// Unloading.
+    Unloading,
+    /// Manual loading.
+    Manual,
+    /// A curve kept for comparison.
+    Kept,
+    /// The present state.
+    Cursor,
+    /// One of several curves, counted from 0.
+    Series(usize),
+}
+
+impl Ink {
+    /// Colour on paper.
+    #[must_use]
+    pub fn on_paper(self) -> Rgb {
+        let Palette { foreground, ansi, .. } = Palette::LIGHT;
+        match self {
+            Ink::Text | Ink::Profile => foreground,
+            Ink::Quiet | Ink::Kept => ansi[8],
+            Ink::Surface => ansi[4],
+            Ink::Contact | Ink::Cursor => ansi[1],
+            Ink::Loading => ansi[2],
+            Ink::Unloading => ansi[5],
+            Ink::Manual => ansi[6],
+            // Blue, red, black, green, magenta: neighbours differ in lightness.
+            Ink::Series(number) => [ansi[4], ansi[1], foreground, ansi[2], ansi[5]][number % 5],
+        }
+    }
+}
+
+/// Viridis (van der Walt and Smith, 2015) at equal distances: readable without red or green cones, and
+/// monotonic in lightness.
+const SHADES: [Rgb; 9] = [
+    [0x44, 0x01, 0x54],
+    [0x47, 0x2d, 0x7b],
+    [0x3b, 0x52, 0x8b],
+    [0x2c, 0x72, 0x8e],
+    [0x21, 0x91, 0x8c],
+    [0x28, 0xae, 0x80],
+    [0x5e, 0xc9, 0x62],
+    [0xad, 0xdc, 0x30],
+    [0xfd, 0xe7, 0x25],
+];
+
+/// Colour at a share of the scale of a heat map; the lowest where the share is no number.
+#[must_use]
+pub fn shade(share: f64) -> Rgb {
+    let share = if share.is_nan() { 0.0 } else { share.clamp(0.0, 1.0) };
+    let place = share * (SHADES.len() - 1) as f64;
+    let index = (place as usize).min(SHADES.len() - 2);
+    let (from, to) = (SHADES[index], SHADES[index + 1]);
+    std::array::from_fn(|channel| {
+        let (from, to) = (f64::from(from[channel]), f64::from(to[channel]));
+        (from + (to - from) * (place - index as f64)).round() as u8
+    })
+}
+
+/// Lightness of a colour in grey, from 0 to 1.
+fn lightness([red, green, blue]: Rgb) -> f64 {
+    (0.299 * f64::from(red) + 0.587 * f64::from(green) + 0.114 * f64::from(blue)) / 255.0
+}
+
+/// Black or white, whichever is readable on a colour.
+#[must_use]
+pub fn ink_on(colour: Rgb) -> Rgb {
+    if lightness(colour) > 0.5 { [0; 3] } else { [255; 3] }
+}
+
+/// A colour as documents for the web write it.
+#[must_use]
+pub fn hex([red, green, blue]: Rgb) -> String {
+    format!("#{red:02x}{green:02x}{blue:02x}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn shades_keep_their_order_in_grey() {
+        let greys: Vec<f64> = (0..=100).map(|percent| lightness(shade(f64::from(percent) / 100.0))).collect();
+        assert!(greys.windows(2).all(|pair| pair[0] < pair[1]), "{greys:?}");
+        assert!(greys[100] - greys[0] > 0.7, "{greys:?}");
+        assert_eq!([f64::NAN, f64::NEG_INFINITY].map(shade), [shade(0.0); 2]);
+        assert_eq!(shade(f64::INFINITY), SHADES[8]);
+    }
+
+    #[test]
+    fn ink_is_readable_on_every_shade() {
+        for percent in 0..=100 {
+            let colour = shade(f64::from(percent) / 100.0);
+            assert!((lightness(colour) - lightness(ink_on(colour))).abs() >= 0.5, "{percent} {colour:?}");
+        }
+    }
+
+    #[test]
+    fn curves_of_a_figure_have_colours_of_their_own() {
+        let colours: Vec<Rgb> = (0..5).map(|number| Ink::Series(number).on_paper()).collect();
+        for (number, colour) in colours.iter().enumerate() {
+            assert!(!colours[..number].contains(colour), "{number}");
+        }
+        assert_eq!(hex([0, 0x5c, 0xc2]), "#005cc2");
+    }
+}

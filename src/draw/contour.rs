@@ -1,0 +1,129 @@
+//! Level lines of a field on a grid, by marching squares.
+
+/// A point in the coordinates of the grid.
+type Point = (f64, f64);
+
+/// Level lines of a field that is linear along the edges of the grid. Squares with a missing corner have none.
+/// In a square that the level crosses twice the mean of the corners decides which of them are connected.
+pub(super) fn contour(across: &[f64], up: &[f64], field: &[Option<f64>], level: f64) -> Vec<Vec<Point>> {
+    let mut pieces = Vec::new();
+    for row in 1..up.len() {
+        for column in 1..across.len() {
+            let corner = |dx: usize, dy: usize| {
+                let (column, row) = (column - 1 + dx, row - 1 + dy);
+                let value = *field.get(row * across.len() + column)?;
+                Some((across[column], up[row], value? - level))
+            };
+            // Around the square, so that neighbours share an edge.
+            let corners = [(0, 0), (1, 0), (1, 1), (0, 1)].map(|(dx, dy)| corner(dx, dy));
+            let [Some(a), Some(b), Some(c), Some(d)] = corners else { continue };
+            let square = [a, b, c, d];
+            let cuts: Vec<(usize, Point)> =
+                (0..4).filter_map(|edge| Some((edge, cut(square[edge], square[(edge + 1) % 4])?))).collect();
+            match cuts.as_slice() {
+                [(_, from), (_, to)] => pieces.push((*from, *to)),
+                [(_, south), (_, east), (_, north), (_, west)] => {
+                    let middle = square.iter().map(|corner| corner.2).sum::<f64>();
+                    // The corners on the side of the mean are connected.
+                    if (middle < 0.0) == (square[0].2 < 0.0) {
+                        pieces.extend([(*south, *east), (*north, *west)]);
+                    } else {
+                        pieces.extend([(*west, *south), (*east, *north)]);
+                    }
+                }
+                _ => {}
+            }
+        }
+    }
+    joined(pieces)
+}
+
+/// Point of an edge at the level.
+fn cut(from: (f64, f64, f64), to: (f64, f64, f64)) -> Option<Point> {
+    ((from.2 < 0.0) != (to.2 < 0.0)).then(|| {
+        // Always from the lower corner, so that two squares find the same point to the last bit.
+        let (low, high) = if from.2 < to.2 { (from, to) } else { (to, from) };
+        let share = low.2 / (low.2 - high.2);
+        (low.0 + (high.0 - low.0) * share, low.1 + (high.1 - low.1) * share)
+    })
+}
+
+/// Pieces joined at their common ends.
+fn joined(mut pieces: Vec<(Point, Point)>) -> Vec<Vec<Point>> {
+    let mut lines = Vec::new();
+    while let Some((from, to)) = pieces.pop() {
+        let mut line = std::collections::VecDeque::from([from, to]);
+        loop {
+            let ends = (line.front().copied(), line.back().copied());
+            let next = pieces
+                .iter()
+                .position(|(a, b)| [ends.0, ends.1].into_iter().flatten().any(|end| end == *a || end == *b));
+            let Some((a, b)) = next.map(|index| pieces.remove(index)) else { break };
+            if ends.1 == Some(a) {
+                line.push_back(b);
+            } else if ends.1 == Some(b) {
+                line.push_back(a);
+            } else if ends.0 == Some(a) {
+                line.push_front(b);
+            } else {
+                line.push_front(a);
+            }
+        }
+        lines.push(line.into());
+    }
+    lines
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_plane_is_cut_along_a_straight_line() {
+        let (across, up) = ([0.0, 1.0, 3.0, 4.0], [0.0, 2.0, 5.0]);
+        let plane: Vec<_> = up.iter().flat_map(|y| across.map(|x| Some(x + y - 2.5))).collect();
+        let lines = contour(&across, &up, &plane, 0.0);
+        assert_eq!(lines.len(), 1, "{lines:?}");
+        assert!(lines[0].len() >= 3, "{lines:?}");
+        for (x, y) in &lines[0] {
+            assert!((x + y - 2.5).abs() < 1e-12, "{x} {y}");
+        }
+        // From border to border.
+        let ends = [lines[0][0], lines[0][lines[0].len() - 1]];
+        assert!(ends.contains(&(2.5, 0.0)) && ends.contains(&(0.0, 2.5)), "{ends:?}");
+    }
+
+    #[test]
+    fn a_hill_has_a_closed_line_and_a_gap_opens_it() {
+        let places: Vec<f64> = (0..9).map(|index| f64::from(index) - 4.0).collect();
+        let mut hill: Vec<_> =
+            places.iter().flat_map(|y| places.iter().map(move |x| Some(9.0 - x * x - y * y))).collect();
+        let lines = contour(&places, &places, &hill, 2.0);
+        assert_eq!(lines.len(), 1);
+        assert_eq!(lines[0].first(), lines[0].last());
+        assert!(lines[0].iter().all(|(x, y)| (x.hypot(*y) - 7.0_f64.sqrt()).abs() < 0.15), "{lines:?}");
+        // A corner of squares the line goes through.
+        hill[4 * 9 + 6] = None;
+        let lines = contour(&places, &places, &hill, 2.0);
+        assert!(lines.iter().all(|line| line.first() != line.last()), "{lines:?}");
+    }
+
+    #[test]
+    fn a_saddle_is_cut_as_its_middle_says() {
+        let saddle = |other: f64| [Some(1.0), Some(-1.0), Some(-1.0), Some(other)];
+        for (other, expected) in [(2.0, (0.5, 0.0)), (0.5, (0.5, 0.0))] {
+            let lines = contour(&[0.0, 1.0], &[0.0, 1.0], &saddle(other), 0.0);
+            assert_eq!(lines.len(), 2);
+            let line = lines.iter().find(|line| line.contains(&expected)).unwrap();
+            // High corners hang together where the middle is high: each line cuts off a low one.
+            let cuts_low = line.iter().any(|point| point.0 == 1.0);
+            assert_eq!(cuts_low, other > 1.0, "{lines:?}");
+        }
+    }
+
+    #[test]
+    fn a_level_that_is_not_there_has_no_line() {
+        assert_eq!(contour(&[0.0, 1.0], &[0.0, 1.0], &[Some(1.0); 4], 2.0), Vec::<Vec<Point>>::new());
+        assert_eq!(contour(&[0.0], &[0.0, 1.0], &[Some(1.0); 2], 1.0), Vec::<Vec<Point>>::new());
+    }
+}

@@ -1,0 +1,290 @@
+//! Text of figures: italic symbols, indices and exponents, SI prefixes, numbers.
+
+use crate::text::printable;
+use std::fmt;
+
+/// How a run of characters is set.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Face {
+    Upright,
+    Italic,
+    Index,
+    Exponent,
+}
+
+/// Text with italic symbols, indices and exponents. As a string: `F_a`, `10⁻³`.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Label {
+    runs: Vec<(Face, String)>,
+}
+
+impl Label {
+    /// Upright text on one line; control characters are escaped.
+    #[must_use]
+    pub fn plain(text: &str) -> Label {
+        let mut label = Label::default();
+        label.push(Face::Upright, &printable(text));
+        label
+    }
+
+    /// A symbol: its letters in italics, and what follows a `_` as an index: `F_a,max`.
+    #[must_use]
+    pub fn symbol(text: &str) -> Label {
+        let mut label = Label::default();
+        let text = printable(text);
+        let mut characters = text.chars().peekable();
+        while let Some(character) = characters.next() {
+            if character == '_' {
+                while let Some(next) = characters.next_if(|next| next.is_alphanumeric() || *next == ',') {
+                    label.push(Face::Index, next.encode_utf8(&mut [0; 4]));
+                }
+            } else if character.is_alphabetic() {
+                label.push(Face::Italic, character.encode_utf8(&mut [0; 4]));
+            } else {
+                let character = if character == '-' { '−' } else { character };
+                label.push(Face::Upright, character.encode_utf8(&mut [0; 4]));
+            }
+        }
+        label
+    }
+
+    /// A statement such as `H = 0.3`: a symbol before ` = `, upright text after it.
+    #[must_use]
+    pub fn statement(text: &str) -> Label {
+        match text.split_once(" = ") {
+            Some((symbol, value)) => Label::symbol(symbol).then(" = ").then(value),
+            None => Label::plain(text),
+        }
+    }
+
+    /// A power of ten.
+    #[must_use]
+    pub fn power_of_ten(exponent: i32) -> Label {
+        let mut label = Label::plain("10");
+        label.push(Face::Exponent, &exponent.to_string().replace('-', "−"));
+        label
+    }
+
+    /// Appends upright text.
+    #[must_use]
+    pub fn then(mut self, text: &str) -> Label {
+        self.push(Face::Upright, &printable(text));
+        self
+    }
+
+    /// Appends another label.
+    #[must_use]
+    pub fn join(mut self, other: &Label) -> Label {
+        other.runs.iter().for_each(|(face, text)| self.push(*face, text));
+        self
+    }
+
+    /// Returns true for a label without characters.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.runs.is_empty()
+    }
+
+    pub(crate) fn runs(&self) -> &[(Face, String)] {
+        &self.runs
+    }
+
+    /// Width in units of the font size, for digits 0.58 wide as in the usual sans-serif fonts.
+    #[must_use]
+    pub fn width(&self) -> f64 {
+        let of = |(face, text): &(Face, String)| {
+            let share = if matches!(face, Face::Index | Face::Exponent) { SMALL } else { 1.0 };
+            share * text.chars().map(width).sum::<f64>()
+        };
+        self.runs.iter().map(of).sum()
+    }
+
+    /// Lines no wider than `most`, in units of the font size, broken between words.
+    #[must_use]
+    pub fn wrapped(&self, most: f64) -> Vec<Label> {
+        let mut words = vec![Label::default()];
+        for (face, text) in &self.runs {
+            for (index, part) in text.split(' ').enumerate() {
+                if index > 0 {
+                    words.push(Label::default());
+                }
+                if let Some(word) = words.last_mut() {
+                    word.push(*face, part);
+                }
+            }
+        }
+        let mut lines: Vec<Label> = Vec::new();
+        for word in words.into_iter().filter(|word| !word.is_empty()) {
+            match lines.last_mut() {
+                Some(line) if line.width() + width(' ') + word.width() <= most => {
+                    *line = std::mem::take(line).then(" ").join(&word);
+                }
+                _ => lines.push(word),
+            }
+        }
+        lines
+    }
+
+    fn push(&mut self, face: Face, text: &str) {
+        match self.runs.last_mut() {
+            Some((last, run)) if *last == face => run.push_str(text),
+            _ if text.is_empty() => {}
+            _ => self.runs.push((face, text.to_owned())),
+        }
+    }
+}
+
+impl From<&str> for Label {
+    fn from(text: &str) -> Label {
+        Label::plain(text)
+    }
+}
+
+impl fmt::Display for Label {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (face, text) in &self.runs {
+            match face {
+                Face::Upright | Face::Italic => out.write_str(text)?,
+                Face::Index => write!(out, "_{text}")?,
+                Face::Exponent => text.chars().try_for_each(|c| write!(out, "{}", raised(c)))?,
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Size of indices and exponents, in units of the font size.
+pub(crate) const SMALL: f64 = 0.72;
+
+fn width(character: char) -> f64 {
+    match character {
+        'i' | 'j' | 'l' | '.' | ',' | ' ' | 't' | 'f' | '(' | ')' | '/' | '|' => 0.33,
+        'm' | 'w' | 'M' | 'W' => 0.9,
+        c if c.is_uppercase() => 0.7,
+        _ => 0.58,
+    }
+}
+
+fn raised(character: char) -> char {
+    const DIGITS: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
+    match character {
+        '−' => '⁻',
+        c => c.to_digit(10).map_or(c, |digit| DIGITS[digit as usize]),
+    }
+}
+
+/// Divisor and name of a unit with the SI prefix for numbers up to `largest`; `1` has no name.
+#[must_use]
+pub fn prefixed(unit: &str, largest: f64) -> (f64, String) {
+    const PREFIXES: [(&str, i32); 9] =
+        [("f", -15), ("p", -12), ("n", -9), ("µ", -6), ("m", -3), ("", 0), ("k", 3), ("M", 6), ("G", 9)];
+    if matches!(unit, "" | "1") {
+        return (1.0, String::new());
+    }
+    if !(["N", "m", "J", "Pa", "J/m²", "N/m", "s"].contains(&unit) && largest > 0.0 && largest.is_finite()) {
+        return (1.0, unit.into());
+    }
+    // 999.9999999 nm is 1 µm.
+    let power = (largest * (1.0 + 1e-9)).log10().floor() as i32;
+    let (prefix, power) = PREFIXES.into_iter().rfind(|(_, least)| power >= *least).unwrap_or(PREFIXES[0]);
+    (10_f64.powi(power), format!("{prefix}{unit}"))
+}
+
+/// A number to three significant digits in the shortest form.
+#[must_use]
+pub fn short(value: f64) -> String {
+    if value == 0.0 || !value.is_finite() {
+        return if value == 0.0 { "0".into() } else { value.to_string() };
+    }
+    let rounded: f64 = format!("{value:.2e}").parse().unwrap_or(value);
+    let text =
+        if (1e-3..1e5).contains(&rounded.abs()) { format!("{rounded}") } else { format!("{rounded:e}") };
+    text.replace('-', "−")
+}
+
+/// A number with the decimals of `step`.
+#[must_use]
+pub fn number(value: f64, step: f64) -> String {
+    let decimals = (-step.abs().log10() - 1e-9).ceil().clamp(0.0, 12.0) as usize;
+    let text = format!("{value:.decimals$}");
+    let zero = text.trim_start_matches('-').chars().all(|digit| matches!(digit, '0' | '.'));
+    if zero { text.trim_start_matches('-').to_owned() } else { text.replace('-', "−") }
+}
+
+/// A value with its symbol, or with its name where `symbol` is empty: `H = 0.3`, `points 12.5 µN`.
+#[must_use]
+pub fn value_label(name: &str, symbol: &str, unit: &str, value: f64) -> Label {
+    let (divisor, unit) = prefixed(unit, value.abs());
+    // Counts are exact.
+    let exact = unit.is_empty() && value.fract() == 0.0 && value.abs() < 1e8;
+    let number = if exact { number(value, 1.0) } else { short(value / divisor) };
+    let space = if unit.is_empty() { "" } else { " " };
+    let label =
+        if symbol.is_empty() { Label::plain(name).then(" ") } else { Label::symbol(symbol).then(" = ") };
+    label.then(&format!("{number}{space}{unit}"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn symbols_are_split_into_runs() {
+        let runs = |label: &Label| -> Vec<(Face, String)> { label.runs().to_vec() };
+        assert_eq!(
+            runs(&Label::symbol("F_a(0)/F_a,max")),
+            [
+                (Face::Italic, "F"),
+                (Face::Index, "a"),
+                (Face::Upright, "(0)/"),
+                (Face::Italic, "F"),
+                (Face::Index, "a,max")
+            ]
+            .map(|(face, text)| (face, text.to_owned()))
+        );
+        assert_eq!(Label::symbol("F_a(0)/F_a,max").to_string(), "F_a(0)/F_a,max");
+        assert_eq!(Label::power_of_ten(-12).to_string(), "10⁻¹²");
+        assert_eq!(runs(&Label::statement("H = 0.3"))[1], (Face::Upright, " = 0.3".to_owned()));
+        assert!(Label::plain("").is_empty() && Label::symbol("").is_empty());
+        assert_eq!(Label::plain("a\u{1b}[2J\n").to_string(), "a\\u{1b}[2J\\n");
+    }
+
+    #[test]
+    fn lines_break_between_words() {
+        let label = Label::plain("one two ").join(&Label::symbol("F_n")).then(" three");
+        let lines: Vec<String> = label.wrapped(5.5).iter().map(Label::to_string).collect();
+        assert_eq!(lines, ["one two F_n", "three"]);
+        assert!(label.wrapped(5.5).iter().all(|line| line.width() <= 5.5));
+        assert_eq!(label.wrapped(0.1).len(), 4);
+        assert!(Label::default().wrapped(5.0).is_empty());
+    }
+
+    #[test]
+    fn prefixes_suit_the_largest_number() {
+        assert_eq!(prefixed("N", 2.5e-5), (1e-6, "µN".into()));
+        assert_eq!(prefixed("N", 1e-3), (1e-3, "mN".into()));
+        assert_eq!(prefixed("J/m²", 0.05), (1e-3, "mJ/m²".into()));
+        assert_eq!(prefixed("Pa", 2e6), (1e6, "MPa".into()));
+        assert_eq!(prefixed("N", 1e-18).1, "fN");
+        assert_eq!(prefixed("1", 1e-18), (1.0, String::new()));
+        assert_eq!(prefixed("rad", 1e-3), (1.0, "rad".into()));
+        assert_eq!(prefixed("N", 0.0), (1.0, "N".into()));
+    }
+
+    #[test]
+    fn numbers_have_the_digits_they_need() {
+        assert_eq!(
+            [0.0, 0.30000000000000004, 12345.6, 1.5e-6, -2.0].map(short),
+            ["0", "0.3", "12300", "1.5e−6", "−2"]
+        );
+        assert_eq!(number(0.30000000000000004, 0.1), "0.3");
+        assert_eq!(number(-0.5, 0.05), "−0.50");
+        assert_eq!(number(20.0, 10.0), "20");
+        assert_eq!(number(-1e-18, 0.2), "0.0");
+        let text = |symbol: &str, unit: &str, value| value_label("points", symbol, unit, value).to_string();
+        assert_eq!(text("N", "1", 65536.0), "N = 65536");
+        assert_eq!(text("N", "1", -2.0), "N = −2");
+        assert_eq!(text("", "N", 1.25e-5), "points 12.5 µN");
+        assert_eq!(text("H", "", 0.12345), "H = 0.123");
+    }
+}

@@ -1,0 +1,26 @@
+//! Figures: one model of charts, drawn as SVG or in the cells of a terminal.
+//!
+//! A [`Figure`] holds [`Chart`]s, a chart two [`Axis`] and [`Layer`]s of data in SI units. Ticks, SI prefixes,
+//! typeset symbols and the legend follow from them, the same for every backend.
+
+mod axis;
+#[cfg(feature = "tui")]
+mod cells;
+mod chart;
+mod colour;
+mod contour;
+mod label;
+mod svg;
+mod ticks;
+
+pub use axis::{Axis, AxisScale, Span};
+#[cfg(feature = "tui")]
+pub use cells::{CellPlot, CellStyle, Colours, dry, figure_text, glyph, legend};
+pub use chart::{Chart, Contour, Entry, Figure, HeatMap, Layer, Sample, Shape, Sign, Stroke};
+pub use colour::{Ink, Palette, Rgb, hex, ink_on, shade};
+pub use label::{Label, prefixed, short, value_label};
+pub use svg::{Document, escaped, figure_svg};
+pub use ticks::Tick;
+
+#[cfg(test)]
+pub(crate) use svg::tests as svg_tests;

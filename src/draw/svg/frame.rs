@@ -1,0 +1,129 @@
+//! The frame of a chart: from numbers to places, and axes around it.
+
+use super::document::{Anchor, Document, Pen, Place};
+use crate::draw::axis::Axis;
+use crate::draw::colour::Rgb;
+use crate::draw::label::Label;
+use crate::draw::ticks::Tick;
+
+/// Size of labels of axes, px.
+pub(super) const LABEL: f64 = 13.0;
+/// Size of numbers at ticks, px.
+pub(super) const NUMBER: f64 = 11.5;
+/// Labelled ticks of an axis, about.
+const TICKS: usize = 6;
+
+/// A rectangle in a picture with two axes.
+#[derive(Clone, Copy)]
+pub(super) struct Frame<'a> {
+    /// Upper left corner.
+    pub from: Place,
+    /// Lower right corner.
+    pub to: Place,
+    pub x: &'a Axis,
+    pub y: &'a Axis,
+    /// Size of numbers at ticks, px.
+    pub size: f64,
+}
+
+/// A side of a frame with an axis.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Side {
+    Below,
+    Left,
+    Right,
+}
+
+impl Frame<'_> {
+    pub(super) fn width(&self) -> f64 {
+        self.to.0 - self.from.0
+    }
+
+    pub(super) fn height(&self) -> f64 {
+        self.to.1 - self.from.1
+    }
+
+    /// Place of shares of the axes.
+    fn at(&self, (x, y): (f64, f64)) -> Place {
+        (self.from.0 + x * self.width(), self.to.1 - y * self.height())
+    }
+
+    /// Place of a point, moved to the border where the point is outside; `None` without coordinates.
+    pub(super) fn place(&self, (x, y): (f64, f64)) -> Option<Place> {
+        let shares = (self.x.share(x), self.y.share(y));
+        let is_finite = shares.0.is_finite() && shares.1.is_finite();
+        is_finite.then(|| self.at((shares.0.clamp(0.0, 1.0), shares.1.clamp(0.0, 1.0))))
+    }
+
+    /// Place of a point whose y may lie beyond all coordinates.
+    pub(super) fn place_at_end(&self, (x, y): (f64, f64)) -> Option<Place> {
+        let y = self.y.share(y);
+        let y = if y.is_nan() { 0.0 } else { y.clamp(0.0, 1.0) };
+        let x = self.x.share(x);
+        x.is_finite().then(|| self.at((x.clamp(0.0, 1.0), y)))
+    }
+
+    /// Place of coordinates of the axes.
+    pub(super) fn place_of_coordinates(&self, (x, y): (f64, f64)) -> Place {
+        let share = |axis: &Axis, at: f64| (at - axis.span.low) / axis.span.width();
+        self.at((share(self.x, x), share(self.y, y)))
+    }
+
+    /// Draws an axis; with its label if `labelled`.
+    pub(super) fn axis(&self, document: &mut Document, side: Side, ink: Rgb, labelled: bool) {
+        let size = self.size;
+        let axis = if side == Side::Below { self.x } else { self.y };
+        let ticks = axis.ticks(self.ticks(side));
+        // Outwards from the frame, and the edge of the frame.
+        let (outwards, edge) = match side {
+            Side::Below => (1.0, self.to.1),
+            Side::Left => (-1.0, self.from.0),
+            Side::Right => (1.0, self.to.0),
+        };
+        for Tick { at, label } in &ticks {
+            let length = outwards * size * if label.is_some() { 0.43 } else { 0.23 };
+            let (x, y) = self.place_of_coordinates((*at, *at));
+            let (ends, place, anchor) = match side {
+                Side::Below => ([(x, edge), (x, edge + length)], (x, edge + 1.2 * size), Anchor::Middle),
+                Side::Left => ([(edge + length, y), (edge, y)], (edge - 0.7 * size, y), Anchor::Right),
+                Side::Right => ([(edge, y), (edge + length, y)], (edge + 0.7 * size, y), Anchor::Left),
+            };
+            document.line(&ends, Pen::solid(ink, 1.0));
+            if let Some(label) = label {
+                document.label(label, place, size, anchor, ink);
+            }
+        }
+        let label = axis.label_with_unit();
+        if labelled && !label.is_empty() {
+            let middle = self.at((0.5, 0.5));
+            let (place, anchor) = match side {
+                Side::Below => ((middle.0, edge + 2.9 * size), Anchor::Middle),
+                _ => ((edge + outwards * beside(&ticks, size), middle.1), Anchor::Upwards),
+            };
+            document.label(&label, place, LABEL * size / NUMBER, anchor, ink);
+        }
+    }
+
+    /// Labelled ticks for which a side has room.
+    fn ticks(&self, side: Side) -> usize {
+        if self.size < NUMBER {
+            return 4;
+        }
+        // Wide charts have room for more, low ones for fewer.
+        let room = if side == Side::Below { self.width() / 55.0 } else { self.height() / 40.0 };
+        (room as usize).clamp(3, if side == Side::Below { 9 } else { TICKS })
+    }
+
+    /// Room that an upright axis takes beside the frame, px.
+    pub(super) fn room(&self, side: Side) -> f64 {
+        let ticks = self.y.ticks(self.ticks(side));
+        beside(&ticks, self.size) + 0.7 * LABEL * self.size / NUMBER
+    }
+}
+
+/// Distance from an axis to the middle of its label, beyond the widest number, px. Some fonts are a tenth wider
+/// than the usual ones.
+fn beside(ticks: &[Tick], size: f64) -> f64 {
+    let widest = ticks.iter().filter_map(|tick| tick.label.as_ref()).map(Label::width).fold(0.0, f64::max);
+    (1.1 * widest + 1.9) * size
+}

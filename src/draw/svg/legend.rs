@@ -1,0 +1,106 @@
+//! Legend of a figure: rows of samples with names.
+
+use super::document::{Anchor, Document, Pen, Place};
+use super::layers::{AREA_OPACITY, QUIET, SIGN, TEXT, draw_sign, guide};
+use crate::draw::chart::{Entry, Sample};
+use crate::draw::colour::Ink;
+
+/// Size of names, px.
+const SIZE: f64 = 11.5;
+/// Distance of two entries, px.
+const BETWEEN: f64 = 20.0;
+/// Height of a row, px.
+pub(super) const ROW: f64 = 20.0;
+
+/// Entries in rows, with the width of each row.
+pub(super) struct Legend {
+    rows: Vec<(f64, Vec<Entry>)>,
+}
+
+impl Legend {
+    /// Rows no wider than `most`, as far as entries are not.
+    pub(super) fn new(entries: Vec<Entry>, most: f64) -> Legend {
+        let mut rows: Vec<(f64, Vec<Entry>)> = Vec::new();
+        for entry in entries {
+            let own = width(&entry);
+            match rows.last_mut() {
+                Some((width, row)) if *width + BETWEEN + own <= most => {
+                    *width += BETWEEN + own;
+                    row.push(entry);
+                }
+                _ => rows.push((own, vec![entry])),
+            }
+        }
+        Legend { rows }
+    }
+
+    pub(super) fn width(&self) -> f64 {
+        self.rows.iter().map(|(width, _)| *width).fold(0.0, f64::max)
+    }
+
+    pub(super) fn height(&self) -> f64 {
+        self.rows.len() as f64 * ROW
+    }
+
+    /// Draws the rows around a middle, the first at this height.
+    pub(super) fn draw(&self, document: &mut Document, middle: f64, top: f64) {
+        for (index, (row_width, entries)) in self.rows.iter().enumerate() {
+            let mut x = middle - row_width / 2.0;
+            let y = top + index as f64 * ROW;
+            for entry in entries {
+                sample(document, entry, (x, y));
+                document.label(&entry.name, (x + room(entry), y), SIZE, Anchor::Left, TEXT);
+                x += width(entry) + BETWEEN;
+            }
+        }
+    }
+}
+
+fn width(entry: &Entry) -> f64 {
+    room(entry) + entry.name.width() * SIZE
+}
+
+/// Room for the samples of an entry, px.
+fn room(entry: &Entry) -> f64 {
+    match entry.samples[..] {
+        [(_, Sample::Guide)] => 16.0,
+        [(_, Sample::Line(None, _))] => 12.0,
+        [(_, Sample::Empty)] => 18.0,
+        _ => 28.0,
+    }
+}
+
+/// Draws the samples of an entry from this place; several share the room.
+fn sample(document: &mut Document, entry: &Entry, (x, y): Place) {
+    let part = 22.0 / entry.samples.len().max(1) as f64;
+    for (index, (ink, sample)) in entry.samples.iter().enumerate() {
+        let (colour, left) = (ink.on_paper(), x + index as f64 * part);
+        match *sample {
+            Sample::Line(None, Some(sign)) if entry.samples.len() == 1 => {
+                draw_sign(document, sign, (x + SIGN, y), SIGN, colour);
+            }
+            Sample::Line(stroke, sign) => {
+                if let Some(stroke) = stroke {
+                    document.line(&[(left, y), (left + part, y)], Pen { colour, width: 1.6, stroke });
+                }
+                if let Some(sign) = sign {
+                    draw_sign(document, sign, (left + part / 2.0, y), SIGN, colour);
+                }
+            }
+            Sample::Area => {
+                let (from, to) = ((left, y - 5.0), (left + part, y + 5.0));
+                document.area(&[from, (to.0, from.1), to, (from.0, to.1)], colour, AREA_OPACITY);
+            }
+            Sample::Guide if *ink == Ink::Text => {
+                document.line(&[(x + 5.0, y + 7.0), (x + 5.0, y - 7.0)], Pen { colour, ..guide() });
+            }
+            Sample::Guide => document.line(&[(x + 5.0, y + 7.0), (x + 5.0, y - 7.0)], guide()),
+            Sample::Contour => document.line(&[(x, y), (x + 22.0, y)], Pen::solid(colour, 1.8)),
+            Sample::Empty => {
+                let (from, to) = ((x, y - 6.0), (x + 12.0, y + 6.0));
+                document.frame(from, to, Pen::solid(QUIET, 0.8));
+                document.line(&[(from.0, to.1), (to.0, from.1)], Pen::solid(QUIET, 0.8));
+            }
+        }
+    }
+}

@@ -1,0 +1,313 @@
+//! Figures as SVG. The same figure gives the same bytes.
+
+mod document;
+mod frame;
+mod inset;
+mod layers;
+mod legend;
+
+pub use document::{Document, escaped};
+
+use super::axis::{Axis, AxisScale, Span};
+use super::chart::{Chart, Figure, HeatMap, Shape};
+use super::colour::shade;
+use super::label::Label;
+use document::{Anchor, Pen, Place};
+use frame::{Frame, LABEL, NUMBER, Side};
+use layers::{PAPER, TEXT};
+use legend::Legend;
+
+/// Least room on the left of a chart and room below it for the axes, px.
+const AXES: (f64, f64) = (78.0, 50.0);
+/// Least room on the right of a map for its scale of colours, and of another chart, px.
+const SCALE: f64 = 104.0;
+const BESIDE: f64 = 22.0;
+/// Distance of the scale of colours from its map, and its width, px.
+const FROM_MAP: f64 = 14.0;
+const BAR: f64 = 13.0;
+/// Stripes of the scale of colours.
+const STRIPES: u32 = 128;
+/// Least distance of text from the border, px.
+const MARGIN: f64 = 6.0;
+/// Size of the title, px.
+const TITLE: f64 = 14.5;
+
+/// A figure as SVG.
+#[must_use]
+pub fn figure_svg(figure: &Figure) -> String {
+    let (before, beside) = rooms(figure);
+    let wide = before + figure.size.0 + beside;
+    let charts = figure.charts.len().max(1) as f64;
+    let legend = Legend::new(figure.legend(), charts * wide - 40.0);
+    let width = (charts * wide).max(legend.width() + 40.0);
+    let whole_title = Label::plain(&figure.title);
+    let title = whole_title.wrapped((width - 24.0) / TITLE);
+    let notes: Vec<Label> =
+        figure.notes.iter().flat_map(|note| note.wrapped((width - 24.0) / (LABEL - 1.0))).collect();
+    let headings = if figure.charts.len() > 1 { 22.0 } else { 6.0 };
+    let top = 12.0 + title.len() as f64 * 20.0 + notes.len() as f64 * 18.0 + headings;
+    let bottom = top + figure.size.1 + AXES.1;
+    let height = bottom + if legend.height() > 0.0 { legend.height() + 10.0 } else { 6.0 };
+    let middle = width / 2.0;
+
+    let mut document = Document::new(width, height, &whole_title.to_string());
+    document.begin_text();
+    document.rectangle((0.0, 0.0), (width, height), PAPER);
+    let mut y = 20.0;
+    for line in &title {
+        document.label(line, (middle, y), TITLE, Anchor::Middle, TEXT);
+        y += 20.0;
+    }
+    for line in &notes {
+        document.label(line, (middle, y - 1.0), LABEL - 1.0, Anchor::Middle, TEXT);
+        y += 18.0;
+    }
+    let left = (width - charts * wide) / 2.0 + before;
+    for (index, chart) in figure.charts.iter().enumerate() {
+        let from: Place = (left + index as f64 * wide, top);
+        if figure.charts.len() > 1 {
+            let letter = char::from(b'a' + (index % 26) as u8);
+            let heading = Label::plain(&format!("({letter}) {}", chart.heading));
+            document.label(&heading, (from.0, from.1 - 12.0), LABEL, Anchor::Left, TEXT);
+        }
+        draw_chart(&mut document, chart, from, figure.size);
+    }
+    legend.draw(&mut document, middle, bottom + 12.0);
+    document.end_text();
+    document.finish()
+}
+
+fn frame_of<'a>(chart: &'a Chart, y: &'a Axis, from: Place, size: (f64, f64)) -> Frame<'a> {
+    Frame { from, to: (from.0 + size.0, from.1 + size.1), x: &chart.x, y, size: NUMBER }
+}
+
+/// Room on the left and on the right of a chart, the same for all.
+fn rooms(figure: &Figure) -> (f64, f64) {
+    figure.charts.iter().fold((AXES.0, BESIDE), |(left, right), chart| {
+        let frame = frame_of(chart, &chart.y, (0.0, 0.0), figure.size);
+        let scale = map_of(chart).map_or(0.0, |map| {
+            let bar = Frame { y: &map.key, ..frame };
+            (FROM_MAP + BAR + bar.room(Side::Right) + MARGIN).max(SCALE)
+        });
+        (left.max(frame.room(Side::Left) + MARGIN), right.max(scale))
+    })
+}
+
+fn map_of(chart: &Chart) -> Option<&HeatMap> {
+    chart.layers.iter().find_map(|layer| match &layer.shape {
+        Shape::Map(map) => Some(map),
+        _ => None,
+    })
+}
+
+fn draw_chart(document: &mut Document, chart: &Chart, from: Place, size: (f64, f64)) {
+    let frame = frame_of(chart, &chart.y, from, size);
+    let y = if chart.inset.is_some() { inset::axis_with_room(chart, &frame) } else { chart.y.clone() };
+    let frame = Frame { y: &y, ..frame };
+    layers::draw(document, &frame, &chart.layers);
+    document.frame(frame.from, frame.to, Pen::solid(TEXT, 1.0));
+    frame.axis(document, Side::Below, TEXT, true);
+    frame.axis(document, Side::Left, TEXT, true);
+    if let Some(map) = map_of(chart) {
+        scale_of_colours(document, map, &frame);
+    }
+    if let Some(inner) = &chart.inset {
+        let (from, to) = inset::place(chart, &frame);
+        let paper = ((from.0 - inset::AXES.0, from.1 - 3.0), (to.0 + 6.0, to.1 + inset::AXES.1));
+        document.rectangle(paper.0, paper.1, PAPER);
+        let frame = Frame { from, to, x: &inner.x, y: &inner.y, size: 0.8 * NUMBER };
+        layers::draw(document, &frame, &inner.layers);
+        document.frame(from, to, Pen::solid(TEXT, 0.8));
+        frame.axis(document, Side::Left, TEXT, false);
+        frame.axis(document, Side::Below, TEXT, false);
+    }
+}
+
+fn scale_of_colours(document: &mut Document, map: &HeatMap, beside: &Frame<'_>) {
+    let left = beside.to.0 + FROM_MAP;
+    let across = Axis::new(AxisScale::Linear, Span { low: 0.0, high: 1.0 }, "", "", "");
+    let (from, to) = ((left, beside.from.1), (left + BAR, beside.to.1));
+    let bar = Frame { from, to, x: &across, y: &map.key, size: NUMBER };
+    for stripe in 0..STRIPES {
+        let share = |stripe: u32| f64::from(stripe) / f64::from(STRIPES);
+        let height = |share: f64| to.1 - bar.height() * share;
+        let top = (height(share(stripe + 1)) - 0.5).max(from.1);
+        let colour = shade(f64::midpoint(share(stripe), share(stripe + 1)));
+        document.rectangle((from.0, top), (to.0, height(share(stripe))), colour);
+    }
+    document.frame(from, to, Pen::solid(TEXT, 1.0));
+    bar.axis(document, Side::Right, TEXT, true);
+}
+
+#[cfg(test)]
+pub(crate) mod tests {
+    use super::*;
+    use crate::draw::chart::{Layer, Sign, Stroke};
+    use crate::draw::colour::{Ink, hex};
+
+    /// Elements of a document, names with attributes, and its text. Panics where the document is not well-formed.
+    pub(crate) fn parsed(svg: &str) -> (Vec<String>, String) {
+        let (mut elements, mut open, mut text) = (Vec::new(), Vec::new(), String::new());
+        let mut rest = svg;
+        while let Some((before, behind)) = rest.split_once('<') {
+            assert!(!before.contains('>'), "{before}");
+            text += &unescaped(before);
+            let (tag, behind) = behind.split_once('>').expect("a tag ends");
+            rest = behind;
+            if let Some(name) = tag.strip_prefix('/') {
+                assert_eq!(open.pop(), Some(name), "{tag}");
+                continue;
+            }
+            let (tag, empty) = tag.strip_suffix('/').map_or((tag, false), |tag| (tag, true));
+            let (name, attributes) = tag.split_once(' ').unwrap_or((tag, ""));
+            assert!(name.chars().all(char::is_alphabetic), "{tag}");
+            // Names and values in turns; values in quotes.
+            let mut pieces = attributes.split('"');
+            while let Some(name) = pieces.next().filter(|name| !name.is_empty()) {
+                let name = name.trim_start().strip_suffix('=').expect(tag);
+                assert!(name.chars().all(|one| one.is_ascii_alphabetic() || "-:".contains(one)), "{tag}");
+                let _ = unescaped(pieces.next().expect("a value"));
+            }
+            elements.push(tag.to_owned());
+            if !empty {
+                open.push(name);
+            }
+        }
+        assert!(open.is_empty() && rest.trim().is_empty(), "{open:?} {rest}");
+        (elements, text)
+    }
+
+    fn unescaped(text: &str) -> String {
+        assert!(!text.chars().any(|one| one.is_control() && one != '\n'), "{text:?}");
+        for entity in text.split('&').skip(1) {
+            let known = ["amp;", "lt;", "gt;", "quot;"];
+            assert!(known.iter().any(|name| entity.starts_with(name)), "{text}");
+        }
+        text.replace("&lt;", "<").replace("&gt;", ">").replace("&quot;", "\"").replace("&amp;", "&")
+    }
+
+    /// Elements of a kind.
+    pub(crate) fn elements(svg: &str, tag: &str) -> Vec<String> {
+        let is_kind = |element: &String| element.split(' ').next() == Some(tag);
+        parsed(svg).0.into_iter().filter(is_kind).collect()
+    }
+
+    /// Number in an attribute.
+    pub(crate) fn attribute(element: &str, name: &str) -> f64 {
+        let value = element.split_once(&format!(" {name}=\"")).and_then(|(_, rest)| rest.split('"').next());
+        value.and_then(|value| value.parse().ok()).unwrap_or(f64::NAN)
+    }
+
+    fn axis(scale: AxisScale, low: f64, high: f64, symbol: &str, unit: &str) -> Axis {
+        Axis::new(scale, Span { low, high }, "", symbol, unit)
+    }
+
+    /// A chart over d from 0 to 10 nm and F from 1 µN to 1 mN.
+    pub(crate) fn small(layers: Vec<Layer>) -> Figure {
+        let chart = Chart {
+            heading: String::new(),
+            x: axis(AxisScale::Linear, 0.0, 1e-8, "d", "m"),
+            y: axis(AxisScale::Logarithmic, -6.0, -3.0, "F_n", "N"),
+            layers,
+            inset: None,
+        };
+        Figure {
+            title: "a < b & \u{1b}".into(),
+            notes: Vec::new(),
+            charts: vec![chart],
+            size: (400.0, 300.0),
+        }
+    }
+
+    fn curve(points: &[(f64, f64)], ink: Ink, name: &str) -> Layer {
+        let (stroke, sign) = (Some(Stroke::Dashed), Some(Sign::Dot));
+        Layer::new(Label::symbol(name), ink, Shape::Curve { points: points.to_vec(), stroke, sign })
+    }
+
+    #[test]
+    fn points_and_ticks_lie_where_the_axes_say() {
+        let points = [(0.0, 1e-6), (2.5e-9, 1e-5), (5e-9, f64::NAN), (1e-8, 1e-3), (7.5e-9, 0.0)];
+        let svg = figure_svg(&small(vec![curve(&points, Ink::Series(0), "F_n")]));
+        let frame = elements(&svg, "rect").into_iter().find(|rect| rect.contains("fill=\"none\"")).unwrap();
+        let corner = (attribute(&frame, "x"), attribute(&frame, "y"));
+        assert_eq!((attribute(&frame, "width"), attribute(&frame, "height")), (400.0, 300.0));
+        let circles = elements(&svg, "circle");
+        // One for each point with coordinates, and one in the legend.
+        assert_eq!(circles.len(), 4);
+        for (circle, (across, up)) in circles.iter().zip([(0.0, 0.0), (0.25, 1.0 / 3.0), (1.0, 1.0)]) {
+            let place = (corner.0 + 400.0 * across, corner.1 + 300.0 * (1.0 - up));
+            let off = (attribute(circle, "cx") - place.0, attribute(circle, "cy") - place.1);
+            assert!(off.0.abs() <= 0.005 && off.1.abs() <= 0.005, "{circle} {place:?}");
+        }
+        // Ticks below: labels at 0, 2, … 10 nm.
+        let below = corner.1 + 300.0;
+        for (number, share) in [("0", 0.0), ("2", 0.2), ("10", 1.0)] {
+            let x = corner.0 + 400.0 * share;
+            let text = elements(&svg, "text")
+                .into_iter()
+                .find(|text| (attribute(text, "x") - x).abs() < 0.01 && attribute(text, "y") > below);
+            let text = text.unwrap_or_else(|| panic!("no number at {x}"));
+            assert!(svg.contains(&format!("<{text}>{number}<")), "{text}");
+        }
+        let words = parsed(&svg).1;
+        assert!(words.contains("d (nm)") && words.contains("Fn (mN)"), "{words}");
+        assert!(words.contains("a < b & \\u{1b}"), "{words}");
+        assert_eq!(svg, figure_svg(&small(vec![curve(&points, Ink::Series(0), "F_n")])));
+    }
+
+    #[test]
+    fn the_legend_shows_what_is_drawn() {
+        let band = |ink| {
+            let points = vec![(1e-9, 1e-5, 1e-4), (9e-9, 0.0, 1e-2)];
+            Layer::new("confidence".into(), ink, Shape::Band(points))
+        };
+        let points = [(1e-9, 5e-5), (9e-9, 5e-5)];
+        let inks = [Ink::Series(1), Ink::Series(3)];
+        let figure = small(vec![
+            band(inks[0]),
+            curve(&points, inks[0], "F_n"),
+            band(inks[1]),
+            curve(&points, inks[1], "G"),
+            Layer::unnamed(Ink::Quiet, Shape::Level(1e-4)),
+        ]);
+        let names: Vec<String> = figure.legend().iter().map(|entry| entry.name.to_string()).collect();
+        assert_eq!(names, ["F_n", "G", "confidence"]);
+        let svg = figure_svg(&figure);
+        let looks = |element: &String| element.split_once("fill=").unwrap().1.to_owned();
+        let areas: Vec<String> = elements(&svg, "polygon").iter().map(looks).collect();
+        // Both bands, and a sample of each in the legend, which looks the same.
+        assert_eq!(areas.len(), 4);
+        assert_eq!(areas[..2], areas[2..]);
+        for ink in inks {
+            let colour = hex(ink.on_paper());
+            let lines = elements(&svg, "polyline").into_iter().filter(|line| line.contains(&colour));
+            let dashes = lines.filter(|line| line.contains("stroke-dasharray")).count();
+            assert_eq!(dashes, 2, "a line and its sample");
+        }
+        // The end that has no logarithm is at the bottom.
+        assert!(!svg.contains("NaN") && !svg.contains("inf"));
+        assert!(figure_svg(&small(Vec::new())).len() < svg.len());
+    }
+
+    #[test]
+    fn a_small_figure_is_drawn_like_this() {
+        let figure = small(vec![
+            Layer::new(
+                "inside".into(),
+                Ink::Quiet,
+                Shape::Inside(vec![(2e-9, 1e-5), (8e-9, 1e-5), (8e-9, 1e-4)]),
+            ),
+            Layer::new("zero".into(), Ink::Quiet, Shape::Upright(5e-9)),
+            Layer::new(
+                "profile".into(),
+                Ink::Profile,
+                Shape::Envelope {
+                    x: (0.0, 1e-8),
+                    columns: vec![Some((1e-5, 2e-5)), Some((3e-5, 4e-5)), None, Some((1e-4, 1e-4))],
+                },
+            ),
+            curve(&[(1e-9, 1e-5), (2e-9, 1e-4)], Ink::Loading, "F_n"),
+        ]);
+        insta::assert_snapshot!(figure_svg(&figure));
+    }
+}

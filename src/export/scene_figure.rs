@@ -1,0 +1,361 @@
+//! Figures of computed scenes: force curves, the profile with its contact, contact patches over the indentation.
+
+use crate::analysis::section::{Contact, LineColumns, Part};
+use crate::analysis::{Mark, marks};
+use crate::contact::{ContactError, Direction, LegRecord, Solver};
+use crate::draw::{
+    Axis, AxisScale, Chart, Figure, Ink, Label, Layer, Shape, Sign, Span, Stroke, value_label,
+};
+use crate::simulation::Outcome;
+use crate::surface::Line;
+
+/// Columns into which profiles are reduced.
+const COLUMNS: usize = 1200;
+/// Indentations of a loading stage at which contact patches are drawn.
+const ROWS: usize = 160;
+/// Most loading stages whose contact patches are drawn.
+const MOST_STAGES: usize = 4;
+/// Contact patches are merged over gaps below this share of the profile.
+const LEAST_GAP: f64 = 5e-4;
+
+/// Frames of figures over the position, px.
+const PROFILE: (f64, f64) = (640.0, 240.0);
+const PATCHES: (f64, f64) = (400.0, 300.0);
+
+/// Force curves of computed scenes with their titles: loading and unloading of one scene in two colours, each of
+/// several scenes in one.
+#[must_use]
+pub fn force_figure(scenes: &[(&str, &Outcome)]) -> Figure {
+    let mut layers = vec![Layer::unnamed(Ink::Quiet, Shape::Level(0.0))];
+    for (number, (title, outcome)) in scenes.iter().enumerate() {
+        let alone = scenes.len() == 1;
+        let legs = &outcome.history.legs;
+        for (direction, name, ink, stroke) in [
+            (Direction::Loading, "loading", Ink::Loading, Stroke::Dashed),
+            (Direction::Unloading, "unloading", Ink::Unloading, Stroke::Solid),
+        ] {
+            let (name, ink) = match (alone, direction) {
+                (true, _) => (Label::plain(name), ink),
+                (false, Direction::Unloading) => (Label::plain(title), Ink::Series(number)),
+                (false, Direction::Loading) => (Label::default(), Ink::Series(number)),
+            };
+            for leg in legs.iter().filter(|leg| leg.direction == direction) {
+                let points = leg.curve.iter().map(|point| (point.indentation, point.force)).collect();
+                let shape = Shape::Curve { points, stroke: Some(stroke), sign: None };
+                layers.push(Layer::new(name.clone(), ink, shape));
+            }
+        }
+        // A scene that is only pressed has no curve with its title.
+        let unloads = legs.iter().any(|leg| leg.direction == Direction::Unloading);
+        if let Some(first) = layers
+            .iter_mut()
+            .find(|layer| !alone && !unloads && layer.ink == Ink::Series(number) && layer.name.is_empty())
+        {
+            first.name = Label::plain(title);
+        }
+        for (mark, point) in marks(legs) {
+            let name = if alone { mark_name(mark, point.force) } else { Label::default() };
+            let ink = if alone { Ink::Text } else { Ink::Series(number) };
+            let points = vec![(point.indentation, point.force)];
+            layers.push(Layer::new(name, ink, Shape::Curve { points, stroke: None, sign: Some(sign(mark)) }));
+        }
+    }
+    let points = || scenes.iter().flat_map(|(_, outcome)| &outcome.history.legs).flat_map(|leg| &leg.curve);
+    let x = Span::around(points().map(|point| point.indentation), 0.04);
+    let y = Span::around(points().map(|point| point.force).chain([0.0]), 0.06);
+    let (title, notes) = match scenes {
+        [(title, _)] => ((*title).to_owned(), Vec::new()),
+        _ => (String::new(), vec![Label::plain("dashed: loading, solid: unloading")]),
+    };
+    let chart = Chart {
+        heading: String::new(),
+        x: Axis::new(AxisScale::Linear, x, "indentation", "d", "m"),
+        y: Axis::new(AxisScale::Linear, y, "force", "F", "N"),
+        layers,
+        inset: None,
+    };
+    Figure { title, notes, charts: vec![chart], size: Figure::WIDE }
+}
+
+/// Sign of a mark.
+#[must_use]
+pub fn sign(mark: Mark) -> Sign {
+    match mark {
+        Mark::JumpIn => Sign::HollowDiamond,
+        Mark::Preload => Sign::Up,
+        Mark::PullOff => Sign::Down,
+        Mark::JumpOut => Sign::Ring,
+    }
+}
+
+fn mark_name(mark: Mark, force: f64) -> Label {
+    let (symbol, value) = match mark {
+        Mark::Preload => ("F_n", force),
+        Mark::PullOff => ("F_a", -force),
+        Mark::JumpIn | Mark::JumpOut => ("F", force),
+    };
+    Label::plain(mark.name()).then(" ").join(&value_label("", symbol, "N", value))
+}
+
+/// First and last springs of the contact patches at an indentation.
+struct Patches {
+    indentation: f64,
+    fragments: Vec<(usize, usize)>,
+}
+
+/// Contact patches of a run, gathered stage by stage: at the largest force, and over the indentation.
+#[derive(Default)]
+pub struct ContactSets {
+    over_indentation: bool,
+    /// Largest force of the loading stages so far, and the patches there.
+    preload: Option<(f64, Patches)>,
+    stages: Vec<(Direction, Vec<Patches>)>,
+    /// Loading stages with contact beyond [`MOST_STAGES`].
+    left_out: usize,
+}
+
+impl ContactSets {
+    /// Gathers patches over the indentation too if asked.
+    #[must_use]
+    pub fn new(over_indentation: bool) -> ContactSets {
+        ContactSets { over_indentation, ..ContactSets::default() }
+    }
+
+    /// Gathers the patches of one loading stage.
+    ///
+    /// # Errors
+    /// None; the type is that of an observer of a run.
+    pub fn observe(&mut self, record: &LegRecord, solver: &dyn Solver) -> Result<(), ContactError> {
+        let at = |indentation: f64| Patches { indentation, fragments: solver.fragments(indentation) };
+        let largest = record.largest;
+        let is_larger = self.preload.as_ref().is_none_or(|(force, _)| largest.force > *force);
+        if record.direction == Direction::Loading && largest.springs > 0 && is_larger {
+            self.preload = Some((largest.force, at(largest.indentation)));
+        }
+        let touching = record.curve.iter().filter(|point| point.springs > 0).map(|point| point.indentation);
+        let (low, high) =
+            touching.fold((f64::INFINITY, f64::NEG_INFINITY), |ends, d| (ends.0.min(d), ends.1.max(d)));
+        if !self.over_indentation || low >= high {
+            return Ok(());
+        }
+        if self.stages.len() == MOST_STAGES {
+            self.left_out += 1;
+            return Ok(());
+        }
+        let step = (high - low) / ROWS as f64;
+        let rows = (0..ROWS).map(|row| at(low + step * (row as f64 + 0.5))).collect();
+        self.stages.push((record.direction, rows));
+        Ok(())
+    }
+
+    /// The rigid profile, the elastic surface and the contact at the largest force; at first touch without one.
+    #[must_use]
+    pub fn profile_figure(&self, title: &str, outcome: &Outcome, line: &Line) -> Figure {
+        let (force, patches) =
+            self.preload.as_ref().map_or((0.0, None), |(force, patches)| (*force, Some(patches)));
+        let indentation = patches.map_or(0.0, |patches| patches.indentation);
+        let fragments = patches.map_or(&[][..], |patches| &patches.fragments);
+        let contact = Contact { gaps: &line.gaps, summit: line.summit, indentation, fragments };
+        let springs = line.gaps.len();
+        let part = Part { first: 0, springs, columns: COLUMNS.min(springs) };
+        let section = contact.section(part, &mut LineColumns::default());
+        let facts = outcome.line;
+        let x = [facts.first, facts.first + springs].map(|spring| spring as f64 * facts.spacing);
+        let envelope = |columns| Shape::Envelope { x: (x[0], x[1]), columns };
+        let columns = || section.columns.iter();
+        let layers = vec![
+            Layer::new(
+                "elastic surface".into(),
+                Ink::Surface,
+                envelope(columns().map(|one| Some(one.surface)).collect()),
+            ),
+            Layer::new(
+                "rigid profile".into(),
+                Ink::Profile,
+                envelope(columns().map(|one| Some(one.line)).collect()),
+            ),
+            Layer::new("contact".into(), Ink::Contact, envelope(columns().map(|one| one.contact).collect())),
+        ];
+        let (low, high) = section.heights;
+        let z = Span::around([low, high, section.level.min(high + 0.5 * (high - low))].into_iter(), 0.05);
+        let chart = Chart {
+            heading: String::new(),
+            x: position(outcome),
+            y: Axis::new(AxisScale::Linear, z, "height", "z", "m"),
+            layers,
+            inset: None,
+        };
+        let at = match patches {
+            Some(_) => Label::plain("largest force: ").join(&value_label("", "F", "N", force)).then(", "),
+            None => Label::plain("first touch: "),
+        };
+        let notes = vec![at.join(&value_label("", "d", "m", indentation))];
+        Figure { title: title.to_owned(), notes, charts: vec![chart], size: PROFILE }
+    }
+
+    /// Contact patches over position and indentation, one chart for each loading stage with contact.
+    #[must_use]
+    pub fn patches_figure(&self, title: &str, outcome: &Outcome) -> Figure {
+        let facts = outcome.line;
+        let least = LEAST_GAP * facts.length;
+        let ends = self.stages.iter().flat_map(|(_, rows)| rows).map(|row| row.indentation);
+        let d = Axis::new(AxisScale::Linear, Span::around(ends, 0.02), "indentation", "d", "m");
+        let chart = |(direction, rows): &(Direction, Vec<Patches>)| {
+            let half = rows.get(..2).map_or(0.0, |pair| 0.5 * (pair[1].indentation - pair[0].indentation));
+            let mut boxes = Vec::new();
+            for Patches { indentation, fragments } in rows {
+                let mut open: Option<(f64, f64)> = None;
+                for &(first, last) in fragments {
+                    let [from, to] =
+                        [first, last + 1].map(|spring| (facts.first + spring) as f64 * facts.spacing);
+                    match &mut open {
+                        Some((_, end)) if from - *end < least => *end = to.max(*end),
+                        _ => boxes.extend(open.replace((from, to)).map(|ends| (ends, *indentation))),
+                    }
+                }
+                boxes.extend(open.map(|ends| (ends, *indentation)));
+            }
+            let boxes = boxes.into_iter().map(|(x, d)| (x, (d - half, d + half))).collect();
+            let heading = if *direction == Direction::Loading { "loading" } else { "unloading" };
+            Chart {
+                heading: heading.to_owned(),
+                x: position(outcome),
+                y: d.clone(),
+                layers: vec![Layer::new("contact".into(), Ink::Contact, Shape::Boxes(boxes))],
+                inset: None,
+            }
+        };
+        let mut charts: Vec<Chart> = self.stages.iter().map(chart).collect();
+        if charts.is_empty() {
+            charts.push(chart(&(Direction::Loading, Vec::new())));
+        }
+        let notes = match (self.stages.len(), self.left_out) {
+            (0, _) => vec![Label::plain("nothing comes into contact")],
+            (_, 0) => Vec::new(),
+            (drawn, rest) => {
+                vec![Label::plain(&format!("the first {drawn} of {} loading stages", drawn + rest))]
+            }
+        };
+        Figure { title: title.to_owned(), notes, charts, size: PATCHES }
+    }
+}
+
+fn position(outcome: &Outcome) -> Axis {
+    let span = Span { low: 0.0, high: outcome.line.length };
+    Axis::new(AxisScale::Linear, span, "position", "x", "m")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::draw::figure_svg;
+    use crate::draw::svg_tests::parsed;
+    use crate::scene::Document;
+    use crate::simulation::Simulation;
+
+    const SCENE: &str = "(
+    version: 1,
+    title: \"Rough <&>\",
+    material: (youngs_modulus: 2.0e6, poisson_ratio: 0.5),
+    length: 1.0e-4,
+    roughness: SelfAffine(hurst: 0.7, rms_height: 2.0e-7, modes: (1, 64), seed: 1),
+    adhesion: (kappa: 3.0),
+    loading: [ToForce(1.0e-5), ToSeparation],
+    numerics: (points: 512, samples: 16),
+)";
+
+    fn computed(overrides: &[(&str, &str)]) -> (Outcome, ContactSets, Line) {
+        let overrides: Vec<_> =
+            overrides.iter().map(|(path, value)| (path.to_string(), value.to_string())).collect();
+        let document = Document::parse(SCENE, "test").unwrap().set_all(&overrides).unwrap();
+        let mut simulation = Simulation::default();
+        let mut sets = ContactSets::new(true);
+        let outcome = simulation
+            .run(document.scene(), &|| false, &mut |_, record, solver| sets.observe(record, solver))
+            .unwrap();
+        let line = simulation.make_line(document.scene()).unwrap().0.clone();
+        (outcome, sets, line)
+    }
+
+    fn names(figure: &Figure) -> Vec<String> {
+        figure.legend().iter().map(|entry| entry.name.to_string()).collect()
+    }
+
+    #[test]
+    fn a_force_curve_has_its_marks_where_the_figures_are() {
+        let (outcome, ..) = computed(&[]);
+        let figure = force_figure(&[("Rough <&>", &outcome)]);
+        let named = names(&figure);
+        assert_eq!(named[..2], ["loading", "unloading"]);
+        assert!(named.contains(&"preload F_n = 10 µN".to_owned()), "{named:?}");
+        let figures = &outcome.figures;
+        let point = |mark: Mark| {
+            let layer = figure.charts[0].layers.iter().find(|layer| match layer.shape {
+                Shape::Curve { sign: Some(one), stroke: None, .. } => one == sign(mark),
+                _ => false,
+            });
+            match &layer.unwrap().shape {
+                Shape::Curve { points, .. } => points[0],
+                other => panic!("{other:?}"),
+            }
+        };
+        assert_eq!(point(Mark::Preload), (figures.preload_indentation.unwrap(), figures.preload.unwrap()));
+        assert_eq!(
+            point(Mark::PullOff),
+            (figures.pull_off_indentation.unwrap(), -figures.adhesion_force.unwrap())
+        );
+        let text = parsed(&figure_svg(&figure)).1;
+        assert!(text.contains("Rough <&>") && text.contains("indentation d (nm)"), "{text}");
+    }
+
+    #[test]
+    fn several_scenes_are_curves_of_one_figure() {
+        let ((one, ..), (other, ..)) = (computed(&[]), computed(&[("loading", "[ToForce(2e-5)]")]));
+        let figure = force_figure(&[("one", &one), ("<other>", &other)]);
+        assert_eq!(names(&figure), ["one", "<other>"]);
+        parsed(&figure_svg(&figure));
+    }
+
+    #[test]
+    fn the_profile_shows_the_contact_at_the_largest_force() {
+        let (outcome, sets, line) = computed(&[]);
+        let figure = sets.profile_figure("", &outcome, &line);
+        assert_eq!(names(&figure), ["elastic surface", "rigid profile", "contact"]);
+        let Shape::Envelope { columns, .. } = &figure.charts[0].layers[2].shape else { panic!() };
+        let preload = outcome.history.legs[0].largest;
+        assert_eq!(columns.iter().flatten().count() as u64, preload.springs, "one column for each spring");
+        assert_eq!(columns.len(), line.gaps.len());
+        for (loading, note) in
+            [("[ToTouch]", "largest force: F = 0 N, d = 0 m"), ("[ToSeparation]", "first touch: d = 0 m")]
+        {
+            let (outcome, sets, line) = computed(&[("loading", loading), ("adhesion", "None")]);
+            assert_eq!(sets.profile_figure("", &outcome, &line).notes[0].to_string(), note);
+        }
+    }
+
+    #[test]
+    fn patches_cover_the_contact_length() {
+        let (outcome, sets, _) = computed(&[]);
+        let figure = sets.patches_figure("", &outcome);
+        let headings: Vec<&str> = figure.charts.iter().map(|chart| chart.heading.as_str()).collect();
+        assert_eq!(headings, ["loading", "unloading"]);
+        for (chart, (_, rows)) in figure.charts.iter().zip(&sets.stages) {
+            let Shape::Boxes(boxes) = &chart.layers[0].shape else { panic!() };
+            let drawn: f64 = boxes.iter().map(|((from, to), _)| to - from).sum();
+            let springs: usize =
+                rows.iter().flat_map(|row| &row.fragments).map(|(first, last)| last - first + 1).sum();
+            // Gaps of one spring are wider than what is merged.
+            assert!((drawn / (springs as f64 * outcome.line.spacing) - 1.0).abs() < 1e-9);
+            assert_eq!(rows.len(), ROWS);
+        }
+        let many = "[ToForce(1e-5), ToZeroForce, ToForce(1e-5), ToZeroForce, ToForce(1e-5), ToSeparation]";
+        let (outcome, sets, _) = computed(&[("loading", many)]);
+        let figure = sets.patches_figure("", &outcome);
+        assert_eq!(
+            (figure.charts.len(), figure.notes[0].to_string().as_str()),
+            (4, "the first 4 of 6 loading stages")
+        );
+        let (outcome, sets, _) = computed(&[("loading", "[ToTouch]"), ("adhesion", "None")]);
+        assert_eq!(sets.patches_figure("", &outcome).notes[0].to_string(), "nothing comes into contact");
+    }
+}

@@ -1,0 +1,183 @@
+//! The next choice of a field, as a key selects it.
+
+use super::document::Document;
+use super::effects::Effect;
+use super::errors::SceneErrors;
+use super::field::Field;
+use super::range::choice_key;
+use super::switch::{Computed, by_kappa, by_work, pair};
+
+/// Significant digits of a converted κ: those that survive the conversion to a work of adhesion and back.
+const DIGITS: usize = 14;
+
+impl Document {
+    /// This document with the next choice of a field in this direction that the scene allows; `None` where there is no
+    /// other.
+    ///
+    /// Leaving an effect out switches the effect off, and the next choice switches it on as it was or as it suits the
+    /// scene. Adhesion by κ and adhesion by work are the same adhesion: `computed` has the values for this scene.
+    ///
+    /// # Errors
+    ///
+    /// No other choice is allowed, or a converted value is not in `computed`.
+    pub fn with_next_choice(
+        &self,
+        field: &Field,
+        forwards: bool,
+        computed: &Computed,
+    ) -> Result<Option<Document>, SceneErrors> {
+        let Some(here) = field.written(self.scene()) else { return Ok(None) };
+        let mut refused = None;
+        for distance in 1.. {
+            let next = field.stepped(&here, if forwards { distance } else { -distance }, false);
+            let Some(next) = next.filter(|next| choice_key(next) != choice_key(&here)) else { break };
+            if let Some(converted) = self.converted(field, &next, computed) {
+                return converted.map(Some);
+            }
+            match self.chosen(field, &next, computed) {
+                Ok(document) => return Ok(Some(document)),
+                Err(errors) => refused = refused.or(Some(errors)),
+            }
+        }
+        refused.map_or(Ok(None), Err)
+    }
+
+    fn chosen(&self, field: &Field, next: &str, computed: &Computed) -> Result<Document, SceneErrors> {
+        let Some(effect) = Effect::ALL.into_iter().find(|effect| effect.path() == field.path) else {
+            return self.set(field.path, next);
+        };
+        if next == "None" {
+            return self.without(effect, computed);
+        }
+        if effect.is_on(self.scene()) {
+            return self.set(field.path, next);
+        }
+        // Both ways to give adhesion are the next choice: the one follows from the other.
+        let is_next = |document: &Document| {
+            let written = field.written(document.scene()).unwrap_or_default();
+            effect == Effect::Adhesion || choice_key(&written) == choice_key(next)
+        };
+        let before = self.with(effect)?;
+        if is_next(&before) {
+            return Ok(before);
+        }
+        let suited = self.set(field.path, &self.suited(effect))?;
+        if is_next(&suited) { Ok(suited) } else { self.set(field.path, next) }
+    }
+
+    /// The same adhesion given the other way; `None` where adhesion is not switched between its two ways.
+    fn converted(
+        &self,
+        field: &Field,
+        next: &str,
+        computed: &Computed,
+    ) -> Option<Result<Document, SceneErrors>> {
+        if field.path != Effect::Adhesion.path() || next == "None" || !Effect::Adhesion.is_on(self.scene()) {
+            return None;
+        }
+        let by_kappa_next = choice_key(next) == choice_key("(kappa: 1.0)");
+        if by_kappa_next && self.scene().roughness.is_none() {
+            return None;
+        }
+        let adhesion = if by_kappa_next {
+            computed.kappa.map(|kappa| by_kappa(format!("{kappa:.*e}", DIGITS - 1).parse().unwrap_or(kappa)))
+        } else {
+            computed.work_of_adhesion.map(by_work)
+        };
+        let unknown = || self.unknown("adhesion", "the same adhesion given the other way is not known yet");
+        Some(adhesion.ok_or_else(unknown).and_then(|adhesion| {
+            let height = self.height_in_place_of_adhesion(computed)?;
+            let overrides: Vec<_> = height.into_iter().chain([pair("adhesion", adhesion)]).collect();
+            self.set_all(&overrides)
+        }))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::fields::field;
+    use super::super::model::{Adhesion, Form, Roughness};
+    use super::*;
+
+    const SCENE: &str = "(
+    version: 1,
+    material: (effective_modulus: 1.0e6),
+    length: 1.0e-4,
+    roughness: SelfAffine(hurst: 0.7, rms_height: 2.0e-7, modes: (1, 512), seed: 1), // rough
+    adhesion: (kappa: 6.0), // as measured
+)
+";
+
+    const COMPUTED: Computed = Computed {
+        work_of_adhesion: Some(0.0123),
+        kappa: Some(6.000_000_000_000_001),
+        rms_height: Some(1.5e-7),
+    };
+
+    fn document() -> Document {
+        Document::parse(SCENE, "scene").unwrap()
+    }
+
+    fn next(document: &Document, path: &str, forwards: bool) -> Document {
+        let field = field(path, None).unwrap();
+        document.with_next_choice(field, forwards, &COMPUTED).unwrap().unwrap()
+    }
+
+    #[test]
+    fn adhesion_given_the_other_way_is_the_same() {
+        let work = next(&document(), "adhesion", false);
+        assert_eq!(work.scene().adhesion, Some(Adhesion { work: Some(0.0123), kappa: None }));
+        assert_eq!(next(&work, "adhesion", true).text(), SCENE);
+        let none = next(&work, "adhesion", false);
+        assert_eq!(none.scene().adhesion, None);
+        assert_eq!(next(&none, "adhesion", true).text(), work.text());
+        assert_eq!(next(&document(), "adhesion", true).scene().adhesion, None);
+        // Not before the value is known.
+        let field = field("adhesion", None).unwrap();
+        let unknown = document().with_next_choice(field, false, &Computed::default()).unwrap_err();
+        assert!(unknown.to_string().contains("compute the scene first"), "{unknown}");
+        // A smooth body has no κ.
+        let smooth = work.set("roughness", "None").unwrap();
+        assert_eq!(next(&smooth, "adhesion", true).scene().adhesion, None);
+    }
+
+    #[test]
+    fn an_amplitude_that_adhesion_sets_is_kept() {
+        let both = [pair("roughness.rms_height", "None"), pair("adhesion.work", "0.1")];
+        let both = document().set_all(&both).unwrap();
+        let kappa = next(&both, "adhesion", true);
+        assert_eq!(kappa.scene().adhesion, Some(Adhesion { work: None, kappa: Some(6.0) }));
+        assert_eq!(kappa.value("roughness.rms_height"), Some("1.5e-7"));
+    }
+
+    #[test]
+    fn a_choice_that_requires_a_file_is_only_typed() {
+        let smooth = next(&document(), "roughness", true);
+        assert_eq!(smooth.scene().roughness, None);
+        for forwards in [true, false] {
+            let rough = next(&smooth, "roughness", forwards);
+            assert_eq!(rough.text(), SCENE);
+        }
+        let measured = document().set("roughness", "Measured(file: \"a.csv\")").unwrap();
+        let without = next(&measured, "roughness", false);
+        assert!(matches!(without.scene().roughness, Some(Roughness::SelfAffine { .. })));
+        let without = measured.without(Effect::Roughness, &COMPUTED).unwrap();
+        let rough = next(&without, "roughness", true);
+        assert!(matches!(rough.scene().roughness, Some(Roughness::SelfAffine { .. })));
+    }
+
+    #[test]
+    fn choices_that_the_scene_does_not_allow_are_passed_over() {
+        let small = [pair("length", "1.0e-9"), pair("roughness", "None"), pair("adhesion", "None")];
+        let small = document().set_all(&small).unwrap();
+        let sphere = next(&small, "form", true);
+        assert_eq!(sphere.scene().form, Some(Form::Paraboloid { radius: 1e-9 }));
+        // The punch among the choices is wider than the profile.
+        let last = next(&next(&next(&sphere, "form", true), "form", true), "form", true);
+        assert_eq!(last.scene().form, None);
+        let edges = document().set("numerics.edges", "SubCell").unwrap();
+        let field = field("numerics.solver", None).unwrap();
+        let refused = edges.with_next_choice(field, true, &COMPUTED).unwrap_err();
+        assert!(refused.to_string().contains("edges: Grid"), "{refused}");
+    }
+}

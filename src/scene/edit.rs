@@ -1,0 +1,253 @@
+//! Change of one field of a scene in its text, which leaves every comment in its place.
+
+use super::field::Field;
+use super::fields::FIELDS;
+use super::range::choice_name;
+use super::suggest::nearest;
+use super::text::{Text, one_value};
+
+/// Gives the field at `path` the value `value`, written as RON, and returns the new text.
+///
+/// A missing field is inserted, with the group around it where that is missing too; a missing part that is set to
+/// `None` stays away. Whatever the value is, it changes this one place.
+///
+/// # Errors
+///
+/// The reason in a sentence: no such field, not one value, or no place for it.
+pub(super) fn set(text: &str, path: &str, value: &str) -> Result<String, String> {
+    let value = one_value(value)?;
+    let fields = fields_at(path)?;
+    let outline = Text::new(text).map_err(|unreadable| unreadable.reason.to_string())?;
+    if outline.span(path).is_some() {
+        outline.replace(path, value)
+    } else if value == "None" && fields.iter().any(|field| field.default == "None" && field.path == path) {
+        Ok(text.to_string())
+    } else {
+        insert(text, &outline, path, value, &fields)
+    }
+}
+
+/// Fields that a path may mean: more than one where variants of a choice share a name. A position in a list or pair
+/// means that list or pair.
+fn fields_at(path: &str) -> Result<Vec<&'static Field>, String> {
+    let mut base = path;
+    while let Some((before, last)) = base.rsplit_once('.')
+        && !last.is_empty()
+        && last.bytes().all(|byte| byte.is_ascii_digit())
+    {
+        base = before;
+    }
+    let fields: Vec<_> = FIELDS.iter().filter(|field| field.path == base).collect();
+    if !fields.is_empty() {
+        return Ok(fields);
+    }
+    let mut names: Vec<_> = FIELDS.iter().map(|field| field.path).collect();
+    names.sort_unstable();
+    names.dedup();
+    let near = nearest(path, names.iter().copied());
+    let near = near.map_or_else(String::new, |near| format!("; did you mean {near}?"));
+    Err(format!("no such field{near} (fields: {})", names.join(", ")))
+}
+
+fn insert(
+    text: &str,
+    outline: &Text,
+    path: &str,
+    value: &str,
+    fields: &[&'static Field],
+) -> Result<String, String> {
+    let Some(field) = fields.iter().find(|field| field.path == path) else {
+        return Err("there is no such element".into());
+    };
+    let (parent, name) = (field.parent(), field.last());
+    let variant = outline.variant(parent);
+    if field.variant.is_some() && !fields.iter().any(|field| field.variant == variant) {
+        return Err(wrong_variant(parent, variant, fields));
+    }
+    let group = format!("({name}: {value})");
+    match (outline.opening(parent), outline.written(parent)) {
+        (None, Some("None")) => outline.replace(parent, &group),
+        (None, None) if parent.is_empty() => Err("the scene is not a group of fields".into()),
+        (None, None) => set(text, parent, &group),
+        _ => {
+            let siblings = FIELDS.iter().filter(|field| field.parent() == parent);
+            let order: Vec<&str> = siblings.map(|field| field.last()).collect();
+            outline.insert(parent, name, value, &order)
+        }
+    }
+}
+
+/// Message that names the values of the choice that have the field.
+fn wrong_variant(parent: &str, head: Option<&str>, fields: &[&Field]) -> String {
+    let choices = FIELDS.iter().find(|field| field.path == parent).map(|field| field.range);
+    let Some(super::range::Range::Choice(choices)) = choices else {
+        return format!("{parent} has no such field");
+    };
+    let with_it = choices
+        .iter()
+        .filter(|choice| fields.iter().any(|field| field.variant == Some(choice_name(choice))))
+        .map(|choice| format!("{parent}={choice}"));
+    let here = match head {
+        Some(head) if head != "None" => format!("{parent} is {head}, which has no such field"),
+        _ => format!("there is no {parent}"),
+    };
+    format!("{here}: set {}", with_it.collect::<Vec<_>>().join(" or "))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SCENE: &str = r#"(
+    version: 1,
+    // What it is made of.
+    material: (effective_modulus: 1.0e6), // soft
+    length: 1.0e-4, /* as long
+                       as it is */
+    roughness: SelfAffine(hurst: 0.7, rms_height: 1.0e-7, modes: (1, 512), seed: 1),
+    numerics: (
+        points: 4096, // enough
+        samples: 64 // few
+    ),
+    observe: []
+)
+"#;
+
+    fn changed(path: &str, value: &str, from: &str, to: &str) {
+        assert_eq!(SCENE.matches(from).count(), 1, "{from}");
+        assert_eq!(set(SCENE, path, value).unwrap(), SCENE.replace(from, to), "{path}={value}");
+    }
+
+    #[test]
+    fn values_are_exchanged_in_their_place() {
+        changed("length", " 2.0e-4 ", "1.0e-4,", "2.0e-4,");
+        changed("roughness.hurst", "0.5", "hurst: 0.7", "hurst: 0.5");
+        changed("roughness.modes", "(2, 4)", "(1, 512)", "(2, 4)");
+        changed("roughness.modes.1", "4", "(1, 512)", "(1, 4)");
+        changed("observe", "[Fragments]", "[]", "[Fragments]");
+        let rough = "SelfAffine(hurst: 0.7, rms_height: 1.0e-7, modes: (1, 512), seed: 1)";
+        changed("roughness", "None", rough, "None");
+    }
+
+    #[test]
+    fn missing_fields_are_inserted_where_the_table_has_them() {
+        let after_length = "as it is */\n";
+        let line = |line: &str| format!("{after_length}    {line}\n");
+        changed("form", "Cone(angle: 0.1)", after_length, &line("form: Cone(angle: 0.1),"));
+        changed("title", "\"A\"", "version: 1,\n", "version: 1,\n    title: \"A\",\n");
+        changed("material.poisson_ratio", "0.5", "1.0e6)", "1.0e6, poisson_ratio: 0.5)");
+        changed("roughness.rms_gradient", "0.1", "1.0e-7,", "1.0e-7, rms_gradient: 0.1,");
+        changed("numerics.solver", "Exact", "// enough\n", "// enough\n        solver: Exact,\n");
+        changed("numerics.edges", "Grid", "// enough\n", "// enough\n        edges: Grid,\n");
+        let rough = "seed: 1),\n";
+        changed("adhesion.work", "0.1", rough, &format!("{rough}    adhesion: (work: 0.1),\n"));
+    }
+
+    #[test]
+    fn the_last_entry_keeps_its_comment_and_its_lack_of_a_comma() {
+        let text = "(\n    version: 1,\n    length: 1.0 // last\n)\n";
+        let new = "(\n    version: 1,\n    length: 1.0, // last\n    observe: []\n)\n";
+        assert_eq!(set(text, "observe", "[]").unwrap(), new);
+        let text = "(\r\n\tversion: 1,\r\n\tlength: 1.0\r\n)\r\n";
+        let new = "(\r\n\tversion: 1,\r\n\tlength: 1.0,\r\n\tobserve: []\r\n)\r\n";
+        assert_eq!(set(text, "observe", "[]").unwrap(), new);
+    }
+
+    #[test]
+    fn one_line_stays_one_line() {
+        for (text, path, value, new) in [
+            ("(length: 1.0)", "observe", "[]", "(length: 1.0, observe: [])"),
+            ("(length: 1.0,)", "observe", "[]", "(length: 1.0, observe: [],)"),
+            ("(length: 1.0 /* c */)", "observe", "[]", "(length: 1.0, observe: [] /* c */)"),
+            ("(observe: [])", "length", "1.0", "(observe: [], length: 1.0)"),
+            ("()", "adhesion.work", "0.1", "(adhesion: (work: 0.1))"),
+            ("(adhesion: None)", "adhesion.work", "0.1", "(adhesion: (work: 0.1))"),
+            ("(adhesion: ())", "adhesion.work", "0.1", "(adhesion: (work: 0.1))"),
+            ("( // c\n)", "length", "1.0", "(length: 1.0 // c\n)"),
+            (
+                "Scene(form: Some(Cone(angle: 1.0)))",
+                "form.angle",
+                "0.1",
+                "Scene(form: Some(Cone(angle: 0.1)))",
+            ),
+        ] {
+            assert_eq!(set(text, path, value).as_deref(), Ok(new), "{text} {path}");
+        }
+    }
+
+    #[test]
+    fn what_is_not_there_need_not_be_taken_away() {
+        for path in ["form", "adhesion", "adhesion.work", "roughness.rms_gradient", "material.youngs_modulus"]
+        {
+            assert_eq!(set(SCENE, path, "None").as_deref(), Ok(SCENE), "{path}");
+        }
+    }
+
+    #[test]
+    fn a_value_is_one_value_and_stays_in_its_place() {
+        for value in [
+            "",
+            "1.0), title: (\"x\"",
+            "1 // ",
+            "1 /* ",
+            "1 /* a */",
+            "/* a */ 1",
+            "// a\n1",
+            "1.0, title: \"x\"",
+            "1.0 title",
+            "title: 1.0",
+            "\"a",
+            "\"a\" \"b\"",
+            "r#\"a\"",
+            "'",
+            "(",
+            ")",
+            "[1)",
+            ",",
+            ":",
+            "1,",
+            "(1) (2)",
+            "#![enable(unwrap_newtypes)] 1",
+        ] {
+            assert!(set(SCENE, "length", value).is_err(), "{value}");
+            assert!(set(SCENE, "adhesion.work", value).is_err(), "{value}");
+        }
+    }
+
+    #[test]
+    fn a_value_does_not_become_a_comment_with_what_follows() {
+        assert!(set("(length: 1.0// c\n)", "length", "/").is_err());
+        assert!(set("(length: 1.0/* c */)", "length", "/").is_err());
+    }
+
+    #[test]
+    fn refusals_say_what_to_do() {
+        for (path, said) in [
+            ("roughness.hurts", "did you mean roughness.hurst?"),
+            ("hurst", "did you mean roughness.hurst?"),
+            ("nothing", "no such field (fields: adhesion, adhesion.kappa"),
+            ("", "no such field"),
+            ("loading.", "no such field"),
+            ("..", "no such field"),
+            ("roughness..hurst", "no such field"),
+            ("form.radius", "there is no form: set form=Paraboloid(radius: 1.0e-3) or form=Punch("),
+            ("roughness.file", "roughness is SelfAffine, which has no such field: set roughness=Measured("),
+            ("numerics.solver.step", "set numerics.solver=Stepwise(step: 1.0e-9)"),
+            ("loading.0", "no such element"),
+            ("roughness.modes.2", "no such element"),
+            ("version.0", "no such element"),
+        ] {
+            let message = set(SCENE, path, "1").unwrap_err();
+            assert!(message.contains(said), "{path}: {message}");
+        }
+        let without = SCENE.replace("observe: []", "form: None");
+        let message = set(&without, "form.radius", "1").unwrap_err();
+        assert!(message.contains("there is no form: set "), "{message}");
+    }
+
+    #[test]
+    fn a_number_is_not_replaced_by_a_group() {
+        let message = set("(length: 1.0, adhesion: 3.0)", "adhesion.work", "0.1").unwrap_err();
+        assert_eq!(message, "adhesion has no fields here");
+    }
+}

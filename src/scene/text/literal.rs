@@ -1,0 +1,96 @@
+//! Numbers and strings as RON writes them.
+
+use crate::text::is_control;
+
+/// A number as RON: the shortest text that reads back as the same number, always with a decimal
+/// point, with an exponent where it is much smaller or larger than one.
+pub fn ron_float(value: f64) -> String {
+    let size = value.abs();
+    if !value.is_finite() || size == 0.0 || (size > 1e-3 && size < 1e5) {
+        return format!("{value:?}");
+    }
+    let text = format!("{value:e}");
+    match text.split_once('e') {
+        Some((mantissa, exponent)) if !mantissa.contains('.') => format!("{mantissa}.0e{exponent}"),
+        _ => text,
+    }
+}
+
+/// Text as a RON string; only what RON cannot carry in the open is escaped.
+pub fn ron_string(text: &str) -> String {
+    let mut string = String::with_capacity(text.len() + 2);
+    string.push('"');
+    for c in text.chars() {
+        match c {
+            '"' => string.push_str("\\\""),
+            '\\' => string.push_str("\\\\"),
+            '\n' => string.push_str("\\n"),
+            '\r' => string.push_str("\\r"),
+            '\t' => string.push_str("\\t"),
+            c if is_control(c) => string.push_str(&format!("\\u{{{:x}}}", u32::from(c))),
+            c => string.push(c),
+        }
+    }
+    string.push('"');
+    string
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    #[test]
+    fn numbers_are_short() {
+        for (value, text) in [
+            (2e6, "2.0e6"),
+            (1e-4, "1.0e-4"),
+            (2.5e-7, "2.5e-7"),
+            (0.5, "0.5"),
+            (-40.0, "-40.0"),
+            (0.001, "1.0e-3"),
+            (0.005, "0.005"),
+            (99_999.0, "99999.0"),
+            (0.0, "0.0"),
+            (-0.0, "-0.0"),
+            (f64::NAN, "NaN"),
+            (f64::NEG_INFINITY, "-inf"),
+        ] {
+            assert_eq!(ron_float(value), text);
+        }
+    }
+
+    #[test]
+    fn strings_are_escaped_only_where_they_must_be() {
+        assert_eq!(ron_string("κ \"a\" \\ \n\u{1b}"), r#""κ \"a\" \\ \n\u{1b}""#);
+    }
+
+    proptest! {
+        #[test]
+        fn all_numbers_survive(bits in any::<u64>()) {
+            let value = f64::from_bits(bits);
+            let read: f64 = ron::from_str(&ron_float(value)).map_err(|error| TestCaseError::fail(error.to_string()))?;
+            prop_assert!(read.to_bits() == bits || value.is_nan() && read.is_nan());
+        }
+
+        #[test]
+        fn all_strings_survive(text in any::<String>()) {
+            prop_assert_eq!(ron::from_str::<String>(&ron_string(&text)), Ok(text));
+        }
+    }
+
+    #[test]
+    fn numbers_from_a_hundred_thousand_and_from_a_thousandth_have_an_exponent() {
+        for (value, text) in [
+            (1e5, "1.0e5"),
+            (-99_999.5, "-99999.5"),
+            (1e-3, "1.0e-3"),
+            (0.0011, "0.0011"),
+            (-0.0, "-0.0"),
+            (1.25e-7, "1.25e-7"),
+        ] {
+            assert_eq!(ron_float(value), text);
+        }
+    }
+}

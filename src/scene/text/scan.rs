@@ -1,0 +1,292 @@
+//! Tokens of RON text, just fine enough to find values in it.
+//!
+//! The reader of the `ron` package says which text is wrong; this scanner finds the places of values, so that messages
+//! name them and edits exchange them without the comments around them. Nesting of any depth is read without recursion.
+
+/// Kinds of brackets.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Bracket {
+    Round,
+    Square,
+    Curly,
+}
+
+/// Kinds of tokens.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Kind {
+    /// An opening bracket, with the index of the token that closes it.
+    Open(Bracket, usize),
+    Close,
+    Comma,
+    Colon,
+    /// An identifier or a number.
+    Word,
+    /// A string, byte string, character or byte.
+    Quoted,
+}
+
+/// A token and its bytes in the text.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Token {
+    pub(super) kind: Kind,
+    pub(super) start: usize,
+    pub(super) end: usize,
+}
+
+/// Reason why text has no tokens, and its byte.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Unreadable {
+    /// Byte of the bracket, quote or comment that does not close.
+    pub offset: usize,
+    /// The reason.
+    pub reason: &'static str,
+}
+
+/// The tokens of a text whose brackets match.
+pub(super) fn tokens(text: &str) -> Result<Vec<Token>, Unreadable> {
+    let mut tokens: Vec<Token> = Vec::new();
+    let mut open: Vec<(usize, Bracket)> = Vec::new();
+    let mut at = skip_blank(text, 0)?;
+    while let Some(c) = text[at..].chars().next() {
+        let start = at;
+        let fail = |reason| Err(Unreadable { offset: start, reason });
+        at += c.len_utf8();
+        let kind = match c {
+            '(' | '[' | '{' => {
+                let bracket = bracket(c);
+                open.push((tokens.len(), bracket));
+                Kind::Open(bracket, 0)
+            }
+            ')' | ']' | '}' => {
+                let Some((opener, _)) = open.pop().filter(|(_, expected)| *expected == bracket(c)) else {
+                    return fail("this bracket closes nothing");
+                };
+                tokens[opener].kind = Kind::Open(bracket(c), tokens.len());
+                Kind::Close
+            }
+            ',' => Kind::Comma,
+            ':' => Kind::Colon,
+            _ => match quoted_end(text, start) {
+                Some(Ok(end)) => {
+                    at = end;
+                    Kind::Quoted
+                }
+                Some(Err(reason)) => return fail(reason),
+                None => {
+                    at = word_end(text, start);
+                    Kind::Word
+                }
+            },
+        };
+        tokens.push(Token { kind, start, end: at });
+        at = skip_blank(text, at)?;
+    }
+    match open.last() {
+        Some((opener, _)) => {
+            Err(Unreadable { offset: tokens[*opener].start, reason: "this bracket is not closed" })
+        }
+        None => Ok(tokens),
+    }
+}
+
+/// Number of comments of a text with these tokens.
+pub(super) fn comments(text: &str, tokens: &[Token]) -> usize {
+    let starts = tokens.iter().map(|token| token.start).chain([text.len()]);
+    let ends = [0].into_iter().chain(tokens.iter().map(|token| token.end));
+    ends.zip(starts).map(|(from, to)| comments_between(text, from, to)).sum()
+}
+
+/// Comments in a part of a text that holds nothing else but white space.
+fn comments_between(text: &str, from: usize, to: usize) -> usize {
+    let (mut at, mut count) = (from, 0);
+    while let Some(next) = text.get(at..to).and_then(|part| part.chars().next()) {
+        match comment_end(text, at) {
+            Ok(Some(end)) => (at, count) = (end.max(at + 1), count + 1),
+            _ => at += next.len_utf8(),
+        }
+    }
+    count
+}
+
+fn bracket(c: char) -> Bracket {
+    match c {
+        '(' | ')' => Bracket::Round,
+        '[' | ']' => Bracket::Square,
+        _ => Bracket::Curly,
+    }
+}
+
+/// White space of RON.
+fn is_blank(c: char) -> bool {
+    matches!(
+        c,
+        ' ' | '\t'
+            | '\n'
+            | '\r'
+            | '\x0B'
+            | '\x0C'
+            | '\u{85}'
+            | '\u{200E}'
+            | '\u{200F}'
+            | '\u{2028}'
+            | '\u{2029}'
+    )
+}
+
+/// The first byte at or after `at` that is neither white space nor comment.
+pub(super) fn skip_blank(text: &str, at: usize) -> Result<usize, Unreadable> {
+    let mut at = at;
+    loop {
+        let rest = &text[at..];
+        let next = at + rest.find(|c| !is_blank(c)).unwrap_or(rest.len());
+        match comment_end(text, next)? {
+            Some(end) => at = end,
+            None => return Ok(next),
+        }
+    }
+}
+
+/// The end of the comment that starts at this byte, if one does: for `//` the byte of the line
+/// break, for `/* */` the byte after it. Block comments nest.
+pub(super) fn comment_end(text: &str, at: usize) -> Result<Option<usize>, Unreadable> {
+    let rest = &text[at..];
+    if rest.starts_with("//") {
+        return Ok(Some(at + rest.find('\n').unwrap_or(rest.len())));
+    }
+    if !rest.starts_with("/*") {
+        return Ok(None);
+    }
+    let bytes = rest.as_bytes();
+    let (mut level, mut index) = (0_usize, 0);
+    while index + 1 < bytes.len() {
+        match &bytes[index..index + 2] {
+            b"/*" => {
+                level += 1;
+                index += 2;
+            }
+            b"*/" => {
+                level -= 1;
+                index += 2;
+                if level == 0 {
+                    return Ok(Some(at + index));
+                }
+            }
+            _ => index += 1,
+        }
+    }
+    Err(Unreadable { offset: at, reason: "this comment is not closed" })
+}
+
+/// The end of the string or character that starts at this byte, if one does.
+fn quoted_end(text: &str, at: usize) -> Option<Result<usize, &'static str>> {
+    let rest = &text[at..];
+    let unprefixed = rest.strip_prefix('b').unwrap_or(rest);
+    let inside = at + rest.len() - unprefixed.len() + 1;
+    if unprefixed.starts_with('"') {
+        return Some(escaped_end(text, inside, '"'));
+    }
+    if unprefixed.starts_with('\'') {
+        return Some(escaped_end(text, inside, '\''));
+    }
+    let raw = unprefixed.strip_prefix('r')?;
+    let hashes = raw.len() - raw.trim_start_matches('#').len();
+    let content = raw[hashes..].strip_prefix('"')?;
+    let closing = format!("\"{}", &raw[..hashes]);
+    let end = content.find(&closing).ok_or("this string is not closed");
+    Some(end.map(|end| text.len() - content.len() + end + closing.len()))
+}
+
+fn escaped_end(text: &str, inside: usize, quote: char) -> Result<usize, &'static str> {
+    let mut escaped = false;
+    for (offset, c) in text[inside..].char_indices() {
+        match c {
+            _ if escaped => escaped = false,
+            '\\' => escaped = true,
+            // '' and ''' : the first character of a character literal may be the quote itself.
+            c if c == quote && !(quote == '\'' && offset == 0) => return Ok(inside + offset + 1),
+            _ => {}
+        }
+    }
+    Err("this string is not closed")
+}
+
+/// The end of an identifier or a number: everything up to what means something else.
+fn word_end(text: &str, at: usize) -> usize {
+    let rest = &text[at..];
+    let mut characters = rest.char_indices().skip(1);
+    let end = characters.find(|(_, c)| {
+        is_blank(*c) || matches!(c, '(' | ')' | '[' | ']' | '{' | '}' | ',' | ':' | '"' | '\'' | '/')
+    });
+    at + end.map_or(rest.len(), |(end, _)| end)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn words(text: &str) -> Vec<&str> {
+        tokens(text).unwrap().into_iter().map(|token| &text[token.start..token.end]).collect()
+    }
+
+    #[test]
+    fn comments_and_white_space_are_between_tokens() {
+        let text = "a // b (\n: /* c /* d */ ) */ (e\u{2028},-1.0e-3)";
+        assert_eq!(words(text), ["a", ":", "(", "e", ",", "-1.0e-3", ")"]);
+    }
+
+    #[test]
+    fn comments_are_counted_wherever_they_stand() {
+        let text = "// one\n( /* two /* within */ */ a: \"// no\", // three\n// four\n) /* five */";
+        let comments = |text: &str| super::comments(text, &tokens(text).unwrap());
+        assert_eq!((comments(text), comments(""), comments("(a: 1)")), (5, 0, 0));
+    }
+
+    #[test]
+    fn strings_hide_what_is_in_them() {
+        let text = r####"("a\"),(", r#"b"),("#, r"c\", 'd', '\'', ''', b"e)", br##"f"#)"##, b'g', r#h)"####;
+        let quoted: Vec<_> = tokens(text)
+            .unwrap()
+            .into_iter()
+            .filter(|token| token.kind == Kind::Quoted)
+            .map(|token| &text[token.start..token.end])
+            .collect();
+        assert_eq!(
+            quoted,
+            [
+                r#""a\"),(""#,
+                r##"r#"b"),("#"##,
+                r#"r"c\""#,
+                "'d'",
+                r"'\''",
+                "'''",
+                r#"b"e)""#,
+                r###"br##"f"#)"##"###,
+                "b'g'"
+            ]
+        );
+    }
+
+    #[test]
+    fn brackets_know_their_partners() {
+        let tokens = tokens("([()])").unwrap();
+        assert_eq!(tokens[0].kind, Kind::Open(Bracket::Round, 5));
+        assert_eq!(tokens[1].kind, Kind::Open(Bracket::Square, 4));
+        assert_eq!(tokens[2].kind, Kind::Open(Bracket::Round, 3));
+    }
+
+    #[test]
+    fn what_does_not_close_is_pointed_at() {
+        for (text, offset) in
+            [("(a", 0), ("a)", 1), ("(]", 1), ("a \"b", 2), ("a /* /* */", 2), ("r#\"x\"", 0), ("(')", 1)]
+        {
+            assert_eq!(tokens(text).unwrap_err().offset, offset, "{text}");
+        }
+    }
+
+    #[test]
+    fn depth_does_not_matter() {
+        let deep = "(".repeat(500_000) + &")".repeat(500_000);
+        assert_eq!(tokens(&deep).unwrap().len(), 1_000_000);
+        assert!(tokens(&"[".repeat(1_000_000)).is_err());
+    }
+}
