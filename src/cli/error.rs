@@ -60,6 +60,12 @@ pub enum CliError {
         /// Why not.
         error: TopographyError,
     },
+    /// A scene cannot hold how its surface is to be read.
+    #[error("--scene: a scene does not hold {option}; allowed: one file, --unit, --continue-to")]
+    LostInScene {
+        /// Option that would be lost.
+        option: &'static str,
+    },
     /// Measured surfaces cannot be analysed.
     #[error("{file}: {error}")]
     Spectrum {

@@ -338,7 +338,7 @@ mod tests {
 
     #[test]
     fn a_wrong_version_is_told_first() {
-        let text = SCENE.replace("version: 1", "version: 2").replace("hurst", "hurts");
+        let text = SCENE.replace("version: 1", "version: 3").replace("hurst", "hurts");
         let errors = Document::parse(&text, "x").unwrap_err();
         assert_eq!(
             errors.iter().map(|error| error.field.as_str()).collect::<Vec<_>>(),
@@ -504,7 +504,7 @@ mod tests {
     fn scenes_made_in_the_program_are_checked_too() {
         let mut scene = sound();
         assert_eq!(Document::from_scene(&scene, "x").unwrap().scene(), &scene);
-        scene.roughness = Some(Roughness::Measured { file: String::new() });
+        scene.roughness = Some(Roughness::measured(""));
         let errors = Document::from_scene(&scene, "x").unwrap_err();
         assert!(errors.to_string().starts_with("roughness.file = \"\": allowed: "), "{errors}");
     }
