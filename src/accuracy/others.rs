@@ -4,7 +4,7 @@ use super::measure::{Bench, CostError, Rows, Tried};
 use super::single::errors_of_single_precision;
 use super::solution::{Solution, Solved, allowed_points, refined};
 use super::{Knob, Measures, Timing};
-use crate::scene::{Edges, Roughness, Solver, check, format_quantity};
+use crate::scene::{Edges, Solver, check, format_quantity};
 use crate::simulation::{RunError, Simulation};
 use crate::study::{Case, Next, Quantity, Records, Sink, Statistics, solve_in_turn};
 use std::ops::ControlFlow;
@@ -167,7 +167,7 @@ fn single_precision(bench: &mut Bench<'_>, points: u64, rows: &mut Rows<'_, '_>)
 
 /// Random profiles: standard error of the mean of their adhesion forces, and the time they take one after the other.
 fn lines(bench: &mut Bench<'_>, points: u64, rows: &mut Rows<'_, '_>) -> Result<(), CostError> {
-    if !matches!(bench.scene.roughness, Some(Roughness::SelfAffine { .. })) {
+    if bench.scene.seed().is_none() {
         return Ok(());
     }
     let scene = refined(bench.scene, points, Edges::SubCell);

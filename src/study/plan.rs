@@ -4,7 +4,7 @@ use super::axis::Axis;
 use super::numbering::places_of;
 use super::quantity::{Needs, Quantity};
 use super::target::Target;
-use crate::scene::{Roughness, Scene, ron_float};
+use crate::scene::{Scene, ron_float};
 use serde::{Deserialize, Serialize};
 
 /// Name of the plan's file in the folder of a study.
@@ -57,10 +57,6 @@ impl Default for StiffnessRange {
 impl Plan {
     /// The plan of a checked scene without axes: one cell on so many profiles, from the seed of the scene on.
     pub(super) fn of_scene(scene: &Scene, lines: u64, record: &[Quantity]) -> Plan {
-        let seed = match scene.roughness {
-            Some(Roughness::SelfAffine { seed, .. }) => seed,
-            _ => 0,
-        };
         Plan {
             title: String::new(),
             notice: String::new(),
@@ -68,7 +64,7 @@ impl Plan {
             axes: Vec::new(),
             preloads: None,
             lines,
-            seed,
+            seed: scene.seed().unwrap_or(0),
             record: record.to_vec(),
             stiffness: StiffnessRange::default(),
             measured_sha256: None,

@@ -1,6 +1,6 @@
 //! Quantities that an axis may vary: the numbers of a scene by their paths, and others that are derived from several.
 
-use crate::scene::{Adhesion, FIELDS, Field, Leg, Range, Scene, Value, field, nearest};
+use crate::scene::{FIELDS, Field, Leg, Range, Scene, Value, field, nearest};
 
 /// Quantities that are no fields of a scene.
 pub const DERIVED: &[&str] = &["kappa", "preload", "springs_per_wave"];
@@ -137,7 +137,7 @@ impl Target {
     pub fn set(self, scene: &mut Scene, value: f64) -> Result<(), String> {
         match self {
             Target::Preload => {}
-            Target::Kappa => scene.adhesion = Some(Adhesion { work: None, kappa: Some(value) }),
+            Target::Kappa => scene.adhesion = Some(scene.adhesion.unwrap_or_default().with_kappa(value)),
             Target::SpringsPerWave => {
                 let last = (scene.numerics.points as f64 / value).round();
                 set(scene, "roughness.modes", Part::Last, last)?;

@@ -168,7 +168,7 @@ impl StudyMap {
         }
         if scene.adhesion.is_none() {
             let middle = axes[self.kappa].value(axes[self.kappa].count() / 2);
-            scene.adhesion = Some(Adhesion { work: None, kappa: Some(middle) });
+            scene.adhesion = Some(Adhesion::default().with_kappa(middle));
         }
         if let Some(Roughness::SelfAffine { seed, hurst, .. }) = &mut scene.roughness {
             (*seed, *hurst) = (plan.seed, at_hurst.unwrap_or(*hurst));
