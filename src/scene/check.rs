@@ -146,7 +146,7 @@ mod tests {
     #[test]
     fn all_violations_are_found_together() {
         let mut scene = sound();
-        scene.version = 2;
+        scene.version = 3;
         scene.length = -1.0;
         scene.material.poisson_ratio = Some(0.7);
         scene.numerics.samples = 1;

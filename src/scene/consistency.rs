@@ -4,7 +4,8 @@
 use super::check::{Found, Violation};
 use super::fields::{FIELDS, LEG_INDENTATION, field};
 use super::model::{Adhesion, Edges, Form, Leg, Material, Roughness, Scene, Solver};
-use super::text::ron_float;
+use super::text::{ron_float, ron_string};
+use crate::topography::{Unit, UnitError};
 
 /// Most samples of all legs together; a curve of this size still fits the memory of a small machine.
 const MOST_SAMPLES: u64 = 1 << 24;
@@ -13,6 +14,7 @@ pub(super) fn check_consistency(scene: &Scene, found: &mut Found) {
     check_material(&scene.material, found);
     check_form(scene, found);
     check_modes(scene, found);
+    check_unit(scene, found);
     check_amplitude(scene, found);
     check_loading(scene, found);
     check_edges(scene, found);
@@ -131,6 +133,22 @@ fn check_modes(scene: &Scene, found: &mut Found) {
             allowed: format!("last mode at most points/2 = {}", scene.numerics.points / 2),
             reason: format!("{} springs carry no shorter wave", scene.numerics.points),
             involves: &["numerics.points"],
+        });
+    }
+}
+
+fn check_unit(scene: &Scene, found: &mut Found) {
+    if let Some(Roughness::Measured { unit, .. }) = &scene.roughness
+        && !unit.is_empty()
+        && !found.has("roughness.unit")
+        && unit.parse::<Unit>().is_err()
+    {
+        found.add(Violation {
+            field: "roughness.unit".into(),
+            value: ron_string(unit),
+            allowed: UnitError::ALLOWED.into(),
+            reason: "unit of the file".into(),
+            involves: &[],
         });
     }
 }
@@ -312,7 +330,7 @@ mod tests {
         assert_eq!(check(&scene), vec![]);
         scene.adhesion = Some(Adhesion::default().with_kappa(2.0));
         assert_eq!(only(&scene).0, "adhesion.kappa");
-        scene.roughness = Some(Roughness::Measured { file: "line.csv".into() });
+        scene.roughness = Some(Roughness::measured("line.csv"));
         assert_eq!(check(&scene), vec![]);
         scene.adhesion = Some(Adhesion { work: Some(0.05), ..Adhesion::default().with_kappa(2.0) });
         assert_eq!(only(&scene).0, "adhesion");

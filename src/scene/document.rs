@@ -338,13 +338,13 @@ mod tests {
 
     #[test]
     fn a_wrong_version_is_told_first() {
-        let text = SCENE.replace("version: 1", "version: 2").replace("hurst", "hurts");
+        let text = SCENE.replace("version: 1", "version: 3").replace("hurst", "hurts");
         let errors = Document::parse(&text, "x").unwrap_err();
         assert_eq!(
             errors.iter().map(|error| error.field.as_str()).collect::<Vec<_>>(),
             ["version", "roughness.hurts"]
         );
-        assert_eq!(lines(&errors)[0], "x:2:14: version = 2: allowed: 1 (version of the scene file)");
+        assert_eq!(lines(&errors)[0], "x:2:14: version = 3: allowed: 1 or 2 (version of the scene file)");
         for text in [SCENE.replace("version: 1,", ""), SCENE.replace("version: 1", "version: \"1\"")] {
             let errors = Document::parse(&text, "x").unwrap_err();
             assert_eq!(errors.iter().count(), 1, "{errors}");
@@ -504,7 +504,7 @@ mod tests {
     fn scenes_made_in_the_program_are_checked_too() {
         let mut scene = sound();
         assert_eq!(Document::from_scene(&scene, "x").unwrap().scene(), &scene);
-        scene.roughness = Some(Roughness::Measured { file: String::new() });
+        scene.roughness = Some(Roughness::measured(""));
         let errors = Document::from_scene(&scene, "x").unwrap_err();
         assert!(errors.to_string().starts_with("roughness.file = \"\": allowed: "), "{errors}");
     }

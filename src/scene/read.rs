@@ -4,7 +4,7 @@ use ron::extensions::Extensions;
 
 use super::edit::known_field;
 use super::field::Field;
-use super::model::{SCENE_VERSION, Scene};
+use super::model::{SCENE_VERSIONS, Scene};
 use super::range::Range;
 use super::suggest::nearest;
 use super::text::{Text, offset_of};
@@ -35,14 +35,15 @@ pub(super) fn wrong_version(text: &str) -> Option<Unread> {
     let (offset, value, message) = match outline.span("version") {
         Some(span) => {
             let value = text[span.value.clone()].to_string();
-            if value.parse() == Ok(SCENE_VERSION) {
+            if value.parse().is_ok_and(|version| SCENE_VERSIONS.contains(&version)) {
                 return None;
             }
             (span.value.start, value, "version of the scene file")
         }
         None => (opening, String::new(), "version of the scene file, which is missing"),
     };
-    let (field, allowed, message) = ("version".into(), SCENE_VERSION.to_string(), message.into());
+    let allowed = format!("{} or {}", SCENE_VERSIONS.start(), SCENE_VERSIONS.end());
+    let (field, message) = ("version".into(), message.into());
     Some(Unread { offset, field, value, allowed, message })
 }
 
@@ -257,9 +258,9 @@ mod tests {
     #[test]
     fn the_version_is_told_whatever_else_is_wrong() {
         assert_eq!(wrong_version("(version: 1, nonsense)"), None);
-        assert_eq!(wrong_version("(version: 2, nonsense)").unwrap().value, "2");
+        assert_eq!(wrong_version("(version: 3, nonsense)").unwrap().value, "3");
         assert!(wrong_version("(length: 1)").unwrap().message.contains("missing"));
-        assert_eq!(wrong_version("(version: 2, nonsense"), None);
+        assert_eq!(wrong_version("(version: 3, nonsense"), None);
     }
 
     /// Of two mistakes the first is said, also where a bracket or quote behind it stays open.

@@ -112,6 +112,24 @@ impl Target {
         }
     }
 
+    /// Gives quantities their values in a scene, each of which has a place; quantities that follow from others are last.
+    ///
+    /// # Errors
+    /// The place of a number that the scene does not have, and the reason.
+    pub fn set_all(
+        values: impl Iterator<Item = (Target, f64)> + Clone,
+        scene: &mut Scene,
+    ) -> Result<(), (usize, String)> {
+        for follows in [false, true] {
+            for (place, (target, value)) in values.clone().enumerate() {
+                if (target == Target::SpringsPerWave) == follows {
+                    target.set(scene, value).map_err(|reason| (place, reason))?;
+                }
+            }
+        }
+        Ok(())
+    }
+
     /// Gives the quantity a value in a scene; the preload, which is no part of a scene, is left to the run.
     ///
     /// # Errors
