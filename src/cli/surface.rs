@@ -146,18 +146,12 @@ impl AnalysisArguments {
     }
 }
 
-impl SurfaceArguments {
-    fn chosen_format(&self) -> SurfaceFormat {
-        self.format.unwrap_or_else(|| match self.output.file().and_then(|path| path.extension()?.to_str()) {
-            Some("json") => SurfaceFormat::Json,
-            Some("csv") => SurfaceFormat::Csv,
-            _ => SurfaceFormat::Summary,
-        })
-    }
-}
+/// Endings of files in each format.
+const ENDINGS: [(&str, SurfaceFormat); 2] = [("json", SurfaceFormat::Json), ("csv", SurfaceFormat::Csv)];
 
 /// Reads and analyses the files and writes the results.
 pub(super) fn surface(arguments: &SurfaceArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
+    let format = arguments.output.format(arguments.format, &ENDINGS, SurfaceFormat::Summary)?;
     arguments.output.check()?;
     let (mut surfaces, mut files) = (Vec::new(), Vec::new());
     for file in &arguments.files {
@@ -167,7 +161,7 @@ pub(super) fn surface(arguments: &SurfaceArguments, stdout: &mut dyn Write) -> R
     }
     let analysis = analysed(arguments, &surfaces)?;
     let modulus = arguments.analysis.modulus;
-    arguments.output.write(stdout, |out| match arguments.chosen_format() {
+    arguments.output.write(stdout, |out| match format {
         SurfaceFormat::Summary => out.write_all(surface_text(&files, &analysis, modulus).as_bytes()),
         SurfaceFormat::Json => write_surface_json(out, &files, &analysis, modulus),
         SurfaceFormat::Csv => write_surface_csv(out, &analysis),
