@@ -178,7 +178,7 @@ fn read_input(messages: Sender<Message>) -> io::Result<()> {
 /// The scene as the worker gets it: files it names are found wherever the explorer was started.
 pub(super) fn scene_of(document: &Document) -> Arc<Scene> {
     let mut scene = document.scene().clone();
-    if let Some(Roughness::Measured { file }) = &mut scene.roughness {
+    if let Some(Roughness::Measured { file, .. }) = &mut scene.roughness {
         *file = document.resolve(file).to_string_lossy().into_owned();
     }
     Arc::new(scene)

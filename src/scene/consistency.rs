@@ -4,7 +4,8 @@
 use super::check::{Found, Violation};
 use super::fields::{LEG_INDENTATION, field};
 use super::model::{Adhesion, Edges, Form, Leg, Material, Roughness, Scene, Solver};
-use super::text::ron_float;
+use super::text::{ron_float, ron_string};
+use crate::topography::{Unit, UnitError};
 
 /// Most samples of all legs together; a curve of this size still fits the memory of a small machine.
 const MOST_SAMPLES: u64 = 1 << 24;
@@ -13,6 +14,7 @@ pub(super) fn check_consistency(scene: &Scene, found: &mut Found) {
     check_material(&scene.material, found);
     check_form(scene, found);
     check_modes(scene, found);
+    check_unit(scene, found);
     check_amplitude(scene, found);
     check_loading(scene, found);
     check_edges(scene, found);
@@ -132,10 +134,26 @@ fn check_modes(scene: &Scene, found: &mut Found) {
     }
 }
 
+fn check_unit(scene: &Scene, found: &mut Found) {
+    if let Some(Roughness::Measured { unit, .. }) = &scene.roughness
+        && !unit.is_empty()
+        && !found.has("roughness.unit")
+        && unit.parse::<Unit>().is_err()
+    {
+        found.add(Violation {
+            field: "roughness.unit".into(),
+            value: ron_string(unit),
+            allowed: UnitError::ALLOWED.into(),
+            reason: "unit of the file".into(),
+            involves: &[],
+        });
+    }
+}
+
 /// Amplitude of the roughness, work of adhesion and κ: any two determine the third.
 fn check_amplitude(scene: &Scene, found: &mut Found) {
     let (work, kappa) = match scene.adhesion {
-        Some(Adhesion { work: None, kappa: None }) => {
+        Some(Adhesion { work: None, kappa: None, .. }) => {
             found.add(inconsistency(
                 "adhesion",
                 "",
@@ -144,7 +162,7 @@ fn check_amplitude(scene: &Scene, found: &mut Found) {
             ));
             return;
         }
-        Some(Adhesion { work, kappa }) => (work, kappa.is_some()),
+        Some(Adhesion { work, kappa, .. }) => (work, kappa.is_some()),
         None => (None, false),
     };
     let amplitude = match scene.roughness {
@@ -270,7 +288,10 @@ mod tests {
                 *rms_height = height.then_some(1e-7);
                 *rms_gradient = gradient.then_some(0.1);
             }
-            scene.adhesion = adhesion.map(|(work, kappa)| Adhesion { work, kappa });
+            scene.adhesion = adhesion.map(|(work, kappa)| Adhesion {
+                work,
+                ..kappa.map_or_else(Adhesion::default, |kappa| Adhesion::default().with_kappa(kappa))
+            });
             scene
         };
         let (work, kappa) = (Some(0.05), Some(2.0));
@@ -304,11 +325,11 @@ mod tests {
         let mut scene = sound();
         scene.roughness = None;
         assert_eq!(check(&scene), vec![]);
-        scene.adhesion = Some(Adhesion { work: None, kappa: Some(2.0) });
+        scene.adhesion = Some(Adhesion::default().with_kappa(2.0));
         assert_eq!(only(&scene).0, "adhesion.kappa");
-        scene.roughness = Some(Roughness::Measured { file: "line.csv".into() });
+        scene.roughness = Some(Roughness::measured("line.csv"));
         assert_eq!(check(&scene), vec![]);
-        scene.adhesion = Some(Adhesion { work: Some(0.05), kappa: Some(2.0) });
+        scene.adhesion = Some(Adhesion { work: Some(0.05), ..Adhesion::default().with_kappa(2.0) });
         assert_eq!(only(&scene).0, "adhesion");
     }
 

@@ -48,10 +48,10 @@ impl Plan {
         if !(1..=MOST_LINES).contains(&self.lines) {
             wrong.push(format!("lines = {}: allowed: from 1 to {MOST_LINES}", self.lines));
         }
-        let seeds = matches!(self.scene.roughness, Some(Roughness::SelfAffine { .. }));
+        let seeds = self.scene.seed().is_some();
         if self.lines > 1 && !seeds {
             wrong.push(format!(
-                "lines = {}: several lines go with roughness: SelfAffine, which has seeds; this scene has but one",
+                "lines = {}: several lines go with roughness: SelfAffine or an equivalent line, which have seeds; this scene has but one",
                 self.lines
             ));
         }

@@ -123,7 +123,7 @@ pub fn run(
         let begun = begin_threads(scope, options.jobs.max(1), move || {
             let simulation = Simulation::new(PathBuf::new());
             let simulation = match profile {
-                Some(profile) => simulation.with_profile(profile),
+                Some(profile) => simulation.with_measured(profile),
                 None => simulation,
             };
             work.solve(simulation, &mut FolderSink { shared, sender });

@@ -1,5 +1,6 @@
 //! The rigid line: macroscopic form, self-affine or measured roughness, and its statistics.
 
+mod equivalent;
 mod error;
 mod form;
 mod histogram;
@@ -10,6 +11,7 @@ mod phases;
 mod roughness;
 mod spectrum;
 
+pub use equivalent::{EquivalentLine, MeasuredOptions, MeasuredRoughness};
 pub use error::SurfaceError;
 pub use form::{mdr_profile, power_law_factor};
 pub use histogram::Histogram;

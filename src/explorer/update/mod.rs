@@ -19,7 +19,7 @@ use super::mode::Mode;
 use super::model::{Model, Notice};
 use super::view::help_end;
 use super::worker::{HandOrder, MomentRequest};
-use crate::scene::{Document, Roughness, typed_path};
+use crate::scene::{Document, typed_path};
 use std::path::PathBuf;
 
 /// Something to be done outside the model.
@@ -68,8 +68,8 @@ pub fn update(model: &mut Model, action: Action) -> Vec<Effect> {
             return vec![Effect::Show];
         }
         Action::Elapse(time) => return movement::elapse(model, time),
-        Action::SetSeed(seed) => match model.document.scene().roughness {
-            Some(Roughness::SelfAffine { .. }) => {
+        Action::SetSeed(seed) => match model.document.scene().seed() {
+            Some(_) => {
                 return edit::change(model, "roughness.seed", &seed.to_string());
             }
             _ => model.notice = Some(Notice::Error("the scene has no random line to draw anew".to_owned())),
