@@ -334,7 +334,7 @@ mod tests {
             errors.iter().map(|error| error.field.as_str()).collect::<Vec<_>>(),
             ["version", "roughness.hurts"]
         );
-        assert_eq!(lines(&errors)[0], "x:2:14: version = 2: allowed: 1 (version of the scene file)");
+        assert_eq!(lines(&errors)[0], "x:2:14: version = 3: allowed: 1 or 2 (version of the scene file)");
         for text in [SCENE.replace("version: 1,", ""), SCENE.replace("version: 1", "version: \"1\"")] {
             let errors = Document::parse(&text, "x").unwrap_err();
             assert_eq!(errors.iter().count(), 1, "{errors}");
