@@ -111,7 +111,7 @@ impl ContactBuilder<'_> {
     /// Work of adhesion γ, J/m²; 0 for a contact without adhesion.
     #[must_use]
     pub fn work_of_adhesion(mut self, work: f64) -> Self {
-        self.scene.adhesion = Some(Adhesion { work: Some(work), kappa: None });
+        self.scene.adhesion = Some(Adhesion::default().with_work(work));
         self
     }
 

@@ -237,6 +237,7 @@ fn overrides_reach_the_run() {
     // Pull-off is in proportion to the work of adhesion.
     let ratio = sphere("0.1") / sphere("0.05");
     assert!((ratio - 2.0).abs() < 0.02, "{ratio}");
+    assert_eq!(sphere("50mJ/m2").to_bits(), sphere("0.05").to_bits());
 }
 
 #[test]
@@ -248,6 +249,8 @@ fn wrong_overrides_are_told_with_field_value_and_range() {
     }
     assert!(run("numerics.pionts=64").contains("numerics.points"));
     assert!(run("numerics.points=many").contains("many"));
+    let wrong = "length = 10 kg: allowed: from 1e-9 to 10 m (kg is no length: m, mm, µm, nm)";
+    assert!(run("length=10 kg").contains(wrong));
     // Several errors, each on a line of its own; the same on every command.
     for command in ["run", "plan", "line"] {
         let told = failed(1, &[command, "jkr-sphere", "--set", "length=-1.0", "--set", "numerics.samples=1"]);

@@ -17,6 +17,8 @@ struct Body {
     foundation: Foundation,
     /// γ, J/m².
     work: Option<f64>,
+    /// γ₁/γ on closing.
+    closing: f64,
 }
 
 impl Body {
@@ -25,7 +27,8 @@ impl Body {
     }
 
     fn edges(&self) -> GridEdges {
-        GridEdges::new(self.work.map_or(HessRule::NO_ADHESION, |work| HessRule::new(self.foundation, work)))
+        let rule = |work| HessRule::from_works(self.foundation, self.closing * work, work);
+        GridEdges::new(self.work.map_or(HessRule::NO_ADHESION, rule))
     }
 
     fn exact<'a>(&'a self, tree: &'a ContactTree) -> Box<dyn Solver + 'a> {
@@ -112,10 +115,13 @@ fn body() -> impl Strategy<Value = Body> {
         1 => Just(Some(0.0)),
         1 => Just(None),
     ];
-    (gaps(), range, 0.003..0.03_f64, 0.3..3.0_f64).prop_map(|(gaps, range, spacing, effective_modulus)| {
-        let work = range.map(|range| range * effective_modulus);
-        Body { gaps, foundation: Foundation::endless(spacing, effective_modulus), work }
-    })
+    let closing = prop_oneof![2 => Just(1.0), 1 => Just(0.0), 2 => 0.0..1.0_f64];
+    (gaps(), range, closing, 0.003..0.03_f64, 0.3..3.0_f64).prop_map(
+        |(gaps, range, closing, spacing, effective_modulus)| {
+            let work = range.map(|range| range * effective_modulus);
+            Body { gaps, foundation: Foundation::endless(spacing, effective_modulus), work, closing }
+        },
+    )
 }
 
 /// Where a move goes; forces in units of those that act.
@@ -370,7 +376,7 @@ proptest! {
 #[test]
 fn a_force_passed_by_a_rounding_is_met_again_from_above() {
     let gaps: Vec<f64> = (0..10).map(|k| (f64::from(k) / 50.0).powi(2)).collect();
-    let body = Body { gaps, foundation: Foundation::endless(0.003, 0.3), work: None };
+    let body = Body { gaps, foundation: Foundation::endless(0.003, 0.3), work: None, closing: 1.0 };
     let tree = body.tree();
     let leg = Goal::Force(1e9).leg(&body);
     let Leg::ToForce(force) = leg else { panic!("{leg:?}") };
@@ -392,7 +398,7 @@ fn rough(springs: usize, work: Option<f64>) -> Body {
     let heights = UnitRoughness::synthesize(spectrum, 1, springs).unwrap().heights;
     let summit = heights.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     let gaps = heights.iter().map(|height| 0.2 * (summit - height)).collect();
-    Body { gaps, foundation: Foundation::endless(1.0 / springs as f64, 1.0), work }
+    Body { gaps, foundation: Foundation::endless(1.0 / springs as f64, 1.0), work, closing: 1.0 }
 }
 
 /// Numbers in [0, 1) without a pattern.
@@ -462,7 +468,7 @@ fn a_step_costs_what_changes() {
 
 #[test]
 fn a_line_of_no_springs_is_never_touched() {
-    let body = Body { gaps: Vec::new(), foundation: Foundation::endless(1.0, 1.0), work: None };
+    let body = Body { gaps: Vec::new(), foundation: Foundation::endless(1.0, 1.0), work: None, closing: 1.0 };
     let mut manual = body.separated(&body.tree());
     manual.move_to_indentation(3.0).unwrap();
     assert_eq!(manual.move_to_force(1.0), Err(ManualError::OutOfReach { force: 1.0 }));
@@ -476,7 +482,7 @@ fn a_line_of_no_springs_is_never_touched() {
 fn a_force_no_indentation_reaches_is_refused() {
     let foundation = Foundation::endless(1e-3, 1.0);
     for work in [None, Some(0.1)] {
-        let body = Body { gaps: vec![0.3, 0.0, 0.9, 0.2, 0.5], foundation, work };
+        let body = Body { gaps: vec![0.3, 0.0, 0.9, 0.2, 0.5], foundation, work, closing: 1.0 };
         let tree = body.tree();
         let (mut solver, mut manual) = (body.exact(&tree), body.separated(&tree));
         for leg in [Leg::ToIndentation(0.25), Leg::ToSeparation] {

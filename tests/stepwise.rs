@@ -118,11 +118,13 @@ proptest! {
         seed in any::<u64>(),
         points in 1_usize..120,
         range in -5.0..1.0_f64,
+        closing in prop_oneof![1 => Just(1.0), 1 => 0.0..1.0_f64],
         step in 0.003..0.1_f64,
         turns in prop::collection::vec(-0.5..1.0_f64, 1..7),
     ) {
         let gaps = rough(points.max(4), seed);
-        let hess = HessRule::new(FOUNDATION, 10_f64.powf(range));
+        let work = 10_f64.powf(range);
+        let hess = HessRule::from_works(FOUNDATION, closing * work, work);
         let tree = ContactTree::build(&gaps, Edges::Grid).unwrap();
         let mut exact = exact::adhesive(&gaps, &tree, GridEdges::new(hess), FOUNDATION, 2);
         let mut stepwise = stepwise(&gaps, Some(hess), step);

@@ -40,7 +40,7 @@ impl Governing {
     #[must_use]
     pub fn of(scene: &Scene, gradient_per_height: Option<f64>, measured: Option<Amplitude>) -> Self {
         let effective_modulus = scene.material.effective_modulus();
-        let Adhesion { work, kappa } = scene.adhesion.unwrap_or(Adhesion { work: None, kappa: None });
+        let Adhesion { work, kappa, .. } = scene.adhesion.unwrap_or_default();
         let amplitude = measured.or_else(|| {
             let ratio = gradient_per_height?;
             let Some(Roughness::SelfAffine { rms_height, rms_gradient, .. }) = scene.roughness else {
@@ -60,7 +60,7 @@ impl Governing {
     /// The same line under another adhesion.
     #[must_use]
     pub fn with_adhesion(self, adhesion: Option<Adhesion>) -> Self {
-        let Adhesion { work, kappa } = adhesion.unwrap_or(Adhesion { work: None, kappa: None });
+        let Adhesion { work, kappa, .. } = adhesion.unwrap_or_default();
         let stiff = self.stiffness();
         let work_of_adhesion = work.or_else(|| kappa.and_then(|kappa| self.work_for_kappa(kappa)));
         let kappa = kappa.or_else(|| kappa_of(stiff?, work_of_adhesion?));
@@ -157,13 +157,13 @@ mod tests {
     #[test]
     fn another_adhesion_on_the_same_line() {
         let base = Governing::of(&scene(Some("rms_height: 3.0,"), "(work: 2.0)"), Some(2.0), None);
-        let with = |work, kappa| {
-            let changed = base.with_adhesion(Some(Adhesion { work, kappa }));
+        let with = |adhesion: Adhesion| {
+            let changed = base.with_adhesion(Some(adhesion));
             assert_eq!(changed.amplitude, base.amplitude);
             (changed.work_of_adhesion, changed.kappa)
         };
-        assert_eq!(with(Some(8.0), None), (Some(8.0), Some(3.0)));
-        assert_eq!(with(None, Some(3.0)), (Some(8.0), Some(3.0)));
+        assert_eq!(with(Adhesion::default().with_work(8.0)), (Some(8.0), Some(3.0)));
+        assert_eq!(with(Adhesion::default().with_kappa(3.0)), (Some(8.0), Some(3.0)));
         assert_eq!(base.work_for_kappa(3.0), Some(8.0));
         let none = base.with_adhesion(None);
         assert_eq!((none.work_of_adhesion, none.kappa), (None, None));

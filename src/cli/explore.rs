@@ -45,6 +45,9 @@ pub(super) fn explore(arguments: &ExploreArguments, out: &mut dyn Write) -> Resu
             Some(_) => CliError::NoTerminalForStudy { folder: name },
         });
     }
+    if std::env::var_os("TERM").is_some_and(|term| term == "dumb") {
+        return Err(CliError::DumbTerminal { scene: opening.document.name().into() });
+    }
     let &ExploreArguments { theme, marker, no_mouse, .. } = arguments;
     let left = explorer::open(opening, Options { theme, marker, no_mouse })
         .map_err(|error| CliError::Explorer(error.to_string()))?;

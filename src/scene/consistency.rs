@@ -153,7 +153,7 @@ fn check_unit(scene: &Scene, found: &mut Found) {
 /// Amplitude of the roughness, work of adhesion and κ: any two determine the third.
 fn check_amplitude(scene: &Scene, found: &mut Found) {
     let (work, kappa) = match scene.adhesion {
-        Some(Adhesion { work: None, kappa: None }) => {
+        Some(Adhesion { work: None, kappa: None, .. }) => {
             found.add(inconsistency(
                 "adhesion",
                 "",
@@ -162,7 +162,7 @@ fn check_amplitude(scene: &Scene, found: &mut Found) {
             ));
             return;
         }
-        Some(Adhesion { work, kappa }) => (work, kappa.is_some()),
+        Some(Adhesion { work, kappa, .. }) => (work, kappa.is_some()),
         None => (None, false),
     };
     let amplitude = match scene.roughness {
@@ -288,7 +288,10 @@ mod tests {
                 *rms_height = height.then_some(1e-7);
                 *rms_gradient = gradient.then_some(0.1);
             }
-            scene.adhesion = adhesion.map(|(work, kappa)| Adhesion { work, kappa });
+            scene.adhesion = adhesion.map(|(work, kappa)| Adhesion {
+                work,
+                ..kappa.map_or_else(Adhesion::default, |kappa| Adhesion::default().with_kappa(kappa))
+            });
             scene
         };
         let (work, kappa) = (Some(0.05), Some(2.0));
@@ -322,11 +325,11 @@ mod tests {
         let mut scene = sound();
         scene.roughness = None;
         assert_eq!(check(&scene), vec![]);
-        scene.adhesion = Some(Adhesion { work: None, kappa: Some(2.0) });
+        scene.adhesion = Some(Adhesion::default().with_kappa(2.0));
         assert_eq!(only(&scene).0, "adhesion.kappa");
         scene.roughness = Some(Roughness::measured("line.csv"));
         assert_eq!(check(&scene), vec![]);
-        scene.adhesion = Some(Adhesion { work: Some(0.05), kappa: Some(2.0) });
+        scene.adhesion = Some(Adhesion { work: Some(0.05), ..Adhesion::default().with_kappa(2.0) });
         assert_eq!(only(&scene).0, "adhesion");
     }
 

@@ -104,11 +104,11 @@ impl Document {
         self.set_all(&[(path.to_string(), value.to_string())])
     }
 
-    /// This document with fields overridden, one after the other. Values are written in RON.
+    /// This document with fields overridden, one after the other. Values are written in RON; a number may have an SI
+    /// prefix and its unit, `50 mJ/m²`.
     ///
-    /// A field that is not in the text is inserted there, with its group; `None` takes an optional
-    /// part away. Ranges are checked once, at the end, so overrides that are allowed only together
-    /// may be given in any order.
+    /// A field that the text leaves out is inserted, with its group; `None` removes an optional part. Ranges are checked
+    /// once, at the end, so that overrides that are allowed only together may be given in any order.
     ///
     /// # Errors
     ///
@@ -200,7 +200,17 @@ impl Document {
     /// Changes text and scene, leaving both as they are where that fails.
     fn splice(&mut self, path: &str, value: &str) -> Result<(), SceneErrors> {
         let origin = Origin::Overrides(vec![format!("{path}={value}")]);
-        let text = edit::set(&self.text, path, value)
+        let value = match edit::field_at(&self.text, path) {
+            Some(field) => field.read_typed(value).map_err(|error| SceneError {
+                origin: origin.clone(),
+                field: path.to_string(),
+                value: value.to_string(),
+                allowed: field.allowed(),
+                message: error.to_string(),
+            })?,
+            None => value.to_string(),
+        };
+        let text = edit::set(&self.text, path, &value)
             .and_then(|text| check_length(&text).map(|()| text))
             .map_err(|message| SceneError::whole(origin.clone(), message))?;
         self.scene = read(&text).map_err(|unread| unread.into_error(origin))?;
@@ -371,7 +381,7 @@ mod tests {
         let document = document();
         let set = |path: &str, value: &str| document.set(path, value).unwrap().scene().clone();
         assert_eq!(set("length", "2.0e-4").length, 2e-4);
-        assert_eq!(set("adhesion.work", "0.1").adhesion, Some(Adhesion { work: Some(0.1), kappa: None }));
+        assert_eq!(set("adhesion.work", "0.1").adhesion, Some(Adhesion::default().with_work(0.1)));
         assert_eq!(set("form", "Cone(angle: 0.1)").form, Some(Form::Cone { angle: 0.1 }));
         assert_eq!(set("roughness", "None").roughness, None);
         assert_eq!(set("numerics.points", "2048").numerics.points, 2048);
@@ -382,7 +392,7 @@ mod tests {
         let kappa = document.set("adhesion.kappa", "2.0").unwrap();
         assert!(kappa.set("adhesion.work", "0.1").is_err());
         let work = kappa.set_all(&pairs(&[("adhesion.kappa", "None"), ("adhesion.work", "0.1")])).unwrap();
-        assert_eq!(work.scene().adhesion, Some(Adhesion { work: Some(0.1), kappa: None }));
+        assert_eq!(work.scene().adhesion, Some(Adhesion::default().with_work(0.1)));
     }
 
     #[test]

@@ -42,6 +42,7 @@ mod strategies;
 mod suggest;
 mod switch;
 mod text;
+mod typed;
 mod undo;
 mod value;
 mod write;

@@ -2,8 +2,8 @@
 
 use ron::extensions::Extensions;
 
+use super::edit::known_field;
 use super::field::Field;
-use super::fields::{LEG_FORCE, LEG_INDENTATION, field};
 use super::model::{SCENE_VERSIONS, Scene};
 use super::range::Range;
 use super::suggest::nearest;
@@ -101,7 +101,7 @@ fn explain_at(text: &str, outline: &Text, offset: usize, error: &ron::Error) -> 
         Error::MissingStructField { field: name, .. } => {
             let field =
                 if at.field.is_empty() { (*name).to_string() } else { format!("{}.{name}", at.field) };
-            let allowed = known(outline, &field)
+            let allowed = known_field(outline, &field)
                 .map_or_else(String::new, |field| format!("; allowed: {}", field.allowed()));
             Unread { field, message: format!("missing{allowed}"), ..at }
         }
@@ -126,7 +126,7 @@ fn explain_value(text: &str, outline: &Text, at: Unread, error: &ron::Error) -> 
     let Some(place) = scalar else {
         return Unread { message: plain(error), ..at };
     };
-    let (allowed, message) = match known(outline, &at.field) {
+    let (allowed, message) = match known_field(outline, &at.field) {
         // What text may hold is not the point where the quotes are missing.
         Some(Field { range: Range::Text { .. }, .. }) | None => (String::new(), plain(error)),
         Some(field) => (field.allowed(), field.name.to_string()),
@@ -144,16 +144,6 @@ impl Unread {
             message: String::new(),
         }
     }
-}
-
-/// The field at a path, by the variant the text gives to the group or leg around it.
-fn known(outline: &Text, path: &str) -> Option<&'static Field> {
-    let parent = path.rsplit_once('.').map_or("", |(parent, _)| parent);
-    let head = outline.variant(parent);
-    if parent.starts_with("loading.") {
-        return [&LEG_FORCE, &LEG_INDENTATION].into_iter().find(|field| field.variant == head);
-    }
-    field(path, head).or_else(|| field(path, None))
 }
 
 /// What the reader says, in words that do not presume the reader's own.

@@ -77,7 +77,7 @@ pub fn boundaries(path: &Path, levels: &[f64]) -> Result<Boundaries, StudyError>
     let finished = Finished::open(path)?;
     let plan = finished.plan();
     let refuse = |reason: &str| StudyError::Folder { path: path.to_path_buf(), reason: reason.to_string() };
-    let axes = || plan.axes.iter().chain(&plan.preloads);
+    let axes = || plan.all_axes().into_iter();
     let along = axes().position(|axis| axis.path() == "kappa");
     let along = along.ok_or_else(|| refuse("this study has no axis `kappa`, along which a boundary lies"))?;
     let protocols: Vec<(usize, Quantity)> = PROTOCOLS
@@ -125,7 +125,7 @@ struct Section {
 
 impl Sections {
     fn add(&mut self, plan: &Plan, along: usize, protocol: usize, (cell, seed): (u64, u64), share: f64) {
-        let counts: Vec<u64> = plan.axes.iter().chain(&plan.preloads).map(Axis::count).collect();
+        let counts: Vec<u64> = plan.all_axes().into_iter().map(Axis::count).collect();
         let faster: u64 = counts[along + 1..].iter().product();
         let place = cell / faster % counts[along];
         // The cell of the same place with the smallest κ stands for the section.

@@ -8,7 +8,7 @@ use super::height_shape::HeightShape;
 use super::plan::Plan;
 use super::quantity::Quantity;
 use super::recorder::Records;
-use super::solve::{Case, Next, SharedWork, Sink};
+use super::solve::{Case, Next, SharedWork, Sink, Solver};
 use super::statistics::Statistics;
 use crate::analysis::Regime;
 use crate::parallel::{begin_threads, on_this_thread};
@@ -101,6 +101,23 @@ pub fn solve_lines(
         }
     };
     solved.into_iter().map(result).collect()
+}
+
+/// Solves a checked scene on profile after profile, on this thread and those that a simulation uses. `stop` is asked
+/// within a profile; `sink` is given the values of `record`.
+pub(crate) fn solve_in_turn(
+    scene: &Scene,
+    simulation: Simulation,
+    lines: u64,
+    record: &[Quantity],
+    stop: &dyn Fn() -> bool,
+    sink: &mut dyn Sink,
+) {
+    let plan = Plan::of_scene(scene, lines, record);
+    let cells = Cells::of(&plan);
+    let mut solver = Solver::new(&plan, &cells, simulation, stop);
+    let mut units = (0..cells.units()).map(|unit| cells.unit(unit));
+    let _ = units.try_for_each(|unit| solver.solve(&unit, sink));
 }
 
 /// Profiles that have been solved, by their numbers.

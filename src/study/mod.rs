@@ -45,6 +45,7 @@ mod lines;
 pub mod map;
 mod measured;
 mod merge;
+mod numbering;
 #[cfg(feature = "parquet")]
 mod parquet;
 mod plan;
@@ -72,6 +73,7 @@ pub use cell_summary::{CellSummary, Spread};
 pub use error::StudyError;
 pub use finished::{Finished, Row};
 pub use height_shape::HeightShape;
+pub(crate) use lines::solve_in_turn;
 pub use lines::{LineResult, LinesError, LinesSummary, RegimeCounts, solve_lines};
 pub use merge::{Merged, PARQUET, RESULTS, RESULTS_VERSION, SIDECAR, SUMMARY, merge};
 #[cfg(feature = "parquet")]
@@ -81,9 +83,11 @@ pub use plan_check::{MOST_CELLS, MOST_LINES, MOST_RECORDS};
 pub use plan_text::{Changes, PLAN_VERSION, PlanErrors};
 pub use quantity::Quantity;
 pub use record::Key;
+pub(crate) use recorder::Records;
 pub use run::{Ended, Options, Progress, run};
 pub use select::{FigureError, Selection};
 pub use shard::Shard;
+pub(crate) use solve::{Case, Next, Sink};
 pub use statistics::Statistics;
 pub use status::{Attempt, ShardStatus, Status};
 pub use store::{Folder, Header, STORE_VERSION, ShardFile};

@@ -1,6 +1,7 @@
 //! The plan of a study: a scene, the axes along which numbers of the scene vary, profiles, and recorded quantities.
 
 use super::axis::Axis;
+use super::numbering::places_of;
 use super::quantity::{Needs, Quantity};
 use super::target::Target;
 use crate::scene::{Scene, ron_float};
@@ -84,7 +85,7 @@ impl Plan {
     /// Number of cells.
     #[must_use]
     pub fn cells(&self) -> u64 {
-        self.axes.iter().chain(&self.preloads).map(Axis::count).product()
+        self.all_axes().into_iter().map(Axis::count).product()
     }
 
     /// Number of records: cells times lines.
@@ -96,22 +97,16 @@ impl Plan {
     /// Values of the axes in a cell, and after them its preload where there is one.
     #[must_use]
     pub fn values(&self, cell: u64) -> Vec<f64> {
-        let mut rest = cell;
-        let mut values: Vec<f64> = Vec::with_capacity(self.axes.len() + 1);
-        for axis in self.axes.iter().chain(&self.preloads).rev() {
-            values.push(axis.value(rest % axis.count()));
-            rest /= axis.count();
-        }
-        values.reverse();
-        values
+        let axes = self.all_axes();
+        let places = places_of(cell, axes.iter().map(|axis| axis.count()));
+        axes.iter().zip(places).map(|(axis, place)| axis.value(place)).collect()
     }
 
     /// A cell's coordinates as people read them.
     #[must_use]
     pub fn coordinates(&self, cell: u64) -> String {
-        let axes = self.axes.iter().chain(&self.preloads);
         let one = |(axis, value): (&Axis, f64)| format!("{} = {}", axis.path(), ron_float(value));
-        let all: Vec<_> = axes.zip(self.values(cell)).map(one).collect();
+        let all: Vec<_> = self.all_axes().into_iter().zip(self.values(cell)).map(one).collect();
         if all.is_empty() { "the scene itself".into() } else { all.join(", ") }
     }
 

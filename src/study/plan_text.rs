@@ -160,7 +160,7 @@ impl Plan {
                 format!("        List(path: {}, values: [{}]),\n", ron_string(path), list(values))
             }
         };
-        let axes: String = self.axes.iter().chain(&self.preloads).map(axis).collect();
+        let axes: String = self.all_axes().into_iter().map(axis).collect();
         line("axes", format!("[\n{axes}    ]"));
         line("lines", self.lines.to_string());
         line("seed", self.seed.to_string());

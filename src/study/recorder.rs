@@ -14,7 +14,7 @@ const SAMPLES: u64 = 2;
 
 /// Values of the recorded quantities, in the order of the plan, for each preload; NaN for a quantity that the case does
 /// not have.
-pub(super) type Records = Vec<Vec<f64>>;
+pub(crate) type Records = Vec<Vec<f64>>;
 
 /// Recorder of the cases of a plan. Keeps the profile, its tree and the properties of the profile from case to case.
 pub(super) struct Recorder<'p> {

@@ -196,8 +196,8 @@ impl Selection {
     /// The axes of the study, those with one value and those of `at` fixed.
     fn chosen<'a>(&self, plan: &'a Plan) -> Result<Vec<Chosen<'a>>, FigureError> {
         let only = |axis: &Axis| (axis.count() == 1).then_some(0);
-        let axes = plan.axes.iter().chain(&plan.preloads);
-        let mut chosen: Vec<_> = axes.map(|axis| Chosen { axis, at: only(axis) }).collect();
+        let mut chosen: Vec<_> =
+            plan.all_axes().into_iter().map(|axis| Chosen { axis, at: only(axis) }).collect();
         let mut named: Vec<&str> = Vec::new();
         for (path, value) in &self.at {
             let index = find(&chosen, path, "--at")?;

@@ -210,16 +210,21 @@ fn sections_have_the_confidence_of_the_mean() {
     within(60, || {
         let (_folder, mut driver) = opened();
         driver.press("X");
-        for told in ["over κ at H 0.5", "over H at κ 1", "─ F_a(0)/F_a,max", "┄ F_a/F_n", "95 % confidence"]
+        for told in
+            ["over κ at H 0.5", "over H at κ 1", "⠒⠒⠒ F_a(0)/F_a,max", "⠒ ⠒ F_a/F_n", "⠂ ⠂ 95 % confidence"]
         {
             assert!(driver.text().contains(told), "{told}\n{}", driver.text());
         }
         driver.press("V V V");
-        assert!(driver.text().contains("─ F_a  │ 95 % confidence"), "{}", driver.text());
+        assert!(driver.text().contains("⠒⠒⠒ F_a  ⠂ ⠂ 95 % confidence"), "{}", driver.text());
         // Of one line there is none.
         let (_folder, mut driver) = opened_with(&PLAN.replace("lines: 12", "lines: 1"));
         driver.press("X");
-        assert!(!driver.text().contains("│ 95 %") && driver.text().contains("1 line "), "{}", driver.text());
+        assert!(
+            !driver.text().contains("⠂ ⠂ 95 %") && driver.text().contains("1 line "),
+            "{}",
+            driver.text()
+        );
     });
 }
 

@@ -227,6 +227,109 @@ fn wavy_spheres_converge_with_the_square_of_the_distance() {
     }
 }
 
+/// A sphere under two works of adhesion: JKR with γ₁, a straight line with the edge pinned, JKR with γ₂.
+struct TwoWorks {
+    closing: PowerLaw,
+    opening: PowerLaw,
+    /// Indentation at which the loading turns, and the contact radius there, m.
+    turns: (f64, f64),
+}
+
+impl TwoWorks {
+    const FORM: Form = Form::Paraboloid { radius: 1.0 };
+
+    fn new(closing_work: f64, deepest: f64) -> Self {
+        let [closing, opening] =
+            [closing_work, 1.0].map(|work| PowerLaw::of(&Self::FORM, 1.0, work).unwrap());
+        let radius =
+            invert(|a| closing.indentation(a), deepest, closing.displacement_controlled_pull_off().0, 1e3);
+        TwoWorks { closing, opening, turns: (deepest, radius) }
+    }
+
+    fn slope(body: &PowerLaw, a: f64) -> f64 {
+        2.0 * body.line_coefficient * a - (2.0 * PI * a * body.work_of_adhesion).sqrt() / (2.0 * a)
+    }
+
+    /// Indentation at which the edge is pinned no more, m.
+    fn released(&self) -> f64 {
+        self.opening.indentation(self.turns.1)
+    }
+
+    /// Force at an indentation on the way back.
+    fn force(&self, d: f64) -> f64 {
+        let (deepest, radius) = self.turns;
+        if d >= self.released() {
+            return self.closing.force(radius) - 2.0 * radius * (deepest - d);
+        }
+        let last = self.opening.displacement_controlled_pull_off().0;
+        self.opening.force(invert(|a| self.opening.indentation(a), d, last, radius))
+    }
+
+    fn dissipated_energy(&self) -> f64 {
+        let (deepest, radius) = self.turns;
+        let work = |body: &PowerLaw, from, to| integral(|a| body.force(a) * Self::slope(body, a), from, to);
+        let touch = invert(
+            |a| self.closing.indentation(a),
+            0.0,
+            self.closing.displacement_controlled_pull_off().0,
+            radius,
+        );
+        let last = self.opening.displacement_controlled_pull_off().0;
+        let pinned = 0.5 * (self.force(deepest) + self.force(self.released())) * (deepest - self.released());
+        work(&self.closing, touch, radius) - pinned - work(&self.opening, last, radius)
+    }
+}
+
+#[test]
+fn a_sphere_under_two_works_converges_with_the_square_of_the_distance_on_each_of_its_three_pieces() {
+    for closing_work in [0.0, 0.25, 0.9] {
+        let deepest = 4.0;
+        let exact = TwoWorks::new(closing_work, deepest);
+        let released = exact.released();
+        let pull_off = exact.opening.force_controlled_pull_off();
+        assert!(exact.turns.1 > pull_off.0, "the sphere pulls off with its edge pinned");
+        let turns_at = exact.opening.indentation(pull_off.0);
+        let errors: Vec<[f64; 5]> = grids(true)
+            .iter()
+            .map(|&points| {
+                let body = smooth(Some(TwoWorks::FORM), 12.0, points, 1.0, 1.0);
+                let body = Body { closing_work, ..body };
+                let history = body.history(&[Leg::ToIndentation(deepest), Leg::ToSeparation], 257);
+                let [loading, unloading] = &history.legs[..] else { panic!() };
+                let of = |curve: &[CurvePoint], from: f64, to: f64, force: &dyn Fn(f64) -> f64| {
+                    let inside = curve
+                        .iter()
+                        .filter(|p| p.springs > 0 && p.indentation >= from && p.indentation <= to);
+                    let errors = inside.map(|p| (p.force - force(p.indentation)).abs());
+                    errors.fold(0.0, f64::max) / -pull_off.1
+                };
+                let loads = |d: f64| {
+                    let last = exact.closing.displacement_controlled_pull_off().0;
+                    exact.closing.force(invert(|a| exact.closing.indentation(a), d, last, 1e3))
+                };
+                let energy = loading.dissipated_energy + unloading.dissipated_energy;
+                [
+                    of(&loading.curve, 0.0, deepest, &loads),
+                    of(&unloading.curve, released, deepest, &|d| exact.force(d)),
+                    of(&unloading.curve, turns_at, released, &|d| exact.force(d)),
+                    (unloading.smallest.force / pull_off.1 - 1.0).abs(),
+                    (energy / exact.dissipated_energy() - 1.0).abs(),
+                ]
+            })
+            .collect();
+        for (index, what) in ["loading", "pinned", "unloading", "pull-off", "energy"].into_iter().enumerate()
+        {
+            let errors: Vec<f64> = errors.iter().map(|errors| errors[index]).collect();
+            let order = observed_order(&grids(true), &errors);
+            println!(
+                "γ₁ = {closing_work}: {what}: {:.1e} falls to {:.1e}, order {order:.2}",
+                errors[0], errors[10]
+            );
+            assert!(order >= 1.9, "γ₁ = {closing_work}: {what}: order {order}, errors {errors:?}");
+        }
+    }
+}
+
 #[test]
 fn flat_faces_are_exact_to_rounding() {
     for points in [1, 2, 3, 10, 1001] {

@@ -66,8 +66,7 @@ pub fn figure_text(figure: &Figure, columns: usize, colours: Colours) -> String 
         }
         push_words(&mut text, &heading(chart).to_string(), columns);
         push_chart(&mut text, chart, columns as u16, &style);
-        let of_chart = Figure { charts: vec![chart.clone()], ..Figure::clone(figure) };
-        push_legend(&mut text, &of_chart, columns, &style);
+        push_legend(&mut text, chart, columns, &style);
     }
     text
 }
@@ -117,8 +116,8 @@ fn push_chart(text: &mut String, chart: &Chart, columns: u16, style: &CellStyle<
     }
 }
 
-fn push_legend(text: &mut String, figure: &Figure, columns: usize, style: &CellStyle<'_>) {
-    let classes = figure.charts.iter().filter_map(map::of).flat_map(|map| {
+fn push_legend(text: &mut String, chart: &Chart, columns: usize, style: &CellStyle<'_>) {
+    let classes = map::of(chart).into_iter().flat_map(|map| {
         let has = |class: usize| map.classes.contains(&Some(class));
         map.class_names.iter().enumerate().filter(move |(class, _)| has(*class))
     });
@@ -126,7 +125,7 @@ fn push_legend(text: &mut String, figure: &Figure, columns: usize, style: &CellS
         classes.map(|(_, (_, letter, name))| (format!(" {name}"), *letter)).collect();
     let mut lines: Vec<Vec<(String, Style)>> = Vec::new();
     let mut width = 0;
-    for mut part in legend(figure, style) {
+    for mut part in legend(std::slice::from_ref(chart), style) {
         // Cells of a map hold letters.
         let letter = letters.iter().find(|(name, _)| part.last().is_some_and(|last| last.content == *name));
         if let Some((name, letter)) = letter {

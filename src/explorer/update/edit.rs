@@ -116,9 +116,9 @@ fn step_value(model: &mut Model, steps: i32, coarse: bool) -> Vec<Effect> {
 /// Takes over the value that was typed for the selected parameter.
 pub fn accept_value(model: &mut Model, typed: &str) -> Vec<Effect> {
     let Some(parameter) = model.parameter() else { return Vec::new() };
-    match parameter.read_typed(typed) {
+    match parameter.field.read_typed(typed) {
         Ok(written) => set_selected(model, &written),
-        Err(error) => refuse(model, error),
+        Err(error) => refuse(model, format!("{error}; allowed: {}", parameter.field.allowed())),
     }
 }
 

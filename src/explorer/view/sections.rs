@@ -114,7 +114,7 @@ pub fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model, plane: &MapModel) 
 
 fn section(frame: &mut Frame<'_>, area: Rect, model: &Model, chart: &Chart, told: String) {
     let told = vec![Text::styled(told, model.appearance.theme.style(Meaning::Title))];
-    let entries = plot::in_theme(model.appearance, |style| legend(&plot::figure(chart), style));
+    let entries = plot::in_theme(model.appearance, |style| legend(std::slice::from_ref(chart), style));
     let parts = std::iter::once(told).chain(entries).collect();
     let legend = filled(parts, "  ", usize::from(area.width));
     let rows = (legend.len() as u16).min(area.height.saturating_sub(FEWEST_ROWS));

@@ -8,6 +8,7 @@ use crate::study::axis::Axis;
 use crate::study::error::StudyError;
 use crate::study::figure_axis::{figure_axis, fixed};
 use crate::study::finished::Finished;
+use crate::study::numbering::places_of;
 use crate::study::plan::Plan;
 use crate::study::quantity::Quantity;
 use crate::study::target::Target;
@@ -128,15 +129,9 @@ impl StudyMap {
 
     /// The axes that are neither κ nor H, each with the place that a map has on it.
     fn at(&self, slice: u64) -> Vec<(&Axis, usize, u64)> {
-        let (axes, mut rest) = (self.axes(), slice);
-        let mut at: Vec<_> = Vec::with_capacity(self.others.len());
-        for &other in self.others.iter().rev() {
-            let axis = axes[other];
-            at.push((axis, other, rest % axis.count()));
-            rest /= axis.count();
-        }
-        at.reverse();
-        at
+        let axes = self.axes();
+        let places = places_of(slice, self.others.iter().map(|&other| axes[other].count()));
+        self.others.iter().zip(places).map(|(&other, place)| (axes[other], other, place)).collect()
     }
 
     /// Where a map stands on the axes that are neither κ nor H, as people read it: `F_n/(E* h L) = 0.1`.
@@ -173,23 +168,17 @@ impl StudyMap {
         }
         if scene.adhesion.is_none() {
             let middle = axes[self.kappa].value(axes[self.kappa].count() / 2);
-            scene.adhesion = Some(Adhesion { work: None, kappa: Some(middle) });
+            scene.adhesion = Some(Adhesion::default().with_kappa(middle));
         }
         if let Some(Roughness::SelfAffine { seed, hurst, .. }) = &mut scene.roughness {
             (*seed, *hurst) = (plan.seed, at_hurst.unwrap_or(*hurst));
         }
         let at = self.at(slice);
-        // What is derived from other numbers comes after them.
-        for late in [false, true] {
-            for (axis, _, place) in &at {
-                if let Ok(target) = Target::of(axis.path())
-                    && matches!(target, Target::SpringsPerWave) == late
-                {
-                    // The plan has been checked with it.
-                    let _ = target.set(&mut scene, axis.value(*place));
-                }
-            }
-        }
+        let values = at
+            .iter()
+            .filter_map(|(axis, _, place)| Some((Target::of(axis.path()).ok()?, axis.value(*place))));
+        // The plan has been checked with these values.
+        let _ = Target::set_all(values, &mut scene);
         let of_map = at.iter().find(|(axis, ..)| axis.path() == "preload");
         let preload = of_map.map(|(axis, _, place)| axis.value(*place));
         let unit = governing(&scene).and_then(|governing| {

@@ -57,11 +57,11 @@ impl Template {
                 let last = modes.1;
                 // Without an amplitude of its own it follows from γ and κ.
                 let work = adhesion.work.filter(|_| rms_height.is_none() && rms_gradient.is_none());
-                scene.adhesion = Some(Adhesion { work, kappa: Some(ANY.0) });
+                scene.adhesion = Some(Adhesion { work, ..adhesion.with_kappa(ANY.0) });
                 last.saturating_mul(SPRINGS_PER_WAVE).clamp(SPRINGS.0, SPRINGS.1).max(last.saturating_mul(2))
             }
             Some(Roughness::Measured { .. }) => {
-                scene.adhesion = Some(Adhesion { work: None, kappa: Some(ANY.0) });
+                scene.adhesion = Some(adhesion.with_kappa(ANY.0));
                 SPRINGS.1
             }
         };
@@ -135,7 +135,7 @@ impl Template {
             }
             _ => document.clone(),
         };
-        let by_work = matches!(moved.scene().adhesion, Some(Adhesion { work: Some(_), kappa: None }));
+        let by_work = matches!(moved.scene().adhesion, Some(Adhesion { work: Some(_), kappa: None, .. }));
         match governing(moved.scene()).and_then(|governing| governing.work_for_kappa(kappa)) {
             Some(work) if by_work => moved.with_work_of_adhesion(work),
             _ => moved.with_kappa(kappa),
