@@ -184,7 +184,7 @@ mod tests {
                 Material { youngs_modulus: None, poisson_ratio: None, effective_modulus: Some(value) };
             assert_eq!(fields_of(&scene), ["material.effective_modulus"], "{value}");
             let mut scene = sound();
-            scene.adhesion = Some(Adhesion { work: Some(value), kappa: None });
+            scene.adhesion = Some(Adhesion { work: Some(value), kappa: None, ..Adhesion::default() });
             assert_eq!(fields_of(&scene), ["adhesion.work"], "{value}");
             let mut scene = sound();
             scene.loading = vec![Leg::ToForce(1.0), Leg::ToIndentation(value), Leg::ToForce(value)];

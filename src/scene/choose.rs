@@ -126,7 +126,10 @@ mod tests {
     #[test]
     fn adhesion_given_the_other_way_is_the_same() {
         let work = next(&document(), "adhesion", false);
-        assert_eq!(work.scene().adhesion, Some(Adhesion { work: Some(0.0123), kappa: None }));
+        assert_eq!(
+            work.scene().adhesion,
+            Some(Adhesion { work: Some(0.0123), kappa: None, ..Adhesion::default() })
+        );
         assert_eq!(next(&work, "adhesion", true).text(), SCENE);
         let none = next(&work, "adhesion", false);
         assert_eq!(none.scene().adhesion, None);
@@ -146,7 +149,10 @@ mod tests {
         let both = [pair("roughness.rms_height", "None"), pair("adhesion.work", "0.1")];
         let both = document().set_all(&both).unwrap();
         let kappa = next(&both, "adhesion", true);
-        assert_eq!(kappa.scene().adhesion, Some(Adhesion { work: None, kappa: Some(6.0) }));
+        assert_eq!(
+            kappa.scene().adhesion,
+            Some(Adhesion { work: None, kappa: Some(6.0), ..Adhesion::default() })
+        );
         assert_eq!(kappa.value("roughness.rms_height"), Some("1.5e-7"));
     }
 

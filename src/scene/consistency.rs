@@ -13,6 +13,7 @@ pub(super) fn check_consistency(scene: &Scene, found: &mut Found) {
     check_material(&scene.material, found);
     check_form(scene, found);
     check_modes(scene, found);
+    check_closing_work(scene, found);
     check_amplitude(scene, found);
     check_loading(scene, found);
     check_edges(scene, found);
@@ -132,10 +133,33 @@ fn check_modes(scene: &Scene, found: &mut Found) {
     }
 }
 
+/// A spring that attached with more energy than it detaches with would detach at once.
+fn check_closing_work(scene: &Scene, found: &mut Found) {
+    let Some(Adhesion { work, closing_work: Some(closing), .. }) = scene.adhesion else { return };
+    if found.has("adhesion") {
+        return;
+    }
+    match work {
+        Some(work) if closing > work => found.add(Violation {
+            field: "adhesion.closing_work".into(),
+            value: ron_float(closing),
+            allowed: format!("0 to {} J/m²", ron_float(work)),
+            reason: "at most adhesion.work".into(),
+            involves: &["adhesion.work"],
+        }),
+        Some(_) => {}
+        None => {
+            let reason =
+                "closing_work goes with adhesion.work, which is missing: κ stands for one work of adhesion";
+            found.add(inconsistency("adhesion.closing_work", ron_float(closing), reason, &["adhesion.work"]));
+        }
+    }
+}
+
 /// Amplitude of the roughness, work of adhesion and κ: any two determine the third.
 fn check_amplitude(scene: &Scene, found: &mut Found) {
     let (work, kappa) = match scene.adhesion {
-        Some(Adhesion { work: None, kappa: None }) => {
+        Some(Adhesion { work: None, kappa: None, .. }) => {
             found.add(inconsistency(
                 "adhesion",
                 "",
@@ -144,7 +168,7 @@ fn check_amplitude(scene: &Scene, found: &mut Found) {
             ));
             return;
         }
-        Some(Adhesion { work, kappa }) => (work, kappa.is_some()),
+        Some(Adhesion { work, kappa, .. }) => (work, kappa.is_some()),
         None => (None, false),
     };
     let amplitude = match scene.roughness {
@@ -270,7 +294,7 @@ mod tests {
                 *rms_height = height.then_some(1e-7);
                 *rms_gradient = gradient.then_some(0.1);
             }
-            scene.adhesion = adhesion.map(|(work, kappa)| Adhesion { work, kappa });
+            scene.adhesion = adhesion.map(|(work, kappa)| Adhesion { work, kappa, ..Adhesion::default() });
             scene
         };
         let (work, kappa) = (Some(0.05), Some(2.0));
@@ -300,15 +324,44 @@ mod tests {
     }
 
     #[test]
+    fn the_work_of_closing_is_at_most_that_of_opening() {
+        let mut scene = sound();
+        for (work, closing, said) in [
+            (Some(0.05), 0.0, None),
+            (Some(0.05), 0.05, None),
+            (Some(0.0), 0.0, None),
+            (Some(0.05), 0.050_000_1, Some("at most adhesion.work")),
+            (Some(0.0), 1e-9, Some("at most adhesion.work")),
+            (None, 0.0, Some("goes with adhesion.work")),
+        ] {
+            let kappa = work.is_none().then_some(2.0);
+            scene.adhesion = Some(Adhesion { work, closing_work: Some(closing), kappa });
+            match said {
+                None => assert_eq!(check(&scene), vec![]),
+                Some(said) => {
+                    let (path, reason) = only(&scene);
+                    assert_eq!(path, "adhesion.closing_work");
+                    assert!(reason.contains(said), "{reason}");
+                }
+            }
+        }
+        for closing in [-1e-3, f64::NAN, 2e6] {
+            scene.adhesion = Some(Adhesion { work: Some(0.05), closing_work: Some(closing), kappa: None });
+            assert!(check(&scene).iter().all(|found| found.field == "adhesion.closing_work"));
+            assert!(!check(&scene).is_empty());
+        }
+    }
+
+    #[test]
     fn kappa_needs_roughness() {
         let mut scene = sound();
         scene.roughness = None;
         assert_eq!(check(&scene), vec![]);
-        scene.adhesion = Some(Adhesion { work: None, kappa: Some(2.0) });
+        scene.adhesion = Some(Adhesion { work: None, kappa: Some(2.0), ..Adhesion::default() });
         assert_eq!(only(&scene).0, "adhesion.kappa");
         scene.roughness = Some(Roughness::Measured { file: "line.csv".into() });
         assert_eq!(check(&scene), vec![]);
-        scene.adhesion = Some(Adhesion { work: Some(0.05), kappa: Some(2.0) });
+        scene.adhesion = Some(Adhesion { work: Some(0.05), kappa: Some(2.0), ..Adhesion::default() });
         assert_eq!(only(&scene).0, "adhesion");
     }
 

@@ -371,7 +371,10 @@ mod tests {
         let document = document();
         let set = |path: &str, value: &str| document.set(path, value).unwrap().scene().clone();
         assert_eq!(set("length", "2.0e-4").length, 2e-4);
-        assert_eq!(set("adhesion.work", "0.1").adhesion, Some(Adhesion { work: Some(0.1), kappa: None }));
+        assert_eq!(
+            set("adhesion.work", "0.1").adhesion,
+            Some(Adhesion { work: Some(0.1), kappa: None, ..Adhesion::default() })
+        );
         assert_eq!(set("form", "Cone(angle: 0.1)").form, Some(Form::Cone { angle: 0.1 }));
         assert_eq!(set("roughness", "None").roughness, None);
         assert_eq!(set("numerics.points", "2048").numerics.points, 2048);
@@ -382,7 +385,10 @@ mod tests {
         let kappa = document.set("adhesion.kappa", "2.0").unwrap();
         assert!(kappa.set("adhesion.work", "0.1").is_err());
         let work = kappa.set_all(&pairs(&[("adhesion.kappa", "None"), ("adhesion.work", "0.1")])).unwrap();
-        assert_eq!(work.scene().adhesion, Some(Adhesion { work: Some(0.1), kappa: None }));
+        assert_eq!(
+            work.scene().adhesion,
+            Some(Adhesion { work: Some(0.1), kappa: None, ..Adhesion::default() })
+        );
     }
 
     #[test]

@@ -90,14 +90,18 @@ impl Document {
     pub fn with_kappa(&self, kappa: f64) -> Result<Document, SceneErrors> {
         match self.scene().adhesion {
             Some(Adhesion { kappa: Some(_), .. }) => self.set("adhesion.kappa", &ron_float(kappa)),
+            // Not lost unasked: κ stands for one work of adhesion, and this is refused.
+            Some(Adhesion { closing_work: Some(_), .. }) => {
+                self.set_all(&[pair("adhesion.work", "None"), pair("adhesion.kappa", ron_float(kappa))])
+            }
             _ => self.set("adhesion", &by_kappa(kappa)),
         }
     }
 
     fn without_roughness(&self, computed: &Computed) -> Result<Vec<(String, String)>, SceneErrors> {
         let adhesion = match self.scene().adhesion {
-            Some(Adhesion { work: Some(_), kappa: Some(_) }) => vec![pair("adhesion.kappa", "None")],
-            Some(Adhesion { work: None, kappa: Some(_) }) => {
+            Some(Adhesion { work: Some(_), kappa: Some(_), .. }) => vec![pair("adhesion.kappa", "None")],
+            Some(Adhesion { work: None, kappa: Some(_), .. }) => {
                 let work = computed.work_of_adhesion.ok_or_else(|| {
                     self.unknown(
                         "adhesion",

@@ -119,7 +119,10 @@ impl Target {
     pub fn set(self, scene: &mut Scene, value: f64) -> Result<(), String> {
         match self {
             Target::Preload => {}
-            Target::Kappa => scene.adhesion = Some(Adhesion { work: None, kappa: Some(value) }),
+            Target::Kappa => {
+                let adhesion = scene.adhesion.unwrap_or_default();
+                scene.adhesion = Some(Adhesion { work: None, kappa: Some(value), ..adhesion });
+            }
             Target::SpringsPerWave => {
                 let last = (scene.numerics.points as f64 / value).round();
                 set(scene, "roughness.modes", Part::Last, last)?;

@@ -173,7 +173,7 @@ impl StudyMap {
         }
         if scene.adhesion.is_none() {
             let middle = axes[self.kappa].value(axes[self.kappa].count() / 2);
-            scene.adhesion = Some(Adhesion { work: None, kappa: Some(middle) });
+            scene.adhesion = Some(Adhesion { work: None, kappa: Some(middle), ..Adhesion::default() });
         }
         if let Some(Roughness::SelfAffine { seed, hurst, .. }) = &mut scene.roughness {
             (*seed, *hurst) = (plan.seed, at_hurst.unwrap_or(*hurst));
