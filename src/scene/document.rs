@@ -353,7 +353,7 @@ mod tests {
             assert_eq!(errors.first().field, "version");
         }
         let errors = Document::parse(&SCENE.replace("version: 1", "version: 3"), "x").unwrap_err();
-        assert_eq!(lines(&errors), ["x:2:14: version = 3: allowed: 1 (version)"]);
+        assert_eq!(lines(&errors), ["x:2:14: version = 3: allowed: a whole number from 1 to 2 (version)"]);
     }
 
     #[test]
