@@ -1,8 +1,9 @@
 //! What a figure shows: charts with axes and layers of data in SI units. How it looks is up to the backend.
 
-use super::axis::{Axis, AxisScale, Span};
+use super::axis::Axis;
 use super::colour::Ink;
 use super::label::Label;
+use super::scale::{AxisScale, Span};
 
 /// Charts side by side under one title, with one legend.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,6 +1,6 @@
 //! Heat maps in cells: shades, letters of classes, and bars along the contour.
 
-use super::{CellStyle, Colours};
+use super::style::{CellStyle, Colours};
 use crate::draw::axis::Axis;
 use crate::draw::chart::HeatMap;
 use crate::draw::colour::{ink_on, shade};

@@ -8,10 +8,11 @@ mod legend;
 
 pub use document::{Document, escaped};
 
-use super::axis::{Axis, AxisScale, Span};
+use super::axis::Axis;
 use super::chart::{Chart, Figure, HeatMap};
 use super::colour::shade;
 use super::label::Label;
+use super::scale::{AxisScale, Span};
 use document::{Anchor, Pen, Place};
 use frame::{Frame, LABEL, NUMBER, Side};
 use layers::{PAPER, TEXT};
