@@ -169,10 +169,12 @@ impl Document {
             }
         }
         new.scene = read(&new.text).ok()?;
-        if let Some(Roughness::SelfAffine { modes: (first, last), .. }) = new.scene.roughness {
+        let most = new.scene.numerics.points / 2;
+        if let Some(Roughness::SelfAffine { modes: (first, last), .. }) = new.scene.roughness
+            && last > most
+        {
             // Waves too short for the springs that there are now are left out.
-            let last = last.min(new.scene.numerics.points / 2);
-            new.splice("roughness.modes", &format!("({}, {last})", first.min(last))).ok()?;
+            new.splice("roughness.modes", &format!("({}, {most})", first.min(most))).ok()?;
         }
         for path in paths {
             let value = field(path, None).and_then(|field| field.written(&new.scene));
