@@ -39,6 +39,17 @@ pub struct Chart {
     pub inset: Option<Box<Chart>>,
 }
 
+impl Chart {
+    /// The heat map of a map.
+    #[must_use]
+    pub fn map(&self) -> Option<&HeatMap> {
+        self.layers.iter().find_map(|layer| match &layer.shape {
+            Shape::Map(map) => Some(map.as_ref()),
+            _ => None,
+        })
+    }
+}
+
 /// One kind of data, and its entry in the legend. Layers of the same name share an entry.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Layer {
@@ -94,7 +105,7 @@ pub enum Shape {
     /// A line across the chart at this y.
     Level(f64),
     /// A coloured cell for each pair of values of the axes.
-    Map(HeatMap),
+    Map(Box<HeatMap>),
 }
 
 /// Stroke of a line.

@@ -2,7 +2,7 @@
 //! impossible in another.
 
 use super::check::{Found, Violation};
-use super::fields::{LEG_INDENTATION, field};
+use super::fields::{FIELDS, LEG_INDENTATION, field};
 use super::model::{Adhesion, Edges, Form, Leg, Material, Roughness, Scene, Solver};
 use super::text::{ron_float, ron_string};
 use crate::topography::{Unit, UnitError};
@@ -77,16 +77,19 @@ fn check_form(scene: &Scene, found: &mut Found) {
     // The line carries the transformed profile, which is at most this many times higher.
     let rise = 20.0 * rise_at_end(form, scene.length / 2.0);
     if !LEG_INDENTATION.range.contains(rise) {
-        let (path, value) = match form {
-            Form::Paraboloid { radius } | Form::Punch { radius } => ("form.radius", radius),
-            Form::Cone { angle } => ("form.angle", angle),
-            Form::Power { coefficient, .. } => ("form.coefficient", coefficient),
-        };
         let reason = format!(
             "the body rises too steeply: at the ends of the line it is higher than the {} m an indentation can reach",
             LEG_INDENTATION.range.max().unwrap_or_default()
         );
-        found.add(inconsistency(path, ron_float(value), reason, &["form", "form.exponent", "length"]));
+        // The first number of a form is its size.
+        let size = FIELDS.iter().find(|field| field.parent() == "form" && field.get(scene).is_some());
+        let (path, value) = size.map_or(("form", None), |field| (field.path, field.written(scene)));
+        found.add(inconsistency(
+            path,
+            value.unwrap_or_default(),
+            reason,
+            &["form", "form.exponent", "length"],
+        ));
     }
 }
 

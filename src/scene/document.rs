@@ -169,12 +169,12 @@ impl Document {
             }
         }
         new.scene = read(&new.text).ok()?;
-        let most = new.scene.numerics.points / 2;
+        let shortest = new.scene.numerics.points / 2;
         if let Some(Roughness::SelfAffine { modes: (first, last), .. }) = new.scene.roughness
-            && last > most
+            && last > shortest
         {
-            // Waves too short for the springs that there are now are left out.
-            new.splice("roughness.modes", &format!("({}, {most})", first.min(most))).ok()?;
+            // Waves too short for the present springs are left out.
+            new.splice("roughness.modes", &format!("({}, {shortest})", first.min(shortest))).ok()?;
         }
         for path in paths {
             let value = field(path, None).and_then(|field| field.written(&new.scene));

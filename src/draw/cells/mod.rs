@@ -198,7 +198,7 @@ fn cell_at(share: f64, cells: u16, dots: u16) -> u16 {
 
 /// Rows of a plot of this height with their numbers.
 fn scale_beside(chart: &Chart, height: u16, marker: Marker) -> Vec<(u16, String)> {
-    if let Some(map) = map::of(chart) {
+    if let Some(map) = chart.map() {
         return map::row_labels(&chart.y, map, height);
     }
     let place = |Tick { at, label }: Tick| {
@@ -211,7 +211,7 @@ fn scale_beside(chart: &Chart, height: u16, marker: Marker) -> Vec<(u16, String)
 /// Columns of a plot of this width with their numbers, and the label of the axis.
 fn scale_below(chart: &Chart, width: u16, marker: Marker) -> (Vec<(u16, String)>, String) {
     let label = chart.x.label_with_unit().to_string();
-    if let Some(map) = map::of(chart) {
+    if let Some(map) = chart.map() {
         return (map::column_labels(&chart.x, map, width), label);
     }
     let place = |Tick { at, label }: Tick| {
@@ -289,7 +289,7 @@ pub fn legend(charts: &[Chart], style: &CellStyle<'_>) -> Vec<Vec<Text<'static>>
 
 /// Label of the vertical axis with its unit, or of the values of a map.
 fn heading(chart: &Chart) -> Label {
-    map::of(chart).map_or_else(|| chart.y.label_with_unit(), |map| map.key.label_with_unit())
+    chart.map().map_or_else(|| chart.y.label_with_unit(), |map| map.key.label_with_unit())
 }
 
 #[cfg(test)]

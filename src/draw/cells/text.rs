@@ -77,7 +77,7 @@ fn letter(index: usize) -> char {
 
 fn push_chart(text: &mut String, chart: &Chart, columns: u16, style: &CellStyle<'_>) {
     let mut area = Rect::new(0, 0, columns.min(WIDEST_PLOT), ROWS);
-    if let Some(map) = map::of(chart) {
+    if let Some(map) = chart.map() {
         // Every value has as many columns and rows as the others, where there is room.
         let rows = map.rows.len().max(1);
         let rows = rows.div_ceil(rows.div_ceil(MOST_ROWS)) * FEWEST_ROWS.div_ceil(rows);
@@ -100,7 +100,7 @@ fn push_chart(text: &mut String, chart: &Chart, columns: u16, style: &CellStyle<
         let runs: Vec<(&str, Style)> = cells.map(|cell| (cell.symbol(), cell.style())).collect();
         push_line(text, &runs);
     }
-    if let Some(map) = map::of(chart) {
+    if let Some(map) = chart.map() {
         text.push('\n');
         let parts = map::key(map, usize::from(columns), style.colours);
         let runs: Vec<(&str, Style)> = parts.iter().map(|(text, style)| (text.as_str(), *style)).collect();
@@ -117,7 +117,7 @@ fn push_chart(text: &mut String, chart: &Chart, columns: u16, style: &CellStyle<
 }
 
 fn push_legend(text: &mut String, chart: &Chart, columns: usize, style: &CellStyle<'_>) {
-    let classes = map::of(chart).into_iter().flat_map(|map| {
+    let classes = chart.map().into_iter().flat_map(|map| {
         let has = |class: usize| map.classes.contains(&Some(class));
         map.class_names.iter().enumerate().filter(move |(class, _)| has(*class))
     });
