@@ -33,7 +33,7 @@ fn each_mistake_has_its_message() {
         ("preloads: [0.01, 0.3]", "preloads: [0.3, 0.3]", "axis preload: the value 0.3 appears twice"),
         ("preloads: [0.01, 0.3]", "preloads: [0.3, NaN]", "values must be finite"),
         ("\"roughness.hurst\"", "\"roughness.hurts\"", "did you mean roughness.hurst?"),
-        ("\"roughness.hurst\"", "\"form.radius\"", "the form of the scene has no such number"),
+        ("\"roughness.hurst\"", "\"form.radius\"", "the scene has no form.radius"),
         ("\"roughness.hurst\"", "\"kappa\"", "axis kappa: given twice"),
         ("\"roughness.hurst\"", "\"adhesion.work\"", "axis adhesion.work: kappa sets it as well"),
         ("\"roughness.hurst\"", "\"loading.7.0\"", "the scene has 2 legs, the first is 0"),
