@@ -258,7 +258,7 @@ fn scene_text(
             continue_to: arguments.analysis.continue_to,
             seed: 1,
         }),
-        adhesion: arguments.work.map(|work| Adhesion { work: Some(work), kappa: None }),
+        adhesion: arguments.work.map(|work| Adhesion::default().with_work(work)),
         loading: vec![Leg::ToZeroForce, Leg::ToSeparation],
         numerics: Numerics { points, ..Numerics::default() },
         observe: Vec::new(),

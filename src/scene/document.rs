@@ -169,10 +169,12 @@ impl Document {
             }
         }
         new.scene = read(&new.text).ok()?;
-        if let Some(Roughness::SelfAffine { modes: (first, last), .. }) = new.scene.roughness {
-            // Waves too short for the springs that there are now are left out.
-            let last = last.min(new.scene.numerics.points / 2);
-            new.splice("roughness.modes", &format!("({}, {last})", first.min(last))).ok()?;
+        let shortest = new.scene.numerics.points / 2;
+        if let Some(Roughness::SelfAffine { modes: (first, last), .. }) = new.scene.roughness
+            && last > shortest
+        {
+            // Waves too short for the present springs are left out.
+            new.splice("roughness.modes", &format!("({}, {shortest})", first.min(shortest))).ok()?;
         }
         for path in paths {
             let value = field(path, None).and_then(|field| field.written(&new.scene));
@@ -351,7 +353,7 @@ mod tests {
             assert_eq!(errors.first().field, "version");
         }
         let errors = Document::parse(&SCENE.replace("version: 1", "version: 3"), "x").unwrap_err();
-        assert_eq!(lines(&errors), ["x:2:14: version = 3: allowed: 1 (version)"]);
+        assert_eq!(lines(&errors), ["x:2:14: version = 3: allowed: a whole number from 1 to 2 (version)"]);
     }
 
     #[test]

@@ -243,7 +243,7 @@ mod tests {
         for (path, said) in [
             ("roughness.hurts", "did you mean roughness.hurst?"),
             ("hurst", "did you mean roughness.hurst?"),
-            ("nothing", "no such field (fields: adhesion, adhesion.kappa"),
+            ("nothing", "no such field (fields: adhesion, adhesion."),
             ("", "no such field"),
             ("loading.", "no such field"),
             ("..", "no such field"),

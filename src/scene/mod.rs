@@ -60,7 +60,7 @@ pub use overrides::command_line;
 pub(crate) use overrides::quoted;
 pub(crate) use presets::read_file;
 pub use presets::{DEFAULT, Preset, find, open, open_argument, presets};
-pub use quantity::{QuantityError, format_quantity, parse_quantity};
+pub use quantity::{QuantityError, exact_quantity, format_quantity, parse_quantity};
 pub use range::{End, Range};
 pub(crate) use read::describe_error;
 pub use search::search;

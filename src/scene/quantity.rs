@@ -190,14 +190,23 @@ fn has_prefixes(unit: &str) -> bool {
 ///
 /// Numbers without unit take no prefix; those much smaller or larger than one take an exponent.
 pub fn format_quantity(value: f64, unit: &str) -> String {
+    // Rounded first, so that 999.99 becomes 1000 before its prefix is chosen.
+    with_unit(value, &format!("{value:.*e}", DIGITS - 1), unit)
+}
+
+/// A value with its unit and all its digits: [`parse_quantity`] gives the same value.
+pub fn exact_quantity(value: f64, unit: &str) -> String {
+    with_unit(value, &format!("{value:e}"), unit)
+}
+
+/// A value, and its decimal digits with an exponent, in the unit and prefix that people read.
+fn with_unit(value: f64, scientific: &str, unit: &str) -> String {
     let plain = unit == "1" || unit.is_empty();
     let unit_after = if plain { String::new() } else { format!(" {unit}") };
     if !value.is_finite() || value == 0.0 {
         return format!("{value}{unit_after}");
     }
-    // Rounded first, so that 999.99 becomes 1000 before its prefix is chosen.
-    let scientific = format!("{value:.*e}", DIGITS - 1);
-    let (mantissa, exponent) = scientific.split_once('e').unwrap_or((&scientific, "0"));
+    let (mantissa, exponent) = scientific.split_once('e').unwrap_or((scientific, "0"));
     let exponent: i32 = exponent.parse().unwrap_or(0);
     let index = (exponent - SMALLEST).div_euclid(3);
     let prefix = usize::try_from(index).ok().and_then(|index| WRITTEN.get(index));
@@ -211,11 +220,15 @@ pub fn format_quantity(value: f64, unit: &str) -> String {
     }
 }
 
-/// A decimal mantissa times a power of ten, without trailing zeros.
+/// A decimal mantissa of one digit before the point times a power of ten, without trailing zeros.
 fn shifted(mantissa: &str, power: i32) -> String {
-    let number: f64 = format!("{mantissa}e{power}").parse().unwrap_or(f64::NAN);
-    let decimals = usize::try_from(DIGITS as i32 - 1 - power).unwrap_or(0);
-    trimmed(&format!("{number:.decimals$}"))
+    let sign = if mantissa.starts_with('-') { "-" } else { "" };
+    let digits: String = mantissa.chars().filter(char::is_ascii_digit).collect();
+    let zeros = |count: i32| "0".repeat(usize::try_from(count).unwrap_or(0));
+    // Zeros in front for a point before the first digit, and behind for one after the last.
+    let digits = format!("{}{digits}{}", zeros(-power), zeros(power + 1 - digits.len() as i32));
+    let (whole, fraction) = digits.split_at(usize::try_from(power + 1).unwrap_or(1).max(1));
+    trimmed(&format!("{sign}{whole}.{fraction}"))
 }
 
 fn trimmed(number: &str) -> String {
@@ -228,6 +241,8 @@ fn trimmed(number: &str) -> String {
 
 #[cfg(test)]
 mod tests {
+    use proptest::prelude::*;
+
     use super::super::fields::FIELDS;
     use super::*;
 
@@ -338,6 +353,18 @@ mod tests {
                     let value: f64 = format!("{mantissa}e{exponent}").parse().unwrap();
                     let read = parse_quantity(&format_quantity(value, unit), unit).unwrap();
                     assert!((read / value - 1.0).abs() < 6e-4, "{value} {unit}: {read}");
+                }
+            }
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn all_digits_are_read_back(bits in any::<u64>(), decades in -30..30_i32, size in 1.0..10.0_f64) {
+            for value in [f64::from_bits(bits), size * 10_f64.powi(decades), -size].into_iter().filter(|v| v.is_finite()) {
+                for unit in ["Pa", "m", "J/m²", "N", "rad", "1", "m^(1−n)"] {
+                    let text = exact_quantity(value, unit);
+                    prop_assert_eq!(parse_quantity(&text, unit), Ok(value), "{}", text);
                 }
             }
         }

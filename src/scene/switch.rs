@@ -252,6 +252,14 @@ mod tests {
     }
 
     #[test]
+    fn a_restored_value_is_written_as_it_was() {
+        let written = SCENE.replace("modes: (1, 512)", "modes: (1,0512) /* short */");
+        let document = Document::parse(&written, "scene").unwrap();
+        let restored = off(&document, Effect::Roughness).with(Effect::Roughness).unwrap();
+        assert_eq!(restored.text(), written);
+    }
+
+    #[test]
     fn effects_come_anew_as_they_suit_the_scene() {
         let bare = Effect::ALL.into_iter().fold(document(), |document, effect| off(&document, effect));
         // Opened anew, the scene remembers no earlier effects.

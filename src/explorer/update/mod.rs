@@ -146,10 +146,12 @@ fn obey(model: &mut Model, command: Command) -> Vec<Effect> {
         Mode::Edit(line) => match command {
             Command::Accept => {
                 let typed = line.text();
-                model.mode = Mode::Explore;
                 return edit::accept_value(model, &typed);
             }
-            _ => edit_line(model, command),
+            _ => {
+                model.refused = None;
+                edit_line(model, command);
+            }
         },
         Mode::Force(line) => match command {
             Command::Accept => {
@@ -199,6 +201,9 @@ fn obey(model: &mut Model, command: Command) -> Vec<Effect> {
 
 /// Text typed or pasted into the line there is.
 fn typed(model: &mut Model, text: &str) -> Vec<Effect> {
+    if let Mode::Edit(_) = model.mode {
+        model.refused = None;
+    }
     if let Some(line) = model.mode.line_mut() {
         text.chars().for_each(|character| line.insert(character));
     }

@@ -56,7 +56,7 @@ pub fn status(frame: &mut Frame<'_>, area: Rect, model: &Model) {
         (Mode::Overwrite { path, .. }, _) => error(format!("{} exists. Overwrite it?", path.display())),
         (Mode::Quit, _) => error("The scene has unsaved changes. Leave?".to_owned()),
         (_, Some(Notice::Error(text))) => error(format!("! {}", text.replace('\n', " · "))),
-        (Mode::Explore, None) if model.refused.is_some() => {
+        (Mode::Explore | Mode::Edit(_), None) if model.refused.is_some() => {
             let text = model.refused.as_ref().map_or("", |(_, text)| text);
             error(format!("! {text}"))
         }
@@ -91,10 +91,8 @@ fn headline(model: &Model, width: u16) -> Line<'static> {
         part("  ", format!("F_max {}", format_quantity(largest, "N")), Meaning::Title);
     }
     let error = error(model);
-    if !in_hand {
-        if let Some(error) = &error {
-            part(" ", error.clone(), Meaning::Title);
-        }
+    if let Some(error) = error.as_ref().filter(|_| !in_hand) {
+        part(" ", error.clone(), Meaning::Title);
     }
     if let (Some(moment), Some(hand)) = (model.present(), &model.hand) {
         // What the move cost comes before what it led to.
