@@ -1,6 +1,6 @@
 //! The types of a scene: what its author may choose, in SI units.
 //!
-//! These types hold values as written; [`super::check()`] says which of them are allowed.
+//! These types hold values as written; [`super::check()`] finds those that are not allowed.
 
 use serde::{Deserialize, Serialize};
 
@@ -223,7 +223,7 @@ impl Default for Numerics {
     }
 }
 
-/// The same as it is written: what is left out stands as usual.
+/// The same as it is written: fields that are left out have their defaults.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields, default, rename = "Numerics")]
 struct NumericsText {

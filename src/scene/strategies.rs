@@ -22,7 +22,7 @@ const EXTREME: [u32; 3] = [1, 5, 10];
 pub struct Drawn {
     /// Fields whose values are drawn otherwise, by path: because a whole range takes too long to compute.
     narrowed: Vec<(&'static str, BoxedStrategy<String>)>,
-    /// Whether values outside their ranges, of other types, missing and unknown fields are drawn now and then.
+    /// Values outside their ranges or of other types, missing and unknown fields are drawn now and then.
     wrong: bool,
     /// Values of ten that are extreme.
     extreme: u32,
