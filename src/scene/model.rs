@@ -17,7 +17,7 @@ pub struct Scene {
     /// One line naming the scene.
     #[serde(default)]
     pub title: String,
-    /// What to look at.
+    /// Notes on the scene.
     #[serde(default)]
     pub notice: String,
     /// Elastic constants of the half-space.
@@ -39,7 +39,7 @@ pub struct Scene {
     /// How finely the scene is computed.
     #[serde(default)]
     pub numerics: Numerics,
-    /// What is observed beside the force curve.
+    /// Quantities observed beside the force curve.
     #[serde(default)]
     pub observe: Vec<Observer>,
 }

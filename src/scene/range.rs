@@ -57,7 +57,7 @@ pub enum Range {
     Choice(&'static [&'static str]),
     /// A list of at most `most` of these, each written as a valid value.
     List {
-        /// What the elements may be.
+        /// Allowed elements.
         of: &'static [&'static str],
         /// Fewest elements.
         least: usize,

@@ -196,7 +196,7 @@ fn text(most: usize, lines: bool) -> BoxedStrategy<String> {
         .boxed()
 }
 
-/// What a field does not allow: beyond the ends of the range, another type, nothing.
+/// Values that a field does not allow: beyond the ends of the range, another type, nothing.
 fn mistake(field: &'static Field) -> BoxedStrategy<String> {
     let mut values: Vec<String> =
         ["", "NaN", "-inf", "-1", "1e999", "None", "()", "[]", "\"\\u{1b}[2J\"", "Nothing"]
