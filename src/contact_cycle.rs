@@ -1,6 +1,6 @@
 //! Loading cycles for programs: a profile, a material and a work of adhesion, loaded along any history.
 
-use crate::analysis::Figures;
+use crate::analysis::{Figures, Governing};
 use crate::contact::{
     AdhesiveMemory, ContactError, ContactTree, CurvePoint, EdgeModel, Foundation, GridEdges, HessRule,
     History, LegRecord, Solver, SubCellEdges, exact, run,
@@ -111,7 +111,16 @@ impl ContactBuilder<'_> {
     /// Work of adhesion γ, J/m²; 0 for a contact without adhesion.
     #[must_use]
     pub fn work_of_adhesion(mut self, work: f64) -> Self {
-        self.scene.adhesion = Some(Adhesion::default().with_work(work));
+        self.scene.adhesion = Some(Adhesion { work: Some(work), ..self.scene.adhesion.unwrap_or_default() });
+        self
+    }
+
+    /// Work of adhesion γ₁ on closing, J/m², at most that of [`ContactBuilder::work_of_adhesion`], which then holds on
+    /// opening; both are the same unless this says otherwise.
+    #[must_use]
+    pub fn closing_work(mut self, work: f64) -> Self {
+        self.scene.adhesion =
+            Some(Adhesion { closing_work: Some(work), ..self.scene.adhesion.unwrap_or_default() });
         self
     }
 
@@ -143,12 +152,9 @@ impl ContactBuilder<'_> {
             effective_modulus: scene.material.effective_modulus(),
             length: profile.length(),
         };
-        let work = scene.adhesion.and_then(|adhesion| adhesion.work).filter(|&work| work > 0.0);
-        let adhesion = work
-            .map(|work| {
-                let tree = ContactTree::build(profile.gaps(), edges)?;
-                Ok((HessRule::new(foundation, work), tree))
-            })
+        let adhesion = Governing::of(&scene, None, None)
+            .hess_rule(foundation)
+            .map(|hess| Ok((hess, ContactTree::build(profile.gaps(), edges)?)))
             .transpose()
             .map_err(RunError::Contact)?;
         let gaps = profile.gaps().to_vec();

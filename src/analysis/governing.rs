@@ -20,6 +20,8 @@ pub struct Governing {
     pub effective_modulus: f64,
     /// Work of adhesion γ, J/m²; `None` without adhesion.
     pub work_of_adhesion: Option<f64>,
+    /// Work of adhesion γ₁ on closing, J/m²; `None` where that is the same.
+    pub closing_work: Option<f64>,
     /// Amplitude of the roughness; `None` where the line is smooth.
     pub amplitude: Option<Amplitude>,
     /// κ = √(h⟨∇z⟩E*/γ), eq. (11); `None` without roughness or adhesion.
@@ -40,7 +42,7 @@ impl Governing {
     #[must_use]
     pub fn of(scene: &Scene, gradient_per_height: Option<f64>, measured: Option<Amplitude>) -> Self {
         let effective_modulus = scene.material.effective_modulus();
-        let Adhesion { work, kappa, .. } = scene.adhesion.unwrap_or_default();
+        let Adhesion { work, closing_work, kappa } = scene.adhesion.unwrap_or_default();
         let amplitude = measured.or_else(|| {
             let ratio = gradient_per_height?;
             let Some(Roughness::SelfAffine { rms_height, rms_gradient, .. }) = scene.roughness else {
@@ -54,17 +56,17 @@ impl Governing {
         let stiff = amplitude.map(|a| a.rms_height * a.rms_gradient * effective_modulus);
         let work_of_adhesion = work.or_else(|| Some(stiff? / kappa?.powi(2)));
         let kappa = kappa.or_else(|| kappa_of(stiff?, work_of_adhesion?));
-        Governing { effective_modulus, work_of_adhesion, amplitude, kappa }
+        Governing { effective_modulus, work_of_adhesion, closing_work, amplitude, kappa }
     }
 
     /// The same line under another adhesion.
     #[must_use]
     pub fn with_adhesion(self, adhesion: Option<Adhesion>) -> Self {
-        let Adhesion { work, kappa, .. } = adhesion.unwrap_or_default();
+        let Adhesion { work, closing_work, kappa } = adhesion.unwrap_or_default();
         let stiff = self.stiffness();
         let work_of_adhesion = work.or_else(|| kappa.and_then(|kappa| self.work_for_kappa(kappa)));
         let kappa = kappa.or_else(|| kappa_of(stiff?, work_of_adhesion?));
-        Governing { work_of_adhesion, kappa, ..self }
+        Governing { work_of_adhesion, closing_work, kappa, ..self }
     }
 
     /// The work of adhesion γ = h⟨∇z⟩E*/κ² that gives a κ, J/m²; `None` without roughness.
@@ -81,7 +83,8 @@ impl Governing {
     /// The rule of Hess on the foundation under a line; `None` without adhesion.
     #[must_use]
     pub fn hess_rule(&self, foundation: Foundation) -> Option<HessRule> {
-        self.adhesive_work().map(|work| HessRule::new(foundation, work))
+        let work = self.adhesive_work()?;
+        Some(HessRule::from_works(foundation, self.closing_work.unwrap_or(work), work))
     }
 
     /// The work of adhesion where there is any, J/m².
@@ -126,6 +129,7 @@ mod tests {
         let expected = Governing {
             effective_modulus: 4.0,
             work_of_adhesion: Some(2.0),
+            closing_work: None,
             amplitude: ROUGH,
             kappa: Some(6.0),
         };

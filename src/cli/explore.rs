@@ -40,7 +40,7 @@ pub(super) fn explore(arguments: &ExploreArguments, out: &mut dyn Write) -> Resu
     let opening = opening(arguments)?;
     if !stdin().is_terminal() || !stdout().is_terminal() {
         let name = opening.document.name().into();
-        return Err(match opening.atlas {
+        return Err(match opening.study_map {
             None => CliError::NoTerminal { scene: name },
             Some(_) => CliError::NoTerminalForStudy { folder: name },
         });

@@ -166,18 +166,12 @@ impl AnalysisArguments {
     }
 }
 
-impl SurfaceArguments {
-    fn chosen_format(&self) -> SurfaceFormat {
-        self.format.unwrap_or_else(|| match self.output.file().and_then(|path| path.extension()?.to_str()) {
-            Some("json") => SurfaceFormat::Json,
-            Some("csv") => SurfaceFormat::Csv,
-            _ => SurfaceFormat::Summary,
-        })
-    }
-}
+/// Endings of files in each format.
+const ENDINGS: [(&str, SurfaceFormat); 2] = [("json", SurfaceFormat::Json), ("csv", SurfaceFormat::Csv)];
 
 /// Reads and analyses the files and writes the results.
 pub(super) fn surface(arguments: &SurfaceArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
+    let format = arguments.output.format(arguments.format, &ENDINGS, SurfaceFormat::Summary)?;
     arguments.output.check()?;
     if let Some(scene) = &arguments.scene {
         check_scene(arguments)?;
@@ -195,7 +189,7 @@ pub(super) fn surface(arguments: &SurfaceArguments, stdout: &mut dyn Write) -> R
         let text = scene_text(arguments, path, &analysis, modulus)?;
         write_new(path, arguments.force_scene, |out| out.write_all(text.as_bytes()))?;
     }
-    arguments.output.write(stdout, |out| match arguments.chosen_format() {
+    arguments.output.write(stdout, |out| match format {
         SurfaceFormat::Summary => out.write_all(surface_text(&files, &analysis, modulus).as_bytes()),
         SurfaceFormat::Json => write_surface_json(out, &files, &analysis, modulus),
         SurfaceFormat::Csv => write_surface_csv(out, &analysis),
@@ -264,7 +258,7 @@ fn scene_text(
             continue_to: arguments.analysis.continue_to,
             seed: 1,
         }),
-        adhesion: arguments.work.map(|work| Adhesion { work: Some(work), kappa: None }),
+        adhesion: arguments.work.map(|work| Adhesion::default().with_work(work)),
         loading: vec![Leg::ToZeroForce, Leg::ToSeparation],
         numerics: Numerics { points, ..Numerics::default() },
         observe: Vec::new(),

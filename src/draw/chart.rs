@@ -1,8 +1,9 @@
 //! What a figure shows: charts with axes and layers of data in SI units. How it looks is up to the backend.
 
-use super::axis::{Axis, AxisScale, Span};
+use super::axis::Axis;
 use super::colour::Ink;
 use super::label::Label;
+use super::scale::{AxisScale, Span};
 
 /// Charts side by side under one title, with one legend.
 #[derive(Clone, Debug, PartialEq)]
@@ -37,6 +38,17 @@ pub struct Chart {
     pub layers: Vec<Layer>,
     /// The same data on other scales, drawn into a corner that the curves leave free.
     pub inset: Option<Box<Chart>>,
+}
+
+impl Chart {
+    /// The heat map of a map.
+    #[must_use]
+    pub fn map(&self) -> Option<&HeatMap> {
+        self.layers.iter().find_map(|layer| match &layer.shape {
+            Shape::Map(map) => Some(map.as_ref()),
+            _ => None,
+        })
+    }
 }
 
 /// One kind of data, and its entry in the legend. Layers of the same name share an entry.
@@ -94,7 +106,7 @@ pub enum Shape {
     /// A line across the chart at this y.
     Level(f64),
     /// A coloured cell for each pair of values of the axes.
-    Map(HeatMap),
+    Map(Box<HeatMap>),
 }
 
 /// Stroke of a line.

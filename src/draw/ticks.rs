@@ -1,7 +1,7 @@
 //! Ticks of axes.
 
-use super::axis::{AxisScale, Span};
 use super::label::{Label, number};
+use super::scale::{AxisScale, Span};
 
 /// A tick.
 #[derive(Clone, Debug, PartialEq)]

@@ -79,6 +79,9 @@ fn bodies(sheet: &mut Sheet, outcome: &Outcome) {
     sheet.row("effective modulus E*", format_quantity(governing.effective_modulus, "Pa"));
     let work = quantity(governing.work_of_adhesion, "J/m²");
     sheet.row("work of adhesion γ", work.unwrap_or_else(|| "none".into()));
+    if let Some(closing) = quantity(governing.closing_work, "J/m²") {
+        sheet.row("on closing γ₁", closing);
+    }
     let kappa = quantity(governing.kappa, "1");
     sheet.row_of("κ = √(h⟨∇z⟩E*/γ)", kappa);
 }

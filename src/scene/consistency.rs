@@ -15,6 +15,7 @@ pub(super) fn check_consistency(scene: &Scene, found: &mut Found) {
     check_form(scene, found);
     check_modes(scene, found);
     check_unit(scene, found);
+    check_closing_work(scene, found);
     check_amplitude(scene, found);
     check_loading(scene, found);
     check_edges(scene, found);
@@ -150,6 +151,29 @@ fn check_unit(scene: &Scene, found: &mut Found) {
             reason: "unit of the file".into(),
             involves: &[],
         });
+    }
+}
+
+/// A spring that attached with more energy than it detaches with would detach at once.
+fn check_closing_work(scene: &Scene, found: &mut Found) {
+    let Some(Adhesion { work, closing_work: Some(closing), .. }) = scene.adhesion else { return };
+    if found.has("adhesion") {
+        return;
+    }
+    match work {
+        Some(work) if closing > work => found.add(Violation {
+            field: "adhesion.closing_work".into(),
+            value: ron_float(closing),
+            allowed: format!("0 to {} J/m²", ron_float(work)),
+            reason: "at most adhesion.work".into(),
+            involves: &["adhesion.work"],
+        }),
+        Some(_) => {}
+        None => {
+            let reason =
+                "closing_work goes with adhesion.work, which is missing: κ stands for one work of adhesion";
+            found.add(inconsistency("adhesion.closing_work", ron_float(closing), reason, &["adhesion.work"]));
+        }
     }
 }
 
@@ -320,6 +344,35 @@ mod tests {
             let (path, reason) = only(&scene);
             assert_eq!(path, field);
             assert!(reason.contains(said), "{reason}");
+        }
+    }
+
+    #[test]
+    fn the_work_of_closing_is_at_most_that_of_opening() {
+        let mut scene = sound();
+        for (work, closing, said) in [
+            (Some(0.05), 0.0, None),
+            (Some(0.05), 0.05, None),
+            (Some(0.0), 0.0, None),
+            (Some(0.05), 0.050_000_1, Some("at most adhesion.work")),
+            (Some(0.0), 1e-9, Some("at most adhesion.work")),
+            (None, 0.0, Some("goes with adhesion.work")),
+        ] {
+            let kappa = work.is_none().then_some(2.0);
+            scene.adhesion = Some(Adhesion { work, closing_work: Some(closing), kappa });
+            match said {
+                None => assert_eq!(check(&scene), vec![]),
+                Some(said) => {
+                    let (path, reason) = only(&scene);
+                    assert_eq!(path, "adhesion.closing_work");
+                    assert!(reason.contains(said), "{reason}");
+                }
+            }
+        }
+        for closing in [-1e-3, f64::NAN, 2e6] {
+            scene.adhesion = Some(Adhesion { work: Some(0.05), closing_work: Some(closing), kappa: None });
+            assert!(check(&scene).iter().all(|found| found.field == "adhesion.closing_work"));
+            assert!(!check(&scene).is_empty());
         }
     }
 

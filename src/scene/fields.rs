@@ -344,6 +344,18 @@ pub const FIELDS: &[Field] = &[
         ..NUMBER
     },
     Field {
+        path: "adhesion.closing_work",
+        name: "work of adhesion on closing",
+        symbol: "γ₁",
+        unit: "J/m²",
+        range: Range::closed(0.0, 1e6),
+        step: Step::Logarithmic,
+        default: "None",
+        meaning: "energy per unit area gained where the interface closes, at most adhesion.work; default: the same",
+        access: at!(adhesion?.closing_work),
+        ..NUMBER
+    },
+    Field {
         path: "adhesion.kappa",
         name: "roughness parameter",
         symbol: "κ",

@@ -183,6 +183,9 @@ pub struct Adhesion {
     /// Work of adhesion γ, J/m².
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub work: Option<f64>,
+    /// Work of adhesion γ₁ on closing, J/m², at most `work`; left out: the same.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub closing_work: Option<f64>,
     /// κ = sqrt(h⟨∇z⟩E*/γ).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub kappa: Option<f64>,

@@ -1,4 +1,4 @@
-//! Where adhesion without a preload vanishes: the boundary between pressure-insensitive and pressure-sensitive
+//! Boundary of vanishing zero-load adhesion: the boundary between pressure-insensitive and pressure-sensitive
 //! adhesion, eq. (15), with its statistical error.
 //!
 //! F_a(0) falls with κ about exponentially and never quite to zero, since a single spring still sticks. So the
@@ -38,7 +38,7 @@ pub struct Boundary {
     pub kappa: Crossing,
 }
 
-/// Where a mean falls below a share.
+/// κ at which a mean falls below a share.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Crossing {
     /// Here, with the interval of confidence where lines could be resampled and all of them cross.
@@ -174,7 +174,7 @@ impl Section {
     }
 }
 
-/// Where the mean over the chosen lines falls below a share for good, straight between neighbours in its
+/// κ beyond which the mean over the chosen lines stays below a share, straight between neighbours in its
 /// logarithm.
 fn crossing_of(curve: &[(f64, Vec<f64>)], chosen: &[usize], level: f64) -> Crossing {
     let mean = |shares: &[f64]| chosen.iter().map(|&line| shares[line]).sum::<f64>() / chosen.len() as f64;

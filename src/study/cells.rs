@@ -17,7 +17,7 @@ const ENOUGH_UNITS: u64 = 256;
 /// Fewest runs of a divided line: below it, making the line would cost more than the runs.
 const LEAST_RUNS: u64 = 16;
 
-/// How the cells of a plan are counted.
+/// Numbering of the runs, units and cells of a plan.
 pub(super) struct Cells {
     /// Values of each axis, in the order of the plan.
     values: Vec<Vec<f64>>,
@@ -114,7 +114,7 @@ impl Cells {
         })
     }
 
-    /// How many runs a unit has.
+    /// Number of runs of a unit.
     pub fn length_of(&self, unit: &Unit) -> u64 {
         unit.steps.end - unit.steps.start
     }

@@ -3,11 +3,11 @@
 use super::StudyError;
 use super::axis::Axis;
 use super::cell_summary::{CellSummary, Spread};
-use super::merge::{REGIME_COLUMNS, RESULTS, SUMMARY};
 use super::numbering::number_at;
 use super::plan::Plan;
 use super::quantity::Quantity;
 use super::store::{Folder, LONGEST_LINE};
+use super::tables::{REGIME_COLUMNS, RESULTS, SUMMARY};
 use crate::analysis::Regime;
 use crate::io::{ReadError, open_regular};
 use std::io::{self, BufRead, BufReader, Read};
@@ -57,7 +57,7 @@ impl Finished {
         &self.plan
     }
 
-    /// What a cell gave; `None` where the tables were published without it. Cells are counted with the last
+    /// Summary of a cell; `None` where the tables were published without it. Cells are counted with the last
     /// axis fastest, and the preload faster than that; [`Plan::values`] tells their coordinates.
     #[must_use]
     pub fn cell(&self, cell: u64) -> Option<&CellSummary> {

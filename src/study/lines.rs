@@ -20,10 +20,10 @@ use std::path::Path;
 use std::sync::{Mutex, PoisonError};
 use thiserror::Error;
 
-/// What one line gave, in SI units.
+/// Result of one profile, in SI units.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct LineResult {
-    /// Its seed.
+    /// Seed of the profile.
     pub seed: u64,
     /// Adhesion force F_a, N.
     pub adhesion_force: Option<f64>,
@@ -39,7 +39,7 @@ pub struct LineResult {
     pub heights: Option<HeightShape>,
 }
 
-/// Why an ensemble could not be computed.
+/// Reason why profiles could not be solved.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum LinesError {
     /// There is but one line.
@@ -50,9 +50,9 @@ pub enum LinesError {
     /// A line could not be computed.
     #[error("seed {seed}: {error}")]
     Run {
-        /// Its seed.
+        /// Seed of the profile.
         seed: u64,
-        /// Why not.
+        /// Error of the run.
         error: RunError,
     },
 }
@@ -171,11 +171,11 @@ pub struct LinesSummary {
     pub regimes: RegimeCounts,
     /// Root mean square over the lines of the skewness of their heights; zero if they averaged themselves.
     pub rms_skewness: Option<f64>,
-    /// The same of the excess kurtosis.
+    /// Root mean square of the excess kurtosis.
     pub rms_excess_kurtosis: Option<f64>,
 }
 
-/// How many lines are of which regime.
+/// Number of profiles in each regime.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct RegimeCounts {
     /// Pressure-insensitive adhesion.

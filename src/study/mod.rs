@@ -36,6 +36,7 @@ mod builtin;
 mod case_outcome;
 mod cell_summary;
 mod cells;
+mod done;
 mod error;
 pub mod figure;
 mod figure_axis;
@@ -46,6 +47,7 @@ pub mod map;
 mod measured;
 mod merge;
 mod numbering;
+mod other_plan;
 #[cfg(feature = "parquet")]
 mod parquet;
 mod plan;
@@ -64,6 +66,7 @@ mod solve;
 mod statistics;
 mod status;
 mod store;
+mod tables;
 mod target;
 
 pub use axis::{Axis, MOST_VALUES};
@@ -75,7 +78,7 @@ pub use finished::{Finished, Row};
 pub use height_shape::HeightShape;
 pub(crate) use lines::solve_in_turn;
 pub use lines::{LineResult, LinesError, LinesSummary, RegimeCounts, solve_lines};
-pub use merge::{Merged, PARQUET, RESULTS, RESULTS_VERSION, SIDECAR, SUMMARY, merge};
+pub use merge::{Merged, merge};
 #[cfg(feature = "parquet")]
 pub use parquet::write_parquet;
 pub use plan::{Plan, StiffnessRange};
@@ -91,4 +94,5 @@ pub(crate) use solve::{Case, Next, Sink};
 pub use statistics::Statistics;
 pub use status::{Attempt, ShardStatus, Status};
 pub use store::{Folder, Header, STORE_VERSION, ShardFile};
+pub use tables::{PARQUET, RESULTS, RESULTS_VERSION, SIDECAR, SUMMARY};
 pub use target::{DERIVED, symbol_and_unit};

@@ -15,11 +15,11 @@ pub(super) const PLAN_FILE: &str = "plan.ron";
 pub struct Plan {
     /// One line naming the study.
     pub title: String,
-    /// What to look at.
+    /// Notice for the reader of the results.
     pub notice: String,
     /// The scene in which numbers are varied. Files it names are named from the root.
     pub scene: Scene,
-    /// What is varied, the last fastest; without the preload.
+    /// Axes, the last fastest; without the preload.
     pub axes: Vec<Axis>,
     /// Preloads in units of E* h L, the fastest axis of all; none: the loading of the scene.
     pub preloads: Option<Axis>,
@@ -27,7 +27,7 @@ pub struct Plan {
     pub lines: u64,
     /// Seed of the first line; those that follow have the next, the same in all cells.
     pub seed: u64,
-    /// What is recorded.
+    /// Recorded quantities.
     pub record: Vec<Quantity>,
     /// Forces between which exponents are fitted.
     pub stiffness: StiffnessRange,
@@ -121,7 +121,7 @@ impl Plan {
     }
 }
 
-/// What the axes of a plan vary.
+/// Quantities that the axes of a plan vary.
 pub(super) fn targets(plan: &Plan) -> Vec<Target> {
     plan.axes.iter().filter_map(|axis| Target::of(axis.path()).ok()).collect()
 }

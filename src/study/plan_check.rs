@@ -102,7 +102,7 @@ impl Plan {
         self.check_cells()
     }
 
-    /// What is wrong with title and notice, which are held to what a scene may have, and with the hash.
+    /// Errors of title and notice, by the rules of a scene, and of the hash.
     fn check_texts(&self) -> Vec<String> {
         let (title, notice) = (self.title.clone(), self.notice.clone());
         let texts = Scene { title, notice, ..self.scene.clone() };

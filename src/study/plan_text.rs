@@ -29,7 +29,7 @@ impl fmt::Display for PlanErrors {
 
 impl std::error::Error for PlanErrors {}
 
-/// What is changed in a plan for one study, beside the text.
+/// Changes of a plan for one study, beside the text.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Changes {
     /// Overrides of the scene: path and value.

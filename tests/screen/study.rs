@@ -137,13 +137,13 @@ fn the_scene_follows_to_the_next_preload() {
         let (_folder, mut driver) = opened();
         let first = preload(&driver);
         assert!(driver.text().contains("F_n/(E* h L) = 0.01  1 of 3, P: the next"), "{}", driver.text());
-        let mut regimes = vec![driver.model.chart.plane().cloned()];
+        let mut regimes = vec![driver.model.chart.map_model().cloned()];
         for (times, told) in [(10.0, "0.1  2 of 3"), (100.0, "1  3 of 3"), (1.0, "0.01  1 of 3")] {
             driver.press("P");
             assert!((preload(&driver) / first / times - 1.0).abs() < 1e-9);
             assert!(driver.text().contains(&format!("F_n/(E* h L) = {told}")), "{}", driver.text());
             assert!(is_up_to_date(&driver.model));
-            regimes.push(driver.model.chart.plane().cloned());
+            regimes.push(driver.model.chart.map_model().cloned());
         }
         assert!(regimes[0] != regimes[1] && regimes[0] == regimes[3]);
         driver.press("Ctrl+p");

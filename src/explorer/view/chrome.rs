@@ -91,10 +91,8 @@ fn headline(model: &Model, width: u16) -> Line<'static> {
         part("  ", format!("F_max {}", format_quantity(largest, "N")), Meaning::Title);
     }
     let error = error(model);
-    if !in_hand {
-        if let Some(error) = &error {
-            part(" ", error.clone(), Meaning::Title);
-        }
+    if let Some(error) = error.as_ref().filter(|_| !in_hand) {
+        part(" ", error.clone(), Meaning::Title);
     }
     if let (Some(moment), Some(hand)) = (model.present(), &model.hand) {
         // What the move cost comes before what it led to.

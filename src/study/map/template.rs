@@ -25,12 +25,15 @@ const VERY_MANY: u64 = 1 << 17;
 /// Stand for all κ and H.
 const ANY: (f64, f64) = (1.0, 0.5);
 
-/// Why there is no map.
+/// Reason why a scene has no map.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 pub enum NoMap {
     /// Nothing attracts.
     #[error("no map: the scene has no adhesion, so no κ; switch adhesion on with t in its row")]
     NoAdhesion,
+    /// Two works of adhesion.
+    #[error("no map: κ stands for one work of adhesion; leave adhesion.closing_work out")]
+    TwoWorks,
     /// Nothing is rough.
     #[error("no map: a smooth body has neither κ nor H; switch roughness on with t in its row")]
     Smooth,
@@ -49,6 +52,9 @@ impl Template {
     /// When it has no κ.
     pub fn of(scene: &Scene) -> Result<Self, NoMap> {
         let adhesion = scene.adhesion.ok_or(NoMap::NoAdhesion)?;
+        if adhesion.closing_work.is_some() {
+            return Err(NoMap::TwoWorks);
+        }
         let mut scene = scene.clone();
         let points = match &mut scene.roughness {
             None => return Err(NoMap::Smooth),
@@ -57,11 +63,11 @@ impl Template {
                 let last = modes.1;
                 // Without an amplitude of its own it follows from γ and κ.
                 let work = adhesion.work.filter(|_| rms_height.is_none() && rms_gradient.is_none());
-                scene.adhesion = Some(Adhesion { work, ..adhesion.with_kappa(ANY.0) });
+                scene.adhesion = Some(Adhesion { work, kappa: Some(ANY.0), closing_work: None });
                 last.saturating_mul(SPRINGS_PER_WAVE).clamp(SPRINGS.0, SPRINGS.1).max(last.saturating_mul(2))
             }
             Some(Roughness::Measured { .. }) => {
-                scene.adhesion = Some(adhesion.with_kappa(ANY.0));
+                scene.adhesion = Some(Adhesion { kappa: Some(ANY.0), ..Adhesion::default() });
                 SPRINGS.1
             }
         };
@@ -80,7 +86,7 @@ impl Template {
         self.scene.numerics.points
     }
 
-    /// How finely a map of it is computed: waves that need very many springs get fewer cells.
+    /// Finest level of its maps: waves that need very many springs have fewer cells.
     #[must_use]
     pub fn finest(&self) -> Level {
         let springs = self.springs();
@@ -93,7 +99,7 @@ impl Template {
         }
     }
 
-    /// Whether its roughness has an H; a measured one is what it is.
+    /// Returns true for a roughness with an H, which a measured one has not.
     #[must_use]
     pub fn has_hurst(&self) -> bool {
         matches!(self.scene.roughness, Some(Roughness::SelfAffine { .. }))
@@ -143,7 +149,7 @@ impl Template {
     }
 }
 
-/// What governs a scene with a self-affine line.
+/// Governing parameters of a scene with a self-affine profile.
 pub(super) fn governing(scene: &Scene) -> Option<Governing> {
     let Some(Roughness::SelfAffine { hurst, modes: (first, last), .. }) = scene.roughness else {
         return None;
