@@ -1,4 +1,4 @@
-//! What follows from a scene's values by one formula.
+//! Quantities that follow from the values of a scene by one formula.
 
 use super::model::{Adhesion, Form, Material, Scene};
 use std::ops::Range;

@@ -1,8 +1,8 @@
-//! The effects a scene can call for beyond the bare contact, and which of them it does call for.
+//! Effects of a scene beyond the nonadhesive contact of a flat body, and those that a scene has.
 
 use super::model::{Leg, Observer, Scene};
 
-/// An effect that a scene calls for or not; [`Document::with`](super::Document::with) and
+/// An effect that a scene has or not; [`Document::with`](super::Document::with) and
 /// [`Document::without`](super::Document::without) switch it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Effect {
@@ -53,7 +53,7 @@ impl Effect {
         self.row().1
     }
 
-    /// Whether a scene calls for it. A work of adhesion of zero is no adhesion.
+    /// The scene has the effect. A work of adhesion of zero is no adhesion.
     pub fn is_on(self, scene: &Scene) -> bool {
         match self {
             Effect::Form => scene.form.is_some(),
@@ -66,7 +66,7 @@ impl Effect {
     }
 }
 
-/// Whether any leg may pull. A first leg cannot: it comes from separation.
+/// Any stage may pull. A first stage cannot, since it begins in separation.
 fn may_pull(loading: &[Leg]) -> bool {
     let mut reached = f64::NEG_INFINITY;
     loading.iter().enumerate().any(|(index, leg)| {
@@ -76,7 +76,7 @@ fn may_pull(loading: &[Leg]) -> bool {
     })
 }
 
-/// Whether a leg may go back from the deepest indentation that can have been reached before it.
+/// A stage may go back from the deepest indentation that can have been reached before it.
 fn goes_back(leg: Leg, reached: f64) -> bool {
     match leg {
         Leg::ToIndentation(to) => to < reached,
@@ -114,7 +114,7 @@ pub(super) fn pressing(loading: &[Leg]) -> Vec<Leg> {
     kept
 }
 
-/// Whether a leg is certain to pass the end of another one on its way in: a larger force.
+/// A stage is certain to pass the end of another one on its way in: a larger force.
 fn passes(leg: Leg, other: Leg) -> bool {
     let Leg::ToForce(force) = leg else { return false };
     match other {

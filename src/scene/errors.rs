@@ -1,4 +1,4 @@
-//! What is wrong with a scene: where, what stands there, what is allowed.
+//! Errors of a scene: place, value, allowed range.
 
 use std::fmt;
 
@@ -52,9 +52,9 @@ pub struct SceneError {
     pub origin: Origin,
     /// Path of the field; empty where no field is meant.
     pub field: String,
-    /// What stands there, as written; empty where nothing does.
+    /// The value as written; empty where there is none.
     pub value: String,
-    /// What is allowed there; empty where `message` says it all.
+    /// Allowed values; empty where `message` says it all.
     pub allowed: String,
     /// Why it is wrong, or the name of the field.
     pub message: String,

@@ -117,7 +117,7 @@ impl Library {
         [Source::BuiltIn, Source::Own, Source::Working].map(|origin| self.list_of(origin)).concat()
     }
 
-    /// What comes from one place. A working folder that is one's own folder has nothing more.
+    /// Entries of one place. A working folder that is one's own folder has nothing more.
     pub fn list_of(&self, origin: Source) -> Vec<Entry> {
         match origin {
             Source::BuiltIn => {
@@ -185,7 +185,7 @@ fn in_one_line(errors: &SceneErrors) -> String {
     format!("{place}{}{more}", first.what())
 }
 
-/// Whether two folders are one.
+/// Two folders are one.
 fn is_same(one: &Path, other: &Path) -> bool {
     matches!((one.canonicalize(), other.canonicalize()), (Ok(one), Ok(other)) if one == other)
 }

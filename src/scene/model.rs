@@ -1,6 +1,6 @@
 //! The types of a scene: what its author may choose, in SI units.
 //!
-//! These types hold values as written; [`super::check()`] says which of them are allowed.
+//! These types hold values as written; [`super::check()`] finds those that are not allowed.
 
 use serde::{Deserialize, Serialize};
 
@@ -17,7 +17,7 @@ pub struct Scene {
     /// One line naming the scene.
     #[serde(default)]
     pub title: String,
-    /// What to look at.
+    /// Notes on the scene.
     #[serde(default)]
     pub notice: String,
     /// Elastic constants of the half-space.
@@ -39,7 +39,7 @@ pub struct Scene {
     /// How finely the scene is computed.
     #[serde(default)]
     pub numerics: Numerics,
-    /// What is observed beside the force curve.
+    /// Quantities observed beside the force curve.
     #[serde(default)]
     pub observe: Vec<Observer>,
 }
@@ -226,7 +226,7 @@ impl Default for Numerics {
     }
 }
 
-/// The same as it is written: what is left out stands as usual.
+/// The same as it is written: fields that are left out have their defaults.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields, default, rename = "Numerics")]
 struct NumericsText {

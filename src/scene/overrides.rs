@@ -1,4 +1,4 @@
-//! What must be overridden in one scene to make it another, and the command that does it.
+//! Overrides that make one scene another, and the command that applies them.
 
 use super::document::Document;
 use super::edit;
@@ -105,7 +105,7 @@ fn length(overrides: &[(String, String)]) -> usize {
     overrides.iter().map(|(path, value)| " --set =".len() + path.len() + value.len()).sum()
 }
 
-/// Whether overrides of one field's parts give that field this value.
+/// Overrides of parts of a field give the field this value.
 fn leads_to(base: &Document, overrides: &[(String, String)], field: &Field, value: &str) -> bool {
     let set = |text: String, (path, value): &(String, String)| edit::set(&text, path, value).ok();
     let text = overrides.iter().try_fold(base.text().to_string(), set);

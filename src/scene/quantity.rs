@@ -181,7 +181,7 @@ fn canonical(unit: &str) -> String {
     unit.replace('²', "2").replace(['^', ' '], "")
 }
 
-/// Whether SI prefixes make sense with a unit: not with the powers of a metre that a power law has.
+/// SI prefixes make sense with a unit: not with the powers of a metre that a power law has.
 fn has_prefixes(unit: &str) -> bool {
     !unit.contains(['−', '('])
 }

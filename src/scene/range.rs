@@ -1,4 +1,4 @@
-//! What is allowed in a field, in a form that checks and that people can read.
+//! Ranges of fields, in a form that checks values and that people can read.
 
 use std::fmt;
 
@@ -20,7 +20,7 @@ impl End {
     }
 }
 
-/// What is allowed in a field.
+/// Allowed values of a field.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Range {
     /// A finite real number.
@@ -50,14 +50,14 @@ pub enum Range {
         least: usize,
         /// Most characters.
         most: usize,
-        /// Whether line breaks are allowed.
+        /// Line breaks are allowed.
         lines: bool,
     },
     /// One of these, each written as a valid value.
     Choice(&'static [&'static str]),
     /// A list of at most `most` of these, each written as a valid value.
     List {
-        /// What the elements may be.
+        /// Allowed elements.
         of: &'static [&'static str],
         /// Fewest elements.
         least: usize,
@@ -89,7 +89,7 @@ impl Range {
         Range::Whole { min, max }
     }
 
-    /// Whether a real number is allowed; never for NaN and the infinities.
+    /// A real number is allowed; NaN and the infinities never are.
     pub fn contains(&self, value: f64) -> bool {
         let Range::Real { min, max } = *self else {
             return false;
@@ -105,7 +105,7 @@ impl Range {
         value.is_finite() && above && below
     }
 
-    /// Whether a whole number is allowed.
+    /// A whole number is allowed.
     pub fn contains_whole(&self, value: u64) -> bool {
         match *self {
             Range::Whole { min, max } | Range::Band { min, max } => (min..=max).contains(&value),

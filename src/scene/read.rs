@@ -28,7 +28,7 @@ pub(super) fn read(text: &str) -> Result<Scene, Unread> {
     options.from_str(text).map_err(|error| explain(text, &error))
 }
 
-/// What is wrong with the version a text gives, whether or not the rest of it can be read.
+/// Error of the version that a text gives, even where the rest of the text cannot be read.
 pub(super) fn wrong_version(text: &str) -> Option<Unread> {
     let outline = Text::new(text).ok()?;
     let opening = outline.opening("")?;
@@ -146,7 +146,7 @@ impl Unread {
     }
 }
 
-/// What the reader says, in words that do not presume the reader's own.
+/// Message of the reader in plain words.
 fn plain(error: &ron::Error) -> String {
     use ron::Error;
 

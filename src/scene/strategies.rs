@@ -22,7 +22,7 @@ const EXTREME: [u32; 3] = [1, 5, 10];
 pub struct Drawn {
     /// Fields whose values are drawn otherwise, by path: because a whole range takes too long to compute.
     narrowed: Vec<(&'static str, BoxedStrategy<String>)>,
-    /// Whether values outside their ranges, of other types, missing and unknown fields are drawn now and then.
+    /// Values outside their ranges or of other types, missing and unknown fields are drawn now and then.
     wrong: bool,
     /// Values of ten that are extreme.
     extreme: u32,
@@ -196,7 +196,7 @@ fn text(most: usize, lines: bool) -> BoxedStrategy<String> {
         .boxed()
 }
 
-/// What a field does not allow: beyond the ends of the range, another type, nothing.
+/// Values that a field does not allow: beyond the ends of the range, another type, nothing.
 fn mistake(field: &'static Field) -> BoxedStrategy<String> {
     let mut values: Vec<String> =
         ["", "NaN", "-inf", "-1", "1e999", "None", "()", "[]", "\"\\u{1b}[2J\"", "Nothing"]
