@@ -9,6 +9,7 @@ mod modes;
 mod phases;
 mod roughness;
 mod spectrum;
+mod struve;
 
 pub use error::SurfaceError;
 pub use form::{mdr_profile, power_law_factor};
@@ -18,3 +19,4 @@ pub use measured::MeasuredProfile;
 pub use phases::phases;
 pub use roughness::{Synthesizer, UnitRoughness};
 pub use spectrum::SelfAffine;
+pub use struve::{struve_0, struve_1};
