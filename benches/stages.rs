@@ -256,7 +256,7 @@ impl Edits {
     fn measure(&mut self, rough: &Rough, run: usize) {
         for (index, kappa) in rough.kappas.into_iter().enumerate() {
             let mut scene = rough.scene.clone();
-            scene.adhesion = Some(Adhesion { work: None, kappa: Some(kappa), ..Adhesion::default() });
+            scene.adhesion = Some(Adhesion::default().with_kappa(kappa));
             let Some(Roughness::SelfAffine { seed, .. }) = &mut scene.roughness else { return };
             *seed = 2 + (2 * run + index) as u64;
             self.seed[index] = self.seed[index].min(self.seconds(&scene));
@@ -264,7 +264,7 @@ impl Edits {
         // The line of the last seed is kept.
         for (index, kappa) in rough.kappas.into_iter().enumerate() {
             let mut scene = rough.scene.clone();
-            scene.adhesion = Some(Adhesion { work: None, kappa: Some(kappa), ..Adhesion::default() });
+            scene.adhesion = Some(Adhesion::default().with_kappa(kappa));
             let Some(Roughness::SelfAffine { seed, .. }) = &mut scene.roughness else { return };
             *seed = 3 + 2 * run as u64;
             self.kappa[index] = self.kappa[index].min(self.seconds(&scene));

@@ -189,7 +189,7 @@ fn one_by_one(plan: &Plan) {
         for cell in 0..plan.cells() {
             let values = plan.values(cell);
             let mut scene: Scene = plan.scene.clone();
-            scene.adhesion = Some(Adhesion { work: None, kappa: Some(values[1]), ..Adhesion::default() });
+            scene.adhesion = Some(Adhesion::default().with_kappa(values[1]));
             let Some(Roughness::SelfAffine { hurst, seed, rms_height, .. }) = &mut scene.roughness else {
                 continue;
             };

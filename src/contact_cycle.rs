@@ -5,7 +5,7 @@ use crate::contact::{
     AdhesiveMemory, ContactError, ContactTree, CurvePoint, EdgeModel, Foundation, GridEdges, HessRule,
     History, LegRecord, Solver, SubCellEdges, exact, run,
 };
-use crate::scene::{Adhesion, Edges, Leg, Material, Numerics, SCENE_VERSION, Scene, Solver as SolverChoice};
+use crate::scene::{Adhesion, Edges, Leg, Material, Numerics, SCENE_VERSIONS, Scene, Solver as SolverChoice};
 use crate::simulation::RunError;
 use crate::{Error, Profile};
 use std::mem::take;
@@ -59,7 +59,7 @@ impl Contact {
     #[must_use]
     pub fn new(profile: &Profile, material: Material) -> ContactBuilder<'_> {
         let scene = Scene {
-            version: SCENE_VERSION,
+            version: *SCENE_VERSIONS.end(),
             title: String::new(),
             notice: String::new(),
             material,

@@ -237,6 +237,7 @@ fn overrides_reach_the_run() {
     // Pull-off is in proportion to the work of adhesion.
     let ratio = sphere("0.1") / sphere("0.05");
     assert!((ratio - 2.0).abs() < 0.02, "{ratio}");
+    assert_eq!(sphere("50mJ/m2").to_bits(), sphere("0.05").to_bits());
 }
 
 #[test]
@@ -248,6 +249,8 @@ fn wrong_overrides_are_told_with_field_value_and_range() {
     }
     assert!(run("numerics.pionts=64").contains("numerics.points"));
     assert!(run("numerics.points=many").contains("many"));
+    let wrong = "length = 10 kg: allowed: from 1e-9 to 10 m (kg is no length: m, mm, µm, nm)";
+    assert!(run("length=10 kg").contains(wrong));
     // Several errors, each on a line of its own; the same on every command.
     for command in ["run", "plan", "line"] {
         let told = failed(1, &[command, "jkr-sphere", "--set", "length=-1.0", "--set", "numerics.samples=1"]);
@@ -882,4 +885,64 @@ fn words_that_are_in_no_case_are_refused() {
     );
     let told = failed(1, &["check", "--quick", "2^24"]);
     assert!(told.contains("--quick"), "{told}");
+}
+
+#[test]
+fn scenes_are_drawn_and_pictures_hold_nothing_else() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+    let quick = ["--set", "numerics.points=512", "--set", "numerics.samples=16"];
+    let run = |scenes: &[&str], more: &[&str]| [&["run"], scenes, &quick, more].concat().join("\0");
+    let words = |command: &str| command.split('\0').map(str::to_owned).collect::<Vec<_>>();
+    let with = |command: &str, then: &dyn Fn(&[&str])| {
+        let words = words(command);
+        then(&words.iter().map(String::as_str).collect::<Vec<_>>());
+    };
+    let loop_file = path("loop.svg");
+    for (command, file, said) in [
+        (
+            run(&["jkr-sphere"], &["-o", &loop_file]),
+            Some(&loop_file),
+            vec!["pull-off", "indentation", ">loading<"],
+        ),
+        (run(&["jkr-sphere"], &["--profile", "-o", "-"]), None, vec!["rigid profile", "elastic surface"]),
+        (run(&["jkr-sphere"], &["--fragments"]), None, vec!["(a) loading", "(b) unloading", ">contact<"]),
+        (
+            run(&["jkr-sphere", "kendall-punch"], &["--format", "svg"]),
+            None,
+            vec!["Sphere of Johnson", "Flat punch of Kendall"],
+        ),
+    ] {
+        with(&command, &|arguments| {
+            let printed = done(arguments);
+            let svg = file.map_or(printed, |file| fs::read_to_string(file).unwrap());
+            assert!(svg.starts_with("<svg ") && svg.trim_end().ends_with("</svg>"), "{arguments:?}");
+            assert!(!svg.contains("NaN") && !svg.contains("inf"), "{arguments:?}");
+            for said in &said {
+                assert!(svg.contains(said), "{arguments:?}: no {said}");
+            }
+        });
+    }
+    let before = fs::read_dir(folder.path()).unwrap().count();
+    let (picture, other) = (path("a.svg"), path("a.json"));
+    for (command, said) in [
+        (
+            run(&["jkr-sphere"], &["--format", "json", "-o", &picture]),
+            "not an ending of what is written; allowed: .json",
+        ),
+        (run(&["jkr-sphere"], &["--profile", "-o", &other]), "only a picture shows --profile"),
+        (run(&["jkr-sphere", "kendall-punch"], &["-o", &other]), "only a picture shows several scenes"),
+        (run(&["jkr-sphere"], &["--lines", "2", "-o", &picture]), "--lines: a picture shows one profile"),
+        (["line", "jkr-sphere", "-o", &picture].join("\0"), "allowed: .csv"),
+        (["check", "--quick", "-o", &picture].join("\0"), "allowed: .json"),
+        (["cost", "jkr-sphere", "-o", &path("a.png")].join("\0"), "allowed: .json, .csv, .svg"),
+        (["cost", "jkr-sphere", "--svg", &other].join("\0"), "allowed: .svg"),
+        (["surface", "missing.csv", "-o", &picture].join("\0"), "allowed: .json, .csv"),
+    ] {
+        with(&command, &|arguments| {
+            let told = failed(1, arguments);
+            assert!(told.contains(said), "{arguments:?}: {told}");
+        });
+    }
+    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), before, "nothing is written");
 }

@@ -282,12 +282,12 @@ impl Explorer {
         assert!((0.0..=1.0).contains(&model.player.done), "{:?}", model.player);
         assert!(model.indentation().is_finite());
         if let Some(study) = model.chart.shown_study() {
-            assert!(study.slice < study.atlas.slices());
+            assert!(study.slice < study.study_map.slices());
             let charted = model.chart.charted();
-            assert!(model.chart.plane().is_some_and(|plane| plane.charted().contains(&charted)));
+            assert!(model.chart.map_model().is_some_and(|map_model| map_model.charted().contains(&charted)));
         } else {
             assert!(
-                !matches!(model.chart.charted(), Charted::Quantity(one) if model.chart.plane().is_some_and(|plane| plane.layer(one).is_none()))
+                !matches!(model.chart.charted(), Charted::Quantity(one) if model.chart.map_model().is_some_and(|map_model| map_model.layer(one).is_none()))
             );
         }
         if model.computed.as_ref().is_some_and(|computed| computed.generation == model.generation) {

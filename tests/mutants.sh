@@ -47,7 +47,7 @@ surface)
     ;;
 analysis) below="contact disk io memory parallel scene surface text" ;;
 store)
-    own="study" files=(src/study/{store,record,merge,shard}.rs)
+    own="study" files=(src/study/{store,done,other_plan,record,merge,tables,shard}.rs)
     below="analysis contact disk io memory parallel reference scene simulation surface text"
     above="accuracy check export" beside="simulated_disk sweep"
     # The unfit ones start the program, which is not there, or do not always pass.

@@ -142,7 +142,11 @@ fn the_table_names_every_field_of_the_model_and_no_other() {
     // A scene as JSON has every field of the model, those left out included.
     let mut found = Vec::new();
     for (form, rough, solver) in [
-        ("Paraboloid(radius: 1.0)", "Measured(file: \"x\")", "Stepwise(step: 1.0)"),
+        (
+            "Paraboloid(radius: 1.0)",
+            "Measured(file: \"x\", as_line: false, unit: \"mm\", continue_to: 1.0e-9, seed: 2)",
+            "Stepwise(step: 1.0)",
+        ),
         ("Cone(angle: 0.1)", "SelfAffine(hurst: 0.5, modes: (1, 2), seed: 1, rms_height: 1.0e-9)", "Exact"),
         (
             "Power(coefficient: 1.0, exponent: 1.0)",
@@ -202,6 +206,7 @@ fn the_choices_of_the_table_can_be_set() {
                     let roughness = "SelfAffine(hurst: 0.7, rms_height: 1.0e-7, modes: (1, 512), seed: 1)";
                     let document = match *choice {
                         "(kappa: 2.0)" => document.set("roughness", roughness).unwrap(),
+                        "false" | "true" => document.set("roughness", "Measured(file: \"x\")").unwrap(),
                         _ => document.clone(),
                     };
                     document.set(field.path, choice).unwrap_or_else(|errors| panic!("{choice}: {errors}"));

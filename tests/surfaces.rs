@@ -1,5 +1,7 @@
 //! Surfaces with known spectra, generated, cut and estimated: biases and spreads, as `docs/surfaces.md` states them.
 
+#[path = "surfaces/command.rs"]
+mod command;
 #[path = "surfaces/generate.rs"]
 mod generate;
 #[path = "readme/scenes.rs"]

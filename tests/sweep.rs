@@ -105,7 +105,7 @@ fn cells_are_what_single_runs_give() {
         for row in rows {
             let values = plan.values(row.cell);
             let mut scene = plan.scene.clone();
-            scene.adhesion = Some(Adhesion { work: None, kappa: Some(values[0]), ..Adhesion::default() });
+            scene.adhesion = Some(Adhesion::default().with_kappa(values[0]));
             scene.material.effective_modulus = Some(values[2]);
             let Some(Roughness::SelfAffine { hurst, rms_height, seed, .. }) = &mut scene.roughness else {
                 panic!("rough")

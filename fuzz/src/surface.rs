@@ -13,6 +13,7 @@ pub fn surface(bytes: &[u8]) {
     let stated = ReadOptions {
         unit: Some(Unit::METRE),
         height_unit: None,
+        convention: None,
         spacing: Some(1.0e-6),
         missing: Missing::Interpolate,
         channel: None,

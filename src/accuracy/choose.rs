@@ -6,7 +6,7 @@ use super::solution::{
     Solution, Solved, allowed_points, closed_form_adhesion, refined, relative_error, solve,
 };
 use crate::scene::{Edges, Scene, Solver};
-use crate::simulation::RunError;
+use crate::simulation::{RunError, Simulation};
 use crate::text::grouped;
 use serde::Serialize;
 use std::path::Path;
@@ -183,13 +183,14 @@ pub fn choose(
     let most = allowed_points(scene).next().map_or(0, |fewest| MOST_SPRINGS.max(4 * fewest));
     let mut tried: [Vec<Solution>; 2] = [Vec::new(), Vec::new()];
     let mut best: Option<Box<Choice>> = None;
+    let mut simulation = Simulation::new(folder.to_path_buf());
     let mut found = None;
     for points in allowed_points(scene).take_while(|&points| points <= most) {
         let mut closed_form = None;
         let mut solved = 0;
         trying(points);
         for (edges, solutions) in EDGES.into_iter().zip(&mut tried) {
-            if let Solved::Outcome(outcome) = solve(&refined(scene, points, edges), folder, stop)? {
+            if let Solved::Outcome(outcome) = solve(&mut simulation, &refined(scene, points, edges), stop)? {
                 closed_form = closed_form_adhesion(scene, &outcome);
                 solutions.push(Solution::of(&outcome));
                 solved += 1;
@@ -330,7 +331,9 @@ mod tests {
             (Target::AdhesionForce, Edges::SubCell, true)
         );
         let chosen = choice.apply(scene);
-        let Solved::Outcome(outcome) = solve(&chosen, &folder, &|| false).unwrap() else {
+        let Solved::Outcome(outcome) =
+            solve(&mut Simulation::new(folder.clone()), &chosen, &|| false).unwrap()
+        else {
             panic!("no solution")
         };
         let exact = 1.5 * std::f64::consts::PI * 0.05 * 1e-4;

@@ -4,7 +4,7 @@ use super::Target;
 use super::convergence::error_of_finest;
 use super::solution::{Solution, Solved, closed_form_adhesion, refined, relative_error, solve};
 use crate::scene::{Edges, Scene, Solver, check};
-use crate::simulation::{Outcome, RunError};
+use crate::simulation::{Outcome, RunError, Simulation};
 use serde::Serialize;
 use std::collections::VecDeque;
 use std::path::Path;
@@ -94,13 +94,14 @@ pub fn estimate(
         if target == Target::Curve { errors.curve } else { errors.adhesion_force }
     };
     let points = scene.numerics.points;
-    let solved = |points: u64, most: u64| -> Result<Option<Solution>, RunError> {
+    let mut simulation = Simulation::new(folder.to_path_buf());
+    let mut solved = |points: u64, most: u64| -> Result<Option<Solution>, RunError> {
         let other = on_springs(scene, points);
         let allowed = (FEWEST_SPRINGS..=most).contains(&points) && check(&other).is_empty();
         if !allowed || stop() {
             return Ok(None);
         }
-        Ok(match solve(&other, folder, stop)? {
+        Ok(match solve(&mut simulation, &other, stop)? {
             Solved::Outcome(outcome) => Some(Solution::of(&outcome)),
             Solved::TooCoarse | Solved::TooMuch => None,
         })

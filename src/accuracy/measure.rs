@@ -6,7 +6,7 @@ use super::others;
 use super::solution::{Solution, Solved, allowed_points, closed_form_adhesion, refined, solve};
 use super::{CostTable, ErrorFigure, Knob, Measures, Reference, Row, Timing};
 use crate::scene::{Edges, Scene};
-use crate::simulation::RunError;
+use crate::simulation::{RunError, Simulation};
 use std::path::Path;
 use std::time::Duration;
 use thiserror::Error;
@@ -269,7 +269,7 @@ impl Bench<'_> {
 
     /// Runs a scene with everything made anew, at most until the budget is over.
     pub fn solve(&self, scene: &Scene) -> Result<Solved, RunError> {
-        solve(scene, self.folder, &|| self.budget.is_over())
+        solve(&mut Simulation::new(self.folder.to_path_buf()), scene, &|| self.budget.is_over())
     }
 
     /// Times whole runs of a scene.

@@ -4,8 +4,10 @@ use super::measure::{Bench, CostError, Rows, Tried};
 use super::single::errors_of_single_precision;
 use super::solution::{Solution, Solved, allowed_points, refined};
 use super::{Knob, Measures, Timing};
-use crate::scene::{Edges, Roughness, Scene, Solver, check, format_quantity};
-use crate::simulation::Simulation;
+use crate::scene::{Edges, Solver, check, format_quantity};
+use crate::simulation::{RunError, Simulation};
+use crate::study::{Case, Next, Quantity, Records, Sink, Statistics, solve_in_turn};
+use std::ops::ControlFlow;
 use std::time::Instant;
 
 /// Shares of the budget by the end of which each has ended.
@@ -163,60 +165,84 @@ fn single_precision(bench: &mut Bench<'_>, points: u64, rows: &mut Rows<'_, '_>)
     Ok(())
 }
 
-/// Random lines: how well the mean of their adhesion forces is known, and what they take one after the other.
+/// Random profiles: standard error of the mean of their adhesion forces, and the time they take one after the other.
 fn lines(bench: &mut Bench<'_>, points: u64, rows: &mut Rows<'_, '_>) -> Result<(), CostError> {
-    let knob = Knob::Lines;
-    let Some(Roughness::SelfAffine { seed, .. }) = bench.scene.roughness else { return Ok(()) };
+    if bench.scene.seed().is_none() {
+        return Ok(());
+    }
     let scene = refined(bench.scene, points, Edges::SubCell);
-    let mut simulation = Simulation::new(bench.folder.to_path_buf());
-    let (mut forces, mut seconds, mut next) = (Vec::new(), 0.0, FEWEST_LINES);
-    while next <= MOST_LINES {
-        rows.trying(knob, &next.to_string());
-        while (forces.len() as u64) < next {
-            if bench.budget.left_of(LINES_BY) <= 0.0 {
-                left_out(bench, knob, &format!("{next} and more"));
-                return Ok(());
+    let simulation = Simulation::new(bench.folder.to_path_buf());
+    let budget = bench.budget;
+    rows.trying(Knob::Lines, &FEWEST_LINES.to_string());
+    let (forces, clock) = (Vec::new(), Instant::now());
+    let mut mean =
+        MeanOfProfiles { bench, rows, points, forces, seconds: 0.0, clock, next: FEWEST_LINES, error: None };
+    let record = [Quantity::AdhesionForce];
+    solve_in_turn(&scene, simulation, MOST_LINES, &record, &|| budget.is_over(), &mut mean);
+    mean.error.map_or(Ok(()), |error| Err(error.into()))
+}
+
+/// Sink of random profiles: a row whenever their number has doubled.
+struct MeanOfProfiles<'m, 'b, 'r, 'w> {
+    bench: &'m mut Bench<'b>,
+    rows: &'m mut Rows<'r, 'w>,
+    points: u64,
+    /// Adhesion forces so far, N.
+    forces: Vec<f64>,
+    /// Time of these profiles, s.
+    seconds: f64,
+    clock: Instant,
+    /// Number of profiles of the next row.
+    next: u64,
+    error: Option<RunError>,
+}
+
+impl Sink for MeanOfProfiles<'_, '_, '_, '_> {
+    fn next(&mut self, _: Case) -> Next {
+        if self.bench.budget.left_of(LINES_BY) <= 0.0 {
+            left_out(self.bench, Knob::Lines, &format!("{} and more", self.next));
+            return Next::End;
+        }
+        self.clock = Instant::now();
+        Next::Solve
+    }
+
+    fn take(&mut self, _: Case, records: Result<Records, RunError>) -> ControlFlow<()> {
+        let force = match records {
+            Ok(records) => records.concat().first().copied().filter(|force| !force.is_nan()),
+            Err(error) if error.is_interruption() => return ControlFlow::Continue(()),
+            Err(error) => {
+                self.error = Some(error);
+                None
             }
-            let scene = of_seed(&scene, seed.wrapping_add(forces.len() as u64));
-            let clock = Instant::now();
-            let outcome = match simulation.run(&scene, &|| bench.budget.is_over(), &mut |_, _, _| Ok(())) {
-                Ok(outcome) => outcome,
-                Err(error) if error.is_interruption() => continue,
-                Err(error) => return Err(error.into()),
-            };
-            seconds += clock.elapsed().as_secs_f64();
-            let Some(force) = outcome.figures.adhesion_force else { return Ok(()) };
-            forces.push(force);
+        };
+        let Some(force) = force else { return ControlFlow::Break(()) };
+        self.seconds += self.clock.elapsed().as_secs_f64();
+        self.forces.push(force);
+        if (self.forces.len() as u64) < self.next {
+            return ControlFlow::Continue(());
         }
-        let adhesion_force = relative_standard_error(&forces);
-        if adhesion_force.is_none() {
-            return Ok(());
+        let error = relative_standard_error(&self.forces);
+        if error.is_none() {
+            return ControlFlow::Break(());
         }
-        let errors = Measures { adhesion_force, ..Measures::default() };
-        let seconds = Timing::of(vec![seconds]);
-        let tried = Tried { knob, setting: next as f64, springs: points, seconds, errors };
-        rows.add(bench, tried, &Measures::default());
-        next *= 2;
+        let errors = Measures { adhesion_force: error, ..Measures::default() };
+        let (setting, seconds) = (self.next as f64, Timing::of(vec![self.seconds]));
+        let tried = Tried { knob: Knob::Lines, setting, springs: self.points, seconds, errors };
+        self.rows.add(self.bench, tried, &Measures::default());
+        self.next *= 2;
+        if self.next > MOST_LINES {
+            return ControlFlow::Break(());
+        }
+        self.rows.trying(Knob::Lines, &self.next.to_string());
+        ControlFlow::Continue(())
     }
-    Ok(())
 }
 
-/// This scene with another random line.
-fn of_seed(scene: &Scene, wanted: u64) -> Scene {
-    let mut scene = scene.clone();
-    if let Some(Roughness::SelfAffine { seed, .. }) = &mut scene.roughness {
-        *seed = wanted;
-    }
-    scene
-}
-
-/// Standard deviation of a sample over the square root of its size and over its mean.
+/// Standard error of the mean of a sample over the mean.
 fn relative_standard_error(values: &[f64]) -> Option<f64> {
-    let count = values.len() as f64;
-    let mean = values.iter().sum::<f64>() / count;
-    let squares = values.iter().map(|value| ((value - mean) / mean).powi(2)).sum::<f64>();
-    let error = (squares / (count - 1.0) / count).sqrt();
-    error.is_finite().then_some(error)
+    let statistics = Statistics::of(values)?;
+    Some((statistics.standard_error / statistics.mean).abs()).filter(|error| error.is_finite())
 }
 
 #[cfg(test)]

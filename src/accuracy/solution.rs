@@ -120,16 +120,15 @@ pub(super) fn allowed_points(scene: &Scene) -> impl Iterator<Item = u64> {
     powers.take(40).skip_while(move |&points| !allowed(points)).take_while(move |&points| allowed(points))
 }
 
-/// Runs a scene with everything made anew.
+/// Runs a scene; solutions by one simulation share the profile where it is the same.
 ///
 /// # Errors
 /// All but too few springs for the form, and too little time or memory.
 pub(super) fn solve(
+    simulation: &mut Simulation,
     scene: &Scene,
-    folder: &std::path::Path,
     stop: &dyn Fn() -> bool,
 ) -> Result<Solved, RunError> {
-    let mut simulation = Simulation::new(folder.to_path_buf());
     match simulation.run(scene, stop, &mut |_, _, _| Ok(())) {
         Ok(outcome) => Ok(Solved::Outcome(Box::new(outcome))),
         Err(RunError::Surface(SurfaceError::NoSprings { .. })) => Ok(Solved::TooCoarse),
@@ -199,7 +198,8 @@ mod tests {
         let overrides: Vec<_> =
             overrides.iter().map(|(path, value)| (path.to_string(), value.to_string())).collect();
         let document = open(scene).unwrap().set_all(&overrides).unwrap();
-        let Solved::Outcome(outcome) = solve(document.scene(), &document.resolve(""), &|| false).unwrap()
+        let Solved::Outcome(outcome) =
+            solve(&mut Simulation::new(document.resolve("")), document.scene(), &|| false).unwrap()
         else {
             panic!("{scene} has no solution")
         };

@@ -161,13 +161,13 @@ mod tests {
     #[test]
     fn another_adhesion_on_the_same_line() {
         let base = Governing::of(&scene(Some("rms_height: 3.0,"), "(work: 2.0)"), Some(2.0), None);
-        let with = |work, kappa| {
-            let changed = base.with_adhesion(Some(Adhesion { work, kappa, ..Adhesion::default() }));
+        let with = |adhesion: Adhesion| {
+            let changed = base.with_adhesion(Some(adhesion));
             assert_eq!(changed.amplitude, base.amplitude);
             (changed.work_of_adhesion, changed.kappa)
         };
-        assert_eq!(with(Some(8.0), None), (Some(8.0), Some(3.0)));
-        assert_eq!(with(None, Some(3.0)), (Some(8.0), Some(3.0)));
+        assert_eq!(with(Adhesion::default().with_work(8.0)), (Some(8.0), Some(3.0)));
+        assert_eq!(with(Adhesion::default().with_kappa(3.0)), (Some(8.0), Some(3.0)));
         assert_eq!(base.work_for_kappa(3.0), Some(8.0));
         let none = base.with_adhesion(None);
         assert_eq!((none.work_of_adhesion, none.kappa), (None, None));

@@ -60,6 +60,12 @@ pub enum CliError {
         /// Why not.
         error: TopographyError,
     },
+    /// A scene cannot hold how its surface is to be read.
+    #[error("--scene: a scene does not hold {option}; allowed: one file, --unit, --continue-to")]
+    LostInScene {
+        /// Option that would be lost.
+        option: &'static str,
+    },
     /// Measured surfaces cannot be analysed.
     #[error("{file}: {error}")]
     Spectrum {
@@ -136,9 +142,11 @@ pub enum CliError {
     /// A figure of a study cannot be drawn.
     #[error(transparent)]
     Figure(#[from] FigureError),
-    /// A study was told to stop.
-    #[error("stopped: {done} of {total} records are there; the same command goes on from here")]
+    /// A signal stopped a study.
+    #[error("stopped: {done} of {total} records are complete; the same command continues the study")]
     Stopped {
+        /// Number of the signal.
+        signal: usize,
         /// Records that are there.
         done: u64,
         /// Records there are to be.
@@ -169,6 +177,14 @@ pub enum CliError {
         /// Name of the scene.
         scene: String,
     },
+    /// The terminal cannot place the cursor.
+    #[error(
+        "TERM=dumb: the explorer places characters, this terminal does not; asperity run {scene} computes the scene without one"
+    )]
+    DumbTerminal {
+        /// Name of the scene.
+        scene: String,
+    },
     /// The explorer cannot draw the map of a study.
     #[error(
         "the explorer needs a terminal; asperity sweep plot {} draws the study without one",
@@ -192,8 +208,23 @@ impl From<SceneErrors> for CliError {
     }
 }
 
+/// Exit code of a failed run or wrong input.
+const FAILED: u8 = 1;
+
+/// Exit code of a process ended by a signal, less the number of the signal, as shells count.
+const BY_SIGNAL: usize = 128;
+
 impl CliError {
-    /// Whether what was to read the results has ended, and with it the need for them.
+    /// Exit code of the process: 128 and the number of the signal where a signal ended the run, otherwise 1.
+    #[must_use]
+    pub fn exit_code(&self) -> u8 {
+        match self {
+            CliError::Stopped { signal, .. } => u8::try_from(BY_SIGNAL + signal).unwrap_or(FAILED),
+            _ => FAILED,
+        }
+    }
+
+    /// Returns true where the reader of the results has closed its end.
     #[must_use]
     pub fn is_closed_pipe(&self) -> bool {
         match self {

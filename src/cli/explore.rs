@@ -40,10 +40,13 @@ pub(super) fn explore(arguments: &ExploreArguments, out: &mut dyn Write) -> Resu
     let opening = opening(arguments)?;
     if !stdin().is_terminal() || !stdout().is_terminal() {
         let name = opening.document.name().into();
-        return Err(match opening.atlas {
+        return Err(match opening.study_map {
             None => CliError::NoTerminal { scene: name },
             Some(_) => CliError::NoTerminalForStudy { folder: name },
         });
+    }
+    if std::env::var_os("TERM").is_some_and(|term| term == "dumb") {
+        return Err(CliError::DumbTerminal { scene: opening.document.name().into() });
     }
     let &ExploreArguments { theme, marker, no_mouse, .. } = arguments;
     let left = explorer::open(opening, Options { theme, marker, no_mouse })

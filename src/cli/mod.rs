@@ -47,9 +47,6 @@ use std::process::ExitCode;
 /// Bytes gathered before they go to standard output.
 const BUFFER: usize = 1 << 18;
 
-/// Exit code of input or a run that failed.
-const FAILED: u8 = 1;
-
 /// Exit code of wrong usage.
 const WRONG_USAGE: u8 = 2;
 
@@ -75,7 +72,7 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
             let _ = stdout.flush();
             // Errors name files, and repeat what is in them.
             let _ = writeln!(io::stderr(), "{}", printable_lines(&error.to_string()));
-            ExitCode::from(FAILED)
+            ExitCode::from(error.exit_code())
         }
     }
 }

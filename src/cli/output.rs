@@ -55,7 +55,7 @@ impl OutputArguments {
         let allowed = |(ending, one): &(&str, F)| {
             chosen.is_none_or(|chosen| chosen == *one).then_some(format!(".{ending}"))
         };
-        let mut allowed: Vec<String> = endings.iter().filter_map(|ending| allowed(ending)).collect();
+        let mut allowed: Vec<String> = endings.iter().filter_map(allowed).collect();
         if allowed.is_empty() {
             allowed.push(".txt".to_owned());
         }

@@ -4,7 +4,8 @@ use super::CliError;
 use crate::export::sheet::Sheet;
 use crate::io::write_json_value;
 use crate::scene::{self, Document, Entry, Library, Roughness, Source, Text, line_column};
-use crate::surface::MeasuredProfile;
+use crate::simulation::measured_options;
+use crate::surface::MeasuredRoughness;
 use crate::text::printable;
 use clap::{Subcommand, ValueEnum};
 use serde::Serialize;
@@ -154,10 +155,11 @@ fn of_file(file: &str) -> Result<Document, String> {
 /// What is wrong with the measured profile a scene names, with the place where it names it.
 fn profile_error(document: &Document) -> Option<String> {
     let scene = document.scene();
-    let Some(Roughness::Measured { file }) = &scene.roughness else { return None };
-    let error = match MeasuredProfile::read(&document.resolve(file)) {
+    let Some(Roughness::Measured { file, .. }) = &scene.roughness else { return None };
+    let options = measured_options(scene);
+    let error = match MeasuredRoughness::read(&document.resolve(file), &options, &mut |_| ()) {
         Err(error) => error.to_string(),
-        Ok(profile) => profile.sample(scene.length, 1, 0.0).err()?,
+        Ok(measured) => measured.check(scene.length, scene.numerics.points as usize).err()?,
     };
     let offset = Text::new(document.text())
         .ok()

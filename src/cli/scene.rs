@@ -22,8 +22,10 @@ pub struct SceneArguments {
 pub struct Overrides {
     /// Change a field of the scene; may be repeated
     ///
-    /// The value is written as in a scene file, None takes an optional part away:
-    ///   --set roughness.seed=7 --set form=None --set "loading=[ToForce(2e-3), ToSeparation]"
+    /// The value is written as in a scene file. A number may have an SI prefix and its unit;
+    /// None removes an optional part:
+    ///   --set adhesion.work=50mJ/m2 --set numerics.points=16k --set form=None
+    ///   --set "loading=[ToForce(2e-3), ToSeparation]"
     #[arg(long = "set", value_name = "PATH=VALUE", value_parser = path_and_value, verbatim_doc_comment)]
     pub set: Vec<(String, String)>,
 }

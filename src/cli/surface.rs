@@ -2,7 +2,11 @@
 
 use super::{CliError, OutputArguments};
 use crate::export::{SurfaceFile, surface_text, write_surface_csv, write_surface_json};
-use crate::scene::parse_quantity;
+use crate::io::{check_writable, write_new};
+use crate::scene::{
+    Adhesion, Document, Leg, MOST_POINTS, Material, Numerics, Roughness, SCENE_VERSIONS, Scene,
+    parse_quantity,
+};
 use crate::spectrum::{Analysis, Detrend, End, Options, SpectrumError, analyse};
 use crate::text::path_name;
 use crate::topography::{Missing, ReadOptions, Topography, Unit, read};
@@ -16,10 +20,14 @@ Examples:
   asperity surface afm.gwy --tip-radius 10nm --modulus 2.7MPa
   asperity surface a.x3p b.x3p c.x3p --format json -o surface.json
   asperity surface profile.csv --unit um -o spectrum.csv
+  asperity surface profile.csv --unit um --modulus 2.7MPa --work 50mJ/m^2 --scene rough.ron
 
 Files are profiles or maps: text in columns or as a matrix, SDF, GSF, NumPy, X3P, GWY, SUR, and
 these in gzip. Several files are samples of the same roughness. A profile is a cut through the
 surface; the equivalent line is what the contact computation needs.";
+
+/// Springs of a scene for each of its shortest waves.
+const SPRINGS_PER_WAVE: f64 = 8.0;
 
 /// Arguments of `surface`.
 #[derive(Args, Debug)]
@@ -40,9 +48,20 @@ pub struct SurfaceArguments {
     /// CSV holds the spectra: spectrum,wave_number,power,waves.
     #[arg(long, value_enum, hide_possible_values = true, verbatim_doc_comment)]
     pub format: Option<SurfaceFormat>,
+    /// Write a scene with the equivalent line of the surface to FILE; needs --modulus
+    ///
+    /// The scene names the surface and holds --unit and --continue-to.
+    #[arg(long, value_name = "FILE", requires = "modulus", verbatim_doc_comment)]
+    pub scene: Option<PathBuf>,
+    /// Work of adhesion of the scene, as 50mJ/m^2; default: none
+    #[arg(long, value_name = "ENERGY", requires = "scene", value_parser = energy)]
+    pub work: Option<f64>,
     /// Where the results go.
     #[command(flatten)]
     pub output: OutputArguments,
+    /// Overwrite the scene if it exists
+    #[arg(long, requires = "scene")]
+    pub force_scene: bool,
 }
 
 /// Reading of files that leave something open.
@@ -117,6 +136,7 @@ impl ReadingArguments {
         ReadOptions {
             unit: self.unit,
             height_unit: self.height_unit,
+            convention: None,
             spacing: self.spacing,
             missing: if self.interpolate { Missing::Interpolate } else { Missing::Refuse },
             channel: self.channel,
@@ -146,19 +166,17 @@ impl AnalysisArguments {
     }
 }
 
-impl SurfaceArguments {
-    fn chosen_format(&self) -> SurfaceFormat {
-        self.format.unwrap_or_else(|| match self.output.file().and_then(|path| path.extension()?.to_str()) {
-            Some("json") => SurfaceFormat::Json,
-            Some("csv") => SurfaceFormat::Csv,
-            _ => SurfaceFormat::Summary,
-        })
-    }
-}
+/// Endings of files in each format.
+const ENDINGS: [(&str, SurfaceFormat); 2] = [("json", SurfaceFormat::Json), ("csv", SurfaceFormat::Csv)];
 
 /// Reads and analyses the files and writes the results.
 pub(super) fn surface(arguments: &SurfaceArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
+    let format = arguments.output.format(arguments.format, &ENDINGS, SurfaceFormat::Summary)?;
     arguments.output.check()?;
+    if let Some(scene) = &arguments.scene {
+        check_scene(arguments)?;
+        check_writable(scene, arguments.force_scene)?;
+    }
     let (mut surfaces, mut files) = (Vec::new(), Vec::new());
     for file in &arguments.files {
         let surface = arguments.reading.read(file)?;
@@ -167,7 +185,11 @@ pub(super) fn surface(arguments: &SurfaceArguments, stdout: &mut dyn Write) -> R
     }
     let analysis = analysed(arguments, &surfaces)?;
     let modulus = arguments.analysis.modulus;
-    arguments.output.write(stdout, |out| match arguments.chosen_format() {
+    if let (Some(path), Some(modulus)) = (&arguments.scene, modulus) {
+        let text = scene_text(arguments, path, &analysis, modulus)?;
+        write_new(path, arguments.force_scene, |out| out.write_all(text.as_bytes()))?;
+    }
+    arguments.output.write(stdout, |out| match format {
         SurfaceFormat::Summary => out.write_all(surface_text(&files, &analysis, modulus).as_bytes()),
         SurfaceFormat::Json => write_surface_json(out, &files, &analysis, modulus),
         SurfaceFormat::Csv => write_surface_csv(out, &analysis),
@@ -185,9 +207,74 @@ fn analysed(arguments: &SurfaceArguments, surfaces: &[Topography]) -> Result<Ana
     })
 }
 
+/// A scene names one file and holds its unit and the end of its spectrum; whatever else was chosen would be lost.
+fn check_scene(arguments: &SurfaceArguments) -> Result<(), CliError> {
+    let (reading, analysis) = (&arguments.reading, &arguments.analysis);
+    let lost = [
+        (arguments.files.len() > 1, "several files"),
+        (reading.height_unit.is_some(), "--height-unit"),
+        (reading.spacing.is_some(), "--spacing"),
+        (reading.interpolate, "--interpolate"),
+        (reading.resample, "--resample"),
+        (reading.channel.is_some(), "--channel"),
+        (analysis.detrend != DetrendArgument::Tilt, "--detrend"),
+        (analysis.periodic, "--periodic"),
+    ];
+    match lost.into_iter().find(|(is_given, _)| *is_given) {
+        Some((_, option)) => Err(CliError::LostInScene { option }),
+        None => Ok(()),
+    }
+}
+
+/// Scene of the equivalent line over the length of the scan, on springs that resolve its shortest wave.
+fn scene_text(
+    arguments: &SurfaceArguments,
+    path: &Path,
+    analysis: &Analysis,
+    modulus: f64,
+) -> Result<String, CliError> {
+    let file = &arguments.files[0];
+    let beside = |file: &Path| std::path::absolute(file).ok()?.parent().map(Path::to_path_buf);
+    let name = match file.file_name() {
+        Some(name) if beside(file) == beside(path) => PathBuf::from(name),
+        _ => std::path::absolute(file)?,
+    };
+    let waves = analysis.length * analysis.isotropic.range()[1] / std::f64::consts::TAU;
+    let points = ((SPRINGS_PER_WAVE * waves) as u64).next_power_of_two().clamp(1024, MOST_POINTS);
+    let scene = Scene {
+        version: *SCENE_VERSIONS.end(),
+        title: format!(
+            "Equivalent line of {}",
+            path_name(&PathBuf::from(file.file_name().unwrap_or_default()))
+        ),
+        notice: String::new(),
+        material: Material::effective(modulus),
+        length: analysis.length,
+        form: None,
+        roughness: Some(Roughness::Measured {
+            file: name.to_string_lossy().into_owned(),
+            as_line: None,
+            unit: arguments.reading.unit.map(|unit| unit.name().to_owned()).unwrap_or_default(),
+            continue_to: arguments.analysis.continue_to,
+            seed: 1,
+        }),
+        adhesion: arguments.work.map(|work| Adhesion::default().with_work(work)),
+        loading: vec![Leg::ToZeroForce, Leg::ToSeparation],
+        numerics: Numerics { points, ..Numerics::default() },
+        observe: Vec::new(),
+    };
+    let document = Document::from_scene(&scene, &path_name(path))?;
+    Ok(document.text().to_owned())
+}
+
 /// Length above 0, m.
 fn length(text: &str) -> Result<f64, String> {
     positive(text, "m")
+}
+
+/// Energy per area above 0, J/m².
+fn energy(text: &str) -> Result<f64, String> {
+    positive(text, "J/m²")
 }
 
 /// Pressure above 0, Pa.

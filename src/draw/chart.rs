@@ -1,8 +1,9 @@
 //! What a figure shows: charts with axes and layers of data in SI units. How it looks is up to the backend.
 
-use super::axis::{Axis, AxisScale, Span};
+use super::axis::Axis;
 use super::colour::Ink;
 use super::label::Label;
+use super::scale::{AxisScale, Span};
 
 /// Charts side by side under one title, with one legend.
 #[derive(Clone, Debug, PartialEq)]
@@ -37,6 +38,17 @@ pub struct Chart {
     pub layers: Vec<Layer>,
     /// The same data on other scales, drawn into a corner that the curves leave free.
     pub inset: Option<Box<Chart>>,
+}
+
+impl Chart {
+    /// The heat map of a map.
+    #[must_use]
+    pub fn map(&self) -> Option<&HeatMap> {
+        self.layers.iter().find_map(|layer| match &layer.shape {
+            Shape::Map(map) => Some(map.as_ref()),
+            _ => None,
+        })
+    }
 }
 
 /// One kind of data, and its entry in the legend. Layers of the same name share an entry.
@@ -94,7 +106,7 @@ pub enum Shape {
     /// A line across the chart at this y.
     Level(f64),
     /// A coloured cell for each pair of values of the axes.
-    Map(HeatMap),
+    Map(Box<HeatMap>),
 }
 
 /// Stroke of a line.
@@ -198,8 +210,10 @@ pub struct Entry {
 pub enum Sample {
     /// A line with a sign on it.
     Line(Option<Stroke>, Option<Sign>),
-    /// A filled area.
+    /// A filled area that shows what is below.
     Area,
+    /// A filled area.
+    Solid,
     /// A line across the chart, upright or level.
     Guide,
     /// A level line of a map.
@@ -209,9 +223,17 @@ pub enum Sample {
 }
 
 impl Figure {
-    /// Entries of the legend: names of the layers, each once, in the order of drawing.
+    /// Entries of the legend.
     #[must_use]
     pub fn legend(&self) -> Vec<Entry> {
+        Entry::of_charts(&self.charts)
+    }
+}
+
+impl Entry {
+    /// Entries for the layers of charts: each name once, in the order of drawing, areas last.
+    #[must_use]
+    pub fn of_charts(charts: &[Chart]) -> Vec<Entry> {
         let mut entries: Vec<Entry> = Vec::new();
         let mut add = |name: &Label, ink: Ink, sample: Sample| {
             if name.is_empty() {
@@ -223,11 +245,12 @@ impl Figure {
                 None => entries.push(Entry { name: name.clone(), samples: vec![(ink, sample)] }),
             }
         };
-        for Layer { name, ink, shape } in self.charts.iter().flat_map(|chart| &chart.layers) {
+        for Layer { name, ink, shape } in charts.iter().flat_map(|chart| &chart.layers) {
             match shape {
                 Shape::Curve { stroke, sign, .. } => add(name, *ink, Sample::Line(*stroke, *sign)),
                 Shape::Envelope { .. } => add(name, *ink, Sample::Line(Some(Stroke::Solid), None)),
-                Shape::Band(_) | Shape::Inside(_) | Shape::Boxes(_) => add(name, *ink, Sample::Area),
+                Shape::Band(_) | Shape::Inside(_) => add(name, *ink, Sample::Area),
+                Shape::Boxes(_) => add(name, *ink, Sample::Solid),
                 Shape::Upright(_) | Shape::Level(_) => add(name, *ink, Sample::Guide),
                 Shape::Map(map) => {
                     for (class, (sign, _, name)) in map.class_names.iter().enumerate() {

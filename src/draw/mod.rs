@@ -10,15 +10,17 @@ mod chart;
 mod colour;
 mod contour;
 mod label;
+mod scale;
 mod svg;
 mod ticks;
 
-pub use axis::{Axis, AxisScale, Span};
+pub use axis::Axis;
 #[cfg(feature = "tui")]
 pub use cells::{CellPlot, CellStyle, Colours, dry, figure_text, glyph, legend};
 pub use chart::{Chart, Contour, Entry, Figure, HeatMap, Layer, Sample, Shape, Sign, Stroke};
 pub use colour::{Ink, Palette, Rgb, hex, ink_on, shade};
 pub use label::{Label, prefixed, short, value_label};
+pub use scale::{AxisScale, Span};
 pub use svg::{Document, escaped, figure_svg};
 pub use ticks::Tick;
 

@@ -1,7 +1,7 @@
 //! Ticks of axes.
 
-use super::axis::{AxisScale, Span};
 use super::label::{Label, number};
+use super::scale::{AxisScale, Span};
 
 /// A tick.
 #[derive(Clone, Debug, PartialEq)]
@@ -33,13 +33,13 @@ pub(super) fn ticks(scale: AxisScale, Span { low, high }: Span, divisor: f64, mo
     }
 }
 
-/// Step of 1, 2 or 5 times a power of ten that makes at most `most` ticks, and its number of minor steps.
+/// Step of 1, 2 or 5 times a power of ten that makes about `most` ticks at most, and its number of minor steps.
 fn step_for(width: f64, most: usize) -> (f64, usize) {
     let least = width / most.max(1) as f64;
     let power = 10_f64.powf(least.log10().floor());
     let (factor, between) = [(1.0, 5), (2.0, 4), (5.0, 5), (10.0, 5)]
         .into_iter()
-        .find(|(factor, _)| factor * power >= least * (1.0 - 1e-9))
+        .find(|(factor, _)| factor * power >= 0.8 * least)
         .unwrap_or((10.0, 5));
     (factor * power, between)
 }

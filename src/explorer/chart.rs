@@ -34,34 +34,34 @@ pub struct Chart {
 #[derive(Clone, Debug, PartialEq)]
 pub struct OpenStudy {
     /// Its maps.
-    pub atlas: Arc<StudyMap>,
+    pub study_map: Arc<StudyMap>,
     /// Number of the one that is shown.
     pub slice: u64,
-    plane: Arc<MapModel>,
+    map_model: Arc<MapModel>,
 }
 
 impl OpenStudy {
     /// One map of a study.
     #[must_use]
-    pub fn at(atlas: Arc<StudyMap>, slice: u64) -> Self {
-        OpenStudy { plane: Arc::new(atlas.model(slice)), atlas, slice }
+    pub fn at(study_map: Arc<StudyMap>, slice: u64) -> Self {
+        OpenStudy { map_model: Arc::new(study_map.model(slice)), study_map, slice }
     }
 
     /// The map so many after this one, from the last on to the first.
     #[must_use]
     pub fn stepped(&self, steps: i32) -> Self {
-        let slices = i128::from(self.atlas.slices().max(1));
+        let slices = i128::from(self.study_map.slices().max(1));
         let slice = (i128::from(self.slice) + i128::from(steps)).rem_euclid(slices) as u64;
-        OpenStudy::at(Arc::clone(&self.atlas), slice)
+        OpenStudy::at(Arc::clone(&self.study_map), slice)
     }
 }
 
 impl Chart {
     /// The map that is shown, as far as there is one.
     #[must_use]
-    pub fn plane(&self) -> Option<&MapModel> {
+    pub fn map_model(&self) -> Option<&MapModel> {
         match self.shown_study() {
-            Some(study) => Some(&study.plane),
+            Some(study) => Some(&study.map_model),
             None => self.live.as_deref(),
         }
     }
@@ -75,7 +75,7 @@ impl Chart {
     /// κ and H of the map that is shown, or would be.
     #[must_use]
     pub fn axes(&self) -> (FigureAxis, FigureAxis) {
-        match self.plane().map(|plane| (plane.across(), plane.up())) {
+        match self.map_model().map(|map_model| (map_model.across(), map_model.up())) {
             Some((across, Some(up))) => (across.clone(), up.clone()),
             _ => (kappas(), hursts()),
         }
@@ -84,7 +84,7 @@ impl Chart {
     /// What the glyphs tell: what was chosen, where the map that is shown has it.
     #[must_use]
     pub fn charted(&self) -> Charted {
-        let all = self.plane().map(MapModel::charted).unwrap_or_default();
+        let all = self.map_model().map(MapModel::charted).unwrap_or_default();
         let chosen = all.iter().find(|one| **one == self.quantity);
         *chosen.or(all.first()).unwrap_or(&self.quantity)
     }
@@ -92,7 +92,7 @@ impl Chart {
     /// What they can tell after that.
     #[must_use]
     pub fn next_charted(&self) -> Charted {
-        let all = self.plane().map(MapModel::charted).unwrap_or_default();
+        let all = self.map_model().map(MapModel::charted).unwrap_or_default();
         let now = self.charted();
         let place = all.iter().position(|one| *one == now).map_or(0, |place| place + 1);
         all.get(place).or(all.first()).copied().unwrap_or(now)

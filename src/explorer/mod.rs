@@ -4,6 +4,7 @@
 
 pub mod action;
 pub mod appraisal;
+mod caption;
 pub mod chart;
 mod close_up;
 pub mod demo;

@@ -347,8 +347,8 @@ impl Model {
     }
 
     /// Shows the map of a study, the first of them.
-    pub fn show_study(&mut self, atlas: Arc<StudyMap>) {
-        self.chart.study = Some(OpenStudy::at(atlas, 0));
+    pub fn show_study(&mut self, study_map: Arc<StudyMap>) {
+        self.chart.study = Some(OpenStudy::at(study_map, 0));
         (self.chart.of_study, self.chart.shown) = (true, true);
         self.appraisal.hide();
         self.pane = Pane::Chart;

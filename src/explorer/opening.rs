@@ -13,7 +13,7 @@ pub struct Opening {
     /// The scene.
     pub document: Document,
     /// The study it is from, whose maps are shown.
-    pub atlas: Option<Arc<StudyMap>>,
+    pub study_map: Option<Arc<StudyMap>>,
 }
 
 /// Why nothing was opened.
@@ -35,7 +35,7 @@ pub enum OpeningError {
 
 impl From<Document> for Opening {
     fn from(document: Document) -> Self {
-        Opening { document, atlas: None }
+        Opening { document, study_map: None }
     }
 }
 
@@ -69,7 +69,7 @@ impl Opening {
     }
 
     fn of_study(folder: &Path) -> Result<Self, StudyMapError> {
-        let atlas = StudyMap::open(folder)?;
-        Ok(Opening { document: atlas.document()?, atlas: Some(Arc::new(atlas)) })
+        let study_map = StudyMap::open(folder)?;
+        Ok(Opening { document: study_map.document()?, study_map: Some(Arc::new(study_map)) })
     }
 }

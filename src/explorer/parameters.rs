@@ -1,9 +1,6 @@
 //! The list of parameters: the fields of the scene that can be changed as it stands.
 
-use crate::scene::{
-    Document, Effect, Field, LEG_FORCE, LEG_INDENTATION, Leg, Range, field, format_quantity, parse_quantity,
-    ron_float,
-};
+use crate::scene::{Document, Effect, Field, Leg, Range, field, format_quantity, ron_float};
 
 /// A parameter as the list shows it.
 #[derive(Clone, Debug, PartialEq)]
@@ -48,30 +45,6 @@ impl Parameter {
             (Some(leg), _) => format!("{} {}", self.field.name, leg + 1),
             (None, Setting::Switch(effect)) => effect.name().to_owned(),
             (None, _) => self.field.name.to_owned(),
-        }
-    }
-
-    /// What was typed, as it is written in a scene file: numbers may have prefix and unit.
-    ///
-    /// # Errors
-    /// What is wrong with it and what is allowed.
-    pub fn read_typed(&self, typed: &str) -> Result<String, String> {
-        let typed = typed.trim();
-        match self.field.range {
-            Range::Real { .. } => parse_quantity(typed, self.field.unit)
-                .map(ron_float)
-                .map_err(|error| format!("{error}; allowed: {}", self.field.allowed())),
-            // Counts may be typed as 64Ki, but a seed has more digits than a float keeps.
-            Range::Whole { .. } if typed.parse::<u64>().is_err() => {
-                match parse_quantity(typed, self.field.unit) {
-                    Ok(value) if value.fract() == 0.0 && (0.0..9.0e15).contains(&value) => {
-                        Ok(format!("{}", value as u64))
-                    }
-                    Ok(_) => Err(format!("{typed}: allowed: a whole number, {}", self.field.allowed())),
-                    Err(error) => Err(format!("{error}; allowed: {}", self.field.allowed())),
-                }
-            }
-            _ => Ok(typed.to_owned()),
         }
     }
 }
@@ -164,11 +137,7 @@ fn observers(document: &Document, field: &'static Field) -> impl Iterator<Item =
 
 fn leg_targets(loading: &[Leg]) -> impl Iterator<Item = Parameter> {
     loading.iter().enumerate().filter_map(|(index, leg)| {
-        let (field, value) = match *leg {
-            Leg::ToForce(force) => (&LEG_FORCE, force),
-            Leg::ToIndentation(indentation) => (&LEG_INDENTATION, indentation),
-            _ => return None,
-        };
+        let (field, value) = leg.target()?;
         Some(Parameter {
             field,
             path: format!("loading.{index}.0"),

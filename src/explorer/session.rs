@@ -103,7 +103,7 @@ pub fn open_with(
     engine: Box<dyn Engine>,
     draw: Draw,
 ) -> io::Result<Left> {
-    let Opening { document, atlas } = opening.into();
+    let Opening { document, study_map } = opening.into();
     let guard = TerminalGuard::take(!options.no_mouse)?;
     let (messages, inbox) = channel();
     let (requests, outbox) = channel();
@@ -144,8 +144,8 @@ pub fn open_with(
         marker: options.marker.unwrap_or(environment.marker),
     };
     let mut model = Model::new(document, (size.width, size.height), appearance);
-    if let Some(atlas) = atlas {
-        model.show_study(atlas);
+    if let Some(study_map) = study_map {
+        model.show_study(study_map);
     }
     let mut session = Session {
         terminal: &mut terminal,
@@ -178,7 +178,7 @@ fn read_input(messages: Sender<Message>) -> io::Result<()> {
 /// The scene as the worker gets it: files it names are found wherever the explorer was started.
 pub(super) fn scene_of(document: &Document) -> Arc<Scene> {
     let mut scene = document.scene().clone();
-    if let Some(Roughness::Measured { file }) = &mut scene.roughness {
+    if let Some(Roughness::Measured { file, .. }) = &mut scene.roughness {
         *file = document.resolve(file).to_string_lossy().into_owned();
     }
     Arc::new(scene)

@@ -7,7 +7,7 @@ use crate::accuracy::{
 };
 use crate::scene::Scene;
 use crate::simulation::RunError;
-use crate::study::map::{LiveMap, chart};
+use crate::study::map::{LiveMap, compute};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 use std::sync::Arc;
@@ -108,7 +108,7 @@ pub trait Appraiser: Send {
         trying: &mut dyn FnMut(u64),
     ) -> Result<Choice, ChoiceError>;
 
-    /// See [`chart()`].
+    /// See [`compute()`].
     fn chart(&mut self, map: &mut LiveMap, stop: &dyn Fn() -> bool, tell: &mut dyn FnMut(&LiveMap));
 }
 
@@ -144,7 +144,7 @@ impl Appraiser for Accuracy {
     }
 
     fn chart(&mut self, map: &mut LiveMap, stop: &dyn Fn() -> bool, tell: &mut dyn FnMut(&LiveMap)) {
-        chart(map, Path::new(FOLDER), stop, tell);
+        compute(map, Path::new(FOLDER), stop, tell);
     }
 }
 

@@ -11,6 +11,8 @@ const LONGEST: usize = 4096;
 pub struct TextLine {
     characters: Vec<char>,
     cursor: usize,
+    /// The whole text is selected: the next character replaces it.
+    selected: bool,
 }
 
 impl TextLine {
@@ -18,7 +20,19 @@ impl TextLine {
     #[must_use]
     pub fn new(text: &str) -> Self {
         let characters: Vec<char> = text.chars().filter(|c| !is_control(*c)).take(LONGEST).collect();
-        TextLine { cursor: characters.len(), characters }
+        TextLine { cursor: characters.len(), characters, selected: false }
+    }
+
+    /// A line with this text, all of it selected.
+    #[must_use]
+    pub fn selected(text: &str) -> Self {
+        TextLine { selected: true, ..TextLine::new(text) }
+    }
+
+    /// The text is selected.
+    #[must_use]
+    pub fn is_selected(&self) -> bool {
+        self.selected
     }
 
     /// The text.
@@ -35,16 +49,22 @@ impl TextLine {
         (before.iter().collect(), under.iter().collect(), after.iter().collect())
     }
 
-    /// Inserts a character before the cursor.
+    /// Inserts a character before the cursor, or in place of the selected text.
     pub fn insert(&mut self, character: char) {
+        if self.selected && !is_control(character) {
+            self.clear();
+        }
         if !is_control(character) && self.characters.len() < LONGEST {
             self.characters.insert(self.cursor, character);
             self.cursor += 1;
         }
     }
 
-    /// Removes the character before the cursor, or the one under it.
+    /// Removes the character before the cursor, or the one under it, or the selected text.
     pub fn delete(&mut self, backwards: bool) {
+        if self.selected {
+            return self.clear();
+        }
         if backwards && self.cursor > 0 {
             self.cursor -= 1;
         } else if backwards {
@@ -55,8 +75,9 @@ impl TextLine {
         }
     }
 
-    /// Moves the cursor.
+    /// Moves the cursor; nothing is selected any more.
     pub fn go(&mut self, motion: Motion) {
+        self.selected = false;
         self.cursor = match motion {
             Motion::Left => self.cursor.saturating_sub(1),
             Motion::Right => (self.cursor + 1).min(self.characters.len()),
@@ -74,6 +95,23 @@ impl TextLine {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_selected_text_is_replaced_or_kept_as_a_whole() {
+        let mut line = TextLine::selected("1.5 µm");
+        line.insert('\n');
+        assert_eq!((line.text().as_str(), line.is_selected()), ("1.5 µm", true));
+        line.insert('2');
+        line.insert('3');
+        assert_eq!((line.text().as_str(), line.is_selected()), ("23", false));
+        let mut line = TextLine::selected("1.5 µm");
+        line.delete(true);
+        assert_eq!((line.text().as_str(), line.is_selected()), ("", false));
+        let mut line = TextLine::selected("1.5 µm");
+        line.go(Motion::Left);
+        line.insert('m');
+        assert_eq!((line.text().as_str(), line.is_selected()), ("1.5 µmm", false));
+    }
 
     #[test]
     fn edits_anywhere_in_the_line() {

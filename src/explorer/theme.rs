@@ -75,7 +75,8 @@ pub enum Meaning {
 }
 
 impl Appearance {
-    /// What the environment asks for: `NO_COLOR`, and `COLORFGBG` where the terminal tells its colours.
+    /// Appearance for the environment: colours by `NO_COLOR` and `COLORFGBG`; ASCII where the console of Linux (`TERM=linux`)
+    /// or a locale without Unicode (`C`, `POSIX`) shows no Braille.
     #[must_use]
     pub fn of_environment() -> Self {
         let value = |name| std::env::var_os(name).filter(|value| !value.is_empty());
@@ -84,7 +85,10 @@ impl Appearance {
             Some(colours) => Theme::on_background(&colours.to_string_lossy()),
             None => Theme::Neutral,
         };
-        Appearance { theme, marker: Marker::Braille }
+        let locale = ["LC_ALL", "LC_CTYPE", "LANG"].into_iter().find_map(value);
+        let is_ascii = locale.is_some_and(|locale| locale == "C" || locale == "POSIX");
+        let is_console = value("TERM").is_some_and(|term| term == "linux");
+        Appearance { theme, marker: if is_ascii || is_console { Marker::Ascii } else { Marker::Braille } }
     }
 }
 

@@ -148,13 +148,12 @@ impl ContactSets {
         Ok(())
     }
 
-    /// The rigid profile, the elastic surface and the contact at the largest force; at first touch without one.
+    /// The rigid profile, the elastic surface and the contact at the largest force.
     #[must_use]
     pub fn profile_figure(&self, title: &str, outcome: &Outcome, line: &Line) -> Figure {
-        let (force, patches) =
-            self.preload.as_ref().map_or((0.0, None), |(force, patches)| (*force, Some(patches)));
-        let indentation = patches.map_or(0.0, |patches| patches.indentation);
-        let fragments = patches.map_or(&[][..], |patches| &patches.fragments);
+        let separated = (0.0, Patches { indentation: 0.0, fragments: Vec::new() });
+        let (force, Patches { indentation, fragments }) = self.preload.as_ref().unwrap_or(&separated);
+        let (force, indentation) = (*force, *indentation);
         let contact = Contact { gaps: &line.gaps, summit: line.summit, indentation, fragments };
         let springs = line.gaps.len();
         let part = Part { first: 0, springs, columns: COLUMNS.min(springs) };
@@ -185,10 +184,7 @@ impl ContactSets {
             layers,
             inset: None,
         };
-        let at = match patches {
-            Some(_) => Label::plain("largest force: ").join(&value_label("", "F", "N", force)).then(", "),
-            None => Label::plain("first touch: "),
-        };
+        let at = Label::plain("largest force: ").join(&value_label("", "F", "N", force)).then(", ");
         let notes = vec![at.join(&value_label("", "d", "m", indentation))];
         Figure { title: title.to_owned(), notes, charts: vec![chart], size: PROFILE }
     }
@@ -325,12 +321,9 @@ mod tests {
         let preload = outcome.history.legs[0].largest;
         assert_eq!(columns.iter().flatten().count() as u64, preload.springs, "one column for each spring");
         assert_eq!(columns.len(), line.gaps.len());
-        for (loading, note) in
-            [("[ToTouch]", "largest force: F = 0 N, d = 0 m"), ("[ToSeparation]", "first touch: d = 0 m")]
-        {
-            let (outcome, sets, line) = computed(&[("loading", loading), ("adhesion", "None")]);
-            assert_eq!(sets.profile_figure("", &outcome, &line).notes[0].to_string(), note);
-        }
+        let (outcome, sets, line) = computed(&[("loading", "[ToTouch]"), ("adhesion", "None")]);
+        let note = sets.profile_figure("", &outcome, &line).notes[0].to_string();
+        assert_eq!(note, "largest force: F = 0 N, d = 0 m");
     }
 
     #[test]

@@ -71,7 +71,7 @@ fn map(study: &Study, up: &FigureAxis, panel: &Panel) -> Chart {
         heading: panel.quantity.name.clone(),
         x: axis_over(across, HeatMap::span(across.scale, &across.values)),
         y: axis_over(up, HeatMap::span(up.scale, &up.values)),
-        layers: vec![Layer::unnamed(Ink::Text, Shape::Map(map))],
+        layers: vec![Layer::unnamed(Ink::Text, Shape::Map(Box::new(map)))],
         inset: None,
     }
 }

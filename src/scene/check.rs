@@ -146,7 +146,7 @@ mod tests {
     #[test]
     fn all_violations_are_found_together() {
         let mut scene = sound();
-        scene.version = 2;
+        scene.version = 3;
         scene.length = -1.0;
         scene.material.poisson_ratio = Some(0.7);
         scene.numerics.samples = 1;
@@ -184,7 +184,7 @@ mod tests {
                 Material { youngs_modulus: None, poisson_ratio: None, effective_modulus: Some(value) };
             assert_eq!(fields_of(&scene), ["material.effective_modulus"], "{value}");
             let mut scene = sound();
-            scene.adhesion = Some(Adhesion { work: Some(value), kappa: None, ..Adhesion::default() });
+            scene.adhesion = Some(Adhesion::default().with_work(value));
             assert_eq!(fields_of(&scene), ["adhesion.work"], "{value}");
             let mut scene = sound();
             scene.loading = vec![Leg::ToForce(1.0), Leg::ToIndentation(value), Leg::ToForce(value)];

@@ -80,9 +80,10 @@ impl Document {
             return None;
         }
         let adhesion = if by_kappa_next {
-            computed.kappa.map(|kappa| by_kappa(format!("{kappa:.*e}", DIGITS - 1).parse().unwrap_or(kappa)))
+            let rounded = |kappa: f64| format!("{kappa:.*e}", DIGITS - 1).parse().unwrap_or(kappa);
+            computed.kappa.map(|kappa| by_kappa(self.scene(), rounded(kappa)))
         } else {
-            computed.work_of_adhesion.map(by_work)
+            computed.work_of_adhesion.map(|work| by_work(self.scene(), work))
         };
         let unknown = || self.unknown("adhesion", "the same adhesion given the other way is not known yet");
         Some(adhesion.ok_or_else(unknown).and_then(|adhesion| {
@@ -126,10 +127,7 @@ mod tests {
     #[test]
     fn adhesion_given_the_other_way_is_the_same() {
         let work = next(&document(), "adhesion", false);
-        assert_eq!(
-            work.scene().adhesion,
-            Some(Adhesion { work: Some(0.0123), kappa: None, ..Adhesion::default() })
-        );
+        assert_eq!(work.scene().adhesion, Some(Adhesion::default().with_work(0.0123)));
         assert_eq!(next(&work, "adhesion", true).text(), SCENE);
         let none = next(&work, "adhesion", false);
         assert_eq!(none.scene().adhesion, None);
@@ -149,10 +147,7 @@ mod tests {
         let both = [pair("roughness.rms_height", "None"), pair("adhesion.work", "0.1")];
         let both = document().set_all(&both).unwrap();
         let kappa = next(&both, "adhesion", true);
-        assert_eq!(
-            kappa.scene().adhesion,
-            Some(Adhesion { work: None, kappa: Some(6.0), ..Adhesion::default() })
-        );
+        assert_eq!(kappa.scene().adhesion, Some(Adhesion::default().with_kappa(6.0)));
         assert_eq!(kappa.value("roughness.rms_height"), Some("1.5e-7"));
     }
 

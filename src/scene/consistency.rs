@@ -2,9 +2,10 @@
 //! impossible in another.
 
 use super::check::{Found, Violation};
-use super::fields::{LEG_INDENTATION, field};
+use super::fields::{FIELDS, LEG_INDENTATION, field};
 use super::model::{Adhesion, Edges, Form, Leg, Material, Roughness, Scene, Solver};
-use super::text::ron_float;
+use super::text::{ron_float, ron_string};
+use crate::topography::{Unit, UnitError};
 
 /// Most samples of all legs together; a curve of this size still fits the memory of a small machine.
 const MOST_SAMPLES: u64 = 1 << 24;
@@ -16,6 +17,7 @@ pub(super) fn check_consistency(scene: &Scene, found: &mut Found) {
     check_material(&scene.material, found);
     check_form(scene, found);
     check_modes(scene, found);
+    check_unit(scene, found);
     check_closing_work(scene, found);
     check_amplitude(scene, found);
     check_loading(scene, found);
@@ -92,20 +94,19 @@ fn check_form(scene: &Scene, found: &mut Found) {
     // The line carries the transformed profile, which is at most this many times higher.
     let rise = 20.0 * rise_at_end(form, scene.length / 2.0);
     if !LEG_INDENTATION.range.contains(rise) {
-        let (path, value) = match form {
-            Form::Paraboloid { radius } | Form::Punch { radius } => ("form.radius", radius),
-            Form::Cone { angle } => ("form.angle", angle),
-            Form::Power { coefficient, .. } => ("form.coefficient", coefficient),
-            Form::WavySphere { radius, amplitude, .. } => {
-                let of_waves = amplitude > rise_at_end(Form::Paraboloid { radius }, scene.length / 2.0);
-                if of_waves { ("form.amplitude", amplitude) } else { ("form.radius", radius) }
-            }
-        };
         let reason = format!(
             "the body rises too steeply: at the ends of the line it is higher than the {} m an indentation can reach",
             LEG_INDENTATION.range.max().unwrap_or_default()
         );
-        found.add(inconsistency(path, ron_float(value), reason, &["form", "form.exponent", "length"]));
+        // The first number of a form is its size.
+        let size = FIELDS.iter().find(|field| field.parent() == "form" && field.get(scene).is_some());
+        let (path, value) = size.map_or(("form", None), |field| (field.path, field.written(scene)));
+        found.add(inconsistency(
+            path,
+            value.unwrap_or_default(),
+            reason,
+            &["form", "form.exponent", "form.amplitude", "length"],
+        ));
     }
 }
 
@@ -154,6 +155,22 @@ fn check_modes(scene: &Scene, found: &mut Found) {
             allowed: format!("last mode at most points/2 = {}", scene.numerics.points / 2),
             reason: format!("{} springs carry no shorter wave", scene.numerics.points),
             involves: &["numerics.points"],
+        });
+    }
+}
+
+fn check_unit(scene: &Scene, found: &mut Found) {
+    if let Some(Roughness::Measured { unit, .. }) = &scene.roughness
+        && !unit.is_empty()
+        && !found.has("roughness.unit")
+        && unit.parse::<Unit>().is_err()
+    {
+        found.add(Violation {
+            field: "roughness.unit".into(),
+            value: ron_string(unit),
+            allowed: UnitError::ALLOWED.into(),
+            reason: "unit of the file".into(),
+            involves: &[],
         });
     }
 }
@@ -319,7 +336,10 @@ mod tests {
                 *rms_height = height.then_some(1e-7);
                 *rms_gradient = gradient.then_some(0.1);
             }
-            scene.adhesion = adhesion.map(|(work, kappa)| Adhesion { work, kappa, ..Adhesion::default() });
+            scene.adhesion = adhesion.map(|(work, kappa)| Adhesion {
+                work,
+                ..kappa.map_or_else(Adhesion::default, |kappa| Adhesion::default().with_kappa(kappa))
+            });
             scene
         };
         let (work, kappa) = (Some(0.05), Some(2.0));
@@ -382,11 +402,11 @@ mod tests {
         let mut scene = sound();
         scene.roughness = None;
         assert_eq!(check(&scene), vec![]);
-        scene.adhesion = Some(Adhesion { work: None, kappa: Some(2.0), ..Adhesion::default() });
+        scene.adhesion = Some(Adhesion::default().with_kappa(2.0));
         assert_eq!(only(&scene).0, "adhesion.kappa");
-        scene.roughness = Some(Roughness::Measured { file: "line.csv".into() });
+        scene.roughness = Some(Roughness::measured("line.csv"));
         assert_eq!(check(&scene), vec![]);
-        scene.adhesion = Some(Adhesion { work: Some(0.05), kappa: Some(2.0), ..Adhesion::default() });
+        scene.adhesion = Some(Adhesion { work: Some(0.05), ..Adhesion::default().with_kappa(2.0) });
         assert_eq!(only(&scene).0, "adhesion");
     }
 

@@ -1,6 +1,6 @@
 //! What follows from a scene's values by one formula.
 
-use super::model::{Form, Material, Scene};
+use super::model::{Adhesion, Form, Material, Scene};
 use std::ops::Range;
 
 impl Material {
@@ -29,6 +29,22 @@ impl Material {
             (None, Some(modulus), Some(ratio)) => modulus / ((1.0 - ratio) * (1.0 + ratio)),
             _ => f64::NAN,
         }
+    }
+}
+
+impl Adhesion {
+    /// The same adhesion with this work of adhesion γ, J/m², in place of κ.
+    #[must_use]
+    pub fn with_work(mut self, work: f64) -> Self {
+        (self.work, self.kappa) = (Some(work), None);
+        self
+    }
+
+    /// The same adhesion with this κ in place of the work of adhesion.
+    #[must_use]
+    pub fn with_kappa(mut self, kappa: f64) -> Self {
+        (self.work, self.kappa) = (None, Some(kappa));
+        self
     }
 }
 

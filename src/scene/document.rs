@@ -104,11 +104,11 @@ impl Document {
         self.set_all(&[(path.to_string(), value.to_string())])
     }
 
-    /// This document with fields overridden, one after the other. Values are written in RON.
+    /// This document with fields overridden, one after the other. Values are written in RON; a number may have an SI
+    /// prefix and its unit, `50 mJ/m²`.
     ///
-    /// A field that is not in the text is inserted there, with its group; `None` takes an optional
-    /// part away. Ranges are checked once, at the end, so overrides that are allowed only together
-    /// may be given in any order.
+    /// A field that the text leaves out is inserted, with its group; `None` removes an optional part. Ranges are checked
+    /// once, at the end, so that overrides that are allowed only together may be given in any order.
     ///
     /// # Errors
     ///
@@ -169,10 +169,12 @@ impl Document {
             }
         }
         new.scene = read(&new.text).ok()?;
-        if let Some(Roughness::SelfAffine { modes: (first, last), .. }) = new.scene.roughness {
-            // Waves too short for the springs that there are now are left out.
-            let last = last.min(new.scene.numerics.points / 2);
-            new.splice("roughness.modes", &format!("({}, {last})", first.min(last))).ok()?;
+        let shortest = new.scene.numerics.points / 2;
+        if let Some(Roughness::SelfAffine { modes: (first, last), .. }) = new.scene.roughness
+            && last > shortest
+        {
+            // Waves too short for the present springs are left out.
+            new.splice("roughness.modes", &format!("({}, {shortest})", first.min(shortest))).ok()?;
         }
         for path in paths {
             let value = field(path, None).and_then(|field| field.written(&new.scene));
@@ -200,7 +202,17 @@ impl Document {
     /// Changes text and scene, leaving both as they are where that fails.
     fn splice(&mut self, path: &str, value: &str) -> Result<(), SceneErrors> {
         let origin = Origin::Overrides(vec![format!("{path}={value}")]);
-        let text = edit::set(&self.text, path, value)
+        let value = match edit::field_at(&self.text, path) {
+            Some(field) => field.read_typed(value).map_err(|error| SceneError {
+                origin: origin.clone(),
+                field: path.to_string(),
+                value: value.to_string(),
+                allowed: field.allowed(),
+                message: error.to_string(),
+            })?,
+            None => value.to_string(),
+        };
+        let text = edit::set(&self.text, path, &value)
             .and_then(|text| check_length(&text).map(|()| text))
             .map_err(|message| SceneError::whole(origin.clone(), message))?;
         self.scene = read(&text).map_err(|unread| unread.into_error(origin))?;
@@ -328,20 +340,20 @@ mod tests {
 
     #[test]
     fn a_wrong_version_is_told_first() {
-        let text = SCENE.replace("version: 1", "version: 2").replace("hurst", "hurts");
+        let text = SCENE.replace("version: 1", "version: 3").replace("hurst", "hurts");
         let errors = Document::parse(&text, "x").unwrap_err();
         assert_eq!(
             errors.iter().map(|error| error.field.as_str()).collect::<Vec<_>>(),
             ["version", "roughness.hurts"]
         );
-        assert_eq!(lines(&errors)[0], "x:2:14: version = 2: allowed: 1 (version of the scene file)");
+        assert_eq!(lines(&errors)[0], "x:2:14: version = 3: allowed: 1 or 2 (version of the scene file)");
         for text in [SCENE.replace("version: 1,", ""), SCENE.replace("version: 1", "version: \"1\"")] {
             let errors = Document::parse(&text, "x").unwrap_err();
             assert_eq!(errors.iter().count(), 1, "{errors}");
             assert_eq!(errors.first().field, "version");
         }
         let errors = Document::parse(&SCENE.replace("version: 1", "version: 3"), "x").unwrap_err();
-        assert_eq!(lines(&errors), ["x:2:14: version = 3: allowed: 1 (version)"]);
+        assert_eq!(lines(&errors), ["x:2:14: version = 3: allowed: a whole number from 1 to 2 (version)"]);
     }
 
     #[test]
@@ -371,10 +383,7 @@ mod tests {
         let document = document();
         let set = |path: &str, value: &str| document.set(path, value).unwrap().scene().clone();
         assert_eq!(set("length", "2.0e-4").length, 2e-4);
-        assert_eq!(
-            set("adhesion.work", "0.1").adhesion,
-            Some(Adhesion { work: Some(0.1), kappa: None, ..Adhesion::default() })
-        );
+        assert_eq!(set("adhesion.work", "0.1").adhesion, Some(Adhesion::default().with_work(0.1)));
         assert_eq!(set("form", "Cone(angle: 0.1)").form, Some(Form::Cone { angle: 0.1 }));
         assert_eq!(set("roughness", "None").roughness, None);
         assert_eq!(set("numerics.points", "2048").numerics.points, 2048);
@@ -385,10 +394,7 @@ mod tests {
         let kappa = document.set("adhesion.kappa", "2.0").unwrap();
         assert!(kappa.set("adhesion.work", "0.1").is_err());
         let work = kappa.set_all(&pairs(&[("adhesion.kappa", "None"), ("adhesion.work", "0.1")])).unwrap();
-        assert_eq!(
-            work.scene().adhesion,
-            Some(Adhesion { work: Some(0.1), kappa: None, ..Adhesion::default() })
-        );
+        assert_eq!(work.scene().adhesion, Some(Adhesion::default().with_work(0.1)));
     }
 
     #[test]
@@ -500,7 +506,7 @@ mod tests {
     fn scenes_made_in_the_program_are_checked_too() {
         let mut scene = sound();
         assert_eq!(Document::from_scene(&scene, "x").unwrap().scene(), &scene);
-        scene.roughness = Some(Roughness::Measured { file: String::new() });
+        scene.roughness = Some(Roughness::measured(""));
         let errors = Document::from_scene(&scene, "x").unwrap_err();
         assert!(errors.to_string().starts_with("roughness.file = \"\": allowed: "), "{errors}");
     }

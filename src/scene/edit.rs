@@ -1,8 +1,8 @@
 //! Change of one field of a scene in its text, which leaves every comment in its place.
 
 use super::field::Field;
-use super::fields::FIELDS;
-use super::range::choice_name;
+use super::fields::{FIELDS, LEG_FORCE, LEG_INDENTATION, field};
+use super::range::{Range, choice_name};
 use super::suggest::nearest;
 use super::text::{Text, one_value};
 
@@ -25,6 +25,24 @@ pub(super) fn set(text: &str, path: &str, value: &str) -> Result<String, String>
     } else {
         insert(text, &outline, path, value, &fields)
     }
+}
+
+/// The field at a path of a text, by the variant of the group or loading stage around it; for an end of a pair, the pair.
+pub(super) fn field_at(text: &str, path: &str) -> Option<&'static Field> {
+    let text = Text::new(text).ok()?;
+    let parent = path.rsplit_once('.').map_or("", |(parent, _)| parent);
+    let pair = || field(parent, None).filter(|field| matches!(field.range, Range::Band { .. }));
+    known_field(&text, path).or_else(pair)
+}
+
+/// The field at a path, by the variant of the group or loading stage around it.
+pub(super) fn known_field(text: &Text, path: &str) -> Option<&'static Field> {
+    let parent = path.rsplit_once('.').map_or("", |(parent, _)| parent);
+    let variant = text.variant(parent);
+    if parent.starts_with("loading.") {
+        return [&LEG_FORCE, &LEG_INDENTATION].into_iter().find(|field| field.variant == variant);
+    }
+    field(path, variant).or_else(|| field(path, None))
 }
 
 /// Fields that a path may mean: more than one where variants of a choice share a name. A position in a list or pair
@@ -80,7 +98,7 @@ fn insert(
 /// Message that names the values of the choice that have the field.
 fn wrong_variant(parent: &str, head: Option<&str>, fields: &[&Field]) -> String {
     let choices = FIELDS.iter().find(|field| field.path == parent).map(|field| field.range);
-    let Some(super::range::Range::Choice(choices)) = choices else {
+    let Some(Range::Choice(choices)) = choices else {
         return format!("{parent} has no such field");
     };
     let with_it = choices
@@ -225,7 +243,7 @@ mod tests {
         for (path, said) in [
             ("roughness.hurts", "did you mean roughness.hurst?"),
             ("hurst", "did you mean roughness.hurst?"),
-            ("nothing", "no such field (fields: adhesion, adhesion.closing_work"),
+            ("nothing", "no such field (fields: adhesion, adhesion."),
             ("", "no such field"),
             ("loading.", "no such field"),
             ("..", "no such field"),

@@ -150,12 +150,12 @@ mod tests {
         let mut scene = sound();
         let on = |scene: &Scene| Effect::ALL.into_iter().filter(|e| e.is_on(scene)).collect::<Vec<_>>();
         assert_eq!(on(&scene), [Effect::Roughness, Effect::Adhesion, Effect::Unloading]);
-        scene.adhesion = Some(Adhesion { work: Some(0.0), kappa: None, ..Adhesion::default() });
+        scene.adhesion = Some(Adhesion::default().with_work(0.0));
         scene.roughness = None;
         scene.observe = vec![Observer::HeightHistogram];
         scene.loading = vec![ToForce(1e-5)];
         assert_eq!(on(&scene), [Effect::HeightHistogram]);
-        scene.adhesion = Some(Adhesion { work: None, kappa: Some(2.0), ..Adhesion::default() });
+        scene.adhesion = Some(Adhesion::default().with_kappa(2.0));
         assert_eq!(on(&scene), [Effect::Adhesion, Effect::HeightHistogram]);
     }
 

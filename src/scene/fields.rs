@@ -6,7 +6,7 @@
 use std::f64::consts::FRAC_PI_2;
 
 use super::field::{Field, Step};
-use super::model::{Edges, Form, Leg, Roughness, SCENE_VERSION, Scene, Solver};
+use super::model::{Edges, Form, Leg, Roughness, SCENE_VERSIONS, Scene, Solver};
 use super::range::Range;
 use super::value::{Access, Part, at};
 
@@ -48,7 +48,7 @@ pub const FIELDS: &[Field] = &[
     Field {
         path: "version",
         name: "version",
-        range: Range::whole(SCENE_VERSION as u64, SCENE_VERSION as u64),
+        range: Range::whole(*SCENE_VERSIONS.start() as u64, *SCENE_VERSIONS.end() as u64),
         meaning: "version of the scene file format",
         access: at!(version),
         ..NUMBER
@@ -308,11 +308,55 @@ pub const FIELDS: &[Field] = &[
     Field {
         path: "roughness.file",
         variant: Some("Measured"),
-        name: "measured profile",
+        name: "measured surface",
         range: Range::Text { least: 1, most: 4096, lines: false },
-        meaning: "text file with the columns x and z in m, relative to the scene file",
-        access: at!(roughness, Some(Roughness::Measured { file }) => file),
+        meaning: "file of a measured profile or map (docs/surfaces.md), relative to the scene file",
+        access: at!(roughness, Some(Roughness::Measured { file, .. }) => file),
         ..TEXT
+    },
+    Field {
+        path: "roughness.as_line",
+        variant: Some("Measured"),
+        name: "profile as line",
+        range: Range::Choice(&["false", "true"]),
+        step: Step::Choice,
+        default: "None",
+        meaning: "true: the measured profile is the line itself, with 29 % too little slope; false: its equivalent line is, with random phases; default: true in version 1, false in version 2",
+        access: at!(roughness, Some(Roughness::Measured { as_line, .. }) => as_line),
+        ..TEXT
+    },
+    Field {
+        path: "roughness.unit",
+        variant: Some("Measured"),
+        name: "unit of the file",
+        range: Range::Text { least: 0, most: 20, lines: false },
+        default: "\"\"",
+        meaning: "unit of lengths where the file states none: m, mm, um, nm; default: none, and m of a profile as line",
+        access: at!(roughness, Some(Roughness::Measured { unit, .. }) => unit),
+        ..TEXT
+    },
+    Field {
+        path: "roughness.continue_to",
+        variant: Some("Measured"),
+        name: "shortest wavelength",
+        symbol: "λ_s",
+        unit: "m",
+        range: Range::closed(1e-15, 10.0),
+        step: Step::Logarithmic,
+        default: "None",
+        meaning: "wavelength down to which the spectrum of the equivalent line continues as a power law; default: the last resolved one",
+        access: at!(roughness, Some(Roughness::Measured { continue_to, .. }) => continue_to),
+    },
+    Field {
+        path: "roughness.seed",
+        variant: Some("Measured"),
+        name: "seed of the equivalent line",
+        range: Range::whole(0, u64::MAX),
+        step: Step::Integer { fine: 1, coarse: 100 },
+        default: "1",
+        meaning: "seed of the random phases of the equivalent line",
+        access: at!(roughness, Some(Roughness::Measured { seed, .. }) => seed),
+        ..NUMBER
     },
     Field {
         path: "adhesion",
@@ -590,7 +634,7 @@ mod tests {
             let number = field.range.min().is_some();
             assert_eq!(field.unit.is_empty(), !number, "{}: {:?}", field.path, field.unit);
             let suits = match (field.range, field.step) {
-                (Range::Whole { min, max }, Step::Typed) => min == max,
+                (Range::Whole { .. }, Step::Typed) => field.path == "version",
                 (Range::Real { .. }, Step::Linear { fine, coarse }) => fine > 0.0 && fine < coarse,
                 (Range::Real { .. }, Step::Logarithmic)
                 | (Range::Whole { .. }, Step::Doubling)

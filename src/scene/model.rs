@@ -4,14 +4,15 @@
 
 use serde::{Deserialize, Serialize};
 
-/// The only version of the scene file this program reads.
-pub const SCENE_VERSION: u32 = 1;
+/// Versions of the scene file that are read. In the first one a measured profile is the line itself unless
+/// `roughness.as_line` says otherwise, in the second one its equivalent line is.
+pub const SCENE_VERSIONS: std::ops::RangeInclusive<u32> = 1..=2;
 
 /// A scene: two bodies, how they are pressed and pulled, and how finely that is computed.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Scene {
-    /// Version of the file format, [`SCENE_VERSION`].
+    /// Version of the file format, one of [`SCENE_VERSIONS`].
     pub version: u32,
     /// One line naming the scene.
     #[serde(default)]
@@ -115,11 +116,73 @@ pub enum Roughness {
         /// Seed of the random phases.
         seed: u64,
     },
-    /// Heights measured along a line, read from a text file with the columns x and z in m.
+    /// Measured surface, profile or map: its equivalent line, or the profile itself.
     Measured {
         /// The file, relative to the scene file.
         file: String,
+        /// The profile itself is the line. `None`: so in scenes of version 1, and not in those of version 2; see
+        /// [`Scene::measured_as_line`].
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        as_line: Option<bool>,
+        /// Unit of lengths where the file states none; empty: none is known, and m for `as_line`.
+        #[serde(default, skip_serializing_if = "String::is_empty")]
+        unit: String,
+        /// Shortest wavelength, m, down to which the spectrum of the equivalent line continues as a power law; `None`: the
+        /// last resolved one.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        continue_to: Option<f64>,
+        /// Seed of the random phases of the equivalent line.
+        #[serde(default = "default_seed", skip_serializing_if = "is_default_seed")]
+        seed: u64,
     },
+}
+
+fn default_seed() -> u64 {
+    1
+}
+
+fn is_default_seed(seed: &u64) -> bool {
+    *seed == default_seed()
+}
+
+impl Roughness {
+    /// Measured surface of a file, all else left out.
+    pub fn measured(file: impl Into<String>) -> Self {
+        let file = file.into();
+        Roughness::Measured {
+            file,
+            as_line: None,
+            unit: String::new(),
+            continue_to: None,
+            seed: default_seed(),
+        }
+    }
+}
+
+impl Scene {
+    /// Returns true if a measured profile is the line itself.
+    pub fn measured_as_line(&self) -> bool {
+        let Some(Roughness::Measured { as_line, .. }) = &self.roughness else { return false };
+        as_line.unwrap_or(self.version < 2)
+    }
+
+    /// Seed of the random phases; `None` where the line has none.
+    pub fn seed(&self) -> Option<u64> {
+        match &self.roughness {
+            Some(Roughness::Measured { .. }) if self.measured_as_line() => None,
+            Some(Roughness::SelfAffine { seed, .. } | Roughness::Measured { seed, .. }) => Some(*seed),
+            None => None,
+        }
+    }
+
+    /// Gives the random phases another seed, where there are any.
+    pub fn set_seed(&mut self, wanted: u64) {
+        if let Some(Roughness::SelfAffine { seed, .. } | Roughness::Measured { seed, .. }) =
+            &mut self.roughness
+        {
+            *seed = wanted;
+        }
+    }
 }
 
 /// Adhesion by the work of adhesion γ, or by the governing parameter κ of eq. (11).

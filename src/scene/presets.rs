@@ -201,8 +201,8 @@ mod tests {
             "built-in scenes come first"
         );
         assert!(open_in("tapes", &library).unwrap_err().to_string().contains("did you mean tape?"));
-        fs::write(&path, "(version: 2)").unwrap();
-        assert!(open_in("tape", &library).unwrap_err().to_string().contains("tape.ron:1:11: version = 2"));
+        fs::write(&path, "(version: 3)").unwrap();
+        assert!(open_in("tape", &library).unwrap_err().to_string().contains("tape.ron:1:11: version = 3"));
     }
 
     #[test]

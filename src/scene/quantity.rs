@@ -32,25 +32,63 @@ const SMALLEST: i32 = -24;
 /// Digits that are written.
 const DIGITS: usize = 4;
 
-/// A number that could not be read, and what would have been.
+/// Units that are read: the quantity they measure, and units to choose from.
+const DIMENSIONS: &[(&str, &str, &str)] = &[
+    ("m", "length", "m, mm, µm, nm"),
+    ("N", "force", "N, mN, µN, nN"),
+    ("J", "energy", "J, mJ, µJ, nJ"),
+    ("Pa", "pressure", "Pa, kPa, MPa, GPa"),
+    ("J/m²", "energy per area", "J/m², mJ/m², N/m, mN/m"),
+    ("rad", "angle", "rad, mrad, °"),
+    ("s", "time", "s, ms, µs"),
+    ("1", "multiple of 1", "k, M, G, Ki, Mi, Gi"),
+];
+
+/// Reason why a typed text is no quantity.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct QuantityError {
-    /// What was typed.
-    pub typed: String,
-    /// Unit of the field, as in the table of fields.
-    pub unit: String,
+pub enum QuantityError {
+    /// The text does not begin with a number.
+    NoNumber {
+        /// The text.
+        typed: String,
+        /// Unit of the field, as in the table of fields.
+        unit: String,
+    },
+    /// The number has the unit of another quantity.
+    WrongUnit {
+        /// The text behind the number.
+        typed: String,
+        /// Unit of the field.
+        unit: String,
+    },
+    /// The number is too large.
+    TooLarge {
+        /// The text.
+        typed: String,
+    },
 }
 
 impl fmt::Display for QuantityError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let typed = super::errors::shown(&self.typed);
-        match self.unit.as_str() {
-            "1" | "" => write!(f, "{typed:?}: allowed: a number, such as 0.7, 16k or 1.0e-3"),
-            unit if !has_prefixes(unit) => write!(f, "{typed:?}: allowed: a number, such as 0.7 or 1.0e-3"),
-            unit => write!(
-                f,
-                "{typed:?}: allowed: a number, with or without SI prefix and {unit}, such as 1.0e-3, 2.5 m{unit} or 2.5k{unit}"
-            ),
+        let shown = super::errors::shown;
+        match self {
+            QuantityError::NoNumber { typed, unit } => {
+                let example = match unit.as_str() {
+                    "1" | "" => "0.7, 16k or 1.0e-3".to_string(),
+                    unit if !has_prefixes(unit) => "0.7 or 1.0e-3".to_string(),
+                    unit => format!("1.0e-3, 2.5 m{unit} or 2.5k{unit}"),
+                };
+                write!(f, "{:?} is no number, such as {example}", shown(typed))
+            }
+            QuantityError::WrongUnit { typed, unit } => {
+                let typed = shown(typed);
+                let unit = if unit.is_empty() { "1" } else { unit };
+                match DIMENSIONS.iter().find(|(known, ..)| *known == unit) {
+                    Some((_, quantity, units)) => write!(f, "{typed} is no {quantity}: {units}"),
+                    None => write!(f, "{typed} is not the unit {unit}"),
+                }
+            }
+            QuantityError::TooLarge { typed } => write!(f, "{} is too large", shown(typed)),
         }
     }
 }
@@ -63,21 +101,25 @@ impl std::error::Error for QuantityError {}
 /// Unit and blanks may be left out. A lone `m` is the prefix milli, except for fields in metres,
 /// where it is the unit: there `50m` is fifty metres and `50mm` fifty millimetres. Angles may also be
 /// in degrees, `30°` or `30 deg`, and counts take `Ki`, `Mi` and `Gi` for powers of 1024. The number
-/// is the one nearest to what was typed; no digit is lost to the prefix.
+/// is the one nearest to the typed text; no digit is lost to the prefix.
 ///
 /// # Errors
 ///
-/// What is not a number, has another unit, or is not finite.
+/// A text that is no number, has another unit, or is not finite.
 pub fn parse_quantity(text: &str, unit: &str) -> Result<f64, QuantityError> {
-    let error = || QuantityError { typed: text.to_string(), unit: unit.to_string() };
-    let typed = text.trim();
-    let (digits, exponent, suffix) = split_number(typed).ok_or_else(error)?;
-    let (power, factor) = suffix_factor(suffix.trim(), unit).ok_or_else(error)?;
-    let power = exponent.checked_add(power).ok_or_else(error)?;
+    let (typed, unit_of_field) = (text.trim().to_string(), unit.to_string());
+    let Some((digits, exponent, suffix)) = split_number(text.trim()) else {
+        return Err(QuantityError::NoNumber { typed, unit: unit_of_field });
+    };
+    let suffix = suffix.trim();
+    let Some((power, factor)) = suffix_factor(suffix, unit) else {
+        return Err(QuantityError::WrongUnit { typed: suffix.to_string(), unit: unit_of_field });
+    };
     // The prefix goes into the decimal exponent: 100 nm is then 1.0e-7 exactly as if typed so.
-    let number: f64 = format!("{digits}e{power}").parse().map_err(|_| error())?;
-    let value = number * factor;
-    if value.is_finite() { Ok(value) } else { Err(error()) }
+    let number =
+        exponent.checked_add(power).and_then(|power| format!("{digits}e{power}").parse::<f64>().ok());
+    let value = number.map(|number| number * factor);
+    value.filter(|value| value.is_finite()).ok_or(QuantityError::TooLarge { typed })
 }
 
 /// Splits `2.5e3 MPa` into its digits, its exponent of ten, and the rest.
@@ -148,14 +190,23 @@ fn has_prefixes(unit: &str) -> bool {
 ///
 /// Numbers without unit take no prefix; those much smaller or larger than one take an exponent.
 pub fn format_quantity(value: f64, unit: &str) -> String {
+    // Rounded first, so that 999.99 becomes 1000 before its prefix is chosen.
+    with_unit(value, &format!("{value:.*e}", DIGITS - 1), unit)
+}
+
+/// A value with its unit and all its digits: [`parse_quantity`] gives the same value.
+pub fn exact_quantity(value: f64, unit: &str) -> String {
+    with_unit(value, &format!("{value:e}"), unit)
+}
+
+/// A value, and its decimal digits with an exponent, in the unit and prefix that people read.
+fn with_unit(value: f64, scientific: &str, unit: &str) -> String {
     let plain = unit == "1" || unit.is_empty();
     let unit_after = if plain { String::new() } else { format!(" {unit}") };
     if !value.is_finite() || value == 0.0 {
         return format!("{value}{unit_after}");
     }
-    // Rounded first, so that 999.99 becomes 1000 before its prefix is chosen.
-    let scientific = format!("{value:.*e}", DIGITS - 1);
-    let (mantissa, exponent) = scientific.split_once('e').unwrap_or((&scientific, "0"));
+    let (mantissa, exponent) = scientific.split_once('e').unwrap_or((scientific, "0"));
     let exponent: i32 = exponent.parse().unwrap_or(0);
     let index = (exponent - SMALLEST).div_euclid(3);
     let prefix = usize::try_from(index).ok().and_then(|index| WRITTEN.get(index));
@@ -169,11 +220,15 @@ pub fn format_quantity(value: f64, unit: &str) -> String {
     }
 }
 
-/// A decimal mantissa times a power of ten, without trailing zeros.
+/// A decimal mantissa of one digit before the point times a power of ten, without trailing zeros.
 fn shifted(mantissa: &str, power: i32) -> String {
-    let number: f64 = format!("{mantissa}e{power}").parse().unwrap_or(f64::NAN);
-    let decimals = usize::try_from(DIGITS as i32 - 1 - power).unwrap_or(0);
-    trimmed(&format!("{number:.decimals$}"))
+    let sign = if mantissa.starts_with('-') { "-" } else { "" };
+    let digits: String = mantissa.chars().filter(char::is_ascii_digit).collect();
+    let zeros = |count: i32| "0".repeat(usize::try_from(count).unwrap_or(0));
+    // Zeros in front for a point before the first digit, and behind for one after the last.
+    let digits = format!("{}{digits}{}", zeros(-power), zeros(power + 1 - digits.len() as i32));
+    let (whole, fraction) = digits.split_at(usize::try_from(power + 1).unwrap_or(1).max(1));
+    trimmed(&format!("{sign}{whole}.{fraction}"))
 }
 
 fn trimmed(number: &str) -> String {
@@ -186,6 +241,8 @@ fn trimmed(number: &str) -> String {
 
 #[cfg(test)]
 mod tests {
+    use proptest::prelude::*;
+
     use super::super::fields::FIELDS;
     use super::*;
 
@@ -253,8 +310,16 @@ mod tests {
         ] {
             assert!(parse_quantity(text, unit).is_err(), "{text} {unit}");
         }
-        let message = parse_quantity("1 Pa", "m").unwrap_err().to_string();
-        assert!(message.contains("1 Pa") && message.contains("2.5 mm"), "{message}");
+        for (text, unit, message) in [
+            ("2 kg", "m", "kg is no length: m, mm, µm, nm"),
+            ("1 N/m2", "J/m²", "N/m2 is no energy per area: J/m², mJ/m², N/m, mN/m"),
+            ("5 %", "1", "% is no multiple of 1: k, M, G, Ki, Mi, Gi"),
+            ("1k", "m^(1−n)", "k is not the unit m^(1−n)"),
+            ("ten", "N", "\"ten\" is no number, such as 1.0e-3, 2.5 mN or 2.5kN"),
+            ("1e400", "1", "1e400 is too large"),
+        ] {
+            assert_eq!(parse_quantity(text, unit).unwrap_err().to_string(), message);
+        }
     }
 
     #[test]
@@ -293,11 +358,27 @@ mod tests {
         }
     }
 
+    proptest! {
+        #[test]
+        fn all_digits_are_read_back(bits in any::<u64>(), decades in -30..30_i32, size in 1.0..10.0_f64) {
+            for value in [f64::from_bits(bits), size * 10_f64.powi(decades), -size].into_iter().filter(|v| v.is_finite()) {
+                for unit in ["Pa", "m", "J/m²", "N", "rad", "1", "m^(1−n)"] {
+                    let text = exact_quantity(value, unit);
+                    prop_assert_eq!(parse_quantity(&text, unit), Ok(value), "{}", text);
+                }
+            }
+        }
+    }
+
     #[test]
     fn every_unit_of_the_table_is_understood() {
         for field in FIELDS {
             let text = format!("1 {}", if field.unit == "1" { "" } else { field.unit });
             assert_eq!(parse_quantity(&text, field.unit), Ok(1.0), "{}", field.path);
+            let Some((.., units)) = DIMENSIONS.iter().find(|(unit, ..)| *unit == field.unit) else {
+                continue;
+            };
+            assert!(units.split(", ").all(|unit| parse_quantity(&format!("1 {unit}"), field.unit).is_ok()));
         }
     }
 

@@ -2,9 +2,9 @@
 
 use ron::extensions::Extensions;
 
+use super::edit::known_field;
 use super::field::Field;
-use super::fields::{LEG_FORCE, LEG_INDENTATION, field};
-use super::model::{SCENE_VERSION, Scene};
+use super::model::{SCENE_VERSIONS, Scene};
 use super::range::Range;
 use super::suggest::nearest;
 use super::text::{Text, offset_of};
@@ -35,14 +35,15 @@ pub(super) fn wrong_version(text: &str) -> Option<Unread> {
     let (offset, value, message) = match outline.span("version") {
         Some(span) => {
             let value = text[span.value.clone()].to_string();
-            if value.parse() == Ok(SCENE_VERSION) {
+            if value.parse().is_ok_and(|version| SCENE_VERSIONS.contains(&version)) {
                 return None;
             }
             (span.value.start, value, "version of the scene file")
         }
         None => (opening, String::new(), "version of the scene file, which is missing"),
     };
-    let (field, allowed, message) = ("version".into(), SCENE_VERSION.to_string(), message.into());
+    let allowed = format!("{} or {}", SCENE_VERSIONS.start(), SCENE_VERSIONS.end());
+    let (field, message) = ("version".into(), message.into());
     Some(Unread { offset, field, value, allowed, message })
 }
 
@@ -100,7 +101,7 @@ fn explain_at(text: &str, outline: &Text, offset: usize, error: &ron::Error) -> 
         Error::MissingStructField { field: name, .. } => {
             let field =
                 if at.field.is_empty() { (*name).to_string() } else { format!("{}.{name}", at.field) };
-            let allowed = known(outline, &field)
+            let allowed = known_field(outline, &field)
                 .map_or_else(String::new, |field| format!("; allowed: {}", field.allowed()));
             Unread { field, message: format!("missing{allowed}"), ..at }
         }
@@ -125,7 +126,7 @@ fn explain_value(text: &str, outline: &Text, at: Unread, error: &ron::Error) -> 
     let Some(place) = scalar else {
         return Unread { message: plain(error), ..at };
     };
-    let (allowed, message) = match known(outline, &at.field) {
+    let (allowed, message) = match known_field(outline, &at.field) {
         // What text may hold is not the point where the quotes are missing.
         Some(Field { range: Range::Text { .. }, .. }) | None => (String::new(), plain(error)),
         Some(field) => (field.allowed(), field.name.to_string()),
@@ -143,16 +144,6 @@ impl Unread {
             message: String::new(),
         }
     }
-}
-
-/// The field at a path, by the variant the text gives to the group or leg around it.
-fn known(outline: &Text, path: &str) -> Option<&'static Field> {
-    let parent = path.rsplit_once('.').map_or("", |(parent, _)| parent);
-    let head = outline.variant(parent);
-    if parent.starts_with("loading.") {
-        return [&LEG_FORCE, &LEG_INDENTATION].into_iter().find(|field| field.variant == head);
-    }
-    field(path, head).or_else(|| field(path, None))
 }
 
 /// What the reader says, in words that do not presume the reader's own.
@@ -273,9 +264,9 @@ mod tests {
     #[test]
     fn the_version_is_told_whatever_else_is_wrong() {
         assert_eq!(wrong_version("(version: 1, nonsense)"), None);
-        assert_eq!(wrong_version("(version: 2, nonsense)").unwrap().value, "2");
+        assert_eq!(wrong_version("(version: 3, nonsense)").unwrap().value, "3");
         assert!(wrong_version("(length: 1)").unwrap().message.contains("missing"));
-        assert_eq!(wrong_version("(version: 2, nonsense"), None);
+        assert_eq!(wrong_version("(version: 3, nonsense"), None);
     }
 
     /// Of two mistakes the first is said, also where a bracket or quote behind it stays open.

@@ -7,6 +7,7 @@
 use super::document::Document;
 use super::effects::{Effect, pressing};
 use super::errors::{Origin, SceneError, SceneErrors};
+use super::fields::field;
 use super::model::{Adhesion, Leg, Observer, Roughness, Scene};
 use super::text::ron_float;
 use super::write::{legs, observers};
@@ -77,7 +78,7 @@ impl Document {
     pub fn with_work_of_adhesion(&self, work: f64) -> Result<Document, SceneErrors> {
         match self.scene().adhesion {
             Some(Adhesion { work: Some(_), .. }) => self.set("adhesion.work", &ron_float(work)),
-            _ => self.set("adhesion", &by_work(work)),
+            _ => self.set("adhesion", &by_work(self.scene(), work)),
         }
     }
 
@@ -90,11 +91,7 @@ impl Document {
     pub fn with_kappa(&self, kappa: f64) -> Result<Document, SceneErrors> {
         match self.scene().adhesion {
             Some(Adhesion { kappa: Some(_), .. }) => self.set("adhesion.kappa", &ron_float(kappa)),
-            // Not lost unasked: κ stands for one work of adhesion, and this is refused.
-            Some(Adhesion { closing_work: Some(_), .. }) => {
-                self.set_all(&[pair("adhesion.work", "None"), pair("adhesion.kappa", ron_float(kappa))])
-            }
-            _ => self.set("adhesion", &by_kappa(kappa)),
+            _ => self.set("adhesion", &by_kappa(self.scene(), kappa)),
         }
     }
 
@@ -108,7 +105,7 @@ impl Document {
                         "κ requires roughness, and the work of adhesion is not known yet",
                     )
                 })?;
-                vec![pair("adhesion", by_work(work))]
+                vec![pair("adhesion", by_work(self.scene(), work))]
             }
             _ => Vec::new(),
         };
@@ -153,8 +150,8 @@ impl Document {
                 let height = ron_float(suited_height(scene));
                 format!("SelfAffine(hurst: 0.7, rms_height: {height}, modes: ({first}, {last}), seed: 1)")
             }
-            Effect::Adhesion if scene.roughness.is_some() => by_kappa(2.0),
-            Effect::Adhesion => by_work(0.05),
+            Effect::Adhesion if scene.roughness.is_some() => by_kappa(scene, 2.0),
+            Effect::Adhesion => by_work(scene, 0.05),
             Effect::Unloading => legs(&[&scene.loading[..], &[Leg::ToSeparation]].concat()),
             Effect::Fragments => observers(&observing(scene, Observer::Fragments)),
             Effect::HeightHistogram => observers(&observing(scene, Observer::HeightHistogram)),
@@ -181,12 +178,19 @@ fn observing(scene: &Scene, observer: Observer) -> Vec<Observer> {
     all.into_iter().filter(|one| *one == observer || scene.observe.contains(one)).collect()
 }
 
-pub(super) fn by_work(work: f64) -> String {
-    format!("(work: {})", ron_float(work))
+/// Adhesion of a scene by this work, as RON.
+pub(super) fn by_work(scene: &Scene, work: f64) -> String {
+    adhesion_as(scene, |adhesion| adhesion.with_work(work))
 }
 
-pub(super) fn by_kappa(kappa: f64) -> String {
-    format!("(kappa: {})", ron_float(kappa))
+/// Adhesion of a scene by this κ, as RON.
+pub(super) fn by_kappa(scene: &Scene, kappa: f64) -> String {
+    adhesion_as(scene, |adhesion| adhesion.with_kappa(kappa))
+}
+
+fn adhesion_as(scene: &Scene, change: impl Fn(Adhesion) -> Adhesion) -> String {
+    let changed = Scene { adhesion: Some(change(scene.adhesion.unwrap_or_default())), ..scene.clone() };
+    field("adhesion", None).and_then(|field| field.written(&changed)).unwrap_or_default()
 }
 
 pub(super) fn pair(path: &str, value: impl Into<String>) -> (String, String) {
@@ -245,6 +249,14 @@ mod tests {
             assert_eq!(with.text(), SCENE, "{effect:?}");
             assert_eq!(with.with(effect).unwrap(), with);
         }
+    }
+
+    #[test]
+    fn a_restored_value_is_written_as_it_was() {
+        let written = SCENE.replace("modes: (1, 512)", "modes: (1,0512) /* short */");
+        let document = Document::parse(&written, "scene").unwrap();
+        let restored = off(&document, Effect::Roughness).with(Effect::Roughness).unwrap();
+        assert_eq!(restored.text(), written);
     }
 
     #[test]

@@ -120,6 +120,22 @@ impl Part for Option<f64> {
     }
 }
 
+impl Part for Option<bool> {
+    fn get(&self) -> Value<'_> {
+        self.map_or(Value::None, |value| Value::Choice(if value { "true" } else { "false" }))
+    }
+
+    fn set(&mut self, value: Value<'_>) -> bool {
+        *self = match value {
+            Value::None => None,
+            Value::Choice("true") => Some(true),
+            Value::Choice("false") => Some(false),
+            _ => return false,
+        };
+        true
+    }
+}
+
 /// A choice or group of fields: its parts are fields of their own, and as a whole it is only read.
 trait Choice {
     /// Name of the variant; empty for a group.

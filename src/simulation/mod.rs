@@ -9,4 +9,5 @@ mod stages;
 pub use error::RunError;
 pub use outcome::{LineFacts, Outcome, Timings};
 pub use plan::{Plan, PlannedStage, Stage, StageCost};
+pub use stages::measured_options;
 pub use stages::{AfterLeg, Simulation};

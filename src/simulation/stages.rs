@@ -8,7 +8,10 @@ use crate::memory::check_room;
 use crate::parallel::in_parallel;
 use crate::reference::smooth_adhesion_force;
 use crate::scene::{Edges, Form, Roughness, Scene};
-use crate::surface::{Histogram, Line, MeasuredProfile, SelfAffine, SurfaceError, Synthesizer};
+use crate::surface::{
+    EquivalentLine, Histogram, Line, MeasuredOptions, MeasuredProfile, MeasuredRoughness, SelfAffine,
+    SurfaceError, Synthesizer,
+};
 use std::mem::take;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -36,8 +39,10 @@ pub struct Simulation {
     folder: PathBuf,
     /// Whether only one line is synthesized.
     single: bool,
-    /// A measured profile in place of the files that scenes name.
-    profile: Option<Arc<MeasuredProfile>>,
+    /// A measured surface in place of the files that scenes name.
+    measured: Option<Arc<MeasuredRoughness>>,
+    /// The equivalent line of the file read last: it is small, and serves all seeds.
+    equivalent: Option<(PathBuf, MeasuredOptions, EquivalentLine)>,
     synthesizer: Synthesizer,
     roughness: Option<(RoughnessKey, Rough)>,
     line: Option<(LineKey, Line)>,
@@ -60,8 +65,21 @@ struct Kept {
 /// What the heights of the roughness depend on.
 #[derive(Clone, PartialEq)]
 enum RoughnessKey {
-    SelfAffine { spectrum: SelfAffine, seed: u64, points: usize, shift: f64 },
-    Measured { file: PathBuf, length: f64, points: usize, shift: f64 },
+    SelfAffine {
+        spectrum: SelfAffine,
+        seed: u64,
+        points: usize,
+        shift: f64,
+    },
+    /// The seed is that of an equivalent line.
+    Measured {
+        file: PathBuf,
+        options: MeasuredOptions,
+        seed: Option<u64>,
+        length: f64,
+        points: usize,
+        shift: f64,
+    },
 }
 
 /// Heights of the roughness, before they are scaled.
@@ -70,8 +88,10 @@ struct Rough {
     random_phases: u64,
     /// Rms gradient over rms height of the self-affine line on a length of 1 m.
     gradient_per_height: Option<f64>,
-    /// Amplitude of a measured profile.
+    /// Amplitude of a measured surface.
     measured: Option<Amplitude>,
+    /// First and last mode of a random line.
+    modes: Option<(u64, u64)>,
 }
 
 /// What the line depends on.
@@ -102,10 +122,10 @@ impl Simulation {
         Simulation { single: true, ..self }
     }
 
-    /// Uses a measured profile that has been read already, whichever file a scene names.
+    /// Uses a measured surface that has been read already, whichever file a scene names.
     #[must_use]
-    pub fn with_profile(self, profile: Arc<MeasuredProfile>) -> Self {
-        Simulation { profile: Some(profile), ..self }
+    pub fn with_measured(self, measured: Arc<MeasuredRoughness>) -> Self {
+        Simulation { measured: Some(measured), ..self }
     }
 
     /// The line of the last scene made.
@@ -134,12 +154,7 @@ impl Simulation {
             if let Some(key) = &key {
                 // The transform allocates what it needs by itself, and would end the process.
                 check_room(Plan::of(scene).line_bytes()).map_err(|_| SurfaceError::OutOfMemory { points })?;
-                let rough = make_roughness(
-                    key,
-                    self.profile.as_deref(),
-                    &mut self.synthesizer,
-                    before.unwrap_or_default(),
-                )?;
+                let rough = self.make_roughness(key, before.unwrap_or_default())?;
                 self.roughness = Some((key.clone(), rough));
                 if self.single {
                     self.synthesizer = Synthesizer::default();
@@ -173,8 +188,8 @@ impl Simulation {
             first: line.first,
             summit: line.summit,
             deepest: line.deepest(),
-            modes: spectrum.map(|(spectrum, _)| (spectrum.first, spectrum.last)),
-            seed: spectrum.map(|(_, seed)| seed),
+            modes: rough.and_then(|rough| rough.modes),
+            seed: scene.seed(),
             continuum_rms_gradient: spectrum.zip(governing.amplitude).map(|((spectrum, _), amplitude)| {
                 amplitude.rms_height * spectrum.continuum_gradient_per_height(scene.length)
             }),
@@ -194,8 +209,10 @@ impl Simulation {
             return Some(RoughnessKey::SelfAffine { spectrum, seed, points, shift });
         }
         match &scene.roughness {
-            Some(Roughness::Measured { file }) => Some(RoughnessKey::Measured {
+            Some(Roughness::Measured { file, .. }) => Some(RoughnessKey::Measured {
                 file: self.folder.join(Path::new(file)),
+                options: measured_options(scene),
+                seed: scene.seed(),
                 length: scene.length,
                 points,
                 shift,
@@ -245,8 +262,8 @@ impl Simulation {
 
     /// Keeps nothing of the runs before.
     fn give_back(&mut self) {
-        let (single, profile) = (self.single, self.profile.take());
-        *self = Simulation { single, profile, ..Simulation::new(take(&mut self.folder)) };
+        let (single, measured) = (self.single, self.measured.take());
+        *self = Simulation { single, measured, ..Simulation::new(take(&mut self.folder)) };
     }
 
     /// Runs a checked scene by its plan. `stop` is asked now and then whether to give up; `after` sees
@@ -348,38 +365,80 @@ fn build_tree(
     before.and_then(Arc::into_inner).unwrap_or_default().rebuild(gaps, edges)
 }
 
-/// The heights of a roughness; those that are synthesized, in this memory.
-fn make_roughness(
-    key: &RoughnessKey,
-    known: Option<&MeasuredProfile>,
-    synthesizer: &mut Synthesizer,
-    memory: Vec<f64>,
-) -> Result<Rough, RunError> {
-    match key {
-        RoughnessKey::SelfAffine { spectrum, seed, points, shift } => {
-            let unit = synthesizer.synthesize(*spectrum, *seed, *points, *shift, memory)?;
-            Ok(Rough {
-                heights: unit.heights,
-                random_phases: unit.random_phases,
-                gradient_per_height: Some(unit.gradient_per_height),
-                measured: None,
-            })
+/// Choices of a checked scene for its measured surface.
+#[must_use]
+pub fn measured_options(scene: &Scene) -> MeasuredOptions {
+    match &scene.roughness {
+        Some(Roughness::Measured { unit, continue_to, .. }) => MeasuredOptions {
+            as_line: scene.measured_as_line(),
+            unit: unit.parse().ok(),
+            continue_to: *continue_to,
+        },
+        _ => MeasuredOptions::default(),
+    }
+}
+
+impl Simulation {
+    /// The heights of a roughness; those that are synthesized, in this memory.
+    fn make_roughness(&mut self, key: &RoughnessKey, memory: Vec<f64>) -> Result<Rough, RunError> {
+        match key {
+            RoughnessKey::SelfAffine { spectrum, seed, points, shift } => {
+                let unit = self.synthesizer.synthesize(*spectrum, *seed, *points, *shift, memory)?;
+                Ok(Rough {
+                    heights: unit.heights,
+                    random_phases: unit.random_phases,
+                    gradient_per_height: Some(unit.gradient_per_height),
+                    measured: None,
+                    modes: Some((spectrum.first, spectrum.last)),
+                })
+            }
+            RoughnessKey::Measured { file, options, seed: Some(seed), length, points, shift } => {
+                let line = self.equivalent_line(file, options)?;
+                let modes =
+                    line.modes(*length, *points).map_err(|reason| SurfaceError::measured(file, &reason))?;
+                let (rms_height, rms_gradient) = line.rms_height_and_gradient(*length, modes);
+                let amplitude = |mode: u64| line.amplitude(mode, *length);
+                let heights =
+                    self.synthesizer.synthesize_waves(&amplitude, modes, *seed, *points, *shift, memory)?;
+                let measured = Some(Amplitude { rms_height, rms_gradient });
+                let random_phases = modes.1 + 1 - modes.0;
+                Ok(Rough { heights, random_phases, gradient_per_height: None, measured, modes: Some(modes) })
+            }
+            RoughnessKey::Measured { file, options, seed: None, length, points, shift } => {
+                let read;
+                let profile = match self.measured.as_deref() {
+                    Some(MeasuredRoughness::Profile(known)) => known,
+                    _ => {
+                        read = MeasuredProfile::read_observed(file, options.unit, &mut |_| ())?;
+                        &read
+                    }
+                };
+                let (rms_height, rms_gradient) = profile.rms_height_and_gradient();
+                let heights = profile
+                    .sample(*length, *points, *shift)
+                    .map_err(|reason| SurfaceError::measured(file, &reason))?;
+                let measured = Some(Amplitude { rms_height, rms_gradient });
+                Ok(Rough { heights, random_phases: 0, gradient_per_height: None, measured, modes: None })
+            }
         }
-        RoughnessKey::Measured { file, length, points, shift } => {
-            let read;
-            let profile = match known {
-                Some(known) => known,
-                None => {
-                    read = MeasuredProfile::read(file)?;
-                    &read
-                }
-            };
-            let (rms_height, rms_gradient) = profile.rms_height_and_gradient();
-            let heights = profile
-                .sample(*length, *points, *shift)
-                .map_err(|reason| SurfaceError::Measured { file: file.display().to_string(), reason })?;
-            let measured = Some(Amplitude { rms_height, rms_gradient });
-            Ok(Rough { heights, random_phases: 0, gradient_per_height: None, measured })
+    }
+
+    /// The equivalent line of a file: the one that is known, the one read last, or a new one.
+    fn equivalent_line(
+        &mut self,
+        file: &Path,
+        options: &MeasuredOptions,
+    ) -> Result<EquivalentLine, SurfaceError> {
+        if let Some(MeasuredRoughness::Equivalent(known)) = self.measured.as_deref() {
+            return Ok(known.clone());
         }
+        if let Some((kept, of, line)) = &self.equivalent
+            && (kept.as_path(), of) == (file, options)
+        {
+            return Ok(line.clone());
+        }
+        let line = EquivalentLine::read(file, options, &mut |_| ())?;
+        self.equivalent = Some((file.to_path_buf(), *options, line.clone()));
+        Ok(line)
     }
 }

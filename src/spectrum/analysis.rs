@@ -280,14 +280,16 @@ impl Analysis {
     pub fn promise(&self) -> &'static str {
         let many = self.maps > 0 || self.profiles >= MANY_PROFILES;
         match (self.has_roll_off(), many) {
-            (true, true) => "rms height, rms gradient and elastic energy within 2 % (one standard deviation)",
+            (true, true) => {
+                "rms height and rms gradient within 2 %, elastic energy within 3 % (one standard deviation)"
+            }
             (true, false) => {
-                "rms gradient within 5 %, rms height within 11 %, elastic energy within 13 % (one standard deviation, one \
+                "rms gradient within 6 %, rms height within 16 %, elastic energy within 18 % (one standard deviation; one \
                  profile of 256 waves with 16 lengths of the roll-off)"
             }
             (false, _) => {
                 "only the rms gradient: without a roll-off inside the scan the rms height depends on the length of the \
-                 scan, and scatters by 30 to 40 %"
+                 scan, and scatters by up to 45 %"
             }
         }
     }

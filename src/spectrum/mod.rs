@@ -7,7 +7,7 @@
 //! C_cut(k) = (1/π) ∫₀^∞ C2D(√(k² + t²)) dt,  C_line(q) = q C2D(q)/2,
 //!
 //! so that the line has the rms height of the cut, √2 times its rms gradient and π/2 times its elastic energy. Inverting
-//! one periodogram amplifies its noise; [`fit`] maximises the likelihood of the periodograms instead, over spectra that
+//! one periodogram amplifies its noise; the fit maximises the likelihood of the periodograms instead, over spectra that
 //! are positive and smooth.
 //!
 //! Conventions: wave number q = 2π/wavelength in rad/m; C1D in m³ with h² = (1/π) ∫₀^∞ C1D dq; C2D in m⁴ with

@@ -16,7 +16,7 @@ const DIGITS: usize = 12;
 pub enum Axis {
     /// Values at equal distances, both ends included.
     Linear {
-        /// What is varied: path of a field, or a derived quantity.
+        /// Path of the varied field, or a derived quantity.
         path: String,
         /// First value.
         from: f64,
@@ -27,7 +27,7 @@ pub enum Axis {
     },
     /// Values at equal ratios, both ends included.
     Logarithmic {
-        /// What is varied.
+        /// Path of the varied quantity.
         path: String,
         /// First value, above zero.
         from: f64,
@@ -38,7 +38,7 @@ pub enum Axis {
     },
     /// These values.
     List {
-        /// What is varied.
+        /// Path of the varied quantity.
         path: String,
         /// Values, all different.
         values: Vec<f64>,
@@ -46,7 +46,7 @@ pub enum Axis {
 }
 
 impl Axis {
-    /// What is varied.
+    /// Path of the varied quantity.
     #[must_use]
     pub fn path(&self) -> &str {
         match self {
@@ -54,7 +54,7 @@ impl Axis {
         }
     }
 
-    /// Whether its values stand at equal ratios, so that a plot of them has a logarithmic scale.
+    /// Returns true for values at equal ratios, which have a logarithmic scale in figures.
     #[must_use]
     pub fn is_logarithmic(&self) -> bool {
         matches!(self, Axis::Logarithmic { .. })
@@ -107,7 +107,7 @@ impl Axis {
         places
     }
 
-    /// What is wrong with it by itself, if anything.
+    /// Error of this axis by itself.
     pub(super) fn wrong(&self) -> Option<String> {
         let path = &*printable(self.path());
         let target = match Target::of(path) {

@@ -1,4 +1,4 @@
-//! Where adhesion without a preload vanishes: the boundary between pressure-insensitive and pressure-sensitive
+//! Boundary of vanishing zero-load adhesion: the boundary between pressure-insensitive and pressure-sensitive
 //! adhesion, eq. (15), with its statistical error.
 //!
 //! F_a(0) falls with κ about exponentially and never quite to zero, since a single spring still sticks. So the
@@ -38,7 +38,7 @@ pub struct Boundary {
     pub kappa: Crossing,
 }
 
-/// Where a mean falls below a share.
+/// κ at which a mean falls below a share.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Crossing {
     /// Here, with the interval of confidence where lines could be resampled and all of them cross.
@@ -77,7 +77,7 @@ pub fn boundaries(path: &Path, levels: &[f64]) -> Result<Boundaries, StudyError>
     let finished = Finished::open(path)?;
     let plan = finished.plan();
     let refuse = |reason: &str| StudyError::Folder { path: path.to_path_buf(), reason: reason.to_string() };
-    let axes = || plan.axes.iter().chain(&plan.preloads);
+    let axes = || plan.all_axes().into_iter();
     let along = axes().position(|axis| axis.path() == "kappa");
     let along = along.ok_or_else(|| refuse("this study has no axis `kappa`, along which a boundary lies"))?;
     let protocols: Vec<(usize, Quantity)> = PROTOCOLS
@@ -125,7 +125,7 @@ struct Section {
 
 impl Sections {
     fn add(&mut self, plan: &Plan, along: usize, protocol: usize, (cell, seed): (u64, u64), share: f64) {
-        let counts: Vec<u64> = plan.axes.iter().chain(&plan.preloads).map(Axis::count).collect();
+        let counts: Vec<u64> = plan.all_axes().into_iter().map(Axis::count).collect();
         let faster: u64 = counts[along + 1..].iter().product();
         let place = cell / faster % counts[along];
         // The cell of the same place with the smallest κ stands for the section.
@@ -174,7 +174,7 @@ impl Section {
     }
 }
 
-/// Where the mean over the chosen lines falls below a share for good, straight between neighbours in its
+/// κ beyond which the mean over the chosen lines stays below a share, straight between neighbours in its
 /// logarithm.
 fn crossing_of(curve: &[(f64, Vec<f64>)], chosen: &[usize], level: f64) -> Crossing {
     let mean = |shares: &[f64]| chosen.iter().map(|&line| shares[line]).sum::<f64>() / chosen.len() as f64;

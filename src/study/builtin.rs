@@ -3,9 +3,9 @@
 /// A built-in plan.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct BuiltInPlan {
-    /// Its name, which opens it.
+    /// Name that opens the plan.
     pub name: &'static str,
-    /// Its text in RON.
+    /// Text in RON.
     pub text: &'static str,
 }
 

@@ -5,6 +5,7 @@
 //! tree are made once. Within it the numbers that shape the line vary slowest.
 
 use super::axis::Axis;
+use super::numbering::{number_at, places_of};
 use super::plan::{Plan, targets};
 use super::target::{Shapes, Target};
 use crate::scene::Scene;
@@ -16,7 +17,7 @@ const ENOUGH_UNITS: u64 = 256;
 /// Fewest runs of a divided line: below it, making the line would cost more than the runs.
 const LEAST_RUNS: u64 = 16;
 
-/// How the cells of a plan are counted.
+/// Numbering of the runs, units and cells of a plan.
 pub(super) struct Cells {
     /// Values of each axis, in the order of the plan.
     values: Vec<Vec<f64>>,
@@ -59,8 +60,12 @@ impl Cells {
         Cells { values, targets, outer, inner, preloads, lines: plan.lines, chunk, chunks }
     }
 
+    fn counts(&self, axes: &[usize]) -> impl DoubleEndedIterator<Item = u64> {
+        axes.iter().map(|&axis| self.values[axis].len() as u64)
+    }
+
     fn count(&self, axes: &[usize]) -> u64 {
-        axes.iter().map(|&axis| self.values[axis].len() as u64).product()
+        self.counts(axes).product()
     }
 
     /// Number of runs, whatever their lines.
@@ -98,21 +103,18 @@ impl Cells {
     /// The runs of a unit, in the order in which they are best done.
     pub fn runs_of(&self, unit: &Unit) -> impl Iterator<Item = u64> + use<'_> {
         let group = unit.group;
-        unit.steps.clone().map(move |step| {
+        unit.steps.clone().filter_map(move |step| {
             let mut places = vec![0; self.values.len()];
             for (axes, number) in [(&self.outer, group), (&self.inner, step)] {
-                let mut rest = number;
-                for &axis in axes.iter().rev() {
-                    let count = self.values[axis].len() as u64;
-                    places[axis] = rest % count;
-                    rest /= count;
+                for (&axis, place) in axes.iter().zip(places_of(number, self.counts(axes))) {
+                    places[axis] = place;
                 }
             }
-            places.iter().zip(&self.values).fold(0, |run, (place, values)| run * values.len() as u64 + place)
+            number_at(&places, self.values.iter().map(|values| values.len() as u64))
         })
     }
 
-    /// How many runs a unit has.
+    /// Number of runs of a unit.
     pub fn length_of(&self, unit: &Unit) -> u64 {
         unit.steps.end - unit.steps.start
     }
@@ -128,22 +130,9 @@ impl Cells {
     /// The index of an axis whose number the scene does not have, and why.
     pub fn shape(&self, run: u64, base: &Scene, scene: &mut Scene) -> Result<(), (usize, String)> {
         restore(base, scene);
-        let mut rest = run;
-        let mut places = vec![0; self.values.len()];
-        for (place, values) in places.iter_mut().zip(&self.values).rev() {
-            *place = rest % values.len() as u64;
-            rest /= values.len() as u64;
-        }
-        // What is derived from other numbers comes after them.
-        for late in [false, true] {
-            for (axis, target) in self.targets.iter().enumerate() {
-                if matches!(target, Target::SpringsPerWave) == late {
-                    let value = self.values[axis][places[axis] as usize];
-                    target.set(scene, value).map_err(|reason| (axis, reason))?;
-                }
-            }
-        }
-        Ok(())
+        let places = places_of(run, self.values.iter().map(|values| values.len() as u64));
+        let values = places.iter().zip(&self.values).map(|(place, values)| values[*place as usize]);
+        Target::set_all(self.targets.iter().copied().zip(values), scene)
     }
 }
 

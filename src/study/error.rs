@@ -1,4 +1,4 @@
-//! Why a study could not go on.
+//! Errors of studies.
 
 use super::plan_text::PlanErrors;
 use super::record::Key;
@@ -9,7 +9,7 @@ use crate::text::path_name;
 use std::path::PathBuf;
 use thiserror::Error;
 
-/// Why a study could not go on. What was computed before is kept.
+/// Error that ends work on a study; records that were written before are kept.
 #[derive(Debug, Error)]
 pub enum StudyError {
     /// The plan is wrong.
@@ -20,7 +20,7 @@ pub enum StudyError {
     Folder {
         /// The folder or file.
         path: PathBuf,
-        /// What is wrong with it.
+        /// Reason.
         reason: String,
     },
     /// The folder holds a study of another plan.
@@ -74,11 +74,11 @@ pub enum StudyError {
     Run {
         /// Index of the cell.
         cell: u64,
-        /// Its coordinates.
+        /// Coordinates of the cell.
         coordinates: String,
         /// Seed of the line.
         seed: u64,
-        /// Why not.
+        /// Error of the run.
         error: RunError,
     },
     /// Two processes have given different results for the same cell and line.
@@ -105,7 +105,7 @@ pub enum StudyError {
         if *cells > named.len() as u64 { ", …" } else { "" }
     )]
     Missing {
-        /// How many.
+        /// Number of records.
         records: u64,
         /// Of how many.
         total: u64,
@@ -117,7 +117,7 @@ pub enum StudyError {
     /// There is no memory for the table of records.
     #[error("there is not enough memory for {records} records")]
     OutOfMemory {
-        /// How many.
+        /// Number of records.
         records: u64,
     },
     /// The system gives no thread.

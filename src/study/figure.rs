@@ -1,5 +1,4 @@
-//! What a figure of a sweep shows: a map over two axes, or a section along one. It knows numbers and their
-//! names; how they are drawn is the export's.
+//! Figure of a study: a map over two axes or a section along one, as numbers and their names, without any drawing.
 
 use crate::analysis::Regime;
 pub use crate::draw::AxisScale;
@@ -7,26 +6,26 @@ pub use crate::draw::AxisScale;
 /// An axis of a figure.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FigureAxis {
-    /// Its name in the terms of the field: `Hurst exponent`.
+    /// Name in the terms of the field: `Hurst exponent`.
     pub name: String,
-    /// Its symbol, with `_` before what stands below the line: `F_n`. Empty where it has none.
+    /// Symbol, with `_` before an index: `F_n`. May be empty.
     pub symbol: String,
     /// SI unit; `1` or empty for numbers without one.
     pub unit: String,
-    /// How values lie on it.
+    /// Scale of the values.
     pub scale: AxisScale,
-    /// Its values in SI units, ascending.
+    /// Values in SI units, ascending.
     pub values: Vec<f64>,
 }
 
 impl FigureAxis {
-    /// Where its values stand.
+    /// Coordinates of the values.
     #[must_use]
     pub fn coordinates(&self) -> Vec<f64> {
         self.values.iter().map(|value| self.scale.coordinate(*value)).collect()
     }
 
-    /// Where a number stands among its values, the first of them at 0: between two by its share of their
+    /// Place of a number among the values, the first of them at 0: between two by its share of their
     /// distance, and beyond the ends as the last distance goes on.
     #[must_use]
     pub fn place(&self, number: f64) -> f64 {
@@ -43,13 +42,13 @@ impl FigureAxis {
 /// A quantity that is shown.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FigureQuantity {
-    /// Its name in the terms of the field.
+    /// Name in the terms of the field.
     pub name: String,
-    /// Its symbol, as in [`FigureAxis::symbol`].
+    /// Symbol, as in [`FigureAxis::symbol`].
     pub symbol: String,
     /// SI unit, as in [`FigureAxis::unit`].
     pub unit: String,
-    /// Whether it may be below zero.
+    /// Returns true for a quantity that may be negative.
     pub signed: bool,
 }
 
@@ -60,7 +59,7 @@ pub struct Estimate {
     pub mean: f64,
     /// Lower end of the 95 % confidence interval of the mean.
     pub low: f64,
-    /// Its upper end.
+    /// Upper end of the interval.
     pub high: f64,
 }
 
@@ -68,24 +67,24 @@ pub struct Estimate {
 /// row of the first value of the axis up first; in a section curve by curve.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Panel {
-    /// What is shown.
+    /// Quantity of the panel.
     pub quantity: FigureQuantity,
-    /// Its values.
+    /// Values in all cells.
     pub estimates: Vec<Option<Estimate>>,
-    /// How they lie on their scale.
+    /// Scale of the values.
     pub scale: AxisScale,
-    /// Whether it is itself F_a(0)/F_a,max, by whichever protocol: then the boundary is where it vanishes.
+    /// True for F_a(0)/F_a,max by either protocol, whose own values have the boundary.
     pub vanishes: bool,
 }
 
-/// Where adhesion without a load vanishes: where these values fall through the level.
+/// Boundary of vanishing zero-load adhesion: these values fall through the level.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Boundary {
     /// F_a(0) in all cells, in the order of [`Panel::estimates`].
     pub values: Vec<Option<f64>>,
     /// Below this it has vanished.
     pub level: f64,
-    /// What the line is: `F_a(0) = 0.05 F_a,max`.
+    /// Label of the line: `F_a(0) = 0.05 F_a,max`.
     pub label: String,
 }
 
@@ -102,9 +101,9 @@ pub struct Figure {
     pub up: Option<FigureAxis>,
     /// The axis of the curves of a section, where there are several: one for each value.
     pub series: Option<FigureAxis>,
-    /// What is shown, side by side.
+    /// Panels, side by side.
     pub panels: Vec<Panel>,
-    /// Where adhesion without a load vanishes, where that is known.
+    /// Boundary of vanishing zero-load adhesion; `None` where not recorded.
     pub boundary: Option<Boundary>,
     /// The regime of most lines of each cell, where that is known; empty otherwise.
     pub regimes: Vec<Option<Regime>>,

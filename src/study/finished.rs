@@ -3,10 +3,11 @@
 use super::StudyError;
 use super::axis::Axis;
 use super::cell_summary::{CellSummary, Spread};
-use super::merge::{REGIME_COLUMNS, RESULTS, SUMMARY};
+use super::numbering::number_at;
 use super::plan::Plan;
 use super::quantity::Quantity;
 use super::store::{Folder, LONGEST_LINE};
+use super::tables::{REGIME_COLUMNS, RESULTS, SUMMARY};
 use crate::analysis::Regime;
 use crate::io::{ReadError, open_regular};
 use std::io::{self, BufRead, BufReader, Read};
@@ -56,7 +57,7 @@ impl Finished {
         &self.plan
     }
 
-    /// What a cell gave; `None` where the tables were published without it. Cells are counted with the last
+    /// Summary of a cell; `None` where the tables were published without it. Cells are counted with the last
     /// axis fastest, and the preload faster than that; [`Plan::values`] tells their coordinates.
     #[must_use]
     pub fn cell(&self, cell: u64) -> Option<&CellSummary> {
@@ -66,11 +67,7 @@ impl Finished {
     /// The cell at these places on the axes, the preload's last where there are preloads.
     #[must_use]
     pub fn at(&self, places: &[u64]) -> Option<&CellSummary> {
-        let axes = self.plan.all_axes();
-        if places.len() != axes.len() || axes.iter().zip(places).any(|(axis, &place)| place >= axis.count()) {
-            return None;
-        }
-        self.cell(axes.iter().zip(places).fold(0, |cell, (axis, place)| cell * axis.count() + place))
+        self.cell(number_at(places, self.plan.all_axes().into_iter().map(Axis::count))?)
     }
 
     /// The cells over one axis or two, by their numbers, at these places on the others: row by row, both by ascending

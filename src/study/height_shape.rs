@@ -1,4 +1,4 @@
-//! How far the heights of one line are from a bell curve.
+//! Deviation of the heights of one profile from a bell curve.
 
 use serde::Serialize;
 

@@ -8,11 +8,11 @@ use super::height_shape::HeightShape;
 use super::plan::Plan;
 use super::quantity::Quantity;
 use super::recorder::Records;
-use super::solve::{Case, Next, SharedWork, Sink};
+use super::solve::{Case, Next, SharedWork, Sink, Solver};
 use super::statistics::Statistics;
 use crate::analysis::Regime;
 use crate::parallel::{begin_threads, on_this_thread};
-use crate::scene::{Roughness, Scene};
+use crate::scene::Scene;
 use crate::simulation::{RunError, Simulation};
 use serde::Serialize;
 use std::ops::ControlFlow;
@@ -20,10 +20,10 @@ use std::path::Path;
 use std::sync::{Mutex, PoisonError};
 use thiserror::Error;
 
-/// What one line gave, in SI units.
+/// Result of one profile, in SI units.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct LineResult {
-    /// Its seed.
+    /// Seed of the profile.
     pub seed: u64,
     /// Adhesion force F_a, N.
     pub adhesion_force: Option<f64>,
@@ -39,18 +39,20 @@ pub struct LineResult {
     pub heights: Option<HeightShape>,
 }
 
-/// Why an ensemble could not be computed.
+/// Reason why profiles could not be solved.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum LinesError {
     /// There is but one line.
-    #[error("several lines go with roughness: SelfAffine, which has seeds; this scene has but one line")]
+    #[error(
+        "several lines go with roughness: SelfAffine or an equivalent line, which have seeds; this scene has but one line"
+    )]
     OneLine,
     /// A line could not be computed.
     #[error("seed {seed}: {error}")]
     Run {
-        /// Its seed.
+        /// Seed of the profile.
         seed: u64,
-        /// Why not.
+        /// Error of the run.
         error: RunError,
     },
 }
@@ -77,7 +79,7 @@ pub fn solve_lines(
     lines: usize,
     jobs: usize,
 ) -> Result<Vec<LineResult>, LinesError> {
-    if !matches!(scene.roughness, Some(Roughness::SelfAffine { .. })) {
+    if scene.seed().is_none() {
         return Err(LinesError::OneLine);
     }
     let plan = Plan::of_scene(scene, lines as u64, &RECORD);
@@ -99,6 +101,23 @@ pub fn solve_lines(
         }
     };
     solved.into_iter().map(result).collect()
+}
+
+/// Solves a checked scene on profile after profile, on this thread and those that a simulation uses. `stop` is asked
+/// within a profile; `sink` is given the values of `record`.
+pub(crate) fn solve_in_turn(
+    scene: &Scene,
+    simulation: Simulation,
+    lines: u64,
+    record: &[Quantity],
+    stop: &dyn Fn() -> bool,
+    sink: &mut dyn Sink,
+) {
+    let plan = Plan::of_scene(scene, lines, record);
+    let cells = Cells::of(&plan);
+    let mut solver = Solver::new(&plan, &cells, simulation, stop);
+    let mut units = (0..cells.units()).map(|unit| cells.unit(unit));
+    let _ = units.try_for_each(|unit| solver.solve(&unit, sink));
 }
 
 /// Profiles that have been solved, by their numbers.
@@ -152,11 +171,11 @@ pub struct LinesSummary {
     pub regimes: RegimeCounts,
     /// Root mean square over the lines of the skewness of their heights; zero if they averaged themselves.
     pub rms_skewness: Option<f64>,
-    /// The same of the excess kurtosis.
+    /// Root mean square of the excess kurtosis.
     pub rms_excess_kurtosis: Option<f64>,
 }
 
-/// How many lines are of which regime.
+/// Number of profiles in each regime.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct RegimeCounts {
     /// Pressure-insensitive adhesion.
@@ -212,9 +231,7 @@ mod tests {
         let document = open("rough-sphere").unwrap();
         let mut scene = document.scene().clone();
         scene.numerics.points = 1024;
-        if let Some(Roughness::SelfAffine { seed, .. }) = &mut scene.roughness {
-            *seed = u64::MAX - 2;
-        }
+        scene.set_seed(u64::MAX - 2);
         let of = |jobs| solve_lines(&scene, &document.resolve(""), 7, jobs).unwrap();
         let alone = of(1);
         assert_eq!(
@@ -224,9 +241,7 @@ mod tests {
         assert_eq!(of(3), alone);
         assert_eq!(of(64), alone);
         // Each is the scene itself with that seed.
-        if let Some(Roughness::SelfAffine { seed, .. }) = &mut scene.roughness {
-            *seed = 0;
-        }
+        scene.set_seed(0);
         let outcome =
             Simulation::new(document.resolve("")).run(&scene, &|| false, &mut |_, _, _| Ok(())).unwrap();
         assert_eq!(alone[3].adhesion_force, outcome.figures.adhesion_force);

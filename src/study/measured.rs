@@ -6,8 +6,9 @@
 
 use super::StudyError;
 use super::plan::{PLAN_FILE, Plan};
-use crate::scene::Roughness;
-use crate::surface::MeasuredProfile;
+use crate::scene::{Roughness, Scene};
+use crate::simulation::measured_options;
+use crate::surface::MeasuredRoughness;
 use crate::text::path_name;
 use sha2::{Digest, Sha256};
 use std::path::{Path, PathBuf};
@@ -21,7 +22,7 @@ pub(super) fn is_hash(text: &str) -> bool {
 /// The measured file of a plan, where its scene has one.
 pub(super) fn file_of(plan: &Plan) -> Option<PathBuf> {
     match &plan.scene.roughness {
-        Some(Roughness::Measured { file }) => Some(PathBuf::from(file)),
+        Some(Roughness::Measured { file, .. }) => Some(PathBuf::from(file)),
         _ => None,
     }
 }
@@ -32,7 +33,7 @@ pub(super) fn file_of(plan: &Plan) -> Option<PathBuf> {
 /// Where the file cannot be read, or the plan asks for another hash.
 pub(super) fn with_hash(plan: &Plan) -> Result<Plan, StudyError> {
     let Some(file) = file_of(plan) else { return Ok(plan.clone()) };
-    let (_, found) = read(&file)?;
+    let (_, found) = read(&file, &plan.scene)?;
     expect(plan, &file, &found, || "the plan".into())?;
     Ok(Plan { measured_sha256: Some(found), ..plan.clone() })
 }
@@ -41,9 +42,9 @@ pub(super) fn with_hash(plan: &Plan) -> Result<Plan, StudyError> {
 ///
 /// # Errors
 /// Where the file cannot be read, is no profile, or is not the one the plan has the hash of.
-pub(super) fn profile(plan: &Plan, folder: &Path) -> Result<Option<Arc<MeasuredProfile>>, StudyError> {
+pub(super) fn profile(plan: &Plan, folder: &Path) -> Result<Option<Arc<MeasuredRoughness>>, StudyError> {
     let Some(file) = file_of(plan) else { return Ok(None) };
-    let (profile, found) = read(&file)?;
+    let (profile, found) = read(&file, &plan.scene)?;
     expect(plan, &file, &found, || path_name(&folder.join(PLAN_FILE)))?;
     Ok(Some(Arc::new(profile)))
 }
@@ -61,9 +62,9 @@ fn expect(plan: &Plan, file: &Path, found: &str, origin: impl Fn() -> String) ->
 }
 
 /// A profile, and the hash of the bytes it was read from.
-fn read(file: &Path) -> Result<(MeasuredProfile, String), StudyError> {
+fn read(file: &Path, scene: &Scene) -> Result<(MeasuredRoughness, String), StudyError> {
     let mut hasher = Sha256::new();
-    let profile = MeasuredProfile::read_seen(file, &mut |bytes| hasher.update(bytes))?;
+    let profile = MeasuredRoughness::read(file, &measured_options(scene), &mut |bytes| hasher.update(bytes))?;
     Ok((profile, hasher.finalize().iter().map(|byte| format!("{byte:02x}")).collect()))
 }
 
@@ -78,7 +79,9 @@ mod tests {
         // A mark, a comment, both kinds of line breaks, and none at the end.
         std::fs::write(&file, "\u{feff}# heights\r\n0 0\n1e-6 1e-9").unwrap();
         let known = "3301e005145807de31f1e613c0705281eacbe8fc66deec574eba4d53402a7e71";
-        assert_eq!(read(&file).unwrap().1, known);
+        let scene = crate::scene::open("rough-sphere").unwrap().scene().clone();
+        let scene = Scene { roughness: Some(Roughness::measured("line.csv")), ..scene };
+        assert_eq!(read(&file, &scene).unwrap().1, known);
         assert!(is_hash(known));
         for wrong in [&known[1..], &known.to_uppercase(), &format!("{known}0"), "", &"x".repeat(64)] {
             assert!(!is_hash(wrong), "{wrong}");

@@ -5,28 +5,17 @@ use super::cell_summary::CellSummary;
 use super::plan::Plan;
 use super::plan_check::MOST_RECORDS;
 use super::publish::publish;
-use super::quantity::Quantity;
 use super::record::{Key, key_of, values_into};
-use super::statistics::{CONFIDENCE, StudentT};
+use super::statistics::StudentT;
 use super::store::{Folder, Lines, ShardFile};
-use super::target::symbol_and_unit;
-use crate::analysis::Regime;
+use super::tables::{
+    RESULTS, SIDECAR, SUMMARY, Sidecar, header, number, regime_name, row_start, summary_row,
+};
 use crate::io::{WriteError, write_json_value, write_new_on};
 use serde::Serialize;
 use std::collections::BTreeSet;
 use std::io::{self, Write};
 use std::path::Path;
-
-/// Version of the merged files.
-pub const RESULTS_VERSION: u32 = 1;
-/// One row for each cell and line.
-pub const RESULTS: &str = "results.csv";
-/// One row for each cell.
-pub const SUMMARY: &str = "summary.csv";
-/// The results with types, where they are asked for.
-pub const PARQUET: &str = "results.parquet";
-/// What the columns mean.
-pub const SIDECAR: &str = "results.json";
 
 /// Missing cells that are named.
 const MOST_NAMED: usize = 8;
@@ -34,7 +23,7 @@ const MOST_NAMED: usize = 8;
 const FILE_BITS: u32 = 24;
 const NOWHERE: u64 = u64::MAX;
 
-/// What a merge has found.
+/// Contents found by a merge.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Merged {
     /// Records there are, each counted once.
@@ -55,7 +44,7 @@ pub struct Merged {
     pub programs: Vec<String>,
 }
 
-/// Where every record stands.
+/// Place of every record.
 struct Index {
     files: Vec<ShardFile>,
     places: Vec<u64>,
@@ -64,7 +53,7 @@ struct Index {
 
 /// Merges the shard files of a study and publishes its tables, all of them or none: whoever looks, and whatever
 /// ends the process or the machine, finds those of this merge or those of the one before. With `partial`, tables
-/// of what there is. [`PARQUET`] of an earlier merge goes.
+/// of what there is. [`super::PARQUET`] of an earlier merge goes.
 ///
 /// # Errors
 /// [`StudyError::Missing`] where records are missing and `partial` is not set; [`StudyError::Disagree`] where
@@ -246,7 +235,7 @@ fn cells_at_once(lines: usize, columns: usize) -> usize {
     (HELD / (row * lines)).max(1)
 }
 
-/// Why tables were not written.
+/// Reason why tables were not written.
 enum TableError {
     Reading(StudyError),
     Writing(io::Error),
@@ -330,163 +319,6 @@ fn too_large(path: &Path) -> StudyError {
 fn same(one: &[f64], other: &[f64]) -> bool {
     let equal = |(a, b): (&f64, &f64)| a.to_bits() == b.to_bits() || (a.is_nan() && b.is_nan());
     one.len() == other.len() && one.iter().zip(other).all(equal)
-}
-
-/// A number in the shortest form that reads back bit for bit; nothing for what there is not.
-fn number(value: Option<f64>) -> String {
-    value.filter(|value| !value.is_nan()).map_or_else(String::new, |value| format!("{value:?}"))
-}
-
-/// A value of an axis: whole where it is.
-fn coordinate(path: &str, value: f64) -> String {
-    match super::target::Target::of(path) {
-        Ok(target) if target.is_whole() => format!("{}", value as u64),
-        _ => format!("{value:?}"),
-    }
-}
-
-/// Cell, axes and preload.
-fn row_start(plan: &Plan, cell: u64) -> String {
-    let mut row = cell.to_string();
-    let values = plan.values(cell);
-    for (axis, value) in plan.axes.iter().zip(&values) {
-        row.push(',');
-        row.push_str(&coordinate(axis.path(), *value));
-    }
-    row.push(',');
-    if plan.preloads.is_some() {
-        row.push_str(&number(values.last().copied()));
-    }
-    row
-}
-
-fn header(plan: &Plan, single: bool) -> String {
-    let mut columns = vec!["cell".to_string()];
-    columns.extend(plan.axes.iter().map(|axis| axis.path().to_string()));
-    columns.push("preload".into());
-    columns.push(if single { "seed" } else { "lines" }.into());
-    for quantity in &plan.record {
-        let name = quantity.name();
-        match (single, quantity) {
-            (true, _) => columns.push(name.into()),
-            (false, Quantity::Regime) => columns.extend(REGIME_COLUMNS.map(String::from)),
-            (false, _) => {
-                columns.extend(["mean", "sd", "low", "high"].map(|of| format!("{name}_{of}")));
-            }
-        }
-    }
-    columns.join(",")
-}
-
-/// Columns of the summary for the share of lines in each regime.
-pub(super) const REGIME_COLUMNS: [&str; 3] =
-    ["regime_pressure_insensitive", "regime_pressure_sensitive", "regime_non_adhesive"];
-
-fn regime_name(quantity: Quantity, value: f64) -> Option<&'static str> {
-    let regime =
-        Regime::ALL.get(value as usize).filter(|_| quantity == Quantity::Regime && !value.is_nan())?;
-    Some(regime.name())
-}
-
-/// Number of lines and, for each quantity, mean, standard deviation and confidence interval.
-fn summary_row(plan: &Plan, summary: &CellSummary) -> String {
-    let mut row = summary.lines.to_string();
-    let mut add = |value: Option<f64>| {
-        row.push(',');
-        row.push_str(&number(value));
-    };
-    for (quantity, spread) in plan.record.iter().zip(&summary.quantities) {
-        if *quantity == Quantity::Regime {
-            (0..Regime::ALL.len()).for_each(|place| add(summary.regimes.map(|shares| shares[place])));
-            continue;
-        }
-        let interval = spread.and_then(|spread| spread.confidence_interval);
-        add(spread.map(|spread| spread.mean));
-        add(spread.and_then(|spread| spread.standard_deviation));
-        add(interval.map(|(low, _)| low));
-        add(interval.map(|(_, high)| high));
-    }
-    row
-}
-
-/// The sidecar; its keys stand in the order of these fields.
-#[derive(Serialize)]
-struct Sidecar<'a> {
-    format: u32,
-    program: String,
-    plan: PlanReport<'a>,
-    axes: Vec<AxisReport<'a>>,
-    preloads: Option<Vec<f64>>,
-    quantities: Vec<QuantityReport>,
-    cells: u64,
-    lines: u64,
-    first_seed: u64,
-    confidence: f64,
-    #[serde(flatten)]
-    merged: &'a Merged,
-}
-
-#[derive(Serialize)]
-struct PlanReport<'a> {
-    title: &'a str,
-    notice: &'a str,
-    scene: &'a crate::scene::Scene,
-    text: String,
-}
-
-#[derive(Serialize)]
-struct AxisReport<'a> {
-    path: &'a str,
-    symbol: &'static str,
-    unit: &'static str,
-    scale: &'static str,
-    values: Vec<f64>,
-}
-
-#[derive(Serialize)]
-struct QuantityReport {
-    name: &'static str,
-    symbol: &'static str,
-    unit: &'static str,
-    meaning: &'static str,
-}
-
-impl<'a> Sidecar<'a> {
-    fn of(plan: &'a Plan, merged: &'a Merged) -> Sidecar<'a> {
-        let axis = |axis: &'a super::Axis| {
-            let (symbol, unit) = symbol_and_unit(axis.path());
-            let scale = match axis {
-                super::Axis::Linear { .. } => "linear",
-                super::Axis::Logarithmic { .. } => "logarithmic",
-                super::Axis::List { .. } => "list",
-            };
-            AxisReport { path: axis.path(), symbol, unit, scale, values: axis.values() }
-        };
-        let quantity = |quantity: &Quantity| QuantityReport {
-            name: quantity.name(),
-            symbol: quantity.symbol(),
-            unit: quantity.unit(),
-            meaning: quantity.meaning(),
-        };
-        Sidecar {
-            format: RESULTS_VERSION,
-            program: format!("{} {}", env!("CARGO_PKG_NAME"), env!("CARGO_PKG_VERSION")),
-            plan: PlanReport {
-                title: &plan.title,
-                notice: &plan.notice,
-                scene: &plan.scene,
-                text: plan.to_ron(),
-            },
-            axes: plan.axes.iter().map(axis).collect(),
-            preloads: plan.preloads.as_ref().map(super::Axis::values),
-            quantities: plan.record.iter().map(quantity).collect(),
-            cells: plan.cells(),
-            lines: plan.lines,
-            first_seed: plan.seed,
-            confidence: CONFIDENCE,
-            merged,
-        }
-    }
 }
 
 /// The key of a record, for messages.
@@ -628,9 +460,7 @@ mod tests {
     }
 
     #[test]
-    fn whole_coordinates_are_written_so() {
-        assert_eq!(coordinate("numerics.points", 1024.0), "1024");
-        assert_eq!(coordinate("roughness.hurst", 1.0), "1.0");
+    fn keys_are_named() {
         assert_eq!(Key { cell: 3, seed: 7 }.to_string(), "cell 3, seed 7");
     }
 }

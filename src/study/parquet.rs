@@ -5,11 +5,11 @@
 
 use super::StudyError;
 use super::finished::{Finished, Row};
-use super::merge::{PARQUET, RESULTS};
 use super::plan::Plan;
 use super::publish::{place_of, show};
 use super::quantity::Quantity;
 use super::store::Folder;
+use super::tables::{PARQUET, RESULTS};
 use super::target::Target;
 use crate::io::write_new;
 use parquet::basic::{Compression, LogicalType, Repetition, Type as Physical};

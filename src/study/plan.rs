@@ -1,9 +1,10 @@
 //! The plan of a study: a scene, the axes along which numbers of the scene vary, profiles, and recorded quantities.
 
 use super::axis::Axis;
+use super::numbering::places_of;
 use super::quantity::{Needs, Quantity};
 use super::target::Target;
-use crate::scene::{Roughness, Scene, ron_float};
+use crate::scene::{Scene, ron_float};
 use serde::{Deserialize, Serialize};
 
 /// Name of the plan's file in the folder of a study.
@@ -14,11 +15,11 @@ pub(super) const PLAN_FILE: &str = "plan.ron";
 pub struct Plan {
     /// One line naming the study.
     pub title: String,
-    /// What to look at.
+    /// Notice for the reader of the results.
     pub notice: String,
     /// The scene in which numbers are varied. Files it names are named from the root.
     pub scene: Scene,
-    /// What is varied, the last fastest; without the preload.
+    /// Axes, the last fastest; without the preload.
     pub axes: Vec<Axis>,
     /// Preloads in units of E* h L, the fastest axis of all; none: the loading of the scene.
     pub preloads: Option<Axis>,
@@ -26,7 +27,7 @@ pub struct Plan {
     pub lines: u64,
     /// Seed of the first line; those that follow have the next, the same in all cells.
     pub seed: u64,
-    /// What is recorded.
+    /// Recorded quantities.
     pub record: Vec<Quantity>,
     /// Forces between which exponents are fitted.
     pub stiffness: StiffnessRange,
@@ -56,10 +57,6 @@ impl Default for StiffnessRange {
 impl Plan {
     /// The plan of a checked scene without axes: one cell on so many profiles, from the seed of the scene on.
     pub(super) fn of_scene(scene: &Scene, lines: u64, record: &[Quantity]) -> Plan {
-        let seed = match scene.roughness {
-            Some(Roughness::SelfAffine { seed, .. }) => seed,
-            _ => 0,
-        };
         Plan {
             title: String::new(),
             notice: String::new(),
@@ -67,7 +64,7 @@ impl Plan {
             axes: Vec::new(),
             preloads: None,
             lines,
-            seed,
+            seed: scene.seed().unwrap_or(0),
             record: record.to_vec(),
             stiffness: StiffnessRange::default(),
             measured_sha256: None,
@@ -88,7 +85,7 @@ impl Plan {
     /// Number of cells.
     #[must_use]
     pub fn cells(&self) -> u64 {
-        self.axes.iter().chain(&self.preloads).map(Axis::count).product()
+        self.all_axes().into_iter().map(Axis::count).product()
     }
 
     /// Number of records: cells times lines.
@@ -100,22 +97,16 @@ impl Plan {
     /// Values of the axes in a cell, and after them its preload where there is one.
     #[must_use]
     pub fn values(&self, cell: u64) -> Vec<f64> {
-        let mut rest = cell;
-        let mut values: Vec<f64> = Vec::with_capacity(self.axes.len() + 1);
-        for axis in self.axes.iter().chain(&self.preloads).rev() {
-            values.push(axis.value(rest % axis.count()));
-            rest /= axis.count();
-        }
-        values.reverse();
-        values
+        let axes = self.all_axes();
+        let places = places_of(cell, axes.iter().map(|axis| axis.count()));
+        axes.iter().zip(places).map(|(axis, place)| axis.value(place)).collect()
     }
 
     /// A cell's coordinates as people read them.
     #[must_use]
     pub fn coordinates(&self, cell: u64) -> String {
-        let axes = self.axes.iter().chain(&self.preloads);
         let one = |(axis, value): (&Axis, f64)| format!("{} = {}", axis.path(), ron_float(value));
-        let all: Vec<_> = axes.zip(self.values(cell)).map(one).collect();
+        let all: Vec<_> = self.all_axes().into_iter().zip(self.values(cell)).map(one).collect();
         if all.is_empty() { "the scene itself".into() } else { all.join(", ") }
     }
 
@@ -130,7 +121,7 @@ impl Plan {
     }
 }
 
-/// What the axes of a plan vary.
+/// Quantities that the axes of a plan vary.
 pub(super) fn targets(plan: &Plan) -> Vec<Target> {
     plan.axes.iter().filter_map(|axis| Target::of(axis.path()).ok()).collect()
 }

@@ -48,10 +48,10 @@ impl Plan {
         if !(1..=MOST_LINES).contains(&self.lines) {
             wrong.push(format!("lines = {}: allowed: from 1 to {MOST_LINES}", self.lines));
         }
-        let seeds = matches!(self.scene.roughness, Some(Roughness::SelfAffine { .. }));
+        let seeds = self.scene.seed().is_some();
         if self.lines > 1 && !seeds {
             wrong.push(format!(
-                "lines = {}: several lines go with roughness: SelfAffine, which has seeds; this scene has but one",
+                "lines = {}: several lines go with roughness: SelfAffine or an equivalent line, which have seeds; this scene has but one",
                 self.lines
             ));
         }
@@ -102,7 +102,7 @@ impl Plan {
         self.check_cells()
     }
 
-    /// What is wrong with title and notice, which are held to what a scene may have, and with the hash.
+    /// Errors of title and notice, by the rules of a scene, and of the hash.
     fn check_texts(&self) -> Vec<String> {
         let (title, notice) = (self.title.clone(), self.notice.clone());
         let texts = Scene { title, notice, ..self.scene.clone() };

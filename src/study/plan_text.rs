@@ -29,7 +29,7 @@ impl fmt::Display for PlanErrors {
 
 impl std::error::Error for PlanErrors {}
 
-/// What is changed in a plan for one study, beside the text.
+/// Changes of a plan for one study, beside the text.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Changes {
     /// Overrides of the scene: path and value.
@@ -135,10 +135,7 @@ impl Plan {
             (None, false) => Some(Axis::List { path: "preload".into(), values: preloads }),
             (None, true) => None,
         };
-        let seed = match scene.roughness {
-            Some(Roughness::SelfAffine { seed, .. }) => read.seed.unwrap_or(seed),
-            _ => read.seed.unwrap_or(0),
-        };
+        let seed = read.seed.or(scene.seed()).unwrap_or(0);
         let lines = lines.or(read.lines).unwrap_or(1);
         Ok(Plan { title, notice, scene, axes, preloads, lines, seed, record, stiffness, measured_sha256 })
     }
@@ -163,7 +160,7 @@ impl Plan {
                 format!("        List(path: {}, values: [{}]),\n", ron_string(path), list(values))
             }
         };
-        let axes: String = self.axes.iter().chain(&self.preloads).map(axis).collect();
+        let axes: String = self.all_axes().into_iter().map(axis).collect();
         line("axes", format!("[\n{axes}    ]"));
         line("lines", self.lines.to_string());
         line("seed", self.seed.to_string());
@@ -220,7 +217,7 @@ fn resolved_scene(read: &PlanText, name: &str, set: &[(String, String)]) -> Resu
         .collect();
     let document = document.set_all(&set).map_err(in_scene)?;
     let mut scene = document.scene().clone();
-    if let Some(Roughness::Measured { file }) = &mut scene.roughness {
+    if let Some(Roughness::Measured { file, .. }) = &mut scene.roughness {
         let path = document.resolve(file);
         *file = std::path::absolute(&path).unwrap_or(path).display().to_string();
     }

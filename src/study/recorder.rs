@@ -14,7 +14,7 @@ const SAMPLES: u64 = 2;
 
 /// Values of the recorded quantities, in the order of the plan, for each preload; NaN for a quantity that the case does
 /// not have.
-pub(super) type Records = Vec<Vec<f64>>;
+pub(crate) type Records = Vec<Vec<f64>>;
 
 /// Recorder of the cases of a plan. Keeps the profile, its tree and the properties of the profile from case to case.
 pub(super) struct Recorder<'p> {
@@ -37,9 +37,7 @@ impl<'p> Recorder<'p> {
     /// When the profile or the contact fails, or when stopped.
     pub fn record(&mut self, scene: &mut Scene, seed: u64) -> Result<Records, RunError> {
         let plan = self.plan;
-        if let Some(Roughness::SelfAffine { seed: of_scene, .. }) = &mut scene.roughness {
-            *of_scene = seed;
-        }
+        scene.set_seed(seed);
         scene.numerics.samples = scene.numerics.samples.min(SAMPLES);
         let profile = self.profile_record(scene)?;
         let (_, _, governing) = self.simulation.make_line(scene)?;

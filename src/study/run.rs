@@ -2,13 +2,14 @@
 
 use super::StudyError;
 use super::cells::Cells;
+use super::done::Done;
 use super::measured::profile;
 use super::record::{Key, encode};
 use super::recorder::Records;
 use super::shard::Shard;
 use super::solve::{Case, Next, SharedWork, Sink};
 use super::status::count;
-use super::store::{Done, Folder};
+use super::store::Folder;
 use crate::disk::DiskFile;
 use crate::io::WriteError;
 use crate::parallel::begin_threads;
@@ -20,7 +21,7 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, sync_channel};
 use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
-/// How long written records wait for the disk at the most; a power cut loses them, and they are computed again.
+/// Longest wait of written records for the disk; records lost by a power cut are computed again.
 /// Syncing each costs tenths of a millisecond or, on network file systems, many of them: on a local disk 100 000
 /// records of 256 springs take 11 s with this, 12 s where each sync takes what has come during the one before,
 /// and 190 s where each record has its own. Cells of thousands of springs show no difference.
@@ -29,10 +30,10 @@ const SYNC: Duration = Duration::from_millis(50);
 const WAITING: usize = 4096;
 /// Bytes that are gathered before they are written.
 const BUFFER: usize = 1 << 16;
-/// How often progress is told.
+/// Interval between reports of progress.
 const TICK: Duration = Duration::from_millis(200);
 
-/// How a run is done.
+/// Options of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Options {
     /// Threads.
@@ -41,7 +42,7 @@ pub struct Options {
     pub shard: Shard,
 }
 
-/// How far a run is.
+/// Progress of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Progress {
     /// Records that there are, of this part of the plan.
@@ -69,12 +70,12 @@ impl Progress {
     }
 }
 
-/// How a run ended.
+/// End of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ended {
-    /// How far it came.
+    /// Progress at the end.
     pub progress: Progress,
-    /// Whether everything of this part of the plan is there.
+    /// True where every record of this part of the plan is there.
     pub complete: bool,
 }
 
@@ -123,7 +124,7 @@ pub fn run(
         let begun = begin_threads(scope, options.jobs.max(1), move || {
             let simulation = Simulation::new(PathBuf::new());
             let simulation = match profile {
-                Some(profile) => simulation.with_profile(profile),
+                Some(profile) => simulation.with_measured(profile),
                 None => simulation,
             };
             work.solve(simulation, &mut FolderSink { shared, sender });

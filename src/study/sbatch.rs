@@ -19,7 +19,7 @@ impl fmt::Display for SbatchOption {
     }
 }
 
-/// Why words are no options that a study may be submitted with.
+/// Error in options for sbatch.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum SbatchOptionError {
     /// The word is none of the options.
@@ -43,7 +43,7 @@ pub enum SbatchOptionError {
     Valued {
         /// The option.
         option: &'static str,
-        /// What was given.
+        /// Value that was given.
         value: String,
     },
     /// The value cannot be passed on.
@@ -54,7 +54,7 @@ pub enum SbatchOptionError {
     },
 }
 
-/// Whether an option has a value.
+/// Kind of value of an option.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Value {
     Needed,

@@ -1,4 +1,4 @@
-//! What of a merged study a figure shows: which quantities, along which axes, at which values of the others.
+//! Selection of a figure from a merged study: quantities, axes across and up, values of the other axes.
 
 use super::axis::Axis;
 use super::figure::{AxisScale, Boundary, Estimate, Figure, FigureQuantity, Panel};
@@ -17,7 +17,7 @@ const SHARES: [Quantity; 2] = [Quantity::ZeroLoadAdhesionShare, Quantity::ZeroFo
 /// Values that are named in a message.
 const MOST_NAMED: usize = 12;
 
-/// What is asked for.
+/// Selection by the user.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Selection {
     /// Names of quantities; where there are none, F_a(0) and the adhesion coefficient if they were recorded, or
@@ -29,18 +29,18 @@ pub struct Selection {
     pub up: Option<String>,
     /// Axes that are fixed, with their values.
     pub at: Vec<(String, String)>,
-    /// How quantities lie on their scale; where it is left open, a map or several curves are logarithmic where a
+    /// Scale of the quantities; by default, a map or several curves are logarithmic where a
     /// linear scale would show next to nothing but its lowest end.
     pub scale: Option<AxisScale>,
 }
 
-/// Why there is no such figure.
+/// Reason why there is no such figure.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum FigureError {
     /// The study has no such quantity.
     #[error("--quantity {name}: this study has no such quantity; allowed: {allowed}")]
     NoQuantity {
-        /// Its name.
+        /// Name that was given.
         name: String,
         /// Those it has.
         allowed: String,
@@ -50,7 +50,7 @@ pub enum FigureError {
     NoAxis {
         /// The option that named it.
         option: &'static str,
-        /// What was named.
+        /// Path that was given.
         path: String,
         /// Those it has.
         allowed: String,
@@ -80,7 +80,7 @@ pub enum FigureError {
     TooManyAxes {
         /// The axes, each with its values.
         free: Vec<String>,
-        /// What would fix one.
+        /// Example of an option that fixes one.
         example: String,
     },
     /// All axes are fixed or have one value.
@@ -88,7 +88,7 @@ pub enum FigureError {
         "no axis is free: the study has one cell{fixed}; a section needs an axis with two values at least"
     )]
     NoAxes {
-        /// How it came to that.
+        /// Cause, in the words of the message.
         fixed: &'static str,
     },
 }
@@ -104,7 +104,7 @@ impl Selection {
     /// The figure of a study.
     ///
     /// # Errors
-    /// What the study does not have, and what it has; more than two free axes.
+    /// Unknown quantity, axis or value, with those that the study has; more than two free axes.
     pub fn figure(&self, study: &Finished) -> Result<Figure, FigureError> {
         let plan = study.plan();
         let quantities = self.quantities(plan)?;
@@ -196,8 +196,8 @@ impl Selection {
     /// The axes of the study, those with one value and those of `at` fixed.
     fn chosen<'a>(&self, plan: &'a Plan) -> Result<Vec<Chosen<'a>>, FigureError> {
         let only = |axis: &Axis| (axis.count() == 1).then_some(0);
-        let axes = plan.axes.iter().chain(&plan.preloads);
-        let mut chosen: Vec<_> = axes.map(|axis| Chosen { axis, at: only(axis) }).collect();
+        let mut chosen: Vec<_> =
+            plan.all_axes().into_iter().map(|axis| Chosen { axis, at: only(axis) }).collect();
         let mut named: Vec<&str> = Vec::new();
         for (path, value) in &self.at {
             let index = find(&chosen, path, "--at")?;

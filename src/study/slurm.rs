@@ -29,9 +29,9 @@ pub struct Submission {
     pub shards: u64,
     /// Tasks that run at the same time, where they are limited.
     pub at_once: Option<u64>,
-    /// How often a task starts its program again after that was killed.
+    /// Largest number of restarts of a killed program by its task.
     pub retries: u32,
-    /// What else the program is told, such as `--memory`.
+    /// Further arguments of the program, such as `--memory`.
     pub arguments: Vec<OsString>,
     /// Options of sbatch, given to both jobs.
     pub options: Vec<SbatchOption>,
@@ -44,11 +44,11 @@ pub struct Jobs {
     pub array: String,
     /// The merge.
     pub merge: String,
-    /// What sbatch said besides, such as warnings.
+    /// Other messages of sbatch, such as warnings.
     pub notes: String,
 }
 
-/// Why a sweep was not submitted.
+/// Reason for not submitting a sweep.
 #[derive(Debug, Error)]
 pub enum SlurmError {
     /// The cluster's arrays are smaller.
@@ -81,7 +81,7 @@ pub enum SlurmError {
         "sbatch: there is no such program here; a login node of a Slurm cluster has it. Without a scheduler: {instead}"
     )]
     NoSlurm {
-        /// What to run instead.
+        /// Command to run instead.
         instead: String,
     },
     /// A program of Slurm cannot be started.
@@ -92,7 +92,7 @@ pub enum SlurmError {
     Refused {
         /// Which of the two.
         job: &'static str,
-        /// What sbatch said.
+        /// Message of sbatch.
         reason: String,
     },
     /// The array was taken, and nobody knows its number.
@@ -101,7 +101,7 @@ pub enum SlurmError {
          The merge was not submitted. squeue --me lists the array, scancel ends it"
     )]
     NoNumber {
-        /// What sbatch said.
+        /// Message of sbatch.
         answer: String,
     },
     /// The merge was refused after the array had been taken, which was cancelled.
@@ -109,9 +109,9 @@ pub enum SlurmError {
     MergeRefused {
         /// The array.
         array: String,
-        /// What sbatch said.
+        /// Message of sbatch.
         reason: String,
-        /// What became of the array.
+        /// Fate of the array.
         cancelled: String,
     },
 }
@@ -181,7 +181,7 @@ done
         format!("#!/bin/sh\n# {what}\nprogram={program}\nfolder={folder}")
     }
 
-    /// Where the scripts are kept and the jobs' messages go.
+    /// Folder of the scripts and of the jobs' messages.
     #[must_use]
     pub fn own_folder(&self) -> PathBuf {
         self.folder.join("slurm")
@@ -230,7 +230,7 @@ done
         arguments
     }
 
-    /// What to run on hosts without a scheduler, with GNU parallel.
+    /// Command for hosts without a scheduler, with GNU parallel.
     #[must_use]
     pub fn without_scheduler(&self) -> String {
         let plan = self.folder.join(PLAN_FILE);
@@ -296,12 +296,12 @@ done
 #[derive(Debug, PartialEq, Eq)]
 struct Job {
     number: String,
-    /// Where there are several.
+    /// Name of the cluster, where there are several.
     cluster: Option<String>,
 }
 
 impl Job {
-    /// What `sbatch --parsable` prints, `number` or `number;cluster`, and nothing else.
+    /// Job of the answer of `sbatch --parsable`, `number` or `number;cluster`, and nothing else.
     fn of(answer: &str) -> Option<Job> {
         let (number, cluster) = match answer.split_once(';') {
             Some((number, cluster)) => (number, Some(cluster)),

@@ -13,7 +13,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// One run of a plan, which is all cells that differ in the preload alone, on one profile.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) struct Case {
+pub(crate) struct Case {
     /// Number of the run.
     pub run: u64,
     /// Number of the profile.
@@ -22,7 +22,7 @@ pub(super) struct Case {
 
 /// Next step of a runner.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Next {
+pub(crate) enum Next {
     /// Solves the case.
     Solve,
     /// Leaves the case out.
@@ -32,7 +32,7 @@ pub(super) enum Next {
 }
 
 /// Receiver of records.
-pub(super) trait Sink {
+pub(crate) trait Sink {
     /// Next step before a case.
     fn next(&mut self, case: Case) -> Next;
 

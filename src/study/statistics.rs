@@ -6,7 +6,7 @@ use std::f64::consts::FRAC_2_PI;
 /// Share of samples whose confidence interval holds the true mean.
 pub(crate) const CONFIDENCE: f64 = 0.95;
 
-/// What a sample tells of what it was drawn from.
+/// Mean, spread and confidence of a sample.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Statistics {
     /// Number of values; those a line does not have are left out.

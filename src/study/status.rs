@@ -1,16 +1,17 @@
-//! How far a study is, and who has worked on it.
+//! Progress of a study and of the processes that work on it.
 
 use super::StudyError;
 use super::cells::Cells;
+use super::done::Done;
 use super::plan::Plan;
 use super::shard::Shard;
-use super::store::{Done, Folder};
+use super::store::Folder;
 use crate::text::{path_name, printable};
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::path::Path;
 
-/// How far a study is.
+/// Progress of a study.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Status {
     /// Records there are.
@@ -25,7 +26,7 @@ pub struct Status {
     pub shards: Vec<ShardStatus>,
 }
 
-/// How far one part is.
+/// Progress of one part.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ShardStatus {
     /// Which part: `3/8`.

@@ -5,7 +5,9 @@
 //! ends the machine takes what had not reached the disk as well: the records of a moment, which are computed again.
 
 use super::StudyError;
+use super::done::Done;
 use super::measured::with_hash;
+use super::other_plan::refusal;
 use super::plan::{PLAN_FILE, Plan};
 use super::plan_text::Changes;
 use super::record::{Key, key_of, seal, unseal, values_into};
@@ -14,7 +16,6 @@ use crate::disk::{Disk, DiskFile, SystemDisk, folder_of, make_folders};
 use crate::io::open_regular;
 use crate::io::{WriteError, write_new_on};
 use crate::scene::read_file;
-use crate::text::{path_name, printable};
 use serde::{Deserialize, Serialize};
 use std::fs::File;
 use std::hash::{BuildHasher, RandomState};
@@ -40,7 +41,7 @@ pub struct Folder {
     disk: Arc<dyn Disk>,
 }
 
-/// What a shard file says of itself, on its first line.
+/// Header of a shard file: its first line.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Header {
     /// [`STORE_VERSION`].
@@ -62,7 +63,7 @@ pub struct Header {
     pub measured_sha256: Option<String>,
 }
 
-/// What every version of the program can read of a header.
+/// Part of a header that every version of the program can read.
 #[derive(Deserialize)]
 struct AnyHeader {
     format: u32,
@@ -71,9 +72,9 @@ struct AnyHeader {
 /// A shard file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ShardFile {
-    /// Its path.
+    /// Path.
     pub path: PathBuf,
-    /// What it says of itself; `None` where the process ended before that was written.
+    /// Header; `None` where the process ended before writing it.
     pub header: Option<Header>,
     /// When something was last written to it, s since 1970.
     pub written: f64,
@@ -131,7 +132,7 @@ impl Folder {
         Ok(Folder { path: path.to_path_buf(), plan, disk })
     }
 
-    /// Whether a path is the folder of a study, sound or not.
+    /// Returns true for the folder of a study, sound or not.
     #[must_use]
     pub fn is_at(path: &Path) -> bool {
         path.join(PLAN_FILE).is_file()
@@ -160,13 +161,13 @@ impl Folder {
         Ok(Folder { path: path.to_path_buf(), plan, disk })
     }
 
-    /// Its path.
+    /// Path.
     #[must_use]
     pub fn path(&self) -> &Path {
         &self.path
     }
 
-    /// Its plan.
+    /// Plan of the study.
     #[must_use]
     pub fn plan(&self) -> &Plan {
         &self.plan
@@ -348,28 +349,6 @@ impl Folder {
     }
 }
 
-/// Which records there are, one bit for each.
-pub(super) struct Done(Vec<u64>);
-
-impl Done {
-    pub fn none(count: u64) -> Done {
-        Done(vec![0; count.div_ceil(64) as usize])
-    }
-
-    pub fn add(&mut self, place: u64) {
-        self.0[place as usize / 64] |= 1 << (place % 64);
-    }
-
-    /// Number of records.
-    pub fn count(&self) -> u64 {
-        self.0.iter().map(|word| u64::from(word.count_ones())).sum()
-    }
-
-    pub fn has(&self, place: u64) -> bool {
-        self.0[place as usize / 64] & (1 << (place % 64)) != 0
-    }
-}
-
 /// Reads single lines of a file from wherever they stand, cheaply where they follow each other.
 pub(super) struct Lines {
     reader: BufReader<File>,
@@ -408,35 +387,6 @@ fn host() -> String {
 fn in_letters_for_files(name: &str) -> String {
     let name: String = name.chars().filter(|c| c.is_ascii_alphanumeric() || *c == '_').take(40).collect();
     if name.is_empty() { "host".into() } else { name }
-}
-
-/// Why a folder that has the text `there` for a plan is none of `plan`.
-fn refusal(path: &Path, there: &str, plan: &Plan) -> StudyError {
-    let file = path.join(PLAN_FILE);
-    // Where nothing but the content of the measured file is another, that is said.
-    if let (Ok(of_folder), Some(measured)) =
-        (Plan::parse(there, PLAN_FILE, &Changes::default()), super::measured::file_of(plan))
-        && (Plan { measured_sha256: plan.measured_sha256.clone(), ..of_folder.clone() }) == *plan
-    {
-        return match (of_folder.measured_sha256, plan.measured_sha256.clone()) {
-            (Some(expected), Some(found)) => {
-                StudyError::MeasuredChanged { file: measured, found, plan: path_name(&file), expected }
-            }
-            _ => StudyError::MeasuredUnknown { folder: path.to_path_buf(), file: measured },
-        };
-    }
-    StudyError::OtherPlan { path: path.to_path_buf(), difference: difference(there, &plan.to_ron()) }
-}
-
-/// The first lines in which two plans differ.
-fn difference(there: &str, asked: &str) -> String {
-    let pairs = there.lines().map(Some).chain(std::iter::repeat(None));
-    let asked = asked.lines().map(Some).chain(std::iter::repeat(None));
-    let first = pairs.zip(asked).take_while(|pair| *pair != (None, None)).find(|(a, b)| a != b);
-    let shown = |line: Option<&str>| {
-        line.map_or_else(|| "nothing".into(), |line| printable(line.trim()).into_owned())
-    };
-    first.map_or_else(String::new, |(a, b)| format!("there: {}\nhere:  {}", shown(a), shown(b)))
 }
 
 #[cfg(test)]

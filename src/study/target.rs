@@ -1,6 +1,6 @@
 //! Quantities that an axis may vary: the numbers of a scene by their paths, and others that are derived from several.
 
-use crate::scene::{Adhesion, FIELDS, Field, Leg, Range, Scene, Value, field, nearest};
+use crate::scene::{FIELDS, Field, Leg, Range, Scene, Value, field, nearest};
 
 /// Quantities that are no fields of a scene.
 pub const DERIVED: &[&str] = &["kappa", "preload", "springs_per_wave"];
@@ -112,6 +112,24 @@ impl Target {
         }
     }
 
+    /// Gives quantities their values in a scene, each of which has a place; quantities that follow from others are last.
+    ///
+    /// # Errors
+    /// The place of a number that the scene does not have, and the reason.
+    pub fn set_all(
+        values: impl Iterator<Item = (Target, f64)> + Clone,
+        scene: &mut Scene,
+    ) -> Result<(), (usize, String)> {
+        for follows in [false, true] {
+            for (place, (target, value)) in values.clone().enumerate() {
+                if (target == Target::SpringsPerWave) == follows {
+                    target.set(scene, value).map_err(|reason| (place, reason))?;
+                }
+            }
+        }
+        Ok(())
+    }
+
     /// Gives the quantity a value in a scene; the preload, which is no part of a scene, is left to the run.
     ///
     /// # Errors
@@ -119,10 +137,7 @@ impl Target {
     pub fn set(self, scene: &mut Scene, value: f64) -> Result<(), String> {
         match self {
             Target::Preload => {}
-            Target::Kappa => {
-                let adhesion = scene.adhesion.unwrap_or_default();
-                scene.adhesion = Some(Adhesion { work: None, kappa: Some(value), ..adhesion });
-            }
+            Target::Kappa => scene.adhesion = Some(scene.adhesion.unwrap_or_default().with_kappa(value)),
             Target::SpringsPerWave => {
                 let last = (scene.numerics.points as f64 / value).round();
                 set(scene, "roughness.modes", Part::Last, last)?;

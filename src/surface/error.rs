@@ -2,6 +2,8 @@
 
 use thiserror::Error;
 
+use std::path::Path;
+
 /// Why a line could not be made.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum SurfaceError {
@@ -36,4 +38,11 @@ pub enum SurfaceError {
         /// Smallest radius allowed, m: the diameter is rounded to whole cells.
         least: f64,
     },
+}
+
+impl SurfaceError {
+    /// A measured surface that is refused.
+    pub(crate) fn measured(file: &Path, reason: &(impl ToString + ?Sized)) -> Self {
+        SurfaceError::Measured { file: file.display().to_string(), reason: reason.to_string() }
+    }
 }

@@ -1,25 +1,8 @@
-//! Measured profiles: a text file with the columns x and z in m.
+//! Measured profiles that are used as the line themselves.
 
 use super::SurfaceError;
-use crate::io::{ReadError, open_regular};
-use std::io::{BufRead, BufReader, Read};
+use crate::topography::{ReadOptions, Topography, TopographyError, UNEVEN, Unit, parse, read_observed};
 use std::path::Path;
-
-/// Largest number of bytes read of a file.
-const MOST_BYTES: u64 = 1 << 30;
-
-/// Longest line, bytes: two numbers take a few dozen.
-const LONGEST_LINE: usize = 1 << 16;
-
-/// Largest position and height read, m, and largest slope between two points: from there on lengths, mean
-/// squares and differences would go beyond all numbers.
-const LARGEST: f64 = 1.0e9;
-
-/// Longer columns are shortened in messages.
-const MOST_SHOWN: usize = 40;
-
-/// Share of the distance between points by which those of an even grid may be out, for want of digits.
-const UNEVEN: f64 = 1.0e-3;
 
 /// A profile measured along a line.
 ///
@@ -33,59 +16,49 @@ pub struct MeasuredProfile {
 }
 
 impl MeasuredProfile {
-    /// Reads a profile from a regular file of at most 1 GiB, line by line; see [`Self::parse`]. Beside the
-    /// points, 16 bytes each, no more than one line is held.
+    /// Reads a profile from a regular file of at most 1 GiB; see [`Self::parse`].
     ///
     /// # Errors
     /// [`SurfaceError::Measured`] when the file cannot be read or is no profile.
     pub fn read(path: &Path) -> Result<Self, SurfaceError> {
-        Self::read_seen(path, &mut |_| ())
+        Self::read_observed(path, None, &mut |_| ())
     }
 
-    /// [`Self::read`], with all bytes of the file shown to `seen`, one line after the other.
-    pub(crate) fn read_seen(path: &Path, seen: &mut dyn FnMut(&[u8])) -> Result<Self, SurfaceError> {
-        Self::read_up_to(path, MOST_BYTES, seen)
-            .map_err(|reason| SurfaceError::Measured { file: path.display().to_string(), reason })
-    }
-
-    fn read_up_to(path: &Path, most: u64, seen: &mut dyn FnMut(&[u8])) -> Result<Self, String> {
-        let file = open_regular(path).map_err(|error| error.to_string())?;
-        // One byte more tells a file of that length from a longer one.
-        let mut source = BufReader::new(file.take(most + 1));
-        let (mut reader, mut line) = (Reader::default(), Vec::new());
-        let mut bytes = 0;
-        loop {
-            line.clear();
-            let taken = (&mut source)
-                .take(LONGEST_LINE as u64 + 1)
-                .read_until(b'\n', &mut line)
-                .map_err(|error| ReadError::from(error).to_string())?;
-            bytes += taken as u64;
-            if bytes > most {
-                return Err(format!("longer than {most} bytes; allowed: at most {most} bytes"));
-            }
-            if taken == 0 {
-                return reader.finish();
-            }
-            seen(&line);
-            reader.take(&line)?;
-        }
-    }
-
-    /// Reads a profile from text: a line for each point with x and z in m, between them a comma,
-    /// semicolon, tab or spaces; x ascending. Empty lines, lines that begin with `#` and a first line
-    /// of column names are skipped, and so is a byte order mark. Positions and heights are at most 1e9 m,
-    /// slopes from point to point at most 1e9. A column between two commas, semicolons or tabs, or before or
-    /// behind one, must not be empty; a line is at most 64 KiB long.
+    /// Reads a profile with lengths in a unit where the file states none (`None`: m), with all bytes of the file shown to
+    /// `seen`.
     ///
     /// # Errors
-    /// What is wrong, with its line number.
-    pub fn parse(text: &str) -> Result<Self, String> {
-        let mut reader = Reader::default();
-        for line in text.lines() {
-            reader.take(line.as_bytes())?;
-        }
-        reader.finish()
+    /// As [`Self::read`].
+    pub fn read_observed(
+        path: &Path,
+        unit: Option<Unit>,
+        seen: &mut dyn FnMut(&[u8]),
+    ) -> Result<Self, SurfaceError> {
+        let read = read_observed(path, &Self::options(unit), seen);
+        read.and_then(Self::from_topography).map_err(|error| SurfaceError::measured(path, &error))
+    }
+
+    /// Reads a profile from text or another format of [`crate::topography`]. By convention lengths are in m where no unit
+    /// is stated, as `asperity line` writes them.
+    ///
+    /// # Errors
+    /// [`TopographyError`], a map included.
+    pub fn parse(content: &str) -> Result<Self, TopographyError> {
+        parse(content.as_bytes(), &Self::options(None)).and_then(Self::from_topography)
+    }
+
+    /// Options for reading a profile in m by convention.
+    fn options(unit: Option<Unit>) -> ReadOptions {
+        ReadOptions { unit, convention: Some(Unit::METRE), ..ReadOptions::default() }
+    }
+
+    /// The profile of a surface.
+    ///
+    /// # Errors
+    /// [`TopographyError`] of a map.
+    pub fn from_topography(surface: Topography) -> Result<Self, TopographyError> {
+        let (positions, heights) = surface.into_profile()?;
+        Ok(MeasuredProfile { positions, heights })
     }
 
     /// Positions x, m, ascending; at least two.
@@ -188,140 +161,19 @@ impl MeasuredProfile {
     }
 }
 
-/// Reads the lines of a profile one after the other.
-struct Reader {
-    profile: MeasuredProfile,
-    /// Number of the line read last, from 1 on.
-    number: usize,
-    header_allowed: bool,
-}
-
-impl Default for Reader {
-    fn default() -> Self {
-        let profile = MeasuredProfile { positions: Vec::new(), heights: Vec::new() };
-        Reader { profile, number: 0, header_allowed: true }
-    }
-}
-
-impl Reader {
-    /// Takes the next line, with or without its end.
-    fn take(&mut self, line: &[u8]) -> Result<(), String> {
-        self.number += 1;
-        let wrong = |number: usize, what: String| format!("line {number}: {what}");
-        if line.len() > LONGEST_LINE {
-            return Err(wrong(
-                self.number,
-                format!("longer than {LONGEST_LINE} bytes; allowed: at most that"),
-            ));
-        }
-        let line = str::from_utf8(line).map_err(|error| {
-            let byte = error.valid_up_to();
-            wrong(self.number, format!("this is not UTF-8 text: byte {byte} of the line is not"))
-        })?;
-        let line = if self.number == 1 { line.strip_prefix('\u{feff}').unwrap_or(line) } else { line };
-        let line = line.trim();
-        if line.is_empty() || line.starts_with('#') {
-            return Ok(());
-        }
-        let header_allowed = std::mem::replace(&mut self.header_allowed, false);
-        if header_allowed && is_header(line) {
-            return Ok(());
-        }
-        let (x, z) = point(line).map_err(|what| wrong(self.number, what))?;
-        self.push(x, z).map_err(|what| wrong(self.number, what))
-    }
-
-    fn push(&mut self, x: f64, z: f64) -> Result<(), String> {
-        let MeasuredProfile { positions, heights } = &mut self.profile;
-        if let (Some(&before), Some(&height)) = (positions.last(), heights.last()) {
-            if before >= x {
-                return Err(format!("x = {x:e} after {before:e}; allowed: x ascending"));
-            }
-            let slope = (z - height).abs() / (x - before);
-            if slope > LARGEST {
-                return Err(format!(
-                    "a slope of {slope:e} from the point before; allowed: at most {LARGEST:e}"
-                ));
-            }
-        }
-        for (values, value) in [(positions, x), (heights, z)] {
-            values.try_reserve(1).map_err(|_| "not enough memory for the points up to here".to_owned())?;
-            values.push(value);
-        }
-        Ok(())
-    }
-
-    fn finish(self) -> Result<MeasuredProfile, String> {
-        match self.profile.positions.len() {
-            points @ (0 | 1) => Err(format!("{points} points; allowed: at least 2")),
-            _ => Ok(self.profile),
-        }
-    }
-}
-
-/// The columns of a line. Spaces part columns, and more of them part them no further; between two other
-/// separators there is a column, though it may be empty.
-fn columns(line: &str) -> impl Iterator<Item = &str> {
-    line.split([',', ';', '\t']).flat_map(|part| {
-        let empty = part.trim().is_empty().then_some("");
-        empty.into_iter().chain(part.split_whitespace())
-    })
-}
-
-/// Whether a line holds names and no number.
-fn is_header(line: &str) -> bool {
-    columns(line).all(|column| column.parse::<f64>().is_err())
-        && columns(line).any(|column| !column.is_empty())
-}
-
-/// x and z of a line.
-fn point(line: &str) -> Result<(f64, f64), String> {
-    if let Some(empty) = columns(line).position(str::is_empty) {
-        return Err(format!("column {} is empty; allowed: x and z", empty + 1));
-    }
-    let mut all = columns(line);
-    let (Some(x), Some(z), None) = (all.next(), all.next(), all.next()) else {
-        return Err(format!("{} columns; allowed: x and z", columns(line).count()));
-    };
-    Ok((number(x)?, number(z)?))
-}
-
-fn number(column: &str) -> Result<f64, String> {
-    match column.parse::<f64>() {
-        Ok(value) if value.abs() <= LARGEST => Ok(value),
-        _ => Err(format!("{:?}; allowed: a number from -{LARGEST:e} to {LARGEST:e} in m", shown(column))),
-    }
-}
-
-/// A column for a message, not too long.
-fn shown(column: &str) -> String {
-    match column.char_indices().nth(MOST_SHOWN) {
-        Some((end, _)) => format!("{}…", &column[..end]),
-        None => column.to_string(),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
     fn reads_what_instruments_write() {
-        let profile = MeasuredProfile::parse("# stylus\nx,z\n0.0, 1e-7\n1e-6;3e-7\n\n2e-6\t-1e-7\n").unwrap();
+        let profile = MeasuredProfile::parse("# stylus\nx,z\n0.0, 1e-7\n1e-6,3e-7\n\n2e-6 ,-1e-7\n").unwrap();
         assert_eq!(profile.positions, [0.0, 1e-6, 2e-6]);
         let heights = profile.sample(2e-6, 2, 0.0).unwrap();
         // Halfway between 1 and 3, and between 3 and −1.
         assert!((heights[0] - 2e-7).abs() < 1e-20 && (heights[1] - 1e-7).abs() < 1e-20, "{heights:?}");
         assert_eq!(profile.sample(2e-6, 2, 0.5).unwrap(), [1e-7, 3e-7]);
         assert!(profile.sample(3e-6, 2, 0.0).unwrap_err().contains("covers 2e-6 m"));
-    }
-
-    #[test]
-    fn a_row_has_at_most_so_many_bytes() {
-        let row = |bytes: usize| format!("0 1\n1 2{}\n2 3", " ".repeat(bytes - 3));
-        assert_eq!(MeasuredProfile::parse(&row(LONGEST_LINE)).unwrap().positions, [0.0, 1.0, 2.0]);
-        let error = MeasuredProfile::parse(&row(LONGEST_LINE + 1)).unwrap_err();
-        assert!(error.starts_with("line 2: longer than 65536 bytes"), "{error}");
     }
 
     #[test]
@@ -359,49 +211,33 @@ mod tests {
 
     #[test]
     fn says_what_is_wrong_and_where() {
-        let wrong = |text: &str| MeasuredProfile::parse(text).unwrap_err();
+        let wrong = |text: &str| MeasuredProfile::parse(text).unwrap_err().to_string();
         assert!(wrong("0 1\n1 NaN\n").contains("line 2"));
         assert!(wrong("0 1\n0 2\n").contains("line 2: x = 0e0 after 0e0"));
-        assert!(wrong("0 1 2\n").contains("line 1: 3 columns"));
+        assert!(wrong("0 1\n1 2 3\n").contains("line 2: 3 columns"));
         assert!(wrong("x z\n0 1\nx z\n").contains("line 3"));
-        assert!(wrong("").contains("0 points"));
-        let long = wrong(&format!("0 {}", "κ".repeat(1000)));
+        assert!(wrong("").contains("no line of numbers"));
+        assert!(wrong("0 1").contains("1 points; allowed: from 2 to"));
+        let long = wrong(&format!("0 1\n1 {}", "κ".repeat(1000)));
         assert!(long.chars().count() < 120, "{long}");
     }
 
     #[test]
-    fn an_empty_column_is_an_error_that_names_its_row() {
-        let wrong = |text: &str| MeasuredProfile::parse(text).unwrap_err();
-        assert_eq!(wrong("x,z\n0,1\n1,,2\n2,3"), "line 3: column 2 is empty; allowed: x and z");
-        assert_eq!(wrong("0,1\n1;;2"), "line 2: column 2 is empty; allowed: x and z");
-        assert_eq!(wrong("0 1\n1\t\t2"), "line 2: column 2 is empty; allowed: x and z");
-        assert_eq!(wrong("0,1\n1, ,2"), "line 2: column 2 is empty; allowed: x and z");
-        assert_eq!(wrong("0,1\n,1,2"), "line 2: column 1 is empty; allowed: x and z");
-        assert_eq!(wrong("0,1\n1,2,"), "line 2: column 3 is empty; allowed: x and z");
-        assert_eq!(wrong(",,\n0,1\n1,2"), "line 1: column 1 is empty; allowed: x and z");
-        // Spaces around a separator are no columns.
-        let spaced = MeasuredProfile::parse("0 ,  1\n1\t 2\n2    3 ").unwrap();
-        assert_eq!(spaced, MeasuredProfile::parse("0,1\n1,2\n2,3").unwrap());
-    }
-
-    #[test]
-    fn a_file_is_read_line_by_line_up_to_a_number_of_bytes() {
+    fn lengths_are_in_metres_unless_the_file_or_the_scene_states_a_unit() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("line.csv");
-        let text = "\u{feff}# stylus\r\nx,z\r\n0,1\r\n1,2";
-        std::fs::write(&path, text).unwrap();
-        assert_eq!(MeasuredProfile::read(&path).unwrap(), MeasuredProfile::parse(text).unwrap());
-        let length = text.len() as u64;
-        assert!(MeasuredProfile::read_up_to(&path, length, &mut |_| ()).is_ok());
-        let wrong = MeasuredProfile::read_up_to(&path, length - 1, &mut |_| ()).unwrap_err();
-        assert!(wrong.contains(&format!("longer than {} bytes", length - 1)), "{wrong}");
-        let wrong = |bytes: &[u8]| {
-            std::fs::write(&path, bytes).unwrap();
-            MeasuredProfile::read(&path).unwrap_err().to_string()
+        let read = |text: &str, unit: Option<Unit>| {
+            std::fs::write(&path, text).unwrap();
+            MeasuredProfile::read_observed(&path, unit, &mut |_| ())
         };
-        let told = wrong(&[b"0,1\n".as_slice(), &[b' '; 2 * LONGEST_LINE]].concat());
-        assert!(told.contains("line 2: longer than 65536 bytes"), "{told}");
-        assert!(wrong(b"0,1\n1,\xb5").contains("line 2: this is not UTF-8 text: byte 2"));
+        let millimetre: Unit = "mm".parse().unwrap();
+        let metres = read("0,1\n1,2", None).unwrap();
+        assert_eq!(metres, MeasuredProfile::parse("0,1\n1,2").unwrap());
+        assert_eq!(read("0,1000\n1000,2000", Some(millimetre)).unwrap(), metres);
+        assert_eq!(read("x [mm] z [mm]\n0 1000\n1000 2000", None).unwrap(), metres);
+        let error = read("x [mm] z [mm]\n0 1000\n1000 2000", Some(Unit::METRE)).unwrap_err().to_string();
+        assert!(error.contains("the file states mm as the unit of heights, the options state m"), "{error}");
+        assert!(read("1 2 3 4\n1 2 3 4\n", None).is_err());
     }
 
     #[cfg(unix)]
@@ -415,22 +251,19 @@ mod tests {
 
     #[test]
     fn what_a_length_or_a_mean_square_cannot_hold_is_refused() {
-        let wrong = |text: &str| MeasuredProfile::parse(text).unwrap_err();
-        assert_eq!(wrong("-1e308 0\n1e308 0"), "line 1: \"-1e308\"; allowed: a number from -1e9 to 1e9 in m");
-        assert!(wrong("0 0\n1 -1.1e9").contains("line 2: \"-1.1e9\""));
+        let wrong = |text: &str| MeasuredProfile::parse(text).unwrap_err().to_string();
+        assert_eq!(wrong("-1e308 0\n1e308 0"), "line 1: \"-1e308\"; allowed: a number from -1e9 to 1e9");
+        assert!(
+            wrong("-1e10 0\n1 0").contains("point 1: a position of -1e10 m; allowed: from -1e9 to 1e9 m")
+        );
+        assert!(wrong("0 0\n1 -1.1e9").contains("point 2: a height of -1.1e9 m"));
         assert_eq!(
             wrong("0 0\n0.5 1e9\n1 0"),
-            "line 2: a slope of 2e9 from the point before; allowed: at most 1e9"
+            "point 2: a slope of 2e9 from the point before; allowed: at most 1e9"
         );
         let steepest = MeasuredProfile::parse("-1e9 1e9\n-999999998 -1e9\n1e9 1e9").unwrap();
         let (height, gradient) = steepest.rms_height_and_gradient();
         assert!(height.is_finite() && gradient.is_finite() && steepest.length() == 2e9);
-    }
-
-    #[test]
-    fn a_byte_order_mark_is_no_number() {
-        assert_eq!(MeasuredProfile::parse("\u{feff}0 1\n1 2"), MeasuredProfile::parse("0 1\n1 2"));
-        assert!(MeasuredProfile::parse("0 1\n\u{feff}1 2").unwrap_err().contains("line 2"));
     }
 
     #[test]

@@ -1,5 +1,6 @@
 //! The rigid line: macroscopic form, self-affine or measured roughness, and its statistics.
 
+mod equivalent;
 mod error;
 mod form;
 mod histogram;
@@ -11,6 +12,7 @@ mod roughness;
 mod spectrum;
 mod struve;
 
+pub use equivalent::{EquivalentLine, MeasuredOptions, MeasuredRoughness};
 pub use error::SurfaceError;
 pub use form::{mdr_profile, power_law_factor};
 pub use histogram::Histogram;

@@ -1,11 +1,13 @@
 //! Random-phase synthesis of a self-affine line of rms height 1 by one inverse real Fourier transform.
 
 use super::modes::Modes;
+use super::phases::phases;
 use super::{SelfAffine, SurfaceError};
 use crate::memory;
 use crate::parallel::in_parallel;
 use realfft::{ComplexToReal, RealFftPlanner};
 use rustfft::num_complex::Complex64;
+use std::f64::consts::TAU;
 use std::sync::Arc;
 
 /// With fewer modes than these another thread takes longer to begin than it saves.
@@ -81,27 +83,70 @@ impl Synthesizer {
         shift: f64,
         memory: Vec<f64>,
     ) -> Result<UnitRoughness, SurfaceError> {
+        let modes = Modes::new(spectrum, seed, points, 0.5 - shift);
+        let draw = |first: usize, drawn: &mut [Complex64]| {
+            // Those from the middle on by another thread.
+            let middle = drawn.len() / 2;
+            let (lower, upper) = drawn.split_at_mut(middle);
+            in_parallel(
+                lower.len() + upper.len() >= MANY_MODES,
+                || modes.draw((first + middle) as u64, upper),
+                || modes.draw(first as u64, lower),
+            );
+        };
+        Ok(UnitRoughness {
+            heights: self.transform((spectrum.first, spectrum.last), points, memory, draw)?,
+            random_phases: spectrum.last + 1 - spectrum.first,
+            gradient_per_height: spectrum.gradient_per_height(1.0),
+        })
+    }
+
+    /// Sum of cosines with these amplitudes of the modes from a first to a last one, at most `points`/2, and the phases of
+    /// the seed; places as in [`Self::synthesize`].
+    ///
+    /// # Errors
+    /// [`SurfaceError::OutOfMemory`], [`SurfaceError::Transform`].
+    pub fn synthesize_waves(
+        &mut self,
+        amplitude: &dyn Fn(u64) -> f64,
+        (first, last): (u64, u64),
+        seed: u64,
+        points: usize,
+        shift: f64,
+        memory: Vec<f64>,
+    ) -> Result<Vec<f64>, SurfaceError> {
+        // Phase by which the first point of the grid advances mode 1.
+        let advance = TAU * (0.5 - shift) / points as f64;
+        self.transform((first, last), points, memory, |_, drawn| {
+            for ((mode, phase), coefficient) in (first..).zip(phases(seed, first)).zip(drawn) {
+                *coefficient = Complex64::from_polar(0.5 * amplitude(mode), phase + advance * mode as f64);
+            }
+        })
+    }
+
+    /// Heights of the modes from a first to a last one, whose coefficients ½ A_k e^(iφ) `draw` fills in, from the first
+    /// mode on.
+    fn transform(
+        &mut self,
+        (first, last): (u64, u64),
+        points: usize,
+        memory: Vec<f64>,
+        draw: impl FnOnce(usize, &mut [Complex64]),
+    ) -> Result<Vec<f64>, SurfaceError> {
         let out_of_memory = |_| SurfaceError::OutOfMemory { points };
         let kept = self.transform.take().filter(|kept| kept.points == points);
         let mut transform = kept.map_or_else(|| Transform::planned(points), Ok)?;
         let mut heights = memory::resized(memory, points, 0.0).map_err(out_of_memory)?;
 
-        let modes = Modes::new(spectrum, seed, points, 0.5 - shift);
         let coefficients = transform.coefficients.as_mut_slice();
-        let (first, end) = (spectrum.first as usize, (spectrum.last as usize).saturating_add(1));
+        let nyquist = 2 * last == points as u64;
+        let (first, end) = (first as usize, (last as usize).saturating_add(1));
         let end = end.min(coefficients.len());
         let first = first.min(end);
         coefficients[..first].fill(Complex64::ZERO);
         coefficients[end..].fill(Complex64::ZERO);
-        // Those from the middle on by another thread.
-        let middle = first + (end - first) / 2;
-        let (lower, upper) = coefficients[first..end].split_at_mut(middle - first);
-        in_parallel(
-            end - first >= MANY_MODES,
-            || modes.draw(middle as u64, upper),
-            || modes.draw(first as u64, lower),
-        );
-        if 2 * spectrum.last == points as u64 {
+        draw(first, &mut coefficients[first..end]);
+        if nyquist {
             // At the grid's Nyquist wave vector both exponentials of the cosine fall together.
             coefficients[end - 1] = Complex64::new(2.0 * coefficients[end - 1].re, 0.0);
         }
@@ -113,11 +158,7 @@ impl Synthesizer {
         if points <= LONGEST_KEPT {
             self.transform = Some(transform);
         }
-        Ok(UnitRoughness {
-            heights,
-            random_phases: spectrum.last + 1 - spectrum.first,
-            gradient_per_height: spectrum.gradient_per_height(1.0),
-        })
+        Ok(heights)
     }
 }
 

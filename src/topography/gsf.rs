@@ -16,7 +16,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Reading, TopographyError> {
     let (columns, rows) = (header.count("xres")?, header.count("yres")?);
     let mut data = Bytes::new(bytes);
     data.take((end / 4 + 1) * 4)?;
-    let points = columns.checked_mul(rows).unwrap_or(usize::MAX);
+    let points = columns.saturating_mul(rows);
     let heights = data.numbers(points, Number::F32, Order::Little)?;
     let size =
         |key: &str, points: usize| header.number(key).map(|size| size.map(|size| size / points as f64));

@@ -240,7 +240,7 @@ mod tests {
         let error = parse(b"0 1\n1 2\n", &none).unwrap_err().to_string();
         assert_eq!(
             error,
-            "no unit of heights is stated; allowed: --height-unit or --unit, such as --unit um"
+            "no unit of heights is stated; allowed: a unit in the file or beside it: --unit um, in a scene roughness.unit"
         );
         let error = parse(b"1\n2\n", &metres()).unwrap_err().to_string();
         assert_eq!(

@@ -18,6 +18,8 @@ pub struct ReadOptions {
     pub unit: Option<Unit>,
     /// Unit of heights where the file states none; `None`: as `unit`.
     pub height_unit: Option<Unit>,
+    /// Unit by convention, where neither the file nor the user states one.
+    pub convention: Option<Unit>,
     /// Distance between points, m, where the file states none.
     pub spacing: Option<f64>,
     /// Treatment of missing points.
@@ -125,7 +127,7 @@ impl Reading {
         let Reading { format, mut heights, grid, lateral_unit, height_unit, first_missing } = self;
         check_points(&heights, &grid)?;
         let height_option = options.height_unit.or(options.unit);
-        let height_unit = unit("heights", height_unit, height_option, "--height-unit or --unit")?;
+        let height_unit = unit("heights", height_unit, height_option, options.convention)?;
         let missing = missing::count(&heights);
         if missing > 0 && options.missing == Missing::Refuse {
             let first = heights.iter().position(|height| !height.is_finite()).unwrap_or(0);
@@ -147,7 +149,7 @@ impl Reading {
             }
         }
         let lateral = |value: f64, name: &str| {
-            let unit = unit(name, lateral_unit, options.unit, "--unit")?;
+            let unit = unit(name, lateral_unit, options.unit, options.convention)?;
             Ok::<f64, TopographyError>(unit.to_metres(value))
         };
         let even = |stated: Option<f64>, name: &str| match (stated, options.spacing) {
@@ -161,8 +163,9 @@ impl Reading {
         };
         let grid = match grid {
             RawGrid::Positions(mut positions) => {
-                let unit = unit("positions", lateral_unit, options.unit, "--unit")?;
+                let unit = unit("positions", lateral_unit, options.unit, options.convention)?;
                 positions.iter_mut().for_each(|x| *x = unit.to_metres(*x));
+                check_positions(&positions)?;
                 Grid::Positions(positions)
             }
             RawGrid::Profile(spacing) => Grid::Profile { spacing: even(spacing, "distances")? },
@@ -198,14 +201,36 @@ fn check_points(heights: &[f64], grid: &RawGrid) -> Result<(), TopographyError> 
     }
 }
 
-/// Unit of a quantity: stated by the file, else by the user.
+/// Positions, m, that ascend lie within the range if both ends do.
+fn check_positions(positions: &[f64]) -> Result<(), TopographyError> {
+    for index in [0, positions.len() - 1] {
+        let x = positions[index];
+        if x.abs() > LARGEST {
+            let fault = format!("a position of {x:e} m");
+            return Err(refused(
+                Place::Point(index + 1),
+                fault,
+                format!("from -{LARGEST:e} to {LARGEST:e} m"),
+            ));
+        }
+    }
+    // Units divide, and neighbours beyond all digits fall together.
+    match positions.windows(2).position(|pair| pair[0] >= pair[1]) {
+        Some(index) => {
+            Err(refused(Place::Point(index + 2), "the position of the point before", "ascending positions"))
+        }
+        None => Ok(()),
+    }
+}
+
+/// Unit of a quantity: stated by the file, else by the user, else by convention.
 fn unit(
     name: &str,
     stated: Option<Unit>,
     option: Option<Unit>,
-    flags: &str,
+    convention: Option<Unit>,
 ) -> Result<Unit, TopographyError> {
-    match (stated, option) {
+    match (stated, option.or(convention.filter(|_| stated.is_none()))) {
         (Some(stated), Some(option)) if stated != option => Err(refused(
             Place::File,
             format!("the file states {stated} as the unit of {name}, the options state {option}"),
@@ -215,7 +240,7 @@ fn unit(
         (None, None) => Err(refused(
             Place::File,
             format!("no unit of {name} is stated"),
-            format!("{flags}, such as --unit um"),
+            "a unit in the file or beside it: --unit um, in a scene roughness.unit",
         )),
     }
 }

@@ -53,7 +53,7 @@ pub(super) fn read_text(bytes: &[u8]) -> Result<Reading, TopographyError> {
     let text = String::from_utf8_lossy(bytes);
     let mut lines = text.lines().enumerate().map(|(index, line)| (index + 1, line.trim()));
     let header = text_header(&mut lines)?;
-    let points = header.columns.checked_mul(header.rows).unwrap_or(usize::MAX);
+    let points = header.columns.saturating_mul(header.rows);
     let mut heights = Vec::new();
     let mut first_missing = None;
     let mut last = 0;

@@ -39,7 +39,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Reading, TopographyError> {
     };
     let (lowest, _highest) = (data.i32()?, data.i32()?);
     let (columns, rows) = (count(&mut data)?, count(&mut data)?);
-    let points = columns.checked_mul(rows).unwrap_or(usize::MAX);
+    let points = columns.saturating_mul(rows);
     data.take(4)?;
     let scales = [data.f32()?, data.f32()?, data.f32()?].map(f64::from);
     // Names of the axes.

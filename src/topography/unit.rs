@@ -31,8 +31,6 @@ const UNITS: [(&[&str], f64); 7] = [
     (&["pm", "picometer", "picometre"], 1e12),
 ];
 
-const ALLOWED: &str = "m, cm, mm, µm (or um), nm, Å, pm";
-
 /// Unit of length.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Unit {
@@ -42,8 +40,13 @@ pub struct Unit {
 
 /// Text that is no unit of length.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
-#[error("{:?} is no unit of length; allowed: {ALLOWED}", shown(.0))]
+#[error("{:?} is no unit of length; allowed: {}", shown(.0), UnitError::ALLOWED)]
 pub struct UnitError(String);
+
+impl UnitError {
+    /// Units that are read.
+    pub const ALLOWED: &str = "m, cm, mm, µm (or um), nm, Å, pm";
+}
 
 impl Unit {
     /// Metre.
@@ -58,7 +61,7 @@ impl Unit {
     /// Unit that a file states at a place.
     pub(super) fn stated(text: &str, place: Place) -> Result<Unit, TopographyError> {
         let fault = || format!("{:?} is no unit of length", shown(text));
-        text.parse().map_err(|_| refused(place, fault(), ALLOWED))
+        text.parse().map_err(|_| refused(place, fault(), UnitError::ALLOWED))
     }
 
     /// Value in m of a value in this unit.

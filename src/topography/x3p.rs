@@ -44,7 +44,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Reading, TopographyError> {
     if count(root, "SizeZ")? != 1 {
         return Err(refused(part(INDEX), "several layers", "SizeZ of 1"));
     }
-    let points = columns.checked_mul(rows).unwrap_or(usize::MAX);
+    let points = columns.saturating_mul(rows);
     let raw = match find(root, "PointDataLink") {
         Some(link) => linked(&mut archive, root, &text_of(link), points, &axes[2])?,
         None => listed(root, points)?,

@@ -51,10 +51,10 @@ impl Driver {
 
     /// The same with another engine.
     pub fn open_with(opening: impl Into<Opening>, engine: Box<dyn Engine>) -> Self {
-        let Opening { document, atlas } = opening.into();
+        let Opening { document, study_map } = opening.into();
         let mut model = Model::new(document, (120, 40), APPEARANCE);
-        if let Some(atlas) = atlas {
-            model.show_study(atlas);
+        if let Some(study_map) = study_map {
+            model.show_study(study_map);
         }
         let (requests, outbox) = channel();
         let (report, reports) = channel();

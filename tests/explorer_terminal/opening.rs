@@ -150,7 +150,6 @@ fn over_a_connection_and_without_a_known_terminal_it_works_the_same() {
             explorer().0.env("SSH_CONNECTION", "192.0.2.1 50000 192.0.2.2 22"),
             explorer().0.env("SSH_TTY", "/dev/pts/1"),
             explorer().0.without_env("TERM"),
-            explorer().0.env("TERM", "linux").env("LANG", "C"),
         ] {
             // Its own folder is gone by now, and with it its scene.
             let folder = tempfile::tempdir().unwrap();
@@ -160,6 +159,38 @@ fn over_a_connection_and_without_a_known_terminal_it_works_the_same() {
             quit(&mut far);
         }
         quit(&mut near);
+    });
+}
+
+#[test]
+fn terminals_without_braille_get_ascii() {
+    within(40, || {
+        let is_drawn = |text: &str| text.chars().any(|c| ('\u{2801}'..='\u{28ff}').contains(&c));
+        for (name, value, ascii) in [
+            ("TERM", "linux", true),
+            ("LANG", "C", true),
+            ("LC_ALL", "POSIX", true),
+            ("LANG", "de_DE.UTF-8", false),
+        ] {
+            let (program, _folder) = explorer();
+            let mut terminal = paused(program.env(name, value));
+            let text = terminal.text();
+            assert_eq!(is_drawn(&text), !ascii, "{name}={value}\n{text}");
+            assert!(!ascii || text.is_ascii(), "{name}={value}\n{text}");
+            quit(&mut terminal);
+        }
+    });
+}
+
+#[test]
+fn a_terminal_that_places_nothing_is_refused() {
+    within(20, || {
+        let (program, _folder) = explorer();
+        let mut terminal = program.env("TERM", "dumb").start();
+        assert!(!terminal.wait_end().success());
+        let text = String::from_utf8_lossy(terminal.written()).into_owned();
+        assert!(text.contains("TERM=dumb") && text.contains("asperity run scene.ron"), "{text}");
+        assert!(!text.contains('\x1b'), "{text:?}");
     });
 }
 

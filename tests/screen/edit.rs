@@ -84,7 +84,7 @@ fn edits_are_taken_back_and_done_again() {
         assert_eq!(driver.model.document.text(), text);
         // A refused value is no edit.
         driver.enter("7");
-        driver.press("u");
+        driver.press("Esc u");
         assert_eq!(driver.model.document.text(), texts[2]);
     });
 }

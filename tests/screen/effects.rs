@@ -249,6 +249,7 @@ fn a_scene_that_gives_kappa_may_be_told_the_work() {
             select(&mut driver, path);
             driver.enter(typed);
             assert!(driver.model.refused.is_some(), "{path} {typed}");
+            driver.press("Esc");
             assert_eq!(governing(&driver).0, 8.0);
         }
     });

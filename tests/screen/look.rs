@@ -149,10 +149,13 @@ fn the_curve_has_three_views_in_two_units() {
             let points = outcome.history.legs.iter().flat_map(|leg| &leg.curve);
             points.map(value).fold(f64::INFINITY, f64::min)
         };
-        // The end of an axis: a share of the range beyond the largest value, to three digits.
-        let end = |low: f64, high: f64, room: f64, unit: f64, symbol: &str| {
+        // The label of an axis with its unit, and the end of the axis in that unit.
+        let end = |symbol: &str, (low, high): (f64, f64), room: f64, unit: f64, name: &str| {
             let value = (high + room * (high - low)) / unit;
-            format_quantity(format!("{value:.2e}").parse().unwrap(), symbol)
+            let (divisor, prefixed) = asperity::draw::prefixed(name, value.max(-low / unit));
+            let label =
+                if prefixed.is_empty() { symbol.to_owned() } else { format!("{symbol} ({prefixed})") };
+            (label, value / divisor)
         };
         let (d_low, d_high) = (smallest(|point| point.indentation), largest(|point| point.indentation));
         let (f_low, f_high) = (smallest(|point| point.force), largest(|point| point.force));
@@ -162,35 +165,33 @@ fn the_curve_has_three_views_in_two_units() {
         let spacing = outcome.line.spacing;
         let length = outcome.line.length;
         let fragments = largest(|point| point.fragments as f64);
+        let (d, f) = ((d_low, d_high), (f_low, f_high));
+        let (l, n) = ((0.0, springs * spacing), (0.0, fragments));
         let views = [
-            ("Force F(d)", end(d_low, d_high, 0.06, 1.0, "m"), end(f_low, f_high, 0.08, 1.0, "N")),
+            ("Force F(d)", end("d", d, 0.06, 1.0, "m"), end("F", f, 0.08, 1.0, "N")),
             (
                 "Force F/F_a,max over d/h",
-                end(d_low, d_high, 0.06, height, "1"),
-                end(f_low, f_high, 0.08, ideal, "1"),
+                end("d/h", d, 0.06, height, "1"),
+                end("F/F_a,max", f, 0.08, ideal, "1"),
             ),
-            (
-                "Contact length l(F)",
-                end(f_low, f_high, 0.06, 1.0, "N"),
-                end(0.0, springs * spacing, 0.08, 1.0, "m"),
-            ),
+            ("Contact length l(F)", end("F", f, 0.06, 1.0, "N"), end("l", l, 0.08, 1.0, "m")),
             (
                 "Contact length l/L over F/F_a,max",
-                end(f_low, f_high, 0.06, ideal, "1"),
-                end(0.0, springs * spacing, 0.08, length, "1"),
+                end("F/F_a,max", f, 0.06, ideal, "1"),
+                end("l/L", l, 0.08, length, "1"),
             ),
-            ("Fragments n(d)", end(d_low, d_high, 0.06, 1.0, "m"), end(0.0, fragments, 0.08, 1.0, "1")),
-            (
-                "Fragments n over d/h",
-                end(d_low, d_high, 0.06, height, "1"),
-                end(0.0, fragments, 0.08, 1.0, "1"),
-            ),
+            ("Fragments n(d)", end("d", d, 0.06, 1.0, "m"), end("n", n, 0.08, 1.0, "1")),
+            ("Fragments n over d/h", end("d/h", d, 0.06, height, "1"), end("n", n, 0.08, 1.0, "1")),
         ];
         for (title, x, y) in views.chunks(2).flatten() {
             let text = curve(&mut driver);
-            for said in [title, x.as_str(), y.as_str()] {
+            for said in [title, x.0.as_str(), y.0.as_str()] {
                 assert!(text.contains(said), "{said}\n{text}");
             }
+            // The highest tick is in the upper half of the axis.
+            let number = text.lines().find_map(|row| row.split_once(" ┤")?.0.split_whitespace().last());
+            let number: f64 = number.unwrap().trim_start_matches('│').parse().unwrap();
+            assert!(number <= y.1 && number >= 0.45 * y.1, "{number} {y:?}\n{text}");
             driver.press("N");
             if driver.model.curve.normalised {
                 continue;

@@ -76,10 +76,11 @@ fn a_drag_takes_the_body_to_where_the_mouse_is() {
                 assert!(driver.model.hand.is_some());
                 // What is seen may change a little as the way of the hand grows.
                 assert!((stands - wanted).abs() <= next - wanted, "{stands}, not {wanted}");
+                let screen = driver.screen();
                 let seen: Vec<u16> = (0..driver.model.size.1)
                     .filter(|row| *row >= area.y + above && *row < area.bottom())
                     .flat_map(|row| (area.x..area.right()).map(move |column| (column, row)))
-                    .filter(|&(column, row)| driver.screen()[(column, row)].symbol() == "◆")
+                    .filter(|&(column, row)| screen[(column, row)].symbol() == "◆")
                     .map(|(column, _)| column)
                     .collect();
                 assert!(

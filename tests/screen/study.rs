@@ -137,13 +137,13 @@ fn the_scene_follows_to_the_next_preload() {
         let (_folder, mut driver) = opened();
         let first = preload(&driver);
         assert!(driver.text().contains("F_n/(E* h L) = 0.01  1 of 3, P: the next"), "{}", driver.text());
-        let mut regimes = vec![driver.model.chart.plane().cloned()];
+        let mut regimes = vec![driver.model.chart.map_model().cloned()];
         for (times, told) in [(10.0, "0.1  2 of 3"), (100.0, "1  3 of 3"), (1.0, "0.01  1 of 3")] {
             driver.press("P");
             assert!((preload(&driver) / first / times - 1.0).abs() < 1e-9);
             assert!(driver.text().contains(&format!("F_n/(E* h L) = {told}")), "{}", driver.text());
             assert!(is_up_to_date(&driver.model));
-            regimes.push(driver.model.chart.plane().cloned());
+            regimes.push(driver.model.chart.map_model().cloned());
         }
         assert!(regimes[0] != regimes[1] && regimes[0] == regimes[3]);
         driver.press("Ctrl+p");
@@ -210,16 +210,21 @@ fn sections_have_the_confidence_of_the_mean() {
     within(60, || {
         let (_folder, mut driver) = opened();
         driver.press("X");
-        for told in ["over κ at H 0.5", "over H at κ 1", "─ F_a(0)/F_a,max", "┄ F_a/F_n", "95 % confidence"]
+        for told in
+            ["over κ at H 0.5", "over H at κ 1", "⠒⠒⠒ F_a(0)/F_a,max", "⠒ ⠒ F_a/F_n", "⠂ ⠂ 95 % confidence"]
         {
             assert!(driver.text().contains(told), "{told}\n{}", driver.text());
         }
         driver.press("V V V");
-        assert!(driver.text().contains("─ F_a  │ 95 % confidence"), "{}", driver.text());
+        assert!(driver.text().contains("⠒⠒⠒ F_a  ⠂ ⠂ 95 % confidence"), "{}", driver.text());
         // Of one line there is none.
         let (_folder, mut driver) = opened_with(&PLAN.replace("lines: 12", "lines: 1"));
         driver.press("X");
-        assert!(!driver.text().contains("│ 95 %") && driver.text().contains("1 line "), "{}", driver.text());
+        assert!(
+            !driver.text().contains("⠂ ⠂ 95 %") && driver.text().contains("1 line "),
+            "{}",
+            driver.text()
+        );
     });
 }
 

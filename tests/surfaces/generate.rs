@@ -148,10 +148,9 @@ fn cut(spectrum: &Spectrum, k: f64) -> f64 {
 /// The heights as a file of NumPy would give them: a profile (`columns` of 0) or a map on a length of 1 m.
 fn topography(heights: &[f64], columns: usize) -> Topography {
     let points = if columns == 0 { heights.len() } else { columns };
-    let shape = if columns == 0 {
-        format!("({points},)")
-    } else {
-        format!("({}, {columns})", heights.len() / columns)
+    let shape = match heights.len().checked_div(columns) {
+        Some(rows) => format!("({rows}, {columns})"),
+        None => format!("({points},)"),
     };
     let header = format!("{{'descr': '<f8', 'fortran_order': False, 'shape': {shape}, }}\n");
     let mut bytes =

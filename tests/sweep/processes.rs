@@ -102,15 +102,15 @@ fn killed_twenty_times_at_random_moments_it_goes_on() {
 
 #[test]
 fn told_to_stop_it_ends_cleanly() {
-    for signal in [rustix::process::Signal::INT, rustix::process::Signal::TERM] {
+    for (signal, code) in [(rustix::process::Signal::INT, 130), (rustix::process::Signal::TERM, 143)] {
         let place = place();
         let mut child = command(place.path()).spawn().unwrap();
         wait_for(&mut child, place.path(), 20);
         rustix::process::kill_process(rustix::process::Pid::from_child(&child), signal).unwrap();
         let output = child.wait_with_output().unwrap();
         let told = String::from_utf8_lossy(&output.stderr);
-        assert_eq!(output.status.code(), Some(1), "{told}");
-        assert!(told.contains("records are there; the same command goes on from here"), "{told}");
+        assert_eq!(output.status.code(), Some(code), "{told}");
+        assert!(told.contains("records are complete; the same command continues the study"), "{told}");
         let folder = Folder::open(&place.path().join("study")).unwrap();
         assert_eq!(Status::of(&folder).unwrap().damaged, 0);
         assert!(finish(command(place.path())).status.success());

@@ -399,7 +399,7 @@ fn offset() -> Result<f64, Fault> {
         // Writing to a string does not fail, and the shortest digits give the same number again.
         let _ = writeln!(text, "{x:e},{z:e}");
     }
-    let profile = MeasuredProfile::parse(&text).map_err(Fault::Wrong)?;
+    let profile = MeasuredProfile::parse(&text).map_err(|error| Fault::Wrong(error.to_string()))?;
     let (height, gradient) = profile.rms_height_and_gradient();
     let (expected_height, expected_gradient) = statistics(&positions, &on_offset);
     let mut worst = (height / expected_height - 1.0).abs().max((gradient / expected_gradient - 1.0).abs());

@@ -10,7 +10,7 @@ use clap::Args;
 use std::io::{self, Write};
 use std::path::PathBuf;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::thread::available_parallelism;
 
 /// Arguments of a run.
@@ -137,14 +137,15 @@ pub(super) fn run(arguments: &SweepRunArguments, stdout: &mut dyn Write) -> Resu
     let stop = stop_by_signal()?;
     let mut teller = Teller::default();
     let options = Options { jobs: jobs as usize, shard: arguments.shard.unwrap_or(Shard::WHOLE) };
-    let ended = compute(&folder, options, &|| stop.load(Ordering::SeqCst), &mut |progress| {
+    let signal = || stop.load(Ordering::SeqCst);
+    let ended = compute(&folder, options, &|| signal() != 0, &mut |progress| {
         teller.tell(progress);
     });
     teller.end();
     let ended = ended?;
     if !ended.complete {
         let (done, total) = (ended.progress.done, ended.progress.total);
-        return Err(CliError::Stopped { done, total });
+        return Err(CliError::Stopped { signal: signal(), done, total });
     }
     if arguments.shard.is_none() {
         tell_merged(&folder, &merge(&folder, false)?, stdout)?;
@@ -154,15 +155,19 @@ pub(super) fn run(arguments: &SweepRunArguments, stdout: &mut dyn Write) -> Resu
     Ok(())
 }
 
-/// Set by the first signal to end; a second one ends the process at once.
-fn stop_by_signal() -> Result<Arc<AtomicBool>, CliError> {
-    let stop = Arc::new(AtomicBool::new(false));
+/// Number of the first signal to end, 0 until then; a second signal ends the process at once.
+fn stop_by_signal() -> Result<Arc<AtomicUsize>, CliError> {
+    let first = Arc::new(AtomicUsize::new(0));
     #[cfg(unix)]
-    for signal in [signal_hook::consts::SIGINT, signal_hook::consts::SIGTERM] {
-        signal_hook::flag::register_conditional_default(signal, Arc::clone(&stop))?;
-        signal_hook::flag::register(signal, Arc::clone(&stop))?;
+    {
+        let stop = Arc::new(AtomicBool::new(false));
+        for signal in [signal_hook::consts::SIGINT, signal_hook::consts::SIGTERM] {
+            signal_hook::flag::register_conditional_default(signal, Arc::clone(&stop))?;
+            signal_hook::flag::register(signal, Arc::clone(&stop))?;
+            signal_hook::flag::register_usize(signal, Arc::clone(&first), signal as usize)?;
+        }
     }
-    Ok(stop)
+    Ok(first)
 }
 
 /// Bytes as people read them.

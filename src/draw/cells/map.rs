@@ -1,8 +1,8 @@
 //! Heat maps in cells: shades, letters of classes, and bars along the contour.
 
-use super::{CellStyle, Colours};
+use super::style::{CellStyle, Colours};
 use crate::draw::axis::Axis;
-use crate::draw::chart::{Chart, HeatMap, Shape};
+use crate::draw::chart::HeatMap;
 use crate::draw::colour::{ink_on, shade};
 use crate::draw::label::short;
 use ratatui::buffer::Buffer;
@@ -13,14 +13,6 @@ use ratatui::style::Style;
 pub(super) const SHADES: [&str; 5] = ["·", "░", "▒", "▓", "█"];
 /// Least columns of a cell with the letter of its class.
 const WITH_LETTER: usize = 3;
-
-/// The heat map of a chart.
-pub(super) fn of(chart: &Chart) -> Option<&HeatMap> {
-    chart.layers.iter().find_map(|layer| match &layer.shape {
-        Shape::Map(map) => Some(map),
-        _ => None,
-    })
-}
 
 /// Index of the value that a column or row of the screen shows.
 fn index(at: usize, cells: u16, values: usize) -> usize {

@@ -1,8 +1,12 @@
 //! Figures as text for a terminal, or for a file.
 
-use super::{CellPlot, CellStyle, heading, legend, map};
+use super::legend::legend;
+use super::map;
+use super::plot::{CellPlot, WITH_LEFT_SCALE};
+use super::shapes::dry;
+use super::style::{CellStyle, Colours};
 use crate::draw::chart::{Chart, Figure};
-use crate::draw::colour::{Ink, Rgb};
+use crate::draw::colour::Ink;
 use crate::draw::label::Label;
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
@@ -18,31 +22,6 @@ const ROWS: u16 = 20;
 const WIDEST_CELL: usize = 5;
 const FEWEST_ROWS: usize = 10;
 const MOST_ROWS: usize = 48;
-
-/// Colours of a terminal.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Colours {
-    /// None: shades are characters.
-    None,
-    /// 256 fixed ones.
-    Palette,
-    /// Any.
-    All,
-}
-
-impl Colours {
-    /// A colour as the terminal has it.
-    #[must_use]
-    pub fn colour(self, [red, green, blue]: Rgb) -> Color {
-        // The cube of 6 × 6 × 6 colours: 0, 95, 135, … 255.
-        let level = |value: u8| value.saturating_sub(35) / 40;
-        match self {
-            Colours::None => Color::Reset,
-            Colours::Palette => Color::Indexed(16 + 36 * level(red) + 6 * level(green) + level(blue)),
-            Colours::All => Color::Rgb(red, green, blue),
-        }
-    }
-}
 
 /// A figure as text of at most so many columns, one chart below the other.
 #[must_use]
@@ -66,10 +45,14 @@ pub fn figure_text(figure: &Figure, columns: usize, colours: Colours) -> String 
         }
         push_words(&mut text, &heading(chart).to_string(), columns);
         push_chart(&mut text, chart, columns as u16, &style);
-        let of_chart = Figure { charts: vec![chart.clone()], ..Figure::clone(figure) };
-        push_legend(&mut text, &of_chart, columns, &style);
+        push_legend(&mut text, chart, columns, &style);
     }
     text
+}
+
+/// Label of the vertical axis with its unit, or of the values of a map.
+fn heading(chart: &Chart) -> Label {
+    chart.map().map_or_else(|| chart.y.label_with_unit(), |map| map.key.label_with_unit())
 }
 
 fn letter(index: usize) -> char {
@@ -78,14 +61,14 @@ fn letter(index: usize) -> char {
 
 fn push_chart(text: &mut String, chart: &Chart, columns: u16, style: &CellStyle<'_>) {
     let mut area = Rect::new(0, 0, columns.min(WIDEST_PLOT), ROWS);
-    if let Some(map) = map::of(chart) {
+    if let Some(map) = chart.map() {
         // Every value has as many columns and rows as the others, where there is room.
         let rows = map.rows.len().max(1);
         let rows = rows.div_ceil(rows.div_ceil(MOST_ROWS)) * FEWEST_ROWS.div_ceil(rows);
         let left = area.width - CellPlot::within(area, chart).plot.width;
         let (room, values) = (usize::from(columns - left), map.columns.len().max(1));
         let plot = if values > room { room } else { values * (room / values).min(WIDEST_CELL) };
-        area.width = (plot as u16 + left).max(super::WITH_LEFT_SCALE.0);
+        area.width = (plot as u16 + left).max(WITH_LEFT_SCALE.0);
         area.height = rows as u16;
         while usize::from(CellPlot::within(area, chart).plot.height) < rows {
             area.height += 1;
@@ -95,13 +78,13 @@ fn push_chart(text: &mut String, chart: &Chart, columns: u16, style: &CellStyle<
     let mut buffer = Buffer::empty(area);
     let place = CellPlot::within(area, chart);
     place.draw(&mut buffer, chart, style);
-    super::dry(&mut buffer);
+    dry(&mut buffer);
     for row in 0..area.height {
         let cells = (0..area.width).map(|column| &buffer[(column, row)]);
         let runs: Vec<(&str, Style)> = cells.map(|cell| (cell.symbol(), cell.style())).collect();
         push_line(text, &runs);
     }
-    if let Some(map) = map::of(chart) {
+    if let Some(map) = chart.map() {
         text.push('\n');
         let parts = map::key(map, usize::from(columns), style.colours);
         let runs: Vec<(&str, Style)> = parts.iter().map(|(text, style)| (text.as_str(), *style)).collect();
@@ -117,8 +100,8 @@ fn push_chart(text: &mut String, chart: &Chart, columns: u16, style: &CellStyle<
     }
 }
 
-fn push_legend(text: &mut String, figure: &Figure, columns: usize, style: &CellStyle<'_>) {
-    let classes = figure.charts.iter().filter_map(map::of).flat_map(|map| {
+fn push_legend(text: &mut String, chart: &Chart, columns: usize, style: &CellStyle<'_>) {
+    let classes = chart.map().into_iter().flat_map(|map| {
         let has = |class: usize| map.classes.contains(&Some(class));
         map.class_names.iter().enumerate().filter(move |(class, _)| has(*class))
     });
@@ -126,7 +109,7 @@ fn push_legend(text: &mut String, figure: &Figure, columns: usize, style: &CellS
         classes.map(|(_, (_, letter, name))| (format!(" {name}"), *letter)).collect();
     let mut lines: Vec<Vec<(String, Style)>> = Vec::new();
     let mut width = 0;
-    for mut part in legend(figure, style) {
+    for mut part in legend(std::slice::from_ref(chart), style) {
         // Cells of a map hold letters.
         let letter = letters.iter().find(|(name, _)| part.last().is_some_and(|last| last.content == *name));
         if let Some((name, letter)) = letter {

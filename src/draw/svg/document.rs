@@ -129,7 +129,7 @@ impl Document {
             .collect();
         if !path.is_empty() {
             let fill = hex(fill);
-            self.element(format_args!("<path d=\"{path}\" fill=\"{fill}\"/>"));
+            self.element(format_args!("<path d=\"{path}\" fill=\"{fill}\" shape-rendering=\"crispEdges\"/>"));
         }
     }
 

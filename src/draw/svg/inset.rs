@@ -2,8 +2,9 @@
 
 use super::document::Place;
 use super::frame::Frame;
-use crate::draw::axis::{Axis, Span};
+use crate::draw::axis::Axis;
 use crate::draw::chart::{Chart, Shape};
+use crate::draw::scale::Span;
 
 /// Widths and heights of insets in shares of the chart; the first that fits is taken.
 const SIZES: [(f64, f64); 4] = [(0.46, 0.42), (0.4, 0.4), (0.36, 0.48), (0.32, 0.34)];

@@ -75,21 +75,23 @@ fn sample(document: &mut Document, entry: &Entry, (x, y): Place) {
     let part = 22.0 / entry.samples.len().max(1) as f64;
     for (index, (ink, sample)) in entry.samples.iter().enumerate() {
         let (colour, left) = (ink.on_paper(), x + index as f64 * part);
-        match *sample {
+        match sample {
             Sample::Line(None, Some(sign)) if entry.samples.len() == 1 => {
-                draw_sign(document, sign, (x + SIGN, y), SIGN, colour);
+                draw_sign(document, *sign, (x + SIGN, y), SIGN, colour);
             }
             Sample::Line(stroke, sign) => {
                 if let Some(stroke) = stroke {
-                    document.line(&[(left, y), (left + part, y)], Pen { colour, width: 1.6, stroke });
+                    document
+                        .line(&[(left, y), (left + part, y)], Pen { colour, width: 1.6, stroke: *stroke });
                 }
                 if let Some(sign) = sign {
-                    draw_sign(document, sign, (left + part / 2.0, y), SIGN, colour);
+                    draw_sign(document, *sign, (left + part / 2.0, y), SIGN, colour);
                 }
             }
-            Sample::Area => {
+            Sample::Area | Sample::Solid => {
                 let (from, to) = ((left, y - 5.0), (left + part, y + 5.0));
-                document.area(&[from, (to.0, from.1), to, (from.0, to.1)], colour, AREA_OPACITY);
+                let opacity = if *sample == Sample::Area { AREA_OPACITY } else { 1.0 };
+                document.area(&[from, (to.0, from.1), to, (from.0, to.1)], colour, opacity);
             }
             Sample::Guide if *ink == Ink::Text => {
                 document.line(&[(x + 5.0, y + 7.0), (x + 5.0, y - 7.0)], Pen { colour, ..guide() });

@@ -8,10 +8,11 @@ mod legend;
 
 pub use document::{Document, escaped};
 
-use super::axis::{Axis, AxisScale, Span};
-use super::chart::{Chart, Figure, HeatMap, Shape};
+use super::axis::Axis;
+use super::chart::{Chart, Figure, HeatMap};
 use super::colour::shade;
 use super::label::Label;
+use super::scale::{AxisScale, Span};
 use document::{Anchor, Pen, Place};
 use frame::{Frame, LABEL, NUMBER, Side};
 use layers::{PAPER, TEXT};
@@ -85,18 +86,11 @@ fn frame_of<'a>(chart: &'a Chart, y: &'a Axis, from: Place, size: (f64, f64)) ->
 fn rooms(figure: &Figure) -> (f64, f64) {
     figure.charts.iter().fold((AXES.0, BESIDE), |(left, right), chart| {
         let frame = frame_of(chart, &chart.y, (0.0, 0.0), figure.size);
-        let scale = map_of(chart).map_or(0.0, |map| {
+        let scale = chart.map().map_or(0.0, |map| {
             let bar = Frame { y: &map.key, ..frame };
             (FROM_MAP + BAR + bar.room(Side::Right) + MARGIN).max(SCALE)
         });
         (left.max(frame.room(Side::Left) + MARGIN), right.max(scale))
-    })
-}
-
-fn map_of(chart: &Chart) -> Option<&HeatMap> {
-    chart.layers.iter().find_map(|layer| match &layer.shape {
-        Shape::Map(map) => Some(map),
-        _ => None,
     })
 }
 
@@ -108,7 +102,7 @@ fn draw_chart(document: &mut Document, chart: &Chart, from: Place, size: (f64, f
     document.frame(frame.from, frame.to, Pen::solid(TEXT, 1.0));
     frame.axis(document, Side::Below, TEXT, true);
     frame.axis(document, Side::Left, TEXT, true);
-    if let Some(map) = map_of(chart) {
+    if let Some(map) = chart.map() {
         scale_of_colours(document, map, &frame);
     }
     if let Some(inner) = &chart.inset {
@@ -142,7 +136,7 @@ fn scale_of_colours(document: &mut Document, map: &HeatMap, beside: &Frame<'_>) 
 #[cfg(test)]
 pub(crate) mod tests {
     use super::*;
-    use crate::draw::chart::{Layer, Sign, Stroke};
+    use crate::draw::chart::{Layer, Shape, Sign, Stroke};
     use crate::draw::colour::{Ink, hex};
 
     /// Elements of a document, names with attributes, and its text. Panics where the document is not well-formed.

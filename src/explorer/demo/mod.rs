@@ -65,7 +65,9 @@ impl Demo {
                 self.explorer.act(Action::Type(character));
                 self.pause = TYPING;
             } else if matches!(self.explorer.model.mode, Mode::Edit(_)) {
-                self.explorer.command(Command::Accept);
+                // A value that is refused stays in the editor.
+                let is_refused = self.explorer.model.refused.is_some();
+                self.explorer.command(if is_refused { Command::Cancel } else { Command::Accept });
             } else {
                 let cue = self.cues.pop_front()?;
                 self.follow(cue);

@@ -47,10 +47,10 @@ fn toggle(model: &mut Model) -> Vec<Effect> {
 
 /// Explores what has been opened by its path.
 pub fn open(model: &mut Model, opening: Opening) -> Vec<Effect> {
-    let Opening { document, atlas } = opening;
+    let Opening { document, study_map } = opening;
     let effects = edit::open(model, document);
-    if let Some(atlas) = atlas {
-        model.show_study(atlas);
+    if let Some(study_map) = study_map {
+        model.show_study(study_map);
     }
     effects
 }
@@ -79,13 +79,13 @@ fn step_slice(model: &mut Model, steps: i32) -> Vec<Effect> {
         model.notice = Some(Notice::Error(why.to_owned()));
         return Vec::new();
     };
-    if study.atlas.slices() == 1 {
+    if study.study_map.slices() == 1 {
         model.notice = Some(Notice::Done("this study has one map".to_owned()));
         return Vec::new();
     }
     let next = study.stepped(steps);
-    let goes_with = study.atlas.is_of(study.slice, model.document.scene());
-    let followed = goes_with.then(|| next.atlas.follow(next.slice, &model.document));
+    let goes_with = study.study_map.is_of(study.slice, model.document.scene());
+    let followed = goes_with.then(|| next.study_map.follow(next.slice, &model.document));
     model.chart.study = Some(next);
     followed.map_or_else(Vec::new, |followed| edit::take_over(model, followed))
 }
@@ -135,10 +135,10 @@ fn moved(model: &Model, kappa: f64, hurst: f64) -> Result<Document, SceneErrors>
     let moved = Template::moved(&model.document, kappa, hurst)?;
     match model.chart.shown_study() {
         Some(study)
-            if study.atlas.is_of(study.slice, model.document.scene())
-                && !study.atlas.is_of(study.slice, moved.scene()) =>
+            if study.study_map.is_of(study.slice, model.document.scene())
+                && !study.study_map.is_of(study.slice, moved.scene()) =>
         {
-            study.atlas.follow(study.slice, &moved)
+            study.study_map.follow(study.slice, &moved)
         }
         _ => Ok(moved),
     }

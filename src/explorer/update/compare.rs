@@ -3,7 +3,7 @@
 use super::{Effect, edit};
 use crate::explorer::action::Command;
 use crate::explorer::model::{Ghost, Model, Notice};
-use crate::scene::{Document, Field, LEG_FORCE, LEG_INDENTATION, Leg, field, format_quantity};
+use crate::scene::{Document, Field, field, format_quantity};
 use std::sync::Arc;
 
 /// Ghosts that are kept; more could not be told apart.
@@ -82,11 +82,8 @@ fn name_of(path: &str, scene: &Document) -> (String, Option<&'static Field>) {
     let symbol = |field: &'static Field| if field.symbol.is_empty() { field.name } else { field.symbol };
     let mut parts = path.strip_prefix("loading.").unwrap_or_default().split('.');
     if let Some(index) = parts.next().and_then(|index| index.parse::<usize>().ok()) {
-        let target = match parts.next().and(scene.scene().loading.get(index)) {
-            Some(Leg::ToForce(_)) => Some(&LEG_FORCE),
-            Some(Leg::ToIndentation(_)) => Some(&LEG_INDENTATION),
-            _ => None,
-        };
+        let leg = parts.next().and(scene.scene().loading.get(index));
+        let target = leg.and_then(|leg| leg.target()).map(|(field, _)| field);
         let symbol = target.map(|field| format!(" {}", symbol(field))).unwrap_or_default();
         return (format!("leg {}{symbol}", index + 1), target);
     }

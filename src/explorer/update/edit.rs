@@ -6,11 +6,11 @@ use crate::explorer::action::Command;
 use crate::explorer::layout::Layout;
 use crate::explorer::mode::Mode;
 use crate::explorer::model::{Look, Model, Notice, Pane, Player};
-use crate::explorer::parameters::{Setting, parameters};
+use crate::explorer::parameters::{Parameter, Setting, parameters};
 use crate::explorer::session::scene_of;
 use crate::explorer::text_line::TextLine;
 use crate::explorer::worker::{Focus, LineView};
-use crate::scene::{Computed, Document, SceneErrors, Step, presets};
+use crate::scene::{Computed, Document, Range, SceneErrors, Step, exact_quantity, presets};
 
 /// Edits that can be taken back.
 const UNDO_DEPTH: usize = 1000;
@@ -36,8 +36,8 @@ pub fn obey(model: &mut Model, command: Command) -> Vec<Effect> {
                 if let Setting::Switch(_) = parameter.setting {
                     return toggle(model);
                 }
-                let written = model.written(parameter).unwrap_or_default();
-                model.mode = Mode::Edit(TextLine::new(&written));
+                model.mode = Mode::Edit(TextLine::selected(&editable(model, parameter)));
+                model.refused = None;
             }
             show_parameters(model)
         }
@@ -113,13 +113,31 @@ fn step_value(model: &mut Model, steps: i32, coarse: bool) -> Vec<Effect> {
     }
 }
 
-/// Takes over the value that was typed for the selected parameter.
-pub fn accept_value(model: &mut Model, typed: &str) -> Vec<Effect> {
-    let Some(parameter) = model.parameter() else { return Vec::new() };
-    match parameter.read_typed(typed) {
-        Ok(written) => set_selected(model, &written),
-        Err(error) => refuse(model, error),
+/// The value of a parameter as the editor opens with it: in the unit in which it is shown, to its last digit.
+fn editable(model: &Model, parameter: &Parameter) -> String {
+    let written = model.written(parameter).unwrap_or_default();
+    match (parameter.field.range, written.parse()) {
+        (Range::Real { .. }, Ok(value)) => exact_quantity(value, parameter.field.unit),
+        _ => written,
     }
+}
+
+/// Sets the selected parameter to the typed value and closes the editor. A value that is refused stays in the editor.
+pub fn accept_value(model: &mut Model, typed: &str) -> Vec<Effect> {
+    model.refused = None;
+    let Some(parameter) = model.parameter() else { return Vec::new() };
+    let effects = if typed == editable(model, parameter) {
+        Vec::new()
+    } else {
+        match parameter.field.read_typed(typed) {
+            Ok(written) => set_selected(model, &written),
+            Err(error) => refuse(model, format!("{error}; allowed: {}", parameter.field.allowed())),
+        }
+    };
+    if model.refused.is_none() {
+        model.mode = Mode::Explore;
+    }
+    effects
 }
 
 /// Sets the selected parameter to a value as it is written in a scene.

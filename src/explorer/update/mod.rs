@@ -19,7 +19,7 @@ use super::mode::Mode;
 use super::model::{Model, Notice};
 use super::view::help_end;
 use super::worker::{HandOrder, MomentRequest};
-use crate::scene::{Document, Roughness, typed_path};
+use crate::scene::{Document, typed_path};
 use std::path::PathBuf;
 
 /// Something to be done outside the model.
@@ -68,8 +68,8 @@ pub fn update(model: &mut Model, action: Action) -> Vec<Effect> {
             return vec![Effect::Show];
         }
         Action::Elapse(time) => return movement::elapse(model, time),
-        Action::SetSeed(seed) => match model.document.scene().roughness {
-            Some(Roughness::SelfAffine { .. }) => {
+        Action::SetSeed(seed) => match model.document.scene().seed() {
+            Some(_) => {
                 return edit::change(model, "roughness.seed", &seed.to_string());
             }
             _ => model.notice = Some(Notice::Error("the scene has no random line to draw anew".to_owned())),
@@ -146,10 +146,12 @@ fn obey(model: &mut Model, command: Command) -> Vec<Effect> {
         Mode::Edit(line) => match command {
             Command::Accept => {
                 let typed = line.text();
-                model.mode = Mode::Explore;
                 return edit::accept_value(model, &typed);
             }
-            _ => edit_line(model, command),
+            _ => {
+                model.refused = None;
+                edit_line(model, command);
+            }
         },
         Mode::Force(line) => match command {
             Command::Accept => {
@@ -199,6 +201,9 @@ fn obey(model: &mut Model, command: Command) -> Vec<Effect> {
 
 /// Text typed or pasted into the line there is.
 fn typed(model: &mut Model, text: &str) -> Vec<Effect> {
+    if let Mode::Edit(_) = model.mode {
+        model.refused = None;
+    }
     if let Some(line) = model.mode.line_mut() {
         text.chars().for_each(|character| line.insert(character));
     }

@@ -147,7 +147,7 @@ fn present(numerics: &Numerics, table: &CostTable) -> Option<(f64, f64)> {
 
 /// Which sign is which knob, with its observed order.
 fn entries(table: &CostTable, figure: &Figure, width: u16, appearance: Appearance) -> Vec<Line<'static>> {
-    let mut parts = plot::in_theme(appearance, |style| legend(figure, style));
+    let mut parts = plot::in_theme(appearance, |style| legend(&figure.charts, style));
     for part in &mut parts {
         let is_of = |knob: &Knob| part.last().is_some_and(|name| name.content.trim_start() == knob.name());
         if let Some(order) = Knob::ALL.iter().find(|knob| is_of(knob)).and_then(|knob| table.order(*knob)) {

@@ -42,15 +42,15 @@ pub(super) fn glyph_between(one: Regime, other: Regime) -> &'static str {
     if [one, other].contains(&Regime::PressureInsensitive) { "▓" } else { "░" }
 }
 
-fn glyph(plane: &MapModel, place: &Place<'_>, spot: &MapCell, charted: Charted) -> &'static str {
-    match (charted, spot.regime) {
+fn glyph(map_model: &MapModel, place: &Place<'_>, map_cell: &MapCell, charted: Charted) -> &'static str {
+    match (charted, map_cell.regime) {
         (Charted::Regime, None) => "?",
         (Charted::Regime, Some(regime)) => {
-            spot.split.map_or_else(|| glyph_of(regime), |other| glyph_between(regime, other))
+            map_cell.split.map_or_else(|| glyph_of(regime), |other| glyph_between(regime, other))
         }
-        (Charted::Quantity(quantity), _) => plane
+        (Charted::Quantity(quantity), _) => map_model
             .layer(quantity)
-            .and_then(|layer| Some((layer, plane.estimate(layer, place.column, place.row)?)))
+            .and_then(|layer| Some((layer, map_model.estimate(layer, place.column, place.row)?)))
             .map_or("?", |(layer, estimate)| STEPS[layer.step(estimate.mean)]),
     }
 }
@@ -83,15 +83,15 @@ fn places(model: &Model, area: Rect) -> Places {
 
 /// κ and H under a place on the screen.
 pub fn place_at(model: &Model, area: Rect, here: Position) -> Option<(f64, f64)> {
-    let plane = model.chart.plane().filter(|_| !model.chart.sections)?;
-    let up = plane.up()?;
+    let map_model = model.chart.map_model().filter(|_| !model.chart.sections)?;
+    let up = map_model.up()?;
     let plot = places(model, area).plot;
     let inside = plot.contains(here);
     if !inside {
         return None;
     }
-    let (columns, rows) = plane.size();
-    let kappa = plane.across().values.get(index(here.x - plot.x, plot.width, columns))?;
+    let (columns, rows) = map_model.size();
+    let kappa = map_model.across().values.get(index(here.x - plot.x, plot.width, columns))?;
     let hurst = up.values.get(index(plot.bottom() - 1 - here.y, plot.height, rows))?;
     Some((*kappa, *hurst))
 }
@@ -110,24 +110,24 @@ fn screen(at: f64, of: u16, count: usize) -> u16 {
 /// Draws legend, map, and what stands at the mark, as far as there is room.
 pub fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
     let theme = model.appearance.theme;
-    let Some(plane) = model.chart.plane() else {
+    let Some(map_model) = model.chart.map_model() else {
         let text = wrapped(&Line::styled(words::nothing_yet(model), theme.style(Meaning::Quiet)), area.width);
         return write(frame, area, text);
     };
-    if model.chart.sections || plane.up().is_none() {
+    if model.chart.sections || map_model.up().is_none() {
         let below = words::below(model, area);
         let rows = (below.len() as u16).min(area.height.saturating_sub(FEWEST_ROWS));
         let plots = Rect { height: area.height - rows, ..area };
-        sections::draw(frame, plots, model, plane);
+        sections::draw(frame, plots, model, map_model);
         return write(frame, Rect { y: plots.bottom(), height: rows, ..area }, below);
     }
     let Places { legend, plot, below } = places(model, area);
     write(frame, Rect { height: legend.len() as u16, ..area }, legend);
     let rows = (below.len() as u16).min(area.height);
     write(frame, Rect { y: area.bottom() - rows, height: rows, ..area }, below);
-    cells(frame, plot, model, plane);
-    axes(frame, area, plot, plane, theme);
-    mark(frame, area, plot, model, plane);
+    cells(frame, plot, model, map_model);
+    axes(frame, area, plot, map_model, theme);
+    mark(frame, area, plot, model, map_model);
 }
 
 fn write(frame: &mut Frame<'_>, area: Rect, lines: Vec<Line<'static>>) {
@@ -136,18 +136,20 @@ fn write(frame: &mut Frame<'_>, area: Rect, lines: Vec<Line<'static>>) {
     }
 }
 
-fn cells(frame: &mut Frame<'_>, plot: Rect, model: &Model, plane: &MapModel) {
+fn cells(frame: &mut Frame<'_>, plot: Rect, model: &Model, map_model: &MapModel) {
     let theme = model.appearance.theme;
-    let (columns, rows) = plane.size();
+    let (columns, rows) = map_model.size();
     let charted = model.chart.charted();
     for y in 0..plot.height {
         let row = index(plot.height - 1 - y, plot.height, rows);
         let spans = (0..plot.width).map(|x| {
-            let Some(place) = plane.shown(index(x, plot.width, columns), row) else { return Text::raw(" ") };
+            let Some(place) = map_model.shown(index(x, plot.width, columns), row) else {
+                return Text::raw(" ");
+            };
             match place.cell {
-                Ok(spot) => {
-                    let meaning = spot.regime.map_or(Meaning::Text, meaning);
-                    Text::styled(glyph(plane, &place, spot, charted), theme.style(meaning))
+                Ok(map_cell) => {
+                    let meaning = map_cell.regime.map_or(Meaning::Text, meaning);
+                    Text::styled(glyph(map_model, &place, map_cell, charted), theme.style(meaning))
                 }
                 Err(_) => Text::styled("×", theme.style(Meaning::Error)),
             }
@@ -157,8 +159,8 @@ fn cells(frame: &mut Frame<'_>, plot: Rect, model: &Model, plane: &MapModel) {
     }
 }
 
-fn axes(frame: &mut Frame<'_>, area: Rect, plot: Rect, plane: &MapModel, theme: Theme) {
-    let ([across, up], (columns, rows)) = (plane.labels(), plane.size());
+fn axes(frame: &mut Frame<'_>, area: Rect, plot: Rect, map_model: &MapModel, theme: Theme) {
+    let ([across, up], (columns, rows)) = (map_model.labels(), map_model.size());
     let quiet = theme.style(Meaning::Quiet);
     if plot.is_empty() {
         return;
@@ -196,11 +198,11 @@ fn axes(frame: &mut Frame<'_>, area: Rect, plot: Rect, plane: &MapModel, theme: 
 }
 
 /// The scene as it stands, with a pointer on each axis.
-fn mark(frame: &mut Frame<'_>, area: Rect, plot: Rect, model: &Model, plane: &MapModel) {
+fn mark(frame: &mut Frame<'_>, area: Rect, plot: Rect, model: &Model, map_model: &MapModel) {
     let Some((kappa, Some(hurst))) = model.place().filter(|_| !plot.is_empty()) else { return };
     let style = model.appearance.theme.style(Meaning::Cursor);
-    let (column, row) = plane.coordinates(kappa, Some(hurst));
-    let (columns, rows) = plane.size();
+    let (column, row) = map_model.coordinates(kappa, Some(hurst));
+    let (columns, rows) = map_model.size();
     // Beyond the map it stands at its edge.
     let (x, y) = (screen(column, plot.width, columns), screen(row, plot.height, rows));
     let (x, y) = (plot.x + x, plot.bottom() - 1 - y);

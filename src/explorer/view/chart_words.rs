@@ -19,9 +19,13 @@ const ROOMY: u16 = 24;
 /// Title of the pane: of what the map is the mean.
 pub fn title(model: &Model) -> String {
     if let Some(study) = model.chart.shown_study() {
-        let plan = study.atlas.plan();
-        let (columns, rows) = model.chart.plane().map(MapModel::size).unwrap_or_default();
-        return format!(" Study {}: {columns} × {rows} cells, {} ", study.atlas.name(), lines(plan.lines));
+        let plan = study.study_map.plan();
+        let (columns, rows) = model.chart.map_model().map(MapModel::size).unwrap_or_default();
+        return format!(
+            " Study {}: {columns} × {rows} cells, {} ",
+            study.study_map.name(),
+            lines(plan.lines)
+        );
     }
     match Template::of(model.document.scene()) {
         Ok(template) => {
@@ -57,9 +61,9 @@ pub fn nothing_yet(model: &Model) -> String {
 }
 
 /// The name of a quantity: its symbol, where no other quantity of the map has the same.
-pub fn name_of(plane: &MapModel, quantity: Quantity) -> String {
+pub fn name_of(map_model: &MapModel, quantity: Quantity) -> String {
     let symbol = quantity.symbol();
-    let is_only = plane.layers().iter().filter(|layer| layer.quantity.symbol() == symbol).count() == 1;
+    let is_only = map_model.layers().iter().filter(|layer| layer.quantity.symbol() == symbol).count() == 1;
     if is_only && !symbol.is_empty() { symbol.to_owned() } else { quantity.name().replace('_', " ") }
 }
 
@@ -67,7 +71,7 @@ pub fn name_of(plane: &MapModel, quantity: Quantity) -> String {
 pub fn legend(model: &Model, width: u16) -> Vec<Line<'static>> {
     let theme = model.appearance.theme;
     let width = usize::from(width);
-    let Some(plane) = model.chart.plane() else { return Vec::new() };
+    let Some(map_model) = model.chart.map_model() else { return Vec::new() };
     let mut parts: Vec<Vec<Text<'static>>> = Vec::new();
     match model.chart.charted() {
         Charted::Regime => {
@@ -75,15 +79,15 @@ pub fn legend(model: &Model, width: u16) -> Vec<Line<'static>> {
                 let glyph = Text::styled(glyph_of(regime), theme.style(meaning(regime)));
                 parts.push(vec![glyph, Text::raw(format!(" {}", regime.name()))]);
             }
-            if plane.is_split() {
+            if map_model.is_split() {
                 let glyphs = [Regime::PressureInsensitive, Regime::NonAdhesive]
                     .map(|regime| glyph_between(regime, Regime::PressureSensitive));
                 parts.push(vec![Text::raw(format!("{} divided", glyphs.join(" ")))]);
             }
         }
         Charted::Quantity(quantity) => {
-            parts.push(vec![Text::styled(name_of(plane, quantity), theme.style(Meaning::Title))]);
-            let steps = plane.layer(quantity).map(|layer| layer.steps).unwrap_or_default();
+            parts.push(vec![Text::styled(name_of(map_model, quantity), theme.style(Meaning::Title))]);
+            let steps = map_model.layer(quantity).map(|layer| layer.steps).unwrap_or_default();
             for (glyph, least) in STEPS.into_iter().zip(steps) {
                 let least = format_quantity(least, quantity.unit());
                 parts.push(vec![Text::raw(glyph), Text::raw(format!(" ≥ {least}"))]);
@@ -97,17 +101,17 @@ pub fn legend(model: &Model, width: u16) -> Vec<Line<'static>> {
 
 /// Which map of a study it is, where it has several.
 fn slice(model: &Model, study: &OpenStudy, width: usize) -> Vec<Line<'static>> {
-    let (theme, slices) = (model.appearance.theme, study.atlas.slices());
+    let (theme, slices) = (model.appearance.theme, study.study_map.slices());
     if slices == 1 {
         // Axes of one value.
-        let at = study.atlas.stands_at(0).into_iter();
+        let at = study.study_map.stands_at(0).into_iter();
         return filled(
             at.map(|at| vec![Text::styled(at, theme.style(Meaning::Title))]).collect(),
             "  ",
             width,
         );
     }
-    let at = study.atlas.stands_at(study.slice).into_iter();
+    let at = study.study_map.stands_at(study.slice).into_iter();
     let which = Text::styled(
         format!("{} of {}, P: the next", grouped(study.slice + 1), grouped(slices)),
         theme.style(Meaning::Key),
@@ -128,22 +132,22 @@ pub fn number(value: f64) -> String {
 
 /// What stands below the map, the most important first.
 pub fn below(model: &Model, area: Rect) -> Vec<Line<'static>> {
-    let Some(plane) = model.chart.plane() else { return Vec::new() };
+    let Some(map_model) = model.chart.map_model() else { return Vec::new() };
     let theme = model.appearance.theme;
     let mut lines = Vec::new();
     let mut say = |line: Line<'static>| lines.extend(wrapped(&line, area.width));
     let study = model.chart.shown_study();
     match model.place() {
         Some((at_kappa, at_hurst)) => {
-            say(here(model, plane, at_kappa, at_hurst));
-            if let Some(place) = plane.nearest(at_kappa, at_hurst) {
+            say(here(model, map_model, at_kappa, at_hurst));
+            if let Some(place) = map_model.nearest(at_kappa, at_hurst) {
                 let value = |axis: &[f64], index: usize| axis.get(index).copied().map(number);
                 let at_cell = (
-                    value(&plane.across().values, place.column),
-                    plane.up().and_then(|up| value(&up.values, place.row)),
+                    value(&map_model.across().values, place.column),
+                    map_model.up().and_then(|up| value(&up.values, place.row)),
                 );
                 let elsewhere = at_cell != (Some(number(at_kappa)), at_hurst.map(number));
-                say(Line::raw(there(model, plane, elsewhere.then_some(at_cell), &place)));
+                say(Line::raw(there(model, map_model, elsewhere.then_some(at_cell), &place)));
             } else if study.is_some() && at_hurst.is_some() {
                 say(Line::raw("the study was merged without this cell"));
             }
@@ -156,7 +160,7 @@ pub fn below(model: &Model, area: Rect) -> Vec<Line<'static>> {
         None => {}
     }
     match study {
-        Some(study) if !study.atlas.is_of(study.slice, model.document.scene()) => say(Line::styled(
+        Some(study) if !study.study_map.is_of(study.slice, model.document.scene()) => say(Line::styled(
             "the scene is no longer that of the study: more than κ and H differ",
             theme.style(Meaning::Key),
         )),
@@ -164,7 +168,7 @@ pub fn below(model: &Model, area: Rect) -> Vec<Line<'static>> {
         None => computed_so_far(model, &mut say),
     }
     if area.height >= ROOMY {
-        let note = study.map_or_else(note_of_computed, |study| note_of_study(study, plane));
+        let note = study.map_or_else(note_of_computed, |study| note_of_study(study, map_model));
         lines.extend(wrapped(&Line::styled(note, theme.style(Meaning::Quiet)), area.width));
     }
     lines
@@ -196,13 +200,13 @@ fn note_of_computed() -> String {
     )
 }
 
-fn note_of_study(study: &OpenStudy, plane: &MapModel) -> String {
-    let regimes = if plane.charted().contains(&Charted::Regime) {
+fn note_of_study(study: &OpenStudy, map_model: &MapModel) -> String {
+    let regimes = if map_model.charted().contains(&Charted::Regime) {
         "Colours: regime of most profiles; ▓ and ░: fewer than three quarters agree. "
     } else {
         "One colour: no regimes were recorded. "
     };
-    let plan = study.atlas.plan();
+    let plan = study.study_map.plan();
     format!(
         "A finished study of {}, from seed {}. {regimes}± is the 95 % confidence of the mean. ◆ is its scene on the first line; W shows the map that is \
          computed here around it, and this one again.",
@@ -212,9 +216,9 @@ fn note_of_study(study: &OpenStudy, plane: &MapModel) -> String {
 }
 
 /// The scene itself.
-fn here(model: &Model, plane: &MapModel, at_kappa: f64, at_hurst: Option<f64>) -> Line<'static> {
+fn here(model: &Model, map_model: &MapModel, at_kappa: f64, at_hurst: Option<f64>) -> Line<'static> {
     let hurst = at_hurst.map_or_else(String::new, |hurst| format!(", H {}", number(hurst)));
-    let outside = if plane.contains(at_kappa, at_hurst) { "" } else { ", outside the map" };
+    let outside = if map_model.contains(at_kappa, at_hurst) { "" } else { ", outside the map" };
     let regime = model.computed.as_ref().filter(|_| model.is_current());
     let regime = regime.and_then(|computed| computed.outcome.regime);
     let regime = regime.map_or_else(String::new, |regime| format!(": {}", regime.name()));
@@ -229,12 +233,12 @@ const WITH_REGIME: [Quantity; 2] = [Quantity::ZeroLoadAdhesionShare, Quantity::A
 
 /// The layers that are told together: with the regime those it follows from, as far as there are any, else the
 /// one that the glyphs tell.
-pub fn told(charted: Charted, plane: &MapModel) -> Vec<&Layer> {
+pub fn told(charted: Charted, map_model: &MapModel) -> Vec<&Layer> {
     match charted {
-        Charted::Quantity(quantity) => plane.layer(quantity).into_iter().collect(),
+        Charted::Quantity(quantity) => map_model.layer(quantity).into_iter().collect(),
         Charted::Regime => {
-            let both: Vec<_> = WITH_REGIME.into_iter().filter_map(|one| plane.layer(one)).collect();
-            if both.is_empty() { plane.layers().first().into_iter().collect() } else { both }
+            let both: Vec<_> = WITH_REGIME.into_iter().filter_map(|one| map_model.layer(one)).collect();
+            if both.is_empty() { map_model.layers().first().into_iter().collect() } else { both }
         }
     }
 }
@@ -242,7 +246,7 @@ pub fn told(charted: Charted, plane: &MapModel) -> Vec<&Layer> {
 /// What the map says there, or where it says it, in case that is not where the mark is.
 fn there(
     model: &Model,
-    plane: &MapModel,
+    map_model: &MapModel,
     at: Option<(Option<String>, Option<String>)>,
     place: &Place<'_>,
 ) -> String {
@@ -254,25 +258,25 @@ fn there(
         }
         _ => whose.to_owned(),
     };
-    let spot = match place.cell {
-        Ok(spot) => spot,
+    let map_cell = match place.cell {
+        Ok(map_cell) => map_cell,
         Err(why) => return format!("{at}: {why}"),
     };
-    let agree = if spot.lines == 1 {
+    let agree = if map_cell.lines == 1 {
         String::new()
     } else {
-        format!(" ({} of {} lines)", grouped(spot.agreeing), grouped(spot.lines))
+        format!(" ({} of {} lines)", grouped(map_cell.agreeing), grouped(map_cell.lines))
     };
-    let regime = spot.regime.map(|regime| format!("{}{agree}", regime.name()));
+    let regime = map_cell.regime.map(|regime| format!("{}{agree}", regime.name()));
     // What goes with the regime is told together, so that the map keeps its place.
     let charted = match model.chart.charted() {
         Charted::Quantity(one) if WITH_REGIME.contains(&one) => Charted::Regime,
         other => other,
     };
-    let values = told(charted, plane).into_iter().filter_map(|layer| {
-        let estimate = plane.estimate(layer, place.column, place.row)?;
+    let values = told(charted, map_model).into_iter().filter_map(|layer| {
+        let estimate = map_model.estimate(layer, place.column, place.row)?;
         let value = value(estimate, layer.quantity.unit());
-        Some(format!("{} {value}", name_of(plane, layer.quantity)))
+        Some(format!("{} {value}", name_of(map_model, layer.quantity)))
     });
     format!("{at}: {}", regime.into_iter().chain(values).collect::<Vec<_>>().join(", "))
 }

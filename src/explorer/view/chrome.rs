@@ -1,7 +1,7 @@
 //! The lines around the panes: title, status, footer.
 
 use super::typed::typed;
-use super::wrap::{fitting, wrapped};
+use super::wrap::{clipped, fitting, wrapped};
 use crate::accuracy::Target;
 use crate::contact::CurvePoint;
 use crate::explorer::action::Command;
@@ -26,7 +26,13 @@ pub fn title(frame: &mut Frame<'_>, area: Rect, model: &Model) {
         Span::styled(format!("{name}{changed}  "), model.appearance.theme.style(Meaning::Title)),
         Span::styled(notice, model.appearance.theme.style(Meaning::Quiet)),
     ]);
-    frame.render_widget(Paragraph::new(wrapped(&line, area.width)), area);
+    let mut lines = wrapped(&line, area.width);
+    if lines.len() > usize::from(area.height) {
+        lines.truncate(usize::from(area.height));
+        let last = lines.pop().map(|last| clipped(last, area.width));
+        lines.extend(last);
+    }
+    frame.render_widget(Paragraph::new(lines), area);
 }
 
 /// The headline figures, or a question, an error, or what is being typed.
@@ -50,7 +56,7 @@ pub fn status(frame: &mut Frame<'_>, area: Rect, model: &Model) {
         (Mode::Overwrite { path, .. }, _) => error(format!("{} exists. Overwrite it?", path.display())),
         (Mode::Quit, _) => error("The scene has unsaved changes. Leave?".to_owned()),
         (_, Some(Notice::Error(text))) => error(format!("! {}", text.replace('\n', " · "))),
-        (Mode::Explore, None) if model.refused.is_some() => {
+        (Mode::Explore | Mode::Edit(_), None) if model.refused.is_some() => {
             let text = model.refused.as_ref().map_or("", |(_, text)| text);
             error(format!("! {text}"))
         }
@@ -85,14 +91,8 @@ fn headline(model: &Model, width: u16) -> Line<'static> {
         part("  ", format!("F_max {}", format_quantity(largest, "N")), Meaning::Title);
     }
     let error = error(model);
-    if !in_hand {
-        if let Some(error) = &error {
-            part(" ", error.clone(), Meaning::Title);
-        }
-        if model.shows_times && !model.is_computing() {
-            // What the last run made anew: a kept line and tree cost nothing.
-            part(" · ", format_quantity(short(outcome.timings.total()), "s"), Meaning::Quiet);
-        }
+    if let Some(error) = error.as_ref().filter(|_| !in_hand) {
+        part(" ", error.clone(), Meaning::Title);
     }
     if let (Some(moment), Some(hand)) = (model.present(), &model.hand) {
         // What the move cost comes before what it led to.
@@ -107,6 +107,13 @@ fn headline(model: &Model, width: u16) -> Line<'static> {
             part(" · ", format!("{of}{error}"), Meaning::Text);
         }
     } else {
+        if let Some(moment) = model.present() {
+            let point = moment.point;
+            let d = format_quantity(point.indentation, "m");
+            part("  ", format!("d {d} F {}", format_quantity(point.force, "N")), Meaning::Text);
+            let share = 100.0 * point.contact_length / outcome.line.length;
+            part(" · ", format!("contact {} %", format_quantity(short(share), "1")), Meaning::Text);
+        }
         if let Some(regime) = outcome.regime {
             part(" · ", regime.name().to_owned(), Meaning::Title);
         }
@@ -114,10 +121,13 @@ fn headline(model: &Model, width: u16) -> Line<'static> {
             part(" · ", format!("F_a/F_n {}", format_quantity(coefficient, "1")), Meaning::Title);
         }
         if let Some(moment) = model.present() {
-            let point = moment.point;
-            let d = format_quantity(point.indentation, "m");
-            part("  ", format!("d {d} F {}", format_quantity(point.force, "N")), Meaning::Text);
-            part(" · ", contact(point), Meaning::Text);
+            let stiffness = outcome.governing.effective_modulus * moment.point.contact_length;
+            part(" · ", format!("dF/dd {}", format_quantity(short(stiffness), "N/m")), Meaning::Text);
+            part(" · ", contact(moment.point), Meaning::Text);
+        }
+        if model.shows_times && !model.is_computing() {
+            // Times of the last run only: a kept profile and tree take none.
+            part(" · ", format_quantity(short(outcome.timings.total()), "s"), Meaning::Quiet);
         }
     }
     if model.is_computing() {
@@ -146,7 +156,7 @@ fn choosing(model: &Model) -> Line<'static> {
     Line::raw(format!("trying for {tolerance:e}{trying}…"))
 }
 
-/// How much touches.
+/// Springs and patches in contact.
 fn contact(point: CurvePoint) -> String {
     format!("{} in {}", counted(point.springs, "spring"), counted(point.fragments, "fragment"))
 }

@@ -7,6 +7,7 @@ use crate::contact::{CurvePoint, Direction, LegRecord};
 use crate::draw::{
     Axis, AxisScale, CellPlot, Chart, Ink, Label, Layer, Shape, Sign, Span, Stroke, glyph, legend,
 };
+use crate::explorer::caption::caption;
 use crate::explorer::model::{Ghost, Model, Quantities};
 use crate::explorer::snapshot::Loop;
 use crate::explorer::theme::{Meaning, Theme};
@@ -36,8 +37,12 @@ pub fn title(model: &Model) -> String {
     } else {
         String::new()
     };
-    let computing = if model.is_computing() { " · computing" } else { "" };
-    format!(" {name}{loss}{computing} ")
+    let event = match caption(model) {
+        _ if model.is_computing() => " · computing".to_owned(),
+        Some(event) => format!(" · {event}"),
+        None => String::new(),
+    };
+    format!(" {name}{loss}{event} ")
 }
 
 /// In what the axes count: metres and newtons, or what governs the scene.
@@ -169,11 +174,13 @@ pub fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
     let chart = chart(model, units);
     let place = plot::draw_chart(frame, below(area, above), &chart, model.appearance);
     draw_letters(frame, &place, &chart, model, units);
-    let legend = plot::in_theme(model.appearance, |style| legend(&plot::figure(&chart), style));
+    let legend = plot::in_theme(model.appearance, |style| legend(std::slice::from_ref(&chart), style));
     let mut parts =
         vec![vec![Text::styled(chart.y.label_with_unit().to_string(), theme.style(Meaning::Quiet))]];
     parts.extend(legend);
-    let rows = [fitting(parts, "  ", usize::from(area.width))];
+    let widths: usize = parts.iter().flatten().map(Text::width).sum::<usize>() + 2 * (parts.len() - 1);
+    let between = if widths <= usize::from(area.width) { "  " } else { " " };
+    let rows = [fitting(parts, between, usize::from(area.width))];
     let values = model.is_current().then(|| values(model.legs(), area.width, theme));
     let ghosts = model.ghosts.iter().enumerate().rev().map(|(number, ghost)| {
         Line::styled(format!("{} {}", letter(number), ghost.differs), theme.style(Meaning::Ghost))
@@ -218,7 +225,8 @@ fn chart(model: &Model, units: Units) -> Chart {
     if let Some(moment) = model.present() {
         let (at, value) = units.place(&moment.point);
         let at = (at.clamp(x.low, x.high), value.clamp(y.low, y.high));
-        layers.push(Layer::new(Label::plain("now"), Ink::Cursor, point(at, Sign::Diamond)));
+        let name = if model.hand.is_some() { "manual" } else { "now" };
+        layers.push(Layer::new(Label::plain(name), Ink::Cursor, point(at, Sign::Diamond)));
     }
     let (x, y) = units.axes(x, y);
     plot::chart(x, y, layers)

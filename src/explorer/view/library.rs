@@ -100,7 +100,9 @@ fn draw_curve(frame: &mut Frame<'_>, area: Rect, model: &Model, entry: &Entry) {
     };
     let plot = Rect { height: area.height - 1, ..area };
     let figure = force_figure(&[("", outcome)]);
-    figure.charts.iter().for_each(|chart| drop(draw_chart(frame, plot, chart, model.appearance)));
+    for chart in &figure.charts {
+        draw_chart(frame, plot, chart, model.appearance);
+    }
     let mut text = Vec::new();
     if let Some(force) = outcome.figures.adhesion_force {
         text.push(format!("F_a {}", format_quantity(force, "N")));

@@ -11,6 +11,9 @@ use ratatui::layout::Rect;
 use ratatui::text::{Line, Span};
 use ratatui::widgets::Paragraph;
 
+/// Columns for a typed value beside its name.
+const TYPED_COLUMNS: usize = 12;
+
 /// Where the list, the derived values and the explanation go, and the first row of the list that shows.
 struct Places {
     list: Rect,
@@ -78,9 +81,13 @@ fn parameter_line(model: &Model, index: usize, width: usize) -> Line<'static> {
     };
     let name = format!("{mark}{lead}{}{symbol}", parameter.name());
     if let (true, Mode::Edit(line)) = (selected, &model.mode) {
-        let mark = Span::raw(format!("{mark} "));
-        let room = width.saturating_sub(mark.width());
-        return Line::from_iter([mark].into_iter().chain(typed(line, room, theme)));
+        let short = if parameter.field.symbol.is_empty() { "" } else { parameter.field.symbol };
+        let columns = |text: &str| Span::raw(text.to_owned()).width();
+        let labels = [format!("{name}: "), format!("{mark} {short}: "), format!("{mark} ")];
+        let fits = |label: &&String| columns(label) + TYPED_COLUMNS.max(columns(&line.text()) + 1) <= width;
+        let label = Span::raw(labels.iter().find(fits).unwrap_or(&labels[2]).clone());
+        let room = width.saturating_sub(label.width());
+        return Line::from_iter([label].into_iter().chain(typed(line, room, theme)));
     }
     let value = value(model, parameter);
     let room = width.saturating_sub(name.chars().count() + 1);

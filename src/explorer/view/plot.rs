@@ -1,6 +1,6 @@
 //! Charts in panes, in the colours of a theme.
 
-use crate::draw::{Axis, CellPlot, CellStyle, Chart, Colours, Figure, Ink, Layer};
+use crate::draw::{Axis, CellPlot, CellStyle, Chart, Colours, Ink, Layer};
 use crate::explorer::theme::{Appearance, Meaning};
 use ratatui::Frame;
 use ratatui::layout::Rect;
@@ -48,9 +48,4 @@ pub fn draw_chart(frame: &mut Frame<'_>, area: Rect, chart: &Chart, appearance: 
 /// A chart of a pane, whose title names what is shown.
 pub fn chart(x: Axis, y: Axis, layers: Vec<Layer>) -> Chart {
     Chart { heading: String::new(), x, y, layers, inset: None }
-}
-
-/// A figure of one chart, for its legend.
-pub fn figure(chart: &Chart) -> Figure {
-    Figure { title: String::new(), notes: Vec::new(), charts: vec![chart.clone()], size: Figure::SMALL }
 }

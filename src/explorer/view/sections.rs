@@ -85,27 +85,28 @@ fn range(scale: AxisScale, unit: &str, estimates: &[Estimate]) -> Option<Span> {
 }
 
 /// Draws both sections one above the other, or that over κ where there is no H or no room.
-pub fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model, plane: &MapModel) {
+pub fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model, map_model: &MapModel) {
     let Some((at_kappa, at_hurst)) = model.place() else { return };
-    let Some(place) = plane.nearest(at_kappa, at_hurst) else { return };
-    let layers = told(model.chart.charted(), plane);
+    let Some(place) = map_model.nearest(at_kappa, at_hurst) else { return };
+    let layers = told(model.chart.charted(), map_model);
     let kept = |symbol: &str, axis: &FigureAxis, index: usize| {
         axis.values.get(index).map_or_else(String::new, |value| format!("at {symbol} {}", number(*value)))
     };
-    let values: Vec<_> = layers.iter().map(|layer| (*layer, plane.along_kappa(layer, place.row))).collect();
-    let at = plane.up().map_or_else(String::new, |up| kept("H", up, place.row));
-    let over_kappa = along(plane, (plane.across(), "κ"), &values, at_kappa);
+    let values: Vec<_> =
+        layers.iter().map(|layer| (*layer, map_model.along_kappa(layer, place.row))).collect();
+    let at = map_model.up().map_or_else(String::new, |up| kept("H", up, place.row));
+    let over_kappa = along(map_model, (map_model.across(), "κ"), &values, at_kappa);
     let over_kappa = over_kappa.map(|chart| (chart, format!("over κ {at}")));
-    let both = plane.up().zip(at_hurst).filter(|_| area.height >= 2 * FEWEST_ROWS);
+    let both = map_model.up().zip(at_hurst).filter(|_| area.height >= 2 * FEWEST_ROWS);
     let upper = if both.is_some() { area.height.div_ceil(2) } else { area.height };
     if let Some((chart, told)) = over_kappa {
         section(frame, Rect { height: upper, ..area }, model, &chart, told);
     }
     if let Some((up, at_hurst)) = both {
         let values: Vec<_> =
-            layers.iter().map(|layer| (*layer, plane.along_hurst(layer, place.column))).collect();
-        let at = kept("κ", plane.across(), place.column);
-        if let Some(chart) = along(plane, (up, "H"), &values, at_hurst) {
+            layers.iter().map(|layer| (*layer, map_model.along_hurst(layer, place.column))).collect();
+        let at = kept("κ", map_model.across(), place.column);
+        if let Some(chart) = along(map_model, (up, "H"), &values, at_hurst) {
             let lower = Rect { y: area.y + upper, height: area.height - upper, ..area };
             section(frame, lower, model, &chart, format!("over H {at}"));
         }
@@ -114,7 +115,7 @@ pub fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model, plane: &MapModel) 
 
 fn section(frame: &mut Frame<'_>, area: Rect, model: &Model, chart: &Chart, told: String) {
     let told = vec![Text::styled(told, model.appearance.theme.style(Meaning::Title))];
-    let entries = plot::in_theme(model.appearance, |style| legend(&plot::figure(chart), style));
+    let entries = plot::in_theme(model.appearance, |style| legend(std::slice::from_ref(chart), style));
     let parts = std::iter::once(told).chain(entries).collect();
     let legend = filled(parts, "  ", usize::from(area.width));
     let rows = (legend.len() as u16).min(area.height.saturating_sub(FEWEST_ROWS));

@@ -7,6 +7,10 @@ use ratatui::text::Span;
 
 /// The part of a line around its cursor that fits into so many columns.
 pub fn typed(line: &TextLine, columns: usize, theme: Theme) -> Vec<Span<'static>> {
+    let reversed = theme.style(Meaning::Text).add_modifier(Modifier::REVERSED);
+    if line.is_selected() && !line.text().is_empty() {
+        return vec![Span::styled(line.text(), reversed)];
+    }
     let (before, under, after) = line.parts();
     let under = if under.is_empty() { " ".to_owned() } else { under };
     let mut room = columns.saturating_sub(Span::raw(under.as_str()).width());
@@ -16,6 +20,6 @@ pub fn typed(line: &TextLine, columns: usize, theme: Theme) -> Vec<Span<'static>
     };
     let mut seen: Vec<char> = before.chars().rev().map_while(fits).collect();
     seen.reverse();
-    let cursor = Span::styled(under, theme.style(Meaning::Text).add_modifier(Modifier::REVERSED));
+    let cursor = Span::styled(under, reversed);
     vec![Span::raw(String::from_iter(seen)), cursor, Span::raw(after)]
 }

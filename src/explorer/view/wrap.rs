@@ -40,6 +40,39 @@ pub fn fitting(parts: Vec<Vec<Span<'static>>>, between: &'static str, columns: u
     line
 }
 
+/// A line that ends in `…` where its text goes on: at most `columns` wide.
+pub fn clipped(line: Line<'static>, columns: u16) -> Line<'static> {
+    let room = usize::from(columns).saturating_sub(1);
+    let mut clipped = Line { spans: Vec::new(), ..line };
+    let mut width = 0;
+    for span in line.spans {
+        let mut kept = String::new();
+        let mut all = true;
+        for c in span.content.chars() {
+            let next = unicode_width(c);
+            if width + next > room {
+                all = false;
+                break;
+            }
+            width += next;
+            kept.push(c);
+        }
+        clipped.spans.push(Span::styled(kept, span.style));
+        if !all {
+            break;
+        }
+    }
+    if let Some(last) = clipped.spans.last_mut().filter(|_| columns > 0) {
+        last.content = format!("{}…", last.content.trim_end()).into();
+    }
+    clipped
+}
+
+/// Columns of a character.
+fn unicode_width(c: char) -> usize {
+    Span::raw(c.to_string()).width()
+}
+
 /// Parts in as many lines as they take, with what stands between them on a line; a part wider than the columns
 /// is left out.
 pub fn filled(parts: Vec<Vec<Span<'static>>>, between: &'static str, columns: usize) -> Vec<Line<'static>> {

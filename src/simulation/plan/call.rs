@@ -105,7 +105,7 @@ impl<'a> Call<'a> {
     }
 
     pub fn is_synthesised(&self) -> bool {
-        matches!(self.scene.roughness, Some(Roughness::SelfAffine { .. }))
+        self.scene.seed().is_some()
     }
 
     pub fn is_measured(&self) -> bool {

@@ -7,8 +7,9 @@ pub const ROW: Row = Row {
     stage: Stage::Synthesis,
     name: "random profile",
     called: |call| match (call.is_synthesised(), call.is_measured()) {
-        (true, _) => Called::For("roughness: SelfAffine"),
-        (_, true) => Called::Not("roughness: Measured"),
+        (true, true) => Called::For("roughness: Measured, its equivalent line"),
+        (true, false) => Called::For("roughness: SelfAffine"),
+        (_, true) => Called::Not("roughness: Measured, as the line"),
         _ => Called::Not("no roughness: smooth"),
     },
     cost: |call| {

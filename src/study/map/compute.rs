@@ -18,7 +18,7 @@ use std::sync::Arc;
 /// returns true; the row under way is then lost.
 ///
 /// A cell that cannot be computed has the reason in its place.
-pub fn chart(map: &mut LiveMap, folder: &Path, stop: &dyn Fn() -> bool, tell: &mut dyn FnMut(&LiveMap)) {
+pub fn compute(map: &mut LiveMap, folder: &Path, stop: &dyn Fn() -> bool, tell: &mut dyn FnMut(&LiveMap)) {
     let template = Arc::clone(map.template());
     let plan = template.plan();
     let cells = Cells::of(&plan);
@@ -109,7 +109,7 @@ mod tests {
     #[test]
     fn a_map_goes_from_coarse_to_fine_and_from_what_sticks_to_what_does_not() {
         let (mut map, mut levels, mut rows) = (map(), Vec::new(), 0);
-        chart(&mut map, Path::new(""), &|| false, &mut |map| {
+        compute(&mut map, Path::new(""), &|| false, &mut |map| {
             rows += 1;
             levels.extend(map.level());
         });
@@ -120,11 +120,13 @@ mod tests {
         assert_eq!(shown.size(), (KAPPAS, map.rows()));
         let share = shown.layer(Quantity::ZeroLoadAdhesionShare).unwrap();
         for row in 0..map.rows() {
-            let spots: Vec<_> =
+            let map_cells: Vec<_> =
                 (0..KAPPAS).map(|column| shown.shown(column, row).unwrap().cell.clone().unwrap()).collect();
-            assert_eq!(spots[0].regime, Some(Regime::PressureInsensitive));
-            assert_eq!(spots[KAPPAS - 1].regime, Some(Regime::NonAdhesive));
-            assert!(spots.iter().all(|spot| (1..=4).contains(&spot.agreeing) && spot.lines == 4));
+            assert_eq!(map_cells[0].regime, Some(Regime::PressureInsensitive));
+            assert_eq!(map_cells[KAPPAS - 1].regime, Some(Regime::NonAdhesive));
+            assert!(
+                map_cells.iter().all(|map_cell| (1..=4).contains(&map_cell.agreeing) && map_cell.lines == 4)
+            );
             let along = shown.along_kappa(share, row);
             assert_eq!(along.len(), KAPPAS);
             assert!(along[0].1.mean > 0.5 && along[KAPPAS - 1].1.mean < 0.01);
@@ -149,7 +151,7 @@ mod tests {
     fn the_map_of_a_study_of_the_same_cells_is_the_same() {
         let (mut live, mut rows) = (map(), 0);
         let is_enough = std::cell::Cell::new(false);
-        chart(&mut live, Path::new(""), &|| is_enough.get(), &mut |_| {
+        compute(&mut live, Path::new(""), &|| is_enough.get(), &mut |_| {
             rows += 1;
             is_enough.set(rows == 5);
         });
@@ -195,21 +197,21 @@ mod tests {
     #[test]
     fn what_is_known_is_not_computed_again_and_a_stop_keeps_whole_rows() {
         let mut once = map();
-        chart(&mut once, Path::new(""), &|| false, &mut |_| ());
+        compute(&mut once, Path::new(""), &|| false, &mut |_| ());
         let (mut map, rows) = (map(), std::cell::Cell::new(0));
-        chart(&mut map, Path::new(""), &|| rows.get() == 7, &mut |_| rows.set(rows.get() + 1));
+        compute(&mut map, Path::new(""), &|| rows.get() == 7, &mut |_| rows.set(rows.get() + 1));
         assert_eq!((rows.get(), map.level()), (7, Some(Level::Coarse)));
-        chart(&mut map, Path::new(""), &|| false, &mut |_| rows.set(rows.get() + 1));
+        compute(&mut map, Path::new(""), &|| false, &mut |_| rows.set(rows.get() + 1));
         assert_eq!(rows.get(), 5 + 9 + 19 + 19);
         assert_eq!(map, once);
-        chart(&mut map, Path::new(""), &|| false, &mut |_| panic!("nothing is missing"));
+        compute(&mut map, Path::new(""), &|| false, &mut |_| panic!("nothing is missing"));
     }
 
     #[test]
     fn what_is_missing_is_shown_by_the_nearest_of_a_coarser_map() {
         let (mut map, rows) = (map(), std::cell::Cell::new(0));
         assert_eq!(map.model().shown(3, 3), None);
-        chart(&mut map, Path::new(""), &|| rows.get() == 5, &mut |_| rows.set(rows.get() + 1));
+        compute(&mut map, Path::new(""), &|| rows.get() == 5, &mut |_| rows.set(rows.get() + 1));
         let shown = map.model();
         for (asked, stands) in [((0, 0), (0, 0)), ((3, 1), (0, 0)), ((5, 3), (8, 4)), ((32, 18), (32, 18))] {
             let place = shown.shown(asked.0, asked.1).unwrap();
@@ -226,7 +228,7 @@ mod tests {
         let never = document.set("loading", "[ToForce(1.0e-5), ToForce(-1.0)]").unwrap();
         let mut map = LiveMap::new(Arc::new(Template::of(never.scene()).unwrap()));
         let told = std::cell::Cell::new(false);
-        chart(&mut map, Path::new(""), &|| told.get(), &mut |_| told.set(true));
+        compute(&mut map, Path::new(""), &|| told.get(), &mut |_| told.set(true));
         assert!(map.cell(0, 0).is_some_and(|cell| cell.as_ref().is_err_and(|why| !why.is_empty())));
     }
 }

@@ -59,7 +59,7 @@ pub fn next_beyond(value: f64, steps: i32, values: &[f64]) -> Option<f64> {
     values.get(index).copied().filter(|_| steps != 0)
 }
 
-/// How finely a map is known. Every level has the cells of the one before.
+/// Resolution of a map. Every level has the cells of the one before.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Level {
     /// 5 × 5 cells.
@@ -73,10 +73,10 @@ pub enum Level {
 }
 
 impl Level {
-    /// All of them, the coarsest first.
+    /// All levels, the coarsest first.
     pub const ALL: [Level; 4] = [Level::Coarse, Level::Medium, Level::Fine, Level::Whole];
 
-    /// Its columns.
+    /// Columns of the level.
     pub fn columns(self) -> impl Iterator<Item = usize> {
         let stride = match self {
             Level::Coarse => 8,
@@ -87,7 +87,7 @@ impl Level {
         (0..KAPPAS).step_by(stride)
     }
 
-    /// Its rows, the lowest H first.
+    /// Rows of the level, the lowest H first.
     #[must_use]
     pub fn rows(self) -> &'static [usize] {
         match self {

@@ -23,13 +23,13 @@ impl LiveMap {
         LiveMap { template, cells: vec![None; rows * KAPPAS] }
     }
 
-    /// What it belongs to.
+    /// Template of the map.
     #[must_use]
     pub fn template(&self) -> &Arc<Template> {
         &self.template
     }
 
-    /// Its rows: one where there is no H.
+    /// Number of rows: one where there is no H.
     #[must_use]
     pub fn rows(&self) -> usize {
         self.cells.len() / KAPPAS
@@ -59,7 +59,7 @@ impl LiveMap {
         }
     }
 
-    /// Whether all cells of a level are there.
+    /// Returns true where all cells of a level are known.
     #[must_use]
     pub fn has(&self, level: Level) -> bool {
         self.rows_of(level).iter().all(|&row| level.columns().all(|column| self.cell(column, row).is_some()))
@@ -71,7 +71,7 @@ impl LiveMap {
         Level::ALL.into_iter().take_while(|level| self.has(*level)).last()
     }
 
-    /// Whether nothing of it is missing.
+    /// Returns true for a complete map.
     #[must_use]
     pub fn is_whole(&self) -> bool {
         self.has(self.template.finest())

@@ -18,7 +18,7 @@ pub struct MapModel {
     cells: Vec<Option<Result<MapCell, String>>>,
     /// The cell that stands for each: itself, or one of a coarser map.
     stand_ins: Vec<Option<usize>>,
-    /// Whether the regime of any cell is known, and whether lines of any are divided.
+    /// True where the regime of any cell is known; true where profiles of any cell are divided between regimes.
     has_regimes: bool,
     is_split: bool,
     labels: [Vec<(usize, String)>; 2],
@@ -29,11 +29,11 @@ pub struct MapModel {
 pub struct Layer {
     /// Which one.
     pub quantity: Quantity,
-    /// How it lies on its scale.
+    /// Scale of the quantity.
     pub scale: AxisScale,
     /// Least values of the three densest glyphs, the densest first.
     pub steps: [f64; 3],
-    /// Its mean in each cell, row by row; with its confidence where that is known.
+    /// Mean in each cell, row by row, with its confidence where that is known.
     pub estimates: Vec<Option<Estimate>>,
 }
 
@@ -42,7 +42,7 @@ pub struct Layer {
 pub(super) struct MapScale {
     /// The quantity.
     pub quantity: Quantity,
-    /// How values lie on their scale.
+    /// Scale of the quantity.
     pub scale: AxisScale,
     /// Least values of the three densest glyphs, the densest first.
     pub steps: [f64; 3],
@@ -72,16 +72,16 @@ fn quarters(estimates: &[Option<Estimate>]) -> (AxisScale, [f64; 3]) {
     if low > high { (AxisScale::Linear, [0.0; 3]) } else { (scale, [0.75, 0.5, 0.25].map(step)) }
 }
 
-/// What a cell says beside its quantities.
+/// Regime of a cell.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MapCell {
-    /// Its regime; `None` where that is not known.
+    /// Regime; `None` where unknown.
     pub regime: Option<Regime>,
     /// Another regime, where too many of its lines are in that one to call the first the cell's.
     pub split: Option<Regime>,
     /// Lines that are in its regime each by itself.
     pub agreeing: u64,
-    /// Its lines.
+    /// Number of profiles.
     pub lines: u64,
 }
 
@@ -103,15 +103,15 @@ impl MapCell {
 /// A cell that is shown, and where it stands on the map.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Place<'p> {
-    /// Its column.
+    /// Column of the cell.
     pub column: usize,
-    /// Its row.
+    /// Row of the cell.
     pub row: usize,
-    /// What it says, or why it says nothing.
+    /// Regime, or the reason why the cell was not computed.
     pub cell: &'p Result<MapCell, String>,
 }
 
-/// What the glyphs of a map tell. Colours tell the regime, where it is known.
+/// Quantity of the glyphs of a map. Colours show the regime, where it is known.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Charted {
     /// The regime.
@@ -125,7 +125,7 @@ pub enum Charted {
 const LABELS: (usize, usize) = (3, 6);
 /// Distances between them, and values to begin with, that are tried.
 const MOST_TRIED: usize = 64;
-/// What another label is worth, in characters of their mean length.
+/// Weight of another label, in characters of their mean length.
 const LABEL: f64 = 0.45;
 
 /// The values of an axis that are written beside it, at equal distances: those that are short, and rather more
@@ -207,13 +207,13 @@ impl MapModel {
         &self.labels
     }
 
-    /// How many columns and rows it has.
+    /// Numbers of columns and rows.
     #[must_use]
     pub fn size(&self) -> (usize, usize) {
         (self.across.values.len(), self.up.as_ref().map_or(1, |up| up.values.len()))
     }
 
-    /// What it tells beside the regime.
+    /// Quantities beside the regime.
     #[must_use]
     pub fn layers(&self) -> &[Layer] {
         &self.layers
@@ -225,14 +225,14 @@ impl MapModel {
         self.layers.iter().find(|layer| layer.quantity == quantity)
     }
 
-    /// What its glyphs can tell, the regime first where it is known.
+    /// Choices for the glyphs, the regime first where it is known.
     #[must_use]
     pub fn charted(&self) -> Vec<Charted> {
         let regime = self.has_regimes.then_some(Charted::Regime);
         regime.into_iter().chain(self.layers.iter().map(|layer| Charted::Quantity(layer.quantity))).collect()
     }
 
-    /// Whether lines of one of its cells are divided between regimes.
+    /// Returns true where profiles of a cell are divided between regimes.
     #[must_use]
     pub fn is_split(&self) -> bool {
         self.is_split
@@ -255,7 +255,7 @@ impl MapModel {
         (self.across.place(kappa), row)
     }
 
-    /// Whether a place lies on it, half a cell beyond the outermost values included.
+    /// Returns true for a place on the map, half a cell beyond the outermost values included.
     #[must_use]
     pub fn contains(&self, kappa: f64, hurst: Option<f64>) -> bool {
         let (column, row) = self.coordinates(kappa, hurst);

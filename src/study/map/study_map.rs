@@ -8,6 +8,7 @@ use crate::study::axis::Axis;
 use crate::study::error::StudyError;
 use crate::study::figure_axis::{figure_axis, fixed};
 use crate::study::finished::Finished;
+use crate::study::numbering::places_of;
 use crate::study::plan::Plan;
 use crate::study::quantity::Quantity;
 use crate::study::target::Target;
@@ -18,10 +19,10 @@ use thiserror::Error;
 const KAPPA: [&str; 2] = ["kappa", "adhesion.kappa"];
 const HURST: [&str; 1] = ["roughness.hurst"];
 
-/// Why a folder opens as no maps.
+/// Reason why a folder opens as no maps.
 #[derive(Debug, Error)]
 pub enum StudyMapError {
-    /// It is not the folder of a merged study.
+    /// The folder holds no merged study.
     #[error(transparent)]
     Study(#[from] StudyError),
     /// The study does not vary κ and H.
@@ -36,7 +37,7 @@ pub enum StudyMapError {
         /// The axes it has, each with its number of values.
         axes: String,
     },
-    /// Its scene is not one that can be explored.
+    /// The scene cannot be explored.
     #[error(transparent)]
     Scene(#[from] SceneErrors),
 }
@@ -102,7 +103,7 @@ impl StudyMap {
         &self.folder
     }
 
-    /// Its name, without the folders it is in.
+    /// Name of the folder, without those above it.
     #[must_use]
     pub fn name(&self) -> String {
         let whole = std::path::absolute(&self.folder).unwrap_or_else(|_| self.folder.clone());
@@ -119,7 +120,7 @@ impl StudyMap {
         self.plan().all_axes()
     }
 
-    /// How many maps it has.
+    /// Number of maps.
     #[must_use]
     pub fn slices(&self) -> u64 {
         let axes = self.axes();
@@ -128,18 +129,12 @@ impl StudyMap {
 
     /// The axes that are neither κ nor H, each with the place that a map has on it.
     fn at(&self, slice: u64) -> Vec<(&Axis, usize, u64)> {
-        let (axes, mut rest) = (self.axes(), slice);
-        let mut at: Vec<_> = Vec::with_capacity(self.others.len());
-        for &other in self.others.iter().rev() {
-            let axis = axes[other];
-            at.push((axis, other, rest % axis.count()));
-            rest /= axis.count();
-        }
-        at.reverse();
-        at
+        let axes = self.axes();
+        let places = places_of(slice, self.others.iter().map(|&other| axes[other].count()));
+        self.others.iter().zip(places).map(|(&other, place)| (axes[other], other, place)).collect()
     }
 
-    /// Where a map stands on the axes that are neither κ nor H, as people read it: `F_n/(E* h L) = 0.1`.
+    /// Place of a map on the axes that are neither κ nor H, in words: `F_n/(E* h L) = 0.1`.
     #[must_use]
     pub fn stands_at(&self, slice: u64) -> Vec<String> {
         self.at(slice).into_iter().map(|(axis, _, place)| fixed(self.plan(), axis, place)).collect()
@@ -173,23 +168,17 @@ impl StudyMap {
         }
         if scene.adhesion.is_none() {
             let middle = axes[self.kappa].value(axes[self.kappa].count() / 2);
-            scene.adhesion = Some(Adhesion { work: None, kappa: Some(middle), ..Adhesion::default() });
+            scene.adhesion = Some(Adhesion::default().with_kappa(middle));
         }
         if let Some(Roughness::SelfAffine { seed, hurst, .. }) = &mut scene.roughness {
             (*seed, *hurst) = (plan.seed, at_hurst.unwrap_or(*hurst));
         }
         let at = self.at(slice);
-        // What is derived from other numbers comes after them.
-        for late in [false, true] {
-            for (axis, _, place) in &at {
-                if let Ok(target) = Target::of(axis.path())
-                    && matches!(target, Target::SpringsPerWave) == late
-                {
-                    // The plan has been checked with it.
-                    let _ = target.set(&mut scene, axis.value(*place));
-                }
-            }
-        }
+        let values = at
+            .iter()
+            .filter_map(|(axis, _, place)| Some((Target::of(axis.path()).ok()?, axis.value(*place))));
+        // The plan has been checked with these values.
+        let _ = Target::set_all(values, &mut scene);
         let of_map = at.iter().find(|(axis, ..)| axis.path() == "preload");
         let preload = of_map.map(|(axis, _, place)| axis.value(*place));
         let unit = governing(&scene).and_then(|governing| {
@@ -211,7 +200,7 @@ impl StudyMap {
         Document::from_scene(&self.scene(0, None), &name)
     }
 
-    /// Whether a scene is that of a map, but for κ and H and how finely its curve is computed.
+    /// Returns true for the scene of a map, but for κ, H and the resolution of its curve.
     #[must_use]
     pub fn is_of(&self, slice: u64, scene: &Scene) -> bool {
         let Some(Roughness::SelfAffine { hurst, .. }) = scene.roughness else { return false };
@@ -302,7 +291,7 @@ mod tests {
         folder
     }
 
-    fn atlas() -> StudyMap {
+    fn study_map() -> StudyMap {
         StudyMap::open(merged(PLAN).path()).unwrap()
     }
 
@@ -313,35 +302,35 @@ mod tests {
 
     #[test]
     fn maps_have_the_cells_of_the_study() {
-        let atlas = atlas();
-        assert_eq!(atlas.slices(), 4);
-        assert_eq!(atlas.stands_at(0), ["k_max = 16", "F_n/(E* h L) = 0.5"]);
-        assert_eq!(atlas.stands_at(1), ["k_max = 16", "F_n/(E* h L) = 2"]);
-        assert_eq!(atlas.stands_at(2), ["k_max = 32", "F_n/(E* h L) = 0.5"]);
+        let study_map = study_map();
+        assert_eq!(study_map.slices(), 4);
+        assert_eq!(study_map.stands_at(0), ["k_max = 16", "F_n/(E* h L) = 0.5"]);
+        assert_eq!(study_map.stands_at(1), ["k_max = 16", "F_n/(E* h L) = 2"]);
+        assert_eq!(study_map.stands_at(2), ["k_max = 32", "F_n/(E* h L) = 0.5"]);
         for (slice, modes, preload) in [(0, 0, 0), (1, 0, 1), (2, 1, 0), (3, 1, 1)] {
-            let plane = atlas.model(slice);
-            assert_eq!(plane.size(), (3, 2));
-            assert_eq!(plane.across().values, [1.0, 2.0, 4.0], "κ ascends");
-            assert_eq!(plane.up().unwrap().values, [0.25, 0.75]);
-            let layer = plane.layer(Quantity::AdhesionCoefficient).unwrap();
+            let map_model = study_map.model(slice);
+            assert_eq!(map_model.size(), (3, 2));
+            assert_eq!(map_model.across().values, [1.0, 2.0, 4.0], "κ ascends");
+            assert_eq!(map_model.up().unwrap().values, [0.25, 0.75]);
+            let layer = map_model.layer(Quantity::AdhesionCoefficient).unwrap();
             for row in 0..2 {
                 for (column, kappa) in [1, 2, 0].into_iter().enumerate() {
                     let number = cell(kappa, modes, row, preload);
-                    let estimate = plane.estimate(layer, column, row as usize);
+                    let estimate = map_model.estimate(layer, column, row as usize);
                     if number == 5.0 {
-                        assert_eq!((estimate, plane.shown(column, row as usize)), (None, None));
+                        assert_eq!((estimate, map_model.shown(column, row as usize)), (None, None));
                         continue;
                     }
                     let (mean, low, high) = (number, number - 0.25, number + 0.5);
                     assert_eq!(estimate, Some(Estimate { mean, low, high }), "{slice} {row} {column}");
-                    let place = plane.shown(column, row as usize).unwrap();
+                    let place = map_model.shown(column, row as usize).unwrap();
                     let (regime, split, agreeing) = [
                         (Regime::PressureInsensitive, None, 4),
                         (Regime::PressureSensitive, None, 4),
                         (Regime::NonAdhesive, Some(Regime::PressureSensitive), 3),
                     ][number as usize % 3];
-                    let spot = MapCell { regime: Some(regime), split, agreeing, lines: 5 };
-                    assert_eq!((place.column, place.row, place.cell), (column, row as usize, &Ok(spot)));
+                    let map_cell = MapCell { regime: Some(regime), split, agreeing, lines: 5 };
+                    assert_eq!((place.column, place.row, place.cell), (column, row as usize, &Ok(map_cell)));
                 }
             }
         }
@@ -349,23 +338,23 @@ mod tests {
 
     #[test]
     fn glyphs_tell_the_regime_and_all_that_was_recorded() {
-        let plane = atlas().model(0);
+        let map_model = study_map().model(0);
         assert_eq!(
-            plane.charted(),
+            map_model.charted(),
             [
                 Charted::Regime,
                 Charted::Quantity(Quantity::AdhesionCoefficient),
                 Charted::Quantity(Quantity::PreloadForce)
             ]
         );
-        let layer = |quantity| plane.layer(quantity).unwrap();
+        let layer = |quantity| map_model.layer(quantity).unwrap();
         assert_eq!(layer(Quantity::AdhesionCoefficient).steps, [1.0, 0.1, 0.01], "those of every map");
         // From 0 to 23 µN over all maps, whichever is shown.
         let force = layer(Quantity::PreloadForce);
         assert_eq!((force.scale, force.steps), (AxisScale::Linear, [1.7e-5, 1.2e-5, 5.8e-6]));
         assert_eq!([2.0e-5, 1.2e-5, 6.0e-6, 5.0e-6].map(|value| force.step(value)), [0, 1, 2, 3]);
         // Without regimes, and with nothing else.
-        let plane = |record: &str| {
+        let map_model = |record: &str| {
             let plan = PLAN.replace("record: [adhesion_coefficient, regime, preload_force]", record);
             let plan = Plan::parse(&plan, "plan", &Changes::default()).unwrap();
             let folder = tempfile::tempdir().unwrap();
@@ -377,16 +366,16 @@ mod tests {
             std::fs::write(folder.path().join(SUMMARY), format!("{columns}{more}\n{row}\n")).unwrap();
             StudyMap::open(folder.path()).unwrap().model(0)
         };
-        assert_eq!(plane("record: [regime]").charted(), [Charted::Regime]);
-        let plane = plane("record: [fragments]");
-        assert_eq!(plane.charted(), [Charted::Quantity(Quantity::Fragments)]);
-        assert_eq!(plane.layers()[0].steps, [1.0; 3], "one value");
+        assert_eq!(map_model("record: [regime]").charted(), [Charted::Regime]);
+        let map_model = map_model("record: [fragments]");
+        assert_eq!(map_model.charted(), [Charted::Quantity(Quantity::Fragments)]);
+        assert_eq!(map_model.layers()[0].steps, [1.0; 3], "one value");
     }
 
     #[test]
     fn the_scene_is_that_of_a_cell_on_the_first_line() {
-        let atlas = atlas();
-        let document = atlas.document().unwrap();
+        let study_map = study_map();
+        let document = study_map.document().unwrap();
         let scene = document.scene();
         assert_eq!(scene.title, "A study");
         assert_eq!(scene.adhesion.unwrap().kappa, Some(1.0), "the plan's scene has none");
@@ -396,11 +385,11 @@ mod tests {
         let Leg::ToForce(force) = scene.loading[0] else { panic!("{:?}", scene.loading) };
         assert!((force / (0.5 * 2.0e6 * 1.0e-7 * 1.0e-4) - 1.0).abs() < 1e-12, "{force}");
         for slice in 0..4 {
-            assert_eq!(atlas.is_of(slice, scene), slice == 0);
+            assert_eq!(study_map.is_of(slice, scene), slice == 0);
             let moved = Template::moved(&document, 3.0, 0.25).unwrap();
-            assert_eq!(atlas.is_of(slice, moved.scene()), slice == 0, "κ and H are the mark's");
-            let followed = atlas.follow(slice, &moved).unwrap();
-            assert!(atlas.is_of(slice, followed.scene()), "{}", followed.text());
+            assert_eq!(study_map.is_of(slice, moved.scene()), slice == 0, "κ and H are the mark's");
+            let followed = study_map.follow(slice, &moved).unwrap();
+            assert!(study_map.is_of(slice, followed.scene()), "{}", followed.text());
             assert_eq!(Template::place(followed.scene()), Some((3.0, 0.25)));
         }
         let without = PLAN.replace("preloads: [0.5, 2.0],", "");
@@ -409,8 +398,8 @@ mod tests {
         assert_eq!(legs, unpressed.plan().scene.loading, "that of the plan");
         assert_eq!(unpressed.stands_at(0), ["k_max = 16"]);
         let other = document.set("material.effective_modulus", "3.0e6").unwrap();
-        assert!(!atlas.is_of(0, other.scene()));
-        assert!(!atlas.is_of(0, crate::scene::open("jkr-sphere").unwrap().scene()));
+        assert!(!study_map.is_of(0, other.scene()));
+        assert!(!study_map.is_of(0, crate::scene::open("jkr-sphere").unwrap().scene()));
     }
 
     #[test]

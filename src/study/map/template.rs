@@ -25,7 +25,7 @@ const VERY_MANY: u64 = 1 << 17;
 /// Stand for all κ and H.
 const ANY: (f64, f64) = (1.0, 0.5);
 
-/// Why there is no map.
+/// Reason why a scene has no map.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 pub enum NoMap {
     /// Nothing attracts.
@@ -86,7 +86,7 @@ impl Template {
         self.scene.numerics.points
     }
 
-    /// How finely a map of it is computed: waves that need very many springs get fewer cells.
+    /// Finest level of its maps: waves that need very many springs have fewer cells.
     #[must_use]
     pub fn finest(&self) -> Level {
         let springs = self.springs();
@@ -99,7 +99,7 @@ impl Template {
         }
     }
 
-    /// Whether its roughness has an H; a measured one is what it is.
+    /// Returns true for a roughness with an H, which a measured one has not.
     #[must_use]
     pub fn has_hurst(&self) -> bool {
         matches!(self.scene.roughness, Some(Roughness::SelfAffine { .. }))
@@ -149,7 +149,7 @@ impl Template {
     }
 }
 
-/// What governs a scene with a self-affine line.
+/// Governing parameters of a scene with a self-affine profile.
 pub(super) fn governing(scene: &Scene) -> Option<Governing> {
     let Some(Roughness::SelfAffine { hurst, modes: (first, last), .. }) = scene.roughness else {
         return None;

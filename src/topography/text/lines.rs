@@ -143,6 +143,10 @@ mod tests {
             Ok(lines.next().unwrap_err())
         });
         assert!(error.unwrap().to_string().starts_with("line 2: byte 1 of the line is zero"));
+        let mut longest = vec![b'1'; LONGEST_LINE - 1];
+        longest.push(b'\n');
+        let mut lines = Lines::new(&longest[..]).unwrap();
+        assert_eq!(lines.next().unwrap().map(|(_, line)| line.len()), Some(LONGEST_LINE - 1));
         let long = vec![b'1'; LONGEST_LINE + 1];
         assert!(Lines::new(&long[..]).unwrap().next().unwrap_err().to_string().contains("longer than"));
         // Half a character at the end.

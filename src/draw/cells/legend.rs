@@ -1,0 +1,49 @@
+//! Legends in cells.
+
+use super::style::{CellStyle, glyph};
+use crate::draw::chart::{Chart, Entry, Sample, Stroke};
+use ratatui::symbols::Marker;
+use ratatui::text::Span as Text;
+
+/// Sample of a stroke, made of what lines are made of.
+fn strokes(stroke: Stroke, marker: Marker) -> [&'static str; 3] {
+    match (stroke, marker) {
+        (Stroke::Solid, Marker::Braille) => ["⠒", "⠒", "⠒"],
+        (Stroke::Dashed, Marker::Braille) => ["⠒", "⠂", "⠒"],
+        (Stroke::Dotted, Marker::Braille) => ["⠒", " ", "⠒"],
+        (Stroke::Sparse, Marker::Braille) => ["⠂", " ", "⠂"],
+        (Stroke::Solid, _) => ["▄", "▄", "▄"],
+        (Stroke::Dashed, _) => ["▄", "▖", "▄"],
+        (Stroke::Dotted, _) => ["▄", " ", "▄"],
+        (Stroke::Sparse, _) => ["▖", " ", "▖"],
+    }
+}
+
+/// Entries of the legend of charts: sample and name.
+#[must_use]
+pub fn legend(charts: &[Chart], style: &CellStyle<'_>) -> Vec<Vec<Text<'static>>> {
+    let mut parts = Vec::new();
+    for entry in Entry::of_charts(charts) {
+        let mut part: Vec<Text<'static>> = Vec::new();
+        for (ink, sample) in entry.samples {
+            let text = match sample {
+                Sample::Line(stroke, sign) => {
+                    let [left, middle, right] =
+                        stroke.map_or(["", "", ""], |stroke| strokes(stroke, style.marker));
+                    format!("{left}{}{right}", sign.map_or(middle, glyph))
+                }
+                Sample::Area => strokes(Stroke::Sparse, style.marker).concat(),
+                Sample::Solid => "■".to_owned(),
+                Sample::Guide => "┊".to_owned(),
+                Sample::Contour => "▁▕".to_owned(),
+                Sample::Empty => "blank:".to_owned(),
+            };
+            if part.last().is_none_or(|last| *last.content != text) {
+                part.push(Text::styled(text, (style.ink)(ink)));
+            }
+        }
+        part.push(Text::raw(format!(" {}", entry.name)));
+        parts.push(part);
+    }
+    parts
+}

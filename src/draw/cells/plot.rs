@@ -1,0 +1,322 @@
+//! A chart in an area of the screen: plot and scales.
+
+use super::map;
+use super::shapes::LayerShape;
+use super::style::{CellStyle, glyph};
+use crate::draw::axis::Axis;
+use crate::draw::chart::{Chart, Layer, Shape};
+use crate::draw::colour::Ink;
+use crate::draw::ticks::Tick;
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
+use ratatui::symbols::Marker;
+use ratatui::widgets::Widget;
+use ratatui::widgets::canvas::Canvas;
+
+/// Least size of an area whose plot has a scale on the left: columns and rows.
+pub(super) const WITH_LEFT_SCALE: (u16, u16) = (30, 6);
+/// Least rows of an area whose plot has a scale below, and those of one with a line between plot and scale.
+const WITH_SCALE_BELOW: u16 = 5;
+const WITH_LINE_BELOW: u16 = 12;
+/// Least rows of an area where the label below has a row of its own, if it hides a number.
+const WITH_LABEL_BELOW: u16 = 16;
+
+/// Place of a chart in an area: plot and scales.
+pub struct CellPlot {
+    /// Cells of the plot.
+    pub plot: Rect,
+    left: u16,
+    line: bool,
+    below: bool,
+    label: bool,
+}
+
+impl CellPlot {
+    /// Divides an area between the plot and the scales of a chart.
+    #[must_use]
+    pub fn within(area: Rect, chart: &Chart) -> CellPlot {
+        let below = area.height >= WITH_SCALE_BELOW;
+        let line = area.height >= WITH_LINE_BELOW;
+        let label = area.height >= WITH_LABEL_BELOW && label_hides_numbers(chart, area.width);
+        let height = area.height - u16::from(below) - u16::from(line) - u16::from(label);
+        let mut left = 0;
+        if area.width >= WITH_LEFT_SCALE.0 && area.height >= WITH_LEFT_SCALE.1 {
+            let labels = scale_beside(chart, height, Marker::Braille);
+            left = labels.iter().map(|(_, text)| text.chars().count() as u16).max().unwrap_or(0) + 2;
+        }
+        let left = if left > area.width / 2 { 0 } else { left };
+        let plot = Rect { x: area.x + left, width: area.width - left, height, ..area };
+        CellPlot { plot, left, line, below, label }
+    }
+
+    /// A plot that fills its area.
+    #[must_use]
+    pub fn without_scales(area: Rect) -> CellPlot {
+        CellPlot { plot: area, left: 0, line: false, below: false, label: false }
+    }
+
+    /// Number on the horizontal axis at the middle of a column of the screen, within the plot.
+    #[must_use]
+    pub fn number_at(&self, x: &Axis, column: u16) -> f64 {
+        let share = (f64::from(column) + 0.5 - f64::from(self.plot.x)) / f64::from(self.plot.width.max(1));
+        x.scale.number(x.span.low + share.clamp(0.0, 1.0) * x.span.width())
+    }
+
+    /// Cell of a point; `None` outside the chart.
+    #[must_use]
+    pub fn cell(&self, chart: &Chart, marker: Marker, (x, y): (f64, f64)) -> Option<(u16, u16)> {
+        let (across, down) = (chart.x.share(x), 1.0 - chart.y.share(y));
+        let inside = (0.0..=1.0).contains(&across) && (0.0..=1.0).contains(&down) && !self.plot.is_empty();
+        let (columns, rows) = dots_of(marker);
+        inside.then(|| {
+            let column = cell_at(across, self.plot.width, columns);
+            (self.plot.x + column, self.plot.y + cell_at(down, self.plot.height, rows))
+        })
+    }
+
+    /// Draws scales and layers.
+    pub fn draw(&self, buffer: &mut Buffer, chart: &Chart, style: &CellStyle<'_>) {
+        if self.plot.is_empty() {
+            return;
+        }
+        self.draw_scales(buffer, chart, style);
+        for layer in &chart.layers {
+            if let Shape::Map(map) = &layer.shape {
+                map::draw(buffer, self.plot, map, style);
+            }
+        }
+        let drawn = |layer: &&Layer| !matches!(layer.shape, Shape::Map(_));
+        if chart.layers.iter().any(|layer| drawn(&layer)) {
+            Canvas::default()
+                .marker(style.marker)
+                .x_bounds([0.0, 1.0])
+                .y_bounds([0.0, 1.0])
+                .paint(|context| {
+                    for layer in chart.layers.iter().filter(drawn) {
+                        context.layer();
+                        let colour = (style.ink)(layer.ink).fg.unwrap_or_default();
+                        context.draw(&LayerShape { chart, shape: &layer.shape, colour });
+                    }
+                })
+                .render(self.plot, buffer);
+        }
+        self.draw_signs(buffer, chart, style);
+    }
+
+    fn draw_signs(&self, buffer: &mut Buffer, chart: &Chart, style: &CellStyle<'_>) {
+        for layer in &chart.layers {
+            let Shape::Curve { points, sign: Some(sign), .. } = &layer.shape else { continue };
+            // No more signs than every other column.
+            let every = (2 * points.len()).div_ceil(usize::from(self.plot.width)).max(1);
+            for point in points.iter().step_by(every) {
+                if let Some((column, row)) = self.cell(chart, style.marker, *point) {
+                    buffer[(column, row)].set_symbol(glyph(*sign)).set_style((style.ink)(layer.ink));
+                }
+            }
+        }
+    }
+
+    fn draw_scales(&self, buffer: &mut Buffer, chart: &Chart, style: &CellStyle<'_>) {
+        let (plot, quiet) = (self.plot, (style.ink)(Ink::Quiet));
+        if self.left > 0 {
+            let labels = scale_beside(chart, plot.height, style.marker);
+            for row in 0..plot.height {
+                let label = labels.iter().find(|(at, _)| *at == row).map(|(_, text)| text.as_str());
+                let mark = if label.is_some() { '┤' } else { '│' };
+                let width = usize::from(self.left) - 2;
+                let text = format!("{:>width$} {mark}", label.unwrap_or_default());
+                buffer.set_string(plot.x - self.left, plot.y + row, text, quiet);
+            }
+        }
+        let mut y = plot.bottom();
+        let (numbers, label) = scale_below(chart, plot.width, style.marker);
+        if self.line {
+            let mut line: Vec<char> = vec!['─'; usize::from(plot.width)];
+            for (column, _) in &numbers {
+                line[usize::from(*column)] = '┬';
+            }
+            if self.left > 0 {
+                buffer.set_string(plot.x - 1, y, "└", quiet);
+            }
+            buffer.set_string(plot.x, y, line.into_iter().collect::<String>(), quiet);
+            y += 1;
+        }
+        if self.below {
+            let from = plot.x - self.left;
+            let width = (label.chars().count() as u16).min(plot.width);
+            let end = plot.right() - if self.label { 0 } else { width };
+            let mut free = from;
+            for (column, text) in numbers {
+                let width = text.chars().count() as u16;
+                let x = (plot.x + column).saturating_sub(width / 2).max(from);
+                let right = x + width;
+                if x >= free && right < end.max(from + 1) + u16::from(self.label) {
+                    buffer.set_string(x, y, text, quiet);
+                    free = right + 1;
+                }
+            }
+            let (x, y) = if self.label { (plot.x + (plot.width - width) / 2, y + 1) } else { (end, y) };
+            buffer.set_stringn(x, y, label, usize::from(width), quiet);
+        }
+    }
+}
+
+/// Dots of a marker in a cell: columns and rows.
+fn dots_of(marker: Marker) -> (u16, u16) {
+    match marker {
+        Marker::Braille | Marker::Octant => (2, 4),
+        Marker::HalfBlock => (1, 2),
+        Marker::Quadrant => (2, 2),
+        Marker::Sextant => (2, 3),
+        _ => (1, 1),
+    }
+}
+
+/// Cell at a share of a plot, as the canvas rounds to dots, so that signs and ticks are in cells of their curves.
+fn cell_at(share: f64, cells: u16, dots: u16) -> u16 {
+    let last = f64::from(cells) * f64::from(dots) - 1.0;
+    (share * last).round().max(0.0) as u16 / dots.max(1)
+}
+
+/// Rows of a plot of this height with their numbers.
+fn scale_beside(chart: &Chart, height: u16, marker: Marker) -> Vec<(u16, String)> {
+    if let Some(map) = chart.map() {
+        return map::row_labels(&chart.y, map, height);
+    }
+    let place = |Tick { at, label }: Tick| {
+        let down = (chart.y.span.high - at) / chart.y.span.width();
+        Some((cell_at(down, height, dots_of(marker).1), label?.to_string()))
+    };
+    chart.y.ticks(usize::from(height / 3).clamp(2, 6)).into_iter().filter_map(place).collect()
+}
+
+/// Columns of a plot of this width with their numbers, and the label of the axis.
+fn scale_below(chart: &Chart, width: u16, marker: Marker) -> (Vec<(u16, String)>, String) {
+    let label = chart.x.label_with_unit().to_string();
+    if let Some(map) = chart.map() {
+        return (map::column_labels(&chart.x, map, width), label);
+    }
+    let place = |Tick { at, label }: Tick| {
+        let share = (at - chart.x.span.low) / chart.x.span.width();
+        Some((cell_at(share, width, dots_of(marker).0), label?.to_string()))
+    };
+    let numbers = chart.x.ticks(usize::from(width / 10).clamp(2, 9)).into_iter().filter_map(place);
+    (numbers.filter(|(column, _)| *column < width).collect(), label)
+}
+
+/// Whether the label of the horizontal axis would take the place of a number beside it.
+fn label_hides_numbers(chart: &Chart, width: u16) -> bool {
+    let (numbers, label) = scale_below(chart, width, Marker::Braille);
+    let end = usize::from(width).saturating_sub(label.chars().count() + 1);
+    numbers.iter().any(|(column, text)| usize::from(*column) + text.chars().count().div_ceil(2) > end)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::draw::cells::Colours;
+    use crate::draw::{AxisScale, Sign, Span, Stroke};
+    use ratatui::style::Style;
+
+    const MARKERS: [Marker; 3] = [Marker::Braille, Marker::Octant, Marker::HalfBlock];
+    const SIZES: [(u16, u16); 6] = [(20, 5), (32, 8), (47, 13), (60, 20), (80, 24), (118, 37)];
+
+    fn axis(low: f64, high: f64, symbol: &str, unit: &str) -> Axis {
+        Axis::new(AxisScale::Linear, Span { low, high }, "", symbol, unit)
+    }
+
+    fn chart(layers: Vec<Layer>) -> Chart {
+        let (x, y) = (axis(-1.3e-7, 6.4e-7, "d", "m"), axis(-2.1e-5, 1.2e-5, "F", "N"));
+        Chart { heading: String::new(), x, y, layers, inset: None }
+    }
+
+    fn drawn(chart: &Chart, (width, height): (u16, u16), marker: Marker) -> (CellPlot, Buffer) {
+        let area = Rect::new(3, 2, width, height);
+        let (place, mut buffer) = (CellPlot::within(area, chart), Buffer::empty(area));
+        place.draw(&mut buffer, chart, &CellStyle { marker, ink: &|_| Style::new(), colours: Colours::None });
+        (place, buffer)
+    }
+
+    fn curve(points: &[(f64, f64)], sign: Option<Sign>) -> Layer {
+        Layer::unnamed(Ink::Text, Shape::Curve { points: points.to_vec(), stroke: Some(Stroke::Solid), sign })
+    }
+
+    #[test]
+    fn signs_are_in_cells_of_their_curves() {
+        let points: Vec<(f64, f64)> = (0..12)
+            .map(|at| (-1.3e-7 + 6.9e-8 * f64::from(at), 3e-6 * f64::from((at * 7) % 11) - 2e-5))
+            .collect();
+        let (without, with) =
+            (chart(vec![curve(&points, None)]), chart(vec![curve(&points, Some(Sign::Up))]));
+        for (size, marker) in SIZES.into_iter().flat_map(|size| MARKERS.map(|marker| (size, marker))) {
+            let (place, line) = drawn(&without, size, marker);
+            let (_, signs) = drawn(&with, size, marker);
+            let mut seen = 0;
+            for point in &points {
+                let cell = place.cell(&without, marker, *point).unwrap();
+                let blank = [" ", "\u{2800}"].contains(&line[cell].symbol());
+                assert!(!blank, "{size:?} {marker} {point:?}");
+                seen += usize::from(signs[cell].symbol() == "▲");
+            }
+            let all = signs.content.iter().filter(|cell| cell.symbol() == "▲").count();
+            assert!(all > 0 && seen >= all, "{size:?} {marker}: {seen} of {all}");
+        }
+        assert_eq!(drawn(&without, SIZES[0], MARKERS[0]).0.cell(&without, MARKERS[0], (1.0, 0.0)), None);
+    }
+
+    #[test]
+    fn ticks_are_beside_the_dots_of_their_values() {
+        let mut labelled = 0;
+        for (size, marker) in SIZES.into_iter().flat_map(|size| MARKERS.map(|marker| (size, marker))) {
+            let level = chart(vec![Layer::unnamed(Ink::Quiet, Shape::Level(0.0))]);
+            let (place, buffer) = drawn(&level, size, marker);
+            let row_of = |row: u16| -> String {
+                (buffer.area.x..buffer.area.right()).map(|column| buffer[(column, row)].symbol()).collect()
+            };
+            for row in place.plot.y..place.plot.bottom() {
+                let text = row_of(row);
+                if let Some((number, _)) = text.split_once(" ┤") {
+                    let is_level = !["", " ", "\u{2800}"].contains(&buffer[(place.plot.x, row)].symbol());
+                    assert_eq!(number.trim() == "0", is_level, "{size:?} {marker}\n{text}");
+                    labelled += 1;
+                }
+            }
+            if size.1 >= WITH_LINE_BELOW {
+                let below: String = (place.plot.bottom() + 1..buffer.area.bottom()).map(row_of).collect();
+                assert!(below.trim_end().ends_with("d (nm)") && below.contains(" 0"), "{below}");
+            }
+        }
+        assert!(labelled > 20, "{labelled}");
+    }
+
+    #[test]
+    fn a_column_of_the_screen_is_a_number_of_the_axis() {
+        let empty = chart(Vec::new());
+        for size in SIZES {
+            let place = drawn(&empty, size, Marker::Braille).0;
+            for column in place.plot.x..place.plot.right() {
+                let number = place.number_at(&empty.x, column);
+                let (back, _) = place.cell(&empty, Marker::Braille, (number, 0.0)).unwrap();
+                assert!(back.abs_diff(column) <= 1, "{size:?} {column} {back}");
+            }
+            assert_eq!(place.number_at(&empty.x, u16::MAX), empty.x.span.high);
+        }
+    }
+
+    #[test]
+    fn a_chart_is_drawn_like_this() {
+        let area = [(0.0, -1.5e-5), (5e-7, -1.5e-5), (5e-7, 0.0)];
+        let columns = (0..40).map(|at| (at % 9 > 1).then(|| (2e-7 * f64::from(at), 2.4e-7 * f64::from(at))));
+        let chart = chart(vec![
+            Layer::unnamed(Ink::Quiet, Shape::Inside(area.to_vec())),
+            Layer::unnamed(Ink::Quiet, Shape::Upright(1e-7)),
+            Layer::unnamed(Ink::Contact, Shape::Boxes(vec![((5.2e-7, 6e-7), (-1.8e-5, -1e-5))])),
+            Layer::unnamed(Ink::Profile, Shape::Envelope { x: (-1e-7, 6e-7), columns: columns.collect() }),
+            curve(&[(-1e-7, 0.0), (2e-7, f64::NAN), (3e-7, -5e-6), (6e-7, -2e-5)], Some(Sign::Ring)),
+        ]);
+        let (_, buffer) = drawn(&chart, (64, 18), Marker::Braille);
+        let rows =
+            buffer.content.chunks(64).map(|row| row.iter().map(|cell| cell.symbol()).collect::<String>());
+        insta::assert_snapshot!(rows.map(|row| row.trim_end().to_owned()).collect::<Vec<_>>().join("\n"));
+    }
+}

@@ -1,0 +1,102 @@
+//! Words for the event at the state of the contact that is shown: first contact, spreading, preload, detachment, pull-off,
+//! separation.
+
+use super::model::Model;
+use super::snapshot::Drive;
+use crate::contact::{CurvePoint, Direction, LegRecord};
+
+/// Share of the indentation range of a stage within which a point is at its end or at its smallest force.
+const NEAR: f64 = 0.01;
+
+/// Event at the state that is shown; `None` before the first result and where the body rests.
+#[must_use]
+pub fn caption(model: &Model) -> Option<&'static str> {
+    let moment = model.present()?;
+    match moment.drive {
+        Drive::Hand => Some("manual loading"),
+        Drive::Leg(index) => event(model.legs().get(index)?, moment.point),
+    }
+}
+
+/// Event at a point of a loading stage.
+fn event(stage: &LegRecord, point: CurvePoint) -> Option<&'static str> {
+    let (first, last) = (stage.curve.first()?, stage.curve.last()?);
+    let range = (last.indentation - first.indentation).abs();
+    let is_near = |other: &CurvePoint| (point.indentation - other.indentation).abs() <= NEAR * range;
+    match stage.direction {
+        _ if range == 0.0 => None,
+        Direction::Loading => Some(match point {
+            CurvePoint { springs: 0, .. } => "approach, no contact yet",
+            _ if is_near(last) => "largest indentation",
+            CurvePoint { force, .. } if force < 0.0 => "jump into contact, attracted",
+            _ => "contact spreads",
+        }),
+        Direction::Unloading => Some(match point {
+            CurvePoint { springs: 0, .. } => "separated",
+            _ if is_near(first) => "largest indentation",
+            _ if is_near(&stage.smallest) => "pull-off, largest tension",
+            _ if point.indentation < stage.smallest.indentation => "last patches detach",
+            CurvePoint { force, .. } if force < 0.0 => "under tension",
+            _ => "contact shrinks",
+        }),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::contact::History;
+    use crate::scene::open;
+    use crate::simulation::Simulation;
+
+    fn history(name: &str) -> History {
+        let document = open(name).unwrap();
+        Simulation::default().run(document.scene(), &|| false, &mut |_, _, _| Ok(())).unwrap().history
+    }
+
+    /// Events along a stage in the order of their first occurrence: on a rough profile some recur.
+    fn events(stage: &LegRecord) -> Vec<&'static str> {
+        let mut events = Vec::new();
+        for event in stage.curve.iter().filter_map(|&point| event(stage, point)) {
+            if !events.contains(&event) {
+                events.push(event);
+            }
+        }
+        events
+    }
+
+    #[test]
+    fn a_loop_passes_its_events_in_order() {
+        let history = history("pressure-sensitive");
+        let [loading, unloading] = &history.legs[..] else { panic!("two stages") };
+        assert_eq!(
+            events(loading),
+            [
+                "approach, no contact yet",
+                "jump into contact, attracted",
+                "contact spreads",
+                "largest indentation"
+            ]
+        );
+        assert_eq!(
+            events(unloading),
+            [
+                "largest indentation",
+                "contact shrinks",
+                "under tension",
+                "pull-off, largest tension",
+                "last patches detach",
+                "separated"
+            ]
+        );
+    }
+
+    #[test]
+    fn the_smallest_force_is_the_pull_off() {
+        let history = history("jkr-sphere");
+        let stage = &history.legs[1];
+        assert_eq!(event(stage, stage.smallest), Some("pull-off, largest tension"));
+        let still = LegRecord { curve: vec![stage.smallest; 2], ..stage.clone() };
+        assert_eq!(event(&still, stage.smallest), None);
+    }
+}

@@ -1,0 +1,78 @@
+//! Values of fields as people type them, in `--set` and in the explorer alike.
+
+use super::field::Field;
+use super::quantity::{QuantityError, parse_quantity};
+use super::range::Range;
+use super::text::ron_float;
+
+/// Whole numbers from here on are not all exact as floating-point numbers.
+const MOST_EXACT: f64 = 9.0e15;
+
+impl Field {
+    /// The value as RON: a number may have an SI prefix and the unit of the field, `50 mJ/m²` or `16k`. Any other text
+    /// is the same, blanks around it aside.
+    ///
+    /// # Errors
+    /// Text that begins as a number and goes on as another unit, or a number that is too large.
+    pub fn read_typed(&self, typed: &str) -> Result<String, QuantityError> {
+        let typed = typed.trim();
+        if !typed.starts_with(|c: char| c.is_ascii_digit() || matches!(c, '+' | '-' | '.')) {
+            return Ok(typed.to_string());
+        }
+        match self.range {
+            Range::Real { .. } if ron::from_str::<f64>(typed).is_err() => {
+                parse_quantity(typed, self.unit).map(ron_float)
+            }
+            // A seed has more digits than a floating-point number keeps.
+            Range::Whole { .. } | Range::Band { .. } if ron::from_str::<u64>(typed).is_err() => {
+                let value = parse_quantity(typed, self.unit)?;
+                let is_whole = value.fract() == 0.0 && (0.0..MOST_EXACT).contains(&value);
+                Ok(if is_whole { format!("{}", value as u64) } else { typed.to_string() })
+            }
+            _ => Ok(typed.to_string()),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::fields::{FIELDS, field};
+    use super::super::strategies::sound_scenes;
+    use proptest::prelude::*;
+
+    #[test]
+    fn numbers_may_have_prefix_and_unit() {
+        for (path, typed, ron) in [
+            ("adhesion.work", "50mJ/m2", "0.05"),
+            ("adhesion.work", " 50 mN/m ", "0.05"),
+            ("adhesion.work", "5.0e-2", "5.0e-2"),
+            ("adhesion.work", "None", "None"),
+            ("numerics.points", "1k", "1000"),
+            ("numerics.points", "64Ki", "65536"),
+            ("numerics.points", "1_024", "1_024"),
+            ("numerics.points", "1.5", "1.5"),
+            ("numerics.points", "-1", "-1"),
+            ("roughness.seed", "18446744073709551615", "18446744073709551615"),
+            ("roughness.seed", "18446744073709551616", "18446744073709551616"),
+            ("length", "-inf", "-inf"),
+            ("form.angle", "90°", "1.5707963267948966"),
+            ("title", "\"10 µm\"", "\"10 µm\""),
+            ("observe", "[]", "[]"),
+        ] {
+            assert_eq!(field(path, None).unwrap().read_typed(typed).as_deref(), Ok(ron), "{path} {typed}");
+        }
+        let wrong = field("length", None).unwrap().read_typed("10 kg").unwrap_err();
+        assert_eq!(wrong.to_string(), "kg is no length: m, mm, µm, nm");
+    }
+
+    proptest! {
+        #[test]
+        fn values_as_they_are_written_are_left_alone(scene in sound_scenes()) {
+            for field in FIELDS {
+                if let Some(written) = field.written(&scene) {
+                    prop_assert_eq!(field.read_typed(&written), Ok(written), "{}", field.path);
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,189 @@
+//! `asperity surface`, and scenes of measured surfaces.
+
+use std::path::Path;
+use std::process::{Command, Output};
+
+fn asperity(folder: &Path, arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_asperity")).args(arguments).current_dir(folder).output().unwrap()
+}
+
+fn done(folder: &Path, arguments: &[&str]) -> String {
+    let output = asperity(folder, arguments);
+    let errors = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success() && errors.is_empty(), "{arguments:?}: {errors}");
+    String::from_utf8(output.stdout).unwrap()
+}
+
+fn refused(folder: &Path, arguments: &[&str]) -> String {
+    let output = asperity(folder, arguments);
+    assert_eq!((output.status.code(), &output.stdout[..]), (Some(1), &b""[..]), "{arguments:?}");
+    String::from_utf8(output.stderr).unwrap()
+}
+
+fn json(folder: &Path, arguments: &[&str]) -> serde_json::Value {
+    serde_json::from_str(&done(folder, arguments)).unwrap()
+}
+
+/// Heights of a rough profile in nm at 0, 1, 2 … µm.
+fn heights(points: u32) -> Vec<f64> {
+    let wave = |i: u32, k: u32| (f64::from(k) * (0.1 * f64::from(i) + f64::from(k * k))).sin();
+    (0..points).map(|i| (1..40).map(|k| 100.0 * wave(i, k) / f64::from(k * k)).sum()).collect()
+}
+
+/// A folder with the profile `line.txt`, without units `plain.txt`, and a map `map.txt`.
+fn folder() -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    let heights = heights(512);
+    let points: String = heights.iter().enumerate().map(|(i, z)| format!("{i}\t{z:?}\n")).collect();
+    let write = |name: &str, text: String| std::fs::write(folder.path().join(name), text).unwrap();
+    write("line.txt", format!("x [µm]\tz [nm]\n{points}"));
+    write("plain.txt", points.clone());
+    let row = |start: usize| heights[start..start + 40].iter().map(|z| format!("{z:?} ")).collect::<String>();
+    let rows: String = (0..40).map(|i| format!("{}\n", row(11 * i % 400))).collect();
+    write("map.txt", format!("# Width: 40 µm\n# Height: 40 µm\n# Value units: nm\n{rows}"));
+    folder
+}
+
+#[test]
+fn a_profile_is_stated_in_every_form() {
+    let folder = folder();
+    let folder = folder.path();
+    let summary = done(folder, &["surface", "line.txt", "--modulus", "1MPa", "--tip-radius", "5um"]);
+    for words in [
+        "profile of 512 points, 512 µm",
+        "rms height Rq",
+        "Equivalent line",
+        "elastic energy e_el",
+        "Warnings",
+    ] {
+        assert!(summary.contains(words), "{words}: {summary}");
+    }
+    let report = json(folder, &["surface", "line.txt", "--format", "json", "--modulus", "1MPa"]);
+    let heights = heights(512);
+    let (count, level) = (heights.len() as f64, heights.iter().sum::<f64>() / 512.0);
+    // Tilt by least squares about the middle.
+    let x = |i: usize| i as f64 - 255.5;
+    let squares: f64 = (0..512).map(|i| x(i) * x(i)).sum();
+    let tilt = heights.iter().enumerate().map(|(i, z)| x(i) * (z - level)).sum::<f64>() / squares;
+    let rest: f64 = heights.iter().enumerate().map(|(i, z)| (z - level - tilt * x(i)).powi(2)).sum();
+    let expected = 1e-9 * (rest / count).sqrt();
+    let found = report["rms_height"].as_f64().unwrap();
+    assert!((found / expected - 1.0).abs() < 1e-10, "{found} {expected}");
+    let line = &report["equivalent_line"];
+    let energy = line["elastic_energy"]["value"].as_f64().unwrap();
+    assert!((energy / (1e6 * line["energy_per_modulus"]["value"].as_f64().unwrap()) - 1.0).abs() < 1e-12);
+    assert_eq!(report["files"][0]["points"], serde_json::json!([512]));
+    let table = done(folder, &["surface", "line.txt", "--format", "csv"]);
+    assert!(table.starts_with("spectrum,wave_number,power,waves\n1D PSD along x,"), "{table}");
+    // The bins hold the whole height but for waves 1 to 255 of the window's.
+    let rows = table.lines().filter_map(|row| row.strip_prefix("1D PSD along x,"));
+    let numbers = rows.map(|row| row.split(',').map(|cell| cell.parse::<f64>().unwrap()).collect::<Vec<_>>());
+    let square: f64 = numbers.map(|row| row[1] * row[2]).sum::<f64>() / 512e-6 * 2.0;
+    assert!((square.sqrt() / expected - 1.0).abs() < 0.3, "{} {expected}", square.sqrt());
+    done(folder, &["surface", "line.txt", "-o", "spectrum.csv"]);
+    assert_eq!(std::fs::read_to_string(folder.join("spectrum.csv")).unwrap(), table);
+    assert!(
+        refused(folder, &["surface", "line.txt", "-o", "spectrum.csv"]).contains("--force overwrites it")
+    );
+}
+
+#[test]
+fn several_files_are_one_roughness() {
+    let folder = folder();
+    let both = json(folder.path(), &["surface", "line.txt", "map.txt", "--format", "json"]);
+    assert_eq!(both["points"], 512 + 1600);
+    assert_eq!(both["files"][1]["points"], serde_json::json!([40, 40]));
+    assert_eq!(both["rms_gradient"], serde_json::Value::Null);
+    let map = json(folder.path(), &["surface", "map.txt", "--format", "json"]);
+    assert!(map["rms_gradient"].as_f64().unwrap() > map["rms_slope"].as_f64().unwrap());
+}
+
+#[test]
+fn refusals_name_file_place_and_what_is_allowed() {
+    let folder = folder();
+    let folder = folder.path();
+    std::fs::write(folder.join("bad.txt"), "x [um] z [um]\n0 1\n1 bad\n2 3\n").unwrap();
+    std::fs::write(folder.join("uneven.txt"), "x [um] z [um]\n0 1\n1 2\n3 3\n").unwrap();
+    for (arguments, expected) in [
+        (
+            &["surface", "plain.txt"][..],
+            "plain.txt: no unit of heights is stated; allowed: a unit in the file",
+        ),
+        (&["surface", "line.txt", "--unit", "mm"], "line.txt: the file states nm as the unit of heights"),
+        (&["surface", "none.txt"], "none.txt: cannot be read: "),
+        (&["surface", "bad.txt"], "bad.txt: line 3: 1 of 3 points are missing (33.33 %)"),
+        (&["surface", "bad.txt", "--interpolate"], "bad.txt: 3 points along an axis; allowed: at least 32"),
+        (&["surface", "line.txt", "uneven.txt"], "uneven.txt: point 2: x = 1e-6 m is off the even grid"),
+        (&["surface", "line.txt", "--continue-to", "1mm"], "line.txt: the spectrum continues up to q = "),
+        (
+            &["surface", "line.txt", "map.txt", "--modulus", "1MPa", "--scene", "a.ron"],
+            "--scene: a scene does not hold several files",
+        ),
+    ] {
+        let message = refused(folder, arguments);
+        assert!(message.starts_with(expected) && message.lines().count() == 1, "{arguments:?}: {message}");
+    }
+    done(folder, &["surface", "plain.txt", "--unit", "um"]);
+    assert!(!folder.join("a.ron").exists());
+}
+
+#[test]
+fn a_scene_of_a_surface_runs_on_its_equivalent_line() {
+    let folder = folder();
+    let folder = folder.path();
+    let arguments = ["surface", "plain.txt", "--unit", "um", "--modulus", "1MPa", "--work", "50mJ/m^2"];
+    let report = [&arguments[..], &["--scene", "rough.ron", "--format", "json"]].concat();
+    let report = json(folder, &report);
+    let scene = std::fs::read_to_string(folder.join("rough.ron")).unwrap();
+    assert!(
+        scene.contains("version: 2") && scene.contains("Measured(file: \"plain.txt\", unit: \"µm\")"),
+        "{scene}"
+    );
+    let again = refused(folder, &[&arguments[..], &["--scene", "rough.ron"]].concat());
+    assert!(again.contains("there is a file of that name already"), "{again}");
+    let run = json(folder, &["run", "rough.ron", "--format", "json"]);
+    // The moments are those of the spectrum, with modes in place of integrals.
+    for (name, of_scene) in [("rms_height", "rms_height"), ("rms_gradient", "rms_gradient")] {
+        let estimate = report["equivalent_line"][name]["value"].as_f64().unwrap();
+        let found = run["line"][of_scene].as_f64().unwrap();
+        assert!((found / estimate - 1.0).abs() < 0.03, "{name}: {found} {estimate}");
+    }
+    assert_eq!(run["line"]["seed"], 1);
+    // Other seeds are other lines with the same moments.
+    let lines = done(folder, &["run", "rough.ron", "--lines", "3", "--format", "csv"]);
+    let forces: Vec<&str> = lines.lines().skip(1).map(|row| row.split(',').nth(1).unwrap()).collect();
+    assert!(forces.len() == 3 && forces[0] != forces[1] && forces[1] != forces[2], "{lines}");
+    let first = run["adhesion_force"].as_f64().unwrap();
+    assert!((forces[0].parse::<f64>().unwrap() / first - 1.0).abs() < 1e-12);
+    let seven = json(folder, &["run", "rough.ron", "--set", "roughness.seed=7", "--format", "json"]);
+    assert_eq!(seven["line"]["rms_height"], run["line"]["rms_height"]);
+    assert_ne!(seven["adhesion_force"], run["adhesion_force"]);
+}
+
+#[test]
+fn older_scenes_keep_the_profile_as_the_line() {
+    let folder = folder();
+    let folder = folder.path();
+    let scene = |version: u32, as_line: &str| {
+        let text = format!(
+            "(version: {version}, material: (effective_modulus: 1.0e6), length: 4.0e-4, adhesion: (work: 0.05), \
+             roughness: Measured(file: \"line.txt\"{as_line}), numerics: (points: 2048))"
+        );
+        std::fs::write(folder.join("scene.ron"), text).unwrap();
+        json(folder, &["run", "scene.ron", "--format", "json"])
+    };
+    let older = scene(1, "");
+    let raw = scene(2, ", as_line: true");
+    let equivalent = scene(2, "");
+    assert_eq!(older["adhesion_force"], raw["adhesion_force"]);
+    assert_eq!(scene(1, ", as_line: false")["adhesion_force"], equivalent["adhesion_force"]);
+    assert_ne!(raw["adhesion_force"], equivalent["adhesion_force"]);
+    assert_eq!((&older["line"]["seed"], &equivalent["line"]["seed"]), (&serde_json::Value::Null, &1.into()));
+    let plain = "(version: 2, material: (effective_modulus: 1.0e6), length: 4.0e-4, \
+                 roughness: Measured(file: \"plain.txt\"), numerics: (points: 2048))";
+    std::fs::write(folder.join("plain.ron"), plain).unwrap();
+    let message = refused(folder, &["run", "plain.ron"]);
+    assert!(message.contains("roughness.file = \"plain.txt\": no unit of heights is stated"), "{message}");
+    let message = refused(folder, &["run", "plain.ron", "--set", "roughness.unit=\"px\""]);
+    assert!(message.contains("roughness.unit = \"px\": allowed: m, cm, mm"), "{message}");
+}
