@@ -20,14 +20,14 @@ pub struct PowerLaw {
 }
 
 impl PowerLaw {
-    /// The closed form of a body, where it has one: every form but the punch.
+    /// The closed form of a body, where it is a power law: not the punch, nor a sphere with waves.
     #[must_use]
     pub fn of(form: &Form, effective_modulus: f64, work_of_adhesion: f64) -> Option<Self> {
         let (line_coefficient, exponent) = match *form {
             Form::Paraboloid { radius } => (radius.recip(), 2.0),
             Form::Cone { angle } => (std::f64::consts::FRAC_PI_2 * angle.tan(), 1.0),
             Form::Power { coefficient, exponent } => (power_law_factor(exponent) * coefficient, exponent),
-            Form::Punch { .. } => return None,
+            Form::WavySphere { .. } | Form::Punch { .. } => return None,
         };
         Some(PowerLaw { line_coefficient, exponent, effective_modulus, work_of_adhesion })
     }
@@ -94,6 +94,10 @@ pub fn smooth_adhesion_force(form: Option<&Form>, length: f64, effective_modulus
     let flat = ideal_adhesion_force(work, effective_modulus, length);
     match form {
         None => flat,
+        // Waves make it depend on the preload: that of the sphere without them.
+        Some(&Form::WavySphere { radius, .. }) => {
+            smooth_adhesion_force(Some(&Form::Paraboloid { radius }), length, effective_modulus, work)
+        }
         Some(Form::Punch { radius }) => flat_punch(*radius, effective_modulus, work).min(flat),
         Some(form) => PowerLaw::of(form, effective_modulus, work)
             .map_or(flat, |body| -body.force_controlled_pull_off().1)

@@ -10,6 +10,9 @@ use crate::topography::{Unit, UnitError};
 /// Most samples of all legs together; a curve of this size still fits the memory of a small machine.
 const MOST_SAMPLES: u64 = 1 << 24;
 
+/// Fewest springs of a wave about the axis of a form.
+const SPRINGS_PER_WAVE: f64 = 4.0;
+
 pub(super) fn check_consistency(scene: &Scene, found: &mut Found) {
     check_material(&scene.material, found);
     check_form(scene, found);
@@ -75,6 +78,19 @@ fn check_form(scene: &Scene, found: &mut Found) {
     if let Form::Punch { radius } = form {
         return check_punch(scene, radius, found);
     }
+    if let Form::WavySphere { wavelength, .. } = form
+        && !found.has("numerics.points")
+        && wavelength < SPRINGS_PER_WAVE * scene.spacing()
+    {
+        found.add(Violation {
+            field: "form.wavelength".into(),
+            value: ron_float(wavelength),
+            allowed: format!("at least {} m", ron_float(SPRINGS_PER_WAVE * scene.spacing())),
+            reason: format!("a wave has at least {SPRINGS_PER_WAVE} springs: more points or longer waves"),
+            involves: &["numerics.points", "length"],
+        });
+        return;
+    }
     // The line carries the transformed profile, which is at most this many times higher.
     let rise = 20.0 * rise_at_end(form, scene.length / 2.0);
     if !LEG_INDENTATION.range.contains(rise) {
@@ -89,7 +105,7 @@ fn check_form(scene: &Scene, found: &mut Found) {
             path,
             value.unwrap_or_default(),
             reason,
-            &["form", "form.exponent", "length"],
+            &["form", "form.exponent", "form.amplitude", "length"],
         ));
     }
 }
@@ -100,6 +116,11 @@ fn rise_at_end(form: Form, radius: f64) -> f64 {
         Form::Paraboloid { radius: curvature } => radius * radius / (2.0 * curvature),
         Form::Cone { angle } => radius * angle.tan(),
         Form::Power { coefficient, exponent } => coefficient * radius.powf(exponent),
+        // On the line the waves grow to about π A √(r/λ).
+        Form::WavySphere { radius: curvature, amplitude, wavelength } => {
+            let waves = (radius / wavelength).max(1.0);
+            radius * radius / (2.0 * curvature) + std::f64::consts::PI * amplitude * waves.sqrt()
+        }
         Form::Punch { .. } => 0.0,
     }
 }

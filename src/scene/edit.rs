@@ -248,7 +248,7 @@ mod tests {
             ("loading.", "no such field"),
             ("..", "no such field"),
             ("roughness..hurst", "no such field"),
-            ("form.radius", "there is no form: set form=Paraboloid(radius: 1.0e-3) or form=Punch("),
+            ("form.radius", "there is no form: set form=Paraboloid(radius: 1.0e-3) or form=WavySphere("),
             ("roughness.file", "roughness is SelfAffine, which has no such field: set roughness=Measured("),
             ("numerics.solver.step", "set numerics.solver=Stepwise(step: 1.0e-9)"),
             ("loading.0", "no such element"),

@@ -132,6 +132,7 @@ pub const FIELDS: &[Field] = &[
             "Paraboloid(radius: 1.0e-3)",
             "Cone(angle: 0.1)",
             "Power(coefficient: 1.0e7, exponent: 3.0)",
+            "WavySphere(radius: 1.0e-3, amplitude: 1.0e-8, wavelength: 1.0e-5)",
             "Punch(radius: 2.0e-5)",
         ]),
         step: Step::Choice,
@@ -185,6 +186,42 @@ pub const FIELDS: &[Field] = &[
         step: Step::Linear { fine: 0.1, coarse: 1.0 },
         meaning: "exponent n of the power law b rⁿ; a large n is flat in the middle and steep outside",
         access: at!(form, Some(Form::Power { exponent, .. }) => exponent),
+        ..NUMBER
+    },
+    Field {
+        path: "form.radius",
+        variant: Some("WavySphere"),
+        name: "sphere radius",
+        symbol: "R",
+        unit: "m",
+        range: Range::above(0.0, 1e9),
+        step: Step::Logarithmic,
+        meaning: "radius of curvature of the sphere without its waves",
+        access: at!(form, Some(Form::WavySphere { radius, .. }) => radius),
+        ..NUMBER
+    },
+    Field {
+        path: "form.amplitude",
+        variant: Some("WavySphere"),
+        name: "wave amplitude",
+        symbol: "A",
+        unit: "m",
+        range: Range::above(0.0, 1e6),
+        step: Step::Logarithmic,
+        meaning: "amplitude A of the concentric waves A (1 − cos 2πr/λ)",
+        access: at!(form, Some(Form::WavySphere { amplitude, .. }) => amplitude),
+        ..NUMBER
+    },
+    Field {
+        path: "form.wavelength",
+        variant: Some("WavySphere"),
+        name: "wavelength",
+        symbol: "λ",
+        unit: "m",
+        range: Range::above(0.0, 1e9),
+        step: Step::Logarithmic,
+        meaning: "distance λ from crest to crest of the waves, at least four springs",
+        access: at!(form, Some(Form::WavySphere { wavelength, .. }) => wavelength),
         ..NUMBER
     },
     Field {

@@ -80,6 +80,15 @@ pub enum Form {
         /// Exponent n.
         exponent: f64,
     },
+    /// Sphere r²/2R with concentric waves A (1 − cos 2πr/λ).
+    WavySphere {
+        /// Radius of curvature R, m.
+        radius: f64,
+        /// Amplitude A of the waves, m; their height is twice that.
+        amplitude: f64,
+        /// Wavelength λ, m.
+        wavelength: f64,
+    },
     /// Flat-ended cylinder; nothing outside its radius touches.
     Punch {
         /// Radius a, m.

@@ -202,7 +202,13 @@ mod tests {
         for (text, place, field, value, said) in [
             (scene("    lenght: 1,"), (5, 5), "lenght", "", "did you mean length?"),
             (scene("    title: \"a\",\n    title: \"b\","), (6, 5), "title", "", "given twice"),
-            (scene("    form: Cube(radius: 1.0),"), (5, 11), "form", "Cube", "Cone, Power, Punch"),
+            (
+                scene("    form: Cube(radius: 1.0),"),
+                (5, 11),
+                "form",
+                "Cube",
+                "Cone, Power, WavySphere, Punch",
+            ),
             (scene("    form: Cone(angel: 1.0),"), (5, 16), "form.angel", "", "did you mean angle?"),
             (
                 scene("    loading: [ToTouch, ToFroce(1.0)],"),

@@ -178,6 +178,7 @@ impl Choice for Form {
             Form::Paraboloid { .. } => "Paraboloid",
             Form::Cone { .. } => "Cone",
             Form::Power { .. } => "Power",
+            Form::WavySphere { .. } => "WavySphere",
             Form::Punch { .. } => "Punch",
         }
     }

@@ -1,12 +1,15 @@
 //! Macroscopic forms on the line: the MDR transform g(x) of a profile f(r).
 
+use super::struve::struve_0;
 use crate::scene::Form;
+use std::f64::consts::PI;
 
 /// Depth g(|x|) in m of the equivalent line below its apex, at distance `distance` m from the axis; of a punch that
 /// under its flat face ([`Form::springs_under`]).
 ///
 /// g(x) = |x| ∫₀^|x| f′(r)/√(x²−r²) dr: a paraboloid r²/2R becomes x²/R, a cone r tan θ becomes
-/// (π/2)|x| tan θ, a power law b rⁿ becomes κₙ b |x|ⁿ ([`power_law_factor`]).
+/// (π/2)|x| tan θ, a power law b rⁿ becomes κₙ b |x|ⁿ ([`power_law_factor`]), and waves A (1 − cos 2πr/λ) become
+/// (π²A/λ)|x| H₀(2π|x|/λ) with a Struve function.
 #[must_use]
 pub fn mdr_profile(form: &Form, distance: f64) -> f64 {
     let x = distance.abs();
@@ -14,6 +17,9 @@ pub fn mdr_profile(form: &Form, distance: f64) -> f64 {
         Form::Paraboloid { radius } => x * x / radius,
         Form::Cone { angle } => std::f64::consts::FRAC_PI_2 * x * angle.tan(),
         Form::Power { coefficient, exponent } => power_law_factor(exponent) * coefficient * x.powf(exponent),
+        Form::WavySphere { radius, amplitude, wavelength } => {
+            x * x / radius + PI * PI * amplitude / wavelength * x * struve_0(2.0 * PI * x / wavelength)
+        }
         Form::Punch { .. } => 0.0,
     }
 }
@@ -42,9 +48,12 @@ mod tests {
         let x = 0.7;
         let (radius, angle) = (2.5, 0.3_f64);
         type Slope = Box<dyn Fn(f64) -> f64>;
-        let cases: [(Form, Slope); 4] = [
+        let wavy = Form::WavySphere { radius, amplitude: 0.02, wavelength: 0.3 };
+        let wave = 2.0 * PI / 0.3;
+        let cases: [(Form, Slope); 5] = [
             (Form::Paraboloid { radius }, Box::new(move |r| r / radius)),
             (Form::Cone { angle }, Box::new(move |_| angle.tan())),
+            (wavy, Box::new(move |r| r / radius + 0.02 * wave * (wave * r).sin())),
             (Form::Power { coefficient: 0.4, exponent: 3.7 }, Box::new(|r: f64| 0.4 * 3.7 * r.powf(2.7))),
             (Form::Power { coefficient: 0.4, exponent: 60.0 }, Box::new(|r: f64| 24.0 * r.powf(59.0))),
         ];

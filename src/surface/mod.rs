@@ -10,6 +10,7 @@ mod modes;
 mod phases;
 mod roughness;
 mod spectrum;
+mod struve;
 
 pub use equivalent::{EquivalentLine, MeasuredOptions, MeasuredRoughness};
 pub use error::SurfaceError;
@@ -20,3 +21,4 @@ pub use measured::MeasuredProfile;
 pub use phases::phases;
 pub use roughness::{Synthesizer, UnitRoughness};
 pub use spectrum::SelfAffine;
+pub use struve::{struve_0, struve_1};

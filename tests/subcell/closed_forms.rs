@@ -227,6 +227,70 @@ fn wavy_spheres_converge_with_the_square_of_the_distance() {
     }
 }
 
+/// Pull-off, place of separation and energy of a sphere with waves, and the same by the closed form. The sphere has
+/// R = 1 m, E* = 1 MPa and γ/E* = 1 mm and is 1 m wide.
+fn waves(amplitude: f64, wavelength: f64, deepest: f64, points: usize) -> [[f64; 3]; 2] {
+    let (radius, modulus, work) = (1.0, 1e6, 1e3);
+    let body = smooth(Some(Form::WavySphere { radius, amplitude, wavelength }), 1.0, points, modulus, work);
+    let history = body.history(&[Leg::ToIndentation(deepest), Leg::ToSeparation], 2);
+    let [loading, unloading] = &history.legs[..] else { panic!() };
+    let energy = loading.dissipated_energy + unloading.dissipated_energy;
+    let exact = asperity::reference::WavySphere {
+        radius,
+        amplitude,
+        wavelength,
+        effective_modulus: modulus,
+        work_of_adhesion: work,
+    };
+    let cycle = exact.cycle(deepest, 0.5).unwrap();
+    [
+        [unloading.smallest.force, unloading.end(), energy],
+        [cycle.smallest_force, cycle.separation, cycle.dissipated_energy],
+    ]
+}
+
+#[test]
+fn the_wavy_form_converges_with_the_square_of_the_distance_to_its_closed_form() {
+    // λ²/(AR) = 20 and 13: the line rises everywhere.
+    for (amplitude, wavelength) in [(5e-4, 0.1), (0.1_f64.powi(2) / 13.0, 0.1)] {
+        let grids = grids(true);
+        let errors: Vec<[f64; 3]> = grids
+            .iter()
+            .map(|&points| {
+                // One grid may meet a number by chance.
+                (0..8).map(|k| points + 2 * (k * points / 100)).fold([0.0_f64; 3], |worst, points| {
+                    let [found, expected] = waves(amplitude, wavelength, 0.06, points);
+                    std::array::from_fn(|index| {
+                        worst[index].max((found[index] / expected[index] - 1.0).abs())
+                    })
+                })
+            })
+            .collect();
+        for (index, what) in ["pull-off", "place of separation", "energy"].into_iter().enumerate() {
+            let errors: Vec<f64> = errors.iter().map(|errors| errors[index]).collect();
+            let order = observed_order(&grids, &errors);
+            println!(
+                "A = {amplitude}: {what}: {:.1e} falls to {:.1e}, order {order:.2}",
+                errors[0], errors[10]
+            );
+            assert!(order >= 1.9, "A = {amplitude}: {what}: order {order}, errors {errors:?}");
+        }
+        let [found, expected] = waves(amplitude, wavelength, 0.06, 1600);
+        assert!((found[0] / expected[0] - 1.0).abs() < 1e-4, "{found:?} {expected:?}");
+    }
+}
+
+/// Where the line falls behind a crest an inner spring is the most stretched one, and the rule of Hess detaches earlier
+/// than JKR. Both figures are of an independent computation.
+#[test]
+fn below_the_monotone_limit_the_rule_detaches_before_jkr() {
+    let smooth = 1.5 * PI * 1e3;
+    let [found, jkr] = waves(2e-3, 0.1, 0.06, 1600);
+    println!("rule {}, JKR {}", -found[0] / smooth, -jkr[0] / smooth);
+    assert!((-found[0] / smooth / 1.511_869 - 1.0).abs() < 1e-4, "{}", -found[0] / smooth);
+    assert!((-jkr[0] / smooth - 1.556_549).abs() < 2e-6, "{}", -jkr[0] / smooth);
+}
+
 /// A sphere under two works of adhesion: JKR with γ₁, a straight line with the edge pinned, JKR with γ₂.
 struct TwoWorks {
     closing: PowerLaw,

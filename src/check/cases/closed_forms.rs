@@ -4,7 +4,7 @@ use super::ensure;
 use crate::check::catalogue::{Case, Family, Scope};
 use crate::check::{Body, Fault, end};
 use crate::contact::Foundation;
-use crate::reference::PowerLaw;
+use crate::reference::{PowerLaw, WavySphere};
 use crate::scene::{Edges, Form, Leg};
 use crate::surface::Line;
 
@@ -46,6 +46,15 @@ pub const CASES: &[Case] = &[
         large: false,
         measure: |edges| power_law(edges, Form::Power { coefficient: 0.3, exponent: 7.0 }, 8.0, 1.0),
     },
+    Case {
+        name: "wavy-sphere",
+        family: Family::ClosedForms,
+        holds: "4001 springs load and unload a sphere with concentric waves by the jumps of the closed form.",
+        error_of: "force and place of pull-off, dissipated energy",
+        scope: Scope::BothEdges(1e-2, 1e-5),
+        large: false,
+        measure: wavy_sphere,
+    },
 ];
 
 const POINTS: usize = 4001;
@@ -63,6 +72,25 @@ fn hertz(edges: Edges) -> Result<f64, Fault> {
     let force = |d: f64| 4.0 / 3.0 * d.powf(1.5);
     let errors = history.legs[0].curve.iter().map(|point| (point.force - force(point.indentation)).abs());
     Ok(errors.fold(0.0, f64::max) / force(1.0))
+}
+
+/// λ²/(AR) = 20: the equivalent line rises everywhere.
+fn wavy_sphere(edges: Edges) -> Result<f64, Fault> {
+    let (radius, amplitude, wavelength, work, deepest) = (1.0, 5e-4, 0.1, 1e-3, 0.06);
+    let exact = WavySphere { radius, amplitude, wavelength, effective_modulus: 1.0, work_of_adhesion: work };
+    let Some(cycle) = exact.cycle(deepest, 0.5) else {
+        return Err(Fault::Wrong("the closed form is wider than the line".into()));
+    };
+    let body = smooth(Form::WavySphere { radius, amplitude, wavelength }, 1.0, work)?;
+    let history = body.history(edges, &[Leg::ToIndentation(deepest), Leg::ToSeparation], 2)?;
+    let [loading, unloading] = &history.legs[..] else { return Err(Fault::Wrong("not two legs".into())) };
+    let energy = loading.dissipated_energy + unloading.dissipated_energy;
+    let errors = [
+        unloading.smallest.force / cycle.smallest_force - 1.0,
+        unloading.end() / cycle.separation - 1.0,
+        energy / cycle.dissipated_energy - 1.0,
+    ];
+    Ok(errors.into_iter().map(f64::abs).fold(0.0, f64::max))
 }
 
 fn power_law(edges: Edges, form: Form, length: f64, deepest: f64) -> Result<f64, Fault> {
