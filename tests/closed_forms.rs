@@ -333,7 +333,7 @@ fn hertz_without_adhesion() {
             Form::Paraboloid { radius } => (2.0, 1.0 / radius),
             Form::Cone { angle } => (1.0, PI / 2.0 * angle.tan()),
             Form::Power { coefficient, exponent } => (exponent, power_law_factor(exponent) * coefficient),
-            Form::Punch { .. } => unreachable!(),
+            Form::WavySphere { .. } | Form::Punch { .. } => unreachable!(),
         };
         let modulus = 5.0;
         let closed = ClosedForm {
