@@ -154,6 +154,7 @@ fn the_table_names_every_field_of_the_model_and_no_other() {
             "Exact",
         ),
         ("Punch(radius: 1.0e-5)", "None", "Exact"),
+        ("WavySphere(radius: 1.0e-3, amplitude: 1.0e-9, wavelength: 1.0e-6)", "None", "Exact"),
     ] {
         for (material, adhesion) in [
             ("(effective_modulus: 1.0e6)", "(work: 0.1)"),

@@ -61,7 +61,11 @@ fn a_value_is_pasted_and_a_wrong_one_refused() {
         terminal.wait_for("1.5q");
         terminal.send("\x7f");
         terminal.send(ENTER);
-        terminal.wait_for("1.5: allowed: above 0 and below 1");
+        // The refused value stays to be corrected; Escape gives it up.
+        terminal.wait_for("allowed: above 0 and below 1");
+        terminal.wait_for("Esc cancel");
+        terminal.send(ESCAPE);
+        terminal.wait_without("Esc cancel");
         assert!(row_with(&terminal, "Hurst exponent").contains("0.7"), "the last good value is kept");
         assert!(!terminal.text().contains("[changed]"));
         terminal.send("j");

@@ -40,11 +40,20 @@ fn the_headline_is_that_of_the_computed_curve() {
                 driver.resize(*size);
                 assert!(driver.text().contains(&format!("F_a {force}")), "{size:?}: {}", driver.text());
             }
-            driver.resize(SIZES[0]);
             let point = driver.model.moment.as_ref().unwrap().point;
-            for number in [format_quantity(point.force, "N"), point.springs.to_string()] {
-                assert!(driver.text().contains(&number), "{number}: {}", driver.text());
+            let present = format!(
+                "d {} F {}",
+                format_quantity(point.indentation, "m"),
+                format_quantity(point.force, "N")
+            );
+            for size in [SIZES[0], (80, 24)] {
+                driver.resize(size);
+                assert!(driver.status().contains(&present), "{size:?} {present}: {}", driver.status());
             }
+            driver.resize((200, 40));
+            let springs = format!("{} spring", point.springs);
+            assert!(driver.status().contains(&springs), "{springs}: {}", driver.status());
+            driver.resize(SIZES[0]);
             assert!(driver.text().contains(outcome.regime.unwrap().name()), "{}", driver.text());
         }
     });
