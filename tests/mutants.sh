@@ -36,26 +36,26 @@ files=("src/$room")
 own="$room" below="" above="" beside="" slow="" unfit=""
 case "$room" in
 scene)
-    below="disk io memory parallel text" above="analysis contact reference simulation surface"
+    below="disk io memory parallel spectrum text topography" above="analysis contact reference simulation surface"
     beside="scene readme/scenes fuzz_corpus" slow="nesting_does_not_overflow" unfit="every_target_has"
     ;;
 surface)
-    below="contact disk io memory parallel scene text" above="analysis reference simulation"
+    below="contact disk io memory parallel scene spectrum text topography" above="analysis reference simulation"
     beside="closed_forms subcell fuzz_corpus" unfit="every_target_has"
     slow="a_sphere_in_other_units heights_are_those hertz_without power_laws_converge rough_bodies rough_lines
         what_is_kept what_is_lost"
     ;;
-analysis) below="contact disk io memory parallel scene surface text" ;;
+analysis) below="contact disk io memory parallel scene spectrum surface text topography" ;;
 store)
     own="study" files=(src/study/{store,done,other_plan,record,merge,tables,shard}.rs)
-    below="analysis contact disk io memory parallel reference scene simulation surface text"
+    below="analysis contact disk draw io memory parallel reference scene simulation spectrum surface text topography"
     above="accuracy check export" beside="simulated_disk sweep"
     # The unfit ones start the program, which is not there, or do not always pass.
     export CARGO_BIN_EXE_asperity=""
     unfit="a_disk_that_does foreign:: killed_ processes:: two_thousand" slow="a_study_outlives a_saved_scene every_prefix"
     ;;
 contact)
-    below="disk io memory parallel scene surface text" above="analysis reference simulation"
+    below="disk io memory parallel scene spectrum surface text topography" above="analysis reference simulation"
     beside="closed_forms incremental laws stepwise subcell sums"
     slow="a_million_terms a_sphere_in_other_units a_step_costs contact_sets_on_the_way forces_at_full_contact
         hertz_without power_laws_converge_to rough_lines_of_few what_is_lost"

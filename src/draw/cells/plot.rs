@@ -12,6 +12,7 @@ use ratatui::layout::Rect;
 use ratatui::symbols::Marker;
 use ratatui::widgets::Widget;
 use ratatui::widgets::canvas::Canvas;
+use std::ops::RangeInclusive;
 
 /// Least size of an area whose plot has a scale on the left: columns and rows.
 pub(super) const WITH_LEFT_SCALE: (u16, u16) = (30, 6);
@@ -187,7 +188,21 @@ fn scale_beside(chart: &Chart, height: u16, marker: Marker) -> Vec<(u16, String)
         let down = (chart.y.span.high - at) / chart.y.span.width();
         Some((cell_at(down, height, dots_of(marker).1), label?.to_string()))
     };
-    chart.y.ticks(usize::from(height / 3).clamp(2, 6)).into_iter().filter_map(place).collect()
+    let fewest = usize::from(height / 3).clamp(2, 6);
+    numbers_at(&chart.y, fewest..=fewest.max(usize::from(height / 2)), place, |_| true)
+}
+
+/// Numbers of an axis with the fewest ticks of which two can be seen, or with the fewest of all: one number gives no scale.
+fn numbers_at(
+    axis: &Axis,
+    ticks: RangeInclusive<usize>,
+    place: impl Fn(Tick) -> Option<(u16, String)>,
+    is_seen: impl Fn(&(u16, String)) -> bool,
+) -> Vec<(u16, String)> {
+    let numbers = |most: usize| axis.ticks(most).into_iter().filter_map(&place).collect::<Vec<_>>();
+    let fewest = *ticks.start();
+    let two = |numbers: &Vec<(u16, String)>| numbers.iter().filter(|number| is_seen(number)).count() >= 2;
+    ticks.map(numbers).find(two).unwrap_or_else(|| numbers(fewest))
 }
 
 /// Columns of a plot of this width with their numbers, and the label of the axis.
@@ -200,8 +215,13 @@ fn scale_below(chart: &Chart, width: u16, marker: Marker) -> (Vec<(u16, String)>
         let share = (at - chart.x.span.low) / chart.x.span.width();
         Some((cell_at(share, width, dots_of(marker).0), label?.to_string()))
     };
-    let numbers = chart.x.ticks(usize::from(width / 10).clamp(2, 9)).into_iter().filter_map(place);
-    (numbers.filter(|(column, _)| *column < width).collect(), label)
+    let fewest = usize::from(width / 10).clamp(2, 9);
+    let end = usize::from(width).saturating_sub(label.chars().count() + 1);
+    let is_seen =
+        |(column, text): &(u16, String)| usize::from(*column) + text.chars().count().div_ceil(2) <= end;
+    let mut numbers = numbers_at(&chart.x, fewest..=fewest.max(usize::from(width / 6)), place, is_seen);
+    numbers.retain(|(column, _)| *column < width);
+    (numbers, label)
 }
 
 /// Whether the label of the horizontal axis would take the place of a number beside it.
@@ -262,6 +282,20 @@ mod tests {
             assert!(all > 0 && seen >= all, "{size:?} {marker}: {seen} of {all}");
         }
         assert_eq!(drawn(&without, SIZES[0], MARKERS[0]).0.cell(&without, MARKERS[0], (1.0, 0.0)), None);
+    }
+
+    #[test]
+    fn two_numbers_give_each_axis_a_scale() {
+        let [x, y] = [axis(-5.26e-8, 6.71e-7, "d", "m"), axis(-1.93e-5, 1.22e-5, "F", "N")];
+        let chart = Chart { heading: String::new(), x, y, layers: Vec::new(), inset: None };
+        for (width, height) in [(28, 7), (30, 9), (40, 12), (100, 30)] {
+            let (numbers, label) = scale_below(&chart, width, Marker::Braille);
+            let end = usize::from(width) - label.chars().count() - 1;
+            let seen =
+                numbers.iter().filter(|(column, text)| usize::from(*column) + text.len().div_ceil(2) <= end);
+            assert!(seen.count() >= 2, "{width}: {numbers:?}");
+            assert!(scale_beside(&chart, height, Marker::Braille).len() >= 2, "{height}");
+        }
     }
 
     #[test]
