@@ -8,7 +8,7 @@ use crate::contact::{CurvePoint, Direction, LegRecord};
 /// Share of the indentation range of a stage within which a point is at its end or at its smallest force.
 const NEAR: f64 = 0.01;
 
-/// Event at the state that is shown; `None` before the first result and where the body rests.
+/// Event at the state that is shown, short enough for the title of a pane of 34 columns; `None` before the first result and where the body rests.
 #[must_use]
 pub fn caption(model: &Model) -> Option<&'static str> {
     let moment = model.present()?;
@@ -26,16 +26,16 @@ fn event(stage: &LegRecord, point: CurvePoint) -> Option<&'static str> {
     match stage.direction {
         _ if range == 0.0 => None,
         Direction::Loading => Some(match point {
-            CurvePoint { springs: 0, .. } => "approach, no contact yet",
-            _ if is_near(last) => "largest indentation",
-            CurvePoint { force, .. } if force < 0.0 => "jump into contact, attracted",
+            CurvePoint { springs: 0, .. } => "approach",
+            _ if is_near(last) => "turning point",
+            CurvePoint { force, .. } if force < 0.0 => "jump-in",
             _ => "contact spreads",
         }),
         Direction::Unloading => Some(match point {
             CurvePoint { springs: 0, .. } => "separated",
-            _ if is_near(first) => "largest indentation",
-            _ if is_near(&stage.smallest) => "pull-off, largest tension",
-            _ if point.indentation < stage.smallest.indentation => "last patches detach",
+            _ if is_near(first) => "turning point",
+            _ if is_near(&stage.smallest) => "pull-off",
+            _ if point.indentation < stage.smallest.indentation => "detachment",
             CurvePoint { force, .. } if force < 0.0 => "under tension",
             _ => "contact shrinks",
         }),
@@ -69,25 +69,10 @@ mod tests {
     fn a_loop_passes_its_events_in_order() {
         let history = history("pressure-sensitive");
         let [loading, unloading] = &history.legs[..] else { panic!("two stages") };
-        assert_eq!(
-            events(loading),
-            [
-                "approach, no contact yet",
-                "jump into contact, attracted",
-                "contact spreads",
-                "largest indentation"
-            ]
-        );
+        assert_eq!(events(loading), ["approach", "jump-in", "contact spreads", "turning point"]);
         assert_eq!(
             events(unloading),
-            [
-                "largest indentation",
-                "contact shrinks",
-                "under tension",
-                "pull-off, largest tension",
-                "last patches detach",
-                "separated"
-            ]
+            ["turning point", "contact shrinks", "under tension", "pull-off", "detachment", "separated"]
         );
     }
 
@@ -95,7 +80,7 @@ mod tests {
     fn the_smallest_force_is_the_pull_off() {
         let history = history("jkr-sphere");
         let stage = &history.legs[1];
-        assert_eq!(event(stage, stage.smallest), Some("pull-off, largest tension"));
+        assert_eq!(event(stage, stage.smallest), Some("pull-off"));
         let still = LegRecord { curve: vec![stage.smallest; 2], ..stage.clone() };
         assert_eq!(event(&still, stage.smallest), None);
     }
