@@ -26,7 +26,7 @@ fn main() {
     let is_bench = arguments.iter().any(|argument| argument == "--bench");
     let (largest, runs) = if is_bench { (value("--largest", 24), value("--runs", 5)) } else { (10, 1) };
 
-    println!("asperity run {SCENE}; shortest of {runs} runs");
+    println!("asperity run {SCENE} --format csv; shortest of {runs} runs");
     println!("  N         seconds   peak, MiB   stated, MiB   bytes for each spring beside 10 MiB");
     for exponent in (10..=largest).step_by(2) {
         let points = (1_u64 << exponent).to_string();
@@ -42,7 +42,11 @@ fn main() {
             let clock = Instant::now();
             let set =
                 fields[..2].iter().flat_map(|(path, value)| ["--set".to_owned(), format!("{path}={value}")]);
-            let status = Command::new(ASPERITY).args(["run", SCENE]).args(set).stdout(Stdio::null()).status();
+            let status = Command::new(ASPERITY)
+                .args(["run", SCENE, "--format", "csv"])
+                .args(set)
+                .stdout(Stdio::null())
+                .status();
             assert!(status.unwrap().success());
             clock.elapsed()
         };
