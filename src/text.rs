@@ -58,6 +58,21 @@ pub(crate) fn grouped(count: u64) -> String {
     grouped
 }
 
+/// A relative error in per cent, with one digit, or two after a leading one: an estimate supports no more.
+pub(crate) fn per_cent(error: f64) -> String {
+    let per_cent = 100.0 * error;
+    if per_cent > 100.0 {
+        return "> 100 %".to_owned();
+    }
+    if per_cent < 1e-3 {
+        return "< 0.001 %".to_owned();
+    }
+    let two: f64 = format!("{per_cent:.1e}").parse().unwrap_or(per_cent);
+    let one: f64 = format!("{per_cent:.0e}").parse().unwrap_or(per_cent);
+    let leads_with_one = format!("{two:e}").starts_with('1');
+    format!("{} %", if leads_with_one { two } else { one })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -5,6 +5,7 @@ use super::convergence::error_of_finest;
 use super::solution::{Solution, Solved, closed_form_adhesion, refined, relative_error, solve};
 use crate::scene::{Edges, Scene, Solver, check};
 use crate::simulation::{Outcome, RunError, Simulation};
+use crate::text::per_cent;
 use serde::Serialize;
 use std::collections::VecDeque;
 use std::path::Path;
@@ -42,17 +43,7 @@ impl Estimate {
     /// The error in per cent, with one digit, or two after a leading one: an estimate supports no more.
     #[must_use]
     pub fn per_cent(&self) -> String {
-        let per_cent = 100.0 * self.error;
-        if per_cent > 100.0 {
-            return "> 100 %".to_owned();
-        }
-        if per_cent < 1e-3 {
-            return "< 0.001 %".to_owned();
-        }
-        let two: f64 = format!("{per_cent:.1e}").parse().unwrap_or(per_cent);
-        let one: f64 = format!("{per_cent:.0e}").parse().unwrap_or(per_cent);
-        let leads_with_one = format!("{two:e}").starts_with('1');
-        format!("{} %", if leads_with_one { two } else { one })
+        per_cent(self.error)
     }
 }
 

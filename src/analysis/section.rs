@@ -11,7 +11,7 @@ pub struct Section {
     pub heights: (f64, f64),
     /// Height of the undeformed elastic surface, m.
     pub level: f64,
-    /// What stands in each column.
+    /// Ranges of heights in each column.
     pub columns: Vec<Column>,
 }
 
@@ -26,7 +26,7 @@ pub struct Column {
     pub contact: Option<(f64, f64)>,
 }
 
-/// How much of a part of the line touches.
+/// Part of the springs of a range that is in contact.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Share {
     /// No spring.

@@ -41,15 +41,15 @@ pub enum CliError {
     /// Several scenes, or the profile or patches of a scene, in a format that cannot hold them.
     #[error("{what}: only a picture shows {what}; allowed: -o FILE.svg, or --format svg")]
     OnlyInPicture {
-        /// What the format cannot hold.
+        /// Content that the format cannot hold.
         what: &'static str,
     },
     /// A picture of something that no picture shows.
     #[error("{what}: {allowed}")]
     NoPicture {
-        /// What no picture shows.
+        /// Content that no picture shows.
         what: &'static str,
-        /// What is allowed in its place.
+        /// Allowed input.
         allowed: &'static str,
     },
     /// A measured surface cannot be read.

@@ -36,10 +36,10 @@ pub struct SurfaceArguments {
     /// Files of profiles or maps
     #[arg(required = true, value_name = "FILE")]
     pub files: Vec<PathBuf>,
-    /// How the files are read.
+    /// Options of the readers.
     #[command(flatten)]
     pub reading: ReadingArguments,
-    /// How they are analysed.
+    /// Options of the analysis.
     #[command(flatten)]
     pub analysis: AnalysisArguments,
     /// summary, json or csv; default: by the extension of FILE, else summary
@@ -56,7 +56,7 @@ pub struct SurfaceArguments {
     /// Work of adhesion of the scene, as 50mJ/m^2; default: none
     #[arg(long, value_name = "ENERGY", requires = "scene", value_parser = energy)]
     pub work: Option<f64>,
-    /// Where the results go.
+    /// Output file.
     #[command(flatten)]
     pub output: OutputArguments,
     /// Overwrite the scene if it exists

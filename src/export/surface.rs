@@ -4,7 +4,7 @@ use super::sheet::Sheet;
 use crate::io::write_json_value;
 use crate::scene::format_quantity;
 use crate::spectrum::{Analysis, Bin, End, Estimate, LineMoments};
-use crate::text::{grouped, path_name};
+use crate::text::{grouped, path_name, per_cent};
 use crate::topography::Topography;
 use serde::Serialize;
 use serde_json::{Value, json};
@@ -147,8 +147,8 @@ fn line(sheet: &mut Sheet, moments: &LineMoments, modulus: Option<f64>) {
 }
 
 fn with_error(estimate: Estimate, unit: &str) -> String {
-    let share = 100.0 * estimate.error / estimate.value.abs();
-    format!("{} ± {} %", format_quantity(estimate.value, unit), format_quantity(share, "1"))
+    let error = per_cent(estimate.error / estimate.value.abs());
+    format!("{} ± {error}", format_quantity(estimate.value, unit))
 }
 
 /// Writes analysed surfaces as one JSON object.
