@@ -14,7 +14,7 @@ mod reference;
 mod relaxation;
 
 pub use body::{Body, LENGTH, MODULUS, RMS_HEIGHT, end};
-pub use catalogue::{Case, Check, Family, Scope, Verdict, catalogue, checks, judge};
+pub use catalogue::{Case, Check, Evidence, Family, Scope, Verdict, catalogue, checks, judge};
 pub use extended::Extended;
 pub use reference::{Agreement, follow, force_error};
 pub use relaxation::Relaxation;

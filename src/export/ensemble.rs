@@ -1,6 +1,7 @@
 //! What many random lines gave, as text, JSON and CSV.
 
 use super::sheet::Sheet;
+use super::summary::tabor_number;
 use crate::accuracy::Choice;
 use crate::io::write_json_value;
 use crate::scene::{Scene, format_quantity};
@@ -34,6 +35,10 @@ pub fn ensemble_text(scene: &Scene, lines: &[LineResult]) -> String {
         rows.extend(statistics.map(|statistics| cells(name, unit, &statistics)));
     }
     sheet.table(&rows);
+    // Lines of one spectrum have one Tabor number.
+    let number =
+        lines.iter().filter(|line| line.dissipated_energy.is_some()).find_map(|line| line.tabor_number);
+    sheet.row_of("Tabor number μ", number.map(tabor_number));
     sheet.heading("Regimes");
     let regimes = summary.regimes;
     for (name, count) in [
@@ -98,7 +103,7 @@ pub fn write_ensemble_csv(out: &mut (impl Write + ?Sized), lines: &[LineResult])
     writeln!(
         out,
         "seed,adhesion_force,preload_indentation,dissipated_energy,contact_fraction,regime,skewness,\
-         excess_kurtosis"
+         excess_kurtosis,tabor_number"
     )?;
     let number = |value: Option<f64>| value.map_or_else(String::new, |value| format!("{value:?}"));
     for line in lines {
@@ -106,7 +111,7 @@ pub fn write_ensemble_csv(out: &mut (impl Write + ?Sized), lines: &[LineResult])
         let shape = |figure: fn(HeightShape) -> f64| number(line.heights.map(figure));
         writeln!(
             out,
-            "{},{},{},{},{:?},{},{},{}",
+            "{},{},{},{},{:?},{},{},{},{}",
             line.seed,
             number(line.adhesion_force),
             number(line.preload_indentation),
@@ -114,7 +119,8 @@ pub fn write_ensemble_csv(out: &mut (impl Write + ?Sized), lines: &[LineResult])
             line.contact_fraction,
             regime.as_str().unwrap_or_default(),
             shape(|shape| shape.skewness),
-            shape(|shape| shape.excess_kurtosis)
+            shape(|shape| shape.excess_kurtosis),
+            number(line.tabor_number)
         )?;
     }
     Ok(())
