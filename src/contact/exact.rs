@@ -88,18 +88,6 @@ impl<C: ContactModel> Exact<C> {
         }
     }
 
-    pub(super) fn into_contact(self) -> C {
-        self.contact
-    }
-
-    pub(super) fn contact_mut(&mut self) -> &mut C {
-        &mut self.contact
-    }
-
-    pub(super) fn foundation(&self) -> Foundation {
-        self.foundation
-    }
-
     fn is_separated(&self) -> bool {
         self.state.springs == 0
     }
@@ -325,5 +313,23 @@ impl<C: ContactModel> super::Solver for Exact<C> {
 
     fn curve_seconds(&self) -> f64 {
         (self.leg_time - self.pass_time).as_secs_f64()
+    }
+}
+
+impl<'a, E: EdgeModel> Exact<Adhesive<'a, E>> {
+    /// The memory it worked in, for the next body.
+    #[must_use]
+    pub fn into_memory(self) -> AdhesiveMemory {
+        self.contact.into_memory()
+    }
+
+    /// Smallest force of the unloading from first touch, N, and the work counts of the search.
+    ///
+    /// # Errors
+    /// [`ContactError::OutOfMemory`].
+    pub fn pull_off_at_touch(&mut self) -> Result<(f64, Work), ContactError> {
+        let stiffness = self.foundation.spring_stiffness();
+        let (compression, work) = self.contact.pull_off_at_touch()?;
+        Ok((stiffness * compression, work))
     }
 }

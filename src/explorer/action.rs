@@ -1,6 +1,5 @@
 //! Everything that can happen to the explorer.
 
-use super::model::Traffic;
 use super::opening::Opening;
 use super::snapshot::{Loop, Moment, Preview};
 use super::study::Found;
@@ -285,4 +284,13 @@ pub enum Motion {
     Start,
     /// To the end.
     End,
+}
+
+/// What a connection carries.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Traffic {
+    /// Most frames in a second.
+    pub frames: u32,
+    /// Bytes written in the last second.
+    pub bytes: u64,
 }

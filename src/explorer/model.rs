@@ -1,12 +1,13 @@
 //! The state of the explorer: changed by `update` alone, drawn by the views.
 
+use super::action::Traffic;
 pub use super::appraisal::{Appraisal, Costs, Estimated};
 pub use super::chart::{Chart, OpenStudy};
 pub use super::mode::{Library, Mode, ModeKind};
 use super::parameters::{Parameter, Setting, parameters};
+use super::request::{Focus, LineView};
 use super::snapshot::{Drive, Loop, Moment, Preview};
 use super::theme::Appearance;
-use super::worker::{Focus, LineView};
 use crate::analysis::Governing;
 use crate::contact::{CurvePoint, LegRecord};
 use crate::scene::{Document, Scene, ron_float};
@@ -127,15 +128,6 @@ pub struct Ghost {
     pub computed: Arc<Loop>,
     /// Where its scene differs from the present one.
     pub differs: String,
-}
-
-/// What a connection carries.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Traffic {
-    /// Most frames in a second.
-    pub frames: u32,
-    /// Bytes written in the last second.
-    pub bytes: u64,
 }
 
 /// A line for the user, below the panes.

@@ -17,7 +17,8 @@ mod sub_cell_edges;
 mod tree;
 mod unloading;
 
-pub(in crate::contact) use dissipation::{AtOnce, Boundary, Edge};
+pub(in crate::contact) use dissipation::AtOnce;
+pub(in crate::contact) use edge_model::{Boundary, Edge};
 pub use edge_model::{EdgeCells, EdgeModel};
 pub use grid_edges::GridEdges;
 pub(in crate::contact) use run::{Ground, Held, Run};
@@ -28,7 +29,6 @@ use tree::TWO_THREADS;
 pub(in crate::contact) use tree::{Branch, Node};
 
 use super::contact_model::{ContactModel, ContactState};
-use super::exact::Exact;
 use super::grid::Grid;
 use super::{ContactError, Direction, LegContact, Work};
 use crate::parallel::in_parallel;
@@ -103,8 +103,13 @@ impl<'a, E: EdgeModel> Adhesive<'a, E> {
         Ok((sampled?, squared))
     }
 
+    /// Memory of the contact, for the next one.
+    pub(super) fn into_memory(self) -> AdhesiveMemory {
+        self.memory
+    }
+
     /// Smallest compression of the unloading from first touch, m, and the work counts of the search.
-    fn pull_off_at_touch(&mut self) -> Result<(f64, Work), ContactError> {
+    pub(super) fn pull_off_at_touch(&mut self) -> Result<(f64, Work), ContactError> {
         let mut work = Work { zero_load_passes: 1, ..Work::default() };
         let [loading, unloading] = [Direction::Loading, Direction::Unloading].map(|leg| self.ground.on(leg));
         if !self.forms {
@@ -230,23 +235,5 @@ impl<E: EdgeModel> ContactModel for Adhesive<'_, E> {
         let ground = self.on_leg();
         let held = ground.held_at(&self.memory.runs, self.unloading, indentation, false);
         held.map(|held| (held.first as usize, held.last as usize)).collect()
-    }
-}
-
-impl<'a, E: EdgeModel> Exact<Adhesive<'a, E>> {
-    /// The memory it worked in, for the next body.
-    #[must_use]
-    pub fn into_memory(self) -> AdhesiveMemory {
-        self.into_contact().memory
-    }
-
-    /// Smallest force of the unloading from first touch, N, and the work counts of the search.
-    ///
-    /// # Errors
-    /// [`ContactError::OutOfMemory`].
-    pub fn pull_off_at_touch(&mut self) -> Result<(f64, Work), ContactError> {
-        let stiffness = self.foundation().spring_stiffness();
-        let (compression, work) = self.contact_mut().pull_off_at_touch()?;
-        Ok((stiffness * compression, work))
     }
 }

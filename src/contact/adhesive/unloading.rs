@@ -1,8 +1,8 @@
 //! Unloading: the indentation at which each part of a contact detaches, and the fragments between.
 
 use super::edge_model::EdgeModel;
-use super::run::{Ground, Held, Run, smaller};
-use super::span::Span;
+use super::run::{Ground, Held, Run};
+use super::span::{Span, smaller};
 use super::tree::Branch;
 use crate::contact::ContactError;
 

@@ -1,15 +1,15 @@
 //! Edits of the scene. Each gives a document of its own; the one before can be brought back.
 
 use super::Effect;
-use super::compare::name_ghosts;
+use super::ghosts::name_ghosts;
 use crate::explorer::action::Command;
 use crate::explorer::layout::Layout;
 use crate::explorer::mode::Mode;
 use crate::explorer::model::{Look, Model, Notice, Pane, Player};
 use crate::explorer::parameters::{Parameter, Setting, parameters};
+use crate::explorer::request::{Focus, LineView};
 use crate::explorer::session::scene_of;
 use crate::explorer::text_line::TextLine;
-use crate::explorer::worker::{Focus, LineView};
 use crate::scene::{Computed, Document, Range, SceneErrors, Step, exact_quantity, presets};
 
 /// Edits that can be taken back.

@@ -6,6 +6,7 @@ mod chart;
 mod compare;
 mod edit;
 mod files;
+mod ghosts;
 mod library;
 mod look;
 mod mouse;
@@ -17,8 +18,8 @@ use super::action::{Action, Command, Content};
 use super::layout::Layout;
 use super::mode::Mode;
 use super::model::{Model, Notice};
+use super::request::{HandOrder, MomentRequest};
 use super::view::help_end;
-use super::worker::{HandOrder, MomentRequest};
 use crate::scene::{Document, typed_path};
 use std::path::PathBuf;
 

@@ -5,8 +5,8 @@ use crate::explorer::action::{Command, Gesture, Mouse};
 use crate::explorer::layout::{Layout, inside};
 use crate::explorer::mode::Mode;
 use crate::explorer::model::{Model, Pane};
+use crate::explorer::request::HandOrder;
 use crate::explorer::view::{indentation_at, parameter_at, place_at};
-use crate::explorer::worker::HandOrder;
 use ratatui::layout::Position;
 
 /// Does what the mouse asks for.

@@ -1,9 +1,9 @@
 //! The map over κ and H: regimes as glyphs and colours, and the mark of the scene. Beside it stand
 //! [words].
 
+use super::regimes::{STEPS, glyph_between, glyph_of, meaning};
 use super::wrap::wrapped;
 use super::{chart_words as words, sections};
-use crate::analysis::Regime;
 use crate::explorer::model::Model;
 use crate::explorer::theme::{Meaning, Theme};
 use crate::study::map::{Charted, MapCell, MapModel, Place};
@@ -16,31 +16,6 @@ use ratatui::widgets::Paragraph;
 const GUTTER: u16 = 5;
 /// Rows of map that make it worth drawing.
 const FEWEST_ROWS: u16 = 4;
-
-/// How a regime is drawn: its colour, which every theme tells from the others or leaves to the glyph.
-pub(super) fn meaning(regime: Regime) -> Meaning {
-    match regime {
-        Regime::PressureInsensitive => Meaning::Surface,
-        Regime::PressureSensitive => Meaning::Hand,
-        Regime::NonAdhesive => Meaning::Quiet,
-    }
-}
-
-pub(super) fn glyph_of(regime: Regime) -> &'static str {
-    match regime {
-        Regime::PressureInsensitive => "█",
-        Regime::PressureSensitive => "▒",
-        Regime::NonAdhesive => "·",
-    }
-}
-
-/// Glyphs of a quantity by its steps; below the last there is a dot.
-pub(super) const STEPS: [&str; 4] = ["█", "▒", "░", "·"];
-
-/// The glyph of a cell whose lines are divided between two regimes.
-pub(super) fn glyph_between(one: Regime, other: Regime) -> &'static str {
-    if [one, other].contains(&Regime::PressureInsensitive) { "▓" } else { "░" }
-}
 
 fn glyph(map_model: &MapModel, place: &Place<'_>, map_cell: &MapCell, charted: Charted) -> &'static str {
     match (charted, map_cell.regime) {

@@ -1,6 +1,6 @@
 //! What is said of the map over κ and H: its title, what the glyphs tell, and what stands at the mark.
 
-use super::chart::{STEPS, glyph_between, glyph_of, meaning};
+use super::regimes::{STEPS, glyph_between, glyph_of, meaning};
 use super::wrap::{filled, wrapped};
 use crate::analysis::{INSENSITIVE_SHARE, NEGLIGIBLE_COEFFICIENT, Regime, VANISHING_SHARE};
 use crate::explorer::model::{Model, OpenStudy};

@@ -13,6 +13,7 @@ mod library;
 mod parameters;
 mod plot;
 mod profile;
+mod regimes;
 mod sections;
 mod stages;
 mod typed;
