@@ -210,6 +210,17 @@ fn boundaries_are_those_of_the_program() {
 }
 
 #[test]
+fn spreads_of_boundaries_are_those_of_the_program() {
+    let folder = tempfile::tempdir().unwrap();
+    let study = folder.path().join("energy");
+    let study = study.to_str().unwrap();
+    asperity(&["sweep", "elastic-energy", "-o", study]);
+    let arguments =
+        ["sweep", "boundary", study, "--spread", "--level", "0.5", "--level", "0.1", "--format", "markdown"];
+    check("docs/studies.md", "spreads", &asperity(&arguments));
+}
+
+#[test]
 fn the_regimes_are_those_of_the_program() {
     use asperity::analysis::{INSENSITIVE_SHARE, NEGLIGIBLE_COEFFICIENT, VANISHING_SHARE};
     let model = read("docs/model.md");

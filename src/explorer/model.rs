@@ -284,8 +284,9 @@ impl Model {
             && before.length == now.length
             && before.form == now.form
             && before.material == now.material;
-        // An rms height that follows from κ and γ changes with them.
-        let both = |scene: &Scene| scene.adhesion.is_some_and(|a| a.work.is_some() && a.kappa.is_some());
+        // An rms height that follows from γ and κ or e_el/γ changes with them.
+        let both =
+            |scene: &Scene| scene.adhesion.is_some_and(|a| a.work.is_some() && a.parameter().is_some());
         if !same_line || ((both(before) || both(now)) && before.adhesion != now.adhesion) {
             return None;
         }
@@ -385,7 +386,7 @@ impl Model {
         }
         let governing = self.governing()?;
         match parameter.setting {
-            Setting::Kappa => governing.kappa.map(ron_float),
+            Setting::RoughnessParameter(parameter) => governing.parameter(parameter).map(ron_float),
             Setting::WorkOfAdhesion => governing.work_of_adhesion.map(ron_float),
             Setting::Field | Setting::Switch(_) => None,
         }

@@ -1,6 +1,8 @@
 //! The list of parameters: the fields of the scene that can be changed as it stands.
 
-use crate::scene::{Document, Effect, Field, Leg, Range, field, format_quantity, ron_float};
+use crate::scene::{
+    Document, Effect, Field, Leg, Range, RoughnessParameter, field, format_quantity, ron_float,
+};
 
 /// A parameter as the list shows it.
 #[derive(Clone, Debug, PartialEq)]
@@ -28,9 +30,9 @@ pub enum Setting {
     Field,
     /// It is the switch of an effect.
     Switch(Effect),
-    /// κ, whichever of γ and κ the scene gives.
-    Kappa,
-    /// γ, whichever of γ and κ the scene gives.
+    /// κ or e_el/γ, whichever of γ, κ and e_el/γ the scene gives.
+    RoughnessParameter(RoughnessParameter),
+    /// γ, whichever of γ, κ and e_el/γ the scene gives.
     WorkOfAdhesion,
 }
 
@@ -88,34 +90,43 @@ fn effect_of(path: &str) -> Option<Effect> {
 }
 
 fn setting_of(path: &str) -> Setting {
-    match path {
-        "adhesion.kappa" => Setting::Kappa,
-        "adhesion.work" => Setting::WorkOfAdhesion,
-        _ => Setting::Field,
+    match RoughnessParameter::named(path) {
+        Some(parameter) => Setting::RoughnessParameter(parameter),
+        None if path == "adhesion.work" => Setting::WorkOfAdhesion,
+        None => Setting::Field,
     }
 }
 
-/// A scene gives γ or κ; the other one follows, and can be set as well.
+/// A scene gives γ, κ or e_el/γ; the others follow, and can be set as well.
 fn insert_other_adhesion(parameters: &mut Vec<Parameter>) {
-    let place = |path| parameters.iter().position(|parameter| parameter.path == path);
-    let (at, path) = match (place("adhesion.work"), place("adhesion.kappa")) {
-        (Some(work), None) => (work + 1, "adhesion.kappa"),
-        (None, Some(kappa)) => (kappa, "adhesion.work"),
-        _ => return,
-    };
-    let Some(field) = field(path, None) else { return };
-    parameters.insert(
-        at,
-        Parameter {
-            field,
-            path: path.to_owned(),
-            leg: None,
-            written: String::new(),
-            shown: String::new(),
-            effect: Some(Effect::Adhesion),
-            setting: setting_of(path),
-        },
-    );
+    let place = |parameters: &[Parameter], path| parameters.iter().position(|one| one.path == path);
+    let Some(head) = place(parameters, Effect::Adhesion.path()) else { return };
+    let is_given = |path| place(parameters, path).is_some();
+    let [work, kappa, ratio] = ["adhesion.work", "adhesion.kappa", "adhesion.elastic_energy_ratio"];
+    if ![work, kappa, ratio].into_iter().any(is_given) {
+        return;
+    }
+    // Each follows the one before it.
+    let mut at = head;
+    for path in [work, kappa, ratio] {
+        at = match place(parameters, path) {
+            Some(place) => place,
+            None => {
+                let Some(field) = field(path, None) else { return };
+                let follows = Parameter {
+                    field,
+                    path: path.to_owned(),
+                    leg: None,
+                    written: String::new(),
+                    shown: String::new(),
+                    effect: Some(Effect::Adhesion),
+                    setting: setting_of(path),
+                };
+                parameters.insert(at + 1, follows);
+                at + 1
+            }
+        };
+    }
 }
 
 /// A switch for each observer.
@@ -173,6 +184,7 @@ fn first_name(written: &str) -> &str {
     match name {
         "work" => "by work of adhesion",
         "kappa" => "by κ",
+        "elastic_energy_ratio" => "by e_el/γ",
         "effective_modulus" => "by E*",
         "youngs_modulus" | "poisson_ratio" => "by E and ν",
         other => other,

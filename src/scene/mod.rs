@@ -34,6 +34,7 @@ mod presets;
 mod quantity;
 mod range;
 mod read;
+mod roughness_parameter;
 mod search;
 mod step;
 #[cfg(test)]
@@ -66,6 +67,7 @@ pub use presets::{DEFAULT, Preset, find, presets};
 pub use quantity::{QuantityError, exact_quantity, format_quantity, parse_quantity};
 pub use range::{End, Range};
 pub(crate) use read::describe_error;
+pub use roughness_parameter::RoughnessParameter;
 pub use search::search;
 pub(crate) use suggest::nearest;
 pub use switch::Computed;

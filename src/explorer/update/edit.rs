@@ -150,18 +150,22 @@ fn set_selected(model: &mut Model, written: &str) -> Vec<Effect> {
             Ok(work) => document.with_work_of_adhesion(work),
             Err(_) => return refuse(model, format!("{written} is no number")),
         },
-        Setting::Kappa => {
-            let Ok(kappa) = written.parse::<f64>() else {
+        Setting::RoughnessParameter(parameter) => {
+            let Ok(value) = written.parse::<f64>() else {
                 return refuse(model, format!("{written} is no number"));
             };
-            match (document.scene().adhesion.and_then(|adhesion| adhesion.work), model.governing()) {
-                // The scene gives γ: κ is solved for it.
-                (Some(_), Some(governing)) => match governing.work_for_kappa(kappa) {
+            let adhesion = document.scene().adhesion.unwrap_or_default();
+            match (adhesion.work.filter(|_| adhesion.parameter().is_none()), model.governing()) {
+                // The scene gives γ alone, which follows from the parameter.
+                (Some(_), Some(governing)) => match governing.work_for(parameter, value) {
                     Some(work) => document.with_work_of_adhesion(work),
-                    None => return refuse(model, "κ says nothing without roughness".to_owned()),
+                    None => {
+                        let symbol = parameter.symbol();
+                        return refuse(model, format!("{symbol} is not defined without roughness"));
+                    }
                 },
                 (Some(_), None) => return refuse(model, "not before the scene is computed".to_owned()),
-                (None, _) => document.with_kappa(kappa),
+                (None, _) => document.with_parameter(parameter, value),
             }
         }
     };
@@ -188,6 +192,7 @@ fn computed(model: &Model) -> Computed {
     Computed {
         work_of_adhesion: governing.and_then(|governing| governing.work_of_adhesion),
         kappa: governing.and_then(|governing| governing.kappa),
+        elastic_energy_ratio: governing.and_then(|governing| governing.elastic_energy_ratio),
         rms_height: governing.and_then(|governing| governing.amplitude).map(|amplitude| amplitude.rms_height),
     }
 }

@@ -19,4 +19,5 @@ pub use grid::{HURSTS, KAPPAS, Level, hurst, hursts, kappa, kappas, next_beyond}
 pub use live_map::LiveMap;
 pub use model::{Charted, Layer, MapCell, MapModel, Place};
 pub use study_map::{StudyMap, StudyMapError};
+pub(super) use template::governing;
 pub use template::{LINES, NoMap, RECORD, Template};

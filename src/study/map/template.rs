@@ -2,7 +2,9 @@
 
 use super::grid::{Level, hursts, kappas};
 use crate::analysis::Governing;
-use crate::scene::{Adhesion, Document, Edges, Numerics, Roughness, Scene, SceneErrors, Solver};
+use crate::scene::{
+    Adhesion, Document, Edges, Numerics, Roughness, RoughnessParameter, Scene, SceneErrors, Solver,
+};
 use crate::study::axis::Axis;
 use crate::study::figure::FigureAxis;
 use crate::study::plan::Plan;
@@ -63,11 +65,11 @@ impl Template {
                 let last = modes.1;
                 // Without an amplitude of its own it follows from γ and κ.
                 let work = adhesion.work.filter(|_| rms_height.is_none() && rms_gradient.is_none());
-                scene.adhesion = Some(Adhesion { work, kappa: Some(ANY.0), closing_work: None });
+                scene.adhesion = Some(Adhesion { work, ..Adhesion::default().with_kappa(ANY.0) });
                 last.saturating_mul(SPRINGS_PER_WAVE).clamp(SPRINGS.0, SPRINGS.1).max(last.saturating_mul(2))
             }
             Some(Roughness::Measured { .. }) => {
-                scene.adhesion = Some(Adhesion { kappa: Some(ANY.0), ..Adhesion::default() });
+                scene.adhesion = Some(Adhesion::default().with_kappa(ANY.0));
                 SPRINGS.1
             }
         };
@@ -141,21 +143,26 @@ impl Template {
             }
             _ => document.clone(),
         };
-        let by_work = matches!(moved.scene().adhesion, Some(Adhesion { work: Some(_), kappa: None, .. }));
-        match governing(moved.scene()).and_then(|governing| governing.work_for_kappa(kappa)) {
+        let by_work = matches!(
+            moved.scene().adhesion,
+            Some(Adhesion { work: Some(_), kappa: None, elastic_energy_ratio: None, .. })
+        );
+        match governing(moved.scene())
+            .and_then(|governing| governing.work_for(RoughnessParameter::Kappa, kappa))
+        {
             Some(work) if by_work => moved.with_work_of_adhesion(work),
-            _ => moved.with_kappa(kappa),
+            _ => moved.with_parameter(RoughnessParameter::Kappa, kappa),
         }
     }
 }
 
 /// Governing parameters of a scene with a self-affine profile.
-pub(super) fn governing(scene: &Scene) -> Option<Governing> {
+pub(in crate::study) fn governing(scene: &Scene) -> Option<Governing> {
     let Some(Roughness::SelfAffine { hurst, modes: (first, last), .. }) = scene.roughness else {
         return None;
     };
-    let ratio = SelfAffine { hurst, first, last }.gradient_per_height(scene.length);
-    Some(Governing::of(scene, Some(ratio), None))
+    let wave_numbers = SelfAffine { hurst, first, last }.wave_numbers(scene.length);
+    Some(Governing::of(scene, Some(wave_numbers), None))
 }
 
 #[cfg(test)]
