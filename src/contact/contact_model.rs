@@ -62,6 +62,26 @@ pub trait ContactModel {
     /// [`ContactError::OutOfMemory`]; the contact is then as it was.
     fn unload(&mut self, from: f64, work: &mut Work) -> Result<f64, ContactError>;
 
+    /// Unloads from this indentation of the loading from separation and returns the smallest indentation with contact,
+    /// m; the present leg stays. The functions of an aside refer to this unloading.
+    ///
+    /// # Errors
+    /// [`ContactError::OutOfMemory`].
+    fn unload_aside(&mut self, from: f64, work: &mut Work) -> Result<f64, ContactError>;
+
+    /// Contact states along a grid of the aside.
+    ///
+    /// # Errors
+    /// [`ContactError::OutOfMemory`].
+    fn sample_aside(&self, grid: Grid) -> Result<Self::Leg, ContactError>;
+
+    /// The smallest force on the range of a grid of the aside.
+    fn smallest_aside(&self, leg: &Self::Leg, sorted: &mut u64) -> ContactState;
+
+    /// Σ e² over the springs that attach on the present leg, a loading from separation, up to this indentation with a
+    /// stretch e, and over those that detach on the aside that began there, m².
+    fn squared_stretches(&self, from: f64) -> [f64; 2];
+
     /// Contact states along a grid.
     ///
     /// # Errors

@@ -103,28 +103,19 @@ impl<'a, E: EdgeModel> Adhesive<'a, E> {
         Ok((sampled?, squared))
     }
 
+    /// The unloading listed last beside the present leg.
+    fn aside(&self) -> Search<'_, E> {
+        Search { ground: self.ground.on(Direction::Unloading), runs: &self.memory.spare, unloading: true }
+    }
+
     /// Smallest compression of the unloading from first touch, m, and the work counts of the search.
     fn pull_off_at_touch(&mut self) -> Result<(f64, Work), ContactError> {
         let mut work = Work { zero_load_passes: 1, ..Work::default() };
-        let [loading, unloading] = [Direction::Loading, Direction::Unloading].map(|leg| self.ground.on(leg));
-        if !self.forms {
-            work.hess_evaluations += self.memory.closing.close(&loading)?;
-        }
-        let AdhesiveMemory { closing, opening, runs, spare, held } = &mut self.memory;
-        if !self.forms {
-            closing.list(&loading, &[], spare, &mut work.hess_evaluations)?;
-        }
-        held.clear();
-        let pins = self.ground.edges.are_pinned();
-        held.extend(loading.held_at(if self.forms { runs } else { spare }, false, 0.0, pins));
-        let opened = opening.list(&unloading, held, 0.0, spare)?;
-        work.hess_evaluations += opened.evaluations;
-        work.springs_tallied = opened.springs;
-        let grid = Grid::new(opened.separates.min(0.0), 0.0, Self::SEARCH_INTERVALS);
-        let leg = unloading.sample(spare, true, grid)?;
-        let search = Search { ground: unloading, runs: spare, unloading: true };
-        let smallest = search.smallest(&leg, &mut work.events_sorted);
-        Ok((smallest.compression, work))
+        let separates = self.unload_aside(0.0, &mut work)?;
+        work.unloading_passes = 0;
+        let grid = Grid::new(separates.min(0.0), 0.0, Self::SEARCH_INTERVALS);
+        let leg = self.sample_aside(grid)?;
+        Ok((self.smallest_aside(&leg, &mut work.events_sorted).compression, work))
     }
 }
 
@@ -163,6 +154,45 @@ impl<E: EdgeModel> ContactModel for Adhesive<'_, E> {
         std::mem::swap(runs, spare);
         (self.unloading, self.forms) = (true, false);
         Ok(opened.separates)
+    }
+
+    fn unload_aside(&mut self, from: f64, work: &mut Work) -> Result<f64, ContactError> {
+        let [loading, unloading] = [Direction::Loading, Direction::Unloading].map(|leg| self.ground.on(leg));
+        let AdhesiveMemory { closing, opening, runs, spare, held } = &mut self.memory;
+        if !self.forms {
+            work.hess_evaluations += closing.close(&loading)?;
+            closing.list(&loading, &[], spare, &mut work.hess_evaluations)?;
+        }
+        held.clear();
+        let pins = self.ground.edges.are_pinned();
+        held.extend(loading.held_at(if self.forms { runs } else { spare }, false, from, pins));
+        let opened = opening.list(&unloading, held, from, spare)?;
+        work.unloading_passes += 1;
+        work.hess_evaluations += opened.evaluations;
+        work.springs_tallied += opened.springs;
+        Ok(opened.separates)
+    }
+
+    fn sample_aside(&self, grid: Grid) -> Result<Sampled, ContactError> {
+        let Search { ground, runs, unloading } = self.aside();
+        ground.sample(runs, unloading, grid)
+    }
+
+    fn smallest_aside(&self, leg: &Sampled, sorted: &mut u64) -> ContactState {
+        self.aside().smallest(leg, sorted)
+    }
+
+    fn squared_stretches(&self, from: f64) -> [f64; 2] {
+        let range = |unloading| Range { low: f64::NEG_INFINITY, high: from, unloading };
+        let aside = self.aside();
+        let loading = self.ground.on(Direction::Loading);
+        let is_long = self.ground.gaps.len() >= TWO_THREADS;
+        let (attached, detached) = in_parallel(
+            is_long,
+            || loading.squared_stretch(&self.memory.runs, range(false)),
+            || aside.ground.squared_stretch(aside.runs, range(true)),
+        );
+        [attached, detached]
     }
 
     fn sample(&self, grid: Grid) -> Result<Sampled, ContactError> {
