@@ -62,25 +62,32 @@ pub trait ContactModel {
     /// [`ContactError::OutOfMemory`]; the contact is then as it was.
     fn unload(&mut self, from: f64, work: &mut Work) -> Result<f64, ContactError>;
 
-    /// Unloads from this indentation of the loading from separation and returns the smallest indentation with contact,
-    /// m; the present leg stays. The functions of an aside refer to this unloading.
+    /// Begins the unloadings from these turning points of the present leg, which is a loading from separation, m, in
+    /// ascending order.
     ///
     /// # Errors
     /// [`ContactError::OutOfMemory`].
-    fn unload_aside(&mut self, from: f64, work: &mut Work) -> Result<f64, ContactError>;
+    fn begin_reversals(&mut self, turns: &[f64]) -> Result<(), ContactError>;
 
-    /// Contact states along a grid of the aside.
+    /// Unloads from the turning point of this number and indentation (m), all in ascending order. Returns the smallest
+    /// indentation with contact, m. The loading stays the present leg; the next functions refer to this unloading.
     ///
     /// # Errors
     /// [`ContactError::OutOfMemory`].
-    fn sample_aside(&self, grid: Grid) -> Result<Self::Leg, ContactError>;
+    fn reverse(&mut self, turn: (usize, f64), work: &mut Work) -> Result<f64, ContactError>;
 
-    /// The smallest force on the range of a grid of the aside.
-    fn smallest_aside(&self, leg: &Self::Leg, sorted: &mut u64) -> ContactState;
+    /// Contact states along a grid of the unloading from a turning point.
+    ///
+    /// # Errors
+    /// [`ContactError::OutOfMemory`].
+    fn sample_reversal(&self, grid: Grid) -> Result<Self::Leg, ContactError>;
 
-    /// Σ e² over the springs that attach on the present leg, a loading from separation, up to this indentation with a
-    /// stretch e, and over those that detach on the aside that began there, m².
-    fn squared_stretches(&self, from: f64) -> [f64; 2];
+    /// The smallest force on the range of a grid of this unloading.
+    fn smallest_of_reversal(&self, leg: &Self::Leg, sorted: &mut u64) -> ContactState;
+
+    /// Σ e² over the springs that attach up to the turning point with a stretch e, and over those that detach from there
+    /// on, m².
+    fn squared_stretches(&self) -> [f64; 2];
 
     /// Contact states along a grid.
     ///

@@ -355,19 +355,23 @@ impl ContactModel for Nonadhesive<'_> {
         Ok(0.0)
     }
 
-    fn unload_aside(&mut self, from: f64, work: &mut Work) -> Result<f64, ContactError> {
+    fn begin_reversals(&mut self, _: &[f64]) -> Result<(), ContactError> {
+        Ok(())
+    }
+
+    fn reverse(&mut self, (_, from): (usize, f64), work: &mut Work) -> Result<f64, ContactError> {
         self.unload(from, work)
     }
 
-    fn sample_aside(&self, grid: Grid) -> Result<Sampled, ContactError> {
+    fn sample_reversal(&self, grid: Grid) -> Result<Sampled, ContactError> {
         self.sample(grid)
     }
 
-    fn smallest_aside(&self, leg: &Sampled, sorted: &mut u64) -> ContactState {
+    fn smallest_of_reversal(&self, leg: &Sampled, sorted: &mut u64) -> ContactState {
         self.smallest(leg, sorted)
     }
 
-    fn squared_stretches(&self, _: f64) -> [f64; 2] {
+    fn squared_stretches(&self) -> [f64; 2] {
         [0.0; 2]
     }
 

@@ -63,6 +63,8 @@ impl<C: ContactModel> Reversals<C> {
         order.sort_by(|one, other| one.1.total_cmp(&other.1));
         let mut points: Vec<f64> = order.iter().map(|&(_, at)| at).collect();
         points.dedup();
+        let depths: Vec<f64> = order.iter().map(|&(_, at)| at).collect();
+        body.work_mut().0.begin_reversals(&depths)?;
         let mut turns = Vec::with_capacity(order.len());
         if !points.is_empty() {
             let states = body.contact().sample(Grid::at(points))?;
@@ -84,9 +86,8 @@ impl<C: ContactModel> Reversals<C> {
         points: &[f64],
         see: &mut dyn FnMut(usize, Reversal) -> Result<(), ContactError>,
     ) -> Result<(), ContactError> {
-        for &(index, turn) in &self.turns {
-            let reversal = reverse(&mut self.body, turn, points)?;
-            see(index, reversal)?;
+        for (number, &(index, turn)) in self.turns.iter().enumerate() {
+            see(index, reverse(&mut self.body, (number, turn), points)?)?;
         }
         Ok(())
     }
@@ -107,22 +108,22 @@ impl<C: ContactModel> Reversals<C> {
 /// Unloads from a turning point.
 fn reverse<C: ContactModel>(
     body: &mut Exact<C>,
-    turn: ContactState,
+    (number, turn): (usize, ContactState),
     points: &[f64],
 ) -> Result<Reversal, ContactError> {
     let high = turn.indentation;
     let (contact, work) = body.work_mut();
-    let separation = contact.unload_aside(high, work)?.min(high);
+    let separation = contact.reverse((number, high), work)?.min(high);
     let (grid, _) = body.grid(separation, high);
     let (contact, work) = body.work_mut();
-    let sampled = contact.sample_aside(grid)?;
-    let smallest = contact.smallest_aside(&sampled, &mut work.events_sorted);
-    let [attached, detached] = contact.squared_stretches(high);
+    let sampled = contact.sample_reversal(grid)?;
+    let smallest = contact.smallest_of_reversal(&sampled, &mut work.events_sorted);
+    let [attached, detached] = contact.squared_stretches();
     let below = &points[..points.partition_point(|&point| point <= high)];
     let apart = below.partition_point(|&point| point < separation);
     let mut forces = vec![0.0; apart];
     if apart < below.len() {
-        let leg = body.contact().sample_aside(Grid::at(below[apart..].to_vec()))?;
+        let leg = body.contact().sample_reversal(Grid::at(below[apart..].to_vec()))?;
         let states = (0..below.len() - apart).map(|index| body.contact().at(&leg, index));
         forces.extend(states.map(|state| body.curve_point(state).force));
     }
