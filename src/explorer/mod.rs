@@ -9,6 +9,8 @@ pub mod chart;
 mod close_up;
 pub mod demo;
 mod file_job;
+pub mod finder;
+mod fuzzy;
 pub mod headless;
 mod held;
 mod input;

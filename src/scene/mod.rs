@@ -33,7 +33,6 @@ mod presets;
 mod quantity;
 mod range;
 mod read;
-mod search;
 mod step;
 #[cfg(test)]
 // Integration tests include the file and use the rest.
@@ -63,7 +62,6 @@ pub use presets::{DEFAULT, Preset, find, open, open_argument, presets};
 pub use quantity::{QuantityError, exact_quantity, format_quantity, parse_quantity};
 pub use range::{End, Range};
 pub(crate) use read::describe_error;
-pub use search::search;
 pub(crate) use suggest::nearest;
 pub use switch::Computed;
 pub use text::{Span, Text, Unreadable, line_column, ron_float, ron_string};
