@@ -175,6 +175,12 @@ pub enum Command {
     },
     /// Type the selected value.
     EditValue,
+    /// Type the selected value, beginning with this character.
+    StartValue(char),
+    /// Search the list of parameters.
+    FindParameter,
+    /// Fold the group of the selected parameter, or unfold it.
+    ToggleFold,
     /// Switch the effect of the selected row on or off.
     ToggleEffect,
     /// Another random line.

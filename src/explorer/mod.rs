@@ -10,6 +10,8 @@ mod close_up;
 pub mod demo;
 pub mod engine;
 mod file_job;
+pub mod finder;
+mod fuzzy;
 pub mod headless;
 mod held;
 mod input;

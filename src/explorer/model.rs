@@ -13,7 +13,7 @@ use crate::contact::{CurvePoint, LegRecord};
 use crate::scene::{Document, Scene, ron_float};
 pub use crate::study::map::Charted;
 use crate::study::map::{StudyMap, Template};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 /// The panes.
@@ -165,8 +165,10 @@ pub struct Model {
     pub generation: u64,
     /// The parameters of the scene.
     pub parameters: Vec<Parameter>,
-    /// Index of the selected parameter.
+    /// Index of the selected parameter, which is never in a folded group.
     pub selected: usize,
+    /// Groups of parameters of which only the first row is listed.
+    pub folded: BTreeSet<&'static str>,
     /// What is wrong with a value that was refused, and the index of its parameter.
     pub refused: Option<(usize, String)>,
     /// What the keys mean.
@@ -233,6 +235,7 @@ impl Model {
             redo: Vec::new(),
             generation: 1,
             selected: 0,
+            folded: BTreeSet::new(),
             refused: None,
             mode: Mode::Explore,
             computed: None,
@@ -330,11 +333,12 @@ impl Model {
         }
     }
 
-    /// Which keys are valid: in the map the arrows move its mark.
+    /// Which keys are valid: in the map the arrows move its mark, in the list of parameters digits begin a value.
     #[must_use]
     pub fn keys(&self) -> ModeKind {
         match self.mode.kind() {
             ModeKind::Explore if self.chart.shown && self.pane == Pane::Chart => ModeKind::Chart,
+            ModeKind::Explore if self.pane == Pane::Parameters => ModeKind::Parameters,
             kind => kind,
         }
     }
@@ -388,8 +392,15 @@ impl Model {
         match parameter.setting {
             Setting::RoughnessParameter(parameter) => governing.parameter(parameter).map(ron_float),
             Setting::WorkOfAdhesion => governing.work_of_adhesion.map(ron_float),
-            Setting::Field | Setting::Switch(_) => None,
+            Setting::Field | Setting::Switch(_) | Setting::Heading => None,
         }
+    }
+
+    /// Indices of the parameters that are listed: those of a folded group are not, its first row apart.
+    #[must_use]
+    pub fn listed(&self) -> Vec<usize> {
+        let is_listed = |parameter: &Parameter| parameter.is_head() || !self.folded.contains(parameter.group);
+        (0..self.parameters.len()).filter(|index| is_listed(&self.parameters[*index])).collect()
     }
 
     /// The selected parameter.

@@ -35,7 +35,6 @@ mod quantity;
 mod range;
 mod read;
 mod roughness_parameter;
-mod search;
 mod step;
 #[cfg(test)]
 // Integration tests include the file and use the rest.
@@ -68,7 +67,6 @@ pub use quantity::{QuantityError, exact_quantity, format_quantity, parse_quantit
 pub use range::{End, Range};
 pub(crate) use read::describe_error;
 pub use roughness_parameter::RoughnessParameter;
-pub use search::search;
 pub(crate) use suggest::nearest;
 pub use switch::Computed;
 pub use text::{Span, Text, Unreadable, line_column, ron_float, ron_string};

@@ -6,6 +6,7 @@ mod chart;
 mod compare;
 mod edit;
 mod files;
+mod find;
 mod ghosts;
 mod library;
 mod look;
@@ -144,6 +145,7 @@ fn obey(model: &mut Model, command: Command) -> Vec<Effect> {
             };
         }
         Mode::Library(_) => return library::obey(model, command),
+        Mode::Find { .. } => return find::obey(model, command),
         Mode::Edit(line) => match command {
             Command::Accept => {
                 let typed = line.text();
@@ -208,7 +210,11 @@ fn typed(model: &mut Model, text: &str) -> Vec<Effect> {
     if let Some(line) = model.mode.line_mut() {
         text.chars().for_each(|character| line.insert(character));
     }
-    library::search(model)
+    match model.mode {
+        Mode::Library(_) => library::search(model),
+        Mode::Find { .. } => find::search(model),
+        _ => Vec::new(),
+    }
 }
 
 /// A command within the line that is being typed; any other leaves it.
@@ -246,8 +252,11 @@ fn explore(model: &mut Model, command: Command) -> Vec<Effect> {
         | Command::SelectEnd(_)
         | Command::StepValue { .. }
         | Command::EditValue
+        | Command::StartValue(_)
+        | Command::ToggleFold
         | Command::ToggleEffect
         | Command::Preset(_) => return edit::obey(model, command),
+        Command::FindParameter => return find::open(model),
         Command::Reseed => return vec![Effect::DrawSeed],
         Command::Undo | Command::Redo => return edit::undo(model, command == Command::Undo),
         Command::Pin | Command::Swap | Command::ClearGhosts => return compare::obey(model, command),

@@ -13,7 +13,7 @@ use ratatui::layout::Position;
 pub fn act(model: &mut Model, mouse: Mouse) -> Vec<Effect> {
     match (&model.mode, mouse.gesture) {
         (Mode::Explore, _) => {}
-        (Mode::Help { .. } | Mode::Library(_), Gesture::Wheel(turns)) => {
+        (Mode::Help { .. } | Mode::Library(_) | Mode::Find { .. }, Gesture::Wheel(turns)) => {
             return super::obey(model, Command::Select(-turns));
         }
         _ => return Vec::new(),
@@ -29,7 +29,12 @@ pub fn act(model: &mut Model, mouse: Mouse) -> Vec<Effect> {
             match pane {
                 Pane::Parameters => {
                     if let Some(row) = parameter_at(model, inside(area), mouse.row) {
+                        // A second press on the first row of a group folds the group.
+                        let again = row == model.selected && model.parameters[row].is_head();
                         edit::select(model, row);
+                        if again {
+                            return edit::obey(model, Command::ToggleFold);
+                        }
                     }
                     vec![Effect::Show]
                 }

@@ -92,13 +92,14 @@ fn draw_pane(frame: &mut Frame<'_>, area: Rect, model: &Model, pane: Pane) {
             .title(ratatui::text::Span::styled(format!("{mark}{name}"), style));
         frame.render_widget(block, area);
     }
+    let edge = area.right().saturating_sub(1);
     let area = inside(area);
     match pane {
         Pane::Force => force::draw(frame, area, model),
         Pane::Profile => profile::draw(frame, area, model),
         Pane::CloseUp if model.lengths => lengths::draw(frame, area, model),
         Pane::CloseUp => close_up::draw(frame, area, model),
-        Pane::Parameters => parameters::draw(frame, area, model),
+        Pane::Parameters => parameters::draw(frame, area, edge, model),
         Pane::Accuracy => accuracy::draw(frame, area, model),
         Pane::Chart => chart::draw(frame, area, model),
     }
