@@ -9,6 +9,7 @@ use super::theme::Appearance;
 use super::worker::{Focus, LineView};
 use crate::analysis::Governing;
 use crate::contact::{CurvePoint, LegRecord};
+use crate::draw::AxisScale;
 use crate::scene::{Document, Scene, ron_float};
 pub use crate::study::map::Charted;
 use crate::study::map::{StudyMap, Template};
@@ -92,6 +93,8 @@ pub struct CurveLook {
     pub normalised: bool,
     /// Whether the loss is shaded.
     pub loss: bool,
+    /// Scale of both axes; a logarithmic one shows the numbers above zero.
+    pub scale: AxisScale,
 }
 
 /// Two quantities, one over the other.
