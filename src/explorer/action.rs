@@ -221,6 +221,8 @@ pub enum Command {
     NextCurve,
     /// Show the curve in units of F_a,max and h, or in SI units.
     ToggleNormalised,
+    /// Give the curve logarithmic or linear axes.
+    ToggleLogarithmic,
     /// Shade the loss.
     ToggleLoss,
     /// Show what accuracy costs and what ran, or the profile and the fragments again.

@@ -200,6 +200,7 @@ pub const BINDINGS: &[Binding] = &[
 
     row(&[char('v')], EXPLORE, Command::NextCurve, "", "plot force, contact length or number of contact patches", LOOK),
     row(&[char('N')], EXPLORE, Command::ToggleNormalised, "", "plot in units of F_a,max and h, or in SI units", LOOK),
+    row(&[char('O')], EXPLORE, Command::ToggleLogarithmic, "", "plot the curve with logarithmic axes, for numbers above zero, or with linear ones", LOOK),
     row(&[char('a')], EXPLORE, Command::ToggleLoss, "", "shade the area of the loop: the dissipated energy", LOOK),
     row(&[char('n')], EXPLORE, Command::Fragment(Jump::Next), "fragment", "show the next contact patch", LOOK),
     row(&[char('p')], EXPLORE, Command::Fragment(Jump::Previous), "", "show the previous contact patch", LOOK),

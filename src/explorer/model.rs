@@ -10,6 +10,7 @@ use super::snapshot::{Drive, Loop, Moment, Preview};
 use super::theme::Appearance;
 use crate::analysis::Governing;
 use crate::contact::{CurvePoint, LegRecord};
+use crate::draw::AxisScale;
 use crate::scene::{Document, Scene, ron_float};
 pub use crate::study::map::Charted;
 use crate::study::map::{StudyMap, Template};
@@ -93,6 +94,8 @@ pub struct CurveLook {
     pub normalised: bool,
     /// Whether the loss is shaded.
     pub loss: bool,
+    /// Scale of both axes; a logarithmic one shows the numbers above zero.
+    pub scale: AxisScale,
 }
 
 /// Two quantities, one over the other.

@@ -163,6 +163,7 @@ impl Playback {
         let moment = Moment {
             generation: request.generation,
             drive: request.drive,
+            line: outcome.line,
             focus: request.focus,
             point,
             changed,

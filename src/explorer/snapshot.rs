@@ -6,7 +6,7 @@ use super::request::Focus;
 pub use crate::analysis::{Column, LengthBin, Section, Share};
 use crate::contact::CurvePoint;
 use crate::scene::Scene;
-use crate::simulation::Outcome;
+use crate::simulation::{LineFacts, Outcome};
 use std::sync::Arc;
 
 /// A computed scene.
@@ -27,6 +27,8 @@ pub struct Moment {
     pub generation: u64,
     /// What moves the body.
     pub drive: Drive,
+    /// The profile that is shown.
+    pub line: LineFacts,
     /// Where the close-up was asked to look.
     pub focus: Focus,
     /// Indentation, force, springs in contact and fragments.

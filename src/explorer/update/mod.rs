@@ -280,6 +280,7 @@ fn explore(model: &mut Model, command: Command) -> Vec<Effect> {
         | Command::ToggleFollow
         | Command::NextCurve
         | Command::ToggleNormalised
+        | Command::ToggleLogarithmic
         | Command::ToggleLoss
         | Command::ZoomPane
         | Command::NextPane

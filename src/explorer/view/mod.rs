@@ -14,6 +14,7 @@ mod parameters;
 mod plot;
 mod profile;
 mod regimes;
+mod section;
 mod sections;
 mod stages;
 mod typed;
@@ -90,7 +91,12 @@ fn draw_pane(frame: &mut Frame<'_>, area: Rect, model: &Model, pane: Pane) {
         let block = Block::bordered()
             .border_style(model.appearance.theme.style(Meaning::Quiet))
             .title(ratatui::text::Span::styled(format!("{mark}{name}"), style));
-        frame.render_widget(block, area);
+        let names = match pane {
+            Pane::Profile => profile::names(model, area),
+            Pane::CloseUp if !model.lengths => close_up::names(model, area),
+            _ => None,
+        };
+        frame.render_widget(names.into_iter().fold(block, Block::title_bottom), area);
     }
     let edge = area.right().saturating_sub(1);
     let area = inside(area);
