@@ -206,7 +206,9 @@ fn the_choices_of_the_table_can_be_set() {
                 for choice in choices {
                     let roughness = "SelfAffine(hurst: 0.7, rms_height: 1.0e-7, modes: (1, 512), seed: 1)";
                     let document = match *choice {
-                        "(kappa: 2.0)" | "(elastic_energy_ratio: 0.5)" => document.set("roughness", roughness).unwrap(),
+                        "(kappa: 2.0)" | "(elastic_energy_ratio: 0.5)" => {
+                            document.set("roughness", roughness).unwrap()
+                        }
                         "false" | "true" => document.set("roughness", "Measured(file: \"x\")").unwrap(),
                         _ => document.clone(),
                     };

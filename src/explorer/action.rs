@@ -88,6 +88,10 @@ pub enum Content {
     Picture,
     /// The panes as plain text.
     Text,
+    /// The cells of the map, or of its sections, as comma-separated values.
+    MapCells,
+    /// The map or its sections as a figure, in SVG.
+    MapFigure,
 }
 
 impl Content {
@@ -99,12 +103,16 @@ impl Content {
         ("txt", Content::Text),
     ];
 
-    /// What belongs into a file of this name; `None` for an ending that says nothing.
+    /// Exports of the map, while its pane is selected.
+    pub const MAP_EXPORTS: [(&'static str, Content); 3] =
+        [("csv", Content::MapCells), ("svg", Content::MapFigure), ("txt", Content::Text)];
+
+    /// Content for a file of this name, of these; `None` for another extension.
     #[must_use]
-    pub fn of_file(path: &std::path::Path) -> Option<Self> {
+    pub fn of_file(exports: &[(&'static str, Content)], path: &std::path::Path) -> Option<Self> {
         let ending = path.extension()?.to_str()?;
         let known = |(name, _): &&(&str, Content)| ending.eq_ignore_ascii_case(name);
-        Self::EXPORTS.iter().find(known).map(|(_, content)| *content)
+        exports.iter().find(known).map(|(_, content)| *content)
     }
 }
 
@@ -229,7 +237,7 @@ pub enum Command {
     ToggleAccuracy,
     /// Type a tolerance.
     TypeTolerance,
-    /// Show the map over κ and H, choose it, or show the profile and the fragments again.
+    /// Show the map, choose it, or show the profile and the fragments again.
     ToggleChart,
     /// Show sections through the mark in place of the map, or the other way round.
     ToggleSections,
@@ -239,10 +247,12 @@ pub enum Command {
     ToggleStudy,
     /// Show the next or previous map of the study: another preload, or another value of a further axis.
     NextSlice(i32),
+    /// Exchange columns and rows of the map.
+    TransposeMap,
     /// Move the mark, and the scene, by so many columns of the map.
-    MoveKappa(i32),
+    MoveAcross(i32),
     /// Move the mark, and the scene, by so many rows of the map.
-    MoveHurst(i32),
+    MoveUp(i32),
     /// Give one pane the whole screen, or all of them again.
     ZoomPane,
     /// Choose the next pane.

@@ -135,7 +135,7 @@ const HAND: &str = "Manual loading";
 const PARAMETERS: &str = "Parameters";
 const COMPARE: &str = "Comparison";
 const LOOK: &str = "View";
-const MAP: &str = "Map over κ and H";
+const MAP: &str = "Map";
 const SCENE: &str = "Scene";
 const TEXT: &str = "Typing and lists";
 
@@ -220,17 +220,18 @@ pub const BINDINGS: &[Binding] = &[
     row(&[char('T')], EXPLORE, Command::NextTheme, "", "change the colours", LOOK),
     row(&[char('M')], EXPLORE, Command::NextMarker, "", "change the markers: braille, octants, half blocks, ASCII", LOOK),
 
-    row(&[char('m')], EXPLORE, Command::ToggleChart, "map", "show the regimes over κ and H, in place of profile and close-up", MAP),
-    row(&[key(KeyCode::Left), char('h')], CHART, Command::MoveKappa(-1), "", "decrease κ of the scene; successive moves are one edit", MAP),
-    row(&[key(KeyCode::Right), char('l')], CHART, Command::MoveKappa(1), "κ", "increase κ", MAP),
-    row(&[key(KeyCode::Down), char('j')], CHART, Command::MoveHurst(-1), "", "decrease H", MAP),
-    row(&[key(KeyCode::Up), char('k')], CHART, Command::MoveHurst(1), "H", "increase H", MAP),
-    row(&[shift(KeyCode::Left), char('H')], CHART, Command::MoveKappa(-4), "", "halve κ: four values down", MAP),
-    row(&[shift(KeyCode::Right), char('L')], CHART, Command::MoveKappa(4), "", "double κ: four values up", MAP),
-    row(&[shift(KeyCode::Down), char('J')], CHART, Command::MoveHurst(-4), "", "decrease H by four values", MAP),
-    row(&[shift(KeyCode::Up), char('K')], CHART, Command::MoveHurst(4), "", "increase H by four values", MAP),
-    row(&[char('X')], CHART, Command::ToggleSections, "sections", "show sections through the scene: adhesion over κ and over H, or the map", MAP),
-    row(&[char('V')], CHART, Command::NextCharted, "quantity", "select the mapped quantity: regime, F_a(0)/F_a,max, F_a/F_n; all recorded ones of a study", MAP),
+    row(&[char('m')], EXPLORE, Command::ToggleChart, "map", "show the regimes over H and κ, in place of profile and close-up", MAP),
+    row(&[key(KeyCode::Left), char('h')], CHART, Command::MoveAcross(-1), "", "move the scene to the value on the left: decrease H; successive moves are one edit", MAP),
+    row(&[key(KeyCode::Right), char('l')], CHART, Command::MoveAcross(1), "across", "move the scene to the value on the right: increase H", MAP),
+    row(&[key(KeyCode::Down), char('j')], CHART, Command::MoveUp(-1), "", "move the scene to the value below: decrease κ", MAP),
+    row(&[key(KeyCode::Up), char('k')], CHART, Command::MoveUp(1), "up", "move the scene to the value above: increase κ", MAP),
+    row(&[shift(KeyCode::Left), char('H')], CHART, Command::MoveAcross(-4), "", "move by four values to the left", MAP),
+    row(&[shift(KeyCode::Right), char('L')], CHART, Command::MoveAcross(4), "", "move by four values to the right", MAP),
+    row(&[shift(KeyCode::Down), char('J')], CHART, Command::MoveUp(-4), "", "move by four values down: half the κ", MAP),
+    row(&[shift(KeyCode::Up), char('K')], CHART, Command::MoveUp(4), "", "move by four values up: twice the κ", MAP),
+    row(&[char('t')], CHART, Command::TransposeMap, "transpose", "exchange the axes: κ across and H up, or H across and κ up", MAP),
+    row(&[char('X')], CHART, Command::ToggleSections, "sections", "show sections through the scene along both axes, or the map", MAP),
+    row(&[char('V')], CHART, Command::NextCharted, "quantity", "map another quantity: regime, F_a(0)/F_a,max, F_a/F_n; all recorded ones of a study", MAP),
     row(&[char('W')], CHART, Command::ToggleStudy, "", "show the map of the opened study, or the live map", MAP),
     row(&[char('P'), key(KeyCode::PageDown)], CHART, Command::NextSlice(1), "", "show the next preload of the study, or value of a further axis; the scene follows", MAP),
     row(&[key(KeyCode::PageUp), control('p')], CHART, Command::NextSlice(-1), "", "show the previous one", MAP),

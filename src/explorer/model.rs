@@ -1,6 +1,6 @@
 //! The state of the explorer: changed by `update` alone, drawn by the views.
 
-use super::action::Traffic;
+use super::action::{Content, Traffic};
 pub use super::appraisal::{Appraisal, Costs, Estimated};
 pub use super::chart::{Chart, OpenStudy};
 pub use super::mode::{Library, Mode, ModeKind};
@@ -13,7 +13,7 @@ use crate::contact::{CurvePoint, LegRecord};
 use crate::draw::AxisScale;
 use crate::scene::{Document, Scene, ron_float};
 pub use crate::study::map::Charted;
-use crate::study::map::{StudyMap, Template};
+use crate::study::map::{MapAxis, Place, StudyMap, Template};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
@@ -346,23 +346,35 @@ impl Model {
         }
     }
 
+    /// What can be exported, by the extension of the file: of the map while its pane is selected.
+    #[must_use]
+    pub fn exports(&self) -> &'static [(&'static str, Content)] {
+        let is_map = self.chart.shown && self.pane == Pane::Chart;
+        if is_map { &Content::MAP_EXPORTS } else { &Content::EXPORTS }
+    }
+
     /// Shows the map of a study, the first of them.
     pub fn show_study(&mut self, study_map: Arc<StudyMap>) {
-        self.chart.study = Some(OpenStudy::at(study_map, 0));
+        self.chart.open_study(study_map, 0);
         (self.chart.of_study, self.chart.shown) = (true, true);
         self.appraisal.hide();
         self.pane = Pane::Chart;
     }
 
-    /// κ and, where it has one, H of the scene as it stands: the mark on the map. `None` where it has no κ, or
-    /// none that is known yet.
+    /// Values of the scene on the axes of the map: its mark. `None` where the scene has no such quantity, or none that is
+    /// known yet.
     #[must_use]
-    pub fn place(&self) -> Option<(f64, Option<f64>)> {
+    pub fn place(&self) -> Option<Place> {
         let scene = self.document.scene();
-        if !Template::of(scene).ok()?.has_hurst() {
-            return Some((self.governing()?.kappa?, None));
+        let template = Template::of(scene);
+        if template.is_err() && self.chart.shown_study().is_none() {
+            return None;
         }
-        Template::place(scene).map(|(kappa, hurst)| (kappa, Some(hurst)))
+        let (across, up) = self.chart.axes(template.is_ok_and(|template| template.has_hurst()));
+        let governing = self.governing();
+        let value = |axis: &MapAxis| axis.value(scene, governing.as_ref());
+        let place = value(&across)?;
+        up.map_or(Some((place, None)), |up| Some((place, Some(value(&up)?))))
     }
 
     /// What moves the body.

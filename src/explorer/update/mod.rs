@@ -229,7 +229,7 @@ fn edit_line(model: &mut Model, command: Command) {
 }
 
 fn explore(model: &mut Model, command: Command) -> Vec<Effect> {
-    if !matches!(command, Command::MoveKappa(_) | Command::MoveHurst(_)) {
+    if !matches!(command, Command::MoveAcross(_) | Command::MoveUp(_)) {
         model.chart.moving = false;
     }
     // Why there is no curve stays to be read; all else goes with the next key.
@@ -270,8 +270,9 @@ fn explore(model: &mut Model, command: Command) -> Vec<Effect> {
         | Command::NextCharted
         | Command::ToggleStudy
         | Command::NextSlice(_)
-        | Command::MoveKappa(_)
-        | Command::MoveHurst(_) => return chart::obey(model, command),
+        | Command::TransposeMap
+        | Command::MoveAcross(_)
+        | Command::MoveUp(_) => return chart::obey(model, command),
         Command::Fragment(_)
         | Command::ToggleLengths
         | Command::Zoom(_)

@@ -61,7 +61,7 @@ pub fn act(model: &mut Model, mouse: Mouse) -> Vec<Effect> {
 /// Puts the mark of the map under the mouse.
 fn put(model: &mut Model, area: ratatui::layout::Rect, here: Position) -> Vec<Effect> {
     match place_at(model, area, here) {
-        Some((kappa, hurst)) => chart::move_to(model, kappa, hurst),
+        Some(place) => chart::move_to(model, place),
         None => vec![Effect::Show],
     }
 }

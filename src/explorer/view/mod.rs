@@ -13,16 +13,16 @@ mod library;
 mod parameters;
 mod plot;
 mod profile;
-mod regimes;
 mod section;
 mod sections;
 mod stages;
 mod typed;
 mod wrap;
 
-pub use chart::place_at;
+pub use chart::{map_figure, place_at};
 pub use force::indentation_at;
 pub use parameters::parameter_at;
+pub use sections::section_cell;
 
 use super::layout::{Layout, inside, is_framed};
 use super::model::{Mode, Model, Pane};
