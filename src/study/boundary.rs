@@ -8,7 +8,7 @@
 
 use super::axis::Axis;
 use super::finished::Finished;
-use super::map::governing;
+use super::governing::governing;
 use super::plan::{Plan, targets};
 use super::quantity::Quantity;
 use super::target::Target;
