@@ -46,7 +46,8 @@ fn signature(text: &str) -> String {
         before = c;
         depth == 0 && "{;=".contains(c)
     });
-    let words = text[..end.map_or(text.len(), |(end, _)| end)].split_whitespace().collect::<Vec<_>>().join(" ");
+    let words =
+        text[..end.map_or(text.len(), |(end, _)| end)].split_whitespace().collect::<Vec<_>>().join(" ");
     words.replace("( ", "(").replace(", )", ")")
 }
 
@@ -70,7 +71,8 @@ fn members(name: &str, room: &[&String]) -> Vec<String> {
             let lines: Vec<&str> = block.lines().collect();
             let Some(head) = lines.iter().position(|line| {
                 let words: Vec<&str> = line.split(|c: char| !(c.is_alphanumeric() || c == '_')).collect();
-                let begins = ["impl", "pub struct", "pub enum", "pub trait"].iter().any(|one| line.starts_with(one));
+                let begins =
+                    ["impl", "pub struct", "pub enum", "pub trait"].iter().any(|one| line.starts_with(one));
                 let is_own = !line.starts_with("impl") || !line.contains(" for ");
                 begins && is_own && line.ends_with('{') && words.contains(&name)
             }) else {
@@ -109,18 +111,27 @@ fn public_items_are_those_of_the_snapshot() {
     let mut lines = BTreeSet::new();
     for module in public_modules(&modules) {
         let mut shown: Vec<Module> = reexports(&module, &modules);
-        shown.extend(items(&modules[&module]).into_iter().map(|(name, _)| [module.clone(), vec![name]].concat()));
+        shown.extend(
+            items(&modules[&module]).into_iter().map(|(name, _)| [module.clone(), vec![name]].concat()),
+        );
         for path in shown {
             let (name, place) = path.split_last().unwrap();
             // What is given on may be given on before.
-            let room: Vec<&String> =
-                modules.iter().filter(|(other, _)| other.first() == place.first()).map(|(_, code)| code).collect();
+            let room: Vec<&String> = modules
+                .iter()
+                .filter(|(other, _)| other.first() == place.first())
+                .map(|(_, code)| code)
+                .collect();
             let at = modules.get(place).into_iter().chain(room.iter().copied());
-            let Some(own) = at.flat_map(|code| items(code)).find(|(other, _)| other == name) else { continue };
+            let Some(own) = at.flat_map(|code| items(code)).find(|(other, _)| other == name) else {
+                continue;
+            };
             let prefix = module.iter().map(|part| format!("{part}::")).collect::<String>();
             lines.insert(format!("{prefix}{name}: {}", own.1));
             if own.1.starts_with(char::is_lowercase) && !own.1.starts_with("fn ") {
-                lines.extend(members(name, &room).into_iter().map(|member| format!("{prefix}{name}. {member}")));
+                lines.extend(
+                    members(name, &room).into_iter().map(|member| format!("{prefix}{name}. {member}")),
+                );
             }
         }
     }
