@@ -1,10 +1,10 @@
 //! Fields against each other: what over- or under-determines a scene, and what one field makes
 //! impossible in another.
 
-use super::check::{Found, Violation};
 use super::fields::{FIELDS, LEG_INDENTATION, field};
 use super::model::{Adhesion, Edges, Form, Leg, Material, Roughness, Scene, Solver};
 use super::text::{ron_float, ron_string};
+use super::violation::{Found, Violation};
 use crate::topography::{Unit, UnitError};
 
 /// Most samples of all legs together; a curve of this size still fits the memory of a small machine.

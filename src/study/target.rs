@@ -132,6 +132,31 @@ impl Target {
         Ok(())
     }
 
+    /// Value of the quantity in a scene, as far as the scene states it: κ and the preload follow from several numbers.
+    pub fn get(self, scene: &Scene) -> Option<f64> {
+        match self {
+            Target::RoughnessParameter(_) | Target::Preload => None,
+            Target::SpringsPerWave => {
+                let last = Target::of("roughness.modes.1").ok()?.get(scene)?;
+                Some(scene.numerics.points as f64 / last)
+            }
+            Target::Leg(index) => match scene.loading.get(index)? {
+                Leg::ToForce(to) | Leg::ToIndentation(to) => Some(*to),
+                _ => None,
+            },
+            Target::Field(field, part) => {
+                let all = FIELDS.iter().filter(|other| other.path == field.path);
+                all.filter_map(|field| field.get(scene)).find_map(|value| match (value, part) {
+                    (Value::Real(number), _) => Some(number),
+                    (Value::Whole(number), _)
+                    | (Value::Band(number, _), Part::First)
+                    | (Value::Band(_, number), Part::Last) => Some(number as f64),
+                    _ => None,
+                })
+            }
+        }
+    }
+
     /// Gives the quantity a value in a scene; the preload, which is no part of a scene, is left to the run.
     ///
     /// # Errors
@@ -210,11 +235,18 @@ mod tests {
                 overrides.iter().map(|(path, value)| (path.to_string(), value.to_string())).collect();
             let expected = document.set_all(&overrides).unwrap();
             let mut scene = document.scene().clone();
-            Target::of(path).ok().unwrap().set(&mut scene, value).unwrap();
+            let target = Target::of(path).ok().unwrap();
+            target.set(&mut scene, value).unwrap();
             assert_eq!(&scene, expected.scene(), "{path}");
+            assert_eq!(
+                target.get(&scene),
+                Some(value).filter(|_| !matches!(target, Target::RoughnessParameter(_))),
+                "{path}"
+            );
         }
         let mut scene = rough.scene().clone();
         Target::SpringsPerWave.set(&mut scene, 8.0).unwrap();
+        assert_eq!(Target::SpringsPerWave.get(&scene), Some(8.0));
         let points = scene.numerics.points;
         let modes = field("roughness.modes", None).unwrap().get(&scene).unwrap();
         assert!(matches!(modes, Value::Band(_, last) if last == points / 8), "{modes:?}");

@@ -1,7 +1,7 @@
 //! Bodies whose loop is known in closed form.
 
 use super::ensure;
-use crate::check::catalogue::{Case, Evidence, Family, Scope};
+use crate::check::case::{Case, Evidence, Family, Scope};
 use crate::check::{Body, Fault, end};
 use crate::contact::Foundation;
 use crate::reference::{PowerLaw, WavyLoop, WavySphere};

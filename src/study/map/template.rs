@@ -1,15 +1,12 @@
 //! Template of a map: a scene without its κ and H.
 
+use super::axis::MapAxis;
 use super::grid::{Level, hursts, kappas};
-use crate::analysis::Governing;
-use crate::scene::{
-    Adhesion, Document, Edges, Numerics, Roughness, RoughnessParameter, Scene, SceneErrors, Solver,
-};
+use crate::scene::{Adhesion, Edges, Numerics, Roughness, Scene, Solver};
 use crate::study::axis::Axis;
-use crate::study::figure::FigureAxis;
+use crate::study::governing::governing;
 use crate::study::plan::Plan;
 use crate::study::quantity::Quantity;
-use crate::surface::SelfAffine;
 use thiserror::Error;
 
 /// Random lines of each cell.
@@ -115,12 +112,12 @@ impl Template {
 
     /// The study of all cells of the map: number row · [`super::KAPPAS`] + column.
     pub(super) fn plan(&self) -> Plan {
-        let list = |path: &str, axis: FigureAxis| Axis::List { path: path.into(), values: axis.values };
+        let list = |axis: MapAxis| Axis::List { path: axis.path, values: axis.figure.values };
         let mut plan = Plan::of_scene(&self.scene, self.lines(), &RECORD);
         if self.has_hurst() {
-            plan.axes.push(list("roughness.hurst", hursts()));
+            plan.axes.push(list(hursts()));
         }
-        plan.axes.push(list("adhesion.kappa", kappas()));
+        plan.axes.push(list(kappas()));
         plan
     }
 
@@ -131,46 +128,15 @@ impl Template {
         let Some(Roughness::SelfAffine { hurst, .. }) = scene.roughness else { return None };
         Some((governing(scene)?.kappa?, hurst))
     }
-
-    /// A document with another κ and H; γ where it gives its adhesion so, and κ otherwise.
-    ///
-    /// # Errors
-    /// When one of them is not allowed.
-    pub fn moved(document: &Document, kappa: f64, hurst: f64) -> Result<Document, SceneErrors> {
-        let moved = match document.scene().roughness {
-            Some(Roughness::SelfAffine { .. }) => {
-                document.set("roughness.hurst", &crate::scene::ron_float(hurst))?
-            }
-            _ => document.clone(),
-        };
-        let by_work = matches!(
-            moved.scene().adhesion,
-            Some(Adhesion { work: Some(_), kappa: None, elastic_energy_ratio: None, .. })
-        );
-        match governing(moved.scene())
-            .and_then(|governing| governing.work_for(RoughnessParameter::Kappa, kappa))
-        {
-            Some(work) if by_work => moved.with_work_of_adhesion(work),
-            _ => moved.with_parameter(RoughnessParameter::Kappa, kappa),
-        }
-    }
-}
-
-/// Governing parameters of a scene with a self-affine profile.
-pub(in crate::study) fn governing(scene: &Scene) -> Option<Governing> {
-    let Some(Roughness::SelfAffine { hurst, modes: (first, last), .. }) = scene.roughness else {
-        return None;
-    };
-    let wave_numbers = SelfAffine { hurst, first, last }.wave_numbers(scene.length);
-    Some(Governing::of(scene, Some(wave_numbers), None))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::open;
+    use crate::scene::{Document, open};
     use crate::simulation::Simulation;
     use crate::study::cells::Cells;
+    use crate::study::map::axis::moved;
     use crate::study::map::grid::{HURSTS, KAPPAS, hurst, kappa};
 
     fn document() -> Document {
@@ -238,7 +204,7 @@ mod tests {
         ]);
         let by_work = by_kappa.set("adhesion", "(work: 0.05)").unwrap();
         for document in [by_kappa, both.unwrap(), by_work] {
-            let moved = Template::moved(&document, 3.0, 0.4).unwrap();
+            let moved = moved(&document, &[("roughness.hurst", 0.4), ("kappa", 3.0)]).unwrap();
             let (before, after) = (document.scene().adhesion.unwrap(), moved.scene().adhesion.unwrap());
             assert_eq!(before.work.is_some(), after.work.is_some());
             assert_eq!(before.kappa.is_some(), after.kappa.is_some());
@@ -249,6 +215,6 @@ mod tests {
                 Simulation::default().make_line(moved.scene()).map(|(a, b, c)| (a.first, b, c)).unwrap();
             assert!((governing.kappa.unwrap() / 3.0 - 1.0).abs() < 1e-9, "{governing:?}");
         }
-        assert!(Template::moved(&document(), f64::NAN, 0.4).is_err());
+        assert!(moved(&document(), &[("kappa", f64::NAN)]).is_err());
     }
 }
