@@ -166,10 +166,9 @@ fn two_works_dissipate_more_at_the_same_pull_off_force() {
 #[test]
 fn waves_strengthen_a_sphere() {
     let name = "wavy-sphere";
-    assert_says(name, "Waves of 80 nm make edge after edge jump");
     assert_says(
         name,
-        "the pull-off force is 1.17 times that of the smooth sphere, and the loop dissipates 11 pJ more",
+        "with waves of 80 nm the pull-off force is 1.17 times that of the smooth sphere, and the loop dissipates 11 pJ more",
     );
     let wavy = scene(name);
     let smooth = run(&wavy.set("form", "Paraboloid(radius: 1.0e-3)").unwrap());
@@ -180,12 +179,6 @@ fn waves_strengthen_a_sphere() {
         panic!("no waves");
     };
     assert_eq!(amplitude, 8e-8);
-    // The edge passes the waves in jumps: far more springs attach at once than on a smooth sphere.
-    let jump = |outcome: &Outcome| {
-        let curve = &outcome.history.legs[0].curve;
-        curve.windows(2).skip(1).map(|pair| pair[1].springs - pair[0].springs).max().unwrap()
-    };
-    assert!(jump(&outcome) > 4 * jump(&smooth), "{} {}", jump(&outcome), jump(&smooth));
 }
 
 #[test]
