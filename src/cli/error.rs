@@ -74,6 +74,14 @@ pub enum CliError {
         /// Why not.
         error: SpectrumError,
     },
+    /// A table of spectra is not computed again.
+    #[error("{file}: {reason}")]
+    Spectra {
+        /// The table.
+        file: String,
+        /// Why not, and what is allowed.
+        reason: String,
+    },
     /// There is no built-in scene of this name.
     #[error("{name}: there is no such built-in scene; allowed: {allowed}")]
     NoPreset {

@@ -4,6 +4,7 @@ use super::model::Traffic;
 use super::opening::Opening;
 use super::snapshot::{Loop, Moment, Preview};
 use super::study::Found;
+use crate::export::TableFormat;
 use crate::scene::Entry;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -81,8 +82,8 @@ pub enum WriteFailure {
 pub enum Content {
     /// The scene, in RON.
     Scene,
-    /// The force curve, as comma-separated values.
-    Curve,
+    /// The force curve, as a table.
+    Curve(TableFormat),
     /// Everything that was computed, in JSON.
     Outcome,
     /// The panes as a picture, in SVG.
@@ -93,8 +94,9 @@ pub enum Content {
 
 impl Content {
     /// What can be exported, by the ending of the file's name.
-    pub const EXPORTS: [(&'static str, Content); 4] = [
-        ("csv", Content::Curve),
+    pub const EXPORTS: [(&'static str, Content); 5] = [
+        ("csv", Content::Curve(TableFormat::Csv)),
+        ("npy", Content::Curve(TableFormat::Npy)),
         ("json", Content::Outcome),
         ("svg", Content::Picture),
         ("txt", Content::Text),

@@ -1,8 +1,9 @@
 //! Analysed surfaces: text for people, JSON and CSV for programs.
 
 use super::sheet::Sheet;
+use super::table::{Cell, Column, TableFormat, write_table};
 use crate::io::write_json_value;
-use crate::scene::format_quantity;
+use crate::scene::{Provenance, format_quantity};
 use crate::spectrum::{Analysis, Bin, End, Estimate, LineMoments};
 use crate::text::{grouped, path_name, per_cent};
 use crate::topography::Topography;
@@ -13,6 +14,9 @@ use std::path::PathBuf;
 
 /// Points of the equivalent line's spectrum in CSV, for each decade.
 const LINE_PER_DECADE: f64 = 10.0;
+
+/// Characters of the longest name of a spectrum.
+const LONGEST_NAME: usize = "equivalent line".len();
 
 /// A surface and the file it came from.
 #[derive(Clone, Debug, PartialEq)]
@@ -240,22 +244,35 @@ fn estimate(estimate: Option<Estimate>) -> Value {
     estimate.map_or(Value::Null, |estimate| json!({"value": estimate.value, "error": estimate.error}))
 }
 
-/// Writes spectra as CSV: kind, wave number in rad/m, power in m³, waves averaged (empty for the equivalent line).
+/// Writes spectra as a table: kind, wave number in rad/m, power in m³, waves averaged (none for the equivalent line).
 ///
 /// # Errors
 /// Those of `out`.
-pub fn write_surface_csv(out: &mut (impl Write + ?Sized), analysis: &Analysis) -> io::Result<()> {
-    writeln!(out, "spectrum,wave_number,power,waves")?;
+pub fn write_surface_table(
+    out: &mut (impl Write + ?Sized),
+    format: TableFormat,
+    provenance: &Provenance,
+    analysis: &Analysis,
+) -> io::Result<()> {
+    let mut rows = Vec::new();
     for (direction, bins) in &analysis.spectra {
         for Bin { wave_number, power, waves } in bins {
-            writeln!(out, "{},{wave_number:?},{power:?},{waves}", direction.name())?;
+            let name = Cell::Word(direction.name());
+            rows.push([name, Cell::Real(*wave_number), Cell::Real(*power), Cell::Whole(*waves)]);
         }
     }
     let [low, high] = analysis.isotropic.range();
     let pieces = (LINE_PER_DECADE * (high / low).log10()).ceil().max(1.0) as i32;
     for piece in 0..=pieces {
         let wave_number = (low * (high / low).powf(f64::from(piece) / f64::from(pieces))).min(high);
-        writeln!(out, "equivalent line,{wave_number:?},{:?},", analysis.isotropic.line(wave_number))?;
+        let power = Cell::Real(analysis.isotropic.line(wave_number));
+        rows.push([Cell::Word("equivalent line"), Cell::Real(wave_number), power, Cell::Missing]);
     }
-    Ok(())
+    let columns = [
+        ("spectrum", Column::Word(LONGEST_NAME)),
+        ("wave_number", Column::Real),
+        ("power", Column::Real),
+        ("waves", Column::Real),
+    ];
+    write_table(out, format, provenance, columns, rows.len(), rows.into_iter())
 }

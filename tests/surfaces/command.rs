@@ -20,6 +20,11 @@ fn refused(folder: &Path, arguments: &[&str]) -> String {
     String::from_utf8(output.stderr).unwrap()
 }
 
+/// Lines of a table without its provenance.
+fn rows(table: &str) -> impl Iterator<Item = &str> {
+    table.lines().filter(|line| !line.starts_with('#'))
+}
+
 fn json(folder: &Path, arguments: &[&str]) -> serde_json::Value {
     serde_json::from_str(&done(folder, arguments)).unwrap()
 }
@@ -74,7 +79,7 @@ fn a_profile_is_stated_in_every_form() {
     assert!((energy / (1e6 * line["energy_per_modulus"]["value"].as_f64().unwrap()) - 1.0).abs() < 1e-12);
     assert_eq!(report["files"][0]["points"], serde_json::json!([512]));
     let table = done(folder, &["surface", "line.txt", "--format", "csv"]);
-    assert!(table.starts_with("spectrum,wave_number,power,waves\n1D PSD along x,"), "{table}");
+    assert!(table.contains("\nspectrum,wave_number,power,waves\n1D PSD along x,"), "{table}");
     // The bins hold the whole height but for waves 1 to 255 of the window's.
     let rows = table.lines().filter_map(|row| row.strip_prefix("1D PSD along x,"));
     let numbers = rows.map(|row| row.split(',').map(|cell| cell.parse::<f64>().unwrap()).collect::<Vec<_>>());
@@ -84,6 +89,41 @@ fn a_profile_is_stated_in_every_form() {
     assert_eq!(std::fs::read_to_string(folder.join("spectrum.csv")).unwrap(), table);
     assert!(
         refused(folder, &["surface", "line.txt", "-o", "spectrum.csv"]).contains("--force overwrites it")
+    );
+}
+
+#[test]
+fn spectra_are_computed_again_from_their_table() {
+    let folder = folder();
+    let folder = folder.path();
+    std::fs::create_dir(folder.join("other")).unwrap();
+    let options = ["--detrend", "curvature", "--periodic", "--continue-to", "0.7um", "--interpolate"];
+    for ending in ["csv", "npy"] {
+        let (first, second) = (format!("a.{ending}"), format!("b.{ending}"));
+        done(folder, &[&["surface", "plain.txt", "--unit", "um", "-o", &first], &options[..]].concat());
+        // From another folder too.
+        let path = folder.join(&first).to_str().unwrap().to_owned();
+        done(&folder.join("other"), &["run", &path, "-o", &format!("../{second}")]);
+        let [one, other] = [&first, &second].map(|name| std::fs::read(folder.join(name)).unwrap());
+        assert!(one == other, "{ending}");
+        // A table in another folder names the file by its path.
+        done(folder, &["run", &first, "-o", &format!("other/{second}")]);
+        done(folder, &["run", &format!("other/{second}"), "-o", &format!("other/{first}")]);
+        let [third, fourth] =
+            [&first, &second].map(|name| std::fs::read(folder.join("other").join(name)).unwrap());
+        assert!(third == fourth && third != one, "{ending}");
+        let message = refused(folder, &["run", &first, "--set", "length=1.0"]);
+        assert!(message.contains("spectra have no --set; allowed: "), "{message}");
+    }
+    let picture = done(folder, &["run", "a.csv", "--format", "svg"]);
+    for name in ["measured, 1D PSD along x", "line", "last resolved wave", "wave number", "10"] {
+        assert!(picture.contains(name), "{name}: {picture}");
+    }
+    done(folder, &["surface", "map.txt", "--tip-radius", "1um", "-o", "map.svg"]);
+    let picture = std::fs::read_to_string(folder.join("map.svg")).unwrap();
+    assert!(
+        picture.contains("measured, q/π × 2D PSD") && picture.contains("reliability cut-off"),
+        "{picture}"
     );
 }
 
@@ -151,7 +191,7 @@ fn a_scene_of_a_surface_runs_on_its_equivalent_line() {
     assert_eq!(run["line"]["seed"], 1);
     // Other seeds are other lines with the same moments.
     let lines = done(folder, &["run", "rough.ron", "--lines", "3", "--format", "csv"]);
-    let forces: Vec<&str> = lines.lines().skip(1).map(|row| row.split(',').nth(1).unwrap()).collect();
+    let forces: Vec<&str> = rows(&lines).skip(1).map(|row| row.split(',').nth(1).unwrap()).collect();
     assert!(forces.len() == 3 && forces[0] != forces[1] && forces[1] != forces[2], "{lines}");
     let first = run["adhesion_force"].as_f64().unwrap();
     assert!((forces[0].parse::<f64>().unwrap() / first - 1.0).abs() < 1e-12);

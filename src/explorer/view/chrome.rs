@@ -48,7 +48,7 @@ pub fn status(frame: &mut Frame<'_>, area: Rect, model: &Model) {
         (Mode::SaveAs { line, .. }, _) => prompted("Save as: ", line),
         // What is typed is to be seen in the smallest window too.
         (Mode::Export(line), _) if area.width < 60 => prompted("Export to: ", line),
-        (Mode::Export(line), _) => prompted("Export to (.csv .json .svg .txt): ", line),
+        (Mode::Export(line), _) => prompted("Export to (.csv .npy .json .svg .txt): ", line),
         (Mode::Force(line), _) => prompted("Go to the force: ", line),
         (Mode::Tolerance(line), _) if area.width < 60 => prompted("Tolerance: ", line),
         (Mode::Tolerance(line), _) => prompted("Relative error allowed (0.1 % or 1e-3): ", line),

@@ -12,6 +12,7 @@ mod lines;
 use super::Unit;
 use super::error::{Place, TopographyError, refused, shown};
 use super::reading::{Format, LARGEST, RawGrid, Reading};
+use crate::io::PROVENANCE;
 use header::Header;
 use layout::{Cell, Decimal, Separator};
 use lines::Lines;
@@ -22,14 +23,18 @@ pub(super) fn read(source: impl BufRead) -> Result<Reading, TopographyError> {
     let mut lines = Lines::new(source)?;
     let mut header = Header::default();
     let mut rows: Option<Rows> = None;
+    let mut in_provenance = false;
     while let Some((number, line)) = lines.next()? {
         let line = line.trim_ascii();
         if line.is_empty() {
             continue;
         }
         let comment = line.starts_with(['#', '%', '!']);
+        // The words of a scene may look like units.
+        in_provenance = comment && (in_provenance || line.starts_with(PROVENANCE));
         match &mut rows {
             Some(_) if comment => {}
+            None if in_provenance => {}
             Some(rows) => rows.take(number, line)?,
             None if comment || is_header(line) => header.take(line),
             None => {
