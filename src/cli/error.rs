@@ -61,7 +61,9 @@ pub enum CliError {
         error: TopographyError,
     },
     /// A scene cannot hold how its surface is to be read.
-    #[error("--scene: a scene does not hold {option}; allowed: one file, --unit, --continue-to")]
+    #[error(
+        "--scene: a scene does not hold {option}; allowed: one file, --unit, --detrend, --periodic, --continue-to"
+    )]
     LostInScene {
         /// Option that would be lost.
         option: &'static str,

@@ -55,7 +55,7 @@ pub struct SurfaceArguments {
     pub format: Option<SurfaceFormat>,
     /// Write a scene with the equivalent line of the surface to FILE; needs --modulus
     ///
-    /// The scene names the surface and holds --unit and --continue-to.
+    /// The scene names the surface and holds --unit, --detrend, --periodic and --continue-to.
     #[arg(long, value_name = "FILE", requires = "modulus", verbatim_doc_comment)]
     pub scene: Option<PathBuf>,
     /// Work of adhesion of the scene, as 50mJ/m^2; default: none
@@ -267,9 +267,9 @@ fn analysed(arguments: &SurfaceArguments, surfaces: &[Topography]) -> Result<Ana
     })
 }
 
-/// A scene names one file and holds its unit and the end of its spectrum; whatever else was chosen would be lost.
+/// A scene names one file and holds its unit and how its spectrum is estimated; whatever else was chosen would be lost.
 fn check_scene(arguments: &SurfaceArguments) -> Result<(), CliError> {
-    let (reading, analysis) = (&arguments.reading, &arguments.analysis);
+    let reading = &arguments.reading;
     let lost = [
         (arguments.files.len() > 1, "several files"),
         (reading.height_unit.is_some(), "--height-unit"),
@@ -277,8 +277,6 @@ fn check_scene(arguments: &SurfaceArguments) -> Result<(), CliError> {
         (reading.interpolate, "--interpolate"),
         (reading.resample, "--resample"),
         (reading.channel.is_some(), "--channel"),
-        (analysis.detrend != DetrendArgument::Tilt, "--detrend"),
-        (analysis.periodic, "--periodic"),
     ];
     match lost.into_iter().find(|(is_given, _)| *is_given) {
         Some((_, option)) => Err(CliError::LostInScene { option }),
@@ -314,6 +312,11 @@ fn scene_text(
         roughness: Some(Roughness::Measured {
             file: name.to_string_lossy().into_owned(),
             as_line: None,
+            opposite: None,
+            row: None,
+            column: None,
+            detrend: Some(arguments.analysis.options().detrend).filter(|detrend| *detrend != Detrend::Tilt),
+            periodic: arguments.analysis.periodic,
             unit: arguments.reading.unit.map(|unit| unit.name().to_owned()).unwrap_or_default(),
             continue_to: arguments.analysis.continue_to,
             seed: 1,

@@ -3,7 +3,7 @@
 //! In CSV the text fills the first lines, each after `# `; in `.npy` it is an array behind that of the results.
 
 use super::document::LONGEST_TEXT;
-use super::model::{Roughness, Scene};
+use super::model::Scene;
 use super::write::to_ron;
 use crate::io::{PROVENANCE, ReadError, into_text, npy, open_regular, read_limited};
 use std::fs::File;
@@ -65,9 +65,7 @@ impl Provenance {
     #[must_use]
     pub fn new(content: TableContent, scene: &Scene, folder: &Path, destination: &Path) -> Self {
         let mut scene = scene.clone();
-        if let Some(Roughness::Measured { file, .. }) = &mut scene.roughness {
-            *file = named_from(file, folder, destination);
-        }
+        scene.rename_measured_files(|file| named_from(file, folder, destination));
         let seed = scene.seed().map_or_else(String::new, |seed| format!("seed: {seed}\n"));
         let text = format!("{}{seed}{SCENE}{}", head(&content.name()), to_ron(&scene));
         Provenance { text }
@@ -229,6 +227,7 @@ impl Source {
 #[cfg(test)]
 mod tests {
     use super::super::document::Document;
+    use super::super::model::Roughness;
     use super::super::strategies::sound_scenes;
     use super::*;
     use proptest::prelude::*;

@@ -7,6 +7,7 @@ use asperity::scene::{Leg, Provenance, Roughness, TableContent};
 use asperity::simulation::{Outcome, RunError, Simulation};
 use asperity::surface::SurfaceError;
 use profiles::{FILE, Shape};
+use std::path::Path;
 use std::time::{Duration, Instant};
 
 /// Scenes that are computed.

@@ -227,3 +227,79 @@ fn older_scenes_keep_the_profile_as_the_line() {
     let message = refused(folder, &["run", "plain.ron", "--set", "roughness.unit=\"px\""]);
     assert!(message.contains("roughness.unit = \"px\": allowed: m, cm, mm"), "{message}");
 }
+
+/// Result of a scene with this roughness, in JSON.
+fn run(folder: &Path, roughness: &str) -> serde_json::Value {
+    let text = format!(
+        "(version: 2, material: (effective_modulus: 1.0e6), length: 4.0e-5, adhesion: (work: 0.05), \
+         roughness: Measured({roughness}), numerics: (points: 2048))"
+    );
+    std::fs::write(folder.join("scene.ron"), text).unwrap();
+    json(folder, &["run", "scene.ron", "--format", "json"])
+}
+
+#[test]
+fn scenes_choose_profile_detrending_window_and_opposite_face() {
+    let folder = folder();
+    let folder = folder.path();
+    // The map of the folder: row r begins at height 11 r mod 400.
+    let all = heights(512);
+    let row: String = (0..40).map(|i| format!("{i} {:?}\n", all[11 * 6 % 400 + i])).collect();
+    let column: String = (0..40).map(|r| format!("{r} {:?}\n", all[11 * r % 400 + 2])).collect();
+    std::fs::write(folder.join("row.txt"), format!("x [um] z [nm]\n{row}")).unwrap();
+    std::fs::write(folder.join("column.txt"), format!("x [um] z [nm]\n{column}")).unwrap();
+    let height = |roughness: &str| run(folder, roughness)["line"]["rms_height"].as_f64().unwrap();
+    for as_line in ["", ", as_line: true"] {
+        let length = if as_line.is_empty() { "" } else { ", detrend: Mean" };
+        for (cut, file) in [("row: 7", "row.txt"), ("column: 3", "column.txt")] {
+            let of_map = |what: &str| format!("file: \"{what}\"{as_line}{length}");
+            let (part, whole) = (height(&format!("{}, {cut}", of_map("map.txt"))), height(&of_map(file)));
+            assert!((part / whole - 1.0).abs() < 1e-9, "{cut}{as_line}: {part} {whole}");
+        }
+    }
+    // A tilt is roughness unless it is removed.
+    let tilted: String =
+        all.iter().enumerate().map(|(i, z)| format!("{i} {:?}\n", z + 9.0 * i as f64)).collect();
+    std::fs::write(folder.join("tilted.txt"), format!("x [um] z [nm]\n{tilted}")).unwrap();
+    let plain = height("file: \"line.txt\", as_line: true, detrend: Tilt");
+    let level = height("file: \"tilted.txt\", as_line: true, detrend: Tilt");
+    assert!((level / plain - 1.0).abs() < 1e-9, "{level} {plain}");
+    assert!(height("file: \"tilted.txt\", as_line: true") > 2.0 * plain);
+    let [tilt, mean] =
+        ["Tilt", "Mean"].map(|detrend| height(&format!("file: \"tilted.txt\", detrend: {detrend}")));
+    assert!(mean > 1.2 * tilt, "{mean} {tilt}");
+    let [hann, none] =
+        ["false", "true"].map(|periodic| height(&format!("file: \"line.txt\", periodic: {periodic}")));
+    assert!((hann / none - 1.0).abs() > 1e-3 && (hann / none - 1.0).abs() < 1.0, "{hann} {none}");
+    // Spectra of two faces add.
+    let squares = ["line.txt", "tilted.txt"].map(|file| height(&format!("file: \"{file}\"")).powi(2));
+    let both = height("file: \"line.txt\", opposite: \"tilted.txt\"").powi(2);
+    assert!((both / (squares[0] + squares[1]) - 1.0).abs() < 1e-9, "{both} {squares:?}");
+    // A table of a scene with two faces has both.
+    done(folder, &["run", "scene.ron", "-o", "both.csv"]);
+    done(folder, &["run", "both.csv", "-o", "again.csv"]);
+    let [one, other] =
+        ["both.csv", "again.csv"].map(|name| std::fs::read_to_string(folder.join(name)).unwrap());
+    assert!(one == other && one.contains("opposite: \"tilted.txt\""), "{one}");
+    for (set, expected) in [
+        ("roughness=Measured(file: \"map.txt\", row: 1, column: 2)", "give one of them"),
+        ("roughness=Measured(file: \"map.txt\", row: 41)", "row 41; allowed: rows 1 to 40"),
+        ("roughness=Measured(file: \"map.txt\", row: 0)", "roughness.row = 0: allowed: "),
+        (
+            "roughness=Measured(file: \"line.txt\", column: 1)",
+            "a profile, which has no rows and columns; allowed: a map",
+        ),
+        ("roughness=Measured(file: \"line.txt\", detrend: Slope)", "Slope"),
+        (
+            "roughness=Measured(file: \"line.txt\", opposite: \"none.txt\")",
+            "roughness.file = \"none.txt\": cannot be read",
+        ),
+        (
+            "roughness=Measured(file: \"line.txt\", opposite: \"line.txt\", as_line: true)",
+            "spectra of two faces add, their profiles do not",
+        ),
+    ] {
+        let message = refused(folder, &["run", "scene.ron", "--set", set]);
+        assert!(message.contains(expected) && message.trim().lines().count() == 1, "{set}: {message}");
+    }
+}
