@@ -552,7 +552,7 @@ fn measured_lines_are_found_beside_their_scene() {
         &SMALL.replace("numerics", "roughness: Measured(file: \"line.csv\"),\n    numerics"),
     );
     assert_eq!(done(&["presets", "check", &scene]), format!("{scene}: ok\n"));
-    assert_eq!(done(&["line", &scene]).lines().count(), 65);
+    assert_eq!(rows(&done(&["line", &scene])).count(), 65);
     assert!(number(&json(&["run", &scene, "--format", "json"])["line"]["rms_height"]) > 0.0);
 }
 

@@ -45,6 +45,8 @@ mod panes;
 mod play;
 #[path = "screen/saving.rs"]
 mod saving;
+#[path = "screen/spectrum.rs"]
+mod spectrum;
 #[path = "screen/study.rs"]
 mod study;
 #[path = "screen/typing.rs"]
@@ -112,6 +114,8 @@ fn everywhere() -> Vec<Driver> {
         "N w",
         "A",
         "A z",
+        "Q",
+        "Q z",
         "% 1",
         "y",
         "m",

@@ -206,6 +206,8 @@ pub enum Command {
     Fragment(Jump),
     /// Show the distribution of fragment lengths in place of the close-up, or the other way round.
     ToggleLengths,
+    /// Show the spectrum in place of profile and close-up, or these again.
+    ToggleSpectrum,
     /// Look closer in the chosen pane, or from further away.
     Zoom(i32),
     /// Move along the line by so many quarters of what is seen.

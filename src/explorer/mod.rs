@@ -25,6 +25,7 @@ mod screen;
 mod session;
 mod signals;
 pub mod snapshot;
+pub mod spectrum;
 pub mod study;
 mod terminal;
 mod text_line;

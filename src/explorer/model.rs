@@ -30,6 +30,8 @@ pub enum Pane {
     Accuracy,
     /// The map over κ and H, in place of profile and close-up.
     Chart,
+    /// Spectra, in place of profile and close-up.
+    Spectrum,
 }
 
 impl Pane {
@@ -40,6 +42,8 @@ impl Pane {
     pub const WITH_ACCURACY: [Pane; 3] = [Pane::Force, Pane::Accuracy, Pane::Parameters];
     /// The panes while the map is shown.
     pub const WITH_CHART: [Pane; 3] = [Pane::Force, Pane::Chart, Pane::Parameters];
+    /// The panes while the spectrum is shown.
+    pub const WITH_SPECTRUM: [Pane; 3] = [Pane::Force, Pane::Spectrum, Pane::Parameters];
 }
 
 /// Where the animation stands.
@@ -193,6 +197,8 @@ pub struct Model {
     pub look: Look,
     /// Whether its pane shows the distribution of lengths instead.
     pub lengths: bool,
+    /// Whether the spectrum is shown in place of profile and close-up.
+    pub spectrum: bool,
     /// What part of the line the profile shows.
     pub profile: LineView,
     /// What the pane of the curve shows.
@@ -250,6 +256,7 @@ impl Model {
             hand: None,
             look: Look { focus: Focus::Summit, springs },
             lengths: false,
+            spectrum: false,
             profile: LineView::WHOLE,
             curve: CurveLook::default(),
             ghosts: Vec::new(),
@@ -322,6 +329,7 @@ impl Model {
     pub fn panes(&self) -> &'static [Pane] {
         match self.in_place_of_the_line() {
             Some(Pane::Chart) => &Pane::WITH_CHART,
+            Some(Pane::Spectrum) => &Pane::WITH_SPECTRUM,
             Some(_) => &Pane::WITH_ACCURACY,
             None => &Pane::ALL,
         }
@@ -330,11 +338,20 @@ impl Model {
     /// What is shown in place of profile and close-up.
     #[must_use]
     pub fn in_place_of_the_line(&self) -> Option<Pane> {
-        match (self.chart.shown, self.appraisal.shown) {
-            (true, _) => Some(Pane::Chart),
-            (_, true) => Some(Pane::Accuracy),
-            _ => None,
-        }
+        [
+            (self.chart.shown, Pane::Chart),
+            (self.appraisal.shown, Pane::Accuracy),
+            (self.spectrum, Pane::Spectrum),
+        ]
+        .into_iter()
+        .find_map(|(is_shown, pane)| is_shown.then_some(pane))
+    }
+
+    /// Shows profile and close-up again.
+    pub fn hide_in_place_of_the_line(&mut self) {
+        self.chart.shown = false;
+        self.appraisal.hide();
+        self.spectrum = false;
     }
 
     /// Which keys are valid: in the map the arrows move its mark.
@@ -349,8 +366,8 @@ impl Model {
     /// Shows the map of a study, the first of them.
     pub fn show_study(&mut self, study_map: Arc<StudyMap>) {
         self.chart.study = Some(OpenStudy::at(study_map, 0));
+        self.hide_in_place_of_the_line();
         (self.chart.of_study, self.chart.shown) = (true, true);
-        self.appraisal.hide();
         self.pane = Pane::Chart;
     }
 

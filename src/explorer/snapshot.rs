@@ -1,6 +1,7 @@
 //! What the worker publishes: immutable, stamped with the generation of the scene it belongs to, and
 //! already reduced to what a pane can show.
 
+use super::spectrum::SceneSpectra;
 use super::worker::Focus;
 pub use crate::analysis::{Column, LengthBin, Section, Share};
 use crate::contact::CurvePoint;
@@ -49,6 +50,8 @@ pub struct Moment {
     pub strip: Vec<Share>,
     /// How long the fragments are, where that was asked for.
     pub lengths: Option<Vec<LengthBin>>,
+    /// Spectra of the scene, where they were asked for.
+    pub spectra: Option<Arc<SceneSpectra>>,
     /// How the hand came here.
     pub hand: Option<Travel>,
 }

@@ -57,6 +57,8 @@ pub struct LineMoments {
     pub rms_height: Estimate,
     /// Rms gradient ⟨∇z⟩.
     pub rms_gradient: Estimate,
+    /// Product h⟨∇z⟩, m, to which κ² is proportional. Its error is not that of independent factors.
+    pub height_gradient: Estimate,
     /// Elastic energy of full contact over the effective modulus, e_el/E*, m.
     pub energy_per_modulus: Estimate,
 }
@@ -70,6 +72,7 @@ impl LineMoments {
         LineMoments {
             rms_height: self.rms_height,
             rms_gradient: divided(self.rms_gradient, SQRT_2),
+            height_gradient: divided(self.height_gradient, SQRT_2),
             energy_per_modulus: divided(self.energy_per_modulus, FRAC_PI_2),
         }
     }
@@ -218,9 +221,16 @@ impl IsotropicSpectrum {
             }
         };
         let two_pi = 0.5 / PI;
+        let (rms_height, rms_gradient) = (estimate(1, two_pi, true), estimate(3, two_pi, true));
+        let (height, gradient) = (self.moment(1), self.moment(3));
+        let both = height.1.iter().zip(&gradient.1);
+        let logarithm: Vec<f64> = both.map(|(a, b)| 0.5 * (a / height.0 + b / gradient.0)).collect();
+        let product = rms_height.value * rms_gradient.value;
+        let error = product * self.information.variance(&logarithm).sqrt();
         LineMoments {
-            rms_height: estimate(1, two_pi, true),
-            rms_gradient: estimate(3, two_pi, true),
+            rms_height,
+            rms_gradient,
+            height_gradient: Estimate { value: product, error },
             energy_per_modulus: estimate(2, 0.25 * two_pi, false),
         }
     }
@@ -277,6 +287,13 @@ pub(super) mod tests {
         assert!((moments.rms_height.value / expected - 1.0).abs() < 1e-8, "{moments:?}");
         let expected = ((15.0 / 64.0 + 99.0) / (2.0 * PI)).sqrt();
         assert!((moments.rms_gradient.value / expected - 1.0).abs() < 1e-8);
+        // The error of a product is at most the sum of those of its factors, and at least their difference.
+        let relative = |estimate: Estimate| estimate.error / estimate.value;
+        let (height, gradient) = (relative(moments.rms_height), relative(moments.rms_gradient));
+        let product = relative(moments.height_gradient);
+        assert!(product <= height + gradient && product >= (height - gradient).abs(), "{moments:?}");
+        let values = moments.rms_height.value * moments.rms_gradient.value;
+        assert_eq!(moments.height_gradient.value, values);
         let expected = (7.0 / 24.0 + 100.0_f64.ln()) / (8.0 * PI);
         assert!((moments.energy_per_modulus.value / expected - 1.0).abs() < 1e-8);
         assert_eq!((spectrum.c2d(200.0), spectrum.c2d(0.1)), (0.0, 1.0));

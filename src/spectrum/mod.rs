@@ -27,7 +27,7 @@ mod statistics;
 pub use analysis::{Analysis, LEAST_POINTS, Options, SpectrumError, analyse};
 pub use detrend::Detrend;
 pub use isotropic::{End, Estimate, IsotropicSpectrum, LineMoments};
-pub use periodogram::{Bin, Direction};
+pub use periodogram::{Bin, Direction, line_spectrum};
 pub use power_law::PowerLaw;
 pub use reliability::reliability_cutoff;
 pub use statistics::Statistics;

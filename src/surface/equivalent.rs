@@ -2,7 +2,7 @@
 
 use super::MeasuredProfile;
 use super::SurfaceError;
-use crate::spectrum::{Detrend, End, IsotropicSpectrum, Options, SpectrumError, analyse};
+use crate::spectrum::{Analysis, Detrend, End, IsotropicSpectrum, Options, SpectrumError, analyse};
 use crate::topography::{Cut, ReadOptions, Topography, TopographyError, Unit, read_observed};
 use std::f64::consts::TAU;
 use std::path::Path;
@@ -28,6 +28,23 @@ pub struct MeasuredOptions {
 }
 
 impl MeasuredOptions {
+    /// Reads and analyses a surface. Lengths of a profile that is the line itself are in m where no unit is stated.
+    ///
+    /// # Errors
+    /// [`SurfaceError::Measured`] when the file cannot be read, is no surface, or has no spectrum.
+    pub fn analyse(&self, path: &Path) -> Result<Analysis, SurfaceError> {
+        let convention = self.as_line.then_some(Unit::METRE);
+        let surface =
+            self.read(path, convention, &mut |_| ()).map_err(|error| SurfaceError::measured(path, &error))?;
+        self.analysis(surface).map_err(|error| SurfaceError::measured(path, &error))
+    }
+
+    fn analysis(&self, surface: Topography) -> Result<Analysis, SpectrumError> {
+        let end = self.continue_to.map_or(End::Ends, |wavelength| End::Continues(TAU / wavelength));
+        let (detrend, periodic) = (self.detrend.unwrap_or_default(), self.periodic);
+        analyse(&[surface], &Options { detrend, periodic, end, tip_radius: None })
+    }
+
     /// Reads a surface, with all bytes of the file shown to `seen`. Lengths are in the unit of `convention` where neither
     /// the file nor the options state one.
     pub(super) fn read(
@@ -96,10 +113,7 @@ impl EquivalentLine {
     /// # Errors
     /// The reason for which the surface has no spectrum.
     pub fn new(surface: Topography, options: &MeasuredOptions) -> Result<Self, SpectrumError> {
-        let end = options.continue_to.map_or(End::Ends, |wavelength| End::Continues(TAU / wavelength));
-        let (detrend, periodic) = (options.detrend.unwrap_or_default(), options.periodic);
-        let analysis = analyse(&[surface], &Options { detrend, periodic, end, tip_radius: None })?;
-        Ok(EquivalentLine { faces: vec![analysis.isotropic] })
+        Ok(EquivalentLine { faces: vec![options.analysis(surface)?.isotropic] })
     }
 
     /// Line of both faces, whose roughnesses are independent of each other.

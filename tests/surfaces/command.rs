@@ -119,7 +119,7 @@ fn spectra_are_computed_again_from_their_table() {
     for name in ["measured, 1D PSD along x", "line", "last resolved wave", "wave number", "10"] {
         assert!(picture.contains(name), "{name}: {picture}");
     }
-    done(folder, &["surface", "map.txt", "--tip-radius", "1um", "-o", "map.svg"]);
+    done(folder, &["surface", "map.txt", "--tip-radius", "1mm", "-o", "map.svg"]);
     let picture = std::fs::read_to_string(folder.join("map.svg")).unwrap();
     assert!(
         picture.contains("measured, q/π × 2D PSD") && picture.contains("reliability cut-off"),
@@ -231,7 +231,7 @@ fn older_scenes_keep_the_profile_as_the_line() {
 /// Result of a scene with this roughness, in JSON.
 fn run(folder: &Path, roughness: &str) -> serde_json::Value {
     let text = format!(
-        "(version: 2, material: (effective_modulus: 1.0e6), length: 4.0e-5, adhesion: (work: 0.05), \
+        "(version: 2, material: (effective_modulus: 1.0e6), length: 3.0e-5, adhesion: (work: 0.05), \
          roughness: Measured({roughness}), numerics: (points: 2048))"
     );
     std::fs::write(folder.join("scene.ron"), text).unwrap();

@@ -125,6 +125,7 @@ pub fn moment_request(model: &Model) -> Option<MomentRequest> {
         focus: model.look.focus,
         close_up_springs: model.look.springs,
         lengths: model.lengths,
+        spectra: model.spectrum,
     })
 }
 
@@ -264,6 +265,7 @@ fn explore(model: &mut Model, command: Command) -> Vec<Effect> {
         | Command::MoveHurst(_) => return chart::obey(model, command),
         Command::Fragment(_)
         | Command::ToggleLengths
+        | Command::ToggleSpectrum
         | Command::Zoom(_)
         | Command::Pan(_)
         | Command::ResetZoom

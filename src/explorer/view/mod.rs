@@ -14,6 +14,7 @@ mod parameters;
 mod plot;
 mod profile;
 mod sections;
+mod spectrum;
 mod stages;
 mod typed;
 mod wrap;
@@ -83,6 +84,7 @@ fn draw_pane(frame: &mut Frame<'_>, area: Rect, model: &Model, pane: Pane) {
             Pane::Parameters => " Parameters ".to_owned(),
             Pane::Accuracy => accuracy::TITLE.to_owned(),
             Pane::Chart => chart_words::title(model),
+            Pane::Spectrum => spectrum::TITLE.to_owned(),
         };
         let style = model.appearance.theme.style(if chosen { Meaning::Title } else { Meaning::Quiet });
         let mark = if chosen { "▸" } else { "" };
@@ -100,5 +102,6 @@ fn draw_pane(frame: &mut Frame<'_>, area: Rect, model: &Model, pane: Pane) {
         Pane::Parameters => parameters::draw(frame, area, model),
         Pane::Accuracy => accuracy::draw(frame, area, model),
         Pane::Chart => chart::draw(frame, area, model),
+        Pane::Spectrum => spectrum::draw(frame, area, model),
     }
 }
