@@ -3,7 +3,7 @@
 use super::{CliError, OutputArguments};
 use crate::draw::figure_svg;
 use crate::export::{
-    Spectra, SurfaceFile, TableFormat, surface_text, write_surface_json, write_surface_table,
+    Spectra, SurfaceContact, SurfaceFile, TableFormat, surface_text, write_surface_json, write_surface_table,
 };
 use crate::io::{check_writable, write_new};
 use crate::scene::{
@@ -20,7 +20,7 @@ use std::path::{Path, PathBuf};
 const EXAMPLES: &str = "\
 Examples:
   asperity surface stylus.txt --unit um
-  asperity surface afm.gwy --tip-radius 10nm --modulus 2.7MPa
+  asperity surface afm.gwy --tip-radius 10nm --modulus 2.7MPa --work 50mJ/m^2
   asperity surface a.x3p b.x3p c.x3p --format json -o surface.json
   asperity surface profile.csv --unit um -o spectra.csv
   asperity surface afm.gwy --tip-radius 10nm -o spectra.svg
@@ -58,8 +58,8 @@ pub struct SurfaceArguments {
     /// The scene names the surface and holds --unit, --detrend, --periodic and --continue-to.
     #[arg(long, value_name = "FILE", requires = "modulus", verbatim_doc_comment)]
     pub scene: Option<PathBuf>,
-    /// Work of adhesion of the scene, as 50mJ/m^2; default: none
-    #[arg(long, value_name = "ENERGY", requires = "scene", value_parser = energy)]
+    /// Work of adhesion, as 50mJ/m^2: gives κ and e_el/γ, and is that of the scene; needs --modulus
+    #[arg(long, value_name = "ENERGY", requires = "modulus", value_parser = energy)]
     pub work: Option<f64>,
     /// Output file.
     #[command(flatten)]
@@ -236,6 +236,7 @@ pub(super) fn surface(arguments: &SurfaceArguments, stdout: &mut dyn Write) -> R
     }
     let analysis = analysed(arguments, &surfaces)?;
     let modulus = arguments.analysis.modulus;
+    let contact = modulus.map(|modulus| SurfaceContact { modulus, work: arguments.work });
     if let (Some(path), Some(modulus)) = (&arguments.scene, modulus) {
         let text = scene_text(arguments, path, &analysis, modulus)?;
         write_new(path, arguments.force_scene, |out| out.write_all(text.as_bytes()))?;
@@ -244,8 +245,8 @@ pub(super) fn surface(arguments: &SurfaceArguments, stdout: &mut dyn Write) -> R
         write_surface_table(out, format, &Provenance::of_spectra(&arguments.deciding()), &analysis)
     };
     arguments.output.write(stdout, |out| match format {
-        SurfaceFormat::Summary => out.write_all(surface_text(&files, &analysis, modulus).as_bytes()),
-        SurfaceFormat::Json => write_surface_json(out, &files, &analysis, modulus),
+        SurfaceFormat::Summary => out.write_all(surface_text(&files, &analysis, contact).as_bytes()),
+        SurfaceFormat::Json => write_surface_json(out, &files, &analysis, contact),
         SurfaceFormat::Csv => table(out, TableFormat::Csv),
         SurfaceFormat::Npy => table(out, TableFormat::Npy),
         SurfaceFormat::Svg => {

@@ -98,7 +98,10 @@ impl Spectra {
             let shape = curve(&self.heights, None, Some(Sign::Cross));
             layers.push(Layer::new("heights of the line".into(), Ink::Manual, shape));
         }
-        let powers: Vec<f64> = self.points().map(|(_, power)| power).collect();
+        // Heights have waves of rounding alone beside those of the line.
+        let without_heights = Spectra { heights: Vec::new(), ..self.clone() };
+        let shown = if without_heights.points().next().is_some() { &without_heights } else { self };
+        let powers: Vec<f64> = shown.points().map(|(_, power)| power).collect();
         let x = Span::around(self.points().map(|(q, _)| q.log10()), 0.03);
         let y = Span::of_values(AxisScale::Logarithmic, powers.into_iter(), MOST_DECADES).widened(0.04);
         Chart {

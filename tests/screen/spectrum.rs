@@ -43,7 +43,7 @@ fn a_measured_surface_has_its_spectrum_fit_and_errors() {
         std::fs::write(&file, format!("x [um] z [nm]\n{rows}")).unwrap();
         let roughness = format!("Measured(file: {:?}, as_line: false)", file.to_str().unwrap());
         let scene = changed(&rough(), &[("roughness", &roughness), ("adhesion", "(work: 0.05)")]);
-        let mut driver = Driver::open(Document::parse(scene.text(), "measured").unwrap());
+        let mut driver = Driver::start(Document::parse(scene.text(), "measured").unwrap());
         driver.press("Q z");
         for (size, words) in [
             (
