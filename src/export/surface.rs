@@ -261,7 +261,7 @@ impl Report {
                 "energy_per_modulus": estimate(Some(moments.energy_per_modulus)),
                 "elastic_energy": estimate(contact.map(|contact| contact.elastic_energy(moments))),
                 "kappa": estimate(contact.and_then(|contact| contact.kappa(moments))),
-                "energy_ratio": estimate(contact.and_then(|contact| contact.energy_ratio(moments))),
+                "elastic_energy_ratio": estimate(contact.and_then(|contact| contact.energy_ratio(moments))),
             }),
             spectrum: nodes.collect(),
             profile_spectra: spectra.collect(),

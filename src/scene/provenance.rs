@@ -4,6 +4,7 @@
 
 use super::document::LONGEST_TEXT;
 use super::model::Scene;
+use super::table_content::TableContent;
 use super::write::to_ron;
 use crate::io::{PROVENANCE, ReadError, into_text, npy, open_regular, read_limited};
 use std::fs::File;
@@ -22,36 +23,6 @@ const SCENE: &str = "scene:\n";
 /// Content of a table of spectra, and the line before the arguments behind it, one on each line as a string of RON.
 const SPECTRA: &str = "spectra";
 const ARGUMENTS: &str = "arguments:\n";
-
-/// Content of a table of results.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum TableContent {
-    /// Points of the force curve.
-    ForceCurve,
-    /// Positions and heights of the profile.
-    Profile,
-    /// Figures of random profiles, a row for each.
-    RandomProfiles(u32),
-}
-
-impl TableContent {
-    fn name(self) -> String {
-        match self {
-            TableContent::ForceCurve => "force curve".to_owned(),
-            TableContent::Profile => "profile".to_owned(),
-            TableContent::RandomProfiles(count) => format!("{count} random profiles"),
-        }
-    }
-
-    fn from_name(name: &str) -> Option<Self> {
-        match name.split_once(' ') {
-            _ if name == TableContent::ForceCurve.name() => Some(TableContent::ForceCurve),
-            _ if name == TableContent::Profile.name() => Some(TableContent::Profile),
-            Some((count, "random profiles")) => Some(TableContent::RandomProfiles(count.parse().ok()?)),
-            _ => None,
-        }
-    }
-}
 
 /// Version, scene and seed behind a table; of spectra, the arguments of `asperity surface`.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,7 +1,7 @@
 //! Equivalent line of a measured surface: its own spectrum, random phases.
 
-use super::MeasuredProfile;
 use super::SurfaceError;
+use super::{Amplitude, MeasuredProfile};
 use crate::spectrum::{Analysis, Detrend, End, IsotropicSpectrum, Options, SpectrumError, analyse};
 use crate::topography::{Cut, ReadOptions, Topography, TopographyError, Unit, read_observed};
 use std::f64::consts::TAU;
@@ -187,17 +187,12 @@ impl EquivalentLine {
         2.0 * (self.faces.iter().map(power).sum::<f64>() / length).sqrt()
     }
 
-    /// Rms height (m) and rms gradient of the modes from a first to a last one on a length (m).
+    /// Amplitude of the modes from a first to a last one on a length (m).
     #[must_use]
-    pub fn rms_height_and_gradient(&self, length: f64, (first, last): (u64, u64)) -> (f64, f64) {
-        let (mut height, mut gradient) = (0.0, 0.0);
+    pub fn amplitude_of_modes(&self, length: f64, (first, last): (u64, u64)) -> Amplitude {
+        let squares = |mode: u64| (mode, 0.5 * self.amplitude(mode, length).powi(2));
         // From the smallest amplitudes on.
-        for mode in (first..=last).rev() {
-            let square = 0.5 * self.amplitude(mode, length).powi(2);
-            height += square;
-            gradient += square * (TAU * mode as f64 / length).powi(2);
-        }
-        (height.sqrt(), gradient.sqrt())
+        Amplitude::from_modes((first..=last).rev().map(squares), length)
     }
 }
 
@@ -244,10 +239,9 @@ mod tests {
         // Twice the same face has √2 times its height and gradient.
         let twice = one.clone().with_opposite(one.clone());
         let modes = one.modes(length, 4096).unwrap();
-        let (before, after) =
-            (one.rms_height_and_gradient(length, modes), twice.rms_height_and_gradient(length, modes));
-        assert!((after.0 / before.0 - std::f64::consts::SQRT_2).abs() < 1e-12);
-        assert!((after.1 / before.1 - std::f64::consts::SQRT_2).abs() < 1e-12);
+        let [before, after] = [&one, &twice].map(|line| line.amplitude_of_modes(length, modes));
+        assert!((after.rms_height / before.rms_height - std::f64::consts::SQRT_2).abs() < 1e-12);
+        assert!((after.rms_gradient / before.rms_gradient - std::f64::consts::SQRT_2).abs() < 1e-12);
         let none: [&Path; 0] = [];
         assert!(EquivalentLine::read(&none, &further, &mut |_| ()).is_err());
     }
@@ -258,7 +252,8 @@ mod tests {
         let analysis = analyse(&[surface()], &Options::default()).unwrap();
         let length = 256e-6;
         let modes = line.modes(length, 4096).unwrap();
-        let (height, gradient) = line.rms_height_and_gradient(length, modes);
+        let Amplitude { rms_height: height, rms_gradient: gradient, .. } =
+            line.amplitude_of_modes(length, modes);
         // Sums of modes for integrals.
         assert!((height / analysis.line.rms_height.value - 1.0).abs() < 0.02, "{height}");
         assert!((gradient / analysis.line.rms_gradient.value - 1.0).abs() < 0.02, "{gradient}");

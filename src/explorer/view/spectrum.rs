@@ -63,10 +63,9 @@ fn words(model: &Model, shown: Option<&SceneSpectra>) -> Vec<String> {
             let error = per_cent(0.5 * moments.height_gradient.error / moments.height_gradient.value);
             parts.push(format!("κ = {} ± {error}", format_quantity(kappa, "1")));
         }
-        if let Some(work) = governing.adhesive_work() {
-            let energy = moments.energy_per_modulus;
-            let ratio = governing.effective_modulus * energy.value / work;
-            parts.push(format!("e_el/γ = {} ± {}", format_quantity(ratio, "1"), percent(energy)));
+        if let Some(ratio) = governing.elastic_energy_ratio {
+            let error = percent(moments.energy_per_modulus);
+            parts.push(format!("e_el/γ = {} ± {error}", format_quantity(ratio, "1")));
         }
         words.push(parts.join(" · "));
     }

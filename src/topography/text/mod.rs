@@ -287,8 +287,6 @@ mod tests {
         }
     }
 
-    use proptest::prelude::*;
-
     fn text(text: &str) -> Result<Reading, String> {
         read(text.as_bytes()).map_err(|error| error.to_string())
     }

@@ -159,7 +159,7 @@ mod tests {
 
     #[test]
     fn lines_that_are_not_plain_are_left() {
-        let read = |block: &str, separator, columns| {
+        fn read(block: &str, separator: Separator, columns: usize) -> (Vec<Vec<f64>>, &str) {
             let mut found = Vec::new();
             let (bytes, lines) = read_lines(block.as_bytes(), separator, columns, &mut |line| {
                 found.push(line.values[..columns].to_vec());
@@ -167,7 +167,7 @@ mod tests {
             });
             found.truncate(lines);
             (found, &block[bytes..])
-        };
+        }
         let two = vec![vec![1.0, -2.5], vec![3e2, 4.0]];
         assert_eq!(read("1\t-2.5\r\n3e2\t4\n", Separator::Tab, 2), (two.clone(), ""));
         assert_eq!(read("1  -2.5\n3e2 4\n5 6", Separator::Space, 2), (two.clone(), "5 6"));
