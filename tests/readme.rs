@@ -6,6 +6,8 @@
 mod imports;
 #[path = "readme/notices.rs"]
 mod notices;
+#[path = "readme/public_items.rs"]
+mod public_items;
 #[path = "readme/scenes.rs"]
 mod scenes;
 

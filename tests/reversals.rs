@@ -2,8 +2,8 @@
 
 use asperity::analysis::Figures;
 use asperity::contact::{
-    ContactError, ContactTree, EdgeModel, Exact, Foundation, GridEdges, HessRule, History, Reversal,
-    Reversals, Solver, SubCellEdges, exact, run,
+    ContactError, ContactTree, EdgeModel, Foundation, GridEdges, HessRule, History, Reversal, Reversals,
+    Solver, SubCellEdges, exact, run,
 };
 use asperity::scene::{Edges, Leg};
 use proptest::prelude::*;

@@ -4,7 +4,7 @@ use super::Fault;
 use crate::scene::Edges;
 use serde::Serialize;
 
-/// What a case is about.
+/// Family of cases.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Family {
@@ -16,11 +16,11 @@ pub enum Family {
     Lines,
     /// Bodies whose loop is known.
     ClosedForms,
-    /// What holds for every body.
+    /// Laws that hold for every body.
     Laws,
 }
 
-/// What a case is run with.
+/// Edge models and bounds of a case.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Scope {
     /// Both kinds of edges, each with its own bound: whole springs, edges between springs.
@@ -36,15 +36,15 @@ pub enum Scope {
 pub struct Case {
     /// Its name: words with hyphens.
     pub name: &'static str,
-    /// What it is about.
+    /// Family.
     pub family: Family,
-    /// What must hold, in one sentence.
+    /// Claim, in one sentence.
     pub holds: &'static str,
-    /// What the error is an error of.
+    /// Quantity of the error.
     pub error_of: &'static str,
-    /// What it is run with, and within which bound it must stay.
+    /// Edge models and bounds.
     pub scope: Scope,
-    /// Whether it takes seconds and hundreds of megabytes.
+    /// True if it takes seconds and hundreds of megabytes.
     pub large: bool,
     /// Measures the error.
     pub(super) measure: fn(Edges) -> Result<f64, Fault>,

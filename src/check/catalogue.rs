@@ -17,19 +17,19 @@ pub struct Check {
     pub bound: f64,
 }
 
-/// What came of a check.
+/// Result of a check.
 #[derive(Debug)]
 pub struct Verdict {
-    /// What was checked.
+    /// Check.
     pub check: Check,
     /// The error, or why there is none.
     pub error: Result<f64, Fault>,
-    /// How long it took, s.
+    /// Time, s.
     pub seconds: f64,
 }
 
 impl Verdict {
-    /// Whether it holds.
+    /// Returns true if it holds.
     #[must_use]
     pub fn passes(&self) -> bool {
         // Not a number is no error within the bound.

@@ -28,7 +28,7 @@ use crate::study::LinesError;
 use crate::surface::SurfaceError;
 use thiserror::Error;
 
-/// Why a case gave no number.
+/// Reason for which a case gave no number.
 #[derive(Debug, Error)]
 pub enum Fault {
     /// Something is not as it must be.

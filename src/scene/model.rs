@@ -37,7 +37,7 @@ pub struct Scene {
     /// Loading history, one leg after the other, from separation.
     #[serde(default = "default_loading")]
     pub loading: Vec<Leg>,
-    /// How finely the scene is computed.
+    /// Resolution and solver.
     #[serde(default)]
     pub numerics: Numerics,
     /// Quantities observed beside the force curve.
@@ -262,7 +262,7 @@ pub enum Leg {
     ToSeparation,
 }
 
-/// How finely the scene is computed.
+/// Resolution and solver.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(from = "NumericsText")]
 pub struct Numerics {
@@ -270,7 +270,7 @@ pub struct Numerics {
     pub points: u64,
     /// Exact loop or stepwise relaxation.
     pub solver: Solver,
-    /// How the edges of a fragment are counted.
+    /// Edge model of a fragment.
     pub edges: Edges,
     /// Curve samples on each leg.
     pub samples: u64,
@@ -304,7 +304,7 @@ impl From<NumericsText> for Numerics {
     }
 }
 
-/// How equilibrium is found.
+/// Solver of equilibrium.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub enum Solver {
@@ -327,7 +327,7 @@ impl Solver {
     }
 }
 
-/// How the edges of a contact fragment are counted.
+/// Edge model of a contact fragment.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Edges {
     /// The paper's rule: a fragment of n springs is n Δx long.

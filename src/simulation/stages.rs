@@ -38,7 +38,7 @@ const SMALL: u64 = 32 << 20;
 #[derive(Default)]
 pub struct Simulation {
     folder: PathBuf,
-    /// Whether only one line is synthesized.
+    /// True if only one line is synthesized.
     single: bool,
     /// A measured surface in place of the files that scenes name.
     measured: Option<Arc<MeasuredRoughness>>,
@@ -50,7 +50,7 @@ pub struct Simulation {
     /// That of the line's heights, once it has been observed.
     histogram: Option<Histogram>,
     tree: Option<Arc<ContactTree>>,
-    /// Whether the tree is that of the line, rather than of one before.
+    /// True if the tree is that of the line, rather than of one before.
     tree_is_current: bool,
     memory: ContactMemory,
     kept: Kept,
@@ -63,7 +63,7 @@ struct Kept {
     bytes: u64,
 }
 
-/// What the heights of the roughness depend on.
+/// Parameters of the heights of the roughness.
 #[derive(Clone, PartialEq)]
 enum RoughnessKey {
     SelfAffine {
@@ -95,7 +95,7 @@ struct Rough {
     modes: Option<(u64, u64)>,
 }
 
-/// What the line depends on.
+/// Parameters of the line.
 #[derive(Clone, PartialEq)]
 struct LineKey {
     roughness: Option<RoughnessKey>,

@@ -41,6 +41,7 @@ mod error;
 pub mod figure;
 mod figure_axis;
 mod finished;
+mod governing;
 mod height_shape;
 mod lines;
 pub mod map;

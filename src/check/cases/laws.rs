@@ -1,4 +1,4 @@
-//! What holds for every body: mirrors, finer grids, memory, order, energy, and any number of threads.
+//! Laws that hold for every body: mirrors, finer grids, memory, order, energy, and any number of threads.
 
 use super::{WORK, ensure, indices, points, rough};
 use crate::check::case::{Case, Family, Scope};

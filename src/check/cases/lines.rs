@@ -8,7 +8,7 @@ use crate::surface::{Line, MeasuredProfile, SelfAffine, UnitRoughness, phases};
 use std::f64::consts::{PI, TAU};
 use std::fmt::Write;
 
-/// What heights on a large offset are on, in units of their rms height.
+/// Offset of the heights, in units of their rms height.
 const OFFSET: f64 = 1e9;
 
 pub const CASES: &[Case] = &[

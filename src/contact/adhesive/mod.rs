@@ -63,7 +63,7 @@ pub struct Adhesive<'a, E> {
     ground: Ground<'a, E>,
     memory: AdhesiveMemory,
     unloading: bool,
-    /// Whether the present leg forms the contact.
+    /// True if the present leg forms the contact.
     forms: bool,
     reversing: Reversing,
     /// Squares of stretches on the way to and from the present turning point, m².
