@@ -26,6 +26,7 @@ const KEYS: &[&str] = &[
     "adhesion_coefficient",
     "pull_off_indentation",
     "dissipated_energy",
+    "tabor_number",
     "curve",
     "contacts",
     "work",

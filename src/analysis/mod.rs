@@ -6,6 +6,7 @@ mod governing;
 mod marks;
 mod regime;
 pub mod section;
+mod tabor;
 
 pub use figures::Figures;
 pub use governing::{Governing, ideal_adhesion_force};
@@ -15,3 +16,4 @@ pub use regime::{
     VANISHING_SHARE,
 };
 pub use section::{Column, LengthBin, Section, Share};
+pub use tabor::{DEFAULT_RANGE, LEAST_TABOR_NUMBER, tabor_number};
