@@ -5,6 +5,7 @@ mod figures;
 mod governing;
 mod marks;
 mod regime;
+mod reversal_map;
 pub mod section;
 
 pub use figures::Figures;
@@ -14,4 +15,5 @@ pub use regime::{
     AGREEING_SHARE, CellRegime, INSENSITIVE_SHARE, NEGLIGIBLE_COEFFICIENT, Regime, RegimeEvidence,
     VANISHING_SHARE,
 };
+pub use reversal_map::{CONGRUENT_SHARE, MinorLoops, ReversalMap};
 pub use section::{Column, LengthBin, Section, Share};

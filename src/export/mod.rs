@@ -7,6 +7,8 @@ mod cost;
 mod csv;
 mod ensemble;
 mod json;
+mod preloads;
+mod reversals;
 mod scene_figure;
 pub(crate) mod sheet;
 #[cfg(test)]
@@ -22,6 +24,11 @@ pub use cost::{cost_text, write_cost_csv, write_cost_json};
 pub use csv::{write_curve, write_line};
 pub use ensemble::{ensemble_text, write_ensemble_csv, write_ensemble_json};
 pub use json::write_json;
+pub use preloads::{PreloadReport, preload_layers};
+pub use reversals::{
+    ReversalReport, preload_axes, reversals_figure, reversals_text, write_reversal_map_csv,
+    write_reversals_csv, write_reversals_json,
+};
 pub use scene_figure::{ContactSets, force_figure, sign};
 pub use study_figure::study_figure;
 pub use summary::{brief_summary, summary};
