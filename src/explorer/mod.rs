@@ -20,6 +20,7 @@ mod opening;
 pub mod parameters;
 pub mod picture;
 mod playback;
+pub mod preload_curve;
 mod rescue;
 mod screen;
 mod session;

@@ -4,6 +4,7 @@ pub use super::appraisal::{Appraisal, Costs, Estimated};
 pub use super::chart::{Chart, OpenStudy};
 pub use super::mode::{Library, Mode, ModeKind};
 use super::parameters::{Parameter, Setting, parameters};
+use super::preload_curve::PreloadPane;
 use super::snapshot::{Drive, Loop, Moment, Preview};
 use super::theme::Appearance;
 use super::worker::{Focus, LineView};
@@ -30,6 +31,8 @@ pub enum Pane {
     Accuracy,
     /// The map over κ and H, in place of profile and close-up.
     Chart,
+    /// Adhesion against preload, in place of profile and close-up.
+    Preloads,
 }
 
 impl Pane {
@@ -40,6 +43,8 @@ impl Pane {
     pub const WITH_ACCURACY: [Pane; 3] = [Pane::Force, Pane::Accuracy, Pane::Parameters];
     /// The panes while the map is shown.
     pub const WITH_CHART: [Pane; 3] = [Pane::Force, Pane::Chart, Pane::Parameters];
+    /// The panes while adhesion against preload is shown.
+    pub const WITH_PRELOADS: [Pane; 3] = [Pane::Force, Pane::Preloads, Pane::Parameters];
 }
 
 /// Where the animation stands.
@@ -203,6 +208,8 @@ pub struct Model {
     pub appraisal: Appraisal,
     /// The map over κ and H.
     pub chart: Chart,
+    /// Adhesion against preload.
+    pub preloads: PreloadPane,
     /// The curve of the scene selected in the library.
     pub preview: Option<Arc<Preview>>,
     /// The chosen pane.
@@ -255,6 +262,7 @@ impl Model {
             ghosts: Vec::new(),
             appraisal: Appraisal::default(),
             chart: Chart::default(),
+            preloads: PreloadPane::default(),
             preview: None,
             pane: Pane::Force,
             zoomed: false,
@@ -322,6 +330,7 @@ impl Model {
     pub fn panes(&self) -> &'static [Pane] {
         match self.in_place_of_the_line() {
             Some(Pane::Chart) => &Pane::WITH_CHART,
+            Some(Pane::Preloads) => &Pane::WITH_PRELOADS,
             Some(_) => &Pane::WITH_ACCURACY,
             None => &Pane::ALL,
         }
@@ -330,11 +339,12 @@ impl Model {
     /// What is shown in place of profile and close-up.
     #[must_use]
     pub fn in_place_of_the_line(&self) -> Option<Pane> {
-        match (self.chart.shown, self.appraisal.shown) {
-            (true, _) => Some(Pane::Chart),
-            (_, true) => Some(Pane::Accuracy),
-            _ => None,
-        }
+        let shown = [
+            (Pane::Chart, self.chart.shown),
+            (Pane::Preloads, self.preloads.shown),
+            (Pane::Accuracy, self.appraisal.shown),
+        ];
+        shown.into_iter().find(|(_, shown)| *shown).map(|(pane, _)| pane)
     }
 
     /// Which keys are valid: in the map the arrows move its mark.
@@ -351,6 +361,7 @@ impl Model {
         self.chart.study = Some(OpenStudy::at(study_map, 0));
         (self.chart.of_study, self.chart.shown) = (true, true);
         self.appraisal.hide();
+        self.preloads.shown = false;
         self.pane = Pane::Chart;
     }
 

@@ -38,6 +38,7 @@ fn toggle(model: &mut Model) -> Vec<Effect> {
     model.chart.edited = false;
     if shown {
         model.appraisal.hide();
+        model.preloads.shown = false;
         model.pane = Pane::Chart;
     } else if model.pane == Pane::Chart {
         model.pane = Pane::Force;

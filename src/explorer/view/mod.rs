@@ -12,6 +12,7 @@ mod lengths;
 mod library;
 mod parameters;
 mod plot;
+mod preloads;
 mod profile;
 mod sections;
 mod stages;
@@ -83,6 +84,7 @@ fn draw_pane(frame: &mut Frame<'_>, area: Rect, model: &Model, pane: Pane) {
             Pane::Parameters => " Parameters ".to_owned(),
             Pane::Accuracy => accuracy::TITLE.to_owned(),
             Pane::Chart => chart_words::title(model),
+            Pane::Preloads => preloads::TITLE.to_owned(),
         };
         let style = model.appearance.theme.style(if chosen { Meaning::Title } else { Meaning::Quiet });
         let mark = if chosen { "▸" } else { "" };
@@ -100,5 +102,6 @@ fn draw_pane(frame: &mut Frame<'_>, area: Rect, model: &Model, pane: Pane) {
         Pane::Parameters => parameters::draw(frame, area, model),
         Pane::Accuracy => accuracy::draw(frame, area, model),
         Pane::Chart => chart::draw(frame, area, model),
+        Pane::Preloads => preloads::draw(frame, area, model),
     }
 }

@@ -113,10 +113,11 @@ pub fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model, map_model: &MapMod
     }
 }
 
-fn section(frame: &mut Frame<'_>, area: Rect, model: &Model, chart: &Chart, told: String) {
+/// Draws a chart with its legend, which begins with these words.
+pub(super) fn section(frame: &mut Frame<'_>, area: Rect, model: &Model, chart: &Chart, told: String) {
     let told = vec![Text::styled(told, model.appearance.theme.style(Meaning::Title))];
     let entries = plot::in_theme(model.appearance, |style| legend(std::slice::from_ref(chart), style));
-    let parts = std::iter::once(told).chain(entries).collect();
+    let parts = std::iter::once(told).filter(|told| !told[0].content.is_empty()).chain(entries).collect();
     let legend = filled(parts, "  ", usize::from(area.width));
     let rows = (legend.len() as u16).min(area.height.saturating_sub(FEWEST_ROWS));
     for (y, line) in (area.y..area.y + rows).zip(legend) {
