@@ -41,8 +41,12 @@ mod looks;
 mod mouse;
 #[path = "screen/panes.rs"]
 mod panes;
+#[path = "screen/parameters.rs"]
+mod parameters;
 #[path = "screen/play.rs"]
 mod play;
+#[path = "screen/preloads.rs"]
+mod preloads;
 #[path = "screen/saving.rs"]
 mod saving;
 #[path = "screen/study.rs"]
@@ -105,6 +109,8 @@ fn everywhere() -> Vec<Driver> {
         "F",
         "E",
         "o",
+        "/ h u",
+        "Z",
         "d { ]",
         "c L",
         "a v",
@@ -116,6 +122,8 @@ fn everywhere() -> Vec<Driver> {
         "y",
         "m",
         "m X z",
+        "i",
+        "i z",
     ];
     let mut all: Vec<Driver> = keys.into_iter().map(pressed).collect();
     all.push(Driver::open(rough()));

@@ -1,6 +1,6 @@
 //! The knobs beside the number of springs: steps, samples, precision, lines.
 
-use super::measure::{Bench, CostError, Rows, Tried};
+use super::bench::{Bench, CostError, Rows, Tried};
 use super::single::errors_of_single_precision;
 use super::solution::{Solution, Solved, allowed_points, refined};
 use super::{Knob, Measures, Timing};
@@ -146,7 +146,7 @@ fn samples(bench: &mut Bench<'_>, points: u64, rows: &mut Rows<'_, '_>) -> Resul
     Ok(())
 }
 
-/// What heights in single precision would lose.
+/// Measures the error of heights in single precision.
 fn single_precision(bench: &mut Bench<'_>, points: u64, rows: &mut Rows<'_, '_>) -> Result<(), CostError> {
     let knob = Knob::SinglePrecision;
     if bench.budget.is_over() {

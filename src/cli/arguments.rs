@@ -1,4 +1,4 @@
-//! What may be typed after `asperity`.
+//! Arguments of the program.
 
 use super::{
     CheckArguments, CompletionsArguments, CostArguments, DemoArguments, ExploreArguments, LineArguments,

@@ -28,12 +28,12 @@ pub struct CheckArguments {
     /// text or json; default: by the extension of FILE, else text
     #[arg(long, value_enum, hide_possible_values = true)]
     pub format: Option<CheckFormat>,
-    /// Where it goes.
+    /// Destination.
     #[command(flatten)]
     pub output: OutputArguments,
 }
 
-/// How the verdicts are printed.
+/// Formats of the verdicts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum CheckFormat {
     /// A table.
@@ -87,7 +87,7 @@ fn conclude(verdicts: &[Verdict]) -> Result<(), CliError> {
     if failed == 0 { Ok(()) } else { Err(CliError::CasesFail { failed, checks: verdicts.len() }) }
 }
 
-/// Which case is running: on a terminal one line that changes, elsewhere nothing.
+/// Progress: on a terminal one line that changes, elsewhere nothing.
 struct Progress {
     count: usize,
 }

@@ -1,4 +1,4 @@
-//! Why a command failed.
+//! Errors of commands.
 
 use crate::accuracy::{ChoiceError, CostError};
 use crate::explorer::OpeningError;
@@ -13,16 +13,16 @@ use crate::topography::TopographyError;
 use std::io;
 use thiserror::Error;
 
-/// Why a command failed: one message, or one for each line of input that is wrong.
+/// Error of a command: one message, or one for each wrong line of input.
 #[derive(Debug, Error)]
 pub enum CliError {
     /// A scene cannot be opened or is not allowed.
     #[error(transparent)]
     Scene(Box<SceneErrors>),
-    /// What was typed is neither a scene nor a command.
+    /// An argument that is neither a scene nor a command.
     #[error("{errors}\nCommands: {commands} (see asperity --help)")]
     NeitherSceneNorCommand {
-        /// Why it is no scene.
+        /// Errors of the argument as a scene.
         errors: Box<SceneErrors>,
         /// The commands there are.
         commands: String,
@@ -63,7 +63,7 @@ pub enum CliError {
     Surface {
         /// Its file.
         file: String,
-        /// Why not.
+        /// Reason.
         error: TopographyError,
     },
     /// A scene cannot hold how its surface is to be read.
@@ -77,7 +77,7 @@ pub enum CliError {
     Spectrum {
         /// File of the first surface, or of the one that is refused.
         file: String,
-        /// Why not.
+        /// Reason.
         error: SpectrumError,
     },
     /// There is no built-in scene of this name.
@@ -93,15 +93,15 @@ pub enum CliError {
     Run {
         /// Name of the scene.
         scene: String,
-        /// Why not.
+        /// Reason.
         error: RunError,
     },
-    /// What accuracy costs could not be measured.
+    /// The cost of accuracy could not be measured.
     #[error("{scene}: {error}")]
     Cost {
         /// Name of the scene.
         scene: String,
-        /// Why not.
+        /// Reason.
         error: CostError,
     },
     /// No number of springs was chosen for a tolerance.
@@ -109,7 +109,7 @@ pub enum CliError {
     Choice {
         /// Name of the scene.
         scene: String,
-        /// Why not.
+        /// Reason.
         error: ChoiceError,
     },
     /// The scene could not be computed on several lines.
@@ -117,7 +117,7 @@ pub enum CliError {
     Lines {
         /// Name of the scene.
         scene: String,
-        /// Why not.
+        /// Reason.
         error: LinesError,
     },
     /// No hard case has this word in its name.
@@ -134,7 +134,7 @@ pub enum CliError {
     /// Hard cases fail.
     #[error("{failed} of {checks} checks fail")]
     CasesFail {
-        /// How many.
+        /// Number.
         failed: usize,
         /// Of how many.
         checks: usize,
@@ -161,9 +161,9 @@ pub enum CliError {
     /// Not even one thread has enough memory.
     #[error("--memory {most}: this plan takes {least} with one thread; allowed: at least that")]
     TooLittleMemory {
-        /// What is allowed.
+        /// Largest allowed value.
         most: String,
-        /// What it takes.
+        /// Least value required.
         least: String,
     },
     /// The program has no Parquet in it.
@@ -200,7 +200,7 @@ pub enum CliError {
         /// Folder of the study.
         folder: String,
     },
-    /// What was named cannot be explored.
+    /// An argument that cannot be explored.
     #[error(transparent)]
     Opening(OpeningError),
     /// The explorer failed.

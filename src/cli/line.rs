@@ -20,7 +20,7 @@ pub struct LineArguments {
     /// The scene.
     #[command(flatten)]
     pub scene: SceneArguments,
-    /// Where it goes.
+    /// Destination.
     #[command(flatten)]
     pub output: OutputArguments,
 }

@@ -1,4 +1,4 @@
-//! Where results go.
+//! Destinations of results.
 
 use super::CliError;
 use crate::io::{check_writable, write_new};

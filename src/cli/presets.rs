@@ -23,12 +23,12 @@ const SHOW_EXAMPLES: &str = "\
 Example:
   asperity presets show rough-sphere > my-scene.ron";
 
-/// What is done with scenes.
+/// Subcommands on scenes.
 #[derive(Debug, Subcommand)]
 pub enum PresetsCommand {
     /// List the built-in scenes and one's own
     List {
-        /// How they are printed
+        /// Format of the list
         #[arg(long, value_enum, default_value_t = ListFormat::Text)]
         format: ListFormat,
     },
@@ -47,7 +47,7 @@ pub enum PresetsCommand {
     },
 }
 
-/// How scenes are listed.
+/// Formats of the list of scenes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum ListFormat {
     /// Name and title in columns.
@@ -152,7 +152,7 @@ fn of_file(file: &str) -> Result<Document, String> {
     }
 }
 
-/// What is wrong with the measured profile a scene names, with the place where it names it.
+/// Error of the measured surface that a scene names, with its place in the scene.
 fn profile_error(document: &Document) -> Option<String> {
     let scene = document.scene();
     let Some(Roughness::Measured { file, .. }) = &scene.roughness else { return None };

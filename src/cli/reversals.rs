@@ -9,7 +9,7 @@ use crate::export::{
     write_reversals_json,
 };
 use crate::simulation::{RunError, TURNING_POINTS, TurningPoints};
-use crate::study::Preloads;
+use crate::study::{Preloads, solve_preloads};
 use clap::{Args, ValueEnum};
 use std::io::Write;
 
@@ -46,7 +46,7 @@ pub struct ReversalsArguments {
     /// Upper, and lower, indentations of the minor loops that are compared; 0: none
     #[arg(long, value_name = "LEVELS", default_value_t = 12, value_parser = clap::value_parser!(u8).range(0..=MOST_LEVELS))]
     pub loops: u8,
-    /// CSV: one row for each point of the map, not for each turning point
+    /// Write CSV with one row for each point of the map in place of each turning point
     #[arg(long)]
     pub map: bool,
     /// text, json, csv or svg; default: by the extension of FILE, else text
@@ -104,7 +104,15 @@ pub(super) fn reversals(arguments: &ReversalsArguments, stdout: &mut dyn Write) 
         0 => None,
         _ => Some(simulation.minor_loops(scene, &map, levels, &never).map_err(failed)?),
     };
-    let report = ReversalReport { scene, map: &map, loops, smoothing };
+    let largest = map.reversals.iter().map(|reversal| reversal.turn.force).fold(0.0, f64::max);
+    let (from, to) = arguments.preloads.unwrap_or((0.0, largest));
+    let mut preloads = Vec::new();
+    if to > from && format != ReversalsFormat::Csv {
+        let forces = Preloads { from, to, count: usize::from(arguments.count) }.forces();
+        solve_preloads(&mut simulation, scene, &forces, &never, &mut |one| preloads.push(one))
+            .map_err(failed)?;
+    }
+    let report = ReversalReport { scene, map: &map, preloads: &preloads, loops, smoothing };
     let title = if scene.title.is_empty() { document.name() } else { &scene.title };
     arguments.output.write(stdout, |out| match format {
         ReversalsFormat::Text => out.write_all(reversals_text(&report).as_bytes()),

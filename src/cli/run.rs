@@ -75,7 +75,7 @@ pub struct RunArguments {
     /// Threads that share the profiles; default: one for each core
     #[arg(long, value_name = "COUNT", requires = "lines", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub jobs: Option<u16>,
-    /// Where it goes.
+    /// Destination.
     #[command(flatten)]
     pub output: OutputArguments,
 }
@@ -83,7 +83,7 @@ pub struct RunArguments {
 /// Most random lines.
 const MOST_LINES: i64 = 1_000_000;
 
-/// What a run prints.
+/// Formats of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum RunFormat {
     /// Text for a person: line, regime and why, forces, work and time.

@@ -1,7 +1,7 @@
 //! The exact solver: any loading history, leg by leg, in linear time and without a step error.
 //!
-//! How a leg goes is the same for whole springs and for edges between them; what the springs come to is the
-//! law of their contact.
+//! A leg proceeds in the same way for whole springs and for edges between them; the contact model gives forces and
+//! thresholds.
 
 use super::adhesive::{Adhesive, AdhesiveMemory, ContactTree, EdgeModel};
 use super::contact_model::{ContactModel, ContactState};
@@ -86,18 +86,6 @@ impl<C: ContactModel> Exact<C> {
             leg_time: Duration::ZERO,
             pass_time: Duration::ZERO,
         }
-    }
-
-    pub(super) fn into_contact(self) -> C {
-        self.contact
-    }
-
-    pub(super) fn contact_mut(&mut self) -> &mut C {
-        &mut self.contact
-    }
-
-    pub(super) fn foundation(&self) -> Foundation {
-        self.foundation
     }
 
     pub(super) fn contact(&self) -> &C {
@@ -347,5 +335,23 @@ impl<C: ContactModel> super::Solver for Exact<C> {
 
     fn curve_seconds(&self) -> f64 {
         (self.leg_time - self.pass_time).as_secs_f64()
+    }
+}
+
+impl<'a, E: EdgeModel> Exact<Adhesive<'a, E>> {
+    /// The memory it worked in, for the next body.
+    #[must_use]
+    pub fn into_memory(self) -> AdhesiveMemory {
+        self.contact.into_memory()
+    }
+
+    /// Smallest force of the unloading from first touch, N, and the work counts of the search.
+    ///
+    /// # Errors
+    /// [`ContactError::OutOfMemory`].
+    pub fn pull_off_at_touch(&mut self) -> Result<(f64, Work), ContactError> {
+        let stiffness = self.foundation.spring_stiffness();
+        let (compression, work) = self.contact.pull_off_at_touch()?;
+        Ok((stiffness * compression, work))
     }
 }

@@ -1,4 +1,4 @@
-//! What many random lines gave, as text, JSON and CSV.
+//! Results of many random lines as text, JSON and CSV.
 
 use super::sheet::Sheet;
 use crate::accuracy::Choice;

@@ -7,6 +7,7 @@ mod cost;
 mod csv;
 mod ensemble;
 mod json;
+mod map;
 mod preloads;
 mod reversals;
 mod scene_figure;
@@ -24,10 +25,11 @@ pub use cost::{cost_text, write_cost_csv, write_cost_json};
 pub use csv::{write_curve, write_line};
 pub use ensemble::{ensemble_text, write_ensemble_csv, write_ensemble_json};
 pub use json::write_json;
-pub use preloads::{PreloadReport, preload_layers};
+pub use map::write_map;
+pub use preloads::{PreloadReport, preload_axes, preload_layers};
 pub use reversals::{
-    ReversalReport, preload_axes, reversals_figure, reversals_text, write_reversal_map_csv,
-    write_reversals_csv, write_reversals_json,
+    ReversalReport, reversals_figure, reversals_text, write_reversal_map_csv, write_reversals_csv,
+    write_reversals_json,
 };
 pub use scene_figure::{ContactSets, force_figure, sign};
 pub use study_figure::study_figure;

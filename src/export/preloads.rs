@@ -1,8 +1,7 @@
 //! Adhesion against preload as text, JSON, CSV and a figure.
 
-use super::reversals::preload_axes;
 use super::sheet::Sheet;
-use crate::draw::{Figure, Ink, Label, Layer, Shape, Stroke};
+use crate::draw::{Axis, AxisScale, Chart, Figure, Ink, Label, Layer, Shape, Span, Stroke};
 use crate::io::write_json_value;
 use crate::scene::{Scene, format_quantity};
 use crate::study::{Preloaded, Statistics, preload_statistics};
@@ -163,6 +162,30 @@ pub fn preload_layers(one: &[Preloaded], statistics: &[Option<Statistics>]) -> V
     let shape = Shape::Curve { points, stroke: Some(Stroke::Solid), sign: None };
     layers.push(Layer::new(Label::plain("this profile"), Ink::Unloading, shape));
     layers
+}
+
+/// A chart of the adhesion force over the preload with these layers.
+#[must_use]
+pub fn preload_axes(heading: &str, layers: Vec<Layer>) -> Chart {
+    let mut all = vec![(0.0, 0.0)];
+    for layer in &layers {
+        match &layer.shape {
+            Shape::Curve { points, .. } => all.extend(points),
+            Shape::Band(points) => {
+                all.extend(points.iter().flat_map(|&(x, low, high)| [(x, low), (x, high)]))
+            }
+            _ => {}
+        }
+    }
+    let x = Span::around(all.iter().map(|point| point.0), 0.03);
+    let y = Span::around(all.iter().map(|point| point.1), 0.05);
+    Chart {
+        heading: heading.to_owned(),
+        x: Axis::new(AxisScale::Linear, x, "preload", "F_n", "N"),
+        y: Axis::new(AxisScale::Linear, y, "adhesion force", "F_a", "N"),
+        layers,
+        inset: None,
+    }
 }
 
 /// The object; its keys stand in the order of these fields.

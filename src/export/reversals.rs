@@ -1,10 +1,12 @@
 //! First-order reversal curves of a scene as text, JSON, CSV and a figure.
 
+use super::preloads::{preload_axes, preload_layers};
 use super::sheet::Sheet;
 use crate::analysis::{MinorLoops, ReversalMap};
 use crate::draw::{Axis, AxisScale, Chart, Figure, HeatMap, Ink, Label, Layer, Shape, Span, Stroke};
 use crate::io::write_json_value;
 use crate::scene::{Scene, format_quantity};
+use crate::study::Preloaded;
 use crate::text::grouped;
 use serde::Serialize;
 use std::io::{self, Write};
@@ -21,6 +23,8 @@ pub struct ReversalReport<'a> {
     pub scene: &'a Scene,
     /// Its reversals.
     pub map: &'a ReversalMap,
+    /// The adhesion force for preloads, each reached exactly.
+    pub preloads: &'a [Preloaded],
     /// Minor loops, where they were compared.
     pub loops: Option<MinorLoops>,
     /// Steps on either side over which the density is fitted.
@@ -44,7 +48,7 @@ fn congruency(loops: MinorLoops) -> String {
 /// Reversals in plain text of at most eighty columns.
 #[must_use]
 pub fn reversals_text(report: &ReversalReport<'_>) -> String {
-    let ReversalReport { scene, map, loops, smoothing } = *report;
+    let ReversalReport { scene, map, loops, smoothing, .. } = *report;
     let mut sheet = Sheet::default();
     if !scene.title.is_empty() {
         sheet.paragraph(&scene.title);
@@ -52,7 +56,7 @@ pub fn reversals_text(report: &ReversalReport<'_>) -> String {
     let reversals = &map.reversals;
     let (count, springs) = (grouped(reversals.len() as u64), grouped(scene.numerics.points));
     sheet.heading(&format!("{count} reversals of one loading, {springs} springs"));
-    let header = ["preload F_n", "indentation", "adhesion force F_a", "pull-off at", "dissipated"];
+    let header = ["force at turn", "turning at", "adhesion force F_a", "pull-off at", "dissipated"];
     let mut rows = vec![header.map(String::from)];
     let stride = reversals.len().div_ceil(MOST_ROWS).max(1);
     let last = reversals.len().saturating_sub(1);
@@ -67,7 +71,7 @@ pub fn reversals_text(report: &ReversalReport<'_>) -> String {
     }
     sheet.table(&rows);
     sheet.heading("Map");
-    sheet.row("distance of indentations", format_quantity(map.step(), "m"));
+    sheet.row("step of indentations", format_quantity(map.step(), "m"));
     let largest = |value: fn(&ReversalMap, usize, usize) -> Option<f64>| {
         let all = (0..reversals.len()).flat_map(|turn| (0..map.points.len()).map(move |point| (turn, point)));
         all.filter_map(|(turn, point)| value(map, turn, point)).reduce(f64::max)
@@ -83,6 +87,7 @@ pub fn reversals_text(report: &ReversalReport<'_>) -> String {
 #[derive(Serialize)]
 struct Report<'a> {
     scene: &'a Scene,
+    preloads: &'a [Preloaded],
     reversals: Vec<Row>,
     /// Indentations of the columns of the maps, m.
     indentations: &'a [f64],
@@ -97,8 +102,8 @@ struct Report<'a> {
 
 #[derive(Serialize)]
 struct Row {
-    preload: f64,
-    preload_indentation: f64,
+    turning_indentation: f64,
+    turning_force: f64,
     adhesion_force: Option<f64>,
     pull_off_indentation: f64,
     separation: f64,
@@ -117,19 +122,20 @@ struct LoopsReport {
 /// # Errors
 /// Those of `out`.
 pub fn write_reversals_json(out: &mut (impl Write + ?Sized), report: &ReversalReport<'_>) -> io::Result<()> {
-    let ReversalReport { scene, map, loops, smoothing } = *report;
+    let ReversalReport { scene, map, preloads, loops, smoothing } = *report;
     let rows = |value: &dyn Fn(usize, usize) -> Option<f64>| {
         let row = |turn: usize| (0..=map.below + turn).map(|point| value(turn, point)).collect();
         (0..map.reversals.len()).map(row).collect()
     };
     let json = Report {
         scene,
+        preloads,
         reversals: map
             .reversals
             .iter()
             .map(|reversal| Row {
-                preload: reversal.turn.force,
-                preload_indentation: reversal.turn.indentation,
+                turning_indentation: reversal.turn.indentation,
+                turning_force: reversal.turn.force,
                 adhesion_force: reversal.adhesion_force(),
                 pull_off_indentation: reversal.smallest.indentation,
                 separation: reversal.separation,
@@ -162,14 +168,14 @@ fn number(value: Option<f64>) -> String {
 pub fn write_reversals_csv(out: &mut (impl Write + ?Sized), map: &ReversalMap) -> io::Result<()> {
     writeln!(
         out,
-        "preload,preload_indentation,adhesion_force,pull_off_indentation,separation,dissipated_energy"
+        "turning_indentation,turning_force,adhesion_force,pull_off_indentation,separation,dissipated_energy"
     )?;
     for reversal in &map.reversals {
         writeln!(
             out,
             "{:?},{:?},{},{:?},{:?},{:?}",
-            reversal.turn.force,
             reversal.turn.indentation,
+            reversal.turn.force,
             number(reversal.adhesion_force()),
             reversal.smallest.indentation,
             reversal.separation,
@@ -203,7 +209,7 @@ pub fn write_reversal_map_csv(
 /// The adhesion force over the preload, the Everett function and the density.
 #[must_use]
 pub fn reversals_figure(report: &ReversalReport<'_>, title: &str) -> Figure {
-    let ReversalReport { map, loops, smoothing, .. } = *report;
+    let ReversalReport { map, preloads, loops, smoothing, .. } = *report;
     let mut notes = vec![Label::plain(&format!("density: quadratic fit, {smoothing} steps on either side"))];
     notes.extend(loops.map(|loops| Label::plain(&format!("incongruent: {}", congruency(loops)))));
     let everett = |turn, point| map.everett(turn, point);
@@ -212,49 +218,11 @@ pub fn reversals_figure(report: &ReversalReport<'_>, title: &str) -> Figure {
         title: title.to_owned(),
         notes,
         charts: vec![
-            preload_chart(map),
+            preload_axes("adhesion against preload", preload_layers(preloads, &[])),
             map_chart(map, "Everett function", ("E", "N"), &everett),
             map_chart(map, "FORC density", ("ρ", "N/m²"), &density),
         ],
         size: Figure::SMALL,
-    }
-}
-
-fn preload_chart(map: &ReversalMap) -> Chart {
-    let points: Vec<(f64, f64)> = map
-        .reversals
-        .iter()
-        .map(|reversal| (reversal.turn.force, reversal.adhesion_force().unwrap_or(0.0)))
-        .collect();
-    preload_axes("adhesion against preload", vec![Layer::unnamed(Ink::Unloading, steps(points))])
-}
-
-/// A curve through points.
-fn steps(points: Vec<(f64, f64)>) -> Shape {
-    Shape::Curve { points, stroke: Some(Stroke::Solid), sign: None }
-}
-
-/// A chart of the adhesion force over the preload with these layers.
-#[must_use]
-pub fn preload_axes(heading: &str, layers: Vec<Layer>) -> Chart {
-    let mut all = vec![(0.0, 0.0)];
-    for layer in &layers {
-        match &layer.shape {
-            Shape::Curve { points, .. } => all.extend(points),
-            Shape::Band(points) => {
-                all.extend(points.iter().flat_map(|&(x, low, high)| [(x, low), (x, high)]))
-            }
-            _ => {}
-        }
-    }
-    let x = Span::around(all.iter().map(|point| point.0), 0.03);
-    let y = Span::around(all.iter().map(|point| point.1), 0.05);
-    Chart {
-        heading: heading.to_owned(),
-        x: Axis::new(AxisScale::Linear, x, "preload", "F_n", "N"),
-        y: Axis::new(AxisScale::Linear, y, "adhesion force", "F_a", "N"),
-        layers,
-        inset: None,
     }
 }
 

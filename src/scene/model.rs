@@ -36,7 +36,7 @@ pub struct Scene {
     /// Loading history, one leg after the other, from separation.
     #[serde(default = "default_loading")]
     pub loading: Vec<Leg>,
-    /// How finely the scene is computed.
+    /// Resolution and solver.
     #[serde(default)]
     pub numerics: Numerics,
     /// Quantities observed beside the force curve.
@@ -185,7 +185,7 @@ impl Scene {
     }
 }
 
-/// Adhesion by the work of adhesion γ, or by the governing parameter κ of eq. (11).
+/// Adhesion by the work of adhesion γ, by the governing parameter κ of eq. (11), or by e_el/γ.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Adhesion {
@@ -198,6 +198,9 @@ pub struct Adhesion {
     /// κ = sqrt(h⟨∇z⟩E*/γ).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub kappa: Option<f64>,
+    /// Elastic energy of conformity over the work of adhesion, e_el/γ.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub elastic_energy_ratio: Option<f64>,
 }
 
 /// One leg of the loading history.
@@ -215,7 +218,7 @@ pub enum Leg {
     ToSeparation,
 }
 
-/// How finely the scene is computed.
+/// Resolution and solver.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(from = "NumericsText")]
 pub struct Numerics {
@@ -223,7 +226,7 @@ pub struct Numerics {
     pub points: u64,
     /// Exact loop or stepwise relaxation.
     pub solver: Solver,
-    /// How the edges of a fragment are counted.
+    /// Edge model of a fragment.
     pub edges: Edges,
     /// Curve samples on each leg.
     pub samples: u64,
@@ -257,7 +260,7 @@ impl From<NumericsText> for Numerics {
     }
 }
 
-/// How equilibrium is found.
+/// Solver of equilibrium.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub enum Solver {
@@ -280,7 +283,7 @@ impl Solver {
     }
 }
 
-/// How the edges of a contact fragment are counted.
+/// Edge model of a contact fragment.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Edges {
     /// The paper's rule: a fragment of n springs is n Δx long.

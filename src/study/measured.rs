@@ -30,7 +30,7 @@ pub(super) fn file_of(plan: &Plan) -> Option<PathBuf> {
 /// The plan with the hash of its measured file as the file is now.
 ///
 /// # Errors
-/// Where the file cannot be read, or the plan asks for another hash.
+/// A file that cannot be read, or that has another hash than the plan states.
 pub(super) fn with_hash(plan: &Plan) -> Result<Plan, StudyError> {
     let Some(file) = file_of(plan) else { return Ok(plan.clone()) };
     let (_, found) = read(&file, &plan.scene)?;
@@ -41,7 +41,7 @@ pub(super) fn with_hash(plan: &Plan) -> Result<Plan, StudyError> {
 /// The measured profile of a study in a folder, where it has one.
 ///
 /// # Errors
-/// Where the file cannot be read, is no profile, or is not the one the plan has the hash of.
+/// A file that cannot be read, is no profile, or has another hash than the plan states.
 pub(super) fn profile(plan: &Plan, folder: &Path) -> Result<Option<Arc<MeasuredRoughness>>, StudyError> {
     let Some(file) = file_of(plan) else { return Ok(None) };
     let (profile, found) = read(&file, &plan.scene)?;

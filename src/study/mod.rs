@@ -41,6 +41,7 @@ mod error;
 pub mod figure;
 mod figure_axis;
 mod finished;
+mod governing;
 mod height_shape;
 mod lines;
 pub mod map;
@@ -71,7 +72,7 @@ mod tables;
 mod target;
 
 pub use axis::{Axis, MOST_VALUES};
-pub use boundary::{Boundaries, Boundary, Crossing, DEFINITIONS, USUAL_LEVELS, boundaries};
+pub use boundary::{Boundaries, Boundary, BoundarySpread, Crossing, DEFINITIONS, USUAL_LEVELS, boundaries};
 pub use builtin::{BuiltInPlan, find, plans};
 pub use cell_summary::{CellSummary, Spread};
 pub use error::StudyError;

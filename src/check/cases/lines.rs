@@ -1,14 +1,14 @@
 //! Lines: spectra at their ends, few springs and many, ties, chains, and heights on a large offset.
 
 use super::{SPECTRUM, WORK, ensure, rough};
-use crate::check::catalogue::{Case, Family, Scope};
+use crate::check::case::{Case, Family, Scope};
 use crate::check::{Body, Extended, Fault, LENGTH, MODULUS, RMS_HEIGHT, end, follow, force_error};
 use crate::scene::{Edges, Form, Leg};
 use crate::surface::{Line, MeasuredProfile, SelfAffine, UnitRoughness, phases};
 use std::f64::consts::{PI, TAU};
 use std::fmt::Write;
 
-/// What heights on a large offset are on, in units of their rms height.
+/// Offset of the heights, in units of their rms height.
 const OFFSET: f64 = 1e9;
 
 pub const CASES: &[Case] = &[

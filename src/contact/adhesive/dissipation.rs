@@ -4,7 +4,7 @@
 //! (detaches) at once. In the order of the runs the fragments inside another one follow it from right
 //! to left, so one pass with a stack meets each place of the line once for each event there.
 
-use super::edge_model::EdgeModel;
+use super::edge_model::{Boundary, Edge, EdgeModel};
 use super::run::{Ground, Run};
 use super::span::Span;
 use crate::contact::grid::CompensatedSum;
@@ -12,24 +12,6 @@ use crate::contact::grid::CompensatedSum;
 /// Terms summed side by side, and such sums before one is compensated.
 const LANES: usize = 8;
 const LONG: usize = 256;
-
-/// An edge of a fragment.
-#[derive(Clone, Copy, Debug)]
-pub struct Edge {
-    /// Its outermost spring in contact.
-    pub spring: usize,
-    /// Its level, m.
-    pub level: f64,
-}
-
-/// End of a stretch of the line that attaches at once.
-#[derive(Clone, Copy, Debug)]
-pub enum Boundary {
-    /// At an edge of the fragment that forms: the stretch lies inside.
-    Outer(Edge),
-    /// At an edge of a fragment it is made of: the stretch lies outside.
-    Part(Edge),
-}
 
 /// A stretch of the line that attaches or detaches at once, from left to right.
 #[derive(Clone, Copy, Debug)]
@@ -59,7 +41,7 @@ pub struct Range {
     pub low: f64,
     /// Up to and including this, m.
     pub high: f64,
-    /// Whether the leg unloads.
+    /// True if the leg unloads.
     pub unloading: bool,
 }
 

@@ -1,8 +1,8 @@
 //! Loading: the indentation at which each part of the line closes, and the fragments between.
 
 use super::edge_model::EdgeModel;
-use super::run::{Ground, Held, Run, larger, smaller};
-use super::span::Span;
+use super::run::{Ground, Held, Run};
+use super::span::{Span, larger, smaller};
 use super::tree::{Branch, Node};
 use crate::contact::{ContactError, resized};
 
@@ -19,7 +19,7 @@ pub struct Closing {
     closes: Vec<f64>,
     /// Springs that each node surely takes with it; bounds that grow as the chains above the node are walked.
     known: Vec<[u32; 2]>,
-    /// Whether `closes` holds for the present line and rule.
+    /// True if `closes` holds for the present line and rule.
     ready: bool,
     /// Thresholds that a loading from present fragments has replaced, in the order of the changes.
     replaced: Vec<(u32, f64)>,

@@ -18,7 +18,8 @@ mod sub_cell_edges;
 mod tree;
 mod unloading;
 
-pub(in crate::contact) use dissipation::{AtOnce, Boundary, Edge};
+pub(in crate::contact) use dissipation::AtOnce;
+pub(in crate::contact) use edge_model::{Boundary, Edge};
 pub use edge_model::{EdgeCells, EdgeModel};
 pub use grid_edges::GridEdges;
 pub(in crate::contact) use run::{Ground, Held, Run};
@@ -29,7 +30,6 @@ use tree::TWO_THREADS;
 pub(in crate::contact) use tree::{Branch, Node};
 
 use super::contact_model::{ContactModel, ContactState};
-use super::exact::Exact;
 use super::grid::Grid;
 use super::{ContactError, Direction, LegContact, Work};
 use crate::parallel::in_parallel;
@@ -63,7 +63,7 @@ pub struct Adhesive<'a, E> {
     ground: Ground<'a, E>,
     memory: AdhesiveMemory,
     unloading: bool,
-    /// Whether the present leg forms the contact.
+    /// True if the present leg forms the contact.
     forms: bool,
     reversing: Reversing,
     /// Squares of stretches on the way to and from the present turning point, m².
@@ -110,6 +110,11 @@ impl<'a, E: EdgeModel> Adhesive<'a, E> {
         Ok((sampled?, squared))
     }
 
+    /// Memory of the contact, for the next one.
+    pub(super) fn into_memory(self) -> AdhesiveMemory {
+        self.memory
+    }
+
     /// The runs `spare` hold as an unloading beside the present leg.
     fn spare(&self) -> Search<'_, E> {
         let runs = self.memory.spare.as_slice();
@@ -141,7 +146,7 @@ impl<'a, E: EdgeModel> Adhesive<'a, E> {
     }
 
     /// Smallest compression of the unloading from first touch, m, and the work counts of the search.
-    fn pull_off_at_touch(&mut self) -> Result<(f64, Work), ContactError> {
+    pub(super) fn pull_off_at_touch(&mut self) -> Result<(f64, Work), ContactError> {
         let mut work = Work { zero_load_passes: 1, ..Work::default() };
         let separates = self.unload_aside(0.0, &mut work)?;
         let grid = Grid::new(separates.min(0.0), 0.0, Self::SEARCH_INTERVALS);
@@ -293,23 +298,5 @@ impl<E: EdgeModel> ContactModel for Adhesive<'_, E> {
         let ground = self.on_leg();
         let held = ground.held_at(&self.memory.runs, self.unloading, indentation, false);
         held.map(|held| (held.first as usize, held.last as usize)).collect()
-    }
-}
-
-impl<'a, E: EdgeModel> Exact<Adhesive<'a, E>> {
-    /// The memory it worked in, for the next body.
-    #[must_use]
-    pub fn into_memory(self) -> AdhesiveMemory {
-        self.into_contact().memory
-    }
-
-    /// Smallest force of the unloading from first touch, N, and the work counts of the search.
-    ///
-    /// # Errors
-    /// [`ContactError::OutOfMemory`].
-    pub fn pull_off_at_touch(&mut self) -> Result<(f64, Work), ContactError> {
-        let stiffness = self.foundation().spring_stiffness();
-        let (compression, work) = self.contact_mut().pull_off_at_touch()?;
-        Ok((stiffness * compression, work))
     }
 }

@@ -1,7 +1,7 @@
 //! Runs: the fragments of a leg, each over the range of indentations in which its edges move without a jump.
 
 use super::edge_model::EdgeModel;
-use super::span::Span;
+use super::span::{Span, larger};
 use super::tree::{Branch, ContactTree};
 use crate::contact::Direction;
 
@@ -197,16 +197,4 @@ impl<E: EdgeModel> Ground<'_, E> {
             Held { branch: run.branch, first, last, pin: pins.then(rise) }
         })
     }
-}
-
-/// The smaller of two numbers, neither of which is NaN: `f64::min` would look for that.
-#[inline]
-pub fn smaller(a: f64, b: f64) -> f64 {
-    if b < a { b } else { a }
-}
-
-/// The larger of two numbers, neither of which is NaN.
-#[inline]
-pub fn larger(a: f64, b: f64) -> f64 {
-    if b > a { b } else { a }
 }

@@ -76,3 +76,15 @@ impl Span {
         [self.first as u32, self.last as u32]
     }
 }
+
+/// The smaller of two numbers, neither of which is NaN: `f64::min` would look for that.
+#[inline]
+pub fn smaller(a: f64, b: f64) -> f64 {
+    if b < a { b } else { a }
+}
+
+/// The larger of two numbers, neither of which is NaN.
+#[inline]
+pub fn larger(a: f64, b: f64) -> f64 {
+    if b > a { b } else { a }
+}

@@ -1,8 +1,8 @@
 //! Unloading: the indentation at which each part of a contact detaches, and the fragments between.
 
 use super::edge_model::EdgeModel;
-use super::run::{Ground, Held, Run, smaller};
-use super::span::Span;
+use super::run::{Ground, Held, Run};
+use super::span::{Span, smaller};
 use super::tree::Branch;
 use crate::contact::ContactError;
 
@@ -90,7 +90,7 @@ impl Opening {
 }
 
 impl<E: EdgeModel> Ground<'_, E> {
-    /// Whether a fragment within `springs` springs, the smallest or largest gap of which is `gap`, may hold that
+    /// Returns true if a fragment within `springs` springs, the smallest or largest gap of which is `gap`, may hold that
     /// spring below the indentation `opens`: its length is at most that of these springs and their edge cells.
     #[inline]
     fn may_hold(&self, gap: f64, opens: f64, springs: usize) -> bool {

@@ -4,7 +4,7 @@ use super::map;
 use super::shapes::LayerShape;
 use super::style::{CellStyle, glyph};
 use crate::draw::axis::Axis;
-use crate::draw::chart::{Chart, Layer, Shape};
+use crate::draw::chart::{Chart, HeatMap, Layer, Shape};
 use crate::draw::colour::Ink;
 use crate::draw::ticks::Tick;
 use ratatui::buffer::Buffer;
@@ -50,10 +50,10 @@ impl CellPlot {
         CellPlot { plot, left, line, below, label }
     }
 
-    /// A plot that fills its area.
+    /// Row of the numbers below the plot.
     #[must_use]
-    pub fn without_scales(area: Rect) -> CellPlot {
-        CellPlot { plot: area, left: 0, line: false, below: false, label: false }
+    pub fn numbers(&self) -> Option<u16> {
+        self.below.then(|| self.plot.bottom() + u16::from(self.line))
     }
 
     /// Number on the horizontal axis at the middle of a column of the screen, within the plot.
@@ -63,9 +63,16 @@ impl CellPlot {
         x.scale.number(x.span.low + share.clamp(0.0, 1.0) * x.span.width())
     }
 
-    /// Cell of a point; `None` outside the chart.
+    /// Cell of a point; `None` outside the chart. On a map all values have as many columns and rows, and a point beyond the
+    /// map is at its edge.
     #[must_use]
     pub fn cell(&self, chart: &Chart, marker: Marker, (x, y): (f64, f64)) -> Option<(u16, u16)> {
+        if let Some(map) = chart.map() {
+            let across =
+                map::cell_of(chart.x.scale.place(&map.columns, x), self.plot.width, map.columns.len());
+            let up = map::cell_of(chart.y.scale.place(&map.rows, y), self.plot.height, map.rows.len());
+            return (!self.plot.is_empty()).then(|| (self.plot.x + across, self.plot.bottom() - 1 - up));
+        }
         let (across, down) = (chart.x.share(x), 1.0 - chart.y.share(y));
         let inside = (0.0..=1.0).contains(&across) && (0.0..=1.0).contains(&down) && !self.plot.is_empty();
         let (columns, rows) = dots_of(marker);
@@ -73,6 +80,17 @@ impl CellPlot {
             let column = cell_at(across, self.plot.width, columns);
             (self.plot.x + column, self.plot.y + cell_at(down, self.plot.height, rows))
         })
+    }
+
+    /// Values on both axes of the cell of a map that a cell of the screen shows; `None` outside the map.
+    #[must_use]
+    pub fn values_at(&self, map: &HeatMap, (column, row): (u16, u16)) -> Option<(f64, f64)> {
+        if !self.plot.contains((column, row).into()) {
+            return None;
+        }
+        let across = map::index((column - self.plot.x).into(), self.plot.width, map.columns.len());
+        let up = map::index((self.plot.bottom() - 1 - row).into(), self.plot.height, map.rows.len());
+        Some((*map.columns.get(across)?, *map.rows.get(up)?))
     }
 
     /// Draws scales and layers.
@@ -102,6 +120,56 @@ impl CellPlot {
                 .render(self.plot, buffer);
         }
         self.draw_signs(buffer, chart, style);
+    }
+
+    /// Writes each name beside its point where the plot is blank; gives the names that found room.
+    pub fn draw_names<'n>(
+        &self,
+        buffer: &mut Buffer,
+        chart: &Chart,
+        style: &CellStyle<'_>,
+        names: &[((f64, f64), &'n str)],
+    ) -> Vec<&'n str> {
+        let mut written = Vec::new();
+        for &(point, name) in names {
+            let width = name.chars().count() as u16;
+            let Some(cell) = self.cell(chart, style.marker, point) else { continue };
+            let free = self.beside(cell, width).into_iter().find(|&(x, y)| {
+                // With a blank column on either side, unless the plot ends there.
+                let columns = x.saturating_sub(1).max(self.plot.x)..(x + width + 1).min(self.plot.right());
+                let is_blank = |column| matches!(buffer[(column, y)].symbol(), " " | "\u{2800}");
+                columns.filter(|column| (*column, y) != cell).all(is_blank)
+            });
+            if let Some((x, y)) = free {
+                buffer.set_string(x, y, name, (style.ink)(Ink::Quiet));
+                written.push(name);
+            }
+        }
+        written
+    }
+
+    /// Places within the plot for a text of this width beside a cell, the best first.
+    fn beside(&self, (column, row): (u16, u16), width: u16) -> Vec<(u16, u16)> {
+        let (column, row, wide) = (i32::from(column), i32::from(row), i32::from(width));
+        let (right, left, middle) = (column + 2, column - 1 - wide, column - wide / 2);
+        let places = [
+            (right, 0),
+            (left, 0),
+            (right, 1),
+            (left, 1),
+            (right, -1),
+            (left, -1),
+            (middle, 1),
+            (middle, -1),
+        ];
+        let plot = self.plot;
+        let columns = i32::from(plot.x)..=i32::from(plot.right()) - wide;
+        let rows = i32::from(plot.y)..i32::from(plot.bottom());
+        let inside = |(x, down): (i32, i32)| {
+            let y = row + down;
+            (columns.contains(&x) && rows.contains(&y)).then_some((x as u16, y as u16))
+        };
+        places.into_iter().filter_map(inside).collect()
     }
 
     fn draw_signs(&self, buffer: &mut Buffer, chart: &Chart, style: &CellStyle<'_>) {
@@ -224,7 +292,7 @@ fn scale_below(chart: &Chart, width: u16, marker: Marker) -> (Vec<(u16, String)>
     (numbers, label)
 }
 
-/// Whether the label of the horizontal axis would take the place of a number beside it.
+/// Returns true if the label of the horizontal axis would cover a number.
 fn label_hides_numbers(chart: &Chart, width: u16) -> bool {
     let (numbers, label) = scale_below(chart, width, Marker::Braille);
     let end = usize::from(width).saturating_sub(label.chars().count() + 1);
@@ -321,6 +389,39 @@ mod tests {
             }
         }
         assert!(labelled > 20, "{labelled}");
+    }
+
+    #[test]
+    fn names_are_beside_their_points_and_hide_nothing() {
+        let points: Vec<(f64, f64)> =
+            (0..40).map(|at| (1.7e-8 * f64::from(at), -2e-5 + 5e-7 * f64::from(at))).collect();
+        let chart = chart(vec![curve(&points, None)]);
+        let mut found = 0;
+        for (size, marker) in SIZES.into_iter().flat_map(|size| MARKERS.map(|marker| (size, marker))) {
+            let (place, before) = drawn(&chart, size, marker);
+            let mut after = before.clone();
+            let style = CellStyle { marker, ink: &|_| Style::new(), colours: Colours::None };
+            let names = [(points[9], "preload"), (points[30], "pull-off"), ((1.0, 0.0), "outside")];
+            let written = place.draw_names(&mut after, &chart, &style, &names);
+            assert!(!written.contains(&"outside"));
+            found += written.len();
+            for (cell, old) in after.content.iter().zip(&before.content) {
+                let is_blank = [" ", "\u{2800}"].contains(&old.symbol());
+                assert!(cell.symbol() == old.symbol() || is_blank, "{size:?} {marker}");
+            }
+            for (point, name) in names.into_iter().filter(|(_, name)| written.contains(name)) {
+                let (column, row) = place.cell(&chart, marker, point).unwrap();
+                let near = (row.saturating_sub(1).max(after.area.y)..=(row + 1).min(after.area.bottom() - 1))
+                    .any(|y| {
+                        let from = column.saturating_sub(name.len() as u16 + 1).max(after.area.x);
+                        let to = (column + name.len() as u16 + 2).min(after.area.right());
+                        let text: String = (from..to).map(|x| after[(x, y)].symbol()).collect();
+                        text.contains(name)
+                    });
+                assert!(near, "{size:?} {marker} {name}");
+            }
+        }
+        assert!(found > 20, "{found}");
     }
 
     #[test]

@@ -1,9 +1,10 @@
 //! How it is looked at: panes, close-up, parts of the line, quantities, colours.
 
 use super::Effect;
+use crate::draw::AxisScale;
 use crate::explorer::action::{Command, Jump};
 use crate::explorer::model::{Look, Model, Notice, Pane};
-use crate::explorer::worker::{Focus, LineView};
+use crate::explorer::request::{Focus, LineView};
 
 /// Fewest springs that fill a pane.
 const FEWEST_SPRINGS: usize = 8;
@@ -38,6 +39,12 @@ pub fn obey(model: &mut Model, command: Command) -> Vec<Effect> {
         }
         Command::NextCurve => model.curve.quantities = model.curve.quantities.next(),
         Command::ToggleNormalised => model.curve.normalised = !model.curve.normalised,
+        Command::ToggleLogarithmic => {
+            model.curve.scale = match model.curve.scale {
+                AxisScale::Linear => AxisScale::Logarithmic,
+                AxisScale::Logarithmic => AxisScale::Linear,
+            };
+        }
         Command::ToggleLoss => model.curve.loss = !model.curve.loss,
         Command::ZoomPane => model.zoomed = !model.zoomed,
         Command::NextPane => {

@@ -14,14 +14,16 @@ mod parameters;
 mod plot;
 mod preloads;
 mod profile;
+mod section;
 mod sections;
 mod stages;
 mod typed;
 mod wrap;
 
-pub use chart::place_at;
+pub use chart::{map_figure, place_at};
 pub use force::indentation_at;
 pub use parameters::parameter_at;
+pub use sections::section_cell;
 
 use super::layout::{Layout, inside, is_framed};
 use super::model::{Mode, Model, Pane};
@@ -91,15 +93,21 @@ fn draw_pane(frame: &mut Frame<'_>, area: Rect, model: &Model, pane: Pane) {
         let block = Block::bordered()
             .border_style(model.appearance.theme.style(Meaning::Quiet))
             .title(ratatui::text::Span::styled(format!("{mark}{name}"), style));
-        frame.render_widget(block, area);
+        let names = match pane {
+            Pane::Profile => profile::names(model, area),
+            Pane::CloseUp if !model.lengths => close_up::names(model, area),
+            _ => None,
+        };
+        frame.render_widget(names.into_iter().fold(block, Block::title_bottom), area);
     }
+    let edge = area.right().saturating_sub(1);
     let area = inside(area);
     match pane {
         Pane::Force => force::draw(frame, area, model),
         Pane::Profile => profile::draw(frame, area, model),
         Pane::CloseUp if model.lengths => lengths::draw(frame, area, model),
         Pane::CloseUp => close_up::draw(frame, area, model),
-        Pane::Parameters => parameters::draw(frame, area, model),
+        Pane::Parameters => parameters::draw(frame, area, edge, model),
         Pane::Accuracy => accuracy::draw(frame, area, model),
         Pane::Chart => chart::draw(frame, area, model),
         Pane::Preloads => preloads::draw(frame, area, model),

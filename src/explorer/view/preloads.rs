@@ -32,7 +32,7 @@ pub fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
         frame.render_widget(Paragraph::new(lines), area);
         return;
     };
-    section(frame, area, model, &chart(model, curve), told(curve));
+    section(frame, area, model, &Chart { heading: told(curve), ..chart(model, curve) });
 }
 
 /// What has been computed so far.
