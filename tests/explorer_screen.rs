@@ -45,6 +45,8 @@ mod panes;
 mod parameters;
 #[path = "screen/play.rs"]
 mod play;
+#[path = "screen/preloads.rs"]
+mod preloads;
 #[path = "screen/saving.rs"]
 mod saving;
 #[path = "screen/spectrum.rs"]
@@ -124,6 +126,8 @@ fn everywhere() -> Vec<Driver> {
         "y",
         "m",
         "m X z",
+        "i",
+        "i z",
     ];
     let mut all: Vec<Driver> = keys.into_iter().map(pressed).collect();
     all.push(Driver::open(rough()));

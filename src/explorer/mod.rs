@@ -23,6 +23,7 @@ mod opening;
 pub mod parameters;
 pub mod picture;
 mod playback;
+pub mod preload_curve;
 pub mod request;
 mod rescue;
 mod screen;

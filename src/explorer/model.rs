@@ -5,6 +5,7 @@ pub use super::appraisal::{Appraisal, Costs, Estimated};
 pub use super::chart::{Chart, OpenStudy};
 pub use super::mode::{Library, Mode, ModeKind};
 use super::parameters::{Parameter, Setting, parameters};
+use super::preload_curve::PreloadPane;
 use super::request::{Focus, LineView};
 use super::snapshot::{Drive, Loop, Moment, Preview};
 use super::theme::Appearance;
@@ -34,6 +35,8 @@ pub enum Pane {
     Chart,
     /// Spectra, in place of profile and close-up.
     Spectrum,
+    /// Adhesion against preload, in place of profile and close-up.
+    Preloads,
 }
 
 impl Pane {
@@ -46,6 +49,8 @@ impl Pane {
     pub const WITH_CHART: [Pane; 3] = [Pane::Force, Pane::Chart, Pane::Parameters];
     /// The panes while the spectrum is shown.
     pub const WITH_SPECTRUM: [Pane; 3] = [Pane::Force, Pane::Spectrum, Pane::Parameters];
+    /// The panes while adhesion against preload is shown.
+    pub const WITH_PRELOADS: [Pane; 3] = [Pane::Force, Pane::Preloads, Pane::Parameters];
 }
 
 /// Where the animation stands.
@@ -206,6 +211,8 @@ pub struct Model {
     pub appraisal: Appraisal,
     /// The map over κ and H.
     pub chart: Chart,
+    /// Adhesion against preload.
+    pub preloads: PreloadPane,
     /// The curve of the scene selected in the library.
     pub preview: Option<Arc<Preview>>,
     /// The chosen pane.
@@ -260,6 +267,7 @@ impl Model {
             ghosts: Vec::new(),
             appraisal: Appraisal::default(),
             chart: Chart::default(),
+            preloads: PreloadPane::default(),
             preview: None,
             pane: Pane::Force,
             zoomed: false,
@@ -329,6 +337,7 @@ impl Model {
         match self.in_place_of_the_line() {
             Some(Pane::Chart) => &Pane::WITH_CHART,
             Some(Pane::Spectrum) => &Pane::WITH_SPECTRUM,
+            Some(Pane::Preloads) => &Pane::WITH_PRELOADS,
             Some(_) => &Pane::WITH_ACCURACY,
             None => &Pane::ALL,
         }
@@ -341,6 +350,7 @@ impl Model {
             (self.chart.shown, Pane::Chart),
             (self.appraisal.shown, Pane::Accuracy),
             (self.spectrum, Pane::Spectrum),
+            (self.preloads.shown, Pane::Preloads),
         ]
         .into_iter()
         .find_map(|(is_shown, pane)| is_shown.then_some(pane))
@@ -350,6 +360,7 @@ impl Model {
     pub fn hide_in_place_of_the_line(&mut self) {
         self.chart.shown = false;
         self.appraisal.hide();
+        self.preloads.shown = false;
         self.spectrum = false;
     }
 

@@ -12,6 +12,7 @@ mod library;
 mod look;
 mod mouse;
 mod movement;
+mod preloads;
 
 pub use accuracy::study_tasks;
 
@@ -266,6 +267,7 @@ fn explore(model: &mut Model, command: Command) -> Vec<Effect> {
         Command::CopyCommand => return files::copy_command(model),
         Command::OpenLibrary => return library::open(model),
         Command::ToggleAccuracy | Command::TypeTolerance => return accuracy::obey(model, command),
+        Command::TogglePreloads => return preloads::toggle(model),
         Command::ToggleChart
         | Command::ToggleSections
         | Command::NextCharted

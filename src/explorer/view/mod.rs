@@ -12,6 +12,7 @@ mod lengths;
 mod library;
 mod parameters;
 mod plot;
+mod preloads;
 mod profile;
 mod section;
 mod sections;
@@ -87,6 +88,7 @@ fn draw_pane(frame: &mut Frame<'_>, area: Rect, model: &Model, pane: Pane) {
             Pane::Accuracy => accuracy::TITLE.to_owned(),
             Pane::Chart => chart_words::title(model),
             Pane::Spectrum => spectrum::TITLE.to_owned(),
+            Pane::Preloads => preloads::TITLE.to_owned(),
         };
         let style = model.appearance.theme.style(if chosen { Meaning::Title } else { Meaning::Quiet });
         let mark = if chosen { "▸" } else { "" };
@@ -111,5 +113,6 @@ fn draw_pane(frame: &mut Frame<'_>, area: Rect, model: &Model, pane: Pane) {
         Pane::Accuracy => accuracy::draw(frame, area, model),
         Pane::Chart => chart::draw(frame, area, model),
         Pane::Spectrum => spectrum::draw(frame, area, model),
+        Pane::Preloads => preloads::draw(frame, area, model),
     }
 }
