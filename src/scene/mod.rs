@@ -63,7 +63,7 @@ pub use open::{open, open_argument};
 pub use overrides::command_line;
 pub(crate) use overrides::quoted;
 pub use presets::{DEFAULT, Preset, find, presets};
-pub use quantity::{QuantityError, exact_quantity, format_quantity, parse_quantity};
+pub use quantity::{QuantityError, exact_quantity, format_quantity, parse_quantity, quantity_as_typed};
 pub use range::{End, Range};
 pub(crate) use read::describe_error;
 pub use roughness_parameter::RoughnessParameter;
