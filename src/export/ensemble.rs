@@ -2,9 +2,11 @@
 
 use super::sheet::Sheet;
 use super::summary::tabor_number;
+use super::table::{Cell, Column, TableFormat, write_table};
 use crate::accuracy::Choice;
+use crate::analysis::Regime;
 use crate::io::write_json_value;
-use crate::scene::{Scene, format_quantity};
+use crate::scene::{Provenance, Scene, format_quantity};
 use crate::study::{HeightShape, LineResult, LinesSummary, Statistics};
 use crate::text::grouped;
 use serde::Serialize;
@@ -99,29 +101,37 @@ pub fn write_ensemble_json(
 ///
 /// # Errors
 /// Those of `out`.
-pub fn write_ensemble_csv(out: &mut (impl Write + ?Sized), lines: &[LineResult]) -> io::Result<()> {
-    writeln!(
-        out,
-        "seed,adhesion_force,preload_indentation,dissipated_energy,contact_fraction,regime,skewness,\
-         excess_kurtosis,tabor_number"
-    )?;
-    let number = |value: Option<f64>| value.map_or_else(String::new, |value| format!("{value:?}"));
-    for line in lines {
-        let regime = serde_json::to_value(line.regime)?;
-        let shape = |figure: fn(HeightShape) -> f64| number(line.heights.map(figure));
-        writeln!(
-            out,
-            "{},{},{},{},{:?},{},{},{},{}",
-            line.seed,
-            number(line.adhesion_force),
-            number(line.preload_indentation),
-            number(line.dissipated_energy),
-            line.contact_fraction,
-            regime.as_str().unwrap_or_default(),
+pub fn write_ensemble_table(
+    out: &mut (impl Write + ?Sized),
+    format: TableFormat,
+    provenance: &Provenance,
+    lines: &[LineResult],
+) -> io::Result<()> {
+    let longest = Regime::ALL.map(|regime| regime.name().len()).into_iter().max().unwrap_or_default();
+    let columns = [
+        ("seed", Column::Whole),
+        ("adhesion_force", Column::Real),
+        ("preload_indentation", Column::Real),
+        ("dissipated_energy", Column::Real),
+        ("contact_fraction", Column::Real),
+        ("regime", Column::Word(longest)),
+        ("skewness", Column::Real),
+        ("excess_kurtosis", Column::Real),
+        ("tabor_number", Column::Real),
+    ];
+    let rows = lines.iter().map(|line| {
+        let shape = |figure: fn(HeightShape) -> f64| Cell::from(line.heights.map(figure));
+        [
+            Cell::Whole(line.seed),
+            line.adhesion_force.into(),
+            line.preload_indentation.into(),
+            line.dissipated_energy.into(),
+            Cell::Real(line.contact_fraction),
+            Cell::Word(line.regime.map_or("", Regime::name)),
             shape(|shape| shape.skewness),
             shape(|shape| shape.excess_kurtosis),
-            number(line.tabor_number)
-        )?;
-    }
-    Ok(())
+            line.tabor_number.into(),
+        ]
+    });
+    write_table(out, format, provenance, columns, lines.len(), rows)
 }

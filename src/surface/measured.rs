@@ -1,8 +1,9 @@
 //! Measured profiles that are used as the line themselves.
 
-use super::{Amplitude, SurfaceError};
+use super::{Amplitude, MeasuredOptions, SurfaceError};
 use crate::memory::check_room;
-use crate::topography::{ReadOptions, Topography, TopographyError, UNEVEN, Unit, parse, read_observed};
+use crate::spectrum::Detrend;
+use crate::topography::{ReadOptions, Topography, TopographyError, UNEVEN, Unit, parse};
 use realfft::RealFftPlanner;
 use std::path::Path;
 
@@ -27,20 +28,26 @@ impl MeasuredProfile {
     /// # Errors
     /// [`SurfaceError::Measured`] when the file cannot be read or is no profile.
     pub fn read(path: &Path) -> Result<Self, SurfaceError> {
-        Self::read_observed(path, None, &mut |_| ())
+        Self::read_observed(path, &MeasuredOptions::default(), &mut |_| ())
     }
 
-    /// Reads a profile with lengths in a unit where the file states none (`None`: m), with all bytes of the file shown to
-    /// `seen`.
+    /// Reads a profile, or a row or column of a map, with all bytes of the file shown to `seen`. Without a unit lengths are
+    /// in m. What is removed of the heights is removed of points at even distances.
     ///
     /// # Errors
     /// As [`Self::read`].
     pub fn read_observed(
         path: &Path,
-        unit: Option<Unit>,
+        options: &MeasuredOptions,
         seen: &mut dyn FnMut(&[u8]),
     ) -> Result<Self, SurfaceError> {
-        let read = read_observed(path, &Self::options(unit), seen);
+        let read = options.read(path, Some(Unit::METRE), seen).and_then(|surface| match options.detrend {
+            Some(detrend) if detrend != Detrend::None => {
+                surface.spacing()?;
+                Ok(surface.with_heights(|heights, columns| detrend.remove(heights, columns)))
+            }
+            _ => Ok(surface),
+        });
         read.and_then(Self::from_topography).map_err(|error| SurfaceError::measured(path, &error))
     }
 
@@ -50,12 +57,8 @@ impl MeasuredProfile {
     /// # Errors
     /// [`TopographyError`], a map included.
     pub fn parse(content: &str) -> Result<Self, TopographyError> {
-        parse(content.as_bytes(), &Self::options(None)).and_then(Self::from_topography)
-    }
-
-    /// Options for reading a profile in m by convention.
-    fn options(unit: Option<Unit>) -> ReadOptions {
-        ReadOptions { unit, convention: Some(Unit::METRE), ..ReadOptions::default() }
+        let in_metres = ReadOptions { convention: Some(Unit::METRE), ..ReadOptions::default() };
+        parse(content.as_bytes(), &in_metres).and_then(Self::from_topography)
     }
 
     /// The profile of a surface.
@@ -281,7 +284,11 @@ mod tests {
         let path = folder.path().join("line.csv");
         let read = |text: &str, unit: Option<Unit>| {
             std::fs::write(&path, text).unwrap();
-            MeasuredProfile::read_observed(&path, unit, &mut |_| ())
+            MeasuredProfile::read_observed(
+                &path,
+                &MeasuredOptions { unit, ..MeasuredOptions::default() },
+                &mut |_| (),
+            )
         };
         let millimetre: Unit = "mm".parse().unwrap();
         let metres = read("0,1\n1,2", None).unwrap();
