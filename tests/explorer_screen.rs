@@ -47,8 +47,12 @@ mod panes;
 mod parameters;
 #[path = "screen/play.rs"]
 mod play;
+#[path = "screen/preloads.rs"]
+mod preloads;
 #[path = "screen/saving.rs"]
 mod saving;
+#[path = "screen/spectrum.rs"]
+mod spectrum;
 #[path = "screen/study.rs"]
 mod study;
 #[path = "screen/typing.rs"]
@@ -111,7 +115,7 @@ fn everywhere() -> Vec<Driver> {
         "o",
         "/ h u",
         ": m a p",
-        "i",
+        "I",
         "Z",
         "d { ]",
         "c L",
@@ -120,10 +124,14 @@ fn everywhere() -> Vec<Driver> {
         "N w",
         "A",
         "A z",
+        "Q",
+        "Q z",
         "% 1",
         "y",
         "m",
         "m X z",
+        "i",
+        "i z",
     ];
     let mut all: Vec<Driver> = keys.into_iter().map(pressed).collect();
     all.push(Driver::open(rough()));

@@ -89,6 +89,7 @@ fn moment(leg: usize, indentation: f64) -> MomentRequest {
         focus: Focus::Summit,
         close_up_springs: 64,
         lengths: false,
+        spectra: false,
     }
 }
 

@@ -44,6 +44,12 @@ pub enum CliError {
         /// Content that the format cannot hold.
         what: &'static str,
     },
+    /// The points of a map in a format that cannot hold them, or that holds them anyway.
+    #[error("{what}: only a table of the map; allowed: --format csv")]
+    OnlyInTable {
+        /// Option that chooses the content.
+        what: &'static str,
+    },
     /// A picture of something that no picture shows.
     #[error("{what}: {allowed}")]
     NoPicture {
@@ -61,7 +67,9 @@ pub enum CliError {
         error: TopographyError,
     },
     /// A scene cannot hold how its surface is to be read.
-    #[error("--scene: a scene does not hold {option}; allowed: one file, --unit, --continue-to")]
+    #[error(
+        "--scene: a scene does not hold {option}; allowed: one file, --unit, --detrend, --periodic, --continue-to"
+    )]
     LostInScene {
         /// Option that would be lost.
         option: &'static str,
@@ -73,6 +81,14 @@ pub enum CliError {
         file: String,
         /// Reason.
         error: SpectrumError,
+    },
+    /// A table of spectra is not computed again.
+    #[error("{file}: {reason}")]
+    Spectra {
+        /// The table.
+        file: String,
+        /// Why not, and what is allowed.
+        reason: String,
     },
     /// There is no built-in scene of this name.
     #[error("{name}: there is no such built-in scene; allowed: {allowed}")]

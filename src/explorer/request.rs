@@ -77,6 +77,8 @@ pub struct MomentRequest {
     pub close_up_springs: usize,
     /// Whether the distribution of fragment lengths is shown.
     pub lengths: bool,
+    /// Whether the spectra of the scene are shown.
+    pub spectra: bool,
 }
 
 /// What part of the line the profile shows.

@@ -49,10 +49,10 @@ fn the_headline_is_that_of_the_computed_curve() {
                 driver.resize(size);
                 assert!(driver.status().contains(&present), "{size:?} {present}: {}", driver.status());
             }
-            driver.press("i");
+            driver.press("I");
             let springs = format!("{} spring", point.springs);
             assert!(driver.status().contains(&springs), "{springs}: {}", driver.status());
-            driver.press("i");
+            driver.press("I");
             driver.resize(SIZES[0]);
             assert!(driver.text().contains(outcome.regime.unwrap().name()), "{}", driver.text());
         }
@@ -138,14 +138,14 @@ fn the_status_line_has_mechanics_or_the_work_of_the_computation() {
         ] {
             assert!(driver.status().contains(&text), "{text}: {}", driver.status());
         }
-        driver.press("i");
+        driver.press("I");
         let springs = format!("{} springs in 1 fragment of ", moment.point.springs);
         for text in [springs.as_str(), "line ", "tree ", "passes ", "curve "] {
             assert!(driver.status().contains(text), "{text}: {}", driver.status());
         }
         driver.press("d {");
         assert!(driver.status().contains("looked at") && driver.status().contains("springs changed"));
-        driver.press("i");
+        driver.press("I");
         assert!(
             driver.status().contains("manual: d ") && driver.status().contains("ΔW "),
             "{}",

@@ -48,8 +48,8 @@ pub fn choose(model: &mut Model) -> Vec<Effect> {
     if model.chart.shown {
         return vec![Effect::Show];
     }
+    model.hide_in_place_of_the_line();
     (model.chart.shown, model.chart.edited) = (true, false);
-    model.appraisal.hide();
     vec![Effect::Study, Effect::Show]
 }
 

@@ -14,6 +14,7 @@ mod look;
 mod mouse;
 mod movement;
 mod palette;
+mod preloads;
 
 pub use accuracy::study_tasks;
 
@@ -134,6 +135,7 @@ pub fn moment_request(model: &Model) -> Option<MomentRequest> {
         focus: model.look.focus,
         close_up_springs: model.look.springs,
         lengths: model.lengths,
+        spectra: model.spectrum,
     })
 }
 
@@ -282,6 +284,7 @@ fn explore(model: &mut Model, command: Command) -> Vec<Effect> {
         Command::CopyCommand => return files::copy_command(model),
         Command::OpenLibrary => return library::open(model),
         Command::ToggleAccuracy | Command::TypeTolerance => return accuracy::obey(model, command),
+        Command::TogglePreloads => return preloads::toggle(model),
         Command::ToggleChart
         | Command::ToggleSections
         | Command::NextCharted
@@ -292,6 +295,7 @@ fn explore(model: &mut Model, command: Command) -> Vec<Effect> {
         | Command::MoveUp(_) => return chart::obey(model, command),
         Command::Fragment(_)
         | Command::ToggleLengths
+        | Command::ToggleSpectrum
         | Command::Zoom(_)
         | Command::Pan(_)
         | Command::ResetZoom
