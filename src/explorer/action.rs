@@ -1,5 +1,6 @@
 //! Everything that can happen to the explorer.
 
+use super::completion::Completion;
 use super::opening::Opening;
 use super::snapshot::{Loop, Moment, Preview};
 use super::study::Found;
@@ -50,6 +51,8 @@ pub enum Action {
     Listed(Vec<Entry>),
     /// A scene or a study has been opened by its path, or not, and why.
     Opened(Result<Box<Opening>, String>),
+    /// Names that continue the path that is typed.
+    Completed(Completion),
     /// The curve of the scene chosen in the library.
     Previewed(Arc<Preview>),
     /// What the connection carries.
@@ -187,6 +190,8 @@ pub enum Command {
     EditValue,
     /// Type the selected value, beginning with this character.
     StartValue(char),
+    /// Complete the path that is typed.
+    CompletePath,
     /// Search the list of parameters.
     FindParameter,
     /// Fold the group of the selected parameter, or unfold it.

@@ -2,6 +2,7 @@
 //! not answer, and the screen has to.
 
 use super::action::{Action, Content, WriteFailure};
+use super::completion::Completion;
 use super::model::Model;
 use super::opening::Opening;
 use super::writing;
@@ -17,6 +18,8 @@ pub(super) enum FileJob {
     List,
     /// Open a scene or a study by its path.
     Open(String),
+    /// Complete a path that is relative to a folder.
+    Complete { typed: String, folder: PathBuf },
 }
 
 impl FileJob {
@@ -26,6 +29,7 @@ impl FileJob {
             FileJob::Write { path, .. } => format!("writing {} …", path.display()),
             FileJob::List => "listing scenes …".to_owned(),
             FileJob::Open(name) => format!("opening {name} …"),
+            FileJob::Complete { typed, .. } => format!("completing {typed} …"),
         }
     }
 
@@ -54,6 +58,7 @@ impl FileJob {
                 Action::Written(writing::write(&model, path, content, overwrite))
             }
             FileJob::List => Action::Listed(Library::of_environment().list()),
+            FileJob::Complete { typed, folder } => Action::Completed(Completion::new(typed, &folder)),
             FileJob::Open(name) => {
                 Action::Opened(Opening::of(&name).map(Box::new).map_err(|error| error.to_string()))
             }

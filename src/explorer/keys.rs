@@ -99,6 +99,7 @@ const TYPED: &[ModeKind] = &[
     ModeKind::Library,
     ModeKind::Find,
 ];
+const EDIT: &[ModeKind] = &[ModeKind::Edit];
 const LIBRARY: &[ModeKind] = &[ModeKind::Library];
 const FIND: &[ModeKind] = &[ModeKind::Find];
 const SEARCHED: &[ModeKind] = &[ModeKind::Library, ModeKind::Find];
@@ -240,7 +241,7 @@ pub const BINDINGS: &[Binding] = &[
     row(&[char('o')], EXPLORE, Command::OpenLibrary, "open", "open a scene: built-in, your own, or by path; or the folder of a study", SCENE),
     row(&DIGITS.split_at(1).1, OTHER_PANES, Command::Preset(0), "", "open a built-in scene by its number, unless the pane of parameters is selected", SCENE),
     row(&[char('s')], EXPLORE, Command::Save, "save", "save the scene to a file", SCENE),
-    row(&[char('E')], EXPLORE, Command::Export, "export", "export the curve (.csv), all figures (.json) or the panes (.svg, .txt)", SCENE),
+    row(&[char('E')], EXPLORE, Command::Export, "export", "export the curve (.csv, .npy), all figures (.json) or the panes (.svg, .txt)", SCENE),
     row(&[char('y')], EXPLORE, Command::CopyCommand, "copy", "copy the command that opens the present scene", SCENE),
     row(&[char('?'), key(KeyCode::F(1))], EXPLORE, Command::Help, "help", "show this help", SCENE),
     row(&[char('q'), control('c')], EXPLORE, Command::Quit, "quit", "quit", SCENE),
@@ -255,6 +256,7 @@ pub const BINDINGS: &[Binding] = &[
     row(&[key(KeyCode::Enter)], LIBRARY, Command::Accept, "open", "open the selected scene, or the typed path", TEXT),
     row(&[key(KeyCode::Enter)], LINE, Command::Accept, "accept", "accept the typed text", TEXT),
     row(&[key(KeyCode::Esc), control('c')], TYPED, Command::Cancel, "cancel", "cancel: keep the previous value", TEXT),
+    row(&[key(KeyCode::Tab)], EDIT, Command::CompletePath, "", "complete the path of a measured surface, between quotes", TEXT),
     row(&[key(KeyCode::Left), control('b')], TYPED, Command::Move(Motion::Left), "", "move the cursor left", TEXT),
     row(&[key(KeyCode::Right), control('f')], TYPED, Command::Move(Motion::Right), "", "move the cursor right", TEXT),
     row(&[key(KeyCode::Home), control('a')], TYPED, Command::Move(Motion::Start), "", "move the cursor to the start", TEXT),

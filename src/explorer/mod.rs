@@ -7,6 +7,7 @@ pub mod appraisal;
 mod caption;
 pub mod chart;
 mod close_up;
+pub mod completion;
 pub mod demo;
 pub mod engine;
 mod file_job;

@@ -373,6 +373,9 @@ impl<W: Write> Session<'_, W> {
                     self.work_on_files(FileJob::Write { model, path, content, overwrite })?;
                 }
                 Effect::List => self.work_on_files(FileJob::List)?,
+                Effect::Complete { typed, folder } => {
+                    self.work_on_files(FileJob::Complete { typed, folder })?;
+                }
                 Effect::Open(name) => self.work_on_files(FileJob::Open(name))?,
                 Effect::Preview(document) => {
                     let (scene, text) = (scene_of(&document), document.text().to_owned());

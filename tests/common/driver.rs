@@ -2,6 +2,7 @@
 //! depend on how fast it is.
 
 use asperity::explorer::action::{Action, Content, WriteFailure, Written};
+use asperity::explorer::completion::Completion;
 use asperity::explorer::model::Model;
 use asperity::explorer::snapshot::Loop;
 use asperity::explorer::study::{Appraiser, Found, perform};
@@ -97,6 +98,7 @@ impl Driver {
                 let opened = Opening::of(&name).map(Box::new).map_err(|error| error.to_string());
                 vec![Action::Opened(opened)]
             }
+            Effect::Complete { typed, folder } => vec![Action::Completed(Completion::new(typed, &folder))],
             Effect::List => vec![Action::Listed(Library::of(None, self.folder.clone()).list())],
             Effect::Copy(text) => {
                 self.copied.push(text);

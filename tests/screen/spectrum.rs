@@ -4,7 +4,7 @@ use super::common::deadline::within;
 use super::common::driver::Driver;
 use super::common::scenes::{changed, rough};
 use super::pressed;
-use asperity::explorer::model::Pane;
+use asperity::explorer::model::{Mode, Pane};
 use asperity::scene::Document;
 
 #[test]
@@ -64,5 +64,39 @@ fn a_measured_surface_has_its_spectrum_fit_and_errors() {
         std::fs::remove_file(&file).unwrap();
         driver.press("R");
         assert!(driver.text().contains("stylus.txt"), "{}", driver.text());
+    });
+}
+
+#[test]
+fn tab_completes_the_path_of_a_measured_surface() {
+    within(60, || {
+        let folder = tempfile::tempdir().unwrap();
+        for name in ["stylus-1.txt", "stylus-2.txt", "other.txt"] {
+            std::fs::write(folder.path().join(name), "").unwrap();
+        }
+        let scene = rough();
+        let name = folder.path().join("scene.ron");
+        let mut driver = Driver::start(Document::parse(scene.text(), name.to_str().unwrap()).unwrap());
+        driver.select("roughness");
+        driver.press("Enter Ctrl+u");
+        driver.type_text("Measured(file: \"st");
+        driver.press("Tab");
+        assert!(driver.status().contains("stylus-1.txt  stylus-2.txt"), "{}", driver.status());
+        driver.type_text("2");
+        driver.press("Tab");
+        let Mode::Edit(line) = &driver.model.mode else { panic!("not editing") };
+        assert_eq!(line.text(), "Measured(file: \"stylus-2.txt");
+        driver.press("Ctrl+u");
+        driver.type_text("Measured(file: \"none");
+        driver.press("Tab");
+        assert!(driver.status().contains("no file begins with \"none\""), "{}", driver.status());
+        // In the editor of another field the key does nothing.
+        driver.press("Esc");
+        driver.select("material.youngs_modulus");
+        driver.press("Enter Ctrl+u");
+        driver.type_text("\"st");
+        driver.press("Tab");
+        let Mode::Edit(line) = &driver.model.mode else { panic!("not editing") };
+        assert_eq!(line.text(), "\"st");
     });
 }

@@ -50,6 +50,13 @@ pub enum Effect {
     List,
     /// Open a scene or a study by its path.
     Open(String),
+    /// Complete a path.
+    Complete {
+        /// The path as typed.
+        typed: String,
+        /// Folder that the path is relative to.
+        folder: PathBuf,
+    },
     /// Compute a scene of the library to look at its curve.
     Preview(Box<Document>),
     /// Copy a text.
@@ -101,6 +108,7 @@ pub fn update(model: &mut Model, action: Action) -> Vec<Effect> {
         Action::Listed(entries) => return library::listed(model, entries),
         Action::Opened(Ok(opening)) => return chart::open(model, *opening),
         Action::Opened(Err(why)) => model.notice = Some(Notice::Error(why)),
+        Action::Completed(completion) => files::completed(model, &completion),
         Action::Previewed(preview) => model.preview = Some(preview),
         Action::Traffic(traffic) => model.traffic = Some(traffic),
         Action::Mouse(mouse) => return mouse::act(model, mouse),
@@ -152,6 +160,7 @@ fn obey(model: &mut Model, command: Command) -> Vec<Effect> {
                 let typed = line.text();
                 return edit::accept_value(model, &typed);
             }
+            Command::CompletePath => return files::complete(model),
             _ => {
                 model.refused = None;
                 edit_line(model, command);
@@ -290,6 +299,7 @@ fn explore(model: &mut Model, command: Command) -> Vec<Effect> {
         | Command::NextTheme
         | Command::NextMarker => return look::obey(model, command),
         Command::Suspend
+        | Command::CompletePath
         | Command::Accept
         | Command::Cancel
         | Command::Move(_)
