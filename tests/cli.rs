@@ -26,6 +26,7 @@ const KEYS: &[&str] = &[
     "adhesion_coefficient",
     "pull_off_indentation",
     "dissipated_energy",
+    "tabor_number",
     "curve",
     "contacts",
     "work",
@@ -1010,4 +1011,87 @@ fn scenes_are_drawn_and_pictures_hold_nothing_else() {
         });
     }
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), before, "nothing is written");
+}
+
+const FEW_SPRINGS: [&str; 2] = ["--set", "numerics.points=1024"];
+
+#[test]
+fn adhesion_against_preload_is_printed_for_one_profile_and_for_many() {
+    let run = |more: &[&str]| {
+        done(&[&["run", "pressure-sensitive", "--preloads", "0..20uN:5"], &FEW_SPRINGS[..], more].concat())
+    };
+    let text = run(&[]);
+    assert!(text.contains("Adhesion against preload, one profile of 1 024 springs"), "{text}");
+    assert!(text.lines().all(|line| line.chars().count() <= 80), "{text}");
+    let csv = run(&["--format", "csv"]);
+    let rows: Vec<Vec<&str>> = csv.lines().map(|line| line.split(',').collect()).collect();
+    assert_eq!(rows[0][..2], ["seed", "preload"]);
+    assert_eq!(rows.len(), 6);
+    // Each is what a run to that preload gives.
+    let loading = format!("loading=[ToForce({}), ToSeparation]", rows[4][1]);
+    let one = done(
+        &[&["run", "pressure-sensitive", "--format", "json", "--set", &loading], &FEW_SPRINGS[..]].concat(),
+    );
+    let one: Value = serde_json::from_str(&one).unwrap();
+    let number = |column: usize| rows[4][column].parse::<f64>().unwrap();
+    assert_eq!(one["adhesion_force"].as_f64(), Some(number(3)));
+    assert_eq!(one["dissipated_energy"].as_f64(), Some(number(5)));
+    let many: Value = serde_json::from_str(&run(&["--lines", "3", "--format", "json"])).unwrap();
+    assert_eq!(many["lines"].as_array().unwrap().len(), 3);
+    assert_eq!(many["mean"][4]["adhesion_force"]["count"], 3);
+    assert!(run(&["--lines", "3", "--format", "svg"]).starts_with("<svg"));
+    for (preloads, place) in
+        [("5uN", "--preloads"), ("2..1", "--preloads"), ("0..1kg", "kg"), ("0..1:1", "2 to 512")]
+    {
+        let error = failed(2, &["run", "pressure-sensitive", "--preloads", preloads]);
+        assert!(error.contains(place) && error.contains("allowed"), "{error}");
+    }
+    let stepwise = "numerics.solver=Stepwise(step: 1e-9)";
+    let error = failed(1, &["run", "jkr-sphere", "--preloads", "0..1mN", "--set", stepwise]);
+    assert!(error.contains("numerics.solver = Stepwise: reversals need the exact solver"), "{error}");
+}
+
+#[test]
+fn reversals_are_printed_in_all_formats() {
+    let run = |more: &[&str]| {
+        done(&[&["reversals", "pressure-sensitive", "--count", "12"], &FEW_SPRINGS[..], more].concat())
+    };
+    let text = run(&[]);
+    assert!(text.contains("12 reversals of one loading") && text.contains("minor loops with loss"), "{text}");
+    assert!(text.lines().all(|line| line.chars().count() <= 80), "{text}");
+    let json: Value = serde_json::from_str(&run(&["--format", "json", "--smoothing", "1"])).unwrap();
+    let reversals = json["reversals"].as_array().unwrap();
+    let forces = json["forces"].as_array().unwrap();
+    assert_eq!((reversals.len(), forces.len()), (12, 12));
+    let indentations = json["indentations"].as_array().unwrap();
+    // Each curve ends at its turning point, with the force there.
+    for (reversal, forces) in reversals.iter().zip(forces) {
+        let forces = forces.as_array().unwrap();
+        assert_eq!(forces.last(), Some(&reversal["turning_force"]));
+        assert_eq!(indentations[forces.len() - 1], reversal["turning_indentation"]);
+    }
+    let csv = run(&["--format", "csv"]);
+    assert_eq!(csv.lines().count(), 13);
+    let map = run(&["--map"]);
+    assert_eq!(map.lines().next(), Some("turning_indentation,indentation,force,everett,density"));
+    let points: usize = forces.iter().map(|forces| forces.as_array().unwrap().len()).sum();
+    assert_eq!(map.lines().count(), 1 + points);
+    let svg = run(&["--format", "svg"]);
+    for words in ["FORC density", "Everett function", "adhesion against preload"] {
+        assert!(svg.contains(words), "{words}");
+    }
+    for (code, arguments, words) in [
+        (2, &["--count", "7"][..], "8..=512"),
+        (2, &["--count", "513"], "8..=512"),
+        (2, &["--preloads", "0..1uN:8"], "--count"),
+        (2, &["--preloads", "1uN"], "allowed"),
+        (2, &["--smoothing", "0"], "1..=16"),
+        (1, &["--map", "--format", "json"], "--map: only a table"),
+        (1, &["--set", "loading=[ToIndentation(-1e-9)]"], "allowed: a stage that presses"),
+        (1, &["--set", "numerics.solver=Stepwise(step: 1e-9)"], "allowed: numerics.solver = Exact"),
+    ] {
+        let error =
+            failed(code, &[&["reversals", "pressure-sensitive"], &FEW_SPRINGS[..], arguments].concat());
+        assert!(error.contains(words), "{arguments:?}: {error}");
+    }
 }

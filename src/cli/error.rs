@@ -44,6 +44,12 @@ pub enum CliError {
         /// Content that the format cannot hold.
         what: &'static str,
     },
+    /// The points of a map in a format that cannot hold them, or that holds them anyway.
+    #[error("{what}: only a table of the map; allowed: --format csv")]
+    OnlyInTable {
+        /// Option that chooses the content.
+        what: &'static str,
+    },
     /// A picture of something that no picture shows.
     #[error("{what}: {allowed}")]
     NoPicture {

@@ -1,5 +1,6 @@
 //! `asperity run`: computes a scene without a terminal.
 
+use super::preloads::parse_preloads;
 use super::scene::simulation_of;
 use super::{
     Arguments, CliError, Command, OutputArguments, SceneArguments, SurfaceArguments, SurfaceFormat, surface,
@@ -8,12 +9,12 @@ use crate::accuracy::{Choice, Estimate, choose, estimate, parse_tolerance};
 use crate::contact::{LegRecord, Solver};
 use crate::draw::{Figure, figure_svg};
 use crate::export::{
-    ContactSets, TableFormat, ensemble_text, force_figure, summary, write_curve, write_ensemble_json,
-    write_ensemble_table, write_json, write_line,
+    ContactSets, PreloadReport, TableFormat, ensemble_text, force_figure, summary, write_curve,
+    write_ensemble_json, write_ensemble_table, write_json, write_line,
 };
 use crate::scene::{Document, Scene, TableContent, arguments_of_spectra, open_argument};
 use crate::simulation::Outcome;
-use crate::study;
+use crate::study::{self, Preloads};
 use crate::text::path_name;
 use clap::{Args, Parser, ValueEnum};
 use std::io::{self, Write};
@@ -28,6 +29,7 @@ Examples:
   asperity run jkr.csv -o again.npy
   asperity run jkr-sphere --tolerance 0.1%
   asperity run pressure-sensitive --lines 32 --format csv
+  asperity run pressure-sensitive --preloads 0..20uN --lines 16
   asperity run pressure-sensitive -o loop.svg
   asperity run pressure-sensitive --profile -o profile.svg
   asperity run ideal-adhesion pressure-sensitive non-adhesive -o loops.svg
@@ -70,6 +72,12 @@ pub struct RunArguments {
     /// CSV then has one row for each seed. A tolerance applies to the first profile.
     #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u32).range(2..=MOST_LINES), verbatim_doc_comment)]
     pub lines: Option<u32>,
+    /// Adhesion force for preloads from A to B, 64 or COUNT of them, in place of the loading
+    ///
+    /// One loading and one unloading from each preload. With --lines the mean over the profiles
+    /// and its 95 % confidence. Forces take units: 0..20uN:128
+    #[arg(long, value_name = "A..B[:COUNT]", conflicts_with_all = ["more", "profile", "fragments"], value_parser = parse_preloads, verbatim_doc_comment)]
+    pub preloads: Option<Preloads>,
     /// Threads that share the profiles; default: one for each core
     #[arg(long, value_name = "COUNT", requires = "lines", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub jobs: Option<u16>,
@@ -112,6 +120,11 @@ impl RunFormat {
 }
 
 impl RunArguments {
+    /// Threads that share the profiles.
+    fn threads(&self) -> usize {
+        self.jobs.map_or_else(|| available_parallelism().map_or(1, std::num::NonZero::get), usize::from)
+    }
+
     fn chosen_format(&self) -> Result<RunFormat, CliError> {
         let needs_picture = [
             (!self.more.is_empty(), "several scenes"),
@@ -123,10 +136,16 @@ impl RunArguments {
         let format = self.output.format(self.format, &ENDINGS, usual)?;
         match needs_picture {
             Some((_, what)) if format != RunFormat::Svg => Err(CliError::OnlyInPicture { what }),
-            _ if format == RunFormat::Svg && self.lines.is_some() => Err(CliError::NoPicture {
-                what: "--lines",
-                allowed: "a picture shows one profile; allowed: summary, json, csv and npy",
+            _ if format == RunFormat::Npy && self.preloads.is_some() => Err(CliError::NoPicture {
+                what: "--preloads",
+                allowed: "allowed: summary, json, csv and svg",
             }),
+            _ if format == RunFormat::Svg && self.lines.is_some() && self.preloads.is_none() => {
+                Err(CliError::NoPicture {
+                    what: "--lines",
+                    allowed: "a picture shows one profile; allowed: summary, json, csv and npy",
+                })
+            }
             _ => Ok(format),
         }
     }
@@ -140,6 +159,9 @@ pub(super) fn run(arguments: &RunArguments, stdout: &mut dyn Write) -> Result<()
     }
     let document = arguments.scene.open()?;
     arguments.output.check()?;
+    if let Some(preloads) = arguments.preloads {
+        return over_preloads(arguments, &document, (format, preloads), stdout);
+    }
     if format == RunFormat::Svg {
         let figure = figure(arguments, document)?;
         return arguments.output.write(stdout, |out| out.write_all(figure_svg(&figure).as_bytes()));
@@ -260,6 +282,45 @@ fn choice(document: &Document, tolerance: f64) -> Result<Choice, CliError> {
     Ok(choice)
 }
 
+/// Computes a scene for many preloads, on one or several profiles, and writes the adhesion forces.
+fn over_preloads(
+    arguments: &RunArguments,
+    document: &Document,
+    (format, preloads): (RunFormat, Preloads),
+    stdout: &mut dyn Write,
+) -> Result<(), CliError> {
+    let choice = arguments.tolerance.map(|tolerance| choice(document, tolerance)).transpose()?;
+    let chosen = choice.as_ref().map(|choice| choice.apply(document.scene()));
+    let scene = chosen.as_ref().unwrap_or(document.scene());
+    let (forces, name) = (preloads.forces(), || document.name().into());
+    let results = match arguments.lines {
+        Some(lines) => {
+            let (folder, lines) = (document.resolve(""), lines as usize);
+            let solved = study::solve_preloads_on_lines(scene, &folder, &forces, lines, arguments.threads());
+            let solved = solved.map_err(|error| CliError::Lines { scene: name(), error })?;
+            solved.into_iter().map(|(seed, line)| (Some(seed), line)).collect()
+        }
+        None => {
+            let mut line = Vec::with_capacity(forces.len());
+            let mut simulation = simulation_of(document);
+            study::solve_preloads(&mut simulation, scene, &forces, &|| false, &mut |one| line.push(one))
+                .map_err(|error| CliError::Run { scene: name(), error })?;
+            vec![(scene.seed(), line)]
+        }
+    };
+    let report = PreloadReport::new(scene, results);
+    let title = if scene.title.is_empty() { document.name() } else { &scene.title };
+    arguments.output.write(stdout, |out| match format {
+        RunFormat::Summary => {
+            out.write_all(report.text().as_bytes())?;
+            choice.as_ref().map_or(Ok(()), |choice| writeln!(out, "\n{}", choice.sentence()))
+        }
+        RunFormat::Json => report.write_json(out),
+        RunFormat::Csv | RunFormat::Npy => report.write_csv(out),
+        RunFormat::Svg => out.write_all(figure_svg(&report.figure(title)).as_bytes()),
+    })
+}
+
 /// Computes a scene on several lines and writes what they gave.
 fn on_lines(
     arguments: &RunArguments,
@@ -269,9 +330,7 @@ fn on_lines(
     lines: u32,
     stdout: &mut dyn Write,
 ) -> Result<(), CliError> {
-    let jobs =
-        arguments.jobs.map_or_else(|| available_parallelism().map_or(1, std::num::NonZero::get), usize::from);
-    let results = study::solve_lines(scene, &document.resolve(""), lines as usize, jobs)
+    let results = study::solve_lines(scene, &document.resolve(""), lines as usize, arguments.threads())
         .map_err(|error| CliError::Lines { scene: document.name().into(), error })?;
     let provenance = arguments.output.provenance(document, scene, TableContent::RandomProfiles(lines));
     arguments.output.write(stdout, |out| match (format, format.of_table()) {

@@ -1,6 +1,5 @@
 //! Everything that can happen to the explorer.
 
-use super::completion::Completion;
 use super::opening::Opening;
 use super::snapshot::{Loop, Moment, Preview};
 use super::study::Found;
@@ -49,11 +48,16 @@ pub enum Action {
     Written(Result<Written, WriteFailure>),
     /// The scenes that can be opened.
     Listed(Vec<Entry>),
+    /// Paths that complete a typed one.
+    Completed {
+        /// The path as typed.
+        typed: String,
+        /// The whole paths, the best first.
+        paths: Vec<String>,
+    },
     /// A scene or a study has been opened by its path, or not, and why.
     Opened(Result<Box<Opening>, String>),
-    /// Names that continue the path that is typed.
-    Completed(Completion),
-    /// The curve of the scene chosen in the library.
+    /// The curve of a scene to look at.
     Previewed(Arc<Preview>),
     /// What the connection carries.
     Traffic(Traffic),
@@ -190,8 +194,6 @@ pub enum Command {
     EditValue,
     /// Type the selected value, beginning with this character.
     StartValue(char),
-    /// Complete the path that is typed.
-    CompletePath,
     /// Search the list of parameters.
     FindParameter,
     /// Fold the group of the selected parameter, or unfold it.
@@ -210,6 +212,10 @@ pub enum Command {
     Swap,
     /// Let all ghosts go.
     ClearGhosts,
+    /// Choose a command from the list of all.
+    OpenPalette,
+    /// Complete the path that is typed.
+    Complete,
     /// Save the scene to a file.
     Save,
     /// Export curve or panes to a file.
@@ -246,6 +252,8 @@ pub enum Command {
     ToggleAccuracy,
     /// Type a tolerance.
     TypeTolerance,
+    /// Show adhesion against preload, or the profile and the fragments again.
+    TogglePreloads,
     /// Show the map, choose it, or show the profile and the fragments again.
     ToggleChart,
     /// Show sections through the mark in place of the map, or the other way round.
@@ -266,6 +274,8 @@ pub enum Command {
     ZoomPane,
     /// Choose the next pane.
     NextPane,
+    /// Show springs and times of the computation in the status line, or mechanical quantities again.
+    ToggleWork,
     /// Other colours.
     NextTheme,
     /// Other markers in the plots.

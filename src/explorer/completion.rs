@@ -1,103 +1,144 @@
-//! Completion of the path of a file that is typed between quotes, as in `Measured(file: "sty`.
+//! Completion of a typed path by the files and folders there are.
 
+use super::fuzzy::{Candidate, find};
+use crate::scene::typed_path;
 use crate::text::is_control;
-use std::fs;
-use std::path::{Path, is_separator};
+use std::fs::read_dir;
+use std::path::{MAIN_SEPARATOR, Path, is_separator};
 
 /// Most entries of a folder that are looked at.
 const MOST_ENTRIES: usize = 10_000;
 
-/// Most names that are kept.
-const MOST_NAMES: usize = 200;
-
-/// Names that continue a path.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Completion {
-    /// The path as typed.
-    pub typed: String,
-    /// Entries of its folder that begin as its last part, in order; folders end with a separator.
-    pub names: Vec<String>,
-}
-
-/// Path between quotes that ends at the cursor, from the text before the cursor.
+/// Paths in the folder of a typed path, in order: those whose names begin as typed, or, where there are none, those whose
+/// names have the typed letters, the best first. Folders end in a separator; hidden files are named by their dot.
 #[must_use]
-pub fn unfinished_path(before: &str) -> Option<&str> {
-    let is_open = before.matches('"').count() % 2 == 1;
-    before.rsplit('"').next().filter(|_| is_open)
+pub fn complete(typed: &str) -> Vec<String> {
+    let (folder, name) = split(typed.trim_start());
+    let directory = if folder.is_empty() { Path::new(".").to_path_buf() } else { typed_path(folder) };
+    let Ok(entries) = read_dir(directory) else { return Vec::new() };
+    let mut names: Vec<String> = entries
+        .take(MOST_ENTRIES)
+        .filter_map(|entry| {
+            let entry = entry.ok()?;
+            let name = entry.file_name().into_string().ok().filter(|name| !name.chars().any(is_control))?;
+            Some(if entry.path().is_dir() { format!("{name}{MAIN_SEPARATOR}") } else { name })
+        })
+        .filter(|one| name.starts_with('.') || !one.starts_with('.'))
+        .collect();
+    names.sort_unstable();
+    let begin: Vec<&String> = names.iter().filter(|one| one.starts_with(name)).collect();
+    let found = if begin.is_empty() {
+        let candidates = names.iter().map(|one| Candidate { names: vec![one.clone()], prose: Vec::new() });
+        find(candidates, name).into_iter().map(|index| &names[index]).collect()
+    } else {
+        begin
+    };
+    found.into_iter().map(|one| format!("{folder}{one}")).collect()
 }
 
-/// Folder part of a path, separator included, and the rest.
-fn split(typed: &str) -> (&str, &str) {
-    typed.split_at(typed.rfind(is_separator).map_or(0, |index| index + 1))
+/// Folder of a path as typed, with its separator, and the rest.
+fn split(path: &str) -> (&str, &str) {
+    let end = path.trim_end_matches(is_separator).len();
+    let from = if end < path.len() { path.len() } else { path.rfind(is_separator).map_or(0, |at| at + 1) };
+    path.split_at(from)
+}
+
+/// Paths that complete a typed one, and the one that has taken its place.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Completion {
+    paths: Vec<String>,
+    taken: Option<usize>,
 }
 
 impl Completion {
-    /// Looks for the entries of the folder of a path, which is relative to `folder`. A folder that cannot be read has none.
+    /// Candidates of which none has been taken.
     #[must_use]
-    pub fn new(typed: String, folder: &Path) -> Self {
-        let (parent, begin) = split(&typed);
-        let entries = fs::read_dir(match folder.join(parent) {
-            here if here.as_os_str().is_empty() => Path::new(".").to_path_buf(),
-            there => there,
-        });
-        let names = entries.into_iter().flatten().take(MOST_ENTRIES).flatten().filter_map(|entry| {
-            let name = entry.file_name().into_string().ok()?;
-            let is_hidden = name.starts_with('.') && !begin.starts_with('.');
-            // What a text of RON would need escapes for is left to be typed.
-            let is_plain = !name.contains(|c: char| is_control(c) || c == '"' || c == '\\');
-            if !name.starts_with(begin) || is_hidden || !is_plain {
-                return None;
-            }
-            Some(if entry.path().is_dir() { name + "/" } else { name })
-        });
-        let mut names: Vec<String> = names.collect();
-        names.sort_unstable();
-        names.truncate(MOST_NAMES);
-        Completion { typed, names }
+    pub fn new(paths: Vec<String>) -> Self {
+        Completion { paths, taken: None }
     }
 
-    /// Characters that all names have behind the typed ones.
+    /// Longest text with which all paths begin.
     #[must_use]
-    pub fn addition(&self) -> &str {
-        let (_, begin) = split(&self.typed);
-        let Some((first, others)) = self.names.split_first() else { return "" };
-        let rest = &first[begin.len()..];
-        let common = |other: &String| {
-            let same = rest.chars().zip(other[begin.len()..].chars()).take_while(|(a, b)| a == b);
-            same.map(|(c, _)| c.len_utf8()).sum::<usize>()
+    pub fn common_start(&self) -> String {
+        let mut paths = self.paths.iter();
+        let Some(first) = paths.next() else { return String::new() };
+        paths.fold(first.clone(), |start, path| {
+            start
+                .chars()
+                .zip(path.chars())
+                .take_while(|(one, other)| one == other)
+                .map(|(one, _)| one)
+                .collect()
+        })
+    }
+
+    /// The only path there is.
+    #[must_use]
+    pub fn only(&self) -> Option<&str> {
+        if let [path] = &self.paths[..] { Some(path) } else { None }
+    }
+
+    /// Takes the next path, after the last the first again.
+    pub fn take_next(&mut self) -> Option<&str> {
+        let next = self.taken.map_or(0, |taken| taken + 1);
+        self.taken = Some(if next < self.paths.len() { next } else { 0 });
+        self.paths.get(self.taken.unwrap_or(0)).map(String::as_str)
+    }
+
+    /// Names of the paths without their folders, and whether each is the one that was taken, which comes first.
+    #[must_use]
+    pub fn names(&self) -> Vec<(String, bool)> {
+        let first = self.taken.unwrap_or(0);
+        let places = (first..self.paths.len()).chain(0..first.min(self.paths.len()));
+        let name = |place: usize| {
+            let path = self.paths[place].trim_end_matches(is_separator);
+            let from = path.rfind(is_separator).map_or(0, |at| at + 1);
+            (self.paths[place][from..].to_owned(), self.taken == Some(place))
         };
-        &rest[..others.iter().map(common).min().unwrap_or(rest.len())]
+        places.map(name).collect()
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::fs;
 
     #[test]
-    fn paths_between_quotes_are_completed() {
-        assert_eq!(unfinished_path("Measured(file: \"a/b"), Some("a/b"));
-        assert_eq!(unfinished_path("\""), Some(""));
-        for closed in ["", "Measured(", "Measured(file: \"a\""] {
-            assert_eq!(unfinished_path(closed), None, "{closed}");
-        }
+    fn names_that_begin_so_come_before_letters_of_others() {
         let folder = tempfile::tempdir().unwrap();
-        fs::create_dir(folder.path().join("scans")).unwrap();
-        for name in ["stylus-é1.txt", "stylus-é2.txt", "scans/map.gwy", ".hidden", "sty\"le"] {
-            fs::write(folder.path().join(name), "").unwrap();
+        for file in ["rough.ron", "rough-sphere.ron", "sphere.ron", ".hidden"] {
+            fs::write(folder.path().join(file), "").unwrap();
         }
-        let complete = |typed: &str| {
-            let found = Completion::new(typed.to_owned(), folder.path());
-            (found.addition().to_owned(), found.names.join(" "))
+        fs::create_dir(folder.path().join("results")).unwrap();
+        let base = format!("{}{MAIN_SEPARATOR}", folder.path().display());
+        let found = |typed: &str| -> Vec<String> {
+            let paths = complete(&format!("{base}{typed}"));
+            paths.into_iter().map(|path| path.strip_prefix(&base).unwrap().to_owned()).collect()
         };
-        let both = "stylus-é1.txt stylus-é2.txt";
-        assert_eq!(complete("sty"), ("lus-é".to_owned(), both.to_owned()));
-        assert_eq!(complete("stylus-é"), (String::new(), both.to_owned()));
-        assert_eq!(complete("stylus-é2"), (".txt".to_owned(), "stylus-é2.txt".to_owned()));
-        assert_eq!(complete("sc"), ("ans/".to_owned(), "scans/".to_owned()));
-        assert_eq!(complete("scans/"), ("map.gwy".to_owned(), "map.gwy".to_owned()));
-        assert_eq!(complete(".h"), ("idden".to_owned(), ".hidden".to_owned()));
-        assert_eq!(complete("none/"), (String::new(), String::new()));
-        assert_eq!(complete(""), ("s".to_owned(), format!("scans/ {both}")));
+        let results = format!("results{MAIN_SEPARATOR}");
+        assert_eq!(found(""), [results.as_str(), "rough-sphere.ron", "rough.ron", "sphere.ron"]);
+        assert_eq!(found("rou"), ["rough-sphere.ron", "rough.ron"]);
+        assert_eq!(found("re"), [results.as_str()]);
+        assert_eq!(found("sph"), ["sphere.ron"]);
+        assert_eq!(found("rghs"), ["rough-sphere.ron"]);
+        assert_eq!(found("."), [".hidden"]);
+        assert_eq!(found("nothing"), [""; 0]);
+        assert_eq!(complete(&format!("{base}no such folder{MAIN_SEPARATOR}")), [""; 0]);
+    }
+
+    #[test]
+    fn candidates_are_taken_in_turn() {
+        let paths = ["a/rough.ron", "a/rough-sphere.ron"].map(str::to_owned).to_vec();
+        let mut completion = Completion::new(paths);
+        assert_eq!((completion.common_start().as_str(), completion.only()), ("a/rough", None));
+        assert!(completion.names().iter().all(|(_, taken)| !taken));
+        let taken: Vec<_> = (0..3).map(|_| completion.take_next().map(str::to_owned)).collect();
+        let (first, second) = (Some("a/rough.ron".to_owned()), Some("a/rough-sphere.ron".to_owned()));
+        assert_eq!(taken, [first.clone(), second, first]);
+        let names = [("rough.ron".to_owned(), true), ("rough-sphere.ron".to_owned(), false)];
+        assert_eq!(completion.names(), names);
+        assert_eq!(Completion::new(Vec::new()).take_next(), None);
+        assert_eq!(Completion::new(vec!["a/b/".to_owned()]).names(), [("b/".to_owned(), false)]);
     }
 }

@@ -3,8 +3,10 @@
 use super::action::{Content, Traffic};
 pub use super::appraisal::{Appraisal, Costs, Estimated};
 pub use super::chart::{Chart, OpenStudy};
+use super::completion::Completion;
 pub use super::mode::{Library, Mode, ModeKind};
 use super::parameters::{Parameter, Setting, parameters};
+use super::preload_curve::PreloadPane;
 use super::request::{Focus, LineView};
 use super::snapshot::{Drive, Loop, Moment, Preview};
 use super::theme::Appearance;
@@ -12,6 +14,7 @@ use crate::analysis::Governing;
 use crate::contact::{CurvePoint, LegRecord};
 use crate::draw::AxisScale;
 use crate::scene::{Document, Scene, ron_float};
+use crate::simulation::Outcome;
 pub use crate::study::map::Charted;
 use crate::study::map::{MapAxis, Place, StudyMap, Template};
 use std::collections::{BTreeMap, BTreeSet};
@@ -34,6 +37,8 @@ pub enum Pane {
     Chart,
     /// Spectra, in place of profile and close-up.
     Spectrum,
+    /// Adhesion against preload, in place of profile and close-up.
+    Preloads,
 }
 
 impl Pane {
@@ -46,6 +51,8 @@ impl Pane {
     pub const WITH_CHART: [Pane; 3] = [Pane::Force, Pane::Chart, Pane::Parameters];
     /// The panes while the spectrum is shown.
     pub const WITH_SPECTRUM: [Pane; 3] = [Pane::Force, Pane::Spectrum, Pane::Parameters];
+    /// The panes while adhesion against preload is shown.
+    pub const WITH_PRELOADS: [Pane; 3] = [Pane::Force, Pane::Preloads, Pane::Parameters];
 }
 
 /// Where the animation stands.
@@ -190,6 +197,12 @@ pub struct Model {
     pub player: Player,
     /// The body, while it is in hand.
     pub hand: Option<Hand>,
+    /// The force to go to, as it was typed last.
+    pub typed_force: String,
+    /// The status line has springs and times of the computation in place of mechanical quantities.
+    pub shows_work: bool,
+    /// Paths that complete the typed one, while they are shown.
+    pub completion: Option<Completion>,
     /// What the close-up looks at.
     pub look: Look,
     /// Whether its pane shows the distribution of lengths instead.
@@ -206,8 +219,13 @@ pub struct Model {
     pub appraisal: Appraisal,
     /// The map over κ and H.
     pub chart: Chart,
-    /// The curve of the scene selected in the library.
+    /// Adhesion against preload.
+    pub preloads: PreloadPane,
+    /// The newest curve of a scene to look at: the one selected in the library, or the one with a value that is being
+    /// typed.
     pub preview: Option<Arc<Preview>>,
+    /// Text of the scene with the value that is being typed, where it is another scene.
+    pub tried: Option<String>,
     /// The chosen pane.
     pub pane: Pane,
     /// Whether it has the whole screen.
@@ -224,6 +242,8 @@ pub struct Model {
     pub writing: Option<Writing>,
     /// A line for the user.
     pub notice: Option<Notice>,
+    /// Line in place of the keys while a script plays, since they do nothing then.
+    pub demo: Option<&'static str>,
     /// Whether the explorer is to end.
     pub finished: bool,
 }
@@ -252,6 +272,9 @@ impl Model {
             progress: Some(0),
             player: Player { leg: 0, done: 0.0, playing: true },
             hand: None,
+            typed_force: String::new(),
+            shows_work: false,
+            completion: None,
             look: Look { focus: Focus::Summit, springs },
             lengths: false,
             spectrum: false,
@@ -260,7 +283,9 @@ impl Model {
             ghosts: Vec::new(),
             appraisal: Appraisal::default(),
             chart: Chart::default(),
+            preloads: PreloadPane::default(),
             preview: None,
+            tried: None,
             pane: Pane::Force,
             zoomed: false,
             size,
@@ -269,6 +294,7 @@ impl Model {
             shows_times: true,
             writing: None,
             notice: None,
+            demo: None,
             finished: false,
         }
     }
@@ -329,9 +355,18 @@ impl Model {
         match self.in_place_of_the_line() {
             Some(Pane::Chart) => &Pane::WITH_CHART,
             Some(Pane::Spectrum) => &Pane::WITH_SPECTRUM,
+            Some(Pane::Preloads) => &Pane::WITH_PRELOADS,
             Some(_) => &Pane::WITH_ACCURACY,
             None => &Pane::ALL,
         }
+    }
+
+    /// What was computed for the value that is being typed.
+    #[must_use]
+    pub fn tried_outcome(&self) -> Option<&Outcome> {
+        let Mode::Edit(_) = self.mode else { return None };
+        let preview = self.preview.as_ref().filter(|preview| self.tried.as_ref() == Some(&preview.text))?;
+        preview.outcome.as_ref().ok()
     }
 
     /// What is shown in place of profile and close-up.
@@ -341,6 +376,7 @@ impl Model {
             (self.chart.shown, Pane::Chart),
             (self.appraisal.shown, Pane::Accuracy),
             (self.spectrum, Pane::Spectrum),
+            (self.preloads.shown, Pane::Preloads),
         ]
         .into_iter()
         .find_map(|(is_shown, pane)| is_shown.then_some(pane))
@@ -350,6 +386,7 @@ impl Model {
     pub fn hide_in_place_of_the_line(&mut self) {
         self.chart.shown = false;
         self.appraisal.hide();
+        self.preloads.shown = false;
         self.spectrum = false;
     }
 

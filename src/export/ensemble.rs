@@ -1,6 +1,7 @@
 //! Results of many random lines as text, JSON and CSV.
 
 use super::sheet::Sheet;
+use super::summary::tabor_number;
 use super::table::{Cell, Column, TableFormat, write_table};
 use crate::accuracy::Choice;
 use crate::analysis::Regime;
@@ -36,6 +37,10 @@ pub fn ensemble_text(scene: &Scene, lines: &[LineResult]) -> String {
         rows.extend(statistics.map(|statistics| cells(name, unit, &statistics)));
     }
     sheet.table(&rows);
+    // Lines of one spectrum have one Tabor number.
+    let number =
+        lines.iter().filter(|line| line.dissipated_energy.is_some()).find_map(|line| line.tabor_number);
+    sheet.row_of("Tabor number μ", number.map(tabor_number));
     sheet.heading("Regimes");
     let regimes = summary.regimes;
     for (name, count) in [
@@ -112,6 +117,7 @@ pub fn write_ensemble_table(
         ("regime", Column::Word(longest)),
         ("skewness", Column::Real),
         ("excess_kurtosis", Column::Real),
+        ("tabor_number", Column::Real),
     ];
     let rows = lines.iter().map(|line| {
         let shape = |figure: fn(HeightShape) -> f64| Cell::from(line.heights.map(figure));
@@ -124,6 +130,7 @@ pub fn write_ensemble_table(
             Cell::Word(line.regime.map_or("", Regime::name)),
             shape(|shape| shape.skewness),
             shape(|shape| shape.excess_kurtosis),
+            line.tabor_number.into(),
         ]
     });
     write_table(out, format, provenance, columns, lines.len(), rows)

@@ -7,6 +7,8 @@ mod cost;
 mod ensemble;
 mod json;
 mod map;
+mod preloads;
+mod reversals;
 mod scene_figure;
 mod scene_tables;
 pub(crate) mod sheet;
@@ -25,6 +27,11 @@ pub use cost::{cost_text, write_cost_csv, write_cost_json};
 pub use ensemble::{ensemble_text, write_ensemble_json, write_ensemble_table};
 pub use json::write_json;
 pub use map::write_map;
+pub use preloads::{PreloadReport, preload_axes, preload_layers};
+pub use reversals::{
+    ReversalReport, reversals_figure, reversals_text, write_reversal_map_csv, write_reversals_csv,
+    write_reversals_json,
+};
 pub use scene_figure::{ContactSets, force_figure, sign};
 pub use scene_tables::{write_curve, write_line};
 pub use spectrum_figure::{Spectra, SpectrumPoint};

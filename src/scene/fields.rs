@@ -469,6 +469,18 @@ pub const FIELDS: &[Field] = &[
         ..NUMBER
     },
     Field {
+        path: "adhesion.range",
+        name: "range of attraction",
+        symbol: "z₀",
+        unit: "m",
+        range: Range::closed(1e-12, 1e-3),
+        step: Step::Logarithmic,
+        default: "None",
+        meaning: "range of the attraction, for the Tabor number alone; default: 0.3 nm",
+        access: at!(adhesion?.range),
+        ..NUMBER
+    },
+    Field {
         path: "loading",
         name: "loading",
         range: Range::List {

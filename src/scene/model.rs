@@ -245,6 +245,9 @@ pub struct Adhesion {
     /// Elastic energy of conformity over the work of adhesion, e_el/γ.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub elastic_energy_ratio: Option<f64>,
+    /// Range z₀ of the attraction, m, for the Tabor number alone; left out: 0.3 nm.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub range: Option<f64>,
 }
 
 /// One leg of the loading history.

@@ -19,6 +19,14 @@ pub enum RunError {
     /// The line could not be made.
     #[error(transparent)]
     Surface(#[from] SurfaceError),
+    /// Reversals under the stepwise solver.
+    #[error("numerics.solver = Stepwise: reversals need the exact solver; allowed: numerics.solver = Exact")]
+    NeedsExactSolver,
+    /// Turning points of a loading that does not press.
+    #[error(
+        "loading: no indentation above 0 m at the preload; allowed: a stage that presses the bodies together"
+    )]
+    NeverPressed,
     /// The contact could not be computed.
     #[error(transparent)]
     Contact(#[from] ContactError),

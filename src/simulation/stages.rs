@@ -2,8 +2,8 @@
 
 use super::contact_stage::{ContactMemory, ContactStage};
 use super::{LineFacts, Outcome, Plan, RunError, Stage, Timings};
-use crate::analysis::{Figures, Governing, Regime, ideal_adhesion_force};
-use crate::contact::{ContactError, ContactTree, LegRecord, Solver};
+use crate::analysis::{Figures, Governing, Regime, ideal_adhesion_force, tabor_number};
+use crate::contact::{ContactError, ContactTree, Foundation, HessRule, LegRecord, Solver};
 use crate::memory::check_room;
 use crate::parallel::in_parallel;
 use crate::reference::smooth_adhesion_force;
@@ -103,6 +103,15 @@ struct LineKey {
     length: f64,
     points: usize,
     form: Option<Form>,
+}
+
+/// Profile, tree and rule of a scene, before its contact is solved.
+pub(super) struct Prepared<'a> {
+    pub line: &'a Line,
+    pub tree: Option<&'a ContactTree>,
+    pub foundation: Foundation,
+    pub hess: Option<HessRule>,
+    pub memory: &'a mut ContactMemory,
 }
 
 /// Called after each leg with its index, its record and the solver as it then stands; an error stops
@@ -268,6 +277,25 @@ impl Simulation {
         *self = Simulation { single, measured, ..Simulation::new(take(&mut self.folder)) };
     }
 
+    /// Makes profile and tree of a checked scene for a contact by this plan.
+    pub(super) fn prepare(
+        &mut self,
+        plan: &Plan,
+        scene: &Scene,
+        stop: &dyn Fn() -> bool,
+    ) -> Result<Prepared<'_>, RunError> {
+        let interrupted = || if stop() { Err(ContactError::Interrupted) } else { Ok(()) };
+        self.make_room(plan, scene.numerics.points as usize)?;
+        let (_, _, governing) = self.make_line(scene)?;
+        interrupted()?;
+        self.look_at_line(plan, scene.numerics.edges)?;
+        interrupted()?;
+        let Some((_, line)) = &self.line else { return Err(ContactError::Interrupted.into()) };
+        let foundation = governing.foundation(line);
+        let hess = governing.hess_rule(foundation).filter(|_| plan.runs(Stage::RuleOfHess));
+        Ok(Prepared { line, tree: self.tree.as_deref(), foundation, hess, memory: &mut self.memory })
+    }
+
     /// Runs a checked scene by its plan. `stop` is asked now and then whether to give up; `after` sees
     /// each leg of the scene's own loading.
     ///
@@ -339,6 +367,7 @@ impl Simulation {
             ideal_adhesion_force: work.map(|work| ideal_adhesion_force(work, modulus, scene.length)),
             smooth_adhesion_force: smooth,
             zero_load_adhesion_force,
+            tabor_number: tabor_number(scene, &governing),
             regime,
             figures,
             history,

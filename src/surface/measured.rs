@@ -133,6 +133,7 @@ impl MeasuredProfile {
         let out_of_memory = || SurfaceError::OutOfMemory { points };
         check_room(TRANSFORM_BYTES * points as u64).map_err(|_| out_of_memory())?;
         let mut heights = self.sample(self.length(), points, 0.0).map_err(|_| out_of_memory())?;
+        let curvature = rms_curvature(&heights, self.length() / points as f64);
         join_ends(&mut heights);
         let plan = RealFftPlanner::<f64>::new().plan_fft_forward(points);
         let mut modes = plan.make_output_vec();
@@ -147,7 +148,7 @@ impl MeasuredProfile {
             mean if mean.is_finite() => mean,
             _ => 0.0,
         };
-        Ok(Amplitude { rms_height, rms_gradient, mean_wave_number })
+        Ok(Amplitude { rms_height, rms_gradient, rms_curvature: curvature, mean_wave_number })
     }
 
     /// Heights, m, at x = (i + ½ − `shift`)L/N from the beginning of the profile, by linear interpolation; at a measured
@@ -197,6 +198,13 @@ impl MeasuredProfile {
         let is_exact = |height: &f64| (low..=high).contains(&(height * first.signum()));
         if self.heights.iter().all(is_exact) { first } else { 0.0 }
     }
+}
+
+/// Root mean square curvature, 1/m, of heights at this distance, m, by second differences.
+fn rms_curvature(heights: &[f64], spacing: f64) -> f64 {
+    let squares = heights.windows(3).map(|z| ((z[0] - z[1]) + (z[2] - z[1])).powi(2)).sum::<f64>();
+    let count = heights.len().saturating_sub(2).max(1);
+    (squares / count as f64).sqrt() / spacing.powi(2)
 }
 
 /// Subtracts the straight line after which the step from the last height to the first is the mean of the steps beside it.
@@ -359,6 +367,8 @@ mod tests {
         for (points, middles) in [(1000, 0.5), (1001, 0.5), (1000, 0.0)] {
             let level = MeasuredProfile::parse(&text(points, middles, 0.0)).unwrap().amplitude().unwrap();
             assert!((level.mean_wave_number / (15.0 * TAU) - 1.0).abs() < 0.01, "{level:?}");
+            let curvature = 2e-3 * 0.5_f64.sqrt() * (15.0 * TAU).powi(2);
+            assert!((level.rms_curvature / curvature - 1.0).abs() < 0.01, "{level:?}");
             // A tilt is no energy.
             let tilted = MeasuredProfile::parse(&text(points, middles, 0.1)).unwrap().amplitude().unwrap();
             assert!(tilted.rms_height > 10.0 * level.rms_height);

@@ -2,14 +2,13 @@
 //! depend on how fast it is.
 
 use asperity::explorer::action::{Action, Content, WriteFailure, Written};
-use asperity::explorer::completion::Completion;
 use asperity::explorer::model::Model;
 use asperity::explorer::snapshot::Loop;
 use asperity::explorer::study::{Appraiser, Found, perform};
 use asperity::explorer::theme::{Appearance, Marker, Theme};
 use asperity::explorer::update::{Effect, moment_request, study_tasks};
 use asperity::explorer::worker::{self, Engine, Newest, Report, Request, Worker};
-use asperity::explorer::{Opening, write};
+use asperity::explorer::{Opening, complete, write};
 use asperity::scene::Library;
 use asperity::simulation::{Simulation, Timings};
 use std::collections::BTreeMap;
@@ -94,14 +93,21 @@ impl Driver {
                 let scene = Arc::new(document.scene().clone());
                 self.ask(Request::Preview { text: document.text().to_owned(), scene })
             }
+            Effect::Complete(typed) => {
+                let paths = complete(&typed);
+                vec![Action::Completed { typed, paths }]
+            }
             Effect::Open(name) => {
                 let opened = Opening::of(&name).map(Box::new).map_err(|error| error.to_string());
                 vec![Action::Opened(opened)]
             }
-            Effect::Complete { typed, folder } => vec![Action::Completed(Completion::new(typed, &folder))],
             Effect::List => vec![Action::Listed(Library::of(None, self.folder.clone()).list())],
             Effect::Copy(text) => {
                 self.copied.push(text);
+                Vec::new()
+            }
+            Effect::StopPreview => {
+                self.worker.stop_preview();
                 Vec::new()
             }
             Effect::Suspend => Vec::new(),

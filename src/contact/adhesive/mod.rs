@@ -225,8 +225,8 @@ impl<E: EdgeModel> ContactModel for Adhesive<'_, E> {
         ground.sample(runs, unloading, grid)
     }
 
-    fn smallest_of_reversal(&self, leg: &Sampled, sorted: &mut u64) -> ContactState {
-        self.reversal().smallest(leg, sorted)
+    fn smallest_of_reversal(&self, grid: &Grid, sorted: &mut u64) -> Result<ContactState, ContactError> {
+        self.reversal().smallest_on(grid, sorted)
     }
 
     fn squared_stretches(&self) -> [f64; 2] {

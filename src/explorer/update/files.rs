@@ -2,7 +2,6 @@
 
 use super::Effect;
 use crate::explorer::action::{Content, WriteFailure, Written};
-use crate::explorer::completion::{Completion, unfinished_path};
 use crate::explorer::mode::Mode;
 use crate::explorer::model::{Model, Notice, Writing};
 use crate::explorer::text_line::TextLine;
@@ -80,35 +79,6 @@ fn begin(
     }
     model.writing = Some(Writing { path: path.clone(), text: model.document.text().to_owned(), then_quit });
     vec![Effect::Write { path, content, overwrite }]
-}
-
-/// Asks for the names that continue the path before the cursor, in the editor of a roughness.
-pub fn complete(model: &mut Model) -> Vec<Effect> {
-    let is_roughness = model.parameter().is_some_and(|parameter| parameter.path.starts_with("roughness"));
-    let Mode::Edit(line) = &model.mode else { return Vec::new() };
-    let (before, ..) = line.parts();
-    match unfinished_path(&before) {
-        Some(typed) if is_roughness => {
-            vec![Effect::Complete { typed: typed.to_owned(), folder: model.document.resolve("") }]
-        }
-        _ => Vec::new(),
-    }
-}
-
-/// Adds to the typed path what all names have in common, or lists the names.
-pub fn completed(model: &mut Model, completion: &Completion) {
-    let Mode::Edit(line) = &mut model.mode else { return };
-    let (before, ..) = line.parts();
-    // The text may have been changed meanwhile.
-    if unfinished_path(&before) != Some(completion.typed.as_str()) {
-        return;
-    }
-    completion.addition().chars().for_each(|character| line.insert(character));
-    model.notice = match &completion.names[..] {
-        [] => Some(Notice::Error(format!("no file begins with {:?}", completion.typed))),
-        [_] => None,
-        names => Some(Notice::Done(names.join("  "))),
-    };
 }
 
 /// Takes in how writing went. It may have taken long: the scene can have been changed meanwhile.

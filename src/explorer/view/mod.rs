@@ -10,8 +10,10 @@ mod help;
 mod histogram;
 mod lengths;
 mod library;
+mod palette;
 mod parameters;
 mod plot;
+mod preloads;
 mod profile;
 mod section;
 mod sections;
@@ -51,6 +53,9 @@ pub fn draw(frame: &mut Frame<'_>, model: &Model) {
             }
         }
     }
+    if let Mode::Palette(finder) = &model.mode {
+        palette::draw(frame, body(&layout), model.appearance.theme, finder);
+    }
     crate::draw::dry(frame.buffer_mut());
     chrome::status(frame, layout.status, model);
     if let Some(area) = layout.footer {
@@ -87,6 +92,7 @@ fn draw_pane(frame: &mut Frame<'_>, area: Rect, model: &Model, pane: Pane) {
             Pane::Accuracy => accuracy::TITLE.to_owned(),
             Pane::Chart => chart_words::title(model),
             Pane::Spectrum => spectrum::TITLE.to_owned(),
+            Pane::Preloads => preloads::TITLE.to_owned(),
         };
         let style = model.appearance.theme.style(if chosen { Meaning::Title } else { Meaning::Quiet });
         let mark = if chosen { "▸" } else { "" };
@@ -111,5 +117,6 @@ fn draw_pane(frame: &mut Frame<'_>, area: Rect, model: &Model, pane: Pane) {
         Pane::Accuracy => accuracy::draw(frame, area, model),
         Pane::Chart => chart::draw(frame, area, model),
         Pane::Spectrum => spectrum::draw(frame, area, model),
+        Pane::Preloads => preloads::draw(frame, area, model),
     }
 }
