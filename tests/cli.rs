@@ -949,11 +949,14 @@ fn scenes_are_drawn_and_pictures_hold_nothing_else() {
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), before, "nothing is written");
 }
 
-const SMALL: [&str; 2] = ["--set", "numerics.points=1024"];
+/// Few springs, for a profile that is only looked at.
+const FEW_SPRINGS: [&str; 2] = ["--set", "numerics.points=1024"];
 
 #[test]
 fn adhesion_against_preload_is_printed_for_one_profile_and_for_many() {
-    let run = |more: &[&str]| done(&[&["run", "pressure-sensitive", "--preloads", "0..20uN:5"], &SMALL[..], more].concat());
+    let run = |more: &[&str]| {
+        done(&[&["run", "pressure-sensitive", "--preloads", "0..20uN:5"], &FEW_SPRINGS[..], more].concat())
+    };
     let text = run(&[]);
     assert!(text.contains("Adhesion against preload, one profile of 1 024 springs"), "{text}");
     assert!(text.lines().all(|line| line.chars().count() <= 80), "{text}");
@@ -963,7 +966,9 @@ fn adhesion_against_preload_is_printed_for_one_profile_and_for_many() {
     assert_eq!(rows.len(), 6);
     // Each is what a run to that preload gives.
     let loading = format!("loading=[ToForce({}), ToSeparation]", rows[4][1]);
-    let one = done(&[&["run", "pressure-sensitive", "--format", "json", "--set", &loading], &SMALL[..]].concat());
+    let one = done(
+        &[&["run", "pressure-sensitive", "--format", "json", "--set", &loading], &FEW_SPRINGS[..]].concat(),
+    );
     let one: Value = serde_json::from_str(&one).unwrap();
     let number = |column: usize| rows[4][column].parse::<f64>().unwrap();
     assert_eq!(one["adhesion_force"].as_f64(), Some(number(3)));
@@ -972,7 +977,9 @@ fn adhesion_against_preload_is_printed_for_one_profile_and_for_many() {
     assert_eq!(many["lines"].as_array().unwrap().len(), 3);
     assert_eq!(many["mean"][4]["adhesion_force"]["count"], 3);
     assert!(run(&["--lines", "3", "--format", "svg"]).starts_with("<svg"));
-    for (preloads, place) in [("5uN", "--preloads"), ("2..1", "--preloads"), ("0..1kg", "kg"), ("0..1:1", "2 to 512")] {
+    for (preloads, place) in
+        [("5uN", "--preloads"), ("2..1", "--preloads"), ("0..1kg", "kg"), ("0..1:1", "2 to 512")]
+    {
         let error = failed(2, &["run", "pressure-sensitive", "--preloads", preloads]);
         assert!(error.contains(place) && error.contains("allowed"), "{error}");
     }
@@ -983,7 +990,9 @@ fn adhesion_against_preload_is_printed_for_one_profile_and_for_many() {
 
 #[test]
 fn reversals_are_printed_in_all_formats() {
-    let run = |more: &[&str]| done(&[&["reversals", "pressure-sensitive", "--count", "12"], &SMALL[..], more].concat());
+    let run = |more: &[&str]| {
+        done(&[&["reversals", "pressure-sensitive", "--count", "12"], &FEW_SPRINGS[..], more].concat())
+    };
     let text = run(&[]);
     assert!(text.contains("12 reversals of one loading") && text.contains("minor loops with loss"), "{text}");
     assert!(text.lines().all(|line| line.chars().count() <= 80), "{text}");
@@ -1018,7 +1027,8 @@ fn reversals_are_printed_in_all_formats() {
         (1, &["--set", "loading=[ToIndentation(-1e-9)]"], "allowed: a stage that presses"),
         (1, &["--set", "numerics.solver=Stepwise(step: 1e-9)"], "allowed: numerics.solver = Exact"),
     ] {
-        let error = failed(code, &[&["reversals", "pressure-sensitive"], &SMALL[..], arguments].concat());
+        let error =
+            failed(code, &[&["reversals", "pressure-sensitive"], &FEW_SPRINGS[..], arguments].concat());
         assert!(error.contains(words), "{arguments:?}: {error}");
     }
 }

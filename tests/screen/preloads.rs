@@ -97,7 +97,9 @@ fn the_pane_takes_the_place_of_map_and_accuracy_and_gives_it_back() {
     within(60, || {
         let mut driver = shown(rough(), 1);
         assert_eq!(driver.model.panes(), Pane::WITH_PRELOADS);
-        for (keys, pane) in [("m", Some(Pane::Chart)), ("i", Some(Pane::Preloads)), ("A", Some(Pane::Accuracy))] {
+        for (keys, pane) in
+            [("m", Some(Pane::Chart)), ("i", Some(Pane::Preloads)), ("A", Some(Pane::Accuracy))]
+        {
             driver.press(keys);
             assert_eq!(driver.model.in_place_of_the_line(), pane, "{keys}");
         }
