@@ -26,6 +26,7 @@ const KEYS: &[&str] = &[
     "adhesion_coefficient",
     "pull_off_indentation",
     "dissipated_energy",
+    "tabor_number",
     "curve",
     "contacts",
     "work",
@@ -61,6 +62,11 @@ fn done(arguments: &[&str]) -> String {
     let Finished { code, stdout, stderr } = asperity(arguments);
     assert_eq!((code, stderr.as_str()), (Some(0), ""), "{arguments:?}");
     stdout
+}
+
+/// Lines of a table without its provenance.
+fn rows(table: &str) -> impl Iterator<Item = &str> {
+    table.lines().filter(|line| !line.starts_with('#'))
 }
 
 /// Standard error of a command that fails with this code and prints no results.
@@ -172,10 +178,10 @@ fn csv_is_the_curve_of_the_json() {
         let object = done(&["run", scene, "--format", "json"]);
         let curve: Vec<Vec<f64>> = object.lines().filter_map(point).collect();
         let text = done(&["run", scene, "--format", "csv"]);
-        let mut lines = text.lines();
+        let mut lines = rows(&text);
         assert_eq!(lines.next().unwrap(), CURVE_KEYS.join(","));
-        let rows = lines.map(|line| line.split(',').map(|cell| cell.parse().unwrap()).collect());
-        assert_eq!(rows.collect::<Vec<Vec<f64>>>(), curve);
+        let points = lines.map(|line| line.split(',').map(|cell| cell.parse().unwrap()).collect());
+        assert_eq!(points.collect::<Vec<Vec<f64>>>(), curve);
         assert!(curve.len() > 1000);
     }
 }
@@ -444,7 +450,7 @@ fn springs_under_a_punch_are_counted_beforehand() {
         let set = format!("numerics.points={points}");
         let plan = json(&["plan", "kendall-punch", "--set", &set, "--format", "json"]);
         let line = done(&["line", "kendall-punch", "--set", &set]);
-        assert_eq!(plan["springs"].as_u64(), Some(line.lines().count() as u64 - 1), "{points}");
+        assert_eq!(plan["springs"].as_u64(), Some(rows(&line).count() as u64 - 1), "{points}");
     }
 }
 
@@ -452,13 +458,14 @@ fn springs_under_a_punch_are_counted_beforehand() {
 fn line(scene: &str, points: usize) -> Vec<(f64, f64)> {
     let set = format!("numerics.points={points}");
     let text = done(&["line", scene, "--set", &set]);
-    let mut rows = text.lines();
-    assert_eq!(rows.next(), Some("x,z"));
-    rows.map(|row| {
-        let (x, z) = row.split_once(',').unwrap();
-        (x.parse().unwrap(), z.parse().unwrap())
-    })
-    .collect()
+    let mut points = rows(&text);
+    assert_eq!(points.next(), Some("x,z"));
+    points
+        .map(|row| {
+            let (x, z) = row.split_once(',').unwrap();
+            (x.parse().unwrap(), z.parse().unwrap())
+        })
+        .collect()
 }
 
 #[test]
@@ -479,9 +486,9 @@ fn a_line_refines_to_the_same_line() {
 #[test]
 fn a_line_that_is_written_and_measured_gives_the_same_loop() {
     let folder = tempfile::tempdir().unwrap();
-    let rows = (0..=150)
+    let points = (0..=150)
         .map(|index| format!("{:e} {:e}\n", f64::from(index) * 1e-6, 3.0 + 1e-8 * f64::from(index % 7)));
-    write(folder.path(), "stylus.txt", &rows.collect::<String>());
+    write(folder.path(), "stylus.txt", &points.collect::<String>());
     let file = folder.path().join("line.csv");
     let file = file.to_str().unwrap();
     let scene = |form: &str, roughness: &str, points: usize, edges: &str| {
@@ -512,7 +519,7 @@ fn a_line_that_is_written_and_measured_gives_the_same_loop() {
             let measured = write(folder.path(), "measured.ron", &measured);
             let curves = [&made, &measured].map(|scene| done(&["run", scene, "--format", "csv"]));
             assert!(curves[0].lines().count() > 100);
-            assert_eq!(curves[0], curves[1], "{form}, {roughness}, {points} points, {edges}");
+            assert!(rows(&curves[0]).eq(rows(&curves[1])), "{form}, {roughness}, {points} points, {edges}");
             let [made, measured] = [&made, &measured].map(|scene| json(&["run", scene, "--format", "json"]));
             for key in [
                 "zero_load_adhesion_force",
@@ -548,8 +555,65 @@ fn measured_lines_are_found_beside_their_scene() {
         &SMALL.replace("numerics", "roughness: Measured(file: \"line.csv\"),\n    numerics"),
     );
     assert_eq!(done(&["presets", "check", &scene]), format!("{scene}: ok\n"));
-    assert_eq!(done(&["line", &scene]).lines().count(), 65);
+    assert_eq!(rows(&done(&["line", &scene])).count(), 65);
     assert!(number(&json(&["run", &scene, "--format", "json"])["line"]["rms_height"]) > 0.0);
+}
+
+#[test]
+fn a_table_computes_again_from_itself() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+    let stylus: String =
+        (0..=150).map(|x| format!("{:e} {:e}\n", f64::from(x) * 1e-6, 1e-8 * f64::from(x % 7))).collect();
+    write(folder.path(), "stylus.txt", &stylus);
+    let title = "title=\"Unit: nm, x [um]\"";
+    let measured = "roughness=Measured(file: \"stylus.txt\", as_line: true)";
+    let scene = write(folder.path(), "scene.ron", SMALL);
+    for (name, arguments) in [
+        ("curve", &["run", &scene, "--set", "adhesion.work=0.07", "--set", title][..]),
+        ("chosen", &["run", "jkr-sphere", "--tolerance", "1%"]),
+        ("measured", &["run", &scene, "--set", measured]),
+        ("line", &["line", "profile-hurst-025", "--set", "roughness.modes=(1, 256)", "--set", title]),
+        (
+            "lines",
+            &[
+                "run",
+                "rough-sphere",
+                "--set",
+                "numerics.points=1024",
+                "--set",
+                "roughness.modes=(1, 128)",
+                "--lines",
+                "3",
+            ],
+        ),
+    ] {
+        for ending in ["csv", "npy"] {
+            let [first, second, other] =
+                ["", "-again", "-other"].map(|part| path(&format!("{name}{part}.{ending}")));
+            // Springs chosen for a tolerance are named on standard error.
+            assert_eq!(asperity(&[arguments, &["-o", &first]].concat()).code, Some(0));
+            assert_eq!(done(&["run", &first, "-o", &second]), "");
+            let written = fs::read(&first).unwrap();
+            assert!(written == fs::read(&second).unwrap(), "{name}.{ending}");
+            // Another scene makes another table.
+            assert_eq!(done(&["run", &first, "--set", "length=0.9e-4", "-o", &other]), "");
+            assert!(written != fs::read(&other).unwrap(), "{name}.{ending}");
+        }
+        let table = fs::read_to_string(path(&format!("{name}.csv"))).unwrap();
+        assert!(
+            table.starts_with(&format!("# asperity {}\n# content: ", env!("CARGO_PKG_VERSION"))),
+            "{table}"
+        );
+    }
+    let line = fs::read_to_string(path("line.csv")).unwrap();
+    assert!(line.contains("\n# seed: "), "{line}");
+    // Units are those of the reader and not words of the scene.
+    let report = json(&["surface", &path("line.csv"), "--unit", "m", "--format", "json"]);
+    let array = json(&["surface", &path("line.npy"), "--unit", "m", "--format", "json"]);
+    assert!(number(&report["rms_height"]) > 0.0 && report["rms_height"] == array["rms_height"]);
+    let none = write(folder.path(), "none.csv", "# asperity 0.1.0\nx,z\n");
+    assert!(failed(1, &["run", &none]).contains("first comments hold no scene"));
 }
 
 #[test]
@@ -561,7 +625,7 @@ fn files_are_not_overwritten_unasked() {
         let arguments = [command, "jkr-sphere", "-o", file];
         assert_eq!(done(&arguments), "");
         let written = fs::read_to_string(&path).unwrap();
-        assert!(written.starts_with(header), "the ending .csv says what to write");
+        assert!(rows(&written).next().unwrap().starts_with(header), "the ending .csv says what to write");
         let told = failed(1, &arguments);
         assert!(told.contains(file) && told.contains("--force"), "{told}");
         assert_eq!(fs::read_to_string(&path).unwrap(), written);
@@ -935,11 +999,11 @@ fn scenes_are_drawn_and_pictures_hold_nothing_else() {
         (run(&["jkr-sphere"], &["--profile", "-o", &other]), "only a picture shows --profile"),
         (run(&["jkr-sphere", "kendall-punch"], &["-o", &other]), "only a picture shows several scenes"),
         (run(&["jkr-sphere"], &["--lines", "2", "-o", &picture]), "--lines: a picture shows one profile"),
-        (["line", "jkr-sphere", "-o", &picture].join("\0"), "allowed: .csv"),
+        (["line", "jkr-sphere", "-o", &picture].join("\0"), "allowed: .csv, .npy"),
         (["check", "--quick", "-o", &picture].join("\0"), "allowed: .json"),
         (["cost", "jkr-sphere", "-o", &path("a.png")].join("\0"), "allowed: .json, .csv, .svg"),
         (["cost", "jkr-sphere", "--svg", &other].join("\0"), "allowed: .svg"),
-        (["surface", "missing.csv", "-o", &picture].join("\0"), "allowed: .json, .csv"),
+        (["surface", "missing.csv", "-o", &path("a.png")].join("\0"), "allowed: .json, .csv, .npy, .svg"),
     ] {
         with(&command, &|arguments| {
             let told = failed(1, arguments);

@@ -39,6 +39,8 @@ mod look;
 mod looks;
 #[path = "screen/mouse.rs"]
 mod mouse;
+#[path = "screen/palette.rs"]
+mod palette;
 #[path = "screen/panes.rs"]
 mod panes;
 #[path = "screen/parameters.rs"]
@@ -49,6 +51,8 @@ mod play;
 mod preloads;
 #[path = "screen/saving.rs"]
 mod saving;
+#[path = "screen/spectrum.rs"]
+mod spectrum;
 #[path = "screen/study.rs"]
 mod study;
 #[path = "screen/typing.rs"]
@@ -110,6 +114,8 @@ fn everywhere() -> Vec<Driver> {
         "E",
         "o",
         "/ h u",
+        ": m a p",
+        "i",
         "Z",
         "d { ]",
         "c L",
@@ -118,6 +124,8 @@ fn everywhere() -> Vec<Driver> {
         "N w",
         "A",
         "A z",
+        "Q",
+        "Q z",
         "% 1",
         "y",
         "m",

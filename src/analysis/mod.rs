@@ -7,6 +7,7 @@ mod marks;
 mod regime;
 mod reversal_map;
 pub mod section;
+mod tabor;
 
 pub use figures::Figures;
 pub use governing::{Governing, ideal_adhesion_force};
@@ -17,3 +18,4 @@ pub use regime::{
 };
 pub use reversal_map::{CONGRUENT_SHARE, MinorLoops, ReversalMap};
 pub use section::{Column, LengthBin, Section, Share};
+pub use tabor::{DEFAULT_RANGE, LEAST_TABOR_NUMBER, tabor_number};

@@ -20,6 +20,30 @@ pub enum Family {
     Laws,
 }
 
+/// Kind of evidence that a case gives.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Evidence {
+    /// A closed form of the literature or of this model.
+    ClosedForm,
+    /// The same quantity computed another way: the rules without tree and thresholds, or sums of twice the digits.
+    IndependentComputation,
+    /// A law that the result obeys: mirror, scaling, memory, order, refinement, repetition.
+    SelfConsistency,
+}
+
+impl Evidence {
+    /// Name of the kind.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Evidence::ClosedForm => "closed form",
+            Evidence::IndependentComputation => "independent computation",
+            Evidence::SelfConsistency => "self-consistency",
+        }
+    }
+}
+
 /// Edge models and bounds of a case.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Scope {
@@ -40,6 +64,10 @@ pub struct Case {
     pub family: Family,
     /// Claim, in one sentence.
     pub holds: &'static str,
+    /// Kinds of evidence, the strongest first.
+    pub evidence: &'static [Evidence],
+    /// Reason for a known failure: the case stays in the catalogue as a failure.
+    pub known_failure: Option<&'static str>,
     /// Quantity of the error.
     pub error_of: &'static str,
     /// Edge models and bounds.

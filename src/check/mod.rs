@@ -15,7 +15,7 @@ mod reference;
 mod relaxation;
 
 pub use body::{Body, LENGTH, MODULUS, RMS_HEIGHT, end};
-pub use case::{Case, Family, Scope};
+pub use case::{Case, Evidence, Family, Scope};
 pub use catalogue::{Check, Verdict, catalogue, checks, judge};
 pub use extended::Extended;
 pub use reference::{Agreement, follow, force_error};

@@ -67,7 +67,9 @@ pub enum CliError {
         error: TopographyError,
     },
     /// A scene cannot hold how its surface is to be read.
-    #[error("--scene: a scene does not hold {option}; allowed: one file, --unit, --continue-to")]
+    #[error(
+        "--scene: a scene does not hold {option}; allowed: one file, --unit, --detrend, --periodic, --continue-to"
+    )]
     LostInScene {
         /// Option that would be lost.
         option: &'static str,
@@ -79,6 +81,14 @@ pub enum CliError {
         file: String,
         /// Reason.
         error: SpectrumError,
+    },
+    /// A table of spectra is not computed again.
+    #[error("{file}: {reason}")]
+    Spectra {
+        /// The table.
+        file: String,
+        /// Why not, and what is allowed.
+        reason: String,
     },
     /// There is no built-in scene of this name.
     #[error("{name}: there is no such built-in scene; allowed: {allowed}")]

@@ -3,7 +3,7 @@
 use super::CliError;
 use crate::export::sheet::Sheet;
 use crate::io::write_json_value;
-use crate::scene::{self, Document, Entry, Library, Roughness, Source, Text, line_column};
+use crate::scene::{self, Document, Entry, Library, Source, Text, line_column};
 use crate::simulation::measured_options;
 use crate::surface::MeasuredRoughness;
 use crate::text::printable;
@@ -155,9 +155,11 @@ fn of_file(file: &str) -> Result<Document, String> {
 /// Error of the measured surface that a scene names, with its place in the scene.
 fn profile_error(document: &Document) -> Option<String> {
     let scene = document.scene();
-    let Some(Roughness::Measured { file, .. }) = &scene.roughness else { return None };
-    let options = measured_options(scene);
-    let error = match MeasuredRoughness::read(&document.resolve(file), &options, &mut |_| ()) {
+    let files: Vec<_> = scene.measured_files().into_iter().map(|file| document.resolve(file)).collect();
+    if files.is_empty() {
+        return None;
+    }
+    let error = match MeasuredRoughness::read(&files, &measured_options(scene), &mut |_| ()) {
         Err(error) => error.to_string(),
         Ok(measured) => measured.check(scene.length, scene.numerics.points as usize).err()?,
     };

@@ -3,7 +3,7 @@
 use super::preloads::{preload_axes, preload_layers};
 use super::sheet::Sheet;
 use crate::analysis::{MinorLoops, ReversalMap};
-use crate::draw::{Axis, AxisScale, Chart, Figure, HeatMap, Ink, Label, Layer, Shape, Span, Stroke};
+use crate::draw::{Axis, AxisScale, Chart, Figure, HeatMap, Ink, Label, Layer, Shape, Span};
 use crate::io::write_json_value;
 use crate::scene::{Scene, format_quantity};
 use crate::study::Preloaded;

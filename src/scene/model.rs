@@ -2,6 +2,7 @@
 //!
 //! These types hold values as written; [`super::check()`] finds those that are not allowed.
 
+use crate::spectrum::Detrend;
 use serde::{Deserialize, Serialize};
 
 /// Versions of the scene file that are read. In the first one a measured profile is the line itself unless
@@ -124,6 +125,21 @@ pub enum Roughness {
         /// [`Scene::measured_as_line`].
         #[serde(default, skip_serializing_if = "Option::is_none")]
         as_line: Option<bool>,
+        /// File of the opposite face, relative to the scene file; the spectra of both faces add.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        opposite: Option<String>,
+        /// Row of a map that is the profile, from 1 on.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        row: Option<u64>,
+        /// Column of a map that is the profile, from 1 on.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        column: Option<u64>,
+        /// Part that is removed of the heights; `None`: the tilt for an equivalent line, nothing for `as_line`.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        detrend: Option<Detrend>,
+        /// Whether the surface repeats itself at its borders: then its spectrum is estimated without a window.
+        #[serde(default, skip_serializing_if = "is_false")]
+        periodic: bool,
         /// Unit of lengths where the file states none; empty: none is known, and m for `as_line`.
         #[serde(default, skip_serializing_if = "String::is_empty")]
         unit: String,
@@ -141,6 +157,10 @@ fn default_seed() -> u64 {
     1
 }
 
+fn is_false(value: &bool) -> bool {
+    !value
+}
+
 fn is_default_seed(seed: &u64) -> bool {
     *seed == default_seed()
 }
@@ -152,6 +172,11 @@ impl Roughness {
         Roughness::Measured {
             file,
             as_line: None,
+            opposite: None,
+            row: None,
+            column: None,
+            detrend: None,
+            periodic: false,
             unit: String::new(),
             continue_to: None,
             seed: default_seed(),
@@ -164,6 +189,25 @@ impl Scene {
     pub fn measured_as_line(&self) -> bool {
         let Some(Roughness::Measured { as_line, .. }) = &self.roughness else { return false };
         as_line.unwrap_or(self.version < 2)
+    }
+
+    /// Files of the measured surfaces, relative to the scene file.
+    pub fn measured_files(&self) -> Vec<&str> {
+        match &self.roughness {
+            Some(Roughness::Measured { file, opposite, .. }) => {
+                std::iter::once(file.as_str()).chain(opposite.as_deref()).collect()
+            }
+            _ => Vec::new(),
+        }
+    }
+
+    /// Gives the files of the measured surfaces other names.
+    pub fn rename_measured_files(&mut self, rename: impl Fn(&str) -> String) {
+        if let Some(Roughness::Measured { file, opposite, .. }) = &mut self.roughness {
+            for name in std::iter::once(file).chain(opposite) {
+                *name = rename(name);
+            }
+        }
     }
 
     /// Seed of the random phases; `None` where the line has none.
@@ -201,6 +245,9 @@ pub struct Adhesion {
     /// Elastic energy of conformity over the work of adhesion, e_el/γ.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub elastic_energy_ratio: Option<f64>,
+    /// Range z₀ of the attraction, m, for the Tabor number alone; left out: 0.3 nm.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub range: Option<f64>,
 }
 
 /// One leg of the loading history.

@@ -18,6 +18,8 @@ pub struct Outcome {
     pub smooth_adhesion_force: Option<f64>,
     /// Adhesion force F_a(0) by the touch protocol, N; `None` without adhesion or a leg back.
     pub zero_load_adhesion_force: Option<f64>,
+    /// Tabor number μ; `None` without adhesion or radius of curvature.
+    pub tabor_number: Option<f64>,
     /// Regime of Fig. 4; `None` where nothing is pulled.
     pub regime: Option<Regime>,
     /// Headline figures of the loading history.

@@ -48,7 +48,8 @@ pub fn obey(model: &mut Model, command: Command) -> Vec<Effect> {
         model.appraisal.hide();
         model.pane = if model.pane == Pane::Accuracy { Pane::Force } else { model.pane };
     } else {
-        (model.appraisal.shown, model.chart.shown, model.preloads.shown) = (true, false, false);
+        model.hide_in_place_of_the_line();
+        model.appraisal.shown = true;
         model.pane = Pane::Accuracy;
     }
     vec![Effect::Study, Effect::Show]

@@ -9,8 +9,7 @@ pub fn toggle(model: &mut Model) -> Vec<Effect> {
         model.preloads.shown = false;
         model.pane = if model.pane == Pane::Preloads { Pane::Force } else { model.pane };
     } else {
-        model.appraisal.hide();
-        model.chart.shown = false;
+        model.hide_in_place_of_the_line();
         model.preloads.shown = true;
         model.preloads.edited = false;
         model.pane = Pane::Preloads;
