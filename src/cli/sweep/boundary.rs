@@ -47,7 +47,6 @@ pub struct BoundaryArguments {
     pub format: BoundaryFormat,
 }
 
-/// Formats of boundaries.
 fn level(text: &str) -> Result<f64, String> {
     let level = text.trim().parse::<f64>().ok().filter(|level| *level > 0.0 && *level < 1.0);
     level.ok_or_else(|| "allowed: a share above 0 and below 1, such as 0.05".to_string())
