@@ -1,8 +1,8 @@
 //! What may be typed after `asperity`.
 
 use super::{
-    CheckArguments, CompletionsArguments, CostArguments, DemoArguments, ExploreArguments, LineArguments,
-    PlanArguments, PresetsCommand, RunArguments, SurfaceArguments, SweepArguments,
+    CheckArguments, CompletionsArguments, ConfigArguments, CostArguments, DemoArguments, ExploreArguments,
+    LineArguments, PlanArguments, PresetsCommand, RunArguments, SurfaceArguments, SweepArguments,
 };
 use clap::{Parser, Subcommand};
 
@@ -64,6 +64,8 @@ pub enum Command {
     /// List, show and check scenes
     #[command(subcommand)]
     Presets(PresetsCommand),
+    /// Print the configuration of the explorer, or write a file to begin with
+    Config(ConfigArguments),
     /// Print a completion script for a shell
     Completions(CompletionsArguments),
 }

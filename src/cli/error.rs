@@ -2,6 +2,7 @@
 
 use crate::accuracy::{ChoiceError, CostError};
 use crate::explorer::OpeningError;
+use crate::explorer::config::ConfigError;
 use crate::io::WriteError;
 use crate::scene::{SceneErrors, quoted};
 use crate::simulation::RunError;
@@ -74,6 +75,12 @@ pub enum CliError {
         /// Why not.
         error: SpectrumError,
     },
+    /// The configuration is refused.
+    #[error(transparent)]
+    Config(#[from] ConfigError),
+    /// Unsaved changes of another session cannot be opened.
+    #[error("--restore: {0}")]
+    Restore(String),
     /// There is no built-in scene of this name.
     #[error("{name}: there is no such built-in scene; allowed: {allowed}")]
     NoPreset {

@@ -2,8 +2,10 @@
 //! not answer, and the screen has to.
 
 use super::action::{Action, Content, WriteFailure};
+use super::config::remember;
 use super::model::Model;
 use super::opening::Opening;
+use super::theme::Appearance;
 use super::writing;
 use crate::scene::Library;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -13,6 +15,8 @@ use std::path::PathBuf;
 pub(super) enum FileJob {
     /// Write a file from the model as it was asked for.
     Write { model: Box<Model>, path: PathBuf, content: Content, overwrite: bool },
+    /// Keep colours and markers in the configuration file.
+    Remember { path: PathBuf, appearance: Appearance },
     /// List the scenes of the library.
     List,
     /// Open a scene or a study by its path.
@@ -24,6 +28,7 @@ impl FileJob {
     pub fn describe(&self) -> String {
         match self {
             FileJob::Write { path, .. } => format!("writing {} …", path.display()),
+            FileJob::Remember { path, .. } => format!("writing {} …", path.display()),
             FileJob::List => "listing scenes …".to_owned(),
             FileJob::Open(name) => format!("opening {name} …"),
         }
@@ -52,6 +57,10 @@ impl FileJob {
         match self {
             FileJob::Write { model, path, content, overwrite } => {
                 Action::Written(writing::write(&model, path, content, overwrite))
+            }
+            FileJob::Remember { path, appearance } => {
+                let remembered = remember(&path, appearance).map_err(|error| error.to_string());
+                Action::Remembered(remembered.map(|()| path))
             }
             FileJob::List => Action::Listed(Library::of_environment().list()),
             FileJob::Open(name) => {

@@ -84,9 +84,12 @@ impl Headless {
                 self.seeds += 1;
                 return vec![Action::SetSeed(self.seeds)];
             }
-            Effect::Write { .. } | Effect::List | Effect::Open(_) | Effect::Copy(_) | Effect::Suspend => {
-                return Vec::new();
-            }
+            Effect::Write { .. }
+            | Effect::Remember { .. }
+            | Effect::List
+            | Effect::Open(_)
+            | Effect::Copy(_)
+            | Effect::Suspend => return Vec::new(),
         };
         self.newest.store(generation, Ordering::Relaxed);
         let reports: RefCell<Vec<Report>> = RefCell::default();

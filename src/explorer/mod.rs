@@ -7,7 +7,9 @@ pub mod appraisal;
 mod caption;
 pub mod chart;
 mod close_up;
+pub mod config;
 pub mod demo;
+pub mod drafts;
 mod file_job;
 pub mod headless;
 mod held;
@@ -36,6 +38,6 @@ mod writing;
 
 pub use opening::{Opening, OpeningError};
 pub use screen::{FrameBytes, Screen};
-pub use session::{Draw, Left, Options, open, open_with};
+pub use session::{Draw, FRAME_RATE, Left, Options, open, open_with};
 pub use signals::end_by;
 pub use writing::{picture_of, svg_of, write};

@@ -3,6 +3,7 @@
 use clap::ValueEnum;
 use ratatui::style::{Color, Modifier, Style};
 use ratatui::symbols::Marker as Symbols;
+use serde::Deserialize;
 
 /// How the explorer looks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -14,7 +15,7 @@ pub struct Appearance {
 }
 
 /// Colours and modifiers.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Deserialize)]
 pub enum Theme {
     /// Colours that read on dark and on light backgrounds
     Neutral,
@@ -29,7 +30,7 @@ pub enum Theme {
 }
 
 /// What plots are made of.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Deserialize)]
 pub enum Marker {
     /// Braille dots, 2 × 4 in a cell
     Braille,

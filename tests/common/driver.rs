@@ -102,6 +102,7 @@ impl Driver {
                 self.copied.push(text);
                 Vec::new()
             }
+            Effect::Remember { path, .. } => vec![Action::Remembered(Ok(path))],
             Effect::Suspend => Vec::new(),
             Effect::DrawSeed => vec![Action::SetSeed(self.seed)],
             Effect::Write { path, .. } if path.ends_with(REFUSED) => {

@@ -72,7 +72,7 @@ fn glyphs_tell_all_that_was_recorded() {
         for (quantity, told) in [
             (Quantity::ZeroLoadAdhesionShare, "F_a(0)/F_a,max over H, κ"),
             (Quantity::AdhesionCoefficient, "F_a/F_n over H, κ"),
-            (Quantity::AdhesionForce, "F_a (µN) "),
+            (Quantity::AdhesionForce, "F_a (mN) "),
         ] {
             driver.press("V");
             assert_eq!(driver.model.chart.charted(), Charted::Quantity(quantity));
@@ -80,9 +80,9 @@ fn glyphs_tell_all_that_was_recorded() {
         }
         // The map that is computed here does not have it, and shows what it has.
         driver.press("W");
-        assert!(!driver.text().contains("F_a (µN) "), "{}", driver.text());
+        assert!(!driver.text().contains("F_a (mN) "), "{}", driver.text());
         driver.press("W");
-        assert!(driver.text().contains("F_a (µN) "), "{}", driver.text());
+        assert!(driver.text().contains("F_a (mN) "), "{}", driver.text());
         driver.press("V");
         assert_eq!(driver.model.chart.charted(), Charted::Regime);
         for told in ["█ pressure-insensitive", "· non-adhesive", "▓ ░ divided", "of 12 lines"] {

@@ -97,6 +97,8 @@ fn class(map: &HeatMap, cell: usize) -> Option<&Class> {
 
 /// Column or row of the screen with a place among the values, or that at the end nearest to the place.
 pub(super) fn cell_of(place: f64, cells: u16, values: usize) -> u16 {
+    // A place that is one of the values but for rounding.
+    let place = if (place - place.round()).abs() < 1e-6 { place.round() } else { place };
     let at = ((place + 0.5) * f64::from(cells) / values.max(1) as f64).floor();
     at.clamp(0.0, f64::from(cells.max(1) - 1)) as u16
 }

@@ -53,6 +53,14 @@ pub fn obey(model: &mut Model, command: Command) -> Vec<Effect> {
             model.appearance.marker = model.appearance.marker.next();
             tell(model, format!("markers: {}", model.appearance.marker.name()));
         }
+        Command::RememberAppearance => {
+            let Some(path) = model.config_path.clone() else {
+                let why = "there is no configuration file: asperity was started with --no-config";
+                model.notice = Some(Notice::Error(why.to_owned()));
+                return Vec::new();
+            };
+            return vec![Effect::Remember { path, appearance: model.appearance }];
+        }
         _ => {}
     }
     vec![Effect::Show]

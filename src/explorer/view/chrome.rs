@@ -6,6 +6,7 @@ use crate::accuracy::Target;
 use crate::contact::CurvePoint;
 use crate::explorer::action::{Command, Content};
 use crate::explorer::keys;
+use crate::explorer::mode::SaveForm;
 use crate::explorer::model::{Estimated, Mode, ModeKind, Model, Notice, Traffic};
 use crate::explorer::text_line::TextLine;
 use crate::explorer::theme::Meaning;
@@ -45,7 +46,14 @@ pub fn status(frame: &mut Frame<'_>, area: Rect, model: &Model) {
         Line::from_iter([prompt].into_iter().chain(typed(line, room, theme)))
     };
     let line = match (&model.mode, &model.notice) {
-        (Mode::SaveAs { line, .. }, _) => prompted("Save as: ", line),
+        (Mode::SaveAs(form), _) => {
+            let name = SaveForm::PROMPTS.get(form.line).copied().unwrap_or_default();
+            form.lines.get(form.line).map_or_else(Line::default, |line| prompted(name, line))
+        }
+        (Mode::StaleComments { count, .. }, _) => {
+            let (comments, are) = if *count == 1 { ("comment", "is") } else { ("comments", "are") };
+            error(format!("{count} {comments} {are} about values that have changed. Save without?"))
+        }
         // What is typed is to be seen in the smallest window too.
         (Mode::Export(line), _) if area.width < 60 => prompted("Export to: ", line),
         (Mode::Export(line), _) if model.exports() == Content::MAP_EXPORTS => {
@@ -57,7 +65,13 @@ pub fn status(frame: &mut Frame<'_>, area: Rect, model: &Model) {
         (Mode::Tolerance(line), _) => prompted("Relative error allowed (0.1 % or 1e-3): ", line),
         (Mode::Library(library), _) => prompted("Search: ", &library.query),
         (Mode::Overwrite { path, .. }, _) => error(format!("{} exists. Overwrite it?", path.display())),
-        (Mode::Quit, _) => error("The scene has unsaved changes. Leave?".to_owned()),
+        (Mode::Quit, _) => error(match model.unsaved()[..] {
+            [] | [_] => "The scene has unsaved changes. Leave?".to_owned(),
+            ref several => {
+                let names: Vec<&str> = several.iter().map(|document| document.name()).collect();
+                format!("{} scenes have unsaved changes: {}. Leave?", several.len(), names.join(", "))
+            }
+        }),
         (_, Some(Notice::Error(text))) => error(format!("! {}", text.replace('\n', " · "))),
         (Mode::Explore | Mode::Edit(_), None) if model.refused.is_some() => {
             let text = model.refused.as_ref().map_or("", |(_, text)| text);
@@ -182,7 +196,7 @@ pub fn footer(frame: &mut Frame<'_>, area: Rect, model: &Model) {
     });
     let mut spans = Vec::new();
     let mut room = usize::from(area.width) - traffic.as_ref().map_or(0, Line::width);
-    let labelled = || keys::valid_in(model.keys()).filter(|row| !row.label.is_empty());
+    let labelled = || model.bindings.valid_in(model.keys()).filter(|row| !row.label.is_empty());
     // The way to all the others and the way out show in the smallest window.
     let first = |row: &&keys::Binding| matches!(row.command, Command::Help | Command::Quit);
     // Then what no other pane has.

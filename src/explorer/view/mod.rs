@@ -41,7 +41,9 @@ pub fn draw(frame: &mut Frame<'_>, model: &Model) {
         chrome::title(frame, area, model);
     }
     match &model.mode {
-        Mode::Help { scroll } => help::draw(frame, body(&layout), model.appearance.theme, *scroll),
+        Mode::Help { scroll } => {
+            help::draw(frame, body(&layout), model.appearance.theme, &model.bindings, *scroll)
+        }
         Mode::Library(library) => library::draw(frame, body(&layout), model, library),
         _ => {
             for &(pane, area) in &layout.panes {
@@ -70,7 +72,7 @@ fn body(layout: &Layout) -> Rect {
 /// Lines the help can be scrolled down.
 #[must_use]
 pub fn help_end(model: &Model) -> u16 {
-    help::last_scroll(body(&Layout::of(model)))
+    help::last_scroll(body(&Layout::of(model)), &model.bindings)
 }
 
 fn draw_pane(frame: &mut Frame<'_>, area: Rect, model: &Model, pane: Pane) {
