@@ -41,6 +41,8 @@ mod looks;
 mod mouse;
 #[path = "screen/panes.rs"]
 mod panes;
+#[path = "screen/parameters.rs"]
+mod parameters;
 #[path = "screen/play.rs"]
 mod play;
 #[path = "screen/saving.rs"]
@@ -105,6 +107,8 @@ fn everywhere() -> Vec<Driver> {
         "F",
         "E",
         "o",
+        "/ h u",
+        "Z",
         "d { ]",
         "c L",
         "a v",

@@ -16,7 +16,8 @@ use std::path::{Path, PathBuf};
 pub struct ExploreArguments {
     /// Explore this scene file, built-in scene (see `asperity presets list`), or merged study
     ///
-    /// The folder of a merged study opens its map over κ and H, if the study varies both.
+    /// The folder of a merged study opens its map, or the section along its only axis. Default: `scene` of the
+    /// configuration file, else pressure-sensitive.
     pub scene: Option<String>,
     /// What is changed in it.
     #[command(flatten)]
@@ -46,7 +47,7 @@ pub struct ExploreArguments {
     ///
     /// While the explorer runs, unsaved changes are kept in the state folder of the user, by default
     /// ~/.local/state/asperity/unsaved. They are removed on saving and on leaving without saving.
-    #[arg(long, conflicts_with_all = ["scene", "overrides"])]
+    #[arg(long, conflicts_with_all = ["scene", "set"])]
     pub restore: bool,
 }
 

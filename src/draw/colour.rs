@@ -85,8 +85,8 @@ pub enum Ink {
     Unloading,
     /// Manual loading.
     Manual,
-    /// A curve kept for comparison.
-    Kept,
+    /// One of several curves kept for comparison, counted from 0.
+    Kept(usize),
     /// The present state.
     Cursor,
     /// One of several curves, counted from 0.
@@ -100,12 +100,13 @@ impl Ink {
         let Palette { foreground, ansi, .. } = Palette::LIGHT;
         match self {
             Ink::Text | Ink::Profile => foreground,
-            Ink::Quiet | Ink::Kept => ansi[8],
+            Ink::Quiet => ansi[8],
             Ink::Surface => ansi[4],
             Ink::Contact | Ink::Cursor => ansi[1],
             Ink::Loading => ansi[2],
             Ink::Unloading => ansi[5],
             Ink::Manual => ansi[6],
+            Ink::Kept(number) => [ansi[4], ansi[6], ansi[3], ansi[8]][number % 4],
             // Blue, red, black, green, magenta: neighbours differ in lightness.
             Ink::Series(number) => [ansi[4], ansi[1], foreground, ansi[2], ansi[5]][number % 5],
         }

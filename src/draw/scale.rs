@@ -1,9 +1,10 @@
 //! Scales of axes and ranges of coordinates.
 
 /// Mapping of numbers to coordinates along an axis.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum AxisScale {
     /// The number itself.
+    #[default]
     Linear,
     /// The decimal logarithm; all values are above zero.
     Logarithmic,

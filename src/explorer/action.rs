@@ -1,6 +1,5 @@
 //! Everything that can happen to the explorer.
 
-use super::model::Traffic;
 use super::opening::Opening;
 use super::snapshot::{Loop, Moment, Preview};
 use super::study::Found;
@@ -190,6 +189,12 @@ pub enum Command {
     },
     /// Type the selected value.
     EditValue,
+    /// Type the selected value, beginning with this character.
+    StartValue(char),
+    /// Search the list of parameters.
+    FindParameter,
+    /// Fold the group of the selected parameter, or unfold it.
+    ToggleFold,
     /// Switch the effect of the selected row on or off.
     ToggleEffect,
     /// Another random line.
@@ -230,6 +235,8 @@ pub enum Command {
     NextCurve,
     /// Show the curve in units of F_a,max and h, or in SI units.
     ToggleNormalised,
+    /// Give the curve logarithmic or linear axes.
+    ToggleLogarithmic,
     /// Shade the loss.
     ToggleLoss,
     /// Show what accuracy costs and what ran, or the profile and the fragments again.
@@ -307,4 +314,13 @@ pub enum Motion {
     Start,
     /// To the end.
     End,
+}
+
+/// What a connection carries.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Traffic {
+    /// Most frames in a second.
+    pub frames: u32,
+    /// Bytes written in the last second.
+    pub bytes: u64,
 }

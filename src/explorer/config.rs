@@ -32,7 +32,7 @@ pub const TEMPLATE: &str = r#"// Configuration of the explorer. A field that is 
     // speed: 1.0,             // speed of the animation, from 0.1 to 10
     // repeat: false,          // true: the animation begins again at its end
     // scene: "rough-sphere",  // scene that opens where none is named
-    // keys: [(action: "toggle-play", keys: ["P", "F5"])],  // actions: docs/keys.md
+    // keys: [(action: "toggle-play", keys: ["F5", "F6"])],  // actions: docs/keys.md
 )
 "#;
 
@@ -290,7 +290,10 @@ mod tests {
 
     /// The template with all its fields.
     fn full() -> String {
-        TEMPLATE.replace("    // ", "    ")
+        let line = |line: &str| {
+            line.strip_prefix("    // ").map_or_else(|| line.to_owned(), |field| format!("    {field}"))
+        };
+        TEMPLATE.lines().map(|one| line(one) + "\n").collect()
     }
 
     #[test]
@@ -302,7 +305,7 @@ mod tests {
         assert_eq!((config.frame_rate, config.scene.as_deref()), (Some(30), Some("rough-sphere")));
         assert_eq!(config.animation, Animation::default());
         let changed = config.bindings.changed();
-        assert_eq!(changed, [(Command::TogglePlay, vec!["P".to_owned(), "F5".to_owned()])]);
+        assert_eq!(changed, [(Command::TogglePlay, vec!["F5".to_owned(), "F6".to_owned()])]);
         for field in ORDER {
             assert!(full().contains(&format!("    {field}: ")), "{field}");
         }
@@ -334,11 +337,11 @@ mod tests {
                 "config.ron:10:21: togle-play: there is no such action; did you mean toggle-play? allowed: docs/keys.md lists all",
             ),
             (
-                "\"P\"",
+                "\"F5\"",
                 "\"Pp\"",
                 "config.ron:10:42: Pp: there is no such key; allowed: one character, Ctrl+c, Shift+Left",
             ),
-            ("\"P\"", "\"r\"", "config.ron:10:42: r: bound to toggle-play and to restart"),
+            ("\"F5\"", "\"r\"", "config.ron:10:42: r: bound to toggle-play and to restart"),
             ("repeat: false", "repeat: false, repeat: true", "config.ron:8:"),
             ("    keys", "  ] keys", "config.ron:10:"),
         ] {

@@ -186,7 +186,12 @@ fn serve(folder: &Path, mut restored: Option<PathBuf>, inbox: &Receiver<Request>
         };
         if let Some(documents) = wanted.take() {
             match write(folder, &path, &documents) {
-                Ok(()) => restored = restored.and_then(|old| fs::remove_file(old).err().and(None)),
+                Ok(()) => {
+                    // Its scenes are kept in the file of this process now.
+                    if let Some(old) = restored.take() {
+                        let _ = fs::remove_file(old);
+                    }
+                }
                 Err(why) if !has_failed => {
                     has_failed = true;
                     report(Report::NotKept(why));

@@ -1,6 +1,8 @@
 //! What the keys mean at the moment.
 
 use super::action::Content;
+use super::finder::Finder;
+use super::model::Pane;
 use super::text_line::TextLine;
 use crate::scene::Entry;
 use std::path::PathBuf;
@@ -18,6 +20,13 @@ pub enum Mode {
     Tolerance(TextLine),
     /// Choosing a scene from the library.
     Library(Library),
+    /// Searching the list of parameters.
+    Find {
+        /// The search.
+        finder: Finder,
+        /// The pane that was selected before.
+        back: Pane,
+    },
     /// Typing title, notice and the name of the file to save the scene to.
     SaveAs(SaveForm),
     /// Asked whether to remove comments about values that have been changed.
@@ -76,19 +85,15 @@ impl SaveForm {
 pub struct Library {
     /// All scenes; `None` until they have been listed.
     pub entries: Option<Vec<Entry>>,
-    /// What is searched for.
-    pub query: TextLine,
-    /// Indices of the entries that fit, the best first.
-    pub found: Vec<usize>,
-    /// Index of the selected one of them.
-    pub selected: usize,
+    /// The search among them.
+    pub finder: Finder,
 }
 
 impl Library {
     /// The selected entry.
     #[must_use]
     pub fn entry(&self) -> Option<&Entry> {
-        self.entries.as_ref()?.get(*self.found.get(self.selected)?)
+        self.entries.as_ref()?.get(self.finder.choice()?)
     }
 }
 
@@ -99,6 +104,8 @@ pub enum ModeKind {
     Explore,
     /// See [`Mode::Explore`], with the map chosen.
     Chart,
+    /// See [`Mode::Explore`], with the list of parameters chosen.
+    Parameters,
     /// See [`Mode::Edit`].
     Edit,
     /// See [`Mode::Force`].
@@ -107,6 +114,8 @@ pub enum ModeKind {
     Tolerance,
     /// See [`Mode::Library`].
     Library,
+    /// See [`Mode::Find`].
+    Find,
     /// See [`Mode::SaveAs`].
     SaveAs,
     /// See [`Mode::StaleComments`].
@@ -123,13 +132,15 @@ pub enum ModeKind {
 
 impl ModeKind {
     /// All modes.
-    pub const ALL: [ModeKind; 12] = [
+    pub const ALL: [ModeKind; 14] = [
         ModeKind::Explore,
         ModeKind::Chart,
+        ModeKind::Parameters,
         ModeKind::Edit,
         ModeKind::Force,
         ModeKind::Tolerance,
         ModeKind::Library,
+        ModeKind::Find,
         ModeKind::SaveAs,
         ModeKind::StaleComments,
         ModeKind::Export,
@@ -143,7 +154,7 @@ impl ModeKind {
     /// Whether keys act on scene and panes, rather than on a line, a list or a question.
     #[must_use]
     pub fn is_exploring(self) -> bool {
-        matches!(self, ModeKind::Explore | ModeKind::Chart)
+        matches!(self, ModeKind::Explore | ModeKind::Chart | ModeKind::Parameters)
     }
 }
 
@@ -157,6 +168,7 @@ impl Mode {
             Mode::Force(_) => ModeKind::Force,
             Mode::Tolerance(_) => ModeKind::Tolerance,
             Mode::Library(_) => ModeKind::Library,
+            Mode::Find { .. } => ModeKind::Find,
             Mode::SaveAs(_) => ModeKind::SaveAs,
             Mode::StaleComments { .. } => ModeKind::StaleComments,
             Mode::Export(_) => ModeKind::Export,
@@ -171,7 +183,7 @@ impl Mode {
         match self {
             Mode::Edit(line) | Mode::Force(line) | Mode::Tolerance(line) | Mode::Export(line) => Some(line),
             Mode::SaveAs(form) => form.lines.get_mut(form.line),
-            Mode::Library(library) => Some(&mut library.query),
+            Mode::Library(Library { finder, .. }) | Mode::Find { finder, .. } => Some(&mut finder.query),
             Mode::Explore
             | Mode::StaleComments { .. }
             | Mode::Overwrite { .. }

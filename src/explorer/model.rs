@@ -1,21 +1,22 @@
 //! The state of the explorer: changed by `update` alone, drawn by the views.
 
-use super::action::Content;
+use super::action::{Content, Traffic};
 pub use super::appraisal::{Appraisal, Costs, Estimated};
 pub use super::chart::{Chart, OpenStudy};
 use super::config::{Animation, Config};
 use super::keys::Bindings;
 pub use super::mode::{Library, Mode, ModeKind};
 use super::parameters::{Parameter, Setting, parameters};
+use super::request::{Focus, LineView};
 use super::snapshot::{Drive, Loop, Moment, Preview};
 use super::theme::Appearance;
-use super::worker::{Focus, LineView};
 use crate::analysis::Governing;
 use crate::contact::{CurvePoint, LegRecord};
+use crate::draw::AxisScale;
 use crate::scene::{Document, Scene, ron_float};
 pub use crate::study::map::Charted;
 use crate::study::map::{MapAxis, Place, StudyMap, Template};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 /// The panes.
@@ -95,6 +96,8 @@ pub struct CurveLook {
     pub normalised: bool,
     /// Whether the loss is shaded.
     pub loss: bool,
+    /// Scale of both axes; a logarithmic one shows the numbers above zero.
+    pub scale: AxisScale,
 }
 
 /// Two quantities, one over the other.
@@ -130,15 +133,6 @@ pub struct Ghost {
     pub computed: Arc<Loop>,
     /// Where its scene differs from the present one.
     pub differs: String,
-}
-
-/// What a connection carries.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Traffic {
-    /// Most frames in a second.
-    pub frames: u32,
-    /// Bytes written in the last second.
-    pub bytes: u64,
 }
 
 /// A line for the user, below the panes.
@@ -180,8 +174,10 @@ pub struct Model {
     pub generation: u64,
     /// The parameters of the scene.
     pub parameters: Vec<Parameter>,
-    /// Index of the selected parameter.
+    /// Index of the selected parameter, which is never in a folded group.
     pub selected: usize,
+    /// Groups of parameters of which only the first row is listed.
+    pub folded: BTreeSet<&'static str>,
     /// What is wrong with a value that was refused, and the index of its parameter.
     pub refused: Option<(usize, String)>,
     /// What the keys mean.
@@ -256,6 +252,7 @@ impl Model {
             redo: Vec::new(),
             generation: 1,
             selected: 0,
+            folded: BTreeSet::new(),
             refused: None,
             mode: Mode::Explore,
             computed: None,
@@ -346,8 +343,9 @@ impl Model {
             && before.length == now.length
             && before.form == now.form
             && before.material == now.material;
-        // An rms height that follows from κ and γ changes with them.
-        let both = |scene: &Scene| scene.adhesion.is_some_and(|a| a.work.is_some() && a.kappa.is_some());
+        // An rms height that follows from γ and κ or e_el/γ changes with them.
+        let both =
+            |scene: &Scene| scene.adhesion.is_some_and(|a| a.work.is_some() && a.parameter().is_some());
         if !same_line || ((both(before) || both(now)) && before.adhesion != now.adhesion) {
             return None;
         }
@@ -392,11 +390,12 @@ impl Model {
         }
     }
 
-    /// Which keys are valid: in the map the arrows move its mark.
+    /// Which keys are valid: in the map the arrows move its mark, in the list of parameters digits begin a value.
     #[must_use]
     pub fn keys(&self) -> ModeKind {
         match self.mode.kind() {
             ModeKind::Explore if self.chart.shown && self.pane == Pane::Chart => ModeKind::Chart,
+            ModeKind::Explore if self.pane == Pane::Parameters => ModeKind::Parameters,
             kind => kind,
         }
     }
@@ -460,10 +459,17 @@ impl Model {
         }
         let governing = self.governing()?;
         match parameter.setting {
-            Setting::Kappa => governing.kappa.map(ron_float),
+            Setting::RoughnessParameter(parameter) => governing.parameter(parameter).map(ron_float),
             Setting::WorkOfAdhesion => governing.work_of_adhesion.map(ron_float),
-            Setting::Field | Setting::Switch(_) => None,
+            Setting::Field | Setting::Switch(_) | Setting::Heading => None,
         }
+    }
+
+    /// Indices of the parameters that are listed: those of a folded group are not, its first row apart.
+    #[must_use]
+    pub fn listed(&self) -> Vec<usize> {
+        let is_listed = |parameter: &Parameter| parameter.is_head() || !self.folded.contains(parameter.group);
+        (0..self.parameters.len()).filter(|index| is_listed(&self.parameters[*index])).collect()
     }
 
     /// The selected parameter.

@@ -1,11 +1,11 @@
 //! A session: input, worker and terminal around one model.
 
-use super::action::Action;
+use super::action::{Action, Traffic};
 use super::config::Config;
 use super::drafts::{self, Drafts, Restored};
 use super::file_job::FileJob;
 use super::input;
-use super::model::{Model, Notice, Traffic};
+use super::model::{Model, Notice};
 use super::opening::Opening;
 use super::signals::{Told, watch_for_signals};
 use super::snapshot::Loop;

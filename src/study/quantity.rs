@@ -64,6 +64,14 @@ quantities! {
         name: "kappa", meaning: "governing parameter, eq. (11)",
         symbol: "κ", needs: Needs::Profile, of: |case| case.governing.kappa,
     }
+    ElasticEnergy {
+        name: "elastic_energy", meaning: "elastic energy of conformity per area",
+        symbol: "e_el", unit: "J/m²", needs: Needs::Profile, of: |case| case.governing.elastic_energy(),
+    }
+    ElasticEnergyRatio {
+        name: "elastic_energy_ratio", meaning: "elastic energy of conformity over the work of adhesion",
+        symbol: "e_el/γ", needs: Needs::Profile, of: |case| case.governing.elastic_energy_ratio,
+    }
     WorkOfAdhesion {
         name: "work_of_adhesion", meaning: "work of adhesion",
         symbol: "γ", unit: "J/m²", needs: Needs::Profile, of: |case| case.governing.work_of_adhesion,

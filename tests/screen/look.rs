@@ -316,3 +316,99 @@ fn marked_forces_are_told_with_their_values() {
         assert!(text.contains("▲ preload") && !text.contains('▼') && !text.contains('◇'), "{text}");
     });
 }
+
+/// Numbers on the scale beside the plot of a pane, from the top.
+fn scale(driver: &Driver, pane: Pane) -> Vec<f64> {
+    let area = inside(Layout::of(&driver.model).pane(pane).unwrap());
+    let screen = driver.screen();
+    let row = |y| (area.x..area.right()).map(|x| screen[(x, y)].symbol()).collect::<String>();
+    let number = |y| row(y).split_once(" ┤")?.0.trim().replace('−', "-").parse().ok();
+    (area.y..area.bottom()).filter_map(number).collect()
+}
+
+#[test]
+fn profile_and_close_up_have_scales_of_position_and_height() {
+    within(30, || {
+        let mut driver = pressed("b");
+        for size in [(120, 40), (80, 24)] {
+            driver.resize(size);
+            for (pane, section) in [
+                (Pane::Profile, profile(&driver)),
+                (Pane::CloseUp, driver.model.moment.as_ref().unwrap().close_up.section.clone()),
+            ] {
+                // In nm, as the frame says.
+                let numbers = scale(&driver, pane);
+                assert!(numbers.len() >= 2, "{pane:?} {size:?}\n{}", driver.text());
+                let (low, high) = section.heights;
+                let inside = |number: &f64| (1.2e9 * low..=1.2e9 * high.max(section.level)).contains(number);
+                assert!(numbers.iter().all(inside), "{numbers:?} {low} {high}");
+                let rows = driver.rows();
+                let area = Layout::of(&driver.model).pane(pane).unwrap();
+                let text = |row: u16| -> String {
+                    let columns = rows[usize::from(row)].chars().skip(usize::from(area.x));
+                    columns.take(usize::from(area.width)).collect()
+                };
+                let frame = text(area.bottom() - 1);
+                assert!(frame.contains("z (nm)") && frame.contains("profile"), "{frame}");
+                let below = (area.y..area.bottom()).map(text).find(|row| row.contains("x (µm)"));
+                let below = below.unwrap_or_else(|| panic!("{pane:?}\n{}", driver.text()));
+                let marked = |word: &str| word.parse::<f64>().ok().map(|x| 1e-6 * x);
+                let positions: Vec<f64> = below.split_whitespace().filter_map(marked).collect();
+                let spacing = driver.model.moment.as_ref().unwrap().line.spacing;
+                let ends = [section.first, section.first + section.springs].map(|at| at as f64 * spacing);
+                let within = |x: &&f64| (ends[0] - 1e-12..=ends[1] + 1e-12).contains(*x);
+                // The last ones are those of the histogram.
+                assert!(positions.iter().filter(within).count() >= 2, "{below}");
+            }
+        }
+        assert!(driver.text().contains(" %│"), "the histogram has a scale: {}", driver.text());
+    });
+}
+
+#[test]
+fn marks_have_names_where_there_is_room() {
+    within(30, || {
+        let mut driver = mid_retraction(smooth());
+        driver.press("z");
+        let rows = driver.rows();
+        for (glyph, name) in [('▲', "preload"), ('▼', "pull-off")] {
+            let plot = &rows[5..37];
+            let at = plot.iter().position(|row| row.contains(glyph)).unwrap();
+            let near = plot[at.saturating_sub(1)..(at + 2).min(plot.len())].join("\n");
+            assert!(near.contains(name), "{name}\n{}", driver.text());
+        }
+        for size in [(120, 40), (80, 24), (60, 20)] {
+            driver = mid_retraction(default_scene());
+            driver.resize(size);
+            assert!(driver.text().contains("preload ▲") || size.0 < 80, "{}", driver.text());
+        }
+    });
+}
+
+#[test]
+fn logarithmic_axes_show_the_numbers_above_zero() {
+    within(30, || {
+        let mut driver = mid_retraction(default_scene());
+        driver.press("z");
+        let linear = driver.text();
+        driver.press("O");
+        let text = driver.text();
+        assert!(text.contains("Force F(d), log–log"), "{text}");
+        // Decades, or numbers between them, and none at or below zero.
+        let numbers = scale(&driver, Pane::Force);
+        assert!(numbers.len() >= 2 && numbers.iter().all(|number| *number > 0.0), "{text}");
+        assert!(numbers[0] / numbers[numbers.len() - 1] >= 10.0, "{numbers:?}");
+        assert!(!text.split("log–log").nth(1).unwrap().contains("▼ pull-off\n"), "{text}");
+        // An area is no energy there.
+        driver.press("a");
+        assert!(!driver.text().contains("loss"), "{}", driver.text());
+        driver.press("a O");
+        assert_eq!(driver.text(), linear);
+        for view in ["v", "v", "N"] {
+            driver.press("O");
+            driver.press(view);
+            driver.press("O");
+            assert!(driver.text().contains(" ┤"), "{}", driver.text());
+        }
+    });
+}

@@ -50,10 +50,10 @@ impl CellPlot {
         CellPlot { plot, left, line, below, label }
     }
 
-    /// A plot that fills its area.
+    /// Row of the numbers below the plot.
     #[must_use]
-    pub fn without_scales(area: Rect) -> CellPlot {
-        CellPlot { plot: area, left: 0, line: false, below: false, label: false }
+    pub fn numbers(&self) -> Option<u16> {
+        self.below.then(|| self.plot.bottom() + u16::from(self.line))
     }
 
     /// Number on the horizontal axis at the middle of a column of the screen, within the plot.
@@ -120,6 +120,56 @@ impl CellPlot {
                 .render(self.plot, buffer);
         }
         self.draw_signs(buffer, chart, style);
+    }
+
+    /// Writes each name beside its point where the plot is blank; gives the names that found room.
+    pub fn draw_names<'n>(
+        &self,
+        buffer: &mut Buffer,
+        chart: &Chart,
+        style: &CellStyle<'_>,
+        names: &[((f64, f64), &'n str)],
+    ) -> Vec<&'n str> {
+        let mut written = Vec::new();
+        for &(point, name) in names {
+            let width = name.chars().count() as u16;
+            let Some(cell) = self.cell(chart, style.marker, point) else { continue };
+            let free = self.beside(cell, width).into_iter().find(|&(x, y)| {
+                // With a blank column on either side, unless the plot ends there.
+                let columns = x.saturating_sub(1).max(self.plot.x)..(x + width + 1).min(self.plot.right());
+                let is_blank = |column| matches!(buffer[(column, y)].symbol(), " " | "\u{2800}");
+                columns.filter(|column| (*column, y) != cell).all(is_blank)
+            });
+            if let Some((x, y)) = free {
+                buffer.set_string(x, y, name, (style.ink)(Ink::Quiet));
+                written.push(name);
+            }
+        }
+        written
+    }
+
+    /// Places within the plot for a text of this width beside a cell, the best first.
+    fn beside(&self, (column, row): (u16, u16), width: u16) -> Vec<(u16, u16)> {
+        let (column, row, wide) = (i32::from(column), i32::from(row), i32::from(width));
+        let (right, left, middle) = (column + 2, column - 1 - wide, column - wide / 2);
+        let places = [
+            (right, 0),
+            (left, 0),
+            (right, 1),
+            (left, 1),
+            (right, -1),
+            (left, -1),
+            (middle, 1),
+            (middle, -1),
+        ];
+        let plot = self.plot;
+        let columns = i32::from(plot.x)..=i32::from(plot.right()) - wide;
+        let rows = i32::from(plot.y)..i32::from(plot.bottom());
+        let inside = |(x, down): (i32, i32)| {
+            let y = row + down;
+            (columns.contains(&x) && rows.contains(&y)).then_some((x as u16, y as u16))
+        };
+        places.into_iter().filter_map(inside).collect()
     }
 
     fn draw_signs(&self, buffer: &mut Buffer, chart: &Chart, style: &CellStyle<'_>) {
@@ -303,6 +353,44 @@ mod tests {
     }
 
     #[test]
+    fn a_value_of_a_map_is_found_at_its_cell() {
+        let columns: Vec<f64> = (1..20).map(|at| 0.05 * f64::from(at)).collect();
+        let rows: Vec<f64> = (0..33).map(|at| 0.125 * 2_f64.powf(0.25 * f64::from(at))).collect();
+        let span = |scale, values: &[f64]| HeatMap::span(scale, values);
+        let map = HeatMap {
+            values: vec![Some(1.0); columns.len() * rows.len()],
+            key: axis(0.0, 1.0, "", "1"),
+            classes: Vec::new(),
+            class_names: Vec::new(),
+            contour: None,
+            columns: columns.clone(),
+            rows: rows.clone(),
+        };
+        let chart = Chart {
+            heading: String::new(),
+            x: Axis::new(AxisScale::Linear, span(AxisScale::Linear, &columns), "", "H", "1"),
+            y: Axis::new(AxisScale::Logarithmic, span(AxisScale::Logarithmic, &rows), "", "κ", "1"),
+            layers: vec![Layer::unnamed(Ink::Text, Shape::Map(Box::new(map.clone())))],
+            inset: None,
+        };
+        for (width, height) in [(20, 5), (66, 30), (118, 37), (200, 90)] {
+            let place = CellPlot::within(Rect::new(3, 2, width, height), &chart);
+            for (x, y) in columns.iter().flat_map(|x| rows.iter().map(move |y| (*x, *y))) {
+                let cell = place.cell(&chart, MARKERS[0], (x, y)).unwrap();
+                let (across, up) = place.values_at(&map, cell).unwrap();
+                // Of several values in one cell it is any.
+                assert_eq!(place.cell(&chart, MARKERS[0], (across, up)), Some(cell), "{x} {y}");
+                let room = usize::from(place.plot.width) >= columns.len();
+                assert!(!room || across == x, "{x} {across}");
+            }
+            // Beyond the map it is at its edge, and outside the plot there is nothing.
+            let corner = place.cell(&chart, MARKERS[0], (9.0, 1e9));
+            assert_eq!(corner, Some((place.plot.right() - 1, place.plot.y)));
+            assert_eq!(place.values_at(&map, (place.plot.right(), place.plot.y)), None);
+        }
+    }
+
+    #[test]
     fn two_numbers_give_each_axis_a_scale() {
         let [x, y] = [axis(-5.26e-8, 6.71e-7, "d", "m"), axis(-1.93e-5, 1.22e-5, "F", "N")];
         let chart = Chart { heading: String::new(), x, y, layers: Vec::new(), inset: None };
@@ -339,6 +427,39 @@ mod tests {
             }
         }
         assert!(labelled > 20, "{labelled}");
+    }
+
+    #[test]
+    fn names_are_beside_their_points_and_hide_nothing() {
+        let points: Vec<(f64, f64)> =
+            (0..40).map(|at| (1.7e-8 * f64::from(at), -2e-5 + 5e-7 * f64::from(at))).collect();
+        let chart = chart(vec![curve(&points, None)]);
+        let mut found = 0;
+        for (size, marker) in SIZES.into_iter().flat_map(|size| MARKERS.map(|marker| (size, marker))) {
+            let (place, before) = drawn(&chart, size, marker);
+            let mut after = before.clone();
+            let style = CellStyle { marker, ink: &|_| Style::new(), colours: Colours::None };
+            let names = [(points[9], "preload"), (points[30], "pull-off"), ((1.0, 0.0), "outside")];
+            let written = place.draw_names(&mut after, &chart, &style, &names);
+            assert!(!written.contains(&"outside"));
+            found += written.len();
+            for (cell, old) in after.content.iter().zip(&before.content) {
+                let is_blank = [" ", "\u{2800}"].contains(&old.symbol());
+                assert!(cell.symbol() == old.symbol() || is_blank, "{size:?} {marker}");
+            }
+            for (point, name) in names.into_iter().filter(|(_, name)| written.contains(name)) {
+                let (column, row) = place.cell(&chart, marker, point).unwrap();
+                let near = (row.saturating_sub(1).max(after.area.y)..=(row + 1).min(after.area.bottom() - 1))
+                    .any(|y| {
+                        let from = column.saturating_sub(name.len() as u16 + 1).max(after.area.x);
+                        let to = (column + name.len() as u16 + 2).min(after.area.right());
+                        let text: String = (from..to).map(|x| after[(x, y)].symbol()).collect();
+                        text.contains(name)
+                    });
+                assert!(near, "{size:?} {marker} {name}");
+            }
+        }
+        assert!(found > 20, "{found}");
     }
 
     #[test]

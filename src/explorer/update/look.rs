@@ -1,9 +1,10 @@
 //! How it is looked at: panes, close-up, parts of the line, quantities, colours.
 
 use super::Effect;
+use crate::draw::AxisScale;
 use crate::explorer::action::{Command, Jump};
 use crate::explorer::model::{Look, Model, Notice, Pane};
-use crate::explorer::worker::{Focus, LineView};
+use crate::explorer::request::{Focus, LineView};
 
 /// Fewest springs that fill a pane.
 const FEWEST_SPRINGS: usize = 8;
@@ -38,6 +39,12 @@ pub fn obey(model: &mut Model, command: Command) -> Vec<Effect> {
         }
         Command::NextCurve => model.curve.quantities = model.curve.quantities.next(),
         Command::ToggleNormalised => model.curve.normalised = !model.curve.normalised,
+        Command::ToggleLogarithmic => {
+            model.curve.scale = match model.curve.scale {
+                AxisScale::Linear => AxisScale::Logarithmic,
+                AxisScale::Logarithmic => AxisScale::Linear,
+            };
+        }
         Command::ToggleLoss => model.curve.loss = !model.curve.loss,
         Command::ZoomPane => model.zoomed = !model.zoomed,
         Command::NextPane => {
@@ -88,6 +95,24 @@ pub fn zoom(model: &mut Model, steps: i32) {
         let springs = model.look.springs;
         let springs = if steps > 0 { springs / 2 } else { springs * 2 };
         model.look.springs = springs.clamp(FEWEST_SPRINGS, most.max(FEWEST_SPRINGS));
+    }
+}
+
+/// Looks closer, or from further away, such that the point under the pointer, at a share of the pane, stays there.
+pub fn zoom_at(model: &mut Model, steps: i32, pointer: f64) {
+    let (profile, springs_before) = (model.profile, model.look.springs as f64);
+    zoom(model, steps);
+    let away = pointer - 0.5;
+    if model.pane == Pane::Profile {
+        let LineView { share, .. } = model.profile;
+        let centre = profile.centre + away * (profile.share - share);
+        let centre = centre.clamp(share / 2.0, 1.0 - share / 2.0);
+        model.profile = LineView { centre, share, follow: false };
+    } else if let Some(moment) = &model.moment {
+        let section = &moment.close_up.section;
+        let middle = section.first as f64 + section.springs as f64 / 2.0;
+        let to = middle + away * (springs_before - model.look.springs as f64);
+        model.look.focus = Focus::Spring(to.clamp(0.0, (springs(model) - 1) as f64) as usize);
     }
 }
 

@@ -6,6 +6,8 @@ mod chart;
 mod compare;
 mod edit;
 mod files;
+mod find;
+mod ghosts;
 mod library;
 mod look;
 mod mouse;
@@ -17,9 +19,9 @@ use super::action::{Action, Command, Content};
 use super::layout::Layout;
 use super::mode::Mode;
 use super::model::{Model, Notice};
+use super::request::{HandOrder, MomentRequest};
 use super::theme::Appearance;
 use super::view::help_end;
-use super::worker::{HandOrder, MomentRequest};
 use crate::scene::{Document, typed_path};
 use std::path::PathBuf;
 
@@ -167,6 +169,7 @@ fn obey(model: &mut Model, command: Command) -> Vec<Effect> {
             };
         }
         Mode::Library(_) => return library::obey(model, command),
+        Mode::Find { .. } => return find::obey(model, command),
         Mode::Edit(line) => match command {
             Command::Accept => {
                 let typed = line.text();
@@ -243,7 +246,11 @@ fn typed(model: &mut Model, text: &str) -> Vec<Effect> {
     if let Some(line) = model.mode.line_mut() {
         text.chars().for_each(|character| line.insert(character));
     }
-    library::search(model)
+    match model.mode {
+        Mode::Library(_) => library::search(model),
+        Mode::Find { .. } => find::search(model),
+        _ => Vec::new(),
+    }
 }
 
 /// A command within the line that is being typed; any other leaves it.
@@ -281,8 +288,11 @@ fn explore(model: &mut Model, command: Command) -> Vec<Effect> {
         | Command::SelectEnd(_)
         | Command::StepValue { .. }
         | Command::EditValue
+        | Command::StartValue(_)
+        | Command::ToggleFold
         | Command::ToggleEffect
         | Command::Preset(_) => return edit::obey(model, command),
+        Command::FindParameter => return find::open(model),
         Command::Reseed => return vec![Effect::DrawSeed],
         Command::Undo | Command::Redo => return edit::undo(model, command == Command::Undo),
         Command::Pin | Command::Swap | Command::ClearGhosts => return compare::obey(model, command),
@@ -307,6 +317,7 @@ fn explore(model: &mut Model, command: Command) -> Vec<Effect> {
         | Command::ToggleFollow
         | Command::NextCurve
         | Command::ToggleNormalised
+        | Command::ToggleLogarithmic
         | Command::ToggleLoss
         | Command::ZoomPane
         | Command::NextPane

@@ -5,15 +5,15 @@ use crate::explorer::action::{Command, Gesture, Mouse};
 use crate::explorer::layout::{Layout, inside};
 use crate::explorer::mode::Mode;
 use crate::explorer::model::{Model, Pane};
-use crate::explorer::view::{indentation_at, parameter_at, place_at};
-use crate::explorer::worker::HandOrder;
+use crate::explorer::request::HandOrder;
+use crate::explorer::view::{indentation_at, parameter_at, place_at, share_at};
 use ratatui::layout::Position;
 
 /// Does what the mouse asks for.
 pub fn act(model: &mut Model, mouse: Mouse) -> Vec<Effect> {
     match (&model.mode, mouse.gesture) {
         (Mode::Explore, _) => {}
-        (Mode::Help { .. } | Mode::Library(_), Gesture::Wheel(turns)) => {
+        (Mode::Help { .. } | Mode::Library(_) | Mode::Find { .. }, Gesture::Wheel(turns)) => {
             return super::obey(model, Command::Select(-turns));
         }
         _ => return Vec::new(),
@@ -29,7 +29,12 @@ pub fn act(model: &mut Model, mouse: Mouse) -> Vec<Effect> {
             match pane {
                 Pane::Parameters => {
                     if let Some(row) = parameter_at(model, inside(area), mouse.row) {
+                        // A second press on the first row of a group folds the group.
+                        let again = row == model.selected && model.parameters[row].is_head();
                         edit::select(model, row);
+                        if again {
+                            return edit::obey(model, Command::ToggleFold);
+                        }
                     }
                     vec![Effect::Show]
                 }
@@ -46,7 +51,10 @@ pub fn act(model: &mut Model, mouse: Mouse) -> Vec<Effect> {
         (Gesture::Wheel(turns), Pane::Parameters) => explore(model, Command::Select(-turns)),
         (Gesture::Wheel(turns), Pane::Profile | Pane::CloseUp) => {
             model.pane = pane;
-            look::zoom(model, turns);
+            match share_at(model, pane, inside(area), mouse.column) {
+                Some(pointer) => look::zoom_at(model, turns, pointer),
+                None => look::zoom(model, turns),
+            }
             vec![Effect::Show]
         }
         (Gesture::Drag | Gesture::Wheel(_), _) => Vec::new(),

@@ -1,7 +1,8 @@
 //! The close-up of contact fragments, with their boundary points as the paper's white circles, and a strip
 //! of the whole contact.
 
-use super::profile::{draw_section, short};
+use super::profile::short;
+use super::section;
 use crate::draw::Span;
 use crate::explorer::model::Model;
 use crate::explorer::snapshot::{FragmentFacts, Section, Share};
@@ -14,15 +15,36 @@ use ratatui::widgets::Paragraph;
 
 /// Title of the pane.
 pub fn title(model: &Model) -> String {
-    let Some((moment, computed)) = model.moment.as_ref().zip(model.computed.as_ref()) else {
-        return " Fragments ".to_owned();
-    };
-    let section = &moment.close_up.section;
-    let facts = computed.outcome.line;
-    let from = (facts.first + section.first) as f64 * facts.spacing;
-    let width = section.springs as f64 * facts.spacing;
+    let Some(moment) = model.moment.as_ref() else { return " Fragments ".to_owned() };
+    let shown = &moment.close_up.section;
+    let from = (moment.line.first + shown.first) as f64 * moment.line.spacing;
+    let width = shown.springs as f64 * moment.line.spacing;
     let [width, from] = [width, from].map(|x| format_quantity(short(x), "m"));
     format!(" Fragments, {width} from x = {from} ")
+}
+
+/// Names of what is drawn, for the lower edge of the frame.
+pub fn names(model: &Model, area: Rect) -> Option<Line<'static>> {
+    let moment = model.moment.as_ref()?;
+    let shown = &moment.close_up.section;
+    let chart = section::chart(shown, moment.line, heights(shown));
+    let ring = Text::styled("○", model.appearance.theme.style(Meaning::Contact));
+    let ring = vec![ring, Text::raw(" patch end")];
+    Some(section::names(&chart, [ring], model.appearance, area.width))
+}
+
+/// Share of the close-up under a column of the pane.
+pub fn share_at(model: &Model, area: Rect, column: u16) -> Option<f64> {
+    let moment = model.moment.as_ref()?;
+    let shown = &moment.close_up.section;
+    let chart = section::chart(shown, moment.line, heights(shown));
+    Some(section::share_at(plot_area(area), &chart, column))
+}
+
+/// Area of the plot, above the strip and the text.
+fn plot_area(area: Rect) -> Rect {
+    let below = [9, 4, 7].into_iter().filter(|rows| area.height >= *rows).count();
+    Rect { height: area.height - below as u16, ..area }
 }
 
 /// Draws the close-up and what is known of its fragment.
@@ -33,12 +55,11 @@ pub fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
     let section = &close_up.section;
     let strip_rows = u16::from(area.height >= 9);
     let text_rows = u16::from(area.height >= 4) + u16::from(area.height >= 7);
-    let plot = Rect { height: area.height - text_rows - strip_rows, ..area };
-    let z = heights(section);
-    let (place, chart) = draw_section(frame, plot, section, z, model.appearance);
+    let plot = plot_area(area);
+    let chart = section::chart(section, moment.line, heights(section));
+    let place = section::draw(frame, plot, &chart, model.appearance);
     for &(spring, height) in &close_up.boundaries {
-        // The middle of the columns of dots that this spring fills.
-        let at = ((spring - section.first) as f64 + 0.5, height);
+        let at = (section::position(moment.line, spring), height);
         if let Some(cell) = place.cell(&chart, model.appearance.marker.symbols(), at) {
             frame.buffer_mut()[cell].set_symbol("○").set_style(theme.style(Meaning::Contact));
         }

@@ -29,7 +29,8 @@ pub fn title(model: &Model) -> String {
             Quantities::FragmentsIndentation => "Fragments n(d)".to_owned(),
         },
     };
-    let loss = if model.curve.loss && model.curve.quantities == Quantities::ForceIndentation {
+    let is_shaded = model.curve.loss && model.curve.scale == AxisScale::Linear;
+    let loss = if is_shaded && model.curve.quantities == Quantities::ForceIndentation {
         match model.computed.as_ref().and_then(|computed| computed.outcome.figures.dissipated_energy) {
             Some(energy) => format!(" · loss {}", format_quantity(short(energy), "J")),
             None => " · loss open".to_owned(),
@@ -42,7 +43,8 @@ pub fn title(model: &Model) -> String {
         Some(event) => format!(" · {event}"),
         None => String::new(),
     };
-    format!(" {name}{loss}{event} ")
+    let scale = if model.curve.scale == AxisScale::Logarithmic { ", log–log" } else { "" };
+    format!(" {name}{scale}{loss}{event} ")
 }
 
 /// In what the axes count: metres and newtons, or what governs the scene.
@@ -54,6 +56,7 @@ struct Units {
     /// Contact length of one spring.
     spring: f64,
     in_lengths: bool,
+    scale: AxisScale,
 }
 
 impl Units {
@@ -68,6 +71,7 @@ impl Units {
             force: outcome.ideal_adhesion_force.and_then(positive),
             spring: outcome.line.spacing / if normalised { outcome.line.length } else { 1.0 },
             in_lengths: normalised,
+            scale: model.curve.scale,
         }
     }
 
@@ -105,7 +109,7 @@ impl Units {
         let axis = |span, symbol: &str, over: &str, unit: &str, normalised: bool| {
             let (symbol, unit) =
                 if normalised { (format!("{symbol}/{over}"), "1") } else { (symbol.to_owned(), unit) };
-            Axis::new(AxisScale::Linear, span, "", &symbol, unit)
+            Axis::new(self.scale, span, "", &symbol, unit)
         };
         let indentation = |span| axis(span, "d", "h", "m", self.indentation.is_some());
         let force = |span| axis(span, "F", "F_a,max", "N", self.force.is_some());
@@ -117,18 +121,24 @@ impl Units {
     }
 }
 
+/// Decades of a logarithmic axis: a force near its change of sign would take all room.
+const MOST_DECADES: f64 = 6.0;
+
 /// What the pane spans: the curve, its ghosts and the way of the hand.
 fn spans(model: &Model, units: Units) -> (Span, Span) {
     let ghosts = model.ghosts.iter().flat_map(|ghost| &ghost.computed.outcome.history.legs);
     let points = model.legs().iter().chain(ghosts).flat_map(|leg| &leg.curve);
     let hand = model.hand.iter().flat_map(|hand| &hand.path);
+    let coordinate = |number| units.scale.coordinate(number);
     let places: Vec<(f64, f64)> = points.chain(hand).map(|point| units.place(point)).collect();
-    let x = Span::around(places.iter().map(|place| place.0), 0.06);
-    let y = Span::around(places.iter().map(|place| place.1).chain([0.0]), 0.08);
-    match units.quantities {
-        Quantities::ForceIndentation => (x, y),
+    let x = Span::around(places.iter().map(|place| coordinate(place.0)), 0.06);
+    let y = Span::around(places.iter().map(|place| place.1).chain([0.0]).map(coordinate), 0.08);
+    let decades = |span: Span| Span { low: span.low.max(span.high - MOST_DECADES), ..span };
+    match (units.scale, units.quantities) {
+        (AxisScale::Logarithmic, _) => (decades(x), decades(y)),
+        (AxisScale::Linear, Quantities::ForceIndentation) => (x, y),
         // There is no negative length or number.
-        Quantities::LengthForce | Quantities::FragmentsIndentation => (x, Span { low: 0.0, ..y }),
+        (AxisScale::Linear, _) => (x, Span { low: 0.0, ..y }),
     }
 }
 
@@ -174,16 +184,21 @@ pub fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
     let chart = chart(model, units);
     let place = plot::draw_chart(frame, below(area, above), &chart, model.appearance);
     draw_letters(frame, &place, &chart, model, units);
+    if model.is_current() {
+        let marks = marks(model.legs());
+        let names: Vec<_> = marks.iter().map(|(mark, point)| (units.place(point), mark.name())).collect();
+        plot::in_theme(model.appearance, |style| place.draw_names(frame.buffer_mut(), &chart, style, &names));
+    }
     let legend = plot::in_theme(model.appearance, |style| legend(std::slice::from_ref(&chart), style));
     let mut parts =
         vec![vec![Text::styled(chart.y.label_with_unit().to_string(), theme.style(Meaning::Quiet))]];
     parts.extend(legend);
-    let widths: usize = parts.iter().flatten().map(Text::width).sum::<usize>() + 2 * (parts.len() - 1);
-    let between = if widths <= usize::from(area.width) { "  " } else { " " };
-    let rows = [fitting(parts, between, usize::from(area.width))];
+    let rows = [plot::spaced(parts, usize::from(area.width))];
     let values = model.is_current().then(|| values(model.legs(), area.width, theme));
     let ghosts = model.ghosts.iter().enumerate().rev().map(|(number, ghost)| {
-        Line::styled(format!("{} {}", letter(number), ghost.differs), theme.style(Meaning::Ghost))
+        let force = adhesion(model, ghost).map_or_else(String::new, |force| format!(" {force} ·"));
+        let style = theme.style(plot::meaning(Ink::Kept(number)));
+        Line::styled(format!("{}{force} {}", letter(number), ghost.differs), style)
     });
     for (y, line) in (area.y..area.y + above).zip(rows.into_iter().chain(values).chain(ghosts)) {
         frame.render_widget(Paragraph::new(line), Rect { y, height: 1, ..area });
@@ -201,12 +216,16 @@ fn chart(model: &Model, units: Units) -> Chart {
     let line = |points, stroke| Shape::Curve { points, stroke: Some(stroke), sign: None };
     let point = |at, sign| Shape::Curve { points: vec![at], stroke: None, sign: Some(sign) };
     let mut layers = vec![Layer::unnamed(Ink::Quiet, Shape::Level(0.0))];
-    if model.curve.loss && units.quantities == Quantities::ForceIndentation {
+    // On logarithmic axes areas are no energies.
+    let is_linear = units.scale == AxisScale::Linear;
+    if model.curve.loss && is_linear && units.quantities == Quantities::ForceIndentation {
         let border = legs.iter().flat_map(|leg| along(&leg.curve)).collect();
         layers.push(Layer::unnamed(Ink::Quiet, Shape::Inside(border)));
     }
-    for leg in model.ghosts.iter().flat_map(|ghost| &ghost.computed.outcome.history.legs) {
-        layers.push(Layer::unnamed(Ink::Kept, line(along(&leg.curve), Stroke::Sparse)));
+    for (number, ghost) in model.ghosts.iter().enumerate() {
+        for leg in &ghost.computed.outcome.history.legs {
+            layers.push(Layer::unnamed(Ink::Kept(number), line(along(&leg.curve), Stroke::Sparse)));
+        }
     }
     for (direction, name, of, stroke) in [
         (Direction::Loading, "loading", Ink::Loading, Stroke::Dotted),
@@ -224,7 +243,10 @@ fn chart(model: &Model, units: Units) -> Chart {
     let (x, y) = spans(model, units);
     if let Some(moment) = model.present() {
         let (at, value) = units.place(&moment.point);
-        let at = (at.clamp(x.low, x.high), value.clamp(y.low, y.high));
+        let within = |number, span: Span| {
+            units.scale.number(units.scale.coordinate(number).clamp(span.low, span.high))
+        };
+        let at = (within(at, x), within(value, y));
         let name = if model.hand.is_some() { "manual" } else { "now" };
         layers.push(Layer::new(Label::plain(name), Ink::Cursor, point(at, Sign::Diamond)));
     }
@@ -262,6 +284,18 @@ fn marked(ghost: &Ghost) -> Option<CurvePoint> {
     at.or_else(|| legs.last().and_then(|leg| leg.curve.last().copied()))
 }
 
+/// Adhesion force of a ghost, and how far it is above or below that of the present scene: `F_a 12 µN (+3 µN)`.
+fn adhesion(model: &Model, ghost: &Ghost) -> Option<String> {
+    let of = |computed: &Loop| computed.outcome.figures.adhesion_force;
+    let force = of(&ghost.computed)?;
+    let present = model.computed.as_deref().filter(|_| model.is_current()).and_then(of);
+    let difference = present.map_or_else(String::new, |present| {
+        let sign = if force > present { "+" } else { "" };
+        format!(" ({sign}{})", format_quantity(short(force - present), "N"))
+    });
+    Some(format!("F_a {}{difference}", format_quantity(short(force), "N")))
+}
+
 /// Draws the letters of ghosts, each in the nearest cell of its row without a sign.
 fn draw_letters(frame: &mut Frame<'_>, place: &CellPlot, chart: &Chart, model: &Model, units: Units) {
     let marker = model.appearance.marker.symbols();
@@ -278,7 +312,7 @@ fn draw_letters(frame: &mut Frame<'_>, place: &CellPlot, chart: &Chart, model: &
         let mut free = beside.filter(|column| columns.contains(column)).map(|column| (column, row));
         let cell = free.find(|cell| !taken.contains(cell)).unwrap_or((column, row));
         taken.push(cell);
-        let style = model.appearance.theme.style(Meaning::Ghost);
+        let style = model.appearance.theme.style(plot::meaning(Ink::Kept(number)));
         frame.buffer_mut()[cell].set_symbol(letter(number)).set_style(style);
     }
 }

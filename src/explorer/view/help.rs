@@ -1,6 +1,6 @@
 //! The help: the table of keys by section, and what the panes show.
 
-use crate::explorer::keys::{Bindings, Key};
+use crate::explorer::keys::{Bindings, names};
 use crate::explorer::theme::{Meaning, Theme};
 use ratatui::Frame;
 use ratatui::layout::{Margin, Rect};
@@ -11,7 +11,7 @@ const PANES: &[(&str, &str)] = &[
     (
         "Curve",
         "F over indentation d: dotted while pressing, solid while pulling; ◇ jump-in, ▲ preload, ▼ pull-off, \
-         ◆ now; letters are ghosts, dashes are where the hand has been",
+         ◆ now; letters and colours are ghosts, dashes are where the hand has been",
     ),
     (
         "Profile",
@@ -29,8 +29,8 @@ const PANES: &[(&str, &str)] = &[
     ),
     (
         "Map",
-        "m: regime under other κ and H, of most of a few random profiles with few springs; █ adhesion at first \
-         touch, ▒ after pressing, · hardly any, × not computable; ◆ is the scene, moved by the arrows",
+        "m: regime under other H and κ, of most of a few random profiles with few springs; █ adhesion at first \
+         touch, ▒ after pressing, · hardly any, blank: not computed; ◆ is the scene, moved by the arrows",
     ),
     (
         "Study",
@@ -79,8 +79,7 @@ fn lines(width: u16, theme: Theme, bindings: &Bindings) -> Vec<Line<'static>> {
             lines.push(Line::default());
             lines.push(title(section));
         }
-        let keys: Vec<String> = row.keys.iter().map(Key::name).collect();
-        entry(&mut lines, &keys.join(" "), row.help, width, theme);
+        entry(&mut lines, &names(&row.keys).join(" "), row.help, width, theme);
     }
     lines
 }

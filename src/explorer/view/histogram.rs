@@ -2,6 +2,7 @@
 
 use crate::draw::Span;
 use crate::explorer::theme::{Meaning, Theme};
+use crate::scene::format_quantity;
 use crate::surface::Histogram;
 use ratatui::Frame;
 use ratatui::layout::Rect;
@@ -11,8 +12,15 @@ use ratatui::widgets::{Block, Borders, Paragraph};
 const EIGHTHS: [char; 8] = ['▏', '▎', '▍', '▌', '▋', '▊', '▉', '█'];
 
 /// Draws one bar for each row, the share of heights that lie in it, and behind the bars the bell curve of
-/// the same mean and rms height.
-pub fn draw(frame: &mut Frame<'_>, area: Rect, histogram: Option<&Histogram>, z: Span, theme: Theme) {
+/// the same mean and rms height; in the row of `numbers`, the share of heights of the longest bar.
+pub fn draw(
+    frame: &mut Frame<'_>,
+    area: Rect,
+    numbers: Option<u16>,
+    histogram: Option<&Histogram>,
+    z: Span,
+    theme: Theme,
+) {
     let block = Block::new().borders(Borders::LEFT).border_style(theme.style(Meaning::Quiet));
     let inner = block.inner(area);
     frame.render_widget(block, area);
@@ -34,6 +42,18 @@ pub fn draw(frame: &mut Frame<'_>, area: Rect, histogram: Option<&Histogram>, z:
         }
         frame.render_widget(Paragraph::new(Line::from(spans)), Rect { y: row, height: 1, ..inner });
     }
+    let all: u64 = histogram.counts.iter().sum();
+    let longest = format_quantity(short(100.0 * most / all as f64), "1");
+    if let Some(y) = numbers {
+        let (row, quiet) = (Rect { y, height: 1, ..inner }, theme.style(Meaning::Quiet));
+        frame.render_widget(Paragraph::new(Line::styled("0", quiet)), row);
+        frame.render_widget(Paragraph::new(Line::styled(format!("{longest} %"), quiet).right_aligned()), row);
+    }
+}
+
+/// The value to two digits.
+fn short(value: f64) -> f64 {
+    format!("{value:.1e}").parse().unwrap_or(value)
 }
 
 /// The heights that would fall into each row, top row first, were they normally distributed with the mean

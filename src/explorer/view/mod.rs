@@ -13,6 +13,7 @@ mod library;
 mod parameters;
 mod plot;
 mod profile;
+mod section;
 mod sections;
 mod stages;
 mod typed;
@@ -64,6 +65,16 @@ pub fn draw(frame: &mut Frame<'_>, model: &Model) {
     }
 }
 
+/// Share of the part of the profile that a pane shows, under a column of the screen; `None` for a pane without profile.
+#[must_use]
+pub fn share_at(model: &Model, pane: Pane, area: Rect, column: u16) -> Option<f64> {
+    match pane {
+        Pane::Profile => profile::share_at(model, area, column),
+        Pane::CloseUp if !model.lengths => close_up::share_at(model, area, column),
+        _ => None,
+    }
+}
+
 /// Where the panes are.
 fn body(layout: &Layout) -> Rect {
     layout.panes.iter().map(|(_, area)| *area).reduce(Rect::union).unwrap_or_default()
@@ -92,15 +103,21 @@ fn draw_pane(frame: &mut Frame<'_>, area: Rect, model: &Model, pane: Pane) {
         let block = Block::bordered()
             .border_style(model.appearance.theme.style(Meaning::Quiet))
             .title(ratatui::text::Span::styled(format!("{mark}{name}"), style));
-        frame.render_widget(block, area);
+        let names = match pane {
+            Pane::Profile => profile::names(model, area),
+            Pane::CloseUp if !model.lengths => close_up::names(model, area),
+            _ => None,
+        };
+        frame.render_widget(names.into_iter().fold(block, Block::title_bottom), area);
     }
+    let edge = area.right().saturating_sub(1);
     let area = inside(area);
     match pane {
         Pane::Force => force::draw(frame, area, model),
         Pane::Profile => profile::draw(frame, area, model),
         Pane::CloseUp if model.lengths => lengths::draw(frame, area, model),
         Pane::CloseUp => close_up::draw(frame, area, model),
-        Pane::Parameters => parameters::draw(frame, area, model),
+        Pane::Parameters => parameters::draw(frame, area, edge, model),
         Pane::Accuracy => accuracy::draw(frame, area, model),
         Pane::Chart => chart::draw(frame, area, model),
     }

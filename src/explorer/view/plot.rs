@@ -1,12 +1,14 @@
 //! Charts in panes, in the colours of a theme.
 
+use super::wrap::fitting;
 use crate::draw::{Axis, CellPlot, CellStyle, Chart, Colours, Ink, Layer};
 use crate::explorer::theme::{Appearance, Meaning};
 use ratatui::Frame;
 use ratatui::layout::Rect;
+use ratatui::text::{Line, Span as Text};
 
 /// Meaning of an ink on the screen.
-fn meaning(ink: Ink) -> Meaning {
+pub fn meaning(ink: Ink) -> Meaning {
     match ink {
         Ink::Text => Meaning::Title,
         Ink::Quiet => Meaning::Quiet,
@@ -16,7 +18,8 @@ fn meaning(ink: Ink) -> Meaning {
         Ink::Loading => Meaning::Approach,
         Ink::Unloading => Meaning::Retraction,
         Ink::Manual => Meaning::Hand,
-        Ink::Kept => Meaning::Ghost,
+        // The colours that the present curve has not.
+        Ink::Kept(number) => [Meaning::Surface, Meaning::Hand, Meaning::Text, Meaning::Ghost][number % 4],
         Ink::Cursor => Meaning::Cursor,
         Ink::Series(number) => {
             let all = [
@@ -48,4 +51,22 @@ pub fn draw_chart(frame: &mut Frame<'_>, area: Rect, chart: &Chart, appearance: 
 /// A chart of a pane, whose title names what is shown.
 pub fn chart(x: Axis, y: Axis, layers: Vec<Layer>) -> Chart {
     Chart { heading: String::new(), x, y, layers, inset: None }
+}
+
+/// As many parts as fit on the lower edge of a frame of this width, apart from its corners.
+pub fn on_frame(parts: Vec<Vec<Text<'static>>>, width: u16) -> Line<'static> {
+    let room = usize::from(width).saturating_sub(4);
+    let mut line = spaced(parts, room);
+    if !line.spans.is_empty() {
+        line.spans.insert(0, Text::raw(" "));
+        line.spans.push(Text::raw(" "));
+    }
+    line
+}
+
+/// As many parts as fit into so many columns: two columns apart where all fit, else one.
+pub fn spaced(parts: Vec<Vec<Text<'static>>>, columns: usize) -> Line<'static> {
+    let widths: usize = parts.iter().flatten().map(Text::width).sum();
+    let between = if widths + 2 * parts.len().saturating_sub(1) <= columns { "  " } else { " " };
+    fitting(parts, between, columns)
 }

@@ -2,7 +2,7 @@
 
 use super::template::governing;
 use crate::analysis::Governing;
-use crate::scene::{Adhesion, Document, Leg, Scene, SceneErrors, ron_float};
+use crate::scene::{Adhesion, Document, Leg, RoughnessParameter, Scene, SceneErrors, ron_float};
 use crate::study::figure::FigureAxis;
 use crate::study::target::Target;
 
@@ -27,21 +27,25 @@ impl MapAxis {
     #[must_use]
     pub fn value(&self, scene: &Scene, computed: Option<&Governing>) -> Option<f64> {
         let target = Target::of(&self.path).ok()?;
+        if let Some(parameter) = parameter_of(target, &self.path) {
+            let adhesion = scene.adhesion?;
+            let known = governing(scene).or(computed.copied());
+            let stated = adhesion.parameter().filter(|(stated, _)| *stated == parameter);
+            return known.and_then(|known| known.parameter(parameter)).or(stated.map(|(_, value)| value));
+        }
         match (target, scene.loading.first()) {
-            _ if is_kappa(target, &self.path) => {
-                let adhesion = scene.adhesion?;
-                let known = governing(scene).or(computed.copied());
-                known.and_then(|known| known.kappa).or(adhesion.kappa)
-            }
             (Target::Preload, Some(Leg::ToForce(force))) => Some(force / force_unit(scene)?),
             _ => target.get(scene),
         }
     }
 }
 
-/// Whether a quantity is κ, which a scene may state by its work of adhesion.
-fn is_kappa(target: Target, path: &str) -> bool {
-    target == Target::Kappa || path == "adhesion.kappa"
+/// κ or e_el/γ, if the quantity is one of them: a scene may state it by its work of adhesion.
+fn parameter_of(target: Target, path: &str) -> Option<RoughnessParameter> {
+    match target {
+        Target::RoughnessParameter(parameter) => Some(parameter),
+        _ => RoughnessParameter::ALL.into_iter().find(|parameter| parameter.path() == path),
+    }
 }
 
 /// Unit of preloads, E* h L, of a scene with a self-affine profile, N.
@@ -50,16 +54,20 @@ pub(super) fn force_unit(scene: &Scene) -> Option<f64> {
     Some(governing.effective_modulus * governing.amplitude?.rms_height * scene.length)
 }
 
-/// A document with other values of quantities, by their paths. κ changes the work of adhesion of a scene that states it,
+/// A document with other values of quantities, by their paths. κ or e_el/γ changes the work of adhesion of a scene that states it,
 /// and a preload replaces the loading; both are set last, since they follow from the others.
 ///
 /// # Errors
 /// A value that is not allowed.
 pub fn moved(document: &Document, values: &[(&str, f64)]) -> Result<Document, SceneErrors> {
-    let (mut fields, mut kappa, mut preload, mut springs) = (Vec::new(), None, None, None);
+    let (mut fields, mut parameter, mut preload, mut springs) = (Vec::new(), None, None, None);
     for &(path, value) in values {
-        match Target::of(path) {
-            Ok(target) if is_kappa(target, path) => kappa = Some(value),
+        let target = Target::of(path);
+        if let Some(stated) = target.as_ref().ok().and_then(|&target| parameter_of(target, path)) {
+            parameter = Some((stated, value));
+            continue;
+        }
+        match target {
             Ok(Target::Preload) => preload = Some(value),
             Ok(Target::SpringsPerWave) => springs = Some(value),
             target => {
@@ -74,12 +82,15 @@ pub fn moved(document: &Document, values: &[(&str, f64)]) -> Result<Document, Sc
         let last = (moved.scene().numerics.points as f64 / springs).round();
         moved = moved.set("roughness.modes.1", &format!("{last:.0}"))?;
     }
-    if let Some(kappa) = kappa {
-        let by_work = matches!(moved.scene().adhesion, Some(Adhesion { work: Some(_), kappa: None, .. }));
-        let work = governing(moved.scene()).and_then(|governing| governing.work_for_kappa(kappa));
+    if let Some((parameter, value)) = parameter {
+        let by_work = matches!(
+            moved.scene().adhesion,
+            Some(Adhesion { work: Some(_), kappa: None, elastic_energy_ratio: None, .. })
+        );
+        let work = governing(moved.scene()).and_then(|governing| governing.work_for(parameter, value));
         moved = match work.filter(|_| by_work) {
             Some(work) => moved.with_work_of_adhesion(work)?,
-            None => moved.with_kappa(kappa)?,
+            None => moved.with_parameter(parameter, value)?,
         };
     }
     match preload.zip(force_unit(moved.scene())) {

@@ -63,11 +63,11 @@ impl Template {
                 let last = modes.1;
                 // Without an amplitude of its own it follows from γ and κ.
                 let work = adhesion.work.filter(|_| rms_height.is_none() && rms_gradient.is_none());
-                scene.adhesion = Some(Adhesion { work, kappa: Some(ANY.0), closing_work: None });
+                scene.adhesion = Some(Adhesion { work, ..Adhesion::default().with_kappa(ANY.0) });
                 last.saturating_mul(SPRINGS_PER_WAVE).clamp(SPRINGS.0, SPRINGS.1).max(last.saturating_mul(2))
             }
             Some(Roughness::Measured { .. }) => {
-                scene.adhesion = Some(Adhesion { kappa: Some(ANY.0), ..Adhesion::default() });
+                scene.adhesion = Some(Adhesion::default().with_kappa(ANY.0));
                 SPRINGS.1
             }
         };
@@ -132,12 +132,12 @@ impl Template {
 }
 
 /// Governing parameters of a scene with a self-affine profile.
-pub(super) fn governing(scene: &Scene) -> Option<Governing> {
+pub(in crate::study) fn governing(scene: &Scene) -> Option<Governing> {
     let Some(Roughness::SelfAffine { hurst, modes: (first, last), .. }) = scene.roughness else {
         return None;
     };
-    let ratio = SelfAffine { hurst, first, last }.gradient_per_height(scene.length);
-    Some(Governing::of(scene, Some(ratio), None))
+    let wave_numbers = SelfAffine { hurst, first, last }.wave_numbers(scene.length);
+    Some(Governing::of(scene, Some(wave_numbers), None))
 }
 
 #[cfg(test)]
