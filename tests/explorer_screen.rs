@@ -39,14 +39,20 @@ mod look;
 mod looks;
 #[path = "screen/mouse.rs"]
 mod mouse;
+#[path = "screen/palette.rs"]
+mod palette;
 #[path = "screen/panes.rs"]
 mod panes;
 #[path = "screen/parameters.rs"]
 mod parameters;
 #[path = "screen/play.rs"]
 mod play;
+#[path = "screen/preloads.rs"]
+mod preloads;
 #[path = "screen/saving.rs"]
 mod saving;
+#[path = "screen/spectrum.rs"]
+mod spectrum;
 #[path = "screen/study.rs"]
 mod study;
 #[path = "screen/typing.rs"]
@@ -108,6 +114,8 @@ fn everywhere() -> Vec<Driver> {
         "E",
         "o",
         "/ h u",
+        ": m a p",
+        "i",
         "Z",
         "d { ]",
         "c L",
@@ -116,10 +124,14 @@ fn everywhere() -> Vec<Driver> {
         "N w",
         "A",
         "A z",
+        "Q",
+        "Q z",
         "% 1",
         "y",
         "m",
         "m X z",
+        "i",
+        "i z",
     ];
     let mut all: Vec<Driver> = keys.into_iter().map(pressed).collect();
     all.push(Driver::open(rough()));

@@ -1,8 +1,9 @@
-//! What may be typed after `asperity`.
+//! Arguments of the program.
 
 use super::{
     CheckArguments, CompletionsArguments, ConfigArguments, CostArguments, DemoArguments, ExploreArguments,
-    LineArguments, PlanArguments, PresetsCommand, RunArguments, SurfaceArguments, SweepArguments,
+    LineArguments, PlanArguments, PresetsCommand, ReversalsArguments, RunArguments, SurfaceArguments,
+    SweepArguments,
 };
 use clap::{Parser, Subcommand};
 
@@ -47,6 +48,8 @@ pub struct Arguments {
 pub enum Command {
     /// Compute a scene: a summary, JSON, or the curve as CSV
     Run(RunArguments),
+    /// Unload a scene from many turning points: adhesion against preload, reversal curves, maps
+    Reversals(ReversalsArguments),
     /// Play the explorer without a keyboard: on screen, as text, or as a recording
     Demo(DemoArguments),
     /// List the computing stages of a scene: run or skipped, reason, cost

@@ -19,7 +19,7 @@ pub struct ExploreArguments {
     /// The folder of a merged study opens its map, or the section along its only axis. Default: `scene` of the
     /// configuration file, else pressure-sensitive.
     pub scene: Option<String>,
-    /// What is changed in it.
+    /// Overrides of the scene.
     #[command(flatten)]
     pub overrides: Overrides,
     /// Colours

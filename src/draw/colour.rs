@@ -66,7 +66,7 @@ impl Palette {
     };
 }
 
-/// What a colour means; each backend has a colour for each.
+/// Meaning of a colour; each backend assigns the colour.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Ink {
     /// Text, frames, outlines.
@@ -85,8 +85,10 @@ pub enum Ink {
     Unloading,
     /// Manual loading.
     Manual,
+    /// A curve in the background, kept while another one is shown.
+    Kept,
     /// One of several curves kept for comparison, counted from 0.
-    Kept(usize),
+    Compared(usize),
     /// The present state.
     Cursor,
     /// One of several curves, counted from 0.
@@ -100,13 +102,13 @@ impl Ink {
         let Palette { foreground, ansi, .. } = Palette::LIGHT;
         match self {
             Ink::Text | Ink::Profile => foreground,
-            Ink::Quiet => ansi[8],
+            Ink::Quiet | Ink::Kept => ansi[8],
             Ink::Surface => ansi[4],
             Ink::Contact | Ink::Cursor => ansi[1],
             Ink::Loading => ansi[2],
             Ink::Unloading => ansi[5],
             Ink::Manual => ansi[6],
-            Ink::Kept(number) => [ansi[4], ansi[6], ansi[3], ansi[8]][number % 4],
+            Ink::Compared(number) => [ansi[4], ansi[6], ansi[3], ansi[8]][number % 4],
             // Blue, red, black, green, magenta: neighbours differ in lightness.
             Ink::Series(number) => [ansi[4], ansi[1], foreground, ansi[2], ansi[5]][number % 5],
         }

@@ -3,6 +3,7 @@
 use super::opening::Opening;
 use super::snapshot::{Loop, Moment, Preview};
 use super::study::Found;
+use crate::export::TableFormat;
 use crate::scene::Entry;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -47,9 +48,16 @@ pub enum Action {
     Written(Result<Written, WriteFailure>),
     /// The scenes that can be opened.
     Listed(Vec<Entry>),
+    /// Paths that complete a typed one.
+    Completed {
+        /// The path as typed.
+        typed: String,
+        /// The whole paths, the best first.
+        paths: Vec<String>,
+    },
     /// A scene or a study has been opened by its path, or not, and why.
     Opened(Result<Box<Opening>, String>),
-    /// The curve of the scene chosen in the library.
+    /// The curve of a scene to look at.
     Previewed(Arc<Preview>),
     /// Colours and markers are in the configuration file, or not, and why.
     Remembered(Result<PathBuf, String>),
@@ -86,8 +94,8 @@ pub enum WriteFailure {
 pub enum Content {
     /// The scene, in RON.
     Scene,
-    /// The force curve, as comma-separated values.
-    Curve,
+    /// The force curve, as a table.
+    Curve(TableFormat),
     /// Everything that was computed, in JSON.
     Outcome,
     /// The panes as a picture, in SVG.
@@ -102,8 +110,9 @@ pub enum Content {
 
 impl Content {
     /// What can be exported, by the ending of the file's name.
-    pub const EXPORTS: [(&'static str, Content); 4] = [
-        ("csv", Content::Curve),
+    pub const EXPORTS: [(&'static str, Content); 5] = [
+        ("csv", Content::Curve(TableFormat::Csv)),
+        ("npy", Content::Curve(TableFormat::Npy)),
         ("json", Content::Outcome),
         ("svg", Content::Picture),
         ("txt", Content::Text),
@@ -209,6 +218,10 @@ pub enum Command {
     Swap,
     /// Let all ghosts go.
     ClearGhosts,
+    /// Choose a command from the list of all.
+    OpenPalette,
+    /// Complete the path that is typed.
+    Complete,
     /// Save the scene to a file.
     Save,
     /// Export curve or panes to a file.
@@ -223,6 +236,8 @@ pub enum Command {
     Fragment(Jump),
     /// Show the distribution of fragment lengths in place of the close-up, or the other way round.
     ToggleLengths,
+    /// Show the spectrum in place of profile and close-up, or these again.
+    ToggleSpectrum,
     /// Look closer in the chosen pane, or from further away.
     Zoom(i32),
     /// Move along the line by so many quarters of what is seen.
@@ -243,6 +258,8 @@ pub enum Command {
     ToggleAccuracy,
     /// Type a tolerance.
     TypeTolerance,
+    /// Show adhesion against preload, or the profile and the fragments again.
+    TogglePreloads,
     /// Show the map, choose it, or show the profile and the fragments again.
     ToggleChart,
     /// Show sections through the mark in place of the map, or the other way round.
@@ -263,6 +280,8 @@ pub enum Command {
     ZoomPane,
     /// Choose the next pane.
     NextPane,
+    /// Show springs and times of the computation in the status line, or mechanical quantities again.
+    ToggleWork,
     /// Other colours.
     NextTheme,
     /// Other markers in the plots.

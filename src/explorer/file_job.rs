@@ -2,6 +2,7 @@
 //! not answer, and the screen has to.
 
 use super::action::{Action, Content, WriteFailure};
+use super::completion::complete;
 use super::config::remember;
 use super::model::Model;
 use super::opening::Opening;
@@ -19,6 +20,8 @@ pub(super) enum FileJob {
     Remember { path: PathBuf, appearance: Appearance },
     /// List the scenes of the library.
     List,
+    /// List the paths that complete a typed one.
+    Complete(String),
     /// Open a scene or a study by its path.
     Open(String),
 }
@@ -30,6 +33,7 @@ impl FileJob {
             FileJob::Write { path, .. } => format!("writing {} …", path.display()),
             FileJob::Remember { path, .. } => format!("writing {} …", path.display()),
             FileJob::List => "listing scenes …".to_owned(),
+            FileJob::Complete(_) => "listing files …".to_owned(),
             FileJob::Open(name) => format!("opening {name} …"),
         }
     }
@@ -63,6 +67,10 @@ impl FileJob {
                 Action::Remembered(remembered.map(|()| path))
             }
             FileJob::List => Action::Listed(Library::of_environment().list()),
+            FileJob::Complete(typed) => {
+                let paths = complete(&typed);
+                Action::Completed { typed, paths }
+            }
             FileJob::Open(name) => {
                 Action::Opened(Opening::of(&name).map(Box::new).map_err(|error| error.to_string()))
             }

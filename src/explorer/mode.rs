@@ -27,6 +27,8 @@ pub enum Mode {
         /// The pane that was selected before.
         back: Pane,
     },
+    /// Choosing a command from the list of all.
+    Palette(Finder),
     /// Typing title, notice and the name of the file to save the scene to.
     SaveAs(SaveForm),
     /// Asked whether to remove comments about values that have been changed.
@@ -116,6 +118,8 @@ pub enum ModeKind {
     Library,
     /// See [`Mode::Find`].
     Find,
+    /// See [`Mode::Palette`].
+    Palette,
     /// See [`Mode::SaveAs`].
     SaveAs,
     /// See [`Mode::StaleComments`].
@@ -132,7 +136,7 @@ pub enum ModeKind {
 
 impl ModeKind {
     /// All modes.
-    pub const ALL: [ModeKind; 14] = [
+    pub const ALL: [ModeKind; 15] = [
         ModeKind::Explore,
         ModeKind::Chart,
         ModeKind::Parameters,
@@ -141,6 +145,7 @@ impl ModeKind {
         ModeKind::Tolerance,
         ModeKind::Library,
         ModeKind::Find,
+        ModeKind::Palette,
         ModeKind::SaveAs,
         ModeKind::StaleComments,
         ModeKind::Export,
@@ -169,6 +174,7 @@ impl Mode {
             Mode::Tolerance(_) => ModeKind::Tolerance,
             Mode::Library(_) => ModeKind::Library,
             Mode::Find { .. } => ModeKind::Find,
+            Mode::Palette(_) => ModeKind::Palette,
             Mode::SaveAs(_) => ModeKind::SaveAs,
             Mode::StaleComments { .. } => ModeKind::StaleComments,
             Mode::Export(_) => ModeKind::Export,
@@ -178,12 +184,25 @@ impl Mode {
         }
     }
 
+    /// The search that is being typed.
+    #[must_use]
+    pub fn finder(&self) -> Option<&Finder> {
+        match self {
+            Mode::Library(Library { finder, .. }) | Mode::Find { finder, .. } | Mode::Palette(finder) => {
+                Some(finder)
+            }
+            _ => None,
+        }
+    }
+
     /// The line that is being typed.
     pub fn line_mut(&mut self) -> Option<&mut TextLine> {
         match self {
             Mode::Edit(line) | Mode::Force(line) | Mode::Tolerance(line) | Mode::Export(line) => Some(line),
             Mode::SaveAs(form) => form.lines.get_mut(form.line),
-            Mode::Library(Library { finder, .. }) | Mode::Find { finder, .. } => Some(&mut finder.query),
+            Mode::Library(Library { finder, .. }) | Mode::Find { finder, .. } | Mode::Palette(finder) => {
+                Some(&mut finder.query)
+            }
             Mode::Explore
             | Mode::StaleComments { .. }
             | Mode::Overwrite { .. }

@@ -3,10 +3,12 @@
 use super::action::{Content, Traffic};
 pub use super::appraisal::{Appraisal, Costs, Estimated};
 pub use super::chart::{Chart, OpenStudy};
+use super::completion::Completion;
 use super::config::{Animation, Config};
 use super::keys::Bindings;
 pub use super::mode::{Library, Mode, ModeKind};
 use super::parameters::{Parameter, Setting, parameters};
+use super::preload_curve::PreloadPane;
 use super::request::{Focus, LineView};
 use super::snapshot::{Drive, Loop, Moment, Preview};
 use super::theme::Appearance;
@@ -14,6 +16,7 @@ use crate::analysis::Governing;
 use crate::contact::{CurvePoint, LegRecord};
 use crate::draw::AxisScale;
 use crate::scene::{Document, Scene, ron_float};
+use crate::simulation::Outcome;
 pub use crate::study::map::Charted;
 use crate::study::map::{MapAxis, Place, StudyMap, Template};
 use std::collections::{BTreeMap, BTreeSet};
@@ -34,6 +37,10 @@ pub enum Pane {
     Accuracy,
     /// The map over κ and H, in place of profile and close-up.
     Chart,
+    /// Spectra, in place of profile and close-up.
+    Spectrum,
+    /// Adhesion against preload, in place of profile and close-up.
+    Preloads,
 }
 
 impl Pane {
@@ -44,6 +51,10 @@ impl Pane {
     pub const WITH_ACCURACY: [Pane; 3] = [Pane::Force, Pane::Accuracy, Pane::Parameters];
     /// The panes while the map is shown.
     pub const WITH_CHART: [Pane; 3] = [Pane::Force, Pane::Chart, Pane::Parameters];
+    /// The panes while the spectrum is shown.
+    pub const WITH_SPECTRUM: [Pane; 3] = [Pane::Force, Pane::Spectrum, Pane::Parameters];
+    /// The panes while adhesion against preload is shown.
+    pub const WITH_PRELOADS: [Pane; 3] = [Pane::Force, Pane::Preloads, Pane::Parameters];
 }
 
 /// Where the animation stands.
@@ -192,10 +203,18 @@ pub struct Model {
     pub player: Player,
     /// The body, while it is in hand.
     pub hand: Option<Hand>,
+    /// The force to go to, as it was typed last.
+    pub typed_force: String,
+    /// The status line has springs and times of the computation in place of mechanical quantities.
+    pub shows_work: bool,
+    /// Paths that complete the typed one, while they are shown.
+    pub completion: Option<Completion>,
     /// What the close-up looks at.
     pub look: Look,
     /// Whether its pane shows the distribution of lengths instead.
     pub lengths: bool,
+    /// Whether the spectrum is shown in place of profile and close-up.
+    pub spectrum: bool,
     /// What part of the line the profile shows.
     pub profile: LineView,
     /// What the pane of the curve shows.
@@ -206,8 +225,13 @@ pub struct Model {
     pub appraisal: Appraisal,
     /// The map over κ and H.
     pub chart: Chart,
-    /// The curve of the scene selected in the library.
+    /// Adhesion against preload.
+    pub preloads: PreloadPane,
+    /// The newest curve of a scene to look at: the one selected in the library, or the one with a value that is being
+    /// typed.
     pub preview: Option<Arc<Preview>>,
+    /// Text of the scene with the value that is being typed, where it is another scene.
+    pub tried: Option<String>,
     /// The chosen pane.
     pub pane: Pane,
     /// Whether it has the whole screen.
@@ -230,6 +254,8 @@ pub struct Model {
     pub writing: Option<Writing>,
     /// A line for the user.
     pub notice: Option<Notice>,
+    /// Line in place of the keys while a script plays, since they do nothing then.
+    pub demo: Option<&'static str>,
     /// Whether the explorer is to end.
     pub finished: bool,
 }
@@ -260,14 +286,20 @@ impl Model {
             progress: Some(0),
             player: Player { leg: 0, done: 0.0, playing: true },
             hand: None,
+            typed_force: String::new(),
+            shows_work: false,
+            completion: None,
             look: Look { focus: Focus::Summit, springs },
             lengths: false,
+            spectrum: false,
             profile: LineView::WHOLE,
             curve: CurveLook::default(),
             ghosts: Vec::new(),
             appraisal: Appraisal::default(),
             chart: Chart::default(),
+            preloads: PreloadPane::default(),
             preview: None,
+            tried: None,
             pane: Pane::Force,
             zoomed: false,
             size,
@@ -279,6 +311,7 @@ impl Model {
             shows_times: true,
             writing: None,
             notice: None,
+            demo: None,
             finished: false,
         }
     }
@@ -375,19 +408,40 @@ impl Model {
     pub fn panes(&self) -> &'static [Pane] {
         match self.in_place_of_the_line() {
             Some(Pane::Chart) => &Pane::WITH_CHART,
+            Some(Pane::Spectrum) => &Pane::WITH_SPECTRUM,
+            Some(Pane::Preloads) => &Pane::WITH_PRELOADS,
             Some(_) => &Pane::WITH_ACCURACY,
             None => &Pane::ALL,
         }
     }
 
+    /// What was computed for the value that is being typed.
+    #[must_use]
+    pub fn tried_outcome(&self) -> Option<&Outcome> {
+        let Mode::Edit(_) = self.mode else { return None };
+        let preview = self.preview.as_ref().filter(|preview| self.tried.as_ref() == Some(&preview.text))?;
+        preview.outcome.as_ref().ok()
+    }
+
     /// What is shown in place of profile and close-up.
     #[must_use]
     pub fn in_place_of_the_line(&self) -> Option<Pane> {
-        match (self.chart.shown, self.appraisal.shown) {
-            (true, _) => Some(Pane::Chart),
-            (_, true) => Some(Pane::Accuracy),
-            _ => None,
-        }
+        [
+            (self.chart.shown, Pane::Chart),
+            (self.appraisal.shown, Pane::Accuracy),
+            (self.spectrum, Pane::Spectrum),
+            (self.preloads.shown, Pane::Preloads),
+        ]
+        .into_iter()
+        .find_map(|(is_shown, pane)| is_shown.then_some(pane))
+    }
+
+    /// Shows profile and close-up again.
+    pub fn hide_in_place_of_the_line(&mut self) {
+        self.chart.shown = false;
+        self.appraisal.hide();
+        self.preloads.shown = false;
+        self.spectrum = false;
     }
 
     /// Which keys are valid: in the map the arrows move its mark, in the list of parameters digits begin a value.
@@ -410,8 +464,8 @@ impl Model {
     /// Shows the map of a study, the first of them.
     pub fn show_study(&mut self, study_map: Arc<StudyMap>) {
         self.chart.open_study(study_map, 0);
+        self.hide_in_place_of_the_line();
         (self.chart.of_study, self.chart.shown) = (true, true);
-        self.appraisal.hide();
         self.pane = Pane::Chart;
     }
 

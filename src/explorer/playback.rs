@@ -5,11 +5,11 @@ use super::engine::Engine;
 use super::held::Held;
 use super::request::{Drive, HandOrder, LineView, MomentRequest, Newest};
 use super::snapshot::{Loop, Moment, Report};
+use super::spectrum::SceneSpectra;
 use crate::analysis::section::{self, Contact, LineColumns, Part};
 use crate::contact::{ContactError, LegContact, LegRecord, Snapshot, Solver};
 use crate::scene::{Observer, Scene};
 use std::sync::Arc;
-use std::sync::atomic::Ordering;
 
 /// Bytes of legs that are kept: beyond them, legs are computed again when the animation comes to them.
 const BYTES_KEPT: usize = 1 << 29;
@@ -39,6 +39,8 @@ pub struct Playback {
     held: Option<Held>,
     /// The contact at the moment shown last, to tell how many springs changed.
     last: Option<(Drive, Fragments)>,
+    /// Spectra of the scene, once they have been asked for.
+    spectra: Option<Arc<SceneSpectra>>,
     /// What the panes show of the line whatever touches.
     profile: LineColumns,
     close_up: LineColumns,
@@ -70,7 +72,7 @@ impl Playback {
         if !observed.observe.contains(&Observer::HeightHistogram) {
             observed.observe.push(Observer::HeightHistogram);
         }
-        let stop = || newest.load(Ordering::Relaxed) != generation;
+        let stop = || newest.is_newer_than(generation);
         let mut bytes = 0;
         let mut legs = Vec::new();
         let result = engine.run(&observed, &stop, &mut |leg, _, solver| {
@@ -113,10 +115,17 @@ impl Playback {
                 let Some((contact, rises)) = self.contact_on_leg(engine, leg, indentation) else { return };
                 let Some((computed, line)) = self.computed.as_ref().zip(engine.line()) else { return };
                 let governing = &computed.outcome.governing;
-                let step = range_of(computed) / STEPS_OF_A_PULL;
+                let preload = computed.outcome.figures.preload.unwrap_or(0.0);
+                let scales = (range_of(computed) / STEPS_OF_A_PULL, preload);
                 let edges = computed.scene.numerics.edges;
-                self.held =
-                    Held::take(line, engine.tree(), edges, governing, (indentation, &contact, &rises), step);
+                self.held = Held::take(
+                    line,
+                    engine.tree(),
+                    edges,
+                    governing,
+                    (indentation, &contact, &rises),
+                    scales,
+                );
                 self.last = None;
             }
             HandOrder::Give => {
@@ -157,9 +166,17 @@ impl Playback {
             indentation: point.indentation,
             fragments: &fragments,
         };
+        // Gaps between patches are whole cells; the outermost edges may lie inside of theirs.
+        let outermost =
+            fragments.first().zip(fragments.last()).map(|((first, _), (_, last))| last - first + 1);
+        let between = outermost.map_or(0, |springs| springs as u64 - point.springs);
+        let radius = 0.5 * (point.contact_length + between as f64 * outcome.line.spacing);
         let close_up = close_up((&contact, &rises), request, foundation, &snapshot, &mut self.close_up);
         let middle = close_up.section.first + close_up.section.springs / 2;
         let profile = profile_part(request, line.gaps.len(), middle);
+        if request.spectra && self.spectra.is_none() {
+            self.spectra = Some(Arc::new(SceneSpectra::new(scene, outcome, line)));
+        }
         let moment = Moment {
             generation: request.generation,
             drive: request.drive,
@@ -167,10 +184,12 @@ impl Playback {
             focus: request.focus,
             point,
             changed,
+            contact_radius: radius,
             profile: contact.section(profile, &mut self.profile),
             close_up,
             strip: section::strip(&fragments, line.gaps.len(), request.strip_cells),
             lengths: request.lengths.then(|| section::lengths(&fragments)),
+            spectra: self.spectra.clone().filter(|_| request.spectra),
             hand: match request.drive {
                 Drive::Leg(_) => None,
                 Drive::Hand => self.held.as_mut().map(Held::travel),

@@ -15,7 +15,7 @@ use super::theme::{Appearance, Marker, Theme};
 use super::update::{Effect, moment_request, study_tasks, update};
 use super::view;
 use super::worker::{self, Engine, Report, Request, Worker};
-use crate::scene::{Document, Roughness, Scene};
+use crate::scene::{Document, Scene};
 use crate::simulation::Simulation;
 use crossterm::clipboard::CopyToClipboard;
 use crossterm::event::Event;
@@ -30,7 +30,6 @@ use std::mem::ManuallyDrop;
 use std::path::PathBuf;
 use std::rc::Rc;
 use std::sync::Arc;
-use std::sync::atomic::AtomicU64;
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::time::{Duration, Instant};
 
@@ -119,7 +118,7 @@ pub fn open_with(
     let guard = TerminalGuard::take(!options.no_mouse)?;
     let (messages, inbox) = channel();
     let (requests, outbox) = channel();
-    let newest = worker::Newest::new(AtomicU64::new(0));
+    let newest = worker::Newest::default();
     let reports = messages.clone();
     worker::start(engine, Arc::clone(&newest), outbox, move |report| {
         reports.send(Message::Report(report)).is_ok()
@@ -206,9 +205,7 @@ fn read_input(messages: Sender<Message>) -> io::Result<()> {
 /// The scene as the worker gets it: files it names are found wherever the explorer was started.
 pub(super) fn scene_of(document: &Document) -> Arc<Scene> {
     let mut scene = document.scene().clone();
-    if let Some(Roughness::Measured { file, .. }) = &mut scene.roughness {
-        *file = document.resolve(file).to_string_lossy().into_owned();
-    }
+    scene.rename_measured_files(|file| document.resolve(file).to_string_lossy().into_owned());
     Arc::new(scene)
 }
 
@@ -435,12 +432,14 @@ impl<W: Write> Session<'_, W> {
                 Effect::Remember { path, appearance } => {
                     self.work_on_files(FileJob::Remember { path, appearance })?;
                 }
+                Effect::Complete(typed) => self.work_on_files(FileJob::Complete(typed))?,
                 Effect::List => self.work_on_files(FileJob::List)?,
                 Effect::Open(name) => self.work_on_files(FileJob::Open(name))?,
                 Effect::Preview(document) => {
                     let (scene, text) = (scene_of(&document), document.text().to_owned());
                     self.worker.ask(Request::Preview { text, scene });
                 }
+                Effect::StopPreview => self.worker.stop_preview(),
                 Effect::Copy(text) => {
                     // With the next frame; whether the terminal takes it, it does not say.
                     queue!(self.terminal.backend_mut(), CopyToClipboard::to_clipboard_from(text))?;

@@ -8,7 +8,7 @@ use asperity::explorer::study::{Appraiser, Found, perform};
 use asperity::explorer::theme::{Appearance, Marker, Theme};
 use asperity::explorer::update::{Effect, moment_request, study_tasks};
 use asperity::explorer::worker::{self, Engine, Newest, Report, Request, Worker};
-use asperity::explorer::{Opening, write};
+use asperity::explorer::{Opening, complete, write};
 use asperity::scene::Library;
 use asperity::simulation::{Simulation, Timings};
 use std::collections::BTreeMap;
@@ -93,6 +93,10 @@ impl Driver {
                 let scene = Arc::new(document.scene().clone());
                 self.ask(Request::Preview { text: document.text().to_owned(), scene })
             }
+            Effect::Complete(typed) => {
+                let paths = complete(&typed);
+                vec![Action::Completed { typed, paths }]
+            }
             Effect::Open(name) => {
                 let opened = Opening::of(&name).map(Box::new).map_err(|error| error.to_string());
                 vec![Action::Opened(opened)]
@@ -103,6 +107,10 @@ impl Driver {
                 Vec::new()
             }
             Effect::Remember { path, .. } => vec![Action::Remembered(Ok(path))],
+            Effect::StopPreview => {
+                self.worker.stop_preview();
+                Vec::new()
+            }
             Effect::Suspend => Vec::new(),
             Effect::DrawSeed => vec![Action::SetSeed(self.seed)],
             Effect::Write { path, .. } if path.ends_with(REFUSED) => {

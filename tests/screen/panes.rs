@@ -86,6 +86,7 @@ screens!(screen_of_the_normalised_force, pressed("N z"));
 screens!(screen_of_the_contact_length, pressed("v z"));
 screens!(screen_of_the_number_of_fragments, pressed("v v z"));
 screens!(screen_of_a_part_of_the_profile, pressed("Tab + + ) z"));
+screens!(screen_of_the_spectrum, pressed("Q"));
 screens!(screen_of_the_fragment_lengths, pressed("D Tab Tab Tab z"));
 screens!(screen_of_the_library, pressed("o"));
 screens!(screen_of_a_search, {

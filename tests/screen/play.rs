@@ -170,16 +170,16 @@ fn the_configuration_sets_speed_end_and_keys() {
         let mut driver = Driver::start(rough());
         driver
             .model
-            .configure(config("(version: 1, keys: [(action: \"toggle-play\", keys: [\"F5\", \"i\"])])"));
+            .configure(config("(version: 1, keys: [(action: \"toggle-play\", keys: [\"_\", \"F5\"])])"));
         assert!(driver.model.player.playing);
         driver.press("Space");
         assert!(driver.model.player.playing, "its key is another one");
-        assert!(driver.text().contains("F5 play/pause"), "{}", driver.text());
-        driver.press("i");
+        assert!(driver.text().contains("_ play/pause"), "{}", driver.text());
+        driver.press("_");
         assert!(!driver.model.player.playing);
         driver.press("?");
         driver.resize((120, 200));
-        assert!(driver.text().contains("F5 i"), "{}", driver.text());
+        assert!(driver.text().contains("_ F5"), "{}", driver.text());
     });
 }
 

@@ -158,7 +158,7 @@ fn title_and_notice_are_edited_with_the_name_and_the_name_gets_its_extension() {
     within(30, || {
         let mut driver = pressed("s Ctrl+u");
         driver.type_text("mine");
-        driver.press("Tab");
+        driver.press("Down");
         assert!(driver.status().starts_with("Title: "), "{}", driver.status());
         driver.press("Ctrl+u");
         driver.type_text("My \"own\" line");
@@ -184,7 +184,7 @@ fn title_and_notice_are_edited_with_the_name_and_the_name_gets_its_extension() {
         assert!(driver.files.contains_key(Path::new("mine.txt")));
         for size in [(80, 24), (40, 12), (20, 5)] {
             driver.resize(size);
-            driver.press("s Tab");
+            driver.press("s Down");
             driver.screen();
             driver.press("Esc");
         }
@@ -250,7 +250,7 @@ fn scenes_in_whose_place_others_were_opened_are_not_forgotten() {
         let saved: Vec<&Path> = driver.files.keys().map(|path| path.as_path()).collect();
         assert_eq!(saved, [Path::new("first.ron"), Path::new("rough-line.ron")]);
         // Leaving without them is the second q.
-        let mut driver = pressed("l 1 q q");
+        let driver = pressed("l 1 q q");
         assert!(driver.model.finished && driver.files.is_empty());
     });
 }

@@ -58,7 +58,7 @@ pub struct PlotArguments {
     pub output: OutputArguments,
 }
 
-/// How quantities lie on their scale.
+/// Scales of quantities.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum PlotScale {
     /// In proportion.
@@ -104,7 +104,7 @@ pub(super) fn plot(arguments: &PlotArguments, stdout: &mut dyn Write) -> Result<
     arguments.output.write(stdout, |out| out.write_all(picture.as_bytes()))
 }
 
-/// What the environment says of the terminal's colours.
+/// Colours of the terminal by the environment.
 fn colours() -> Colours {
     let value = |name| std::env::var(name).unwrap_or_default();
     if !value("NO_COLOR").is_empty() || value("TERM") == "dumb" {

@@ -24,6 +24,7 @@ pub fn obey(model: &mut Model, command: Command) -> Vec<Effect> {
             };
         }
         Command::ToggleLengths => model.lengths = !model.lengths,
+        Command::ToggleSpectrum => toggle_spectrum(model),
         Command::Zoom(steps) => zoom(model, steps),
         Command::Pan(quarters) => pan(model, quarters),
         Command::ResetZoom => {
@@ -52,6 +53,7 @@ pub fn obey(model: &mut Model, command: Command) -> Vec<Effect> {
             let place = panes.iter().position(|pane| *pane == model.pane).unwrap_or(0);
             model.pane = panes[(place + 1) % panes.len()];
         }
+        Command::ToggleWork => model.shows_work = !model.shows_work,
         Command::NextTheme => {
             model.appearance.theme = model.appearance.theme.next();
             tell(model, format!("colours: {}", model.appearance.theme.name()));
@@ -71,6 +73,18 @@ pub fn obey(model: &mut Model, command: Command) -> Vec<Effect> {
         _ => {}
     }
     vec![Effect::Show]
+}
+
+/// Shows the spectrum in place of profile and close-up, or these again.
+fn toggle_spectrum(model: &mut Model) {
+    let shown = !model.spectrum;
+    model.hide_in_place_of_the_line();
+    model.spectrum = shown;
+    model.pane = match model.pane {
+        _ if shown => Pane::Spectrum,
+        Pane::Spectrum => Pane::Force,
+        other => other,
+    };
 }
 
 fn tell(model: &mut Model, text: String) {

@@ -13,7 +13,10 @@ use ratatui::layout::Position;
 pub fn act(model: &mut Model, mouse: Mouse) -> Vec<Effect> {
     match (&model.mode, mouse.gesture) {
         (Mode::Explore, _) => {}
-        (Mode::Help { .. } | Mode::Library(_) | Mode::Find { .. }, Gesture::Wheel(turns)) => {
+        (
+            Mode::Help { .. } | Mode::Library(_) | Mode::Find { .. } | Mode::Palette(_),
+            Gesture::Wheel(turns),
+        ) => {
             return super::obey(model, Command::Select(-turns));
         }
         _ => return Vec::new(),
@@ -43,7 +46,9 @@ pub fn act(model: &mut Model, mouse: Mouse) -> Vec<Effect> {
                     model.chart.moving = false;
                     put(model, inside(area), here)
                 }
-                Pane::Profile | Pane::CloseUp | Pane::Accuracy => vec![Effect::Show],
+                Pane::Profile | Pane::CloseUp | Pane::Accuracy | Pane::Spectrum | Pane::Preloads => {
+                    vec![Effect::Show]
+                }
             }
         }
         (Gesture::Drag, Pane::Chart) if model.chart.moving => put(model, inside(area), here),

@@ -2,6 +2,7 @@
 
 use super::plot;
 use super::wrap::fitting;
+use crate::analysis::LEAST_TABOR_NUMBER;
 use crate::analysis::{Mark, marks};
 use crate::contact::{CurvePoint, Direction, LegRecord};
 use crate::draw::{
@@ -32,7 +33,18 @@ pub fn title(model: &Model) -> String {
     let is_shaded = model.curve.loss && model.curve.scale == AxisScale::Linear;
     let loss = if is_shaded && model.curve.quantities == Quantities::ForceIndentation {
         match model.computed.as_ref().and_then(|computed| computed.outcome.figures.dissipated_energy) {
-            Some(energy) => format!(" · loss {}", format_quantity(short(energy), "J")),
+            Some(energy) => {
+                let number = model.computed.as_ref().and_then(|computed| computed.outcome.tabor_number);
+                let number = number.map_or_else(String::new, |number| {
+                    let low = if number < LEAST_TABOR_NUMBER {
+                        format!(" < {LEAST_TABOR_NUMBER}")
+                    } else {
+                        String::new()
+                    };
+                    format!(", μ {}{low}", format_quantity(short(number), "1"))
+                });
+                format!(" · loss {}{number}", format_quantity(short(energy), "J"))
+            }
             None => " · loss open".to_owned(),
         }
     } else {
@@ -127,7 +139,8 @@ const MOST_DECADES: f64 = 6.0;
 /// What the pane spans: the curve, its ghosts and the way of the hand.
 fn spans(model: &Model, units: Units) -> (Span, Span) {
     let ghosts = model.ghosts.iter().flat_map(|ghost| &ghost.computed.outcome.history.legs);
-    let points = model.legs().iter().chain(ghosts).flat_map(|leg| &leg.curve);
+    let tried = model.tried_outcome().into_iter().flat_map(|outcome| &outcome.history.legs);
+    let points = model.legs().iter().chain(ghosts).chain(tried).flat_map(|leg| &leg.curve);
     let hand = model.hand.iter().flat_map(|hand| &hand.path);
     let coordinate = |number| units.scale.coordinate(number);
     let places: Vec<(f64, f64)> = points.chain(hand).map(|point| units.place(point)).collect();
@@ -197,7 +210,7 @@ pub fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
     let values = model.is_current().then(|| values(model.legs(), area.width, theme));
     let ghosts = model.ghosts.iter().enumerate().rev().map(|(number, ghost)| {
         let force = adhesion(model, ghost).map_or_else(String::new, |force| format!(" {force} ·"));
-        let style = theme.style(plot::meaning(Ink::Kept(number)));
+        let style = theme.style(plot::meaning(Ink::Compared(number)));
         Line::styled(format!("{}{force} {}", letter(number), ghost.differs), style)
     });
     for (y, line) in (area.y..area.y + above).zip(rows.into_iter().chain(values).chain(ghosts)) {
@@ -224,8 +237,11 @@ fn chart(model: &Model, units: Units) -> Chart {
     }
     for (number, ghost) in model.ghosts.iter().enumerate() {
         for leg in &ghost.computed.outcome.history.legs {
-            layers.push(Layer::unnamed(Ink::Kept(number), line(along(&leg.curve), Stroke::Sparse)));
+            layers.push(Layer::unnamed(Ink::Compared(number), line(along(&leg.curve), Stroke::Sparse)));
         }
+    }
+    for leg in model.tried_outcome().into_iter().flat_map(|outcome| &outcome.history.legs) {
+        layers.push(Layer::new("preview".into(), Ink::Kept, line(along(&leg.curve), Stroke::Dashed)));
     }
     for (direction, name, of, stroke) in [
         (Direction::Loading, "loading", Ink::Loading, Stroke::Dotted),
@@ -312,7 +328,7 @@ fn draw_letters(frame: &mut Frame<'_>, place: &CellPlot, chart: &Chart, model: &
         let mut free = beside.filter(|column| columns.contains(column)).map(|column| (column, row));
         let cell = free.find(|cell| !taken.contains(cell)).unwrap_or((column, row));
         taken.push(cell);
-        let style = model.appearance.theme.style(plot::meaning(Ink::Kept(number)));
+        let style = model.appearance.theme.style(plot::meaning(Ink::Compared(number)));
         frame.buffer_mut()[cell].set_symbol(letter(number)).set_style(style);
     }
 }

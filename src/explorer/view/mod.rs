@@ -10,11 +10,14 @@ mod help;
 mod histogram;
 mod lengths;
 mod library;
+mod palette;
 mod parameters;
 mod plot;
+mod preloads;
 mod profile;
 mod section;
 mod sections;
+mod spectrum;
 mod stages;
 mod typed;
 mod wrap;
@@ -51,6 +54,9 @@ pub fn draw(frame: &mut Frame<'_>, model: &Model) {
                 draw_pane(frame, area, model, pane);
             }
         }
+    }
+    if let Mode::Palette(finder) = &model.mode {
+        palette::draw(frame, body(&layout), model.appearance.theme, &model.bindings, finder);
     }
     crate::draw::dry(frame.buffer_mut());
     chrome::status(frame, layout.status, model);
@@ -97,6 +103,8 @@ fn draw_pane(frame: &mut Frame<'_>, area: Rect, model: &Model, pane: Pane) {
             Pane::Parameters => " Parameters ".to_owned(),
             Pane::Accuracy => accuracy::TITLE.to_owned(),
             Pane::Chart => chart_words::title(model),
+            Pane::Spectrum => spectrum::TITLE.to_owned(),
+            Pane::Preloads => preloads::TITLE.to_owned(),
         };
         let style = model.appearance.theme.style(if chosen { Meaning::Title } else { Meaning::Quiet });
         let mark = if chosen { "▸" } else { "" };
@@ -120,5 +128,7 @@ fn draw_pane(frame: &mut Frame<'_>, area: Rect, model: &Model, pane: Pane) {
         Pane::Parameters => parameters::draw(frame, area, edge, model),
         Pane::Accuracy => accuracy::draw(frame, area, model),
         Pane::Chart => chart::draw(frame, area, model),
+        Pane::Spectrum => spectrum::draw(frame, area, model),
+        Pane::Preloads => preloads::draw(frame, area, model),
     }
 }

@@ -18,8 +18,9 @@ pub fn meaning(ink: Ink) -> Meaning {
         Ink::Loading => Meaning::Approach,
         Ink::Unloading => Meaning::Retraction,
         Ink::Manual => Meaning::Hand,
+        Ink::Kept => Meaning::Ghost,
         // The colours that the present curve has not.
-        Ink::Kept(number) => [Meaning::Surface, Meaning::Hand, Meaning::Text, Meaning::Ghost][number % 4],
+        Ink::Compared(number) => [Meaning::Surface, Meaning::Hand, Meaning::Text, Meaning::Ghost][number % 4],
         Ink::Cursor => Meaning::Cursor,
         Ink::Series(number) => {
             let all = [
