@@ -144,6 +144,7 @@ fn key_event(name: &str) -> KeyEvent {
         "Down" => KeyCode::Down,
         "Home" => KeyCode::Home,
         "End" => KeyCode::End,
+        "PageUp" => KeyCode::PageUp,
         "Backspace" => KeyCode::Backspace,
         "Delete" => KeyCode::Delete,
         _ => match (name.chars().next(), name.chars().nth(1)) {

@@ -174,6 +174,7 @@ fn the_configuration_sets_speed_end_and_keys() {
         assert!(driver.model.player.playing);
         driver.press("Space");
         assert!(driver.model.player.playing, "its key is another one");
+        driver.resize((300, 40));
         assert!(driver.text().contains("_ play/pause"), "{}", driver.text());
         driver.press("_");
         assert!(!driver.model.player.playing);

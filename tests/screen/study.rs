@@ -147,7 +147,7 @@ fn the_scene_follows_to_the_next_preload() {
             regimes.push(driver.model.chart.map_model().cloned());
         }
         assert!(regimes[0] != regimes[1] && regimes[0] == regimes[3]);
-        driver.press("Ctrl+p");
+        driver.press("PageUp");
         assert!((preload(&driver) / first / 100.0 - 1.0).abs() < 1e-9);
         // A scene that is another one is left as it is.
         driver.press("Tab Tab");
