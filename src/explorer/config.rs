@@ -357,8 +357,8 @@ mod tests {
         let keys = |settings: &str| parse(&format!("(version: 1, keys: [{settings}])"));
         let swapped = keys(r#"(action: "restart", keys: ["R"]), (action: "reseed", keys: ["r"])"#).unwrap();
         assert_eq!(swapped.bindings.changed().len(), 2);
-        let config = keys(r#"(action: "quit", keys: ["Q"])"#).unwrap();
-        assert_eq!(config.bindings.changed(), [(Command::Quit, vec!["Q".to_owned(), "Ctrl+c".to_owned()])]);
+        let config = keys(r#"(action: "quit", keys: ["_"])"#).unwrap();
+        assert_eq!(config.bindings.changed(), [(Command::Quit, vec!["_".to_owned(), "Ctrl+c".to_owned()])]);
         assert!(keys(r#"(action: "restart", keys: [])"#).is_ok(), "a key may be taken away");
         let why = keys(r#"(action: "accept", keys: ["y"])"#).unwrap_err();
         assert!(why.contains("accept: there is no such action"), "{why}");

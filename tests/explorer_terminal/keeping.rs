@@ -87,13 +87,13 @@ fn a_configuration_is_read_and_written_when_asked() {
         let text = fs::read_to_string(&file).unwrap();
         assert!(text.contains("theme: Light") && text.contains("markers: Octant"), "{text}");
         // A default scene and a key.
-        let keys = "keys: [(action: \"quit\", keys: [\"Q\"])]";
+        let keys = "keys: [(action: \"quit\", keys: [\"_\"])]";
         let text = text.replace("version: 1,", &format!("version: 1, scene: \"scene.ron\", {keys},"));
         fs::write(&file, &text).unwrap();
         let mut terminal = Program::new(ASPERITY).folder(home).env("HOME", home.to_str().unwrap()).start();
         terminal.wait("default scene", |rows| rows[0].starts_with("Rough line"));
-        terminal.wait_for("Q quit");
-        terminal.send("Q");
+        terminal.wait_for("_ quit");
+        terminal.send("_");
         assert!(terminal.wait_end().success());
         let mut terminal = paused(again(home, "--no-config"));
         assert!(!terminal.rows()[0].starts_with("Rough line"), "{}", terminal.text());
@@ -106,7 +106,7 @@ fn a_configuration_is_read_and_written_when_asked() {
         let (code, said, _) = run(&["config"]);
         assert_eq!(code, Some(0));
         assert!(
-            said.contains("scene: \"scene.ron\"") && said.contains("keys: [\"Q\", \"Ctrl+c\"]"),
+            said.contains("scene: \"scene.ron\"") && said.contains("keys: [\"_\", \"Ctrl+c\"]"),
             "{said}"
         );
         let (code, _, said) = run(&["config", "--write"]);
