@@ -269,7 +269,7 @@ pub const BINDINGS: &[Binding] = &[
     row(&[char('w')], EXPLORE, Command::ToggleFollow, "", "keep the profile centred on the patch of the close-up", LOOK),
     row(&[char('0')], OTHER_PANES, Command::ResetZoom, "", "show the whole profile", LOOK),
     row(&[char('A')], EXPLORE, Command::ToggleAccuracy, "accuracy", "show errors against time and the computing stages, in place of profile and close-up", LOOK),
-    row(&[char('Q')], EXPLORE, Command::ToggleSpectrum, "", "show spectra over the wave number q, measured, fitted and of the profile, in place of profile and close-up", LOOK),
+    row(&[char('Q')], EXPLORE, Command::ToggleSpectrum, "", "show spectra over q (measured, fitted, of the profile), in place of profile and close-up", LOOK),
     row(&[char('i')], EXPLORE, Command::TogglePreloads, "", "show adhesion against preload, in place of profile and close-up", LOOK),
     row(&[key(KeyCode::Tab)], EXPLORE, Command::NextPane, "pane", "select the next pane", LOOK),
     row(&[char('z')], EXPLORE, Command::ZoomPane, "zoom", "show the selected pane on the whole screen, or all panes", LOOK),
