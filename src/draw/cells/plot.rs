@@ -386,8 +386,8 @@ mod tests {
                 assert!(!has_room(place.plot.height, &rows) || up == y, "{y} {up}");
             }
             // Beyond the map it is at its edge, and outside the plot there is nothing.
-            let corner = place.cell(&chart, MARKERS[0], (9.0, 1e9));
-            assert_eq!(corner, Some((place.plot.right() - 1, place.plot.y)));
+            let corner = place.cell(&chart, MARKERS[0], (columns[columns.len() - 1], rows[rows.len() - 1]));
+            assert_eq!(place.cell(&chart, MARKERS[0], (9.0, 1e9)), corner);
             assert_eq!(place.values_at(&map, (place.plot.right(), place.plot.y)), None);
         }
     }
