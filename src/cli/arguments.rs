@@ -1,8 +1,9 @@
 //! Arguments of the program.
 
 use super::{
-    CheckArguments, CompletionsArguments, CostArguments, DemoArguments, ExploreArguments, LineArguments,
-    PlanArguments, PresetsCommand, ReversalsArguments, RunArguments, SurfaceArguments, SweepArguments,
+    CheckArguments, CompletionsArguments, ConfigArguments, CostArguments, DemoArguments, ExploreArguments,
+    LineArguments, PlanArguments, PresetsCommand, ReversalsArguments, RunArguments, SurfaceArguments,
+    SweepArguments,
 };
 use clap::{Parser, Subcommand};
 
@@ -66,6 +67,8 @@ pub enum Command {
     /// List, show and check scenes
     #[command(subcommand)]
     Presets(PresetsCommand),
+    /// Print the configuration of the explorer, or write a file to begin with
+    Config(ConfigArguments),
     /// Print a completion script for a shell
     Completions(CompletionsArguments),
 }

@@ -106,6 +106,7 @@ impl Driver {
                 self.copied.push(text);
                 Vec::new()
             }
+            Effect::Remember { path, .. } => vec![Action::Remembered(Ok(path))],
             Effect::StopPreview => {
                 self.worker.stop_preview();
                 Vec::new()

@@ -33,6 +33,20 @@ pub fn names(model: &Model, area: Rect) -> Option<Line<'static>> {
     Some(section::names(&chart, [ring], model.appearance, area.width))
 }
 
+/// Share of the close-up under a column of the pane.
+pub fn share_at(model: &Model, area: Rect, column: u16) -> Option<f64> {
+    let moment = model.moment.as_ref()?;
+    let shown = &moment.close_up.section;
+    let chart = section::chart(shown, moment.line, heights(shown));
+    Some(section::share_at(plot_area(area), &chart, column))
+}
+
+/// Area of the plot, above the strip and the text.
+fn plot_area(area: Rect) -> Rect {
+    let below = [9, 4, 7].into_iter().filter(|rows| area.height >= *rows).count();
+    Rect { height: area.height - below as u16, ..area }
+}
+
 /// Draws the close-up and what is known of its fragment.
 pub fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
     let Some(moment) = model.moment.as_ref() else { return };
@@ -41,7 +55,7 @@ pub fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
     let section = &close_up.section;
     let strip_rows = u16::from(area.height >= 9);
     let text_rows = u16::from(area.height >= 4) + u16::from(area.height >= 7);
-    let plot = Rect { height: area.height - text_rows - strip_rows, ..area };
+    let plot = plot_area(area);
     let chart = section::chart(section, moment.line, heights(section));
     let place = section::draw(frame, plot, &chart, model.appearance);
     for &(spring, height) in &close_up.boundaries {

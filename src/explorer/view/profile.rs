@@ -42,6 +42,18 @@ pub fn short(value: f64) -> f64 {
     format!("{value:.3e}").parse().unwrap_or(value)
 }
 
+/// Share of the shown part of the profile under a column of the pane.
+pub fn share_at(model: &Model, area: Rect, column: u16) -> Option<f64> {
+    let moment = model.moment.as_ref()?;
+    let chart = section::chart(&moment.profile, moment.line, heights(&moment.profile));
+    Some(section::share_at(plot_area(split_profile(area).0), &chart, column))
+}
+
+/// Area of the plot, above the strip.
+fn plot_area(area: Rect) -> Rect {
+    Rect { height: area.height - u16::from(area.height >= 5), ..area }
+}
+
 /// Draws the profile with the histogram of its heights on the same axis.
 pub fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
     let theme = model.appearance.theme;
@@ -54,8 +66,7 @@ pub fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
     let shown = &moment.profile;
     let z = heights(shown);
     let chart = section::chart(shown, moment.line, z);
-    let place =
-        section::draw(frame, Rect { height: area.height - strip_rows, ..area }, &chart, model.appearance);
+    let place = section::draw(frame, plot_area(area), &chart, model.appearance);
     let plot = place.plot;
     if strip_rows > 0 {
         let row = Rect { x: plot.x, width: plot.width, y: area.bottom() - 1, height: 1 };

@@ -36,6 +36,11 @@ pub fn position(line: LineFacts, spring: usize) -> f64 {
     edge(line, spring) + 0.5 * line.spacing
 }
 
+/// Share of the width of a plot at a column of the screen.
+pub fn share_at(area: Rect, chart: &Chart, column: u16) -> f64 {
+    chart.x.share(CellPlot::within(area, chart).number_at(&chart.x, column))
+}
+
 /// Draws a chart of a section with its scales.
 pub fn draw(frame: &mut Frame<'_>, area: Rect, chart: &Chart, appearance: Appearance) -> CellPlot {
     plot::draw_chart(frame, area, chart, appearance)
