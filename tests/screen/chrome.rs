@@ -163,7 +163,7 @@ fn each_mode_has_its_own_footer() {
             assert!(!seen.contains(&shown), "{shown:?}");
             seen.push(shown);
         }
-        assert_eq!(footer(&pressed("e")), footer(&pressed("F")), "both are lines that are typed");
+        assert_eq!(footer(&pressed("%")), footer(&pressed("F")), "both are lines that are typed");
     });
 }
 
