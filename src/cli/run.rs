@@ -72,10 +72,11 @@ pub struct RunArguments {
     /// CSV then has one row for each seed. A tolerance applies to the first profile.
     #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u32).range(2..=MOST_LINES), verbatim_doc_comment)]
     pub lines: Option<u32>,
-    /// Adhesion force for preloads from A to B, 64 or COUNT of them, in place of the loading
+    /// Adhesion force for many preloads in place of the loading
     ///
-    /// One loading and one unloading from each preload. With --lines the mean over the profiles
-    /// and its 95 % confidence. Forces take units: 0..20uN:128
+    /// COUNT preloads at equal distances, 64 unless stated: one loading, and one unloading from
+    /// each preload. With --lines the mean over the profiles and its 95 % confidence. Forces take
+    /// units: 0..20uN:128
     #[arg(long, value_name = "A..B[:COUNT]", conflicts_with_all = ["more", "profile", "fragments"], value_parser = parse_preloads, verbatim_doc_comment)]
     pub preloads: Option<Preloads>,
     /// Threads that share the profiles; default: one for each core
