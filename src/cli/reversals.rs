@@ -45,7 +45,7 @@ pub struct ReversalsArguments {
     /// Steps on either side of the quadratic fit of the density
     #[arg(long, value_name = "STEPS", default_value_t = 3, value_parser = clap::value_parser!(u8).range(1..=MOST_SMOOTHING))]
     pub smoothing: u8,
-    /// Upper, and lower, indentations of the minor loops; 0: no loops
+    /// Upper, and lower, ends of the minor loops; 0: no loops
     #[arg(long, value_name = "LEVELS", default_value_t = 12, value_parser = clap::value_parser!(u8).range(0..=MOST_LEVELS))]
     pub loops: u8,
     /// CSV with a row for each point of the map, not each turning point

@@ -74,10 +74,10 @@ pub struct RunArguments {
     pub lines: Option<u32>,
     /// Adhesion force for many preloads in place of the loading
     ///
-    /// COUNT preloads at equal distances, 64 unless stated: one loading, and one unloading from
-    /// each preload. With --lines the mean over the profiles and its 95 % confidence. Forces take
-    /// units: 0..20uN:128
-    #[arg(long, value_name = "A..B[:COUNT]", conflicts_with_all = ["more", "profile", "fragments"], value_parser = parse_preloads, verbatim_doc_comment)]
+    /// 64 preloads at equal distances, or as many as follow a colon: 0..20uN:128. One loading, and
+    /// one unloading from each preload. With --lines the mean over the profiles and its 95 %
+    /// confidence.
+    #[arg(long, value_name = "A..B", conflicts_with_all = ["more", "profile", "fragments"], value_parser = parse_preloads, verbatim_doc_comment)]
     pub preloads: Option<Preloads>,
     /// Threads that share the profiles; default: one for each core
     #[arg(long, value_name = "COUNT", requires = "lines", value_parser = clap::value_parser!(u16).range(1..=1024))]
