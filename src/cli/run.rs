@@ -47,7 +47,7 @@ pub struct RunArguments {
     /// More scenes, whose force curves are drawn into the same picture
     #[arg(value_name = "SCENE")]
     pub more: Vec<String>,
-    /// summary, json, csv, npy or svg; default: by the extension of FILE, else summary
+    /// summary, json, csv, npy or svg; default: by the extension of FILE
     ///
     /// A summary is text for a person. JSON is one object with scene, profile, figures, curve,
     /// contacts and work. CSV is the curve: leg,indentation,force,contact_length,fragments.
