@@ -74,9 +74,9 @@ pub struct RunArguments {
     pub lines: Option<u32>,
     /// Adhesion force for many preloads in place of the loading
     ///
-    /// 64 preloads at equal distances, or as many as follow a colon: 0..20uN:128. One loading, and
-    /// one unloading from each preload. With --lines the mean over the profiles and its 95 %
-    /// confidence.
+    /// 64 preloads at equal distances, or as many as follow a colon: 0..20uN:128. One loading,
+    /// and one unloading from each preload. With --lines the mean over the profiles and its
+    /// 95 % confidence.
     #[arg(long, value_name = "A..B", conflicts_with_all = ["more", "profile", "fragments"], value_parser = parse_preloads, verbatim_doc_comment)]
     pub preloads: Option<Preloads>,
     /// Threads that share the profiles; default: one for each core
