@@ -115,7 +115,7 @@ fn everywhere() -> Vec<Driver> {
         "o",
         "/ h u",
         ": m a p",
-        "i",
+        "I",
         "Z",
         "d { ]",
         "c L",

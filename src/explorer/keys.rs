@@ -244,7 +244,7 @@ pub const BINDINGS: &[Binding] = &[
     row(&[key(KeyCode::PageUp)], CHART, Command::NextSlice(-1), "", "show the previous one", MAP),
 
     row(&[char('o')], EXPLORE, Command::OpenLibrary, "open", "open a scene: built-in, your own, or by path; or the folder of a study", SCENE),
-    row(&DIGITS.split_at(1).1, OTHER_PANES, Command::Preset(0), "", "open a built-in scene by its number, unless the pane of parameters is selected", SCENE),
+    row(DIGITS.split_at(1).1, OTHER_PANES, Command::Preset(0), "", "open a built-in scene by its number, unless the pane of parameters is selected", SCENE),
     row(&[char('s')], EXPLORE, Command::Save, "save", "save the scene to a file", SCENE),
     row(&[char('E')], EXPLORE, Command::Export, "export", "export the curve (.csv, .npy), all figures (.json) or the panes (.svg, .txt)", SCENE),
     row(&[char('y')], EXPLORE, Command::CopyCommand, "copy", "copy the command that opens the present scene", SCENE),

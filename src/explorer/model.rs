@@ -181,6 +181,8 @@ pub struct Model {
     pub parameters: Vec<Parameter>,
     /// Index of the selected parameter, which is never in a folded group.
     pub selected: usize,
+    /// Place of the first row of the list of parameters in sight, as far as the selected one is in sight with it.
+    pub first_listed: usize,
     /// Groups of parameters of which only the first row is listed.
     pub folded: BTreeSet<&'static str>,
     /// What is wrong with a value that was refused, and the index of its parameter.
@@ -230,6 +232,8 @@ pub struct Model {
     pub pane: Pane,
     /// Whether it has the whole screen.
     pub zoomed: bool,
+    /// The pane that was chosen before the search of a parameter.
+    pub pane_before: Pane,
     /// Columns and rows of the terminal.
     pub size: (u16, u16),
     /// Colours and markers.
@@ -264,6 +268,7 @@ impl Model {
             redo: Vec::new(),
             generation: 1,
             selected: 0,
+            first_listed: 0,
             folded: BTreeSet::new(),
             refused: None,
             mode: Mode::Explore,
@@ -287,6 +292,7 @@ impl Model {
             preview: None,
             tried: None,
             pane: Pane::Force,
+            pane_before: Pane::Force,
             zoomed: false,
             size,
             appearance,

@@ -24,7 +24,7 @@ mod wrap;
 
 pub use chart::{map_figure, place_at};
 pub use force::indentation_at;
-pub use parameters::parameter_at;
+pub use parameters::{first_listed, parameter_at};
 pub use sections::section_cell;
 
 use super::layout::{Layout, inside, is_framed};
