@@ -56,7 +56,7 @@ store)
     ;;
 contact)
     below="disk io memory parallel scene spectrum surface text topography" above="analysis reference simulation"
-    beside="closed_forms incremental laws stepwise subcell sums"
+    beside="closed_forms incremental laws reversals stepwise subcell sums"
     slow="a_million_terms a_sphere_in_other_units a_step_costs contact_sets_on_the_way forces_at_full_contact
         hertz_without power_laws_converge_to rough_lines_of_few what_is_lost"
     ;;

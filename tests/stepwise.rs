@@ -222,6 +222,8 @@ fn one_spring_has_a_closed_form() {
             assert!((records[1].dissipated_energy - lost).abs() <= slack, "step {step}");
         }
     }
+    // Whole springs have no pinned edges.
+    assert!(stepwise(&[0.0], None, 0.01).rises(0.0).is_empty());
     // Without adhesion nothing is held or lost.
     for records in both(&[0.0], 0.0, 0.003, &legs) {
         assert_eq!((records[1].smallest.force, records[1].dissipated_energy), (0.0, 0.0));
