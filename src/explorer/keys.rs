@@ -312,7 +312,7 @@ pub const BINDINGS: &[Binding] = &[
     row(&[key(KeyCode::Enter)], FIND, Command::Accept, "go", "go to the selected parameter", TEXT),
     row(&[key(KeyCode::Enter)], LIBRARY, Command::Accept, "open", "open the selected scene, or the typed path", TEXT),
     row(&[key(KeyCode::Enter)], PALETTE, Command::Accept, "run", "run the selected command", TEXT),
-    row(&[key(KeyCode::Tab)], PATH, Command::Complete, "complete", "complete the typed path, in a value that of a measured surface between quotes; again for the next candidate", TEXT),
+    row(&[key(KeyCode::Tab)], PATH, Command::Complete, "complete", "complete the typed path, or that between quotes in a value; again: the next candidate", TEXT),
     row(&[key(KeyCode::Enter)], LINE, Command::Accept, "accept", "accept the typed text", TEXT),
     row(&[key(KeyCode::Esc), control('c')], TYPED, Command::Cancel, "cancel", "cancel: keep the previous value", TEXT),
     row(&[key(KeyCode::Left), control('b')], TYPED, Command::Move(Motion::Left), "", "move the cursor left", TEXT),
