@@ -48,7 +48,7 @@ pub struct Arguments {
 pub enum Command {
     /// Compute a scene: a summary, JSON, or the curve as CSV
     Run(RunArguments),
-    /// Unload a scene from many turning points: adhesion against preload, reversal curves, maps
+    /// Unload from many turning points: adhesion against preload, reversal curves
     Reversals(ReversalsArguments),
     /// Play the explorer without a keyboard: on screen, as text, or as a recording
     Demo(DemoArguments),

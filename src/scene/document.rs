@@ -262,7 +262,7 @@ impl Document {
     }
 
     /// The document of a scene that was read from a table of results.
-    pub(super) fn from_table(self, content: Option<TableContent>) -> Document {
+    pub(super) fn with_table_content(self, content: Option<TableContent>) -> Document {
         Document { content, ..self }
     }
 

@@ -143,10 +143,7 @@ fn refusal(refusal: &Refusal, typed: &str) -> String {
     match *refusal {
         Refusal::Detaches { smallest } => {
             let least = force(rounded_up(smallest));
-            format!(
-                "the contact detaches before {}; the smallest force within reach is {least}",
-                typed.trim()
-            )
+            format!("the contact detaches before {}; smallest force within reach: {least}", typed.trim())
         }
         Refusal::BeyondFullContact { full_contact, largest } => {
             let (full, most) = (force(full_contact), force(-rounded_up(-largest)));

@@ -28,6 +28,11 @@ const PANES: &[(&str, &str)] = &[
          scene. Below it the cost of 1 % and 0.1 %, and the computing stages",
     ),
     (
+        "Preloads",
+        "i: adhesion force over preload, of this profile and the mean of random profiles with its 95 % confidence; the \
+         line and ◆ are the present preload",
+    ),
+    (
         "Map",
         "m: regime under other H and κ, of most of a few random profiles with few springs; █ adhesion at first \
          touch, ▒ after pressing, · hardly any, blank: not computed; ◆ is the scene, moved by the arrows",
