@@ -17,6 +17,8 @@ mod chart;
 mod chrome;
 #[path = "screen/compare.rs"]
 mod compare;
+#[path = "screen/crosshair.rs"]
+mod crosshair;
 #[path = "screen/demo.rs"]
 mod demo;
 #[path = "screen/edit.rs"]
@@ -116,6 +118,10 @@ fn everywhere() -> Vec<Driver> {
         "y",
         "m",
         "m X z",
+        "i",
+        "& L",
+        "i Tab Right",
+        "i O v Right",
     ];
     let mut all: Vec<Driver> = keys.into_iter().map(pressed).collect();
     all.push(Driver::open(rough()));

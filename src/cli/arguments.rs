@@ -1,8 +1,8 @@
 //! What may be typed after `asperity`.
 
 use super::{
-    CheckArguments, CompletionsArguments, CostArguments, DemoArguments, ExploreArguments, LineArguments,
-    PlanArguments, PresetsCommand, RunArguments, SurfaceArguments, SweepArguments,
+    CheckArguments, CompareArguments, CompletionsArguments, CostArguments, DemoArguments, ExploreArguments,
+    LineArguments, PlanArguments, PresetsCommand, RunArguments, SurfaceArguments, SweepArguments,
 };
 use clap::{Parser, Subcommand};
 
@@ -47,6 +47,8 @@ pub struct Arguments {
 pub enum Command {
     /// Compute a scene: a summary, JSON, or the curve as CSV
     Run(RunArguments),
+    /// Show two scenes side by side: profiles, force curves, what differs
+    Compare(CompareArguments),
     /// Play the explorer without a keyboard: on screen, as text, or as a recording
     Demo(DemoArguments),
     /// List the computing stages of a scene: run or skipped, reason, cost

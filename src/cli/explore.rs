@@ -18,6 +18,14 @@ pub struct ExploreArguments {
     /// What is changed in it.
     #[command(flatten)]
     pub overrides: Overrides,
+    /// How the explorer looks.
+    #[command(flatten)]
+    pub look: LookArguments,
+}
+
+/// How the explorer looks.
+#[derive(Args, Clone, Copy, Debug)]
+pub struct LookArguments {
     /// Colours
     ///
     /// Default: chosen from NO_COLOR and COLORFGBG.
@@ -33,6 +41,12 @@ pub struct ExploreArguments {
     pub no_mouse: bool,
 }
 
+impl LookArguments {
+    fn options(self) -> Options {
+        Options { theme: self.theme, marker: self.marker, no_mouse: self.no_mouse }
+    }
+}
+
 /// Opens the explorer on a scene or a study.
 ///
 /// On leaving, prints a brief summary of the last scene.
@@ -45,12 +59,16 @@ pub(super) fn explore(arguments: &ExploreArguments, out: &mut dyn Write) -> Resu
             Some(_) => CliError::NoTerminalForStudy { folder: name },
         });
     }
+    open(opening, arguments.look, out)
+}
+
+/// Opens the explorer in the terminal; on leaving, prints a brief summary of the last scene.
+pub(super) fn open(opening: Opening, look: LookArguments, out: &mut dyn Write) -> Result<(), CliError> {
     if std::env::var_os("TERM").is_some_and(|term| term == "dumb") {
         return Err(CliError::DumbTerminal { scene: opening.document.name().into() });
     }
-    let &ExploreArguments { theme, marker, no_mouse, .. } = arguments;
-    let left = explorer::open(opening, Options { theme, marker, no_mouse })
-        .map_err(|error| CliError::Explorer(error.to_string()))?;
+    let left =
+        explorer::open(opening, look.options()).map_err(|error| CliError::Explorer(error.to_string()))?;
     if let Some(signal) = left.signal {
         explorer::end_by(signal);
     }

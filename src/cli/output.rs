@@ -1,10 +1,11 @@
 //! Where results go.
 
 use super::CliError;
+use crate::draw::{Colours, Figure, figure_text};
 use crate::io::{check_writable, write_new};
 use crate::text::path_name;
 use clap::Args;
-use std::io::{self, Write};
+use std::io::{self, IsTerminal, Write};
 use std::path::{Path, PathBuf};
 
 /// Endings of pictures.
@@ -72,6 +73,29 @@ impl OutputArguments {
             Some(path) => Ok(write_new(path, self.force, |out| write(out))?),
             None => Ok(write(stdout)?),
         }
+    }
+}
+
+/// Columns of figures as text where there is no terminal.
+const COLUMNS: usize = 80;
+
+/// A figure as text, in the width and the colours of the terminal if it is for one.
+pub(super) fn text_for_reader(figure: &Figure, to_stdout: bool) -> String {
+    let terminal = to_stdout && io::stdout().is_terminal();
+    let size = crossterm::terminal::size().ok().filter(|_| terminal);
+    let columns = size.map_or(COLUMNS, |(columns, _)| usize::from(columns));
+    figure_text(figure, columns, if terminal { colours() } else { Colours::None })
+}
+
+/// What the environment says of the terminal's colours.
+fn colours() -> Colours {
+    let value = |name| std::env::var(name).unwrap_or_default();
+    if !value("NO_COLOR").is_empty() || value("TERM") == "dumb" {
+        Colours::None
+    } else if ["truecolor", "24bit"].contains(&value("COLORTERM").as_str()) {
+        Colours::All
+    } else {
+        Colours::Palette
     }
 }
 

@@ -73,6 +73,8 @@ pub enum ModeKind {
     Explore,
     /// See [`Mode::Explore`], with the map chosen.
     Chart,
+    /// See [`Mode::Explore`], with the crosshair in the chosen pane.
+    Crosshair,
     /// See [`Mode::Edit`].
     Edit,
     /// See [`Mode::Force`].
@@ -95,9 +97,10 @@ pub enum ModeKind {
 
 impl ModeKind {
     /// All modes.
-    pub const ALL: [ModeKind; 11] = [
+    pub const ALL: [ModeKind; 12] = [
         ModeKind::Explore,
         ModeKind::Chart,
+        ModeKind::Crosshair,
         ModeKind::Edit,
         ModeKind::Force,
         ModeKind::Tolerance,

@@ -2,7 +2,7 @@
 
 use super::close_up::close_up;
 use super::held::Held;
-use super::snapshot::{Drive, Loop, Moment};
+use super::snapshot::{Drive, Loop, Moment, Probe};
 use super::worker::{Engine, HandOrder, LineView, MomentRequest, Newest, Report};
 use crate::analysis::section::{self, Contact, LineColumns, Part};
 use crate::contact::{ContactError, LegContact, LegRecord, Snapshot, Solver};
@@ -169,11 +169,13 @@ impl Playback {
             profile: contact.section(profile, &mut self.profile),
             close_up,
             strip: section::strip(&fragments, line.gaps.len(), request.strip_cells),
+            probe: request.crosshair.and_then(|position| probe(&contact, position)),
             lengths: request.lengths.then(|| section::lengths(&fragments)),
             hand: match request.drive {
                 Drive::Leg(_) => None,
                 Drive::Hand => self.held.as_mut().map(Held::travel),
             },
+            beside: None,
         };
         self.last = Some((request.drive, fragments));
         Some(moment)
@@ -221,6 +223,20 @@ impl Playback {
             }
         }
     }
+}
+
+/// Profile and contact at a share of the profile; `None` for a profile without springs.
+fn probe(contact: &Contact<'_>, position: f64) -> Option<Probe> {
+    let last = contact.gaps.len().checked_sub(1)?;
+    let spring = ((position * contact.gaps.len() as f64) as usize).min(last);
+    let next = contact.fragments.partition_point(|&(_, last)| last < spring);
+    let holds = |&(first, _): &(usize, usize)| first <= spring;
+    Some(Probe {
+        spring,
+        height: contact.height(spring),
+        level: contact.summit - contact.indentation,
+        patch: contact.fragments.get(next).filter(|patch| holds(patch)).map(|_| next),
+    })
 }
 
 /// How far the curves of a scene reach, m.

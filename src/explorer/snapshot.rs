@@ -49,10 +49,27 @@ pub struct Moment {
     pub close_up: CloseUp,
     /// How much of the whole line touches, in as many parts as the close-up has cells.
     pub strip: Vec<Share>,
+    /// What the crosshair reads on the profile.
+    pub probe: Option<Probe>,
     /// How long the fragments are, where that was asked for.
     pub lengths: Option<Vec<LengthBin>>,
     /// How the hand came here.
     pub hand: Option<Travel>,
+    /// The scene beside, at the same part of its loading.
+    pub beside: Option<Box<Moment>>,
+}
+
+/// Rigid profile and elastic surface at one spring.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Probe {
+    /// The spring.
+    pub spring: usize,
+    /// Height of the rigid profile, m.
+    pub height: f64,
+    /// Height of the elastic surface where it is undeformed, m.
+    pub level: f64,
+    /// Number of the contact patch of the spring along the profile, from 0; none where the spring is free.
+    pub patch: Option<usize>,
 }
 
 /// The way of the hand since the moment before.

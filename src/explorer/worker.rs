@@ -70,6 +70,8 @@ pub enum Request {
     },
     /// Show a moment of the scene that was computed last.
     Show(MomentRequest),
+    /// Compute a scene to be shown beside, or none.
+    Beside(Option<Arc<Scene>>),
     /// Compute a scene of the library to look at its curve.
     Preview {
         /// The scene's text.
@@ -124,6 +126,10 @@ pub struct MomentRequest {
     pub close_up_springs: usize,
     /// Whether the distribution of fragment lengths is shown.
     pub lengths: bool,
+    /// Position of the crosshair as a share of the profile, 0 to 1.
+    pub crosshair: Option<f64>,
+    /// Loading stage and indentation, m, of the scene beside.
+    pub beside: Option<(usize, f64)>,
 }
 
 /// What part of the line the profile shows.
@@ -201,6 +207,8 @@ pub struct Desk {
     playback: Playback,
     /// The library's scenes have an engine of their own: the one shown keeps its line.
     previews: Simulation,
+    /// The scene that is shown beside.
+    beside: Option<(Simulation, Playback)>,
 }
 
 /// Requests that wait together: of each kind the newest counts, but each order of the hand.
@@ -210,6 +218,7 @@ struct Batch {
     orders: Vec<(u64, HandOrder)>,
     show: Option<MomentRequest>,
     preview: Option<(String, Arc<Scene>)>,
+    beside: Option<Option<Arc<Scene>>>,
 }
 
 impl Batch {
@@ -220,6 +229,7 @@ impl Batch {
                 Request::Compute { generation, scene } => batch.compute = Some((generation, scene)),
                 Request::Hand { generation, order } => batch.orders.push((generation, order)),
                 Request::Show(moment) => batch.show = Some(moment),
+                Request::Beside(scene) => batch.beside = Some(scene),
                 Request::Preview { text, scene } => batch.preview = Some((text, scene)),
             }
         }
@@ -231,7 +241,7 @@ impl Desk {
     /// A desk with an engine.
     #[must_use]
     pub fn new(engine: Box<dyn Engine>) -> Self {
-        Desk { engine, playback: Playback::default(), previews: Simulation::default() }
+        Desk { engine, playback: Playback::default(), previews: Simulation::default(), beside: None }
     }
 
     /// Does the requests that wait together, and reports.
@@ -252,6 +262,7 @@ impl Desk {
         let error = format!("internal error, please report it: {}", panic_text(panic.as_ref()));
         self.playback = Playback::default();
         self.previews = Simulation::default();
+        self.beside = None;
         if let Some(text) = previewed {
             report(Report::Previewed(Arc::new(Preview { text, outcome: Err(error.clone()) })));
         }
@@ -270,9 +281,17 @@ impl Desk {
                 playback.obey(engine.as_mut(), order);
             }
         }
+        if let Some(scene) = batch.beside {
+            self.beside = scene.and_then(compute_beside);
+        }
         if let Some(request) = batch.show.filter(|request| request.generation == playback.generation())
-            && let Some(moment) = playback.show(engine.as_mut(), &request)
+            && let Some(mut moment) = playback.show(engine.as_mut(), &request)
         {
+            if let (Some((leg, indentation)), Some((engine, playback))) = (request.beside, &mut self.beside) {
+                let drive = Drive::Leg(leg);
+                let request = MomentRequest { generation: 0, drive, indentation, ..request };
+                moment.beside = playback.show(engine, &request).map(Box::new);
+            }
             report(Report::Shown(Arc::new(moment)));
         }
         if let Some((text, scene)) = batch.preview {
@@ -281,6 +300,15 @@ impl Desk {
             report(Report::Previewed(Arc::new(Preview { text, outcome })));
         }
     }
+}
+
+/// A scene that is shown beside, computed; `None` where the scene cannot be computed.
+fn compute_beside(scene: Arc<Scene>) -> Option<(Simulation, Playback)> {
+    let (mut engine, mut playback) = (Simulation::default(), Playback::default());
+    // No newer scene takes its place before it is computed.
+    let only = Newest::default();
+    let report = playback.compute(&mut engine, 0, scene, &only, &|_| true);
+    matches!(report, Some(Report::Computed(_))).then_some((engine, playback))
 }
 
 fn panic_text(panic: &(dyn Any + Send)) -> &str {

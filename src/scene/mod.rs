@@ -15,6 +15,7 @@
 //! # Ok::<(), scene::SceneErrors>(())
 //! ```
 
+mod changes;
 mod check;
 mod choose;
 mod consistency;
@@ -48,6 +49,7 @@ mod value;
 mod write;
 
 pub use crate::text::is_control;
+pub use changes::Change;
 pub use check::{Violation, check};
 pub use document::{Document, LONGEST_TEXT};
 pub use effects::Effect;

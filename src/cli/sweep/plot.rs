@@ -1,12 +1,13 @@
 //! `asperity sweep plot`: figures of a merged study.
 
+use crate::cli::output::text_for_reader;
 use crate::cli::{CliError, OutputArguments};
-use crate::draw::{Colours, figure_svg, figure_text};
+use crate::draw::figure_svg;
 use crate::export::study_figure;
 use crate::study::figure::AxisScale;
 use crate::study::{Finished, Selection};
 use clap::{Args, ValueEnum};
-use std::io::{self, IsTerminal, Write};
+use std::io::Write;
 use std::path::PathBuf;
 
 const EXAMPLES: &str = "\
@@ -20,9 +21,6 @@ Two free axes make a map: colours are means, signs are regimes, and the line is 
 without a load vanishes. One free axis makes a section: the mean with its 95 % confidence, and in a
 corner on a logarithmic scale where it spans decades. A second axis of up to five values makes
 several curves, unless --y names it.";
-
-/// Columns of text where there is no terminal.
-const COLUMNS: usize = 80;
 
 /// Arguments of `sweep plot`.
 #[derive(Args, Debug)]
@@ -93,25 +91,6 @@ pub(super) fn plot(arguments: &PlotArguments, stdout: &mut dyn Write) -> Result<
     };
     let figure = study_figure(&selection.figure(&study)?);
     let to_file = arguments.output.file().is_some();
-    let picture = if is_text {
-        let terminal = !to_file && io::stdout().is_terminal();
-        let size = crossterm::terminal::size().ok().filter(|_| terminal);
-        let columns = size.map_or(COLUMNS, |(columns, _)| usize::from(columns));
-        figure_text(&figure, columns, if terminal { colours() } else { Colours::None })
-    } else {
-        figure_svg(&figure)
-    };
+    let picture = if is_text { text_for_reader(&figure, !to_file) } else { figure_svg(&figure) };
     arguments.output.write(stdout, |out| out.write_all(picture.as_bytes()))
-}
-
-/// What the environment says of the terminal's colours.
-fn colours() -> Colours {
-    let value = |name| std::env::var(name).unwrap_or_default();
-    if !value("NO_COLOR").is_empty() || value("TERM") == "dumb" {
-        Colours::None
-    } else if ["truecolor", "24bit"].contains(&value("COLORTERM").as_str()) {
-        Colours::All
-    } else {
-        Colours::Palette
-    }
 }

@@ -2,8 +2,8 @@
 
 use super::{Effect, edit};
 use crate::explorer::action::Command;
-use crate::explorer::model::{Ghost, Model, Notice};
-use crate::scene::{Document, Field, field, format_quantity};
+use crate::explorer::model::{Ghost, Model, Notice, Pane};
+use crate::scene::{Change, Document};
 use std::sync::Arc;
 
 /// Ghosts that are kept; more could not be told apart.
@@ -11,17 +11,63 @@ const MOST_GHOSTS: usize = 8;
 
 /// Obeys a command on ghosts.
 pub fn obey(model: &mut Model, command: Command) -> Vec<Effect> {
+    let mut effects = Vec::new();
+    let was_beside = model.side_by_side;
     match command {
         Command::Pin => pin(model),
-        Command::Swap => return swap(model),
-        _ => model.ghosts.clear(),
+        Command::Swap => effects = swap(model),
+        Command::ToggleSideBySide => toggle(model),
+        _ => {
+            model.ghosts.clear();
+            model.side_by_side = false;
+        }
     }
-    Vec::new()
+    // Another ghost may be the newest, or none.
+    if was_beside || model.side_by_side {
+        effects.insert(0, Effect::Beside);
+    }
+    effects.push(Effect::Show);
+    effects
+}
+
+/// Shows or hides the newest ghost beside the scene; without a ghost the present scene becomes one.
+fn toggle(model: &mut Model) {
+    if model.side_by_side {
+        model.side_by_side = false;
+        return;
+    }
+    if model.ghosts.is_empty() {
+        pin(model);
+    }
+    if !model.ghosts.is_empty() {
+        model.side_by_side = true;
+        (model.lengths, model.chart.shown) = (false, false);
+        model.appraisal.hide();
+        if !model.panes().contains(&model.pane) {
+            model.pane = Pane::Force;
+        }
+    }
+}
+
+/// Keeps the scene that has been computed as a ghost and opens another one beside it.
+pub fn open_beside(model: &mut Model, document: Document) -> Vec<Effect> {
+    pin(model);
+    model.side_by_side = true;
+    let effects = edit::open(model, document);
+    model.notice = None;
+    // There is no edit to undo: both scenes are as they were opened.
+    model.undo.clear();
+    [vec![Effect::Beside], effects].concat()
 }
 
 fn ghost(model: &Model) -> Option<Ghost> {
     let computed = model.computed.as_ref().filter(|_| model.is_current())?;
-    Some(Ghost { document: model.document.clone(), computed: Arc::clone(computed), differs: String::new() })
+    Some(Ghost {
+        document: model.document.clone(),
+        computed: Arc::clone(computed),
+        differs: String::new(),
+        changes: String::new(),
+    })
 }
 
 fn pin(model: &mut Model) {
@@ -56,37 +102,12 @@ fn swap(model: &mut Model) -> Vec<Effect> {
 pub fn name_ghosts(model: &mut Model) {
     let document = &model.document;
     for ghost in &mut model.ghosts {
-        ghost.differs = differences(&ghost.document, document);
-    }
-}
-
-/// What a scene has that another has not: `κ 4, H 0.25`.
-fn differences(scene: &Document, other: &Document) -> String {
-    let told = |(path, value): &(String, String)| {
-        if ["title", "notice", "version"].contains(&path.as_str()) {
-            return None;
-        }
-        let (name, known) = name_of(path, scene);
-        let value = match (value.parse::<f64>(), known) {
-            (Ok(number), Some(field)) => format_quantity(number, field.unit),
-            _ => value.split_whitespace().collect::<Vec<_>>().join(" "),
+        let changes = ghost.document.changes_to(document);
+        let join = |part: &dyn Fn(&Change) -> String| {
+            let parts: Vec<String> = changes.iter().map(part).collect();
+            if parts.is_empty() { "the same scene".to_owned() } else { parts.join(", ") }
         };
-        Some(format!("{name} {value}"))
-    };
-    let told: Vec<String> = scene.overrides_from(other).iter().filter_map(told).collect();
-    if told.is_empty() { "the same scene".to_owned() } else { told.join(", ") }
-}
-
-/// What a path is called, in the terms of the field, and its field where it has one.
-fn name_of(path: &str, scene: &Document) -> (String, Option<&'static Field>) {
-    let symbol = |field: &'static Field| if field.symbol.is_empty() { field.name } else { field.symbol };
-    let mut parts = path.strip_prefix("loading.").unwrap_or_default().split('.');
-    if let Some(index) = parts.next().and_then(|index| index.parse::<usize>().ok()) {
-        let leg = parts.next().and(scene.scene().loading.get(index));
-        let target = leg.and_then(|leg| leg.target()).map(|(field, _)| field);
-        let symbol = target.map(|field| format!(" {}", symbol(field))).unwrap_or_default();
-        return (format!("leg {}{symbol}", index + 1), target);
+        ghost.differs = join(&|change| format!("{} {}", change.name, change.from));
+        ghost.changes = join(&|change| format!("{} {} → {}", change.name, change.from, change.to));
     }
-    let known = field(path, None);
-    (known.map_or(path, symbol).to_owned(), known)
 }

@@ -4,6 +4,7 @@
 mod accuracy;
 mod chart;
 mod compare;
+mod crosshair;
 mod edit;
 mod files;
 mod library;
@@ -16,7 +17,7 @@ pub use accuracy::study_tasks;
 use super::action::{Action, Command, Content};
 use super::layout::Layout;
 use super::mode::Mode;
-use super::model::{Model, Notice};
+use super::model::{Model, Notice, Player};
 use super::view::help_end;
 use super::worker::{HandOrder, MomentRequest};
 use crate::scene::{Document, typed_path};
@@ -29,6 +30,8 @@ pub enum Effect {
     Compute,
     /// Show the moment at which the body stands.
     Show,
+    /// Compute the scene that is shown beside, or forget the last one.
+    Beside,
     /// Work out what is not known yet of the scene's accuracy, see [`study_tasks`], and nothing else.
     Study,
     /// Move the body by hand.
@@ -82,6 +85,9 @@ pub fn update(model: &mut Model, action: Action) -> Vec<Effect> {
             if matches!(model.notice, Some(Notice::Error(_))) {
                 model.notice = None;
             }
+            if let Some(document) = model.opens_beside.take() {
+                return compare::open_beside(model, document);
+            }
             return vec![Effect::Show, Effect::Study];
         }
         Action::Shown(moment) if moment.generation == model.generation => movement::shown(model, moment),
@@ -125,6 +131,12 @@ pub fn moment_request(model: &Model) -> Option<MomentRequest> {
         focus: model.look.focus,
         close_up_springs: model.look.springs,
         lengths: model.lengths,
+        crosshair: model.crosshair.map(|crosshair| crosshair.position),
+        beside: model.beside().map(|ghost| {
+            let legs = &ghost.computed.outcome.history.legs;
+            let leg = model.player.leg.min(legs.len().saturating_sub(1));
+            (leg, Player { leg, ..model.player }.indentation(legs))
+        }),
     })
 }
 
@@ -249,7 +261,13 @@ fn explore(model: &mut Model, command: Command) -> Vec<Effect> {
         | Command::Preset(_) => return edit::obey(model, command),
         Command::Reseed => return vec![Effect::DrawSeed],
         Command::Undo | Command::Redo => return edit::undo(model, command == Command::Undo),
-        Command::Pin | Command::Swap | Command::ClearGhosts => return compare::obey(model, command),
+        Command::Pin | Command::Swap | Command::ClearGhosts | Command::ToggleSideBySide => {
+            return compare::obey(model, command);
+        }
+        Command::ToggleCrosshair
+        | Command::MoveCrosshair { .. }
+        | Command::CrosshairEnd(_)
+        | Command::CrosshairStage(_) => return crosshair::obey(model, command),
         Command::Save => model.mode = files::save_as(&model.document, false),
         Command::Export => files::ask_export(model),
         Command::CopyCommand => return files::copy_command(model),

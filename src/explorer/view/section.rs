@@ -1,11 +1,13 @@
 //! Part of the profile on its axes: rigid profile, elastic surface and contact, for profile and close-up.
 
 use super::plot;
-use crate::draw::{Axis, AxisScale, CellPlot, Chart, Ink, Layer, Shape, Span, legend};
-use crate::explorer::snapshot::{Column, Section};
-use crate::explorer::theme::{Appearance, Meaning};
+use super::profile::short;
+use crate::draw::{Axis, AxisScale, Chart, Ink, Layer, Shape, Span, legend};
+use crate::explorer::model::{Model, Pane};
+use crate::explorer::snapshot::{Column, Moment, Section};
+use crate::explorer::theme::{Appearance, Meaning, Theme};
+use crate::scene::format_quantity;
 use crate::simulation::LineFacts;
-use ratatui::Frame;
 use ratatui::layout::Rect;
 use ratatui::text::{Line, Span as Text};
 
@@ -36,21 +38,60 @@ pub fn position(line: LineFacts, spring: usize) -> f64 {
     edge(line, spring) + 0.5 * line.spacing
 }
 
-/// Draws a chart of a section with its scales.
-pub fn draw(frame: &mut Frame<'_>, area: Rect, chart: &Chart, appearance: Appearance) -> CellPlot {
-    plot::draw_chart(frame, area, chart, appearance)
+/// Adds the crosshair to the chart of a section.
+pub fn add_crosshair(chart: &mut Chart, moment: &Moment) {
+    let Some(probe) = moment.probe else { return };
+    let lines = [Shape::Upright(position(moment.line, probe.spring)), Shape::Level(probe.height)];
+    // Below the curves, which stay whole.
+    chart.layers.splice(0..0, lines.map(|line| Layer::unnamed(Ink::Cursor, line)));
 }
 
-/// Label of the heights, names of the lines and further signs, as far as there is room on the frame.
+/// Spring of the section of profile or close-up under a column of the screen.
+pub fn position_at(model: &Model, pane: Pane, area: Rect, column: u16) -> Option<usize> {
+    let moment = model.moment.as_deref()?;
+    let (chart, place) = match pane {
+        Pane::Profile => super::profile::placed(moment, area, super::profile::heights(moment)),
+        Pane::CloseUp if !model.lengths && !model.side_by_side => super::close_up::placed(moment, area),
+        _ => return None,
+    };
+    let section = if pane == Pane::Profile { &moment.profile } else { &moment.close_up.section };
+    let spring = (place.number_at(&chart.x, column) / moment.line.spacing) as usize;
+    let spring = spring.saturating_sub(moment.line.first);
+    Some(spring.clamp(section.first, section.first + section.springs.saturating_sub(1)))
+}
+
+/// What the crosshair reads: position, height, and the gap or the stretch of the spring.
+fn reading(moment: &Moment, theme: Theme) -> Vec<Vec<Text<'static>>> {
+    let Some(probe) = moment.probe else { return Vec::new() };
+    let length = |value: f64| format_quantity(short(value), "m");
+    let part = |text: String| vec![Text::styled(text, theme.style(Meaning::Cursor))];
+    let distance = probe.level - probe.height;
+    let state = match probe.patch {
+        None => format!("gap {}", length(distance)),
+        Some(_) if distance > 0.0 => format!("stretched {}", length(distance)),
+        Some(_) => format!("compressed {}", length(-distance)),
+    };
+    let patch = probe.patch.map(|number| format!("patch {} of {}", number + 1, moment.point.fragments));
+    let at =
+        [format!("x {}", length(position(moment.line, probe.spring))), format!("z {}", length(probe.height))];
+    at.into_iter().chain([state]).chain(patch).map(part).collect()
+}
+
+/// What the crosshair reads, or label of the heights, names of the lines and further signs, as far as there is room on
+/// the frame.
 pub fn names(
+    moment: &Moment,
     chart: &Chart,
     more: impl IntoIterator<Item = Vec<Text<'static>>>,
     appearance: Appearance,
     width: u16,
 ) -> Line<'static> {
-    let quiet = appearance.theme.style(Meaning::Quiet);
-    let mut parts = vec![vec![Text::styled(chart.y.label_with_unit().to_string(), quiet)]];
-    parts.extend(plot::in_theme(appearance, |style| legend(std::slice::from_ref(chart), style)));
-    parts.extend(more);
+    let mut parts = reading(moment, appearance.theme);
+    if parts.is_empty() {
+        let quiet = appearance.theme.style(Meaning::Quiet);
+        parts.push(vec![Text::styled(chart.y.label_with_unit().to_string(), quiet)]);
+        parts.extend(plot::in_theme(appearance, |style| legend(std::slice::from_ref(chart), style)));
+        parts.extend(more);
+    }
     plot::on_frame(parts, width)
 }
