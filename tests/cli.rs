@@ -16,6 +16,8 @@ const KEYS: &[&str] = &[
     "scene",
     "line",
     "kappa",
+    "elastic_energy",
+    "elastic_energy_ratio",
     "regime",
     "ideal_adhesion_force",
     "preload",

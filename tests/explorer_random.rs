@@ -126,8 +126,9 @@ fn command() -> impl Strategy<Value = Command> {
         Command::Preset(usize::MAX),
         Command::NextSlice(i32::MIN),
         Command::NextSlice(i32::MAX),
-        Command::MoveKappa(i32::MIN),
-        Command::MoveHurst(i32::MAX),
+        Command::MoveAcross(i32::MIN),
+        Command::MoveUp(i32::MAX),
+        Command::TransposeMap,
     ];
     prop_oneof![8 => prop::sample::select(bound), 1 => prop::sample::select(extreme)]
 }

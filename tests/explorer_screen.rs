@@ -43,6 +43,8 @@ mod looks;
 mod mouse;
 #[path = "screen/panes.rs"]
 mod panes;
+#[path = "screen/parameters.rs"]
+mod parameters;
 #[path = "screen/play.rs"]
 mod play;
 #[path = "screen/saving.rs"]
@@ -107,6 +109,8 @@ fn everywhere() -> Vec<Driver> {
         "F",
         "E",
         "o",
+        "/ h u",
+        "Z",
         "d { ]",
         "c L",
         "a v",

@@ -2,6 +2,8 @@
 //!
 //! After a change of the program, `UPDATE_README=1 cargo test --test readme` writes the generated parts anew.
 
+#[path = "readme/imports.rs"]
+mod imports;
 #[path = "readme/notices.rs"]
 mod notices;
 #[path = "readme/scenes.rs"]
@@ -18,7 +20,6 @@ use asperity::study::{Changes, Plan, Quantity};
 use scenes::{check, read, root, updating};
 use std::collections::BTreeMap;
 use std::fmt::Write;
-use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
@@ -209,6 +210,17 @@ fn boundaries_are_those_of_the_program() {
 }
 
 #[test]
+fn spreads_of_boundaries_are_those_of_the_program() {
+    let folder = tempfile::tempdir().unwrap();
+    let study = folder.path().join("energy");
+    let study = study.to_str().unwrap();
+    asperity(&["sweep", "elastic-energy", "-o", study]);
+    let arguments =
+        ["sweep", "boundary", study, "--spread", "--level", "0.5", "--level", "0.1", "--format", "markdown"];
+    check("docs/studies.md", "spreads", &asperity(&arguments));
+}
+
+#[test]
 fn the_regimes_are_those_of_the_program() {
     use asperity::analysis::{INSENSITIVE_SHARE, NEGLIGIBLE_COEFFICIENT, VANISHING_SHARE};
     let model = read("docs/model.md");
@@ -350,71 +362,4 @@ fn the_python_example_runs() {
 fn the_citation_is_of_this_version() {
     let version = format!("version: {}\n", env!("CARGO_PKG_VERSION"));
     assert!(read("CITATION.cff").contains(&version), "CITATION.cff lacks {version}");
-}
-
-/// Rooms of the source from the ground up: each imports only rooms before it.
-const ROOMS: [&str; 23] = [
-    "text",
-    "draw",
-    "memory",
-    "parallel",
-    "disk",
-    "io",
-    "topography",
-    "spectrum",
-    "scene",
-    "surface",
-    "contact",
-    "analysis",
-    "reference",
-    "simulation",
-    "profile",
-    "contact_cycle",
-    "study",
-    "accuracy",
-    "check",
-    "export",
-    "explorer",
-    "cli",
-    "main",
-];
-
-/// Rooms that a source file imports, without its tests.
-fn imports(text: &str) -> Vec<&str> {
-    let text = text.split("#[cfg(test)]\nmod tests").next().unwrap_or_default();
-    let code = text.lines().filter(|line| !line.trim_start().starts_with("//"));
-    let names = code.flat_map(|line| line.split("crate::").skip(1));
-    names
-        .map(|name| name.split(|c: char| !(c.is_alphanumeric() || c == '_')).next().unwrap_or_default())
-        .collect()
-}
-
-#[test]
-fn rooms_import_in_one_direction() {
-    let place = |room: &str| ROOMS.iter().position(|one| *one == room);
-    let mut folders = vec![PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/src"))];
-    let (mut files, mut seen) = (0, 0);
-    while let Some(folder) = folders.pop() {
-        for entry in fs::read_dir(folder).unwrap() {
-            let path = entry.unwrap().path();
-            if path.is_dir() {
-                folders.push(path);
-                continue;
-            }
-            let inside = path.strip_prefix(concat!(env!("CARGO_MANIFEST_DIR"), "/src")).unwrap();
-            let room = inside.iter().next().unwrap().to_str().unwrap().trim_end_matches(".rs");
-            if room == "lib" || path.extension().is_none_or(|extension| extension != "rs") {
-                continue;
-            }
-            let here = place(room).unwrap_or_else(|| panic!("{room} is not in the list of rooms"));
-            files += 1;
-            for import in imports(&fs::read_to_string(&path).unwrap()) {
-                if let Some(there) = place(import) {
-                    seen += 1;
-                    assert!(there <= here, "{} imports {import}", inside.display());
-                }
-            }
-        }
-    }
-    assert!(files > 200 && seen > 500, "{files} files, {seen} imports");
 }

@@ -168,7 +168,7 @@ fn the_table_names_every_field_of_the_model_and_no_other() {
             paths_of(&serde_json::to_value(document.scene()).unwrap(), String::new(), &mut found);
         }
     }
-    found.push("adhesion.kappa".into());
+    found.extend(["adhesion.kappa", "adhesion.elastic_energy_ratio"].map(String::from));
     let table: Vec<_> = FIELDS.iter().map(|field| field.path).collect();
     for path in &found {
         assert!(table.contains(&path.as_str()), "{path} is not in the table");
@@ -206,7 +206,9 @@ fn the_choices_of_the_table_can_be_set() {
                 for choice in choices {
                     let roughness = "SelfAffine(hurst: 0.7, rms_height: 1.0e-7, modes: (1, 512), seed: 1)";
                     let document = match *choice {
-                        "(kappa: 2.0)" => document.set("roughness", roughness).unwrap(),
+                        "(kappa: 2.0)" | "(elastic_energy_ratio: 0.5)" => {
+                            document.set("roughness", roughness).unwrap()
+                        }
                         "false" | "true" => document.set("roughness", "Measured(file: \"x\")").unwrap(),
                         _ => document.clone(),
                     };

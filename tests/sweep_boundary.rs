@@ -60,13 +60,80 @@ fn a_boundary_is_found_for_each_place_protocol_and_level() {
     assert!(csv.lines().all(|line| line.split(',').count() == columns), "{csv}");
 }
 
+/// Σ k^(j−1−2H) over the modes 1 to 32.
+fn moment(hurst: f64, j: i32) -> f64 {
+    (1..=32).map(|k| f64::from(k).powf(f64::from(j) - 1.0 - 2.0 * hurst)).sum()
+}
+
+#[test]
+fn a_boundary_in_kappa_is_one_in_elastic_energy() {
+    let place = tempfile::tempdir().unwrap();
+    let study = study(place.path(), "Linear(path: \"kappa\", from: 0.5, to: 6.0, count: 12)");
+    let json = |arguments: &[&str]| -> Value {
+        let found = asperity(&[&["sweep", "boundary", &study, "--format", "json"], arguments].concat());
+        assert!(found.status.success(), "{}", told(&found.stderr));
+        serde_json::from_slice(&found.stdout).unwrap()
+    };
+    let of = |object: &Value, name: &str| -> Vec<(f64, f64)> {
+        let number = |one: &Value, name: &str| one[name].as_f64().unwrap();
+        let all = object["boundaries"].as_array().unwrap().iter();
+        all.map(|one| (number(one, "H"), number(one, name))).collect()
+    };
+    let levels = ["--level", "0.1"];
+    let kappas = of(&json(&levels), "kappa");
+    let ratios =
+        of(&json(&[&levels[..], &["--over", "elastic_energy_ratio"]].concat()), "elastic_energy_ratio");
+    assert_eq!(kappas.len(), 4);
+    for ((hurst, kappa), (_, ratio)) in kappas.iter().zip(&ratios) {
+        let sum = |j| moment(*hurst, j);
+        let expected = 0.25 * kappa * kappa * sum(1) / (sum(0) * sum(2)).sqrt();
+        assert!((ratio / expected - 1.0).abs() < 1e-12, "{ratio} {expected}");
+    }
+    let spread = json(&[&levels[..], &["--spread"]].concat());
+    let spreads = spread["spreads"].as_array().unwrap();
+    let values = [&kappas, &ratios].map(|all| [[all[0].1, all[2].1], [all[1].1, all[3].1]]);
+    for (place, spread) in spreads.iter().enumerate() {
+        let [one, other] = values[place % 2][place / 2];
+        let ratio = (one / other).max(other / one);
+        assert_eq!(spread["over"], ["kappa", "elastic_energy_ratio"][place % 2]);
+        assert!((spread["ratio"].as_f64().unwrap() / ratio - 1.0).abs() < 1e-12, "{spread}");
+        assert_eq!(spread["ratio"], spread["ratio_over"]["H"], "{spread}");
+    }
+    assert_eq!(spreads.len(), 4);
+    let wrong = asperity(&["sweep", "boundary", &study, "--over", "work"]);
+    assert_eq!(wrong.status.code(), Some(2));
+    assert!(told(&wrong.stderr).contains("allowed: kappa, elastic_energy_ratio"));
+}
+
+#[test]
+fn a_boundary_lies_along_an_axis_of_elastic_energy_as_well() {
+    let place = tempfile::tempdir().unwrap();
+    let axis = "Linear(path: \"elastic_energy_ratio\", from: 0.02, to: 6.0, count: 12)";
+    let study = study(place.path(), axis);
+    let found =
+        asperity(&["sweep", "boundary", &study, "--over", "elastic_energy_ratio", "--format", "json"]);
+    let object: Value = serde_json::from_slice(&found.stdout).unwrap();
+    for boundary in object["boundaries"].as_array().unwrap() {
+        let ratio = boundary["elastic_energy_ratio"].as_f64();
+        assert!(ratio.is_none_or(|ratio| (0.02..6.0).contains(&ratio)), "{boundary}");
+        assert!(ratio.is_some() || boundary["level"].as_f64() != Some(0.1), "{boundary}");
+    }
+    let csv = told(&asperity(&["sweep", "boundary", &study, "--format", "csv"]).stdout);
+    let columns = csv.lines().next().unwrap().split(',').count();
+    assert!(csv.lines().all(|line| line.split(',').count() == columns), "{csv}");
+}
+
 #[test]
 fn a_study_without_kappa_has_none_and_says_so() {
     let place = tempfile::tempdir().unwrap();
     let study = study(place.path(), "List(path: \"roughness.rms_height\", values: [1.0e-7])");
     let refused = asperity(&["sweep", "boundary", &study]);
     assert_eq!(refused.status.code(), Some(1));
-    assert!(told(&refused.stderr).contains("no axis `kappa`"), "{}", told(&refused.stderr));
+    assert!(
+        told(&refused.stderr).contains("no axis `kappa` or `elastic_energy_ratio`"),
+        "{}",
+        told(&refused.stderr)
+    );
     let wrong = asperity(&["sweep", "boundary", &study, "--level", "1.5"]);
     assert_eq!(wrong.status.code(), Some(2));
     assert!(told(&wrong.stderr).contains("above 0 and below 1"), "{}", told(&wrong.stderr));

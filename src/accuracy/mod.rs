@@ -6,6 +6,7 @@
 //! is itself. Runs that are timed are others than those that are compared.
 
 mod answer;
+mod bench;
 mod choose;
 mod clock;
 mod convergence;
@@ -17,10 +18,11 @@ mod single;
 mod solution;
 mod table;
 
+pub use bench::{CostError, Progress};
 pub use choose::{Choice, ChoiceError, Target, choose, parse_tolerance};
 pub use convergence::{error_of_finest, first_within, observed_order};
 pub use distance::ForceCurve;
 pub use estimate::{Estimate, Evidence, estimate};
-pub use measure::{CostError, Progress, measure};
+pub use measure::measure;
 pub use solution::{Measures, Solution, closed_form_adhesion};
 pub use table::{CostTable, ErrorFigure, Knob, Reference, Row, Timing};

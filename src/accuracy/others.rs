@@ -1,6 +1,6 @@
 //! The knobs beside the number of springs: steps, samples, precision, lines.
 
-use super::measure::{Bench, CostError, Rows, Tried};
+use super::bench::{Bench, CostError, Rows, Tried};
 use super::single::errors_of_single_precision;
 use super::solution::{Solution, Solved, allowed_points, refined};
 use super::{Knob, Measures, Timing};

@@ -1,17 +1,8 @@
-//! The governing parameter κ and what it ties together, eqs. (11) and (14).
+//! Governing parameters of a scene, eqs. (11) and (14): κ and e_el/γ, which compare roughness with adhesion.
 
 use crate::contact::{Foundation, HessRule};
-use crate::scene::{Adhesion, Roughness, Scene};
-use crate::surface::Line;
-
-/// Roughness amplitude of a line: root mean square height and gradient.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Amplitude {
-    /// h, m.
-    pub rms_height: f64,
-    /// ⟨∇z⟩.
-    pub rms_gradient: f64,
-}
+use crate::scene::{Adhesion, Roughness, RoughnessParameter, Scene};
+use crate::surface::{Amplitude, Line, WaveNumbers};
 
 /// The parameters that govern a scene, each given or worked out from the others.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -26,6 +17,8 @@ pub struct Governing {
     pub amplitude: Option<Amplitude>,
     /// κ = √(h⟨∇z⟩E*/γ), eq. (11); `None` without roughness or adhesion.
     pub kappa: Option<f64>,
+    /// Elastic energy of conformity over the work of adhesion e_el/γ; `None` without roughness or adhesion.
+    pub elastic_energy_ratio: Option<f64>,
 }
 
 impl Governing {
@@ -35,49 +28,93 @@ impl Governing {
         Foundation { spacing: line.spacing, effective_modulus: self.effective_modulus, length: line.length }
     }
 
-    /// Works out the parameters of a checked scene. `gradient_per_height` is ⟨∇z⟩/h of its self-affine
-    /// line, 1/m; `measured` the amplitude of its measured profile.
+    /// Works out the parameters of a checked scene from the wave numbers of its self-affine line or the amplitude of its
+    /// measured profile.
     ///
-    /// Given κ alone, γ = h⟨∇z⟩E*/κ²; given γ and κ, h = κ √(γ/(E* ⟨∇z⟩/h)).
+    /// Given κ alone, γ = h⟨∇z⟩E*/κ²; given γ and κ, h = κ √(γ/(E* ⟨∇z⟩/h)). e_el/γ is used alike, with
+    /// e_el = E* h² q̄/4 and the mean wave number q̄.
     #[must_use]
-    pub fn of(scene: &Scene, gradient_per_height: Option<f64>, measured: Option<Amplitude>) -> Self {
+    pub fn of(scene: &Scene, wave_numbers: Option<WaveNumbers>, measured: Option<Amplitude>) -> Self {
         let effective_modulus = scene.material.effective_modulus();
-        let Adhesion { work, closing_work, kappa } = scene.adhesion.unwrap_or_default();
+        let adhesion = scene.adhesion.unwrap_or_default();
         let amplitude = measured.or_else(|| {
-            let ratio = gradient_per_height?;
+            let wave_numbers = wave_numbers?;
             let Some(Roughness::SelfAffine { rms_height, rms_gradient, .. }) = scene.roughness else {
                 return None;
             };
+            let by_adhesion = || {
+                let (parameter, value) = adhesion.parameter()?;
+                let unit = Amplitude::from_height(1.0, wave_numbers);
+                let per_square = energy_of(parameter, unit, effective_modulus);
+                Some(parameter.energy_over_work(value).sqrt() * (adhesion.work? / per_square).sqrt())
+            };
             let rms_height = rms_height
-                .or_else(|| rms_gradient.map(|gradient| gradient / ratio))
-                .or_else(|| Some(kappa? * (work? / (effective_modulus * ratio)).sqrt()))?;
-            Some(Amplitude { rms_height, rms_gradient: rms_gradient.unwrap_or(rms_height * ratio) })
+                .or_else(|| rms_gradient.map(|gradient| gradient / wave_numbers.rms))
+                .or_else(by_adhesion)?;
+            let amplitude = Amplitude::from_height(rms_height, wave_numbers);
+            Some(Amplitude { rms_gradient: rms_gradient.unwrap_or(amplitude.rms_gradient), ..amplitude })
         });
-        let stiff = amplitude.map(|a| a.rms_height * a.rms_gradient * effective_modulus);
-        let work_of_adhesion = work.or_else(|| Some(stiff? / kappa?.powi(2)));
-        let kappa = kappa.or_else(|| kappa_of(stiff?, work_of_adhesion?));
-        Governing { effective_modulus, work_of_adhesion, closing_work, amplitude, kappa }
+        let without = Governing {
+            effective_modulus,
+            work_of_adhesion: None,
+            closing_work: None,
+            amplitude,
+            kappa: None,
+            elastic_energy_ratio: None,
+        };
+        without.with_adhesion(scene.adhesion)
     }
 
     /// The same line under another adhesion.
     #[must_use]
     pub fn with_adhesion(self, adhesion: Option<Adhesion>) -> Self {
-        let Adhesion { work, closing_work, kappa } = adhesion.unwrap_or_default();
-        let stiff = self.stiffness();
-        let work_of_adhesion = work.or_else(|| kappa.and_then(|kappa| self.work_for_kappa(kappa)));
-        let kappa = kappa.or_else(|| kappa_of(stiff?, work_of_adhesion?));
-        Governing { work_of_adhesion, closing_work, kappa, ..self }
+        let adhesion = adhesion.unwrap_or_default();
+        let given = adhesion.parameter();
+        let work_of_adhesion =
+            adhesion.work.or_else(|| given.and_then(|(parameter, value)| self.work_for(parameter, value)));
+        let value = |parameter: RoughnessParameter| match given {
+            Some((same, value)) if same == parameter => Some(value),
+            _ => value_of(parameter, self.energy(parameter)?, work_of_adhesion?),
+        };
+        Governing {
+            work_of_adhesion,
+            closing_work: adhesion.closing_work,
+            kappa: value(RoughnessParameter::Kappa),
+            elastic_energy_ratio: value(RoughnessParameter::ElasticEnergyRatio),
+            ..self
+        }
     }
 
-    /// The work of adhesion γ = h⟨∇z⟩E*/κ² that gives a κ, J/m²; `None` without roughness.
+    /// The work of adhesion that gives a parameter this value, J/m²; `None` without roughness.
     #[must_use]
-    pub fn work_for_kappa(&self, kappa: f64) -> Option<f64> {
-        Some(self.stiffness()? / kappa.powi(2))
+    pub fn work_for(&self, parameter: RoughnessParameter, value: f64) -> Option<f64> {
+        Some(self.energy(parameter)? / parameter.energy_over_work(value))
     }
 
-    /// h⟨∇z⟩E*, J/m².
-    fn stiffness(&self) -> Option<f64> {
-        self.amplitude.map(|a| a.rms_height * a.rms_gradient * self.effective_modulus)
+    /// Value of a parameter; `None` without roughness or adhesion.
+    #[must_use]
+    pub fn parameter(&self, parameter: RoughnessParameter) -> Option<f64> {
+        match parameter {
+            RoughnessParameter::Kappa => self.kappa,
+            RoughnessParameter::ElasticEnergyRatio => self.elastic_energy_ratio,
+        }
+    }
+
+    /// Elastic energy of conformity e_el per area, J/m²; `None` without roughness.
+    #[must_use]
+    pub fn elastic_energy(&self) -> Option<f64> {
+        self.energy(RoughnessParameter::ElasticEnergyRatio)
+    }
+
+    /// Energy per area of one parameter over that of another; `None` without roughness.
+    #[must_use]
+    pub fn energy_ratio(&self, of: RoughnessParameter, over: RoughnessParameter) -> Option<f64> {
+        Some(self.energy(of)? / self.energy(over)?)
+    }
+
+    /// Energy per area that a parameter compares with the work of adhesion, J/m².
+    fn energy(&self, parameter: RoughnessParameter) -> Option<f64> {
+        self.amplitude.map(|amplitude| energy_of(parameter, amplitude, self.effective_modulus))
     }
 
     /// The rule of Hess on the foundation under a line; `None` without adhesion.
@@ -100,9 +137,17 @@ pub fn ideal_adhesion_force(work_of_adhesion: f64, effective_modulus: f64, lengt
     (std::f64::consts::PI * work_of_adhesion * effective_modulus * length.powi(3)).sqrt()
 }
 
-/// κ of a line with h⟨∇z⟩E* = `stiffness`. So little adhesion that κ is beyond all numbers is none.
-fn kappa_of(stiffness: f64, work: f64) -> Option<f64> {
-    Some((stiffness / work).sqrt()).filter(|kappa| work > 0.0 && kappa.is_finite())
+/// Energy per area of a line that a parameter compares with the work of adhesion, J/m²: h⟨∇z⟩E* or e_el.
+fn energy_of(parameter: RoughnessParameter, amplitude: Amplitude, effective_modulus: f64) -> f64 {
+    match parameter {
+        RoughnessParameter::Kappa => amplitude.rms_height * amplitude.rms_gradient * effective_modulus,
+        RoughnessParameter::ElasticEnergyRatio => amplitude.elastic_energy(effective_modulus),
+    }
+}
+
+/// Value of a parameter. So little adhesion that the value is beyond all numbers is none.
+fn value_of(parameter: RoughnessParameter, energy: f64, work: f64) -> Option<f64> {
+    Some(parameter.of_energy_over_work(energy / work)).filter(|value| work > 0.0 && value.is_finite())
 }
 
 #[cfg(test)]
@@ -121,17 +166,20 @@ mod tests {
         Document::parse(&text, "scene").unwrap_or_else(|errors| panic!("{errors}")).scene().clone()
     }
 
-    const ROUGH: Option<Amplitude> = Some(Amplitude { rms_height: 3.0, rms_gradient: 6.0 });
+    const ROUGH: Option<Amplitude> =
+        Some(Amplitude { rms_height: 3.0, rms_gradient: 6.0, mean_wave_number: 0.5 });
+    const WAVE_NUMBERS: Option<WaveNumbers> = Some(WaveNumbers { rms: 2.0, mean: 0.5 });
 
     #[test]
-    fn two_of_amplitude_work_and_kappa_give_the_third() {
-        // h⟨∇z⟩E* = 72, and 72/2 is the square of 6.
+    fn two_of_amplitude_work_and_a_parameter_give_the_third() {
+        // h⟨∇z⟩E* = 72, and 72/2 is the square of 6. E* h² q̄/4 = 4.5.
         let expected = Governing {
             effective_modulus: 4.0,
             work_of_adhesion: Some(2.0),
             closing_work: None,
             amplitude: ROUGH,
             kappa: Some(6.0),
+            elastic_energy_ratio: Some(2.25),
         };
         for (amplitude, adhesion) in [
             ("rms_height: 3.0,", "(work: 2.0)"),
@@ -139,8 +187,11 @@ mod tests {
             ("rms_height: 3.0,", "(kappa: 6.0)"),
             ("rms_gradient: 6.0,", "(kappa: 6.0)"),
             ("", "(work: 2.0, kappa: 6.0)"),
+            ("rms_height: 3.0,", "(elastic_energy_ratio: 2.25)"),
+            ("rms_gradient: 6.0,", "(elastic_energy_ratio: 2.25)"),
+            ("", "(work: 2.0, elastic_energy_ratio: 2.25)"),
         ] {
-            let governing = Governing::of(&scene(Some(amplitude), adhesion), Some(2.0), None);
+            let governing = Governing::of(&scene(Some(amplitude), adhesion), WAVE_NUMBERS, None);
             assert_eq!(governing, expected, "{amplitude} {adhesion}");
         }
         let measured = Governing::of(&scene(None, "(work: 2.0)"), None, ROUGH);
@@ -151,16 +202,16 @@ mod tests {
     fn a_smooth_line_has_no_kappa_and_no_work_is_no_adhesion() {
         let smooth = Governing::of(&scene(None, "(work: 2.0)"), None, None);
         assert_eq!((smooth.work_of_adhesion, smooth.kappa, smooth.amplitude), (Some(2.0), None, None));
-        assert_eq!((smooth.work_for_kappa(1.0), smooth.adhesive_work()), (None, Some(2.0)));
-        let none = Governing::of(&scene(Some("rms_height: 3.0,"), "(work: 0.0)"), Some(2.0), None);
+        assert_eq!((smooth.elastic_energy(), smooth.adhesive_work()), (None, Some(2.0)));
+        let none = Governing::of(&scene(Some("rms_height: 3.0,"), "(work: 0.0)"), WAVE_NUMBERS, None);
         assert_eq!((none.work_of_adhesion, none.kappa, none.adhesive_work()), (Some(0.0), None, None));
-        let without = Governing::of(&scene(Some("rms_height: 3.0,"), "None"), Some(2.0), None);
+        let without = Governing::of(&scene(Some("rms_height: 3.0,"), "None"), WAVE_NUMBERS, None);
         assert_eq!((without.work_of_adhesion, without.kappa, without.amplitude), (None, None, ROUGH));
     }
 
     #[test]
     fn another_adhesion_on_the_same_line() {
-        let base = Governing::of(&scene(Some("rms_height: 3.0,"), "(work: 2.0)"), Some(2.0), None);
+        let base = Governing::of(&scene(Some("rms_height: 3.0,"), "(work: 2.0)"), WAVE_NUMBERS, None);
         let with = |adhesion: Adhesion| {
             let changed = base.with_adhesion(Some(adhesion));
             assert_eq!(changed.amplitude, base.amplitude);
@@ -168,16 +219,23 @@ mod tests {
         };
         assert_eq!(with(Adhesion::default().with_work(8.0)), (Some(8.0), Some(3.0)));
         assert_eq!(with(Adhesion::default().with_kappa(3.0)), (Some(8.0), Some(3.0)));
-        assert_eq!(base.work_for_kappa(3.0), Some(8.0));
+        assert_eq!(base.work_for(RoughnessParameter::Kappa, 3.0), Some(8.0));
+        assert_eq!(base.work_for(RoughnessParameter::ElasticEnergyRatio, 0.5), Some(9.0));
+        let by_ratio = base.with_adhesion(Some(
+            Adhesion::default().with_parameter(RoughnessParameter::ElasticEnergyRatio, 0.5),
+        ));
+        assert_eq!((by_ratio.work_of_adhesion, by_ratio.kappa), (Some(9.0), Some(8.0_f64.sqrt())));
         let none = base.with_adhesion(None);
         assert_eq!((none.work_of_adhesion, none.kappa), (None, None));
     }
 
     #[test]
     fn a_kappa_beyond_all_numbers_is_none() {
-        assert_eq!(kappa_of(1e300, 5e-324), None);
-        assert_eq!(kappa_of(1.0, 0.0), None);
-        assert_eq!(kappa_of(8.0, 2.0), Some(2.0));
+        assert_eq!(value_of(RoughnessParameter::Kappa, 1e300, 5e-324), None);
+        for (parameter, value) in RoughnessParameter::ALL.into_iter().zip([2.0, 4.0]) {
+            assert_eq!(value_of(parameter, 1.0, 0.0), None);
+            assert_eq!(value_of(parameter, 8.0, 2.0), Some(value));
+        }
     }
 
     #[test]

@@ -8,7 +8,7 @@ mod regime;
 pub mod section;
 
 pub use figures::Figures;
-pub use governing::{Amplitude, Governing, ideal_adhesion_force};
+pub use governing::{Governing, ideal_adhesion_force};
 pub use marks::{Mark, marks};
 pub use regime::{
     AGREEING_SHARE, CellRegime, INSENSITIVE_SHARE, NEGLIGIBLE_COEFFICIENT, Regime, RegimeEvidence,

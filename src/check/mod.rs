@@ -7,6 +7,7 @@
 //! computed, fails with a sentence that says where.
 
 mod body;
+mod case;
 mod cases;
 mod catalogue;
 mod extended;
@@ -14,7 +15,8 @@ mod reference;
 mod relaxation;
 
 pub use body::{Body, LENGTH, MODULUS, RMS_HEIGHT, end};
-pub use catalogue::{Case, Check, Family, Scope, Verdict, catalogue, checks, judge};
+pub use case::{Case, Family, Scope};
+pub use catalogue::{Check, Verdict, catalogue, checks, judge};
 pub use extended::Extended;
 pub use reference::{Agreement, follow, force_error};
 pub use relaxation::Relaxation;

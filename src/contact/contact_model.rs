@@ -62,6 +62,33 @@ pub trait ContactModel {
     /// [`ContactError::OutOfMemory`]; the contact is then as it was.
     fn unload(&mut self, from: f64, work: &mut Work) -> Result<f64, ContactError>;
 
+    /// Begins the unloadings from these turning points of the present leg, which is a loading from separation, m, in
+    /// ascending order.
+    ///
+    /// # Errors
+    /// [`ContactError::OutOfMemory`].
+    fn begin_reversals(&mut self, turns: &[f64]) -> Result<(), ContactError>;
+
+    /// Unloads from the turning point of this number and indentation (m), all in ascending order. Returns the smallest
+    /// indentation with contact, m. The loading stays the present leg; the next functions refer to this unloading.
+    ///
+    /// # Errors
+    /// [`ContactError::OutOfMemory`].
+    fn reverse(&mut self, turn: (usize, f64), work: &mut Work) -> Result<f64, ContactError>;
+
+    /// Contact states along a grid of the unloading from a turning point.
+    ///
+    /// # Errors
+    /// [`ContactError::OutOfMemory`].
+    fn sample_reversal(&self, grid: Grid) -> Result<Self::Leg, ContactError>;
+
+    /// The smallest force on the range of a grid of this unloading.
+    fn smallest_of_reversal(&self, leg: &Self::Leg, sorted: &mut u64) -> ContactState;
+
+    /// Σ e² over the springs that attach up to the turning point with a stretch e, and over those that detach from there
+    /// on, m².
+    fn squared_stretches(&self) -> [f64; 2];
+
     /// Contact states along a grid.
     ///
     /// # Errors

@@ -22,6 +22,16 @@ pub enum ContactError {
         /// Force asked for, N.
         force: f64,
     },
+    /// A turning point without contact.
+    #[error(
+        "loading.{index} = {leg:?}: a reversal begins in contact; allowed: an indentation of at least 0 m, or a force"
+    )]
+    NoContact {
+        /// Index of the leg.
+        index: usize,
+        /// The leg.
+        leg: Leg,
+    },
     /// The contact detaches above this force.
     #[error(
         "loading.{index} = {leg:?}: the contact detaches above that force; allowed in this stage: at least {smallest:e} N"

@@ -88,24 +88,27 @@ impl<C: ContactModel> Exact<C> {
         }
     }
 
-    pub(super) fn into_contact(self) -> C {
-        self.contact
+    pub(super) fn contact(&self) -> &C {
+        &self.contact
     }
 
-    pub(super) fn contact_mut(&mut self) -> &mut C {
-        &mut self.contact
-    }
-
-    pub(super) fn foundation(&self) -> Foundation {
-        self.foundation
+    pub(super) fn work_mut(&mut self) -> (&mut C, &mut Work) {
+        (&mut self.contact, &mut self.work)
     }
 
     fn is_separated(&self) -> bool {
         self.state.springs == 0
     }
 
+    /// Places the body apart and begins a loading from there; returns the indentation from which on all is in contact, m.
+    pub(super) fn begin_loading(&mut self) -> Result<f64, ContactError> {
+        self.state = ContactState::free(0.0);
+        self.touching = true;
+        self.contact.load(None, &mut self.work)
+    }
+
     /// Grid of a leg's curve: every `stride`-th point is a sample, those between sharpen the search.
-    fn grid(&self, low: f64, high: f64) -> (Grid, usize) {
+    pub(super) fn grid(&self, low: f64, high: f64) -> (Grid, usize) {
         let intervals = self.samples - 1;
         let stride = C::SEARCH_INTERVALS.div_ceil(intervals);
         (Grid::new(low, high, intervals * stride), stride)
@@ -117,7 +120,7 @@ impl<C: ContactModel> Exact<C> {
         self.contact.sample(Grid::new(low, high, C::SEARCH_INTERVALS))
     }
 
-    fn curve_point(&self, state: ContactState) -> CurvePoint {
+    pub(super) fn curve_point(&self, state: ContactState) -> CurvePoint {
         state.point(self.foundation)
     }
 
@@ -131,7 +134,7 @@ impl<C: ContactModel> Exact<C> {
     }
 
     /// Energy of springs that attach or detach with this sum of squared stretches (m²), J.
-    fn energy(&self, squared_stretch: f64) -> f64 {
+    pub(super) fn energy(&self, squared_stretch: f64) -> f64 {
         0.5 * self.foundation.spring_stiffness() * squared_stretch
     }
 
@@ -197,7 +200,14 @@ impl<C: ContactModel> Exact<C> {
         })
     }
 
-    fn load_to_force(&mut self, leg: Leg, force: f64, low: f64, complete: f64) -> Result<f64, ContactError> {
+    /// Indentation of a loading leg, complete at another, at which a force is first reached, m.
+    pub(super) fn load_to_force(
+        &mut self,
+        leg: Leg,
+        force: f64,
+        low: f64,
+        complete: f64,
+    ) -> Result<f64, ContactError> {
         let wanted = force / self.foundation.spring_stiffness();
         let forms = self.is_separated();
         // From d = 0 to where all is in contact.
@@ -325,5 +335,23 @@ impl<C: ContactModel> super::Solver for Exact<C> {
 
     fn curve_seconds(&self) -> f64 {
         (self.leg_time - self.pass_time).as_secs_f64()
+    }
+}
+
+impl<'a, E: EdgeModel> Exact<Adhesive<'a, E>> {
+    /// The memory it worked in, for the next body.
+    #[must_use]
+    pub fn into_memory(self) -> AdhesiveMemory {
+        self.contact.into_memory()
+    }
+
+    /// Smallest force of the unloading from first touch, N, and the work counts of the search.
+    ///
+    /// # Errors
+    /// [`ContactError::OutOfMemory`].
+    pub fn pull_off_at_touch(&mut self) -> Result<(f64, Work), ContactError> {
+        let stiffness = self.foundation.spring_stiffness();
+        let (compression, work) = self.contact.pull_off_at_touch()?;
+        Ok((stiffness * compression, work))
     }
 }

@@ -1,6 +1,6 @@
-//! Even grids of indentations, and sums that keep their rounding errors.
+//! Grids of indentations, and sums that keep their rounding errors.
 
-/// An evenly spaced grid of indentations, both ends exact.
+/// A grid of ascending indentations, evenly spaced with both ends exact, or at given points.
 #[derive(Clone, Debug)]
 pub struct Grid {
     points: Vec<f64>,
@@ -24,6 +24,16 @@ impl Grid {
         Grid { points, intervals_per_metre: if even { width.recip() } else { 0.0 } }
     }
 
+    /// Grid at these ascending indentations, at least one, m.
+    pub fn at(points: Vec<f64>) -> Self {
+        Grid { points, intervals_per_metre: 0.0 }
+    }
+
+    /// Returns false for a grid of given points, or of its two ends alone.
+    pub fn is_even(&self) -> bool {
+        self.intervals_per_metre > 0.0
+    }
+
     pub fn points(&self) -> &[f64] {
         &self.points
     }
@@ -35,6 +45,9 @@ impl Grid {
     /// Index of the first point that is at least `indentation`, which must not exceed the last.
     #[inline]
     pub fn first_at_least(&self, indentation: f64) -> usize {
+        if !self.is_even() {
+            return self.points.partition_point(|&point| point < indentation);
+        }
         // The guess is off by one at the most where the grid is even; the loops make it exact.
         let guess = ((indentation - self.points[0]) * self.intervals_per_metre) as usize;
         let mut index = guess.min(self.points.len() - 1);

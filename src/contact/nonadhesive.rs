@@ -95,6 +95,8 @@ impl Quadratic {
 
 /// Changes of the contact from one point of a grid to the next.
 struct Changes {
+    /// Most points at which a partly filled cell is added by itself.
+    few: usize,
     whole: Vec<ContactTotals>,
     partial: Vec<Partial>,
     quadratic: Vec<Quadratic>,
@@ -185,7 +187,10 @@ impl<'a> Nonadhesive<'a> {
     fn along(&self, grid: &Grid) -> Result<Vec<ContactState>, ContactError> {
         let points = grid.points();
         let count = points.len();
+        // Points that were asked for one by one have the same contact as each of them alone.
+        let few = if grid.is_even() { FEW_POINTS } else { count };
         let mut changes = Changes {
+            few,
             whole: resized(Vec::new(), count, ContactTotals::default())?,
             partial: resized(Vec::new(), count, Partial::default())?,
             quadratic: resized(Vec::new(), count, Quadratic::default())?,
@@ -316,7 +321,7 @@ impl Changes {
     fn add_cell(&mut self, low: f64, high: f64, at: Range<usize>, points: &[f64]) {
         let last = points.len() - 1;
         let Range { start, end } = at;
-        if end - start <= FEW_POINTS {
+        if end - start <= self.few {
             for (partial, &point) in self.partial[start..end].iter_mut().zip(&points[start..end]) {
                 partial.add(low, high, point);
             }
@@ -348,6 +353,26 @@ impl ContactModel for Nonadhesive<'_> {
     fn unload(&mut self, _: f64, _: &mut Work) -> Result<f64, ContactError> {
         // The highest point of the line touches first and detaches last, at d = 0.
         Ok(0.0)
+    }
+
+    fn begin_reversals(&mut self, _: &[f64]) -> Result<(), ContactError> {
+        Ok(())
+    }
+
+    fn reverse(&mut self, (_, from): (usize, f64), work: &mut Work) -> Result<f64, ContactError> {
+        self.unload(from, work)
+    }
+
+    fn sample_reversal(&self, grid: Grid) -> Result<Sampled, ContactError> {
+        self.sample(grid)
+    }
+
+    fn smallest_of_reversal(&self, leg: &Sampled, sorted: &mut u64) -> ContactState {
+        self.smallest(leg, sorted)
+    }
+
+    fn squared_stretches(&self) -> [f64; 2] {
+        [0.0; 2]
     }
 
     fn sample(&self, grid: Grid) -> Result<Sampled, ContactError> {

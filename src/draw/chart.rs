@@ -49,6 +49,14 @@ impl Chart {
             _ => None,
         })
     }
+
+    /// The same, to be changed.
+    pub fn map_mut(&mut self) -> Option<&mut HeatMap> {
+        self.layers.iter_mut().find_map(|layer| match &mut layer.shape {
+            Shape::Map(map) => Some(map.as_mut()),
+            _ => None,
+        })
+    }
 }
 
 /// One kind of data, and its entry in the legend. Layers of the same name share an entry.
@@ -157,10 +165,23 @@ pub struct HeatMap {
     pub key: Axis,
     /// Class of each cell, an index of `class_names`; empty without classes.
     pub classes: Vec<Option<usize>>,
-    /// Sign, letter and name of each class.
-    pub class_names: Vec<(Sign, char, String)>,
+    /// The classes.
+    pub class_names: Vec<Class>,
     /// A level line of another field on the same grid.
     pub contour: Option<Contour>,
+}
+
+/// A class of cells of a map.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Class {
+    /// Sign in a picture.
+    pub sign: Sign,
+    /// Letter in wide cells of a terminal; `None` where the shade itself is the class.
+    pub letter: Option<char>,
+    /// Name in the legend.
+    pub name: String,
+    /// Ink of shades in a terminal without fixed colours.
+    pub ink: Ink,
 }
 
 /// Line on which a field has a level.
@@ -253,7 +274,7 @@ impl Entry {
                 Shape::Boxes(_) => add(name, *ink, Sample::Solid),
                 Shape::Upright(_) | Shape::Level(_) => add(name, *ink, Sample::Guide),
                 Shape::Map(map) => {
-                    for (class, (sign, _, name)) in map.class_names.iter().enumerate() {
+                    for (class, Class { sign, name, .. }) in map.class_names.iter().enumerate() {
                         if map.classes.contains(&Some(class)) {
                             add(&Label::plain(name), Ink::Text, Sample::Line(None, Some(*sign)));
                         }

@@ -16,8 +16,8 @@ mod ticks;
 
 pub use axis::Axis;
 #[cfg(feature = "tui")]
-pub use cells::{CellPlot, CellStyle, Colours, dry, figure_text, glyph, legend};
-pub use chart::{Chart, Contour, Entry, Figure, HeatMap, Layer, Sample, Shape, Sign, Stroke};
+pub use cells::{CellPlot, CellStyle, Colours, SHADES, dry, figure_text, glyph, key, legend};
+pub use chart::{Chart, Class, Contour, Entry, Figure, HeatMap, Layer, Sample, Shape, Sign, Stroke};
 pub use colour::{Ink, Palette, Rgb, hex, ink_on, shade};
 pub use label::{Label, prefixed, short, value_label};
 pub use scale::{AxisScale, Span};

@@ -17,6 +17,19 @@ impl AxisScale {
         if self == AxisScale::Logarithmic { number.log10() } else { number }
     }
 
+    /// Place of a number among ascending values, the first of them at 0: between two by its share of their distance,
+    /// and beyond the ends as the last distance goes on.
+    #[must_use]
+    pub fn place(self, values: &[f64], number: f64) -> f64 {
+        let places: Vec<f64> = values.iter().map(|value| self.coordinate(*value)).collect();
+        let at = self.coordinate(number);
+        let after = places.partition_point(|place| *place <= at).clamp(1, places.len().max(2) - 1);
+        match places.get(after - 1..=after) {
+            Some(&[low, high]) if high > low => (after - 1) as f64 + (at - low) / (high - low),
+            _ => 0.0,
+        }
+    }
+
     /// Number at a coordinate.
     #[must_use]
     pub fn number(self, coordinate: f64) -> f64 {

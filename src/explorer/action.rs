@@ -1,6 +1,5 @@
 //! Everything that can happen to the explorer.
 
-use super::model::Traffic;
 use super::opening::Opening;
 use super::snapshot::{Loop, Moment, Preview};
 use super::study::Found;
@@ -89,6 +88,10 @@ pub enum Content {
     Picture,
     /// The panes as plain text.
     Text,
+    /// The cells of the map, or of its sections, as comma-separated values.
+    MapCells,
+    /// The map or its sections as a figure, in SVG.
+    MapFigure,
 }
 
 impl Content {
@@ -100,12 +103,16 @@ impl Content {
         ("txt", Content::Text),
     ];
 
-    /// What belongs into a file of this name; `None` for an ending that says nothing.
+    /// Exports of the map, while its pane is selected.
+    pub const MAP_EXPORTS: [(&'static str, Content); 3] =
+        [("csv", Content::MapCells), ("svg", Content::MapFigure), ("txt", Content::Text)];
+
+    /// Content for a file of this name, of these; `None` for another extension.
     #[must_use]
-    pub fn of_file(path: &std::path::Path) -> Option<Self> {
+    pub fn of_file(exports: &[(&'static str, Content)], path: &std::path::Path) -> Option<Self> {
         let ending = path.extension()?.to_str()?;
         let known = |(name, _): &&(&str, Content)| ending.eq_ignore_ascii_case(name);
-        Self::EXPORTS.iter().find(known).map(|(_, content)| *content)
+        exports.iter().find(known).map(|(_, content)| *content)
     }
 }
 
@@ -176,6 +183,12 @@ pub enum Command {
     },
     /// Type the selected value.
     EditValue,
+    /// Type the selected value, beginning with this character.
+    StartValue(char),
+    /// Search the list of parameters.
+    FindParameter,
+    /// Fold the group of the selected parameter, or unfold it.
+    ToggleFold,
     /// Switch the effect of the selected row on or off.
     ToggleEffect,
     /// Another random line.
@@ -226,7 +239,7 @@ pub enum Command {
     ToggleAccuracy,
     /// Type a tolerance.
     TypeTolerance,
-    /// Show the map over κ and H, choose it, or show the profile and the fragments again.
+    /// Show the map, choose it, or show the profile and the fragments again.
     ToggleChart,
     /// Show sections through the mark in place of the map, or the other way round.
     ToggleSections,
@@ -236,10 +249,12 @@ pub enum Command {
     ToggleStudy,
     /// Show the next or previous map of the study: another preload, or another value of a further axis.
     NextSlice(i32),
+    /// Exchange columns and rows of the map.
+    TransposeMap,
     /// Move the mark, and the scene, by so many columns of the map.
-    MoveKappa(i32),
+    MoveAcross(i32),
     /// Move the mark, and the scene, by so many rows of the map.
-    MoveHurst(i32),
+    MoveUp(i32),
     /// Show or hide the crosshair.
     ToggleCrosshair,
     /// Move the crosshair of the chosen pane.
@@ -302,4 +317,13 @@ pub enum Motion {
     Start,
     /// To the end.
     End,
+}
+
+/// What a connection carries.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Traffic {
+    /// Most frames in a second.
+    pub frames: u32,
+    /// Bytes written in the last second.
+    pub bytes: u64,
 }

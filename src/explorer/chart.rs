@@ -1,8 +1,7 @@
-//! What the explorer shows of the map over κ and H, and what is still to be computed of it.
+//! State of the map that is shown, over H and κ or over the axes of a study, and what is still to be computed of it.
 
 use crate::scene::Scene;
-use crate::study::figure::FigureAxis;
-use crate::study::map::{Charted, LiveMap, MapModel, NoMap, StudyMap, Template, hursts, kappas};
+use crate::study::map::{Charted, LiveMap, MapAxis, MapModel, NoMap, StudyMap, Template, hursts, kappas};
 use std::sync::Arc;
 
 /// See the module.
@@ -14,6 +13,8 @@ pub struct Chart {
     pub quantity: Charted,
     /// Whether the sections through the mark stand in place of the map.
     pub sections: bool,
+    /// Whether columns and rows are exchanged: κ across.
+    transposed: bool,
     /// The map that is computed here, so far. Kept while κ and H change, whether it is shown or not.
     pub map: Option<Arc<LiveMap>>,
     /// The same as it is shown.
@@ -41,18 +42,11 @@ pub struct OpenStudy {
 }
 
 impl OpenStudy {
-    /// One map of a study.
+    /// Number of the map so many after this one, from the last on to the first.
     #[must_use]
-    pub fn at(study_map: Arc<StudyMap>, slice: u64) -> Self {
-        OpenStudy { map_model: Arc::new(study_map.model(slice)), study_map, slice }
-    }
-
-    /// The map so many after this one, from the last on to the first.
-    #[must_use]
-    pub fn stepped(&self, steps: i32) -> Self {
+    pub fn stepped(&self, steps: i32) -> u64 {
         let slices = i128::from(self.study_map.slices().max(1));
-        let slice = (i128::from(self.slice) + i128::from(steps)).rem_euclid(slices) as u64;
-        OpenStudy::at(Arc::clone(&self.study_map), slice)
+        (i128::from(self.slice) + i128::from(steps)).rem_euclid(slices) as u64
     }
 }
 
@@ -72,12 +66,33 @@ impl Chart {
         self.study.as_ref().filter(|_| self.of_study)
     }
 
-    /// κ and H of the map that is shown, or would be.
+    /// Opens one map of a study.
+    pub fn open_study(&mut self, study_map: Arc<StudyMap>, slice: u64) {
+        let map_model = self.placed(study_map.model(slice));
+        self.study = Some(OpenStudy { study_map, slice, map_model });
+    }
+
+    /// Exchanges columns and rows.
+    pub fn transpose(&mut self) {
+        self.transposed = !self.transposed;
+        let study = self.study.as_mut().map(|study| &mut study.map_model);
+        for map_model in self.live.as_mut().into_iter().chain(study) {
+            *map_model = Arc::new(map_model.transposed());
+        }
+    }
+
+    fn placed(&self, map_model: MapModel) -> Arc<MapModel> {
+        Arc::new(if self.transposed { map_model.transposed() } else { map_model })
+    }
+
+    /// Axes of the map that is shown or, before there is one, of the live map of a scene with an H or without.
     #[must_use]
-    pub fn axes(&self) -> (FigureAxis, FigureAxis) {
-        match self.map_model().map(|map_model| (map_model.across(), map_model.up())) {
-            Some((across, Some(up))) => (across.clone(), up.clone()),
-            _ => (kappas(), hursts()),
+    pub fn axes(&self, has_hurst: bool) -> (MapAxis, Option<MapAxis>) {
+        match (self.map_model(), has_hurst, self.transposed) {
+            (Some(map_model), ..) => (map_model.across().clone(), map_model.up().cloned()),
+            (None, true, false) => (hursts(), Some(kappas())),
+            (None, true, true) => (kappas(), Some(hursts())),
+            (None, false, _) => (kappas(), None),
         }
     }
 
@@ -100,7 +115,7 @@ impl Chart {
 
     /// Takes in what has been computed of the map.
     pub fn take_in(&mut self, map: Arc<LiveMap>) {
-        self.live = Some(Arc::new(map.model()));
+        self.live = Some(self.placed(map.model()));
         self.map = Some(map);
     }
 

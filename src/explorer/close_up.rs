@@ -1,7 +1,7 @@
 //! The neighbourhood of one fragment: where it is, what it bears, what it carries.
 
+use super::request::{Focus, MomentRequest};
 use super::snapshot::{CloseUp, FragmentFacts};
-use super::worker::{Focus, MomentRequest};
 use crate::analysis::section::{Contact, LineColumns, Part};
 use crate::contact::{Foundation, FragmentState, Snapshot};
 

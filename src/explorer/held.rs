@@ -1,7 +1,7 @@
 //! The body in the user's hand: moved by small steps, each of which costs what it changes.
 
+use super::request::HandOrder;
 use super::snapshot::Travel;
-use super::worker::HandOrder;
 use crate::analysis::Governing;
 use crate::contact::{
     ContactTree, CurvePoint, GridEdges, HessRule, Manual, ManualError, ManualLoading, Move, SubCellEdges,

@@ -80,9 +80,12 @@ const fn shift(code: KeyCode) -> Key {
 }
 
 /// Exploring, whichever pane is chosen.
-const EXPLORE: &[ModeKind] = &[ModeKind::Explore, ModeKind::Chart, ModeKind::Crosshair];
+const EXPLORE: &[ModeKind] = &[ModeKind::Explore, ModeKind::Chart, ModeKind::Crosshair, ModeKind::Parameters];
 /// What the arrows do beside them is done in the map by other keys.
-const LIST: &[ModeKind] = &[ModeKind::Explore];
+const LIST: &[ModeKind] = &[ModeKind::Explore, ModeKind::Parameters];
+/// In the list of parameters these characters begin a value.
+const OTHER_PANES: &[ModeKind] = &[ModeKind::Explore, ModeKind::Chart, ModeKind::Crosshair];
+const VALUES: &[ModeKind] = &[ModeKind::Parameters];
 const CHART: &[ModeKind] = &[ModeKind::Chart];
 const CROSSHAIR: &[ModeKind] = &[ModeKind::Crosshair];
 const HELP: &[ModeKind] = &[ModeKind::Help];
@@ -95,11 +98,38 @@ const TYPED: &[ModeKind] = &[
     ModeKind::SaveAs,
     ModeKind::Export,
     ModeKind::Library,
+    ModeKind::Find,
 ];
 const LIBRARY: &[ModeKind] = &[ModeKind::Library];
+const FIND: &[ModeKind] = &[ModeKind::Find];
+const SEARCHED: &[ModeKind] = &[ModeKind::Library, ModeKind::Find];
 const ASK: &[ModeKind] = &[ModeKind::Overwrite];
 const LEAVE: &[ModeKind] = &[ModeKind::Quit];
 const ANY: &[ModeKind] = &ModeKind::ALL;
+
+const DIGITS: [Key; 10] = [
+    char('0'),
+    char('1'),
+    char('2'),
+    char('3'),
+    char('4'),
+    char('5'),
+    char('6'),
+    char('7'),
+    char('8'),
+    char('9'),
+];
+/// Characters that begin a number.
+const VALUE_STARTS: [Key; 12] = {
+    let mut keys = [char('-'); 12];
+    keys[1] = char('.');
+    let mut digit = 0;
+    while digit < DIGITS.len() {
+        keys[2 + digit] = DIGITS[digit];
+        digit += 1;
+    }
+    keys
+};
 
 const ANIMATION: &str = "Animation";
 const HAND: &str = "Manual loading";
@@ -107,7 +137,7 @@ const PARAMETERS: &str = "Parameters";
 const COMPARE: &str = "Comparison";
 const LOOK: &str = "View";
 const CROSS: &str = "Crosshair";
-const MAP: &str = "Map over κ and H";
+const MAP: &str = "Map";
 const SCENE: &str = "Scene";
 const TEXT: &str = "Typing and lists";
 
@@ -138,7 +168,7 @@ const fn push(steps: i32, coarse: bool) -> Command {
 #[rustfmt::skip]
 pub const BINDINGS: &[Binding] = &[
     row(&[char(' ')], EXPLORE, Command::TogglePlay, "play/pause", "play or pause", ANIMATION),
-    row(&[char('.')], EXPLORE, Command::Step(1), "step", "one step forwards", ANIMATION),
+    row(&[char('.')], OTHER_PANES, Command::Step(1), "step", "one step forwards", ANIMATION),
     row(&[char(',')], EXPLORE, Command::Step(-1), "", "one step backwards", ANIMATION),
     row(&[char('r')], EXPLORE, Command::Restart, "restart", "play from the beginning", ANIMATION),
     row(&[char('>')], EXPLORE, Command::Leg(1), "", "jump to the start of the next loading stage", ANIMATION),
@@ -161,6 +191,9 @@ pub const BINDINGS: &[Binding] = &[
     row(&[shift(KeyCode::Left), char('H')], LIST, step(-1, true), "", "decrease the value by a large step", PARAMETERS),
     row(&[shift(KeyCode::Right), char('L')], LIST, step(1, true), "", "increase the value by a large step", PARAMETERS),
     row(&[key(KeyCode::Enter), char('e')], LIST, Command::EditValue, "type", "type a value, with an optional prefix and unit: 2.5 MPa, 10 µm, 50m", PARAMETERS),
+    row(&VALUE_STARTS, VALUES, Command::StartValue('0'), "type", "type a value, while the pane of parameters is selected", PARAMETERS),
+    row(&[char('/')], EXPLORE, Command::FindParameter, "find", "find a parameter by letters of its name or symbol", PARAMETERS),
+    row(&[char('Z')], LIST, Command::ToggleFold, "", "fold the group of the selected parameter, or unfold it", PARAMETERS),
     row(&[char('t')], LIST, Command::ToggleEffect, "on/off", "switch the effect of the selected row on or off", PARAMETERS),
     row(&[char('R')], EXPLORE, Command::Reseed, "reseed", "draw another random profile", PARAMETERS),
     row(&[char('%')], EXPLORE, Command::TypeTolerance, "", "type a tolerance (0.1 %, 1e-3): selects number of springs and edges", PARAMETERS),
@@ -183,11 +216,11 @@ pub const BINDINGS: &[Binding] = &[
     row(&[char('f')], EXPLORE, Command::Fragment(Jump::Summit), "", "show the point of first touch", LOOK),
     row(&[char('D')], EXPLORE, Command::ToggleLengths, "", "show the distribution of patch lengths in place of the close-up", LOOK),
     row(&[char('+'), char('=')], EXPLORE, Command::Zoom(1), "", "zoom in: profile if selected, else close-up", LOOK),
-    row(&[char('-')], EXPLORE, Command::Zoom(-1), "", "zoom out", LOOK),
+    row(&[char('-')], OTHER_PANES, Command::Zoom(-1), "", "zoom out", LOOK),
     row(&[char('(')], EXPLORE, Command::Pan(-1), "", "pan left along the profile", LOOK),
     row(&[char(')')], EXPLORE, Command::Pan(1), "", "pan right along the profile", LOOK),
     row(&[char('w')], EXPLORE, Command::ToggleFollow, "", "keep the profile centred on the patch of the close-up", LOOK),
-    row(&[char('0')], EXPLORE, Command::ResetZoom, "", "show the whole profile", LOOK),
+    row(&[char('0')], OTHER_PANES, Command::ResetZoom, "", "show the whole profile", LOOK),
     row(&[char('A')], EXPLORE, Command::ToggleAccuracy, "accuracy", "show errors against time and the computing stages, in place of profile and close-up", LOOK),
     row(&[key(KeyCode::Tab)], EXPLORE, Command::NextPane, "", "select the next pane", LOOK),
     row(&[char('z')], EXPLORE, Command::ZoomPane, "zoom", "show the selected pane on the whole screen, or all panes", LOOK),
@@ -205,31 +238,24 @@ pub const BINDINGS: &[Binding] = &[
     row(&[key(KeyCode::Down), char('j')], CROSSHAIR, Command::CrosshairStage(1), "stage", "move to the next loading stage at the same indentation", CROSS),
     row(&[key(KeyCode::Esc)], CROSSHAIR, Command::ToggleCrosshair, "hide", "hide the crosshair", CROSS),
 
-    row(&[char('m')], EXPLORE, Command::ToggleChart, "map", "show the regimes over κ and H, in place of profile and close-up", MAP),
-    row(&[key(KeyCode::Left), char('h')], CHART, Command::MoveKappa(-1), "", "decrease κ of the scene; successive moves are one edit", MAP),
-    row(&[key(KeyCode::Right), char('l')], CHART, Command::MoveKappa(1), "κ", "increase κ", MAP),
-    row(&[key(KeyCode::Down), char('j')], CHART, Command::MoveHurst(-1), "", "decrease H", MAP),
-    row(&[key(KeyCode::Up), char('k')], CHART, Command::MoveHurst(1), "H", "increase H", MAP),
-    row(&[shift(KeyCode::Left), char('H')], CHART, Command::MoveKappa(-4), "", "halve κ: four values down", MAP),
-    row(&[shift(KeyCode::Right), char('L')], CHART, Command::MoveKappa(4), "", "double κ: four values up", MAP),
-    row(&[shift(KeyCode::Down), char('J')], CHART, Command::MoveHurst(-4), "", "decrease H by four values", MAP),
-    row(&[shift(KeyCode::Up), char('K')], CHART, Command::MoveHurst(4), "", "increase H by four values", MAP),
-    row(&[char('X')], CHART, Command::ToggleSections, "sections", "show sections through the scene: adhesion over κ and over H, or the map", MAP),
-    row(&[char('V')], CHART, Command::NextCharted, "quantity", "select the mapped quantity: regime, F_a(0)/F_a,max, F_a/F_n; all recorded ones of a study", MAP),
+    row(&[char('m')], EXPLORE, Command::ToggleChart, "map", "show the regimes over H and κ, in place of profile and close-up", MAP),
+    row(&[key(KeyCode::Left), char('h')], CHART, Command::MoveAcross(-1), "", "move the scene to the value on the left: decrease H; successive moves are one edit", MAP),
+    row(&[key(KeyCode::Right), char('l')], CHART, Command::MoveAcross(1), "across", "move the scene to the value on the right: increase H", MAP),
+    row(&[key(KeyCode::Down), char('j')], CHART, Command::MoveUp(-1), "", "move the scene to the value below: decrease κ", MAP),
+    row(&[key(KeyCode::Up), char('k')], CHART, Command::MoveUp(1), "up", "move the scene to the value above: increase κ", MAP),
+    row(&[shift(KeyCode::Left), char('H')], CHART, Command::MoveAcross(-4), "", "move by four values to the left", MAP),
+    row(&[shift(KeyCode::Right), char('L')], CHART, Command::MoveAcross(4), "", "move by four values to the right", MAP),
+    row(&[shift(KeyCode::Down), char('J')], CHART, Command::MoveUp(-4), "", "move by four values down: half the κ", MAP),
+    row(&[shift(KeyCode::Up), char('K')], CHART, Command::MoveUp(4), "", "move by four values up: twice the κ", MAP),
+    row(&[char('t')], CHART, Command::TransposeMap, "transpose", "exchange the axes: κ across and H up, or H across and κ up", MAP),
+    row(&[char('X')], CHART, Command::ToggleSections, "sections", "show sections through the scene along both axes, or the map", MAP),
+    row(&[char('V')], CHART, Command::NextCharted, "quantity", "map another quantity: regime, F_a(0)/F_a,max, F_a/F_n; all recorded ones of a study", MAP),
     row(&[char('W')], CHART, Command::ToggleStudy, "", "show the map of the opened study, or the live map", MAP),
     row(&[char('P'), key(KeyCode::PageDown)], CHART, Command::NextSlice(1), "", "show the next preload of the study, or value of a further axis; the scene follows", MAP),
     row(&[key(KeyCode::PageUp), control('p')], CHART, Command::NextSlice(-1), "", "show the previous one", MAP),
 
     row(&[char('o')], EXPLORE, Command::OpenLibrary, "open", "open a scene: built-in, your own, or by path; or the folder of a study", SCENE),
-    row(&[char('1')], EXPLORE, Command::Preset(0), "", "open the first built-in scene; 2 to 9: the others", SCENE),
-    row(&[char('2')], EXPLORE, Command::Preset(1), "", "", SCENE),
-    row(&[char('3')], EXPLORE, Command::Preset(2), "", "", SCENE),
-    row(&[char('4')], EXPLORE, Command::Preset(3), "", "", SCENE),
-    row(&[char('5')], EXPLORE, Command::Preset(4), "", "", SCENE),
-    row(&[char('6')], EXPLORE, Command::Preset(5), "", "", SCENE),
-    row(&[char('7')], EXPLORE, Command::Preset(6), "", "", SCENE),
-    row(&[char('8')], EXPLORE, Command::Preset(7), "", "", SCENE),
-    row(&[char('9')], EXPLORE, Command::Preset(8), "", "", SCENE),
+    row(&DIGITS.split_at(1).1, OTHER_PANES, Command::Preset(0), "", "open a built-in scene by its number, unless the pane of parameters is selected", SCENE),
     row(&[char('s')], EXPLORE, Command::Save, "save", "save the scene to a file", SCENE),
     row(&[char('E')], EXPLORE, Command::Export, "export", "export the curve (.csv), all figures (.json) or the panes (.svg, .txt)", SCENE),
     row(&[char('y')], EXPLORE, Command::CopyCommand, "copy", "copy the command that opens the present scene", SCENE),
@@ -240,8 +266,9 @@ pub const BINDINGS: &[Binding] = &[
     row(&[key(KeyCode::Down), char('j'), char(' ')], HELP, Command::Select(1), "scroll", "scroll down", TEXT),
     row(&[key(KeyCode::Up), char('k')], HELP, Command::Select(-1), "", "scroll up", TEXT),
     row(&[key(KeyCode::Esc), char('?'), char('q'), key(KeyCode::F(1)), control('c')], HELP, Command::Help, "back", "close the help", TEXT),
-    row(&[key(KeyCode::Down), control('n')], LIBRARY, Command::Select(1), "select", "select the scene below", TEXT),
-    row(&[key(KeyCode::Up), control('p')], LIBRARY, Command::Select(-1), "", "select the scene above", TEXT),
+    row(&[key(KeyCode::Down), control('n')], SEARCHED, Command::Select(1), "select", "select the row below", TEXT),
+    row(&[key(KeyCode::Up), control('p')], SEARCHED, Command::Select(-1), "", "select the row above", TEXT),
+    row(&[key(KeyCode::Enter)], FIND, Command::Accept, "go", "go to the selected parameter", TEXT),
     row(&[key(KeyCode::Enter)], LIBRARY, Command::Accept, "open", "open the selected scene, or the typed path", TEXT),
     row(&[key(KeyCode::Enter)], LINE, Command::Accept, "accept", "accept the typed text", TEXT),
     row(&[key(KeyCode::Esc), control('c')], TYPED, Command::Cancel, "cancel", "cancel: keep the previous value", TEXT),
@@ -259,10 +286,32 @@ pub const BINDINGS: &[Binding] = &[
     row(&[char('n'), key(KeyCode::Esc)], LEAVE, Command::Cancel, "stay", "stay", TEXT),
 ];
 
-/// The command of a key in a mode.
+/// The command of a key in a mode. Where a row has a key for each digit, the command has that digit.
 #[must_use]
 pub fn command(event: &KeyEvent, mode: ModeKind) -> Option<Command> {
-    valid_in(mode).find(|row| row.keys.iter().any(|key| key.matches(event))).map(|row| row.command)
+    let row = valid_in(mode).find(|row| row.keys.iter().any(|key| key.matches(event)))?;
+    let KeyCode::Char(character) = event.code else { return Some(row.command) };
+    Some(match row.command {
+        Command::StartValue(_) => Command::StartValue(character),
+        Command::Preset(_) => Command::Preset(character.to_digit(10)?.checked_sub(1)? as usize),
+        command => command,
+    })
+}
+
+/// Names of keys; consecutive digits have one name: `1–9`.
+#[must_use]
+pub fn names(keys: &[Key]) -> Vec<String> {
+    let digit = |key: &Key| match key.code {
+        KeyCode::Char(character) if key.modifiers.is_empty() => character.to_digit(10),
+        _ => None,
+    };
+    let follows =
+        |one: &Key, next: &Key| digit(one).zip(digit(next)).is_some_and(|(one, next)| one + 1 == next);
+    let run = |run: &[Key]| match run {
+        [first, .., last] => format!("{}–{}", first.name(), last.name()),
+        one => one.iter().map(Key::name).collect(),
+    };
+    keys.chunk_by(follows).map(run).collect()
 }
 
 /// The rows of the table that are valid in a mode.
@@ -278,7 +327,7 @@ pub fn markdown() -> String {
     for row in BINDINGS.iter().filter(|row| !row.help.is_empty()) {
         let shown = if row.section == section { "" } else { row.section };
         section = row.section;
-        let keys: Vec<String> = row.keys.iter().map(|key| format!("`{}`", key.name())).collect();
+        let keys: Vec<String> = names(row.keys).iter().map(|name| format!("`{name}`")).collect();
         text += &format!("| {shown} | {} | {} |\n", keys.join(" "), row.help);
     }
     text

@@ -1,6 +1,8 @@
 //! What the keys mean at the moment.
 
 use super::action::Content;
+use super::finder::Finder;
+use super::model::Pane;
 use super::text_line::TextLine;
 use crate::scene::Entry;
 use std::path::PathBuf;
@@ -18,6 +20,13 @@ pub enum Mode {
     Tolerance(TextLine),
     /// Choosing a scene from the library.
     Library(Library),
+    /// Searching the list of parameters.
+    Find {
+        /// The search.
+        finder: Finder,
+        /// The pane that was selected before.
+        back: Pane,
+    },
     /// Typing the name of the file to save the scene to.
     SaveAs {
         /// The name.
@@ -50,19 +59,15 @@ pub enum Mode {
 pub struct Library {
     /// All scenes; `None` until they have been listed.
     pub entries: Option<Vec<Entry>>,
-    /// What is searched for.
-    pub query: TextLine,
-    /// Indices of the entries that fit, the best first.
-    pub found: Vec<usize>,
-    /// Index of the selected one of them.
-    pub selected: usize,
+    /// The search among them.
+    pub finder: Finder,
 }
 
 impl Library {
     /// The selected entry.
     #[must_use]
     pub fn entry(&self) -> Option<&Entry> {
-        self.entries.as_ref()?.get(*self.found.get(self.selected)?)
+        self.entries.as_ref()?.get(self.finder.choice()?)
     }
 }
 
@@ -75,6 +80,8 @@ pub enum ModeKind {
     Chart,
     /// See [`Mode::Explore`], with the crosshair in the chosen pane.
     Crosshair,
+    /// See [`Mode::Explore`], with the list of parameters chosen.
+    Parameters,
     /// See [`Mode::Edit`].
     Edit,
     /// See [`Mode::Force`].
@@ -83,6 +90,8 @@ pub enum ModeKind {
     Tolerance,
     /// See [`Mode::Library`].
     Library,
+    /// See [`Mode::Find`].
+    Find,
     /// See [`Mode::SaveAs`].
     SaveAs,
     /// See [`Mode::Export`].
@@ -97,14 +106,16 @@ pub enum ModeKind {
 
 impl ModeKind {
     /// All modes.
-    pub const ALL: [ModeKind; 12] = [
+    pub const ALL: [ModeKind; 14] = [
         ModeKind::Explore,
         ModeKind::Chart,
         ModeKind::Crosshair,
+        ModeKind::Parameters,
         ModeKind::Edit,
         ModeKind::Force,
         ModeKind::Tolerance,
         ModeKind::Library,
+        ModeKind::Find,
         ModeKind::SaveAs,
         ModeKind::Export,
         ModeKind::Overwrite,
@@ -123,6 +134,7 @@ impl Mode {
             Mode::Force(_) => ModeKind::Force,
             Mode::Tolerance(_) => ModeKind::Tolerance,
             Mode::Library(_) => ModeKind::Library,
+            Mode::Find { .. } => ModeKind::Find,
             Mode::SaveAs { .. } => ModeKind::SaveAs,
             Mode::Export(_) => ModeKind::Export,
             Mode::Overwrite { .. } => ModeKind::Overwrite,
@@ -139,7 +151,7 @@ impl Mode {
             | Mode::Tolerance(line)
             | Mode::Export(line)
             | Mode::SaveAs { line, .. } => Some(line),
-            Mode::Library(library) => Some(&mut library.query),
+            Mode::Library(Library { finder, .. }) | Mode::Find { finder, .. } => Some(&mut finder.query),
             Mode::Explore | Mode::Overwrite { .. } | Mode::Help { .. } | Mode::Quit => None,
         }
     }

@@ -1,19 +1,20 @@
 //! The state of the explorer: changed by `update` alone, drawn by the views.
 
+use super::action::{Content, Traffic};
 pub use super::appraisal::{Appraisal, Costs, Estimated};
 pub use super::chart::{Chart, OpenStudy};
 pub use super::mode::{Library, Mode, ModeKind};
 use super::parameters::{Parameter, Setting, parameters};
+use super::request::{Focus, LineView};
 use super::snapshot::{Drive, Loop, Moment, Preview};
 use super::theme::Appearance;
-use super::worker::{Focus, LineView};
 use crate::analysis::Governing;
 use crate::contact::{CurvePoint, LegRecord};
 use crate::draw::AxisScale;
 use crate::scene::{Document, Scene, ron_float};
 pub use crate::study::map::Charted;
-use crate::study::map::{StudyMap, Template};
-use std::collections::BTreeMap;
+use crate::study::map::{MapAxis, Place, StudyMap, Template};
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 /// The panes.
@@ -147,15 +148,6 @@ pub struct Ghost {
     pub changes: String,
 }
 
-/// What a connection carries.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Traffic {
-    /// Most frames in a second.
-    pub frames: u32,
-    /// Bytes written in the last second.
-    pub bytes: u64,
-}
-
 /// A line for the user, below the panes.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Notice {
@@ -191,8 +183,10 @@ pub struct Model {
     pub generation: u64,
     /// The parameters of the scene.
     pub parameters: Vec<Parameter>,
-    /// Index of the selected parameter.
+    /// Index of the selected parameter, which is never in a folded group.
     pub selected: usize,
+    /// Groups of parameters of which only the first row is listed.
+    pub folded: BTreeSet<&'static str>,
     /// What is wrong with a value that was refused, and the index of its parameter.
     pub refused: Option<(usize, String)>,
     /// What the keys mean.
@@ -265,6 +259,7 @@ impl Model {
             redo: Vec::new(),
             generation: 1,
             selected: 0,
+            folded: BTreeSet::new(),
             refused: None,
             mode: Mode::Explore,
             computed: None,
@@ -319,8 +314,9 @@ impl Model {
             && before.length == now.length
             && before.form == now.form
             && before.material == now.material;
-        // An rms height that follows from κ and γ changes with them.
-        let both = |scene: &Scene| scene.adhesion.is_some_and(|a| a.work.is_some() && a.kappa.is_some());
+        // An rms height that follows from γ and κ or e_el/γ changes with them.
+        let both =
+            |scene: &Scene| scene.adhesion.is_some_and(|a| a.work.is_some() && a.parameter().is_some());
         if !same_line || ((both(before) || both(now)) && before.adhesion != now.adhesion) {
             return None;
         }
@@ -364,33 +360,47 @@ impl Model {
         }
     }
 
-    /// Which keys are valid: in the map the arrows move its mark, in panes with a crosshair the crosshair.
+    /// Which keys are valid: in the map the arrows move its mark, in panes with a crosshair the crosshair; in the list of
+    /// parameters digits begin a value.
     #[must_use]
     pub fn keys(&self) -> ModeKind {
         match self.mode.kind() {
             ModeKind::Explore if self.chart.shown && self.pane == Pane::Chart => ModeKind::Chart,
             ModeKind::Explore if self.crosshair.is_some() && self.pane.has_crosshair() => ModeKind::Crosshair,
+            ModeKind::Explore if self.pane == Pane::Parameters => ModeKind::Parameters,
             kind => kind,
         }
     }
 
+    /// What can be exported, by the extension of the file: of the map while its pane is selected.
+    #[must_use]
+    pub fn exports(&self) -> &'static [(&'static str, Content)] {
+        let is_map = self.chart.shown && self.pane == Pane::Chart;
+        if is_map { &Content::MAP_EXPORTS } else { &Content::EXPORTS }
+    }
+
     /// Shows the map of a study, the first of them.
     pub fn show_study(&mut self, study_map: Arc<StudyMap>) {
-        self.chart.study = Some(OpenStudy::at(study_map, 0));
+        self.chart.open_study(study_map, 0);
         (self.chart.of_study, self.chart.shown) = (true, true);
         self.appraisal.hide();
         self.pane = Pane::Chart;
     }
 
-    /// κ and, where it has one, H of the scene as it stands: the mark on the map. `None` where it has no κ, or
-    /// none that is known yet.
+    /// Values of the scene on the axes of the map: its mark. `None` where the scene has no such quantity, or none that is
+    /// known yet.
     #[must_use]
-    pub fn place(&self) -> Option<(f64, Option<f64>)> {
+    pub fn place(&self) -> Option<Place> {
         let scene = self.document.scene();
-        if !Template::of(scene).ok()?.has_hurst() {
-            return Some((self.governing()?.kappa?, None));
+        let template = Template::of(scene);
+        if template.is_err() && self.chart.shown_study().is_none() {
+            return None;
         }
-        Template::place(scene).map(|(kappa, hurst)| (kappa, Some(hurst)))
+        let (across, up) = self.chart.axes(template.is_ok_and(|template| template.has_hurst()));
+        let governing = self.governing();
+        let value = |axis: &MapAxis| axis.value(scene, governing.as_ref());
+        let place = value(&across)?;
+        up.map_or(Some((place, None)), |up| Some((place, Some(value(&up)?))))
     }
 
     /// The ghost that is shown beside the scene.
@@ -427,10 +437,17 @@ impl Model {
         }
         let governing = self.governing()?;
         match parameter.setting {
-            Setting::Kappa => governing.kappa.map(ron_float),
+            Setting::RoughnessParameter(parameter) => governing.parameter(parameter).map(ron_float),
             Setting::WorkOfAdhesion => governing.work_of_adhesion.map(ron_float),
-            Setting::Field | Setting::Switch(_) => None,
+            Setting::Field | Setting::Switch(_) | Setting::Heading => None,
         }
+    }
+
+    /// Indices of the parameters that are listed: those of a folded group are not, its first row apart.
+    #[must_use]
+    pub fn listed(&self) -> Vec<usize> {
+        let is_listed = |parameter: &Parameter| parameter.is_head() || !self.folded.contains(parameter.group);
+        (0..self.parameters.len()).filter(|index| is_listed(&self.parameters[*index])).collect()
     }
 
     /// The selected parameter.

@@ -1,6 +1,18 @@
-//! The list of parameters: the fields of the scene that can be changed as it stands.
+//! The list of parameters: the fields of the scene that can be changed as it stands, in groups, by use.
 
-use crate::scene::{Document, Effect, Field, Leg, Range, field, format_quantity, ron_float};
+use super::fuzzy::Candidate;
+use crate::scene::{
+    Document, Effect, Field, Leg, Range, RoughnessParameter, field, format_quantity, ron_float,
+};
+
+/// Groups in the order of the list. First the parameters of the adhesion of one rough contact, which are changed from
+/// one look at the curve to the next: adhesion, load, roughness, and the number of springs that resolves them. Form and
+/// material are chosen once for a scene.
+const GROUPS: [&str; 7] = ["adhesion", "loading", "roughness", "numerics", "form", "material", "observe"];
+
+/// Fields that come first in their group; the others follow in the order of the scene file.
+const FIRST: [&str; 4] =
+    ["roughness.rms_height", "roughness.rms_gradient", "roughness.hurst", "roughness.seed"];
 
 /// A parameter as the list shows it.
 #[derive(Clone, Debug, PartialEq)]
@@ -9,6 +21,8 @@ pub struct Parameter {
     pub field: &'static Field,
     /// Where it stands in the scene.
     pub path: String,
+    /// Name of its group, which is the path of the group's first row.
+    pub group: &'static str,
     /// The leg it belongs to, where it is the target of a leg.
     pub leg: Option<usize>,
     /// Its value as written in the scene file.
@@ -28,9 +42,11 @@ pub enum Setting {
     Field,
     /// It is the switch of an effect.
     Switch(Effect),
-    /// κ, whichever of γ and κ the scene gives.
-    Kappa,
-    /// γ, whichever of γ and κ the scene gives.
+    /// Not at all: it names a group without a value of its own.
+    Heading,
+    /// κ or e_el/γ, whichever of γ, κ and e_el/γ the scene gives.
+    RoughnessParameter(RoughnessParameter),
+    /// γ, whichever of γ, κ and e_el/γ the scene gives.
     WorkOfAdhesion,
 }
 
@@ -47,18 +63,50 @@ impl Parameter {
             (None, _) => self.field.name.to_owned(),
         }
     }
+
+    /// The first row of its group.
+    #[must_use]
+    pub fn is_head(&self) -> bool {
+        self.path == self.group
+    }
+
+    /// The words by which it is found: symbol, in Greek and spelled, name and path; its meaning as prose.
+    #[must_use]
+    pub fn candidate(&self) -> Candidate {
+        let symbol = self.field.symbol;
+        let words = self.path.replace(['.', '_'], " ");
+        let names = vec![symbol.to_owned(), spelled(symbol), self.name(), words];
+        Candidate { names, prose: vec![self.field.meaning.to_owned()] }
+    }
 }
 
-/// The parameters of a scene, in the order of the scene file.
+/// Greek letters of the symbols, and their names: few keyboards have them.
+const GREEK: [(char, &str); 6] =
+    [('γ', "gamma"), ('κ', "kappa"), ('λ', "lambda"), ('θ', "theta"), ('ν', "nu"), ('Δ', "delta ")];
+
+fn spelled(symbol: &str) -> String {
+    GREEK.iter().fold(symbol.to_owned(), |text, (letter, name)| text.replace(*letter, name))
+}
+
+/// The group of a field: that of its path, and the form for the diameter of the body.
+fn group_of(path: &str) -> &'static str {
+    let first = path.split('.').next().unwrap_or(path);
+    GROUPS.into_iter().find(|group| *group == first).unwrap_or("form")
+}
+
+/// The parameters of a scene, by use.
 #[must_use]
 pub fn parameters(document: &Document) -> Vec<Parameter> {
     let mut parameters = Vec::new();
     for field in document.fields() {
-        if NOT_LISTED.contains(&field.path) || field.range == Range::Group {
+        if NOT_LISTED.contains(&field.path) {
             continue;
         }
-        if field.path == "observe" {
-            parameters.extend(observers(document, field));
+        if field.range == Range::Group || field.path == "observe" {
+            parameters.push(heading(field));
+            if field.path == "observe" {
+                parameters.extend(observers(document, field));
+            }
             continue;
         }
         let Some(written) = document.value(field.path) else { continue };
@@ -66,17 +114,51 @@ pub fn parameters(document: &Document) -> Vec<Parameter> {
         if written == "None" && !field.parent().is_empty() {
             continue;
         }
-        let shown = shown(field, written);
+        let shown = match field.path {
+            "loading" => stages(&document.scene().loading),
+            _ => shown(field, written),
+        };
         let path = field.path.to_owned();
         let (effect, setting) = (effect_of(&path), setting_of(&path));
-        let written = written.to_owned();
-        parameters.push(Parameter { field, path, leg: None, written, shown, effect, setting });
+        let (group, written) = (group_of(&path), written.to_owned());
+        parameters.push(Parameter { field, path, group, leg: None, written, shown, effect, setting });
         if field.path == "loading" {
             parameters.extend(leg_targets(&document.scene().loading));
         }
     }
     insert_other_adhesion(&mut parameters);
+    parameters.sort_by_key(|parameter| {
+        let group = GROUPS.iter().position(|group| *group == parameter.group);
+        let first = FIRST.iter().position(|path| *path == parameter.path);
+        (group, !parameter.is_head(), first.unwrap_or(FIRST.len()))
+    });
     parameters
+}
+
+/// The first row of a group without a value of its own.
+fn heading(field: &'static Field) -> Parameter {
+    Parameter {
+        field,
+        path: field.path.to_owned(),
+        group: group_of(field.path),
+        leg: None,
+        written: String::new(),
+        shown: String::new(),
+        effect: None,
+        setting: Setting::Heading,
+    }
+}
+
+/// The loading history in short: `10 µN, separation`.
+fn stages(loading: &[Leg]) -> String {
+    let stage = |leg: &Leg| match leg {
+        Leg::ToForce(force) => format_quantity(*force, "N"),
+        Leg::ToIndentation(indentation) => format_quantity(*indentation, "m"),
+        Leg::ToTouch => "touch".to_owned(),
+        Leg::ToZeroForce => "0 N".to_owned(),
+        Leg::ToSeparation => "separation".to_owned(),
+    };
+    loading.iter().map(stage).collect::<Vec<_>>().join(", ")
 }
 
 /// The effect that a field belongs to.
@@ -88,34 +170,44 @@ fn effect_of(path: &str) -> Option<Effect> {
 }
 
 fn setting_of(path: &str) -> Setting {
-    match path {
-        "adhesion.kappa" => Setting::Kappa,
-        "adhesion.work" => Setting::WorkOfAdhesion,
-        _ => Setting::Field,
+    match RoughnessParameter::named(path) {
+        Some(parameter) => Setting::RoughnessParameter(parameter),
+        None if path == "adhesion.work" => Setting::WorkOfAdhesion,
+        None => Setting::Field,
     }
 }
 
-/// A scene gives γ or κ; the other one follows, and can be set as well.
+/// A scene gives γ, κ or e_el/γ; the others follow, and can be set as well.
 fn insert_other_adhesion(parameters: &mut Vec<Parameter>) {
-    let place = |path| parameters.iter().position(|parameter| parameter.path == path);
-    let (at, path) = match (place("adhesion.work"), place("adhesion.kappa")) {
-        (Some(work), None) => (work + 1, "adhesion.kappa"),
-        (None, Some(kappa)) => (kappa, "adhesion.work"),
-        _ => return,
-    };
-    let Some(field) = field(path, None) else { return };
-    parameters.insert(
-        at,
-        Parameter {
-            field,
-            path: path.to_owned(),
-            leg: None,
-            written: String::new(),
-            shown: String::new(),
-            effect: Some(Effect::Adhesion),
-            setting: setting_of(path),
-        },
-    );
+    let place = |parameters: &[Parameter], path| parameters.iter().position(|one| one.path == path);
+    let Some(head) = place(parameters, Effect::Adhesion.path()) else { return };
+    let is_given = |path| place(parameters, path).is_some();
+    let [work, kappa, ratio] = ["adhesion.work", "adhesion.kappa", "adhesion.elastic_energy_ratio"];
+    if ![work, kappa, ratio].into_iter().any(is_given) {
+        return;
+    }
+    // Each follows the one before it.
+    let mut at = head;
+    for path in [work, kappa, ratio] {
+        at = match place(parameters, path) {
+            Some(place) => place,
+            None => {
+                let Some(field) = field(path, None) else { return };
+                let follows = Parameter {
+                    field,
+                    path: path.to_owned(),
+                    group: group_of(path),
+                    leg: None,
+                    written: String::new(),
+                    shown: String::new(),
+                    effect: Some(Effect::Adhesion),
+                    setting: setting_of(path),
+                };
+                parameters.insert(at + 1, follows);
+                at + 1
+            }
+        };
+    }
 }
 
 /// A switch for each observer.
@@ -126,6 +218,7 @@ fn observers(document: &Document, field: &'static Field) -> impl Iterator<Item =
         Parameter {
             field,
             path: format!("observe.{}", effect.name()),
+            group: group_of("observe"),
             leg: None,
             written: is_on.to_string(),
             shown: if is_on { "on" } else { "off" }.to_owned(),
@@ -141,6 +234,7 @@ fn leg_targets(loading: &[Leg]) -> impl Iterator<Item = Parameter> {
         Some(Parameter {
             field,
             path: format!("loading.{index}.0"),
+            group: group_of("loading"),
             leg: Some(index),
             written: ron_float(value),
             shown: format_quantity(value, field.unit),
@@ -173,6 +267,7 @@ fn first_name(written: &str) -> &str {
     match name {
         "work" => "by work of adhesion",
         "kappa" => "by κ",
+        "elastic_energy_ratio" => "by e_el/γ",
         "effective_modulus" => "by E*",
         "youngs_modulus" | "poisson_ratio" => "by E and ν",
         other => other,

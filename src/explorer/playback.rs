@@ -1,9 +1,10 @@
 //! The scene that was computed last, ready to be played leg by leg or moved by hand.
 
 use super::close_up::close_up;
+use super::engine::Engine;
 use super::held::Held;
-use super::snapshot::{Drive, Loop, Moment, Probe};
-use super::worker::{Engine, HandOrder, LineView, MomentRequest, Newest, Report};
+use super::request::{Drive, HandOrder, LineView, MomentRequest, Newest};
+use super::snapshot::{Loop, Moment, Probe, Report};
 use crate::analysis::section::{self, Contact, LineColumns, Part};
 use crate::contact::{ContactError, LegContact, LegRecord, Snapshot, Solver};
 use crate::scene::{Observer, Scene};

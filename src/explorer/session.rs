@@ -1,9 +1,9 @@
 //! A session: input, worker and terminal around one model.
 
-use super::action::Action;
+use super::action::{Action, Traffic};
 use super::file_job::FileJob;
 use super::input;
-use super::model::{Model, Notice, Traffic};
+use super::model::{Model, Notice};
 use super::opening::Opening;
 use super::signals::{Told, watch_for_signals};
 use super::snapshot::Loop;

@@ -1,7 +1,8 @@
 //! What the worker publishes: immutable, stamped with the generation of the scene it belongs to, and
 //! already reduced to what a pane can show.
 
-use super::worker::Focus;
+pub use super::request::Drive;
+use super::request::Focus;
 pub use crate::analysis::{Column, LengthBin, Section, Share};
 use crate::contact::CurvePoint;
 use crate::scene::Scene;
@@ -17,15 +18,6 @@ pub struct Loop {
     pub scene: Arc<Scene>,
     /// What was computed.
     pub outcome: Outcome,
-}
-
-/// What moves the body.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Drive {
-    /// A leg of the scene's loading, by its index.
-    Leg(usize),
-    /// The user's hand.
-    Hand,
 }
 
 /// The contact at one moment.
@@ -131,4 +123,29 @@ pub struct Preview {
     pub text: String,
     /// What was computed, or why nothing was.
     pub outcome: Result<Outcome, String>,
+}
+
+/// What the worker reports.
+#[derive(Clone, Debug)]
+pub enum Report {
+    /// A scene has been computed.
+    Computed(Arc<Loop>),
+    /// A moment is ready.
+    Shown(Arc<Moment>),
+    /// Part of a scene is done.
+    Progress {
+        /// Its generation.
+        generation: u64,
+        /// Legs done.
+        legs: usize,
+    },
+    /// A scene could not be computed.
+    Failed {
+        /// Its generation.
+        generation: u64,
+        /// Why, in one line.
+        error: String,
+    },
+    /// A scene of the library has been computed, or could not be.
+    Previewed(Arc<Preview>),
 }

@@ -5,8 +5,8 @@ use super::model::{Mode, Model, Notice};
 use super::picture::{svg, text};
 use super::theme::Theme;
 use super::view;
-use crate::draw::Palette;
-use crate::export::{write_curve, write_json};
+use crate::draw::{Palette, figure_svg};
+use crate::export::{write_curve, write_json, write_map};
 use crate::io::{WriteError, write_new_file};
 use ratatui::Terminal;
 use ratatui::backend::TestBackend;
@@ -33,6 +33,7 @@ pub fn write(
 }
 
 fn write_content(file: &mut dyn Write, model: &Model, content: Content) -> io::Result<()> {
+    let no_map = || io::Error::other("there is no map yet");
     let no_curve = || io::Error::other("the scene has no curve yet");
     let computed = || model.computed.as_ref().filter(|_| model.is_current()).ok_or_else(no_curve);
     match content {
@@ -43,6 +44,14 @@ fn write_content(file: &mut dyn Write, model: &Model, content: Content) -> io::R
             write_json(file, model.document.scene(), &computed()?.outcome, None, estimate)
         }
         Content::Picture => file.write_all(svg_of(model).as_bytes()),
+        Content::MapCells => {
+            let map_model = model.chart.map_model().ok_or_else(no_map)?;
+            write_map(file, map_model, model.chart.sections.then(|| view::section_cell(model, map_model)))
+        }
+        Content::MapFigure => {
+            let map_model = model.chart.map_model().ok_or_else(no_map)?;
+            file.write_all(figure_svg(&view::map_figure(model, map_model)).as_bytes())
+        }
         Content::Text => file.write_all(text(&picture_of(model)).as_bytes()),
     }
 }

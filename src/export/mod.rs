@@ -8,6 +8,7 @@ mod cost;
 mod csv;
 mod ensemble;
 mod json;
+mod map;
 mod scene_figure;
 pub(crate) mod sheet;
 #[cfg(test)]
@@ -24,6 +25,7 @@ pub use cost::{cost_text, write_cost_csv, write_cost_json};
 pub use csv::{write_curve, write_line};
 pub use ensemble::{ensemble_text, write_ensemble_csv, write_ensemble_json};
 pub use json::write_json;
+pub use map::write_map;
 pub use scene_figure::{ContactSets, force_figure, sign};
 pub use study_figure::study_figure;
 pub use summary::{brief_summary, summary};

@@ -47,6 +47,7 @@ pub(super) fn phase_map() -> Figure {
             })
             .collect(),
         scale: AxisScale::Linear,
+        range: None,
         vanishes: name == "zero load adhesion share",
     };
     let regime = |(kappa, hurst): (f64, f64)| {
@@ -85,6 +86,7 @@ pub(super) fn sections() -> Figure {
             .map(|(index, kappa)| estimate(value(kappa, 0.3)).filter(|_| index != 4))
             .collect(),
         scale: AxisScale::Linear,
+        range: None,
         vanishes: name == "zero load adhesion share",
     };
     Figure {

@@ -2,7 +2,7 @@
 
 use crate::analysis::Regime;
 use crate::draw::{
-    Axis, AxisScale, Chart, Contour, Figure, HeatMap, Ink, Label, Layer, Shape, Sign, Span, Stroke,
+    Axis, AxisScale, Chart, Class, Contour, Figure, HeatMap, Ink, Label, Layer, Shape, Sign, Span, Stroke,
     value_label,
 };
 use crate::study::figure::{Estimate, Figure as Study, FigureAxis, Panel};
@@ -13,11 +13,11 @@ const DECADES_FOR_INSET: f64 = 1.5;
 const MOST_DECADES: f64 = 12.0;
 const MOST_DECADES_OF_MAP: f64 = 6.0;
 
-/// Regimes of a map: sign, letter, name.
-const REGIMES: [(Regime, Sign, char); 3] = [
-    (Regime::PressureInsensitive, Sign::Dot, 'i'),
-    (Regime::PressureSensitive, Sign::Up, 's'),
-    (Regime::NonAdhesive, Sign::Cross, 'n'),
+/// Regimes of a map: sign, letter, ink.
+const REGIMES: [(Regime, Sign, char, Ink); 3] = [
+    (Regime::PressureInsensitive, Sign::Dot, 'i', Ink::Surface),
+    (Regime::PressureSensitive, Sign::Up, 's', Ink::Manual),
+    (Regime::NonAdhesive, Sign::Cross, 'n', Ink::Quiet),
 ];
 
 /// A figure of a study.
@@ -52,7 +52,9 @@ fn map(study: &Study, up: &FigureAxis, panel: &Panel) -> Chart {
     let across = &study.across;
     let means = panel.estimates.iter().map(|estimate| estimate.map(|estimate| estimate.mean));
     let values: Vec<Option<f64>> = means.collect();
-    let range = Span::of_values(panel.scale, values.iter().flatten().copied(), MOST_DECADES_OF_MAP);
+    let ends = panel.range.map(|(low, high)| vec![low, high]);
+    let ends = ends.unwrap_or_else(|| values.iter().flatten().copied().collect());
+    let range = Span::of_values(panel.scale, ends.into_iter(), MOST_DECADES_OF_MAP);
     let class = |regime: &Option<Regime>| REGIMES.iter().position(|(one, ..)| Some(*one) == *regime);
     let map = HeatMap {
         columns: across.values.clone(),
@@ -60,7 +62,14 @@ fn map(study: &Study, up: &FigureAxis, panel: &Panel) -> Chart {
         values,
         key: axis_of(panel, panel.scale, range),
         classes: study.regimes.iter().map(class).collect(),
-        class_names: REGIMES.map(|(regime, sign, letter)| (sign, letter, regime.name().to_owned())).to_vec(),
+        class_names: REGIMES
+            .map(|(regime, sign, letter, ink)| Class {
+                sign,
+                letter: Some(letter),
+                name: regime.name().to_owned(),
+                ink,
+            })
+            .to_vec(),
         contour: study.boundary_of(panel).map(|boundary| Contour {
             name: Label::symbol(&boundary.label),
             field: boundary.values,

@@ -37,6 +37,7 @@ pub fn brief_summary(scene: &Scene, outcome: &Outcome) -> String {
     let mut sheet = Sheet::default();
     sheet.paragraph(&scene.title);
     sheet.row_of("κ = √(h⟨∇z⟩E*/γ)", quantity(outcome.governing.kappa, "1"));
+    sheet.row_of("e_el/γ", quantity(outcome.governing.elastic_energy_ratio, "1"));
     sheet.row("regime", verdict::sentence(outcome));
     sheet.row_of("preload F_n", quantity(figures.preload, "N"));
     sheet.row("adhesion force F_a", adhesion_force(outcome, None));
@@ -82,8 +83,9 @@ fn bodies(sheet: &mut Sheet, outcome: &Outcome) {
     if let Some(closing) = quantity(governing.closing_work, "J/m²") {
         sheet.row("on closing γ₁", closing);
     }
-    let kappa = quantity(governing.kappa, "1");
-    sheet.row_of("κ = √(h⟨∇z⟩E*/γ)", kappa);
+    sheet.row_of("elastic energy e_el", quantity(governing.elastic_energy(), "J/m²"));
+    sheet.row_of("κ = √(h⟨∇z⟩E*/γ)", quantity(governing.kappa, "1"));
+    sheet.row_of("e_el/γ", quantity(governing.elastic_energy_ratio, "1"));
 }
 
 fn adhesion(sheet: &mut Sheet, scene: &Scene, outcome: &Outcome, estimate: Option<&Estimate>) {

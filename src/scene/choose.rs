@@ -5,9 +5,10 @@ use super::effects::Effect;
 use super::errors::SceneErrors;
 use super::field::Field;
 use super::range::choice_key;
-use super::switch::{Computed, by_kappa, by_work, pair};
+use super::roughness_parameter::RoughnessParameter;
+use super::switch::{Computed, by_parameter, by_work, pair};
 
-/// Significant digits of a converted κ: those that survive the conversion to a work of adhesion and back.
+/// Significant digits of a converted κ or e_el/γ: those that survive the conversion to a work of adhesion and back.
 const DIGITS: usize = 14;
 
 impl Document {
@@ -15,7 +16,7 @@ impl Document {
     /// other.
     ///
     /// Leaving an effect out switches the effect off, and the next choice switches it on as it was or as it suits the
-    /// scene. Adhesion by κ and adhesion by work are the same adhesion: `computed` has the values for this scene.
+    /// scene. Adhesion by work, by κ and by e_el/γ are the same adhesion: `computed` has the values for this scene.
     ///
     /// # Errors
     ///
@@ -52,7 +53,7 @@ impl Document {
         if effect.is_on(self.scene()) {
             return self.set(field.path, next);
         }
-        // Both ways to give adhesion are the next choice: the one follows from the other.
+        // All ways to give adhesion are the next choice: the one follows from the other.
         let is_next = |document: &Document| {
             let written = field.written(document.scene()).unwrap_or_default();
             effect == Effect::Adhesion || choice_key(&written) == choice_key(next)
@@ -65,7 +66,7 @@ impl Document {
         if is_next(&suited) { Ok(suited) } else { self.set(field.path, next) }
     }
 
-    /// The same adhesion given the other way; `None` where adhesion is not switched between its two ways.
+    /// The same adhesion given another way; `None` where adhesion is not switched between its ways.
     fn converted(
         &self,
         field: &Field,
@@ -75,15 +76,20 @@ impl Document {
         if field.path != Effect::Adhesion.path() || next == "None" || !Effect::Adhesion.is_on(self.scene()) {
             return None;
         }
-        let by_kappa_next = choice_key(next) == choice_key("(kappa: 1.0)");
-        if by_kappa_next && self.scene().roughness.is_none() {
+        let is_next = |parameter: &RoughnessParameter| {
+            choice_key(next) == choice_key(&format!("({}: 1.0)", parameter.name()))
+        };
+        let parameter = RoughnessParameter::ALL.into_iter().find(is_next);
+        if parameter.is_some() && self.scene().roughness.is_none() {
             return None;
         }
-        let adhesion = if by_kappa_next {
-            let rounded = |kappa: f64| format!("{kappa:.*e}", DIGITS - 1).parse().unwrap_or(kappa);
-            computed.kappa.map(|kappa| by_kappa(self.scene(), rounded(kappa)))
-        } else {
-            computed.work_of_adhesion.map(|work| by_work(self.scene(), work))
+        let adhesion = match parameter {
+            Some(parameter) => {
+                let rounded = |value: f64| format!("{value:.*e}", DIGITS - 1).parse().unwrap_or(value);
+                let value = computed.parameter(parameter);
+                value.map(|value| by_parameter(self.scene(), parameter, rounded(value)))
+            }
+            None => computed.work_of_adhesion.map(|work| by_work(self.scene(), work)),
         };
         let unknown = || self.unknown("adhesion", "the same adhesion given the other way is not known yet");
         Some(adhesion.ok_or_else(unknown).and_then(|adhesion| {
@@ -112,6 +118,7 @@ mod tests {
     const COMPUTED: Computed = Computed {
         work_of_adhesion: Some(0.0123),
         kappa: Some(6.000_000_000_000_001),
+        elastic_energy_ratio: Some(0.9),
         rms_height: Some(1.5e-7),
     };
 
@@ -132,7 +139,13 @@ mod tests {
         let none = next(&work, "adhesion", false);
         assert_eq!(none.scene().adhesion, None);
         assert_eq!(next(&none, "adhesion", true).text(), work.text());
-        assert_eq!(next(&document(), "adhesion", true).scene().adhesion, None);
+        let ratio = next(&document(), "adhesion", true);
+        assert_eq!(
+            ratio.scene().adhesion,
+            Some(Adhesion::default().with_parameter(RoughnessParameter::ElasticEnergyRatio, 0.9))
+        );
+        assert_eq!(next(&ratio, "adhesion", false).text(), SCENE);
+        assert_eq!(next(&ratio, "adhesion", true).scene().adhesion, None);
         // Not before the value is known.
         let field = field("adhesion", None).unwrap();
         let unknown = document().with_next_choice(field, false, &Computed::default()).unwrap_err();

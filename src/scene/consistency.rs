@@ -1,10 +1,10 @@
 //! Fields against each other: what over- or under-determines a scene, and what one field makes
 //! impossible in another.
 
-use super::check::{Found, Violation};
 use super::fields::{FIELDS, LEG_INDENTATION, field};
 use super::model::{Adhesion, Edges, Form, Leg, Material, Roughness, Scene, Solver};
 use super::text::{ron_float, ron_string};
+use super::violation::{Found, Violation};
 use crate::topography::{Unit, UnitError};
 
 /// Most samples of all legs together; a curve of this size still fits the memory of a small machine.
@@ -191,35 +191,38 @@ fn check_closing_work(scene: &Scene, found: &mut Found) {
         }),
         Some(_) => {}
         None => {
-            let reason =
-                "closing_work goes with adhesion.work, which is missing: κ stands for one work of adhesion";
+            let reason = "closing_work goes with adhesion.work, which is missing: κ and e_el/γ refer to one work of adhesion";
             found.add(inconsistency("adhesion.closing_work", ron_float(closing), reason, &["adhesion.work"]));
         }
     }
 }
 
-/// Amplitude of the roughness, work of adhesion and κ: any two determine the third.
+/// Amplitude of the roughness, work of adhesion and κ or e_el/γ: any two determine the third.
 fn check_amplitude(scene: &Scene, found: &mut Found) {
-    let (work, kappa) = match scene.adhesion {
-        Some(Adhesion { work: None, kappa: None, .. }) => {
-            found.add(inconsistency(
-                "adhesion",
-                "",
-                "give work or kappa",
-                &["adhesion.work", "adhesion.kappa"],
-            ));
-            return;
-        }
-        Some(Adhesion { work, kappa, .. }) => (work, kappa.is_some()),
-        None => (None, false),
+    let adhesion = scene.adhesion.unwrap_or_default();
+    let Adhesion { work, kappa, elastic_energy_ratio, .. } = adhesion;
+    let given = [work, kappa, elastic_energy_ratio].map(|value| value.is_some());
+    let refused = match given {
+        [false, false, false] if scene.adhesion.is_some() => "give work, kappa or elastic_energy_ratio",
+        [_, true, true] => "kappa and elastic_energy_ratio determine each other: give one of them",
+        _ => "",
     };
+    if !refused.is_empty() {
+        found.add(inconsistency("adhesion", "", refused, &GIVEN_BY));
+        return;
+    }
+    let parameter = adhesion.parameter().map(|(parameter, _)| parameter);
     let amplitude = match scene.roughness {
-        None if kappa => {
-            let reason = "κ measures adhesion against roughness, and there is none: give roughness, or adhesion by work";
-            found.add(inconsistency("adhesion.kappa", "", reason, &["roughness", "adhesion"]));
+        None => {
+            if let Some(parameter) = parameter {
+                let reason = format!(
+                    "{} measures adhesion against roughness, and there is none: give roughness, or adhesion by work",
+                    parameter.symbol()
+                );
+                found.add(inconsistency(parameter.path(), "", reason, &["roughness", "adhesion"]));
+            }
             return;
         }
-        None => return,
         Some(Roughness::Measured { .. }) => true,
         Some(Roughness::SelfAffine { rms_height: Some(_), rms_gradient: Some(_), .. }) => {
             let reason = "rms_height and rms_gradient determine each other: give one of them";
@@ -235,26 +238,42 @@ fn check_amplitude(scene: &Scene, found: &mut Found) {
             rms_height.is_some() || rms_gradient.is_some()
         }
     };
-    let involves: &[&str] =
-        &["roughness", "roughness.rms_height", "roughness.rms_gradient", "adhesion.work", "adhesion.kappa"];
-    match (amplitude, work, kappa) {
-        (true, Some(_), true) => {
-            let reason = "roughness amplitude, work and kappa: two determine the third, so leave one out or set it to None";
-            found.add(inconsistency("adhesion", "", reason, involves));
-        }
-        (false, Some(0.0), true) => {
-            let reason =
-                "without work of adhesion κ does not set an amplitude: give rms_height or rms_gradient";
-            found.add(inconsistency("roughness", "", reason, involves));
-        }
-        (false, Some(_), true) | (true, ..) => {}
-        (false, ..) => {
-            let reason =
-                "the amplitude is missing: give rms_height or rms_gradient, or adhesion by work and kappa";
-            found.add(inconsistency("roughness", "", reason, involves));
-        }
-    }
+    let (field, reason) = match (amplitude, work, parameter) {
+        (true, Some(_), Some(parameter)) => (
+            "adhesion",
+            format!(
+                "roughness amplitude, work and {}: two determine the third, so leave one out or set it to None",
+                parameter.name()
+            ),
+        ),
+        (false, Some(0.0), Some(parameter)) => (
+            "roughness",
+            format!(
+                "without work of adhesion {} does not set an amplitude: give rms_height or rms_gradient",
+                parameter.symbol()
+            ),
+        ),
+        (false, Some(_), Some(_)) | (true, ..) => return,
+        (false, ..) => (
+            "roughness",
+            "the amplitude is missing: give rms_height or rms_gradient, or adhesion by work and kappa".into(),
+        ),
+    };
+    found.add(inconsistency(field, "", reason, &AMPLITUDE));
 }
+
+/// Fields that may give adhesion.
+const GIVEN_BY: [&str; 3] = ["adhesion.work", "adhesion.kappa", "adhesion.elastic_energy_ratio"];
+
+/// Fields that determine the amplitude of the roughness.
+const AMPLITUDE: [&str; 6] = [
+    "roughness",
+    "roughness.rms_height",
+    "roughness.rms_gradient",
+    "adhesion.work",
+    "adhesion.kappa",
+    "adhesion.elastic_energy_ratio",
+];
 
 fn check_loading(scene: &Scene, found: &mut Found) {
     let mut separated = true;
@@ -285,6 +304,7 @@ fn check_loading(scene: &Scene, found: &mut Found) {
 
 #[cfg(test)]
 mod tests {
+    use super::super::RoughnessParameter;
     use super::super::check::check;
     use super::super::strategies::sound;
     use super::*;
@@ -360,7 +380,7 @@ mod tests {
             (set(false, false, Some((work, None))), "roughness", "the amplitude is missing"),
             (set(false, false, Some((None, kappa))), "roughness", "the amplitude is missing"),
             (set(false, false, Some((Some(0.0), kappa))), "roughness", "does not set an amplitude"),
-            (set(true, false, Some((None, None))), "adhesion", "give work or kappa"),
+            (set(true, false, Some((None, None))), "adhesion", "give work, kappa or elastic_energy_ratio"),
         ] {
             let (path, reason) = only(&scene);
             assert_eq!(path, field);
@@ -380,7 +400,8 @@ mod tests {
             (None, 0.0, Some("goes with adhesion.work")),
         ] {
             let kappa = work.is_none().then_some(2.0);
-            scene.adhesion = Some(Adhesion { work, closing_work: Some(closing), kappa });
+            scene.adhesion =
+                Some(Adhesion { work, closing_work: Some(closing), kappa, ..Adhesion::default() });
             match said {
                 None => assert_eq!(check(&scene), vec![]),
                 Some(said) => {
@@ -391,23 +412,35 @@ mod tests {
             }
         }
         for closing in [-1e-3, f64::NAN, 2e6] {
-            scene.adhesion = Some(Adhesion { work: Some(0.05), closing_work: Some(closing), kappa: None });
+            scene.adhesion =
+                Some(Adhesion { closing_work: Some(closing), ..Adhesion::default().with_work(0.05) });
             assert!(check(&scene).iter().all(|found| found.field == "adhesion.closing_work"));
             assert!(!check(&scene).is_empty());
         }
     }
 
     #[test]
-    fn kappa_needs_roughness() {
-        let mut scene = sound();
-        scene.roughness = None;
-        assert_eq!(check(&scene), vec![]);
-        scene.adhesion = Some(Adhesion::default().with_kappa(2.0));
-        assert_eq!(only(&scene).0, "adhesion.kappa");
-        scene.roughness = Some(Roughness::measured("line.csv"));
-        assert_eq!(check(&scene), vec![]);
-        scene.adhesion = Some(Adhesion { work: Some(0.05), ..Adhesion::default().with_kappa(2.0) });
-        assert_eq!(only(&scene).0, "adhesion");
+    fn parameters_of_roughness_need_roughness_and_exclude_each_other() {
+        let smooth = Scene { roughness: None, ..sound() };
+        assert_eq!(check(&smooth), vec![]);
+        let measured = Scene { roughness: Some(Roughness::measured("line.csv")), ..sound() };
+        for parameter in RoughnessParameter::ALL {
+            let given = Adhesion::default().with_parameter(parameter, 2.0);
+            let with = |scene: &Scene, adhesion| Scene { adhesion: Some(adhesion), ..scene.clone() };
+            let (field, reason) = only(&with(&smooth, given));
+            assert_eq!(field, parameter.path());
+            assert!(reason.starts_with(parameter.symbol()), "{reason}");
+            assert_eq!(check(&with(&measured, given)), vec![]);
+            let (field, reason) = only(&with(&measured, Adhesion { work: Some(0.05), ..given }));
+            assert_eq!(field, "adhesion");
+            assert!(reason.contains(parameter.name()), "{reason}");
+            let both = Adhesion { kappa: Some(2.0), elastic_energy_ratio: Some(1.0), ..given };
+            for scene in [&smooth, &measured] {
+                let (field, reason) = only(&with(scene, both));
+                assert_eq!(field, "adhesion");
+                assert!(reason.contains("give one of them"), "{reason}");
+            }
+        }
     }
 
     #[test]

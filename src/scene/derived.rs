@@ -33,17 +33,10 @@ impl Material {
 }
 
 impl Adhesion {
-    /// The same adhesion with this work of adhesion γ, J/m², in place of κ.
+    /// The same adhesion with this work of adhesion γ, J/m², in place of κ or e_el/γ.
     #[must_use]
     pub fn with_work(mut self, work: f64) -> Self {
-        (self.work, self.kappa) = (Some(work), None);
-        self
-    }
-
-    /// The same adhesion with this κ in place of the work of adhesion.
-    #[must_use]
-    pub fn with_kappa(mut self, kappa: f64) -> Self {
-        (self.work, self.kappa) = (None, Some(kappa));
+        (self.work, self.kappa, self.elastic_energy_ratio) = (Some(work), None, None);
         self
     }
 }

@@ -1,8 +1,8 @@
 //! Source of the errors of a scene: a place in its text, or overrides.
 
-use super::check::Violation;
 use super::errors::{Origin, SceneError, SceneErrors};
 use super::text::{Text, is_within, line_column};
+use super::violation::Violation;
 
 /// Most errors that are listed; further ones are only counted.
 const MOST_LISTED: usize = 100;

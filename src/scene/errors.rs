@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use super::check::Violation;
+use super::violation::Violation;
 use crate::text::is_control;
 
 /// Values and names longer than this are shortened in messages.

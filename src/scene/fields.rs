@@ -361,10 +361,10 @@ pub const FIELDS: &[Field] = &[
     Field {
         path: "adhesion",
         name: "adhesion",
-        range: Range::Choice(&["(work: 0.05)", "(kappa: 2.0)"]),
+        range: Range::Choice(&["(work: 0.05)", "(kappa: 2.0)", "(elastic_energy_ratio: 0.5)"]),
         step: Step::Choice,
         default: "None",
-        meaning: "adhesion of the surfaces, by work of adhesion or by κ; default: none",
+        meaning: "adhesion of the surfaces, by work of adhesion, κ or e_el/γ; default: none",
         access: at!(adhesion),
         ..TEXT
     },
@@ -401,6 +401,17 @@ pub const FIELDS: &[Field] = &[
         default: "None",
         meaning: "roughness-adhesion parameter sqrt(h⟨∇z⟩E*/γ): adhesion is strong for small κ",
         access: at!(adhesion?.kappa),
+        ..NUMBER
+    },
+    Field {
+        path: "adhesion.elastic_energy_ratio",
+        name: "elastic energy ratio",
+        symbol: "e_el/γ",
+        range: Range::closed(1e-12, 1e12),
+        step: Step::Logarithmic,
+        default: "None",
+        meaning: "elastic energy that pressing the bodies flat takes, over the work of adhesion: adhesion is strong for small e_el/γ",
+        access: at!(adhesion?.elastic_energy_ratio),
         ..NUMBER
     },
     Field {

@@ -185,7 +185,7 @@ impl Scene {
     }
 }
 
-/// Adhesion by the work of adhesion γ, or by the governing parameter κ of eq. (11).
+/// Adhesion by the work of adhesion γ, by the governing parameter κ of eq. (11), or by e_el/γ.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Adhesion {
@@ -198,6 +198,9 @@ pub struct Adhesion {
     /// κ = sqrt(h⟨∇z⟩E*/γ).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub kappa: Option<f64>,
+    /// Elastic energy of conformity over the work of adhesion, e_el/γ.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub elastic_energy_ratio: Option<f64>,
 }
 
 /// One leg of the loading history.

@@ -228,7 +228,13 @@ mod tests {
             (scene("    numerics: (points: -5),"), (5, 24), "numerics.points", "-5", "from 1 to 268435456"),
             (scene("    numerics: (points: 1e3),"), (5, 24), "numerics.points", "1e3", "from 1 to 268435456"),
             (scene("    title: Hello,"), (5, 12), "title", "Hello", "text in quotes"),
-            (scene("    adhesion: 0.5,"), (5, 15), "adhesion", "0.5", "(work: 0.05) or (kappa: 2.0)"),
+            (
+                scene("    adhesion: 0.5,"),
+                (5, 15),
+                "adhesion",
+                "0.5",
+                "(work: 0.05), (kappa: 2.0) or (elastic_energy_ratio: 0.5)",
+            ),
             (
                 rough("hurst: 0.7, modes: (1, 2)"),
                 (5, 52),

@@ -1,6 +1,6 @@
 //! Effects of a document switched off and on, and the two ways to give adhesion.
 //!
-//! Amplitude of the roughness, work of adhesion and κ determine each other, so that switching one of them off may need a
+//! Amplitude of the roughness, work of adhesion and κ or e_el/γ determine each other, so that switching one of them off may need a
 //! value in place of another. That value follows from the profile, which this room does not know: the caller has it from
 //! the computed scene. Switching on undoes the edits of switching off.
 
@@ -9,6 +9,7 @@ use super::effects::{Effect, pressing};
 use super::errors::{Origin, SceneError, SceneErrors};
 use super::fields::field;
 use super::model::{Adhesion, Leg, Observer, Roughness, Scene};
+use super::roughness_parameter::RoughnessParameter;
 use super::text::ron_float;
 use super::write::{legs, observers};
 
@@ -19,14 +20,26 @@ pub struct Computed {
     pub work_of_adhesion: Option<f64>,
     /// Roughness–adhesion parameter κ.
     pub kappa: Option<f64>,
+    /// Elastic energy of conformity over the work of adhesion, e_el/γ.
+    pub elastic_energy_ratio: Option<f64>,
     /// Root mean square height h of the roughness, m.
     pub rms_height: Option<f64>,
+}
+
+impl Computed {
+    /// Value of a parameter of roughness against adhesion.
+    pub(super) fn parameter(&self, parameter: RoughnessParameter) -> Option<f64> {
+        match parameter {
+            RoughnessParameter::Kappa => self.kappa,
+            RoughnessParameter::ElasticEnergyRatio => self.elastic_energy_ratio,
+        }
+    }
 }
 
 impl Document {
     /// This document without an effect; the same where the effect is off.
     ///
-    /// Without roughness, adhesion by κ becomes adhesion by work. Without adhesion, roughness whose amplitude adhesion
+    /// Without roughness, adhesion by κ or e_el/γ becomes adhesion by work. Without adhesion, roughness whose amplitude adhesion
     /// has set keeps the amplitude as an rms height. `computed` has these values for this scene. Without unloading,
     /// loading stages that may pull are left out, and those that are certain to be passed on the way to a larger force.
     ///
@@ -70,7 +83,7 @@ impl Document {
     }
 
     /// This document with adhesion of this work, J/m². The field is set where adhesion is given by
-    /// work; adhesion by κ, and none, become adhesion by work.
+    /// work; adhesion given otherwise, and none, become adhesion by work.
     ///
     /// # Errors
     ///
@@ -82,28 +95,37 @@ impl Document {
         }
     }
 
-    /// This document with adhesion of this κ. The field is set where adhesion is given by κ; adhesion
-    /// by work, and none, become adhesion by κ.
+    /// This document with adhesion of this κ or e_el/γ. The field is set where adhesion is given by the parameter;
+    /// adhesion given otherwise, and none, become adhesion by the parameter. A work of adhesion that sets the amplitude of
+    /// the roughness together with the other parameter stays.
     ///
     /// # Errors
     ///
-    /// The κ is not allowed, or there is no roughness.
-    pub fn with_kappa(&self, kappa: f64) -> Result<Document, SceneErrors> {
-        match self.scene().adhesion {
-            Some(Adhesion { kappa: Some(_), .. }) => self.set("adhesion.kappa", &ron_float(kappa)),
-            _ => self.set("adhesion", &by_kappa(self.scene(), kappa)),
+    /// The value is not allowed, or there is no roughness.
+    pub fn with_parameter(&self, parameter: RoughnessParameter, value: f64) -> Result<Document, SceneErrors> {
+        match self.scene().adhesion.and_then(|adhesion| adhesion.parameter()) {
+            Some((given, _)) if given == parameter => self.set(parameter.path(), &ron_float(value)),
+            _ => {
+                let changed = |adhesion: Adhesion| Adhesion {
+                    work: adhesion.work.filter(|_| adhesion.parameter().is_some()),
+                    ..adhesion.with_parameter(parameter, value)
+                };
+                self.set("adhesion", &adhesion_as(self.scene(), changed))
+            }
         }
     }
 
     fn without_roughness(&self, computed: &Computed) -> Result<Vec<(String, String)>, SceneErrors> {
-        let adhesion = match self.scene().adhesion {
-            Some(Adhesion { work: Some(_), kappa: Some(_), .. }) => vec![pair("adhesion.kappa", "None")],
-            Some(Adhesion { work: None, kappa: Some(_), .. }) => {
+        let adhesion = self.scene().adhesion;
+        let parameter = adhesion.and_then(|adhesion| adhesion.parameter()).map(|(parameter, _)| parameter);
+        let adhesion = match (adhesion.and_then(|adhesion| adhesion.work), parameter) {
+            (Some(_), Some(parameter)) => vec![pair(parameter.path(), "None")],
+            (None, Some(parameter)) => {
                 let work = computed.work_of_adhesion.ok_or_else(|| {
-                    self.unknown(
-                        "adhesion",
-                        "κ requires roughness, and the work of adhesion is not known yet",
-                    )
+                    let symbol = parameter.symbol();
+                    let reason =
+                        format!("{symbol} requires roughness, and the work of adhesion is not known yet");
+                    self.unknown("adhesion", &reason)
                 })?;
                 vec![pair("adhesion", by_work(self.scene(), work))]
             }
@@ -150,7 +172,9 @@ impl Document {
                 let height = ron_float(suited_height(scene));
                 format!("SelfAffine(hurst: 0.7, rms_height: {height}, modes: ({first}, {last}), seed: 1)")
             }
-            Effect::Adhesion if scene.roughness.is_some() => by_kappa(scene, 2.0),
+            Effect::Adhesion if scene.roughness.is_some() => {
+                by_parameter(scene, RoughnessParameter::Kappa, 2.0)
+            }
             Effect::Adhesion => by_work(scene, 0.05),
             Effect::Unloading => legs(&[&scene.loading[..], &[Leg::ToSeparation]].concat()),
             Effect::Fragments => observers(&observing(scene, Observer::Fragments)),
@@ -183,9 +207,9 @@ pub(super) fn by_work(scene: &Scene, work: f64) -> String {
     adhesion_as(scene, |adhesion| adhesion.with_work(work))
 }
 
-/// Adhesion of a scene by this κ, as RON.
-pub(super) fn by_kappa(scene: &Scene, kappa: f64) -> String {
-    adhesion_as(scene, |adhesion| adhesion.with_kappa(kappa))
+/// Adhesion of a scene by this value of a parameter, as RON.
+pub(super) fn by_parameter(scene: &Scene, parameter: RoughnessParameter, value: f64) -> String {
+    adhesion_as(scene, |adhesion| adhesion.with_parameter(parameter, value))
 }
 
 fn adhesion_as(scene: &Scene, change: impl Fn(Adhesion) -> Adhesion) -> String {
@@ -219,8 +243,12 @@ mod tests {
 )
 ";
 
-    const COMPUTED: Computed =
-        Computed { work_of_adhesion: Some(0.0123), kappa: Some(6.0), rms_height: Some(1.5e-7) };
+    const COMPUTED: Computed = Computed {
+        work_of_adhesion: Some(0.0123),
+        kappa: Some(6.0),
+        elastic_energy_ratio: Some(0.9),
+        rms_height: Some(1.5e-7),
+    };
 
     fn document() -> Document {
         Document::parse(SCENE, "scene").unwrap()
@@ -374,21 +402,43 @@ mod tests {
     #[test]
     fn adhesion_is_given_one_way_or_the_other() {
         let document = document();
-        assert_eq!(adhesion(&document.with_kappa(3.0).unwrap()), (None, Some(3.0)));
+        assert_eq!(
+            adhesion(&document.with_parameter(RoughnessParameter::Kappa, 3.0).unwrap()),
+            (None, Some(3.0))
+        );
         let work = document.with_work_of_adhesion(0.1).unwrap();
         assert_eq!(adhesion(&work), (Some(0.1), None));
         assert!(work.text().contains("adhesion: (work: 0.1), // sticky"));
-        assert_eq!(adhesion(&work.with_kappa(3.0).unwrap()), (None, Some(3.0)));
-        assert_eq!(adhesion(&off(&work, Effect::Adhesion).with_kappa(3.0).unwrap()), (None, Some(3.0)));
+        assert_eq!(
+            adhesion(&work.with_parameter(RoughnessParameter::Kappa, 3.0).unwrap()),
+            (None, Some(3.0))
+        );
+        assert_eq!(
+            adhesion(&off(&work, Effect::Adhesion).with_parameter(RoughnessParameter::Kappa, 3.0).unwrap()),
+            (None, Some(3.0))
+        );
         // Where both are given, because they set the amplitude, both stay.
         let set = [pair("roughness.rms_height", "None"), pair("adhesion.work", "0.1")];
         let both = document.set_all(&set).unwrap();
-        assert_eq!(adhesion(&both.with_kappa(3.0).unwrap()), (Some(0.1), Some(3.0)));
+        assert_eq!(
+            adhesion(&both.with_parameter(RoughnessParameter::Kappa, 3.0).unwrap()),
+            (Some(0.1), Some(3.0))
+        );
+        let ratio = both.with_parameter(RoughnessParameter::ElasticEnergyRatio, 0.7).unwrap();
+        assert_eq!(ratio.scene().adhesion.unwrap().work, Some(0.1));
+        assert_eq!(ratio.scene().adhesion.unwrap().elastic_energy_ratio, Some(0.7));
         assert_eq!(adhesion(&both.with_work_of_adhesion(0.2).unwrap()), (Some(0.2), Some(6.0)));
         assert!(
-            off(&work, Effect::Roughness).with_kappa(3.0).unwrap_err().to_string().contains("there is none")
+            off(&work, Effect::Roughness)
+                .with_parameter(RoughnessParameter::Kappa, 3.0)
+                .unwrap_err()
+                .to_string()
+                .contains("there is none")
         );
-        assert!(document.with_work_of_adhesion(-1.0).is_err() && document.with_kappa(f64::NAN).is_err());
+        assert!(
+            document.with_work_of_adhesion(-1.0).is_err()
+                && document.with_parameter(RoughnessParameter::Kappa, f64::NAN).is_err()
+        );
     }
 
     proptest! {
@@ -399,7 +449,7 @@ mod tests {
             rms_height in 1e-30..100.0,
         ) {
             let document = Document::from_scene(&scene, "scene").unwrap();
-            let computed = Computed { work_of_adhesion: Some(work), kappa: None, rms_height: Some(rms_height) };
+            let computed = Computed { work_of_adhesion: Some(work), rms_height: Some(rms_height), ..Computed::default() };
             for effect in Effect::ALL {
                 let without = document.without(effect, &computed).unwrap();
                 prop_assert!(!effect.is_on(without.scene()));

@@ -2,15 +2,15 @@
 
 use super::contact_stage::{ContactMemory, ContactStage};
 use super::{LineFacts, Outcome, Plan, RunError, Stage, Timings};
-use crate::analysis::{Amplitude, Figures, Governing, Regime, ideal_adhesion_force};
+use crate::analysis::{Figures, Governing, Regime, ideal_adhesion_force};
 use crate::contact::{ContactError, ContactTree, LegRecord, Solver};
 use crate::memory::check_room;
 use crate::parallel::in_parallel;
 use crate::reference::smooth_adhesion_force;
 use crate::scene::{Edges, Form, Roughness, Scene};
 use crate::surface::{
-    EquivalentLine, Histogram, Line, MeasuredOptions, MeasuredProfile, MeasuredRoughness, SelfAffine,
-    SurfaceError, Synthesizer,
+    Amplitude, EquivalentLine, Histogram, Line, MeasuredOptions, MeasuredProfile, MeasuredRoughness,
+    SelfAffine, SurfaceError, Synthesizer, WaveNumbers,
 };
 use std::mem::take;
 use std::path::{Path, PathBuf};
@@ -86,8 +86,8 @@ enum RoughnessKey {
 struct Rough {
     heights: Vec<f64>,
     random_phases: u64,
-    /// Rms gradient over rms height of the self-affine line on a length of 1 m.
-    gradient_per_height: Option<f64>,
+    /// Wave numbers of the self-affine line on a length of 1 m.
+    wave_numbers: Option<WaveNumbers>,
     /// Amplitude of a measured surface.
     measured: Option<Amplitude>,
     /// First and last mode of a random line.
@@ -162,8 +162,9 @@ impl Simulation {
             }
         }
         let rough = self.roughness.as_ref().map(|(_, rough)| rough);
-        let ratio = rough.and_then(|rough| rough.gradient_per_height).map(|ratio| ratio / scene.length);
-        let governing = Governing::of(scene, ratio, rough.and_then(|rough| rough.measured));
+        let wave_numbers = rough.and_then(|rough| rough.wave_numbers);
+        let wave_numbers = wave_numbers.map(|wave_numbers| wave_numbers.stretched(scene.length));
+        let governing = Governing::of(scene, wave_numbers, rough.and_then(|rough| rough.measured));
         let scale = match &key {
             // Measured heights are metres already.
             Some(RoughnessKey::Measured { .. }) => 1.0,
@@ -387,7 +388,7 @@ impl Simulation {
                 Ok(Rough {
                     heights: unit.heights,
                     random_phases: unit.random_phases,
-                    gradient_per_height: Some(unit.gradient_per_height),
+                    wave_numbers: Some(unit.wave_numbers),
                     measured: None,
                     modes: Some((spectrum.first, spectrum.last)),
                 })
@@ -396,13 +397,12 @@ impl Simulation {
                 let line = self.equivalent_line(file, options)?;
                 let modes =
                     line.modes(*length, *points).map_err(|reason| SurfaceError::measured(file, &reason))?;
-                let (rms_height, rms_gradient) = line.rms_height_and_gradient(*length, modes);
                 let amplitude = |mode: u64| line.amplitude(mode, *length);
                 let heights =
                     self.synthesizer.synthesize_waves(&amplitude, modes, *seed, *points, *shift, memory)?;
-                let measured = Some(Amplitude { rms_height, rms_gradient });
+                let measured = Some(line.amplitude_of_modes(*length, modes));
                 let random_phases = modes.1 + 1 - modes.0;
-                Ok(Rough { heights, random_phases, gradient_per_height: None, measured, modes: Some(modes) })
+                Ok(Rough { heights, random_phases, wave_numbers: None, measured, modes: Some(modes) })
             }
             RoughnessKey::Measured { file, options, seed: None, length, points, shift } => {
                 let read;
@@ -413,12 +413,11 @@ impl Simulation {
                         &read
                     }
                 };
-                let (rms_height, rms_gradient) = profile.rms_height_and_gradient();
                 let heights = profile
                     .sample(*length, *points, *shift)
                     .map_err(|reason| SurfaceError::measured(file, &reason))?;
-                let measured = Some(Amplitude { rms_height, rms_gradient });
-                Ok(Rough { heights, random_phases: 0, gradient_per_height: None, measured, modes: None })
+                let measured = Some(profile.amplitude()?);
+                Ok(Rough { heights, random_phases: 0, wave_numbers: None, measured, modes: None })
             }
         }
     }

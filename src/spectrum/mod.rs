@@ -15,6 +15,7 @@
 
 mod analysis;
 mod detrend;
+mod error;
 mod fit;
 mod isotropic;
 mod linear;
@@ -24,8 +25,9 @@ mod power_law;
 mod reliability;
 mod statistics;
 
-pub use analysis::{Analysis, LEAST_POINTS, Options, SpectrumError, analyse};
+pub use analysis::{Analysis, Options, analyse};
 pub use detrend::Detrend;
+pub use error::{LEAST_POINTS, SpectrumError};
 pub use isotropic::{End, Estimate, IsotropicSpectrum, LineMoments};
 pub use periodogram::{Bin, Direction};
 pub use power_law::PowerLaw;

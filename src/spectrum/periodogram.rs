@@ -1,6 +1,6 @@
 //! Periodograms: power of each wave of a profile or a map.
 
-use super::analysis::SpectrumError;
+use super::error::SpectrumError;
 use crate::memory::{check_room, resized};
 use realfft::RealFftPlanner;
 use rustfft::FftPlanner;

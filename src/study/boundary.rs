@@ -3,13 +3,17 @@
 //!
 //! F_a(0) falls with κ about exponentially and never quite to zero, since a single spring still sticks. So the
 //! boundary κ* is where its mean over the lines falls below a share of the ideal adhesion force F_a,max; what
-//! that share is moves it, and several are asked for at a time.
+//! that share is moves it, and several are asked for at a time. A boundary in κ is one in e_el/γ as well: on lines of
+//! one spectrum either determines the other.
 
 use super::axis::Axis;
 use super::finished::Finished;
-use super::plan::Plan;
+use super::map::governing;
+use super::plan::{Plan, targets};
 use super::quantity::Quantity;
+use super::target::Target;
 use super::{StudyError, symbol_and_unit};
+use crate::scene::RoughnessParameter;
 use rand::RngExt;
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
@@ -28,31 +32,46 @@ const PROTOCOLS: [Quantity; 2] = [Quantity::ZeroLoadAdhesionShare, Quantity::Zer
 /// The boundary at one place on the other axes, by one protocol, at one share.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Boundary {
-    /// Values on the axes other than κ, in their order.
+    /// Values on the axes other than κ or e_el/γ, in their order.
     pub others: Vec<f64>,
     /// The share that is recorded: which protocol.
     pub protocol: Quantity,
     /// The share of F_a,max below which adhesion counts as vanished.
     pub level: f64,
-    /// κ*, and its 95 % confidence interval by resampling of lines.
-    pub kappa: Crossing,
+    /// The boundary, and its 95 % confidence interval by resampling of lines.
+    pub crossing: Crossing,
 }
 
-/// κ at which a mean falls below a share.
+/// κ or e_el/γ at which a mean falls below a share.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Crossing {
     /// Here, with the interval of confidence where lines could be resampled and all of them cross.
     At(f64, Option<(f64, f64)>),
-    /// Below the smallest κ of the study.
+    /// Below the smallest value of the study.
     Below(f64),
-    /// Above the largest κ of the study.
+    /// Above the largest value of the study.
     Above(f64),
+}
+
+impl Crossing {
+    /// The same boundary in terms of a parameter that grows with this one.
+    fn map(self, to: impl Fn(f64) -> f64) -> Self {
+        match self {
+            Crossing::At(value, interval) => {
+                Crossing::At(to(value), interval.map(|(low, high)| (to(low), to(high))))
+            }
+            Crossing::Below(value) => Crossing::Below(to(value)),
+            Crossing::Above(value) => Crossing::Above(to(value)),
+        }
+    }
 }
 
 /// The boundaries of a study.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Boundaries {
-    /// Names of the axes other than κ, with symbols.
+    /// Parameter in which boundaries are given.
+    pub over: RoughnessParameter,
+    /// Names of the axes other than κ or e_el/γ, with symbols.
     pub others: Vec<String>,
     /// Random lines of each cell.
     pub lines: u64,
@@ -69,17 +88,23 @@ pub const DEFINITIONS: [(&str, f64); 3] = [
     ("kappa_amplitude", std::f64::consts::SQRT_2),
 ];
 
-/// Finds the boundaries of a merged study along its axis `kappa`.
+/// Finds the boundaries of a merged study along its axis `kappa` or `elastic_energy_ratio`, in terms of either.
 ///
 /// # Errors
-/// Where the study has no such axis, records no share of F_a(0), or as [`Finished::open`].
-pub fn boundaries(path: &Path, levels: &[f64]) -> Result<Boundaries, StudyError> {
+/// Where the study has no such axis, records no share of F_a(0), or as [`Finished::open`]; for a study of a measured
+/// surface along the other axis.
+pub fn boundaries(path: &Path, over: RoughnessParameter, levels: &[f64]) -> Result<Boundaries, StudyError> {
     let finished = Finished::open(path)?;
     let plan = finished.plan();
     let refuse = |reason: &str| StudyError::Folder { path: path.to_path_buf(), reason: reason.to_string() };
     let axes = || plan.all_axes().into_iter();
-    let along = axes().position(|axis| axis.path() == "kappa");
-    let along = along.ok_or_else(|| refuse("this study has no axis `kappa`, along which a boundary lies"))?;
+    let is_along = |(place, axis): (usize, &Axis)| match Target::of(axis.path()) {
+        Ok(Target::RoughnessParameter(parameter)) => Some((place, parameter)),
+        _ => None,
+    };
+    let (along, given) = axes().enumerate().find_map(is_along).ok_or_else(|| {
+        refuse("this study has no axis `kappa` or `elastic_energy_ratio`, along which a boundary lies")
+    })?;
     let protocols: Vec<(usize, Quantity)> = PROTOCOLS
         .into_iter()
         .filter_map(|protocol| Some((plan.record.iter().position(|one| *one == protocol)?, protocol)))
@@ -98,10 +123,16 @@ pub fn boundaries(path: &Path, levels: &[f64]) -> Result<Boundaries, StudyError>
         }
     })?;
     let mut found = Vec::new();
-    for ((_, place), section) in sections.0 {
+    for ((cell, place), section) in sections.0 {
+        let to = conversion(plan, cell, given, over).ok_or_else(|| {
+            let name = over.name();
+            refuse(&format!(
+                "this study has no axis `{name}`, which does not follow from its measured surface"
+            ))
+        })?;
         for &level in levels {
             let (others, protocol) = (section.others.clone(), protocols[place].1);
-            found.push(Boundary { others, protocol, level, kappa: section.crossing(level) });
+            found.push(Boundary { others, protocol, level, crossing: section.crossing(level).map(&to) });
         }
     }
     let name = |axis: &Axis| {
@@ -109,10 +140,76 @@ pub fn boundaries(path: &Path, levels: &[f64]) -> Result<Boundaries, StudyError>
         if symbol.is_empty() { axis.path().to_string() } else { symbol.to_string() }
     };
     let others = axes().enumerate().filter(|(index, _)| *index != along).map(|(_, axis)| name(axis));
-    Ok(Boundaries { others: others.collect(), lines: plan.lines, found })
+    Ok(Boundaries { over, others: others.collect(), lines: plan.lines, found })
 }
 
-/// F_a(0) over κ, line by line, for each place on the other axes and each protocol.
+/// Conversion of a parameter into another on the lines of a cell.
+fn conversion(
+    plan: &Plan,
+    cell: u64,
+    from: RoughnessParameter,
+    to: RoughnessParameter,
+) -> Option<impl Fn(f64) -> f64 + use<>> {
+    let mut scene = plan.prototype();
+    // The plan has been checked with these values.
+    Target::set_all(targets(plan).into_iter().zip(plan.values(cell)), &mut scene).ok()?;
+    let energies = if from == to { Some(1.0) } else { governing(&scene)?.energy_ratio(to, from) }?;
+    let convert = move |value| to.of_energy_over_work(energies * from.energy_over_work(value));
+    Some(move |value| if from == to { value } else { convert(value) })
+}
+
+/// How far the boundaries of one protocol and share lie apart.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BoundarySpread {
+    /// The share that is recorded: which protocol.
+    pub protocol: Quantity,
+    /// The share of F_a,max below which adhesion counts as vanished.
+    pub level: f64,
+    /// Smallest and largest boundary; `None` where the study holds none.
+    pub range: Option<(f64, f64)>,
+    /// For each other axis, the largest ratio of two boundaries that differ along this axis alone.
+    pub along: Vec<f64>,
+    /// Boundaries that lie outside the study.
+    pub outside: usize,
+}
+
+impl Boundaries {
+    /// BoundarySpread of the boundaries of each protocol and share, in their order.
+    #[must_use]
+    pub fn spreads(&self) -> Vec<BoundarySpread> {
+        let mut kinds: Vec<(Quantity, f64)> = Vec::new();
+        for Boundary { protocol, level, .. } in &self.found {
+            if !kinds.contains(&(*protocol, *level)) {
+                kinds.push((*protocol, *level));
+            }
+        }
+        kinds.sort_by_key(|(protocol, _)| *protocol as usize);
+        kinds.into_iter().map(|(protocol, level)| self.spread(protocol, level)).collect()
+    }
+
+    fn spread(&self, protocol: Quantity, level: f64) -> BoundarySpread {
+        let all = self.found.iter().filter(|one| (one.protocol, one.level) == (protocol, level));
+        let count = all.clone().count();
+        let found: Vec<(&[f64], f64)> = all
+            .filter_map(|one| match one.crossing {
+                Crossing::At(value, _) => Some((one.others.as_slice(), value)),
+                _ => None,
+            })
+            .collect();
+        let values = || found.iter().map(|(_, value)| *value);
+        let range = values().reduce(f64::min).zip(values().reduce(f64::max));
+        let differ = |axis: usize, a: &[f64], b: &[f64]| {
+            a.iter().zip(b).enumerate().all(|(index, (a, b))| index == axis || a == b)
+        };
+        let along = (0..self.others.len()).map(|axis| {
+            let pairs = found.iter().flat_map(|one| found.iter().map(move |other| (one, other)));
+            pairs.filter(|(a, b)| differ(axis, a.0, b.0)).map(|(a, b)| a.1 / b.1).fold(1.0, f64::max)
+        });
+        BoundarySpread { protocol, level, range, along: along.collect(), outside: count - found.len() }
+    }
+}
+
+/// F_a(0) over κ or e_el/γ, line by line, for each place on the other axes and each protocol.
 #[derive(Default)]
 struct Sections(BTreeMap<(u64, usize), Section>);
 
@@ -210,6 +307,36 @@ mod tests {
         assert_eq!(crossing_of(&falling(&[1.0]), &[0], 2.0), Crossing::Below(0.0));
         let to_zero = vec![(1.0, vec![0.4]), (2.0, vec![0.0])];
         assert_eq!(crossing_of(&to_zero, &[0], 0.1), Crossing::At(1.75, None));
+    }
+
+    #[test]
+    fn spreads_are_ratios_along_one_axis_at_a_time() {
+        let boundary = |first: f64, second: f64, crossing: Crossing| Boundary {
+            others: vec![first, second],
+            protocol: Quantity::ZeroForceAdhesionShare,
+            level: 0.1,
+            crossing,
+        };
+        let at = |value: f64| Crossing::At(value, None);
+        let boundaries = Boundaries {
+            over: RoughnessParameter::Kappa,
+            others: vec!["H".into(), "k_min".into()],
+            lines: 1,
+            found: vec![
+                boundary(0.2, 1.0, at(2.0)),
+                boundary(0.2, 4.0, at(5.0)),
+                boundary(0.8, 1.0, at(3.0)),
+                boundary(0.8, 4.0, Crossing::Above(16.0)),
+            ],
+        };
+        let spread = BoundarySpread {
+            protocol: Quantity::ZeroForceAdhesionShare,
+            level: 0.1,
+            range: Some((2.0, 5.0)),
+            along: vec![1.5, 2.5],
+            outside: 1,
+        };
+        assert_eq!(boundaries.spreads(), [spread]);
     }
 
     #[test]

@@ -18,8 +18,15 @@ macro_rules! plans {
     };
 }
 
-const PLANS: &[BuiltInPlan] =
-    plans!["figure-5a", "figure-5b", "figure-6", "equation-15", "stiffness-exponent", "self-averaging"];
+const PLANS: &[BuiltInPlan] = plans![
+    "figure-5a",
+    "figure-5b",
+    "figure-6",
+    "equation-15",
+    "elastic-energy",
+    "stiffness-exponent",
+    "self-averaging"
+];
 
 /// All built-in plans.
 #[must_use]

@@ -1,6 +1,7 @@
 //! Figure of a study: a map over two axes or a section along one, as numbers and their names, without any drawing.
 
-use crate::analysis::Regime;
+use super::quantity::Quantity;
+use crate::analysis::{Regime, VANISHING_SHARE};
 pub use crate::draw::AxisScale;
 
 /// An axis of a figure.
@@ -29,13 +30,7 @@ impl FigureAxis {
     /// distance, and beyond the ends as the last distance goes on.
     #[must_use]
     pub fn place(&self, number: f64) -> f64 {
-        let places = self.coordinates();
-        let at = self.scale.coordinate(number);
-        let after = places.partition_point(|place| *place <= at).clamp(1, places.len().max(2) - 1);
-        match places.get(after - 1..=after) {
-            Some(&[low, high]) if high > low => (after - 1) as f64 + (at - low) / (high - low),
-            _ => 0.0,
-        }
+        self.scale.place(&self.values, number)
     }
 }
 
@@ -50,6 +45,17 @@ pub struct FigureQuantity {
     pub unit: String,
     /// Returns true for a quantity that may be negative.
     pub signed: bool,
+}
+
+impl From<Quantity> for FigureQuantity {
+    fn from(quantity: Quantity) -> Self {
+        FigureQuantity {
+            name: quantity.name().replace('_', " "),
+            symbol: quantity.symbol().into(),
+            unit: quantity.unit().into(),
+            signed: quantity.is_signed(),
+        }
+    }
 }
 
 /// A mean over random lines with its confidence.
@@ -73,6 +79,8 @@ pub struct Panel {
     pub estimates: Vec<Option<Estimate>>,
     /// Scale of the values.
     pub scale: AxisScale,
+    /// Ends of the scale of several figures; `None` where they follow from the values.
+    pub range: Option<(f64, f64)>,
     /// True for F_a(0)/F_a,max by either protocol, whose own values have the boundary.
     pub vanishes: bool,
 }
@@ -86,6 +94,18 @@ pub struct Boundary {
     pub level: f64,
     /// Label of the line: `F_a(0) = 0.05 F_a,max`.
     pub label: String,
+}
+
+impl Boundary {
+    /// The boundary by F_a(0)/F_a,max in all cells.
+    #[must_use]
+    pub fn new(shares: &[Option<Estimate>]) -> Self {
+        Boundary {
+            values: shares.iter().map(|estimate| Some((*estimate)?.mean)).collect(),
+            level: VANISHING_SHARE,
+            label: format!("F_a(0) = {VANISHING_SHARE} F_a,max"),
+        }
+    }
 }
 
 /// A figure.

@@ -29,6 +29,7 @@ pub(super) fn figure_axis(plan: &Plan, axis: &Axis) -> FigureAxis {
         (_, Some((Leg::ToIndentation(_), leg))) => (format!("indentation of leg {leg}"), "m"),
         (_, Some((_, leg))) => (format!("force of leg {leg}"), "N"),
         ("kappa" | "adhesion.kappa", _) => ("governing parameter".into(), unit),
+        ("elastic_energy_ratio", _) => ("elastic energy ratio".into(), unit),
         ("springs_per_wave", _) => ("springs per wave".into(), unit),
         ("roughness.modes.0", _) => ("first mode".into(), unit),
         ("roughness.modes.1", _) => ("last mode".into(), unit),

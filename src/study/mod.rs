@@ -70,7 +70,7 @@ mod tables;
 mod target;
 
 pub use axis::{Axis, MOST_VALUES};
-pub use boundary::{Boundaries, Boundary, Crossing, DEFINITIONS, USUAL_LEVELS, boundaries};
+pub use boundary::{Boundaries, Boundary, BoundarySpread, Crossing, DEFINITIONS, USUAL_LEVELS, boundaries};
 pub use builtin::{BuiltInPlan, find, plans};
 pub use cell_summary::{CellSummary, Spread};
 pub use error::StudyError;

@@ -19,8 +19,16 @@ const MOST_AXES: usize = 16;
 const MOST_NAMED: usize = 8;
 
 /// Axes of which the first sets what the second does.
-const SAME: [(&str, &str); 3] =
-    [("springs_per_wave", "roughness.modes.1"), ("kappa", "adhesion.kappa"), ("kappa", "adhesion.work")];
+const SAME: [(&str, &str); 8] = [
+    ("springs_per_wave", "roughness.modes.1"),
+    ("kappa", "adhesion.kappa"),
+    ("kappa", "adhesion.work"),
+    ("kappa", "adhesion.elastic_energy_ratio"),
+    ("kappa", "elastic_energy_ratio"),
+    ("elastic_energy_ratio", "adhesion.elastic_energy_ratio"),
+    ("elastic_energy_ratio", "adhesion.work"),
+    ("elastic_energy_ratio", "adhesion.kappa"),
+];
 /// Most forces of a [`StiffnessRange`].
 const MOST_FORCES: u64 = 1000;
 

@@ -1,7 +1,6 @@
 //! Quantities that a study records for each cell and profile: one row each.
 
 use super::case_outcome::CaseOutcome;
-use crate::analysis::NEGLIGIBLE_COEFFICIENT;
 use serde::{Deserialize, Serialize};
 
 /// All that is known of a quantity.
@@ -18,8 +17,6 @@ struct Row {
     signed: bool,
     /// Computation that the quantity calls for.
     needs: Needs,
-    /// Least values of the three densest glyphs of a map, the densest first; `None`: by the values of the map.
-    steps: Option<[f64; 3]>,
     /// Value of a case, if the case has one.
     of: fn(&CaseOutcome<'_>) -> Option<f64>,
 }
@@ -41,21 +38,8 @@ pub(super) enum Needs {
     Stiffness,
 }
 
-const ROW: Row = Row {
-    name: "",
-    symbol: "",
-    unit: "1",
-    meaning: "",
-    signed: false,
-    needs: Needs::Loading,
-    steps: None,
-    of: |_| None,
-};
-
-/// Glyph steps of forces over F_a,max and of contact fractions: the same on all maps.
-const SHARE_STEPS: Option<[f64; 3]> = Some([0.5, 0.05, 0.005]);
-/// Glyph steps of the adhesion coefficient.
-const COEFFICIENT_STEPS: Option<[f64; 3]> = Some([1.0, 0.1, NEGLIGIBLE_COEFFICIENT]);
+const ROW: Row =
+    Row { name: "", symbol: "", unit: "1", meaning: "", signed: false, needs: Needs::Loading, of: |_| None };
 
 /// Makes the enum of the quantities and the table of their rows.
 macro_rules! quantities {
@@ -80,6 +64,14 @@ quantities! {
         name: "kappa", meaning: "governing parameter, eq. (11)",
         symbol: "κ", needs: Needs::Profile, of: |case| case.governing.kappa,
     }
+    ElasticEnergy {
+        name: "elastic_energy", meaning: "elastic energy of conformity per area",
+        symbol: "e_el", unit: "J/m²", needs: Needs::Profile, of: |case| case.governing.elastic_energy(),
+    }
+    ElasticEnergyRatio {
+        name: "elastic_energy_ratio", meaning: "elastic energy of conformity over the work of adhesion",
+        symbol: "e_el/γ", needs: Needs::Profile, of: |case| case.governing.elastic_energy_ratio,
+    }
     WorkOfAdhesion {
         name: "work_of_adhesion", meaning: "work of adhesion",
         symbol: "γ", unit: "J/m²", needs: Needs::Profile, of: |case| case.governing.work_of_adhesion,
@@ -95,7 +87,7 @@ quantities! {
     ZeroLoadAdhesionShare {
         name: "zero_load_adhesion_share",
         meaning: "adhesion force after turning at first touch, over that of a flat face",
-        symbol: "F_a(0)/F_a,max", needs: Needs::Touch, steps: SHARE_STEPS,
+        symbol: "F_a(0)/F_a,max", needs: Needs::Touch,
         of: |case| case.share(case.zero_load()),
     }
     ZeroForceAdhesionForce {
@@ -106,7 +98,7 @@ quantities! {
     ZeroForceAdhesionShare {
         name: "zero_force_adhesion_share",
         meaning: "adhesion force after turning where the force is back at zero, over that of a flat face",
-        symbol: "F_a(0)/F_a,max", needs: Needs::ZeroForce, steps: SHARE_STEPS,
+        symbol: "F_a(0)/F_a,max", needs: Needs::ZeroForce,
         of: |case| case.share(case.zero_force),
     }
     PreloadForce {
@@ -123,11 +115,11 @@ quantities! {
     }
     AdhesionShare {
         name: "adhesion_share", meaning: "adhesion force after the preload, over that of a flat face",
-        symbol: "F_a/F_a,max", steps: SHARE_STEPS, of: |case| case.share(case.figures.adhesion_force),
+        symbol: "F_a/F_a,max", of: |case| case.share(case.figures.adhesion_force),
     }
     AdhesionCoefficient {
         name: "adhesion_coefficient", meaning: "adhesion force over preload",
-        symbol: "F_a/F_n", steps: COEFFICIENT_STEPS, of: |case| case.figures.adhesion_coefficient,
+        symbol: "F_a/F_n", of: |case| case.figures.adhesion_coefficient,
     }
     PullOffIndentation {
         name: "pull_off_indentation", meaning: "indentation at the smallest force",
@@ -139,7 +131,7 @@ quantities! {
     }
     ContactFraction {
         name: "contact_fraction", meaning: "largest length in contact over the length",
-        steps: SHARE_STEPS, of: |case| case.contact_fraction(),
+        of: |case| case.contact_fraction(),
     }
     Fragments {
         name: "fragments", meaning: "contact fragments at the preload",
@@ -178,6 +170,10 @@ quantities! {
 }
 
 impl Quantity {
+    /// F_a(0)/F_a,max by the two protocols.
+    pub const ADHESION_SHARES: [Quantity; 2] =
+        [Quantity::ZeroLoadAdhesionShare, Quantity::ZeroForceAdhesionShare];
+
     const fn row(self) -> &'static Row {
         &ROWS[self as usize]
     }
@@ -210,13 +206,6 @@ impl Quantity {
     #[must_use]
     pub const fn is_signed(self) -> bool {
         self.row().signed
-    }
-
-    /// Least values of the three densest glyphs on every map, the densest first; `None` where they follow from the
-    /// values of a map.
-    #[must_use]
-    pub const fn steps(self) -> Option<[f64; 3]> {
-        self.row().steps
     }
 
     /// Quantity of a name.

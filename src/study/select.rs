@@ -1,19 +1,18 @@
 //! Selection of a figure from a merged study: quantities, axes across and up, values of the other axes.
 
 use super::axis::Axis;
-use super::figure::{AxisScale, Boundary, Estimate, Figure, FigureQuantity, Panel};
+use super::figure::{AxisScale, Boundary, Estimate, Figure, Panel};
 use super::figure_axis::{figure_axis, fixed, scale_of};
 use super::finished::Finished;
 use super::plan::Plan;
 use super::quantity::Quantity;
-use crate::analysis::VANISHING_SHARE;
 use crate::scene::parse_quantity;
 use thiserror::Error;
 
 /// A second axis of at most so many values makes curves of a section rather than rows of a map.
 const MOST_CURVES: usize = 5;
 /// F_a(0)/F_a,max by the two protocols.
-const SHARES: [Quantity; 2] = [Quantity::ZeroLoadAdhesionShare, Quantity::ZeroForceAdhesionShare];
+const SHARES: [Quantity; 2] = Quantity::ADHESION_SHARES;
 /// Values that are named in a message.
 const MOST_NAMED: usize = 12;
 
@@ -136,7 +135,7 @@ impl Selection {
             let by_itself = || if several { scale_of(&estimates) } else { AxisScale::Linear };
             let scale = self.scale.unwrap_or_else(by_itself);
             let vanishes = SHARES.contains(&quantity);
-            Panel { quantity: figure_quantity(quantity), estimates, scale, vanishes }
+            Panel { quantity: quantity.into(), estimates, scale, range: None, vanishes }
         };
         let mut panels: Vec<Panel> = quantities.iter().map(panel).collect();
         // The same quantity by two protocols has one scale.
@@ -152,11 +151,7 @@ impl Selection {
             up: second.filter(|_| series.is_none()).map(axis),
             series: series.map(axis),
             panels,
-            boundary: boundary.map(|quantity| Boundary {
-                values: estimates(quantity).into_iter().map(|estimate| Some(estimate?.mean)).collect(),
-                level: VANISHING_SHARE,
-                label: format!("F_a(0) = {VANISHING_SHARE} F_a,max"),
-            }),
+            boundary: boundary.map(|quantity| Boundary::new(&estimates(quantity))),
             regimes: if series.is_some() || !plan.record.contains(&Quantity::Regime) {
                 Vec::new()
             } else {
@@ -283,13 +278,4 @@ fn values_of(axis: &Axis) -> String {
     }
     let (first, last) = (&values[..MOST_NAMED - 1], &values[values.len() - 1]);
     format!("{}, … {last}", first.join(", "))
-}
-
-fn figure_quantity(quantity: Quantity) -> FigureQuantity {
-    FigureQuantity {
-        name: quantity.name().replace('_', " "),
-        symbol: quantity.symbol().into(),
-        unit: quantity.unit().into(),
-        signed: quantity.is_signed(),
-    }
 }

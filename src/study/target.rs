@@ -1,9 +1,9 @@
 //! Quantities that an axis may vary: the numbers of a scene by their paths, and others that are derived from several.
 
-use crate::scene::{FIELDS, Field, Leg, Range, Scene, Value, field, nearest};
+use crate::scene::{FIELDS, Field, Leg, Range, RoughnessParameter, Scene, Value, field, nearest};
 
 /// Quantities that are no fields of a scene.
-pub const DERIVED: &[&str] = &["kappa", "preload", "springs_per_wave"];
+pub const DERIVED: &[&str] = &["kappa", "elastic_energy_ratio", "preload", "springs_per_wave"];
 
 /// Numbers that no axis varies: the version is no parameter, and seeds are counted from the plan's.
 const FIXED: &[&str] = &["version", "roughness.seed"];
@@ -15,8 +15,8 @@ pub enum Target {
     Field(&'static Field, Part),
     /// The force, N, or indentation, m, of a loading stage.
     Leg(usize),
-    /// κ of eq. (11), by the work of adhesion; replaces the work of the scene.
-    Kappa,
+    /// κ or e_el/γ, by the work of adhesion; replaces the work of the scene.
+    RoughnessParameter(RoughnessParameter),
     /// Preload F_n in units of E* h L.
     Preload,
     /// Springs for each of the shortest waves: the last mode is points over this number.
@@ -78,10 +78,12 @@ impl Target {
     /// The quantity at a path.
     pub fn of(path: &str) -> Result<Target, TargetError> {
         match path {
-            "kappa" => return Ok(Target::Kappa),
             "preload" => return Ok(Target::Preload),
             "springs_per_wave" => return Ok(Target::SpringsPerWave),
             _ => {}
+        }
+        if let Some(parameter) = RoughnessParameter::named(path).filter(|one| one.name() == path) {
+            return Ok(Target::RoughnessParameter(parameter));
         }
         let number = numbers().find(|(number, ..)| number == path);
         let leg = || path.strip_prefix("loading.")?.strip_suffix(".0")?.parse().ok().map(Target::Leg);
@@ -101,7 +103,7 @@ impl Target {
     pub fn shapes(self) -> Shapes {
         let field = match self {
             Target::SpringsPerWave => return Shapes::Roughness,
-            Target::Leg(_) | Target::Kappa | Target::Preload => return Shapes::Passes,
+            Target::Leg(_) | Target::RoughnessParameter(_) | Target::Preload => return Shapes::Passes,
             Target::Field(field, _) => field,
         };
         match (field.parent(), field.path) {
@@ -130,6 +132,31 @@ impl Target {
         Ok(())
     }
 
+    /// Value of the quantity in a scene, as far as the scene states it: κ and the preload follow from several numbers.
+    pub fn get(self, scene: &Scene) -> Option<f64> {
+        match self {
+            Target::RoughnessParameter(_) | Target::Preload => None,
+            Target::SpringsPerWave => {
+                let last = Target::of("roughness.modes.1").ok()?.get(scene)?;
+                Some(scene.numerics.points as f64 / last)
+            }
+            Target::Leg(index) => match scene.loading.get(index)? {
+                Leg::ToForce(to) | Leg::ToIndentation(to) => Some(*to),
+                _ => None,
+            },
+            Target::Field(field, part) => {
+                let all = FIELDS.iter().filter(|other| other.path == field.path);
+                all.filter_map(|field| field.get(scene)).find_map(|value| match (value, part) {
+                    (Value::Real(number), _) => Some(number),
+                    (Value::Whole(number), _)
+                    | (Value::Band(number, _), Part::First)
+                    | (Value::Band(_, number), Part::Last) => Some(number as f64),
+                    _ => None,
+                })
+            }
+        }
+    }
+
     /// Gives the quantity a value in a scene; the preload, which is no part of a scene, is left to the run.
     ///
     /// # Errors
@@ -137,7 +164,9 @@ impl Target {
     pub fn set(self, scene: &mut Scene, value: f64) -> Result<(), String> {
         match self {
             Target::Preload => {}
-            Target::Kappa => scene.adhesion = Some(scene.adhesion.unwrap_or_default().with_kappa(value)),
+            Target::RoughnessParameter(parameter) => {
+                scene.adhesion = Some(scene.adhesion.unwrap_or_default().with_parameter(parameter, value));
+            }
             Target::SpringsPerWave => {
                 let last = (scene.numerics.points as f64 / value).round();
                 set(scene, "roughness.modes", Part::Last, last)?;
@@ -172,7 +201,7 @@ fn set(scene: &mut Scene, path: &str, part: Part, number: f64) -> Result<(), Str
 #[must_use]
 pub fn symbol_and_unit(path: &str) -> (&'static str, &'static str) {
     match Target::of(path) {
-        Ok(Target::Kappa) => ("κ", "1"),
+        Ok(Target::RoughnessParameter(parameter)) => (parameter.symbol(), "1"),
         Ok(Target::Preload) => ("F_n/(E* h L)", "1"),
         Ok(Target::SpringsPerWave) => ("", "1"),
         Ok(Target::Field(_, Part::First)) => ("k_min", "1"),
@@ -197,6 +226,7 @@ mod tests {
             ("rough-sphere", "form.radius", 2.5e-3, vec![("form.radius", "2.5e-3")]),
             ("rough-sphere", "loading.0.0", 2.5e-5, vec![("loading.0.0", "2.5e-5")]),
             ("rough-sphere", "kappa", 1.5, vec![("adhesion", "(kappa: 1.5)")]),
+            ("rough-sphere", "elastic_energy_ratio", 0.5, vec![("adhesion", "(elastic_energy_ratio: 0.5)")]),
             ("rough-sphere", "adhesion.work", 0.015, vec![("adhesion.work", "0.015")]),
             ("kendall-punch", "form.radius", 2.5e-5, vec![("form.radius", "2.5e-5")]),
         ] {
@@ -205,11 +235,18 @@ mod tests {
                 overrides.iter().map(|(path, value)| (path.to_string(), value.to_string())).collect();
             let expected = document.set_all(&overrides).unwrap();
             let mut scene = document.scene().clone();
-            Target::of(path).ok().unwrap().set(&mut scene, value).unwrap();
+            let target = Target::of(path).ok().unwrap();
+            target.set(&mut scene, value).unwrap();
             assert_eq!(&scene, expected.scene(), "{path}");
+            assert_eq!(
+                target.get(&scene),
+                Some(value).filter(|_| !matches!(target, Target::RoughnessParameter(_))),
+                "{path}"
+            );
         }
         let mut scene = rough.scene().clone();
         Target::SpringsPerWave.set(&mut scene, 8.0).unwrap();
+        assert_eq!(Target::SpringsPerWave.get(&scene), Some(8.0));
         let points = scene.numerics.points;
         let modes = field("roughness.modes", None).unwrap().get(&scene).unwrap();
         assert!(matches!(modes, Value::Band(_, last) if last == points / 8), "{modes:?}");

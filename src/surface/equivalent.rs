@@ -1,7 +1,7 @@
 //! Equivalent line of a measured surface: its own spectrum, random phases.
 
-use super::MeasuredProfile;
 use super::SurfaceError;
+use super::{Amplitude, MeasuredProfile};
 use crate::spectrum::{End, IsotropicSpectrum, Options, SpectrumError, analyse};
 use crate::topography::{ReadOptions, Topography, Unit, read_observed};
 use std::f64::consts::TAU;
@@ -122,17 +122,12 @@ impl EquivalentLine {
         2.0 * (self.spectrum.line(wave_number) / length).sqrt()
     }
 
-    /// Rms height (m) and rms gradient of the modes from a first to a last one on a length (m).
+    /// Amplitude of the modes from a first to a last one on a length (m).
     #[must_use]
-    pub fn rms_height_and_gradient(&self, length: f64, (first, last): (u64, u64)) -> (f64, f64) {
-        let (mut height, mut gradient) = (0.0, 0.0);
+    pub fn amplitude_of_modes(&self, length: f64, (first, last): (u64, u64)) -> Amplitude {
+        let squares = |mode: u64| (mode, 0.5 * self.amplitude(mode, length).powi(2));
         // From the smallest amplitudes on.
-        for mode in (first..=last).rev() {
-            let square = 0.5 * self.amplitude(mode, length).powi(2);
-            height += square;
-            gradient += square * (TAU * mode as f64 / length).powi(2);
-        }
-        (height.sqrt(), gradient.sqrt())
+        Amplitude::from_modes((first..=last).rev().map(squares), length)
     }
 }
 
@@ -168,7 +163,8 @@ mod tests {
         let analysis = analyse(&[surface()], &Options::default()).unwrap();
         let length = 256e-6;
         let modes = line.modes(length, 4096).unwrap();
-        let (height, gradient) = line.rms_height_and_gradient(length, modes);
+        let Amplitude { rms_height: height, rms_gradient: gradient, .. } =
+            line.amplitude_of_modes(length, modes);
         // Sums of modes for integrals.
         assert!((height / analysis.line.rms_height.value - 1.0).abs() < 0.02, "{height}");
         assert!((gradient / analysis.line.rms_gradient.value - 1.0).abs() < 0.02, "{gradient}");

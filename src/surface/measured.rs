@@ -1,8 +1,14 @@
 //! Measured profiles that are used as the line themselves.
 
-use super::SurfaceError;
+use super::{Amplitude, SurfaceError};
+use crate::memory::check_room;
 use crate::topography::{ReadOptions, Topography, TopographyError, UNEVEN, Unit, parse, read_observed};
+use realfft::RealFftPlanner;
 use std::path::Path;
+
+/// Bytes for each point of the transform and its arrays, at the most: an odd number of points transforms at twice the
+/// length.
+const TRANSFORM_BYTES: u64 = 96;
 
 /// A profile measured along a line.
 ///
@@ -112,6 +118,35 @@ impl MeasuredProfile {
         ((square / length).sqrt(), (gradient / length).sqrt())
     }
 
+    /// Amplitude of the profile. Its mean wave number is Σ q_k A_k²/2h² over the modes of the profile on its own length
+    /// with its end joined to its beginning: where the ends do not meet, the straight line that lets them meet is
+    /// subtracted first, because a step has energy in every wave and a tilt has none.
+    ///
+    /// # Errors
+    /// [`SurfaceError::OutOfMemory`], [`SurfaceError::Transform`].
+    pub fn amplitude(&self) -> Result<Amplitude, SurfaceError> {
+        let (rms_height, rms_gradient) = self.rms_height_and_gradient();
+        let points = self.positions.len();
+        let out_of_memory = || SurfaceError::OutOfMemory { points };
+        check_room(TRANSFORM_BYTES * points as u64).map_err(|_| out_of_memory())?;
+        let mut heights = self.sample(self.length(), points, 0.0).map_err(|_| out_of_memory())?;
+        join_ends(&mut heights);
+        let plan = RealFftPlanner::<f64>::new().plan_fft_forward(points);
+        let mut modes = plan.make_output_vec();
+        plan.process(&mut heights, &mut modes).map_err(|error| SurfaceError::Transform(error.to_string()))?;
+        let squares = (1_u64..).zip(&modes[1..]).map(|(mode, coefficient)| {
+            // A wave of two points has both its exponentials in one coefficient.
+            let exponentials = if 2 * mode == points as u64 { 1.0 } else { 2.0 };
+            (mode, exponentials * (coefficient / points as f64).norm_sqr())
+        });
+        let of_modes = Amplitude::from_modes(squares, self.length());
+        let mean_wave_number = match of_modes.mean_wave_number * (of_modes.rms_height / rms_height).powi(2) {
+            mean if mean.is_finite() => mean,
+            _ => 0.0,
+        };
+        Ok(Amplitude { rms_height, rms_gradient, mean_wave_number })
+    }
+
     /// Heights, m, at x = (i + ½ − `shift`)L/N from the beginning of the profile, by linear interpolation; at a measured
     /// point its own height, bit for bit. If all heights of the profile are from half to twice the first, the first is
     /// subtracted: the differences are then exact, and roughness on a large offset keeps its digits.
@@ -161,9 +196,19 @@ impl MeasuredProfile {
     }
 }
 
+/// Subtracts the straight line after which the step from the last height to the first is the mean of the steps beside it.
+fn join_ends(heights: &mut [f64]) {
+    let last = heights.len() - 1;
+    let beside = 0.5 * ((heights[1] - heights[0]) + (heights[last] - heights[last - 1]));
+    let slope = (beside - (heights[0] - heights[last])) / heights.len() as f64;
+    (0..).zip(heights).for_each(|(index, height): (u32, _)| *height -= slope * f64::from(index));
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::surface::{SelfAffine, UnitRoughness};
+    use std::f64::consts::TAU;
 
     #[test]
     fn reads_what_instruments_write() {
@@ -295,6 +340,43 @@ mod tests {
             (height - square.sqrt()).abs() < 1e-15 && (gradient - 2.0).abs() < 1e-15,
             "{height} {gradient}"
         );
+    }
+
+    #[test]
+    fn a_wave_has_its_own_wave_number_on_any_grid_and_under_a_tilt() {
+        let text = |points: u32, middles: f64, tilt: f64| -> String {
+            let place = |i: u32| (f64::from(i) + middles) / f64::from(points);
+            let height = |x: f64| tilt * x + 2e-3 * (15.0 * TAU * x + 0.3).cos();
+            (0..points).map(|i| format!("{:e} {:e}\n", place(i), height(place(i)))).collect()
+        };
+        for (points, middles) in [(1000, 0.5), (1001, 0.5), (1000, 0.0)] {
+            let level = MeasuredProfile::parse(&text(points, middles, 0.0)).unwrap().amplitude().unwrap();
+            assert!((level.mean_wave_number / (15.0 * TAU) - 1.0).abs() < 0.01, "{level:?}");
+            // A tilt is no energy.
+            let tilted = MeasuredProfile::parse(&text(points, middles, 0.1)).unwrap().amplitude().unwrap();
+            assert!(tilted.rms_height > 10.0 * level.rms_height);
+            let change = tilted.elastic_energy(1.0) / level.elastic_energy(1.0) - 1.0;
+            assert!(change.abs() < 0.01, "{change}");
+        }
+        let flat = MeasuredProfile::parse("0 1\n1 1\n2 1").unwrap().amplitude().unwrap();
+        assert_eq!((flat.mean_wave_number, flat.elastic_energy(1e6)), (0.0, 0.0));
+    }
+
+    #[test]
+    fn a_line_from_a_file_has_the_elastic_energy_of_its_modes() {
+        for (hurst, last) in [(0.3, 64), (0.7, 64), (0.9, 200)] {
+            let spectrum = SelfAffine { hurst, first: 1, last };
+            let line = UnitRoughness::synthesize(spectrum, 5, 4096).unwrap();
+            let text: String = (0_u32..)
+                .zip(&line.heights)
+                .map(|(i, z)| format!("{:e} {:e}\n", (f64::from(i) + 0.5) / 4096.0, 1e-3 * z))
+                .collect();
+            let measured = MeasuredProfile::parse(&text).unwrap().amplitude().unwrap();
+            let expected = Amplitude::from_height(1e-3, spectrum.wave_numbers(1.0));
+            let error = measured.elastic_energy(1.0) / expected.elastic_energy(1.0) - 1.0;
+            println!("H = {hurst}, to mode {last}: {error:e}");
+            assert!(error.abs() < 1e-3, "H = {hurst}, to mode {last}: {error:e}");
+        }
     }
 
     #[test]

@@ -1,5 +1,6 @@
 //! The rigid line: macroscopic form, self-affine or measured roughness, and its statistics.
 
+mod amplitude;
 mod equivalent;
 mod error;
 mod form;
@@ -12,6 +13,7 @@ mod roughness;
 mod spectrum;
 mod struve;
 
+pub use amplitude::{Amplitude, WaveNumbers};
 pub use equivalent::{EquivalentLine, MeasuredOptions, MeasuredRoughness};
 pub use error::SurfaceError;
 pub use form::{mdr_profile, power_law_factor};

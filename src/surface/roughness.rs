@@ -2,7 +2,7 @@
 
 use super::modes::Modes;
 use super::phases::phases;
-use super::{SelfAffine, SurfaceError};
+use super::{SelfAffine, SurfaceError, WaveNumbers};
 use crate::memory;
 use crate::parallel::in_parallel;
 use realfft::{ComplexToReal, RealFftPlanner};
@@ -26,8 +26,8 @@ pub struct UnitRoughness {
     pub heights: Vec<f64>,
     /// Random phases drawn.
     pub random_phases: u64,
-    /// Rms gradient over rms height of the line on a length of 1 m: [`SelfAffine::gradient_per_height`].
-    pub gradient_per_height: f64,
+    /// Rms and mean wave number of the line on a length of 1 m.
+    pub wave_numbers: WaveNumbers,
 }
 
 impl UnitRoughness {
@@ -97,7 +97,7 @@ impl Synthesizer {
         Ok(UnitRoughness {
             heights: self.transform((spectrum.first, spectrum.last), points, memory, draw)?,
             random_phases: spectrum.last + 1 - spectrum.first,
-            gradient_per_height: spectrum.gradient_per_height(1.0),
+            wave_numbers: spectrum.wave_numbers(1.0),
         })
     }
 
@@ -265,7 +265,7 @@ mod tests {
             let spectrum = SelfAffine { hurst, first, last };
             let kept = synthesizer.synthesize(spectrum, seed, points, 0.0, memory).unwrap();
             assert_eq!(kept, UnitRoughness::synthesize(spectrum, seed, points).unwrap());
-            assert_eq!(kept.gradient_per_height, spectrum.gradient_per_height(1.0));
+            assert_eq!(kept.wave_numbers, spectrum.wave_numbers(1.0));
             // As on one thread and by another plan.
             let alone = on_this_thread(|| UnitRoughness::synthesize(spectrum, seed, points).unwrap());
             assert_eq!(kept, alone);

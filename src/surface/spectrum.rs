@@ -1,5 +1,7 @@
 //! The self-affine spectrum of the equivalent line, eqs. (4)–(9), and its mean squares.
 
+use super::WaveNumbers;
+
 /// Terms of a sum of powers that are added one by one; the formula of Euler and Maclaurin gives the others.
 const DIRECT_TERMS: u64 = 64;
 
@@ -49,7 +51,14 @@ impl SelfAffine {
         std::f64::consts::TAU / length * (self.moment(2) / self.moment(0)).sqrt()
     }
 
-    /// The same ratio by the integrals of eqs. (5)–(7) and (12), in which modes are dense:
+    /// Rms and mean wave number of the modes on a length L in m: sums as in [`Self::gradient_per_height`].
+    #[must_use]
+    pub fn wave_numbers(&self, length: f64) -> WaveNumbers {
+        let mean = std::f64::consts::TAU / length * (self.moment(1) / self.moment(0));
+        WaveNumbers { rms: self.gradient_per_height(length), mean }
+    }
+
+    /// The same ratio as [`Self::gradient_per_height`] by the integrals of eqs. (5)–(7) and (12), in which modes are dense:
     /// ⟨∇z⟩²/h² = ∫ q^(1−2H) dq / ∫ q^(−1−2H) dq between q_min and q_max.
     ///
     /// It differs from [`Self::gradient_per_height`], which belongs to the modes as they are, because
@@ -140,6 +149,7 @@ fn integral_of_power(power: f64, low: f64, high: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::surface::Amplitude;
 
     #[test]
     fn integrals_stay_accurate_as_hurst_goes_to_one() {
@@ -162,6 +172,27 @@ mod tests {
             let (sum, integral) =
                 (spectrum.gradient_per_height(1.0), spectrum.continuum_gradient_per_height(1.0));
             assert!((sum / integral - 1.0).abs() < 2e-4, "H = {hurst}: {sum} against {integral}");
+        }
+    }
+
+    #[test]
+    fn the_elastic_energy_of_the_modes_is_that_of_the_spectrum() {
+        let (modulus, height, length) = (2.0e6, 3.0e-7, 1.0e-3);
+        for hurst in [0.1, 0.5, 0.9] {
+            let spectrum = SelfAffine { hurst, first: 10_000, last: 400_000 };
+            let modes = Amplitude::from_height(height, spectrum.wave_numbers(length)).elastic_energy(modulus);
+            // (E*/4) ∫ q C2D d²q over the surface with ⟨h²⟩ = ∫ C2D d²q: C2D ∝ q^(−2−2H).
+            let q = |mode: u64| std::f64::consts::TAU * mode as f64 / length;
+            let (low, high) = (q(spectrum.first), q(spectrum.last));
+            let power = |exponent: f64| (high.powf(exponent) - low.powf(exponent)) / exponent;
+            let expected =
+                0.25 * modulus * height.powi(2) * power(1.0 - 2.0 * hurst + 1e-9) / power(-2.0 * hurst);
+            assert!((modes / expected - 1.0).abs() < 2e-4, "H = {hurst}: {modes} against {expected}");
+            // e_el/γ = (κ²/4) S₁/√(S₀S₂) with S_j = Σ k^(j−1−2H).
+            let sum = |j: i32| spectrum.moment(j);
+            let kappa_squared = modulus * height.powi(2) * spectrum.gradient_per_height(length);
+            let by_kappa = 0.25 * kappa_squared * sum(1) / (sum(0) * sum(2)).sqrt();
+            assert!((modes / by_kappa - 1.0).abs() < 1e-14);
         }
     }
 

@@ -7,6 +7,7 @@
 
 mod bytes;
 mod error;
+mod expansion;
 mod gsf;
 mod gwy;
 mod missing;

@@ -1,6 +1,7 @@
 //! The format of a file, found by its first bytes, and its reader.
 
 use super::error::{Place, TopographyError, refused};
+use super::expansion::{MOST_EXPANSION, most_expanded};
 use super::reading::{ReadOptions, Reading};
 use super::{Topography, gsf, gwy, npy, sdf, sur, text, x3p};
 use crate::io::{open_regular, read_limited};
@@ -12,12 +13,6 @@ use std::rc::Rc;
 
 /// Most bytes of a file.
 pub const MOST_BYTES: u64 = 1 << 30;
-
-/// Bytes that decompression may give beside [`MOST_EXPANSION`].
-const LEAST_EXPANDED: u64 = 1 << 20;
-
-/// Bytes that decompression may give for each byte of the file: texts of numbers give three to six.
-const MOST_EXPANSION: u64 = 32;
 
 /// First bytes of gzip.
 const GZIP: [u8; 2] = [0x1f, 0x8b];
@@ -112,11 +107,6 @@ fn from_content(mut source: impl BufRead, options: &ReadOptions) -> Result<Readi
 /// in pieces, is looked at as far as it goes.
 fn starts_with(source: &mut impl BufRead, signature: &[u8]) -> io::Result<bool> {
     Ok(source.fill_buf()?.starts_with(signature))
-}
-
-/// Most bytes that decompression of `read` bytes may give.
-pub(super) fn most_expanded(read: u64) -> u64 {
-    read.saturating_mul(MOST_EXPANSION).saturating_add(LEAST_EXPANDED)
 }
 
 /// File whose bytes are shown to an observer, up to a limit.

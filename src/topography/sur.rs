@@ -3,7 +3,7 @@
 use super::Unit;
 use super::bytes::{Bytes, Number, Order};
 use super::error::{Place, TopographyError, refused};
-use super::open::most_expanded;
+use super::expansion::most_expanded;
 use super::reading::{Format, RawGrid, Reading};
 use crate::io::read_limited;
 use encoding_rs::WINDOWS_1252;

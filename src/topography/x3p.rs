@@ -3,7 +3,7 @@
 use super::Unit;
 use super::bytes::{Bytes, Number, Order};
 use super::error::{Place, TopographyError, refused, shown};
-use super::open::most_expanded;
+use super::expansion::most_expanded;
 use super::reading::{Format, RawGrid, Reading};
 use crate::io::{into_text, read_limited};
 use roxmltree::{Document, Node, ParsingOptions};

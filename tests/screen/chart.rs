@@ -1,4 +1,4 @@
-//! The map over κ and H: what it shows, its mark, which is the scene, and what is computed of it when. Told by a
+//! The map over H and κ: what it shows, its mark, which is the scene, and what is computed of it when. Told by a
 //! scripted appraiser.
 
 use super::common::deadline::within;
@@ -92,9 +92,10 @@ pub fn charted(document: Document) -> Driver {
     driver_with(document, &Level::ALL)
 }
 
+/// κ and H of the mark, on a map with H across.
 fn place(driver: &Driver) -> (f64, f64) {
-    let (kappa, hurst) = driver.model.place().unwrap();
-    (kappa, hurst.unwrap())
+    let (hurst, kappa) = driver.model.place().unwrap();
+    (kappa.unwrap(), hurst)
 }
 
 #[test]
@@ -109,8 +110,8 @@ fn the_map_is_shown_beside_what_can_be_changed() {
             for size in [(120, 40), (80, 24)] {
                 driver.resize(size);
                 screens += &format!("── {keys} {} × {} ──\n{}\n", size.0, size.1, driver.text());
-                assert!(driver.text().contains("4 lines of 1 024 springs"), "{}", driver.text());
-                assert!(driver.text().contains("◆ κ 8, H 0.7"), "{}", driver.text());
+                assert!(driver.text().contains("over H, κ, 4 lines") || keys == "V", "{}", driver.text());
+                assert!(driver.text().contains("◆ H 0.7, κ 8"), "{}", driver.text());
                 assert_eq!(
                     driver.text().contains("5 × 5 cells so far"),
                     levels.len() == 1,
@@ -131,25 +132,103 @@ fn the_map_says_without_colours_what_it_says_with_them() {
         for told in ["█ pressure-insensitive", "▒ pressure-sensitive", "· non-adhesive"] {
             assert!(driver.text().contains(told), "{told}\n{}", driver.text());
         }
-        // The same three in every row, from left to right.
-        let fields = driver.rows().iter().filter(|row| row.contains("█▒") && row.contains("▒·")).count();
-        assert!(fields > 15, "{}", driver.text());
+        // The same three in every column, from below.
+        let [insensitive, sensitive, adhesive] = ["████", "▒▒▒▒", "····"].map(|shades| {
+            let rows = driver.rows();
+            let all: Vec<usize> = (0..rows.len()).filter(|row| rows[*row].contains(shades)).collect();
+            (all[0], all[all.len() - 1])
+        });
+        assert!(adhesive.0 < sensitive.0 && sensitive.1 < insensitive.1, "{}", driver.text());
+        // κ ≈ 0.6 is explained.
+        let words = driver.text().replace(['│', '\n'], " ").split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(words.contains("κ ≈ 0.6 is the boundary of eq. (15)"), "{words}");
         driver.model.appearance.marker = Marker::Ascii;
-        assert!(driver.text().is_ascii() && driver.text().contains("#%"), "{}", driver.text());
+        assert!(driver.text().is_ascii() && driver.text().contains("##"), "{}", driver.text());
         driver.model.appearance.marker = Marker::Braille;
-        // Each quantity has a legend of its own.
-        for (quantity, told) in [
-            (
-                Charted::Quantity(Quantity::ZeroLoadAdhesionShare),
-                "F_a(0)/F_a,max  █ ≥ 0.5  ▒ ≥ 0.05  ░ ≥ 0.005",
-            ),
-            (Charted::Quantity(Quantity::AdhesionCoefficient), "F_a/F_n  █ ≥ 1  ▒ ≥ 0.1  ░ ≥ 0.01"),
-            (Charted::Regime, "█ pressure-insensitive"),
+        // Each quantity has a legend of its own, with the scale of the shades, and the regimes as letters.
+        for (quantity, said) in [
+            (Quantity::ZeroLoadAdhesionShare, "F_a(0)/F_a,max "),
+            (Quantity::AdhesionCoefficient, "F_a/F_n "),
         ] {
             driver.press("V");
-            assert_eq!(driver.model.chart.quantity, quantity);
-            assert!(driver.text().contains(told), "{}", driver.text());
+            assert_eq!(driver.model.chart.quantity, Charted::Quantity(quantity));
+            for said in [said, "···", "███", "i pressure-insensitive", "▁▕ F_a(0) = 0.05 F_a,max"]
+            {
+                assert!(driver.text().contains(said), "{said}\n{}", driver.text());
+            }
         }
+        driver.press("V");
+        assert_eq!(driver.model.chart.quantity, Charted::Regime);
+        assert!(driver.text().contains("█ pressure-insensitive"), "{}", driver.text());
+    });
+}
+
+#[test]
+fn a_key_exchanges_the_axes() {
+    within(60, || {
+        let mut driver = charted(rough());
+        let before = driver.text();
+        assert!(
+            before.contains("↑ governing parameter κ") && before.contains("Hurst exponent H"),
+            "{before}"
+        );
+        driver.press("t");
+        let text = driver.text();
+        assert!(text.contains("↑ Hurst exponent H") && text.contains("governing parameter κ"), "{text}");
+        assert!(text.contains("◆ κ 8, H 0.7"), "{text}");
+        driver.press("Right");
+        assert_eq!(driver.model.place(), Some((9.51, Some(0.7))));
+        // The map of another scene has the same axes across and up.
+        driver.press("Tab Tab R");
+        assert!(driver.text().contains("↑ Hurst exponent H"), "{}", driver.text());
+        driver.press("m t u u");
+        assert_eq!(driver.text(), before);
+    });
+}
+
+#[test]
+fn the_map_is_exported_as_it_is_seen() {
+    within(60, || {
+        let folder = tempfile::tempdir().unwrap();
+        let mut driver = charted(rough());
+        let mut export = |keys: &str, name: &str| {
+            driver.press(keys);
+            driver.press("E Ctrl+u");
+            assert!(driver.status().contains("Export the map to"), "{}", driver.status());
+            let path = folder.path().join(name);
+            driver.act(Action::Paste(path.to_str().unwrap().to_owned()));
+            driver.press("Enter");
+            (std::fs::read_to_string(path).unwrap_or_default(), driver.status())
+        };
+        let (cells, _) = export("", "map.csv");
+        let rows: Vec<&str> = cells.lines().collect();
+        assert_eq!(rows.len(), 1 + KAPPAS * HURSTS);
+        assert_eq!(
+            rows[0],
+            "roughness.hurst,kappa,lines,regime,zero_load_adhesion_share_mean,zero_load_adhesion_share_low,\
+             zero_load_adhesion_share_high,adhesion_coefficient_mean,adhesion_coefficient_low,adhesion_coefficient_high"
+        );
+        assert_eq!(
+            rows[1],
+            format!(
+                "0.05,0.125,4,pressure-insensitive,{:?},,,{:?},,",
+                (-0.125_f64).exp(),
+                2.0 * (-0.0625_f64).exp()
+            )
+        );
+        let (figure, _) = export("", "map.svg");
+        for said in ["Hurst exponent", "pressure-sensitive", "adhesion coefficient"] {
+            assert!(figure.starts_with("<svg") && figure.contains(said), "{said}");
+        }
+        let (figure, _) = export("X", "sections.svg");
+        assert!(figure.starts_with("<svg") && figure.contains("at κ 8"), "{figure}");
+        let (cells, _) = export("", "sections.csv");
+        assert_eq!(cells.lines().count(), 1 + KAPPAS + HURSTS - 1);
+        let (nothing, said) = export("", "map.json");
+        assert!(nothing.is_empty() && said.contains("the name must end in .csv, .svg, .txt"), "{said}");
+        // The curve, while another pane is selected.
+        driver.press("Tab Tab E");
+        assert!(driver.status().contains("Export to"), "{}", driver.status());
     });
 }
 
@@ -160,21 +239,21 @@ fn moves_in_a_row_are_one_edit() {
         assert_eq!(driver.model.keys(), ModeKind::Chart);
         let before = driver.model.document.clone();
         let (edits, map) = (driver.model.undo.len(), driver.model.chart.map.clone());
-        assert_eq!(driver.press("Left"), [Effect::Compute]);
+        assert_eq!(driver.press("Down"), [Effect::Compute]);
         assert_eq!(place(&driver), (6.73, 0.7));
-        driver.press("Left Down j l Shift+Left Up");
+        driver.press("Down Left h k Shift+Down Right");
         assert_eq!(place(&driver), (3.36, 0.65));
         assert_eq!(driver.model.undo.len(), edits + 1);
         assert!(is_up_to_date(&driver.model));
         // The map is that of all of them.
         assert_eq!(driver.model.chart.map, map);
-        assert!(driver.text().contains("◆ κ 3.36, H 0.65"), "{}", driver.text());
+        assert!(driver.text().contains("◆ H 0.65, κ 3.36"), "{}", driver.text());
         // Any other key ends the row.
-        driver.press("V Right");
+        driver.press("V Up");
         assert_eq!((place(&driver).0, driver.model.undo.len()), (4.0, edits + 2));
         driver.press("u");
         assert_eq!(place(&driver), (3.36, 0.65));
-        driver.press("Left u u");
+        driver.press("Down u u");
         assert_eq!(driver.model.document, before);
         driver.press("U");
         assert_eq!(place(&driver), (3.36, 0.65));
@@ -189,7 +268,7 @@ fn the_mark_stays_on_the_map() {
         driver.press(&"Shift+Right Shift+Up ".repeat(9));
         assert_eq!(place(&driver), (32.0, 0.95));
         let generation = driver.model.generation;
-        driver.press("Right");
+        driver.press("Up");
         assert!(driver.status().contains("here the map ends"), "{}", driver.status());
         assert_eq!(driver.model.generation, generation);
         // A scene beyond it comes back with the first step.
@@ -197,8 +276,8 @@ fn the_mark_stays_on_the_map() {
         assert_eq!(driver.model.keys(), ModeKind::Explore);
         driver.select("adhesion.kappa");
         driver.enter("100");
-        assert!(driver.text().contains("κ 100, H 0.95, outside the map"), "{}", driver.text());
-        driver.press("m h");
+        assert!(driver.text().contains("H 0.95, κ 100, outside the map"), "{}", driver.text());
+        driver.press("m j");
         assert_eq!(place(&driver).0, 32.0);
     });
 }
@@ -291,10 +370,10 @@ fn a_scene_without_a_map_says_why() {
         }
         let generation = driver.model.generation;
         driver.act(Action::Found(Found { generation, finding: Finding::Charted(Arc::new(map)) }));
-        assert!(driver.text().contains("××××"), "{}", driver.text());
+        assert!(!driver.text().contains("▒▒▒▒"), "{}", driver.text());
         assert!(driver.text().contains("the force is never"), "{}", driver.text());
         driver.press("X");
-        assert!(driver.text().contains("over κ"), "{}", driver.text());
+        driver.screen();
     });
 }
 

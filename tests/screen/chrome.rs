@@ -4,7 +4,6 @@ use super::common::deadline::within;
 use super::common::driver::Driver;
 use super::common::scenes::{punch, rough, smooth};
 use super::{SIZES, default_scene, everywhere, mid_retraction, pressed};
-use asperity::explorer::action::Command;
 use asperity::explorer::keys::{self, BINDINGS};
 use asperity::explorer::layout::Layout;
 use asperity::explorer::model::{Mode, ModeKind};
@@ -126,7 +125,7 @@ fn the_help_lists_every_binding() {
         for size in [(120, 40), (120, 10)] {
             let lines = help(size);
             for row in BINDINGS.iter().filter(|row| !row.help.is_empty()) {
-                let keys: Vec<String> = row.keys.iter().map(keys::Key::name).collect();
+                let keys = keys::names(row.keys);
                 let listed = lines.iter().any(|line| {
                     line.contains(row.help) && keys.iter().all(|key| line.contains(key.as_str()))
                 });
@@ -136,10 +135,7 @@ fn the_help_lists_every_binding() {
                 assert!(lines.iter().any(|line| line.contains(section)), "{section}");
             }
         }
-        // Those without a line of their own are spoken of in one beside them.
-        let silent: Vec<Command> =
-            BINDINGS.iter().filter(|row| row.help.is_empty()).map(|row| row.command).collect();
-        assert_eq!(silent, (1..9).map(Command::Preset).collect::<Vec<_>>());
+        assert!(BINDINGS.iter().all(|row| !row.help.is_empty()), "every row has its line");
     });
 }
 

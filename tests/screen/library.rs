@@ -34,7 +34,7 @@ fn library(driver: &Driver) -> &Library {
 fn found(driver: &Driver) -> Vec<String> {
     let library = library(driver);
     let entries = library.entries.as_ref().unwrap();
-    library.found.iter().map(|index| entries[*index].name.clone()).collect()
+    library.finder.found.iter().map(|index| entries[*index].name.clone()).collect()
 }
 
 #[test]
@@ -65,7 +65,7 @@ fn all_scenes_are_listed_and_found_as_one_types() {
         assert_eq!(found(&driver).len(), presets().len() + 2);
         // Letters are letters here, whatever they do elsewhere.
         driver.press("q j ?");
-        assert_eq!(library(&driver).query.text(), "qj?");
+        assert_eq!(library(&driver).finder.query.text(), "qj?");
     });
 }
 
@@ -99,7 +99,7 @@ fn enter_opens_and_escape_leaves() {
         driver.press("o Down");
         assert_eq!(library(&driver).entry().unwrap().name, presets()[1].name);
         driver.press("Up Up");
-        assert_eq!(library(&driver).selected, 0, "the list has an end");
+        assert_eq!(library(&driver).finder.selected, 0, "the list has an end");
         driver.type_text("mine");
         driver.press("Enter");
         assert_eq!(driver.model.mode, Mode::Explore);

@@ -31,9 +31,10 @@ pub fn opened() -> (TempDir, Driver) {
     opened_with(PLAN)
 }
 
+/// κ and H of the mark, on a map with H across.
 fn place(driver: &Driver) -> (f64, f64) {
-    let (kappa, hurst) = driver.model.place().unwrap();
-    (kappa, hurst.unwrap())
+    let (hurst, kappa) = driver.model.place().unwrap();
+    (kappa.unwrap(), hurst)
 }
 
 fn preload(driver: &Driver) -> f64 {
@@ -48,14 +49,14 @@ fn a_study_is_shown_as_a_map() {
     within(60, || {
         let mut screens = String::new();
         for keys in
-            ["", "P P", "V", "V V V", "X", "X V V V", "Shift+Right Shift+Right Shift+Right Tab Tab g t"]
+            ["", "P P", "V", "V V V", "t", "X", "X V V V", "Shift+Right Shift+Right Shift+Right Tab Tab g t"]
         {
             let (_folder, mut driver) = opened();
             driver.press(keys);
             for size in [(120, 40), (80, 24)] {
                 driver.resize(size);
                 screens += &format!("── {keys} {} × {} ──\n{}\n", size.0, size.1, driver.text());
-                assert!(driver.text().contains("Study small: 13 × 9 cells, 12 line"), "{}", driver.text());
+                assert!(driver.text().contains("Study small: "), "{}", driver.text());
             }
         }
         keep("screen_of_a_study", &screens);
@@ -69,9 +70,9 @@ fn glyphs_tell_all_that_was_recorded() {
         assert_eq!(driver.model.keys(), ModeKind::Chart);
         assert_eq!(driver.model.chart.charted(), Charted::Regime);
         for (quantity, told) in [
-            (Quantity::ZeroLoadAdhesionShare, "F_a(0)/F_a,max  █ ≥ 0.5  ▒ ≥ 0.05  ░ ≥ 0.005"),
-            (Quantity::AdhesionCoefficient, "F_a/F_n  █ ≥ 1  ▒ ≥ 0.1  ░ ≥ 0.01"),
-            (Quantity::AdhesionForce, "F_a  █ ≥ "),
+            (Quantity::ZeroLoadAdhesionShare, "F_a(0)/F_a,max over H, κ"),
+            (Quantity::AdhesionCoefficient, "F_a/F_n over H, κ"),
+            (Quantity::AdhesionForce, "F_a (µN) "),
         ] {
             driver.press("V");
             assert_eq!(driver.model.chart.charted(), Charted::Quantity(quantity));
@@ -79,9 +80,9 @@ fn glyphs_tell_all_that_was_recorded() {
         }
         // The map that is computed here does not have it, and shows what it has.
         driver.press("W");
-        assert!(!driver.text().contains("F_a  █"), "{}", driver.text());
+        assert!(!driver.text().contains("F_a (µN) "), "{}", driver.text());
         driver.press("W");
-        assert!(driver.text().contains("F_a  █"), "{}", driver.text());
+        assert!(driver.text().contains("F_a (µN) "), "{}", driver.text());
         driver.press("V");
         assert_eq!(driver.model.chart.charted(), Charted::Regime);
         for told in ["█ pressure-insensitive", "· non-adhesive", "▓ ░ divided", "of 12 lines"] {
@@ -96,14 +97,14 @@ fn the_mark_goes_from_cell_to_cell_and_beyond_the_map_stays_at_its_edge() {
         let (_folder, mut driver) = opened();
         let before = driver.model.document.clone();
         assert_eq!(place(&driver), (1.0, 0.5));
-        driver.press("Right Up l K");
+        driver.press("Up Right k L");
         // Values of the study: 12 digits, and not those of the map that is computed here.
         assert_eq!(place(&driver), (2.0, 0.9));
-        assert!(driver.text().contains("◆ κ 2, H 0.9"), "{}", driver.text());
+        assert!(driver.text().contains("◆ H 0.9, κ 2"), "{}", driver.text());
         assert!(is_up_to_date(&driver.model));
-        driver.press(&"L ".repeat(4));
+        driver.press(&"K ".repeat(4));
         assert_eq!(place(&driver), (16.0, 0.9));
-        driver.press("l");
+        driver.press("k");
         assert!(driver.status().contains("here the map ends"), "{}", driver.status());
         driver.press("u u");
         assert_eq!(driver.model.document, before);
@@ -122,9 +123,9 @@ fn the_mark_goes_from_cell_to_cell_and_beyond_the_map_stays_at_its_edge() {
             assert!(driver.rows().iter().any(|row| row.chars().take(68).any(|cell| cell == '◆')));
             assert!(!driver.text().contains("no longer"), "{}", driver.text());
             driver.press("m");
-            driver.press(if back.0 > 1.0 { "h" } else { "l" });
+            driver.press(if back.0 > 1.0 { "j" } else { "k" });
             if back.1 != place(&driver).1 {
-                driver.press("j");
+                driver.press("h");
             }
             assert_eq!(place(&driver), back);
         }
@@ -165,7 +166,7 @@ fn a_preload_in_units_that_follow_from_h_goes_with_the_mark() {
     within(60, || {
         let (_folder, mut driver) = opened_with(&PLAN.replace("rms_height: 2.0e-7", "rms_gradient: 0.1"));
         let before = preload(&driver);
-        driver.press("Up");
+        driver.press("Right");
         assert!(preload(&driver) > 1.01 * before, "{before} {}", preload(&driver));
         assert!(!driver.text().contains("no longer"), "{}", driver.text());
     });
@@ -181,8 +182,8 @@ fn the_computed_map_can_be_had_instead() {
         assert!(!charts(&driver), "nothing is computed that is not shown");
         assert_eq!(driver.press("W"), [Effect::Study]);
         assert!(charts(&driver));
-        assert!(driver.text().contains("Map over κ, H: 4 lines"), "{}", driver.text());
-        driver.press("Right");
+        assert!(driver.text().contains("over H, κ, 4 lines"), "{}", driver.text());
+        driver.press("Up");
         assert_eq!(place(&driver).0, 1.19, "from cell to cell of the map that is shown");
         driver.press("P");
         assert!(driver.status().contains("W shows the study's"), "{}", driver.status());
@@ -195,7 +196,7 @@ fn the_computed_map_can_be_had_instead() {
         driver.press("1 W");
         assert!(driver.text().contains("no longer that of the study"), "{}", driver.text());
         driver.press("W");
-        assert!(driver.text().contains("Map over κ, H"), "{}", driver.text());
+        assert!(driver.text().contains("over H, κ, 4 lines"), "{}", driver.text());
 
         let mut driver = pressed("m");
         for key in ["W", "P"] {
@@ -211,7 +212,7 @@ fn sections_have_the_confidence_of_the_mean() {
         let (_folder, mut driver) = opened();
         driver.press("X");
         for told in
-            ["over κ at H 0.5", "over H at κ 1", "⠒⠒⠒ F_a(0)/F_a,max", "⠒ ⠒ F_a/F_n", "⠂ ⠂ 95 % confidence"]
+            ["over H at κ 1", "over κ at H 0.5", "⠒⠒⠒ F_a(0)/F_a,max", "⠒ ⠒ F_a/F_n", "⠂ ⠂ 95 % confidence"]
         {
             assert!(driver.text().contains(told), "{told}\n{}", driver.text());
         }
@@ -268,6 +269,42 @@ fn cells_that_are_missing_are_blank() {
 }
 
 #[test]
+fn studies_of_other_quantities_open_as_maps_and_sections() {
+    within(60, || {
+        let kappa = "Logarithmic(path: \"kappa\", from: 0.25, to: 16, count: 13)";
+        let length = "List(path: \"length\", values: [5.0e-5, 1.0e-4, 2.0e-4])";
+        // The length in place of κ: the mark moves along the length, in its unit.
+        let (_folder, mut driver) = opened_with(&PLAN.replace(kappa, length));
+        assert!(
+            driver.text().contains("over H, L, 12 lines") && driver.text().contains("L (µm)"),
+            "{}",
+            driver.text()
+        );
+        assert!(driver.text().contains("◆ H 0.5, L 100 µm"), "{}", driver.text());
+        driver.press("Up");
+        assert_eq!(driver.model.document.scene().length, 2.0e-4);
+        assert!(!driver.text().contains("no longer"), "{}", driver.text());
+        // H alone: sections, for each preload.
+        let alone = PLAN.replace(&format!("{kappa},"), "");
+        let (_folder, mut driver) =
+            opened_with(&alone.replace("preloads: [0.01, 0.1, 1.0]", "preloads: [0.1]"));
+        assert!(
+            driver.text().contains("over H, 12 lines") && driver.text().contains("⠒⠒⠒ F_a(0)/F_a,max"),
+            "{}",
+            driver.text()
+        );
+        driver.press("Right");
+        assert_eq!(driver.model.place(), Some((0.6, None)));
+        driver.press("Up");
+        assert!(driver.status().contains("this map has one axis, H"), "{}", driver.status());
+        for size in [(80, 24), (40, 12), (20, 5), (1, 1)] {
+            driver.resize(size);
+            driver.screen();
+        }
+    });
+}
+
+#[test]
 fn a_study_is_opened_by_its_path() {
     within(60, || {
         let folder = tempfile::tempdir().unwrap();
@@ -296,7 +333,7 @@ fn a_study_is_opened_by_its_path() {
         driver.press("o");
         driver.act(Action::Paste(path("small")));
         driver.press("Enter");
-        assert!(driver.text().contains("Study small: 13 × 9 cells, 12 lines"), "{}", driver.text());
+        assert!(driver.text().contains("Study small: regime over H, κ, 12 lines"), "{}", driver.text());
         assert!(is_up_to_date(&driver.model) && !driver.model.is_unsaved());
         let Some(Roughness::SelfAffine { modes, .. }) = driver.model.document.scene().roughness else {
             panic!()

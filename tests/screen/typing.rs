@@ -51,7 +51,7 @@ fn the_editor_opens_with_the_value_selected_and_keeps_what_is_refused() {
         driver.press("e");
         let row =
             |driver: &Driver| driver.rows().into_iter().find(|row| row.contains('›')).unwrap_or_default();
-        assert!(row(&driver).contains("apparent diameter L: 100 µm"), "{}", row(&driver));
+        assert!(row(&driver).contains("apparent diameter L (m): 100 µm"), "{}", row(&driver));
         assert_eq!(reversed(&driver.screen().content), "100 µm");
         let before = driver.model.document.clone();
         driver.type_text("10 kg");

@@ -1,7 +1,7 @@
 //! From no adhesion to adhesion that holds everything, and where forces or decisions hang by a hair.
 
 use super::{WORK, ensure, rough};
-use crate::check::catalogue::{Case, Family, Scope};
+use crate::check::case::{Case, Family, Scope};
 use crate::check::{Body, Extended, Fault, end, follow, force_error};
 use crate::contact::Solver;
 use crate::scene::{Edges, Leg};

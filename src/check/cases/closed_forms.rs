@@ -1,7 +1,7 @@
 //! Bodies whose loop is known in closed form.
 
 use super::ensure;
-use crate::check::catalogue::{Case, Family, Scope};
+use crate::check::case::{Case, Family, Scope};
 use crate::check::{Body, Fault, end};
 use crate::contact::Foundation;
 use crate::reference::{PowerLaw, WavySphere};

@@ -1,7 +1,7 @@
 //! What holds for every body: mirrors, finer grids, memory, order, energy, and any number of threads.
 
 use super::{WORK, ensure, indices, points, rough};
-use crate::check::catalogue::{Case, Family, Scope};
+use crate::check::case::{Case, Family, Scope};
 use crate::check::{Body, Fault, end, follow};
 use crate::contact::{CurvePoint, Foundation};
 use crate::scene::{Document, Edges, Leg};

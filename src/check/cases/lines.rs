@@ -1,7 +1,7 @@
 //! Lines: spectra at their ends, few springs and many, ties, chains, and heights on a large offset.
 
 use super::{SPECTRUM, WORK, ensure, rough};
-use crate::check::catalogue::{Case, Family, Scope};
+use crate::check::case::{Case, Family, Scope};
 use crate::check::{Body, Extended, Fault, LENGTH, MODULUS, RMS_HEIGHT, end, follow, force_error};
 use crate::scene::{Edges, Form, Leg};
 use crate::surface::{Line, MeasuredProfile, SelfAffine, UnitRoughness, phases};

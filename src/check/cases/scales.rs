@@ -1,7 +1,7 @@
 //! Units and sizes: what only scales must only scale, to the ends of what numbers can tell.
 
 use super::{Body, WORK, ensure, points, rough, same_bits};
-use crate::check::catalogue::{Case, Family, Scope};
+use crate::check::case::{Case, Family, Scope};
 use crate::check::{Fault, LENGTH, RMS_HEIGHT, end, follow};
 use crate::contact::{Foundation, History};
 use crate::scene::{Adhesion, Document, Edges, Leg, Roughness, Scene};

@@ -1,8 +1,10 @@
 //! `asperity sweep boundary`: where adhesion without a preload vanishes.
 
+use super::spread;
 use crate::cli::CliError;
 use crate::export::sheet::Sheet;
 use crate::io::write_json_value;
+use crate::scene::RoughnessParameter;
 use crate::study::{Boundaries, Boundary, Crossing, DEFINITIONS, Quantity, USUAL_LEVELS, boundaries};
 use clap::{Args, ValueEnum};
 use serde_json::{Map, Value, json};
@@ -14,22 +16,31 @@ Examples:
   asperity sweep equation-15 -o edge && asperity sweep boundary edge
   asperity sweep boundary edge --level 0.05 --format csv
   asperity sweep boundary edge --level 0.5 --level 0.1 --format markdown
+  asperity sweep boundary edge --over elastic_energy_ratio
+  asperity sweep boundary edge --spread --level 0.1
 
 F_a(0) never quite vanishes: it falls about exponentially with κ. So κ* is where its mean over the
 lines falls below a share of F_a,max for good; intervals hold 95 % of 1000 resamplings of the lines.
 With wave numbers in 1/m instead of rad/m the same κ* is √(2π) times smaller (kappa_cycles), with
-amplitudes instead of root mean squares √2 times larger (kappa_amplitude).";
+amplitudes instead of root mean squares √2 times larger (kappa_amplitude).
+A boundary in κ is one in e_el/γ as well, the elastic energy of conformity over the work of adhesion.";
 
 /// Arguments of `sweep boundary`.
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES)]
 pub struct BoundaryArguments {
-    /// Folder of a merged study with an axis `kappa`
+    /// Folder of a merged study with an axis `kappa` or `elastic_energy_ratio`
     #[arg(value_name = "DIR")]
     pub folder: PathBuf,
     /// Share of F_a,max below which adhesion has vanished, as often as needed
     #[arg(long = "level", value_name = "SHARE", value_parser = level)]
     pub levels: Vec<f64>,
+    /// Parameter that the boundary is given in: kappa or elastic_energy_ratio
+    #[arg(long, value_name = "PARAMETER", value_parser = over, default_value = "kappa")]
+    pub over: RoughnessParameter,
+    /// Print how far the boundaries lie apart, in κ and in e_el/γ
+    #[arg(long, conflicts_with = "over")]
+    pub spread: bool,
     /// How to print
     #[arg(long, value_enum, default_value_t = BoundaryFormat::Text)]
     pub format: BoundaryFormat,
@@ -53,10 +64,23 @@ fn level(text: &str) -> Result<f64, String> {
     level.ok_or_else(|| "allowed: a share above 0 and below 1, such as 0.05".to_string())
 }
 
+fn over(text: &str) -> Result<RoughnessParameter, String> {
+    let parameter = RoughnessParameter::ALL.into_iter().find(|parameter| parameter.name() == text.trim());
+    parameter.ok_or_else(|| {
+        let names = RoughnessParameter::ALL.map(RoughnessParameter::name);
+        format!("allowed: {}", names.join(", "))
+    })
+}
+
 /// Finds the boundaries of a study and prints them.
 pub(super) fn boundary(arguments: &BoundaryArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
     let levels = if arguments.levels.is_empty() { USUAL_LEVELS.to_vec() } else { arguments.levels.clone() };
-    let boundaries = boundaries(&arguments.folder, &levels)?;
+    if arguments.spread {
+        let found = RoughnessParameter::ALL.map(|over| boundaries(&arguments.folder, over, &levels));
+        let found = found.into_iter().collect::<Result<Vec<_>, _>>()?;
+        return spread::write(stdout, &found, arguments.format);
+    }
+    let boundaries = boundaries(&arguments.folder, arguments.over, &levels)?;
     match arguments.format {
         BoundaryFormat::Text => stdout.write_all(text(&boundaries).as_bytes())?,
         BoundaryFormat::Json => write_json_value(stdout, &object(&boundaries))?,
@@ -66,16 +90,32 @@ pub(super) fn boundary(arguments: &BoundaryArguments, stdout: &mut dyn Write) ->
     Ok(())
 }
 
-fn protocol(quantity: Quantity) -> &'static str {
+pub(super) fn protocol(quantity: Quantity) -> &'static str {
     if quantity == Quantity::ZeroLoadAdhesionShare { "touch" } else { "zero force" }
 }
 
-/// κ*, and its interval where there is one.
-fn shown(kappa: Crossing) -> (String, String) {
-    match kappa {
-        Crossing::At(kappa, interval) => {
+/// Symbol of a boundary in a parameter.
+pub(super) fn symbol(over: RoughnessParameter) -> &'static str {
+    match over {
+        RoughnessParameter::Kappa => "κ*",
+        RoughnessParameter::ElasticEnergyRatio => "(e_el/γ)*",
+    }
+}
+
+/// Columns of a boundary in a parameter, each with its factor.
+fn columns(over: RoughnessParameter) -> Vec<(&'static str, f64)> {
+    match over {
+        RoughnessParameter::Kappa => DEFINITIONS.to_vec(),
+        RoughnessParameter::ElasticEnergyRatio => vec![(over.name(), 1.0)],
+    }
+}
+
+/// A boundary, and its interval where there is one.
+fn shown(crossing: Crossing) -> (String, String) {
+    match crossing {
+        Crossing::At(value, interval) => {
             let interval = interval.map_or_else(String::new, |(low, high)| format!("{low:.2} to {high:.2}"));
-            (format!("{kappa:.2}"), interval)
+            (format!("{value:.2}"), interval)
         }
         Crossing::Below(smallest) => (format!("< {smallest:.2}"), String::new()),
         Crossing::Above(largest) => (format!("> {largest:.2}"), String::new()),
@@ -83,22 +123,26 @@ fn shown(kappa: Crossing) -> (String, String) {
 }
 
 fn text(boundaries: &Boundaries) -> String {
+    let is_kappa = boundaries.over == RoughnessParameter::Kappa;
     let mut heading = boundaries.others.clone();
-    heading.extend(["protocol", "level", "κ*", "95 %", "q in 1/m"].map(String::from));
+    heading.extend(["protocol", "level", symbol(boundaries.over), "95 %"].map(String::from));
+    heading.extend(is_kappa.then(|| "q in 1/m".into()));
     let mut rows = vec![heading];
-    for Boundary { others, protocol: quantity, level, kappa } in &boundaries.found {
+    for Boundary { others, protocol: quantity, level, crossing } in &boundaries.found {
         let mut row: Vec<String> = others.iter().map(ToString::to_string).collect();
-        let (value, interval) = shown(*kappa);
-        let cycles = match *kappa {
+        let (value, interval) = shown(*crossing);
+        let cycles = match *crossing {
             Crossing::At(kappa, _) => format!("{:.2}", DEFINITIONS[1].1 * kappa),
             _ => String::new(),
         };
-        row.extend([protocol(*quantity).to_string(), level.to_string(), value, interval, cycles]);
+        row.extend([protocol(*quantity).to_string(), level.to_string(), value, interval]);
+        row.extend(is_kappa.then_some(cycles));
         rows.push(row);
     }
     let mut sheet = Sheet::default();
     sheet.table(&rows);
-    sheet.paragraph(&format!("κ* over {} random lines; the paper gives 0.6.", boundaries.lines));
+    let paper = if is_kappa { "; the paper gives 0.6" } else { "" };
+    sheet.paragraph(&format!("{} over {} random lines{paper}.", symbol(boundaries.over), boundaries.lines));
     sheet.into_text()
 }
 
@@ -110,10 +154,10 @@ fn object(boundaries: &Boundaries) -> Value {
         }
         object.insert("protocol".into(), json!(protocol(boundary.protocol)));
         object.insert("level".into(), json!(boundary.level));
-        match boundary.kappa {
-            Crossing::At(kappa, interval) => {
-                for (name, factor) in DEFINITIONS {
-                    object.insert(name.into(), json!(factor * kappa));
+        match boundary.crossing {
+            Crossing::At(value, interval) => {
+                for (name, factor) in columns(boundaries.over) {
+                    object.insert(name.into(), json!(factor * value));
                 }
                 let interval = interval.map(|(low, high)| [low, high]);
                 object.insert("confidence_interval".into(), json!(interval));
@@ -152,23 +196,24 @@ fn markdown(boundaries: &Boundaries, levels: &[f64]) -> String {
     };
     let mut tables = Vec::new();
     for level in levels {
-        let mut table = format!("κ\\* at which F_a(0) falls below {level} F_a,max:\n\n");
+        let boundary = symbol(boundaries.over).replace('*', "\\*");
+        let mut table = format!("{boundary} at which F_a(0) falls below {level} F_a,max:\n\n");
         let name = others.first().map_or("", String::as_str).replace('*', "\\*");
         table += &format!("| {name} |{}\n", columns.iter().map(heading).collect::<String>());
         table += &format!("| --- |{}\n", " --- |".repeat(columns.len()));
         for row in &rows {
-            table += &format!("| {} |", row.map_or("κ\\*".into(), |value| value.to_string()));
+            table += &format!("| {} |", row.map_or_else(|| boundary.clone(), |value| value.to_string()));
             for (protocol, values) in &columns {
                 let here = found.iter().find(|boundary| {
                     let place = (down(boundary), boundary.others.get(1..).unwrap_or_default());
                     boundary.protocol == *protocol && boundary.level == *level && place == (*row, values)
                 });
-                let (kappa, interval) = here.map(|boundary| shown(boundary.kappa)).unwrap_or_default();
+                let (value, interval) = here.map(|boundary| shown(boundary.crossing)).unwrap_or_default();
                 let interval = interval.replace(" to ", "–");
                 table += &if interval.is_empty() {
-                    format!(" {kappa} |")
+                    format!(" {value} |")
                 } else {
-                    format!(" {kappa} ({interval}) |")
+                    format!(" {value} ({interval}) |")
                 };
             }
             table.push('\n');
@@ -179,23 +224,23 @@ fn markdown(boundaries: &Boundaries, levels: &[f64]) -> String {
 }
 
 fn csv(boundaries: &Boundaries) -> String {
-    let mut columns = boundaries.others.clone();
-    columns.extend(["protocol", "level"].map(String::from));
-    columns.extend(DEFINITIONS.map(|(name, _)| name.to_string()));
-    columns.extend(["low", "high", "below", "above"].map(String::from));
-    let mut text = columns.join(",") + "\n";
-    for Boundary { others, protocol: quantity, level, kappa } in &boundaries.found {
+    let of_parameter = columns(boundaries.over);
+    let mut heading = boundaries.others.clone();
+    heading.extend(["protocol", "level"].map(String::from));
+    heading.extend(of_parameter.iter().map(|(name, _)| (*name).to_string()));
+    heading.extend(["low", "high", "below", "above"].map(String::from));
+    let mut text = heading.join(",") + "\n";
+    for Boundary { others, protocol: quantity, level, crossing } in &boundaries.found {
         let mut row: Vec<String> = others.iter().map(ToString::to_string).collect();
         row.extend([protocol(*quantity).to_string(), level.to_string()]);
-        let numbers = match *kappa {
-            Crossing::At(kappa, interval) => {
-                let mut numbers = DEFINITIONS.map(|(_, factor)| Some(factor * kappa)).to_vec();
-                numbers.extend([interval.map(|(low, _)| low), interval.map(|(_, high)| high), None, None]);
-                numbers
-            }
-            Crossing::Below(smallest) => vec![None, None, None, None, None, Some(smallest), None],
-            Crossing::Above(largest) => vec![None, None, None, None, None, None, Some(largest)],
+        let (at, interval, below, above) = match *crossing {
+            Crossing::At(value, interval) => (Some(value), interval, None, None),
+            Crossing::Below(smallest) => (None, None, Some(smallest), None),
+            Crossing::Above(largest) => (None, None, None, Some(largest)),
         };
+        let mut numbers: Vec<_> =
+            of_parameter.iter().map(|(_, factor)| at.map(|value| factor * value)).collect();
+        numbers.extend([interval.map(|(low, _)| low), interval.map(|(_, high)| high), below, above]);
         row.extend(numbers.into_iter().map(|number| number.map_or_else(String::new, |n| n.to_string())));
         text += &(row.join(",") + "\n");
     }

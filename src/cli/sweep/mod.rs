@@ -6,6 +6,7 @@ mod plans;
 mod plot;
 mod progress;
 mod run;
+mod spread;
 mod status;
 mod submit;
 

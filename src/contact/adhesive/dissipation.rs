@@ -4,7 +4,7 @@
 //! (detaches) at once. In the order of the runs the fragments inside another one follow it from right
 //! to left, so one pass with a stack meets each place of the line once for each event there.
 
-use super::edge_model::EdgeModel;
+use super::edge_model::{Boundary, Edge, EdgeModel};
 use super::run::{Ground, Run};
 use super::span::Span;
 use crate::contact::grid::CompensatedSum;
@@ -12,24 +12,6 @@ use crate::contact::grid::CompensatedSum;
 /// Terms summed side by side, and such sums before one is compensated.
 const LANES: usize = 8;
 const LONG: usize = 256;
-
-/// An edge of a fragment.
-#[derive(Clone, Copy, Debug)]
-pub struct Edge {
-    /// Its outermost spring in contact.
-    pub spring: usize,
-    /// Its level, m.
-    pub level: f64,
-}
-
-/// End of a stretch of the line that attaches at once.
-#[derive(Clone, Copy, Debug)]
-pub enum Boundary {
-    /// At an edge of the fragment that forms: the stretch lies inside.
-    Outer(Edge),
-    /// At an edge of a fragment it is made of: the stretch lies outside.
-    Part(Edge),
-}
 
 /// A stretch of the line that attaches or detaches at once, from left to right.
 #[derive(Clone, Copy, Debug)]
@@ -41,6 +23,8 @@ pub struct AtOnce {
 
 /// A fragment whose parts may still follow.
 struct Open {
+    /// Number of its run.
+    run: usize,
     at: f64,
     left: Edge,
     right: Edge,
@@ -85,7 +69,7 @@ impl<E: EdgeModel> Ground<'_, E> {
 
     /// Calls `see` with each spring that attaches (or detaches) while a run passes from span to span, and its
     /// indentation, m.
-    fn each_spring_of_chains(&self, runs: &[Run], unloading: bool, mut see: impl FnMut(usize, f64)) {
+    pub fn each_spring_of_chains(&self, runs: &[Run], unloading: bool, mut see: impl FnMut(usize, f64)) {
         for run in runs {
             let mut below: Option<Span> = None;
             self.each_span(run, unloading, |span, from, _| {
@@ -97,6 +81,26 @@ impl<E: EdgeModel> Ground<'_, E> {
         }
     }
 
+    /// The smallest and the largest span of a run on a range, with their levels, m.
+    pub fn ends_of(&self, run: &Run, range: Range) -> [(Span, f64); 2] {
+        let Range { low, high, unloading } = range;
+        let top = if run.to > high { self.span_at(run, unloading, high) } else { self.top(run) };
+        let bottom = if run.from < low { self.span_at(run, unloading, low) } else { self.bottom(run) };
+        self.levels_of(run, bottom, top, range)
+    }
+
+    /// Levels of these spans of a run at the ends of a range, m.
+    pub fn levels_of(&self, run: &Run, bottom: Span, top: Span, range: Range) -> [(Span, f64); 2] {
+        let [lower, upper] = match run.pin() {
+            Some(rise) => [bottom.gap + rise, top.gap + rise],
+            None => [
+                self.edges.level(&bottom, self.edges.length(self.gaps, &bottom), run.from.max(range.low)),
+                self.level_up_to(&top, run.to.min(range.high), range.unloading),
+            ],
+        };
+        [(bottom, lower), (top, upper)]
+    }
+
     /// Calls `slide` with the spans and levels between which each run slides on a range, and `jump` with each stretch
     /// of the line that attaches or detaches there at once.
     pub fn each_change(
@@ -106,39 +110,41 @@ impl<E: EdgeModel> Ground<'_, E> {
         mut slide: impl FnMut((&Span, f64), (&Span, f64)),
         mut jump: impl FnMut(AtOnce),
     ) {
-        let Range { low, high, unloading } = range;
-        let mut open: Vec<Open> = Vec::new();
-        for run in runs.iter().filter(|run| run.from <= high && run.to > low) {
-            let top = if run.to > high { self.span_at(run, unloading, high) } else { self.top(run) };
-            let bottom = if run.from < low { self.span_at(run, unloading, low) } else { self.bottom(run) };
-            let (lower, upper) = match run.pin() {
-                Some(rise) => (bottom.gap + rise, top.gap + rise),
-                None => (
-                    self.edges.level(&bottom, self.edges.length(self.gaps, &bottom), run.from.max(low)),
-                    self.level_up_to(&top, run.to.min(high), unloading),
-                ),
-            };
+        let Range { low, high, .. } = range;
+        let mut nesting = Nesting::default();
+        let mut jump = |_, at_once| jump(at_once);
+        for (index, run) in runs.iter().enumerate().filter(|(_, run)| run.from <= high && run.to > low) {
+            let [(bottom, lower), (top, upper)] = self.ends_of(run, range);
             slide((&bottom, lower), (&top, upper));
+            nesting.meet(top.ends(), || upper, &mut jump);
+            // A range contains its upper end only.
+            let counts = run.from > low || low == f64::NEG_INFINITY;
+            nesting.enter((index, run.from), bottom.ends(), lower, counts);
+        }
+        nesting.close(&mut jump);
+    }
 
-            while let Some(done) = open.pop_if(|open| open.left.spring > top.last) {
-                done.close(&mut jump);
-            }
-            if let Some(around) = open.last_mut() {
-                let right = Edge { spring: top.last, level: upper };
-                around.meet(Edge { spring: top.first, level: upper }, right, &mut jump);
-            }
-            open.push(Open {
-                at: run.from,
-                left: Edge { spring: bottom.first, level: lower },
-                right: Edge { spring: bottom.last, level: lower },
-                met: None,
-                // A range contains its upper end only.
-                counts: run.from > low || low == f64::NEG_INFINITY,
-            });
+    /// Calls `jump` with each stretch of the line that detaches at once when a run of these parts that is `wanted`, and
+    /// the number of this run; the unloading began at `high`, m.
+    pub fn each_jump(
+        &self,
+        runs: &[Run],
+        high: f64,
+        wanted: impl Fn(usize) -> bool,
+        mut jump: impl FnMut(usize, AtOnce),
+    ) {
+        let mut nesting = Nesting::default();
+        for (index, run) in runs.iter().enumerate() {
+            let upper = || self.level_up_to(&self.top(run), run.to.min(high), true);
+            nesting.meet(run.top_ends(), upper, &mut jump);
+            let counts = wanted(index);
+            let bottom = || {
+                let bottom = self.bottom(run);
+                self.edges.level(&bottom, self.edges.length(self.gaps, &bottom), run.from)
+            };
+            nesting.enter((index, run.from), run.bottom, if counts { bottom() } else { f64::NAN }, counts);
         }
-        while let Some(done) = open.pop() {
-            done.close(&mut jump);
-        }
+        nesting.close(&mut jump);
     }
 
     /// The smallest indentation at which each spring is in contact on a leg, m, along the line: −∞ always, +∞ never.
@@ -177,20 +183,56 @@ impl<E: EdgeModel> Ground<'_, E> {
     }
 }
 
+/// The fragments around a place of the line, in the order of the runs.
+#[derive(Default)]
+struct Nesting {
+    open: Vec<Open>,
+}
+
+impl Nesting {
+    /// Meets a run with these first and last springs at its largest span, and the level of its edges there.
+    #[inline]
+    fn meet(&mut self, top: [u32; 2], upper: impl FnOnce() -> f64, jump: &mut impl FnMut(usize, AtOnce)) {
+        let [first, last] = top.map(|spring| spring as usize);
+        while let Some(done) = self.open.pop_if(|open| open.left.spring > last) {
+            done.close(jump);
+        }
+        if let Some(around) = self.open.last_mut() {
+            let level = if around.counts { upper() } else { f64::NAN };
+            around.meet(Edge { spring: first, level }, Edge { spring: last, level }, jump);
+        }
+    }
+
+    /// Enters the run that was met last, the number of which and the indentation at which it parts (m) are given, at its
+    /// smallest span and the level of its edges there.
+    #[inline]
+    fn enter(&mut self, (run, at): (usize, f64), bottom: [u32; 2], level: f64, counts: bool) {
+        let [left, right] = bottom.map(|spring| Edge { spring: spring as usize, level });
+        self.open.push(Open { run, at, left, right, met: None, counts });
+    }
+
+    /// Leaves all runs.
+    fn close(mut self, jump: &mut impl FnMut(usize, AtOnce)) {
+        while let Some(done) = self.open.pop() {
+            done.close(jump);
+        }
+    }
+}
+
 impl Open {
     /// Meets the next of its parts to the left.
-    fn meet(&mut self, left: Edge, right: Edge, jump: &mut impl FnMut(AtOnce)) {
+    fn meet(&mut self, left: Edge, right: Edge, jump: &mut impl FnMut(usize, AtOnce)) {
         let to = self.met.replace(left).map_or(Boundary::Outer(self.right), Boundary::Part);
         if self.counts {
-            jump(AtOnce { at: self.at, between: (Boundary::Part(right), to) });
+            jump(self.run, AtOnce { at: self.at, between: (Boundary::Part(right), to) });
         }
     }
 
     /// Has met all its parts.
-    fn close(self, jump: &mut impl FnMut(AtOnce)) {
+    fn close(self, jump: &mut impl FnMut(usize, AtOnce)) {
         let to = self.met.map_or(Boundary::Outer(self.right), Boundary::Part);
         if self.counts {
-            jump(AtOnce { at: self.at, between: (Boundary::Outer(self.left), to) });
+            jump(self.run, AtOnce { at: self.at, between: (Boundary::Outer(self.left), to) });
         }
     }
 }

@@ -1,6 +1,5 @@
 //! Edge model of a contact fragment: its length, its next attachment and detachment, the force of its edge cells.
 
-use super::dissipation::Boundary;
 use super::span::Span;
 use crate::contact::Direction;
 use crate::contact::contact_model::ContactState;
@@ -103,4 +102,22 @@ pub struct EdgeCells {
     pub length: f64,
     /// The compression ∫ (d − c) dx over that, in cells times metres.
     pub compression: f64,
+}
+
+/// An edge of a fragment.
+#[derive(Clone, Copy, Debug)]
+pub struct Edge {
+    /// Its outermost spring in contact.
+    pub spring: usize,
+    /// Its level, m.
+    pub level: f64,
+}
+
+/// End of a stretch of the line that attaches at once.
+#[derive(Clone, Copy, Debug)]
+pub enum Boundary {
+    /// At an edge of the fragment that forms: the stretch lies inside.
+    Outer(Edge),
+    /// At an edge of a fragment it is made of: the stretch lies outside.
+    Part(Edge),
 }

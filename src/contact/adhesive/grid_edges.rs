@@ -1,7 +1,7 @@
 //! Whole springs, as the paper counts them: a fragment of n springs is n Δx long.
 
-use super::dissipation::{Boundary, squares};
-use super::edge_model::{EdgeCells, EdgeModel};
+use super::dissipation::squares;
+use super::edge_model::{Boundary, EdgeCells, EdgeModel};
 use super::span::Span;
 use crate::contact::contact_model::ContactState;
 use crate::contact::totals::{ContactTotals, GapScale};

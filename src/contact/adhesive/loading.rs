@@ -1,8 +1,8 @@
 //! Loading: the indentation at which each part of the line closes, and the fragments between.
 
 use super::edge_model::EdgeModel;
-use super::run::{Ground, Held, Run, larger, smaller};
-use super::span::Span;
+use super::run::{Ground, Held, Run};
+use super::span::{Span, larger, smaller};
 use super::tree::{Branch, Node};
 use crate::contact::{ContactError, resized};
 

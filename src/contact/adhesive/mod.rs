@@ -10,6 +10,7 @@ mod dissipation;
 mod edge_model;
 mod grid_edges;
 mod loading;
+mod reversing;
 mod run;
 mod search;
 mod span;
@@ -17,7 +18,8 @@ mod sub_cell_edges;
 mod tree;
 mod unloading;
 
-pub(in crate::contact) use dissipation::{AtOnce, Boundary, Edge};
+pub(in crate::contact) use dissipation::AtOnce;
+pub(in crate::contact) use edge_model::{Boundary, Edge};
 pub use edge_model::{EdgeCells, EdgeModel};
 pub use grid_edges::GridEdges;
 pub(in crate::contact) use run::{Ground, Held, Run};
@@ -28,13 +30,13 @@ use tree::TWO_THREADS;
 pub(in crate::contact) use tree::{Branch, Node};
 
 use super::contact_model::{ContactModel, ContactState};
-use super::exact::Exact;
 use super::grid::Grid;
 use super::{ContactError, Direction, LegContact, Work};
 use crate::parallel::in_parallel;
 use curve::Sampled;
 use dissipation::Range;
 use loading::Closing;
+use reversing::Reversing;
 use search::Search;
 use unloading::Opening;
 
@@ -63,6 +65,9 @@ pub struct Adhesive<'a, E> {
     unloading: bool,
     /// Whether the present leg forms the contact.
     forms: bool,
+    reversing: Reversing,
+    /// Squares of stretches on the way to and from the present turning point, m².
+    squares: [f64; 2],
 }
 
 impl<'a, E: EdgeModel> Adhesive<'a, E> {
@@ -72,7 +77,9 @@ impl<'a, E: EdgeModel> Adhesive<'a, E> {
         debug_assert_eq!(tree.edges(), E::EDGES, "the tree sums for other edges");
         memory.closing.forget();
         memory.runs.clear();
-        Adhesive { ground: Ground { gaps, tree, edges }, memory, unloading: false, forms: false }
+        let ground = Ground { gaps, tree, edges };
+        let reversing = Reversing::default();
+        Adhesive { ground, memory, unloading: false, forms: false, reversing, squares: [0.0; 2] }
     }
 
     /// The line under the rule of the present leg.
@@ -103,28 +110,49 @@ impl<'a, E: EdgeModel> Adhesive<'a, E> {
         Ok((sampled?, squared))
     }
 
-    /// Smallest compression of the unloading from first touch, m, and the work counts of the search.
-    fn pull_off_at_touch(&mut self) -> Result<(f64, Work), ContactError> {
-        let mut work = Work { zero_load_passes: 1, ..Work::default() };
+    /// Memory of the contact, for the next one.
+    pub(super) fn into_memory(self) -> AdhesiveMemory {
+        self.memory
+    }
+
+    /// The runs `spare` hold as an unloading beside the present leg.
+    fn spare(&self) -> Search<'_, E> {
+        let runs = self.memory.spare.as_slice();
+        Search { ground: self.ground.on(Direction::Unloading), runs, unloading: true }
+    }
+
+    /// The unloading from the present turning point.
+    fn reversal(&self) -> Search<'_, E> {
+        let spare = self.spare();
+        if self.ground.edges.are_pinned() { spare } else { Search { runs: self.reversing.runs(), ..spare } }
+    }
+
+    /// Lists the unloading from an indentation of the loading from separation beside the present leg. Returns the smallest
+    /// indentation with contact, m.
+    fn unload_aside(&mut self, from: f64, work: &mut Work) -> Result<f64, ContactError> {
         let [loading, unloading] = [Direction::Loading, Direction::Unloading].map(|leg| self.ground.on(leg));
-        if !self.forms {
-            work.hess_evaluations += self.memory.closing.close(&loading)?;
-        }
         let AdhesiveMemory { closing, opening, runs, spare, held } = &mut self.memory;
         if !self.forms {
+            work.hess_evaluations += closing.close(&loading)?;
             closing.list(&loading, &[], spare, &mut work.hess_evaluations)?;
         }
         held.clear();
         let pins = self.ground.edges.are_pinned();
-        held.extend(loading.held_at(if self.forms { runs } else { spare }, false, 0.0, pins));
-        let opened = opening.list(&unloading, held, 0.0, spare)?;
+        held.extend(loading.held_at(if self.forms { runs } else { spare }, false, from, pins));
+        let opened = opening.list(&unloading, held, from, spare)?;
         work.hess_evaluations += opened.evaluations;
-        work.springs_tallied = opened.springs;
-        let grid = Grid::new(opened.separates.min(0.0), 0.0, Self::SEARCH_INTERVALS);
-        let leg = unloading.sample(spare, true, grid)?;
-        let search = Search { ground: unloading, runs: spare, unloading: true };
-        let smallest = search.smallest(&leg, &mut work.events_sorted);
-        Ok((smallest.compression, work))
+        work.springs_tallied += opened.springs;
+        Ok(opened.separates)
+    }
+
+    /// Smallest compression of the unloading from first touch, m, and the work counts of the search.
+    pub(super) fn pull_off_at_touch(&mut self) -> Result<(f64, Work), ContactError> {
+        let mut work = Work { zero_load_passes: 1, ..Work::default() };
+        let separates = self.unload_aside(0.0, &mut work)?;
+        let grid = Grid::new(separates.min(0.0), 0.0, Self::SEARCH_INTERVALS);
+        let search = self.spare();
+        let leg = search.ground.sample(search.runs, true, grid)?;
+        Ok((search.smallest(&leg, &mut work.events_sorted).compression, work))
     }
 }
 
@@ -163,6 +191,46 @@ impl<E: EdgeModel> ContactModel for Adhesive<'_, E> {
         std::mem::swap(runs, spare);
         (self.unloading, self.forms) = (true, false);
         Ok(opened.separates)
+    }
+
+    fn begin_reversals(&mut self, turns: &[f64]) -> Result<(), ContactError> {
+        let loading = self.ground.on(Direction::Loading);
+        if self.ground.edges.are_pinned() {
+            return Ok(());
+        }
+        self.reversing.begin(&loading, &self.memory.runs, turns)
+    }
+
+    fn reverse(&mut self, turn: (usize, f64), work: &mut Work) -> Result<f64, ContactError> {
+        work.unloading_passes += 1;
+        let [loading, unloading] = [Direction::Loading, Direction::Unloading].map(|leg| self.ground.on(leg));
+        if !self.ground.edges.are_pinned() {
+            let (runs, evaluations) = (&self.memory.runs, &mut work.hess_evaluations);
+            let separates = self.reversing.turn([&loading, &unloading], runs, turn, evaluations)?;
+            self.squares = self.reversing.squared_stretches();
+            return Ok(separates);
+        }
+        // Edges that keep their place at first have another unloading from each turning point.
+        let separates = self.unload_aside(turn.1, work)?;
+        let range = |unloading| Range { low: f64::NEG_INFINITY, high: turn.1, unloading };
+        self.squares = [
+            loading.squared_stretch(&self.memory.runs, range(false)),
+            unloading.squared_stretch(&self.memory.spare, range(true)),
+        ];
+        Ok(separates)
+    }
+
+    fn sample_reversal(&self, grid: Grid) -> Result<Sampled, ContactError> {
+        let Search { ground, runs, unloading } = self.reversal();
+        ground.sample(runs, unloading, grid)
+    }
+
+    fn smallest_of_reversal(&self, leg: &Sampled, sorted: &mut u64) -> ContactState {
+        self.reversal().smallest(leg, sorted)
+    }
+
+    fn squared_stretches(&self) -> [f64; 2] {
+        self.squares
     }
 
     fn sample(&self, grid: Grid) -> Result<Sampled, ContactError> {
@@ -230,23 +298,5 @@ impl<E: EdgeModel> ContactModel for Adhesive<'_, E> {
         let ground = self.on_leg();
         let held = ground.held_at(&self.memory.runs, self.unloading, indentation, false);
         held.map(|held| (held.first as usize, held.last as usize)).collect()
-    }
-}
-
-impl<'a, E: EdgeModel> Exact<Adhesive<'a, E>> {
-    /// The memory it worked in, for the next body.
-    #[must_use]
-    pub fn into_memory(self) -> AdhesiveMemory {
-        self.into_contact().memory
-    }
-
-    /// Smallest force of the unloading from first touch, N, and the work counts of the search.
-    ///
-    /// # Errors
-    /// [`ContactError::OutOfMemory`].
-    pub fn pull_off_at_touch(&mut self) -> Result<(f64, Work), ContactError> {
-        let stiffness = self.foundation().spring_stiffness();
-        let (compression, work) = self.contact_mut().pull_off_at_touch()?;
-        Ok((stiffness * compression, work))
     }
 }

@@ -1,7 +1,7 @@
 //! Runs: the fragments of a leg, each over the range of indentations in which its edges move without a jump.
 
 use super::edge_model::EdgeModel;
-use super::span::Span;
+use super::span::{Span, larger};
 use super::tree::{Branch, ContactTree};
 use crate::contact::Direction;
 
@@ -16,7 +16,7 @@ pub struct Run {
     pub from: f64,
     /// Upper bound (exclusive), m; +∞ for a fragment in contact when an unloading leg begins.
     pub to: f64,
-    bottom: [u32; 2],
+    pub bottom: [u32; 2],
     /// Its largest span, or the bits of the rise of pinned edges.
     top: [u32; 2],
     pub branch: Branch,
@@ -62,6 +62,12 @@ impl Run {
         self.is_pinned.then(|| f64::from_bits(high << 32 | low))
     }
 
+    /// First and last spring of its largest span.
+    #[inline]
+    pub fn top_ends(&self) -> [u32; 2] {
+        if self.is_pinned { self.bottom } else { self.top }
+    }
+
     /// Goes on upwards, to the next larger span.
     pub fn raise(&mut self, span: &Span, to: f64) {
         (self.to, self.top) = (to, span.ends());
@@ -99,7 +105,7 @@ impl<E: EdgeModel> Ground<'_, E> {
     /// The largest one.
     #[inline]
     pub fn top(&self, run: &Run) -> Span {
-        self.span(run.branch, if run.is_pinned { run.bottom } else { run.top })
+        self.span(run.branch, run.top_ends())
     }
 
     /// The edge cells of a run on one of its spans.
@@ -148,6 +154,19 @@ impl<E: EdgeModel> Ground<'_, E> {
         see(&span, from, run.to);
     }
 
+    /// The span of a loading run at an indentation, from the one that it filled at a smaller indentation on.
+    pub fn climbed(&self, run: &Run, from: [u32; 2], indentation: f64) -> Span {
+        let mut span = self.span(run.branch, from);
+        while span.ends() != run.top_ends() {
+            let above = span.grown(self.gaps);
+            if indentation < self.edges.attaches_at(&span, self.edges.length(self.gaps, &span), above.gap) {
+                break;
+            }
+            span = above;
+        }
+        span
+    }
+
     /// The span of a run at an indentation, m.
     pub fn span_at(&self, run: &Run, unloading: bool, indentation: f64) -> Span {
         let mut found = self.bottom(run);
@@ -178,16 +197,4 @@ impl<E: EdgeModel> Ground<'_, E> {
             Held { branch: run.branch, first, last, pin: pins.then(rise) }
         })
     }
-}
-
-/// The smaller of two numbers, neither of which is NaN: `f64::min` would look for that.
-#[inline]
-pub fn smaller(a: f64, b: f64) -> f64 {
-    if b < a { b } else { a }
-}
-
-/// The larger of two numbers, neither of which is NaN.
-#[inline]
-pub fn larger(a: f64, b: f64) -> f64 {
-    if b > a { b } else { a }
 }

@@ -51,6 +51,19 @@ impl Span {
         self.wall(gaps).map_or(*self, |wall| self.with(gaps, wall))
     }
 
+    /// The next smaller span of its branch, at the smallest span of which a gap is `bottom`, m.
+    #[inline]
+    pub fn shrunk(&self, gaps: &[f64], bottom: f64) -> Self {
+        let (mut first, mut last) = (self.first, self.last);
+        if gaps[first] >= gaps[last] {
+            first += 1
+        } else {
+            last -= 1
+        }
+        let ends = gaps[first].max(gaps[last]);
+        Span { gap: ends.max(bottom), first, last }
+    }
+
     /// Springs in it.
     #[inline]
     pub fn springs(&self) -> usize {
@@ -62,4 +75,16 @@ impl Span {
     pub fn ends(&self) -> [u32; 2] {
         [self.first as u32, self.last as u32]
     }
+}
+
+/// The smaller of two numbers, neither of which is NaN: `f64::min` would look for that.
+#[inline]
+pub fn smaller(a: f64, b: f64) -> f64 {
+    if b < a { b } else { a }
+}
+
+/// The larger of two numbers, neither of which is NaN.
+#[inline]
+pub fn larger(a: f64, b: f64) -> f64 {
+    if b > a { b } else { a }
 }

@@ -1,8 +1,8 @@
 //! Sub-cell edges: the line is straight between neighbouring springs, and a fragment ends at the crossing of the line
 //! with the level of the fragment. The error falls with the square of the distance between springs.
 
-use super::dissipation::{Boundary, squares_of_cells};
-use super::edge_model::{EdgeCells, EdgeModel};
+use super::dissipation::squares_of_cells;
+use super::edge_model::{Boundary, EdgeCells, EdgeModel};
 use super::span::Span;
 use crate::contact::contact_model::ContactState;
 use crate::contact::totals::{ContactTotals, GapScale};

@@ -1,6 +1,6 @@
 //! The contact tree: how the fragments of a line merge, over its local maxima alone.
 
-use super::run::larger;
+use super::span::larger;
 use crate::contact::{ContactError, GapScale, reserve};
 use crate::memory;
 use crate::parallel::in_parallel;

@@ -1,8 +1,8 @@
 //! Unloading: the indentation at which each part of a contact detaches, and the fragments between.
 
 use super::edge_model::EdgeModel;
-use super::run::{Ground, Held, Run, smaller};
-use super::span::Span;
+use super::run::{Ground, Held, Run};
+use super::span::{Span, smaller};
 use super::tree::Branch;
 use crate::contact::ContactError;
 
@@ -11,14 +11,32 @@ const ABOVE: f64 = 1.0 + 1e-12;
 
 /// Part of the contact still to be listed.
 #[derive(Clone, Copy, Debug)]
-struct Part {
-    branch: Branch,
-    first: u32,
-    last: u32,
+pub struct Part {
+    pub branch: Branch,
+    pub first: u32,
+    pub last: u32,
     /// Indentation at which the fragment around it parts, m.
     opens: f64,
     /// True for a fragment at the beginning of the leg.
     is_whole: bool,
+}
+
+/// End of the way down a branch.
+pub enum Descent<L> {
+    /// No fragment is left inside.
+    Nothing,
+    /// At the smallest span, which parts at an indentation (m): the parts of its node are left.
+    Bottom([Option<Part>; 2]),
+    /// At a span that has been listed before, inside a fragment that parts at an indentation, m; the span above and its
+    /// length, where its run may go on.
+    Known { opens: f64, above: Option<(Span, L)> },
+}
+
+impl Part {
+    /// A fragment at the beginning of a leg at this indentation, m.
+    pub fn whole(held: &Held, from: f64) -> Self {
+        Part { branch: held.branch, first: held.first, last: held.last, opens: from, is_whole: true }
+    }
 }
 
 /// Memory of the walk.
@@ -55,20 +73,14 @@ impl Opening {
         let out_of_memory = |_| ContactError::OutOfMemory { springs: ground.gaps.len() };
         let mut opened = Opened { separates: f64::INFINITY, springs: 0, evaluations: 0 };
         let mut parts = std::mem::take(&mut self.parts);
-        for &Held { branch, first, last, pin } in held.iter().rev() {
-            opened.springs += u64::from(last + 1 - first);
-            parts.push(Part { branch, first, last, opens: from, is_whole: true });
+        for held in held.iter().rev() {
+            let pin = held.pin;
+            opened.springs += u64::from(held.last + 1 - held.first);
+            parts.push(Part::whole(held, from));
             while let Some(part) = parts.pop() {
-                let Some((opens, bottom, place)) = ground.descend(part, pin, runs, &mut opened)? else {
-                    continue;
-                };
-                if let Ok(node) = part.branch.origin() {
+                if let Descent::Bottom(inside) = ground.descend(part, (pin, None), runs, &mut opened)? {
                     parts.try_reserve(2).map_err(out_of_memory)?;
-                    let [left, right] = ground.tree.parts(node);
-                    let [first, last] = bottom.ends();
-                    let place = place as u32;
-                    parts.push(Part { branch: left, first, last: place - 1, opens, is_whole: false });
-                    parts.push(Part { branch: right, first: place + 1, last, opens, is_whole: false });
+                    parts.extend(inside.into_iter().flatten());
                 }
             }
         }
@@ -87,16 +99,24 @@ impl<E: EdgeModel> Ground<'_, E> {
         need <= 0.0 || need * need < stretch * stretch * ABOVE * (springs + 1) as f64
     }
 
-    /// Lists the runs of one branch from its largest span down; the edges of a fragment at the beginning of the leg may
-    /// be pinned at a rise, m. Returns the indentation at which its smallest span
-    /// parts (m), that span and the spring that then detaches; `None` where no fragment is left inside.
-    fn descend(
+    /// The parts into which the smallest span of a branch parts at an indentation (m), when a spring detaches.
+    fn parts_of(&self, branch: Branch, span: &Span, spring: usize, opens: f64) -> [Option<Part>; 2] {
+        let Ok(node) = branch.origin() else { return [None; 2] };
+        let [left, right] = self.tree.parts(node);
+        let ([first, last], spring) = (span.ends(), spring as u32);
+        let part = |branch, first, last| Some(Part { branch, first, last, opens, is_whole: false });
+        [part(left, first, spring - 1), part(right, spring + 1, last)]
+    }
+
+    /// Lists the runs of one branch from its largest span down to its smallest one, or down to a `known` one inside;
+    /// the edges of a fragment at the beginning of the leg may be pinned at a rise, m.
+    pub fn descend(
         &self,
         part: Part,
-        pin: Option<f64>,
+        (pin, known): (Option<f64>, Option<[u32; 2]>),
         runs: &mut Vec<Run>,
         opened: &mut Opened,
-    ) -> Result<Option<(f64, Span, usize)>, ContactError> {
+    ) -> Result<Descent<E::Length>, ContactError> {
         let Ground { gaps, tree, edges } = *self;
         let (mut first, mut last) = (part.first as usize, part.last as usize);
         let (mut opens, mut is_whole) = (part.opens, part.is_whole);
@@ -111,7 +131,7 @@ impl<E: EdgeModel> Ground<'_, E> {
             }
         };
         if !is_whole && !self.may_hold(lowest, opens, last + 1 - first) {
-            return Ok(None);
+            return Ok(Descent::Nothing);
         }
         let is_leaf = bottom == f64::NEG_INFINITY;
         // The span above and its length, while its run may go on.
@@ -127,6 +147,9 @@ impl<E: EdgeModel> Ground<'_, E> {
                 right
             };
             let span = Span { gap, first, last };
+            if !is_whole && known == Some(span.ends()) {
+                return Ok(Descent::Known { opens, above });
+            }
             let mut goes_on = None;
             if is_whole || self.may_hold(gap, opens, last + 1 - first) {
                 opened.evaluations += 1;
@@ -165,7 +188,7 @@ impl<E: EdgeModel> Ground<'_, E> {
             }
             above = goes_on;
             if at_bottom {
-                return Ok(Some((opens, span, place)));
+                return Ok(Descent::Bottom(self.parts_of(part.branch, &span, place, opens)));
             }
             if left >= right { first += 1 } else { last -= 1 }
         }

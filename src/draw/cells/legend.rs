@@ -2,6 +2,7 @@
 
 use super::style::{CellStyle, glyph};
 use crate::draw::chart::{Chart, Entry, Sample, Stroke};
+use crate::draw::label::Label;
 use ratatui::symbols::Marker;
 use ratatui::text::Span as Text;
 
@@ -19,24 +20,35 @@ fn strokes(stroke: Stroke, marker: Marker) -> [&'static str; 3] {
     }
 }
 
+/// Sample of a layer, made of what lines are made of.
+fn text_of(sample: Sample, marker: Marker) -> String {
+    match sample {
+        Sample::Line(stroke, sign) => {
+            let [left, middle, right] = stroke.map_or(["", "", ""], |stroke| strokes(stroke, marker));
+            format!("{left}{}{right}", sign.map_or(middle, glyph))
+        }
+        Sample::Area => strokes(Stroke::Sparse, marker).concat(),
+        Sample::Solid => "■".to_owned(),
+        Sample::Guide => "┊".to_owned(),
+        Sample::Contour => "▁▕".to_owned(),
+        Sample::Empty => "blank:".to_owned(),
+    }
+}
+
 /// Entries of the legend of charts: sample and name.
 #[must_use]
 pub fn legend(charts: &[Chart], style: &CellStyle<'_>) -> Vec<Vec<Text<'static>>> {
+    // Cells of a map hold letters of their classes.
+    let classes = || charts.iter().filter_map(Chart::map).flat_map(|map| &map.class_names);
     let mut parts = Vec::new();
     for entry in Entry::of_charts(charts) {
         let mut part: Vec<Text<'static>> = Vec::new();
+        let letter =
+            classes().find(|class| Label::plain(&class.name) == entry.name).and_then(|class| class.letter);
         for (ink, sample) in entry.samples {
-            let text = match sample {
-                Sample::Line(stroke, sign) => {
-                    let [left, middle, right] =
-                        stroke.map_or(["", "", ""], |stroke| strokes(stroke, style.marker));
-                    format!("{left}{}{right}", sign.map_or(middle, glyph))
-                }
-                Sample::Area => strokes(Stroke::Sparse, style.marker).concat(),
-                Sample::Solid => "■".to_owned(),
-                Sample::Guide => "┊".to_owned(),
-                Sample::Contour => "▁▕".to_owned(),
-                Sample::Empty => "blank:".to_owned(),
+            let text = match (sample, letter) {
+                (Sample::Line(..), Some(letter)) => letter.to_string(),
+                (sample, _) => text_of(sample, style.marker),
             };
             if part.last().is_none_or(|last| *last.content != text) {
                 part.push(Text::styled(text, (style.ink)(ink)));

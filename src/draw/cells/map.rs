@@ -2,7 +2,7 @@
 
 use super::style::{CellStyle, Colours};
 use crate::draw::axis::Axis;
-use crate::draw::chart::HeatMap;
+use crate::draw::chart::{Class, HeatMap};
 use crate::draw::colour::{ink_on, shade};
 use crate::draw::label::short;
 use ratatui::buffer::Buffer;
@@ -10,12 +10,12 @@ use ratatui::layout::Rect;
 use ratatui::style::Style;
 
 /// Shades from low to high where there are no colours; a cell without a value is blank.
-pub(super) const SHADES: [&str; 5] = ["·", "░", "▒", "▓", "█"];
+pub const SHADES: [&str; 5] = ["·", "░", "▒", "▓", "█"];
 /// Least columns of a cell with the letter of its class.
 const WITH_LETTER: usize = 3;
 
 /// Index of the value that a column or row of the screen shows.
-fn index(at: usize, cells: u16, values: usize) -> usize {
+pub(super) fn index(at: usize, cells: u16, values: usize) -> usize {
     at * values / usize::from(cells.max(1))
 }
 
@@ -36,7 +36,11 @@ pub(super) fn draw(buffer: &mut Buffer, area: Rect, map: &HeatMap, style: &CellS
             let value = map.values.get(row * columns + column).copied().flatten();
             let (mut symbol, looks) = match (value, style.colours) {
                 (None, _) => (" ".to_owned(), Style::new()),
-                (Some(value), Colours::None) => (SHADES[step(map.key.share(value))].to_owned(), Style::new()),
+                (Some(value), Colours::None) => {
+                    let class = class(map, row * columns + column);
+                    let looks = class.map_or_else(Style::new, |class| (style.ink)(class.ink));
+                    (SHADES[step(map.key.share(value))].to_owned(), looks)
+                }
                 (Some(value), colours) => {
                     let ground = shade(map.key.share(value));
                     let looks = Style::new().bg(colours.colour(ground)).fg(colours.colour(ink_on(ground)));
@@ -78,7 +82,7 @@ fn sign_at(map: &HeatMap, place: &Within, has_value: bool) -> Option<char> {
         return Some('▁');
     }
     let is_middle = x == across.start + across.len() / 2 && up == upwards.start + upwards.len() / 2;
-    class_letter(map, cell).filter(|_| has_value && is_wide && is_middle)
+    class(map, cell).and_then(|class| class.letter).filter(|_| has_value && is_wide && is_middle)
 }
 
 /// Step of the characters at a share of the scale.
@@ -87,9 +91,14 @@ fn step(share: f64) -> usize {
     ((share * SHADES.len() as f64) as usize).min(SHADES.len() - 1)
 }
 
-fn class_letter(map: &HeatMap, cell: usize) -> Option<char> {
-    let class = map.classes.get(cell).copied().flatten()?;
-    map.class_names.get(class).map(|(_, letter, _)| *letter)
+fn class(map: &HeatMap, cell: usize) -> Option<&Class> {
+    map.class_names.get(map.classes.get(cell).copied().flatten()?)
+}
+
+/// Column or row of the screen with a place among the values, or that at the end nearest to the place.
+pub(super) fn cell_of(place: f64, cells: u16, values: usize) -> u16 {
+    let at = ((place + 0.5) * f64::from(cells) / values.max(1) as f64).floor();
+    at.clamp(0.0, f64::from(cells.max(1) - 1)) as u16
 }
 
 /// Whether the contour passes between two cells.
@@ -120,7 +129,8 @@ pub(super) fn row_labels(y: &Axis, map: &HeatMap, height: u16) -> Vec<(u16, Stri
 }
 
 /// Scale of shades: numbers between samples of the shades.
-pub(super) fn key(map: &HeatMap, columns: usize, colours: Colours) -> Vec<(String, Style)> {
+#[must_use]
+pub fn key(map: &HeatMap, columns: usize, colours: Colours) -> Vec<(String, Style)> {
     let (divisor, _) = map.key.prefix();
     let steps = SHADES.len();
     let number = |step: usize| {

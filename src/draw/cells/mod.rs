@@ -8,6 +8,7 @@ mod style;
 mod text;
 
 pub use legend::legend;
+pub use map::{SHADES, key};
 pub use plot::CellPlot;
 pub use shapes::dry;
 pub use style::{CellStyle, Colours, glyph};

@@ -4,7 +4,7 @@ use super::map;
 use super::shapes::LayerShape;
 use super::style::{CellStyle, glyph};
 use crate::draw::axis::Axis;
-use crate::draw::chart::{Chart, Layer, Shape};
+use crate::draw::chart::{Chart, HeatMap, Layer, Shape};
 use crate::draw::colour::Ink;
 use crate::draw::ticks::Tick;
 use ratatui::buffer::Buffer;
@@ -63,9 +63,16 @@ impl CellPlot {
         x.scale.number(x.span.low + share.clamp(0.0, 1.0) * x.span.width())
     }
 
-    /// Cell of a point; `None` outside the chart.
+    /// Cell of a point; `None` outside the chart. On a map all values have as many columns and rows, and a point beyond the
+    /// map is at its edge.
     #[must_use]
     pub fn cell(&self, chart: &Chart, marker: Marker, (x, y): (f64, f64)) -> Option<(u16, u16)> {
+        if let Some(map) = chart.map() {
+            let across =
+                map::cell_of(chart.x.scale.place(&map.columns, x), self.plot.width, map.columns.len());
+            let up = map::cell_of(chart.y.scale.place(&map.rows, y), self.plot.height, map.rows.len());
+            return (!self.plot.is_empty()).then(|| (self.plot.x + across, self.plot.bottom() - 1 - up));
+        }
         let (across, down) = (chart.x.share(x), 1.0 - chart.y.share(y));
         let inside = (0.0..=1.0).contains(&across) && (0.0..=1.0).contains(&down) && !self.plot.is_empty();
         let (columns, rows) = dots_of(marker);
@@ -73,6 +80,17 @@ impl CellPlot {
             let column = cell_at(across, self.plot.width, columns);
             (self.plot.x + column, self.plot.y + cell_at(down, self.plot.height, rows))
         })
+    }
+
+    /// Values on both axes of the cell of a map that a cell of the screen shows; `None` outside the map.
+    #[must_use]
+    pub fn values_at(&self, map: &HeatMap, (column, row): (u16, u16)) -> Option<(f64, f64)> {
+        if !self.plot.contains((column, row).into()) {
+            return None;
+        }
+        let across = map::index((column - self.plot.x).into(), self.plot.width, map.columns.len());
+        let up = map::index((self.plot.bottom() - 1 - row).into(), self.plot.height, map.rows.len());
+        Some((*map.columns.get(across)?, *map.rows.get(up)?))
     }
 
     /// Draws scales and layers.

@@ -101,20 +101,9 @@ fn push_chart(text: &mut String, chart: &Chart, columns: u16, style: &CellStyle<
 }
 
 fn push_legend(text: &mut String, chart: &Chart, columns: usize, style: &CellStyle<'_>) {
-    let classes = chart.map().into_iter().flat_map(|map| {
-        let has = |class: usize| map.classes.contains(&Some(class));
-        map.class_names.iter().enumerate().filter(move |(class, _)| has(*class))
-    });
-    let letters: Vec<(String, char)> =
-        classes.map(|(_, (_, letter, name))| (format!(" {name}"), *letter)).collect();
     let mut lines: Vec<Vec<(String, Style)>> = Vec::new();
     let mut width = 0;
-    for mut part in legend(std::slice::from_ref(chart), style) {
-        // Cells of a map hold letters.
-        let letter = letters.iter().find(|(name, _)| part.last().is_some_and(|last| last.content == *name));
-        if let Some((name, letter)) = letter {
-            part = vec![format!("{letter}{name}").into()];
-        }
+    for part in legend(std::slice::from_ref(chart), style) {
         let own: usize = part.iter().map(|span| span.content.chars().count()).sum();
         if lines.is_empty() || width + 2 + own > columns {
             lines.push(Vec::new());

@@ -215,9 +215,9 @@ fn heat_map(document: &mut Document, frame: &Frame<'_>, map: &HeatMap) {
             let class =
                 map.classes.get(index).copied().flatten().and_then(|class| map.class_names.get(class));
             let value = map.values.get(index).copied().flatten();
-            if let Some(((sign, ..), value)) = class.zip(value) {
+            if let Some((class, value)) = class.zip(value) {
                 let ink = ink_on(shade(map.key.share(value)));
-                draw_sign(document, *sign, frame.place_of_coordinates((*x, *y)), SIGN, ink);
+                draw_sign(document, class.sign, frame.place_of_coordinates((*x, *y)), SIGN, ink);
             }
         }
     }

@@ -1,11 +1,12 @@
-//! The map over κ and H: shown or not, and the mark on it, which is the scene.
+//! The map: shown or not, and the mark on it, which is the scene.
 
 use super::{Effect, edit};
 use crate::explorer::action::Command;
 use crate::explorer::model::{Model, Notice, Pane};
 use crate::explorer::opening::Opening;
 use crate::scene::{Document, SceneErrors};
-use crate::study::map::{Template, next_beyond};
+use crate::study::map::{MapAxis, Place, Template, moved, next_beyond};
+use std::sync::Arc;
 
 /// Obeys a command that has to do with the map.
 pub fn obey(model: &mut Model, command: Command) -> Vec<Effect> {
@@ -15,14 +16,18 @@ pub fn obey(model: &mut Model, command: Command) -> Vec<Effect> {
             model.chart.sections = !model.chart.sections;
             Vec::new()
         }
+        Command::TransposeMap => {
+            model.chart.transpose();
+            Vec::new()
+        }
         Command::NextCharted => {
             model.chart.quantity = model.chart.next_charted();
             Vec::new()
         }
         Command::ToggleStudy => toggle_study(model),
         Command::NextSlice(steps) => step_slice(model, steps),
-        Command::MoveKappa(steps) => step(model, steps, 0),
-        Command::MoveHurst(steps) => step(model, 0, steps),
+        Command::MoveAcross(steps) => step(model, steps, 0),
+        Command::MoveUp(steps) => step(model, 0, steps),
         _ => Vec::new(),
     }
 }
@@ -86,33 +91,38 @@ fn step_slice(model: &mut Model, steps: i32) -> Vec<Effect> {
     }
     let next = study.stepped(steps);
     let goes_with = study.study_map.is_of(study.slice, model.document.scene());
-    let followed = goes_with.then(|| next.study_map.follow(next.slice, &model.document));
-    model.chart.study = Some(next);
+    let followed = goes_with.then(|| study.study_map.follow(next, &model.document));
+    let study_map = Arc::clone(&study.study_map);
+    model.chart.open_study(study_map, next);
     followed.map_or_else(Vec::new, |followed| edit::take_over(model, followed))
 }
 
 /// Moves the mark by columns and rows of the map.
 fn step(model: &mut Model, columns: i32, rows: i32) -> Vec<Effect> {
-    let Some((at_kappa, at_hurst)) = model.place() else {
+    let Some((at_across, at_up)) = model.place() else {
         let why = match Template::of(model.document.scene()) {
             Err(why) => why.to_string(),
+            Ok(_) if model.chart.shown_study().is_some() => NO_PLACE.to_owned(),
             Ok(_) => "not before the scene is computed: its κ follows from its profile".to_owned(),
         };
         model.notice = Some(Notice::Error(why));
         return Vec::new();
     };
-    let (across, up) = model.chart.axes();
-    let to_kappa = if columns == 0 { Some(at_kappa) } else { next_beyond(at_kappa, columns, &across.values) };
-    let to_hurst = match at_hurst {
-        Some(at) if rows != 0 => next_beyond(at, rows, &up.values),
-        None if rows != 0 => {
-            model.notice = Some(Notice::Error("a measured profile has no H to change".to_owned()));
-            return Vec::new();
-        }
-        at => Some(at.unwrap_or_default()),
+    let (across, up) = axes(model);
+    if rows != 0 && up.is_none() {
+        let why = format!("this map has one axis, {}", across.symbol());
+        model.notice = Some(Notice::Error(why));
+        return Vec::new();
+    }
+    let next = |at: f64, steps: i32, axis: &MapAxis| {
+        if steps == 0 { Some(at) } else { next_beyond(at, steps, &axis.figure.values) }
     };
-    match (to_kappa, to_hurst) {
-        (Some(kappa), Some(hurst)) => move_to(model, kappa, hurst),
+    let to_up = match (at_up, &up) {
+        (Some(at), Some(axis)) => next(at, rows, axis).map(Some),
+        _ => Some(None),
+    };
+    match (next(at_across, columns, &across), to_up) {
+        (Some(across), Some(up)) => move_to(model, (across, up)),
         _ => {
             model.notice = Some(Notice::Done("here the map ends".to_owned()));
             Vec::new()
@@ -120,10 +130,18 @@ fn step(model: &mut Model, columns: i32, rows: i32) -> Vec<Effect> {
     }
 }
 
-/// Sets κ and H of the scene. All moves in a row are one edit.
-pub fn move_to(model: &mut Model, kappa: f64, hurst: f64) -> Vec<Effect> {
+/// A scene without a quantity of the map's axes has no place on the map.
+const NO_PLACE: &str = "the scene has no place on this map: it lacks a quantity of the axes";
+
+/// Axes of the map.
+fn axes(model: &Model) -> (MapAxis, Option<MapAxis>) {
+    model.chart.axes(Template::of(model.document.scene()).is_ok_and(|template| template.has_hurst()))
+}
+
+/// Gives the scene the values of a place on the map. Successive moves are one edit.
+pub fn move_to(model: &mut Model, place: Place) -> Vec<Effect> {
     let goes_on = model.chart.moving;
-    let effects = match moved(model, kappa, hurst) {
+    let effects = match moved_to(model, place) {
         Ok(document) if goes_on => edit::replace(model, document),
         moved => edit::take_over(model, moved),
     };
@@ -131,9 +149,12 @@ pub fn move_to(model: &mut Model, kappa: f64, hurst: f64) -> Vec<Effect> {
     effects
 }
 
-/// The scene with another κ and H. A preload in units of E* h L may change with them.
-fn moved(model: &Model, kappa: f64, hurst: f64) -> Result<Document, SceneErrors> {
-    let moved = Template::moved(&model.document, kappa, hurst)?;
+/// The scene at a place on the map. A preload in units of E* h L may change with it.
+fn moved_to(model: &Model, (to_across, to_up): Place) -> Result<Document, SceneErrors> {
+    let (across, up) = axes(model);
+    let up = up.as_ref().zip(to_up).map(|(axis, value)| (axis.path.as_str(), value));
+    let values: Vec<_> = [(across.path.as_str(), to_across)].into_iter().chain(up).collect();
+    let moved = moved(&model.document, &values)?;
     match model.chart.shown_study() {
         Some(study)
             if study.study_map.is_of(study.slice, model.document.scene())

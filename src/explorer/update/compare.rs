@@ -1,9 +1,10 @@
 //! Loops kept beside the present one.
 
+use super::ghosts::name_ghosts;
 use super::{Effect, edit};
 use crate::explorer::action::Command;
 use crate::explorer::model::{Ghost, Model, Notice, Pane};
-use crate::scene::{Change, Document};
+use crate::scene::Document;
 use std::sync::Arc;
 
 /// Ghosts that are kept; more could not be told apart.
@@ -96,18 +97,4 @@ fn swap(model: &mut Model) -> Vec<Effect> {
     };
     model.ghosts.push(present);
     edit::adopt(model, last.document)
-}
-
-/// Says anew where the ghosts differ from the present scene.
-pub fn name_ghosts(model: &mut Model) {
-    let document = &model.document;
-    for ghost in &mut model.ghosts {
-        let changes = ghost.document.changes_to(document);
-        let join = |part: &dyn Fn(&Change) -> String| {
-            let parts: Vec<String> = changes.iter().map(part).collect();
-            if parts.is_empty() { "the same scene".to_owned() } else { parts.join(", ") }
-        };
-        ghost.differs = join(&|change| format!("{} {}", change.name, change.from));
-        ghost.changes = join(&|change| format!("{} {} → {}", change.name, change.from, change.to));
-    }
 }

@@ -1,15 +1,15 @@
 //! Edits of the scene. Each gives a document of its own; the one before can be brought back.
 
 use super::Effect;
-use super::compare::name_ghosts;
+use super::ghosts::name_ghosts;
 use crate::explorer::action::Command;
 use crate::explorer::layout::Layout;
 use crate::explorer::mode::Mode;
 use crate::explorer::model::{Look, Model, Notice, Pane, Player};
 use crate::explorer::parameters::{Parameter, Setting, parameters};
+use crate::explorer::request::{Focus, LineView};
 use crate::explorer::session::scene_of;
 use crate::explorer::text_line::TextLine;
-use crate::explorer::worker::{Focus, LineView};
 use crate::scene::{Computed, Document, Range, SceneErrors, Step, exact_quantity, presets};
 
 /// Edits that can be taken back.
@@ -19,11 +19,22 @@ const UNDO_DEPTH: usize = 1000;
 pub fn obey(model: &mut Model, command: Command) -> Vec<Effect> {
     match command {
         Command::Select(rows) => {
-            select(model, model.selected.saturating_add_signed(rows as isize));
+            let listed = model.listed();
+            let place = listed.iter().position(|index| *index == model.selected).unwrap_or(0);
+            let last = listed.len().saturating_sub(1);
+            let next = listed.get(place.saturating_add_signed(rows as isize).min(last));
+            select(model, next.copied().unwrap_or(0));
             show_parameters(model)
         }
         Command::SelectEnd(last) => {
-            select(model, if last { usize::MAX } else { 0 });
+            let listed = model.listed();
+            let end = if last { listed.last() } else { listed.first() };
+            select(model, end.copied().unwrap_or(0));
+            show_parameters(model)
+        }
+        Command::ToggleFold => {
+            let is_folded = model.parameter().is_some_and(|one| model.folded.contains(one.group));
+            fold(model, !is_folded);
             show_parameters(model)
         }
         Command::StepValue { steps, coarse } => {
@@ -31,16 +42,8 @@ pub fn obey(model: &mut Model, command: Command) -> Vec<Effect> {
             effects.extend(step_value(model, steps, coarse));
             effects
         }
-        Command::EditValue => {
-            if let Some(parameter) = model.parameter() {
-                if let Setting::Switch(_) = parameter.setting {
-                    return toggle(model);
-                }
-                model.mode = Mode::Edit(TextLine::selected(&editable(model, parameter)));
-                model.refused = None;
-            }
-            show_parameters(model)
-        }
+        Command::EditValue => edit_value(model, None),
+        Command::StartValue(character) => edit_value(model, Some(character)),
         Command::ToggleEffect => {
             let mut effects = show_parameters(model);
             effects.extend(toggle(model));
@@ -76,25 +79,70 @@ pub fn open(model: &mut Model, document: Document) -> Vec<Effect> {
     effects
 }
 
-/// Selects a row, or the last one.
+/// Selects a parameter, or the last one, and unfolds its group.
 pub fn select(model: &mut Model, row: usize) {
     model.selected = row.min(model.parameters.len().saturating_sub(1));
     model.refused = None;
+    let hidden = model.parameter().filter(|parameter| !parameter.is_head()).map(|parameter| parameter.group);
+    if let Some(group) = hidden {
+        model.folded.remove(group);
+    }
 }
 
-/// Chooses the list of parameters where a small window does not show it: nothing is changed unseen.
-fn show_parameters(model: &mut Model) -> Vec<Effect> {
-    if Layout::of(model).pane(Pane::Parameters).is_some() {
-        return Vec::new();
+/// Folds the group of the selected parameter, which leaves its first row selected, or unfolds it.
+fn fold(model: &mut Model, folds: bool) {
+    let Some(group) = model.parameter().map(|parameter| parameter.group) else { return };
+    if folds {
+        model.selected = row_of(model, group);
+        model.refused = None;
+        model.folded.insert(group);
+    } else {
+        model.folded.remove(group);
     }
+}
+
+/// Opens the editor on the selected value, which the first character typed replaces.
+fn edit_value(model: &mut Model, first: Option<char>) -> Vec<Effect> {
+    if let Some(parameter) = model.parameter() {
+        match parameter.setting {
+            // A number says nothing of a switch or a group.
+            Setting::Switch(_) | Setting::Heading if first.is_some() => {}
+            Setting::Switch(_) => return toggle(model),
+            Setting::Heading => return obey(model, Command::ToggleFold),
+            Setting::Field | Setting::RoughnessParameter(_) | Setting::WorkOfAdhesion => {
+                let mut line = TextLine::selected(&editable(model, parameter));
+                first.into_iter().for_each(|character| line.insert(character));
+                model.mode = Mode::Edit(line);
+                model.refused = None;
+            }
+        }
+    }
+    show_parameters(model)
+}
+
+/// Selects the pane of parameters.
+pub fn choose_parameters(model: &mut Model) -> Vec<Effect> {
     model.pane = Pane::Parameters;
     vec![Effect::Show]
 }
 
+/// Chooses the list of parameters where a small window does not show it: nothing is changed unseen.
+pub fn show_parameters(model: &mut Model) -> Vec<Effect> {
+    if Layout::of(model).pane(Pane::Parameters).is_some() {
+        return Vec::new();
+    }
+    choose_parameters(model)
+}
+
 fn step_value(model: &mut Model, steps: i32, coarse: bool) -> Vec<Effect> {
     let Some(parameter) = model.parameter() else { return Vec::new() };
-    if let Setting::Switch(_) = parameter.setting {
-        return toggle(model);
+    match parameter.setting {
+        Setting::Switch(_) => return toggle(model),
+        Setting::Heading => {
+            fold(model, steps < 0);
+            return Vec::new();
+        }
+        Setting::Field | Setting::RoughnessParameter(_) | Setting::WorkOfAdhesion => {}
     }
     let no_step = format!("no further step; allowed: {}", parameter.field.allowed());
     if parameter.field.step == Step::Choice {
@@ -145,23 +193,27 @@ fn set_selected(model: &mut Model, written: &str) -> Vec<Effect> {
     let Some(parameter) = model.parameter() else { return Vec::new() };
     let document = &model.document;
     let changed = match parameter.setting {
-        Setting::Field | Setting::Switch(_) => document.set(&parameter.path, written),
+        Setting::Field | Setting::Switch(_) | Setting::Heading => document.set(&parameter.path, written),
         Setting::WorkOfAdhesion => match written.parse() {
             Ok(work) => document.with_work_of_adhesion(work),
             Err(_) => return refuse(model, format!("{written} is no number")),
         },
-        Setting::Kappa => {
-            let Ok(kappa) = written.parse::<f64>() else {
+        Setting::RoughnessParameter(parameter) => {
+            let Ok(value) = written.parse::<f64>() else {
                 return refuse(model, format!("{written} is no number"));
             };
-            match (document.scene().adhesion.and_then(|adhesion| adhesion.work), model.governing()) {
-                // The scene gives γ: κ is solved for it.
-                (Some(_), Some(governing)) => match governing.work_for_kappa(kappa) {
+            let adhesion = document.scene().adhesion.unwrap_or_default();
+            match (adhesion.work.filter(|_| adhesion.parameter().is_none()), model.governing()) {
+                // The scene gives γ alone, which follows from the parameter.
+                (Some(_), Some(governing)) => match governing.work_for(parameter, value) {
                     Some(work) => document.with_work_of_adhesion(work),
-                    None => return refuse(model, "κ says nothing without roughness".to_owned()),
+                    None => {
+                        let symbol = parameter.symbol();
+                        return refuse(model, format!("{symbol} is not defined without roughness"));
+                    }
                 },
                 (Some(_), None) => return refuse(model, "not before the scene is computed".to_owned()),
-                (None, _) => document.with_kappa(kappa),
+                (None, _) => document.with_parameter(parameter, value),
             }
         }
     };
@@ -188,6 +240,7 @@ fn computed(model: &Model) -> Computed {
     Computed {
         work_of_adhesion: governing.and_then(|governing| governing.work_of_adhesion),
         kappa: governing.and_then(|governing| governing.kappa),
+        elastic_energy_ratio: governing.and_then(|governing| governing.elastic_energy_ratio),
         rms_height: governing.and_then(|governing| governing.amplitude).map(|amplitude| amplitude.rms_height),
     }
 }
@@ -262,8 +315,7 @@ fn row_of(model: &Model, path: &str) -> usize {
 fn renew(model: &mut Model) -> Vec<Effect> {
     let selected = model.parameter().map(|parameter| parameter.path.clone()).unwrap_or_default();
     model.parameters = parameters(&model.document);
-    model.selected = row_of(model, &selected);
-    model.refused = None;
+    select(model, row_of(model, &selected));
     model.generation += 1;
     model.progress = Some(0);
     model.appraisal.forget();

@@ -28,13 +28,21 @@ pub fn export(model: &mut Model, path: PathBuf) -> Vec<Effect> {
     if path.as_os_str().is_empty() {
         return Vec::new();
     }
-    let Some(content) = Content::of_file(&path) else {
-        let endings: Vec<String> = Content::EXPORTS.iter().map(|(ending, _)| format!(".{ending}")).collect();
-        let why = format!("{}: the name must end in {}", path.display(), endings.join(", "));
+    let Some(content) = Content::of_file(model.exports(), &path) else {
+        let is_map = model.exports() == Content::MAP_EXPORTS;
+        let what = if is_map { "the map" } else { "the curve" };
+        let endings: Vec<String> = model.exports().iter().map(|(ending, _)| format!(".{ending}")).collect();
+        let why =
+            format!("{}: {} is exported; the name must end in {}", path.display(), what, endings.join(", "));
         model.notice = Some(Notice::Error(why));
         model.mode = Mode::Explore;
         return Vec::new();
     };
+    if matches!(content, Content::MapCells | Content::MapFigure) && model.chart.map_model().is_none() {
+        model.notice = Some(Notice::Error("there is no map yet to export".to_owned()));
+        model.mode = Mode::Explore;
+        return Vec::new();
+    }
     if matches!(content, Content::Curve | Content::Outcome) && !model.is_current() {
         model.notice = Some(Notice::Error("the scene has no curve yet to export".to_owned()));
         model.mode = Mode::Explore;

@@ -2,18 +2,18 @@
 
 use super::{Effect, edit, edit_line};
 use crate::explorer::action::Command;
+use crate::explorer::finder::Finder;
+use crate::explorer::fuzzy::Candidate;
 use crate::explorer::mode::{Library, Mode};
 use crate::explorer::model::{Model, Notice};
-use crate::explorer::text_line::TextLine;
-use crate::scene::{Entry, search as search_entries, typed_path};
+use crate::scene::{Entry, typed_path};
 
 /// Scenes with more springs are not computed to look at.
 const MOST_SPRINGS_PREVIEWED: u64 = 1 << 17;
 
 /// Opens the library.
 pub fn open(model: &mut Model) -> Vec<Effect> {
-    let library = Library { entries: None, query: TextLine::new(""), found: Vec::new(), selected: 0 };
-    model.mode = Mode::Library(library);
+    model.mode = Mode::Library(Library { entries: None, finder: Finder::default() });
     vec![Effect::List]
 }
 
@@ -29,12 +29,17 @@ pub fn listed(model: &mut Model, entries: Vec<Entry>) -> Vec<Effect> {
 pub fn search(model: &mut Model) -> Vec<Effect> {
     let Mode::Library(library) = &mut model.mode else { return Vec::new() };
     let Some(entries) = &library.entries else { return Vec::new() };
-    let typed = library.query.text();
     // What has a separator in it is a path, and no name to search for.
-    let is_path = typed.contains(std::path::is_separator);
-    library.found = if is_path { Vec::new() } else { search_entries(entries, &typed) };
-    library.selected = 0;
+    if library.finder.query.text().contains(std::path::is_separator) {
+        library.finder.search([]);
+    } else {
+        library.finder.search(entries.iter().map(candidate));
+    }
     preview(model)
+}
+
+fn candidate(entry: &Entry) -> Candidate {
+    Candidate { names: vec![entry.name.clone(), entry.title.clone()], prose: vec![entry.notice.clone()] }
 }
 
 /// Obeys a command while the library is open.
@@ -42,13 +47,12 @@ pub fn obey(model: &mut Model, command: Command) -> Vec<Effect> {
     let Mode::Library(library) = &mut model.mode else { return Vec::new() };
     match command {
         Command::Select(rows) => {
-            let last = library.found.len().saturating_sub(1);
-            library.selected = library.selected.saturating_add_signed(rows as isize).min(last);
+            library.finder.select(rows);
             preview(model)
         }
         Command::Accept => {
             let Some(entry) = library.entry() else {
-                let typed = library.query.text().trim().to_owned();
+                let typed = library.finder.query.text().trim().to_owned();
                 if typed.is_empty() {
                     return Vec::new();
                 }

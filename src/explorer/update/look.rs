@@ -4,7 +4,7 @@ use super::Effect;
 use crate::draw::AxisScale;
 use crate::explorer::action::{Command, Jump};
 use crate::explorer::model::{Look, Model, Notice, Pane};
-use crate::explorer::worker::{Focus, LineView};
+use crate::explorer::request::{Focus, LineView};
 
 /// Fewest springs that fill a pane.
 const FEWEST_SPRINGS: usize = 8;

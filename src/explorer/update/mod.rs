@@ -7,6 +7,8 @@ mod compare;
 mod crosshair;
 mod edit;
 mod files;
+mod find;
+mod ghosts;
 mod library;
 mod look;
 mod mouse;
@@ -18,8 +20,8 @@ use super::action::{Action, Command, Content};
 use super::layout::Layout;
 use super::mode::Mode;
 use super::model::{Model, Notice, Player};
+use super::request::{HandOrder, MomentRequest};
 use super::view::help_end;
-use super::worker::{HandOrder, MomentRequest};
 use crate::scene::{Document, typed_path};
 use std::path::PathBuf;
 
@@ -155,6 +157,7 @@ fn obey(model: &mut Model, command: Command) -> Vec<Effect> {
             };
         }
         Mode::Library(_) => return library::obey(model, command),
+        Mode::Find { .. } => return find::obey(model, command),
         Mode::Edit(line) => match command {
             Command::Accept => {
                 let typed = line.text();
@@ -219,7 +222,11 @@ fn typed(model: &mut Model, text: &str) -> Vec<Effect> {
     if let Some(line) = model.mode.line_mut() {
         text.chars().for_each(|character| line.insert(character));
     }
-    library::search(model)
+    match model.mode {
+        Mode::Library(_) => library::search(model),
+        Mode::Find { .. } => find::search(model),
+        _ => Vec::new(),
+    }
 }
 
 /// A command within the line that is being typed; any other leaves it.
@@ -234,7 +241,7 @@ fn edit_line(model: &mut Model, command: Command) {
 }
 
 fn explore(model: &mut Model, command: Command) -> Vec<Effect> {
-    if !matches!(command, Command::MoveKappa(_) | Command::MoveHurst(_)) {
+    if !matches!(command, Command::MoveAcross(_) | Command::MoveUp(_)) {
         model.chart.moving = false;
     }
     // Why there is no curve stays to be read; all else goes with the next key.
@@ -257,8 +264,11 @@ fn explore(model: &mut Model, command: Command) -> Vec<Effect> {
         | Command::SelectEnd(_)
         | Command::StepValue { .. }
         | Command::EditValue
+        | Command::StartValue(_)
+        | Command::ToggleFold
         | Command::ToggleEffect
         | Command::Preset(_) => return edit::obey(model, command),
+        Command::FindParameter => return find::open(model),
         Command::Reseed => return vec![Effect::DrawSeed],
         Command::Undo | Command::Redo => return edit::undo(model, command == Command::Undo),
         Command::Pin | Command::Swap | Command::ClearGhosts | Command::ToggleSideBySide => {
@@ -278,8 +288,9 @@ fn explore(model: &mut Model, command: Command) -> Vec<Effect> {
         | Command::NextCharted
         | Command::ToggleStudy
         | Command::NextSlice(_)
-        | Command::MoveKappa(_)
-        | Command::MoveHurst(_) => return chart::obey(model, command),
+        | Command::TransposeMap
+        | Command::MoveAcross(_)
+        | Command::MoveUp(_) => return chart::obey(model, command),
         Command::Fragment(_)
         | Command::ToggleLengths
         | Command::Zoom(_)

@@ -5,15 +5,15 @@ use crate::explorer::action::{Command, Gesture, Mouse};
 use crate::explorer::layout::{Layout, inside};
 use crate::explorer::mode::Mode;
 use crate::explorer::model::{Model, Pane};
+use crate::explorer::request::HandOrder;
 use crate::explorer::view::{indentation_at, parameter_at, place_at};
-use crate::explorer::worker::HandOrder;
 use ratatui::layout::Position;
 
 /// Does what the mouse asks for.
 pub fn act(model: &mut Model, mouse: Mouse) -> Vec<Effect> {
     match (&model.mode, mouse.gesture) {
         (Mode::Explore, _) => {}
-        (Mode::Help { .. } | Mode::Library(_), Gesture::Wheel(turns)) => {
+        (Mode::Help { .. } | Mode::Library(_) | Mode::Find { .. }, Gesture::Wheel(turns)) => {
             return super::obey(model, Command::Select(-turns));
         }
         _ => return Vec::new(),
@@ -35,7 +35,12 @@ pub fn act(model: &mut Model, mouse: Mouse) -> Vec<Effect> {
             match pane {
                 Pane::Parameters => {
                     if let Some(row) = parameter_at(model, inside(area), mouse.row) {
+                        // A second press on the first row of a group folds the group.
+                        let again = row == model.selected && model.parameters[row].is_head();
                         edit::select(model, row);
+                        if again {
+                            return edit::obey(model, Command::ToggleFold);
+                        }
                     }
                     vec![Effect::Show]
                 }
@@ -62,7 +67,7 @@ pub fn act(model: &mut Model, mouse: Mouse) -> Vec<Effect> {
 /// Puts the mark of the map under the mouse.
 fn put(model: &mut Model, area: ratatui::layout::Rect, here: Position) -> Vec<Effect> {
     match place_at(model, area, here) {
-        Some((kappa, hurst)) => chart::move_to(model, kappa, hurst),
+        Some(place) => chart::move_to(model, place),
         None => vec![Effect::Show],
     }
 }

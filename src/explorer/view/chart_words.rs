@@ -1,14 +1,15 @@
-//! What is said of the map over κ and H: its title, what the glyphs tell, and what stands at the mark.
+//! Words of the map: its title, its legend, and the values at the mark.
 
-use super::chart::{STEPS, glyph_between, glyph_of, meaning};
+use super::plot;
 use super::wrap::{filled, wrapped};
-use crate::analysis::{INSENSITIVE_SHARE, NEGLIGIBLE_COEFFICIENT, Regime, VANISHING_SHARE};
+use crate::analysis::{INSENSITIVE_SHARE, NEGLIGIBLE_COEFFICIENT, VANISHING_SHARE};
+use crate::draw::{Chart, Colours, SHADES, key, legend as entries};
 use crate::explorer::model::{Model, OpenStudy};
 use crate::explorer::theme::Meaning;
 use crate::scene::format_quantity;
 use crate::study::Quantity;
 use crate::study::figure::Estimate;
-use crate::study::map::{Charted, Layer, Level, LiveMap, MapModel, Place, Template};
+use crate::study::map::{Charted, Layer, Level, LiveMap, MapAxis, MapModel, Place, ShownCell, Template};
 use crate::text::grouped;
 use ratatui::layout::Rect;
 use ratatui::text::{Line, Span as Text};
@@ -16,27 +17,32 @@ use ratatui::text::{Line, Span as Text};
 /// From this height on there is room to say what the regimes are.
 const ROOMY: u16 = 24;
 
-/// Title of the pane: of what the map is the mean.
+/// Title of the pane: what is mapped over which quantities, and over how many profiles the mean is.
 pub fn title(model: &Model) -> String {
-    if let Some(study) = model.chart.shown_study() {
-        let plan = study.study_map.plan();
-        let (columns, rows) = model.chart.map_model().map(MapModel::size).unwrap_or_default();
-        return format!(
-            " Study {}: {columns} × {rows} cells, {} ",
-            study.study_map.name(),
-            lines(plan.lines)
-        );
-    }
-    match Template::of(model.document.scene()) {
-        Ok(template) => {
-            let over = if template.has_hurst() { "κ, H" } else { "κ" };
-            format!(
-                " Map over {over}: {} of {} springs ",
-                lines(template.lines()),
-                grouped(template.springs())
-            )
+    let template = Template::of(model.document.scene());
+    let has_hurst = template.as_ref().is_ok_and(Template::has_hurst);
+    let (across, up) = model.chart.axes(has_hurst);
+    let over =
+        up.map_or_else(|| across.symbol().to_owned(), |up| format!("{}, {}", across.symbol(), up.symbol()));
+    let quantity = model
+        .chart
+        .map_model()
+        .map_or_else(|| "regime".to_owned(), |map_model| charted_name(map_model, model.chart.charted()));
+    let study = model.chart.shown_study().map(|study| (&study.study_map, study.study_map.plan().lines));
+    match (study, template) {
+        (Some((study_map, count)), _) => {
+            format!(" Study {}: {quantity} over {over}, {} ", study_map.name(), lines(count))
         }
-        Err(_) => " Map over κ, H ".to_owned(),
+        (None, Ok(template)) => format!(" Map of {quantity} over {over}, {} ", lines(template.lines())),
+        (None, Err(_)) => " Map ".to_owned(),
+    }
+}
+
+/// The name of what is charted.
+fn charted_name(map_model: &MapModel, charted: Charted) -> String {
+    match charted {
+        Charted::Regime => "regime".to_owned(),
+        Charted::Quantity(quantity) => name_of(map_model, quantity),
     }
 }
 
@@ -67,31 +73,34 @@ pub fn name_of(map_model: &MapModel, quantity: Quantity) -> String {
     if is_only && !symbol.is_empty() { symbol.to_owned() } else { quantity.name().replace('_', " ") }
 }
 
-/// What the glyphs tell, and which map of a study it is.
-pub fn legend(model: &Model, width: u16) -> Vec<Line<'static>> {
+/// Axes, shades and their values, classes, and which map of a study it is.
+pub fn legend(model: &Model, chart: &Chart, width: u16) -> Vec<Line<'static>> {
     let theme = model.appearance.theme;
     let width = usize::from(width);
-    let Some(map_model) = model.chart.map_model() else { return Vec::new() };
-    let mut parts: Vec<Vec<Text<'static>>> = Vec::new();
+    let (Some(map_model), Some(map)) = (model.chart.map_model(), chart.map()) else { return Vec::new() };
+    let up = format!("↑ {}", chart.y.label_with_unit());
+    let mut parts = vec![vec![Text::styled(up, theme.style(Meaning::Title))]];
     match model.chart.charted() {
         Charted::Regime => {
-            for regime in [Regime::PressureInsensitive, Regime::PressureSensitive, Regime::NonAdhesive] {
-                let glyph = Text::styled(glyph_of(regime), theme.style(meaning(regime)));
-                parts.push(vec![glyph, Text::raw(format!(" {}", regime.name()))]);
+            // From the densest: the regimes, and cells divided between one and the next.
+            for (class, shade) in map.class_names.iter().zip(SHADES.iter().rev().step_by(2)) {
+                let shade =
+                    Text::styled(*shade, plot::in_theme(model.appearance, |style| (style.ink)(class.ink)));
+                parts.push(vec![shade, Text::raw(format!(" {}", class.name))]);
             }
             if map_model.is_split() {
-                let glyphs = [Regime::PressureInsensitive, Regime::NonAdhesive]
-                    .map(|regime| glyph_between(regime, Regime::PressureSensitive));
-                parts.push(vec![Text::raw(format!("{} divided", glyphs.join(" ")))]);
+                parts.push(vec![Text::raw(format!("{} {} divided", SHADES[3], SHADES[1]))]);
             }
         }
-        Charted::Quantity(quantity) => {
-            parts.push(vec![Text::styled(name_of(map_model, quantity), theme.style(Meaning::Title))]);
-            let steps = map_model.layer(quantity).map(|layer| layer.steps).unwrap_or_default();
-            for (glyph, least) in STEPS.into_iter().zip(steps) {
-                let least = format_quantity(least, quantity.unit());
-                parts.push(vec![Text::raw(glyph), Text::raw(format!(" ≥ {least}"))]);
-            }
+        Charted::Quantity(_) => {
+            let scale = key(map, width, Colours::None);
+            let name = Text::styled(format!("{} ", map.key.label_with_unit()), theme.style(Meaning::Title));
+            parts.push(
+                std::iter::once(name).chain(scale.into_iter().map(|(text, _)| Text::raw(text))).collect(),
+            );
+            parts.extend(plot::in_theme(model.appearance, |style| {
+                entries(std::slice::from_ref(chart), style)
+            }));
         }
     }
     let mut lines = model.chart.shown_study().map_or_else(Vec::new, |study| slice(model, study, width));
@@ -125,12 +134,20 @@ fn short(value: f64, unit: &str) -> String {
     format_quantity(format!("{value:.1e}").parse().unwrap_or(value), unit)
 }
 
-/// A number to three digits.
-pub fn number(value: f64) -> String {
-    format_quantity(format!("{value:.2e}").parse().unwrap_or(value), "1")
+/// A value of an axis with its symbol.
+pub fn on_axis(axis: &MapAxis, value: f64) -> String {
+    let rounded = format!("{value:.2e}").parse().unwrap_or(value);
+    format!("{} {}", axis.symbol(), format_quantity(rounded, &axis.figure.unit))
 }
 
-/// What stands below the map, the most important first.
+/// A place with the symbols of the axes.
+fn on_axes(map_model: &MapModel, (across, up): Place) -> String {
+    let up = map_model.up().zip(up).map(|(axis, value)| on_axis(axis, value));
+    let parts: Vec<String> = [on_axis(map_model.across(), across)].into_iter().chain(up).collect();
+    parts.join(", ")
+}
+
+/// Lines below the map, the most important first.
 pub fn below(model: &Model, area: Rect) -> Vec<Line<'static>> {
     let Some(map_model) = model.chart.map_model() else { return Vec::new() };
     let theme = model.appearance.theme;
@@ -138,37 +155,32 @@ pub fn below(model: &Model, area: Rect) -> Vec<Line<'static>> {
     let mut say = |line: Line<'static>| lines.extend(wrapped(&line, area.width));
     let study = model.chart.shown_study();
     match model.place() {
-        Some((at_kappa, at_hurst)) => {
-            say(here(model, map_model, at_kappa, at_hurst));
-            if let Some(place) = map_model.nearest(at_kappa, at_hurst) {
-                let value = |axis: &[f64], index: usize| axis.get(index).copied().map(number);
-                let at_cell = (
-                    value(&map_model.across().values, place.column),
-                    map_model.up().and_then(|up| value(&up.values, place.row)),
-                );
-                let elsewhere = at_cell != (Some(number(at_kappa)), at_hurst.map(number));
-                say(Line::raw(there(model, map_model, elsewhere.then_some(at_cell), &place)));
-            } else if study.is_some() && at_hurst.is_some() {
+        Some(place) => {
+            say(here(model, map_model, place));
+            if let Some(shown) = map_model.nearest(place) {
+                say(Line::raw(there(model, map_model, place, &shown)));
+            } else if study.is_some() {
                 say(Line::raw("the study was merged without this cell"));
             }
         }
         None if study.is_some() => {
             let why = Template::of(model.document.scene()).err();
-            let why = why.map_or_else(String::new, |why| why.to_string().replacen("no map", "no mark", 1));
+            let no_mark = "no mark: the scene lacks a quantity of the axes".to_owned();
+            let why = why.map_or(no_mark, |why| why.to_string().replacen("no map", "no mark", 1));
             say(Line::styled(why, theme.style(Meaning::Quiet)));
         }
         None => {}
     }
     match study {
         Some(study) if !study.study_map.is_of(study.slice, model.document.scene()) => say(Line::styled(
-            "the scene is no longer that of the study: more than κ and H differ",
+            "the scene is no longer that of the study: more differs than the quantities of the axes",
             theme.style(Meaning::Key),
         )),
         Some(_) => {}
         None => computed_so_far(model, &mut say),
     }
     if area.height >= ROOMY {
-        let note = study.map_or_else(note_of_computed, |study| note_of_study(study, map_model));
+        let note = study.map_or_else(|| note_of_computed(model), |study| note_of_study(study, map_model));
         lines.extend(wrapped(&Line::styled(note, theme.style(Meaning::Quiet)), area.width));
     }
     lines
@@ -189,9 +201,16 @@ fn computed_so_far(model: &Model, say: &mut impl FnMut(Line<'static>)) {
     }
 }
 
-fn note_of_computed() -> String {
+fn note_of_computed(model: &Model) -> String {
+    let cells = Template::of(model.document.scene()).map_or_else(
+        |_| String::new(),
+        |template| {
+            format!("Each cell: {} of {} springs. ", lines(template.lines()), grouped(template.springs()))
+        },
+    );
     format!(
-        "Eq. (15) has the first boundary at κ ≈ 0.6. Pressure-insensitive: F_a(0) is at least {} % of F_a and {} % of that of the smooth body. \
+        "{cells}κ ≈ 0.6 is the boundary of eq. (15) in the paper: with smaller κ bodies adhere without a preload, with larger κ \
+         only once pressed. Pressure-insensitive: F_a(0) is at least {} % of F_a and {} % of that of the smooth body. \
          Non-adhesive: F_a is below {} % of F_n. The regime of a cell is that of most of its profiles, forces are \
          means; profiles have the seed of the scene and the next ones, exact, with sub-cell edges.",
         100.0 * INSENSITIVE_SHARE,
@@ -216,15 +235,14 @@ fn note_of_study(study: &OpenStudy, map_model: &MapModel) -> String {
 }
 
 /// The scene itself.
-fn here(model: &Model, map_model: &MapModel, at_kappa: f64, at_hurst: Option<f64>) -> Line<'static> {
-    let hurst = at_hurst.map_or_else(String::new, |hurst| format!(", H {}", number(hurst)));
-    let outside = if map_model.contains(at_kappa, at_hurst) { "" } else { ", outside the map" };
+fn here(model: &Model, map_model: &MapModel, place: Place) -> Line<'static> {
+    let outside = if map_model.contains(place) { "" } else { ", outside the map" };
     let regime = model.computed.as_ref().filter(|_| model.is_current());
     let regime = regime.and_then(|computed| computed.outcome.regime);
     let regime = regime.map_or_else(String::new, |regime| format!(": {}", regime.name()));
     Line::from(vec![
         Text::styled("◆ ", model.appearance.theme.style(Meaning::Cursor)),
-        Text::raw(format!("κ {}{hurst}{outside}{regime}", number(at_kappa))),
+        Text::raw(format!("{}{outside}{regime}", on_axes(map_model, place))),
     ])
 }
 
@@ -243,21 +261,13 @@ pub fn told(charted: Charted, map_model: &MapModel) -> Vec<&Layer> {
     }
 }
 
-/// What the map says there, or where it says it, in case that is not where the mark is.
-fn there(
-    model: &Model,
-    map_model: &MapModel,
-    at: Option<(Option<String>, Option<String>)>,
-    place: &Place<'_>,
-) -> String {
+/// What the map says at a place, and at which one where no cell is at the mark.
+fn there(model: &Model, map_model: &MapModel, mark: Place, place: &ShownCell<'_>) -> String {
     let whose = if model.chart.shown_study().is_some() { "study" } else { "map" };
-    let at = match at {
-        Some((Some(kappa), hurst)) => {
-            let hurst = hurst.map_or_else(String::new, |hurst| format!(", H {hurst}"));
-            format!("{whose} at κ {kappa}{hurst}")
-        }
-        _ => whose.to_owned(),
-    };
+    let on = |axis: &MapAxis, index: usize| axis.figure.values.get(index).copied();
+    let across = on(map_model.across(), place.column).unwrap_or(mark.0);
+    let at = on_axes(map_model, (across, map_model.up().and_then(|up| on(up, place.row))));
+    let at = if at == on_axes(map_model, mark) { whose.to_owned() } else { format!("{whose} at {at}") };
     let map_cell = match place.cell {
         Ok(map_cell) => map_cell,
         Err(why) => return format!("{at}: {why}"),

@@ -4,9 +4,9 @@ use super::typed::typed;
 use super::wrap::{clipped, fitting, wrapped};
 use crate::accuracy::Target;
 use crate::contact::CurvePoint;
-use crate::explorer::action::Command;
+use crate::explorer::action::{Command, Content, Traffic};
 use crate::explorer::keys;
-use crate::explorer::model::{Estimated, Mode, ModeKind, Model, Notice, Traffic};
+use crate::explorer::model::{Estimated, Mode, ModeKind, Model, Notice};
 use crate::explorer::text_line::TextLine;
 use crate::explorer::theme::Meaning;
 use crate::scene::format_quantity;
@@ -48,11 +48,15 @@ pub fn status(frame: &mut Frame<'_>, area: Rect, model: &Model) {
         (Mode::SaveAs { line, .. }, _) => prompted("Save as: ", line),
         // What is typed is to be seen in the smallest window too.
         (Mode::Export(line), _) if area.width < 60 => prompted("Export to: ", line),
+        (Mode::Export(line), _) if model.exports() == Content::MAP_EXPORTS => {
+            prompted("Export the map to (.csv .svg .txt): ", line)
+        }
         (Mode::Export(line), _) => prompted("Export to (.csv .json .svg .txt): ", line),
         (Mode::Force(line), _) => prompted("Go to the force: ", line),
         (Mode::Tolerance(line), _) if area.width < 60 => prompted("Tolerance: ", line),
         (Mode::Tolerance(line), _) => prompted("Relative error allowed (0.1 % or 1e-3): ", line),
-        (Mode::Library(library), _) => prompted("Search: ", &library.query),
+        (Mode::Library(library), _) => prompted("Search: ", &library.finder.query),
+        (Mode::Find { finder, .. }, _) => prompted("Find: ", &finder.query),
         (Mode::Overwrite { path, .. }, _) => error(format!("{} exists. Overwrite it?", path.display())),
         (Mode::Quit, _) => error("The scene has unsaved changes. Leave?".to_owned()),
         (_, Some(Notice::Error(text))) => error(format!("! {}", text.replace('\n', " · "))),

@@ -1,7 +1,7 @@
 //! The close-up of contact fragments, with their boundary points as the paper's white circles, and a strip
 //! of the whole contact.
 
-use super::profile::short;
+use super::section::short;
 use super::{plot, section};
 use crate::draw::{CellPlot, Chart, Span};
 use crate::explorer::model::Model;

@@ -1,6 +1,6 @@
 //! The help: the table of keys by section, and what the panes show.
 
-use crate::explorer::keys::{BINDINGS, Key};
+use crate::explorer::keys::{BINDINGS, names};
 use crate::explorer::theme::{Meaning, Theme};
 use ratatui::Frame;
 use ratatui::layout::{Margin, Rect};
@@ -79,8 +79,7 @@ fn lines(width: u16, theme: Theme) -> Vec<Line<'static>> {
             lines.push(Line::default());
             lines.push(title(section));
         }
-        let keys: Vec<String> = row.keys.iter().map(Key::name).collect();
-        entry(&mut lines, &keys.join(" "), row.help, width, theme);
+        entry(&mut lines, &names(row.keys).join(" "), row.help, width, theme);
     }
     lines
 }

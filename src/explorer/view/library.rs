@@ -18,7 +18,7 @@ pub fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model, library: &Library)
     let count = library.entries.as_ref().map_or(0, Vec::len);
     let block = Block::bordered()
         .border_style(theme.style(Meaning::Quiet))
-        .title(format!(" Scenes, {} of {count} ", library.found.len()));
+        .title(format!(" Scenes, {} of {count} ", library.finder.found.len()));
     let inner = block.inner(area);
     frame.render_widget(block, area);
     let beside = inner.width >= 60;
@@ -35,15 +35,17 @@ fn draw_list(frame: &mut Frame<'_>, area: Rect, model: &Model, library: &Library
     let Some(entries) = &library.entries else {
         return frame.render_widget(Paragraph::new("reading…").style(theme.style(Meaning::Quiet)), area);
     };
-    if library.found.is_empty() {
+    if library.finder.found.is_empty() {
         let told = "no scene fits; Enter tries it as a path, such as ./scene.ron or that of a study's folder";
         let told = wrapped(&Line::styled(told, theme.style(Meaning::Quiet)), area.width);
         return frame.render_widget(Paragraph::new(told), area);
     }
-    let first = (library.selected + 1).saturating_sub(usize::from(area.height));
-    for (row, place) in (area.y..area.bottom()).zip(first..library.found.len()) {
-        let Some(entry) = library.found.get(place).and_then(|index| entries.get(*index)) else { continue };
-        let selected = place == library.selected;
+    let first = (library.finder.selected + 1).saturating_sub(usize::from(area.height));
+    for (row, place) in (area.y..area.bottom()).zip(first..library.finder.found.len()) {
+        let Some(entry) = library.finder.found.get(place).and_then(|index| entries.get(*index)) else {
+            continue;
+        };
+        let selected = place == library.finder.selected;
         let mark = match (&entry.error, selected) {
             (Some(_), _) => "!",
             (None, true) => "›",

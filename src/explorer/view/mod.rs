@@ -13,6 +13,7 @@ mod lengths;
 mod library;
 mod parameters;
 mod plot;
+mod position;
 mod profile;
 mod section;
 mod sections;
@@ -20,10 +21,11 @@ mod stages;
 mod typed;
 mod wrap;
 
-pub use chart::place_at;
+pub use chart::{map_figure, place_at};
 pub use force::{indentation_at, stage_at};
 pub use parameters::parameter_at;
-pub use section::position_at;
+pub use position::position_at;
+pub use sections::section_cell;
 
 use super::layout::{Layout, inside, is_framed};
 use super::model::{Mode, Model, Pane};
@@ -101,6 +103,7 @@ fn draw_pane(frame: &mut Frame<'_>, area: Rect, model: &Model, pane: Pane) {
         };
         frame.render_widget(names.into_iter().fold(block, Block::title_bottom), area);
     }
+    let edge = area.right().saturating_sub(1);
     let area = inside(area);
     match pane {
         Pane::Force => force::draw(frame, area, model),
@@ -108,7 +111,7 @@ fn draw_pane(frame: &mut Frame<'_>, area: Rect, model: &Model, pane: Pane) {
         Pane::CloseUp if model.lengths => lengths::draw(frame, area, model),
         Pane::CloseUp if model.side_by_side => beside::draw(frame, area, model),
         Pane::CloseUp => close_up::draw(frame, area, model),
-        Pane::Parameters => parameters::draw(frame, area, model),
+        Pane::Parameters => parameters::draw(frame, area, edge, model),
         Pane::Accuracy => accuracy::draw(frame, area, model),
         Pane::Chart => chart::draw(frame, area, model),
     }

@@ -27,7 +27,7 @@ pub fn title(model: &Model) -> String {
     }
     let from = (moment.line.first + shown.first) as f64 * moment.line.spacing;
     let to = from + shown.springs as f64 * moment.line.spacing;
-    let [from, to] = [from, to].map(|x| format_quantity(short(x), "m"));
+    let [from, to] = [from, to].map(|x| format_quantity(section::short(x), "m"));
     format!(" Profile z(x), x from {from} to {to} of {length}{follows} ")
 }
 
@@ -39,11 +39,6 @@ pub fn names(model: &Model, area: Rect) -> Option<Line<'static>> {
     let bell = || vec![Text::styled("¦", theme.style(Meaning::Surface)), Text::raw(" normal")];
     let beside = split_profile(inside(area)).1.map(|_| bell());
     Some(section::names(moment, &chart, beside, model.appearance, area.width))
-}
-
-/// To four digits: enough to find the place again.
-pub fn short(value: f64) -> f64 {
-    format!("{value:.3e}").parse().unwrap_or(value)
 }
 
 /// Draws the profile with the histogram of its heights on the same axis.

@@ -1,14 +1,11 @@
 //! Part of the profile on its axes: rigid profile, elastic surface and contact, for profile and close-up.
 
 use super::plot;
-use super::profile::short;
 use crate::draw::{Axis, AxisScale, Chart, Ink, Layer, Shape, Span, legend};
-use crate::explorer::model::{Model, Pane};
 use crate::explorer::snapshot::{Column, Moment, Section};
 use crate::explorer::theme::{Appearance, Meaning, Theme};
 use crate::scene::format_quantity;
 use crate::simulation::LineFacts;
-use ratatui::layout::Rect;
 use ratatui::text::{Line, Span as Text};
 
 /// Chart of a section over the position; heights within `z`.
@@ -46,20 +43,6 @@ pub fn add_crosshair(chart: &mut Chart, moment: &Moment) {
     chart.layers.splice(0..0, lines.map(|line| Layer::unnamed(Ink::Cursor, line)));
 }
 
-/// Spring of the section of profile or close-up under a column of the screen.
-pub fn position_at(model: &Model, pane: Pane, area: Rect, column: u16) -> Option<usize> {
-    let moment = model.moment.as_deref()?;
-    let (chart, place) = match pane {
-        Pane::Profile => super::profile::placed(moment, area, super::profile::heights(moment)),
-        Pane::CloseUp if !model.lengths && !model.side_by_side => super::close_up::placed(moment, area),
-        _ => return None,
-    };
-    let section = if pane == Pane::Profile { &moment.profile } else { &moment.close_up.section };
-    let spring = (place.number_at(&chart.x, column) / moment.line.spacing) as usize;
-    let spring = spring.saturating_sub(moment.line.first);
-    Some(spring.clamp(section.first, section.first + section.springs.saturating_sub(1)))
-}
-
 /// What the crosshair reads: position, height, and the gap or the stretch of the spring.
 fn reading(moment: &Moment, theme: Theme) -> Vec<Vec<Text<'static>>> {
     let Some(probe) = moment.probe else { return Vec::new() };
@@ -94,4 +77,9 @@ pub fn names(
         parts.extend(more);
     }
     plot::on_frame(parts, width)
+}
+
+/// To four digits: enough to find the place again.
+pub fn short(value: f64) -> f64 {
+    format!("{value:.3e}").parse().unwrap_or(value)
 }

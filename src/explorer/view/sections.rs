@@ -1,13 +1,13 @@
-//! Sections through the mark of the map: means over κ and over H, with their confidence where it is known.
+//! Sections through the mark of the map: means along its axes, with their confidence where it is known.
 
-use super::chart_words::{name_of, number, told};
+use super::chart_words::{name_of, on_axis, told};
 use super::plot;
 use super::wrap::filled;
 use crate::draw::{Axis, AxisScale, Chart, Ink, Label, Layer as Drawn, Shape, Sign, Span, Stroke, legend};
 use crate::explorer::model::Model;
 use crate::explorer::theme::Meaning;
-use crate::study::figure::{Estimate, FigureAxis};
-use crate::study::map::{Layer, MapModel};
+use crate::study::figure::Estimate;
+use crate::study::map::{Layer, MapAxis, MapModel};
 use ratatui::Frame;
 use ratatui::layout::Rect;
 use ratatui::text::Span as Text;
@@ -28,9 +28,9 @@ const CURVES: [(Ink, Stroke); 2] = [(Ink::Unloading, Stroke::Solid), (Ink::Loadi
 /// without values.
 fn along(
     map: &MapModel,
-    (axis, across): (&FigureAxis, &'static str),
+    MapAxis { figure: axis, .. }: &MapAxis,
     values: &[(&Layer, Vec<(f64, Estimate)>)],
-    mark: f64,
+    mark: Option<f64>,
 ) -> Option<Chart> {
     let (first, last) = (*axis.values.first()?, *axis.values.last()?);
     let (layer, _) = values.first()?;
@@ -39,8 +39,8 @@ fn along(
     let y = range(scale, unit, &estimates().copied().collect::<Vec<_>>())?;
     let x = Span { low: axis.scale.coordinate(first), high: axis.scale.coordinate(last) };
     let mut layers = Vec::new();
-    let inside = (first..=last).contains(&mark);
-    if inside {
+    let mark = mark.filter(|mark| (first..=last).contains(mark));
+    if let Some(mark) = mark {
         layers.push(Drawn::unnamed(Ink::Cursor, Shape::Upright(mark)));
     }
     for ((layer, values), (ink, stroke)) in values.iter().zip(CURVES) {
@@ -54,7 +54,7 @@ fn along(
             layers.push(Drawn::new(name, ink, Shape::Curve { points, stroke: Some(stroke), sign: None }));
         }
     }
-    if inside {
+    if let Some(mark) = mark {
         let points = vec![(mark, scale.number(y.high))];
         let shape = Shape::Curve { points, stroke: None, sign: Some(Sign::Diamond) };
         layers.push(Drawn::unnamed(Ink::Cursor, shape));
@@ -64,7 +64,8 @@ fn along(
         [_] => "value",
         _ => "share",
     };
-    let x = Axis::new(axis.scale, x, "", across, "1");
+    let name = if axis.symbol.is_empty() { &axis.name } else { "" };
+    let x = Axis::new(axis.scale, x, name, &axis.symbol, &axis.unit);
     Some(plot::chart(x, Axis::new(scale, y, "", symbol, unit), layers))
 }
 
@@ -84,39 +85,55 @@ fn range(scale: AxisScale, unit: &str, estimates: &[Estimate]) -> Option<Span> {
     Some(Span { low, high: span.high.max(low + 1.0) })
 }
 
-/// Draws both sections one above the other, or that over κ where there is no H or no room.
-pub fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model, map_model: &MapModel) {
-    let Some((at_kappa, at_hurst)) = model.place() else { return };
-    let Some(place) = map_model.nearest(at_kappa, at_hurst) else { return };
+/// Column and row of the sections: those of the mark, or of the middle of a map without one.
+pub fn section_cell(model: &Model, map_model: &MapModel) -> (usize, usize) {
+    let (columns, rows) = map_model.size();
+    model.place().map_or((columns / 2, rows / 2), |mark| map_model.nearest_cell(mark))
+}
+
+/// Sections of the map through the mark, or through the middle of a map without one: along the axis across, headed by
+/// what is kept, and along the axis up where the map has one.
+pub fn charts(model: &Model) -> Vec<Chart> {
+    let Some(map_model) = model.chart.map_model() else { return Vec::new() };
+    let mark = model.place();
+    let (column, row) = section_cell(model, map_model);
     let layers = told(model.chart.charted(), map_model);
-    let kept = |symbol: &str, axis: &FigureAxis, index: usize| {
-        axis.values.get(index).map_or_else(String::new, |value| format!("at {symbol} {}", number(*value)))
+    let headed = |axis: &MapAxis, kept: Option<(&MapAxis, usize)>, chart: Option<Chart>| {
+        let kept = kept.and_then(|(axis, index)| Some(on_axis(axis, *axis.figure.values.get(index)?)));
+        let at = kept.map_or_else(String::new, |kept| format!(" at {kept}"));
+        chart.map(|chart| Chart { heading: format!("over {}{at}", axis.symbol()), ..chart })
     };
-    let values: Vec<_> =
-        layers.iter().map(|layer| (*layer, map_model.along_kappa(layer, place.row))).collect();
-    let at = map_model.up().map_or_else(String::new, |up| kept("H", up, place.row));
-    let over_kappa = along(map_model, (map_model.across(), "κ"), &values, at_kappa);
-    let over_kappa = over_kappa.map(|chart| (chart, format!("over κ {at}")));
-    let both = map_model.up().zip(at_hurst).filter(|_| area.height >= 2 * FEWEST_ROWS);
-    let upper = if both.is_some() { area.height.div_ceil(2) } else { area.height };
-    if let Some((chart, told)) = over_kappa {
-        section(frame, Rect { height: upper, ..area }, model, &chart, told);
-    }
-    if let Some((up, at_hurst)) = both {
+    let (across, up) = (map_model.across(), map_model.up());
+    let values: Vec<_> = layers.iter().map(|layer| (*layer, map_model.along_row(layer, row))).collect();
+    let along_row = along(map_model, across, &values, mark.map(|mark| mark.0));
+    let mut charts = Vec::from_iter(headed(across, up.map(|up| (up, row)), along_row));
+    if let Some(up) = up {
         let values: Vec<_> =
-            layers.iter().map(|layer| (*layer, map_model.along_hurst(layer, place.column))).collect();
-        let at = kept("κ", map_model.across(), place.column);
-        if let Some(chart) = along(map_model, (up, "H"), &values, at_hurst) {
-            let lower = Rect { y: area.y + upper, height: area.height - upper, ..area };
-            section(frame, lower, model, &chart, format!("over H {at}"));
-        }
+            layers.iter().map(|layer| (*layer, map_model.along_column(layer, column))).collect();
+        let along_column = along(map_model, up, &values, mark.and_then(|mark| mark.1));
+        charts.extend(headed(up, Some((across, column)), along_column));
+    }
+    charts
+}
+
+/// Draws both sections one above the other, or the first where there is no other or no room.
+pub fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
+    let mut charts = charts(model);
+    if area.height < 2 * FEWEST_ROWS {
+        charts.truncate(1);
+    }
+    let mut rest = area;
+    for (number, chart) in charts.iter().enumerate() {
+        let height = rest.height.div_ceil((charts.len() - number) as u16);
+        section(frame, Rect { height, ..rest }, model, chart);
+        rest = Rect { y: rest.y + height, height: rest.height - height, ..rest };
     }
 }
 
-fn section(frame: &mut Frame<'_>, area: Rect, model: &Model, chart: &Chart, told: String) {
-    let told = vec![Text::styled(told, model.appearance.theme.style(Meaning::Title))];
+fn section(frame: &mut Frame<'_>, area: Rect, model: &Model, chart: &Chart) {
+    let heading = vec![Text::styled(chart.heading.clone(), model.appearance.theme.style(Meaning::Title))];
     let entries = plot::in_theme(model.appearance, |style| legend(std::slice::from_ref(chart), style));
-    let parts = std::iter::once(told).chain(entries).collect();
+    let parts = std::iter::once(heading).chain(entries).collect();
     let legend = filled(parts, "  ", usize::from(area.width));
     let rows = (legend.len() as u16).min(area.height.saturating_sub(FEWEST_ROWS));
     for (y, line) in (area.y..area.y + rows).zip(legend) {

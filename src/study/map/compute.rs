@@ -116,8 +116,8 @@ mod tests {
         levels.dedup();
         assert_eq!(levels, Level::ALL);
         assert_eq!(rows, 5 + 9 + 19 + 19);
-        let shown = map.model();
-        assert_eq!(shown.size(), (KAPPAS, map.rows()));
+        assert_eq!(map.model().size(), (map.rows(), KAPPAS), "H across");
+        let shown = map.model().transposed();
         let share = shown.layer(Quantity::ZeroLoadAdhesionShare).unwrap();
         for row in 0..map.rows() {
             let map_cells: Vec<_> =
@@ -127,11 +127,11 @@ mod tests {
             assert!(
                 map_cells.iter().all(|map_cell| (1..=4).contains(&map_cell.agreeing) && map_cell.lines == 4)
             );
-            let along = shown.along_kappa(share, row);
+            let along = shown.along_row(share, row);
             assert_eq!(along.len(), KAPPAS);
             assert!(along[0].1.mean > 0.5 && along[KAPPAS - 1].1.mean < 0.01);
         }
-        let place = shown.nearest(1.02, Some(0.31)).unwrap();
+        let place = shown.nearest((1.02, Some(0.31))).unwrap();
         assert_eq!((kappa(place.column), hurst(place.row)), (1.0, 0.3));
         // The cell is the mean over the scenes that it is made of.
         let mut shares = Vec::new();
@@ -142,7 +142,7 @@ mod tests {
         }
         let mean = shares.iter().sum::<f64>() / shares.len() as f64;
         let cell = map.cell(place.column, place.row).unwrap().as_ref().unwrap();
-        let shown = shown.along_hurst(share, place.column)[place.row].1.mean;
+        let shown = shown.along_column(share, place.column)[place.row].1.mean;
         assert_eq!(Some(shown), cell.quantities[0].map(|spread| spread.mean));
         assert!((shown / mean - 1.0).abs() < 1e-14, "{shown} {mean}");
     }
@@ -173,8 +173,8 @@ mod tests {
         let folder = Folder::create(&place.path().join("study"), &plan).unwrap();
         run(&folder, Options { jobs: 1, shard: Shard::WHOLE }, &|| false, &mut |_| ()).unwrap();
         merge(&folder, false).unwrap();
-        let study = StudyMap::open(folder.path()).unwrap().model(0);
-        let live = live.model();
+        let study = StudyMap::open(folder.path()).unwrap().model(0).transposed();
+        let live = live.model().transposed();
         let mut divided = 0;
         for (up, &row) in rows.iter().enumerate() {
             for (across, &column) in columns.iter().enumerate() {
@@ -212,13 +212,13 @@ mod tests {
         let (mut map, rows) = (map(), std::cell::Cell::new(0));
         assert_eq!(map.model().shown(3, 3), None);
         compute(&mut map, Path::new(""), &|| rows.get() == 5, &mut |_| rows.set(rows.get() + 1));
-        let shown = map.model();
+        let shown = map.model().transposed();
         for (asked, stands) in [((0, 0), (0, 0)), ((3, 1), (0, 0)), ((5, 3), (8, 4)), ((32, 18), (32, 18))] {
             let place = shown.shown(asked.0, asked.1).unwrap();
             assert_eq!((place.column, place.row), stands, "{asked:?}");
         }
         // A section has what was computed, and nothing that only stands for it.
-        assert_eq!(shown.along_kappa(&shown.layers()[0], 0).len(), 5);
+        assert_eq!(shown.along_row(&shown.layers()[0], 0).len(), 5);
         assert_eq!((shown.shown(KAPPAS, 0), shown.shown(0, 19)), (None, None));
     }
 

@@ -1,5 +1,6 @@
 //! The values of κ and H that a map has, and the order in which it gets them.
 
+use super::axis::MapAxis;
 use crate::study::figure::{AxisScale, FigureAxis};
 
 /// Values of κ: quarters of octaves from 1/8 to 32.
@@ -25,18 +26,19 @@ const APART: f64 = 1e-6;
 
 /// The κ of all columns.
 #[must_use]
-pub fn kappas() -> FigureAxis {
-    axis("governing parameter", "κ", AxisScale::Logarithmic, (0..KAPPAS).map(kappa).collect())
+pub fn kappas() -> MapAxis {
+    axis("kappa", "governing parameter", "κ", AxisScale::Logarithmic, (0..KAPPAS).map(kappa).collect())
 }
 
 /// The H of all rows.
 #[must_use]
-pub fn hursts() -> FigureAxis {
-    axis("Hurst exponent", "H", AxisScale::Linear, (0..HURSTS).map(hurst).collect())
+pub fn hursts() -> MapAxis {
+    axis("roughness.hurst", "Hurst exponent", "H", AxisScale::Linear, (0..HURSTS).map(hurst).collect())
 }
 
-fn axis(name: &str, symbol: &str, scale: AxisScale, values: Vec<f64>) -> FigureAxis {
-    FigureAxis { name: name.into(), symbol: symbol.into(), unit: "1".into(), scale, values }
+fn axis(path: &str, name: &str, symbol: &str, scale: AxisScale, values: Vec<f64>) -> MapAxis {
+    let (name, symbol, unit) = (name.into(), symbol.into(), "1".into());
+    MapAxis { path: path.into(), figure: FigureAxis { name, symbol, unit, scale, values } }
 }
 
 /// The one of ascending values so many steps above `value`, or below it; the first or last of them where they
@@ -125,7 +127,7 @@ mod tests {
 
     #[test]
     fn steps_go_to_the_next_value_of_the_grid_and_end_with_it() {
-        let to = |value, steps| next_beyond(value, steps, &kappas().values);
+        let to = |value, steps| next_beyond(value, steps, &kappas().figure.values);
         assert_eq!((to(6.0, 1), to(6.0, -1), to(6.0, 4)), (Some(6.73), Some(5.66), Some(11.3)));
         // A value that is one of the grid but for rounding.
         assert_eq!((to(1.0 + 1e-12, 1), to(1.0 - 1e-12, -1)), (Some(1.19), Some(0.841)));

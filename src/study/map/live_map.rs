@@ -97,14 +97,16 @@ impl LiveMap {
         let record = RECORD.into_iter().enumerate();
         let drawn = record.filter(|(_, quantity)| *quantity != Quantity::Regime);
         let scale = |(column, quantity)| {
-            let estimates = || cells.iter().map(|cell| (*cell)?.ok()?.estimate(column)).collect();
-            (column, MapScale::new(quantity, estimates))
+            let estimates: Vec<_> = cells.iter().map(|cell| (*cell)?.ok()?.estimate(column)).collect();
+            (column, MapScale::new(quantity, &estimates))
         };
-        MapModel::new(
+        let map_model = MapModel::new(
             (kappas(), self.template.has_hurst().then(hursts)),
             &drawn.map(scale).collect::<Vec<_>>(),
             &cells,
             (0..cells.len()).map(|index| self.stand_in(index % KAPPAS, index / KAPPAS)).collect(),
-        )
+        );
+        // As in the paper: H across, κ up.
+        map_model.transposed()
     }
 }

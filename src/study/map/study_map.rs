@@ -1,9 +1,9 @@
-//! The maps of a finished study: one for each preload, and each value of what else it varies beside κ and H.
+//! The maps of a finished study: over H and κ, or over other axes; one map for each value of the axes that are left.
 
-use super::Template;
+use super::axis::{MapAxis, force_unit, moved};
 use super::model::{MapModel, MapScale};
-use super::template::governing;
-use crate::scene::{Adhesion, Document, Leg, Roughness, Scene, SceneErrors, quoted, ron_float};
+use super::template::Template;
+use crate::scene::{Adhesion, Document, Leg, Numerics, Roughness, Scene, SceneErrors};
 use crate::study::axis::Axis;
 use crate::study::error::StudyError;
 use crate::study::figure_axis::{figure_axis, fixed};
@@ -25,13 +25,11 @@ pub enum StudyMapError {
     /// The folder holds no merged study.
     #[error(transparent)]
     Study(#[from] StudyError),
-    /// The study does not vary κ and H.
+    /// The study has one cell.
     #[error(
-        "{folder}: this study has no map over κ and H: {axes}; allowed: axes kappa and roughness.hurst, each with two \
-         values at least. asperity sweep plot {} draws what it has",
-        quoted(folder)
+        "{folder}: this study has neither map nor section: {axes}; a section needs an axis with two values at least"
     )]
-    NoMap {
+    OneCell {
         /// The folder.
         folder: String,
         /// The axes it has, each with its number of values.
@@ -47,9 +45,9 @@ pub enum StudyMapError {
 pub struct StudyMap {
     folder: PathBuf,
     study: Finished,
-    /// Places among the axes: κ, H, and the others, the preload's last.
-    kappa: usize,
-    hurst: usize,
+    /// Places among the axes: that across, that up, and the others, the preload's last.
+    across: usize,
+    up: Option<usize>,
     others: Vec<usize>,
     /// Quantities beside the regime by their places among the recorded, with the scales of all maps.
     scales: Vec<(usize, MapScale)>,
@@ -59,7 +57,7 @@ impl StudyMap {
     /// Opens the folder of a merged study.
     ///
     /// # Errors
-    /// Where it is none, or has no map over κ and H.
+    /// Where it is none, or has one cell.
     pub fn open(folder: &Path) -> Result<StudyMap, StudyMapError> {
         StudyMap::of(Finished::open(folder)?, folder)
     }
@@ -67,34 +65,41 @@ impl StudyMap {
     /// The maps of a study that was read from a folder.
     ///
     /// # Errors
-    /// Where it does not vary κ and H.
+    /// Where it has one cell.
     pub fn of(study: Finished, folder: &Path) -> Result<StudyMap, StudyMapError> {
         let axes = study.plan().all_axes();
-        let find = |paths: &[&str]| {
-            let is = |path: &str| axes.iter().position(|axis| axis.path() == path && axis.count() > 1);
-            paths.iter().find_map(|path| is(path))
+        let free: Vec<usize> = (0..axes.len()).filter(|axis| axes[*axis].count() > 1).collect();
+        let find = |paths: &[&str]| free.iter().copied().find(|axis| paths.contains(&axes[*axis].path()));
+        let (hurst, kappa) = (find(&HURST), find(&KAPPA));
+        let other = |one: usize| free.iter().copied().find(|axis| *axis != one);
+        // H goes across and κ up, whichever else the study varies; of other axes the first goes across.
+        let (across, up) = match (hurst, kappa, free.first()) {
+            (Some(hurst), Some(kappa), _) => (hurst, Some(kappa)),
+            (None, Some(kappa), _) => other(kappa).map_or((kappa, None), |across| (across, Some(kappa))),
+            (Some(hurst), None, _) => (hurst, other(hurst)),
+            (None, None, Some(first)) => (*first, other(*first)),
+            (None, None, None) => {
+                let said: Vec<String> =
+                    axes.iter().map(|axis| format!("{} (1 value)", axis.path())).collect();
+                let axes = if said.is_empty() {
+                    "it has no axes".into()
+                } else {
+                    format!("it has {}", said.join(", "))
+                };
+                return Err(StudyMapError::OneCell { folder: folder.display().to_string(), axes });
+            }
         };
-        let (Some(kappa), Some(hurst)) = (find(&KAPPA), find(&HURST)) else {
-            let said = |axis: &&Axis| {
-                let (count, plural) = (axis.count(), if axis.count() == 1 { "" } else { "s" });
-                format!("{} ({count} value{plural})", axis.path())
-            };
-            let said: Vec<String> = axes.iter().map(said).collect();
-            let axes =
-                if said.is_empty() { "it has no axes".into() } else { format!("it has {}", said.join(", ")) };
-            return Err(StudyMapError::NoMap { folder: folder.display().to_string(), axes });
-        };
-        let others = (0..axes.len()).filter(|axis| ![kappa, hurst].contains(axis)).collect();
+        let others = (0..axes.len()).filter(|axis| *axis != across && Some(*axis) != up).collect();
         let record = study.plan().record.iter().enumerate();
         let drawn = record.filter(|(_, quantity)| **quantity != Quantity::Regime);
         let scales = drawn.map(|(column, quantity)| {
-            let cells = || (0..study.plan().cells()).map(|cell| study.cell(cell)?.estimate(column)).collect();
-            (column, MapScale::new(*quantity, cells))
+            let cells = (0..study.plan().cells()).map(|cell| study.cell(cell)?.estimate(column));
+            (column, MapScale::new(*quantity, &cells.collect::<Vec<_>>()))
         });
         let scales = scales.collect();
         // Without a separator at its end.
         let folder = folder.components().collect();
-        Ok(StudyMap { folder, kappa, hurst, others, scales, study })
+        Ok(StudyMap { folder, across, up, others, scales, study })
     }
 
     /// The folder.
@@ -127,14 +132,14 @@ impl StudyMap {
         self.others.iter().map(|&other| axes[other].count()).product()
     }
 
-    /// The axes that are neither κ nor H, each with the place that a map has on it.
+    /// The axes that no map is over, each with the place that a map has on it.
     fn at(&self, slice: u64) -> Vec<(&Axis, usize, u64)> {
         let axes = self.axes();
         let places = places_of(slice, self.others.iter().map(|&other| axes[other].count()));
         self.others.iter().zip(places).map(|(&other, place)| (axes[other], other, place)).collect()
     }
 
-    /// Place of a map on the axes that are neither κ nor H, in words: `F_n/(E* h L) = 0.1`.
+    /// Place of a map on the axes that no map is over, in words: `F_n/(E* h L) = 0.1`.
     #[must_use]
     pub fn stands_at(&self, slice: u64) -> Vec<String> {
         self.at(slice).into_iter().map(|(axis, _, place)| fixed(self.plan(), axis, place)).collect()
@@ -148,43 +153,50 @@ impl StudyMap {
         for (_, other, place) in self.at(slice) {
             places[other] = place;
         }
-        let cells = self.study.grid(self.kappa, Some(self.hurst), places);
+        let cells = self.study.grid(self.across, self.up, places);
         let cells: Vec<_> = cells.into_iter().map(|cell| cell.map(Ok)).collect();
+        let axis = |place: usize| MapAxis {
+            path: axes[place].path().to_owned(),
+            figure: figure_axis(plan, axes[place]),
+        };
         MapModel::new(
-            (figure_axis(plan, axes[self.kappa]), Some(figure_axis(plan, axes[self.hurst]))),
+            (axis(self.across), self.up.map(axis)),
             &self.scales,
             &cells,
             cells.iter().enumerate().map(|(index, cell)| cell.map(|_| index)).collect(),
         )
     }
 
-    /// The scene of a map on the first line of the study, with the H that is given, and the κ that the plan's
-    /// scene has.
-    fn scene(&self, slice: u64, at_hurst: Option<f64>) -> Scene {
-        let (plan, axes) = (self.plan(), self.axes());
+    /// Paths of the axes that the maps are over.
+    fn over(&self) -> Vec<&Axis> {
+        let axes = self.axes();
+        [Some(self.across), self.up].into_iter().flatten().map(|axis| axes[axis]).collect()
+    }
+
+    /// The scene of a map on the first line of the study, with these values of the axes that the maps are over; of those
+    /// that are left out, the value of the plan's scene.
+    fn scene(&self, slice: u64, over: &[(&str, f64)]) -> Scene {
+        let plan = self.plan();
         let mut scene = plan.scene.clone();
         if scene.title.is_empty() {
             (scene.title, scene.notice) = (plan.title.clone(), plan.notice.clone());
         }
-        if scene.adhesion.is_none() {
-            let middle = axes[self.kappa].value(axes[self.kappa].count() / 2);
-            scene.adhesion = Some(Adhesion::default().with_kappa(middle));
+        let kappa = self.over().into_iter().find(|axis| KAPPA.contains(&axis.path()));
+        if let (None, Some(kappa)) = (scene.adhesion, kappa) {
+            scene.adhesion = Some(Adhesion::default().with_kappa(kappa.value(kappa.count() / 2)));
         }
-        if let Some(Roughness::SelfAffine { seed, hurst, .. }) = &mut scene.roughness {
-            (*seed, *hurst) = (plan.seed, at_hurst.unwrap_or(*hurst));
+        if let Some(Roughness::SelfAffine { seed, .. }) = &mut scene.roughness {
+            *seed = plan.seed;
         }
         let at = self.at(slice);
-        let values = at
-            .iter()
-            .filter_map(|(axis, _, place)| Some((Target::of(axis.path()).ok()?, axis.value(*place))));
+        let at = at.iter().map(|(axis, _, place)| (axis.path(), axis.value(*place)));
+        let values: Vec<(&str, f64)> = at.chain(over.iter().copied()).collect();
+        let targets = values.iter().filter_map(|(path, value)| Some((Target::of(path).ok()?, *value)));
         // The plan has been checked with these values.
-        let _ = Target::set_all(values, &mut scene);
-        let of_map = at.iter().find(|(axis, ..)| axis.path() == "preload");
-        let preload = of_map.map(|(axis, _, place)| axis.value(*place));
-        let unit = governing(&scene).and_then(|governing| {
-            Some(governing.effective_modulus * governing.amplitude?.rms_height * scene.length)
-        });
-        if let Some((preload, unit)) = preload.zip(unit) {
+        let _ = Target::set_all(targets, &mut scene);
+        let preload = values.iter().find(|(path, _)| *path == "preload").map(|(_, value)| *value);
+        let first = || self.plan().preloads.as_ref().map(|axis| axis.value(0));
+        if let Some((preload, unit)) = preload.or_else(first).zip(force_unit(&scene)) {
             scene.loading = vec![Leg::ToForce(preload * unit), Leg::ToSeparation];
         }
         scene
@@ -197,47 +209,51 @@ impl StudyMap {
     pub fn document(&self) -> Result<Document, SceneErrors> {
         // As it is typed, so that the command that opens it again is this name.
         let name = self.folder.display().to_string();
-        Document::from_scene(&self.scene(0, None), &name)
+        Document::from_scene(&self.scene(0, &[]), &name)
     }
 
-    /// Returns true for the scene of a map, but for κ, H and the resolution of its curve.
+    /// Returns true for the scene of a map, but for the axes that the map is over and the resolution of its curve.
     #[must_use]
     pub fn is_of(&self, slice: u64, scene: &Scene) -> bool {
-        let Some(Roughness::SelfAffine { hurst, .. }) = scene.roughness else { return false };
-        let of_map = Template::of(&self.scene(slice, Some(hurst)));
-        of_map.is_ok() && of_map == Template::of(scene)
+        let axes = self.over();
+        let known = axes.into_iter().filter_map(|axis| {
+            let (path, figure) = (axis.path().to_owned(), figure_axis(self.plan(), axis));
+            Some((axis.path(), MapAxis { path, figure }.value(scene, None)?))
+        });
+        let of_map = self.scene(slice, &known.collect::<Vec<_>>());
+        match (Template::of(&of_map), Template::of(scene)) {
+            (Ok(one), Ok(other)) => {
+                one == other && is_close(Template::place(&of_map), Template::place(scene))
+            }
+            _ => without_texts(&of_map) == without_texts(scene),
+        }
     }
 
-    /// A document with all that makes its scene that of a map, but for κ and H.
+    /// A document with all that makes its scene that of a map, but for the axes that the map is over.
     ///
     /// # Errors
     /// Where this is not allowed in it.
     pub fn follow(&self, slice: u64, document: &Document) -> Result<Document, SceneErrors> {
-        let Some(Roughness::SelfAffine { hurst, .. }) = document.scene().roughness else {
-            return Ok(document.clone());
-        };
-        let scene = self.scene(slice, Some(hurst));
-        let mut fields = Vec::new();
-        for (axis, _, place) in self.at(slice) {
-            match (axis.path(), &scene.roughness) {
-                ("preload", _) => {}
-                ("springs_per_wave", Some(Roughness::SelfAffine { modes, .. })) => {
-                    fields.push(("roughness.modes.1".to_owned(), modes.1.to_string()));
-                }
-                (path, _) => {
-                    let value = axis.value(place);
-                    let whole = Target::of(path).is_ok_and(Target::is_whole);
-                    let text = if whole { format!("{value:.0}") } else { ron_float(value) };
-                    fields.push((path.to_owned(), text));
-                }
-            }
-        }
-        if let [Leg::ToForce(force), Leg::ToSeparation] = scene.loading[..]
-            && self.plan().preloads.is_some()
-        {
-            fields.push(("loading".to_owned(), format!("[ToForce({}), ToSeparation]", ron_float(force))));
-        }
-        document.set_all(&fields)
+        let at = self.at(slice);
+        let values: Vec<_> = at.iter().map(|(axis, _, place)| (axis.path(), axis.value(*place))).collect();
+        moved(document, &values)
+    }
+}
+
+/// Whether κ and H are the same but for rounding; those that are not known are not compared.
+fn is_close(one: Option<(f64, f64)>, other: Option<(f64, f64)>) -> bool {
+    let is_close = |a: f64, b: f64| (a - b).abs() <= 1e-9 * a.abs().max(b.abs());
+    one.zip(other).is_none_or(|((a, b), (c, d))| is_close(a, c) && is_close(b, d))
+}
+
+/// A scene without what changes no result but the resolution of a curve.
+fn without_texts(scene: &Scene) -> Scene {
+    Scene {
+        title: String::new(),
+        notice: String::new(),
+        observe: Vec::new(),
+        numerics: Numerics { samples: 2, ..scene.numerics },
+        ..scene.clone()
     }
 }
 
@@ -309,9 +325,10 @@ mod tests {
         assert_eq!(study_map.stands_at(2), ["k_max = 32", "F_n/(E* h L) = 0.5"]);
         for (slice, modes, preload) in [(0, 0, 0), (1, 0, 1), (2, 1, 0), (3, 1, 1)] {
             let map_model = study_map.model(slice);
+            assert_eq!(map_model.across().figure.values, [0.25, 0.75], "H across");
+            assert_eq!(map_model.up().unwrap().figure.values, [1.0, 2.0, 4.0], "κ ascends");
+            let map_model = map_model.transposed();
             assert_eq!(map_model.size(), (3, 2));
-            assert_eq!(map_model.across().values, [1.0, 2.0, 4.0], "κ ascends");
-            assert_eq!(map_model.up().unwrap().values, [0.25, 0.75]);
             let layer = map_model.layer(Quantity::AdhesionCoefficient).unwrap();
             for row in 0..2 {
                 for (column, kappa) in [1, 2, 0].into_iter().enumerate() {
@@ -337,7 +354,7 @@ mod tests {
     }
 
     #[test]
-    fn glyphs_tell_the_regime_and_all_that_was_recorded() {
+    fn the_regime_and_all_that_was_recorded_are_charted() {
         let map_model = study_map().model(0);
         assert_eq!(
             map_model.charted(),
@@ -347,12 +364,16 @@ mod tests {
                 Charted::Quantity(Quantity::PreloadForce)
             ]
         );
-        let layer = |quantity| map_model.layer(quantity).unwrap();
-        assert_eq!(layer(Quantity::AdhesionCoefficient).steps, [1.0, 0.1, 0.01], "those of every map");
         // From 0 to 23 µN over all maps, whichever is shown.
-        let force = layer(Quantity::PreloadForce);
-        assert_eq!((force.scale, force.steps), (AxisScale::Linear, [1.7e-5, 1.2e-5, 5.8e-6]));
-        assert_eq!([2.0e-5, 1.2e-5, 6.0e-6, 5.0e-6].map(|value| force.step(value)), [0, 1, 2, 3]);
+        let force = map_model.layer(Quantity::PreloadForce).unwrap();
+        assert_eq!((force.scale, force.range), (AxisScale::Linear, Some((0.0, 2.3e-5))));
+        let transposed = map_model.transposed();
+        assert_eq!(transposed.size(), (map_model.size().1, map_model.size().0));
+        assert_eq!(
+            transposed.shown(2, 1).map(|shown| shown.cell),
+            map_model.shown(1, 2).map(|shown| shown.cell)
+        );
+        assert_eq!(transposed.transposed(), map_model);
         // Without regimes, and with nothing else.
         let map_model = |record: &str| {
             let plan = PLAN.replace("record: [adhesion_coefficient, regime, preload_force]", record);
@@ -369,7 +390,7 @@ mod tests {
         assert_eq!(map_model("record: [regime]").charted(), [Charted::Regime]);
         let map_model = map_model("record: [fragments]");
         assert_eq!(map_model.charted(), [Charted::Quantity(Quantity::Fragments)]);
-        assert_eq!(map_model.layers()[0].steps, [1.0; 3], "one value");
+        assert_eq!(map_model.layers()[0].range, Some((1.0, 1.0)), "one value");
     }
 
     #[test]
@@ -386,7 +407,7 @@ mod tests {
         assert!((force / (0.5 * 2.0e6 * 1.0e-7 * 1.0e-4) - 1.0).abs() < 1e-12, "{force}");
         for slice in 0..4 {
             assert_eq!(study_map.is_of(slice, scene), slice == 0);
-            let moved = Template::moved(&document, 3.0, 0.25).unwrap();
+            let moved = moved(&document, &[("kappa", 3.0), ("roughness.hurst", 0.25)]).unwrap();
             assert_eq!(study_map.is_of(slice, moved.scene()), slice == 0, "κ and H are the mark's");
             let followed = study_map.follow(slice, &moved).unwrap();
             assert!(study_map.is_of(slice, followed.scene()), "{}", followed.text());
@@ -403,32 +424,56 @@ mod tests {
     }
 
     #[test]
-    fn without_kappa_and_hurst_there_is_no_map() {
+    fn studies_of_other_axes_have_maps_and_sections() {
         let kappa = "List(path: \"kappa\", values: [4.0, 1.0, 2.0])";
         let hurst = "Linear(path: \"roughness.hurst\", from: 0.25, to: 0.75, count: 2)";
-        for (axis, by, said) in [
-            (kappa, "List(path: \"kappa\", values: [4.0])", "kappa (1 value)"),
-            (kappa, "List(path: \"length\", values: [1.0e-4, 2.0e-4])", "length (2 values)"),
+        let length = "List(path: \"length\", values: [1.0e-4, 2.0e-4])";
+        let axes = |plan: &str| {
+            let plan =
+                plan.replace("numerics: (points: 128)", "numerics: (points: 128), adhesion: (kappa: 1.0)");
+            let study_map = StudyMap::open(merged(&plan).path())?;
+            let map_model = study_map.model(0);
+            // The first scene is that of the study, and stays so on the map.
+            let document = study_map.document()?;
+            let axes: Vec<&MapAxis> =
+                [Some(map_model.across()), map_model.up()].into_iter().flatten().collect();
+            let last = axes.iter().map(|axis| (axis.path.as_str(), *axis.figure.values.last().unwrap()));
+            let moved = moved(&document, &last.collect::<Vec<_>>())?;
+            for document in [&document, &moved] {
+                assert!(study_map.is_of(0, document.scene()), "{}", document.text());
+            }
+            for axis in &axes {
+                let (value, last) =
+                    (axis.value(moved.scene(), None).unwrap(), axis.figure.values.last().unwrap());
+                assert!((value / last - 1.0).abs() < 1e-9, "{}: {value} {last}", axis.path);
+            }
+            let paths: Vec<String> = axes.iter().map(|axis| axis.path.clone()).collect();
+            Ok::<_, StudyMapError>(paths)
+        };
+        let one_kappa = "List(path: \"kappa\", values: [4.0])";
+        let one_mode = "List(path: \"roughness.modes.1\", values: [16.0])";
+        let modes = "List(path: \"roughness.modes.1\", values: [16.0, 32.0])";
+        let unpressed = PLAN.replace("preloads: [0.5, 2.0],", "");
+        for (plan, expected) in [
+            (PLAN.replace(kappa, one_kappa), ["roughness.hurst", "roughness.modes.1"].as_slice()),
+            (PLAN.replace(kappa, length), &["roughness.hurst", "length"]),
+            (PLAN.replace(hurst, length), &["roughness.modes.1", "kappa"]),
+            (PLAN.replace(hurst, length).replace(kappa, one_kappa), &["roughness.modes.1", "length"]),
             (
-                hurst,
-                "List(path: \"roughness.rms_height\", values: [1.0e-7])",
-                "roughness.rms_height (1 value)",
+                unpressed.replace(hurst, length).replace(kappa, one_kappa).replace(modes, one_mode),
+                &["length"],
+            ),
+            (
+                PLAN.replace(&format!("{hurst},"), "").replace(kappa, one_kappa).replace(modes, one_mode),
+                &["preload"],
             ),
         ] {
-            let plan = PLAN
-                .replace(axis, by)
-                .replace("numerics: (points: 128)", "numerics: (points: 128), adhesion: (kappa: 1.0)");
-            let error = StudyMap::open(merged(&plan).path()).unwrap_err();
-            assert!(matches!(error, StudyMapError::NoMap { .. }), "{error}");
-            let told = error.to_string();
-            assert!(
-                told.contains(said) && told.contains("allowed: axes kappa and roughness.hurst"),
-                "{told}"
-            );
+            assert_eq!(axes(&plan).unwrap(), expected, "{plan}");
         }
-        let plan = PLAN
-            .replace("\"kappa\"", "\"adhesion.kappa\"")
-            .replace("numerics:", "adhesion: (kappa: 1.0), numerics:");
-        assert_eq!(StudyMap::open(merged(&plan).path()).unwrap().slices(), 4);
+        let one =
+            unpressed.replace(kappa, one_kappa).replace(modes, one_mode).replace(&format!("{hurst},"), "");
+        let error = axes(&one).unwrap_err();
+        assert!(matches!(error, StudyMapError::OneCell { .. }), "{error}");
+        assert!(error.to_string().contains("a section needs an axis with two values at least"), "{error}");
     }
 }

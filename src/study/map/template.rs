@@ -1,10 +1,10 @@
 //! Template of a map: a scene without its κ and H.
 
+use super::axis::MapAxis;
 use super::grid::{Level, hursts, kappas};
 use crate::analysis::Governing;
-use crate::scene::{Adhesion, Document, Edges, Numerics, Roughness, Scene, SceneErrors, Solver};
+use crate::scene::{Adhesion, Edges, Numerics, Roughness, Scene, Solver};
 use crate::study::axis::Axis;
-use crate::study::figure::FigureAxis;
 use crate::study::plan::Plan;
 use crate::study::quantity::Quantity;
 use crate::surface::SelfAffine;
@@ -63,11 +63,11 @@ impl Template {
                 let last = modes.1;
                 // Without an amplitude of its own it follows from γ and κ.
                 let work = adhesion.work.filter(|_| rms_height.is_none() && rms_gradient.is_none());
-                scene.adhesion = Some(Adhesion { work, kappa: Some(ANY.0), closing_work: None });
+                scene.adhesion = Some(Adhesion { work, ..Adhesion::default().with_kappa(ANY.0) });
                 last.saturating_mul(SPRINGS_PER_WAVE).clamp(SPRINGS.0, SPRINGS.1).max(last.saturating_mul(2))
             }
             Some(Roughness::Measured { .. }) => {
-                scene.adhesion = Some(Adhesion { kappa: Some(ANY.0), ..Adhesion::default() });
+                scene.adhesion = Some(Adhesion::default().with_kappa(ANY.0));
                 SPRINGS.1
             }
         };
@@ -113,12 +113,12 @@ impl Template {
 
     /// The study of all cells of the map: number row · [`super::KAPPAS`] + column.
     pub(super) fn plan(&self) -> Plan {
-        let list = |path: &str, axis: FigureAxis| Axis::List { path: path.into(), values: axis.values };
+        let list = |axis: MapAxis| Axis::List { path: axis.path, values: axis.figure.values };
         let mut plan = Plan::of_scene(&self.scene, self.lines(), &RECORD);
         if self.has_hurst() {
-            plan.axes.push(list("roughness.hurst", hursts()));
+            plan.axes.push(list(hursts()));
         }
-        plan.axes.push(list("adhesion.kappa", kappas()));
+        plan.axes.push(list(kappas()));
         plan
     }
 
@@ -129,41 +129,24 @@ impl Template {
         let Some(Roughness::SelfAffine { hurst, .. }) = scene.roughness else { return None };
         Some((governing(scene)?.kappa?, hurst))
     }
-
-    /// A document with another κ and H; γ where it gives its adhesion so, and κ otherwise.
-    ///
-    /// # Errors
-    /// When one of them is not allowed.
-    pub fn moved(document: &Document, kappa: f64, hurst: f64) -> Result<Document, SceneErrors> {
-        let moved = match document.scene().roughness {
-            Some(Roughness::SelfAffine { .. }) => {
-                document.set("roughness.hurst", &crate::scene::ron_float(hurst))?
-            }
-            _ => document.clone(),
-        };
-        let by_work = matches!(moved.scene().adhesion, Some(Adhesion { work: Some(_), kappa: None, .. }));
-        match governing(moved.scene()).and_then(|governing| governing.work_for_kappa(kappa)) {
-            Some(work) if by_work => moved.with_work_of_adhesion(work),
-            _ => moved.with_kappa(kappa),
-        }
-    }
 }
 
 /// Governing parameters of a scene with a self-affine profile.
-pub(super) fn governing(scene: &Scene) -> Option<Governing> {
+pub(in crate::study) fn governing(scene: &Scene) -> Option<Governing> {
     let Some(Roughness::SelfAffine { hurst, modes: (first, last), .. }) = scene.roughness else {
         return None;
     };
-    let ratio = SelfAffine { hurst, first, last }.gradient_per_height(scene.length);
-    Some(Governing::of(scene, Some(ratio), None))
+    let wave_numbers = SelfAffine { hurst, first, last }.wave_numbers(scene.length);
+    Some(Governing::of(scene, Some(wave_numbers), None))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::open;
+    use crate::scene::{Document, open};
     use crate::simulation::Simulation;
     use crate::study::cells::Cells;
+    use crate::study::map::axis::moved;
     use crate::study::map::grid::{HURSTS, KAPPAS, hurst, kappa};
 
     fn document() -> Document {
@@ -231,7 +214,7 @@ mod tests {
         ]);
         let by_work = by_kappa.set("adhesion", "(work: 0.05)").unwrap();
         for document in [by_kappa, both.unwrap(), by_work] {
-            let moved = Template::moved(&document, 3.0, 0.4).unwrap();
+            let moved = moved(&document, &[("roughness.hurst", 0.4), ("kappa", 3.0)]).unwrap();
             let (before, after) = (document.scene().adhesion.unwrap(), moved.scene().adhesion.unwrap());
             assert_eq!(before.work.is_some(), after.work.is_some());
             assert_eq!(before.kappa.is_some(), after.kappa.is_some());
@@ -242,6 +225,6 @@ mod tests {
                 Simulation::default().make_line(moved.scene()).map(|(a, b, c)| (a.first, b, c)).unwrap();
             assert!((governing.kappa.unwrap() / 3.0 - 1.0).abs() < 1e-9, "{governing:?}");
         }
-        assert!(Template::moved(&document(), f64::NAN, 0.4).is_err());
+        assert!(moved(&document(), &[("kappa", f64::NAN)]).is_err());
     }
 }

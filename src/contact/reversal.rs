@@ -1,0 +1,137 @@
+//! Reversals: the unloadings from many turning points of one loading.
+//!
+//! The contact that is left on the way back from a turning point depends on this point only through the patches that
+//! were closed there. So all reversals share the tree, the thresholds of attachment and the list of the loading, and
+//! each costs what its own contact holds.
+
+use super::contact_model::{ContactModel, ContactState};
+use super::exact::Exact;
+use super::grid::Grid;
+use super::leg_plan::{Target, plan};
+use super::{ContactError, CurvePoint, Work};
+use crate::scene::Leg;
+
+/// The unloading from one turning point to separation, exact to rounding.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Reversal {
+    /// Turning point.
+    pub turn: CurvePoint,
+    /// Smallest force on the way back.
+    pub smallest: CurvePoint,
+    /// Indentation at which the last patch detaches, m.
+    pub separation: f64,
+    /// Energy dissipated from separation to separation, J.
+    pub dissipated_energy: f64,
+    /// Forces at the points asked for, up to the turning point, N.
+    pub forces: Vec<f64>,
+}
+
+/// The reversals of a body that is loaded from separation.
+pub struct Reversals<C: ContactModel> {
+    body: Exact<C>,
+    /// Turning points in the order of their depth, and their numbers.
+    turns: Vec<(usize, ContactState)>,
+}
+
+impl Reversal {
+    /// Adhesion force F_a, N: minus the smallest force; `None` where the body does not pull.
+    #[must_use]
+    pub fn adhesion_force(&self) -> Option<f64> {
+        // Not −F: that would make a force of zero negative.
+        Some(0.0 - self.smallest.force).filter(|_| self.smallest.force <= 0.0)
+    }
+}
+
+impl<C: ContactModel> Reversals<C> {
+    /// Loads a body from separation and finds the turning points: the ends of these legs, each of which begins separated
+    /// at d = 0.
+    ///
+    /// # Errors
+    /// For a leg whose end is out of reach, or without enough memory.
+    pub fn new(mut body: Exact<C>, ends: &[Leg]) -> Result<Self, ContactError> {
+        let complete = body.begin_loading()?.max(0.0);
+        let apart = CurvePoint::default();
+        let mut order = Vec::with_capacity(ends.len());
+        for (index, &leg) in ends.iter().enumerate() {
+            let at = match plan(leg, apart, index)?.map(|(_, target)| target) {
+                Some(Target::Force(force)) => body.load_to_force(leg, force, 0.0, complete)?,
+                Some(Target::Indentation(indentation)) if indentation >= 0.0 => indentation,
+                _ => return Err(ContactError::NoContact { index, leg }),
+            };
+            order.push((index, at));
+        }
+        order.sort_by(|one, other| one.1.total_cmp(&other.1));
+        let mut points: Vec<f64> = order.iter().map(|&(_, at)| at).collect();
+        points.dedup();
+        let depths: Vec<f64> = order.iter().map(|&(_, at)| at).collect();
+        body.work_mut().0.begin_reversals(&depths)?;
+        let mut turns = Vec::with_capacity(order.len());
+        if !points.is_empty() {
+            let states = body.contact().sample(Grid::at(points))?;
+            let grid = body.contact().grid(&states);
+            turns.extend(
+                order.iter().map(|&(index, at)| (index, body.contact().at(&states, grid.first_at_least(at)))),
+            );
+        }
+        Ok(Reversals { body, turns })
+    }
+
+    /// Calls `see` with each reversal and the number of its leg, from the shallowest on. `points` are ascending
+    /// indentations at which the forces are wanted, m.
+    ///
+    /// # Errors
+    /// The first error of `see` ends the work; [`ContactError::OutOfMemory`].
+    pub fn each(
+        &mut self,
+        points: &[f64],
+        see: &mut dyn FnMut(usize, Reversal) -> Result<(), ContactError>,
+    ) -> Result<(), ContactError> {
+        for (number, &(index, turn)) in self.turns.iter().enumerate() {
+            see(index, reverse(&mut self.body, (number, turn), points)?)?;
+        }
+        Ok(())
+    }
+
+    /// Work counts so far.
+    #[must_use]
+    pub fn work(&self) -> Work {
+        super::Solver::work(&self.body)
+    }
+
+    /// The body, for its memory.
+    #[must_use]
+    pub fn into_body(self) -> Exact<C> {
+        self.body
+    }
+}
+
+/// Unloads from a turning point.
+fn reverse<C: ContactModel>(
+    body: &mut Exact<C>,
+    (number, turn): (usize, ContactState),
+    points: &[f64],
+) -> Result<Reversal, ContactError> {
+    let high = turn.indentation;
+    let (contact, work) = body.work_mut();
+    let separation = contact.reverse((number, high), work)?.min(high);
+    let (grid, _) = body.grid(separation, high);
+    let (contact, work) = body.work_mut();
+    let sampled = contact.sample_reversal(grid)?;
+    let smallest = contact.smallest_of_reversal(&sampled, &mut work.events_sorted);
+    let [attached, detached] = contact.squared_stretches();
+    let below = &points[..points.partition_point(|&point| point <= high)];
+    let apart = below.partition_point(|&point| point < separation);
+    let mut forces = vec![0.0; apart];
+    if apart < below.len() {
+        let leg = body.contact().sample_reversal(Grid::at(below[apart..].to_vec()))?;
+        let states = (0..below.len() - apart).map(|index| body.contact().at(&leg, index));
+        forces.extend(states.map(|state| body.curve_point(state).force));
+    }
+    Ok(Reversal {
+        turn: body.curve_point(turn),
+        smallest: body.curve_point(smallest),
+        separation,
+        dissipated_energy: ((0.0 - body.energy(attached)) + body.energy(detached)) + 0.0,
+        forces,
+    })
+}

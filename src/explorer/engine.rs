@@ -1,0 +1,46 @@
+//! The solver behind the worker.
+
+use crate::contact::ContactTree;
+use crate::scene::Scene;
+use crate::simulation::{AfterLeg, Outcome, RunError, Simulation};
+use crate::surface::Line;
+use std::sync::Arc;
+
+/// Solver of scenes: [`Simulation`], or a substitute in tests.
+pub trait Engine: Send {
+    /// Computes a scene; see [`Simulation::run`].
+    ///
+    /// # Errors
+    /// When it cannot be computed or `stop` says so.
+    fn run(
+        &mut self,
+        scene: &Scene,
+        stop: &dyn Fn() -> bool,
+        after: &mut AfterLeg<'_>,
+    ) -> Result<Outcome, RunError>;
+
+    /// The line of the last scene.
+    fn line(&self) -> Option<&Line>;
+
+    /// The tree of that line, where the scene called for one.
+    fn tree(&self) -> Option<&Arc<ContactTree>>;
+}
+
+impl Engine for Simulation {
+    fn run(
+        &mut self,
+        scene: &Scene,
+        stop: &dyn Fn() -> bool,
+        after: &mut AfterLeg<'_>,
+    ) -> Result<Outcome, RunError> {
+        Simulation::run(self, scene, stop, after)
+    }
+
+    fn line(&self) -> Option<&Line> {
+        Simulation::line(self)
+    }
+
+    fn tree(&self) -> Option<&Arc<ContactTree>> {
+        Simulation::tree(self)
+    }
+}

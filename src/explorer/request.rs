@@ -1,0 +1,139 @@
+//! Requests from the explorer to the worker.
+
+use crate::scene::Scene;
+use std::sync::Arc;
+use std::sync::atomic::AtomicU64;
+
+/// What the explorer asks of the worker.
+#[derive(Clone, Debug)]
+pub enum Request {
+    /// Compute a scene.
+    Compute {
+        /// Its generation.
+        generation: u64,
+        /// The scene.
+        scene: Arc<Scene>,
+    },
+    /// Move the body by hand, in the scene that was computed last.
+    Hand {
+        /// Generation of the scene it belongs to.
+        generation: u64,
+        /// Where to.
+        order: HandOrder,
+    },
+    /// Show a moment of the scene that was computed last.
+    Show(MomentRequest),
+    /// Compute a scene to be shown beside, or none.
+    Beside(Option<Arc<Scene>>),
+    /// Compute a scene of the library to look at its curve.
+    Preview {
+        /// The scene's text.
+        text: String,
+        /// The scene.
+        scene: Arc<Scene>,
+    },
+}
+
+/// What the hand does with the body.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum HandOrder {
+    /// Takes it where a leg of the loading has it at this indentation, m.
+    Take {
+        /// Index of the leg.
+        leg: usize,
+        /// Indentation, m.
+        indentation: f64,
+    },
+    /// Gives it back.
+    Give,
+    /// Moves it to an indentation, m.
+    To(f64),
+    /// Moves it by so much, m; pressing is positive.
+    By(f64),
+    /// Moves it until its force is this one, N.
+    ToForce(f64),
+    /// Pulls until nothing touches.
+    Separate,
+}
+
+/// Which moment to show, and how large.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MomentRequest {
+    /// Generation of the scene it belongs to.
+    pub generation: u64,
+    /// What moves the body.
+    pub drive: Drive,
+    /// Indentation, m; the hand knows its own.
+    pub indentation: f64,
+    /// Columns of dots of the profile pane.
+    pub profile_columns: usize,
+    /// What part of the line it shows.
+    pub profile: LineView,
+    /// Columns of dots of the close-up pane.
+    pub close_up_columns: usize,
+    /// Cells across it.
+    pub strip_cells: usize,
+    /// Where the close-up looks.
+    pub focus: Focus,
+    /// Springs it shows.
+    pub close_up_springs: usize,
+    /// Whether the distribution of fragment lengths is shown.
+    pub lengths: bool,
+    /// Position of the crosshair as a share of the profile, 0 to 1.
+    pub crosshair: Option<f64>,
+    /// Loading stage and indentation, m, of the scene beside.
+    pub beside: Option<(usize, f64)>,
+}
+
+/// What part of the line the profile shows.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LineView {
+    /// Its middle, as a share of the line.
+    pub centre: f64,
+    /// How much of the line it shows, above 0 to 1.
+    pub share: f64,
+    /// Whether its middle follows the close-up instead.
+    pub follow: bool,
+}
+
+impl LineView {
+    /// The whole line.
+    pub const WHOLE: LineView = LineView { centre: 0.5, share: 1.0, follow: false };
+}
+
+/// Where the close-up looks.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Focus {
+    /// Where the bodies touch first.
+    Summit,
+    /// A spring.
+    Spring(usize),
+    /// The fragment after the one nearest to a spring.
+    After(Option<usize>),
+    /// The fragment before the one nearest to a spring.
+    Before(Option<usize>),
+    /// The longest fragment.
+    Largest,
+    /// The fragment that carries the largest force, pressing or pulling.
+    MostLoaded,
+}
+
+impl Focus {
+    /// Whether it is a question, to which a spring is the answer.
+    #[must_use]
+    pub fn is_question(self) -> bool {
+        !matches!(self, Focus::Summit | Focus::Spring(_))
+    }
+}
+
+/// What moves the body.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Drive {
+    /// A leg of the scene's loading, by its index.
+    Leg(usize),
+    /// The user's hand.
+    Hand,
+}
+
+/// The generation the explorer waits for; a run for an older one stops.
+pub type Newest = Arc<AtomicU64>;

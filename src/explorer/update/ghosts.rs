@@ -1,0 +1,18 @@
+//! Names of kept loops: their differences from the present scene.
+
+use crate::explorer::model::Model;
+use crate::scene::Change;
+
+/// Names the differences between each ghost and the present scene anew.
+pub fn name_ghosts(model: &mut Model) {
+    let document = &model.document;
+    for ghost in &mut model.ghosts {
+        let changes = ghost.document.changes_to(document);
+        let join = |part: &dyn Fn(&Change) -> String| {
+            let parts: Vec<String> = changes.iter().map(part).collect();
+            if parts.is_empty() { "the same scene".to_owned() } else { parts.join(", ") }
+        };
+        ghost.differs = join(&|change| format!("{} {}", change.name, change.from));
+        ghost.changes = join(&|change| format!("{} {} → {}", change.name, change.from, change.to));
+    }
+}

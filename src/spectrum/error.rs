@@ -1,0 +1,58 @@
+//! Errors of the analysis of surfaces.
+
+use crate::topography::TopographyError;
+use thiserror::Error;
+
+/// Least points along a row, and rows of a map.
+pub const LEAST_POINTS: usize = 32;
+
+/// Reason for which surfaces are not analysed.
+#[derive(Clone, Debug, PartialEq, Error)]
+pub enum SpectrumError {
+    /// There is nothing to analyse.
+    #[error("no surface; allowed: at least one")]
+    Nothing,
+    /// A surface is refused; counted from 0.
+    #[error("{error}")]
+    Surface {
+        /// Index of the surface.
+        index: usize,
+        /// Reason.
+        error: TopographyError,
+    },
+    /// A surface has too few points; counted from 0.
+    #[error("{points} points along an axis; allowed: at least {LEAST_POINTS}")]
+    TooFew {
+        /// Index of the surface.
+        index: usize,
+        /// Points along the axis.
+        points: usize,
+    },
+    /// All heights are equal.
+    #[error("no roughness is left after detrending; allowed: heights that differ")]
+    Smooth,
+    /// The spectrum is to continue up to a wave number that is resolved already.
+    #[error(
+        "the spectrum continues up to q = {to:e} rad/m; allowed: above the last resolved wave, q = {last:e} rad/m"
+    )]
+    End {
+        /// Wave number asked for, rad/m.
+        to: f64,
+        /// Last resolved wave number, rad/m.
+        last: f64,
+    },
+    /// No spectrum explains the powers.
+    #[error(
+        "the likelihood has no maximum: heights without noise or with few digits; allowed: measured heights"
+    )]
+    NoMaximum,
+    /// The memory does not suffice.
+    #[error("not enough memory for the transform of {points} points")]
+    OutOfMemory {
+        /// Points.
+        points: usize,
+    },
+    /// The Fourier transform refused its input.
+    #[error("the Fourier transform failed: {0}")]
+    Transform(String),
+}

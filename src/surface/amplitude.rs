@@ -1,0 +1,62 @@
+//! Amplitude of a line: root mean square height and gradient, and its mean wave number.
+
+use std::f64::consts::TAU;
+
+/// Wave numbers of a line of modes A_k cos(q_k x + φ_k), q_k = 2πk/L.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct WaveNumbers {
+    /// Root mean square √(Σ q_k²A_k²/Σ A_k²), rad/m: rms gradient over rms height.
+    pub rms: f64,
+    /// Mean Σ q_k A_k²/Σ A_k², rad/m.
+    pub mean: f64,
+}
+
+impl WaveNumbers {
+    /// Wave numbers of the same modes on a length of so many times this one.
+    #[must_use]
+    pub fn stretched(self, times: f64) -> Self {
+        WaveNumbers { rms: self.rms / times, mean: self.mean / times }
+    }
+}
+
+/// Roughness amplitude of a line.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Amplitude {
+    /// Root mean square height h, m.
+    pub rms_height: f64,
+    /// Root mean square gradient ⟨∇z⟩.
+    pub rms_gradient: f64,
+    /// Mean wave number Σ q_k A_k²/Σ A_k², rad/m; 0 of a flat line.
+    pub mean_wave_number: f64,
+}
+
+impl Amplitude {
+    /// Amplitude of a line of this rms height, m.
+    #[must_use]
+    pub fn from_height(rms_height: f64, wave_numbers: WaveNumbers) -> Self {
+        let WaveNumbers { rms, mean } = wave_numbers;
+        Amplitude { rms_height, rms_gradient: rms_height * rms, mean_wave_number: mean }
+    }
+
+    /// Amplitude of the modes k with these mean squares A_k²/2, m², on a length (m); the smallest first keep most digits.
+    #[must_use]
+    pub fn from_modes(squares: impl Iterator<Item = (u64, f64)>, length: f64) -> Self {
+        let (mut height, mut slope, mut gradient) = (0.0, 0.0, 0.0);
+        for (mode, square) in squares {
+            let wave_number = TAU * mode as f64 / length;
+            height += square;
+            slope += square * wave_number;
+            gradient += square * wave_number.powi(2);
+        }
+        let mean_wave_number = if height > 0.0 { slope / height } else { 0.0 };
+        Amplitude { rms_height: height.sqrt(), rms_gradient: gradient.sqrt(), mean_wave_number }
+    }
+
+    /// Elastic energy of conformity per area, J/m²: e_el = (E*/8) Σ q_k A_k², the energy of a half-space of effective
+    /// modulus E* (Pa) that follows an isotropic surface with the rms height, rms gradient and mean wave number of the
+    /// line everywhere (Persson and Tosatti, 2001).
+    #[must_use]
+    pub fn elastic_energy(&self, effective_modulus: f64) -> f64 {
+        effective_modulus * self.rms_height.powi(2) * self.mean_wave_number / 4.0
+    }
+}

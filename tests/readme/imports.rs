@@ -1,0 +1,177 @@
+//! Directions of imports: rooms from the ground up, and no two files that import each other.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// Rooms of the source from the ground up: each imports only rooms before it.
+const ROOMS: [&str; 23] = [
+    "text",
+    "draw",
+    "memory",
+    "parallel",
+    "disk",
+    "io",
+    "topography",
+    "spectrum",
+    "scene",
+    "surface",
+    "contact",
+    "analysis",
+    "reference",
+    "simulation",
+    "profile",
+    "contact_cycle",
+    "study",
+    "accuracy",
+    "check",
+    "export",
+    "explorer",
+    "cli",
+    "main",
+];
+
+/// Path of a module in the crate, as `["contact", "adhesive"]`.
+type Module = Vec<String>;
+
+/// Source files by their modules, without comments and tests.
+fn modules() -> BTreeMap<Module, String> {
+    let root = PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/src"));
+    let (mut found, mut folders) = (BTreeMap::new(), vec![root.clone()]);
+    while let Some(folder) = folders.pop() {
+        for entry in fs::read_dir(folder).unwrap() {
+            let path = entry.unwrap().path();
+            if path.is_dir() {
+                folders.push(path);
+            } else if path.extension().is_some_and(|extension| extension == "rs") {
+                found.insert(module(path.strip_prefix(&root).unwrap()), code(&path));
+            }
+        }
+    }
+    found
+}
+
+fn module(file: &Path) -> Module {
+    let mut parts: Module =
+        file.with_extension("").iter().map(|part| part.to_str().unwrap().to_owned()).collect();
+    if parts.last().is_some_and(|last| last == "mod" || last == "lib") {
+        parts.pop();
+    }
+    parts
+}
+
+fn code(file: &Path) -> String {
+    let text = fs::read_to_string(file).unwrap();
+    let text = text.split("#[cfg(test)]\nmod tests").next().unwrap_or_default();
+    let lines = text.lines().map(|line| line.split("//").next().unwrap_or_default());
+    lines.collect::<Vec<_>>().join("\n")
+}
+
+/// Paths in a file that begin with `crate::` or `super::`, with braces multiplied out and relative to the crate.
+fn paths(module: &[String], code: &str) -> Vec<Module> {
+    let mut found = Vec::new();
+    for start in ["crate::", "super::"] {
+        for (index, _) in code.match_indices(start) {
+            let before = code[..index].chars().next_back();
+            if !before.is_some_and(|before| before.is_alphanumeric() || "_:$".contains(before)) {
+                multiply_out(&mut Vec::new(), &code[index..], &mut found);
+            }
+        }
+    }
+    let absolute = |path: Module| {
+        let up = path.iter().take_while(|part| *part == "super").count();
+        let base = if path[0] == "crate" { &[] } else { &module[..module.len() - up.min(module.len())] };
+        base.iter().cloned().chain(path.into_iter().skip(up.max(1))).collect()
+    };
+    found.into_iter().map(absolute).collect()
+}
+
+/// Adds the paths of a tree of imports to those found, and returns the rest of the text.
+fn multiply_out<'t>(prefix: &mut Module, text: &'t str, found: &mut Vec<Module>) -> &'t str {
+    let text = text.trim_start();
+    if let Some(mut inside) = text.strip_prefix('{') {
+        loop {
+            inside = multiply_out(&mut prefix.clone(), inside, found).trim_start();
+            inside = inside.find([',', '}']).map_or("", |end| &inside[end..]);
+            match inside.strip_prefix(',') {
+                Some(next) if !next.trim_start().starts_with('}') => inside = next,
+                Some(next) => return next.trim_start().strip_prefix('}').unwrap_or(""),
+                None => return inside.strip_prefix('}').unwrap_or(""),
+            }
+        }
+    }
+    let end = text.find(|c: char| !(c.is_alphanumeric() || c == '_')).unwrap_or(text.len());
+    prefix.push(text[..end].to_owned());
+    match text[end..].strip_prefix("::") {
+        Some(more) => multiply_out(prefix, more, found),
+        None => {
+            found.push(prefix.clone());
+            &text[end..]
+        }
+    }
+}
+
+/// Files that each file imports; a path leads to the innermost module that it passes.
+fn imports() -> BTreeMap<Module, BTreeSet<Module>> {
+    let modules = modules();
+    let innermost = |path: Module| {
+        (1..=path.len()).rev().map(|end| path[..end].to_vec()).find(|part| modules.contains_key(part))
+    };
+    let of = |(module, code): (&Module, &String)| {
+        let there = paths(module, code).into_iter().filter_map(innermost);
+        (module.clone(), there.filter(|there| there != module).collect())
+    };
+    modules.iter().map(of).collect()
+}
+
+#[test]
+fn rooms_import_in_one_direction() {
+    let place = |module: &Module| {
+        let room = module.first().map_or("main", String::as_str);
+        ROOMS
+            .iter()
+            .position(|one| *one == room)
+            .unwrap_or_else(|| panic!("{room} is not in the list of rooms"))
+    };
+    let (mut files, mut seen) = (0, 0);
+    for (here, imported) in imports().iter().filter(|(here, _)| !here.is_empty()) {
+        files += 1;
+        for there in imported {
+            seen += 1;
+            assert!(place(there) <= place(here), "{} imports {}", here.join("::"), there.join("::"));
+        }
+    }
+    assert!(files > 200 && seen > 1000, "{files} files, {seen} imports");
+}
+
+#[test]
+fn no_two_files_import_each_other() {
+    let imports = imports();
+    for (here, imported) in &imports {
+        for there in imported.iter().filter(|there| imports[*there].contains(here)) {
+            panic!("{} and {} import each other", here.join("::"), there.join("::"));
+        }
+    }
+}
+
+#[test]
+fn files_of_the_contact_are_in_no_circle() {
+    let mut left: BTreeMap<Module, BTreeSet<Module>> = imports()
+        .into_iter()
+        .filter(|(module, _)| module.first().is_some_and(|room| room == "contact"))
+        .collect();
+    let count = left.len();
+    // Files that import nothing of the room that is left are taken away until none is left, or all are in circles.
+    loop {
+        let names: BTreeSet<Module> = left.keys().cloned().collect();
+        let before = left.len();
+        // A folder's own file names its files and gives them what it holds: this is no import of theirs.
+        left.retain(|here, imported| {
+            imported.iter().any(|there| names.contains(there) && !here.starts_with(there))
+        });
+        if left.len() == before {
+            break;
+        }
+    }
+    assert!(count > 20 && left.is_empty(), "in circles: {:?}", left.keys());
+}
