@@ -27,6 +27,8 @@ mod edit;
 mod effects;
 #[path = "screen/failures.rs"]
 mod failures;
+#[path = "screen/figures.rs"]
+mod figures;
 #[path = "screen/files.rs"]
 mod files;
 #[path = "screen/fragments.rs"]

@@ -1,6 +1,7 @@
 //! Why a command failed.
 
 use crate::accuracy::{ChoiceError, CostError};
+use crate::draw::PngError;
 use crate::explorer::OpeningError;
 use crate::io::WriteError;
 use crate::scene::{SceneErrors, quoted};
@@ -39,11 +40,17 @@ pub enum CliError {
         allowed: String,
     },
     /// Several scenes, or the profile or patches of a scene, in a format that cannot hold them.
-    #[error("{what}: only a picture shows {what}; allowed: -o FILE.svg, or --format svg")]
+    #[error("{what}: only a picture shows {what}; allowed: -o FILE.svg or FILE.png, or --format svg")]
     OnlyInPicture {
         /// Content that the format cannot hold.
         what: &'static str,
     },
+    /// A picture would be printed to a terminal.
+    #[error("--format png: a terminal shows no picture; allowed: -o FILE.png")]
+    BinaryInTerminal,
+    /// A picture cannot be made.
+    #[error(transparent)]
+    Picture(#[from] PngError),
     /// A picture of something that no picture shows.
     #[error("{what}: {allowed}")]
     NoPicture {

@@ -47,7 +47,8 @@ impl OutputArguments {
         let by_ending = ending.as_deref().and_then(of);
         let format = chosen.or(by_ending).unwrap_or(usual);
         let is_picture = PICTURES.contains(&ending.as_deref().unwrap_or_default());
-        let (true, Some(path)) = (is_picture || of("svg") == Some(format) && ending.is_some(), path) else {
+        let is_drawn = ending.is_some() && PICTURES.iter().any(|picture| of(picture) == Some(format));
+        let (true, Some(path)) = (is_picture || is_drawn, path) else {
             return Ok(format);
         };
         if by_ending == Some(format) {
@@ -61,6 +62,14 @@ impl OutputArguments {
             allowed.push(".txt".to_owned());
         }
         Err(CliError::Ending { path: path_name(path), allowed: allowed.join(", ") })
+    }
+
+    /// Refuses to write what is no text to a terminal.
+    pub(super) fn check_binary(&self, is_binary: bool) -> Result<(), CliError> {
+        match self.file() {
+            None if is_binary && io::stdout().is_terminal() => Err(CliError::BinaryInTerminal),
+            _ => Ok(()),
+        }
     }
 
     /// Writes results to where they go.

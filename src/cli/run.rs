@@ -4,7 +4,7 @@ use super::scene::simulation_of;
 use super::{CliError, OutputArguments, SceneArguments};
 use crate::accuracy::{Choice, Estimate, choose, estimate, parse_tolerance};
 use crate::contact::{LegRecord, Solver};
-use crate::draw::{Figure, figure_svg};
+use crate::draw::{Figure, figure_png, figure_svg};
 use crate::export::{
     ContactSets, ensemble_text, force_figure, summary, write_curve, write_ensemble_csv, write_ensemble_json,
     write_json,
@@ -39,11 +39,11 @@ pub struct RunArguments {
     /// More scenes, whose force curves are drawn into the same picture
     #[arg(value_name = "SCENE")]
     pub more: Vec<String>,
-    /// summary, json, csv or svg; default: by the extension of FILE, else summary
+    /// summary, json, csv, svg or png; default: by the extension of FILE, else summary
     ///
     /// A summary is text for a person. JSON is one object with scene, profile, figures, curve,
     /// contacts and work. CSV is the curve: leg,indentation,force,contact_length,fragments.
-    /// SVG is a picture of the curve.
+    /// SVG and PNG are pictures of the curve.
     #[arg(long, value_enum, hide_possible_values = true, verbatim_doc_comment)]
     pub format: Option<RunFormat>,
     /// Draw the profile and its contact at the largest force instead of the curve
@@ -84,13 +84,21 @@ pub enum RunFormat {
     Json,
     /// The force curve.
     Csv,
-    /// A picture of the force curve, the profile or the contact patches.
+    /// A picture of the force curve, the profile or the contact patches, as lines.
     Svg,
+    /// The same picture as pixels.
+    Png,
 }
 
 /// Endings of files in each format.
-const ENDINGS: [(&str, RunFormat); 3] =
-    [("json", RunFormat::Json), ("csv", RunFormat::Csv), ("svg", RunFormat::Svg)];
+const ENDINGS: [(&str, RunFormat); 4] =
+    [("json", RunFormat::Json), ("csv", RunFormat::Csv), ("svg", RunFormat::Svg), ("png", RunFormat::Png)];
+
+impl RunFormat {
+    fn is_picture(self) -> bool {
+        matches!(self, RunFormat::Svg | RunFormat::Png)
+    }
+}
 
 impl RunArguments {
     fn chosen_format(&self) -> Result<RunFormat, CliError> {
@@ -100,11 +108,12 @@ impl RunArguments {
             (self.fragments, "--fragments"),
         ];
         let needs_picture = needs_picture.into_iter().find(|(is_asked, _)| *is_asked);
+        self.output.check_binary(self.format == Some(RunFormat::Png))?;
         let usual = if needs_picture.is_some() { RunFormat::Svg } else { RunFormat::Summary };
         let format = self.output.format(self.format, &ENDINGS, usual)?;
         match needs_picture {
-            Some((_, what)) if format != RunFormat::Svg => Err(CliError::OnlyInPicture { what }),
-            _ if format == RunFormat::Svg && self.lines.is_some() => Err(CliError::NoPicture {
+            Some((_, what)) if !format.is_picture() => Err(CliError::OnlyInPicture { what }),
+            _ if format.is_picture() && self.lines.is_some() => Err(CliError::NoPicture {
                 what: "--lines",
                 allowed: "a picture shows one profile; allowed: summary, json and csv",
             }),
@@ -118,9 +127,13 @@ pub(super) fn run(arguments: &RunArguments, stdout: &mut dyn Write) -> Result<()
     let format = arguments.chosen_format()?;
     let document = arguments.scene.open()?;
     arguments.output.check()?;
-    if format == RunFormat::Svg {
+    if format.is_picture() {
         let figure = figure(arguments, document)?;
-        return arguments.output.write(stdout, |out| out.write_all(figure_svg(&figure).as_bytes()));
+        let picture = match format {
+            RunFormat::Png => figure_png(&figure)?,
+            _ => figure_svg(&figure).into_bytes(),
+        };
+        return arguments.output.write(stdout, |out| out.write_all(&picture));
     }
     let choice = arguments.tolerance.map(|tolerance| choice(&document, tolerance)).transpose()?;
     let chosen = choice.as_ref().map(|choice| choice.apply(document.scene()));
@@ -134,7 +147,7 @@ pub(super) fn run(arguments: &RunArguments, stdout: &mut dyn Write) -> Result<()
     let choice = choice.as_ref();
     let estimate = estimate_for(format, &document, scene, &outcome, choice)?;
     arguments.output.write(stdout, |out| match format {
-        RunFormat::Summary | RunFormat::Svg => {
+        RunFormat::Summary | RunFormat::Svg | RunFormat::Png => {
             out.write_all(summary(scene, &outcome, estimate.as_ref()).as_bytes())?;
             choice.map_or(Ok(()), |choice| writeln!(out, "\n{}", choice.sentence()))
         }
@@ -182,7 +195,7 @@ fn estimate_for(
     choice: Option<&Choice>,
 ) -> Result<Option<Estimate>, CliError> {
     match (format, choice) {
-        (RunFormat::Csv | RunFormat::Svg, _) => Ok(None),
+        (RunFormat::Csv | RunFormat::Svg | RunFormat::Png, _) => Ok(None),
         (_, Some(choice)) => Ok(Some(choice.estimate())),
         (_, None) => estimate(scene, &document.resolve(""), outcome, &|| false)
             .map_err(|error| CliError::Run { scene: document.name().into(), error }),
@@ -212,7 +225,7 @@ fn on_lines(
     let results = study::solve_lines(scene, &document.resolve(""), lines as usize, jobs)
         .map_err(|error| CliError::Lines { scene: document.name().into(), error })?;
     arguments.output.write(stdout, |out| match format {
-        RunFormat::Summary | RunFormat::Svg => {
+        RunFormat::Summary | RunFormat::Svg | RunFormat::Png => {
             out.write_all(ensemble_text(scene, &results).as_bytes())?;
             choice.map_or(Ok(()), |choice| writeln!(out, "\n{}", choice.sentence()))
         }

@@ -2,7 +2,7 @@
 
 use crate::cli::output::text_for_reader;
 use crate::cli::{CliError, OutputArguments};
-use crate::draw::figure_svg;
+use crate::draw::{figure_png, figure_svg};
 use crate::export::study_figure;
 use crate::study::figure::AxisScale;
 use crate::study::{Finished, Selection};
@@ -65,6 +65,17 @@ pub enum PlotScale {
     Logarithmic,
 }
 
+/// What a figure is written as.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Picture {
+    Text,
+    Svg,
+    Png,
+}
+
+/// Endings of files in each format.
+const ENDINGS: [(&str, Picture); 3] = [("svg", Picture::Svg), ("png", Picture::Png), ("txt", Picture::Text)];
+
 fn fixed(text: &str) -> Result<(String, String), String> {
     let parts = text.split_once('=').map(|(axis, value)| (axis.trim(), value.trim()));
     let parts = parts.filter(|(axis, value)| !axis.is_empty() && !value.is_empty());
@@ -75,9 +86,9 @@ fn fixed(text: &str) -> Result<(String, String), String> {
 /// Draws a study.
 pub(super) fn plot(arguments: &PlotArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
     // `-o -` is an SVG into a pipe.
-    let usual = arguments.text || arguments.output.output.is_none();
-    let is_text =
-        arguments.output.format(arguments.text.then_some(true), &[("svg", false), ("txt", true)], usual)?;
+    let is_text = arguments.text || arguments.output.output.is_none();
+    let usual = if is_text { Picture::Text } else { Picture::Svg };
+    let format = arguments.output.format(arguments.text.then_some(Picture::Text), &ENDINGS, usual)?;
     let study = Finished::open(&arguments.folder)?;
     let selection = Selection {
         quantities: arguments.quantities.clone(),
@@ -91,6 +102,10 @@ pub(super) fn plot(arguments: &PlotArguments, stdout: &mut dyn Write) -> Result<
     };
     let figure = study_figure(&selection.figure(&study)?);
     let to_file = arguments.output.file().is_some();
-    let picture = if is_text { text_for_reader(&figure, !to_file) } else { figure_svg(&figure) };
-    arguments.output.write(stdout, |out| out.write_all(picture.as_bytes()))
+    let picture = match format {
+        Picture::Text => text_for_reader(&figure, !to_file).into_bytes(),
+        Picture::Svg => figure_svg(&figure).into_bytes(),
+        Picture::Png => figure_png(&figure)?,
+    };
+    arguments.output.write(stdout, |out| out.write_all(&picture))
 }
