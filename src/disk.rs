@@ -1,6 +1,6 @@
 //! Changes to files that have to outlast a crash, each step by itself.
 //!
-//! What is written reaches a disk when a file is synchronised, and the name of a file when its folder is. Between
+//! Content reaches a disk when a file is synchronised, and the name of a file when its folder is. Between
 //! these a crash may leave old, new or torn content under old or new names. Studies and files written whole go
 //! through a [`Disk`], so that tests can let each step fail, or be the last one.
 
@@ -10,7 +10,7 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// Where files are changed: [`SystemDisk`], or a simulated one in tests. Reading goes past it.
+/// Changes of files: [`SystemDisk`], or a simulated disk in tests. Files are read without a disk.
 pub trait Disk: Debug + Send + Sync {
     /// Makes a folder within one that is there.
     ///
@@ -44,37 +44,37 @@ pub trait Disk: Debug + Send + Sync {
     /// Renames a file, a link or a folder. A file or link of the new name is replaced.
     ///
     /// # Errors
-    /// What the system says.
+    /// Error of the operating system.
     fn rename(&self, from: &Path, to: &Path) -> io::Result<()>;
 
     /// Removes a file or a link.
     ///
     /// # Errors
-    /// What the system says.
+    /// Error of the operating system.
     fn remove_file(&self, path: &Path) -> io::Result<()>;
 
     /// Removes an empty folder.
     ///
     /// # Errors
-    /// What the system says.
+    /// Error of the operating system.
     fn remove_folder(&self, path: &Path) -> io::Result<()>;
 
     /// Paths of all that is in a folder, in no order.
     ///
     /// # Errors
-    /// What the system says.
+    /// Error of the operating system.
     fn list(&self, folder: &Path) -> io::Result<Vec<PathBuf>>;
 
     /// Waits until the content of a file that is there has reached the disk, whoever wrote it.
     ///
     /// # Errors
-    /// What the system says.
+    /// Error of the operating system.
     fn sync_file(&self, path: &Path) -> io::Result<()>;
 
     /// Waits until the names in a folder have reached the disk.
     ///
     /// # Errors
-    /// What the system says.
+    /// Error of the operating system.
     fn sync_folder(&self, path: &Path) -> io::Result<()>;
 }
 
@@ -83,13 +83,13 @@ pub trait DiskFile: Write + Send {
     /// Waits until all that was written has reached the disk.
     ///
     /// # Errors
-    /// What the system says.
+    /// Error of the operating system.
     fn sync(&mut self) -> io::Result<()>;
 
     /// Sets the permissions.
     ///
     /// # Errors
-    /// What the system says.
+    /// Error of the operating system.
     fn set_permissions(&mut self, permissions: Permissions) -> io::Result<()>;
 
     /// Gives a file without a name one that no other has.

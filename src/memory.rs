@@ -1,7 +1,7 @@
 //! Large arrays whose memory is used again: fresh memory costs about as much as a pass over it, because the
 //! system clears each page when it is first touched.
 //!
-//! What input can make large is asked for before it is used: an allocation that fails elsewhere ends the process.
+//! Memory in proportion to input is reserved before use: an allocation that fails elsewhere ends the process.
 
 use std::collections::TryReserveError;
 use std::hint::black_box;

@@ -7,7 +7,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::{Builder, Scope, ScopedJoinHandle, scope};
 
 thread_local! {
-    /// Whether this thread is one of as many as there are cores.
+    /// True if this thread is one of as many as there are cores.
     static ONE_OF_MANY: Cell<bool> = const { Cell::new(false) };
 }
 
@@ -51,7 +51,7 @@ pub(crate) fn in_parallel<A: Send, B>(
 
 /// A computation that another thread may do until its result is asked for.
 pub(crate) struct Beside<'scope, A, F> {
-    /// What is to be done, until either thread takes it.
+    /// Task, until one of the threads takes it.
     task: Task<F>,
     thread: Option<ScopedJoinHandle<'scope, Option<A>>>,
 }

@@ -26,6 +26,7 @@ const KEYS: &[&str] = &[
     "adhesion_coefficient",
     "pull_off_indentation",
     "dissipated_energy",
+    "tabor_number",
     "curve",
     "contacts",
     "work",
@@ -61,6 +62,11 @@ fn done(arguments: &[&str]) -> String {
     let Finished { code, stdout, stderr } = asperity(arguments);
     assert_eq!((code, stderr.as_str()), (Some(0), ""), "{arguments:?}");
     stdout
+}
+
+/// Lines of a table without its provenance.
+fn rows(table: &str) -> impl Iterator<Item = &str> {
+    table.lines().filter(|line| !line.starts_with('#'))
 }
 
 /// Standard error of a command that fails with this code and prints no results.
@@ -172,10 +178,10 @@ fn csv_is_the_curve_of_the_json() {
         let object = done(&["run", scene, "--format", "json"]);
         let curve: Vec<Vec<f64>> = object.lines().filter_map(point).collect();
         let text = done(&["run", scene, "--format", "csv"]);
-        let mut lines = text.lines();
+        let mut lines = rows(&text);
         assert_eq!(lines.next().unwrap(), CURVE_KEYS.join(","));
-        let rows = lines.map(|line| line.split(',').map(|cell| cell.parse().unwrap()).collect());
-        assert_eq!(rows.collect::<Vec<Vec<f64>>>(), curve);
+        let points = lines.map(|line| line.split(',').map(|cell| cell.parse().unwrap()).collect());
+        assert_eq!(points.collect::<Vec<Vec<f64>>>(), curve);
         assert!(curve.len() > 1000);
     }
 }
@@ -444,7 +450,7 @@ fn springs_under_a_punch_are_counted_beforehand() {
         let set = format!("numerics.points={points}");
         let plan = json(&["plan", "kendall-punch", "--set", &set, "--format", "json"]);
         let line = done(&["line", "kendall-punch", "--set", &set]);
-        assert_eq!(plan["springs"].as_u64(), Some(line.lines().count() as u64 - 1), "{points}");
+        assert_eq!(plan["springs"].as_u64(), Some(rows(&line).count() as u64 - 1), "{points}");
     }
 }
 
@@ -452,13 +458,14 @@ fn springs_under_a_punch_are_counted_beforehand() {
 fn line(scene: &str, points: usize) -> Vec<(f64, f64)> {
     let set = format!("numerics.points={points}");
     let text = done(&["line", scene, "--set", &set]);
-    let mut rows = text.lines();
-    assert_eq!(rows.next(), Some("x,z"));
-    rows.map(|row| {
-        let (x, z) = row.split_once(',').unwrap();
-        (x.parse().unwrap(), z.parse().unwrap())
-    })
-    .collect()
+    let mut points = rows(&text);
+    assert_eq!(points.next(), Some("x,z"));
+    points
+        .map(|row| {
+            let (x, z) = row.split_once(',').unwrap();
+            (x.parse().unwrap(), z.parse().unwrap())
+        })
+        .collect()
 }
 
 #[test]
@@ -479,9 +486,9 @@ fn a_line_refines_to_the_same_line() {
 #[test]
 fn a_line_that_is_written_and_measured_gives_the_same_loop() {
     let folder = tempfile::tempdir().unwrap();
-    let rows = (0..=150)
+    let points = (0..=150)
         .map(|index| format!("{:e} {:e}\n", f64::from(index) * 1e-6, 3.0 + 1e-8 * f64::from(index % 7)));
-    write(folder.path(), "stylus.txt", &rows.collect::<String>());
+    write(folder.path(), "stylus.txt", &points.collect::<String>());
     let file = folder.path().join("line.csv");
     let file = file.to_str().unwrap();
     let scene = |form: &str, roughness: &str, points: usize, edges: &str| {
@@ -512,7 +519,7 @@ fn a_line_that_is_written_and_measured_gives_the_same_loop() {
             let measured = write(folder.path(), "measured.ron", &measured);
             let curves = [&made, &measured].map(|scene| done(&["run", scene, "--format", "csv"]));
             assert!(curves[0].lines().count() > 100);
-            assert_eq!(curves[0], curves[1], "{form}, {roughness}, {points} points, {edges}");
+            assert!(rows(&curves[0]).eq(rows(&curves[1])), "{form}, {roughness}, {points} points, {edges}");
             let [made, measured] = [&made, &measured].map(|scene| json(&["run", scene, "--format", "json"]));
             for key in [
                 "zero_load_adhesion_force",
@@ -548,8 +555,65 @@ fn measured_lines_are_found_beside_their_scene() {
         &SMALL.replace("numerics", "roughness: Measured(file: \"line.csv\"),\n    numerics"),
     );
     assert_eq!(done(&["presets", "check", &scene]), format!("{scene}: ok\n"));
-    assert_eq!(done(&["line", &scene]).lines().count(), 65);
+    assert_eq!(rows(&done(&["line", &scene])).count(), 65);
     assert!(number(&json(&["run", &scene, "--format", "json"])["line"]["rms_height"]) > 0.0);
+}
+
+#[test]
+fn a_table_computes_again_from_itself() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+    let stylus: String =
+        (0..=150).map(|x| format!("{:e} {:e}\n", f64::from(x) * 1e-6, 1e-8 * f64::from(x % 7))).collect();
+    write(folder.path(), "stylus.txt", &stylus);
+    let title = "title=\"Unit: nm, x [um]\"";
+    let measured = "roughness=Measured(file: \"stylus.txt\", as_line: true)";
+    let scene = write(folder.path(), "scene.ron", SMALL);
+    for (name, arguments) in [
+        ("curve", &["run", &scene, "--set", "adhesion.work=0.07", "--set", title][..]),
+        ("chosen", &["run", "jkr-sphere", "--tolerance", "1%"]),
+        ("measured", &["run", &scene, "--set", measured]),
+        ("line", &["line", "profile-hurst-025", "--set", "roughness.modes=(1, 256)", "--set", title]),
+        (
+            "lines",
+            &[
+                "run",
+                "rough-sphere",
+                "--set",
+                "numerics.points=1024",
+                "--set",
+                "roughness.modes=(1, 128)",
+                "--lines",
+                "3",
+            ],
+        ),
+    ] {
+        for ending in ["csv", "npy"] {
+            let [first, second, other] =
+                ["", "-again", "-other"].map(|part| path(&format!("{name}{part}.{ending}")));
+            // Springs chosen for a tolerance are named on standard error.
+            assert_eq!(asperity(&[arguments, &["-o", &first]].concat()).code, Some(0));
+            assert_eq!(done(&["run", &first, "-o", &second]), "");
+            let written = fs::read(&first).unwrap();
+            assert!(written == fs::read(&second).unwrap(), "{name}.{ending}");
+            // Another scene makes another table.
+            assert_eq!(done(&["run", &first, "--set", "length=0.9e-4", "-o", &other]), "");
+            assert!(written != fs::read(&other).unwrap(), "{name}.{ending}");
+        }
+        let table = fs::read_to_string(path(&format!("{name}.csv"))).unwrap();
+        assert!(
+            table.starts_with(&format!("# asperity {}\n# content: ", env!("CARGO_PKG_VERSION"))),
+            "{table}"
+        );
+    }
+    let line = fs::read_to_string(path("line.csv")).unwrap();
+    assert!(line.contains("\n# seed: "), "{line}");
+    // Units are those of the reader and not words of the scene.
+    let report = json(&["surface", &path("line.csv"), "--unit", "m", "--format", "json"]);
+    let array = json(&["surface", &path("line.npy"), "--unit", "m", "--format", "json"]);
+    assert!(number(&report["rms_height"]) > 0.0 && report["rms_height"] == array["rms_height"]);
+    let none = write(folder.path(), "none.csv", "# asperity 0.1.0\nx,z\n");
+    assert!(failed(1, &["run", &none]).contains("first comments hold no scene"));
 }
 
 #[test]
@@ -561,7 +625,7 @@ fn files_are_not_overwritten_unasked() {
         let arguments = [command, "jkr-sphere", "-o", file];
         assert_eq!(done(&arguments), "");
         let written = fs::read_to_string(&path).unwrap();
-        assert!(written.starts_with(header), "the ending .csv says what to write");
+        assert!(rows(&written).next().unwrap().starts_with(header), "the ending .csv says what to write");
         let told = failed(1, &arguments);
         assert!(told.contains(file) && told.contains("--force"), "{told}");
         assert_eq!(fs::read_to_string(&path).unwrap(), written);
@@ -946,11 +1010,11 @@ fn scenes_are_drawn_and_pictures_hold_nothing_else() {
         (run(&["jkr-sphere"], &["--profile", "-o", &other]), "only a picture shows --profile"),
         (run(&["jkr-sphere", "kendall-punch"], &["-o", &other]), "only a picture shows several scenes"),
         (run(&["jkr-sphere"], &["--lines", "2", "-o", &picture]), "--lines: a picture shows one profile"),
-        (["line", "jkr-sphere", "-o", &picture].join("\0"), "allowed: .csv"),
+        (["line", "jkr-sphere", "-o", &picture].join("\0"), "allowed: .csv, .npy"),
         (["check", "--quick", "-o", &picture].join("\0"), "allowed: .json"),
         (["cost", "jkr-sphere", "-o", &path("a.png")].join("\0"), "allowed: .json, .csv, .svg"),
         (["cost", "jkr-sphere", "--svg", &other].join("\0"), "allowed: .svg"),
-        (["surface", "missing.csv", "-o", &picture].join("\0"), "allowed: .json, .csv"),
+        (["surface", "missing.csv", "-o", &path("a.png")].join("\0"), "allowed: .json, .csv, .npy, .svg"),
     ] {
         with(&command, &|arguments| {
             let told = failed(1, arguments);
@@ -958,4 +1022,85 @@ fn scenes_are_drawn_and_pictures_hold_nothing_else() {
         });
     }
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), before, "nothing is written");
+}
+
+const SMALL: [&str; 2] = ["--set", "numerics.points=1024"];
+
+#[test]
+fn adhesion_against_preload_is_printed_for_one_profile_and_for_many() {
+    let run = |more: &[&str]| {
+        done(&[&["run", "pressure-sensitive", "--preloads", "0..20uN:5"], &SMALL[..], more].concat())
+    };
+    let text = run(&[]);
+    assert!(text.contains("Adhesion against preload, one profile of 1 024 springs"), "{text}");
+    assert!(text.lines().all(|line| line.chars().count() <= 80), "{text}");
+    let csv = run(&["--format", "csv"]);
+    let rows: Vec<Vec<&str>> = csv.lines().map(|line| line.split(',').collect()).collect();
+    assert_eq!(rows[0][..2], ["seed", "preload"]);
+    assert_eq!(rows.len(), 6);
+    // Each is what a run to that preload gives.
+    let loading = format!("loading=[ToForce({}), ToSeparation]", rows[4][1]);
+    let one =
+        done(&[&["run", "pressure-sensitive", "--format", "json", "--set", &loading], &SMALL[..]].concat());
+    let one: Value = serde_json::from_str(&one).unwrap();
+    let number = |column: usize| rows[4][column].parse::<f64>().unwrap();
+    assert_eq!(one["adhesion_force"].as_f64(), Some(number(3)));
+    assert_eq!(one["dissipated_energy"].as_f64(), Some(number(5)));
+    let many: Value = serde_json::from_str(&run(&["--lines", "3", "--format", "json"])).unwrap();
+    assert_eq!(many["lines"].as_array().unwrap().len(), 3);
+    assert_eq!(many["mean"][4]["adhesion_force"]["count"], 3);
+    assert!(run(&["--lines", "3", "--format", "svg"]).starts_with("<svg"));
+    for (preloads, place) in
+        [("5uN", "--preloads"), ("2..1", "--preloads"), ("0..1kg", "kg"), ("0..1:1", "2 to 512")]
+    {
+        let error = failed(2, &["run", "pressure-sensitive", "--preloads", preloads]);
+        assert!(error.contains(place) && error.contains("allowed"), "{error}");
+    }
+    let stepwise = "numerics.solver=Stepwise(step: 1e-9)";
+    let error = failed(1, &["run", "jkr-sphere", "--preloads", "0..1mN", "--set", stepwise]);
+    assert!(error.contains("numerics.solver = Stepwise: reversals need the exact solver"), "{error}");
+}
+
+#[test]
+fn reversals_are_printed_in_all_formats() {
+    let run = |more: &[&str]| {
+        done(&[&["reversals", "pressure-sensitive", "--count", "12"], &SMALL[..], more].concat())
+    };
+    let text = run(&[]);
+    assert!(text.contains("12 reversals of one loading") && text.contains("minor loops with loss"), "{text}");
+    assert!(text.lines().all(|line| line.chars().count() <= 80), "{text}");
+    let json: Value = serde_json::from_str(&run(&["--format", "json", "--smoothing", "1"])).unwrap();
+    let reversals = json["reversals"].as_array().unwrap();
+    let forces = json["forces"].as_array().unwrap();
+    assert_eq!((reversals.len(), forces.len()), (12, 12));
+    let indentations = json["indentations"].as_array().unwrap();
+    // Each curve ends at its turning point, with the force there.
+    for (reversal, forces) in reversals.iter().zip(forces) {
+        let forces = forces.as_array().unwrap();
+        assert_eq!(forces.last(), Some(&reversal["turning_force"]));
+        assert_eq!(indentations[forces.len() - 1], reversal["turning_indentation"]);
+    }
+    let csv = run(&["--format", "csv"]);
+    assert_eq!(csv.lines().count(), 13);
+    let map = run(&["--map"]);
+    assert_eq!(map.lines().next(), Some("turning_indentation,indentation,force,everett,density"));
+    let points: usize = forces.iter().map(|forces| forces.as_array().unwrap().len()).sum();
+    assert_eq!(map.lines().count(), 1 + points);
+    let svg = run(&["--format", "svg"]);
+    for words in ["FORC density", "Everett function", "adhesion against preload"] {
+        assert!(svg.contains(words), "{words}");
+    }
+    for (code, arguments, words) in [
+        (2, &["--count", "7"][..], "8..=512"),
+        (2, &["--count", "513"], "8..=512"),
+        (2, &["--preloads", "0..1uN:8"], "--count"),
+        (2, &["--preloads", "1uN"], "allowed"),
+        (2, &["--smoothing", "0"], "1..=16"),
+        (1, &["--map", "--format", "json"], "--map: only a table"),
+        (1, &["--set", "loading=[ToIndentation(-1e-9)]"], "allowed: a stage that presses"),
+        (1, &["--set", "numerics.solver=Stepwise(step: 1e-9)"], "allowed: numerics.solver = Exact"),
+    ] {
+        let error = failed(code, &[&["reversals", "pressure-sensitive"], &SMALL[..], arguments].concat());
+        assert!(error.contains(words), "{arguments:?}: {error}");
+    }
 }

@@ -49,8 +49,12 @@ mod panes;
 mod parameters;
 #[path = "screen/play.rs"]
 mod play;
+#[path = "screen/preloads.rs"]
+mod preloads;
 #[path = "screen/saving.rs"]
 mod saving;
+#[path = "screen/spectrum.rs"]
+mod spectrum;
 #[path = "screen/study.rs"]
 mod study;
 #[path = "screen/typing.rs"]
@@ -120,14 +124,18 @@ fn everywhere() -> Vec<Driver> {
         "N w",
         "A",
         "A z",
+        "Q",
+        "Q z",
         "% 1",
         "y",
         "m",
         "m X z",
         "i",
+        "*",
         "& L",
-        "i Tab Right",
-        "i O v Right",
+        "* Tab Right",
+        "* O v Right",
+        "i z",
     ];
     let mut all: Vec<Driver> = keys.into_iter().map(pressed).collect();
     all.push(Driver::open(rough()));

@@ -92,6 +92,7 @@ fn moment(leg: usize, indentation: f64) -> MomentRequest {
         lengths: false,
         crosshair: None,
         beside: None,
+        spectra: false,
     }
 }
 

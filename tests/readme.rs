@@ -6,6 +6,8 @@
 mod imports;
 #[path = "readme/notices.rs"]
 mod notices;
+#[path = "readme/public_items.rs"]
+mod public_items;
 #[path = "readme/scenes.rs"]
 mod scenes;
 
@@ -27,11 +29,12 @@ use std::process::Command;
 const LONGEST_README: usize = 250;
 
 /// Pages of the documentation and their contents, in the order of the README's table.
-const PAGES_AND_CONTENTS: [(&str, &str); 13] = [
+const PAGES_AND_CONTENTS: [(&str, &str); 14] = [
     ("keys.md", "panes and keys of the explorer, typed values, appearance, recordings"),
     ("scene-file.md", "fields of a scene, loading, measured profiles, results, built-in scenes"),
     ("surfaces.md", "measured surfaces: formats, equivalent line, spectrum, accuracy"),
     ("model.md", "equations, exact solution, regimes, validity"),
+    ("reversals.md", "adhesion against preload, reversal curves, Everett map, density, congruency"),
     ("conventions.md", "units, signs, zero points, E\\*, numbers in results"),
     ("glossary.md", "terms and symbols, words to avoid"),
     ("accuracy.md", "errors against closed forms, cost of accuracy, scatter of random profiles"),

@@ -2,10 +2,11 @@
 
 use asperity::analysis::Figures;
 use asperity::contact::{
-    ContactError, ContactTree, EdgeModel, Exact, Foundation, GridEdges, HessRule, History, Reversal,
-    Reversals, Solver, SubCellEdges, exact, run,
+    ContactError, ContactTree, EdgeModel, Foundation, GridEdges, HessRule, History, Reversal, Reversals,
+    Solver, SubCellEdges, exact, run,
 };
 use asperity::scene::{Edges, Leg};
+use asperity::surface::{Line, SelfAffine, UnitRoughness};
 use proptest::prelude::*;
 
 /// Springs under adhesion and what is done with them.
@@ -181,4 +182,44 @@ fn turning_points_out_of_contact_are_refused() {
     assert_eq!(refused, Some(ContactError::NothingToPull { index: 0, force: -1.0 }));
     let refused = Reversals::new(body(), &[Leg::ToSeparation]).err();
     assert_eq!(refused, Some(ContactError::NoContact { index: 0, leg: Leg::ToSeparation }));
+}
+
+/// Evaluations of the rule of Hess tell how much of the line is walked: 64 reversals of a rough line together less than
+/// three loops to the deepest turning point, although each of these would walk all of its contact again.
+#[test]
+fn the_line_is_walked_once_for_all_reversals() {
+    let springs = 1 << 13;
+    let spectrum = SelfAffine { hurst: 0.7, first: 1, last: springs as u64 / 4 };
+    let rough = UnitRoughness::synthesize(spectrum, 1, springs).unwrap();
+    let line = Line::new(1e-3, springs, None, Some(&rough.heights), 5e-7).unwrap();
+    let foundation = Foundation::endless(line.spacing, 2e6);
+    let rms_gradient = 5e-7 * spectrum.gradient_per_height(1e-3);
+    for kappa in [6.0_f64, 20.0] {
+        let work = 5e-7 * rms_gradient * 2e6 / (kappa * kappa);
+        let edges = SubCellEdges::new(HessRule::new(foundation, work));
+        let tree = ContactTree::build(&line.gaps, Edges::SubCell).unwrap();
+        let body = || exact::adhesive(&line.gaps, &tree, edges, foundation, 2);
+        let deepest = 0.4 * 2e6 * 1e-3 * 5e-7;
+        let turn = |share: u32| Leg::ToForce(deepest * f64::from(share) / 64.0);
+        let mut one = body();
+        one.advance(turn(64)).unwrap();
+        one.advance(Leg::ToSeparation).unwrap();
+        let turns: Vec<Leg> = (1..=64).map(turn).collect();
+        let mut reversals = Reversals::new(body(), &turns).unwrap();
+        reversals.each(&[], &mut |_, _| Ok(())).unwrap();
+        let (of_one, of_all) = (one.work(), reversals.work());
+        assert_eq!((of_all.loading_passes, of_all.unloading_passes), (1, 64));
+        let counts = [of_all, of_one].map(|work| work.hess_evaluations);
+        assert!(counts[0] < 3 * counts[1], "{counts:?} at κ = {kappa}");
+        let separate: u64 = turns
+            .iter()
+            .map(|&turn| {
+                let mut one = body();
+                one.advance(turn).unwrap();
+                one.advance(Leg::ToSeparation).unwrap();
+                one.work().hess_evaluations
+            })
+            .sum();
+        assert!(5 * counts[0] < separate, "{counts:?}, {separate} of separate loops at κ = {kappa}");
+    }
 }

@@ -157,7 +157,7 @@ fn the_table_names_every_field_of_the_model_and_no_other() {
         ("WavySphere(radius: 1.0e-3, amplitude: 1.0e-9, wavelength: 1.0e-6)", "None", "Exact"),
     ] {
         for (material, adhesion) in [
-            ("(effective_modulus: 1.0e6)", "(work: 0.1, closing_work: 0.05)"),
+            ("(effective_modulus: 1.0e6)", "(work: 0.1, closing_work: 0.05, range: 1.0e-9)"),
             ("(youngs_modulus: 1.0e6, poisson_ratio: 0.5)", "None"),
         ] {
             let text = format!(

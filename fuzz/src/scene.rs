@@ -58,7 +58,12 @@ fn assert_fields(document: &Document) {
 
 /// An effect that is switched off is off, and comes back.
 fn assert_effects(document: &Document) {
-    let computed = Computed { work_of_adhesion: Some(0.05), kappa: Some(2.0), rms_height: Some(1.0e-7) };
+    let computed = Computed {
+        work_of_adhesion: Some(0.05),
+        kappa: Some(2.0),
+        elastic_energy_ratio: Some(3.0),
+        rms_height: Some(1.0e-7),
+    };
     let sound = |changed: &Result<Document, _>, effect: Effect, on: bool| match changed {
         Ok(changed) => {
             assert_document(changed);

@@ -8,7 +8,7 @@ use crate::text::grouped;
 const TARGETS: [(f64, &str); 2] = [(0.01, "1 %"), (0.001, "0.1 %")];
 
 impl CostTable {
-    /// What one per cent and one per mille of the adhesion force take, or of the force curve where nothing
+    /// Requirements of one per cent and one per mille of the adhesion force, or of the force curve where nothing
     /// pulls: one sentence for each.
     #[must_use]
     pub fn answer(&self) -> Vec<String> {

@@ -13,10 +13,10 @@ use thiserror::Error;
 const COMPARED_POINTS: u64 = 1 << 16;
 /// Samples of a leg that is compared, at most.
 const MOST_COMPARED: u64 = 4096;
-/// Errors below this are not told from rounding.
+/// Errors below this cannot be distinguished from rounding.
 pub(super) const ROUNDING: f64 = 1e-14;
 
-/// Why there is no table.
+/// Reason for which there is no table.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum CostError {
     /// The scene could not be computed.
@@ -33,12 +33,12 @@ pub enum CostError {
         /// Fewest springs the scene allows.
         springs: u64,
     },
-    /// The measurement was told to stop.
+    /// The measurement was stopped.
     #[error("the measurement was stopped")]
     Stopped,
 }
 
-/// What a measurement tells while it goes on.
+/// Progress of a measurement.
 pub enum Progress<'a> {
     /// A knob and a setting of it will be tried next.
     Trying(Knob, &'a str),
@@ -48,10 +48,10 @@ pub enum Progress<'a> {
     Rows(&'a dyn Fn() -> Option<CostTable>),
 }
 
-/// Who is told the progress of a measurement.
+/// Observer of the progress of a measurement.
 pub(super) type Watch<'a> = dyn FnMut(Progress<'_>) + 'a;
 
-/// What is measured, of what, and until when.
+/// Measurement of a scene within a budget of time.
 pub(super) struct Bench<'a> {
     pub scene: &'a Scene,
     pub folder: &'a Path,
@@ -69,7 +69,7 @@ pub(super) struct Tried {
     pub errors: Measures<Option<f64>>,
 }
 
-/// The rows so far, and who is told of each that is added.
+/// The rows so far, and the observer of added rows.
 pub(super) struct Rows<'a, 'b> {
     pub rows: Vec<Row>,
     pub reference: Reference,
@@ -77,7 +77,7 @@ pub(super) struct Rows<'a, 'b> {
 }
 
 impl Rows<'_, '_> {
-    /// Tells what will be tried next.
+    /// Reports the next setting.
     pub(super) fn trying(&mut self, knob: Knob, setting: &str) {
         (self.watch)(Progress::Trying(knob, setting));
     }

@@ -22,7 +22,7 @@ const LAST_DIFFERENCES: usize = 3;
 /// A tolerance as people write it: `1e-3` or `0.1 %`.
 ///
 /// # Errors
-/// What is allowed, where it is none.
+/// Allowed values, for text that is no tolerance.
 pub fn parse_tolerance(text: &str) -> Result<f64, String> {
     let allowed = || "allowed: a relative error above 0 and below 1, such as 1e-3 or 0.1%".to_owned();
     let text = text.trim();
@@ -35,7 +35,7 @@ pub fn parse_tolerance(text: &str) -> Result<f64, String> {
     if tolerance > 0.0 && tolerance < 1.0 { Ok(tolerance) } else { Err(allowed()) }
 }
 
-/// What a tolerance is about.
+/// Quantity of a tolerance.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Target {
@@ -61,16 +61,16 @@ impl Target {
 pub struct Choice {
     /// The relative error allowed.
     pub tolerance: f64,
-    /// What it is the error of.
+    /// Quantity of the error.
     pub target: Target,
     /// Springs N.
     pub points: u64,
-    /// How edges are counted.
+    /// Edge model.
     pub edges: Edges,
     /// Relative error reached; with a closed form the error itself, else an estimate that includes the
     /// estimated error of the finest solution.
     pub error: f64,
-    /// Whether the error is counted from a closed form.
+    /// True if the error is counted from a closed form.
     pub closed_form: bool,
     /// Springs of the finest solution that was tried for it.
     pub finest: u64,
@@ -91,7 +91,7 @@ impl Choice {
         Estimate { target: self.target, error: self.error, evidence }
     }
 
-    /// What was picked and why, in a sentence.
+    /// Choice and reason, in a sentence.
     #[must_use]
     pub fn sentence(&self) -> String {
         let edges = name_of(self.edges);
@@ -117,7 +117,7 @@ fn name_of(edges: Edges) -> &'static str {
     }
 }
 
-/// Why no springs were chosen.
+/// Reason for which no springs were chosen.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum ChoiceError {
     /// The scene could not be computed.
@@ -128,7 +128,7 @@ pub enum ChoiceError {
         "a tolerance goes with numerics.solver: Exact; the step of the stepwise solver is an error of its own"
     )]
     Stepwise,
-    /// The search was told to stop.
+    /// The search was stopped.
     #[error("the search for springs was stopped")]
     Stopped,
     /// Not with as many springs as are tried.

@@ -24,7 +24,7 @@ impl<'a> Budget<'a> {
         Budget { begun: Instant::now(), seconds: budget.as_secs_f64(), stop }
     }
 
-    /// Whether it was ended before its time.
+    /// Returns true if it was ended before its time.
     pub(super) fn is_stopped(&self) -> bool {
         (self.stop)()
     }
@@ -44,7 +44,7 @@ impl<'a> Budget<'a> {
         if self.is_stopped() { f64::NEG_INFINITY } else { share * self.seconds - self.spent() }
     }
 
-    /// Whether it is over.
+    /// Returns true if it is over.
     pub(super) fn is_over(&self) -> bool {
         self.left_of(1.0) <= 0.0
     }

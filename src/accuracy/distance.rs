@@ -1,4 +1,4 @@
-//! How far two force curves lie from each other.
+//! Distance of two force curves.
 //!
 //! Where contact forms or ends at once, two good solutions jump at slightly different indentations, and the
 //! difference of their forces between the two jumps is the height of the jump, however close they are. So

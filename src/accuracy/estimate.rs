@@ -1,4 +1,4 @@
-//! How large the error of one outcome is: cheaply, and without promising what is not known.
+//! Estimated error of one outcome, from a few more solutions.
 
 use super::Target;
 use super::convergence::error_of_finest;
@@ -24,11 +24,11 @@ const ENOUGH: usize = 3;
 /// The estimated relative error of an outcome.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Estimate {
-    /// What it is the error of.
+    /// Quantity of the error.
     pub target: Target,
     /// The relative error.
     pub error: f64,
-    /// What it is estimated from.
+    /// Basis of the estimate.
     pub evidence: Evidence,
 }
 
@@ -47,7 +47,7 @@ impl Estimate {
     }
 }
 
-/// What an estimate rests on.
+/// Basis of an estimate.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Evidence {
@@ -60,8 +60,9 @@ pub enum Evidence {
 /// Estimates the error of the adhesion force of an outcome, or of its force curve where nothing pulls.
 ///
 /// With a closed form it is the error itself. Otherwise the same line is solved with half, a quarter and an
-/// eighth of the springs by the same rule of edges, and [`error_of_finest`] gives the error from the differences. A line whose modes need too many springs for that is solved with twice and four times as many instead.
-/// What the step of the stepwise solver adds is its distance from the exact solver on the same springs.
+/// eighth of the springs by the same rule of edges, and [`error_of_finest`] gives the error from the differences. A line
+/// whose modes need too many springs for that is solved with twice and four times as many instead.
+/// The error of the step of the stepwise solver is its distance from the exact solver on the same springs.
 ///
 /// `None` where nothing can be told: there is no figure to be wrong, no other number of springs is allowed,
 /// too many would be needed, or `stop` said to give up.

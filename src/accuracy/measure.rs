@@ -11,7 +11,7 @@ use crate::simulation::RunError;
 use std::path::Path;
 use std::time::Duration;
 
-/// How much longer twice as many springs take, for a guess before they are tried.
+/// Assumed ratio of times for twice as many springs, before they are tried.
 const GROWTH: f64 = 2.2;
 /// Shares of the budget by the end of which the ladders have ended.
 const SUB_CELL_BY: f64 = 0.35;

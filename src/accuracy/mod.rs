@@ -1,4 +1,4 @@
-//! How large the errors of a scene are, and what it takes to make them smaller.
+//! Errors of a scene, and the cost of smaller ones.
 //!
 //! [`measure()`] tries everything that buys accuracy, from coarse to fine, and sets errors against times. Errors
 //! are relative and counted from a [`Reference`]: the adhesion force in closed form where the scene has one,

@@ -146,7 +146,7 @@ fn samples(bench: &mut Bench<'_>, points: u64, rows: &mut Rows<'_, '_>) -> Resul
     Ok(())
 }
 
-/// What heights in single precision would lose.
+/// Measures the error of heights in single precision.
 fn single_precision(bench: &mut Bench<'_>, points: u64, rows: &mut Rows<'_, '_>) -> Result<(), CostError> {
     let knob = Knob::SinglePrecision;
     if bench.budget.is_over() {

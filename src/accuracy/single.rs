@@ -1,4 +1,4 @@
-//! What a line kept in single precision would lose.
+//! Error of a line kept in single precision.
 
 use super::Measures;
 use super::solution::Solution;

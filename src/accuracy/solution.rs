@@ -1,4 +1,4 @@
-//! What is compared of two solutions of one scene.
+//! Measures by which two solutions of one scene are compared.
 
 use super::ForceCurve;
 use crate::analysis::Figures;
@@ -32,7 +32,7 @@ impl<T> Measures<T> {
         [&self.adhesion_force, &self.curve, &self.dissipated_energy, &self.contact_length]
     }
 
-    /// What a function makes of each pair.
+    /// Applies a function to each pair.
     pub fn zip<U, V>(&self, other: &Measures<U>, make: impl Fn(&T, &U) -> V) -> Measures<V> {
         Measures {
             adhesion_force: make(&self.adhesion_force, &other.adhesion_force),
@@ -42,7 +42,7 @@ impl<T> Measures<T> {
         }
     }
 
-    /// What a function makes of each.
+    /// Applies a function to each.
     pub fn map<V>(&self, make: impl Fn(&T) -> V) -> Measures<V> {
         self.zip(self, |value, _| make(value))
     }
@@ -64,13 +64,13 @@ pub struct Solution {
 }
 
 impl Solution {
-    /// What is compared of a scene's outcome.
+    /// Measures of the outcome of a scene.
     #[must_use]
     pub fn of(outcome: &Outcome) -> Self {
         Solution::of_history(&outcome.history, outcome.line.points as u64)
     }
 
-    /// What is compared of a history on so many springs.
+    /// Measures of a history on this number of springs.
     #[must_use]
     pub fn of_history(history: &History, points: u64) -> Self {
         let some = |value: f64| (value != 0.0 && value.is_finite()).then_some(value);
@@ -137,7 +137,7 @@ pub(super) fn solve(
     }
 }
 
-/// What came of an attempt.
+/// Result of an attempt.
 pub(super) enum Solved {
     /// A solution.
     Outcome(Box<Outcome>),

@@ -4,7 +4,7 @@ use super::Measures;
 use super::convergence::first_within;
 use serde::Serialize;
 
-/// What buys accuracy.
+/// Setting that buys accuracy.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Knob {
@@ -81,7 +81,7 @@ impl Timing {
 pub struct ErrorFigure {
     /// The error; where it is not resolved, that of the reference itself.
     pub error: f64,
-    /// Whether it is larger than the error of the reference.
+    /// True if it is larger than the error of the reference.
     pub resolved: bool,
     /// Observed order of convergence since the row before, where both are resolved.
     pub order: Option<f64>,
@@ -90,7 +90,7 @@ pub struct ErrorFigure {
 /// One setting: what it costs and what it gives.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Row {
-    /// What is set.
+    /// Setting.
     pub knob: Knob,
     /// To what: a number, or m for a step.
     pub setting: f64,
@@ -104,20 +104,20 @@ pub struct Row {
     pub errors: Measures<Option<ErrorFigure>>,
 }
 
-/// What errors are counted from.
+/// Reference of the errors.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Reference {
     /// Springs of the finest solution with edges between springs.
     pub springs: u64,
     /// Adhesion force, N.
     pub adhesion_force: Option<f64>,
-    /// Whether that is a closed form; everything else is the finest solution's.
+    /// True if that is a closed form; everything else is the finest solution's.
     pub closed_form: bool,
     /// Estimated relative errors of the reference itself.
     pub errors: Measures<Option<f64>>,
 }
 
-/// What accuracy costs for one scene.
+/// Cost of accuracy for one scene.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct CostTable {
     /// Time that was given, s.
@@ -127,11 +127,11 @@ pub struct CostTable {
     /// The unit of time: the shortest time of one real Fourier transform of 2^20 points, planned beforehand,
     /// s.
     pub transform_seconds: f64,
-    /// What errors are counted from.
+    /// Reference of the errors.
     pub reference: Reference,
     /// The settings, knob by knob, from coarse to fine.
     pub rows: Vec<Row>,
-    /// What was not tried or not reached, and why.
+    /// Settings that were not tried or not reached, with reasons.
     pub left_out: Vec<String>,
 }
 

@@ -55,7 +55,7 @@ impl Figures {
         }
     }
 
-    /// Whether a scene's own loading is that of the touch protocol, so that its adhesion force is
+    /// Returns true if a scene's own loading is that of the touch protocol, so that its adhesion force is
     /// F_a(0).
     #[must_use]
     pub fn is_touch_protocol(scene: &Scene) -> bool {

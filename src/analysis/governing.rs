@@ -167,8 +167,8 @@ mod tests {
     }
 
     const ROUGH: Option<Amplitude> =
-        Some(Amplitude { rms_height: 3.0, rms_gradient: 6.0, mean_wave_number: 0.5 });
-    const WAVE_NUMBERS: Option<WaveNumbers> = Some(WaveNumbers { rms: 2.0, mean: 0.5 });
+        Some(Amplitude { rms_height: 3.0, rms_gradient: 6.0, rms_curvature: 15.0, mean_wave_number: 0.5 });
+    const WAVE_NUMBERS: Option<WaveNumbers> = Some(WaveNumbers { rms: 2.0, mean: 0.5, rms_square: 5.0 });
 
     #[test]
     fn two_of_amplitude_work_and_a_parameter_give_the_third() {

@@ -5,7 +5,9 @@ mod figures;
 mod governing;
 mod marks;
 mod regime;
+mod reversal_map;
 pub mod section;
+mod tabor;
 
 pub use figures::Figures;
 pub use governing::{Governing, ideal_adhesion_force};
@@ -14,4 +16,6 @@ pub use regime::{
     AGREEING_SHARE, CellRegime, INSENSITIVE_SHARE, NEGLIGIBLE_COEFFICIENT, Regime, RegimeEvidence,
     VANISHING_SHARE,
 };
+pub use reversal_map::{CONGRUENT_SHARE, MinorLoops, ReversalMap};
 pub use section::{Column, LengthBin, Section, Share};
+pub use tabor::{DEFAULT_RANGE, LEAST_TABOR_NUMBER, tabor_number};

@@ -19,7 +19,7 @@ pub const NEGLIGIBLE_COEFFICIENT: f64 = 0.01;
 /// Smallest share of random lines in one regime for which the lines agree.
 pub const AGREEING_SHARE: f64 = 0.75;
 
-/// How adhesion depends on the load, Fig. 4.
+/// Dependence of adhesion on the load, Fig. 4.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Regime {

@@ -74,7 +74,7 @@ pub struct LineColumns {
 pub struct Part {
     /// The first one.
     pub first: usize,
-    /// How many.
+    /// Number.
     pub springs: usize,
     /// Columns of dots.
     pub columns: usize,
@@ -182,7 +182,7 @@ impl Contact<'_> {
     }
 }
 
-/// How much of each of `cells` equal parts of a line of `count` springs touches.
+/// Share in contact of each of `cells` equal parts of a line of `count` springs.
 #[must_use]
 pub fn strip(fragments: &[(usize, usize)], count: usize, cells: usize) -> Vec<Share> {
     let part = Part { first: 0, springs: count, columns: cells };

@@ -109,7 +109,7 @@ impl Body {
         stiffness * (self.deepest() + self.largest_stretch())
     }
 
-    /// What `act` finds of the solver over this body, separated, that takes `samples` points on a leg.
+    /// Result of `act` with a solver over this separated body and `samples` points on a leg.
     ///
     /// # Errors
     /// Those of `act`, and when memory does not suffice.
@@ -154,7 +154,7 @@ impl Body {
     }
 }
 
-/// Where a leg ended; separated at d = 0 if it has no point.
+/// End of a leg; separated at d = 0 if it has no point.
 #[must_use]
 pub fn end(record: &LegRecord) -> CurvePoint {
     record.curve.last().copied().unwrap_or_default()

@@ -4,7 +4,7 @@ use super::Fault;
 use crate::scene::Edges;
 use serde::Serialize;
 
-/// What a case is about.
+/// Family of cases.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Family {
@@ -16,11 +16,35 @@ pub enum Family {
     Lines,
     /// Bodies whose loop is known.
     ClosedForms,
-    /// What holds for every body.
+    /// Laws that hold for every body.
     Laws,
 }
 
-/// What a case is run with.
+/// Kind of evidence that a case gives.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Evidence {
+    /// A closed form of the literature or of this model.
+    ClosedForm,
+    /// The same quantity computed another way: the rules without tree and thresholds, or sums of twice the digits.
+    IndependentComputation,
+    /// A law that the result obeys: mirror, scaling, memory, order, refinement, repetition.
+    SelfConsistency,
+}
+
+impl Evidence {
+    /// Name of the kind.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Evidence::ClosedForm => "closed form",
+            Evidence::IndependentComputation => "independent computation",
+            Evidence::SelfConsistency => "self-consistency",
+        }
+    }
+}
+
+/// Edge models and bounds of a case.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Scope {
     /// Both kinds of edges, each with its own bound: whole springs, edges between springs.
@@ -36,15 +60,19 @@ pub enum Scope {
 pub struct Case {
     /// Its name: words with hyphens.
     pub name: &'static str,
-    /// What it is about.
+    /// Family.
     pub family: Family,
-    /// What must hold, in one sentence.
+    /// Claim, in one sentence.
     pub holds: &'static str,
-    /// What the error is an error of.
+    /// Kinds of evidence, the strongest first.
+    pub evidence: &'static [Evidence],
+    /// Reason for a known failure: the case stays in the catalogue as a failure.
+    pub known_failure: Option<&'static str>,
+    /// Quantity of the error.
     pub error_of: &'static str,
-    /// What it is run with, and within which bound it must stay.
+    /// Edge models and bounds.
     pub scope: Scope,
-    /// Whether it takes seconds and hundreds of megabytes.
+    /// True if it takes seconds and hundreds of megabytes.
     pub large: bool,
     /// Measures the error.
     pub(super) measure: fn(Edges) -> Result<f64, Fault>,

@@ -15,7 +15,7 @@ mod reference;
 mod relaxation;
 
 pub use body::{Body, LENGTH, MODULUS, RMS_HEIGHT, end};
-pub use case::{Case, Family, Scope};
+pub use case::{Case, Evidence, Family, Scope};
 pub use catalogue::{Check, Verdict, catalogue, checks, judge};
 pub use extended::Extended;
 pub use reference::{Agreement, follow, force_error};
@@ -28,7 +28,7 @@ use crate::study::LinesError;
 use crate::surface::SurfaceError;
 use thiserror::Error;
 
-/// Why a case gave no number.
+/// Reason for which a case gave no number.
 #[derive(Debug, Error)]
 pub enum Fault {
     /// Something is not as it must be.

@@ -1,4 +1,4 @@
-//! What the solvers give against what the rules alone give: contact by relaxation, forces and losses in
+//! Results of the solvers against the rules alone: contact by relaxation, forces and dissipated energies in
 //! arithmetic of twice the digits.
 
 use super::body::end;
@@ -7,7 +7,7 @@ use super::{Body, Extended, Fault};
 use crate::contact::{CurvePoint, Direction, LegRecord, Solver};
 use crate::scene::{Edges, Leg};
 
-/// How a solver compares with the rules.
+/// Differences of a solver from the rules.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Agreement {
     /// Largest error of a force, in units of [`follow`].
@@ -76,7 +76,7 @@ pub fn follow(body: &Body, edges: Edges, legs: &[Leg]) -> Result<Agreement, Faul
     })
 }
 
-/// Whether rounding decides about the contact at the end of a leg; an error if it is not that of the rules.
+/// Returns true if rounding decides about the contact at the end of a leg; an error if it is not that of the rules.
 fn same_contact(
     body: &Body,
     solver: &dyn Solver,
@@ -195,7 +195,7 @@ pub fn force_error(body: &Body, edges: Edges, solver: &dyn Solver, point: &Curve
 struct Rest {
     /// ∫ (d − c) dx over it, in cells times metres.
     compression: Extended,
-    /// What roundings may come to, in cells times metres.
+    /// Bound on roundings, in cells times metres.
     allowed: f64,
 }
 
@@ -222,7 +222,7 @@ impl Edge {
 }
 
 impl Rest {
-    /// Where the fragment of these springs rests at indentation d.
+    /// Equilibrium of the fragment of these springs at indentation d.
     fn of(body: &Body, d: f64, (first, last): (usize, usize)) -> Result<Rest, Fault> {
         let outside = |spring: Option<usize>| spring.and_then(|spring| body.gaps.get(spring)).copied();
         let ends = [
@@ -293,7 +293,7 @@ impl Rest {
     }
 }
 
-/// How much a level moves for a change of the indentation, more than that: 1/(dφ/dt) − 1, where
+/// Movement of a level in excess of the change of the indentation: 1/(dφ/dt) − 1, where
 /// dφ/dt = 1 − half/root.
 fn level_slope(half: &Extended, root: &Extended) -> f64 {
     let steep = (*root - *half).rounded();

@@ -32,13 +32,13 @@ impl<'a> Relaxation<'a> {
         })
     }
 
-    /// Whether each spring is in contact.
+    /// Returns true if each spring is in contact.
     #[must_use]
     pub fn contact(&self) -> &[bool] {
         &self.contact
     }
 
-    /// Whether nothing is in contact.
+    /// Returns true if nothing is in contact.
     #[must_use]
     pub fn is_separated(&self) -> bool {
         !self.contact.contains(&true)
@@ -56,7 +56,7 @@ impl<'a> Relaxation<'a> {
         if presses { self.press() } else { self.pull() }
     }
 
-    /// How far a spring of this gap may be stretched at the edge of a fragment of so many springs, m.
+    /// Largest stretch of a spring of this gap at the edge of a fragment of this number of springs, m.
     fn most(&self, springs: usize, gap: f64) -> f64 {
         let stretch = self.body.stretch(springs as f64);
         stretch + self.slack * (stretch + gap + self.indentation.abs())

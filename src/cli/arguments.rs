@@ -1,8 +1,9 @@
-//! What may be typed after `asperity`.
+//! Arguments of the program.
 
 use super::{
     CheckArguments, CompareArguments, CompletionsArguments, CostArguments, DemoArguments, ExploreArguments,
-    LineArguments, PlanArguments, PresetsCommand, RunArguments, SurfaceArguments, SweepArguments,
+    LineArguments, PlanArguments, PresetsCommand, ReversalsArguments, RunArguments, SurfaceArguments,
+    SweepArguments,
 };
 use clap::{Parser, Subcommand};
 
@@ -49,6 +50,8 @@ pub enum Command {
     Run(RunArguments),
     /// Show two scenes side by side: profiles, force curves, what differs
     Compare(CompareArguments),
+    /// Unload a scene from many turning points: adhesion against preload, reversal curves, maps
+    Reversals(ReversalsArguments),
     /// Play the explorer without a keyboard: on screen, as text, or as a recording
     Demo(DemoArguments),
     /// List the computing stages of a scene: run or skipped, reason, cost

@@ -13,7 +13,8 @@ Examples:
   asperity check adhesion memory            Those with one of these words in their names
   asperity check --format json -o check.json
 
-Each case has one error and one bound, stated beforehand. Exit code 1 when a case fails.";
+Each case has one error and one bound, stated beforehand, and the kinds of evidence that it gives. Exit code 1 when a
+case fails that is not known to fail, or passes although it is.";
 
 /// Arguments of `check`.
 #[derive(Args, Debug)]
@@ -28,12 +29,12 @@ pub struct CheckArguments {
     /// text or json; default: by the extension of FILE, else text
     #[arg(long, value_enum, hide_possible_values = true)]
     pub format: Option<CheckFormat>,
-    /// Where it goes.
+    /// Destination.
     #[command(flatten)]
     pub output: OutputArguments,
 }
 
-/// How the verdicts are printed.
+/// Formats of the verdicts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum CheckFormat {
     /// A table.
@@ -81,13 +82,13 @@ pub(super) fn check(arguments: &CheckArguments, stdout: &mut dyn Write) -> Resul
     conclude(&verdicts)
 }
 
-/// An error when a case fails.
+/// An error when a case fails that is not known to fail, or passes although it is.
 fn conclude(verdicts: &[Verdict]) -> Result<(), CliError> {
-    let failed = verdicts.iter().filter(|verdict| !verdict.passes()).count();
+    let failed = verdicts.iter().filter(|verdict| !verdict.is_expected()).count();
     if failed == 0 { Ok(()) } else { Err(CliError::CasesFail { failed, checks: verdicts.len() }) }
 }
 
-/// Which case is running: on a terminal one line that changes, elsewhere nothing.
+/// Progress: on a terminal one line that changes, elsewhere nothing.
 struct Progress {
     count: usize,
 }

@@ -47,7 +47,7 @@ pub struct CostArguments {
     pub force: bool,
 }
 
-/// How costs are printed.
+/// Formats of costs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum CostFormat {
     /// The answer, then tables.
@@ -107,7 +107,7 @@ pub(super) fn cost(arguments: &CostArguments, stdout: &mut dyn Write) -> Result<
     })
 }
 
-/// What is being tried: on a terminal one line that changes, elsewhere one line for each knob.
+/// Progress: on a terminal one line that changes, elsewhere one line for each knob.
 #[derive(Default)]
 struct Told {
     knob: Option<Knob>,

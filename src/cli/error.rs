@@ -1,4 +1,4 @@
-//! Why a command failed.
+//! Errors of commands.
 
 use crate::accuracy::{ChoiceError, CostError};
 use crate::draw::PngError;
@@ -14,16 +14,16 @@ use crate::topography::TopographyError;
 use std::io;
 use thiserror::Error;
 
-/// Why a command failed: one message, or one for each line of input that is wrong.
+/// Error of a command: one message, or one for each wrong line of input.
 #[derive(Debug, Error)]
 pub enum CliError {
     /// A scene cannot be opened or is not allowed.
     #[error(transparent)]
     Scene(Box<SceneErrors>),
-    /// What was typed is neither a scene nor a command.
+    /// An argument that is neither a scene nor a command.
     #[error("{errors}\nCommands: {commands} (see asperity --help)")]
     NeitherSceneNorCommand {
-        /// Why it is no scene.
+        /// Errors of the argument as a scene.
         errors: Box<SceneErrors>,
         /// The commands there are.
         commands: String,
@@ -51,6 +51,12 @@ pub enum CliError {
     /// A picture cannot be made.
     #[error(transparent)]
     Picture(#[from] PngError),
+    /// The points of a map in a format that cannot hold them, or that holds them anyway.
+    #[error("{what}: only a table of the map; allowed: --format csv")]
+    OnlyInTable {
+        /// Option that chooses the content.
+        what: &'static str,
+    },
     /// A picture of something that no picture shows.
     #[error("{what}: {allowed}")]
     NoPicture {
@@ -64,11 +70,13 @@ pub enum CliError {
     Surface {
         /// Its file.
         file: String,
-        /// Why not.
+        /// Reason.
         error: TopographyError,
     },
     /// A scene cannot hold how its surface is to be read.
-    #[error("--scene: a scene does not hold {option}; allowed: one file, --unit, --continue-to")]
+    #[error(
+        "--scene: a scene does not hold {option}; allowed: one file, --unit, --detrend, --periodic, --continue-to"
+    )]
     LostInScene {
         /// Option that would be lost.
         option: &'static str,
@@ -78,8 +86,16 @@ pub enum CliError {
     Spectrum {
         /// File of the first surface, or of the one that is refused.
         file: String,
-        /// Why not.
+        /// Reason.
         error: SpectrumError,
+    },
+    /// A table of spectra is not computed again.
+    #[error("{file}: {reason}")]
+    Spectra {
+        /// The table.
+        file: String,
+        /// Why not, and what is allowed.
+        reason: String,
     },
     /// There is no built-in scene of this name.
     #[error("{name}: there is no such built-in scene; allowed: {allowed}")]
@@ -94,15 +110,15 @@ pub enum CliError {
     Run {
         /// Name of the scene.
         scene: String,
-        /// Why not.
+        /// Reason.
         error: RunError,
     },
-    /// What accuracy costs could not be measured.
+    /// The cost of accuracy could not be measured.
     #[error("{scene}: {error}")]
     Cost {
         /// Name of the scene.
         scene: String,
-        /// Why not.
+        /// Reason.
         error: CostError,
     },
     /// No number of springs was chosen for a tolerance.
@@ -110,7 +126,7 @@ pub enum CliError {
     Choice {
         /// Name of the scene.
         scene: String,
-        /// Why not.
+        /// Reason.
         error: ChoiceError,
     },
     /// The scene could not be computed on several lines.
@@ -118,7 +134,7 @@ pub enum CliError {
     Lines {
         /// Name of the scene.
         scene: String,
-        /// Why not.
+        /// Reason.
         error: LinesError,
     },
     /// No hard case has this word in its name.
@@ -135,7 +151,7 @@ pub enum CliError {
     /// Hard cases fail.
     #[error("{failed} of {checks} checks fail")]
     CasesFail {
-        /// How many.
+        /// Number.
         failed: usize,
         /// Of how many.
         checks: usize,
@@ -162,9 +178,9 @@ pub enum CliError {
     /// Not even one thread has enough memory.
     #[error("--memory {most}: this plan takes {least} with one thread; allowed: at least that")]
     TooLittleMemory {
-        /// What is allowed.
+        /// Largest allowed value.
         most: String,
-        /// What it takes.
+        /// Least value required.
         least: String,
     },
     /// The program has no Parquet in it.
@@ -201,7 +217,7 @@ pub enum CliError {
         /// Folder of the study.
         folder: String,
     },
-    /// What was named cannot be explored.
+    /// An argument that cannot be explored.
     #[error(transparent)]
     Opening(OpeningError),
     /// The explorer failed.

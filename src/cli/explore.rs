@@ -15,7 +15,7 @@ pub struct ExploreArguments {
     ///
     /// The folder of a merged study opens its map over κ and H, if the study varies both.
     pub scene: Option<String>,
-    /// What is changed in it.
+    /// Overrides of the scene.
     #[command(flatten)]
     pub overrides: Overrides,
     /// How the explorer looks.

@@ -2,7 +2,8 @@
 
 use super::scene::simulation_of;
 use super::{CliError, OutputArguments, SceneArguments};
-use crate::export::write_line;
+use crate::export::{TableFormat, write_line};
+use crate::scene::TableContent;
 use clap::Args;
 use std::io::Write;
 
@@ -10,6 +11,7 @@ const EXAMPLES: &str = "\
 Examples:
   asperity line profile-hurst-025 > line.csv
   asperity line profile-hurst-025 --set numerics.points=65536 -o finer.csv
+  asperity line profile-hurst-025 -o line.npy
 
 The finer line is the same line: a wave of a seed keeps its phase on every grid.";
 
@@ -20,19 +22,21 @@ pub struct LineArguments {
     /// The scene.
     #[command(flatten)]
     pub scene: SceneArguments,
-    /// Where it goes.
+    /// Destination.
     #[command(flatten)]
     pub output: OutputArguments,
 }
 
 /// Makes the line of a scene and writes it.
 pub(super) fn line(arguments: &LineArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
-    arguments.output.format(None, &[("csv", ())], ())?;
+    let endings = [("csv", TableFormat::Csv), ("npy", TableFormat::Npy)];
+    let format = arguments.output.format(None, &endings, TableFormat::Csv)?;
     let document = arguments.scene.open()?;
     arguments.output.check()?;
+    let provenance = arguments.output.provenance(&document, document.scene(), TableContent::Profile);
     let mut simulation = simulation_of(&document);
     let (line, ..) = simulation
         .make_line(document.scene())
         .map_err(|error| CliError::Run { scene: document.name().into(), error })?;
-    arguments.output.write(stdout, |out| write_line(out, line))
+    arguments.output.write(stdout, |out| write_line(out, format, &provenance, line))
 }

@@ -14,7 +14,9 @@ mod explore;
 mod line;
 mod output;
 mod plan;
+mod preloads;
 mod presets;
+mod reversals;
 mod run;
 mod scene;
 mod surface;
@@ -33,6 +35,7 @@ pub use line::LineArguments;
 pub use output::OutputArguments;
 pub use plan::{PlanArguments, PlanFormat};
 pub use presets::{ListFormat, PresetsCommand};
+pub use reversals::{ReversalsArguments, ReversalsFormat};
 pub use run::{RunArguments, RunFormat};
 pub use scene::{Overrides, SceneArguments};
 pub use surface::{AnalysisArguments, DetrendArgument, ReadingArguments, SurfaceArguments, SurfaceFormat};
@@ -84,6 +87,7 @@ fn dispatch(arguments: &Arguments, stdout: &mut dyn Write) -> Result<(), CliErro
         None => explore::explore(&arguments.explore, stdout),
         Some(Command::Run(arguments)) => run::run(arguments, stdout),
         Some(Command::Compare(arguments)) => compare::compare(arguments, stdout),
+        Some(Command::Reversals(arguments)) => reversals::reversals(arguments, stdout),
         Some(Command::Demo(arguments)) => demo::demo(arguments, stdout),
         Some(Command::Cost(arguments)) => cost::cost(arguments, stdout),
         Some(Command::Sweep(arguments)) => sweep::sweep(arguments, stdout),

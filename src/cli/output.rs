@@ -1,8 +1,9 @@
-//! Where results go.
+//! Destinations of results.
 
 use super::CliError;
 use crate::draw::{Colours, Figure, figure_text};
 use crate::io::{check_writable, write_new};
+use crate::scene::{Document, Provenance, Scene, TableContent};
 use crate::text::path_name;
 use clap::Args;
 use std::io::{self, IsTerminal, Write};
@@ -12,7 +13,7 @@ use std::path::{Path, PathBuf};
 const PICTURES: [&str; 9] = ["svg", "svgz", "png", "pdf", "eps", "ps", "jpg", "jpeg", "gif"];
 
 /// A file for results in place of standard output.
-#[derive(Args, Debug)]
+#[derive(Args, Clone, Debug)]
 pub struct OutputArguments {
     /// Write to FILE, whole or not at all; `-` is standard output
     #[arg(short, long, value_name = "FILE")]
@@ -26,6 +27,11 @@ impl OutputArguments {
     /// The file, unless results go to standard output.
     pub(super) fn file(&self) -> Option<&Path> {
         self.output.as_deref().filter(|path| *path != Path::new("-"))
+    }
+
+    /// Folder of the file; the working folder for standard output.
+    pub(super) fn folder(&self) -> &Path {
+        self.file().and_then(Path::parent).unwrap_or(Path::new(""))
     }
 
     /// Checks, before anything is computed, that the results can be written.
@@ -70,6 +76,11 @@ impl OutputArguments {
             None if is_binary && io::stdout().is_terminal() => Err(CliError::BinaryInTerminal),
             _ => Ok(()),
         }
+    }
+
+    /// Provenance of a table of a scene that goes where results go.
+    pub(super) fn provenance(&self, document: &Document, scene: &Scene, content: TableContent) -> Provenance {
+        Provenance::new(content, scene, &document.resolve(""), self.folder())
     }
 
     /// Writes results to where they go.

@@ -29,7 +29,7 @@ pub struct PlanArguments {
     pub format: PlanFormat,
 }
 
-/// How a plan is printed.
+/// Formats of a plan.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum PlanFormat {
     /// A table.

@@ -3,7 +3,7 @@
 use super::CliError;
 use crate::export::sheet::Sheet;
 use crate::io::write_json_value;
-use crate::scene::{self, Document, Entry, Library, Roughness, Source, Text, line_column};
+use crate::scene::{self, Document, Entry, Library, Source, Text, line_column};
 use crate::simulation::measured_options;
 use crate::surface::MeasuredRoughness;
 use crate::text::printable;
@@ -23,12 +23,12 @@ const SHOW_EXAMPLES: &str = "\
 Example:
   asperity presets show rough-sphere > my-scene.ron";
 
-/// What is done with scenes.
+/// Subcommands on scenes.
 #[derive(Debug, Subcommand)]
 pub enum PresetsCommand {
     /// List the built-in scenes and one's own
     List {
-        /// How they are printed
+        /// Format of the list
         #[arg(long, value_enum, default_value_t = ListFormat::Text)]
         format: ListFormat,
     },
@@ -47,7 +47,7 @@ pub enum PresetsCommand {
     },
 }
 
-/// How scenes are listed.
+/// Formats of the list of scenes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum ListFormat {
     /// Name and title in columns.
@@ -152,12 +152,14 @@ fn of_file(file: &str) -> Result<Document, String> {
     }
 }
 
-/// What is wrong with the measured profile a scene names, with the place where it names it.
+/// Error of the measured surface that a scene names, with its place in the scene.
 fn profile_error(document: &Document) -> Option<String> {
     let scene = document.scene();
-    let Some(Roughness::Measured { file, .. }) = &scene.roughness else { return None };
-    let options = measured_options(scene);
-    let error = match MeasuredRoughness::read(&document.resolve(file), &options, &mut |_| ()) {
+    let files: Vec<_> = scene.measured_files().into_iter().map(|file| document.resolve(file)).collect();
+    if files.is_empty() {
+        return None;
+    }
+    let error = match MeasuredRoughness::read(&files, &measured_options(scene), &mut |_| ()) {
         Err(error) => error.to_string(),
         Ok(measured) => measured.check(scene.length, scene.numerics.points as usize).err()?,
     };

@@ -1,19 +1,24 @@
 //! `asperity run`: computes a scene without a terminal.
 
+use super::preloads::parse_preloads;
 use super::scene::simulation_of;
-use super::{CliError, OutputArguments, SceneArguments};
+use super::{
+    Arguments, CliError, Command, OutputArguments, SceneArguments, SurfaceArguments, SurfaceFormat, surface,
+};
 use crate::accuracy::{Choice, Estimate, choose, estimate, parse_tolerance};
 use crate::contact::{LegRecord, Solver};
 use crate::draw::{Figure, figure_png, figure_svg};
 use crate::export::{
-    ContactSets, ensemble_text, force_figure, summary, write_curve, write_ensemble_csv, write_ensemble_json,
-    write_json,
+    ContactSets, PreloadReport, TableFormat, ensemble_text, force_figure, summary, write_curve,
+    write_ensemble_json, write_ensemble_table, write_json, write_line,
 };
-use crate::scene::{Document, Scene, open_argument};
+use crate::scene::{Document, Scene, TableContent, arguments_of_spectra, open_argument};
 use crate::simulation::Outcome;
-use crate::study;
-use clap::{Args, ValueEnum};
+use crate::study::{self, Preloads};
+use crate::text::path_name;
+use clap::{Args, Parser, ValueEnum};
 use std::io::{self, Write};
+use std::path::Path;
 use std::thread::available_parallelism;
 
 const EXAMPLES: &str = "\
@@ -21,13 +26,16 @@ Examples:
   asperity run pressure-sensitive
   asperity run my-scene.ron --set adhesion.work=0.1 --format json | jq .adhesion_force
   asperity run jkr-sphere --set numerics.points=65536 -o jkr.csv
+  asperity run jkr.csv -o again.npy
   asperity run jkr-sphere --tolerance 0.1%
   asperity run pressure-sensitive --lines 32 --format csv
+  asperity run pressure-sensitive --preloads 0..20uN --lines 16
   asperity run pressure-sensitive -o loop.svg
   asperity run pressure-sensitive --profile -o profile.svg
   asperity run ideal-adhesion pressure-sensitive non-adhesive -o loops.svg
 
-JSON and CSV are in SI units. Compression is positive, indentation counts from first touch.";
+JSON, CSV and .npy are in SI units. Compression is positive, indentation counts from first touch.
+CSV and .npy hold version, scene and seed: such a file is a scene, and run computes its table again.";
 
 /// Arguments of `run`.
 #[derive(Args, Debug)]
@@ -39,11 +47,11 @@ pub struct RunArguments {
     /// More scenes, whose force curves are drawn into the same picture
     #[arg(value_name = "SCENE")]
     pub more: Vec<String>,
-    /// summary, json, csv, svg or png; default: by the extension of FILE, else summary
+    /// summary, json, csv, npy, svg or png; default: by the extension of FILE, else summary
     ///
     /// A summary is text for a person. JSON is one object with scene, profile, figures, curve,
     /// contacts and work. CSV is the curve: leg,indentation,force,contact_length,fragments.
-    /// SVG and PNG are pictures of the curve.
+    /// npy is the same as a structured array of NumPy. SVG and PNG are pictures of the curve.
     #[arg(long, value_enum, hide_possible_values = true, verbatim_doc_comment)]
     pub format: Option<RunFormat>,
     /// Draw the profile and its contact at the largest force instead of the curve
@@ -64,10 +72,16 @@ pub struct RunArguments {
     /// CSV then has one row for each seed. A tolerance applies to the first profile.
     #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u32).range(2..=MOST_LINES), verbatim_doc_comment)]
     pub lines: Option<u32>,
+    /// Adhesion force for preloads from A to B, 64 or COUNT of them, in place of the loading
+    ///
+    /// One loading and one unloading from each preload. With --lines the mean over the profiles
+    /// and its 95 % confidence. Forces take units: 0..20uN:128
+    #[arg(long, value_name = "A..B[:COUNT]", conflicts_with_all = ["more", "profile", "fragments"], value_parser = parse_preloads, verbatim_doc_comment)]
+    pub preloads: Option<Preloads>,
     /// Threads that share the profiles; default: one for each core
     #[arg(long, value_name = "COUNT", requires = "lines", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub jobs: Option<u16>,
-    /// Where it goes.
+    /// Destination.
     #[command(flatten)]
     pub output: OutputArguments,
 }
@@ -75,7 +89,7 @@ pub struct RunArguments {
 /// Most random lines.
 const MOST_LINES: i64 = 1_000_000;
 
-/// What a run prints.
+/// Formats of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum RunFormat {
     /// Text for a person: line, regime and why, forces, work and time.
@@ -84,6 +98,8 @@ pub enum RunFormat {
     Json,
     /// The force curve.
     Csv,
+    /// The force curve as an array of NumPy.
+    Npy,
     /// A picture of the force curve, the profile or the contact patches, as lines.
     Svg,
     /// The same picture as pixels.
@@ -91,16 +107,35 @@ pub enum RunFormat {
 }
 
 /// Endings of files in each format.
-const ENDINGS: [(&str, RunFormat); 4] =
-    [("json", RunFormat::Json), ("csv", RunFormat::Csv), ("svg", RunFormat::Svg), ("png", RunFormat::Png)];
+const ENDINGS: [(&str, RunFormat); 5] = [
+    ("json", RunFormat::Json),
+    ("csv", RunFormat::Csv),
+    ("npy", RunFormat::Npy),
+    ("svg", RunFormat::Svg),
+    ("png", RunFormat::Png),
+];
 
 impl RunFormat {
     fn is_picture(self) -> bool {
         matches!(self, RunFormat::Svg | RunFormat::Png)
     }
+
+    /// Format of a table.
+    fn of_table(self) -> Option<TableFormat> {
+        match self {
+            RunFormat::Csv => Some(TableFormat::Csv),
+            RunFormat::Npy => Some(TableFormat::Npy),
+            RunFormat::Summary | RunFormat::Json | RunFormat::Svg | RunFormat::Png => None,
+        }
+    }
 }
 
 impl RunArguments {
+    /// Threads that share the profiles.
+    fn threads(&self) -> usize {
+        self.jobs.map_or_else(|| available_parallelism().map_or(1, std::num::NonZero::get), usize::from)
+    }
+
     fn chosen_format(&self) -> Result<RunFormat, CliError> {
         let needs_picture = [
             (!self.more.is_empty(), "several scenes"),
@@ -113,10 +148,16 @@ impl RunArguments {
         let format = self.output.format(self.format, &ENDINGS, usual)?;
         match needs_picture {
             Some((_, what)) if !format.is_picture() => Err(CliError::OnlyInPicture { what }),
-            _ if format.is_picture() && self.lines.is_some() => Err(CliError::NoPicture {
-                what: "--lines",
-                allowed: "a picture shows one profile; allowed: summary, json and csv",
+            _ if format == RunFormat::Npy && self.preloads.is_some() => Err(CliError::NoPicture {
+                what: "--preloads",
+                allowed: "allowed: summary, json, csv, svg and png",
             }),
+            _ if format.is_picture() && self.lines.is_some() && self.preloads.is_none() => {
+                Err(CliError::NoPicture {
+                    what: "--lines",
+                    allowed: "a picture shows one profile; allowed: summary, json, csv and npy",
+                })
+            }
             _ => Ok(format),
         }
     }
@@ -125,8 +166,14 @@ impl RunArguments {
 /// Computes a scene and writes what it gave.
 pub(super) fn run(arguments: &RunArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
     let format = arguments.chosen_format()?;
+    if let Some(again) = surface_again(arguments, format)? {
+        return surface::surface(&again, stdout);
+    }
     let document = arguments.scene.open()?;
     arguments.output.check()?;
+    if let Some(preloads) = arguments.preloads {
+        return over_preloads(arguments, &document, (format, preloads), stdout);
+    }
     if format.is_picture() {
         let figure = figure(arguments, document)?;
         let picture = match format {
@@ -138,22 +185,67 @@ pub(super) fn run(arguments: &RunArguments, stdout: &mut dyn Write) -> Result<()
     let choice = arguments.tolerance.map(|tolerance| choice(&document, tolerance)).transpose()?;
     let chosen = choice.as_ref().map(|choice| choice.apply(document.scene()));
     let scene = chosen.as_ref().unwrap_or(document.scene());
-    if let Some(lines) = arguments.lines {
+    let of_table = match document.table_content() {
+        Some(TableContent::RandomProfiles(count)) => Some(count),
+        _ => None,
+    };
+    if let Some(lines) = arguments.lines.or(of_table) {
         return on_lines(arguments, &document, scene, (format, choice.as_ref()), lines, stdout);
     }
-    let outcome = simulation_of(&document)
-        .run(scene, &|| false, &mut |_, _, _| Ok(()))
-        .map_err(|error| CliError::Run { scene: document.name().into(), error })?;
+    let failed = |error| CliError::Run { scene: document.name().into(), error };
+    if let (Some(format), Some(TableContent::Profile)) = (format.of_table(), document.table_content()) {
+        let mut simulation = simulation_of(&document);
+        let (line, ..) = simulation.make_line(scene).map_err(failed)?;
+        let provenance = arguments.output.provenance(&document, scene, TableContent::Profile);
+        return arguments.output.write(stdout, |out| write_line(out, format, &provenance, line));
+    }
+    let outcome = simulation_of(&document).run(scene, &|| false, &mut |_, _, _| Ok(())).map_err(failed)?;
     let choice = choice.as_ref();
     let estimate = estimate_for(format, &document, scene, &outcome, choice)?;
-    arguments.output.write(stdout, |out| match format {
-        RunFormat::Summary | RunFormat::Svg | RunFormat::Png => {
+    let provenance = arguments.output.provenance(&document, scene, TableContent::ForceCurve);
+    arguments.output.write(stdout, |out| match (format, format.of_table()) {
+        (_, Some(format)) => write_curve(out, format, &provenance, &outcome),
+        (RunFormat::Json, _) => write_json(out, scene, &outcome, choice, estimate.as_ref()),
+        _ => {
             out.write_all(summary(scene, &outcome, estimate.as_ref()).as_bytes())?;
             choice.map_or(Ok(()), |choice| writeln!(out, "\n{}", choice.sentence()))
         }
-        RunFormat::Json => write_json(out, scene, &outcome, choice, estimate.as_ref()),
-        RunFormat::Csv => write_curve(out, &outcome),
     })
+}
+
+/// Arguments of `surface` where the scene is a table of spectra.
+fn surface_again(arguments: &RunArguments, format: RunFormat) -> Result<Option<SurfaceArguments>, CliError> {
+    let path = Path::new(&arguments.scene.scene);
+    let Some(deciding) = arguments_of_spectra(path) else { return Ok(None) };
+    let refused = |reason: String| CliError::Spectra { file: path_name(path), reason };
+    let named = ["asperity", "surface"].map(str::to_owned).into_iter().chain(deciding);
+    let parsed = Arguments::try_parse_from(named).map_err(|error| refused(error.kind().to_string()))?;
+    let Some(Command::Surface(surface)) = parsed.command else { return Ok(None) };
+    let others = [
+        (!arguments.scene.overrides.set.is_empty(), "--set"),
+        (!arguments.more.is_empty(), "several scenes"),
+        (arguments.profile, "--profile"),
+        (arguments.fragments, "--fragments"),
+        (arguments.tolerance.is_some(), "--tolerance"),
+        (arguments.lines.is_some(), "--lines"),
+    ];
+    if let Some((_, what)) = others.into_iter().find(|(is_given, _)| *is_given) {
+        return Err(refused(format!("spectra have no {what}; allowed: --format and -o")));
+    }
+    let format = match format {
+        RunFormat::Summary => SurfaceFormat::Summary,
+        RunFormat::Json => SurfaceFormat::Json,
+        RunFormat::Csv => SurfaceFormat::Csv,
+        RunFormat::Npy => SurfaceFormat::Npy,
+        RunFormat::Svg => SurfaceFormat::Svg,
+        RunFormat::Png => {
+            return Err(refused(
+                "spectra are not drawn as PNG; allowed: summary, json, csv, npy and svg".to_owned(),
+            ));
+        }
+    };
+    let folder = path.parent().unwrap_or(Path::new("")).to_path_buf();
+    Ok(Some(SurfaceArguments { format: Some(format), output: arguments.output.clone(), folder, ..surface }))
 }
 
 /// Computes the scenes and draws what is asked for.
@@ -195,7 +287,7 @@ fn estimate_for(
     choice: Option<&Choice>,
 ) -> Result<Option<Estimate>, CliError> {
     match (format, choice) {
-        (RunFormat::Csv | RunFormat::Svg | RunFormat::Png, _) => Ok(None),
+        (RunFormat::Csv | RunFormat::Npy | RunFormat::Svg | RunFormat::Png, _) => Ok(None),
         (_, Some(choice)) => Ok(Some(choice.estimate())),
         (_, None) => estimate(scene, &document.resolve(""), outcome, &|| false)
             .map_err(|error| CliError::Run { scene: document.name().into(), error }),
@@ -211,6 +303,46 @@ fn choice(document: &Document, tolerance: f64) -> Result<Choice, CliError> {
     Ok(choice)
 }
 
+/// Computes a scene for many preloads, on one or several profiles, and writes the adhesion forces.
+fn over_preloads(
+    arguments: &RunArguments,
+    document: &Document,
+    (format, preloads): (RunFormat, Preloads),
+    stdout: &mut dyn Write,
+) -> Result<(), CliError> {
+    let choice = arguments.tolerance.map(|tolerance| choice(document, tolerance)).transpose()?;
+    let chosen = choice.as_ref().map(|choice| choice.apply(document.scene()));
+    let scene = chosen.as_ref().unwrap_or(document.scene());
+    let (forces, name) = (preloads.forces(), || document.name().into());
+    let results = match arguments.lines {
+        Some(lines) => {
+            let (folder, lines) = (document.resolve(""), lines as usize);
+            let solved = study::solve_preloads_on_lines(scene, &folder, &forces, lines, arguments.threads());
+            let solved = solved.map_err(|error| CliError::Lines { scene: name(), error })?;
+            solved.into_iter().map(|(seed, line)| (Some(seed), line)).collect()
+        }
+        None => {
+            let mut line = Vec::with_capacity(forces.len());
+            let mut simulation = simulation_of(document);
+            study::solve_preloads(&mut simulation, scene, &forces, &|| false, &mut |one| line.push(one))
+                .map_err(|error| CliError::Run { scene: name(), error })?;
+            vec![(scene.seed(), line)]
+        }
+    };
+    let report = PreloadReport::new(scene, results);
+    let title = if scene.title.is_empty() { document.name() } else { &scene.title };
+    arguments.output.write(stdout, |out| match format {
+        RunFormat::Summary => {
+            out.write_all(report.text().as_bytes())?;
+            choice.as_ref().map_or(Ok(()), |choice| writeln!(out, "\n{}", choice.sentence()))
+        }
+        RunFormat::Json => report.write_json(out),
+        RunFormat::Csv | RunFormat::Npy => report.write_csv(out),
+        RunFormat::Svg => out.write_all(figure_svg(&report.figure(title)).as_bytes()),
+        RunFormat::Png => out.write_all(&figure_png(&report.figure(title)).map_err(io::Error::other)?),
+    })
+}
+
 /// Computes a scene on several lines and writes what they gave.
 fn on_lines(
     arguments: &RunArguments,
@@ -220,16 +352,15 @@ fn on_lines(
     lines: u32,
     stdout: &mut dyn Write,
 ) -> Result<(), CliError> {
-    let jobs =
-        arguments.jobs.map_or_else(|| available_parallelism().map_or(1, std::num::NonZero::get), usize::from);
-    let results = study::solve_lines(scene, &document.resolve(""), lines as usize, jobs)
+    let results = study::solve_lines(scene, &document.resolve(""), lines as usize, arguments.threads())
         .map_err(|error| CliError::Lines { scene: document.name().into(), error })?;
-    arguments.output.write(stdout, |out| match format {
-        RunFormat::Summary | RunFormat::Svg | RunFormat::Png => {
+    let provenance = arguments.output.provenance(document, scene, TableContent::RandomProfiles(lines));
+    arguments.output.write(stdout, |out| match (format, format.of_table()) {
+        (_, Some(format)) => write_ensemble_table(out, format, &provenance, &results),
+        (RunFormat::Json, _) => write_ensemble_json(out, scene, choice, &results),
+        _ => {
             out.write_all(ensemble_text(scene, &results).as_bytes())?;
             choice.map_or(Ok(()), |choice| writeln!(out, "\n{}", choice.sentence()))
         }
-        RunFormat::Json => write_ensemble_json(out, scene, choice, &results),
-        RunFormat::Csv => write_ensemble_csv(out, &results),
     })
 }

@@ -1,4 +1,4 @@
-//! Which scene a command is about, and what is changed in it.
+//! Scene of a command, and its overrides.
 
 use super::CliError;
 use crate::scene::{Document, open_argument};
@@ -12,7 +12,7 @@ pub struct SceneArguments {
     ///
     /// `-` is standard input. A pipe is read up to its end.
     pub scene: String,
-    /// What is changed in it.
+    /// Overrides of the scene.
     #[command(flatten)]
     pub overrides: Overrides,
 }

@@ -1,11 +1,14 @@
 //! `asperity surface`: measured surfaces, their statistics and spectrum, and the equivalent line.
 
 use super::{CliError, OutputArguments};
-use crate::export::{SurfaceFile, surface_text, write_surface_csv, write_surface_json};
+use crate::draw::figure_svg;
+use crate::export::{
+    Spectra, SurfaceContact, SurfaceFile, TableFormat, surface_text, write_surface_json, write_surface_table,
+};
 use crate::io::{check_writable, write_new};
 use crate::scene::{
-    Adhesion, Document, Leg, MOST_POINTS, Material, Numerics, Roughness, SCENE_VERSIONS, Scene,
-    parse_quantity,
+    Adhesion, Document, Leg, MOST_POINTS, Material, Numerics, Provenance, Roughness, SCENE_VERSIONS, Scene,
+    exact_quantity, named_from, parse_quantity,
 };
 use crate::spectrum::{Analysis, Detrend, End, Options, SpectrumError, analyse};
 use crate::text::path_name;
@@ -17,9 +20,10 @@ use std::path::{Path, PathBuf};
 const EXAMPLES: &str = "\
 Examples:
   asperity surface stylus.txt --unit um
-  asperity surface afm.gwy --tip-radius 10nm --modulus 2.7MPa
+  asperity surface afm.gwy --tip-radius 10nm --modulus 2.7MPa --work 50mJ/m^2
   asperity surface a.x3p b.x3p c.x3p --format json -o surface.json
-  asperity surface profile.csv --unit um -o spectrum.csv
+  asperity surface profile.csv --unit um -o spectra.csv
+  asperity surface afm.gwy --tip-radius 10nm -o spectra.svg
   asperity surface profile.csv --unit um --modulus 2.7MPa --work 50mJ/m^2 --scene rough.ron
 
 Files are profiles or maps: text in columns or as a matrix, SDF, GSF, NumPy, X3P, GWY, SUR, and
@@ -42,19 +46,20 @@ pub struct SurfaceArguments {
     /// Options of the analysis.
     #[command(flatten)]
     pub analysis: AnalysisArguments,
-    /// summary, json or csv; default: by the extension of FILE, else summary
+    /// summary, json, csv, npy or svg; default: by the extension of FILE, else summary
     ///
     /// A summary is text for a person. JSON is one object with statistics, fit, spectra and warnings.
-    /// CSV holds the spectra: spectrum,wave_number,power,waves.
+    /// CSV holds the spectra: spectrum,wave_number,power,waves. npy is the same as a structured array
+    /// of NumPy. SVG is a picture of the spectra.
     #[arg(long, value_enum, hide_possible_values = true, verbatim_doc_comment)]
     pub format: Option<SurfaceFormat>,
     /// Write a scene with the equivalent line of the surface to FILE; needs --modulus
     ///
-    /// The scene names the surface and holds --unit and --continue-to.
+    /// The scene names the surface and holds --unit, --detrend, --periodic and --continue-to.
     #[arg(long, value_name = "FILE", requires = "modulus", verbatim_doc_comment)]
     pub scene: Option<PathBuf>,
-    /// Work of adhesion of the scene, as 50mJ/m^2; default: none
-    #[arg(long, value_name = "ENERGY", requires = "scene", value_parser = energy)]
+    /// Work of adhesion, as 50mJ/m^2: gives κ and e_el/γ, and is that of the scene; needs --modulus
+    #[arg(long, value_name = "ENERGY", requires = "modulus", value_parser = energy)]
     pub work: Option<f64>,
     /// Output file.
     #[command(flatten)]
@@ -62,6 +67,9 @@ pub struct SurfaceArguments {
     /// Overwrite the scene if it exists
     #[arg(long, requires = "scene")]
     pub force_scene: bool,
+    /// Folder that the files are relative to.
+    #[arg(skip)]
+    pub folder: PathBuf,
 }
 
 /// Reading of files that leave something open.
@@ -129,6 +137,10 @@ pub enum SurfaceFormat {
     Json,
     /// The spectra.
     Csv,
+    /// The spectra as an array of NumPy.
+    Npy,
+    /// A picture of the spectra.
+    Svg,
 }
 
 impl ReadingArguments {
@@ -167,7 +179,46 @@ impl AnalysisArguments {
 }
 
 /// Endings of files in each format.
-const ENDINGS: [(&str, SurfaceFormat); 2] = [("json", SurfaceFormat::Json), ("csv", SurfaceFormat::Csv)];
+const ENDINGS: [(&str, SurfaceFormat); 4] = [
+    ("json", SurfaceFormat::Json),
+    ("csv", SurfaceFormat::Csv),
+    ("npy", SurfaceFormat::Npy),
+    ("svg", SurfaceFormat::Svg),
+];
+
+impl SurfaceArguments {
+    /// Arguments that decide the spectra, for their table.
+    fn deciding(&self) -> Vec<String> {
+        let (reading, analysis) = (&self.reading, &self.analysis);
+        let length = |value: Option<f64>| value.map(|value| exact_quantity(value, "m"));
+        let unit = |unit: Option<Unit>| unit.map(|unit| unit.name().to_owned());
+        let detrend = analysis.detrend.to_possible_value().map(|value| value.get_name().to_owned());
+        let options = [
+            ("--unit", unit(reading.unit)),
+            ("--height-unit", unit(reading.height_unit)),
+            ("--spacing", length(reading.spacing)),
+            ("--channel", reading.channel.map(|channel| channel.to_string())),
+            ("--detrend", detrend),
+            ("--continue-to", length(analysis.continue_to)),
+        ];
+        let flags = [
+            ("--interpolate", reading.interpolate),
+            ("--resample", reading.resample),
+            ("--periodic", analysis.periodic),
+        ];
+        let options =
+            options.into_iter().filter_map(|(name, value)| Some([name.to_owned(), value?])).flatten();
+        let flags = flags.into_iter().filter(|(_, is_given)| *is_given).map(|(name, _)| name.to_owned());
+        let destination = self.output.folder();
+        let file = |file: &PathBuf| named_from(&file.to_string_lossy(), &self.folder, destination);
+        options.chain(flags).chain(["--".to_owned()]).chain(self.files.iter().map(file)).collect()
+    }
+
+    /// Files as they are opened.
+    fn paths(&self) -> impl Iterator<Item = PathBuf> + '_ {
+        self.files.iter().map(|file| self.folder.join(file))
+    }
+}
 
 /// Reads and analyses the files and writes the results.
 pub(super) fn surface(arguments: &SurfaceArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
@@ -178,21 +229,31 @@ pub(super) fn surface(arguments: &SurfaceArguments, stdout: &mut dyn Write) -> R
         check_writable(scene, arguments.force_scene)?;
     }
     let (mut surfaces, mut files) = (Vec::new(), Vec::new());
-    for file in &arguments.files {
-        let surface = arguments.reading.read(file)?;
-        files.push(SurfaceFile::new(file.clone(), &surface));
+    for file in arguments.paths() {
+        let surface = arguments.reading.read(&file)?;
+        files.push(SurfaceFile::new(file, &surface));
         surfaces.push(surface);
     }
     let analysis = analysed(arguments, &surfaces)?;
     let modulus = arguments.analysis.modulus;
+    let contact = modulus.map(|modulus| SurfaceContact { modulus, work: arguments.work });
     if let (Some(path), Some(modulus)) = (&arguments.scene, modulus) {
         let text = scene_text(arguments, path, &analysis, modulus)?;
         write_new(path, arguments.force_scene, |out| out.write_all(text.as_bytes()))?;
     }
+    let table = |out: &mut dyn Write, format| {
+        write_surface_table(out, format, &Provenance::of_spectra(&arguments.deciding()), &analysis)
+    };
     arguments.output.write(stdout, |out| match format {
-        SurfaceFormat::Summary => out.write_all(surface_text(&files, &analysis, modulus).as_bytes()),
-        SurfaceFormat::Json => write_surface_json(out, &files, &analysis, modulus),
-        SurfaceFormat::Csv => write_surface_csv(out, &analysis),
+        SurfaceFormat::Summary => out.write_all(surface_text(&files, &analysis, contact).as_bytes()),
+        SurfaceFormat::Json => write_surface_json(out, &files, &analysis, contact),
+        SurfaceFormat::Csv => table(out, TableFormat::Csv),
+        SurfaceFormat::Npy => table(out, TableFormat::Npy),
+        SurfaceFormat::Svg => {
+            let names: Vec<String> = files.iter().map(|file| path_name(&file.path)).collect();
+            let figure = Spectra::of_analysis(&analysis).figure(&names.join(", "));
+            out.write_all(figure_svg(&figure).as_bytes())
+        }
     })
 }
 
@@ -202,14 +263,14 @@ fn analysed(arguments: &SurfaceArguments, surfaces: &[Topography]) -> Result<Ana
             SpectrumError::Surface { index, .. } | SpectrumError::TooFew { index, .. } => *index,
             _ => 0,
         };
-        let file = arguments.files.get(index).map_or_else(String::new, |file| path_name(file));
+        let file = arguments.paths().nth(index).map_or_else(String::new, |file| path_name(&file));
         CliError::Spectrum { file, error }
     })
 }
 
-/// A scene names one file and holds its unit and the end of its spectrum; whatever else was chosen would be lost.
+/// A scene names one file and holds its unit and how its spectrum is estimated; whatever else was chosen would be lost.
 fn check_scene(arguments: &SurfaceArguments) -> Result<(), CliError> {
-    let (reading, analysis) = (&arguments.reading, &arguments.analysis);
+    let reading = &arguments.reading;
     let lost = [
         (arguments.files.len() > 1, "several files"),
         (reading.height_unit.is_some(), "--height-unit"),
@@ -217,8 +278,6 @@ fn check_scene(arguments: &SurfaceArguments) -> Result<(), CliError> {
         (reading.interpolate, "--interpolate"),
         (reading.resample, "--resample"),
         (reading.channel.is_some(), "--channel"),
-        (analysis.detrend != DetrendArgument::Tilt, "--detrend"),
-        (analysis.periodic, "--periodic"),
     ];
     match lost.into_iter().find(|(is_given, _)| *is_given) {
         Some((_, option)) => Err(CliError::LostInScene { option }),
@@ -254,6 +313,11 @@ fn scene_text(
         roughness: Some(Roughness::Measured {
             file: name.to_string_lossy().into_owned(),
             as_line: None,
+            opposite: None,
+            row: None,
+            column: None,
+            detrend: Some(arguments.analysis.options().detrend).filter(|detrend| *detrend != Detrend::Tilt),
+            periodic: arguments.analysis.periodic,
             unit: arguments.reading.unit.map(|unit| unit.name().to_owned()).unwrap_or_default(),
             continue_to: arguments.analysis.continue_to,
             seed: 1,

@@ -1,4 +1,4 @@
-//! What to say about arguments that mean nothing together.
+//! Messages on arguments that exclude each other.
 
 use super::Arguments;
 use crate::text::printable_lines;

@@ -83,7 +83,10 @@ pub trait ContactModel {
     fn sample_reversal(&self, grid: Grid) -> Result<Self::Leg, ContactError>;
 
     /// The smallest force on the range of a grid of this unloading.
-    fn smallest_of_reversal(&self, leg: &Self::Leg, sorted: &mut u64) -> ContactState;
+    ///
+    /// # Errors
+    /// [`ContactError::OutOfMemory`].
+    fn smallest_of_reversal(&self, grid: &Grid, sorted: &mut u64) -> Result<ContactState, ContactError>;
 
     /// Σ e² over the springs that attach up to the turning point with a stretch e, and over those that detach from there
     /// on, m².

@@ -1,7 +1,7 @@
 //! The exact solver: any loading history, leg by leg, in linear time and without a step error.
 //!
-//! How a leg goes is the same for whole springs and for edges between them; what the springs come to is the
-//! law of their contact.
+//! A leg proceeds in the same way for whole springs and for edges between them; the contact model gives forces and
+//! thresholds.
 
 use super::adhesive::{Adhesive, AdhesiveMemory, ContactTree, EdgeModel};
 use super::contact_model::{ContactModel, ContactState};

@@ -367,8 +367,9 @@ impl ContactModel for Nonadhesive<'_> {
         self.sample(grid)
     }
 
-    fn smallest_of_reversal(&self, leg: &Sampled, sorted: &mut u64) -> ContactState {
-        self.smallest(leg, sorted)
+    fn smallest_of_reversal(&self, grid: &Grid, _: &mut u64) -> Result<ContactState, ContactError> {
+        let leg = self.sample(Grid::at(vec![grid.points()[0]]))?;
+        Ok(leg.states[0])
     }
 
     fn squared_stretches(&self) -> [f64; 2] {

@@ -1,4 +1,4 @@
-//! What a figure shows: charts with axes and layers of data in SI units. How it looks is up to the backend.
+//! Content of a figure: charts with axes and layers of data in SI units. The backend decides on the appearance.
 
 use super::axis::Axis;
 use super::colour::Ink;
@@ -91,7 +91,7 @@ pub enum Shape {
     Curve {
         /// x and y.
         points: Vec<(f64, f64)>,
-        /// How the line is drawn.
+        /// Stroke of the line.
         stroke: Option<Stroke>,
         /// Sign at each point.
         sign: Option<Sign>,

@@ -66,7 +66,7 @@ impl Palette {
     };
 }
 
-/// What a colour means; each backend has a colour for each.
+/// Meaning of a colour; each backend assigns the colour.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Ink {
     /// Text, frames, outlines.

@@ -3,7 +3,7 @@
 use crate::text::printable;
 use std::fmt;
 
-/// How a run of characters is set.
+/// Typeface of a run of characters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Face {
     Upright,

@@ -3,6 +3,7 @@
 use super::opening::Opening;
 use super::snapshot::{Loop, Moment, Preview};
 use super::study::Found;
+use crate::export::TableFormat;
 use crate::scene::Entry;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -80,8 +81,8 @@ pub enum WriteFailure {
 pub enum Content {
     /// The scene, in RON.
     Scene,
-    /// The force curve, as comma-separated values.
-    Curve,
+    /// The force curve, as a table.
+    Curve(TableFormat),
     /// Everything that was computed, in JSON.
     Outcome,
     /// The panes as a picture, in SVG.
@@ -96,8 +97,9 @@ pub enum Content {
 
 impl Content {
     /// What can be exported, by the ending of the file's name.
-    pub const EXPORTS: [(&'static str, Content); 4] = [
-        ("csv", Content::Curve),
+    pub const EXPORTS: [(&'static str, Content); 5] = [
+        ("csv", Content::Curve(TableFormat::Csv)),
+        ("npy", Content::Curve(TableFormat::Npy)),
         ("json", Content::Outcome),
         ("svg", Content::Picture),
         ("txt", Content::Text),
@@ -219,6 +221,8 @@ pub enum Command {
     Fragment(Jump),
     /// Show the distribution of fragment lengths in place of the close-up, or the other way round.
     ToggleLengths,
+    /// Show the spectrum in place of profile and close-up, or these again.
+    ToggleSpectrum,
     /// Look closer in the chosen pane, or from further away.
     Zoom(i32),
     /// Move along the line by so many quarters of what is seen.
@@ -239,6 +243,8 @@ pub enum Command {
     ToggleAccuracy,
     /// Type a tolerance.
     TypeTolerance,
+    /// Show adhesion against preload, or the profile and the fragments again.
+    TogglePreloads,
     /// Show the map, choose it, or show the profile and the fragments again.
     ToggleChart,
     /// Show sections through the mark in place of the map, or the other way round.

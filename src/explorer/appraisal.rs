@@ -91,7 +91,10 @@ impl Appraisal {
             }
             Finding::Chosen(..) => self.choosing = None,
             // Not about accuracy.
-            Finding::Charted(_) | Finding::NotCharted(_) => {}
+            Finding::Charted(_)
+            | Finding::NotCharted(_)
+            | Finding::Preloaded(_)
+            | Finding::NotPreloaded(_) => {}
         }
     }
 }

@@ -5,6 +5,7 @@ pub use super::appraisal::{Appraisal, Costs, Estimated};
 pub use super::chart::{Chart, OpenStudy};
 pub use super::mode::{Library, Mode, ModeKind};
 use super::parameters::{Parameter, Setting, parameters};
+use super::preload_curve::PreloadPane;
 use super::request::{Focus, LineView};
 use super::snapshot::{Drive, Loop, Moment, Preview};
 use super::theme::Appearance;
@@ -32,6 +33,10 @@ pub enum Pane {
     Accuracy,
     /// The map over κ and H, in place of profile and close-up.
     Chart,
+    /// Spectra, in place of profile and close-up.
+    Spectrum,
+    /// Adhesion against preload, in place of profile and close-up.
+    Preloads,
 }
 
 impl Pane {
@@ -42,6 +47,10 @@ impl Pane {
     pub const WITH_ACCURACY: [Pane; 3] = [Pane::Force, Pane::Accuracy, Pane::Parameters];
     /// The panes while the map is shown.
     pub const WITH_CHART: [Pane; 3] = [Pane::Force, Pane::Chart, Pane::Parameters];
+    /// The panes while the spectrum is shown.
+    pub const WITH_SPECTRUM: [Pane; 3] = [Pane::Force, Pane::Spectrum, Pane::Parameters];
+    /// The panes while adhesion against preload is shown.
+    pub const WITH_PRELOADS: [Pane; 3] = [Pane::Force, Pane::Preloads, Pane::Parameters];
 
     /// Whether the crosshair can be moved in the pane.
     #[must_use]
@@ -205,6 +214,8 @@ pub struct Model {
     pub look: Look,
     /// Whether its pane shows the distribution of lengths instead.
     pub lengths: bool,
+    /// Whether the spectrum is shown in place of profile and close-up.
+    pub spectrum: bool,
     /// What part of the line the profile shows.
     pub profile: LineView,
     /// What the pane of the curve shows.
@@ -221,6 +232,8 @@ pub struct Model {
     pub appraisal: Appraisal,
     /// The map over κ and H.
     pub chart: Chart,
+    /// Adhesion against preload.
+    pub preloads: PreloadPane,
     /// The curve of the scene selected in the library.
     pub preview: Option<Arc<Preview>>,
     /// The chosen pane.
@@ -269,6 +282,7 @@ impl Model {
             hand: None,
             look: Look { focus: Focus::Summit, springs },
             lengths: false,
+            spectrum: false,
             profile: LineView::WHOLE,
             curve: CurveLook::default(),
             crosshair: None,
@@ -277,6 +291,7 @@ impl Model {
             opens_beside: None,
             appraisal: Appraisal::default(),
             chart: Chart::default(),
+            preloads: PreloadPane::default(),
             preview: None,
             pane: Pane::Force,
             zoomed: false,
@@ -345,6 +360,8 @@ impl Model {
     pub fn panes(&self) -> &'static [Pane] {
         match self.in_place_of_the_line() {
             Some(Pane::Chart) => &Pane::WITH_CHART,
+            Some(Pane::Spectrum) => &Pane::WITH_SPECTRUM,
+            Some(Pane::Preloads) => &Pane::WITH_PRELOADS,
             Some(_) => &Pane::WITH_ACCURACY,
             None => &Pane::ALL,
         }
@@ -353,11 +370,22 @@ impl Model {
     /// What is shown in place of profile and close-up.
     #[must_use]
     pub fn in_place_of_the_line(&self) -> Option<Pane> {
-        match (self.chart.shown, self.appraisal.shown) {
-            (true, _) => Some(Pane::Chart),
-            (_, true) => Some(Pane::Accuracy),
-            _ => None,
-        }
+        [
+            (self.chart.shown, Pane::Chart),
+            (self.appraisal.shown, Pane::Accuracy),
+            (self.spectrum, Pane::Spectrum),
+            (self.preloads.shown, Pane::Preloads),
+        ]
+        .into_iter()
+        .find_map(|(is_shown, pane)| is_shown.then_some(pane))
+    }
+
+    /// Shows profile and close-up again.
+    pub fn hide_in_place_of_the_line(&mut self) {
+        self.chart.shown = false;
+        self.appraisal.hide();
+        self.preloads.shown = false;
+        self.spectrum = false;
     }
 
     /// Which keys are valid: in the map the arrows move its mark, in panes with a crosshair the crosshair; in the list of
@@ -382,8 +410,8 @@ impl Model {
     /// Shows the map of a study, the first of them.
     pub fn show_study(&mut self, study_map: Arc<StudyMap>) {
         self.chart.open_study(study_map, 0);
+        self.hide_in_place_of_the_line();
         (self.chart.of_study, self.chart.shown) = (true, true);
-        self.appraisal.hide();
         self.pane = Pane::Chart;
     }
 

@@ -5,6 +5,7 @@ use super::engine::Engine;
 use super::held::Held;
 use super::request::{Drive, HandOrder, LineView, MomentRequest, Newest};
 use super::snapshot::{Loop, Moment, Probe, Report};
+use super::spectrum::SceneSpectra;
 use crate::analysis::section::{self, Contact, LineColumns, Part};
 use crate::contact::{ContactError, LegContact, LegRecord, Snapshot, Solver};
 use crate::scene::{Observer, Scene};
@@ -39,6 +40,8 @@ pub struct Playback {
     held: Option<Held>,
     /// The contact at the moment shown last, to tell how many springs changed.
     last: Option<(Drive, Fragments)>,
+    /// Spectra of the scene, once they have been asked for.
+    spectra: Option<Arc<SceneSpectra>>,
     /// What the panes show of the line whatever touches.
     profile: LineColumns,
     close_up: LineColumns,
@@ -160,6 +163,9 @@ impl Playback {
         let close_up = close_up((&contact, &rises), request, foundation, &snapshot, &mut self.close_up);
         let middle = close_up.section.first + close_up.section.springs / 2;
         let profile = profile_part(request, line.gaps.len(), middle);
+        if request.spectra && self.spectra.is_none() {
+            self.spectra = Some(Arc::new(SceneSpectra::new(scene, outcome, line)));
+        }
         let moment = Moment {
             generation: request.generation,
             drive: request.drive,
@@ -172,6 +178,7 @@ impl Playback {
             strip: section::strip(&fragments, line.gaps.len(), request.strip_cells),
             probe: request.crosshair.and_then(|position| probe(&contact, position)),
             lengths: request.lengths.then(|| section::lengths(&fragments)),
+            spectra: self.spectra.clone().filter(|_| request.spectra),
             hand: match request.drive {
                 Drive::Leg(_) => None,
                 Drive::Hand => self.held.as_mut().map(Held::travel),

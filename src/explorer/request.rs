@@ -83,6 +83,8 @@ pub struct MomentRequest {
     pub crosshair: Option<f64>,
     /// Loading stage and indentation, m, of the scene beside.
     pub beside: Option<(usize, f64)>,
+    /// Whether the spectra of the scene are shown.
+    pub spectra: bool,
 }
 
 /// What part of the line the profile shows.

@@ -13,7 +13,7 @@ use super::theme::{Appearance, Marker, Theme};
 use super::update::{Effect, moment_request, study_tasks, update};
 use super::view;
 use super::worker::{self, Engine, Report, Request, Worker};
-use crate::scene::{Document, Roughness, Scene};
+use crate::scene::{Document, Scene};
 use crate::simulation::Simulation;
 use crossterm::clipboard::CopyToClipboard;
 use crossterm::event::Event;
@@ -179,9 +179,7 @@ fn read_input(messages: Sender<Message>) -> io::Result<()> {
 /// The scene as the worker gets it: files it names are found wherever the explorer was started.
 pub(super) fn scene_of(document: &Document) -> Arc<Scene> {
     let mut scene = document.scene().clone();
-    if let Some(Roughness::Measured { file, .. }) = &mut scene.roughness {
-        *file = document.resolve(file).to_string_lossy().into_owned();
-    }
+    scene.rename_measured_files(|file| document.resolve(file).to_string_lossy().into_owned());
     Arc::new(scene)
 }
 

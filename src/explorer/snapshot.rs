@@ -3,6 +3,7 @@
 
 pub use super::request::Drive;
 use super::request::Focus;
+use super::spectrum::SceneSpectra;
 pub use crate::analysis::{Column, LengthBin, Section, Share};
 use crate::contact::CurvePoint;
 use crate::scene::Scene;
@@ -45,6 +46,8 @@ pub struct Moment {
     pub probe: Option<Probe>,
     /// How long the fragments are, where that was asked for.
     pub lengths: Option<Vec<LengthBin>>,
+    /// Spectra of the scene, where they were asked for.
+    pub spectra: Option<Arc<SceneSpectra>>,
     /// How the hand came here.
     pub hand: Option<Travel>,
     /// The scene beside, at the same part of its loading.

@@ -1,6 +1,7 @@
 //! How accurate the scene is, what accuracy costs, and the map over κ and H: worked out beside the worker, on a thread of its own, so
 //! that no edit waits for it. Whatever is asked for next ends what is under way.
 
+use super::preload_curve::PreloadCurve;
 use super::snapshot::Loop;
 use crate::accuracy::{
     Choice, ChoiceError, CostError, CostTable, Estimate, Knob, Progress, choose, estimate, measure,
@@ -36,12 +37,24 @@ pub enum Task {
         /// Whether it waits until it is quiet.
         waits: bool,
     },
+    /// What a curve of adhesion against preload still lacks.
+    Preloads {
+        /// The curve so far.
+        curve: Arc<PreloadCurve>,
+        /// Its scene.
+        scene: Arc<Scene>,
+        /// Whether it waits until it is quiet.
+        waits: bool,
+    },
 }
 
 impl Task {
     /// Whether it waits until it is quiet; what the user waits for does not.
     fn waits(&self) -> bool {
-        !matches!(self, Task::Choose(..) | Task::Chart { waits: false, .. })
+        !matches!(
+            self,
+            Task::Choose(..) | Task::Chart { waits: false, .. } | Task::Preloads { waits: false, .. }
+        )
     }
 }
 
@@ -66,6 +79,10 @@ pub enum Finding {
     Charted(Arc<LiveMap>),
     /// There is no more of it, and why.
     NotCharted(String),
+    /// The curve of adhesion against preload so far.
+    Preloaded(Arc<PreloadCurve>),
+    /// There is no more of it, and why.
+    NotPreloaded(String),
 }
 
 /// A finding and the generation of the scene it belongs to.
@@ -110,6 +127,20 @@ pub trait Appraiser: Send {
 
     /// See [`compute()`].
     fn chart(&mut self, map: &mut LiveMap, stop: &dyn Fn() -> bool, tell: &mut dyn FnMut(&LiveMap));
+
+    /// See [`PreloadCurve::compute`].
+    ///
+    /// # Errors
+    /// When a profile fails or `stop` says so.
+    fn preloads(
+        &mut self,
+        curve: &mut PreloadCurve,
+        scene: &Scene,
+        stop: &dyn Fn() -> bool,
+        tell: &mut dyn FnMut(&PreloadCurve),
+    ) -> Result<(), RunError> {
+        curve.compute(scene, Path::new(FOLDER), stop, tell)
+    }
 }
 
 /// The appraiser of the program.
@@ -186,12 +217,21 @@ pub fn perform(
             appraiser.chart(&mut map, stop, &mut |map| tell(Finding::Charted(Arc::new(map.clone()))));
             Finding::Charted(Arc::new(map))
         }
+        Task::Preloads { curve, scene, .. } => {
+            let mut curve = PreloadCurve::clone(curve);
+            let mut tell = |curve: &PreloadCurve| tell(Finding::Preloaded(Arc::new(curve.clone())));
+            match appraiser.preloads(&mut curve, scene, stop, &mut tell) {
+                Ok(()) => Finding::Preloaded(Arc::new(curve)),
+                Err(error) => Finding::NotPreloaded(error.to_string()),
+            }
+        }
     }));
     tell(done.unwrap_or_else(|_| match task {
         Task::Estimate(_) => Finding::Estimated(None),
         Task::Measure(_) => Finding::NotMeasured("internal error, please report it".to_owned()),
         Task::Choose(_, tolerance) => Finding::Chosen(*tolerance, Err(ChoiceError::Stopped)),
         Task::Chart { .. } => Finding::NotCharted("internal error, please report it".to_owned()),
+        Task::Preloads { .. } => Finding::NotPreloaded("internal error, please report it".to_owned()),
     }));
 }
 

@@ -8,6 +8,7 @@ use super::view;
 use crate::draw::{Palette, figure_svg};
 use crate::export::{write_curve, write_json, write_map};
 use crate::io::{WriteError, write_new_file};
+use crate::scene::{Provenance, TableContent};
 use ratatui::Terminal;
 use ratatui::backend::TestBackend;
 use ratatui::buffer::Buffer;
@@ -24,7 +25,7 @@ pub fn write(
     content: Content,
     overwrite: bool,
 ) -> Result<Written, WriteFailure> {
-    let written = write_new_file(&path, overwrite, |file| write_content(file, model, content));
+    let written = write_new_file(&path, overwrite, |file| write_content(file, model, &path, content));
     match written {
         Ok(()) => Ok(Written { path, content }),
         Err(WriteError::Exists { .. }) => Err(WriteFailure::Exists(path, content)),
@@ -32,13 +33,18 @@ pub fn write(
     }
 }
 
-fn write_content(file: &mut dyn Write, model: &Model, content: Content) -> io::Result<()> {
+fn write_content(file: &mut dyn Write, model: &Model, path: &Path, content: Content) -> io::Result<()> {
     let no_map = || io::Error::other("there is no map yet");
     let no_curve = || io::Error::other("the scene has no curve yet");
     let computed = || model.computed.as_ref().filter(|_| model.is_current()).ok_or_else(no_curve);
     match content {
         Content::Scene => file.write_all(model.document.text().as_bytes()),
-        Content::Curve => write_curve(file, &computed()?.outcome),
+        Content::Curve(format) => {
+            let (document, destination) = (&model.document, path.parent().unwrap_or(Path::new("")));
+            let (scene, folder) = (document.scene(), document.resolve(""));
+            let provenance = Provenance::new(TableContent::ForceCurve, scene, &folder, destination);
+            write_curve(file, format, &provenance, &computed()?.outcome)
+        }
         Content::Outcome => {
             let estimate = model.appraisal.estimate();
             write_json(file, model.document.scene(), &computed()?.outcome, None, estimate)

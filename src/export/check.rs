@@ -1,7 +1,7 @@
 //! The table of hard cases.
 
 use super::sheet::Sheet;
-use crate::check::{Check, Verdict, catalogue};
+use crate::check::{Case, Check, Evidence, Verdict, catalogue};
 use crate::io::write_json_value;
 use crate::scene::Edges;
 use serde::Serialize;
@@ -11,7 +11,7 @@ use std::io::{self, Write};
 #[must_use]
 pub fn check_text(verdicts: &[Verdict]) -> String {
     let mut sheet = Sheet::default();
-    let head = ["case", "edges", "error", "bound", "", "time", "error of"].map(String::from);
+    let head = ["case", "edges", "error", "bound", "", "time", "evidence: error of"].map(String::from);
     let mut rows = vec![head];
     rows.extend(verdicts.iter().map(|verdict| {
         let Check { case, edges, bound } = verdict.check;
@@ -22,7 +22,7 @@ pub fn check_text(verdicts: &[Verdict]) -> String {
             figure(bound),
             if verdict.passes() { "pass" } else { "FAIL" }.to_owned(),
             format!("{:.2} s", verdict.seconds),
-            case.error_of.to_owned(),
+            format!("{}: {}", evidence(case), case.error_of),
         ]
     }));
     sheet.table(&rows);
@@ -40,16 +40,19 @@ pub fn check_text(verdicts: &[Verdict]) -> String {
         let why = |verdict: &&Verdict| {
             let Check { case, edges, bound } = verdict.check;
             let name = format!("{} {}", case.name, edges_name(edges)).trim_end().to_owned();
-            let why = match &verdict.error {
-                Ok(error) => format!("error {} above the bound {}", figure(*error), figure(bound)),
-                Err(fault) => fault.to_string(),
+            let why = match (&verdict.error, case.known_failure) {
+                (Ok(error), None) => format!("error {} above the bound {}", figure(*error), figure(bound)),
+                (Ok(error), Some(reason)) => format!("known, by {}: {reason}", figure(*error)),
+                (Err(fault), _) => fault.to_string(),
             };
             [name, why]
         };
         sheet.table(&failed.iter().map(why).collect::<Vec<_>>());
     }
+    let known = failed.iter().filter(|verdict| verdict.is_expected()).count();
+    let known = if known == 0 { String::new() } else { format!(", {known} fail as known") };
     sheet.heading(&format!(
-        "{} of {} checks pass, in {:.1} s.",
+        "{} of {} checks pass{known}, in {:.1} s.",
         verdicts.len() - failed.len(),
         verdicts.len(),
         verdicts.iter().map(|verdict| verdict.seconds).sum::<f64>()
@@ -60,7 +63,9 @@ pub fn check_text(verdicts: &[Verdict]) -> String {
 /// The cases as a Markdown table: what must hold, and within which bounds.
 #[must_use]
 pub fn check_markdown(checks: &[Check]) -> String {
-    let mut text = String::from("| case | what must hold | error of | bound |\n| --- | --- | --- | --- |\n");
+    let mut text = String::from(
+        "| case | what must hold | evidence | error of | bound |\n| --- | --- | --- | --- | --- |\n",
+    );
     for case in catalogue() {
         let bounds: Vec<String> = checks
             .iter()
@@ -70,8 +75,15 @@ pub fn check_markdown(checks: &[Check]) -> String {
                 format!("{edges}{}", figure(check.bound))
             })
             .collect();
-        text +=
-            &format!("| `{}` | {} | {} | {} |\n", case.name, case.holds, case.error_of, bounds.join(", "));
+        let fails = case.known_failure.map_or_else(String::new, |reason| format!(" **Fails**: {reason}."));
+        text += &format!(
+            "| `{}` | {}{fails} | {} | {} | {} |\n",
+            case.name,
+            case.holds,
+            evidence(case),
+            case.error_of,
+            bounds.join(", ")
+        );
     }
     text
 }
@@ -92,6 +104,8 @@ pub fn write_check_json(out: &mut (impl Write + ?Sized), verdicts: &[Verdict]) -
         family: crate::check::Family,
         edges: Option<Edges>,
         holds: &'a str,
+        evidence: &'a [Evidence],
+        known_failure: Option<&'a str>,
         error_of: &'a str,
         error: Option<f64>,
         bound: f64,
@@ -106,6 +120,8 @@ pub fn write_check_json(out: &mut (impl Write + ?Sized), verdicts: &[Verdict]) -
             family: case.family,
             edges,
             holds: case.holds,
+            evidence: case.evidence,
+            known_failure: case.known_failure,
             error_of: case.error_of,
             error: verdict.error.as_ref().ok().copied().filter(|error| error.is_finite()),
             bound,
@@ -115,7 +131,12 @@ pub fn write_check_json(out: &mut (impl Write + ?Sized), verdicts: &[Verdict]) -
         }
     };
     let checks = verdicts.iter().map(row).collect();
-    write_json_value(out, &Report { passes: verdicts.iter().all(Verdict::passes), checks })
+    write_json_value(out, &Report { passes: verdicts.iter().all(Verdict::is_expected), checks })
+}
+
+/// Kinds of evidence of a case in words.
+fn evidence(case: &Case) -> String {
+    case.evidence.iter().map(|kind| kind.name()).collect::<Vec<_>>().join(", ")
 }
 
 /// A bound or an error: two digits are enough to compare, zero is exact.

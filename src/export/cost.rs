@@ -1,4 +1,4 @@
-//! What accuracy costs, as text, JSON and CSV.
+//! Cost of accuracy as text, JSON and CSV.
 
 use super::sheet::Sheet;
 use crate::accuracy::{CostTable, ErrorFigure, Knob, Row};

@@ -1,9 +1,12 @@
-//! What many random lines gave, as text, JSON and CSV.
+//! Results of many random lines as text, JSON and CSV.
 
 use super::sheet::Sheet;
+use super::summary::tabor_number;
+use super::table::{Cell, Column, TableFormat, write_table};
 use crate::accuracy::Choice;
+use crate::analysis::Regime;
 use crate::io::write_json_value;
-use crate::scene::{Scene, format_quantity};
+use crate::scene::{Provenance, Scene, format_quantity};
 use crate::study::{HeightShape, LineResult, LinesSummary, Statistics};
 use crate::text::grouped;
 use serde::Serialize;
@@ -34,6 +37,10 @@ pub fn ensemble_text(scene: &Scene, lines: &[LineResult]) -> String {
         rows.extend(statistics.map(|statistics| cells(name, unit, &statistics)));
     }
     sheet.table(&rows);
+    // Lines of one spectrum have one Tabor number.
+    let number =
+        lines.iter().filter(|line| line.dissipated_energy.is_some()).find_map(|line| line.tabor_number);
+    sheet.row_of("Tabor number μ", number.map(tabor_number));
     sheet.heading("Regimes");
     let regimes = summary.regimes;
     for (name, count) in [
@@ -94,28 +101,37 @@ pub fn write_ensemble_json(
 ///
 /// # Errors
 /// Those of `out`.
-pub fn write_ensemble_csv(out: &mut (impl Write + ?Sized), lines: &[LineResult]) -> io::Result<()> {
-    writeln!(
-        out,
-        "seed,adhesion_force,preload_indentation,dissipated_energy,contact_fraction,regime,skewness,\
-         excess_kurtosis"
-    )?;
-    let number = |value: Option<f64>| value.map_or_else(String::new, |value| format!("{value:?}"));
-    for line in lines {
-        let regime = serde_json::to_value(line.regime)?;
-        let shape = |figure: fn(HeightShape) -> f64| number(line.heights.map(figure));
-        writeln!(
-            out,
-            "{},{},{},{},{:?},{},{},{}",
-            line.seed,
-            number(line.adhesion_force),
-            number(line.preload_indentation),
-            number(line.dissipated_energy),
-            line.contact_fraction,
-            regime.as_str().unwrap_or_default(),
+pub fn write_ensemble_table(
+    out: &mut (impl Write + ?Sized),
+    format: TableFormat,
+    provenance: &Provenance,
+    lines: &[LineResult],
+) -> io::Result<()> {
+    let longest = Regime::ALL.map(|regime| regime.name().len()).into_iter().max().unwrap_or_default();
+    let columns = [
+        ("seed", Column::Whole),
+        ("adhesion_force", Column::Real),
+        ("preload_indentation", Column::Real),
+        ("dissipated_energy", Column::Real),
+        ("contact_fraction", Column::Real),
+        ("regime", Column::Word(longest)),
+        ("skewness", Column::Real),
+        ("excess_kurtosis", Column::Real),
+        ("tabor_number", Column::Real),
+    ];
+    let rows = lines.iter().map(|line| {
+        let shape = |figure: fn(HeightShape) -> f64| Cell::from(line.heights.map(figure));
+        [
+            Cell::Whole(line.seed),
+            line.adhesion_force.into(),
+            line.preload_indentation.into(),
+            line.dissipated_energy.into(),
+            Cell::Real(line.contact_fraction),
+            Cell::Word(line.regime.map_or("", Regime::name)),
             shape(|shape| shape.skewness),
-            shape(|shape| shape.excess_kurtosis)
-        )?;
-    }
-    Ok(())
+            shape(|shape| shape.excess_kurtosis),
+            line.tabor_number.into(),
+        ]
+    });
+    write_table(out, format, provenance, columns, lines.len(), rows)
 }

@@ -49,6 +49,7 @@ struct Report<'a> {
     adhesion_coefficient: Option<f64>,
     pull_off_indentation: Option<f64>,
     dissipated_energy: Option<f64>,
+    tabor_number: Option<f64>,
     #[serde(serialize_with = "curve")]
     curve: &'a Outcome,
     contacts: &'a [(usize, usize)],
@@ -118,6 +119,7 @@ impl<'a> Report<'a> {
             adhesion_coefficient: figures.adhesion_coefficient,
             pull_off_indentation: figures.pull_off_indentation,
             dissipated_energy: figures.dissipated_energy,
+            tabor_number: outcome.tabor_number,
             curve: outcome,
             contacts: &history.contacts,
             fragments: scene.observe.contains(&Observer::Fragments).then_some(outcome.fragments.as_slice()),

@@ -5,29 +5,40 @@
 mod check;
 mod comparison;
 mod cost;
-mod csv;
 mod ensemble;
 mod json;
 mod map;
+mod preloads;
+mod reversals;
 mod scene_figure;
+mod scene_tables;
 pub(crate) mod sheet;
+mod spectrum_figure;
 #[cfg(test)]
 mod study_example;
 mod study_figure;
 mod summary;
 mod surface;
+mod table;
 mod verdict;
 mod work_precision;
 
 pub use check::{check_markdown, check_text, write_check_json};
 pub use comparison::{Pair, adhesion_forces, comparison_figure, comparison_text};
 pub use cost::{cost_text, write_cost_csv, write_cost_json};
-pub use csv::{write_curve, write_line};
-pub use ensemble::{ensemble_text, write_ensemble_csv, write_ensemble_json};
+pub use ensemble::{ensemble_text, write_ensemble_json, write_ensemble_table};
 pub use json::write_json;
 pub use map::write_map;
+pub use preloads::{PreloadReport, preload_axes, preload_layers};
+pub use reversals::{
+    ReversalReport, reversals_figure, reversals_text, write_reversal_map_csv, write_reversals_csv,
+    write_reversals_json,
+};
 pub use scene_figure::{ContactSets, force_figure, sign};
+pub use scene_tables::{write_curve, write_line};
+pub use spectrum_figure::{Spectra, SpectrumPoint};
 pub use study_figure::study_figure;
 pub use summary::{brief_summary, summary};
-pub use surface::{SurfaceFile, surface_text, write_surface_csv, write_surface_json};
+pub use surface::{SurfaceContact, SurfaceFile, surface_text, write_surface_json, write_surface_table};
+pub use table::TableFormat;
 pub use work_precision::work_precision;

@@ -118,7 +118,7 @@ fn range(panel: &Panel, scale: AxisScale) -> Span {
     }
 }
 
-/// Whether a quantity falls so far that a linear scale does not show it.
+/// Returns true if a quantity falls so far that a linear scale does not show it.
 fn spans_decades(panel: &Panel) -> bool {
     let means = || panel.estimates.iter().flatten().map(|estimate| estimate.mean);
     let above = means().filter(|mean| *mean > 0.0);

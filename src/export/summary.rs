@@ -3,6 +3,7 @@
 use super::sheet::Sheet;
 use super::verdict;
 use crate::accuracy::{Estimate, Target};
+use crate::analysis::LEAST_TABOR_NUMBER;
 use crate::contact::Work;
 use crate::scene::{Leg, Scene, format_quantity};
 use crate::simulation::{Outcome, Timings};
@@ -42,7 +43,7 @@ pub fn brief_summary(scene: &Scene, outcome: &Outcome) -> String {
     sheet.row_of("preload F_n", quantity(figures.preload, "N"));
     sheet.row("adhesion force F_a", adhesion_force(outcome, None));
     sheet.row_of("at first touch F_a(0)", quantity(outcome.zero_load_adhesion_force, "N"));
-    sheet.row_of("dissipated energy", quantity(figures.dissipated_energy, "J"));
+    dissipated_energy(&mut sheet, outcome);
     sheet.into_text()
 }
 
@@ -101,7 +102,24 @@ fn adhesion(sheet: &mut Sheet, scene: &Scene, outcome: &Outcome, estimate: Optio
     sheet.row_of("at first touch F_a(0)", quantity(outcome.zero_load_adhesion_force, "N"));
     sheet.row_of("smooth body F_smooth", quantity(outcome.smooth_adhesion_force, "N"));
     sheet.row_of("ideal F_a,max", quantity(outcome.ideal_adhesion_force, "N"));
-    sheet.row_of("dissipated energy", quantity(figures.dissipated_energy, "J"));
+    dissipated_energy(sheet, outcome);
+}
+
+/// Dissipated energy, and beside it the Tabor number that says how far to trust it.
+fn dissipated_energy(sheet: &mut Sheet, outcome: &Outcome) {
+    let energy = quantity(outcome.figures.dissipated_energy, "J");
+    let number = outcome.tabor_number.filter(|_| energy.is_some());
+    sheet.row_of("dissipated energy", energy);
+    sheet.row_of("Tabor number μ", number.map(tabor_number));
+}
+
+/// Tabor number with its warning.
+pub(super) fn tabor_number(number: f64) -> String {
+    let value = format_quantity(number, "1");
+    if number >= LEAST_TABOR_NUMBER {
+        return value;
+    }
+    format!("{value}, below {LEAST_TABOR_NUMBER}: attraction of finite range dissipates less than this")
 }
 
 /// Adhesion force and its error, or that of the curve where nothing pulls.

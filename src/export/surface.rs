@@ -1,8 +1,9 @@
 //! Analysed surfaces: text for people, JSON and CSV for programs.
 
 use super::sheet::Sheet;
+use super::table::{Cell, Column, TableFormat, write_table};
 use crate::io::write_json_value;
-use crate::scene::format_quantity;
+use crate::scene::{Provenance, format_quantity};
 use crate::spectrum::{Analysis, Bin, End, Estimate, LineMoments};
 use crate::text::{grouped, path_name, per_cent};
 use crate::topography::Topography;
@@ -13,6 +14,9 @@ use std::path::PathBuf;
 
 /// Points of the equivalent line's spectrum in CSV, for each decade.
 const LINE_PER_DECADE: f64 = 10.0;
+
+/// Characters of the longest name of a spectrum.
+const LONGEST_NAME: usize = "equivalent line".len();
 
 /// A surface and the file it came from.
 #[derive(Clone, Debug, PartialEq)]
@@ -52,9 +56,41 @@ impl SurfaceFile {
     }
 }
 
-/// Analysed surfaces in plain text. `modulus` is the effective modulus, Pa, for the elastic energy.
+/// Elastic and adhesive constants of a contact with the surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SurfaceContact {
+    /// Effective modulus E*, Pa.
+    pub modulus: f64,
+    /// Work of adhesion γ, J/m².
+    pub work: Option<f64>,
+}
+
+impl SurfaceContact {
+    /// Elastic energy of full contact, J/m².
+    fn elastic_energy(self, moments: &LineMoments) -> Estimate {
+        scaled(moments.energy_per_modulus, self.modulus)
+    }
+
+    /// κ = √(h⟨∇z⟩E*/γ), which has half the relative error of h⟨∇z⟩.
+    fn kappa(self, moments: &LineMoments) -> Option<Estimate> {
+        let product = moments.height_gradient;
+        let value = (product.value * self.modulus / self.work?).sqrt();
+        Some(Estimate { value, error: 0.5 * value * product.error / product.value })
+    }
+
+    /// Elastic energy of full contact over the work of adhesion.
+    fn energy_ratio(self, moments: &LineMoments) -> Option<Estimate> {
+        Some(scaled(self.elastic_energy(moments), 1.0 / self.work?))
+    }
+}
+
+fn scaled(estimate: Estimate, factor: f64) -> Estimate {
+    Estimate { value: factor * estimate.value, error: factor * estimate.error }
+}
+
+/// Analysed surfaces in plain text, with the constants of a contact where they are known.
 #[must_use]
-pub fn surface_text(files: &[SurfaceFile], analysis: &Analysis, modulus: Option<f64>) -> String {
+pub fn surface_text(files: &[SurfaceFile], analysis: &Analysis, contact: Option<SurfaceContact>) -> String {
     let mut sheet = Sheet::default();
     sheet.heading("Measured surface");
     for file in files {
@@ -78,7 +114,7 @@ pub fn surface_text(files: &[SurfaceFile], analysis: &Analysis, modulus: Option<
         }
     }
     sheet.heading("Equivalent line");
-    line(&mut sheet, &analysis.line, modulus);
+    line(&mut sheet, &analysis.line, contact);
     let [low, high] = analysis.isotropic.range();
     let wave = |q: f64| format_quantity(std::f64::consts::TAU / q, "m");
     let end = match analysis.end {
@@ -133,15 +169,15 @@ fn measured(sheet: &mut Sheet, analysis: &Analysis) {
     );
 }
 
-fn line(sheet: &mut Sheet, moments: &LineMoments, modulus: Option<f64>) {
+fn line(sheet: &mut Sheet, moments: &LineMoments, contact: Option<SurfaceContact>) {
     sheet.row("rms height h", with_error(moments.rms_height, "m"));
     sheet.row("rms gradient ⟨∇z⟩", with_error(moments.rms_gradient, "1"));
-    let energy = moments.energy_per_modulus;
-    match modulus {
-        None => sheet.row("e_el/E*", with_error(energy, "m")),
-        Some(modulus) => {
-            let energy = Estimate { value: modulus * energy.value, error: modulus * energy.error };
-            sheet.row("elastic energy e_el", with_error(energy, "J/m²"));
+    match contact {
+        None => sheet.row("e_el/E*", with_error(moments.energy_per_modulus, "m")),
+        Some(contact) => {
+            sheet.row("elastic energy e_el", with_error(contact.elastic_energy(moments), "J/m²"));
+            sheet.row_of("κ", contact.kappa(moments).map(|kappa| with_error(kappa, "1")));
+            sheet.row_of("e_el/γ", contact.energy_ratio(moments).map(|ratio| with_error(ratio, "1")));
         }
     }
 }
@@ -159,9 +195,9 @@ pub fn write_surface_json(
     out: &mut (impl Write + ?Sized),
     files: &[SurfaceFile],
     analysis: &Analysis,
-    modulus: Option<f64>,
+    contact: Option<SurfaceContact>,
 ) -> io::Result<()> {
-    write_json_value(out, &Report::new(files, analysis, modulus))
+    write_json_value(out, &Report::new(files, analysis, contact))
 }
 
 /// The object; its keys are in the order of these fields. SI units.
@@ -186,13 +222,10 @@ struct Report {
 }
 
 impl Report {
-    fn new(files: &[SurfaceFile], analysis: &Analysis, modulus: Option<f64>) -> Self {
+    fn new(files: &[SurfaceFile], analysis: &Analysis, contact: Option<SurfaceContact>) -> Self {
         let statistics = &analysis.statistics;
         let fit = analysis.power_law;
         let moments = &analysis.line;
-        let energy = moments.energy_per_modulus;
-        let energy =
-            modulus.map(|modulus| Estimate { value: modulus * energy.value, error: modulus * energy.error });
         let file = |file: &SurfaceFile| {
             json!({
                 "file": file.path.to_string_lossy(), "format": file.format, "points": &file.points[..file.axes()],
@@ -226,7 +259,9 @@ impl Report {
                 "rms_height": estimate(Some(moments.rms_height)),
                 "rms_gradient": estimate(Some(moments.rms_gradient)),
                 "energy_per_modulus": estimate(Some(moments.energy_per_modulus)),
-                "elastic_energy": estimate(energy),
+                "elastic_energy": estimate(contact.map(|contact| contact.elastic_energy(moments))),
+                "kappa": estimate(contact.and_then(|contact| contact.kappa(moments))),
+                "elastic_energy_ratio": estimate(contact.and_then(|contact| contact.energy_ratio(moments))),
             }),
             spectrum: nodes.collect(),
             profile_spectra: spectra.collect(),
@@ -240,22 +275,35 @@ fn estimate(estimate: Option<Estimate>) -> Value {
     estimate.map_or(Value::Null, |estimate| json!({"value": estimate.value, "error": estimate.error}))
 }
 
-/// Writes spectra as CSV: kind, wave number in rad/m, power in m³, waves averaged (empty for the equivalent line).
+/// Writes spectra as a table: kind, wave number in rad/m, power in m³, waves averaged (none for the equivalent line).
 ///
 /// # Errors
 /// Those of `out`.
-pub fn write_surface_csv(out: &mut (impl Write + ?Sized), analysis: &Analysis) -> io::Result<()> {
-    writeln!(out, "spectrum,wave_number,power,waves")?;
+pub fn write_surface_table(
+    out: &mut (impl Write + ?Sized),
+    format: TableFormat,
+    provenance: &Provenance,
+    analysis: &Analysis,
+) -> io::Result<()> {
+    let mut rows = Vec::new();
     for (direction, bins) in &analysis.spectra {
         for Bin { wave_number, power, waves } in bins {
-            writeln!(out, "{},{wave_number:?},{power:?},{waves}", direction.name())?;
+            let name = Cell::Word(direction.name());
+            rows.push([name, Cell::Real(*wave_number), Cell::Real(*power), Cell::Whole(*waves)]);
         }
     }
     let [low, high] = analysis.isotropic.range();
     let pieces = (LINE_PER_DECADE * (high / low).log10()).ceil().max(1.0) as i32;
     for piece in 0..=pieces {
         let wave_number = (low * (high / low).powf(f64::from(piece) / f64::from(pieces))).min(high);
-        writeln!(out, "equivalent line,{wave_number:?},{:?},", analysis.isotropic.line(wave_number))?;
+        let power = Cell::Real(analysis.isotropic.line(wave_number));
+        rows.push([Cell::Word("equivalent line"), Cell::Real(wave_number), power, Cell::Missing]);
     }
-    Ok(())
+    let columns = [
+        ("spectrum", Column::Word(LONGEST_NAME)),
+        ("wave_number", Column::Real),
+        ("power", Column::Real),
+        ("waves", Column::Real),
+    ];
+    write_table(out, format, provenance, columns, rows.len(), rows.into_iter())
 }

@@ -21,7 +21,7 @@ pub fn write_json_value(out: &mut (impl Write + ?Sized), value: &impl Serialize)
 #[derive(Default)]
 struct Lines {
     depth: usize,
-    /// Whether what was closed or opened last holds anything.
+    /// True if what was closed or opened last holds anything.
     filled: bool,
 }
 

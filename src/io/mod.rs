@@ -1,9 +1,13 @@
-//! Files: reading within limits, writing whole or not at all, and JSON text.
+//! Files: reading within limits, writing whole or not at all, JSON text and arrays of NumPy.
 
 mod json;
+pub(crate) mod npy;
 mod read;
 mod unfinished;
 mod write;
+
+/// First characters of CSV that begins with the scene behind it.
+pub(crate) const PROVENANCE: &str = "# asperity ";
 
 pub use json::write_json_value;
 pub(crate) use read::*;

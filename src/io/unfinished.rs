@@ -1,7 +1,7 @@
 //! A file that is being written, in the folder where it is to be, and without its name until it is whole.
 //!
-//! Where the system has files without any name (Linux, on most file systems), it is one: the system removes
-//! it with the process, however that ends. Elsewhere it has a temporary name, which tells its process.
+//! On systems that have files without a name (Linux, on most file systems) it is one: the system removes
+//! the file with the process, however that ends. Elsewhere it has a temporary name with the number of its process.
 
 use super::WriteError;
 use crate::disk::{Disk, DiskFile, folder_of};
@@ -123,7 +123,7 @@ fn owner(name: &str) -> Option<u32> {
     process.parse().ok()
 }
 
-/// What tells this machine, and this container on it, from others that use the same folder: a checksum of its
+/// Mark of this machine, and of this container on it, among others that use the same folder: a checksum of its
 /// name and of its numbering of processes.
 #[cfg(unix)]
 fn machine() -> String {

@@ -11,7 +11,7 @@ use thiserror::Error;
 /// Bytes gathered before they go to a file.
 const BUFFER: usize = 1 << 18;
 
-/// Why a file was not written.
+/// Reason for which a file was not written.
 #[derive(Debug, Error)]
 pub enum WriteError {
     /// There is a file of that name, and it was not asked to overwrite it.
@@ -51,7 +51,7 @@ pub enum WriteError {
     Failed {
         /// The file.
         path: PathBuf,
-        /// What the system says.
+        /// Error of the operating system.
         reason: io::Error,
     },
 }
@@ -60,7 +60,7 @@ pub enum WriteError {
 /// computation.
 ///
 /// # Errors
-/// What [`write_new`] would say.
+/// Error that [`write_new`] would return.
 pub fn check_writable(path: &Path, overwrite: bool) -> Result<(), WriteError> {
     match Target::of(path, overwrite)? {
         Target::Stream => Ok(()),
@@ -74,7 +74,7 @@ pub fn check_writable(path: &Path, overwrite: bool) -> Result<(), WriteError> {
 /// An existing file is replaced only when `overwrite` says so; what is no file that could be
 /// overwritten, a pipe or a device, is written to as it stands, which waits for a reader.
 ///
-/// Where the system can, the temporary file has no name until it is whole: what ends the process, at whatever
+/// On systems that allow it the temporary file has no name until it is whole: whatever ends the process, at any
 /// moment, leaves nothing behind. Elsewhere, and between naming and renaming, a file `.asperity-….tmp` can
 /// stay; the next that is made in the folder removes those of processes that are gone.
 ///
@@ -154,7 +154,7 @@ fn fill(
     buffered.flush()
 }
 
-/// What a name stands for.
+/// Kind of file behind a name.
 enum Target {
     /// A pipe or a device.
     Stream,

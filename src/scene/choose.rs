@@ -8,8 +8,17 @@ use super::range::choice_key;
 use super::roughness_parameter::RoughnessParameter;
 use super::switch::{Computed, by_parameter, by_work, pair};
 
-/// Significant digits of a converted κ or e_el/γ: those that survive the conversion to a work of adhesion and back.
+/// Significant digits that survive the conversion of adhesion from one of its ways to another and back.
 const DIGITS: usize = 14;
+/// Most significant digits of a value that somebody has typed.
+const TYPED_DIGITS: usize = 10;
+
+/// A converted value: the typed one that it was before, or all digits, so that converting back gives the typed one.
+fn converted_value(value: f64) -> f64 {
+    let rounded: f64 = format!("{value:.*e}", DIGITS - 1).parse().unwrap_or(value);
+    let typed: f64 = format!("{value:.*e}", TYPED_DIGITS - 1).parse().unwrap_or(value);
+    if typed == rounded { typed } else { value }
+}
 
 impl Document {
     /// This document with the next choice of a field in this direction that the scene allows; `None` where there is no
@@ -85,9 +94,8 @@ impl Document {
         }
         let adhesion = match parameter {
             Some(parameter) => {
-                let rounded = |value: f64| format!("{value:.*e}", DIGITS - 1).parse().unwrap_or(value);
-                let value = computed.parameter(parameter);
-                value.map(|value| by_parameter(self.scene(), parameter, rounded(value)))
+                let value = computed.parameter(parameter).map(converted_value);
+                value.map(|value| by_parameter(self.scene(), parameter, value))
             }
             None => computed.work_of_adhesion.map(|work| by_work(self.scene(), work)),
         };

@@ -18,6 +18,7 @@ pub(super) fn check_consistency(scene: &Scene, found: &mut Found) {
     check_form(scene, found);
     check_modes(scene, found);
     check_unit(scene, found);
+    check_measured(scene, found);
     check_closing_work(scene, found);
     check_amplitude(scene, found);
     check_loading(scene, found);
@@ -172,6 +173,22 @@ fn check_unit(scene: &Scene, found: &mut Found) {
             reason: "unit of the file".into(),
             involves: &[],
         });
+    }
+}
+
+/// A profile is one row or one column; two faces have a spectrum together and no profile.
+fn check_measured(scene: &Scene, found: &mut Found) {
+    let Some(Roughness::Measured { opposite, row, column, .. }) = &scene.roughness else { return };
+    if let (Some(_), Some(column)) = (row, column) {
+        let reason = "a profile is a row or a column: give one of them";
+        found.add(inconsistency("roughness.column", column.to_string(), reason, &["roughness.row"]));
+    }
+    if let Some(file) = opposite
+        && scene.measured_as_line()
+    {
+        let reason = "spectra of two faces add, their profiles do not: give as_line: false";
+        let involves: &[&str] = &["roughness.as_line", "version"];
+        found.add(inconsistency("roughness.opposite", ron_string(file), reason, involves));
     }
 }
 

@@ -11,6 +11,7 @@ use super::field::Field;
 use super::fields::{FIELDS, field};
 use super::model::{Roughness, Scene};
 use super::read::{Unread, read, wrong_version};
+use super::table_content::TableContent;
 use super::text::{Text, is_within};
 use super::undo::Edit;
 use super::write::to_ron;
@@ -27,6 +28,8 @@ pub struct Document {
     text: String,
     scene: Scene,
     overrides: Vec<(String, String)>,
+    /// Content of the table that the text comes from.
+    content: Option<TableContent>,
     /// Effects that edits have switched off, with the edits that bring each of them back when undone.
     switched_off: Vec<(Effect, Vec<Edit>)>,
 }
@@ -74,6 +77,7 @@ impl Document {
                 text,
                 scene,
                 overrides: Vec::new(),
+                content: None,
                 switched_off: Vec::new(),
             });
         }
@@ -255,6 +259,16 @@ impl Document {
     /// the opened text they give this document's scene.
     pub fn overrides(&self) -> &[(String, String)] {
         &self.overrides
+    }
+
+    /// The document of a scene that was read from a table of results.
+    pub(super) fn from_table(self, content: Option<TableContent>) -> Document {
+        Document { content, ..self }
+    }
+
+    /// Content of the table of results that the scene was read from; `None` for a scene of its own.
+    pub fn table_content(&self) -> Option<TableContent> {
+        self.content
     }
 
     /// Number of comments in the text; fewer after a change that replaces a value with a comment inside.

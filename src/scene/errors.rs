@@ -8,7 +8,7 @@ use crate::text::is_control;
 /// Values and names longer than this are shortened in messages.
 const MOST_SHOWN: usize = 80;
 
-/// Where an error comes from.
+/// Origin of an error.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Origin {
     /// A place in a scene file.
@@ -48,7 +48,7 @@ impl fmt::Display for Origin {
 /// One thing that is wrong with a scene.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SceneError {
-    /// Where it comes from.
+    /// Origin.
     pub origin: Origin,
     /// Path of the field; empty where no field is meant.
     pub field: String,
@@ -56,7 +56,7 @@ pub struct SceneError {
     pub value: String,
     /// Allowed values; empty where `message` says it all.
     pub allowed: String,
-    /// Why it is wrong, or the name of the field.
+    /// Reason, or the name of the field.
     pub message: String,
 }
 

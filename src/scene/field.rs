@@ -30,7 +30,7 @@ pub struct Field {
     pub(super) access: Access,
 }
 
-/// How a key steps a field.
+/// Step of a field by a key.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Step {
     /// By adding; the result is a multiple of `fine`.

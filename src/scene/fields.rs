@@ -326,6 +326,60 @@ pub const FIELDS: &[Field] = &[
         ..TEXT
     },
     Field {
+        path: "roughness.opposite",
+        variant: Some("Measured"),
+        name: "measured surface of the opposite face",
+        range: Range::Text { least: 1, most: 4096, lines: false },
+        default: "None",
+        meaning: "file of the opposite face, relative to the scene file: the spectra of both faces add; default: smooth",
+        access: at!(roughness, Some(Roughness::Measured { opposite, .. }) => opposite),
+        ..TEXT
+    },
+    Field {
+        path: "roughness.row",
+        variant: Some("Measured"),
+        name: "row of the map",
+        range: Range::whole(1, 1 << 28),
+        step: Step::Integer { fine: 1, coarse: 100 },
+        default: "None",
+        meaning: "row of a map that is the measured profile, from 1 on; default: the whole map",
+        access: at!(roughness, Some(Roughness::Measured { row, .. }) => row),
+        ..NUMBER
+    },
+    Field {
+        path: "roughness.column",
+        variant: Some("Measured"),
+        name: "column of the map",
+        range: Range::whole(1, 1 << 28),
+        step: Step::Integer { fine: 1, coarse: 100 },
+        default: "None",
+        meaning: "column of a map that is the measured profile, in place of a row",
+        access: at!(roughness, Some(Roughness::Measured { column, .. }) => column),
+        ..NUMBER
+    },
+    Field {
+        path: "roughness.detrend",
+        variant: Some("Measured"),
+        name: "detrending",
+        range: Range::Choice(&["Nothing", "Mean", "Tilt", "Curvature"]),
+        step: Step::Choice,
+        default: "None",
+        meaning: "part that is removed of the measured heights by least squares; default: Tilt, and Nothing of a profile as line",
+        access: at!(roughness, Some(Roughness::Measured { detrend, .. }) => detrend),
+        ..TEXT
+    },
+    Field {
+        path: "roughness.periodic",
+        variant: Some("Measured"),
+        name: "periodic surface",
+        range: Range::Choice(&["false", "true"]),
+        step: Step::Choice,
+        default: "false",
+        meaning: "true: the measured surface repeats itself at its borders, and its spectrum is estimated without a window",
+        access: at!(roughness, Some(Roughness::Measured { periodic, .. }) => periodic),
+        ..TEXT
+    },
+    Field {
         path: "roughness.unit",
         variant: Some("Measured"),
         name: "unit of the file",
@@ -412,6 +466,18 @@ pub const FIELDS: &[Field] = &[
         default: "None",
         meaning: "elastic energy that pressing the bodies flat takes, over the work of adhesion: adhesion is strong for small e_el/γ",
         access: at!(adhesion?.elastic_energy_ratio),
+        ..NUMBER
+    },
+    Field {
+        path: "adhesion.range",
+        name: "range of attraction",
+        symbol: "z₀",
+        unit: "m",
+        range: Range::closed(1e-12, 1e-3),
+        step: Step::Logarithmic,
+        default: "None",
+        meaning: "range of the attraction, for the Tabor number alone; default: 0.3 nm",
+        access: at!(adhesion?.range),
         ..NUMBER
     },
     Field {

@@ -1,4 +1,4 @@
-//! Where scenes are found: in the program, in a folder of one's own, and in the working folder.
+//! Places of scenes: the program, the user's own folder, and the working folder.
 
 use std::fs;
 use std::io;
@@ -32,10 +32,10 @@ pub fn typed_path(text: &str) -> PathBuf {
     }
 }
 
-/// Where a scene comes from.
+/// Origin of a scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Source {
-    /// It comes with the program.
+    /// Built into the program.
     BuiltIn,
     /// The user's own folder of scenes.
     Own,
@@ -49,7 +49,7 @@ pub struct Entry {
     /// Its name: of a built-in scene, of an own one without `.ron`, of a file in the working folder
     /// with it.
     pub name: String,
-    /// Where it comes from.
+    /// Origin.
     pub origin: Source,
     /// Its file; `None` for what comes with the program.
     pub path: Option<PathBuf>,
@@ -59,7 +59,7 @@ pub struct Entry {
     pub notice: String,
     /// Its text; empty where it cannot be read.
     pub text: String,
-    /// Why it is no scene, on one line.
+    /// Reason for which the file is no scene, on one line.
     pub error: Option<String>,
 }
 

@@ -2,6 +2,7 @@
 //!
 //! These types hold values as written; [`super::check()`] finds those that are not allowed.
 
+use crate::spectrum::Detrend;
 use serde::{Deserialize, Serialize};
 
 /// Versions of the scene file that are read. In the first one a measured profile is the line itself unless
@@ -36,7 +37,7 @@ pub struct Scene {
     /// Loading history, one leg after the other, from separation.
     #[serde(default = "default_loading")]
     pub loading: Vec<Leg>,
-    /// How finely the scene is computed.
+    /// Resolution and solver.
     #[serde(default)]
     pub numerics: Numerics,
     /// Quantities observed beside the force curve.
@@ -124,6 +125,21 @@ pub enum Roughness {
         /// [`Scene::measured_as_line`].
         #[serde(default, skip_serializing_if = "Option::is_none")]
         as_line: Option<bool>,
+        /// File of the opposite face, relative to the scene file; the spectra of both faces add.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        opposite: Option<String>,
+        /// Row of a map that is the profile, from 1 on.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        row: Option<u64>,
+        /// Column of a map that is the profile, from 1 on.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        column: Option<u64>,
+        /// Part that is removed of the heights; `None`: the tilt for an equivalent line, nothing for `as_line`.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        detrend: Option<Detrend>,
+        /// Whether the surface repeats itself at its borders: then its spectrum is estimated without a window.
+        #[serde(default, skip_serializing_if = "is_false")]
+        periodic: bool,
         /// Unit of lengths where the file states none; empty: none is known, and m for `as_line`.
         #[serde(default, skip_serializing_if = "String::is_empty")]
         unit: String,
@@ -141,6 +157,10 @@ fn default_seed() -> u64 {
     1
 }
 
+fn is_false(value: &bool) -> bool {
+    !value
+}
+
 fn is_default_seed(seed: &u64) -> bool {
     *seed == default_seed()
 }
@@ -152,6 +172,11 @@ impl Roughness {
         Roughness::Measured {
             file,
             as_line: None,
+            opposite: None,
+            row: None,
+            column: None,
+            detrend: None,
+            periodic: false,
             unit: String::new(),
             continue_to: None,
             seed: default_seed(),
@@ -164,6 +189,25 @@ impl Scene {
     pub fn measured_as_line(&self) -> bool {
         let Some(Roughness::Measured { as_line, .. }) = &self.roughness else { return false };
         as_line.unwrap_or(self.version < 2)
+    }
+
+    /// Files of the measured surfaces, relative to the scene file.
+    pub fn measured_files(&self) -> Vec<&str> {
+        match &self.roughness {
+            Some(Roughness::Measured { file, opposite, .. }) => {
+                std::iter::once(file.as_str()).chain(opposite.as_deref()).collect()
+            }
+            _ => Vec::new(),
+        }
+    }
+
+    /// Gives the files of the measured surfaces other names.
+    pub fn rename_measured_files(&mut self, rename: impl Fn(&str) -> String) {
+        if let Some(Roughness::Measured { file, opposite, .. }) = &mut self.roughness {
+            for name in std::iter::once(file).chain(opposite) {
+                *name = rename(name);
+            }
+        }
     }
 
     /// Seed of the random phases; `None` where the line has none.
@@ -201,6 +245,9 @@ pub struct Adhesion {
     /// Elastic energy of conformity over the work of adhesion, e_el/γ.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub elastic_energy_ratio: Option<f64>,
+    /// Range z₀ of the attraction, m, for the Tabor number alone; left out: 0.3 nm.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub range: Option<f64>,
 }
 
 /// One leg of the loading history.
@@ -218,7 +265,7 @@ pub enum Leg {
     ToSeparation,
 }
 
-/// How finely the scene is computed.
+/// Resolution and solver.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(from = "NumericsText")]
 pub struct Numerics {
@@ -226,7 +273,7 @@ pub struct Numerics {
     pub points: u64,
     /// Exact loop or stepwise relaxation.
     pub solver: Solver,
-    /// How the edges of a fragment are counted.
+    /// Edge model of a fragment.
     pub edges: Edges,
     /// Curve samples on each leg.
     pub samples: u64,
@@ -260,7 +307,7 @@ impl From<NumericsText> for Numerics {
     }
 }
 
-/// How equilibrium is found.
+/// Solver of equilibrium.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub enum Solver {
@@ -283,7 +330,7 @@ impl Solver {
     }
 }
 
-/// How the edges of a contact fragment are counted.
+/// Edge model of a contact fragment.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Edges {
     /// The paper's rule: a fragment of n springs is n Δx long.

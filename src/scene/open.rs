@@ -8,12 +8,14 @@ use super::document::{Document, LONGEST_TEXT};
 use super::errors::{Origin, SceneError, SceneErrors};
 use super::library::{Library, printable};
 use super::presets::{find, presets};
+use super::provenance::{Source, SourceError};
 use super::suggest::nearest;
-use crate::io::{ReadError, into_text, read_limited, read_regular_text};
+use crate::io::{ReadError, read_regular_text};
 
 /// Opens a scene: a file, where one of that name exists or the name looks like one (it ends in
 /// `.ron` or has a path separator), else a built-in scene, else one of the user's own scenes, see
-/// [`Library::own_folder`]. Only regular files are read: a pipe, a terminal or a device would be waited for.
+/// [`Library::own_folder`]. Only regular files are read: a pipe, a terminal or a device would be waited for. A table of
+/// results, CSV or `.npy`, opens as the scene it was computed from.
 ///
 /// # Errors
 ///
@@ -73,11 +75,20 @@ pub fn open_argument(argument: &str) -> Result<Document, SceneErrors> {
 }
 
 fn open_stream(stream: impl Read, name: &str) -> Result<Document, SceneErrors> {
-    Document::parse(&read_stream(stream).map_err(|message| whole(name, message))?, name)
+    open_source(Source::of_stream(stream), name)
 }
 
 fn open_file(path: &Path, name: &str) -> Result<Document, SceneErrors> {
-    Document::parse(&read_file(path).map_err(|message| whole(name, message))?, name)
+    open_source(Source::of_file(path), name)
+}
+
+fn open_source(source: Result<Source, SourceError>, name: &str) -> Result<Document, SceneErrors> {
+    let refused = |error| match error {
+        SourceError::Unread(error) => whole(name, describe(error)),
+        SourceError::NoProvenance(message) => whole(name, message.to_owned()),
+    };
+    let Source { text, content } = source.map_err(refused)?;
+    Ok(Document::parse(&text, name)?.from_table(content))
 }
 
 fn whole(name: &str, message: String) -> SceneErrors {
@@ -87,11 +98,6 @@ fn whole(name: &str, message: String) -> SceneErrors {
 /// Text of a regular file, of which no more than a scene can be long is read.
 pub(crate) fn read_file(path: &Path) -> Result<String, String> {
     read_regular_text(path, LONGEST_TEXT).map_err(describe)
-}
-
-/// Text that a stream gives up to its end, of which no more than a scene can be long is read.
-fn read_stream(stream: impl Read) -> Result<String, String> {
-    read_limited(stream, LONGEST_TEXT).and_then(into_text).map_err(describe)
 }
 
 fn describe(error: ReadError) -> String {

@@ -100,7 +100,7 @@ fn different_legs(mine: &[Leg], theirs: &[Leg]) -> Option<Overrides> {
     (mine.len() == theirs.len()).then(|| pairs().filter_map(different).collect())
 }
 
-/// How long overrides are to type.
+/// Characters of overrides on a command line.
 fn length(overrides: &[(String, String)]) -> usize {
     overrides.iter().map(|(path, value)| " --set =".len() + path.len() + value.len()).sum()
 }

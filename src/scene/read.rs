@@ -12,7 +12,7 @@ use super::text::{Text, offset_of};
 /// Longer values than this are not repeated in messages.
 const MOST_REPEATED: usize = 60;
 
-/// Why text is no scene: at which byte, which field is meant, and what is wrong with it.
+/// Reason for which text is no scene: byte, field and fault.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Unread {
     pub(super) offset: usize,
@@ -47,7 +47,7 @@ pub(super) fn wrong_version(text: &str) -> Option<Unread> {
     Some(Unread { offset, field, value, allowed, message })
 }
 
-/// Where and why text that is no scene, but written like one, cannot be read.
+/// Place and reason of the error in text that has the form of a scene.
 pub(crate) fn describe_error(text: &str, error: &ron::error::SpannedError) -> (usize, String) {
     let message = match &error.code {
         ron::Error::NoSuchEnumVariant { expected, found, .. } => {

@@ -1,4 +1,4 @@
-//! How a key steps a field: from the text of one value to the text of the next.
+//! Steps of a field by a key: from the text of one value to the text of the next.
 
 use super::field::{Field, Step};
 use super::fields::fields_inside;

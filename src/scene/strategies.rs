@@ -14,10 +14,10 @@ const MOST_ELEMENTS: usize = 6;
 /// Most characters of a text that is drawn.
 const MOST_CHARACTERS: usize = 40;
 
-/// How many values of ten are ends of their range, or drawn over all its orders of magnitude.
+/// Values of ten that are ends of their range, or drawn over all its orders of magnitude.
 const EXTREME: [u32; 3] = [1, 5, 10];
 
-/// Which values are drawn.
+/// Options of the draws.
 #[derive(Clone, Default)]
 pub struct Drawn {
     /// Fields whose values are drawn otherwise, by path: because a whole range takes too long to compute.

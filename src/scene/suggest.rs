@@ -30,7 +30,7 @@ fn near_enough(name: &str, candidate: &str) -> Option<usize> {
     (far <= (name.chars().count() / 3).max(1)).then_some(far)
 }
 
-/// How many insertions, deletions, exchanges and swaps of neighbours lead from one to the other.
+/// Fewest insertions, deletions, exchanges and swaps of neighbours from one text to the other.
 fn distance(one: &str, other: &str) -> usize {
     let one: Vec<char> = one.to_lowercase().chars().collect();
     let other: Vec<char> = other.to_lowercase().chars().collect();

@@ -1,6 +1,7 @@
 //! Values of a scene's fields, read and written one by one.
 
 use super::model::{Adhesion, Edges, Form, Leg, Material, Numerics, Observer, Roughness, Scene, Solver};
+use crate::spectrum::Detrend;
 
 /// Value of a field.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -120,19 +121,63 @@ impl Part for Option<f64> {
     }
 }
 
-impl Part for Option<bool> {
+impl Part for Option<u64> {
     fn get(&self) -> Value<'_> {
-        self.map_or(Value::None, |value| Value::Choice(if value { "true" } else { "false" }))
+        self.as_ref().map_or(Value::None, Part::get)
     }
 
     fn set(&mut self, value: Value<'_>) -> bool {
-        *self = match value {
-            Value::None => None,
-            Value::Choice("true") => Some(true),
-            Value::Choice("false") => Some(false),
+        match value {
+            Value::None => *self = None,
+            Value::Whole(value) => *self = Some(value),
             _ => return false,
-        };
+        }
         true
+    }
+}
+
+impl Part for Option<String> {
+    fn get(&self) -> Value<'_> {
+        self.as_ref().map_or(Value::None, Part::get)
+    }
+
+    fn set(&mut self, value: Value<'_>) -> bool {
+        match value {
+            Value::None => *self = None,
+            Value::Text(text) => *self = Some(text.to_owned()),
+            _ => return false,
+        }
+        true
+    }
+}
+
+impl Part for bool {
+    fn get(&self) -> Value<'_> {
+        Value::Choice(if *self { "true" } else { "false" })
+    }
+
+    fn set(&mut self, value: Value<'_>) -> bool {
+        match value {
+            Value::Choice("true") => *self = true,
+            Value::Choice("false") => *self = false,
+            _ => return false,
+        }
+        true
+    }
+}
+
+impl Part for Option<bool> {
+    fn get(&self) -> Value<'_> {
+        self.as_ref().map_or(Value::None, Part::get)
+    }
+
+    fn set(&mut self, value: Value<'_>) -> bool {
+        let mut some = false;
+        let is_some = some.set(value);
+        if is_some || value == Value::None {
+            *self = is_some.then_some(some);
+        }
+        is_some || value == Value::None
     }
 }
 
@@ -189,6 +234,17 @@ impl Choice for Roughness {
         match self {
             Roughness::SelfAffine { .. } => "SelfAffine",
             Roughness::Measured { .. } => "Measured",
+        }
+    }
+}
+
+impl Choice for Detrend {
+    fn variant(&self) -> &'static str {
+        match self {
+            Detrend::None => "Nothing",
+            Detrend::Mean => "Mean",
+            Detrend::Tilt => "Tilt",
+            Detrend::Curvature => "Curvature",
         }
     }
 }

@@ -11,7 +11,7 @@ use crate::surface::Line;
 use std::mem::take;
 use std::time::Instant;
 
-/// What the contact of one run depends on.
+/// Parameters of the contact of one run.
 pub(super) struct ContactStage<'a> {
     pub line: &'a Line,
     pub tree: Option<&'a ContactTree>,
@@ -24,7 +24,7 @@ pub(super) struct ContactStage<'a> {
 /// Memory that one run leaves to the next.
 pub(super) type ContactMemory = AdhesiveMemory;
 
-/// What a run gives.
+/// Result of the contact stage.
 pub(super) struct Contacted {
     pub history: History,
     /// Seconds spent on curves and extremes.

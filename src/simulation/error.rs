@@ -1,13 +1,13 @@
-//! Why a scene could not be computed.
+//! Reasons for which a scene could not be computed.
 
 use crate::contact::ContactError;
 use crate::surface::SurfaceError;
 use thiserror::Error;
 
-/// Why a checked scene could not be computed.
+/// Reason for which a checked scene could not be computed.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum RunError {
-    /// What the scene takes does not fit into memory.
+    /// The scene does not fit into memory.
     #[error(
         "not enough memory: this scene takes about {} MiB; fewer numerics.points and numerics.samples take less",
         bytes.div_ceil(1 << 20)
@@ -19,13 +19,21 @@ pub enum RunError {
     /// The line could not be made.
     #[error(transparent)]
     Surface(#[from] SurfaceError),
+    /// Reversals under the stepwise solver.
+    #[error("numerics.solver = Stepwise: reversals need the exact solver; allowed: numerics.solver = Exact")]
+    NeedsExactSolver,
+    /// Turning points of a loading that does not press.
+    #[error(
+        "loading: no indentation above 0 m at the preload; allowed: a stage that presses the bodies together"
+    )]
+    NeverPressed,
     /// The contact could not be computed.
     #[error(transparent)]
     Contact(#[from] ContactError),
 }
 
 impl RunError {
-    /// Whether the computation was told to stop, rather than failed.
+    /// Returns true if the computation was stopped rather than failed.
     #[must_use]
     pub fn is_interruption(&self) -> bool {
         *self == RunError::Contact(ContactError::Interrupted)

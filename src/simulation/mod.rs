@@ -4,10 +4,12 @@ mod contact_stage;
 mod error;
 mod outcome;
 mod plan;
+mod reversals;
 mod stages;
 
 pub use error::RunError;
 pub use outcome::{LineFacts, Outcome, Timings};
 pub use plan::{Plan, PlannedStage, Stage, StageCost};
+pub use reversals::{SeeReversal, TURNING_POINTS, TurningPoints};
 pub use stages::measured_options;
 pub use stages::{AfterLeg, Simulation};

@@ -1,4 +1,4 @@
-//! What a computed scene gives.
+//! Outcome of a computed scene.
 
 use crate::analysis::{Figures, Governing, Regime};
 use crate::contact::History;
@@ -18,6 +18,8 @@ pub struct Outcome {
     pub smooth_adhesion_force: Option<f64>,
     /// Adhesion force F_a(0) by the touch protocol, N; `None` without adhesion or a leg back.
     pub zero_load_adhesion_force: Option<f64>,
+    /// Tabor number μ; `None` without adhesion or radius of curvature.
+    pub tabor_number: Option<f64>,
     /// Regime of Fig. 4; `None` where nothing is pulled.
     pub regime: Option<Regime>,
     /// Headline figures of the loading history.
@@ -28,11 +30,11 @@ pub struct Outcome {
     pub fragments: Vec<Vec<(usize, usize)>>,
     /// Histogram of the line's heights, where it is observed.
     pub histogram: Option<Histogram>,
-    /// How long each stage took.
+    /// Times of the stages.
     pub timings: Timings,
 }
 
-/// What is known of a line beside its heights.
+/// Facts about a line beside its heights.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LineFacts {
     /// Springs N of the foundation.
@@ -55,7 +57,7 @@ pub struct LineFacts {
     pub continuum_rms_gradient: Option<f64>,
 }
 
-/// How long each stage took, s; zero for a stage that did not run.
+/// Times of the stages, s; zero for a stage that did not run.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Timings {
     /// Making the line.

@@ -2,8 +2,8 @@
 
 use super::contact_stage::{ContactMemory, ContactStage};
 use super::{LineFacts, Outcome, Plan, RunError, Stage, Timings};
-use crate::analysis::{Figures, Governing, Regime, ideal_adhesion_force};
-use crate::contact::{ContactError, ContactTree, LegRecord, Solver};
+use crate::analysis::{Figures, Governing, Regime, ideal_adhesion_force, tabor_number};
+use crate::contact::{ContactError, ContactTree, Foundation, HessRule, LegRecord, Solver};
 use crate::memory::check_room;
 use crate::parallel::in_parallel;
 use crate::reference::smooth_adhesion_force;
@@ -12,6 +12,7 @@ use crate::surface::{
     Amplitude, EquivalentLine, Histogram, Line, MeasuredOptions, MeasuredProfile, MeasuredRoughness,
     SelfAffine, SurfaceError, Synthesizer, WaveNumbers,
 };
+use crate::topography::Cut;
 use std::mem::take;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -37,19 +38,19 @@ const SMALL: u64 = 32 << 20;
 #[derive(Default)]
 pub struct Simulation {
     folder: PathBuf,
-    /// Whether only one line is synthesized.
+    /// True if only one line is synthesized.
     single: bool,
     /// A measured surface in place of the files that scenes name.
     measured: Option<Arc<MeasuredRoughness>>,
     /// The equivalent line of the file read last: it is small, and serves all seeds.
-    equivalent: Option<(PathBuf, MeasuredOptions, EquivalentLine)>,
+    equivalent: Option<(Vec<PathBuf>, MeasuredOptions, EquivalentLine)>,
     synthesizer: Synthesizer,
     roughness: Option<(RoughnessKey, Rough)>,
     line: Option<(LineKey, Line)>,
     /// That of the line's heights, once it has been observed.
     histogram: Option<Histogram>,
     tree: Option<Arc<ContactTree>>,
-    /// Whether the tree is that of the line, rather than of one before.
+    /// True if the tree is that of the line, rather than of one before.
     tree_is_current: bool,
     memory: ContactMemory,
     kept: Kept,
@@ -62,7 +63,7 @@ struct Kept {
     bytes: u64,
 }
 
-/// What the heights of the roughness depend on.
+/// Parameters of the heights of the roughness.
 #[derive(Clone, PartialEq)]
 enum RoughnessKey {
     SelfAffine {
@@ -73,7 +74,7 @@ enum RoughnessKey {
     },
     /// The seed is that of an equivalent line.
     Measured {
-        file: PathBuf,
+        files: Vec<PathBuf>,
         options: MeasuredOptions,
         seed: Option<u64>,
         length: f64,
@@ -94,7 +95,7 @@ struct Rough {
     modes: Option<(u64, u64)>,
 }
 
-/// What the line depends on.
+/// Parameters of the line.
 #[derive(Clone, PartialEq)]
 struct LineKey {
     roughness: Option<RoughnessKey>,
@@ -102,6 +103,15 @@ struct LineKey {
     length: f64,
     points: usize,
     form: Option<Form>,
+}
+
+/// Profile, tree and rule of a scene, before its contact is solved.
+pub(super) struct Prepared<'a> {
+    pub line: &'a Line,
+    pub tree: Option<&'a ContactTree>,
+    pub foundation: Foundation,
+    pub hess: Option<HessRule>,
+    pub memory: &'a mut ContactMemory,
 }
 
 /// Called after each leg with its index, its record and the solver as it then stands; an error stops
@@ -210,8 +220,8 @@ impl Simulation {
             return Some(RoughnessKey::SelfAffine { spectrum, seed, points, shift });
         }
         match &scene.roughness {
-            Some(Roughness::Measured { file, .. }) => Some(RoughnessKey::Measured {
-                file: self.folder.join(Path::new(file)),
+            Some(Roughness::Measured { .. }) => Some(RoughnessKey::Measured {
+                files: scene.measured_files().into_iter().map(|file| self.folder.join(file)).collect(),
                 options: measured_options(scene),
                 seed: scene.seed(),
                 length: scene.length,
@@ -265,6 +275,25 @@ impl Simulation {
     fn give_back(&mut self) {
         let (single, measured) = (self.single, self.measured.take());
         *self = Simulation { single, measured, ..Simulation::new(take(&mut self.folder)) };
+    }
+
+    /// Makes profile and tree of a checked scene for a contact by this plan.
+    pub(super) fn prepare(
+        &mut self,
+        plan: &Plan,
+        scene: &Scene,
+        stop: &dyn Fn() -> bool,
+    ) -> Result<Prepared<'_>, RunError> {
+        let interrupted = || if stop() { Err(ContactError::Interrupted) } else { Ok(()) };
+        self.make_room(plan, scene.numerics.points as usize)?;
+        let (_, _, governing) = self.make_line(scene)?;
+        interrupted()?;
+        self.look_at_line(plan, scene.numerics.edges)?;
+        interrupted()?;
+        let Some((_, line)) = &self.line else { return Err(ContactError::Interrupted.into()) };
+        let foundation = governing.foundation(line);
+        let hess = governing.hess_rule(foundation).filter(|_| plan.runs(Stage::RuleOfHess));
+        Ok(Prepared { line, tree: self.tree.as_deref(), foundation, hess, memory: &mut self.memory })
     }
 
     /// Runs a checked scene by its plan. `stop` is asked now and then whether to give up; `after` sees
@@ -338,6 +367,7 @@ impl Simulation {
             ideal_adhesion_force: work.map(|work| ideal_adhesion_force(work, modulus, scene.length)),
             smooth_adhesion_force: smooth,
             zero_load_adhesion_force,
+            tabor_number: tabor_number(scene, &governing),
             regime,
             figures,
             history,
@@ -366,15 +396,25 @@ fn build_tree(
     before.and_then(Arc::into_inner).unwrap_or_default().rebuild(gaps, edges)
 }
 
+/// File of the first face, which errors about all of them name.
+fn first(files: &[PathBuf]) -> &Path {
+    files.first().map_or(Path::new(""), PathBuf::as_path)
+}
+
 /// Choices of a checked scene for its measured surface.
 #[must_use]
 pub fn measured_options(scene: &Scene) -> MeasuredOptions {
     match &scene.roughness {
-        Some(Roughness::Measured { unit, continue_to, .. }) => MeasuredOptions {
-            as_line: scene.measured_as_line(),
-            unit: unit.parse().ok(),
-            continue_to: *continue_to,
-        },
+        Some(Roughness::Measured { unit, row, column, detrend, periodic, continue_to, .. }) => {
+            MeasuredOptions {
+                as_line: scene.measured_as_line(),
+                unit: unit.parse().ok(),
+                cut: row.map(Cut::Row).or(column.map(Cut::Column)),
+                detrend: *detrend,
+                periodic: *periodic,
+                continue_to: *continue_to,
+            }
+        }
         _ => MeasuredOptions::default(),
     }
 }
@@ -393,10 +433,11 @@ impl Simulation {
                     modes: Some((spectrum.first, spectrum.last)),
                 })
             }
-            RoughnessKey::Measured { file, options, seed: Some(seed), length, points, shift } => {
-                let line = self.equivalent_line(file, options)?;
-                let modes =
-                    line.modes(*length, *points).map_err(|reason| SurfaceError::measured(file, &reason))?;
+            RoughnessKey::Measured { files, options, seed: Some(seed), length, points, shift } => {
+                let line = self.equivalent_line(files, options)?;
+                let modes = line
+                    .modes(*length, *points)
+                    .map_err(|reason| SurfaceError::measured(first(files), &reason))?;
                 let amplitude = |mode: u64| line.amplitude(mode, *length);
                 let heights =
                     self.synthesizer.synthesize_waves(&amplitude, modes, *seed, *points, *shift, memory)?;
@@ -404,40 +445,40 @@ impl Simulation {
                 let random_phases = modes.1 + 1 - modes.0;
                 Ok(Rough { heights, random_phases, wave_numbers: None, measured, modes: Some(modes) })
             }
-            RoughnessKey::Measured { file, options, seed: None, length, points, shift } => {
+            RoughnessKey::Measured { files, options, seed: None, length, points, shift } => {
                 let read;
                 let profile = match self.measured.as_deref() {
                     Some(MeasuredRoughness::Profile(known)) => known,
                     _ => {
-                        read = MeasuredProfile::read_observed(file, options.unit, &mut |_| ())?;
+                        read = MeasuredProfile::read_observed(first(files), options, &mut |_| ())?;
                         &read
                     }
                 };
                 let heights = profile
                     .sample(*length, *points, *shift)
-                    .map_err(|reason| SurfaceError::measured(file, &reason))?;
+                    .map_err(|reason| SurfaceError::measured(first(files), &reason))?;
                 let measured = Some(profile.amplitude()?);
                 Ok(Rough { heights, random_phases: 0, wave_numbers: None, measured, modes: None })
             }
         }
     }
 
-    /// The equivalent line of a file: the one that is known, the one read last, or a new one.
+    /// The equivalent line of files: the one that is known, the one read last, or a new one.
     fn equivalent_line(
         &mut self,
-        file: &Path,
+        files: &[PathBuf],
         options: &MeasuredOptions,
     ) -> Result<EquivalentLine, SurfaceError> {
         if let Some(MeasuredRoughness::Equivalent(known)) = self.measured.as_deref() {
             return Ok(known.clone());
         }
         if let Some((kept, of, line)) = &self.equivalent
-            && (kept.as_path(), of) == (file, options)
+            && (kept.as_slice(), of) == (files, options)
         {
             return Ok(line.clone());
         }
-        let line = EquivalentLine::read(file, options, &mut |_| ())?;
-        self.equivalent = Some((file.to_path_buf(), *options, line.clone()));
+        let line = EquivalentLine::read(files, options, &mut |_| ())?;
+        self.equivalent = Some((files.to_vec(), *options, line.clone()));
         Ok(line)
     }
 }

@@ -20,7 +20,7 @@ const MANY_PROFILES: u64 = 100;
 pub struct Options {
     /// Part that is removed before.
     pub detrend: Detrend,
-    /// Whether the surface repeats itself at its borders: then without a window.
+    /// True if the surface repeats itself at its borders: then without a window.
     pub periodic: bool,
     /// End of the spectrum.
     pub end: End,
@@ -28,7 +28,7 @@ pub struct Options {
     pub tip_radius: Option<f64>,
 }
 
-/// What measured surfaces are and become.
+/// Statistics, spectra and equivalent line of measured surfaces.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Analysis {
     /// Statistics of the points.
@@ -135,7 +135,7 @@ fn check_points(surface: &Topography, index: usize) -> Result<(), SpectrumError>
     if points < LEAST_POINTS { Err(SpectrumError::TooFew { index, points }) } else { Ok(()) }
 }
 
-/// What is left after detrending is more than the rounding of the heights before.
+/// Checks that the heights after detrending exceed the rounding of those before.
 fn check_rough(before: &[f64], after: &[f64]) -> Result<(), SpectrumError> {
     let largest = |heights: &[f64]| heights.iter().fold(0.0_f64, |largest, z| largest.max(z.abs()));
     let left = largest(after);

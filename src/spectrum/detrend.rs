@@ -1,11 +1,13 @@
 //! Removal of offset, tilt and curvature by least squares.
 
 use super::linear::Cholesky;
+use serde::{Deserialize, Serialize};
 
 /// Part of a surface that is removed before analysis.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Detrend {
-    /// None.
+    /// None; in scenes `Nothing`, since `None` leaves a field out.
+    #[serde(rename = "Nothing")]
     None,
     /// Mean height.
     Mean,

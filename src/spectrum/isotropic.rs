@@ -10,12 +10,25 @@ const GAUSS: [(f64, f64); 3] = [
     (0.932_469_514_203_152, 0.171_324_492_379_170_36),
 ];
 
+/// Pieces of the integral over u in [`cut`] for each unit.
+const CUT_PIECES: f64 = 8.0;
+
 /// Points and weights of the rule on a piece.
 pub(super) fn gauss(low: f64, high: f64) -> impl Iterator<Item = (f64, f64)> {
     let (middle, half) = (0.5 * (low + high), 0.5 * (high - low));
     GAUSS
         .into_iter()
         .flat_map(move |(place, weight)| [-place, place].map(|place| (middle + half * place, half * weight)))
+}
+
+/// C_cut(k) = (1/π) ∫ C2D(√(k² + t²)) dt, m³, of a spectrum up to a wave number, rad/m: with t = k sinh u.
+pub(super) fn cut(c2d: impl Fn(f64) -> f64, wave_number: f64, end: f64) -> f64 {
+    let last = (end / wave_number).max(1.0).acosh();
+    let pieces = (CUT_PIECES * last).ceil();
+    let bound = |piece: u32| last * f64::from(piece) / pieces;
+    let places = (0..pieces as u32).flat_map(|piece| gauss(bound(piece), bound(piece + 1)));
+    let terms = places.map(|(u, weight)| weight * c2d(wave_number * u.cosh()) * u.cosh());
+    terms.sum::<f64>() * wave_number / PI
 }
 
 /// End of a spectrum beyond the last resolved wave.
@@ -44,6 +57,8 @@ pub struct LineMoments {
     pub rms_height: Estimate,
     /// Rms gradient ⟨∇z⟩.
     pub rms_gradient: Estimate,
+    /// Product h⟨∇z⟩, m, to which κ² is proportional. Its error is not that of independent factors.
+    pub height_gradient: Estimate,
     /// Elastic energy of full contact over the effective modulus, e_el/E*, m.
     pub energy_per_modulus: Estimate,
 }
@@ -57,6 +72,7 @@ impl LineMoments {
         LineMoments {
             rms_height: self.rms_height,
             rms_gradient: divided(self.rms_gradient, SQRT_2),
+            height_gradient: divided(self.height_gradient, SQRT_2),
             energy_per_modulus: divided(self.energy_per_modulus, FRAC_PI_2),
         }
     }
@@ -143,6 +159,18 @@ impl IsotropicSpectrum {
         0.5 * wave_number * self.c2d(wave_number)
     }
 
+    /// PSD of a cut through the surface, m³, at a wave number, rad/m.
+    #[must_use]
+    pub fn cut(&self, wave_number: f64) -> f64 {
+        cut(|q| self.c2d(q), wave_number, self.nodes.end)
+    }
+
+    /// Last node, rad/m: the last resolved wave number.
+    #[must_use]
+    pub fn last_node(&self) -> f64 {
+        self.nodes.wave_number(self.nodes.count - 1)
+    }
+
     /// First and last wave number, rad/m.
     #[must_use]
     pub fn range(&self) -> [f64; 2] {
@@ -193,9 +221,16 @@ impl IsotropicSpectrum {
             }
         };
         let two_pi = 0.5 / PI;
+        let (rms_height, rms_gradient) = (estimate(1, two_pi, true), estimate(3, two_pi, true));
+        let (height, gradient) = (self.moment(1), self.moment(3));
+        let both = height.1.iter().zip(&gradient.1);
+        let logarithm: Vec<f64> = both.map(|(a, b)| 0.5 * (a / height.0 + b / gradient.0)).collect();
+        let product = rms_height.value * rms_gradient.value;
+        let error = product * self.information.variance(&logarithm).sqrt();
         LineMoments {
-            rms_height: estimate(1, two_pi, true),
-            rms_gradient: estimate(3, two_pi, true),
+            rms_height,
+            rms_gradient,
+            height_gradient: Estimate { value: product, error },
             energy_per_modulus: estimate(2, 0.25 * two_pi, false),
         }
     }
@@ -227,6 +262,22 @@ pub(super) mod tests {
     }
 
     #[test]
+    fn cuts_of_a_power_law_are_known() {
+        // (1/π) ∫ (k cosh u)⁻³ k cosh u du = tanh(u)/(πk²).
+        for wave_number in [1.0_f64, 30.0, 90.0, 100.0] {
+            let last = (100.0 / wave_number).acosh();
+            let expected = last.tanh() / (PI * wave_number.powi(2));
+            let found = cut(|q| q.powi(-3), wave_number, 100.0);
+            assert!((found - expected).abs() <= 1e-9 * expected, "{wave_number}: {found} {expected}");
+        }
+        let spectrum = known(Nodes::new(1.0, 100.0, 6.0, End::Ends), |q| q.powi(-3));
+        let (found, expected) = (spectrum.cut(2.0), (50.0_f64).acosh().tanh() / (4.0 * PI));
+        assert!((found / expected - 1.0).abs() < 1e-6, "{found} {expected}");
+        assert_eq!(spectrum.cut(200.0), 0.0);
+        assert!((spectrum.last_node() / 100.0 - 1.0).abs() < 1e-12);
+    }
+
+    #[test]
     fn moments_of_a_power_law_are_those_of_its_integrals() {
         // C2D = q⁻³ from 1 on, level below.
         let spectrum = known(Nodes::new(1.0, 100.0, 6.0, End::Ends), |q| q.powi(-3));
@@ -236,6 +287,13 @@ pub(super) mod tests {
         assert!((moments.rms_height.value / expected - 1.0).abs() < 1e-8, "{moments:?}");
         let expected = ((15.0 / 64.0 + 99.0) / (2.0 * PI)).sqrt();
         assert!((moments.rms_gradient.value / expected - 1.0).abs() < 1e-8);
+        // The error of a product is at most the sum of those of its factors, and at least their difference.
+        let relative = |estimate: Estimate| estimate.error / estimate.value;
+        let (height, gradient) = (relative(moments.rms_height), relative(moments.rms_gradient));
+        let product = relative(moments.height_gradient);
+        assert!(product <= height + gradient && product >= (height - gradient).abs(), "{moments:?}");
+        let values = moments.rms_height.value * moments.rms_gradient.value;
+        assert_eq!(moments.height_gradient.value, values);
         let expected = (7.0 / 24.0 + 100.0_f64.ln()) / (8.0 * PI);
         assert!((moments.energy_per_modulus.value / expected - 1.0).abs() < 1e-8);
         assert_eq!((spectrum.c2d(200.0), spectrum.c2d(0.1)), (0.0, 1.0));

@@ -91,6 +91,20 @@ impl ProfilePower {
     }
 }
 
+/// Spectrum of the heights (m) of a line in bins: C1D, m³. A line that does not repeat itself is windowed.
+///
+/// # Errors
+/// [`SpectrumError::Transform`].
+pub fn line_spectrum(heights: &[f64], spacing: f64, windowed: bool) -> Result<Vec<Bin>, SpectrumError> {
+    let mut power = ProfilePower::new(heights.len(), spacing, windowed);
+    // The mean of windowed heights would leak into the first waves.
+    let mean = heights.iter().sum::<f64>() / heights.len() as f64;
+    power.add(std::iter::once(heights.iter().map(|height| height - mean)))?;
+    let waves =
+        power.power.iter().enumerate().map(|(index, value)| ((index + 1) as f64 * power.step(), *value, 1));
+    Ok(bins(waves))
+}
+
 /// Power of the waves of a map.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct MapPower {

@@ -1,7 +1,7 @@
 //! Self-affine fit: C2D level below a roll-off wave number, ∝ q^(−2−2H) above.
 
 use super::fit::Model;
-use super::isotropic::Estimate;
+use super::isotropic::{Estimate, cut};
 use super::linear::Cholesky;
 
 /// Least gain of the log-likelihood at which a roll-off counts as found: for one more parameter, chance exceeds this once
@@ -27,6 +27,16 @@ pub struct PowerLaw {
     pub roll_off: Option<Estimate>,
     /// C2D at the roll-off, or at the first wave number without one, m⁴.
     pub level: Estimate,
+}
+
+impl PowerLaw {
+    /// PSD of a cut, m³, at a wave number, for a spectrum over a range of wave numbers, rad/m.
+    #[must_use]
+    pub fn cut(&self, wave_number: f64, [first, last]: [f64; 2]) -> f64 {
+        let corner = self.roll_off.map_or(first, |roll_off| roll_off.value);
+        let (level, exponent) = (self.level.value, -2.0 - 2.0 * self.hurst.value);
+        cut(|q| level * (q / corner).max(1.0).powf(exponent), wave_number, last)
+    }
 }
 
 /// Parameters: ln C2D of the level, H, ln q of the roll-off.

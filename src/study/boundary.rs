@@ -8,7 +8,7 @@
 
 use super::axis::Axis;
 use super::finished::Finished;
-use super::map::governing;
+use super::governing::governing;
 use super::plan::{Plan, targets};
 use super::quantity::Quantity;
 use super::target::Target;
@@ -91,7 +91,7 @@ pub const DEFINITIONS: [(&str, f64); 3] = [
 /// Finds the boundaries of a merged study along its axis `kappa` or `elastic_energy_ratio`, in terms of either.
 ///
 /// # Errors
-/// Where the study has no such axis, records no share of F_a(0), or as [`Finished::open`]; for a study of a measured
+/// A study without such an axis or without a recorded share of F_a(0), or as [`Finished::open`]; for a study of a measured
 /// surface along the other axis.
 pub fn boundaries(path: &Path, over: RoughnessParameter, levels: &[f64]) -> Result<Boundaries, StudyError> {
     let finished = Finished::open(path)?;
@@ -158,7 +158,7 @@ fn conversion(
     Some(move |value| if from == to { value } else { convert(value) })
 }
 
-/// How far the boundaries of one protocol and share lie apart.
+/// Spread of the boundaries of one protocol and share.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BoundarySpread {
     /// The share that is recorded: which protocol.

@@ -36,7 +36,7 @@ pub(super) struct Cells {
 /// Runs on one line.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Unit {
-    /// Which line, counted from 0.
+    /// Index of the line, from 0.
     pub line: u64,
     group: u64,
     steps: Range<u64>,

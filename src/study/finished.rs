@@ -38,7 +38,7 @@ impl Finished {
     /// Reads the summary of a merged study.
     ///
     /// # Errors
-    /// Where the folder is none of a study, or its tables have not been published or were changed.
+    /// A folder of no study, or tables that are not published or were changed.
     pub fn open(path: &Path) -> Result<Finished, StudyError> {
         let plan = Folder::open(path)?.plan().clone();
         let mut cells: Vec<Option<CellSummary>> = vec![None; plan.cells() as usize];

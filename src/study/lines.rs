@@ -31,6 +31,8 @@ pub struct LineResult {
     pub preload_indentation: Option<f64>,
     /// Energy lost, J.
     pub dissipated_energy: Option<f64>,
+    /// Tabor number μ.
+    pub tabor_number: Option<f64>,
     /// Largest length in contact over the length of the line.
     pub contact_fraction: f64,
     /// Regime of Fig. 4.
@@ -58,10 +60,11 @@ pub enum LinesError {
 }
 
 /// Quantities of a profile, read by [`LineResult::new`].
-const RECORD: [Quantity; 7] = [
+const RECORD: [Quantity; 8] = [
     Quantity::AdhesionForce,
     Quantity::PreloadIndentation,
     Quantity::DissipatedEnergy,
+    Quantity::TaborNumber,
     Quantity::ContactFraction,
     Quantity::Regime,
     Quantity::Skewness,
@@ -149,6 +152,7 @@ impl LineResult {
             adhesion_force: value(Quantity::AdhesionForce),
             preload_indentation: value(Quantity::PreloadIndentation),
             dissipated_energy: value(Quantity::DissipatedEnergy),
+            tabor_number: value(Quantity::TaborNumber),
             contact_fraction: value(Quantity::ContactFraction).unwrap_or(0.0),
             regime: value(Quantity::Regime).and_then(|place| Regime::ALL.get(place as usize).copied()),
             heights: shape.map(|(skewness, excess_kurtosis)| HeightShape { skewness, excess_kurtosis }),

@@ -6,7 +6,7 @@
 
 use super::StudyError;
 use super::plan::{PLAN_FILE, Plan};
-use crate::scene::{Roughness, Scene};
+use crate::scene::Scene;
 use crate::simulation::measured_options;
 use crate::surface::MeasuredRoughness;
 use crate::text::path_name;
@@ -19,21 +19,18 @@ pub(super) fn is_hash(text: &str) -> bool {
     text.len() == 64 && text.bytes().all(|byte| matches!(byte, b'0'..=b'9' | b'a'..=b'f'))
 }
 
-/// The measured file of a plan, where its scene has one.
+/// The measured file of a plan, that of the first face, where its scene has one.
 pub(super) fn file_of(plan: &Plan) -> Option<PathBuf> {
-    match &plan.scene.roughness {
-        Some(Roughness::Measured { file, .. }) => Some(PathBuf::from(file)),
-        _ => None,
-    }
+    plan.scene.measured_files().first().map(PathBuf::from)
 }
 
 /// The plan with the hash of its measured file as the file is now.
 ///
 /// # Errors
-/// Where the file cannot be read, or the plan asks for another hash.
+/// A file that cannot be read, or that has another hash than the plan states.
 pub(super) fn with_hash(plan: &Plan) -> Result<Plan, StudyError> {
     let Some(file) = file_of(plan) else { return Ok(plan.clone()) };
-    let (_, found) = read(&file, &plan.scene)?;
+    let (_, found) = read(&plan.scene)?;
     expect(plan, &file, &found, || "the plan".into())?;
     Ok(Plan { measured_sha256: Some(found), ..plan.clone() })
 }
@@ -41,10 +38,10 @@ pub(super) fn with_hash(plan: &Plan) -> Result<Plan, StudyError> {
 /// The measured profile of a study in a folder, where it has one.
 ///
 /// # Errors
-/// Where the file cannot be read, is no profile, or is not the one the plan has the hash of.
+/// A file that cannot be read, is no profile, or has another hash than the plan states.
 pub(super) fn profile(plan: &Plan, folder: &Path) -> Result<Option<Arc<MeasuredRoughness>>, StudyError> {
     let Some(file) = file_of(plan) else { return Ok(None) };
-    let (profile, found) = read(&file, &plan.scene)?;
+    let (profile, found) = read(&plan.scene)?;
     expect(plan, &file, &found, || path_name(&folder.join(PLAN_FILE)))?;
     Ok(Some(Arc::new(profile)))
 }
@@ -61,16 +58,19 @@ fn expect(plan: &Plan, file: &Path, found: &str, origin: impl Fn() -> String) ->
     }
 }
 
-/// A profile, and the hash of the bytes it was read from.
-fn read(file: &Path, scene: &Scene) -> Result<(MeasuredRoughness, String), StudyError> {
+/// A surface, and the hash of the bytes it was read from; of two faces one file behind the other.
+fn read(scene: &Scene) -> Result<(MeasuredRoughness, String), StudyError> {
     let mut hasher = Sha256::new();
-    let profile = MeasuredRoughness::read(file, &measured_options(scene), &mut |bytes| hasher.update(bytes))?;
+    let profile = MeasuredRoughness::read(&scene.measured_files(), &measured_options(scene), &mut |bytes| {
+        hasher.update(bytes);
+    })?;
     Ok((profile, hasher.finalize().iter().map(|byte| format!("{byte:02x}")).collect()))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::scene::Roughness;
 
     #[test]
     fn hashes_are_those_of_sha256sum() {
@@ -80,8 +80,8 @@ mod tests {
         std::fs::write(&file, "\u{feff}# heights\r\n0 0\n1e-6 1e-9").unwrap();
         let known = "3301e005145807de31f1e613c0705281eacbe8fc66deec574eba4d53402a7e71";
         let scene = crate::scene::open("rough-sphere").unwrap().scene().clone();
-        let scene = Scene { roughness: Some(Roughness::measured("line.csv")), ..scene };
-        assert_eq!(read(&file, &scene).unwrap().1, known);
+        let scene = Scene { roughness: Some(Roughness::measured(file.to_str().unwrap())), ..scene };
+        assert_eq!(read(&scene).unwrap().1, known);
         assert!(is_hash(known));
         for wrong in [&known[1..], &known.to_uppercase(), &format!("{known}0"), "", &"x".repeat(64)] {
             assert!(!is_hash(wrong), "{wrong}");

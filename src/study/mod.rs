@@ -41,6 +41,7 @@ mod error;
 pub mod figure;
 mod figure_axis;
 mod finished;
+mod governing;
 mod height_shape;
 mod lines;
 pub mod map;
@@ -53,6 +54,7 @@ mod parquet;
 mod plan;
 mod plan_check;
 mod plan_text;
+mod preloads;
 mod publish;
 mod quantity;
 mod record;
@@ -84,6 +86,9 @@ pub use parquet::write_parquet;
 pub use plan::{Plan, StiffnessRange};
 pub use plan_check::{MOST_CELLS, MOST_LINES, MOST_RECORDS};
 pub use plan_text::{Changes, PLAN_VERSION, PlanErrors};
+pub use preloads::{
+    PRELOADS, Preloaded, Preloads, preload_statistics, solve_preloads, solve_preloads_on_lines,
+};
 pub use quantity::Quantity;
 pub use record::Key;
 pub(crate) use recorder::Records;

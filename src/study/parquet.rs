@@ -30,7 +30,7 @@ const PLAN: &str = "asperity.plan";
 /// Publishes `results.parquet` from the results of a merged study, whole or not at all.
 ///
 /// # Errors
-/// Where the study has not been merged, or the file cannot be written.
+/// A study that is not merged, or a file that cannot be written.
 pub fn write_parquet(folder: &Folder) -> Result<(), StudyError> {
     let mut unreadable = None;
     // In the folder of the tables it belongs to, which it goes with.

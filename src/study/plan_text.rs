@@ -5,8 +5,8 @@ use super::builtin;
 use super::plan::{Plan, StiffnessRange};
 use super::quantity::Quantity;
 use crate::scene::{
-    Document, LONGEST_TEXT, Roughness, Scene, SceneErrors, describe_error, line_column, nearest, open,
-    read_file, ron_float, ron_string, to_ron,
+    Document, LONGEST_TEXT, Scene, SceneErrors, describe_error, line_column, nearest, open, read_file,
+    ron_float, ron_string, to_ron,
 };
 use ron::extensions::Extensions;
 use serde::Deserialize;
@@ -217,9 +217,9 @@ fn resolved_scene(read: &PlanText, name: &str, set: &[(String, String)]) -> Resu
         .collect();
     let document = document.set_all(&set).map_err(in_scene)?;
     let mut scene = document.scene().clone();
-    if let Some(Roughness::Measured { file, .. }) = &mut scene.roughness {
+    scene.rename_measured_files(|file| {
         let path = document.resolve(file);
-        *file = std::path::absolute(&path).unwrap_or(path).display().to_string();
-    }
+        std::path::absolute(&path).unwrap_or(path).display().to_string()
+    });
     Ok(scene)
 }

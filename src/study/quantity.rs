@@ -129,6 +129,10 @@ quantities! {
         name: "dissipated_energy", meaning: "energy lost over the loop",
         symbol: "ΔW", unit: "J", of: |case| case.figures.dissipated_energy,
     }
+    TaborNumber {
+        name: "tabor_number", meaning: "Tabor number; energies are too large below 5",
+        symbol: "μ", of: |case| case.run?.tabor_number,
+    }
     ContactFraction {
         name: "contact_fraction", meaning: "largest length in contact over the length",
         of: |case| case.contact_fraction(),

@@ -90,7 +90,7 @@ pub enum SlurmError {
     /// A job was refused.
     #[error("sbatch refuses {job}: {reason}")]
     Refused {
-        /// Which of the two.
+        /// Job of the two.
         job: &'static str,
         /// Message of sbatch.
         reason: String,

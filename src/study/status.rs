@@ -29,7 +29,7 @@ pub struct Status {
 /// Progress of one part.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ShardStatus {
-    /// Which part: `3/8`.
+    /// Part, as `3/8`.
     pub shard: String,
     /// Records there are to be in it.
     pub total: u64,
@@ -62,7 +62,7 @@ impl Status {
     /// Of what stands in the folder now.
     ///
     /// # Errors
-    /// Where it cannot be read.
+    /// A folder that cannot be read.
     pub fn of(folder: &Folder) -> Result<Status, StudyError> {
         let plan = folder.plan();
         let mut damaged = 0;

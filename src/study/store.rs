@@ -93,8 +93,8 @@ impl Folder {
     /// Makes the folder of a plan, or opens it where it has the same plan already.
     ///
     /// # Errors
-    /// Where the folder has another plan, the measured file of the plan has changed or cannot be read, or the
-    /// folder cannot be written.
+    /// A folder with another plan, a measured file that has changed or cannot be read, or a
+    /// folder that cannot be written.
     pub fn create(path: &Path, plan: &Plan) -> Result<Folder, StudyError> {
         Folder::create_on(SystemDisk::shared(), path, plan)
     }
@@ -141,7 +141,7 @@ impl Folder {
     /// Opens the folder of a study.
     ///
     /// # Errors
-    /// Where there is none, or its plan cannot be read.
+    /// No study, or a plan that cannot be read.
     pub fn open(path: &Path) -> Result<Folder, StudyError> {
         Folder::open_on(SystemDisk::shared(), path)
     }
@@ -214,7 +214,7 @@ impl Folder {
     /// All shard files, by name.
     ///
     /// # Errors
-    /// Where they cannot be read, or are of another plan, another measured file or another version.
+    /// Files that cannot be read, or are of another plan, another measured file or another version.
     pub fn files(&self) -> Result<Vec<ShardFile>, StudyError> {
         let shards = self.path.join(SHARDS);
         let mut paths = match self.disk.list(&shards) {
@@ -316,7 +316,7 @@ impl Folder {
         }
     }
 
-    /// Which line has a seed.
+    /// Index of the line with a seed.
     pub(super) fn line_of(&self, seed: u64) -> Option<u64> {
         let line = seed.wrapping_sub(self.plan.seed);
         (line < self.plan.lines).then_some(line)

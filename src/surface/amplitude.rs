@@ -1,4 +1,4 @@
-//! Amplitude of a line: root mean square height and gradient, and its mean wave number.
+//! Amplitude of a line: root mean square height, gradient and curvature, and its mean wave number.
 
 use std::f64::consts::TAU;
 
@@ -9,13 +9,19 @@ pub struct WaveNumbers {
     pub rms: f64,
     /// Mean Σ q_k A_k²/Σ A_k², rad/m.
     pub mean: f64,
+    /// Root mean square √(Σ q_k⁴A_k²/Σ A_k²) of the squares, rad²/m²: rms curvature over rms height.
+    pub rms_square: f64,
 }
 
 impl WaveNumbers {
     /// Wave numbers of the same modes on a length of so many times this one.
     #[must_use]
     pub fn stretched(self, times: f64) -> Self {
-        WaveNumbers { rms: self.rms / times, mean: self.mean / times }
+        WaveNumbers {
+            rms: self.rms / times,
+            mean: self.mean / times,
+            rms_square: self.rms_square / times.powi(2),
+        }
     }
 }
 
@@ -26,6 +32,8 @@ pub struct Amplitude {
     pub rms_height: f64,
     /// Root mean square gradient ⟨∇z⟩.
     pub rms_gradient: f64,
+    /// Root mean square curvature, 1/m.
+    pub rms_curvature: f64,
     /// Mean wave number Σ q_k A_k²/Σ A_k², rad/m; 0 of a flat line.
     pub mean_wave_number: f64,
 }
@@ -34,22 +42,33 @@ impl Amplitude {
     /// Amplitude of a line of this rms height, m.
     #[must_use]
     pub fn from_height(rms_height: f64, wave_numbers: WaveNumbers) -> Self {
-        let WaveNumbers { rms, mean } = wave_numbers;
-        Amplitude { rms_height, rms_gradient: rms_height * rms, mean_wave_number: mean }
+        let WaveNumbers { rms, mean, rms_square } = wave_numbers;
+        Amplitude {
+            rms_height,
+            rms_gradient: rms_height * rms,
+            rms_curvature: rms_height * rms_square,
+            mean_wave_number: mean,
+        }
     }
 
     /// Amplitude of the modes k with these mean squares A_k²/2, m², on a length (m); the smallest first keep most digits.
     #[must_use]
     pub fn from_modes(squares: impl Iterator<Item = (u64, f64)>, length: f64) -> Self {
-        let (mut height, mut slope, mut gradient) = (0.0, 0.0, 0.0);
+        let (mut height, mut slope, mut gradient, mut curvature) = (0.0, 0.0, 0.0, 0.0);
         for (mode, square) in squares {
             let wave_number = TAU * mode as f64 / length;
             height += square;
             slope += square * wave_number;
             gradient += square * wave_number.powi(2);
+            curvature += square * wave_number.powi(4);
         }
         let mean_wave_number = if height > 0.0 { slope / height } else { 0.0 };
-        Amplitude { rms_height: height.sqrt(), rms_gradient: gradient.sqrt(), mean_wave_number }
+        Amplitude {
+            rms_height: height.sqrt(),
+            rms_gradient: gradient.sqrt(),
+            rms_curvature: curvature.sqrt(),
+            mean_wave_number,
+        }
     }
 
     /// Elastic energy of conformity per area, J/m²: e_el = (E*/8) Σ q_k A_k², the energy of a half-space of effective

@@ -2,8 +2,8 @@
 
 use super::SurfaceError;
 use super::{Amplitude, MeasuredProfile};
-use crate::spectrum::{End, IsotropicSpectrum, Options, SpectrumError, analyse};
-use crate::topography::{ReadOptions, Topography, Unit, read_observed};
+use crate::spectrum::{Analysis, Detrend, End, IsotropicSpectrum, Options, SpectrumError, analyse};
+use crate::topography::{Cut, ReadOptions, Topography, TopographyError, Unit, read_observed};
 use std::f64::consts::TAU;
 use std::path::Path;
 
@@ -17,8 +17,49 @@ pub struct MeasuredOptions {
     pub as_line: bool,
     /// Unit of lengths where the file states none.
     pub unit: Option<Unit>,
+    /// Row or column of a map that is the profile.
+    pub cut: Option<Cut>,
+    /// Part that is removed; `None`: the tilt for an equivalent line, nothing of a profile as the line.
+    pub detrend: Option<Detrend>,
+    /// Whether the surface repeats itself at its borders: then its spectrum is estimated without a window.
+    pub periodic: bool,
     /// Shortest wavelength, m, down to which the spectrum continues as a power law.
     pub continue_to: Option<f64>,
+}
+
+impl MeasuredOptions {
+    /// Reads and analyses a surface. Lengths of a profile that is the line itself are in m where no unit is stated.
+    ///
+    /// # Errors
+    /// [`SurfaceError::Measured`] when the file cannot be read, is no surface, or has no spectrum.
+    pub fn analyse(&self, path: &Path) -> Result<Analysis, SurfaceError> {
+        let convention = self.as_line.then_some(Unit::METRE);
+        let surface =
+            self.read(path, convention, &mut |_| ()).map_err(|error| SurfaceError::measured(path, &error))?;
+        self.analysis(surface).map_err(|error| SurfaceError::measured(path, &error))
+    }
+
+    fn analysis(&self, surface: Topography) -> Result<Analysis, SpectrumError> {
+        let end = self.continue_to.map_or(End::Ends, |wavelength| End::Continues(TAU / wavelength));
+        let (detrend, periodic) = (self.detrend.unwrap_or_default(), self.periodic);
+        analyse(&[surface], &Options { detrend, periodic, end, tip_radius: None })
+    }
+
+    /// Reads a surface, with all bytes of the file shown to `seen`. Lengths are in the unit of `convention` where neither
+    /// the file nor the options state one.
+    pub(super) fn read(
+        &self,
+        path: &Path,
+        convention: Option<Unit>,
+        seen: &mut dyn FnMut(&[u8]),
+    ) -> Result<Topography, TopographyError> {
+        let reading = ReadOptions { unit: self.unit, convention, ..ReadOptions::default() };
+        let surface = read_observed(path, &reading, seen)?;
+        match self.cut {
+            Some(cut) => surface.cut(cut),
+            None => Ok(surface),
+        }
+    }
 }
 
 /// A measured surface as the roughness of a line.
@@ -31,19 +72,20 @@ pub enum MeasuredRoughness {
 }
 
 impl MeasuredRoughness {
-    /// Reads a measured surface, with all bytes of the file shown to `seen`.
+    /// Reads the measured surface of a face, or those of both faces, with all bytes of the files shown to `seen`.
     ///
     /// # Errors
-    /// [`SurfaceError::Measured`] when the file cannot be read, is no surface, or has no spectrum.
+    /// [`SurfaceError::Measured`] when a file cannot be read, is no surface, or has no spectrum.
     pub fn read(
-        path: &Path,
+        files: &[impl AsRef<Path>],
         options: &MeasuredOptions,
         seen: &mut dyn FnMut(&[u8]),
     ) -> Result<Self, SurfaceError> {
-        Ok(if options.as_line {
-            MeasuredRoughness::Profile(MeasuredProfile::read_observed(path, options.unit, seen)?)
-        } else {
-            MeasuredRoughness::Equivalent(EquivalentLine::read(path, options, seen)?)
+        Ok(match files {
+            [file] if options.as_line => {
+                MeasuredRoughness::Profile(MeasuredProfile::read_observed(file.as_ref(), options, seen)?)
+            }
+            _ => MeasuredRoughness::Equivalent(EquivalentLine::read(files, options, seen)?),
         })
     }
 
@@ -59,38 +101,57 @@ impl MeasuredRoughness {
     }
 }
 
-/// Equivalent line of a measured surface.
+/// Equivalent line of the measured surfaces of one or both faces: the spectra of the faces add.
 #[derive(Clone, Debug, PartialEq)]
 pub struct EquivalentLine {
-    spectrum: IsotropicSpectrum,
+    faces: Vec<IsotropicSpectrum>,
 }
 
 impl EquivalentLine {
-    /// Line of a surface, tilt removed, whose spectrum ends at the last resolved wave or continues down to a wavelength,
-    /// m.
+    /// Line of the surface of one face.
     ///
     /// # Errors
     /// The reason for which the surface has no spectrum.
-    pub fn new(surface: Topography, continue_to: Option<f64>) -> Result<Self, SpectrumError> {
-        let end = continue_to.map_or(End::Ends, |wavelength| End::Continues(TAU / wavelength));
-        let analysis = analyse(&[surface], &Options { end, ..Options::default() })?;
-        Ok(EquivalentLine { spectrum: analysis.isotropic })
+    pub fn new(surface: Topography, options: &MeasuredOptions) -> Result<Self, SpectrumError> {
+        Ok(EquivalentLine { faces: vec![options.analysis(surface)?.isotropic] })
     }
 
-    /// Reads a surface for its equivalent line, with all bytes of the file shown to `seen`.
+    /// Line of both faces, whose roughnesses are independent of each other.
+    #[must_use]
+    pub fn with_opposite(mut self, other: EquivalentLine) -> Self {
+        self.faces.extend(other.faces);
+        self
+    }
+
+    /// Reads the surfaces of all faces for their equivalent line, with all bytes of the files shown to `seen`.
     ///
     /// # Errors
-    /// [`SurfaceError::Measured`] when the file cannot be read, is no surface, or has no spectrum.
+    /// [`SurfaceError::Measured`] when there is no file, or one cannot be read, is no surface, or has no spectrum.
     pub fn read(
-        path: &Path,
+        files: &[impl AsRef<Path>],
         options: &MeasuredOptions,
         seen: &mut dyn FnMut(&[u8]),
     ) -> Result<Self, SurfaceError> {
-        let reading = ReadOptions { unit: options.unit, ..ReadOptions::default() };
-        let surface =
-            read_observed(path, &reading, seen).map_err(|error| SurfaceError::measured(path, &error))?;
-        EquivalentLine::new(surface, options.continue_to)
-            .map_err(|error| SurfaceError::measured(path, &error))
+        let face = |path: &Path, seen: &mut dyn FnMut(&[u8])| {
+            let surface =
+                options.read(path, None, seen).map_err(|error| SurfaceError::measured(path, &error))?;
+            EquivalentLine::new(surface, options).map_err(|error| SurfaceError::measured(path, &error))
+        };
+        let mut line: Option<EquivalentLine> = None;
+        for file in files {
+            let other = face(file.as_ref(), seen)?;
+            line = Some(match line {
+                Some(line) => line.with_opposite(other),
+                None => other,
+            });
+        }
+        line.ok_or_else(|| SurfaceError::measured(Path::new(""), "no file; allowed: one for each face"))
+    }
+
+    /// First and last wave number, rad/m, that are known of all faces. Each spectrum ends where it does.
+    fn range(&self) -> [f64; 2] {
+        let ranges = self.faces.iter().map(IsotropicSpectrum::range);
+        ranges.fold([0.0, 0.0], |[first, last], [low, high]| [first.max(low), last.max(high)])
     }
 
     /// First and last mode k, q = 2πk/L, of a line of a length (m) on so many springs: the waves of the spectrum that the
@@ -99,7 +160,7 @@ impl EquivalentLine {
     /// # Errors
     /// When there is none.
     pub fn modes(&self, length: f64, points: usize) -> Result<(u64, u64), String> {
-        let [low, high] = self.spectrum.range();
+        let [low, high] = self.range();
         let waves = length / TAU;
         let first = (low * waves * (1.0 - ROUNDING)).ceil().max(1.0);
         let last = (high * waves * (1.0 + ROUNDING)).floor().min((points / 2) as f64);
@@ -117,9 +178,13 @@ impl EquivalentLine {
     /// Amplitude A_k, m, of a mode of a line of a length (m): A_k² = 4 C_line(q_k)/L.
     #[must_use]
     pub fn amplitude(&self, mode: u64, length: f64) -> f64 {
-        // The last wave may be beyond the end by rounding alone.
-        let wave_number = (TAU * mode as f64 / length).min(self.spectrum.range()[1]);
-        2.0 * (self.spectrum.line(wave_number) / length).sqrt()
+        let wave_number = TAU * mode as f64 / length;
+        let power = |face: &IsotropicSpectrum| {
+            // A wave may be beyond the end by rounding alone.
+            let end = face.range()[1];
+            face.line(if wave_number <= end * (1.0 + ROUNDING) { wave_number.min(end) } else { wave_number })
+        };
+        2.0 * (self.faces.iter().map(power).sum::<f64>() / length).sqrt()
     }
 
     /// Amplitude of the modes from a first to a last one on a length (m).
@@ -146,20 +211,44 @@ mod tests {
 
     #[test]
     fn the_line_has_the_waves_that_scan_and_springs_resolve() {
-        let line = EquivalentLine::new(surface(), None).unwrap();
+        let line = EquivalentLine::new(surface(), &MeasuredOptions::default()).unwrap();
         let scan = 256e-6;
         assert_eq!(line.modes(scan, 1024).unwrap(), (1, 127));
         assert_eq!(line.modes(scan, 64).unwrap(), (1, 32));
         assert_eq!(line.modes(4.0 * scan, 4096).unwrap().0, 4);
         assert!(line.modes(scan, 1).unwrap_err().contains("allowed: at least 2 springs"));
         assert!(line.modes(1e-6, 64).unwrap_err().contains("no wave of the spectrum"));
-        let longer = EquivalentLine::new(surface(), Some(0.5e-6)).unwrap();
+        let further = MeasuredOptions { continue_to: Some(0.5e-6), ..MeasuredOptions::default() };
+        let longer = EquivalentLine::new(surface(), &further).unwrap();
         assert_eq!(longer.modes(scan, 1024).unwrap(), (1, 512));
     }
 
     #[test]
+    fn spectra_of_two_faces_add() {
+        let further = MeasuredOptions { continue_to: Some(0.5e-6), ..MeasuredOptions::default() };
+        let one = EquivalentLine::new(surface(), &MeasuredOptions::default()).unwrap();
+        let other = EquivalentLine::new(surface(), &further).unwrap();
+        let both = one.clone().with_opposite(other.clone());
+        let length = 256e-6;
+        assert_eq!(both.modes(length, 4096).unwrap(), (1, 512));
+        for mode in [1, 50, 127, 128, 400, 512] {
+            let [a, b, sum] = [&one, &other, &both].map(|line| line.amplitude(mode, length).powi(2));
+            assert!((sum - a - b).abs() <= 1e-12 * sum && sum > 0.0, "{mode}: {a} {b} {sum}");
+            assert_eq!(a == 0.0, mode > 127, "{mode}");
+        }
+        // Twice the same face has √2 times its height and gradient.
+        let twice = one.clone().with_opposite(one.clone());
+        let modes = one.modes(length, 4096).unwrap();
+        let [before, after] = [&one, &twice].map(|line| line.amplitude_of_modes(length, modes));
+        assert!((after.rms_height / before.rms_height - std::f64::consts::SQRT_2).abs() < 1e-12);
+        assert!((after.rms_gradient / before.rms_gradient - std::f64::consts::SQRT_2).abs() < 1e-12);
+        let none: [&Path; 0] = [];
+        assert!(EquivalentLine::read(&none, &further, &mut |_| ()).is_err());
+    }
+
+    #[test]
     fn the_line_has_the_moments_of_its_spectrum() {
-        let line = EquivalentLine::new(surface(), None).unwrap();
+        let line = EquivalentLine::new(surface(), &MeasuredOptions::default()).unwrap();
         let analysis = analyse(&[surface()], &Options::default()).unwrap();
         let length = 256e-6;
         let modes = line.modes(length, 4096).unwrap();

@@ -1,8 +1,9 @@
 //! Measured profiles that are used as the line themselves.
 
-use super::{Amplitude, SurfaceError};
+use super::{Amplitude, MeasuredOptions, SurfaceError};
 use crate::memory::check_room;
-use crate::topography::{ReadOptions, Topography, TopographyError, UNEVEN, Unit, parse, read_observed};
+use crate::spectrum::Detrend;
+use crate::topography::{ReadOptions, Topography, TopographyError, UNEVEN, Unit, parse};
 use realfft::RealFftPlanner;
 use std::path::Path;
 
@@ -27,20 +28,26 @@ impl MeasuredProfile {
     /// # Errors
     /// [`SurfaceError::Measured`] when the file cannot be read or is no profile.
     pub fn read(path: &Path) -> Result<Self, SurfaceError> {
-        Self::read_observed(path, None, &mut |_| ())
+        Self::read_observed(path, &MeasuredOptions::default(), &mut |_| ())
     }
 
-    /// Reads a profile with lengths in a unit where the file states none (`None`: m), with all bytes of the file shown to
-    /// `seen`.
+    /// Reads a profile, or a row or column of a map, with all bytes of the file shown to `seen`. Without a unit lengths are
+    /// in m. What is removed of the heights is removed of points at even distances.
     ///
     /// # Errors
     /// As [`Self::read`].
     pub fn read_observed(
         path: &Path,
-        unit: Option<Unit>,
+        options: &MeasuredOptions,
         seen: &mut dyn FnMut(&[u8]),
     ) -> Result<Self, SurfaceError> {
-        let read = read_observed(path, &Self::options(unit), seen);
+        let read = options.read(path, Some(Unit::METRE), seen).and_then(|surface| match options.detrend {
+            Some(detrend) if detrend != Detrend::None => {
+                surface.spacing()?;
+                Ok(surface.with_heights(|heights, columns| detrend.remove(heights, columns)))
+            }
+            _ => Ok(surface),
+        });
         read.and_then(Self::from_topography).map_err(|error| SurfaceError::measured(path, &error))
     }
 
@@ -50,12 +57,8 @@ impl MeasuredProfile {
     /// # Errors
     /// [`TopographyError`], a map included.
     pub fn parse(content: &str) -> Result<Self, TopographyError> {
-        parse(content.as_bytes(), &Self::options(None)).and_then(Self::from_topography)
-    }
-
-    /// Options for reading a profile in m by convention.
-    fn options(unit: Option<Unit>) -> ReadOptions {
-        ReadOptions { unit, convention: Some(Unit::METRE), ..ReadOptions::default() }
+        let in_metres = ReadOptions { convention: Some(Unit::METRE), ..ReadOptions::default() };
+        parse(content.as_bytes(), &in_metres).and_then(Self::from_topography)
     }
 
     /// The profile of a surface.
@@ -130,6 +133,7 @@ impl MeasuredProfile {
         let out_of_memory = || SurfaceError::OutOfMemory { points };
         check_room(TRANSFORM_BYTES * points as u64).map_err(|_| out_of_memory())?;
         let mut heights = self.sample(self.length(), points, 0.0).map_err(|_| out_of_memory())?;
+        let curvature = rms_curvature(&heights, self.length() / points as f64);
         join_ends(&mut heights);
         let plan = RealFftPlanner::<f64>::new().plan_fft_forward(points);
         let mut modes = plan.make_output_vec();
@@ -144,7 +148,7 @@ impl MeasuredProfile {
             mean if mean.is_finite() => mean,
             _ => 0.0,
         };
-        Ok(Amplitude { rms_height, rms_gradient, mean_wave_number })
+        Ok(Amplitude { rms_height, rms_gradient, rms_curvature: curvature, mean_wave_number })
     }
 
     /// Heights, m, at x = (i + ½ − `shift`)L/N from the beginning of the profile, by linear interpolation; at a measured
@@ -194,6 +198,13 @@ impl MeasuredProfile {
         let is_exact = |height: &f64| (low..=high).contains(&(height * first.signum()));
         if self.heights.iter().all(is_exact) { first } else { 0.0 }
     }
+}
+
+/// Root mean square curvature, 1/m, of heights at this distance, m, by second differences.
+fn rms_curvature(heights: &[f64], spacing: f64) -> f64 {
+    let squares = heights.windows(3).map(|z| ((z[0] - z[1]) + (z[2] - z[1])).powi(2)).sum::<f64>();
+    let count = heights.len().saturating_sub(2).max(1);
+    (squares / count as f64).sqrt() / spacing.powi(2)
 }
 
 /// Subtracts the straight line after which the step from the last height to the first is the mean of the steps beside it.
@@ -273,7 +284,11 @@ mod tests {
         let path = folder.path().join("line.csv");
         let read = |text: &str, unit: Option<Unit>| {
             std::fs::write(&path, text).unwrap();
-            MeasuredProfile::read_observed(&path, unit, &mut |_| ())
+            MeasuredProfile::read_observed(
+                &path,
+                &MeasuredOptions { unit, ..MeasuredOptions::default() },
+                &mut |_| (),
+            )
         };
         let millimetre: Unit = "mm".parse().unwrap();
         let metres = read("0,1\n1,2", None).unwrap();
@@ -352,6 +367,8 @@ mod tests {
         for (points, middles) in [(1000, 0.5), (1001, 0.5), (1000, 0.0)] {
             let level = MeasuredProfile::parse(&text(points, middles, 0.0)).unwrap().amplitude().unwrap();
             assert!((level.mean_wave_number / (15.0 * TAU) - 1.0).abs() < 0.01, "{level:?}");
+            let curvature = 2e-3 * 0.5_f64.sqrt() * (15.0 * TAU).powi(2);
+            assert!((level.rms_curvature / curvature - 1.0).abs() < 0.01, "{level:?}");
             // A tilt is no energy.
             let tilted = MeasuredProfile::parse(&text(points, middles, 0.1)).unwrap().amplitude().unwrap();
             assert!(tilted.rms_height > 10.0 * level.rms_height);

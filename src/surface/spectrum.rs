@@ -54,8 +54,12 @@ impl SelfAffine {
     /// Rms and mean wave number of the modes on a length L in m: sums as in [`Self::gradient_per_height`].
     #[must_use]
     pub fn wave_numbers(&self, length: f64) -> WaveNumbers {
-        let mean = std::f64::consts::TAU / length * (self.moment(1) / self.moment(0));
-        WaveNumbers { rms: self.gradient_per_height(length), mean }
+        let (unit, height) = (std::f64::consts::TAU / length, self.moment(0));
+        WaveNumbers {
+            rms: self.gradient_per_height(length),
+            mean: unit * (self.moment(1) / height),
+            rms_square: unit.powi(2) * (self.moment(4) / height).sqrt(),
+        }
     }
 
     /// The same ratio as [`Self::gradient_per_height`] by the integrals of eqs. (5)–(7) and (12), in which modes are dense:

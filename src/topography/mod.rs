@@ -25,5 +25,5 @@ pub use error::{Place, TopographyError};
 pub use open::{MOST_BYTES, parse, read, read_observed};
 pub use reading::{Format, Missing, ReadOptions};
 pub(crate) use surface::UNEVEN;
-pub use surface::{Grid, Topography};
+pub use surface::{Cut, Grid, Topography};
 pub use unit::{Unit, UnitError};

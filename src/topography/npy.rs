@@ -1,12 +1,12 @@
 //! Arrays of NumPy: a header in Python's notation, then the numbers.
 //!
-//! An array of n heights is a profile, one of n × 2 the columns x z of a profile, any other with two axes a map of rows.
+//! An array of n heights is a profile, one of n × 2 or of n pairs of fields the columns x z of a profile, any other with
+//! two axes a map of rows.
 
 use super::bytes::{Bytes, Number, Order};
 use super::error::{Place, TopographyError, refused, shown};
 use super::reading::{Format, RawGrid, Reading};
-
-pub(super) const SIGNATURE: &[u8] = b"\x93NUMPY";
+pub(super) use crate::io::npy::SIGNATURE;
 
 const NUMBERS: [(&str, Number); 10] = [
     ("f8", Number::F64),
@@ -64,7 +64,17 @@ impl Header {
         let between = |value: &'_ str, open: char, close: char| {
             value.strip_prefix(open)?.split_once(close).map(|(inside, _)| inside.to_owned())
         };
-        let descr = between(entry("descr")?, '\'', '\'').ok_or_else(|| wrong("several fields"))?;
+        let (descr, fields) = match entry("descr")? {
+            list if list.starts_with('[') => {
+                let types = field_types(list).ok_or_else(|| wrong("fields that are not understood"))?;
+                let [first, ..] = types[..] else { return Err(wrong("no field")) };
+                if types.len() > 2 || types.iter().any(|one| *one != first) {
+                    return Err(wrong("other fields than one or two of the same type"));
+                }
+                (first.to_owned(), Some(types.len()))
+            }
+            name => (between(name, '\'', '\'').ok_or_else(|| wrong("no type"))?, None),
+        };
         let (order, name) = match descr.split_at_checked(1) {
             Some(("<" | "|", name)) => (Order::Little, name),
             Some((">", name)) => (Order::Big, name),
@@ -85,9 +95,16 @@ impl Header {
         };
         let shape = between(entry("shape")?, '(', ')').ok_or_else(|| wrong("no shape"))?;
         let axes = shape.split(',').map(str::trim).filter(|axis| !axis.is_empty());
-        let shape: Vec<usize> =
+        let mut shape: Vec<usize> =
             axes.map(|axis| axis.parse().map_err(|_| wrong("no shape"))).collect::<Result<_, _>>()?;
-        Ok(Header { number, order, column_major, shape })
+        match fields {
+            Some(_) if shape.len() != 1 => return Err(wrong("fields along several axes")),
+            // Fields of a point are one behind the other, as the columns of a row are.
+            Some(2) => shape.push(2),
+            _ => {}
+        }
+        // A list of points with fields has one axis and no order of axes.
+        Ok(Header { number, order, column_major: column_major && fields.is_none(), shape })
     }
 
     fn into_reading(self, values: Vec<f64>) -> Result<Reading, TopographyError> {
@@ -134,6 +151,16 @@ impl Header {
     }
 }
 
+/// Types of the fields in a list such as `[('x', '<f8'), ('z', '<f8')]`.
+fn field_types(list: &str) -> Option<Vec<&str>> {
+    let (list, _) = list.strip_prefix('[')?.split_once(']')?;
+    let fields = list.split('(').skip(1).map(|field| {
+        let (_, rest) = field.split_once(',')?;
+        rest.trim_start().strip_prefix('\'')?.split_once('\'').map(|(name, _)| name)
+    });
+    fields.collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -167,6 +194,11 @@ mod tests {
             assert_eq!(profile.grid, RawGrid::Positions(vec![1.0, 2.0, 3.0]));
             assert_eq!(profile.heights, [7.0, 5.0, 1.0]);
         }
+        let fields = "{'descr': [('x', '<f8'), ('z', '<f8')], 'fortran_order': False, 'shape': (3,), }";
+        let profile = read(&doubles(fields, &six)).unwrap();
+        assert_eq!(profile.grid, RawGrid::Positions(vec![1.0, 3.0, 5.0]));
+        let field = "{'descr': [('z', '<f8')], 'fortran_order': False, 'shape': (6,), }";
+        assert_eq!(read(&doubles(field, &six)).unwrap().grid, RawGrid::Profile(None));
         let big = array("{'descr': '>i2', 'fortran_order': False, 'shape': (2,), }", &[0, 1, 255, 254]);
         assert_eq!(read(&big).unwrap().heights, [1.0, -2.0]);
     }
@@ -176,8 +208,14 @@ mod tests {
         for (header, expected) in [
             ("{'descr': '<c16', 'fortran_order': False, 'shape': (3,)}", "byte 10: numbers of type \"<c16\""),
             (
-                "{'descr': [('a', '<f8')], 'fortran_order': False, 'shape': (3,)}",
-                "byte 10: several fields in",
+                "{'descr': [('a', '<f8'), ('b', '<u8')], 'fortran_order': False, 'shape': (3,)}",
+                "byte 10: other fields than one or two",
+            ),
+            ("{'descr': [], 'fortran_order': False, 'shape': (3,)}", "byte 10: no field in"),
+            ("{'descr': [('a')], 'fortran_order': False, 'shape': (3,)}", "byte 10: fields that are not"),
+            (
+                "{'descr': [('a', '<f8')], 'fortran_order': False, 'shape': (3, 1)}",
+                "byte 10: fields along several axes in",
             ),
             ("{'descr': '<f8', 'shape': (3,)}", "byte 10: no fortran_order in"),
             ("{'descr': '<f8', 'fortran_order': False, 'shape': (3, 1, 1)}", "byte 10: an array with 3 axes"),

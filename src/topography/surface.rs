@@ -26,6 +26,15 @@ pub enum Grid {
     },
 }
 
+/// Row or column of a map, counted from 1.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Cut {
+    /// A row.
+    Row(u64),
+    /// A column.
+    Column(u64),
+}
+
 /// Measured heights of a profile or a map, m.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Topography {
@@ -125,6 +134,41 @@ impl Topography {
         }
     }
 
+    /// One row or column of a map, as a profile.
+    ///
+    /// # Errors
+    /// A profile, a number beyond the last one.
+    pub fn cut(self, cut: Cut) -> Result<Self, TopographyError> {
+        let (columns, rows) = (self.columns(), self.rows());
+        let Grid::Map { spacing: [along, between], .. } = self.grid else {
+            return Err(refused(Place::File, "a profile, which has no rows and columns", "a map"));
+        };
+        let (name, number, count) = match cut {
+            Cut::Row(number) => ("row", number, rows),
+            Cut::Column(number) => ("column", number, columns),
+        };
+        let index = usize::try_from(number).ok().and_then(|number| number.checked_sub(1));
+        let Some(index) = index.filter(|index| *index < count) else {
+            return Err(refused(Place::File, format!("{name} {number}"), format!("{name}s 1 to {count}")));
+        };
+        let (first, step, points, spacing) = match cut {
+            Cut::Row(_) => (index * columns, 1, columns, along),
+            Cut::Column(_) => (index, columns, rows, between),
+        };
+        let mut heights = Vec::new();
+        heights.try_reserve_exact(points).map_err(|_| TopographyError::OutOfMemory { points })?;
+        heights.extend(self.heights.iter().skip(first).step_by(step).take(points));
+        Ok(Topography { heights, grid: Grid::Profile { spacing }, ..self })
+    }
+
+    /// The same surface with other heights, m, as many as before.
+    pub(crate) fn with_heights(self, change: impl FnOnce(&mut [f64], usize)) -> Self {
+        let columns = self.columns();
+        let mut changed = self;
+        change(&mut changed.heights, columns);
+        changed
+    }
+
     /// Distances between points along and between rows, m; those of a profile are equal.
     ///
     /// # Errors
@@ -201,6 +245,27 @@ mod tests {
         assert_eq!((even.spacing(), even.heights()), (Ok([1.0; 2]), &[0.0, 2.0, 4.0, 6.0][..]));
         let digits = profile(&[0.0, 0.3333, 0.6667, 1.0], &[0.0; 4]);
         assert!((digits.spacing().unwrap()[0] - 1.0 / 3.0).abs() < 1e-15);
+    }
+
+    #[test]
+    fn rows_and_columns_of_a_map_are_profiles() {
+        let map = || {
+            let heights = (0..6).map(f64::from).collect();
+            Topography::new(Format::Npy, heights, Grid::Map { columns: 3, spacing: [1.0, 2.0] }, 0).unwrap()
+        };
+        let row = map().cut(Cut::Row(2)).unwrap();
+        assert_eq!((row.heights(), row.spacing()), (&[3.0, 4.0, 5.0][..], Ok([1.0; 2])));
+        let column = map().cut(Cut::Column(3)).unwrap();
+        assert_eq!((column.heights(), column.spacing()), (&[2.0, 5.0][..], Ok([2.0; 2])));
+        for (cut, expected) in [
+            (Cut::Row(0), "row 0; allowed: rows 1 to 2"),
+            (Cut::Row(3), "row 3; allowed: rows 1 to 2"),
+            (Cut::Column(u64::MAX), "column 18446744073709551615; allowed: columns 1 to 3"),
+        ] {
+            assert_eq!(map().cut(cut).unwrap_err().to_string(), expected);
+        }
+        let profile = profile(&[0.0, 1.0], &[0.0, 1.0]).cut(Cut::Row(1)).unwrap_err().to_string();
+        assert_eq!(profile, "a profile, which has no rows and columns; allowed: a map");
     }
 
     #[test]

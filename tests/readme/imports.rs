@@ -32,10 +32,10 @@ const ROOMS: [&str; 23] = [
 ];
 
 /// Path of a module in the crate, as `["contact", "adhesive"]`.
-type Module = Vec<String>;
+pub type Module = Vec<String>;
 
 /// Source files by their modules, without comments and tests.
-fn modules() -> BTreeMap<Module, String> {
+pub fn modules() -> BTreeMap<Module, String> {
     let root = PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/src"));
     let (mut found, mut folders) = (BTreeMap::new(), vec![root.clone()]);
     while let Some(folder) = folders.pop() {
@@ -87,7 +87,7 @@ fn paths(module: &[String], code: &str) -> Vec<Module> {
 }
 
 /// Adds the paths of a tree of imports to those found, and returns the rest of the text.
-fn multiply_out<'t>(prefix: &mut Module, text: &'t str, found: &mut Vec<Module>) -> &'t str {
+pub fn multiply_out<'t>(prefix: &mut Module, text: &'t str, found: &mut Vec<Module>) -> &'t str {
     let text = text.trim_start();
     if let Some(mut inside) = text.strip_prefix('{') {
         loop {

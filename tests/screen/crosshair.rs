@@ -46,7 +46,7 @@ fn the_crosshair_reads_the_state_that_all_panes_show() {
             let mut driver = mid_retraction(default_scene());
             driver.resize(size);
             assert!(!edge(&driver, Pane::Force).contains(" d "));
-            driver.press("i");
+            driver.press("*");
             assert_eq!(driver.model.keys(), ModeKind::Crosshair);
             assert!(driver.rows().last().unwrap().contains("hide"), "{}", driver.text());
             for keys in ["", "Right", "Shift+Left", "Up", "Left Left", "Down", "Home", "End"] {
@@ -74,7 +74,7 @@ fn the_crosshair_reads_the_state_that_all_panes_show() {
 fn the_crosshair_moves_along_a_stage_and_to_the_other_one_at_the_same_indentation() {
     within(30, || {
         let mut driver = mid_retraction(rough());
-        driver.press("i");
+        driver.press("*");
         let at = |driver: &Driver| (driver.model.player.leg, moment(driver).point);
         let (leg, before) = at(&driver);
         driver.press("Right");
@@ -114,7 +114,7 @@ fn on_the_profile_the_crosshair_reads_position_height_and_state() {
     within(60, || {
         for document in [rough(), punch()] {
             let mut driver = mid_retraction(document);
-            driver.press("i Tab");
+            driver.press("* Tab");
             assert_eq!(driver.model.pane, Pane::Profile);
             let mut states = Vec::new();
             driver.press("Home");
@@ -163,7 +163,7 @@ fn the_mouse_moves_the_crosshair_of_the_pane_it_is_in() {
         for size in [(120, 40), (80, 24)] {
             let mut driver = mid_retraction(default_scene());
             driver.resize(size);
-            driver.press("i");
+            driver.press("*");
             for pane in [Pane::Profile, Pane::CloseUp] {
                 let area = place(&driver, pane);
                 let mut springs = Vec::new();
@@ -199,7 +199,7 @@ fn the_mouse_moves_the_crosshair_of_the_pane_it_is_in() {
 #[test]
 fn crosshairs_of_profile_and_close_up_are_at_one_position() {
     within(30, || {
-        let mut driver = pressed("b i");
+        let mut driver = pressed("b *");
         let patch = moment(&driver).close_up.fragment.unwrap();
         assert_eq!(probe(&driver).spring, patch.middle(), "it begins in the middle of the patch");
         assert_eq!(probe(&driver).patch, Some(patch.number));

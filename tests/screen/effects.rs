@@ -115,10 +115,17 @@ fn adhesion_given_the_other_way_is_the_same() {
         driver.press("l");
         assert_eq!(driver.model.document.text(), text, "κ is the one that was typed");
         assert!(near(force(&driver), before));
-        // Beyond both ways there is no adhesion, and back it is the same again.
+        // By e_el/γ it is the same as well.
         driver.press("l");
-        assert!(!is_on(&driver, Effect::Adhesion));
+        let adhesion = driver.model.document.scene().adhesion.unwrap();
+        assert!((adhesion.work, adhesion.kappa) == (None, None) && adhesion.elastic_energy_ratio.is_some());
+        assert!(near(governing(&driver).0, kappa) && near(force(&driver), before));
         driver.press("h");
+        assert_eq!(driver.model.document.text(), text);
+        // Beyond all ways there is no adhesion, and back it is the same again.
+        driver.press("h h");
+        assert!(!is_on(&driver, Effect::Adhesion));
+        driver.press("l l");
         assert_eq!(driver.model.document.text(), text);
     });
 }

@@ -83,7 +83,7 @@ fn marks_of_figure(svg: &str) -> Vec<(char, f64, f64)> {
         texts.iter().find(|text| text.attribute("text-anchor") == "end").unwrap().number("font-size");
     let value =
         |glyph, x: f64, y: f64| (glyph, metre * between(&across, x), newton * between(&up, y + 0.35 * size));
-    let mut marks = Vec::new();
+    let mut marks: Vec<(char, f64, f64)> = Vec::new();
     let mut add = |mark: (char, f64, f64)| {
         // The legend repeats them below.
         if marks.iter().all(|(glyph, ..)| *glyph != mark.0) {

@@ -9,8 +9,8 @@ use asperity::explorer::model::Mode;
 use asperity::explorer::theme::{Marker, Theme};
 use asperity::explorer::update::Effect;
 use asperity::explorer::{picture, svg_of};
-use asperity::export::{write_curve, write_json};
-use asperity::scene::{Document, open, presets};
+use asperity::export::{TableFormat, write_curve, write_json};
+use asperity::scene::{Document, Provenance, TableContent, open, presets};
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -34,7 +34,8 @@ fn exported(driver: &mut Driver, name: &str) -> String {
 fn the_ending_of_a_name_tells_what_is_exported() {
     within(30, || {
         for (name, content) in [
-            ("a.csv", Content::Curve),
+            ("a.csv", Content::Curve(TableFormat::Csv)),
+            ("a.npy", Content::Curve(TableFormat::Npy)),
             ("folder/b.JSON", Content::Outcome),
             ("c.d.svg", Content::Picture),
             ("e.txt", Content::Text),
@@ -50,7 +51,7 @@ fn the_ending_of_a_name_tells_what_is_exported() {
             let mut driver = pressed("");
             assert!(export(&mut driver, Path::new(name)).is_empty(), "{name}");
             assert!(driver.files.is_empty());
-            let said = format!("{name}: the name must end in .csv, .json, .svg, .txt");
+            let said = format!("{name}: the name must end in .csv, .npy, .json, .svg, .txt");
             assert!(driver.status().contains(&said), "{}", driver.status());
         }
         // The name that is proposed is that of the scene.
@@ -74,7 +75,7 @@ fn a_file_that_is_there_is_asked_about() {
         assert_eq!(fs::read_to_string(&path).unwrap(), "theirs");
         export(&mut driver, &path);
         driver.press("y");
-        assert!(fs::read_to_string(&path).unwrap().starts_with("leg,indentation"));
+        assert!(fs::read_to_string(&path).unwrap().contains("\nleg,indentation"));
         assert_eq!(driver.model.mode, Mode::Explore);
         // What the system refuses is told.
         export(&mut driver, &folder.path().join("no/such/folder/a.csv"));
@@ -88,8 +89,9 @@ fn the_curve_and_the_figures_are_those_of_the_command_line() {
         let mut driver = pressed("");
         let outcome = driver.model.computed.as_ref().unwrap().outcome.clone();
         let scene = driver.model.document.scene().clone();
+        let provenance = Provenance::new(TableContent::ForceCurve, &scene, Path::new(""), Path::new(""));
         let mut curve = Vec::new();
-        write_curve(&mut curve, &outcome).unwrap();
+        write_curve(&mut curve, TableFormat::Csv, &provenance, &outcome).unwrap();
         assert_eq!(exported(&mut driver, "a.csv").into_bytes(), curve);
         let mut figures = Vec::new();
         write_json(&mut figures, &scene, &outcome, None, driver.model.appraisal.estimate()).unwrap();

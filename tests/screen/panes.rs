@@ -63,7 +63,7 @@ screens!(screen_of_the_force, pressed("z"));
 screens!(screen_of_the_profile, pressed("Tab z"));
 screens!(screen_of_the_parameters, pressed("Tab Tab z"));
 screens!(screen_of_the_close_up, pressed("Tab Tab Tab z n"));
-screens!(screen_of_the_crosshair, pressed("i Left"));
+screens!(screen_of_the_crosshair, pressed("* Left"));
 screens!(screen_of_two_scenes, pressed("& L"));
 screens!(screen_of_a_scene_that_failed, {
     let mut driver = mid_retraction(rough());
@@ -88,6 +88,7 @@ screens!(screen_of_the_normalised_force, pressed("N z"));
 screens!(screen_of_the_contact_length, pressed("v z"));
 screens!(screen_of_the_number_of_fragments, pressed("v v z"));
 screens!(screen_of_a_part_of_the_profile, pressed("Tab + + ) z"));
+screens!(screen_of_the_spectrum, pressed("Q"));
 screens!(screen_of_the_fragment_lengths, pressed("D Tab Tab Tab z"));
 screens!(screen_of_the_library, pressed("o"));
 screens!(screen_of_a_search, {

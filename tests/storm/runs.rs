@@ -2,11 +2,12 @@
 
 use super::*;
 use asperity::contact::{ContactError, CurvePoint, Direction, LegRecord};
-use asperity::export::write_curve;
-use asperity::scene::{Leg, Roughness};
+use asperity::export::{TableFormat, write_curve};
+use asperity::scene::{Leg, Provenance, Roughness, TableContent};
 use asperity::simulation::{Outcome, RunError, Simulation};
 use asperity::surface::SurfaceError;
 use profiles::{FILE, Shape};
+use std::path::Path;
 use std::time::{Duration, Instant};
 
 /// Scenes that are computed.
@@ -30,7 +31,7 @@ fn compute(document: &Document, folder: &std::path::Path) -> Result<(), TestCase
                 assert_leg(leg, &before, &outcome)?;
             }
             assert_energy(&outcome)?;
-            assert_written(&outcome)
+            assert_written(&scene, &outcome)
         }
         Err(error) => assert_refused(&error, scene),
     }
@@ -159,11 +160,14 @@ fn assert_energy(outcome: &Outcome) -> Result<(), TestCaseError> {
 }
 
 /// The curve that is written reads back bit for bit.
-fn assert_written(outcome: &Outcome) -> Result<(), TestCaseError> {
+fn assert_written(scene: &Scene, outcome: &Outcome) -> Result<(), TestCaseError> {
     let mut table = Vec::new();
-    write_curve(&mut table, outcome).map_err(|error| TestCaseError::fail(error.to_string()))?;
+    let here = Path::new("");
+    let provenance = Provenance::new(TableContent::ForceCurve, scene, here, here);
+    write_curve(&mut table, TableFormat::Csv, &provenance, outcome)
+        .map_err(|error| TestCaseError::fail(error.to_string()))?;
     let table = String::from_utf8_lossy(&table);
-    let read = table.lines().skip(1).map(|row| {
+    let read = table.lines().filter(|row| !row.starts_with('#')).skip(1).map(|row| {
         let numbers: Vec<f64> = row.split(',').filter_map(|column| column.parse().ok()).collect();
         numbers.iter().map(|number| number.to_bits()).collect::<Vec<_>>()
     });

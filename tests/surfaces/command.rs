@@ -20,6 +20,11 @@ fn refused(folder: &Path, arguments: &[&str]) -> String {
     String::from_utf8(output.stderr).unwrap()
 }
 
+/// Lines of a table without its provenance.
+fn rows(table: &str) -> impl Iterator<Item = &str> {
+    table.lines().filter(|line| !line.starts_with('#'))
+}
+
 fn json(folder: &Path, arguments: &[&str]) -> serde_json::Value {
     serde_json::from_str(&done(folder, arguments)).unwrap()
 }
@@ -72,9 +77,24 @@ fn a_profile_is_stated_in_every_form() {
     let line = &report["equivalent_line"];
     let energy = line["elastic_energy"]["value"].as_f64().unwrap();
     assert!((energy / (1e6 * line["energy_per_modulus"]["value"].as_f64().unwrap()) - 1.0).abs() < 1e-12);
+    assert_eq!(line["kappa"], serde_json::Value::Null);
+    let adhesive = ["surface", "line.txt", "--format", "json", "--modulus", "1MPa", "--work", "50mJ/m^2"];
+    let contact = &json(folder, &adhesive)["equivalent_line"];
+    let value = |name: &str| contact[name]["value"].as_f64().unwrap();
+    let error = |name: &str| contact[name]["error"].as_f64().unwrap() / value(name);
+    let kappa = (value("rms_height") * value("rms_gradient") * 1e6 / 0.05).sqrt();
+    assert!((value("kappa") / kappa - 1.0).abs() < 1e-12, "{contact}");
+    assert!(error("kappa") <= 0.5 * (error("rms_height") + error("rms_gradient")), "{contact}");
+    assert!(
+        (value("elastic_energy_ratio") * 0.05 / value("elastic_energy") - 1.0).abs() < 1e-12,
+        "{contact}"
+    );
+    assert!((error("elastic_energy_ratio") / error("elastic_energy") - 1.0).abs() < 1e-12, "{contact}");
+    let summary = done(folder, &["surface", "line.txt", "--modulus", "1MPa", "--work", "50mJ/m^2"]);
+    assert!(summary.contains("κ ") && summary.contains("e_el/γ "), "{summary}");
     assert_eq!(report["files"][0]["points"], serde_json::json!([512]));
     let table = done(folder, &["surface", "line.txt", "--format", "csv"]);
-    assert!(table.starts_with("spectrum,wave_number,power,waves\n1D PSD along x,"), "{table}");
+    assert!(table.contains("\nspectrum,wave_number,power,waves\n1D PSD along x,"), "{table}");
     // The bins hold the whole height but for waves 1 to 255 of the window's.
     let rows = table.lines().filter_map(|row| row.strip_prefix("1D PSD along x,"));
     let numbers = rows.map(|row| row.split(',').map(|cell| cell.parse::<f64>().unwrap()).collect::<Vec<_>>());
@@ -84,6 +104,41 @@ fn a_profile_is_stated_in_every_form() {
     assert_eq!(std::fs::read_to_string(folder.join("spectrum.csv")).unwrap(), table);
     assert!(
         refused(folder, &["surface", "line.txt", "-o", "spectrum.csv"]).contains("--force overwrites it")
+    );
+}
+
+#[test]
+fn spectra_are_computed_again_from_their_table() {
+    let folder = folder();
+    let folder = folder.path();
+    std::fs::create_dir(folder.join("other")).unwrap();
+    let options = ["--detrend", "curvature", "--periodic", "--continue-to", "0.7um", "--interpolate"];
+    for ending in ["csv", "npy"] {
+        let (first, second) = (format!("a.{ending}"), format!("b.{ending}"));
+        done(folder, &[&["surface", "plain.txt", "--unit", "um", "-o", &first], &options[..]].concat());
+        // From another folder too.
+        let path = folder.join(&first).to_str().unwrap().to_owned();
+        done(&folder.join("other"), &["run", &path, "-o", &format!("../{second}")]);
+        let [one, other] = [&first, &second].map(|name| std::fs::read(folder.join(name)).unwrap());
+        assert!(one == other, "{ending}");
+        // A table in another folder names the file by its path.
+        done(folder, &["run", &first, "-o", &format!("other/{second}")]);
+        done(folder, &["run", &format!("other/{second}"), "-o", &format!("other/{first}")]);
+        let [third, fourth] =
+            [&first, &second].map(|name| std::fs::read(folder.join("other").join(name)).unwrap());
+        assert!(third == fourth && third != one, "{ending}");
+        let message = refused(folder, &["run", &first, "--set", "length=1.0"]);
+        assert!(message.contains("spectra have no --set; allowed: "), "{message}");
+    }
+    let picture = done(folder, &["run", "a.csv", "--format", "svg"]);
+    for name in ["measured, 1D PSD along x", "line", "last resolved wave", "wave number", "10"] {
+        assert!(picture.contains(name), "{name}: {picture}");
+    }
+    done(folder, &["surface", "map.txt", "--tip-radius", "1mm", "-o", "map.svg"]);
+    let picture = std::fs::read_to_string(folder.join("map.svg")).unwrap();
+    assert!(
+        picture.contains("measured, q/π × 2D PSD") && picture.contains("reliability cut-off"),
+        "{picture}"
     );
 }
 
@@ -151,7 +206,7 @@ fn a_scene_of_a_surface_runs_on_its_equivalent_line() {
     assert_eq!(run["line"]["seed"], 1);
     // Other seeds are other lines with the same moments.
     let lines = done(folder, &["run", "rough.ron", "--lines", "3", "--format", "csv"]);
-    let forces: Vec<&str> = lines.lines().skip(1).map(|row| row.split(',').nth(1).unwrap()).collect();
+    let forces: Vec<&str> = rows(&lines).skip(1).map(|row| row.split(',').nth(1).unwrap()).collect();
     assert!(forces.len() == 3 && forces[0] != forces[1] && forces[1] != forces[2], "{lines}");
     let first = run["adhesion_force"].as_f64().unwrap();
     assert!((forces[0].parse::<f64>().unwrap() / first - 1.0).abs() < 1e-12);
@@ -186,4 +241,80 @@ fn older_scenes_keep_the_profile_as_the_line() {
     assert!(message.contains("roughness.file = \"plain.txt\": no unit of heights is stated"), "{message}");
     let message = refused(folder, &["run", "plain.ron", "--set", "roughness.unit=\"px\""]);
     assert!(message.contains("roughness.unit = \"px\": allowed: m, cm, mm"), "{message}");
+}
+
+/// Result of a scene with this roughness, in JSON.
+fn run(folder: &Path, roughness: &str) -> serde_json::Value {
+    let text = format!(
+        "(version: 2, material: (effective_modulus: 1.0e6), length: 3.0e-5, adhesion: (work: 0.05), \
+         roughness: Measured({roughness}), numerics: (points: 2048))"
+    );
+    std::fs::write(folder.join("scene.ron"), text).unwrap();
+    json(folder, &["run", "scene.ron", "--format", "json"])
+}
+
+#[test]
+fn scenes_choose_profile_detrending_window_and_opposite_face() {
+    let folder = folder();
+    let folder = folder.path();
+    // The map of the folder: row r begins at height 11 r mod 400.
+    let all = heights(512);
+    let row: String = (0..40).map(|i| format!("{i} {:?}\n", all[11 * 6 % 400 + i])).collect();
+    let column: String = (0..40).map(|r| format!("{r} {:?}\n", all[11 * r % 400 + 2])).collect();
+    std::fs::write(folder.join("row.txt"), format!("x [um] z [nm]\n{row}")).unwrap();
+    std::fs::write(folder.join("column.txt"), format!("x [um] z [nm]\n{column}")).unwrap();
+    let height = |roughness: &str| run(folder, roughness)["line"]["rms_height"].as_f64().unwrap();
+    for as_line in ["", ", as_line: true"] {
+        let length = if as_line.is_empty() { "" } else { ", detrend: Mean" };
+        for (cut, file) in [("row: 7", "row.txt"), ("column: 3", "column.txt")] {
+            let of_map = |what: &str| format!("file: \"{what}\"{as_line}{length}");
+            let (part, whole) = (height(&format!("{}, {cut}", of_map("map.txt"))), height(&of_map(file)));
+            assert!((part / whole - 1.0).abs() < 1e-9, "{cut}{as_line}: {part} {whole}");
+        }
+    }
+    // A tilt is roughness unless it is removed.
+    let tilted: String =
+        all.iter().enumerate().map(|(i, z)| format!("{i} {:?}\n", z + 9.0 * i as f64)).collect();
+    std::fs::write(folder.join("tilted.txt"), format!("x [um] z [nm]\n{tilted}")).unwrap();
+    let plain = height("file: \"line.txt\", as_line: true, detrend: Tilt");
+    let level = height("file: \"tilted.txt\", as_line: true, detrend: Tilt");
+    assert!((level / plain - 1.0).abs() < 1e-9, "{level} {plain}");
+    assert!(height("file: \"tilted.txt\", as_line: true") > 2.0 * plain);
+    let [tilt, mean] =
+        ["Tilt", "Mean"].map(|detrend| height(&format!("file: \"tilted.txt\", detrend: {detrend}")));
+    assert!((mean / tilt - 1.0).abs() > 1e-3, "{mean} {tilt}");
+    let [hann, none] =
+        ["false", "true"].map(|periodic| height(&format!("file: \"line.txt\", periodic: {periodic}")));
+    assert!((hann / none - 1.0).abs() > 1e-3 && (hann / none - 1.0).abs() < 1.0, "{hann} {none}");
+    // Spectra of two faces add.
+    let squares = ["line.txt", "tilted.txt"].map(|file| height(&format!("file: \"{file}\"")).powi(2));
+    let both = height("file: \"line.txt\", opposite: \"tilted.txt\"").powi(2);
+    assert!((both / (squares[0] + squares[1]) - 1.0).abs() < 1e-9, "{both} {squares:?}");
+    // A table of a scene with two faces has both.
+    done(folder, &["run", "scene.ron", "-o", "both.csv"]);
+    done(folder, &["run", "both.csv", "-o", "again.csv"]);
+    let [one, other] =
+        ["both.csv", "again.csv"].map(|name| std::fs::read_to_string(folder.join(name)).unwrap());
+    assert!(one == other && one.contains("opposite: \"tilted.txt\""), "{one}");
+    for (set, expected) in [
+        ("roughness=Measured(file: \"map.txt\", row: 1, column: 2)", "give one of them"),
+        ("roughness=Measured(file: \"map.txt\", row: 41)", "row 41; allowed: rows 1 to 40"),
+        ("roughness=Measured(file: \"map.txt\", row: 0)", "roughness.row = 0: allowed: "),
+        (
+            "roughness=Measured(file: \"line.txt\", column: 1)",
+            "a profile, which has no rows and columns; allowed: a map",
+        ),
+        ("roughness=Measured(file: \"line.txt\", detrend: Slope)", "Slope"),
+        (
+            "roughness=Measured(file: \"line.txt\", opposite: \"none.txt\")",
+            "roughness.file = \"none.txt\": cannot be read",
+        ),
+        (
+            "roughness=Measured(file: \"line.txt\", opposite: \"line.txt\", as_line: true)",
+            "spectra of two faces add, their profiles do not",
+        ),
+    ] {
+        let message = refused(folder, &["run", "scene.ron", "--set", set]);
+        assert!(message.contains(expected) && message.trim().lines().count() == 1, "{set}: {message}");
+    }
 }

@@ -1,14 +1,14 @@
 //! Lines: spectra at their ends, few springs and many, ties, chains, and heights on a large offset.
 
 use super::{SPECTRUM, WORK, ensure, rough};
-use crate::check::case::{Case, Family, Scope};
+use crate::check::case::{Case, Evidence, Family, Scope};
 use crate::check::{Body, Extended, Fault, LENGTH, MODULUS, RMS_HEIGHT, end, follow, force_error};
 use crate::scene::{Edges, Form, Leg};
 use crate::surface::{Line, MeasuredProfile, SelfAffine, UnitRoughness, phases};
 use std::f64::consts::{PI, TAU};
 use std::fmt::Write;
 
-/// What heights on a large offset are on, in units of their rms height.
+/// Offset of the heights, in units of their rms height.
 const OFFSET: f64 = 1e9;
 
 pub const CASES: &[Case] = &[
@@ -17,6 +17,8 @@ pub const CASES: &[Case] = &[
         family: Family::Lines,
         holds: "As H → 0, down to 1e−300, heights are the sum of their cosines, and the rms gradient goes to its \
                 limit.",
+        evidence: &[Evidence::IndependentComputation],
+        known_failure: None,
         error_of: "height over rms height",
         scope: Scope::Line(2e-14),
         large: false,
@@ -27,6 +29,8 @@ pub const CASES: &[Case] = &[
         family: Family::Lines,
         holds: "As H → 1, up to the last number before, heights are the sum of their cosines, and the rms \
                 gradient, also by eq. (13), goes to its limit.",
+        evidence: &[Evidence::IndependentComputation],
+        known_failure: None,
         error_of: "height over rms height",
         scope: Scope::Line(2e-14),
         large: false,
@@ -37,6 +41,8 @@ pub const CASES: &[Case] = &[
         family: Family::Lines,
         holds: "A profile of one mode (first, inner, Nyquist) is one cosine, and contact and \
                 forces on it are those of the rules.",
+        evidence: &[Evidence::ClosedForm, Evidence::IndependentComputation],
+        known_failure: None,
         error_of: "height, force and energy",
         scope: Scope::BothEdges(2e-14, 2e-14),
         large: false,
@@ -47,6 +53,8 @@ pub const CASES: &[Case] = &[
         family: Family::Lines,
         holds: "With as many modes as springs allow, N even, odd, prime and a power of two, heights are the sum \
                 of their cosines.",
+        evidence: &[Evidence::IndependentComputation],
+        known_failure: None,
         error_of: "height over rms height",
         scope: Scope::Line(2e-14),
         large: false,
@@ -56,6 +64,8 @@ pub const CASES: &[Case] = &[
         name: "springs-1-2-3-prime",
         family: Family::Lines,
         holds: "With 1, 2, 3, 5, 17, 127 and 4099 springs contact and forces follow the rules.",
+        evidence: &[Evidence::IndependentComputation],
+        known_failure: None,
         error_of: "force and energy",
         scope: Scope::BothEdges(1e-15, 1e-15),
         large: false,
@@ -66,6 +76,8 @@ pub const CASES: &[Case] = &[
         family: Family::Lines,
         holds: "With 2^24 springs and half as many modes, forces at the preload and at pull-off are the sums \
                 over the contact, and all springs that attach detach again.",
+        evidence: &[Evidence::IndependentComputation],
+        known_failure: None,
         error_of: "force, in documented units",
         scope: Scope::BothEdges(4e-16, 1e-15),
         large: true,
@@ -75,6 +87,8 @@ pub const CASES: &[Case] = &[
         name: "flat-line",
         family: Family::Lines,
         holds: "On a flat profile with equal gaps all springs attach and detach at once, at Kendall's force.",
+        evidence: &[Evidence::ClosedForm],
+        known_failure: None,
         error_of: "force, indentation, energy",
         scope: Scope::BothEdges(2e-15, 2e-15),
         large: false,
@@ -85,6 +99,8 @@ pub const CASES: &[Case] = &[
         family: Family::Lines,
         holds: "On 32 treads of 32 springs each, up, down, and up and down, contact and forces are those of the \
                 rules.",
+        evidence: &[Evidence::IndependentComputation],
+        known_failure: None,
         error_of: "force and energy",
         scope: Scope::BothEdges(1e-15, 1e-15),
         large: false,
@@ -107,6 +123,8 @@ pub const CASES: &[Case] = &[
         family: Family::Lines,
         holds: "On straight and curved slopes, where the tree is one chain, contact and forces are those of the \
                 rules.",
+        evidence: &[Evidence::IndependentComputation],
+        known_failure: None,
         error_of: "force and energy",
         scope: Scope::BothEdges(1e-15, 1e-15),
         large: false,
@@ -127,6 +145,8 @@ pub const CASES: &[Case] = &[
         family: Family::Lines,
         holds: "On equal teeth of 2, 3 and 64 springs, leaning left or right, contact and forces are those of \
                 the rules.",
+        evidence: &[Evidence::IndependentComputation],
+        known_failure: None,
         error_of: "force and energy",
         scope: Scope::BothEdges(1e-15, 1e-15),
         large: false,
@@ -147,6 +167,8 @@ pub const CASES: &[Case] = &[
         family: Family::Lines,
         holds: "On tents and plateaus whose gaps differ by roundings, without adhesion and with, pressed up to a \
                 hundred times their depth, contact and forces follow the rules.",
+        evidence: &[Evidence::IndependentComputation],
+        known_failure: None,
         error_of: "force and energy",
         scope: Scope::BothEdges(1e-15, 1e-15),
         large: false,
@@ -158,6 +180,8 @@ pub const CASES: &[Case] = &[
         holds: "Pressed by 1 to 1e30 times their depth, to an indentation or to a force, without adhesion and with, \
                 rough and smooth bodies are in contact over a length that only grows, up to the whole profile, and \
                 carry the force of all springs.",
+        evidence: &[Evidence::IndependentComputation],
+        known_failure: None,
         error_of: "force, over the effect of a rounding of the indentation",
         scope: Scope::BothEdges(4.0, 4.0),
         large: false,
@@ -168,6 +192,8 @@ pub const CASES: &[Case] = &[
         family: Family::Lines,
         holds: "A measured profile with an offset of 1e9 rms heights has the rms height, rms gradient and gaps of \
                 its own roughness.",
+        evidence: &[Evidence::IndependentComputation],
+        known_failure: None,
         error_of: "statistics and gaps",
         scope: Scope::Line(1e-13),
         large: false,

@@ -41,12 +41,12 @@ pub struct BoundaryArguments {
     /// Print how far the boundaries lie apart, in κ and in e_el/γ
     #[arg(long, conflicts_with = "over")]
     pub spread: bool,
-    /// How to print
+    /// Format of the output
     #[arg(long, value_enum, default_value_t = BoundaryFormat::Text)]
     pub format: BoundaryFormat,
 }
 
-/// How boundaries are printed.
+/// Formats of boundaries.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum BoundaryFormat {
     /// A table.

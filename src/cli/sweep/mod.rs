@@ -42,7 +42,7 @@ of about the last 50 ms as well; they are computed again.";
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES, args_conflicts_with_subcommands = true, subcommand_negates_reqs = true)]
 pub struct SweepArguments {
-    /// What is done with a study; without it, a plan is computed.
+    /// Action on a study; without one a plan is computed.
     #[command(subcommand)]
     pub command: Option<SweepCommand>,
     /// The plan that is computed.
@@ -50,7 +50,7 @@ pub struct SweepArguments {
     pub run: SweepRunArguments,
 }
 
-/// What is done with a study.
+/// Actions on a study.
 #[derive(Debug, Subcommand)]
 pub enum SweepCommand {
     /// Put the records of all processes into tables

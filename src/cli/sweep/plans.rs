@@ -19,12 +19,12 @@ Examples:
 pub struct PlansArguments {
     /// Print the text of this plan, to start one's own from
     pub name: Option<String>,
-    /// How they are listed
+    /// Format of the list
     #[arg(long, value_enum, default_value_t = PlansFormat::Text, conflicts_with = "name")]
     pub format: PlansFormat,
 }
 
-/// How plans are listed.
+/// Formats of the list of plans.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum PlansFormat {
     /// Name, size and title in columns.

@@ -56,7 +56,7 @@ pub struct PlotArguments {
     pub output: OutputArguments,
 }
 
-/// How quantities lie on their scale.
+/// Scales of quantities.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum PlotScale {
     /// In proportion.

@@ -1,4 +1,4 @@
-//! How far a study is, on standard error: on a terminal one line that changes, elsewhere a line now and then.
+//! Progress of a study on standard error: on a terminal one line that changes, elsewhere a line now and then.
 
 use crate::study::Progress;
 use std::io::{self, IsTerminal, Write};

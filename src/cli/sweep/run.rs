@@ -39,7 +39,7 @@ pub struct SweepRunArguments {
     /// Check the plan and print its cost, without computing
     #[arg(long)]
     pub check: bool,
-    /// What is changed in the scene of the plan.
+    /// Overrides of the scene of the plan.
     #[command(flatten)]
     pub overrides: Overrides,
 }

@@ -26,7 +26,7 @@ pub struct StatusArguments {
     pub format: StatusFormat,
 }
 
-/// How a status is printed.
+/// Formats of a status.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum StatusFormat {
     /// A table.

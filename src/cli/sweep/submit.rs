@@ -56,7 +56,7 @@ pub struct SubmitArguments {
     /// Print the scripts and the commands; write and submit nothing
     #[arg(long)]
     pub dry_run: bool,
-    /// What is changed in the scene of the plan.
+    /// Overrides of the scene of the plan.
     #[command(flatten)]
     pub overrides: Overrides,
     /// Options of sbatch for both jobs, after --

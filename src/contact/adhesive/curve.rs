@@ -29,7 +29,8 @@ impl<E: EdgeModel> Ground<'_, E> {
         let place = |at: f64| if at > grid.high() { count } else { grid.first_at_least(at) };
         let mut totals = resized(Vec::new(), count + 1, ContactTotals::default())?;
         let mut sums: Vec<Sums> = resized(Vec::new(), if E::SLIDES { count } else { 0 }, [0.0; 4])?;
-        for run in runs {
+        let (low, high) = (points[0], grid.high());
+        for run in runs.iter().filter(|run| run.from <= high && run.to > low) {
             let (mut first, end) = (place(run.from), place(run.to));
             if first >= end {
                 continue;
@@ -65,6 +66,30 @@ impl<E: EdgeModel> Ground<'_, E> {
             *state = self.edges.state(point, total, cells, &scale);
         }
         Ok(Sampled { grid, totals, states })
+    }
+}
+
+impl Sampled {
+    /// The points of both grids, which have none in common.
+    pub fn merged(self, other: Sampled) -> Sampled {
+        let [mut here, mut there] = [self, other].map(|Sampled { grid, totals, states }| {
+            let points = grid.points().to_vec().into_iter();
+            points.zip(totals.into_iter().zip(states)).peekable()
+        });
+        let (mut points, mut totals, mut states) = (Vec::new(), Vec::new(), Vec::new());
+        loop {
+            let is_first = match (here.peek(), there.peek()) {
+                (Some(one), Some(other)) => one.0 <= other.0,
+                (None, None) => break,
+                (one, _) => one.is_some(),
+            };
+            if let Some((point, (total, state))) = if is_first { here.next() } else { there.next() } {
+                points.push(point);
+                totals.push(total);
+                states.push(state);
+            }
+        }
+        Sampled { grid: Grid::at(points), totals, states }
     }
 }
 

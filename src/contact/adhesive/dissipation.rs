@@ -41,7 +41,7 @@ pub struct Range {
     pub low: f64,
     /// Up to and including this, m.
     pub high: f64,
-    /// Whether the leg unloads.
+    /// True if the leg unloads.
     pub unloading: bool,
 }
 

@@ -56,7 +56,7 @@ pub trait EdgeModel: Copy + Send + Sync {
     /// running away.
     fn release(&self, span: &Span, length: Self::Length, rise: f64) -> (f64, bool);
 
-    /// Whether the edges pass from a span to the next larger one without a jump.
+    /// Returns true if the edges pass from a span to the next larger one without a jump.
     fn slides_on(&self, lower: (&Span, Self::Length), upper: (&Span, Self::Length)) -> bool;
 
     /// The edge cells of a span.

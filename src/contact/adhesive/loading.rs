@@ -19,7 +19,7 @@ pub struct Closing {
     closes: Vec<f64>,
     /// Springs that each node surely takes with it; bounds that grow as the chains above the node are walked.
     known: Vec<[u32; 2]>,
-    /// Whether `closes` holds for the present line and rule.
+    /// True if `closes` holds for the present line and rule.
     ready: bool,
     /// Thresholds that a loading from present fragments has replaced, in the order of the changes.
     replaced: Vec<(u32, f64)>,

@@ -63,7 +63,7 @@ pub struct Adhesive<'a, E> {
     ground: Ground<'a, E>,
     memory: AdhesiveMemory,
     unloading: bool,
-    /// Whether the present leg forms the contact.
+    /// True if the present leg forms the contact.
     forms: bool,
     reversing: Reversing,
     /// Squares of stretches on the way to and from the present turning point, m².
@@ -225,8 +225,8 @@ impl<E: EdgeModel> ContactModel for Adhesive<'_, E> {
         ground.sample(runs, unloading, grid)
     }
 
-    fn smallest_of_reversal(&self, leg: &Sampled, sorted: &mut u64) -> ContactState {
-        self.reversal().smallest(leg, sorted)
+    fn smallest_of_reversal(&self, grid: &Grid, sorted: &mut u64) -> Result<ContactState, ContactError> {
+        self.reversal().smallest_on(grid, sorted)
     }
 
     fn squared_stretches(&self) -> [f64; 2] {

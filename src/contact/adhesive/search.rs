@@ -7,8 +7,13 @@
 use super::curve::Sampled;
 use super::edge_model::EdgeModel;
 use super::run::{Ground, Run};
+use crate::contact::ContactError;
 use crate::contact::contact_model::ContactState;
+use crate::contact::grid::Grid;
 use crate::contact::interval::{Ends, Interval, Piece, lower_bound, upper_bound};
+
+/// Points of a grid from one to the next of those that are looked at first.
+const STRIDE: usize = 16;
 
 /// A leg that is searched.
 pub struct Search<'a, E> {
@@ -29,6 +34,24 @@ impl<E: EdgeModel> Search<'_, E> {
             interval.smallest(&interval.pieces, leg.ends(index), &mut best);
         }
         best
+    }
+
+    /// The smallest force on the range of a grid, most points of which are left out: those between two neighbours of a
+    /// coarser grid whose bounds exclude a smaller force.
+    pub fn smallest_on(&self, grid: &Grid, sorted: &mut u64) -> Result<ContactState, ContactError> {
+        let points = grid.points();
+        let last = points.len() - 1;
+        let coarse = (0..last).step_by(STRIDE).chain([last]).map(|index| points[index]).collect();
+        let leg = self.ground.sample(self.runs, self.unloading, Grid::at(coarse))?;
+        let smallest = leg.states.iter().map(|state| state.compression).fold(f64::INFINITY, f64::min);
+        let chosen = leg.choose(|low, high| lower_bound(low, high) < smallest);
+        let between = |&interval: &usize| STRIDE * interval + 1..(STRIDE * (interval + 1)).min(last);
+        let fine: Vec<f64> = chosen.iter().flat_map(between).map(|index| points[index]).collect();
+        if fine.is_empty() {
+            return Ok(self.smallest(&leg, sorted));
+        }
+        let fine = self.ground.sample(self.runs, self.unloading, Grid::at(fine))?;
+        Ok(self.smallest(&leg.merged(fine), sorted))
     }
 
     /// The largest force on the range of a grid.

@@ -119,7 +119,7 @@ impl ContactTree {
         self.nodes.len()
     }
 
-    /// Whether the gap has no local maximum inside the line.
+    /// Returns true if the gap has no local maximum inside the line.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.nodes.is_empty()
@@ -321,7 +321,7 @@ fn largest(gaps: &[f64]) -> f64 {
     lanes.iter().chain(rest).fold(0.0, |one, &other| larger(one, other))
 }
 
-/// Whether the gap rises from each spring to the next, one bit for each.
+/// Returns true if the gap rises from each spring to the next, one bit for each.
 #[inline]
 fn rises_of(gaps: &[f64; LANES + 1]) -> u64 {
     let mut rises = 0;

@@ -90,7 +90,7 @@ impl Opening {
 }
 
 impl<E: EdgeModel> Ground<'_, E> {
-    /// Whether a fragment within `springs` springs, the smallest or largest gap of which is `gap`, may hold that
+    /// Returns true if a fragment within `springs` springs, the smallest or largest gap of which is `gap`, may hold that
     /// spring below the indentation `opens`: its length is at most that of these springs and their edge cells.
     #[inline]
     fn may_hold(&self, gap: f64, opens: f64, springs: usize) -> bool {

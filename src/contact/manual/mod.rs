@@ -1,6 +1,6 @@
 //! Manual loading: the body moved by steps of any size, either way, at a cost in proportion to the change.
 //!
-//! Where the exact solver finds for a whole leg when each fragment grows or detaches, manual loading knows the next
+//! The exact solver finds for a whole leg when each fragment grows or detaches; manual loading knows the next
 //! event alone. A move proceeds from event to event: a free local minimum of the gap touches, a fragment attaches its wall,
 //! with the rest of the subtree where it merges, or a fragment detaches its most stretched spring. Both use the same
 //! thresholds of the same spans, so both find the same contact, bit for bit.
@@ -73,7 +73,7 @@ pub struct Move {
     pub dissipated_energy: f64,
 }
 
-/// Why a body could not be moved.
+/// Reason for which a body could not be moved.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum ManualError {
     /// Manual loading could not begin.

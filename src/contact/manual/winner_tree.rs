@@ -120,7 +120,7 @@ mod tests {
         prop_oneof![4 => (0_u8..20).prop_map(f64::from), 1 => Just(f64::INFINITY), 1 => -1.0..1.0_f64]
     }
 
-    /// What all questions must give.
+    /// Compares all queries with a search of the keys.
     fn check(tree: &WinnerTree, keys: &[f64]) -> Result<(), TestCaseError> {
         let smallest = keys.iter().copied().fold(f64::INFINITY, f64::min);
         match tree.first() {

@@ -101,7 +101,7 @@ pub(super) fn cell_of(place: f64, cells: u16, values: usize) -> u16 {
     at.clamp(0.0, f64::from(cells.max(1) - 1)) as u16
 }
 
-/// Whether the contour passes between two cells.
+/// Returns true if the contour passes between two cells.
 fn crosses(map: &HeatMap, cell: usize, other: usize) -> bool {
     let Some(contour) = &map.contour else { return false };
     let below = |cell: usize| Some(contour.field.get(cell).copied().flatten()? < contour.level);

@@ -292,7 +292,7 @@ fn scale_below(chart: &Chart, width: u16, marker: Marker) -> (Vec<(u16, String)>
     (numbers, label)
 }
 
-/// Whether the label of the horizontal axis would take the place of a number beside it.
+/// Returns true if the label of the horizontal axis would cover a number.
 fn label_hides_numbers(chart: &Chart, width: u16) -> bool {
     let (numbers, label) = scale_below(chart, width, Marker::Braille);
     let end = usize::from(width).saturating_sub(label.chars().count() + 1);

@@ -1,13 +1,13 @@
-//! How charts look in cells: markers, inks, colours, characters of signs.
+//! Appearance of charts in cells: markers, inks, colours, characters of signs.
 
 use crate::draw::chart::Sign;
 use crate::draw::colour::{Ink, Rgb};
 use ratatui::style::{Color, Style};
 use ratatui::symbols::Marker;
 
-/// How charts look in cells.
+/// Appearance of charts in cells.
 pub struct CellStyle<'a> {
-    /// What lines are made of.
+    /// Marker of lines.
     pub marker: Marker,
     /// Style of each ink.
     pub ink: &'a dyn Fn(Ink) -> Style,

@@ -142,7 +142,7 @@ fn push_line(text: &mut String, runs: &[(&str, Style)]) {
     text.push('\n');
 }
 
-/// What gives a terminal the colours of a style.
+/// Escape sequence of the colours of a style.
 fn code(style: &Style) -> String {
     let parameters = |kind: u8, colour: Option<Color>| match colour {
         Some(Color::Rgb(red, green, blue)) => Some(format!("{kind};2;{red};{green};{blue}")),

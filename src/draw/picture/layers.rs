@@ -4,7 +4,7 @@ use super::canvas::{Canvas, Pen, Place};
 use super::frame::Frame;
 use crate::draw::axis::Axis;
 use crate::draw::chart::{Contour, HeatMap, Layer, Shape, Sign, Stroke};
-use crate::draw::colour::{Palette, Rgb, ink_on, shade};
+use crate::draw::colour::{Ink, Palette, Rgb, ink_on, shade};
 use crate::draw::contour::contour;
 
 pub(super) const TEXT: Rgb = Palette::LIGHT.foreground;
@@ -38,13 +38,13 @@ pub(super) fn draw(canvas: &mut dyn Canvas, frame: &Frame<'_>, layers: &[Layer])
             }
             Shape::Upright(x) => {
                 if let Some((x, _)) = inside(frame.x, *x).then(|| frame.place_at_end((*x, 0.0))).flatten() {
-                    canvas.line(&[(x, frame.from.1), (x, frame.to.1)], guide());
+                    canvas.line(&[(x, frame.from.1), (x, frame.to.1)], guide(layer.ink));
                 }
             }
             Shape::Level(y) => {
                 let low = frame.x.scale.number(frame.x.span.low);
                 if let Some((_, y)) = inside(frame.y, *y).then(|| frame.place((low, *y))).flatten() {
-                    canvas.line(&[(frame.from.0, y), (frame.to.0, y)], guide());
+                    canvas.line(&[(frame.from.0, y), (frame.to.0, y)], guide(layer.ink));
                 }
             }
             Shape::Envelope { x, columns } => envelope(canvas, frame, *x, columns, colour),
@@ -63,8 +63,9 @@ fn inside(axis: &Axis, number: f64) -> bool {
 }
 
 /// Pen of lines that only guide the eye.
-pub(super) fn guide() -> Pen {
-    Pen { colour: QUIET, width: 1.0, stroke: Stroke::Dashed }
+pub(super) fn guide(ink: Ink) -> Pen {
+    let colour = if ink == Ink::Quiet { QUIET } else { ink.on_paper() };
+    Pen { colour, width: 1.0, stroke: Stroke::Dashed }
 }
 
 /// Half the size of signs: those of neighbours do not touch where there are many.

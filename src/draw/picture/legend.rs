@@ -3,7 +3,6 @@
 use super::canvas::{Anchor, Canvas, Pen, Place};
 use super::layers::{AREA_OPACITY, QUIET, SIGN, TEXT, draw_sign, guide};
 use crate::draw::chart::{Entry, Sample};
-use crate::draw::colour::Ink;
 
 /// Size of names, px.
 const SIZE: f64 = 11.5;
@@ -92,10 +91,7 @@ fn sample(canvas: &mut dyn Canvas, entry: &Entry, (x, y): Place) {
                 let opacity = if *sample == Sample::Area { AREA_OPACITY } else { 1.0 };
                 canvas.area(&[from, (to.0, from.1), to, (from.0, to.1)], colour, opacity);
             }
-            Sample::Guide if *ink == Ink::Text => {
-                canvas.line(&[(x + 5.0, y + 7.0), (x + 5.0, y - 7.0)], Pen { colour, ..guide() });
-            }
-            Sample::Guide => canvas.line(&[(x + 5.0, y + 7.0), (x + 5.0, y - 7.0)], guide()),
+            Sample::Guide => canvas.line(&[(x + 5.0, y + 7.0), (x + 5.0, y - 7.0)], guide(*ink)),
             Sample::Contour => canvas.line(&[(x, y), (x + 22.0, y)], Pen::solid(colour, 1.8)),
             Sample::Empty => {
                 let (from, to) = ((x, y - 6.0), (x + 12.0, y + 6.0));

@@ -22,11 +22,16 @@ pub fn study_tasks(model: &Model) -> Vec<Task> {
     let chart = chart
         .filter(|_| model.chart.shown && model.chart.shown_study().is_none() && model.chart.failed.is_none())
         .map(|map| Task::Chart { map, waits: model.chart.edited });
+    let preloads = model.preloads.wanted(computed).map(|curve| Task::Preloads {
+        curve,
+        scene: std::sync::Arc::clone(&computed.scene),
+        waits: model.preloads.edited,
+    });
     let estimate =
         (appraisal.estimated == Estimated::Waiting).then(|| Task::Estimate(std::sync::Arc::clone(computed)));
     let measure = (appraisal.shown && appraisal.costs.ended.is_none())
         .then(|| Task::Measure(std::sync::Arc::clone(&computed.scene)));
-    estimate.into_iter().chain(chart).chain(measure).collect()
+    estimate.into_iter().chain(chart).chain(preloads).chain(measure).collect()
 }
 
 /// Obeys a command that has to do with accuracy.
@@ -43,7 +48,8 @@ pub fn obey(model: &mut Model, command: Command) -> Vec<Effect> {
         model.appraisal.hide();
         model.pane = if model.pane == Pane::Accuracy { Pane::Force } else { model.pane };
     } else {
-        (model.appraisal.shown, model.chart.shown) = (true, false);
+        model.hide_in_place_of_the_line();
+        model.appraisal.shown = true;
         model.pane = Pane::Accuracy;
     }
     vec![Effect::Study, Effect::Show]
@@ -96,6 +102,14 @@ pub fn found(model: &mut Model, found: Found) -> Vec<Effect> {
         }
         Finding::NotCharted(why) => {
             model.chart.failed = Some(why);
+            Vec::new()
+        }
+        Finding::Preloaded(curve) => {
+            model.preloads.curve = Some(curve);
+            Vec::new()
+        }
+        Finding::NotPreloaded(why) => {
+            model.preloads.failed = Some(why);
             Vec::new()
         }
         finding => {

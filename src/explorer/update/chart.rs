@@ -39,10 +39,12 @@ fn toggle(model: &mut Model) -> Vec<Effect> {
         return vec![Effect::Show];
     }
     let shown = !model.chart.shown;
+    if shown {
+        model.hide_in_place_of_the_line();
+    }
     model.chart.shown = shown;
     model.chart.edited = false;
     if shown {
-        model.appraisal.hide();
         model.pane = Pane::Chart;
     } else if model.pane == Pane::Chart {
         model.pane = Pane::Force;

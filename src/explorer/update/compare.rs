@@ -42,8 +42,8 @@ fn toggle(model: &mut Model) {
     }
     if !model.ghosts.is_empty() {
         model.side_by_side = true;
-        (model.lengths, model.chart.shown) = (false, false);
-        model.appraisal.hide();
+        model.lengths = false;
+        model.hide_in_place_of_the_line();
         if !model.panes().contains(&model.pane) {
             model.pane = Pane::Force;
         }

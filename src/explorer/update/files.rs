@@ -43,7 +43,7 @@ pub fn export(model: &mut Model, path: PathBuf) -> Vec<Effect> {
         model.mode = Mode::Explore;
         return Vec::new();
     }
-    if matches!(content, Content::Curve | Content::Outcome) && !model.is_current() {
+    if matches!(content, Content::Curve(_) | Content::Outcome) && !model.is_current() {
         model.notice = Some(Notice::Error("the scene has no curve yet to export".to_owned()));
         model.mode = Mode::Explore;
         return Vec::new();

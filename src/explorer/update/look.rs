@@ -29,6 +29,7 @@ pub fn obey(model: &mut Model, command: Command) -> Vec<Effect> {
                 return vec![Effect::Beside, Effect::Show];
             }
         }
+        Command::ToggleSpectrum => toggle_spectrum(model),
         Command::Zoom(steps) => zoom(model, steps),
         Command::Pan(quarters) => pan(model, quarters),
         Command::ResetZoom => {
@@ -68,6 +69,18 @@ pub fn obey(model: &mut Model, command: Command) -> Vec<Effect> {
         _ => {}
     }
     vec![Effect::Show]
+}
+
+/// Shows the spectrum in place of profile and close-up, or these again.
+fn toggle_spectrum(model: &mut Model) {
+    let shown = !model.spectrum;
+    model.hide_in_place_of_the_line();
+    model.spectrum = shown;
+    model.pane = match model.pane {
+        _ if shown => Pane::Spectrum,
+        Pane::Spectrum => Pane::Force,
+        other => other,
+    };
 }
 
 fn tell(model: &mut Model, text: String) {

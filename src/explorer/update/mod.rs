@@ -13,6 +13,7 @@ mod library;
 mod look;
 mod mouse;
 mod movement;
+mod preloads;
 
 pub use accuracy::study_tasks;
 
@@ -139,6 +140,7 @@ pub fn moment_request(model: &Model) -> Option<MomentRequest> {
             let leg = model.player.leg.min(legs.len().saturating_sub(1));
             (leg, Player { leg, ..model.player }.indentation(legs))
         }),
+        spectra: model.spectrum,
     })
 }
 
@@ -283,6 +285,7 @@ fn explore(model: &mut Model, command: Command) -> Vec<Effect> {
         Command::CopyCommand => return files::copy_command(model),
         Command::OpenLibrary => return library::open(model),
         Command::ToggleAccuracy | Command::TypeTolerance => return accuracy::obey(model, command),
+        Command::TogglePreloads => return preloads::toggle(model),
         Command::ToggleChart
         | Command::ToggleSections
         | Command::NextCharted
@@ -293,6 +296,7 @@ fn explore(model: &mut Model, command: Command) -> Vec<Effect> {
         | Command::MoveUp(_) => return chart::obey(model, command),
         Command::Fragment(_)
         | Command::ToggleLengths
+        | Command::ToggleSpectrum
         | Command::Zoom(_)
         | Command::Pan(_)
         | Command::ResetZoom

@@ -49,7 +49,9 @@ pub fn act(model: &mut Model, mouse: Mouse) -> Vec<Effect> {
                     model.chart.moving = false;
                     put(model, inside(area), here)
                 }
-                Pane::Profile | Pane::CloseUp | Pane::Accuracy => vec![Effect::Show],
+                Pane::Profile | Pane::CloseUp | Pane::Accuracy | Pane::Spectrum | Pane::Preloads => {
+                    vec![Effect::Show]
+                }
             }
         }
         (Gesture::Drag, Pane::Chart) if model.chart.moving => put(model, inside(area), here),

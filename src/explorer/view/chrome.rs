@@ -51,7 +51,7 @@ pub fn status(frame: &mut Frame<'_>, area: Rect, model: &Model) {
         (Mode::Export(line), _) if model.exports() == Content::MAP_EXPORTS => {
             prompted("Export the map to (.csv .svg .txt): ", line)
         }
-        (Mode::Export(line), _) => prompted("Export to (.csv .json .svg .txt): ", line),
+        (Mode::Export(line), _) => prompted("Export to (.csv .npy .json .svg .txt): ", line),
         (Mode::Force(line), _) => prompted("Go to the force: ", line),
         (Mode::Tolerance(line), _) if area.width < 60 => prompted("Tolerance: ", line),
         (Mode::Tolerance(line), _) => prompted("Relative error allowed (0.1 % or 1e-3): ", line),

@@ -2,6 +2,7 @@
 
 use super::plot;
 use super::wrap::fitting;
+use crate::analysis::LEAST_TABOR_NUMBER;
 use crate::analysis::{Mark, marks};
 use crate::contact::{CurvePoint, Direction, LegRecord};
 use crate::draw::{
@@ -32,7 +33,18 @@ pub fn title(model: &Model) -> String {
     let is_shaded = model.curve.loss && model.curve.scale == AxisScale::Linear;
     let loss = if is_shaded && model.curve.quantities == Quantities::ForceIndentation {
         match model.computed.as_ref().and_then(|computed| computed.outcome.figures.dissipated_energy) {
-            Some(energy) => format!(" · loss {}", format_quantity(short(energy), "J")),
+            Some(energy) => {
+                let number = model.computed.as_ref().and_then(|computed| computed.outcome.tabor_number);
+                let number = number.map_or_else(String::new, |number| {
+                    let low = if number < LEAST_TABOR_NUMBER {
+                        format!(" < {LEAST_TABOR_NUMBER}")
+                    } else {
+                        String::new()
+                    };
+                    format!(", μ {}{low}", format_quantity(short(number), "1"))
+                });
+                format!(" · loss {}{number}", format_quantity(short(energy), "J"))
+            }
             None => " · loss open".to_owned(),
         }
     } else {

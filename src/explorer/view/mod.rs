@@ -14,9 +14,11 @@ mod library;
 mod parameters;
 mod plot;
 mod position;
+mod preloads;
 mod profile;
 mod section;
 mod sections;
+mod spectrum;
 mod stages;
 mod typed;
 mod wrap;
@@ -89,6 +91,8 @@ fn draw_pane(frame: &mut Frame<'_>, area: Rect, model: &Model, pane: Pane) {
             Pane::Parameters => " Parameters ".to_owned(),
             Pane::Accuracy => accuracy::TITLE.to_owned(),
             Pane::Chart => chart_words::title(model),
+            Pane::Spectrum => spectrum::TITLE.to_owned(),
+            Pane::Preloads => preloads::TITLE.to_owned(),
         };
         let style = model.appearance.theme.style(if chosen { Meaning::Title } else { Meaning::Quiet });
         let mark = if chosen { "▸" } else { "" };
@@ -114,5 +118,7 @@ fn draw_pane(frame: &mut Frame<'_>, area: Rect, model: &Model, pane: Pane) {
         Pane::Parameters => parameters::draw(frame, area, edge, model),
         Pane::Accuracy => accuracy::draw(frame, area, model),
         Pane::Chart => chart::draw(frame, area, model),
+        Pane::Spectrum => spectrum::draw(frame, area, model),
+        Pane::Preloads => preloads::draw(frame, area, model),
     }
 }

@@ -130,10 +130,12 @@ pub fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
     }
 }
 
-fn section(frame: &mut Frame<'_>, area: Rect, model: &Model, chart: &Chart) {
+/// Draws a chart with its legend, which begins with the heading of the chart.
+pub(super) fn section(frame: &mut Frame<'_>, area: Rect, model: &Model, chart: &Chart) {
     let heading = vec![Text::styled(chart.heading.clone(), model.appearance.theme.style(Meaning::Title))];
     let entries = plot::in_theme(model.appearance, |style| legend(std::slice::from_ref(chart), style));
-    let parts = std::iter::once(heading).chain(entries).collect();
+    let parts =
+        std::iter::once(heading).filter(|heading| !heading[0].content.is_empty()).chain(entries).collect();
     let legend = filled(parts, "  ", usize::from(area.width));
     let rows = (legend.len() as u16).min(area.height.saturating_sub(FEWEST_ROWS));
     for (y, line) in (area.y..area.y + rows).zip(legend) {

@@ -1,4 +1,4 @@
-//! What the stages ask of a scene, and what they answer.
+//! Questions of the stages to a scene, and their answers.
 
 use super::Stage;
 use super::legs::Legs;
@@ -20,7 +20,7 @@ const SAMPLED: u64 = 64;
 /// The same with edges between springs, which are summed for each sample as well.
 const SAMPLED_WITH_EDGES: u64 = 120;
 
-/// Why stages are skipped, in the same words each time.
+/// Reasons for which stages are skipped.
 pub const NO_ADHESION: &str = "no adhesion: each spring touches and leaves at its own gap";
 pub const STEPWISE: &str = "solver: Stepwise";
 pub const NEVER_BACK: &str = "loading never goes back";
@@ -34,11 +34,11 @@ pub struct Row {
     pub cost: fn(&Call<'_>) -> StageCost,
 }
 
-/// Whether a scene calls for a stage.
+/// Decision on a stage of a scene.
 pub enum Called {
-    /// It does, by this field.
+    /// Called for by this field.
     For(&'static str),
-    /// It does not, for this reason.
+    /// Skipped for this reason.
     Not(&'static str),
 }
 
@@ -49,7 +49,7 @@ impl Called {
     }
 }
 
-/// What one stage costs.
+/// Cost of one stage.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct StageCost {
     /// Passes over the line or its tree; `None` where only the run can tell.
@@ -65,7 +65,7 @@ impl StageCost {
     pub const NOTHING: StageCost = StageCost { passes: Some(0), springs_touched: Some(0), bytes: 0 };
 }
 
-/// What a scene calls for.
+/// Requirements of a scene.
 pub struct Call<'a> {
     pub scene: &'a Scene,
     /// Springs N of the foundation.
@@ -80,7 +80,7 @@ pub struct Call<'a> {
     pub exact: bool,
     /// Edges between springs.
     pub between: bool,
-    /// Whether the loading may turn back.
+    /// True if the loading may turn back.
     pub pulls: bool,
 }
 

@@ -1,9 +1,9 @@
-//! Which legs of a loading press and which pull, as far as that is clear without a run.
+//! Directions of the legs of a loading, as far as they are known without a run.
 
 use crate::contact::Target;
 use crate::scene::Leg;
 
-/// How many legs there are of either kind.
+/// Numbers of legs of either direction.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Legs {
     loading: u64,
@@ -18,7 +18,7 @@ pub struct Legs {
 /// State of the body before a leg, as far as known without a run.
 #[derive(Clone, Copy)]
 struct BodyState {
-    /// Whether it touches; `None` where only the run can tell.
+    /// True if the body touches; `None` where only the run decides.
     touches: Option<bool>,
     force: Option<f64>,
     indentation: Option<f64>,

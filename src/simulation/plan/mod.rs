@@ -1,4 +1,4 @@
-//! Which stages a scene calls for, by which of its fields, and what they cost. The run follows this plan.
+//! Stages that a scene calls for, the fields that call for them, and their costs. The run follows this plan.
 //!
 //! Each stage is a file with its row, and stands once in the table; nothing else knows all of them.
 
@@ -82,11 +82,11 @@ impl Stage {
 pub struct PlannedStage {
     /// The stage.
     pub stage: Stage,
-    /// Whether it runs.
+    /// True if it runs.
     pub runs: bool,
     /// The field that calls for it, or why it is skipped.
     pub because: &'static str,
-    /// What it costs; nothing where it is skipped.
+    /// Cost; zero where the stage is skipped.
     #[serde(flatten)]
     pub cost: StageCost,
 }
@@ -126,7 +126,7 @@ impl Plan {
         plan
     }
 
-    /// Whether a stage runs.
+    /// Returns true if a stage runs.
     #[must_use]
     pub fn runs(&self, stage: Stage) -> bool {
         self.stages.iter().any(|planned| planned.stage == stage && planned.runs)

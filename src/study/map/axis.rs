@@ -1,9 +1,9 @@
 //! Axes of maps: quantities of a scene, which a scene has a value of and can be given another one.
 
-use super::template::governing;
 use crate::analysis::Governing;
 use crate::scene::{Adhesion, Document, Leg, RoughnessParameter, Scene, SceneErrors, ron_float};
 use crate::study::figure::FigureAxis;
+use crate::study::governing::governing;
 use crate::study::target::Target;
 
 /// Axis of a map.

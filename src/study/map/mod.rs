@@ -20,5 +20,4 @@ pub use grid::{HURSTS, KAPPAS, Level, hurst, hursts, kappa, kappas, next_beyond}
 pub use live_map::LiveMap;
 pub use model::{Charted, Layer, MapCell, MapModel, Place, ShownCell};
 pub use study_map::{StudyMap, StudyMapError};
-pub(super) use template::governing;
 pub use template::{LINES, NoMap, RECORD, Template};

@@ -26,7 +26,7 @@ pub struct MapModel {
 /// A quantity in all cells of a map.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Layer {
-    /// Which one.
+    /// Quantity.
     pub quantity: Quantity,
     /// Scale of the quantity.
     pub scale: AxisScale,

@@ -57,7 +57,7 @@ impl StudyMap {
     /// Opens the folder of a merged study.
     ///
     /// # Errors
-    /// Where it is none, or has one cell.
+    /// A folder of no study, or of a study of one cell.
     pub fn open(folder: &Path) -> Result<StudyMap, StudyMapError> {
         StudyMap::of(Finished::open(folder)?, folder)
     }
@@ -65,7 +65,7 @@ impl StudyMap {
     /// The maps of a study that was read from a folder.
     ///
     /// # Errors
-    /// Where it has one cell.
+    /// A study of one cell.
     pub fn of(study: Finished, folder: &Path) -> Result<StudyMap, StudyMapError> {
         let axes = study.plan().all_axes();
         let free: Vec<usize> = (0..axes.len()).filter(|axis| axes[*axis].count() > 1).collect();
@@ -205,7 +205,7 @@ impl StudyMap {
     /// The scene of the study to be explored, named by its folder.
     ///
     /// # Errors
-    /// Where it is not allowed.
+    /// A scene that is not allowed.
     pub fn document(&self) -> Result<Document, SceneErrors> {
         // As it is typed, so that the command that opens it again is this name.
         let name = self.folder.display().to_string();
@@ -232,7 +232,7 @@ impl StudyMap {
     /// A document with all that makes its scene that of a map, but for the axes that the map is over.
     ///
     /// # Errors
-    /// Where this is not allowed in it.
+    /// Values that are not allowed in the scene.
     pub fn follow(&self, slice: u64, document: &Document) -> Result<Document, SceneErrors> {
         let at = self.at(slice);
         let values: Vec<_> = at.iter().map(|(axis, _, place)| (axis.path(), axis.value(*place))).collect();
@@ -240,7 +240,7 @@ impl StudyMap {
     }
 }
 
-/// Whether κ and H are the same but for rounding; those that are not known are not compared.
+/// Returns true if κ and H are the same but for rounding; those that are not known are not compared.
 fn is_close(one: Option<(f64, f64)>, other: Option<(f64, f64)>) -> bool {
     let is_close = |a: f64, b: f64| (a - b).abs() <= 1e-9 * a.abs().max(b.abs());
     one.zip(other).is_none_or(|((a, b), (c, d))| is_close(a, c) && is_close(b, d))

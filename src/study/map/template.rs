@@ -2,12 +2,11 @@
 
 use super::axis::MapAxis;
 use super::grid::{Level, hursts, kappas};
-use crate::analysis::Governing;
 use crate::scene::{Adhesion, Edges, Numerics, Roughness, Scene, Solver};
 use crate::study::axis::Axis;
+use crate::study::governing::governing;
 use crate::study::plan::Plan;
 use crate::study::quantity::Quantity;
-use crate::surface::SelfAffine;
 use thiserror::Error;
 
 /// Random lines of each cell.
@@ -129,15 +128,6 @@ impl Template {
         let Some(Roughness::SelfAffine { hurst, .. }) = scene.roughness else { return None };
         Some((governing(scene)?.kappa?, hurst))
     }
-}
-
-/// Governing parameters of a scene with a self-affine profile.
-pub(in crate::study) fn governing(scene: &Scene) -> Option<Governing> {
-    let Some(Roughness::SelfAffine { hurst, modes: (first, last), .. }) = scene.roughness else {
-        return None;
-    };
-    let wave_numbers = SelfAffine { hurst, first, last }.wave_numbers(scene.length);
-    Some(Governing::of(scene, Some(wave_numbers), None))
 }
 
 #[cfg(test)]

@@ -6,7 +6,7 @@ use super::layout::{Cell, Decimal, Separator};
 /// Longest header line that is looked at, bytes.
 const LONGEST: usize = 4096;
 
-/// What the lines before the numbers state.
+/// Content of the lines before the numbers.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Header {
     /// Units in the order of the columns, from the last line that has some.

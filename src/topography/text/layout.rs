@@ -73,6 +73,16 @@ pub(super) struct Decimal {
 }
 
 impl Decimal {
+    /// Returns false if the mark is a comma.
+    pub fn may_be_point(self) -> bool {
+        self.found != Some(b',')
+    }
+
+    /// The mark is a point, if none was found before.
+    pub fn find_point(&mut self) {
+        self.found.get_or_insert(b'.');
+    }
+
     /// Reads a column.
     pub fn read(&mut self, cell: &str, separator: Separator) -> Cell {
         // Most numbers take this way alone.

@@ -45,6 +45,17 @@ impl<R: BufRead> Lines<R> {
         Ok(Lines { source, line: Vec::new(), number: 0 })
     }
 
+    /// Shows the next bytes that are there to `take`, which takes whole lines from their beginning and returns their bytes
+    /// and number.
+    pub fn take_block(&mut self, take: impl FnOnce(&[u8]) -> (usize, usize)) -> io::Result<()> {
+        if let Source::Bytes(source) = &mut self.source {
+            let (bytes, lines) = take(source.fill_buf()?);
+            source.consume(bytes);
+            self.number += lines;
+        }
+        Ok(())
+    }
+
     /// The next line without its end and its number from 1 on, or `None` behind the last.
     pub fn next(&mut self) -> Result<Option<(usize, Cow<'_, str>)>, TopographyError> {
         self.line.clear();

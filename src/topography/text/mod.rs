@@ -8,13 +8,16 @@ mod grid;
 mod header;
 mod layout;
 mod lines;
+mod plain;
 
 use super::Unit;
 use super::error::{Place, TopographyError, refused, shown};
 use super::reading::{Format, LARGEST, RawGrid, Reading};
+use crate::io::PROVENANCE;
 use header::Header;
 use layout::{Cell, Decimal, Separator};
 use lines::Lines;
+use plain::PlainLine;
 use std::io::BufRead;
 
 /// Reads a text line by line.
@@ -22,15 +25,22 @@ pub(super) fn read(source: impl BufRead) -> Result<Reading, TopographyError> {
     let mut lines = Lines::new(source)?;
     let mut header = Header::default();
     let mut rows: Option<Rows> = None;
+    let mut in_provenance = false;
     while let Some((number, line)) = lines.next()? {
         let line = line.trim_ascii();
         if line.is_empty() {
             continue;
         }
         let comment = line.starts_with(['#', '%', '!']);
+        // The words of a scene may look like units.
+        in_provenance = comment && (in_provenance || line.starts_with(PROVENANCE));
         match &mut rows {
             Some(_) if comment => {}
-            Some(rows) => rows.take(number, line)?,
+            None if in_provenance => {}
+            Some(rows) => {
+                rows.take(number, line)?;
+                lines.take_block(|block| rows.take_plain(block))?;
+            }
             None if comment || is_header(line) => header.take(line),
             None => {
                 let mut first = Rows::new(line);
@@ -90,6 +100,52 @@ impl Rows {
     /// Number of columns of positions.
     fn position_columns(&self) -> usize {
         if self.columns <= 3 { self.columns - 1 } else { 0 }
+    }
+
+    /// Takes the plain lines at the beginning of a block. Returns their bytes and their number.
+    fn take_plain(&mut self, block: &[u8]) -> (usize, usize) {
+        let is_usual = self.columns <= plain::MOST_COLUMNS && self.decimal.may_be_point();
+        let has_order = self.columns != 2 || self.direction != Direction::Unknown;
+        if !is_usual || !has_order {
+            return (0, 0);
+        }
+        let (separator, columns) = (self.separator, self.columns);
+        plain::read_lines(block, separator, columns, &mut |line| self.push_plain(line))
+    }
+
+    /// Takes a plain line, unless its numbers are not allowed: then the general way names the reason.
+    fn push_plain(&mut self, line: PlainLine) -> bool {
+        let values = &line.values[..self.columns];
+        if values.iter().any(|value| value.abs() > LARGEST * 1e12) {
+            return false;
+        }
+        if self.columns == 2
+            && let Some(before) = self.positions[0].last()
+        {
+            let goes_on = match self.direction {
+                Direction::Ascending => values[0] > *before,
+                Direction::Descending => values[0] < *before,
+                Direction::Unknown => false,
+            };
+            if !goes_on {
+                return false;
+            }
+        }
+        let position_columns = self.position_columns();
+        let room = self.heights.try_reserve(1).is_ok()
+            && self.positions[..position_columns]
+                .iter_mut()
+                .all(|positions| positions.try_reserve(1).is_ok());
+        if !room {
+            return false;
+        }
+        let (positions, heights) = values.split_at(position_columns);
+        self.positions.iter_mut().zip(positions).for_each(|(all, position)| all.push(*position));
+        self.heights.extend_from_slice(heights);
+        if line.has_point {
+            self.decimal.find_point();
+        }
+        true
     }
 
     /// Takes a line without spaces around it.
@@ -199,6 +255,37 @@ fn quoted(cell: &str) -> String {
 mod tests {
     use super::*;
     use proptest::prelude::*;
+    use std::io::BufReader;
+
+    /// A line of a text, mostly of two numbers that ascend.
+    fn line(index: usize) -> impl Strategy<Value = String> {
+        let x = index as f64 * 0.5;
+        prop_oneof![
+            20 => (-1e3..1e3_f64).prop_map(move |z| format!("{x} {z:.3}")),
+            4 => any::<f64>().prop_map(move |z| format!("{x} {z:e}")),
+            1 => Just("# 1 2".to_owned()),
+            1 => Just(String::new()),
+            1 => Just(format!("  {x}   7 \r")),
+            1 => Just(format!("{x} bad")),
+            1 => prop::sample::select(vec!["1 2 3", "0 1", "1", "1,5 2,5", "1e400 1", "1e30 1", "-3 1", "x 1"])
+                .prop_map(str::to_owned),
+        ]
+    }
+
+    proptest! {
+        #[test]
+        fn lines_read_in_blocks_are_those_read_one_by_one(
+            lines in (1..60_usize).prop_flat_map(|count| (0..count).map(line).collect::<Vec<_>>()),
+            capacity in 8..200_usize,
+        ) {
+            let text = lines.join("\n");
+            // A buffer of one byte holds no whole line.
+            let expected = format!("{:?}", read(BufReader::with_capacity(1, text.as_bytes())));
+            prop_assert_eq!(&format!("{:?}", read(text.as_bytes())), &expected, "{}", text);
+            let found = read(BufReader::with_capacity(capacity, text.as_bytes()));
+            prop_assert_eq!(&format!("{found:?}"), &expected, "{}", text);
+        }
+    }
 
     fn text(text: &str) -> Result<Reading, String> {
         read(text.as_bytes()).map_err(|error| error.to_string())

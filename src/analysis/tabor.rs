@@ -1,0 +1,109 @@
+//! Tabor number: the range of attraction against the deformation at pull-off.
+//!
+//! The rule of Hess is the limit of short-ranged attraction, as the theory of Johnson, Kendall and Roberts is. Attraction
+//! of a finite range dissipates less: in three dimensions the hysteresis is gone at a Tabor number of about 1.
+
+use super::Governing;
+use crate::scene::{Form, Scene};
+use std::f64::consts::TAU;
+
+/// Range of attraction z₀, m, of a scene that does not state one: a distance between atoms.
+pub const DEFAULT_RANGE: f64 = 0.3e-9;
+
+/// Tabor number below which dissipated energies are too large.
+pub const LEAST_TABOR_NUMBER: f64 = 5.0;
+
+/// Tabor number μ = (ργ²/(E*²z₀³))^(1/3); `None` without adhesion, and for bodies without a radius of curvature: flat
+/// faces, cones and powers.
+///
+/// The radius of curvature is ρ = 2/z″ with the rms curvature z″ of the line, which is the rms Laplacian of the surface:
+/// twice its mean curvature. A paraboloid of radius R has the line x²/R and thus ρ = R; crests of a sphere with waves
+/// have 1/R + 4π²A/λ². On a rough form the squares of both curvatures add.
+#[must_use]
+pub fn tabor_number(scene: &Scene, governing: &Governing) -> Option<f64> {
+    let work = governing.adhesive_work()?;
+    let range = scene.adhesion?.range.unwrap_or(DEFAULT_RANGE);
+    let of_form = match scene.form {
+        None => 0.0,
+        Some(Form::Paraboloid { radius }) => 1.0 / radius,
+        Some(Form::WavySphere { radius, amplitude, wavelength }) => {
+            1.0 / radius + amplitude * (TAU / wavelength).powi(2)
+        }
+        // The flat face of a punch is as rough as a flat line.
+        Some(Form::Punch { .. }) => 0.0,
+        Some(Form::Cone { .. } | Form::Power { .. }) => return None,
+    };
+    let of_roughness = governing.amplitude.map_or(0.0, |amplitude| 0.5 * amplitude.rms_curvature);
+    let curvature = of_form.hypot(of_roughness);
+    let number = ((work / governing.effective_modulus).powi(2) / (curvature * range.powi(3))).cbrt();
+    Some(number).filter(|number| curvature > 0.0 && number.is_finite())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::{Document, open};
+    use crate::simulation::Simulation;
+    use crate::surface::SelfAffine;
+
+    fn of(document: &Document) -> Option<f64> {
+        let mut simulation = Simulation::default();
+        let (_, _, governing) = simulation.make_line(document.scene()).unwrap();
+        tabor_number(document.scene(), &governing)
+    }
+
+    fn set(document: &Document, fields: &[(&str, &str)]) -> Document {
+        let fields: Vec<_> =
+            fields.iter().map(|(path, value)| (path.to_string(), value.to_string())).collect();
+        document.set_all(&fields).unwrap()
+    }
+
+    #[test]
+    fn a_sphere_has_the_number_of_its_radius() {
+        let sphere = set(
+            &open("jkr-sphere").unwrap(),
+            &[
+                ("form", "Paraboloid(radius: 2.0e-4)"),
+                ("material", "(effective_modulus: 4.0e6)"),
+                ("adhesion", "(work: 0.05, range: 1.0e-9)"),
+            ],
+        );
+        // (ργ²/(E*²z₀³))^(1/3)
+        let expected = (2e-4 * 0.05_f64.powi(2) / (4e6_f64.powi(2) * 1e-27)).cbrt();
+        assert!((of(&sphere).unwrap() / expected - 1.0).abs() < 1e-12);
+        // Without a range it is 0.3 nm: μ ∝ 1/z₀.
+        let usual = of(&sphere.set("adhesion.range", "None").unwrap()).unwrap();
+        assert!((usual * 0.3 / expected - 1.0).abs() < 1e-12);
+        let opening = sphere.set("adhesion.closing_work", "0.01").unwrap();
+        assert_eq!(of(&opening), of(&sphere), "by the work of opening");
+        assert_eq!(of(&sphere.set("adhesion", "None").unwrap()), None);
+        assert_eq!(of(&sphere.set("form", "Cone(angle: 0.1)").unwrap()), None);
+    }
+
+    #[test]
+    fn a_rough_line_has_the_number_of_its_rms_curvature() {
+        let rough = open("pressure-sensitive").unwrap();
+        let rough = set(&rough, &[("adhesion", "(work: 0.05)"), ("numerics.points", "4096")]);
+        let scene = rough.scene();
+        let Some(crate::scene::Roughness::SelfAffine { hurst, modes: (first, last), .. }) = scene.roughness
+        else {
+            panic!("no self-affine roughness");
+        };
+        let spectrum = SelfAffine { hurst, first, last };
+        let squares = |power: f64| -> f64 {
+            (first..=last).map(|k| (k as f64).powf(power) * spectrum.relative_amplitude(k).powi(2)).sum()
+        };
+        let Some(crate::scene::Roughness::SelfAffine { rms_height: Some(height), .. }) = scene.roughness
+        else {
+            panic!("no rms height");
+        };
+        let curvature = height * (TAU / scene.length).powi(2) * (squares(4.0) / squares(0.0)).sqrt();
+        let modulus = scene.material.effective_modulus();
+        let expected =
+            (2.0 / curvature * 0.05_f64.powi(2) / (modulus.powi(2) * DEFAULT_RANGE.powi(3))).cbrt();
+        assert!((of(&rough).unwrap() / expected - 1.0).abs() < 1e-12);
+        // A sphere of a radius far larger than that of the summits changes next to nothing.
+        let sphere = rough.set("form", "Paraboloid(radius: 10.0)").unwrap();
+        assert!((of(&sphere).unwrap() / expected - 1.0).abs() < 1e-6);
+    }
+}

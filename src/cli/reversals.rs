@@ -1,0 +1,124 @@
+//! `asperity reversals`: the unloadings of a scene from many turning points.
+
+use super::preloads::parse_preloads;
+use super::scene::simulation_of;
+use super::{CliError, OutputArguments, SceneArguments};
+use crate::draw::figure_svg;
+use crate::export::{
+    ReversalReport, reversals_figure, reversals_text, write_reversal_map_csv, write_reversals_csv,
+    write_reversals_json,
+};
+use crate::simulation::{RunError, TURNING_POINTS, TurningPoints};
+use crate::study::{Preloads, solve_preloads};
+use clap::{Args, ValueEnum};
+use std::io::Write;
+
+const EXAMPLES: &str = "\
+Examples:
+  asperity reversals pressure-sensitive
+  asperity reversals pressure-sensitive --preloads 1uN..20uN --count 128 -o reversals.svg
+  asperity reversals rough-sphere --map --format csv -o map.csv
+
+Turning points are at equal indentations. The Everett function is half of what the force falls by
+from the turning point on; the density is -1/2 of the mixed second derivative of the force.";
+
+/// Most steps on either side of the fit of the density.
+const MOST_SMOOTHING: i64 = 16;
+/// Most upper, and lower, indentations of the minor loops.
+const MOST_LEVELS: i64 = 64;
+
+/// Arguments of `reversals`.
+#[derive(Args, Debug)]
+#[command(after_help = EXAMPLES)]
+pub struct ReversalsArguments {
+    /// The scene.
+    #[command(flatten)]
+    pub scene: SceneArguments,
+    /// Turning points
+    #[arg(long, value_name = "COUNT", default_value_t = 64, value_parser = clap::value_parser!(u16).range(*TURNING_POINTS.start() as i64..=*TURNING_POINTS.end() as i64))]
+    pub count: u16,
+    /// Forces between which the turning points are: 1uN..20uN; default: first touch to the preload of the scene
+    #[arg(long, value_name = "FROM..TO", value_parser = forces)]
+    pub preloads: Option<(f64, f64)>,
+    /// Steps on either side over which the density is fitted by a quadratic
+    #[arg(long, value_name = "STEPS", default_value_t = 3, value_parser = clap::value_parser!(u8).range(1..=MOST_SMOOTHING))]
+    pub smoothing: u8,
+    /// Upper, and lower, indentations of the minor loops that are compared; 0: none
+    #[arg(long, value_name = "LEVELS", default_value_t = 12, value_parser = clap::value_parser!(u8).range(0..=MOST_LEVELS))]
+    pub loops: u8,
+    /// Write CSV with one row for each point of the map in place of each turning point
+    #[arg(long)]
+    pub map: bool,
+    /// text, json, csv or svg; default: by the extension of FILE, else text
+    #[arg(long, value_enum, hide_possible_values = true)]
+    pub format: Option<ReversalsFormat>,
+    /// Where it goes.
+    #[command(flatten)]
+    pub output: OutputArguments,
+}
+
+/// How reversals are printed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum ReversalsFormat {
+    /// A table.
+    Text,
+    /// One object.
+    Json,
+    /// One row for each turning point, or for each point of the map.
+    Csv,
+    /// A picture of the adhesion force over the preload and of both maps.
+    Svg,
+}
+
+/// Endings of files in each format.
+const ENDINGS: [(&str, ReversalsFormat); 3] =
+    [("json", ReversalsFormat::Json), ("csv", ReversalsFormat::Csv), ("svg", ReversalsFormat::Svg)];
+
+fn forces(text: &str) -> Result<(f64, f64), String> {
+    if text.contains(':') {
+        return Err("allowed: two forces, such as 1uN..20uN; --count is the number of turning points".into());
+    }
+    parse_preloads(text).map(|Preloads { from, to, .. }| (from, to))
+}
+
+/// Unloads a scene from many turning points and writes the result.
+pub(super) fn reversals(arguments: &ReversalsArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
+    let usual = if arguments.map { ReversalsFormat::Csv } else { ReversalsFormat::Text };
+    let format = arguments.output.format(arguments.format, &ENDINGS, usual)?;
+    if arguments.map && format != ReversalsFormat::Csv {
+        return Err(CliError::OnlyInTable { what: "--map" });
+    }
+    let document = arguments.scene.open()?;
+    arguments.output.check()?;
+    let scene = document.scene();
+    let failed = |error: RunError| CliError::Run { scene: document.name().into(), error };
+    let mut simulation = simulation_of(&document);
+    let turning =
+        arguments.preloads.map_or(TurningPoints::OfScene, |(from, to)| TurningPoints::Preloads(from, to));
+    let never = || false;
+    let map =
+        simulation.reversal_map(scene, turning, usize::from(arguments.count), &never).map_err(failed)?;
+    let smoothing = usize::from(arguments.smoothing);
+    let levels = if format == ReversalsFormat::Csv { 0 } else { usize::from(arguments.loops) };
+    let loops = match levels {
+        0 => None,
+        _ => Some(simulation.minor_loops(scene, &map, levels, &never).map_err(failed)?),
+    };
+    let largest = map.reversals.iter().map(|reversal| reversal.turn.force).fold(0.0, f64::max);
+    let (from, to) = arguments.preloads.unwrap_or((0.0, largest));
+    let mut preloads = Vec::new();
+    if to > from && format != ReversalsFormat::Csv {
+        let forces = Preloads { from, to, count: usize::from(arguments.count) }.forces();
+        solve_preloads(&mut simulation, scene, &forces, &never, &mut |one| preloads.push(one))
+            .map_err(failed)?;
+    }
+    let report = ReversalReport { scene, map: &map, preloads: &preloads, loops, smoothing };
+    let title = if scene.title.is_empty() { document.name() } else { &scene.title };
+    arguments.output.write(stdout, |out| match format {
+        ReversalsFormat::Text => out.write_all(reversals_text(&report).as_bytes()),
+        ReversalsFormat::Json => write_reversals_json(out, &report),
+        ReversalsFormat::Csv if arguments.map => write_reversal_map_csv(out, &map, smoothing),
+        ReversalsFormat::Csv => write_reversals_csv(out, &map),
+        ReversalsFormat::Svg => out.write_all(figure_svg(&reversals_figure(&report, title)).as_bytes()),
+    })
+}

@@ -1,0 +1,202 @@
+//! Adhesion against preload of the scene: the adhesion force of its own profile for many preloads, then the mean over
+//! random profiles, coarser in the preload.
+
+use super::snapshot::Loop;
+use crate::analysis::Figures;
+use crate::scene::{Scene, Solver};
+use crate::simulation::{RunError, Simulation};
+use crate::study::{Preloaded, Preloads, Statistics, preload_statistics, solve_preloads};
+use std::path::Path;
+use std::sync::Arc;
+
+/// Preloads on the profile of the scene, and on each random profile every so many of them.
+const FINE: usize = 257;
+const EVERY: usize = 8;
+/// Random profiles of the mean.
+pub const PROFILES: usize = 16;
+/// Results of the profile of the scene after which the curve is shown anew.
+const SHOWN_EVERY: usize = 32;
+/// Largest preload in preloads of the scene.
+const REACH: f64 = 2.0;
+
+/// Adhesion forces of a scene for many preloads, as far as they are computed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PreloadCurve {
+    forces: Vec<f64>,
+    /// Results of the profile of the scene, from the smallest preload on.
+    pub own: Vec<Preloaded>,
+    /// Results of random profiles, that of the scene the first.
+    profiles: Vec<Vec<Preloaded>>,
+    /// Statistics over these profiles at each of their preloads.
+    pub statistics: Vec<Option<Statistics>>,
+    /// Profiles that there are to be.
+    pub wanted: usize,
+}
+
+impl PreloadCurve {
+    /// The curve of a computed scene, before anything of it is computed.
+    ///
+    /// # Errors
+    /// The reason why the scene has no such curve.
+    pub fn new(computed: &Loop) -> Result<Self, &'static str> {
+        if computed.scene.numerics.solver != Solver::Exact {
+            return Err("many preloads at once need the exact solver");
+        }
+        if computed.scene.adhesion.is_none() {
+            return Err("without adhesion nothing holds the bodies together");
+        }
+        let Figures { preload, adhesion_force, .. } = computed.outcome.figures;
+        let scale = preload.filter(|&force| force > 0.0).or(adhesion_force).filter(|&force| force > 0.0);
+        let Some(scale) = scale else { return Err("no stage presses the bodies together") };
+        let forces = Preloads { from: 0.0, to: REACH * scale, count: FINE }.forces();
+        let wanted = if computed.scene.seed().is_some() { PROFILES } else { 0 };
+        Ok(PreloadCurve { forces, own: Vec::new(), profiles: Vec::new(), statistics: Vec::new(), wanted })
+    }
+
+    /// Returns true once nothing is left to be computed.
+    #[must_use]
+    pub fn is_whole(&self) -> bool {
+        self.own.len() == self.forces.len() && self.profiles.len() >= self.wanted
+    }
+
+    /// Random profiles that have been computed.
+    #[must_use]
+    pub fn profiles(&self) -> usize {
+        self.profiles.len()
+    }
+
+    /// The results at whose preloads the statistics are.
+    #[must_use]
+    pub fn coarse(&self) -> &[Preloaded] {
+        self.profiles.first().map_or(&[], Vec::as_slice)
+    }
+
+    /// Computes what is left, the profile of the scene first. `tell` sees the curve each time that it has grown; what has
+    /// been computed when `stop` says so is kept.
+    ///
+    /// # Errors
+    /// When a profile or its contact fails, or `stop` says so.
+    pub fn compute(
+        &mut self,
+        scene: &Scene,
+        folder: &Path,
+        stop: &dyn Fn() -> bool,
+        tell: &mut dyn FnMut(&PreloadCurve),
+    ) -> Result<(), RunError> {
+        let mut simulation = Simulation::new(folder.to_path_buf());
+        if self.own.len() < self.forces.len() {
+            let forces = self.forces.clone();
+            self.own.clear();
+            solve_preloads(&mut simulation, scene, &forces, stop, &mut |one| {
+                self.own.push(one);
+                if self.own.len() % SHOWN_EVERY == 0 {
+                    tell(self);
+                }
+            })?;
+        }
+        let first = scene.seed().unwrap_or(0);
+        let mut scene = scene.clone();
+        let coarse: Vec<f64> = self.forces.iter().copied().step_by(EVERY).collect();
+        while self.profiles.len() < self.wanted {
+            let mut found = Vec::with_capacity(coarse.len());
+            if self.profiles.is_empty() {
+                found.extend(self.own.iter().copied().step_by(EVERY));
+            } else {
+                scene.set_seed(first.wrapping_add(self.profiles.len() as u64));
+                solve_preloads(&mut simulation, &scene, &coarse, stop, &mut |one| found.push(one))?;
+            }
+            self.profiles.push(found);
+            self.statistics = preload_statistics(&self.profiles);
+            tell(self);
+        }
+        Ok(())
+    }
+}
+
+/// What the explorer shows of adhesion against preload.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct PreloadPane {
+    /// Whether its pane stands in place of profile and close-up.
+    pub shown: bool,
+    /// The curve of the present scene, so far.
+    pub curve: Option<Arc<PreloadCurve>>,
+    /// Why there is no more of it.
+    pub failed: Option<String>,
+    /// Whether the scene has just been edited: somebody who holds a key down wants the machine.
+    pub edited: bool,
+}
+
+impl PreloadPane {
+    /// Forgets the scene, which has been changed.
+    pub fn renew(&mut self) {
+        *self = PreloadPane { shown: self.shown, edited: true, ..PreloadPane::default() };
+    }
+
+    /// The curve to be gone on with, `None` once it is whole or where there is none.
+    #[must_use]
+    pub fn wanted(&self, computed: &Loop) -> Option<Arc<PreloadCurve>> {
+        if !self.shown || self.failed.is_some() {
+            return None;
+        }
+        let curve = self.curve.clone().or_else(|| PreloadCurve::new(computed).ok().map(Arc::new))?;
+        Some(curve).filter(|curve| !curve.is_whole())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::{Leg, open};
+    use std::cell::Cell;
+
+    fn computed(name: &str) -> Loop {
+        let mut scene = open(name).unwrap().scene().clone();
+        scene.numerics.points = 2048;
+        let outcome = Simulation::default().run(&scene, &|| false, &mut |_, _, _| Ok(())).unwrap();
+        Loop { generation: 1, scene: Arc::new(scene), outcome }
+    }
+
+    #[test]
+    fn the_curve_grows_and_goes_on_where_it_was_stopped() {
+        let computed = computed("pressure-sensitive");
+        let mut curve = PreloadCurve::new(&computed).unwrap();
+        let told = Cell::new(0);
+        let stop = || told.get() >= 12;
+        let mut sizes = Vec::new();
+        let done = curve.compute(&computed.scene, Path::new(""), &stop, &mut |curve| {
+            told.set(told.get() + 1);
+            sizes.push((curve.own.len(), curve.profiles()));
+        });
+        assert!(done.unwrap_err().is_interruption());
+        assert!(sizes.windows(2).all(|pair| pair[0] < pair[1]), "{sizes:?}");
+        assert!(!curve.is_whole() && curve.own.len() == FINE && curve.profiles() > 1);
+        curve.compute(&computed.scene, Path::new(""), &|| false, &mut |_| ()).unwrap();
+        assert!(curve.is_whole() && curve.profiles() == PROFILES);
+        assert_eq!(curve.coarse().len(), curve.statistics.len());
+        let means: Vec<f64> = curve.statistics.iter().map(|one| one.unwrap().mean).collect();
+        assert!(means.windows(2).all(|pair| pair[0] <= pair[1]) && means[0] < 0.2 * means[32], "{means:?}");
+        // In the middle is the preload of the scene.
+        let preload = computed.outcome.figures.preload.unwrap();
+        assert!((curve.own[FINE / 2].preload / preload - 1.0).abs() < 1e-12);
+        let force = computed.outcome.figures.adhesion_force.unwrap();
+        assert!((curve.own[FINE / 2].adhesion_force.unwrap() / force - 1.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn scenes_without_preload_or_exact_solver_have_no_curve() {
+        let mut one = computed("jkr-sphere");
+        assert_eq!(PreloadCurve::new(&one).unwrap().wanted, 0);
+        let mut scene = Scene::clone(&one.scene);
+        scene.numerics.solver = Solver::Stepwise { step: 1e-9 };
+        one.scene = Arc::new(scene.clone());
+        assert!(PreloadCurve::new(&one).unwrap_err().contains("exact solver"));
+        scene.numerics.solver = Solver::Exact;
+        scene.loading = vec![Leg::ToIndentation(-1e-9)];
+        one.outcome = Simulation::default().run(&scene, &|| false, &mut |_, _, _| Ok(())).unwrap();
+        one.scene = Arc::new(scene.clone());
+        assert!(PreloadCurve::new(&one).unwrap_err().contains("presses"));
+        scene.adhesion = None;
+        one.scene = Arc::new(scene);
+        assert!(PreloadCurve::new(&one).unwrap_err().contains("adhesion"));
+    }
+}

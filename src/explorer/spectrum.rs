@@ -1,0 +1,153 @@
+//! Spectra of a computed scene: of its measured files, of the line as it is to be, and of the heights of the line.
+
+use crate::export::{Spectra, SpectrumPoint};
+use crate::memory::check_room;
+use crate::scene::{Form, Roughness, Scene};
+use crate::simulation::{Outcome, measured_options};
+use crate::spectrum::{Analysis, LineMoments, line_spectrum};
+use crate::surface::{Line, SelfAffine, mdr_profile};
+use std::f64::consts::TAU;
+use std::path::Path;
+
+/// Modes of each decade at which the spectrum of the line is drawn.
+const PER_DECADE: f64 = 20.0;
+
+/// Bytes for each spring that its transform takes.
+const BYTES: u64 = 40;
+
+/// Spectra of a scene, and how well the moments of its measured surface are known.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SceneSpectra {
+    /// The spectra.
+    pub spectra: Spectra,
+    /// Moments of the equivalent line; `None` for a roughness that is not measured, or is the line itself.
+    pub moments: Option<LineMoments>,
+    /// Reason for which spectra are missing.
+    pub missing: Option<String>,
+}
+
+impl SceneSpectra {
+    /// Spectra of a scene whose files are named from the working folder.
+    #[must_use]
+    pub fn new(scene: &Scene, outcome: &Outcome, line: &Line) -> Self {
+        let mut missing = None;
+        let analyses = analyses(scene).unwrap_or_else(|error| {
+            missing = Some(error);
+            Vec::new()
+        });
+        let mut spectra = match &analyses[..] {
+            [analysis] => Spectra::of_analysis(analysis),
+            faces => Spectra {
+                measured: faces.iter().flat_map(|face| Spectra::of_analysis(face).measured).collect(),
+                ..Spectra::default()
+            },
+        };
+        spectra.line = expected(scene, outcome, &analyses);
+        spectra.heights = of_heights(scene, line).unwrap_or_else(|error| {
+            missing.get_or_insert(error);
+            Vec::new()
+        });
+        let moments = match &analyses[..] {
+            [analysis] if !scene.measured_as_line() => Some(analysis.line),
+            _ => None,
+        };
+        SceneSpectra { spectra, moments, missing }
+    }
+}
+
+/// Analyses of the measured surfaces.
+fn analyses(scene: &Scene) -> Result<Vec<Analysis>, String> {
+    let options = measured_options(scene);
+    let files = scene.measured_files();
+    files.iter().map(|file| options.analyse(Path::new(file)).map_err(|error| error.to_string())).collect()
+}
+
+/// Spectrum that the line is to have, at some of its modes: A²L/4 of a mode with the amplitude A.
+fn expected(scene: &Scene, outcome: &Outcome, analyses: &[Analysis]) -> Vec<SpectrumPoint> {
+    let Some((first, last)) = outcome.line.modes else { return Vec::new() };
+    let length = outcome.line.length;
+    let power: Box<dyn Fn(u64) -> f64> = match scene.roughness {
+        Some(Roughness::SelfAffine { hurst, .. }) => {
+            let spectrum = SelfAffine { hurst, first, last };
+            let height = outcome.governing.amplitude.map_or(0.0, |amplitude| amplitude.rms_height);
+            let scale = 0.25 * length * (height / spectrum.relative_rms()).powi(2);
+            Box::new(move |mode| scale * spectrum.relative_amplitude(mode).powi(2))
+        }
+        _ => Box::new(|mode| {
+            let wave_number = TAU * mode as f64 / length;
+            analyses.iter().map(|face| face.isotropic.line(wave_number)).sum()
+        }),
+    };
+    let modes = |step: u32| (first as f64 * 10.0_f64.powf(f64::from(step) / PER_DECADE)).round() as u64;
+    let mut shown: Vec<u64> = (0..).map(modes).take_while(|mode| *mode < last).chain([last]).collect();
+    shown.dedup();
+    shown.into_iter().map(|mode| (TAU * mode as f64 / length, power(mode))).collect()
+}
+
+/// Spectrum of the heights of the line without its form. Profiles that are the line themselves do not repeat.
+fn of_heights(scene: &Scene, line: &Line) -> Result<Vec<SpectrumPoint>, String> {
+    if scene.roughness.is_none() || line.gaps.len() < line.points {
+        return Ok(Vec::new());
+    }
+    let no_room = |_| format!("not enough memory for the spectrum of {} springs", line.points);
+    check_room(BYTES * line.points as u64).map_err(no_room)?;
+    let axis = Form::spring_on_axis(line.points as u64) as f64;
+    let depth = |index: usize| {
+        let distance = (index as f64 - axis) * line.spacing;
+        scene.form.as_ref().map_or(0.0, |form| mdr_profile(form, distance))
+    };
+    let heights: Vec<f64> = line.heights().enumerate().map(|(index, z)| z + depth(index)).collect();
+    let bins =
+        line_spectrum(&heights, line.spacing, scene.measured_as_line()).map_err(|error| error.to_string())?;
+    Ok(bins.into_iter().map(|bin| (bin.wave_number, bin.power)).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Document;
+    use crate::simulation::Simulation;
+
+    fn spectra(roughness: &str, form: &str) -> SceneSpectra {
+        let text = format!(
+            "(version: 2, material: (effective_modulus: 1.0e6), length: 1.0e-4, form: {form}, roughness: {roughness}, \
+             loading: [ToTouch], numerics: (points: 1024, samples: 2))"
+        );
+        let document = Document::parse(&text, "test").unwrap();
+        let mut simulation = Simulation::default();
+        let outcome = simulation.run(document.scene(), &|| false, &mut |_, _, _| Ok(())).unwrap();
+        SceneSpectra::new(document.scene(), &outcome, simulation.line().unwrap())
+    }
+
+    #[test]
+    fn heights_have_the_spectrum_that_the_line_is_to_have() {
+        let roughness = "SelfAffine(hurst: 0.7, rms_height: 1.0e-7, modes: (2, 200), seed: 3)";
+        for form in ["None", "Paraboloid(radius: 1.0e-4)"] {
+            let found = spectra(roughness, form).spectra;
+            // In the first bins there is a mode each: its power is that of the spectrum.
+            let single = |q: f64| found.line.iter().find(|(at, _)| (at / q - 1.0).abs() < 1e-9);
+            let both: Vec<_> =
+                found.heights.iter().filter_map(|(q, power)| Some((power, single(*q)?.1))).collect();
+            assert!(both.len() >= 4, "{:?}", found.heights);
+            assert!(
+                both[..4].iter().all(|(power, expected)| (*power / expected - 1.0).abs() < 1e-6),
+                "{both:?}"
+            );
+            let ends = [found.line[0].0, found.line[found.line.len() - 1].0];
+            let modes = ends.map(|q| q * 1e-4 / TAU);
+            assert!((modes[0] - 2.0).abs() < 1e-9 && (modes[1] - 200.0).abs() < 1e-9, "{modes:?}");
+        }
+    }
+
+    #[test]
+    fn smooth_lines_have_no_spectrum_and_files_that_are_gone_are_named() {
+        let smooth = spectra("None", "Paraboloid(radius: 1.0e-4)");
+        assert_eq!((smooth.spectra, smooth.missing), (Spectra::default(), None));
+        let scene = Document::parse(
+            "(version: 2, material: (effective_modulus: 1.0e6), length: 1.0e-4, roughness: Measured(file: \"none.txt\"))",
+            "test",
+        );
+        let error = analyses(scene.unwrap().scene()).unwrap_err();
+        assert!(error.contains("none.txt"), "{error}");
+    }
+}

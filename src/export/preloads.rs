@@ -1,0 +1,209 @@
+//! Adhesion against preload as text, JSON, CSV and a figure.
+
+use super::sheet::Sheet;
+use crate::draw::{Axis, AxisScale, Chart, Figure, Ink, Label, Layer, Shape, Span, Stroke};
+use crate::io::write_json_value;
+use crate::scene::{Scene, format_quantity};
+use crate::study::{Preloaded, Statistics, preload_statistics};
+use crate::text::grouped;
+use serde::Serialize;
+use std::io::{self, Write};
+
+/// Most rows of the table.
+const MOST_ROWS: usize = 32;
+
+/// Results for the same preloads on one or more profiles.
+#[derive(Clone, Debug)]
+pub struct PreloadReport<'a> {
+    scene: &'a Scene,
+    seeds: Vec<Option<u64>>,
+    lines: Vec<Vec<Preloaded>>,
+    statistics: Vec<Option<Statistics>>,
+}
+
+impl<'a> PreloadReport<'a> {
+    /// The results of profiles, each with its seed where it has one.
+    #[must_use]
+    pub fn new(scene: &'a Scene, results: Vec<(Option<u64>, Vec<Preloaded>)>) -> Self {
+        let (seeds, lines): (Vec<_>, Vec<_>) = results.into_iter().unzip();
+        PreloadReport { scene, seeds, statistics: preload_statistics(&lines), lines }
+    }
+
+    fn is_mean(&self) -> bool {
+        self.lines.len() > 1
+    }
+
+    fn first(&self) -> &[Preloaded] {
+        self.lines.first().map_or(&[], Vec::as_slice)
+    }
+
+    /// Plain text of at most eighty columns.
+    #[must_use]
+    pub fn text(&self) -> String {
+        let mut sheet = Sheet::default();
+        if !self.scene.title.is_empty() {
+            sheet.paragraph(&self.scene.title);
+        }
+        let profiles = match self.lines.len() {
+            1 => "one profile".to_owned(),
+            count => format!("{} random profiles", grouped(count as u64)),
+        };
+        let springs = grouped(self.scene.numerics.points);
+        sheet.heading(&format!("Adhesion against preload, {profiles} of {springs} springs"));
+        let first = self.first();
+        let stride = first.len().div_ceil(MOST_ROWS).max(1);
+        let last = first.len().saturating_sub(1);
+        let shown = first.iter().zip(&self.statistics).enumerate();
+        let shown = shown.filter(|(index, _)| (last - index) % stride == 0).map(|(_, row)| row);
+        if self.is_mean() {
+            let header = ["preload F_n", "mean F_a", "standard error", "95 % confidence of the mean"];
+            let mut rows = vec![header.map(String::from)];
+            for (preloaded, statistics) in shown {
+                let Some(Statistics { mean, standard_error, confidence_interval: (low, high), .. }) =
+                    *statistics
+                else {
+                    continue;
+                };
+                let force = |value: f64| format_quantity(value, "N");
+                let band = format!("{} to {}", force(low), force(high));
+                rows.push([force(preloaded.preload), force(mean), force(standard_error), band]);
+            }
+            sheet.table(&rows);
+        } else {
+            let header = ["preload F_n", "indentation", "adhesion force F_a", "pull-off at", "dissipated"];
+            let mut rows = vec![header.map(String::from)];
+            for (one, _) in shown {
+                rows.push([
+                    format_quantity(one.preload, "N"),
+                    format_quantity(one.preload_indentation, "m"),
+                    one.adhesion_force.map_or("-".to_owned(), |force| format_quantity(force, "N")),
+                    format_quantity(one.pull_off_indentation, "m"),
+                    format_quantity(one.dissipated_energy, "J"),
+                ]);
+            }
+            sheet.table(&rows);
+        }
+        sheet.into_text().trim_start_matches('\n').to_string()
+    }
+
+    /// Writes one JSON object in SI units.
+    ///
+    /// # Errors
+    /// Those of `out`.
+    pub fn write_json(&self, out: &mut (impl Write + ?Sized)) -> io::Result<()> {
+        let line = |(seed, preloads): (&Option<u64>, &'_ Vec<Preloaded>)| Line {
+            seed: *seed,
+            preloads: preloads.clone(),
+        };
+        let mean = |(one, statistics): (&Preloaded, &Option<Statistics>)| Mean {
+            preload: one.preload,
+            adhesion_force: *statistics,
+        };
+        let json = Json {
+            scene: self.scene,
+            mean: self.is_mean().then(|| self.first().iter().zip(&self.statistics).map(mean).collect()),
+            lines: self.seeds.iter().zip(&self.lines).map(line).collect(),
+        };
+        write_json_value(out, &json)
+    }
+
+    /// Writes one row for each preload of each profile, in SI units.
+    ///
+    /// # Errors
+    /// Those of `out`.
+    pub fn write_csv(&self, out: &mut (impl Write + ?Sized)) -> io::Result<()> {
+        writeln!(
+            out,
+            "seed,preload,preload_indentation,adhesion_force,pull_off_indentation,dissipated_energy"
+        )?;
+        for (seed, line) in self.seeds.iter().zip(&self.lines) {
+            let seed = seed.map_or_else(String::new, |seed| seed.to_string());
+            for one in line {
+                let force = one.adhesion_force.map_or_else(String::new, |force| format!("{force:?}"));
+                writeln!(
+                    out,
+                    "{seed},{:?},{:?},{force},{:?},{:?}",
+                    one.preload, one.preload_indentation, one.pull_off_indentation, one.dissipated_energy
+                )?;
+            }
+        }
+        Ok(())
+    }
+
+    /// The adhesion force over the preload: of the first profile, and the mean with its 95 % confidence.
+    #[must_use]
+    pub fn figure(&self, title: &str) -> Figure {
+        let chart = preload_axes("", preload_layers(self.first(), &self.statistics));
+        Figure { title: title.to_owned(), notes: Vec::new(), charts: vec![chart], size: Figure::WIDE }
+    }
+}
+
+/// Layers of the adhesion force over the preload: one profile, and the mean of several with the 95 % confidence of the mean.
+#[must_use]
+pub fn preload_layers(one: &[Preloaded], statistics: &[Option<Statistics>]) -> Vec<Layer> {
+    let mut layers = Vec::new();
+    let mean: Vec<(f64, Statistics)> = one
+        .iter()
+        .zip(statistics)
+        .filter_map(|(one, statistics)| Some((one.preload, (*statistics)?)))
+        .collect();
+    if !mean.is_empty() {
+        let band = |&(preload, of): &(f64, Statistics)| {
+            (preload, of.confidence_interval.0, of.confidence_interval.1)
+        };
+        let count = mean[0].1.count;
+        let name = Label::plain(&format!("mean of {count} profiles, 95 % confidence"));
+        layers.push(Layer::new(name.clone(), Ink::Kept, Shape::Band(mean.iter().map(band).collect())));
+        let points = mean.iter().map(|&(preload, of)| (preload, of.mean)).collect();
+        let shape = Shape::Curve { points, stroke: Some(Stroke::Dashed), sign: None };
+        layers.push(Layer::new(name, Ink::Kept, shape));
+    }
+    let points = one.iter().map(|one| (one.preload, one.adhesion_force.unwrap_or(0.0))).collect();
+    let shape = Shape::Curve { points, stroke: Some(Stroke::Solid), sign: None };
+    layers.push(Layer::new(Label::plain("this profile"), Ink::Unloading, shape));
+    layers
+}
+
+/// A chart of the adhesion force over the preload with these layers.
+#[must_use]
+pub fn preload_axes(heading: &str, layers: Vec<Layer>) -> Chart {
+    let mut all = vec![(0.0, 0.0)];
+    for layer in &layers {
+        match &layer.shape {
+            Shape::Curve { points, .. } => all.extend(points),
+            Shape::Band(points) => {
+                all.extend(points.iter().flat_map(|&(x, low, high)| [(x, low), (x, high)]))
+            }
+            _ => {}
+        }
+    }
+    let x = Span::around(all.iter().map(|point| point.0), 0.03);
+    let y = Span::around(all.iter().map(|point| point.1), 0.05);
+    Chart {
+        heading: heading.to_owned(),
+        x: Axis::new(AxisScale::Linear, x, "preload", "F_n", "N"),
+        y: Axis::new(AxisScale::Linear, y, "adhesion force", "F_a", "N"),
+        layers,
+        inset: None,
+    }
+}
+
+/// The object; its keys stand in the order of these fields.
+#[derive(Serialize)]
+struct Json<'a> {
+    scene: &'a Scene,
+    mean: Option<Vec<Mean>>,
+    lines: Vec<Line>,
+}
+
+#[derive(Serialize)]
+struct Mean {
+    preload: f64,
+    adhesion_force: Option<Statistics>,
+}
+
+#[derive(Serialize)]
+struct Line {
+    seed: Option<u64>,
+    preloads: Vec<Preloaded>,
+}

@@ -1,0 +1,266 @@
+//! First-order reversal curves of a scene as text, JSON, CSV and a figure.
+
+use super::preloads::{preload_axes, preload_layers};
+use super::sheet::Sheet;
+use crate::analysis::{MinorLoops, ReversalMap};
+use crate::draw::{Axis, AxisScale, Chart, Figure, HeatMap, Ink, Label, Layer, Shape, Span};
+use crate::io::write_json_value;
+use crate::scene::{Scene, format_quantity};
+use crate::study::Preloaded;
+use crate::text::grouped;
+use serde::Serialize;
+use std::io::{self, Write};
+
+/// Most rows of the table.
+const MOST_ROWS: usize = 16;
+/// Most cells of a map on either axis of a figure.
+const MOST_CELLS: usize = 128;
+
+/// Reversals of a scene, their minor loops, and the smoothing of the density.
+#[derive(Clone, Copy, Debug)]
+pub struct ReversalReport<'a> {
+    /// The scene.
+    pub scene: &'a Scene,
+    /// Its reversals.
+    pub map: &'a ReversalMap,
+    /// The adhesion force for preloads, each reached exactly.
+    pub preloads: &'a [Preloaded],
+    /// Minor loops, where they were compared.
+    pub loops: Option<MinorLoops>,
+    /// Steps on either side over which the density is fitted.
+    pub smoothing: usize,
+}
+
+/// Share of incongruent minor loops in words.
+fn congruency(loops: MinorLoops) -> String {
+    let MinorLoops { with_loss, incongruent } = loops;
+    match loops.incongruent_share() {
+        Some(share) => format!(
+            "{} of {} minor loops with loss ({})",
+            grouped(incongruent as u64),
+            grouped(with_loss as u64),
+            format_quantity(share, "1")
+        ),
+        None => "no minor loop dissipates".to_owned(),
+    }
+}
+
+/// Reversals in plain text of at most eighty columns.
+#[must_use]
+pub fn reversals_text(report: &ReversalReport<'_>) -> String {
+    let ReversalReport { scene, map, loops, smoothing, .. } = *report;
+    let mut sheet = Sheet::default();
+    if !scene.title.is_empty() {
+        sheet.paragraph(&scene.title);
+    }
+    let reversals = &map.reversals;
+    let (count, springs) = (grouped(reversals.len() as u64), grouped(scene.numerics.points));
+    sheet.heading(&format!("{count} reversals of one loading, {springs} springs"));
+    let header = ["force at turn", "turning at", "adhesion force F_a", "pull-off at", "dissipated"];
+    let mut rows = vec![header.map(String::from)];
+    let stride = reversals.len().div_ceil(MOST_ROWS).max(1);
+    let last = reversals.len().saturating_sub(1);
+    for (_, reversal) in reversals.iter().enumerate().filter(|(index, _)| (last - index) % stride == 0) {
+        rows.push([
+            format_quantity(reversal.turn.force, "N"),
+            format_quantity(reversal.turn.indentation, "m"),
+            reversal.adhesion_force().map_or("-".to_owned(), |force| format_quantity(force, "N")),
+            format_quantity(reversal.smallest.indentation, "m"),
+            format_quantity(reversal.dissipated_energy, "J"),
+        ]);
+    }
+    sheet.table(&rows);
+    sheet.heading("Map");
+    sheet.row("step of indentations", format_quantity(map.step(), "m"));
+    let largest = |value: fn(&ReversalMap, usize, usize) -> Option<f64>| {
+        let all = (0..reversals.len()).flat_map(|turn| (0..map.points.len()).map(move |point| (turn, point)));
+        all.filter_map(|(turn, point)| value(map, turn, point)).reduce(f64::max)
+    };
+    let everett = largest(|map, turn, point| map.everett(turn, point));
+    sheet.row_of("largest Everett function", everett.map(|force| format_quantity(force, "N")));
+    sheet.row("density", format!("quadratic fit, {smoothing} steps on either side"));
+    sheet.row_of("incongruent", loops.map(congruency));
+    sheet.into_text().trim_start_matches('\n').to_string()
+}
+
+/// The object; its keys stand in the order of these fields.
+#[derive(Serialize)]
+struct Report<'a> {
+    scene: &'a Scene,
+    preloads: &'a [Preloaded],
+    reversals: Vec<Row>,
+    /// Indentations of the columns of the maps, m.
+    indentations: &'a [f64],
+    step: f64,
+    smoothing: usize,
+    /// For each turning point the forces at the indentations up to there, N.
+    forces: Vec<&'a [f64]>,
+    everett: Vec<Vec<Option<f64>>>,
+    density: Vec<Vec<Option<f64>>>,
+    minor_loops: Option<LoopsReport>,
+}
+
+#[derive(Serialize)]
+struct Row {
+    turning_indentation: f64,
+    turning_force: f64,
+    adhesion_force: Option<f64>,
+    pull_off_indentation: f64,
+    separation: f64,
+    dissipated_energy: f64,
+}
+
+#[derive(Serialize)]
+struct LoopsReport {
+    with_loss: usize,
+    incongruent: usize,
+    incongruent_share: Option<f64>,
+}
+
+/// Writes all of a map as one JSON object in SI units.
+///
+/// # Errors
+/// Those of `out`.
+pub fn write_reversals_json(out: &mut (impl Write + ?Sized), report: &ReversalReport<'_>) -> io::Result<()> {
+    let ReversalReport { scene, map, preloads, loops, smoothing } = *report;
+    let rows = |value: &dyn Fn(usize, usize) -> Option<f64>| {
+        let row = |turn: usize| (0..=map.below + turn).map(|point| value(turn, point)).collect();
+        (0..map.reversals.len()).map(row).collect()
+    };
+    let json = Report {
+        scene,
+        preloads,
+        reversals: map
+            .reversals
+            .iter()
+            .map(|reversal| Row {
+                turning_indentation: reversal.turn.indentation,
+                turning_force: reversal.turn.force,
+                adhesion_force: reversal.adhesion_force(),
+                pull_off_indentation: reversal.smallest.indentation,
+                separation: reversal.separation,
+                dissipated_energy: reversal.dissipated_energy,
+            })
+            .collect(),
+        indentations: &map.points,
+        step: map.step(),
+        smoothing,
+        forces: map.reversals.iter().map(|reversal| reversal.forces.as_slice()).collect(),
+        everett: rows(&|turn, point| map.everett(turn, point)),
+        density: rows(&|turn, point| map.density(turn, point, smoothing)),
+        minor_loops: loops.map(|loops| LoopsReport {
+            with_loss: loops.with_loss,
+            incongruent: loops.incongruent,
+            incongruent_share: loops.incongruent_share(),
+        }),
+    };
+    write_json_value(out, &json)
+}
+
+fn number(value: Option<f64>) -> String {
+    value.map_or_else(String::new, |value| format!("{value:?}"))
+}
+
+/// Writes one row for each turning point, in SI units.
+///
+/// # Errors
+/// Those of `out`.
+pub fn write_reversals_csv(out: &mut (impl Write + ?Sized), map: &ReversalMap) -> io::Result<()> {
+    writeln!(
+        out,
+        "turning_indentation,turning_force,adhesion_force,pull_off_indentation,separation,dissipated_energy"
+    )?;
+    for reversal in &map.reversals {
+        writeln!(
+            out,
+            "{:?},{:?},{},{:?},{:?},{:?}",
+            reversal.turn.indentation,
+            reversal.turn.force,
+            number(reversal.adhesion_force()),
+            reversal.smallest.indentation,
+            reversal.separation,
+            reversal.dissipated_energy
+        )?;
+    }
+    Ok(())
+}
+
+/// Writes one row for each turning point and each indentation up to there, in SI units.
+///
+/// # Errors
+/// Those of `out`.
+pub fn write_reversal_map_csv(
+    out: &mut (impl Write + ?Sized),
+    map: &ReversalMap,
+    smoothing: usize,
+) -> io::Result<()> {
+    writeln!(out, "turning_indentation,indentation,force,everett,density")?;
+    for (turn, at) in map.turns().iter().enumerate() {
+        for (point, indentation) in map.points[..=map.below + turn].iter().enumerate() {
+            let values =
+                [map.force(turn, point), map.everett(turn, point), map.density(turn, point, smoothing)];
+            let [force, everett, density] = values.map(number);
+            writeln!(out, "{at:?},{indentation:?},{force},{everett},{density}")?;
+        }
+    }
+    Ok(())
+}
+
+/// The adhesion force over the preload, the Everett function and the density.
+#[must_use]
+pub fn reversals_figure(report: &ReversalReport<'_>, title: &str) -> Figure {
+    let ReversalReport { map, preloads, loops, smoothing, .. } = *report;
+    let mut notes = vec![Label::plain(&format!("density: quadratic fit, {smoothing} steps on either side"))];
+    notes.extend(loops.map(|loops| Label::plain(&format!("incongruent: {}", congruency(loops)))));
+    let everett = |turn, point| map.everett(turn, point);
+    let density = |turn, point| map.density(turn, point, smoothing);
+    Figure {
+        title: title.to_owned(),
+        notes,
+        charts: vec![
+            preload_axes("adhesion against preload", preload_layers(preloads, &[])),
+            map_chart(map, "Everett function", ("E", "N"), &everett),
+            map_chart(map, "FORC density", ("ρ", "N/m²"), &density),
+        ],
+        size: Figure::SMALL,
+    }
+}
+
+fn map_chart(
+    map: &ReversalMap,
+    heading: &str,
+    (symbol, unit): (&str, &str),
+    value: &dyn Fn(usize, usize) -> Option<f64>,
+) -> Chart {
+    // Every so many points of a fine map: more cells than that are no longer told apart.
+    let every = |count: usize| (0..count).step_by(count.div_ceil(MOST_CELLS).max(1)).collect::<Vec<_>>();
+    let (columns, rows) = (every(map.points.len()), every(map.reversals.len()));
+    let values: Vec<Option<f64>> =
+        rows.iter().flat_map(|&turn| columns.iter().map(move |&point| value(turn, point))).collect();
+    let key = Span::around(values.iter().flatten().copied(), 0.0);
+    let of = |indices: &[usize], offset: usize| {
+        indices.iter().map(|&index| map.points[offset + index]).collect::<Vec<f64>>()
+    };
+    let (columns, rows) = (of(&columns, 0), of(&rows, map.below));
+    let scale = AxisScale::Linear;
+    let axis =
+        |values: &[f64], name, symbol| Axis::new(scale, HeatMap::span(scale, values), name, symbol, "m");
+    Chart {
+        heading: heading.to_owned(),
+        x: axis(&columns, "indentation", "d"),
+        y: axis(&rows, "turning point", "d_r"),
+        layers: vec![Layer::unnamed(
+            Ink::Text,
+            Shape::Map(Box::new(HeatMap {
+                columns,
+                rows,
+                values,
+                key: Axis::new(scale, key, "", symbol, unit),
+                classes: Vec::new(),
+                class_names: Vec::new(),
+                contour: None,
+            })),
+        )],
+        inset: None,
+    }
+}

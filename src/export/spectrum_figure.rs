@@ -1,0 +1,175 @@
+//! Spectra over the wave number: as measured, the fit to them, and those of the line.
+
+use crate::draw::{Axis, AxisScale, Chart, Figure, Ink, Label, Layer, Shape, Sign, Span, Stroke};
+use crate::spectrum::{Analysis, End};
+use std::f64::consts::TAU;
+
+/// Points of a curve for each decade of wave numbers.
+const PER_DECADE: f64 = 20.0;
+
+/// Decades of the vertical axis at most: powers far below the others are rounding.
+const MOST_DECADES: f64 = 18.0;
+
+/// Wave number, rad/m, and power spectral density, m³.
+pub type SpectrumPoint = (f64, f64);
+
+/// Spectra of one surface or line.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Spectra {
+    /// Measured ones in bins, with their names.
+    pub measured: Vec<(&'static str, Vec<SpectrumPoint>)>,
+    /// Spectrum of a cut through the fitted surface.
+    pub fit: Vec<SpectrumPoint>,
+    /// The same of the self-affine fit, with its Hurst exponent.
+    pub self_affine: Option<(f64, Vec<SpectrumPoint>)>,
+    /// Spectrum that the line is to have.
+    pub line: Vec<SpectrumPoint>,
+    /// Spectrum of the heights of the line that is computed, in bins.
+    pub heights: Vec<SpectrumPoint>,
+    /// Roll-off wave number, rad/m.
+    pub roll_off: Option<f64>,
+    /// Largest wave number that is measured, rad/m, where the spectrum of the line goes further.
+    pub last_resolved: Option<f64>,
+    /// Wave number beyond which waves may be artefacts of the tip, rad/m.
+    pub reliability_cutoff: Option<f64>,
+}
+
+/// Wave numbers at even distances of their logarithm.
+fn wave_numbers([low, high]: [f64; 2]) -> impl Iterator<Item = f64> {
+    let pieces = (PER_DECADE * (high / low).log10()).ceil().max(1.0);
+    (0..=pieces as u32).map(move |piece| (low * (high / low).powf(f64::from(piece) / pieces)).min(high))
+}
+
+impl Spectra {
+    /// Spectra of measured surfaces and of their equivalent line.
+    #[must_use]
+    pub fn of_analysis(analysis: &Analysis) -> Self {
+        let isotropic = &analysis.isotropic;
+        let range = isotropic.range();
+        let measured = analysis.spectra.iter().map(|(direction, bins)| {
+            (direction.name(), bins.iter().map(|bin| (bin.wave_number, bin.power)).collect())
+        });
+        let over = |spectrum: &dyn Fn(f64) -> f64| wave_numbers(range).map(|q| (q, spectrum(q))).collect();
+        let fit = analysis.power_law;
+        Spectra {
+            measured: measured.collect(),
+            fit: over(&|q| isotropic.cut(q)),
+            self_affine: fit.map(|fit| (fit.hurst.value, over(&|q| fit.cut(q, range)))),
+            line: over(&|q| isotropic.line(q)),
+            heights: Vec::new(),
+            roll_off: fit.and_then(|fit| fit.roll_off).map(|roll_off| roll_off.value),
+            last_resolved: match analysis.end {
+                End::Ends => None,
+                End::Continues(_) => Some(isotropic.last_node()),
+            },
+            reliability_cutoff: analysis.reliability_cutoff.map(|length| TAU / length),
+        }
+    }
+
+    /// Chart with logarithmic axes.
+    #[must_use]
+    pub fn chart(&self) -> Chart {
+        let curve =
+            |points: &[SpectrumPoint], stroke, sign| Shape::Curve { points: points.to_vec(), stroke, sign };
+        let mut layers = Vec::new();
+        for (wave_number, name, ink) in [
+            (self.roll_off, "roll-off", Ink::Surface),
+            (self.last_resolved, "last resolved wave", Ink::Quiet),
+            (self.reliability_cutoff, "reliability cut-off", Ink::Contact),
+        ] {
+            layers.extend(wave_number.map(|q| Layer::new(name.into(), ink, Shape::Upright(q))));
+        }
+        for (number, (name, points)) in self.measured.iter().enumerate() {
+            let shape = curve(points, None, Some(Sign::of_series(number)));
+            layers.push(Layer::new(Label::plain(&format!("measured, {name}")), Ink::Series(number), shape));
+        }
+        let mut line = |name: Label, ink, points: &[SpectrumPoint], stroke| {
+            if !points.is_empty() {
+                layers.push(Layer::new(name, ink, curve(points, Some(stroke), None)));
+            }
+        };
+        line("fit".into(), Ink::Text, &self.fit, Stroke::Solid);
+        if let Some((hurst, points)) = &self.self_affine {
+            let name = Label::plain("self-affine fit, ").join(&Label::symbol("H"));
+            line(name.then(&format!(" = {hurst:.2}")), Ink::Text, points, Stroke::Dotted);
+        }
+        line("line".into(), Ink::Loading, &self.line, Stroke::Solid);
+        if !self.heights.is_empty() {
+            let shape = curve(&self.heights, None, Some(Sign::Cross));
+            layers.push(Layer::new("heights of the line".into(), Ink::Manual, shape));
+        }
+        // Heights have waves of rounding alone beside those of the line.
+        let without_heights = Spectra { heights: Vec::new(), ..self.clone() };
+        let shown = if without_heights.points().next().is_some() { &without_heights } else { self };
+        let powers: Vec<f64> = shown.points().map(|(_, power)| power).collect();
+        let x = Span::around(self.points().map(|(q, _)| q.log10()), 0.03);
+        let y = Span::of_values(AxisScale::Logarithmic, powers.into_iter(), MOST_DECADES).widened(0.04);
+        Chart {
+            heading: String::new(),
+            x: Axis::new(AxisScale::Logarithmic, x, "wave number", "q", "rad/m"),
+            y: Axis::new(AxisScale::Logarithmic, y, "power spectral density", "C", "m³"),
+            layers,
+            inset: None,
+        }
+    }
+
+    /// Figure of the chart.
+    #[must_use]
+    pub fn figure(&self, title: &str) -> Figure {
+        Figure { title: title.to_owned(), notes: Vec::new(), charts: vec![self.chart()], size: Figure::WIDE }
+    }
+
+    /// Points of all spectra.
+    fn points(&self) -> impl Iterator<Item = SpectrumPoint> {
+        let measured = self.measured.iter().flat_map(|(_, points)| points);
+        measured.chain(&self.fit).chain(&self.line).chain(&self.heights).copied()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::draw::figure_svg;
+    use crate::spectrum::{Options, analyse};
+    use crate::topography::{ReadOptions, parse};
+
+    fn analysis(end: End) -> Analysis {
+        let height = |i: u32| (1..60).map(|k| f64::from(i * k * k + 7 * k).sin() / f64::from(k)).sum::<f64>();
+        let rows: String = (0..256).map(|i| format!("{i} {}\n", height(i))).collect();
+        let surface = parse(format!("x [um] z [nm]\n{rows}").as_bytes(), &ReadOptions::default()).unwrap();
+        analyse(&[surface], &Options { end, tip_radius: Some(1e-3), ..Options::default() }).unwrap()
+    }
+
+    #[test]
+    fn a_chart_names_all_that_it_shows() {
+        let analysis = analysis(End::Continues(1e7));
+        let spectra = Spectra { heights: vec![(1e5, 1e-22)], ..Spectra::of_analysis(&analysis) };
+        let figure = spectra.figure("a & b");
+        let legend: Vec<String> = figure.legend().iter().map(|entry| entry.name.to_string()).collect();
+        let hurst = format!("self-affine fit, H = {:.2}", analysis.power_law.unwrap().hurst.value);
+        for name in
+            ["measured, 1D PSD along x", "fit", &hurst, "line", "heights of the line", "last resolved wave"]
+        {
+            assert!(legend.iter().any(|entry| entry == name), "{name}: {legend:?}");
+        }
+        assert_eq!(legend.contains(&"reliability cut-off".to_owned()), analysis.reliability_cutoff.is_some());
+        let svg = figure_svg(&figure);
+        assert!(svg.contains("a &amp; b") && !svg.contains("NaN") && !svg.contains("inf"), "{svg}");
+        let empty = figure_svg(&Spectra::default().figure(""));
+        assert!(!empty.contains("NaN") && !empty.contains("inf"), "{empty}");
+    }
+
+    #[test]
+    fn the_fit_goes_through_the_measured_powers() {
+        let analysis = analysis(End::Ends);
+        let spectra = Spectra::of_analysis(&analysis);
+        // At the largest likelihood powers over their means are 1 in the mean over the waves; wave 1 is not fitted.
+        let bins = &analysis.spectra[0].1[2..];
+        let fit = |q: f64| analysis.isotropic.cut(q);
+        let sum: f64 = bins.iter().map(|bin| bin.waves as f64 * bin.power / fit(bin.wave_number)).sum();
+        let waves: u64 = bins.iter().map(|bin| bin.waves).sum();
+        assert!((0.8..1.25).contains(&(sum / waves as f64)), "{}", sum / waves as f64);
+        assert!(spectra.fit.iter().all(|(q, power)| *power == fit(*q)));
+        assert!(spectra.last_resolved.is_none());
+    }
+}

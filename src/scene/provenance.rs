@@ -1,0 +1,286 @@
+//! Provenance of results: the version, scene and seed behind a table, written into its file.
+//!
+//! In CSV the text fills the first lines, each after `# `; in `.npy` it is an array behind that of the results.
+
+use super::document::LONGEST_TEXT;
+use super::model::Scene;
+use super::table_content::TableContent;
+use super::write::to_ron;
+use crate::io::{PROVENANCE, ReadError, into_text, npy, open_regular, read_limited};
+use std::fs::File;
+use std::io::{BufRead, BufReader, Cursor, Read, Seek, SeekFrom};
+use std::path::Path;
+
+/// Begin of a comment in CSV.
+const COMMENT: &str = "# ";
+
+/// First line of a provenance, before the version; [`PROVENANCE`] without the comment.
+const PROGRAM: &str = "asperity ";
+
+/// Line before the scene.
+const SCENE: &str = "scene:\n";
+
+/// Content of a table of spectra, and the line before the arguments behind it, one on each line as a string of RON.
+const SPECTRA: &str = "spectra";
+const ARGUMENTS: &str = "arguments:\n";
+
+/// Version, scene and seed behind a table; of spectra, the arguments of `asperity surface`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Provenance {
+    text: String,
+}
+
+impl Provenance {
+    /// Provenance of a table of a scene. Files that the scene names are relative to `folder`, and the table is written
+    /// into `destination`.
+    #[must_use]
+    pub fn new(content: TableContent, scene: &Scene, folder: &Path, destination: &Path) -> Self {
+        let mut scene = scene.clone();
+        scene.rename_measured_files(|file| named_from(file, folder, destination));
+        let seed = scene.seed().map_or_else(String::new, |seed| format!("seed: {seed}\n"));
+        let text = format!("{}{seed}{SCENE}{}", head(&content.name()), to_ron(&scene));
+        Provenance { text }
+    }
+
+    /// Provenance of the spectra that `asperity surface` computes from these arguments.
+    #[must_use]
+    pub fn of_spectra(arguments: &[String]) -> Self {
+        let quoted: String = arguments.iter().map(|argument| format!("{argument:?}\n")).collect();
+        Provenance { text: format!("{}{ARGUMENTS}{quoted}", head(SPECTRA)) }
+    }
+
+    /// The text: version, content and seed, a line for each, and the scene.
+    #[must_use]
+    pub fn text(&self) -> &str {
+        &self.text
+    }
+
+    /// The text as comments of CSV.
+    #[must_use]
+    pub fn comments(&self) -> String {
+        self.text.lines().map(|line| format!("{COMMENT}{line}\n")).collect()
+    }
+}
+
+fn head(content: &str) -> String {
+    format!("{PROGRAM}{}\ncontent: {content}\n", env!("CARGO_PKG_VERSION"))
+}
+
+/// Name of a file relative to `folder` in a table that is written into `destination`: as it is in the same folder, else
+/// its absolute path.
+#[must_use]
+pub fn named_from(file: &str, folder: &Path, destination: &Path) -> String {
+    match std::path::absolute(folder.join(file)) {
+        Ok(absolute) if !is_same_folder(folder, destination) => absolute.to_string_lossy().into_owned(),
+        _ => file.to_owned(),
+    }
+}
+
+/// Arguments of `asperity surface` behind the spectra in a regular file; `None` for any other file.
+#[must_use]
+pub fn arguments_of_spectra(path: &Path) -> Option<Vec<String>> {
+    let Ok(Raw::Provenance(text)) = Raw::of_file(path) else { return None };
+    let (head, arguments) = text.split_once(&format!("\n{ARGUMENTS}"))?;
+    let is_of_spectra = head.lines().any(|line| line == format!("content: {SPECTRA}"));
+    let arguments = arguments.lines().map(|line| ron::from_str(line).ok());
+    arguments.collect::<Option<Vec<String>>>().filter(|_| is_of_spectra)
+}
+
+fn is_same_folder(one: &Path, other: &Path) -> bool {
+    let whole = |folder: &Path| {
+        let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
+        folder.canonicalize().ok()
+    };
+    one == other || whole(one).is_some_and(|folder| Some(folder) == whole(other))
+}
+
+/// Reason why no scene was read.
+#[derive(Debug)]
+pub(super) enum SourceError {
+    /// The source cannot be read.
+    Unread(ReadError),
+    /// A table without a provenance that can be read.
+    NoProvenance(&'static str),
+}
+
+impl<E: Into<ReadError>> From<E> for SourceError {
+    fn from(error: E) -> Self {
+        SourceError::Unread(error.into())
+    }
+}
+
+/// Text of a file: that of a scene, or the provenance of a table, of which no more than that is read.
+enum Raw {
+    Scene(String),
+    Provenance(String),
+}
+
+impl Raw {
+    fn of_file(path: &Path) -> Result<Self, SourceError> {
+        let mut file = open_regular(path)?;
+        let mut start = Vec::new();
+        file.by_ref().take(npy::SIGNATURE.len() as u64).read_to_end(&mut start)?;
+        if start == npy::SIGNATURE {
+            Raw::of_array(file)
+        } else {
+            Raw::of_stream(Cursor::new(start).chain(file))
+        }
+    }
+
+    fn of_stream(mut stream: impl Read) -> Result<Self, SourceError> {
+        let mut start = Vec::new();
+        stream.by_ref().take(PROVENANCE.len() as u64).read_to_end(&mut start)?;
+        let is_table = start == PROVENANCE.as_bytes();
+        let whole = Cursor::new(start).chain(stream);
+        if !is_table {
+            return Ok(Raw::Scene(into_text(read_limited(whole, LONGEST_TEXT)?)?));
+        }
+        // Comments of a scene of the greatest length, which has a line for each byte.
+        let most = (LONGEST_TEXT * (1 + COMMENT.len())) as u64;
+        let mut lines = BufReader::new(whole.take(most));
+        let mut text = Vec::new();
+        let mut line = Vec::new();
+        while lines.read_until(b'\n', &mut line)? > 0 {
+            let Some(content) = line.strip_prefix(b"#") else { break };
+            text.extend_from_slice(content.strip_prefix(b" ").unwrap_or(content));
+            line.clear();
+        }
+        Ok(Raw::Provenance(into_text(text)?.replace("\r\n", "\n")))
+    }
+
+    fn of_array(mut file: File) -> Result<Self, SourceError> {
+        let most = npy::most_appended(LONGEST_TEXT) as u64;
+        let length = file.metadata()?.len();
+        file.seek(SeekFrom::Start(length.saturating_sub(most)))?;
+        let tail = read_limited(file, most as usize)?;
+        let text = npy::appended_text(&tail).ok_or(SourceError::NoProvenance(
+            "an array without a scene; allowed: a scene, or an array that asperity has written",
+        ))?;
+        Ok(Raw::Provenance(text.to_owned()))
+    }
+}
+
+/// Text of a scene, and the content of the table it comes from.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Source {
+    pub text: String,
+    pub content: Option<TableContent>,
+}
+
+impl Source {
+    /// Reads a scene file or the provenance of a table.
+    pub fn of_file(path: &Path) -> Result<Self, SourceError> {
+        Source::of_raw(Raw::of_file(path)?)
+    }
+
+    /// Reads the text of a scene, or CSV with one.
+    pub fn of_stream(stream: impl Read) -> Result<Self, SourceError> {
+        Source::of_raw(Raw::of_stream(stream)?)
+    }
+
+    fn of_raw(raw: Raw) -> Result<Self, SourceError> {
+        let text = match raw {
+            Raw::Scene(text) => return Ok(Source { text, content: None }),
+            Raw::Provenance(text) => text,
+        };
+        let split = text.split_once(&format!("\n{SCENE}")).filter(|(head, _)| head.starts_with(PROGRAM));
+        let (head, scene) = split.ok_or(SourceError::NoProvenance(
+            "a table whose first comments hold no scene; allowed: `asperity VERSION`, `content:` and `scene:`",
+        ))?;
+        let content = head.lines().find_map(|line| TableContent::from_name(line.strip_prefix("content: ")?));
+        let content = content.ok_or(SourceError::NoProvenance(
+            "a table without its content; allowed: `content: force curve`, `profile` or `COUNT random profiles`",
+        ))?;
+        Ok(Source { text: scene.to_owned(), content: Some(content) })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::document::Document;
+    use super::super::model::Roughness;
+    use super::super::strategies::sound_scenes;
+    use super::*;
+    use proptest::prelude::*;
+
+    fn read(bytes: &[u8]) -> Result<Source, SourceError> {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("table");
+        std::fs::write(&path, bytes).unwrap();
+        Source::of_file(&path)
+    }
+
+    proptest! {
+        #[test]
+        fn a_scene_comes_back_from_either_format(scene in sound_scenes(), count in 2_u32..) {
+            let here = Path::new("");
+            for content in
+                [TableContent::ForceCurve, TableContent::Profile, TableContent::RandomProfiles(count)]
+            {
+                let provenance = Provenance::new(content, &scene, here, here);
+                let csv = provenance.comments() + "x,z\n1,2\n";
+                let mut array = Vec::new();
+                npy::write_header(&mut array, "'<f8'", "1,").unwrap();
+                array.extend(1.0_f64.to_le_bytes());
+                npy::write_text(&mut array, provenance.text()).unwrap();
+                for file in [csv.clone().into_bytes(), csv.replace('\n', "\r\n").into_bytes(), array] {
+                    let source = read(&file).unwrap();
+                    prop_assert_eq!(source.content, Some(content));
+                    let document = Document::parse(&source.text, "table").unwrap();
+                    prop_assert_eq!(document.scene(), &scene);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_measured_file_is_named_from_where_the_table_is() {
+        let folder = tempfile::tempdir().unwrap();
+        let scene = crate::scene::open("rough-sphere").unwrap().scene().clone();
+        let scene = Scene { roughness: Some(Roughness::measured("stylus.txt")), ..scene };
+        let file = |destination: &Path| {
+            let written = Provenance::new(TableContent::Profile, &scene, folder.path(), destination);
+            let scene = Source::of_raw(Raw::Provenance(written.text().to_owned())).unwrap().text;
+            let document = Document::parse(&scene, "table").unwrap();
+            let Some(Roughness::Measured { file, .. }) = &document.scene().roughness else {
+                panic!("not measured")
+            };
+            file.clone()
+        };
+        assert_eq!(file(folder.path()), "stylus.txt");
+        assert_eq!(file(&folder.path().join(".")), "stylus.txt");
+        assert_eq!(file(Path::new("/")), folder.path().join("stylus.txt").to_str().unwrap());
+    }
+
+    #[test]
+    fn arguments_of_spectra_come_back() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("spectra.csv");
+        let arguments = ["--unit", "µm", "a \"b\"\n.txt", "\u{1b}"].map(str::to_owned);
+        let provenance = Provenance::of_spectra(&arguments);
+        std::fs::write(&path, provenance.comments() + "spectrum\n").unwrap();
+        assert_eq!(arguments_of_spectra(&path).as_deref(), Some(&arguments[..]));
+        assert!(matches!(Source::of_file(&path), Err(SourceError::NoProvenance(_))));
+        std::fs::write(&path, "()").unwrap();
+        assert_eq!(arguments_of_spectra(&path), None);
+        assert_eq!(arguments_of_spectra(folder.path()), None);
+    }
+
+    #[test]
+    fn tables_without_a_scene_are_refused() {
+        let mut array = Vec::new();
+        npy::write_header(&mut array, "'<f8'", "0,").unwrap();
+        for (file, expected) in [
+            (&b"# asperity 0.1.0\nx,z\n"[..], "first comments hold no scene"),
+            (b"# asperity 0.1.0\n# content: nothing\n# scene:\n# ()\n", "without its content"),
+            (&array, "an array without a scene"),
+        ] {
+            match read(file) {
+                Err(SourceError::NoProvenance(why)) => assert!(why.contains(expected), "{why}"),
+                other => panic!("{other:?}"),
+            }
+        }
+        let plain = read(b"()").unwrap();
+        assert_eq!((plain.text.as_str(), plain.content), ("()", None));
+    }
+}

@@ -1,0 +1,184 @@
+//! Reversals of a scene: the unloadings from many turning points of one loading, and the minor loops beside them.
+
+use super::{Plan, RunError, Simulation};
+use crate::analysis::{MinorLoops, ReversalMap};
+use crate::contact::{ContactError, GridEdges, LegRecord, Reversal, Reversals, SubCellEdges, exact};
+use crate::scene::{Edges, Leg, Scene, Solver as SolverChoice};
+use std::mem::take;
+use std::ops::RangeInclusive;
+
+/// Turning points of a map.
+pub const TURNING_POINTS: RangeInclusive<usize> = 8..=512;
+/// Most points of a map below its first turning point, for each turning point.
+const MOST_BELOW: usize = 4;
+/// Samples of a leg whose curve is not looked at.
+const FEW_SAMPLES: u64 = 2;
+
+/// Receiver of reversals and the numbers of their turning points.
+pub type SeeReversal<'a> = dyn FnMut(usize, Reversal) -> Result<(), ContactError> + 'a;
+
+/// Turning points of a map, from the shallowest to the deepest.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum TurningPoints {
+    /// From first touch to the preload of the scene's own loading.
+    OfScene,
+    /// Between the indentations of two preloads, N.
+    Preloads(f64, f64),
+}
+
+impl Simulation {
+    /// Unloads a checked scene from the ends of these legs, each of which begins separated, to separation. `see` takes
+    /// each reversal with the number of its leg, from the shallowest on, with the forces at `points`, ascending
+    /// indentations in m. `stop` is asked between two.
+    ///
+    /// # Errors
+    /// When the scene asks for the stepwise solver, an end is out of reach, memory is short or `stop` says so.
+    pub fn reverse(
+        &mut self,
+        scene: &Scene,
+        (ends, points): (&[Leg], &[f64]),
+        stop: &dyn Fn() -> bool,
+        see: &mut SeeReversal<'_>,
+    ) -> Result<(), RunError> {
+        if scene.numerics.solver != SolverChoice::Exact {
+            return Err(RunError::NeedsExactSolver);
+        }
+        let deepest = ends.last().copied().unwrap_or(Leg::ToTouch);
+        let plan = Plan::of(&Scene { loading: vec![deepest, Leg::ToSeparation], ..scene.clone() });
+        let interrupted = || if stop() { Err(ContactError::Interrupted) } else { Ok(()) };
+        let contact = self.prepare(&plan, scene, stop)?;
+        let (gaps, foundation) = (contact.line.gaps.as_slice(), contact.foundation);
+        let samples = scene.numerics.samples as usize;
+        let mut see = |index, reversal| {
+            see(index, reversal)?;
+            interrupted()
+        };
+        let edges = scene.numerics.edges;
+        let Some((hess, tree)) = contact.hess.zip(contact.tree) else {
+            let body = exact::nonadhesive(gaps, edges, foundation, samples);
+            return Ok(Reversals::new(body, ends)?.each(points, &mut see)?);
+        };
+        let memory = take(contact.memory);
+        match edges {
+            Edges::Grid => {
+                let rule = GridEdges::new(hess);
+                let body = exact::adhesive_in(memory, gaps, tree, rule, foundation, samples);
+                let mut reversals = Reversals::new(body, ends)?;
+                reversals.each(points, &mut see)?;
+                *contact.memory = reversals.into_body().into_memory();
+            }
+            Edges::SubCell => {
+                let rule = SubCellEdges::new(hess);
+                let body = exact::adhesive_in(memory, gaps, tree, rule, foundation, samples);
+                let mut reversals = Reversals::new(body, ends)?;
+                reversals.each(points, &mut see)?;
+                *contact.memory = reversals.into_body().into_memory();
+            }
+        }
+        Ok(())
+    }
+
+    /// First-order reversal curves of a checked scene from so many turning points at equal distances, at indentations of
+    /// the same distance down to separation.
+    ///
+    /// # Errors
+    /// Those of [`Simulation::reverse`], and for a loading that never presses.
+    pub fn reversal_map(
+        &mut self,
+        scene: &Scene,
+        turning: TurningPoints,
+        count: usize,
+        stop: &dyn Fn() -> bool,
+    ) -> Result<ReversalMap, RunError> {
+        let count = count.clamp(*TURNING_POINTS.start(), *TURNING_POINTS.end());
+        let mut scene = scene.clone();
+        let [low, high] = match turning {
+            TurningPoints::OfScene => {
+                scene.numerics.samples = FEW_SAMPLES;
+                let outcome = self.run(&scene, stop, &mut |_, _, _| Ok(()))?;
+                let pressed = outcome.figures.preload_indentation.filter(|&indentation| indentation > 0.0);
+                [0.0, pressed.ok_or(RunError::NeverPressed)?]
+            }
+            TurningPoints::Preloads(from, to) => {
+                let mut found = [0.0; 2];
+                let see: &mut SeeReversal<'_> = &mut |index, reversal| {
+                    found[index] = reversal.turn.indentation;
+                    Ok(())
+                };
+                self.reverse(&scene, (&[Leg::ToForce(from), Leg::ToForce(to)], &[]), stop, see)?;
+                found
+            }
+        };
+        let mut separation = low;
+        self.reverse(&scene, (&[Leg::ToIndentation(high)], &[]), stop, &mut |_, reversal| {
+            separation = reversal.separation;
+            Ok(())
+        })?;
+        let step = (high - low) / (count - 1) as f64;
+        if !(step > 0.0 && low + step > low) {
+            return Err(RunError::NeverPressed);
+        }
+        let below = (((low - separation) / step).ceil() as usize + 1).min(MOST_BELOW * count);
+        let at = |index: usize| low + step * (index as f64 - below as f64);
+        let points: Vec<f64> = (0..below + count).map(at).collect();
+        let ends: Vec<Leg> = points[below..].iter().map(|&point| Leg::ToIndentation(point)).collect();
+        let mut reversals = Vec::with_capacity(count);
+        self.reverse(&scene, (&ends, &points), stop, &mut |_, reversal| {
+            reversals.push(reversal);
+            Ok(())
+        })?;
+        Ok(ReversalMap { points, below, reversals })
+    }
+
+    /// Compares minor loops between the same two indentations, one on the way back from the first loading there and one
+    /// on the way back from the deepest turning point of a map, for `levels` upper and as many lower indentations.
+    ///
+    /// # Errors
+    /// Those of [`Simulation::run`].
+    pub fn minor_loops(
+        &mut self,
+        scene: &Scene,
+        map: &ReversalMap,
+        levels: usize,
+        stop: &dyn Fn() -> bool,
+    ) -> Result<MinorLoops, RunError> {
+        let Some(deepest) = map.reversals.last() else { return Ok(MinorLoops::default()) };
+        let top = deepest.turn.indentation;
+        let mut limits = Vec::new();
+        for upper in 0..levels {
+            let high = top * upper as f64 / levels as f64;
+            for lower in 0..levels {
+                let share = (lower as f64 + 0.5) / levels as f64;
+                limits.push((deepest.separation + share * (high - deepest.separation), high));
+            }
+        }
+        let to = Leg::ToIndentation;
+        let legs = |&(low, high): &(f64, f64)| {
+            [
+                to(high),
+                to(low),
+                to(high),
+                Leg::ToSeparation,
+                to(top),
+                to(low),
+                to(high),
+                to(low),
+                Leg::ToSeparation,
+            ]
+        };
+        let mut scene = scene.clone();
+        scene.numerics.samples = FEW_SAMPLES;
+        scene.loading = limits.iter().flat_map(legs).collect();
+        if scene.loading.is_empty() {
+            return Ok(MinorLoops::default());
+        }
+        let outcome = self.run(&scene, stop, &mut |_, _, _| Ok(()))?;
+        let loss = |legs: &[LegRecord]| legs.iter().map(|leg| leg.dissipated_energy).sum::<f64>();
+        let loops = outcome.history.legs.chunks_exact(9);
+        // Of a body that separates, a loop is no minor loop.
+        let holds = |leg: &LegRecord| leg.curve.last().is_some_and(|point| point.springs > 0);
+        let held = loops.filter(|legs| holds(&legs[1]));
+        let pairs = held.map(|legs| [loss(&legs[1..3]), loss(&legs[6..8])]).collect::<Vec<_>>();
+        Ok(MinorLoops::new(&pairs, deepest.dissipated_energy))
+    }
+}

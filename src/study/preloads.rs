@@ -1,0 +1,190 @@
+//! Adhesion against preload: the adhesion force of one profile for many preloads, and its mean over random profiles.
+
+use super::lines::LinesError;
+use super::statistics::{Statistics, StudentT};
+use crate::contact::Reversal;
+use crate::parallel::{begin_threads, on_this_thread};
+use crate::scene::{Leg, Scene};
+use crate::simulation::{RunError, Simulation};
+use serde::Serialize;
+use std::ops::RangeInclusive;
+use std::path::Path;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Mutex, PoisonError};
+
+/// Numbers of preloads.
+pub const PRELOADS: RangeInclusive<usize> = 2..=512;
+
+/// Preloads at equal distances, N.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Preloads {
+    /// The smallest, at least 0 N.
+    pub from: f64,
+    /// The largest.
+    pub to: f64,
+    /// Their number, in [`PRELOADS`].
+    pub count: usize,
+}
+
+/// The unloading from one preload to separation, in SI units.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Preloaded {
+    /// Preload F_n, N.
+    pub preload: f64,
+    /// Indentation at the preload, m.
+    pub preload_indentation: f64,
+    /// Adhesion force F_a, N.
+    pub adhesion_force: Option<f64>,
+    /// Indentation at the smallest force, m.
+    pub pull_off_indentation: f64,
+    /// Energy dissipated from separation to separation, J.
+    pub dissipated_energy: f64,
+}
+
+impl Preloads {
+    /// The forces, N.
+    #[must_use]
+    pub fn forces(&self) -> Vec<f64> {
+        let last = (self.count.max(2) - 1) as f64;
+        let at = |index: usize| (self.from + (self.to - self.from) * (index as f64 / last)).min(self.to);
+        (0..self.count).map(at).collect()
+    }
+}
+
+impl Preloaded {
+    /// The figures of a reversal from this preload, N.
+    #[must_use]
+    pub fn new(preload: f64, reversal: &Reversal) -> Self {
+        Preloaded {
+            preload,
+            preload_indentation: reversal.turn.indentation,
+            adhesion_force: reversal.adhesion_force(),
+            pull_off_indentation: reversal.smallest.indentation,
+            dissipated_energy: reversal.dissipated_energy,
+        }
+    }
+}
+
+/// Solves a checked scene for these preloads, N, in place of its own loading: one loading, one unloading from each. `see`
+/// takes each as soon as it is done, from the smallest preload on.
+///
+/// # Errors
+/// Those of [`Simulation::reverse`].
+pub fn solve_preloads(
+    simulation: &mut Simulation,
+    scene: &Scene,
+    forces: &[f64],
+    stop: &dyn Fn() -> bool,
+    see: &mut dyn FnMut(Preloaded),
+) -> Result<(), RunError> {
+    let ends: Vec<Leg> = forces.iter().map(|&force| Leg::ToForce(force)).collect();
+    simulation.reverse(scene, (&ends, &[]), stop, &mut |index, reversal| {
+        see(Preloaded::new(forces[index], &reversal));
+        Ok(())
+    })
+}
+
+/// Solves a checked scene for these preloads, N, on `lines` profiles: its seed and the seeds that follow. `jobs` threads
+/// share the profiles; no bit of a result depends on their number. The seed of each profile comes with its results.
+///
+/// # Errors
+/// [`LinesError`]; of several profiles that fail, the first.
+pub fn solve_preloads_on_lines(
+    scene: &Scene,
+    folder: &Path,
+    forces: &[f64],
+    lines: usize,
+    jobs: usize,
+) -> Result<Vec<(u64, Vec<Preloaded>)>, LinesError> {
+    let first = scene.seed().ok_or(LinesError::OneLine)?;
+    let next = AtomicUsize::new(0);
+    let solved = Mutex::new(Vec::new());
+    let solve = || {
+        let mut simulation = Simulation::new(folder.to_path_buf());
+        let mut scene = scene.clone();
+        loop {
+            let line = next.fetch_add(1, Ordering::Relaxed);
+            if line >= lines {
+                return;
+            }
+            let seed = first.wrapping_add(line as u64);
+            scene.set_seed(seed);
+            let mut found = Vec::with_capacity(forces.len());
+            let done = solve_preloads(&mut simulation, &scene, forces, &|| false, &mut |one| found.push(one));
+            let result = done.map(|()| (seed, found)).map_err(|error| LinesError::Run { seed, error });
+            if result.is_err() {
+                // Of no use are the profiles that follow; those before are under way or done.
+                next.store(lines, Ordering::Relaxed);
+            }
+            solved.lock().unwrap_or_else(PoisonError::into_inner).push((line, result));
+        }
+    };
+    std::thread::scope(|scope| {
+        begin_threads(scope, jobs.min(lines).saturating_sub(1), &solve);
+        on_this_thread(solve);
+    });
+    let mut solved = solved.into_inner().unwrap_or_else(PoisonError::into_inner);
+    solved.sort_by_key(|&(line, _)| line);
+    solved.into_iter().map(|(_, result)| result).collect()
+}
+
+/// Statistics of the adhesion force over profiles for each preload; a profile that does not pull counts with 0 N, since
+/// the mean is that of what holds the bodies together. `None` for fewer than two profiles.
+#[must_use]
+pub fn preload_statistics(lines: &[Vec<Preloaded>]) -> Vec<Option<Statistics>> {
+    let count = lines.iter().map(Vec::len).min().unwrap_or(0);
+    let mut quantiles = StudentT::default();
+    let mut values = Vec::with_capacity(lines.len());
+    (0..count)
+        .map(|index| {
+            values.clear();
+            values.extend(lines.iter().map(|line| line[index].adhesion_force.unwrap_or(0.0)));
+            Statistics::with(&values, &mut quantiles)
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::open;
+
+    #[test]
+    fn adhesion_grows_with_the_preload_over_sixteen_profiles() {
+        let document = open("pressure-sensitive").unwrap();
+        let forces = Preloads { from: 0.0, to: 2e-5, count: 9 }.forces();
+        assert_eq!((forces[0], forces[8], forces.len()), (0.0, 2e-5, 9));
+        let of = |jobs| {
+            solve_preloads_on_lines(document.scene(), &document.resolve(""), &forces, 16, jobs).unwrap()
+        };
+        let lines = of(2);
+        // One profile is the scene itself, loaded to one of the forces.
+        let mut scene = document.scene().clone();
+        scene.set_seed(lines[3].0);
+        scene.loading = vec![Leg::ToForce(forces[4]), Leg::ToSeparation];
+        let outcome = Simulation::default().run(&scene, &|| false, &mut |_, _, _| Ok(())).unwrap();
+        assert_eq!(lines[3].1[4].adhesion_force, outcome.figures.adhesion_force);
+        assert_eq!(lines[3].1[4].dissipated_energy, outcome.figures.dissipated_energy.unwrap());
+        let curves: Vec<_> = lines.iter().map(|(_, line)| line.clone()).collect();
+        for curve in &curves {
+            assert!(
+                curve.windows(2).all(|pair| pair[0].adhesion_force <= pair[1].adhesion_force),
+                "{curve:?}"
+            );
+        }
+        let means: Vec<f64> = preload_statistics(&curves).iter().map(|one| one.unwrap().mean).collect();
+        assert!(means.windows(2).all(|pair| pair[0] < pair[1]), "{means:?}");
+        // Pressing with twice the force about doubles the mean.
+        assert!(means[8] > 1.5 * means[4] && means[4] > 1.5 * means[2], "{means:?}");
+        assert!(means[0] < 0.1 * means[8], "{means:?}");
+        assert_eq!(of(1), lines);
+    }
+
+    #[test]
+    fn smooth_bodies_have_but_one_profile() {
+        let smooth = open("jkr-sphere").unwrap();
+        let failed = solve_preloads_on_lines(smooth.scene(), &smooth.resolve(""), &[1e-6], 2, 1);
+        assert_eq!(failed, Err(LinesError::OneLine));
+        assert_eq!(preload_statistics(&[vec![]]), vec![]);
+    }
+}
