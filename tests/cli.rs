@@ -1024,12 +1024,12 @@ fn scenes_are_drawn_and_pictures_hold_nothing_else() {
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), before, "nothing is written");
 }
 
-const SMALL: [&str; 2] = ["--set", "numerics.points=1024"];
+const FEW_SPRINGS: [&str; 2] = ["--set", "numerics.points=1024"];
 
 #[test]
 fn adhesion_against_preload_is_printed_for_one_profile_and_for_many() {
     let run = |more: &[&str]| {
-        done(&[&["run", "pressure-sensitive", "--preloads", "0..20uN:5"], &SMALL[..], more].concat())
+        done(&[&["run", "pressure-sensitive", "--preloads", "0..20uN:5"], &FEW_SPRINGS[..], more].concat())
     };
     let text = run(&[]);
     assert!(text.contains("Adhesion against preload, one profile of 1 024 springs"), "{text}");
@@ -1040,8 +1040,9 @@ fn adhesion_against_preload_is_printed_for_one_profile_and_for_many() {
     assert_eq!(rows.len(), 6);
     // Each is what a run to that preload gives.
     let loading = format!("loading=[ToForce({}), ToSeparation]", rows[4][1]);
-    let one =
-        done(&[&["run", "pressure-sensitive", "--format", "json", "--set", &loading], &SMALL[..]].concat());
+    let one = done(
+        &[&["run", "pressure-sensitive", "--format", "json", "--set", &loading], &FEW_SPRINGS[..]].concat(),
+    );
     let one: Value = serde_json::from_str(&one).unwrap();
     let number = |column: usize| rows[4][column].parse::<f64>().unwrap();
     assert_eq!(one["adhesion_force"].as_f64(), Some(number(3)));
@@ -1064,7 +1065,7 @@ fn adhesion_against_preload_is_printed_for_one_profile_and_for_many() {
 #[test]
 fn reversals_are_printed_in_all_formats() {
     let run = |more: &[&str]| {
-        done(&[&["reversals", "pressure-sensitive", "--count", "12"], &SMALL[..], more].concat())
+        done(&[&["reversals", "pressure-sensitive", "--count", "12"], &FEW_SPRINGS[..], more].concat())
     };
     let text = run(&[]);
     assert!(text.contains("12 reversals of one loading") && text.contains("minor loops with loss"), "{text}");
@@ -1100,7 +1101,8 @@ fn reversals_are_printed_in_all_formats() {
         (1, &["--set", "loading=[ToIndentation(-1e-9)]"], "allowed: a stage that presses"),
         (1, &["--set", "numerics.solver=Stepwise(step: 1e-9)"], "allowed: numerics.solver = Exact"),
     ] {
-        let error = failed(code, &[&["reversals", "pressure-sensitive"], &SMALL[..], arguments].concat());
+        let error =
+            failed(code, &[&["reversals", "pressure-sensitive"], &FEW_SPRINGS[..], arguments].concat());
         assert!(error.contains(words), "{arguments:?}: {error}");
     }
 }

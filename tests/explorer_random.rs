@@ -245,15 +245,19 @@ impl Explorer {
 
     fn answer(&mut self) {
         let Some(effect) = self.waiting.pop_front() else { return };
-        let scene = self.driver.model.document.scene();
-        let numerics = scene.numerics;
-        let is_cheap =
-            numerics.points <= MOST && numerics.samples <= MOST && numerics.solver == Solver::Exact;
-        let actions = if effect == Effect::Compute && !(is_cheap && scene.loading.len() <= 16) {
-            let generation = self.driver.model.generation;
-            vec![Action::Failed { generation, error: "too large for a test\nin two lines".to_owned() }]
-        } else {
-            self.driver.answer(effect)
+        let is_cheap = |document: &Document| {
+            let scene = document.scene();
+            let numerics = scene.numerics;
+            let is_small = numerics.points <= MOST && numerics.samples <= MOST && scene.loading.len() <= 16;
+            is_small && numerics.solver == Solver::Exact
+        };
+        let actions = match &effect {
+            Effect::Compute if !is_cheap(&self.driver.model.document) => {
+                let generation = self.driver.model.generation;
+                vec![Action::Failed { generation, error: "too large for a test\nin two lines".to_owned() }]
+            }
+            Effect::Preview(document) if !is_cheap(document) => Vec::new(),
+            _ => self.driver.answer(effect),
         };
         self.reports.extend(actions.iter().cloned());
         actions.into_iter().for_each(|action| self.act(action));
@@ -278,7 +282,7 @@ impl Explorer {
             assert_eq!(model.parameters, parameters(document));
             assert!(model.refused.is_none(), "a changed scene is not refused");
         }
-        assert!(model.selected < model.parameters.len());
+        assert!(model.listed().contains(&model.selected), "the selected parameter is in no folded group");
         assert!(model.refused.as_ref().is_none_or(|(row, _)| *row < model.parameters.len()));
         assert!((0.0..=1.0).contains(&model.player.done), "{:?}", model.player);
         assert!(model.indentation().is_finite());

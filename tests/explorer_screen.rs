@@ -43,6 +43,8 @@ mod look;
 mod looks;
 #[path = "screen/mouse.rs"]
 mod mouse;
+#[path = "screen/palette.rs"]
+mod palette;
 #[path = "screen/panes.rs"]
 mod panes;
 #[path = "screen/parameters.rs"]
@@ -116,6 +118,8 @@ fn everywhere() -> Vec<Driver> {
         "E",
         "o",
         "/ h u",
+        ": m a p",
+        "i",
         "Z",
         "d { ]",
         "c L",

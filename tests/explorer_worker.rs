@@ -18,7 +18,6 @@ use common::deadline::within;
 use common::scenes::{changed, one_spring, punch, rough, smooth, without_adhesion};
 use std::cell::RefCell;
 use std::sync::Arc;
-use std::sync::atomic::Ordering;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
 use std::time::Duration;
 
@@ -107,7 +106,7 @@ fn serve_all(engine: impl Engine + 'static, newest: u64, requests: Vec<Request>)
     drop(sender);
     let reports = RefCell::new(Vec::new());
     let generation = Newest::default();
-    generation.store(newest, Ordering::Relaxed);
+    generation.set_generation(newest);
     worker::serve(Box::new(engine), &generation, &receiver, &|report| {
         reports.borrow_mut().push(report);
         true
@@ -229,6 +228,40 @@ fn a_scene_that_is_no_longer_wanted_is_not_computed() {
 }
 
 #[test]
+fn a_preview_that_is_no_longer_wanted_is_not_computed() {
+    within(30, || {
+        let preview = |seed_of| {
+            let document = seed(&rough(), seed_of);
+            let scene = Arc::new(document.scene().clone());
+            (Arc::clone(&scene), Request::Preview { text: document.text().to_owned(), scene })
+        };
+        let serve = |awaited: &Newest, requests: Vec<Request>| {
+            let reports = RefCell::new(Vec::new());
+            let mut desk = worker::Desk::new(Box::new(Simulation::default()));
+            desk.serve(requests.into_iter(), awaited, &|report| {
+                reports.borrow_mut().push(report);
+                true
+            });
+            reports.into_inner()
+        };
+        let ((first, one), (second, other)) = (preview(1), preview(2));
+        let awaited = Newest::default();
+        awaited.set_preview(Some(second));
+        assert!(serve(&awaited, vec![one.clone()]).is_empty(), "a newer one is waited for");
+        let reports = serve(&awaited, vec![one.clone(), other.clone()]);
+        let Request::Preview { text, .. } = &other else { panic!("{other:?}") };
+        assert!(matches!(&reports[..], [Report::Previewed(preview)] if preview.text == *text), "{reports:?}");
+        awaited.set_preview(None);
+        assert!(serve(&awaited, vec![other]).is_empty(), "none is waited for");
+        // A scene that is asked for makes it stale.
+        let (requests, _outbox) = channel();
+        awaited.set_preview(Some(Arc::clone(&first)));
+        Worker::new(requests, Arc::clone(&awaited)).ask(compute(1, &rough()));
+        assert!(!awaited.is_preview(&first));
+    });
+}
+
+#[test]
 fn a_newer_scene_stops_the_one_that_is_being_computed() {
     within(30, || {
         let (started, wait) = channel();
@@ -271,7 +304,7 @@ fn the_worker_ends_with_the_explorer() {
         let (sender, receiver) = channel();
         sender.send(compute(1, &rough())).unwrap();
         let generation = Newest::default();
-        generation.store(1, Ordering::Relaxed);
+        generation.set_generation(1);
         let told = RefCell::new(0);
         worker::serve(Box::new(Simulation::default()), &generation, &receiver, &|_| {
             *told.borrow_mut() += 1;

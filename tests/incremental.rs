@@ -244,6 +244,27 @@ proptest! {
     }
 
     #[test]
+    fn a_force_is_checked_without_a_move(body in body(), goals in goals()) {
+        let tree = body.tree();
+        let (mut manual, mut unchecked) = (body.separated(&tree), body.separated(&tree));
+        for goal in goals {
+            let leg = goal.leg(&body);
+            let before = state(&manual);
+            let checked = match leg {
+                Leg::ToForce(force) => Some(manual.check_force(force)),
+                _ => None,
+            };
+            prop_assert_eq!(state(&manual), before);
+            let moved = go(&mut manual, leg).map(drop);
+            if let Some(checked) = checked {
+                prop_assert_eq!(checked, moved.clone());
+            }
+            prop_assert_eq!(moved, go(&mut unchecked, leg).map(drop));
+            prop_assert_eq!(state(&manual), state(&unchecked));
+        }
+    }
+
+    #[test]
     fn a_move_in_many_parts_is_one_move(
         body in body(),
         goals in goals(),

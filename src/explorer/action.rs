@@ -48,9 +48,16 @@ pub enum Action {
     Written(Result<Written, WriteFailure>),
     /// The scenes that can be opened.
     Listed(Vec<Entry>),
+    /// Paths that complete a typed one.
+    Completed {
+        /// The path as typed.
+        typed: String,
+        /// The whole paths, the best first.
+        paths: Vec<String>,
+    },
     /// A scene or a study has been opened by its path, or not, and why.
     Opened(Result<Box<Opening>, String>),
-    /// The curve of the scene chosen in the library.
+    /// The curve of a scene to look at.
     Previewed(Arc<Preview>),
     /// What the connection carries.
     Traffic(Traffic),
@@ -207,6 +214,10 @@ pub enum Command {
     ToggleSideBySide,
     /// Let all ghosts go.
     ClearGhosts,
+    /// Choose a command from the list of all.
+    OpenPalette,
+    /// Complete the path that is typed.
+    Complete,
     /// Save the scene to a file.
     Save,
     /// Export curve or panes to a file.
@@ -278,6 +289,8 @@ pub enum Command {
     ZoomPane,
     /// Choose the next pane.
     NextPane,
+    /// Show springs and times of the computation in the status line, or mechanical quantities again.
+    ToggleWork,
     /// Other colours.
     NextTheme,
     /// Other markers in the plots.

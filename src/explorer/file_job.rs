@@ -2,6 +2,7 @@
 //! not answer, and the screen has to.
 
 use super::action::{Action, Content, WriteFailure};
+use super::completion::complete;
 use super::model::Model;
 use super::opening::Opening;
 use super::writing;
@@ -15,6 +16,8 @@ pub(super) enum FileJob {
     Write { model: Box<Model>, path: PathBuf, content: Content, overwrite: bool },
     /// List the scenes of the library.
     List,
+    /// List the paths that complete a typed one.
+    Complete(String),
     /// Open a scene or a study by its path.
     Open(String),
 }
@@ -25,6 +28,7 @@ impl FileJob {
         match self {
             FileJob::Write { path, .. } => format!("writing {} …", path.display()),
             FileJob::List => "listing scenes …".to_owned(),
+            FileJob::Complete(_) => "listing files …".to_owned(),
             FileJob::Open(name) => format!("opening {name} …"),
         }
     }
@@ -54,6 +58,10 @@ impl FileJob {
                 Action::Written(writing::write(&model, path, content, overwrite))
             }
             FileJob::List => Action::Listed(Library::of_environment().list()),
+            FileJob::Complete(typed) => {
+                let paths = complete(&typed);
+                Action::Completed { typed, paths }
+            }
             FileJob::Open(name) => {
                 Action::Opened(Opening::of(&name).map(Box::new).map_err(|error| error.to_string()))
             }

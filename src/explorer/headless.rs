@@ -11,7 +11,7 @@ use super::worker::{Desk, Engine, Newest, Report, Request};
 use crate::scene::Document;
 use std::cell::RefCell;
 use std::collections::VecDeque;
-use std::sync::atomic::Ordering;
+use std::sync::Arc;
 
 /// With more springs than these no error is estimated: who watches would have to wait for it.
 const MOST_ESTIMATED: u64 = 1 << 17;
@@ -85,11 +85,20 @@ impl Headless {
                 self.seeds += 1;
                 return vec![Action::SetSeed(self.seeds)];
             }
-            Effect::Write { .. } | Effect::List | Effect::Open(_) | Effect::Copy(_) | Effect::Suspend => {
+            Effect::StopPreview
+            | Effect::Write { .. }
+            | Effect::Complete(_)
+            | Effect::List
+            | Effect::Open(_)
+            | Effect::Copy(_)
+            | Effect::Suspend => {
                 return Vec::new();
             }
         };
-        self.newest.store(generation, Ordering::Relaxed);
+        self.newest.set_generation(generation);
+        if let Request::Preview { scene, .. } = &request {
+            self.newest.set_preview(Some(Arc::clone(scene)));
+        }
         let reports: RefCell<Vec<Report>> = RefCell::default();
         self.desk.serve(std::iter::once(request), &self.newest, &|report| {
             reports.borrow_mut().push(report);

@@ -1,7 +1,7 @@
 //! The body in the user's hand: moved by small steps, each of which costs what it changes.
 
 use super::request::HandOrder;
-use super::snapshot::Travel;
+use super::snapshot::{Refusal, Travel};
 use crate::analysis::Governing;
 use crate::contact::{
     ContactTree, CurvePoint, GridEdges, HessRule, Manual, ManualError, ManualLoading, Move, SubCellEdges,
@@ -14,6 +14,8 @@ use std::sync::Arc;
 const POINTS: u32 = 16;
 /// Most moves of one order.
 const MOST_STEPS: u32 = 512;
+/// Largest force over that at full contact: beyond it the curve is a straight line to no end.
+const MOST_OVER_FULL_CONTACT: f64 = 10.0;
 
 /// See the module.
 pub struct Held {
@@ -21,18 +23,23 @@ pub struct Held {
     travel: Travel,
     /// A small part of the range of indentations, m.
     step: f64,
+    /// Force at which the last spring touches the rigid body, N.
+    full_contact: f64,
+    /// Largest force that is pressed with, N.
+    largest: f64,
 }
 
 impl Held {
     /// Begins manual loading where these fragments are in contact at this indentation, m, with edges of this kind;
-    /// `tree` is that of the line, where there is one. `step` is the distance of the points of a pull, m.
+    /// `tree` is that of the line, where there is one. `step` is the distance of the points of a pull, m, and `preload`
+    /// the largest force of the scene's loading, N.
     pub fn take(
         line: &Line,
         tree: Option<&Arc<ContactTree>>,
         edges: Edges,
         governing: &Governing,
         (indentation, contact, rises): (f64, &[(usize, usize)], &[f64]),
-        step: f64,
+        (step, preload): (f64, f64),
     ) -> Option<Self> {
         let foundation = governing.foundation(line);
         let hess = governing.hess_rule(foundation).unwrap_or(HessRule::NO_ADHESION);
@@ -51,7 +58,10 @@ impl Held {
                 Box::new(Manual::in_contact(gaps, tree, edges, foundation, indentation, contact, rises).ok()?)
             }
         };
-        Some(Held { body, travel: Travel::default(), step })
+        let deepest = gaps.iter().copied().fold(0.0, f64::max);
+        let full_contact = foundation.spring_stiffness() * gaps.iter().map(|gap| deepest - gap).sum::<f64>();
+        let largest = MOST_OVER_FULL_CONTACT * full_contact.max(preload);
+        Some(Held { body, travel: Travel::default(), step, full_contact, largest })
     }
 
     /// Where it stands.
@@ -80,12 +90,12 @@ impl Held {
         let from = self.body.point();
         let went = match order {
             HandOrder::Take { .. } | HandOrder::Give => Ok(()),
-            HandOrder::To(indentation) => self.go(from.indentation, indentation),
-            HandOrder::By(way) => self.go(from.indentation, from.indentation + way),
+            HandOrder::To(indentation) => self.go(from.indentation, indentation).map_err(Refusal::from),
+            HandOrder::By(way) => self.go(from.indentation, from.indentation + way).map_err(Refusal::from),
             HandOrder::ToForce(force) => self.find(force),
-            HandOrder::Separate => self.separate(),
+            HandOrder::Separate => self.separate().map_err(Refusal::from),
         };
-        self.travel.refused = went.err().map(|error| error.to_string());
+        self.travel.refused = went.err();
     }
 
     /// Goes to an indentation, by as many moves as the curve gets points.
@@ -101,10 +111,17 @@ impl Held {
         Ok(())
     }
 
-    /// Goes to a force, by as many moves as the curve gets points: each is passed on the way to the
-    /// next. Where the contact does not bear it, the body stands as near as it came.
-    fn find(&mut self, force: f64) -> Result<(), ManualError> {
+    /// Goes to a force, by as many moves as the curve gets points: each is passed on the way to the next. A force out
+    /// of reach moves nothing.
+    fn find(&mut self, force: f64) -> Result<(), Refusal> {
         let from = self.body.point().force;
+        if force > self.largest.max(from) {
+            return Err(Refusal::BeyondFullContact {
+                full_contact: self.full_contact,
+                largest: self.largest,
+            });
+        }
+        self.body.check_force(force)?;
         for step in 1..=POINTS {
             let share = f64::from(step) / f64::from(POINTS);
             let wanted = if step == POINTS { force } else { from + (force - from) * share };

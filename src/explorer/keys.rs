@@ -99,10 +99,14 @@ const TYPED: &[ModeKind] = &[
     ModeKind::Export,
     ModeKind::Library,
     ModeKind::Find,
+    ModeKind::Palette,
 ];
 const LIBRARY: &[ModeKind] = &[ModeKind::Library];
 const FIND: &[ModeKind] = &[ModeKind::Find];
-const SEARCHED: &[ModeKind] = &[ModeKind::Library, ModeKind::Find];
+const PALETTE: &[ModeKind] = &[ModeKind::Palette];
+const SEARCHED: &[ModeKind] = &[ModeKind::Library, ModeKind::Find, ModeKind::Palette];
+/// Lines with a path in them.
+const PATH: &[ModeKind] = &[ModeKind::SaveAs, ModeKind::Export, ModeKind::Library];
 const ASK: &[ModeKind] = &[ModeKind::Overwrite];
 const LEAVE: &[ModeKind] = &[ModeKind::Quit];
 const ANY: &[ModeKind] = &ModeKind::ALL;
@@ -122,10 +126,10 @@ const DIGITS: [Key; 10] = [
 /// Characters that begin a number.
 const VALUE_STARTS: [Key; 12] = {
     let mut keys = [char('-'); 12];
-    keys[1] = char('.');
+    keys[11] = char('.');
     let mut digit = 0;
     while digit < DIGITS.len() {
-        keys[2 + digit] = DIGITS[digit];
+        keys[digit] = DIGITS[digit];
         digit += 1;
     }
     keys
@@ -167,20 +171,20 @@ const fn push(steps: i32, coarse: bool) -> Command {
 /// All keys. No mode gives a key two meanings; a test sees to it.
 #[rustfmt::skip]
 pub const BINDINGS: &[Binding] = &[
-    row(&[char(' ')], EXPLORE, Command::TogglePlay, "play/pause", "play or pause", ANIMATION),
+    row(&[char(' ')], EXPLORE, Command::TogglePlay, "play", "play or pause", ANIMATION),
     row(&[char('.')], OTHER_PANES, Command::Step(1), "step", "one step forwards", ANIMATION),
     row(&[char(',')], EXPLORE, Command::Step(-1), "", "one step backwards", ANIMATION),
     row(&[char('r')], EXPLORE, Command::Restart, "restart", "play from the beginning", ANIMATION),
     row(&[char('>')], EXPLORE, Command::Leg(1), "", "jump to the start of the next loading stage", ANIMATION),
     row(&[char('<')], EXPLORE, Command::Leg(-1), "", "jump to the start of this loading stage or of the previous one", ANIMATION),
 
-    row(&[char('d')], EXPLORE, Command::ToggleHand, "hand", "begin manual loading at the present indentation, or end it", HAND),
-    row(&[char(']')], EXPLORE, push(1, false), "", "press by a small step", HAND),
-    row(&[char('[')], EXPLORE, push(-1, false), "", "pull by a small step", HAND),
-    row(&[char('}')], EXPLORE, push(1, true), "", "press by a large step", HAND),
-    row(&[char('{')], EXPLORE, push(-1, true), "", "pull by a large step", HAND),
-    row(&[char('F')], EXPLORE, Command::TypeForce, "", "type a target force", HAND),
-    row(&[char('S')], EXPLORE, Command::Separate, "", "pull to separation", HAND),
+    row(&[char('d')], EXPLORE, Command::ToggleHand, "manual", "begin manual loading at the present indentation, or end it", HAND),
+    row(&[char(']')], EXPLORE, push(1, false), "press/pull", "press by a small step", HAND),
+    row(&[char('[')], EXPLORE, push(-1, false), "press/pull", "pull by a small step", HAND),
+    row(&[char('}')], EXPLORE, push(1, true), "large step", "press by a large step", HAND),
+    row(&[char('{')], EXPLORE, push(-1, true), "large step", "pull by a large step", HAND),
+    row(&[char('F')], EXPLORE, Command::TypeForce, "force", "type a target force", HAND),
+    row(&[char('S')], EXPLORE, Command::Separate, "separate", "pull to separation", HAND),
 
     row(&[key(KeyCode::Up), char('k')], LIST, Command::Select(-1), "", "select the parameter above", PARAMETERS),
     row(&[key(KeyCode::Down), char('j')], LIST, Command::Select(1), "select", "select the parameter below", PARAMETERS),
@@ -224,8 +228,9 @@ pub const BINDINGS: &[Binding] = &[
     row(&[char('A')], EXPLORE, Command::ToggleAccuracy, "accuracy", "show errors against time and the computing stages, in place of profile and close-up", LOOK),
     row(&[char('Q')], EXPLORE, Command::ToggleSpectrum, "", "show spectra over the wave number q, measured, fitted and of the profile, in place of profile and close-up", LOOK),
     row(&[char('i')], EXPLORE, Command::TogglePreloads, "", "show adhesion against preload, in place of profile and close-up", LOOK),
-    row(&[key(KeyCode::Tab)], EXPLORE, Command::NextPane, "", "select the next pane", LOOK),
+    row(&[key(KeyCode::Tab)], EXPLORE, Command::NextPane, "pane", "select the next pane", LOOK),
     row(&[char('z')], EXPLORE, Command::ZoomPane, "zoom", "show the selected pane on the whole screen, or all panes", LOOK),
+    row(&[char('I')], EXPLORE, Command::ToggleWork, "", "show springs and stage times in the status line, or contact, stiffness, pressure and energy", LOOK),
     row(&[char('T')], EXPLORE, Command::NextTheme, "", "change the colours", LOOK),
     row(&[char('M')], EXPLORE, Command::NextMarker, "", "change the markers: braille, octants, half blocks, ASCII", LOOK),
 
@@ -254,13 +259,14 @@ pub const BINDINGS: &[Binding] = &[
     row(&[char('V')], CHART, Command::NextCharted, "quantity", "map another quantity: regime, F_a(0)/F_a,max, F_a/F_n; all recorded ones of a study", MAP),
     row(&[char('W')], CHART, Command::ToggleStudy, "", "show the map of the opened study, or the live map", MAP),
     row(&[char('P'), key(KeyCode::PageDown)], CHART, Command::NextSlice(1), "", "show the next preload of the study, or value of a further axis; the scene follows", MAP),
-    row(&[key(KeyCode::PageUp), control('p')], CHART, Command::NextSlice(-1), "", "show the previous one", MAP),
+    row(&[key(KeyCode::PageUp)], CHART, Command::NextSlice(-1), "", "show the previous one", MAP),
 
     row(&[char('o')], EXPLORE, Command::OpenLibrary, "open", "open a scene: built-in, your own, or by path; or the folder of a study", SCENE),
     row(&DIGITS.split_at(1).1, OTHER_PANES, Command::Preset(0), "", "open a built-in scene by its number, unless the pane of parameters is selected", SCENE),
     row(&[char('s')], EXPLORE, Command::Save, "save", "save the scene to a file", SCENE),
     row(&[char('E')], EXPLORE, Command::Export, "export", "export the curve (.csv), all figures (.json) or the panes (.svg, .txt)", SCENE),
     row(&[char('y')], EXPLORE, Command::CopyCommand, "copy", "copy the command that opens the present scene", SCENE),
+    row(&[char(':'), control('p')], EXPLORE, Command::OpenPalette, "commands", "find a command by letters of its description, and run it", SCENE),
     row(&[char('?'), key(KeyCode::F(1))], EXPLORE, Command::Help, "help", "show this help", SCENE),
     row(&[char('q'), control('c')], EXPLORE, Command::Quit, "quit", "quit", SCENE),
     row(&[control('z')], ANY, Command::Suspend, "", "suspend to the shell; fg resumes", SCENE),
@@ -272,6 +278,8 @@ pub const BINDINGS: &[Binding] = &[
     row(&[key(KeyCode::Up), control('p')], SEARCHED, Command::Select(-1), "", "select the row above", TEXT),
     row(&[key(KeyCode::Enter)], FIND, Command::Accept, "go", "go to the selected parameter", TEXT),
     row(&[key(KeyCode::Enter)], LIBRARY, Command::Accept, "open", "open the selected scene, or the typed path", TEXT),
+    row(&[key(KeyCode::Enter)], PALETTE, Command::Accept, "run", "run the selected command", TEXT),
+    row(&[key(KeyCode::Tab)], PATH, Command::Complete, "complete", "complete the typed path; again for the next candidate", TEXT),
     row(&[key(KeyCode::Enter)], LINE, Command::Accept, "accept", "accept the typed text", TEXT),
     row(&[key(KeyCode::Esc), control('c')], TYPED, Command::Cancel, "cancel", "cancel: keep the previous value", TEXT),
     row(&[key(KeyCode::Left), control('b')], TYPED, Command::Move(Motion::Left), "", "move the cursor left", TEXT),
@@ -314,6 +322,12 @@ pub fn names(keys: &[Key]) -> Vec<String> {
         one => one.iter().map(Key::name).collect(),
     };
     keys.chunk_by(follows).map(run).collect()
+}
+
+/// A row of the keys of manual loading.
+#[must_use]
+pub fn is_manual(row: &Binding) -> bool {
+    row.section == HAND
 }
 
 /// The rows of the table that are valid in a mode.

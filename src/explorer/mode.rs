@@ -27,6 +27,8 @@ pub enum Mode {
         /// The pane that was selected before.
         back: Pane,
     },
+    /// Choosing a command from the list of all.
+    Palette(Finder),
     /// Typing the name of the file to save the scene to.
     SaveAs {
         /// The name.
@@ -92,6 +94,8 @@ pub enum ModeKind {
     Library,
     /// See [`Mode::Find`].
     Find,
+    /// See [`Mode::Palette`].
+    Palette,
     /// See [`Mode::SaveAs`].
     SaveAs,
     /// See [`Mode::Export`].
@@ -106,7 +110,7 @@ pub enum ModeKind {
 
 impl ModeKind {
     /// All modes.
-    pub const ALL: [ModeKind; 14] = [
+    pub const ALL: [ModeKind; 15] = [
         ModeKind::Explore,
         ModeKind::Chart,
         ModeKind::Crosshair,
@@ -116,6 +120,7 @@ impl ModeKind {
         ModeKind::Tolerance,
         ModeKind::Library,
         ModeKind::Find,
+        ModeKind::Palette,
         ModeKind::SaveAs,
         ModeKind::Export,
         ModeKind::Overwrite,
@@ -135,11 +140,23 @@ impl Mode {
             Mode::Tolerance(_) => ModeKind::Tolerance,
             Mode::Library(_) => ModeKind::Library,
             Mode::Find { .. } => ModeKind::Find,
+            Mode::Palette(_) => ModeKind::Palette,
             Mode::SaveAs { .. } => ModeKind::SaveAs,
             Mode::Export(_) => ModeKind::Export,
             Mode::Overwrite { .. } => ModeKind::Overwrite,
             Mode::Help { .. } => ModeKind::Help,
             Mode::Quit => ModeKind::Quit,
+        }
+    }
+
+    /// The search that is being typed.
+    #[must_use]
+    pub fn finder(&self) -> Option<&Finder> {
+        match self {
+            Mode::Library(Library { finder, .. }) | Mode::Find { finder, .. } | Mode::Palette(finder) => {
+                Some(finder)
+            }
+            _ => None,
         }
     }
 
@@ -151,7 +168,9 @@ impl Mode {
             | Mode::Tolerance(line)
             | Mode::Export(line)
             | Mode::SaveAs { line, .. } => Some(line),
-            Mode::Library(Library { finder, .. }) | Mode::Find { finder, .. } => Some(&mut finder.query),
+            Mode::Library(Library { finder, .. }) | Mode::Find { finder, .. } | Mode::Palette(finder) => {
+                Some(&mut finder.query)
+            }
             Mode::Explore | Mode::Overwrite { .. } | Mode::Help { .. } | Mode::Quit => None,
         }
     }

@@ -3,6 +3,7 @@
 use super::action::{Content, Traffic};
 pub use super::appraisal::{Appraisal, Costs, Estimated};
 pub use super::chart::{Chart, OpenStudy};
+use super::completion::Completion;
 pub use super::mode::{Library, Mode, ModeKind};
 use super::parameters::{Parameter, Setting, parameters};
 use super::preload_curve::PreloadPane;
@@ -13,6 +14,7 @@ use crate::analysis::Governing;
 use crate::contact::{CurvePoint, LegRecord};
 use crate::draw::AxisScale;
 use crate::scene::{Document, Scene, ron_float};
+use crate::simulation::Outcome;
 pub use crate::study::map::Charted;
 use crate::study::map::{MapAxis, Place, StudyMap, Template};
 use std::collections::{BTreeMap, BTreeSet};
@@ -210,6 +212,12 @@ pub struct Model {
     pub player: Player,
     /// The body, while it is in hand.
     pub hand: Option<Hand>,
+    /// The force to go to, as it was typed last.
+    pub typed_force: String,
+    /// The status line has springs and times of the computation in place of mechanical quantities.
+    pub shows_work: bool,
+    /// Paths that complete the typed one, while they are shown.
+    pub completion: Option<Completion>,
     /// What the close-up looks at.
     pub look: Look,
     /// Whether its pane shows the distribution of lengths instead.
@@ -234,8 +242,11 @@ pub struct Model {
     pub chart: Chart,
     /// Adhesion against preload.
     pub preloads: PreloadPane,
-    /// The curve of the scene selected in the library.
+    /// The newest curve of a scene to look at: the one selected in the library, or the one with a value that is being
+    /// typed.
     pub preview: Option<Arc<Preview>>,
+    /// Text of the scene with the value that is being typed, where it is another scene.
+    pub tried: Option<String>,
     /// The chosen pane.
     pub pane: Pane,
     /// Whether it has the whole screen.
@@ -252,6 +263,8 @@ pub struct Model {
     pub writing: Option<Writing>,
     /// A line for the user.
     pub notice: Option<Notice>,
+    /// Line in place of the keys while a script plays, since they do nothing then.
+    pub demo: Option<&'static str>,
     /// Whether the explorer is to end.
     pub finished: bool,
 }
@@ -280,6 +293,9 @@ impl Model {
             progress: Some(0),
             player: Player { leg: 0, done: 0.0, playing: true },
             hand: None,
+            typed_force: String::new(),
+            shows_work: false,
+            completion: None,
             look: Look { focus: Focus::Summit, springs },
             lengths: false,
             spectrum: false,
@@ -293,6 +309,7 @@ impl Model {
             chart: Chart::default(),
             preloads: PreloadPane::default(),
             preview: None,
+            tried: None,
             pane: Pane::Force,
             zoomed: false,
             size,
@@ -301,6 +318,7 @@ impl Model {
             shows_times: true,
             writing: None,
             notice: None,
+            demo: None,
             finished: false,
         }
     }
@@ -365,6 +383,14 @@ impl Model {
             Some(_) => &Pane::WITH_ACCURACY,
             None => &Pane::ALL,
         }
+    }
+
+    /// What was computed for the value that is being typed.
+    #[must_use]
+    pub fn tried_outcome(&self) -> Option<&Outcome> {
+        let Mode::Edit(_) = self.mode else { return None };
+        let preview = self.preview.as_ref().filter(|preview| self.tried.as_ref() == Some(&preview.text))?;
+        preview.outcome.as_ref().ok()
     }
 
     /// What is shown in place of profile and close-up.

@@ -10,7 +10,6 @@ use crate::analysis::section::{self, Contact, LineColumns, Part};
 use crate::contact::{ContactError, LegContact, LegRecord, Snapshot, Solver};
 use crate::scene::{Observer, Scene};
 use std::sync::Arc;
-use std::sync::atomic::Ordering;
 
 /// Bytes of legs that are kept: beyond them, legs are computed again when the animation comes to them.
 const BYTES_KEPT: usize = 1 << 29;
@@ -73,7 +72,7 @@ impl Playback {
         if !observed.observe.contains(&Observer::HeightHistogram) {
             observed.observe.push(Observer::HeightHistogram);
         }
-        let stop = || newest.load(Ordering::Relaxed) != generation;
+        let stop = || newest.is_newer_than(generation);
         let mut bytes = 0;
         let mut legs = Vec::new();
         let result = engine.run(&observed, &stop, &mut |leg, _, solver| {
@@ -116,10 +115,17 @@ impl Playback {
                 let Some((contact, rises)) = self.contact_on_leg(engine, leg, indentation) else { return };
                 let Some((computed, line)) = self.computed.as_ref().zip(engine.line()) else { return };
                 let governing = &computed.outcome.governing;
-                let step = range_of(computed) / STEPS_OF_A_PULL;
+                let preload = computed.outcome.figures.preload.unwrap_or(0.0);
+                let scales = (range_of(computed) / STEPS_OF_A_PULL, preload);
                 let edges = computed.scene.numerics.edges;
-                self.held =
-                    Held::take(line, engine.tree(), edges, governing, (indentation, &contact, &rises), step);
+                self.held = Held::take(
+                    line,
+                    engine.tree(),
+                    edges,
+                    governing,
+                    (indentation, &contact, &rises),
+                    scales,
+                );
                 self.last = None;
             }
             HandOrder::Give => {
@@ -160,6 +166,11 @@ impl Playback {
             indentation: point.indentation,
             fragments: &fragments,
         };
+        // Gaps between patches are whole cells; the outermost edges may lie inside of theirs.
+        let outermost =
+            fragments.first().zip(fragments.last()).map(|((first, _), (_, last))| last - first + 1);
+        let between = outermost.map_or(0, |springs| springs as u64 - point.springs);
+        let radius = 0.5 * (point.contact_length + between as f64 * outcome.line.spacing);
         let close_up = close_up((&contact, &rises), request, foundation, &snapshot, &mut self.close_up);
         let middle = close_up.section.first + close_up.section.springs / 2;
         let profile = profile_part(request, line.gaps.len(), middle);
@@ -173,6 +184,7 @@ impl Playback {
             focus: request.focus,
             point,
             changed,
+            contact_radius: radius,
             profile: contact.section(profile, &mut self.profile),
             close_up,
             strip: section::strip(&fragments, line.gaps.len(), request.strip_cells),

@@ -1,8 +1,8 @@
 //! Requests from the explorer to the worker.
 
 use crate::scene::Scene;
-use std::sync::Arc;
-use std::sync::atomic::AtomicU64;
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
 
 /// What the explorer asks of the worker.
 #[derive(Clone, Debug)]
@@ -25,7 +25,7 @@ pub enum Request {
     Show(MomentRequest),
     /// Compute a scene to be shown beside, or none.
     Beside(Option<Arc<Scene>>),
-    /// Compute a scene of the library to look at its curve.
+    /// Compute a scene to look at its curve: one of the library, or one with a value that is being typed.
     Preview {
         /// The scene's text.
         text: String,
@@ -137,5 +137,37 @@ pub enum Drive {
     Hand,
 }
 
-/// The generation the explorer waits for; a run for an older one stops.
-pub type Newest = Arc<AtomicU64>;
+/// What the explorer waits for; a run for anything older stops.
+#[derive(Debug, Default)]
+pub struct Awaited {
+    generation: AtomicU64,
+    preview: Mutex<Option<Arc<Scene>>>,
+}
+
+impl Awaited {
+    /// Makes this the generation that is waited for.
+    pub fn set_generation(&self, generation: u64) {
+        self.generation.store(generation, Ordering::Relaxed);
+    }
+
+    /// A newer scene than that of this generation is waited for.
+    #[must_use]
+    pub fn is_newer_than(&self, generation: u64) -> bool {
+        self.generation.load(Ordering::Relaxed) != generation
+    }
+
+    /// Makes this the preview that is waited for, or none.
+    pub fn set_preview(&self, scene: Option<Arc<Scene>>) {
+        *self.preview.lock().unwrap_or_else(PoisonError::into_inner) = scene;
+    }
+
+    /// This very preview is waited for.
+    #[must_use]
+    pub fn is_preview(&self, scene: &Arc<Scene>) -> bool {
+        let preview = self.preview.lock().unwrap_or_else(PoisonError::into_inner);
+        preview.as_ref().is_some_and(|awaited| Arc::ptr_eq(awaited, scene))
+    }
+}
+
+/// The same for explorer and worker.
+pub type Newest = Arc<Awaited>;

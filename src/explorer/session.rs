@@ -27,7 +27,6 @@ use std::io::{self, Write};
 use std::mem::ManuallyDrop;
 use std::rc::Rc;
 use std::sync::Arc;
-use std::sync::atomic::AtomicU64;
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::time::{Duration, Instant};
 
@@ -107,7 +106,7 @@ pub fn open_with(
     let guard = TerminalGuard::take(!options.no_mouse)?;
     let (messages, inbox) = channel();
     let (requests, outbox) = channel();
-    let newest = worker::Newest::new(AtomicU64::new(0));
+    let newest = worker::Newest::default();
     let reports = messages.clone();
     worker::start(engine, Arc::clone(&newest), outbox, move |report| {
         reports.send(Message::Report(report)).is_ok()
@@ -379,12 +378,14 @@ impl<W: Write> Session<'_, W> {
                     let model = Box::new(self.model.clone());
                     self.work_on_files(FileJob::Write { model, path, content, overwrite })?;
                 }
+                Effect::Complete(typed) => self.work_on_files(FileJob::Complete(typed))?,
                 Effect::List => self.work_on_files(FileJob::List)?,
                 Effect::Open(name) => self.work_on_files(FileJob::Open(name))?,
                 Effect::Preview(document) => {
                     let (scene, text) = (scene_of(&document), document.text().to_owned());
                     self.worker.ask(Request::Preview { text, scene });
                 }
+                Effect::StopPreview => self.worker.stop_preview(),
                 Effect::Copy(text) => {
                     // With the next frame; whether the terminal takes it, it does not say.
                     queue!(self.terminal.backend_mut(), CopyToClipboard::to_clipboard_from(text))?;

@@ -5,7 +5,7 @@ pub use super::request::Drive;
 use super::request::Focus;
 use super::spectrum::SceneSpectra;
 pub use crate::analysis::{Column, LengthBin, Section, Share};
-use crate::contact::CurvePoint;
+use crate::contact::{CurvePoint, ManualError};
 use crate::scene::Scene;
 use crate::simulation::{LineFacts, Outcome};
 use std::sync::Arc;
@@ -36,6 +36,8 @@ pub struct Moment {
     pub point: CurvePoint,
     /// Springs that changed state since the moment before.
     pub changed: u64,
+    /// Half the distance between the outermost edges of the contact, m; zero in separation.
+    pub contact_radius: f64,
     /// The line, or a part of it.
     pub profile: Section,
     /// The neighbourhood of one fragment.
@@ -78,8 +80,36 @@ pub struct Travel {
     pub touched: u64,
     /// Energy lost since the body was taken in hand, J.
     pub dissipated_energy: f64,
-    /// Why the hand could not go where it was told.
-    pub refused: Option<String>,
+    /// Reason why the body was not moved.
+    pub refused: Option<Refusal>,
+}
+
+/// Reason why the body was not moved by hand.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Refusal {
+    /// The contact detaches at a larger force.
+    Detaches {
+        /// Smallest force within reach, N.
+        smallest: f64,
+    },
+    /// The force lies far beyond full contact.
+    BeyondFullContact {
+        /// Force at full contact, N.
+        full_contact: f64,
+        /// Largest force that is allowed, N.
+        largest: f64,
+    },
+    /// Any other.
+    Other(ManualError),
+}
+
+impl From<ManualError> for Refusal {
+    fn from(error: ManualError) -> Self {
+        match error {
+            ManualError::DetachesBefore { smallest, .. } => Refusal::Detaches { smallest },
+            other => Refusal::Other(other),
+        }
+    }
 }
 
 /// The neighbourhood of one contact fragment.
@@ -119,7 +149,7 @@ impl FragmentFacts {
     }
 }
 
-/// The curve of a scene in the library.
+/// The curve of a scene to look at.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Preview {
     /// The scene's text, which tells it from all others.
@@ -149,6 +179,6 @@ pub enum Report {
         /// Why, in one line.
         error: String,
     },
-    /// A scene of the library has been computed, or could not be.
+    /// A scene to look at has been computed, or could not be.
     Previewed(Arc<Preview>),
 }

@@ -11,7 +11,6 @@ use crate::simulation::Simulation;
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
-use std::sync::atomic::Ordering;
 use std::sync::mpsc::{Receiver, Sender};
 
 /// The place where requests are done, one after the other.
@@ -108,8 +107,11 @@ impl Desk {
             report(Report::Shown(Arc::new(moment)));
         }
         if let Some((text, scene)) = batch.preview {
-            let outcome = self.previews.run(&scene, &|| false, &mut |_, _, _| Ok(()));
-            let outcome = outcome.map_err(|error| error.to_string());
+            let is_stale = || !newest.is_preview(&scene);
+            let outcome = match self.previews.run(&scene, &is_stale, &mut |_, _, _| Ok(())) {
+                Err(error) if error.is_interruption() => return,
+                outcome => outcome.map_err(|error| error.to_string()),
+            };
             report(Report::Previewed(Arc::new(Preview { text, outcome })));
         }
     }
@@ -184,12 +186,22 @@ impl Worker {
         Worker { requests, newest }
     }
 
-    /// Asks for something; a scene makes all older ones stale at once.
+    /// Asks for something; a scene makes all older ones and every preview stale at once, and a preview those before.
     pub fn ask(&self, request: Request) {
-        if let Request::Compute { generation, .. } = &request {
-            self.newest.store(*generation, Ordering::Relaxed);
+        match &request {
+            Request::Compute { generation, .. } => {
+                self.newest.set_generation(*generation);
+                self.newest.set_preview(None);
+            }
+            Request::Preview { scene, .. } => self.newest.set_preview(Some(Arc::clone(scene))),
+            Request::Hand { .. } | Request::Show(_) => {}
         }
         // The worker only ends with the explorer.
         let _ = self.requests.send(request);
+    }
+
+    /// Waits for no preview any more.
+    pub fn stop_preview(&self) {
+        self.newest.set_preview(None);
     }
 }

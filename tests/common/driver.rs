@@ -8,7 +8,7 @@ use asperity::explorer::study::{Appraiser, Found, perform};
 use asperity::explorer::theme::{Appearance, Marker, Theme};
 use asperity::explorer::update::{Effect, moment_request, study_tasks};
 use asperity::explorer::worker::{self, Engine, Newest, Report, Request, Worker};
-use asperity::explorer::{Opening, write};
+use asperity::explorer::{Opening, complete, write};
 use asperity::scene::Library;
 use asperity::simulation::{Simulation, Timings};
 use std::collections::BTreeMap;
@@ -100,6 +100,10 @@ impl Driver {
                 let scene = Arc::new(document.scene().clone());
                 self.ask(Request::Preview { text: document.text().to_owned(), scene })
             }
+            Effect::Complete(typed) => {
+                let paths = complete(&typed);
+                vec![Action::Completed { typed, paths }]
+            }
             Effect::Open(name) => {
                 let opened = Opening::of(&name).map(Box::new).map_err(|error| error.to_string());
                 vec![Action::Opened(opened)]
@@ -107,6 +111,10 @@ impl Driver {
             Effect::List => vec![Action::Listed(Library::of(None, self.folder.clone()).list())],
             Effect::Copy(text) => {
                 self.copied.push(text);
+                Vec::new()
+            }
+            Effect::StopPreview => {
+                self.worker.stop_preview();
                 Vec::new()
             }
             Effect::Suspend => Vec::new(),

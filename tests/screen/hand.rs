@@ -158,11 +158,28 @@ fn a_force_out_of_reach_is_told_and_nothing_is_lost() {
     within(30, || {
         let mut driver = pressed("d");
         let before = point(&driver);
-        go(&mut driver, "-1");
+        for (typed, unit) in [("-1", "N"), ("-1e6 µN", "µN"), ("-3 mN", "mN")] {
+            go(&mut driver, typed);
+            let said = format!("the contact detaches before {typed}; the smallest force within reach is -");
+            let status = driver.status();
+            assert!(status.contains(&said) && status.ends_with(&format!(" {unit}")), "{typed}: {status}");
+            assert_eq!(point(&driver), before, "what is refused moves nothing");
+        }
+        // The force that is named can be reached, and one that is smaller in its last digit cannot.
+        let status = driver.status();
+        let least = status.rsplit("reach is ").next().unwrap().trim_end_matches(" mN");
+        let (least, digits): (f64, usize) = (least.parse().unwrap(), least.split('.').nth(1).unwrap().len());
+        let beyond = least - 10.0_f64.powi(-(digits as i32)) * 2.0;
+        go(&mut driver, &format!("{beyond:.digits$} mN"));
         assert!(driver.status().contains("the contact detaches before"), "{}", driver.status());
+        go(&mut driver, &format!("{least} mN"));
+        assert!(driver.model.notice.is_none(), "{:?}", driver.model.notice);
         let after = point(&driver);
-        assert!(driver.model.hand.is_some() && after.springs > 0 && after.force <= before.force);
+        assert!(driver.model.hand.is_some() && after.springs > 0, "{after:?}");
+        assert!(after.force <= 1e-3 * least * (1.0 - 1e-9), "{} {least}", after.force);
+        driver.press("d d");
         // It can be moved as before.
+        let after = point(&driver);
         driver.press("]");
         assert!(driver.model.notice.is_none());
         assert!(point(&driver).indentation > after.indentation);
@@ -178,6 +195,27 @@ fn a_force_out_of_reach_is_told_and_nothing_is_lost() {
         }
         driver.press("F Esc");
         assert!(driver.model.notice.is_none());
+    });
+}
+
+#[test]
+fn a_force_far_beyond_full_contact_is_refused() {
+    within(30, || {
+        for document in [rough(), smooth(), without_adhesion()] {
+            let mut driver = mid_retraction(document);
+            driver.press("d");
+            let before = point(&driver);
+            go(&mut driver, "1e30");
+            let status = driver.status();
+            assert!(status.contains("1e30 is far beyond full contact at "), "{status}");
+            assert_eq!(point(&driver), before);
+            // The bound itself is allowed, and there all springs are in contact.
+            let largest = status.rsplit("at most ").next().unwrap().to_owned();
+            go(&mut driver, &largest);
+            assert!(driver.model.notice.is_none(), "{largest}: {:?}", driver.model.notice);
+            let springs = driver.model.computed.as_ref().unwrap().outcome.line.points as u64;
+            assert_eq!(point(&driver).springs, springs);
+        }
     });
 }
 

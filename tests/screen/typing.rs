@@ -211,3 +211,66 @@ fn wide_and_combining_characters_are_drawn_in_windows_of_any_width() {
         }
     });
 }
+
+#[test]
+fn digits_begin_a_value_while_the_pane_of_parameters_is_selected() {
+    within(30, || {
+        let mut driver = pressed("Tab Tab");
+        assert_eq!(driver.model.pane, asperity::explorer::model::Pane::Parameters);
+        driver.press(". 6 5 Enter");
+        assert_eq!(driver.model.document.value("roughness.hurst"), Some(".65"), "{}", driver.text());
+        driver.press("0");
+        assert_eq!(driver.model.mode.line_mut().map(|line| line.text()).as_deref(), Some("0"));
+        driver.press(". 7 Enter");
+        assert_eq!(driver.model.document.scene().roughness, rough().scene().roughness);
+        driver.select("loading");
+        driver.press("j - 2");
+        assert!(driver.text().contains("F (N): -2"), "{}", driver.text());
+        driver.press("Esc");
+        // A switch and a group have no number.
+        driver.select("numerics");
+        driver.press("3");
+        assert_eq!(driver.model.mode.kind(), ModeKind::Explore);
+        // In the other panes a digit opens a scene.
+        driver.press("Tab 3");
+        assert_eq!(driver.model.document.name(), asperity::scene::presets()[2].name);
+    });
+}
+
+#[test]
+fn a_value_that_is_typed_shows_its_curve_before_it_is_taken() {
+    within(60, || {
+        for size in [(120, 40), (80, 24)] {
+            let mut driver = pressed("");
+            driver.resize(size);
+            driver.select("roughness.rms_height");
+            let (document, computed) =
+                (driver.model.document.clone(), driver.model.computed.clone().unwrap());
+            let before = driver.text();
+            driver.press("e");
+            assert!(driver.model.tried_outcome().is_none(), "the value as it is needs no preview");
+            driver.type_text("300 nm");
+            let tried = driver.model.tried_outcome().expect("a preview").figures;
+            assert_ne!(tried.adhesion_force, computed.outcome.figures.adhesion_force);
+            let alone = document.set("roughness.rms_height", "3.0e-7").unwrap();
+            let alone = Driver::start(alone).model.computed.unwrap();
+            assert_eq!(tried, alone.outcome.figures);
+            let force = asperity::scene::format_quantity(tried.adhesion_force.unwrap(), "N");
+            assert!(driver.status().starts_with(&format!("preview: F_a {force}")), "{}", driver.status());
+            // The scene itself is as it was, and so it is after Esc.
+            assert_eq!((&driver.model.document, is_up_to_date(&driver.model)), (&document, true));
+            // A text that is no value has none.
+            driver.type_text("kg");
+            assert!(driver.model.tried_outcome().is_none() && driver.model.tried.is_none());
+            driver.press("Backspace Backspace");
+            assert!(driver.model.tried_outcome().is_some());
+            let effects = driver.press("Esc");
+            assert_eq!(effects, [asperity::explorer::update::Effect::StopPreview]);
+            assert_eq!(driver.text(), before);
+            driver.press("e Ctrl+u");
+            driver.type_text("300 nm");
+            driver.press("Enter");
+            assert_eq!(driver.model.computed.as_ref().unwrap().outcome.figures, tried);
+        }
+    });
+}

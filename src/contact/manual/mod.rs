@@ -43,6 +43,12 @@ pub trait ManualLoading {
     /// [`ManualError::OutOfReach`].
     fn move_to_force(&mut self, force: f64) -> Result<Move, ManualError>;
 
+    /// Finds out if [`Self::move_to_force`] reaches a force, N, and leaves the body where it is.
+    ///
+    /// # Errors
+    /// Those of the move.
+    fn check_force(&mut self, force: f64) -> Result<(), ManualError>;
+
     /// Pulls just until nothing touches any more.
     fn separate(&mut self) -> Move;
 
@@ -254,22 +260,30 @@ impl<E: EdgeModel> Manual<E> {
         }
     }
 
-    /// Presses until the force is at least this.
-    fn press_to_force(&mut self, force: f64) -> Result<Move, ManualError> {
-        let mut course = self.begin(Direction::Loading);
-        let wanted = force / self.foundation.spring_stiffness();
-        let to = self.press_to_compression(&mut course, wanted).ok_or(ManualError::OutOfReach { force })?;
-        Ok(self.end(course, to))
+    /// Presses until the force is at least this, or pulls until it is at most this, and returns the way there with its
+    /// indentation; `None` where the force is this already. The move has not ended.
+    fn find_force(&mut self, force: f64) -> Result<Option<(Course, f64)>, ManualError> {
+        let here = self.point();
+        let stiffness = self.foundation.spring_stiffness();
+        // As forces: the division by the stiffness may miss the compression the force came from.
+        if self.is_separated() || force > here.force {
+            let mut course = self.begin(Direction::Loading);
+            let to = self.press_to_compression(&mut course, force / stiffness);
+            Ok(Some((course, to.ok_or(ManualError::OutOfReach { force })?)))
+        } else if force < here.force {
+            let mut course = self.begin(Direction::Unloading);
+            let to = self.pull_to_compression(&mut course, force / stiffness);
+            let detaches = |smallest| ManualError::DetachesBefore { force, smallest: stiffness * smallest };
+            Ok(Some((course, to.map_err(detaches)?)))
+        } else {
+            Ok(None)
+        }
     }
 
-    /// Pulls until the force is at most this.
-    fn pull_to_force(&mut self, force: f64) -> Result<Move, ManualError> {
-        let mut course = self.begin(Direction::Unloading);
-        let stiffness = self.foundation.spring_stiffness();
-        let to = self.pull_to_compression(&mut course, force / stiffness);
-        let to =
-            to.map_err(|smallest| ManualError::DetachesBefore { force, smallest: stiffness * smallest })?;
-        Ok(self.end(course, to))
+    /// A force for a move: a finite one, and none that pulls where nothing touches.
+    fn allowed(&self, force: f64) -> Result<f64, ManualError> {
+        let force = finite(force)?;
+        if self.is_separated() && force < 0.0 { Err(ManualError::NothingToPull { force }) } else { Ok(force) }
     }
 }
 
@@ -291,27 +305,26 @@ impl<E: EdgeModel> ManualLoading for Manual<E> {
     }
 
     fn move_to_force(&mut self, force: f64) -> Result<Move, ManualError> {
-        let force = finite(force)?;
-        let here = self.point();
-        let separated = self.is_separated();
-        if separated && force < 0.0 {
-            return Err(ManualError::NothingToPull { force });
-        }
+        let force = self.allowed(force)?;
         let before = self.contact.totals();
         self.contact.keep_journal();
-        // As forces: the division by the stiffness may miss the compression the force came from.
-        let moved = if separated || force > here.force {
-            self.press_to_force(force)
-        } else if force < here.force {
-            self.pull_to_force(force)
-        } else {
-            Ok(Move::default())
-        };
-        if moved.is_err() {
+        let found = self.find_force(force);
+        if found.is_err() {
             self.contact.take_back(before);
         }
+        let moved = found.map(|way| way.map_or_else(Move::default, |(course, to)| self.end(course, to)));
         self.contact.drop_journal();
         moved
+    }
+
+    fn check_force(&mut self, force: f64) -> Result<(), ManualError> {
+        let force = self.allowed(force)?;
+        let before = self.contact.totals();
+        self.contact.keep_journal();
+        let found = self.find_force(force).map(drop);
+        self.contact.take_back(before);
+        self.contact.drop_journal();
+        found
     }
 
     fn separate(&mut self) -> Move {

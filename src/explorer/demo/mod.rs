@@ -43,8 +43,10 @@ impl Demo {
         appearance: Appearance,
         frames_per_second: f64,
     ) -> Self {
+        let mut explorer = Headless::open(document, size, appearance, Box::new(Simulation::default()));
+        explorer.model.demo = Some("");
         Demo {
-            explorer: Headless::open(document, size, appearance, Box::new(Simulation::default())),
+            explorer,
             cues: script.iter().copied().collect(),
             typing: VecDeque::new(),
             pause: 0.0,
@@ -90,6 +92,11 @@ impl Demo {
         self.explorer.act(Action::Resize(columns, rows));
     }
 
+    /// Shows a line in place of the keys.
+    pub fn set_note(&mut self, note: &'static str) {
+        self.explorer.model.demo = Some(note);
+    }
+
     /// Lets time go by.
     fn play(&mut self, seconds: f64) {
         self.seconds += seconds;
@@ -111,9 +118,7 @@ impl Demo {
             Cue::Select(path) => {
                 self.explorer.command(Command::SelectEnd(false));
                 let place = self.explorer.model.parameters.iter().position(|one| one.path == path);
-                for _ in 0..place.unwrap_or(0) {
-                    self.explorer.command(Command::Select(1));
-                }
+                self.explorer.command(Command::Select(place.unwrap_or(0) as i32));
             }
             Cue::Enter(value) => {
                 self.explorer.command(Command::EditValue);

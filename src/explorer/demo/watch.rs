@@ -17,6 +17,7 @@ use std::time::{Duration, Instant};
 /// # Errors
 /// When the terminal refuses.
 pub fn play(demo: &mut Demo, frames_per_second: f64) -> io::Result<()> {
+    demo.set_note("any key ends the demo");
     let _guard = TerminalGuard::take(false)?;
     let (sender, inbox) = channel();
     input::read(move |event| sender.send(event).is_ok())?;

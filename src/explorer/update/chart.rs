@@ -34,21 +34,22 @@ pub fn obey(model: &mut Model, command: Command) -> Vec<Effect> {
 
 fn toggle(model: &mut Model) -> Vec<Effect> {
     // Whoever comes from another pane wants the arrows to move the mark.
-    if model.chart.shown && model.pane != Pane::Chart {
-        model.pane = Pane::Chart;
+    if !model.chart.shown || model.pane != Pane::Chart {
+        return choose(model);
+    }
+    (model.chart.shown, model.chart.edited) = (false, false);
+    model.pane = Pane::Force;
+    vec![Effect::Study, Effect::Show]
+}
+
+/// Shows the map and selects its pane.
+pub fn choose(model: &mut Model) -> Vec<Effect> {
+    model.pane = Pane::Chart;
+    if model.chart.shown {
         return vec![Effect::Show];
     }
-    let shown = !model.chart.shown;
-    if shown {
-        model.hide_in_place_of_the_line();
-    }
-    model.chart.shown = shown;
-    model.chart.edited = false;
-    if shown {
-        model.pane = Pane::Chart;
-    } else if model.pane == Pane::Chart {
-        model.pane = Pane::Force;
-    }
+    model.hide_in_place_of_the_line();
+    (model.chart.shown, model.chart.edited) = (true, false);
     vec![Effect::Study, Effect::Show]
 }
 

@@ -10,7 +10,7 @@ use crate::explorer::parameters::{Parameter, Setting, parameters};
 use crate::explorer::request::{Focus, LineView};
 use crate::explorer::session::scene_of;
 use crate::explorer::text_line::TextLine;
-use crate::scene::{Computed, Document, Range, SceneErrors, Step, exact_quantity, presets};
+use crate::scene::{Computed, Document, Range, SceneErrors, Solver, Step, exact_quantity, presets};
 
 /// Edits that can be taken back.
 const UNDO_DEPTH: usize = 1000;
@@ -114,10 +114,13 @@ fn edit_value(model: &mut Model, first: Option<char>) -> Vec<Effect> {
                 first.into_iter().for_each(|character| line.insert(character));
                 model.mode = Mode::Edit(line);
                 model.refused = None;
+                model.tried = None;
             }
         }
     }
-    show_parameters(model)
+    let mut effects = show_parameters(model);
+    effects.extend(preview(model));
+    effects
 }
 
 /// Selects the pane of parameters.
@@ -190,34 +193,68 @@ pub fn accept_value(model: &mut Model, typed: &str) -> Vec<Effect> {
 
 /// Sets the selected parameter to a value as it is written in a scene.
 fn set_selected(model: &mut Model, written: &str) -> Vec<Effect> {
-    let Some(parameter) = model.parameter() else { return Vec::new() };
+    match with_selected(model, written) {
+        Ok(document) => take_over(model, Ok(document)),
+        Err(why) => refuse(model, why),
+    }
+}
+
+/// The scene with another value of the selected parameter, as it is written in a scene; or why there is none.
+fn with_selected(model: &Model, written: &str) -> Result<Document, String> {
+    let parameter = model.parameter().ok_or("no parameter is selected")?;
     let document = &model.document;
+    let number = || written.parse::<f64>().map_err(|_| format!("{written} is no number"));
     let changed = match parameter.setting {
         Setting::Field | Setting::Switch(_) | Setting::Heading => document.set(&parameter.path, written),
-        Setting::WorkOfAdhesion => match written.parse() {
-            Ok(work) => document.with_work_of_adhesion(work),
-            Err(_) => return refuse(model, format!("{written} is no number")),
-        },
+        Setting::WorkOfAdhesion => document.with_work_of_adhesion(number()?),
         Setting::RoughnessParameter(parameter) => {
-            let Ok(value) = written.parse::<f64>() else {
-                return refuse(model, format!("{written} is no number"));
-            };
+            let value = number()?;
             let adhesion = document.scene().adhesion.unwrap_or_default();
             match (adhesion.work.filter(|_| adhesion.parameter().is_none()), model.governing()) {
                 // The scene gives γ alone, which follows from the parameter.
-                (Some(_), Some(governing)) => match governing.work_for(parameter, value) {
-                    Some(work) => document.with_work_of_adhesion(work),
-                    None => {
-                        let symbol = parameter.symbol();
-                        return refuse(model, format!("{symbol} is not defined without roughness"));
-                    }
-                },
-                (Some(_), None) => return refuse(model, "not before the scene is computed".to_owned()),
+                (Some(_), Some(governing)) => {
+                    let undefined = || format!("{} is not defined without roughness", parameter.symbol());
+                    let work = governing.work_for(parameter, value).ok_or_else(undefined)?;
+                    document.with_work_of_adhesion(work)
+                }
+                (Some(_), None) => return Err("not before the scene is computed".to_owned()),
                 (None, _) => document.with_parameter(parameter, value),
             }
         }
     };
-    take_over(model, changed)
+    changed.map_err(|errors| reasons(&errors))
+}
+
+/// What is wrong with values, without their places.
+fn reasons(errors: &SceneErrors) -> String {
+    errors.iter().map(|error| error.what().to_string()).collect::<Vec<_>>().join("; ")
+}
+
+/// Most springs of a scene that is computed only to look at: its curve is there before the next key.
+const MOST_SPRINGS_PREVIEWED: u64 = 1 << 17;
+
+/// A scene is small enough to be computed only to look at; steps of the stepwise solver may be any number.
+pub fn is_previewed(document: &Document) -> bool {
+    let numerics = document.scene().numerics;
+    numerics.points <= MOST_SPRINGS_PREVIEWED && numerics.solver == Solver::Exact
+}
+
+/// Asks for the curve with the value as it is typed so far, or for none where that is no allowed value.
+pub fn preview(model: &mut Model) -> Vec<Effect> {
+    let tried = match &model.mode {
+        Mode::Edit(line) => {
+            let written = model.parameter().and_then(|one| one.field.read_typed(&line.text()).ok());
+            written.and_then(|written| with_selected(model, &written).ok())
+        }
+        _ => None,
+    };
+    let tried = tried.filter(|tried| tried.text() != model.document.text() && is_previewed(tried));
+    let text = tried.as_ref().map(|tried| tried.text().to_owned());
+    if text == model.tried {
+        return Vec::new();
+    }
+    model.tried = text;
+    tried.map_or(vec![Effect::StopPreview], |tried| vec![Effect::Preview(Box::new(tried))])
 }
 
 /// Switches the effect of the selected row.
@@ -269,10 +306,7 @@ pub fn take_over(model: &mut Model, changed: Result<Document, SceneErrors>) -> V
             }
             effects
         }
-        Err(errors) => {
-            let what: Vec<String> = errors.iter().map(|error| error.what().to_string()).collect();
-            refuse(model, what.join("; "))
-        }
+        Err(errors) => refuse(model, reasons(&errors)),
     }
 }
 

@@ -8,9 +8,6 @@ use crate::explorer::mode::{Library, Mode};
 use crate::explorer::model::{Model, Notice};
 use crate::scene::{Entry, typed_path};
 
-/// Scenes with more springs are not computed to look at.
-const MOST_SPRINGS_PREVIEWED: u64 = 1 << 17;
-
 /// Opens the library.
 pub fn open(model: &mut Model) -> Vec<Effect> {
     model.mode = Mode::Library(Library { entries: None, finder: Finder::default() });
@@ -91,9 +88,7 @@ fn preview(model: &mut Model) -> Vec<Effect> {
         return Vec::new();
     }
     match entry.document() {
-        Ok(document) if document.scene().numerics.points <= MOST_SPRINGS_PREVIEWED => {
-            vec![Effect::Preview(Box::new(document))]
-        }
+        Ok(document) if edit::is_previewed(&document) => vec![Effect::Preview(Box::new(document))],
         _ => Vec::new(),
     }
 }

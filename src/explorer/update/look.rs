@@ -58,6 +58,7 @@ pub fn obey(model: &mut Model, command: Command) -> Vec<Effect> {
             let place = panes.iter().position(|pane| *pane == model.pane).unwrap_or(0);
             model.pane = panes[(place + 1) % panes.len()];
         }
+        Command::ToggleWork => model.shows_work = !model.shows_work,
         Command::NextTheme => {
             model.appearance.theme = model.appearance.theme.next();
             tell(model, format!("colours: {}", model.appearance.theme.name()));

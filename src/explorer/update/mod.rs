@@ -4,6 +4,7 @@
 mod accuracy;
 mod chart;
 mod compare;
+mod complete;
 mod crosshair;
 mod edit;
 mod files;
@@ -13,6 +14,7 @@ mod library;
 mod look;
 mod mouse;
 mod movement;
+mod palette;
 mod preloads;
 
 pub use accuracy::study_tasks;
@@ -52,10 +54,14 @@ pub enum Effect {
     },
     /// List the scenes of the library.
     List,
+    /// List the paths that complete a typed one.
+    Complete(String),
     /// Open a scene or a study by its path.
     Open(String),
-    /// Compute a scene of the library to look at its curve.
+    /// Compute a scene to look at its curve.
     Preview(Box<Document>),
+    /// Compute no scene to look at any more.
+    StopPreview,
     /// Copy a text.
     Copy(String),
     /// Hand the terminal back to the shell for a while.
@@ -106,6 +112,7 @@ pub fn update(model: &mut Model, action: Action) -> Vec<Effect> {
         Action::Found(found) => return accuracy::found(model, found),
         Action::Written(result) => files::written(model, result),
         Action::Listed(entries) => return library::listed(model, entries),
+        Action::Completed { typed, paths } => return complete::completed(model, &typed, paths),
         Action::Opened(Ok(opening)) => return chart::open(model, *opening),
         Action::Opened(Err(why)) => model.notice = Some(Notice::Error(why)),
         Action::Previewed(preview) => model.preview = Some(preview),
@@ -145,6 +152,10 @@ pub fn moment_request(model: &Model) -> Option<MomentRequest> {
 }
 
 fn obey(model: &mut Model, command: Command) -> Vec<Effect> {
+    if command == Command::Complete {
+        return complete::obey(model);
+    }
+    model.completion = None;
     match &mut model.mode {
         Mode::Explore => return explore(model, command),
         Mode::Help { scroll } => {
@@ -160,6 +171,7 @@ fn obey(model: &mut Model, command: Command) -> Vec<Effect> {
         }
         Mode::Library(_) => return library::obey(model, command),
         Mode::Find { .. } => return find::obey(model, command),
+        Mode::Palette(_) => return palette::obey(model, command),
         Mode::Edit(line) => match command {
             Command::Accept => {
                 let typed = line.text();
@@ -168,6 +180,7 @@ fn obey(model: &mut Model, command: Command) -> Vec<Effect> {
             _ => {
                 model.refused = None;
                 edit_line(model, command);
+                return edit::preview(model);
             }
         },
         Mode::Force(line) => match command {
@@ -221,12 +234,15 @@ fn typed(model: &mut Model, text: &str) -> Vec<Effect> {
     if let Mode::Edit(_) = model.mode {
         model.refused = None;
     }
+    model.completion = None;
     if let Some(line) = model.mode.line_mut() {
         text.chars().for_each(|character| line.insert(character));
     }
     match model.mode {
+        Mode::Edit(_) => edit::preview(model),
         Mode::Library(_) => library::search(model),
         Mode::Find { .. } => find::search(model),
+        Mode::Palette(_) => palette::search(model),
         _ => Vec::new(),
     }
 }
@@ -271,6 +287,7 @@ fn explore(model: &mut Model, command: Command) -> Vec<Effect> {
         | Command::ToggleEffect
         | Command::Preset(_) => return edit::obey(model, command),
         Command::FindParameter => return find::open(model),
+        Command::OpenPalette => return palette::open(model),
         Command::Reseed => return vec![Effect::DrawSeed],
         Command::Undo | Command::Redo => return edit::undo(model, command == Command::Undo),
         Command::Pin | Command::Swap | Command::ClearGhosts | Command::ToggleSideBySide => {
@@ -308,12 +325,14 @@ fn explore(model: &mut Model, command: Command) -> Vec<Effect> {
         | Command::ZoomPane
         | Command::NextPane
         | Command::NextTheme
+        | Command::ToggleWork
         | Command::NextMarker => return look::obey(model, command),
         Command::Suspend
         | Command::Accept
         | Command::Cancel
         | Command::Move(_)
         | Command::Delete { .. }
+        | Command::Complete
         | Command::Clear => {}
     }
     Vec::new()

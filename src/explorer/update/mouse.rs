@@ -13,7 +13,10 @@ use ratatui::layout::Position;
 pub fn act(model: &mut Model, mouse: Mouse) -> Vec<Effect> {
     match (&model.mode, mouse.gesture) {
         (Mode::Explore, _) => {}
-        (Mode::Help { .. } | Mode::Library(_) | Mode::Find { .. }, Gesture::Wheel(turns)) => {
+        (
+            Mode::Help { .. } | Mode::Library(_) | Mode::Find { .. } | Mode::Palette(_),
+            Gesture::Wheel(turns),
+        ) => {
             return super::obey(model, Command::Select(-turns));
         }
         _ => return Vec::new(),

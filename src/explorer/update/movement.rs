@@ -5,9 +5,9 @@ use crate::explorer::action::Command;
 use crate::explorer::mode::Mode;
 use crate::explorer::model::{Hand, Model, Notice, Player};
 use crate::explorer::request::{Focus, HandOrder};
-use crate::explorer::snapshot::Moment;
+use crate::explorer::snapshot::{Moment, Refusal};
 use crate::explorer::text_line::TextLine;
-use crate::scene::parse_quantity;
+use crate::scene::{parse_quantity, quantity_as_typed};
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -125,10 +125,37 @@ pub fn shown(model: &mut Model, moment: Arc<Moment>) {
         }
         hand.dissipated_energy = travel.dissipated_energy;
         if let Some(error) = &travel.refused {
-            model.notice = Some(Notice::Error(error.clone()));
+            model.notice = Some(Notice::Error(refusal(error, &model.typed_force)));
         }
     }
     model.moment = Some(moment);
+}
+
+/// Reason why the body was not moved, with forces in the unit of the typed one, rounded into the range that is allowed.
+fn refusal(refusal: &Refusal, typed: &str) -> String {
+    let force = |value| quantity_as_typed(value, typed, "N");
+    match *refusal {
+        Refusal::Detaches { smallest } => {
+            let least = force(rounded_up(smallest));
+            format!(
+                "the contact detaches before {}; the smallest force within reach is {least}",
+                typed.trim()
+            )
+        }
+        Refusal::BeyondFullContact { full_contact, largest } => {
+            let (full, most) = (force(full_contact), force(-rounded_up(-largest)));
+            format!("{} is far beyond full contact at {full}; allowed: at most {most}", typed.trim())
+        }
+        Refusal::Other(ref error) => error.to_string(),
+    }
+}
+
+/// The nearest number of four digits that is not smaller.
+fn rounded_up(value: f64) -> f64 {
+    let rounded = |value: f64| format!("{value:.3e}").parse().unwrap_or(value);
+    let nearest: f64 = rounded(value);
+    let last_digit = 10.0_f64.powi(value.abs().log10().floor() as i32 - 3);
+    if nearest >= value { nearest } else { rounded(value + last_digit) }
 }
 
 /// Takes the body in hand, unless it is already, and moves it.
@@ -157,7 +184,10 @@ fn give_back(model: &mut Model) -> Vec<Effect> {
 /// Moves the body to a force that was typed.
 pub fn accept_force(model: &mut Model, typed: &str) -> Vec<Effect> {
     match parse_quantity(typed.trim(), "N") {
-        Ok(force) => take(model, Some(HandOrder::ToForce(force))),
+        Ok(force) => {
+            model.typed_force = typed.trim().to_owned();
+            take(model, Some(HandOrder::ToForce(force)))
+        }
         Err(error) => {
             model.notice = Some(Notice::Error(format!("{error}; for example 10 µN, or -2e-6 to pull")));
             Vec::new()

@@ -1,12 +1,15 @@
 //! The lines around the panes: title, status, footer.
 
+use super::stages;
 use super::typed::typed;
 use super::wrap::{clipped, fitting, wrapped};
 use crate::accuracy::Target;
 use crate::contact::CurvePoint;
 use crate::explorer::action::{Command, Content, Traffic};
-use crate::explorer::keys;
-use crate::explorer::model::{Estimated, Mode, ModeKind, Model, Notice};
+use crate::explorer::completion::Completion;
+use crate::explorer::keys::{self, Binding};
+use crate::explorer::model::{Estimated, Hand, Mode, ModeKind, Model, Notice};
+use crate::explorer::snapshot::Moment;
 use crate::explorer::text_line::TextLine;
 use crate::explorer::theme::Meaning;
 use crate::scene::format_quantity;
@@ -15,6 +18,7 @@ use ratatui::Frame;
 use ratatui::layout::Rect;
 use ratatui::text::{Line, Span};
 use ratatui::widgets::Paragraph;
+use std::f64::consts::PI;
 
 /// Name of the scene, whether it has changed, and what to look at.
 pub fn title(frame: &mut Frame<'_>, area: Rect, model: &Model) {
@@ -57,6 +61,7 @@ pub fn status(frame: &mut Frame<'_>, area: Rect, model: &Model) {
         (Mode::Tolerance(line), _) => prompted("Relative error allowed (0.1 % or 1e-3): ", line),
         (Mode::Library(library), _) => prompted("Search: ", &library.finder.query),
         (Mode::Find { finder, .. }, _) => prompted("Find: ", &finder.query),
+        (Mode::Palette(finder), _) => prompted(": ", &finder.query),
         (Mode::Overwrite { path, .. }, _) => error(format!("{} exists. Overwrite it?", path.display())),
         (Mode::Quit, _) => error("The scene has unsaved changes. Leave?".to_owned()),
         (_, Some(Notice::Error(text))) => error(format!("! {}", text.replace('\n', " · "))),
@@ -86,6 +91,12 @@ fn headline(model: &Model, width: u16) -> Line<'static> {
         let apart = if parts.is_empty() { "" } else { apart };
         parts.push(vec![Span::raw(apart), Span::styled(text, theme.style(meaning))]);
     };
+    if let Some(tried) = model.tried_outcome() {
+        let force =
+            tried.figures.adhesion_force.map_or("none".to_owned(), |force| format_quantity(force, "N"));
+        part("", format!("preview: F_a {force}"), Meaning::Title);
+        part(" · ", "Enter accepts".to_owned(), Meaning::Quiet);
+    }
     let in_hand = model.present().is_some() && model.hand.is_some();
     let adhesion = outcome.figures.adhesion_force.filter(|force| *force != 0.0);
     if let Some(adhesion) = adhesion {
@@ -98,47 +109,104 @@ fn headline(model: &Model, width: u16) -> Line<'static> {
     if let Some(error) = error.as_ref().filter(|_| !in_hand) {
         part(" ", error.clone(), Meaning::Title);
     }
-    if let (Some(moment), Some(hand)) = (model.present(), &model.hand) {
-        // What the move cost comes before what it led to.
-        let point = moment.point;
-        let d = format_quantity(point.indentation, "m");
-        part("  ", format!("manual: d {d} F {}", format_quantity(point.force, "N")), Meaning::Text);
-        part(" · ", format!("{} changed", counted(hand.changed, "spring")), Meaning::Text);
-        part(" · ", format!("{} looked at", hand.touched), Meaning::Text);
-        part(" · ", contact(point), Meaning::Text);
-        if let Some(error) = error {
+    let state = match (model.present(), &model.hand) {
+        _ if model.shows_work => work(model),
+        (Some(moment), Some(hand)) => {
             let of = if adhesion.is_some() { "F_a " } else { "" };
-            part(" · ", format!("{of}{error}"), Meaning::Text);
+            let error = error.map(|error| (" · ", format!("{of}{error}"), Meaning::Text));
+            manual(model, moment, hand).into_iter().chain(error).collect()
         }
-    } else {
-        if let Some(moment) = model.present() {
-            let point = moment.point;
-            let d = format_quantity(point.indentation, "m");
-            part("  ", format!("d {d} F {}", format_quantity(point.force, "N")), Meaning::Text);
-            let share = 100.0 * point.contact_length / outcome.line.length;
-            part(" · ", format!("contact {} %", format_quantity(short(share), "1")), Meaning::Text);
-        }
-        if let Some(regime) = outcome.regime {
-            part(" · ", regime.name().to_owned(), Meaning::Title);
-        }
-        if let Some(coefficient) = outcome.figures.adhesion_coefficient {
-            part(" · ", format!("F_a/F_n {}", format_quantity(coefficient, "1")), Meaning::Title);
-        }
-        if let Some(moment) = model.present() {
-            let stiffness = outcome.governing.effective_modulus * moment.point.contact_length;
-            part(" · ", format!("dF/dd {}", format_quantity(short(stiffness), "N/m")), Meaning::Text);
-            part(" · ", contact(moment.point), Meaning::Text);
-        }
-        if model.shows_times && !model.is_computing() {
-            // Times of the last run only: a kept profile and tree take none.
-            part(" · ", format_quantity(short(outcome.timings.total()), "s"), Meaning::Quiet);
-        }
-    }
+        (moment, _) => mechanics(model, moment),
+    };
+    state.into_iter().for_each(|(apart, text, meaning)| part(apart, text, meaning));
     if model.is_computing() {
         let legs = model.document.scene().loading.len();
         part("  ", format!("computing, stage {} of {legs}", model.progress.unwrap_or(0) + 1), Meaning::Quiet);
     }
     fitting(parts, "", usize::from(width))
+}
+
+/// A part of the status line, after what stands between it and the part before.
+type Part = (&'static str, String, Meaning);
+
+/// The state under manual loading: what the move changed comes before what it led to.
+fn manual(model: &Model, moment: &Moment, hand: &Hand) -> Vec<Part> {
+    let dissipated = format!("ΔW {}", format_quantity(short(hand.dissipated_energy), "J"));
+    let mut parts = vec![
+        ("  ", format!("manual: {}", place(moment.point)), Meaning::Text),
+        (" · ", format!("{} changed", counted(hand.changed, "spring")), Meaning::Text),
+        (" · ", contact(moment.point), Meaning::Text),
+        (" · ", dissipated, Meaning::Text),
+    ];
+    parts.extend(response(model, moment));
+    parts
+}
+
+/// The present state in mechanical quantities, and those of the whole loop.
+fn mechanics(model: &Model, moment: Option<&Moment>) -> Vec<Part> {
+    let Some(computed) = &model.computed else { return Vec::new() };
+    let outcome = &computed.outcome;
+    let mut parts = Vec::new();
+    if let Some(moment) = moment {
+        parts.push(("  ", place(moment.point), Meaning::Text));
+        let share = 100.0 * moment.point.contact_length / outcome.line.length;
+        parts.push((" · ", format!("contact {} %", format_quantity(short(share), "1")), Meaning::Text));
+    }
+    if let Some(regime) = outcome.regime {
+        parts.push((" · ", regime.name().to_owned(), Meaning::Title));
+    }
+    if let Some(coefficient) = outcome.figures.adhesion_coefficient {
+        parts.push((" · ", format!("F_a/F_n {}", format_quantity(coefficient, "1")), Meaning::Title));
+    }
+    if let Some(moment) = moment {
+        parts.extend(response(model, moment));
+    }
+    if let Some(energy) = outcome.figures.dissipated_energy {
+        parts.push((" · ", format!("ΔW {}", format_quantity(short(energy), "J")), Meaning::Text));
+    }
+    if let Some(moment) = moment {
+        parts.push((" · ", contact(moment.point), Meaning::Text));
+    }
+    parts
+}
+
+/// Stiffness and mean pressure of the present contact.
+fn response(model: &Model, moment: &Moment) -> Vec<Part> {
+    let Some(computed) = &model.computed else { return Vec::new() };
+    let stiffness = computed.outcome.governing.effective_modulus * moment.point.contact_length;
+    let mut parts =
+        vec![(" · ", format!("dF/dd {}", format_quantity(short(stiffness), "N/m")), Meaning::Text)];
+    if moment.contact_radius > 0.0 {
+        let pressure = moment.point.force / (PI * moment.contact_radius * moment.contact_radius);
+        parts.push((" · ", format!("p_m {}", format_quantity(short(pressure), "Pa")), Meaning::Text));
+    }
+    parts
+}
+
+/// Springs in contact, what the last move by hand took, and the times of the computing stages.
+fn work(model: &Model) -> Vec<Part> {
+    let mut parts = Vec::new();
+    if let Some(moment) = model.present() {
+        parts.push(("  ", contact(moment.point), Meaning::Text));
+    }
+    if let Some(computed) = &model.computed {
+        parts.push((" of ", grouped(computed.outcome.line.points as u64), Meaning::Text));
+    }
+    if let Some(hand) = &model.hand {
+        parts.push((" · ", format!("{} changed", counted(hand.changed, "spring")), Meaning::Text));
+        parts.push((" · ", format!("{} looked at", hand.touched), Meaning::Text));
+    }
+    // Times of the last run only: a kept profile and tree take none.
+    if model.shows_times && !model.is_computing() {
+        let stages = stages::times(model).into_iter();
+        parts.extend(stages.map(|(name, time)| (" · ", format!("{name} {time}"), Meaning::Quiet)));
+    }
+    parts
+}
+
+/// Indentation and force.
+fn place(point: CurvePoint) -> String {
+    format!("d {} F {}", format_quantity(point.indentation, "m"), format_quantity(point.force, "N"))
 }
 
 /// The estimated error of the headline, `…` until it is known; nothing where it cannot be.
@@ -181,29 +249,76 @@ pub fn footer(frame: &mut Frame<'_>, area: Rect, model: &Model) {
         let text = format!("{bytes}, at most {frames} frames/s");
         Line::styled(text, model.appearance.theme.style(Meaning::Quiet)).right_aligned()
     });
+    if let Some(note) = model.demo {
+        return frame
+            .render_widget(Paragraph::new(note).style(model.appearance.theme.style(Meaning::Quiet)), area);
+    }
+    if let Some(completion) = &model.completion {
+        return frame.render_widget(Paragraph::new(candidates(completion, area.width, model)), area);
+    }
     let mut spans = Vec::new();
     let mut room = usize::from(area.width) - traffic.as_ref().map_or(0, Line::width);
-    let labelled = || keys::valid_in(model.keys()).filter(|row| !row.label.is_empty());
-    // The way to all the others and the way out show in the smallest window.
-    let first = |row: &&keys::Binding| matches!(row.command, Command::Help | Command::Quit);
-    // Then what no other pane has.
-    let special = |row: &&keys::Binding| !first(row) && !row.modes.contains(&ModeKind::Explore);
-    let usual = |row: &&keys::Binding| !first(row) && !special(row);
-    let rows = labelled().filter(first).chain(labelled().filter(special)).chain(labelled().filter(usual));
-    for row in rows {
-        let Some(key) = row.keys.first() else { continue };
-        let name = key.name();
-        let width = name.chars().count() + row.label.chars().count() + 3;
-        if width > room {
+    for (keys, label) in footer_items(model) {
+        let width = keys.chars().count() + label.chars().count() + 3;
+        if width > room + 2 {
             break;
         }
-        room -= width;
-        spans.push(Span::styled(name, model.appearance.theme.style(Meaning::Key)));
-        spans.push(Span::raw(format!(" {}  ", row.label)));
+        room = room.saturating_sub(width);
+        spans.push(Span::styled(keys, model.appearance.theme.style(Meaning::Key)));
+        spans.push(Span::raw(format!(" {label}  ")));
     }
     frame.render_widget(Paragraph::new(Line::from(spans)), area);
     if let Some(traffic) = traffic {
         let width = traffic.width() as u16;
         frame.render_widget(traffic, Rect { x: area.right() - width, width, ..area });
+    }
+}
+
+/// Names that complete a typed path, from the one in its place on.
+fn candidates(completion: &Completion, width: u16, model: &Model) -> Line<'static> {
+    let theme = model.appearance.theme;
+    let names = completion.names().into_iter();
+    let parts = names.map(|(name, taken)| {
+        vec![Span::styled(name, theme.style(if taken { Meaning::Selected } else { Meaning::Quiet }))]
+    });
+    let parts: Vec<_> = parts.collect();
+    if parts.is_empty() {
+        return Line::styled("no file or folder begins so", theme.style(Meaning::Quiet));
+    }
+    fitting(parts, "  ", usize::from(width))
+}
+
+/// Keys that are valid now with their labels, the most important first; rows beside each other with the same label are
+/// one item.
+fn footer_items(model: &Model) -> Vec<(String, &'static str)> {
+    let is_shown = |row: &&Binding| match row.command {
+        Command::ToggleHand => true,
+        _ => !row.label.is_empty() && (model.hand.is_some() || !keys::is_manual(row)),
+    };
+    let mut rows: Vec<&Binding> = keys::valid_in(model.keys()).filter(is_shown).collect();
+    rows.sort_by_key(|row| rank(row, model));
+    let items = rows.chunk_by(|one, next| one.label == next.label);
+    items
+        .map(|rows| {
+            let first = |row: &&Binding| keys::names(row.keys).into_iter().next().unwrap_or_default();
+            (rows.iter().map(first).collect::<Vec<_>>().join(" "), rows[0].label)
+        })
+        .collect()
+}
+
+/// Place of a key in the footer: the way to all others and the way out, which show in the smallest window; what only
+/// the present mode has; what changes what is seen; the rest.
+fn rank(row: &Binding, model: &Model) -> u8 {
+    match row.command {
+        Command::Help | Command::Quit => 0,
+        _ if model.hand.is_some() && keys::is_manual(row) => 1,
+        _ if !row.modes.contains(&ModeKind::Explore) => 1,
+        Command::NextPane
+        | Command::ToggleChart
+        | Command::OpenLibrary
+        | Command::Save
+        | Command::Pin
+        | Command::OpenPalette => 2,
+        _ => 3,
     }
 }

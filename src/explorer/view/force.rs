@@ -139,7 +139,8 @@ const MOST_DECADES: f64 = 3.0;
 /// What the pane spans: the curve, its ghosts and the way of the hand.
 fn spans(model: &Model, units: Units) -> (Span, Span) {
     let ghosts = model.ghosts.iter().flat_map(|ghost| &ghost.computed.outcome.history.legs);
-    let points = model.legs().iter().chain(ghosts).flat_map(|leg| &leg.curve);
+    let tried = model.tried_outcome().into_iter().flat_map(|outcome| &outcome.history.legs);
+    let points = model.legs().iter().chain(ghosts).chain(tried).flat_map(|leg| &leg.curve);
     let hand = model.hand.iter().flat_map(|hand| &hand.path);
     let coordinate = |number| units.scale.coordinate(number);
     let places: Vec<(f64, f64)> = points.chain(hand).map(|point| units.place(point)).collect();
@@ -283,6 +284,9 @@ fn chart(model: &Model, units: Units) -> Chart {
         for leg in &ghost.computed.outcome.history.legs {
             layers.push(Layer::new(name.clone(), Ink::Kept, line(along(&leg.curve), Stroke::Sparse)));
         }
+    }
+    for leg in model.tried_outcome().into_iter().flat_map(|outcome| &outcome.history.legs) {
+        layers.push(Layer::new("preview".into(), Ink::Kept, line(along(&leg.curve), Stroke::Dashed)));
     }
     for (direction, name, of, stroke) in [
         (Direction::Loading, "loading", Ink::Loading, Stroke::Dotted),

@@ -38,7 +38,10 @@ const PANES: &[(&str, &str)] = &[
          differ in their regimes; ◆ moves from cell to cell, P selects the next preload, W switches between the \
          study and the live map",
     ),
-    ("Parameters", "fields of the scene; ● marks an effect that is on, = a derived value"),
+    (
+        "Parameters",
+        "fields of the scene by use, in groups; ● marks an effect that is on, ▸ a folded group, = a derived value",
+    ),
 ];
 
 /// Columns for the keys.

@@ -11,6 +11,7 @@ mod help;
 mod histogram;
 mod lengths;
 mod library;
+mod palette;
 mod parameters;
 mod plot;
 mod position;
@@ -54,6 +55,9 @@ pub fn draw(frame: &mut Frame<'_>, model: &Model) {
                 draw_pane(frame, area, model, pane);
             }
         }
+    }
+    if let Mode::Palette(finder) = &model.mode {
+        palette::draw(frame, body(&layout), model.appearance.theme, finder);
     }
     crate::draw::dry(frame.buffer_mut());
     chrome::status(frame, layout.status, model);

@@ -27,6 +27,29 @@ const PARTS: [Part; 5] = [
     Part { name: "F_a(0)", stages: &[Stage::ZeroLoadAdhesion], seconds: |timings| timings.zero_load },
 ];
 
+/// Names and times of the parts that ran.
+pub fn times(model: &Model) -> Vec<(&'static str, String)> {
+    let Some(computed) = model.computed.as_ref().filter(|_| model.is_current()) else { return Vec::new() };
+    let plan = Plan::of(&computed.scene);
+    let ran = PARTS.iter().filter(|part| part.runs(&plan));
+    ran.map(|part| (part.name(&plan), part.time(&computed.outcome.timings))).collect()
+}
+
+impl Part {
+    fn runs(&self, plan: &Plan) -> bool {
+        self.stages.is_empty() || self.stages.iter().any(|stage| plan.runs(*stage))
+    }
+
+    fn name(&self, plan: &Plan) -> &'static str {
+        if plan.runs(Stage::Relaxation) && self.name == "passes" { "steps" } else { self.name }
+    }
+
+    fn time(&self, timings: &Timings) -> String {
+        let seconds = (self.seconds)(timings);
+        format_quantity(format!("{seconds:.1e}").parse().unwrap_or(seconds), "s")
+    }
+}
+
 /// The stages in as many lines as there is room for and it takes.
 pub fn strip(model: &Model, width: u16, rows: usize) -> Vec<Line<'static>> {
     let Some(computed) = model.computed.as_ref().filter(|_| model.is_current()) else { return Vec::new() };
@@ -35,13 +58,11 @@ pub fn strip(model: &Model, width: u16, rows: usize) -> Vec<Line<'static>> {
     let timings = &computed.outcome.timings;
     let mut parts: Vec<Vec<Span<'static>>> = vec![vec![Span::styled("ran", theme.style(Meaning::Quiet))]];
     for part in PARTS {
-        let runs = part.stages.is_empty() || part.stages.iter().any(|stage| plan.runs(*stage));
-        let name = if plan.runs(Stage::Relaxation) && part.name == "passes" { "steps" } else { part.name };
-        parts.push(match runs {
+        let name = part.name(&plan);
+        parts.push(match part.runs(&plan) {
             true if model.shows_times => {
-                let seconds = (part.seconds)(timings);
-                let seconds = format_quantity(format!("{seconds:.1e}").parse().unwrap_or(seconds), "s");
-                vec![Span::raw(format!("● {name} ")), Span::styled(seconds, theme.style(Meaning::Title))]
+                let time = part.time(timings);
+                vec![Span::raw(format!("● {name} ")), Span::styled(time, theme.style(Meaning::Title))]
             }
             true => vec![Span::raw(format!("● {name}"))],
             false => vec![Span::styled(format!("○ {name}"), theme.style(Meaning::Quiet))],

@@ -1,0 +1,63 @@
+//! The list of all commands, each with its key: the table of keys, by description.
+
+use super::action::Command;
+use super::fuzzy::Candidate;
+use super::keys::{self, BINDINGS, Binding};
+use super::mode::ModeKind;
+use crate::scene::presets;
+
+/// A command of the list.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Entry {
+    /// Names of its keys.
+    pub keys: Vec<String>,
+    /// What it does.
+    pub help: String,
+    /// Its section in the table of keys.
+    pub section: &'static str,
+    /// The command.
+    pub command: Command,
+    /// The modes in which its keys are valid.
+    pub modes: &'static [ModeKind],
+}
+
+/// Modes without a text or a question.
+const EXPLORING: [ModeKind; 3] = [ModeKind::Explore, ModeKind::Chart, ModeKind::Parameters];
+
+/// All commands of the explorer but those of texts and questions, in the order of the table.
+#[must_use]
+pub fn entries() -> Vec<Entry> {
+    let is_listed = |row: &&Binding| {
+        row.modes.iter().any(|mode| EXPLORING.contains(mode))
+            // The value begins with the key itself, and the list is open.
+            && !matches!(row.command, Command::StartValue(_) | Command::OpenPalette)
+    };
+    BINDINGS.iter().filter(is_listed).flat_map(of_row).collect()
+}
+
+/// The command of a row; of the keys of built-in scenes one for each scene.
+fn of_row(row: &'static Binding) -> Vec<Entry> {
+    let entry = |keys, help, command| Entry { keys, help, section: row.section, command, modes: row.modes };
+    let Command::Preset(_) = row.command else {
+        return vec![entry(keys::names(row.keys), row.help.to_owned(), row.command)];
+    };
+    let scenes = row.keys.iter().zip(presets()).enumerate();
+    scenes
+        .map(|(number, (key, preset))| {
+            entry(
+                vec![key.name()],
+                format!("open the built-in scene {}", preset.name),
+                Command::Preset(number),
+            )
+        })
+        .collect()
+}
+
+impl Entry {
+    /// The words by which it is found: keys, description, section.
+    #[must_use]
+    pub fn candidate(&self) -> Candidate {
+        let names = self.keys.iter().chain([&self.help]).cloned().collect();
+        Candidate { names, prose: vec![self.section.to_owned()] }
+    }
+}
