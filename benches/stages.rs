@@ -10,8 +10,8 @@
 
 use asperity::analysis::ideal_adhesion_force;
 use asperity::contact::{
-    AdhesiveMemory, ContactTree, EdgeModel, Foundation, GridEdges, HessRule, LegContact, LegRecord, Solver,
-    SubCellEdges, Work, exact,
+    AdhesiveMemory, ContactTree, EdgeModel, Foundation, GridEdges, HessRule, LegContact, LegRecord,
+    Reversals, Solver, SubCellEdges, Work, exact,
 };
 use asperity::scene::{Adhesion, Document, Edges, Leg, Roughness, Scene};
 use asperity::simulation::Simulation;
@@ -27,6 +27,8 @@ use std::time::Instant;
 const BAR: (u32, [f64; 2]) = (20, [1.6, 2.6]);
 
 const SAMPLES: usize = 512;
+/// Turning points at equal forces up to the load.
+const REVERSALS: u32 = 64;
 const LENGTH: f64 = 1.0e-3;
 const EFFECTIVE_MODULUS: f64 = 2.0e6;
 const RMS_HEIGHT: f64 = 5.0e-7;
@@ -166,6 +168,8 @@ struct Timed {
     passes: f64,
     curves: f64,
     whole: f64,
+    /// All reversals from one tree and one loading.
+    reversals: f64,
     records: Vec<LegRecord>,
     work: Work,
     memory: AdhesiveMemory,
@@ -292,7 +296,14 @@ impl Loop {
 impl Timed {
     fn new() -> Self {
         let never = f64::INFINITY;
-        Timed { tree: never, passes: never, curves: never, whole: never, ..Timed::default() }
+        Timed {
+            tree: never,
+            passes: never,
+            curves: never,
+            whole: never,
+            reversals: never,
+            ..Timed::default()
+        }
     }
 
     /// Builds the tree in the memory of another, loads to a force and pulls off.
@@ -312,6 +323,26 @@ impl Timed {
         self.passes = self.passes.min(legs_seconds - solver.curve_seconds());
         self.work = solver.work();
         self.memory = solver.into_memory();
+        self.measure_reversals(tree, edges, rough)
+    }
+
+    /// Builds the tree and unloads from as many preloads up to that of the loop.
+    fn measure_reversals<E: EdgeModel>(&mut self, tree: ContactTree, edges: E, rough: &Rough) -> ContactTree {
+        let gaps = black_box(rough.line.gaps.as_slice());
+        let force = LOAD * EFFECTIVE_MODULUS * LENGTH * RMS_HEIGHT / f64::from(REVERSALS);
+        let turns: Vec<Leg> = (1..=REVERSALS).map(|turn| Leg::ToForce(force * f64::from(turn))).collect();
+        let clock = Instant::now();
+        let tree = tree.rebuild(gaps, E::EDGES).expect("memory for the tree");
+        let memory = take(&mut self.memory);
+        let solver = exact::adhesive_in(memory, gaps, &tree, edges, rough.foundation, SAMPLES);
+        let mut reversals = Reversals::new(solver, &turns).expect("reachable turning points");
+        let mut see = |_, reversal| {
+            black_box(reversal);
+            Ok(())
+        };
+        reversals.each(&[], &mut see).expect("memory for the unloadings");
+        self.reversals = self.reversals.min(seconds_since(clock));
+        self.memory = reversals.into_body().into_memory();
         tree
     }
 }
@@ -367,6 +398,8 @@ impl Measured {
                 row("passes, loading and unloading", timed.passes);
                 row("curves, extremes, energies", timed.curves);
                 row("whole loop", timed.whole);
+                row(&format!("{REVERSALS} reversals, tree included"), timed.reversals);
+                println!("    reversals take {:.2} whole loops", timed.reversals / timed.whole);
                 timed.print_outcome(rough, one.kappa);
             }
         }

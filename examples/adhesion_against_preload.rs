@@ -10,9 +10,10 @@ fn main() -> Result<(), asperity::Error> {
     let mut contact = Contact::new(&profile, Material::effective(1.0e6)).work_of_adhesion(1.0e-3).build()?;
     println!("preload, µN   pull-off force, µN");
     let mut before = 0.0;
-    for preload in [0.0, 0.1, 0.2, 0.5, 1.0, 2.0, 3.0, 6.0] {
-        let cycle = contact.load(&[Leg::ToForce(1.0e-6 * preload), Leg::ToSeparation])?;
-        let pull_off = cycle.pull_off_force().unwrap_or(0.0);
+    let preloads = [0.0, 0.1, 0.2, 0.5, 1.0, 2.0, 3.0, 6.0];
+    let reversals = contact.reversals(&preloads.map(|preload| Leg::ToForce(1.0e-6 * preload)))?;
+    for (preload, reversal) in preloads.iter().zip(reversals) {
+        let pull_off = reversal.adhesion_force().unwrap_or(0.0);
         println!("{preload:>11}   {:.4}", 1.0e6 * pull_off);
         // A larger preload brings more of the profile into contact.
         assert!(pull_off >= before);

@@ -3,7 +3,7 @@
 use crate::analysis::{Figures, Governing};
 use crate::contact::{
     AdhesiveMemory, ContactError, ContactTree, CurvePoint, EdgeModel, Foundation, GridEdges, HessRule,
-    History, LegRecord, Solver, SubCellEdges, exact, run,
+    History, LegRecord, Reversal, Reversals, Solver, SubCellEdges, exact, run,
 };
 use crate::scene::{Adhesion, Edges, Leg, Material, Numerics, SCENE_VERSIONS, Scene, Solver as SolverChoice};
 use crate::simulation::RunError;
@@ -91,6 +91,38 @@ impl Contact {
         }
         .map_err(RunError::Contact)?;
         Ok(Cycle { figures: Figures::of(&history), history })
+    }
+
+    /// Loads the separated body once and unloads it to separation from the ends of these legs, each of which begins
+    /// separated: what [`Contact::load`] gives for each of them and [`Leg::ToSeparation`], at the cost of a few.
+    ///
+    /// # Errors
+    /// [`Error::Values`] for a force or an indentation out of range, [`Error::Run`] for an end that the contact cannot
+    /// reach, or without contact.
+    pub fn reversals(&mut self, ends: &[Leg]) -> Result<Vec<Reversal>, Error> {
+        for leg in ends {
+            self.scene.loading = vec![*leg, Leg::ToSeparation];
+            self.scene.check()?;
+        }
+        let found = match (&self.adhesion, self.edges) {
+            (None, edges) => {
+                let body = exact::nonadhesive(&self.gaps, edges, self.foundation, self.samples);
+                Reversals::new(body, ends).and_then(|mut reversals| reversals.all())
+            }
+            (Some((hess, _)), Edges::Grid) => self.reverse_over(GridEdges::new(*hess), ends),
+            (Some((hess, _)), Edges::SubCell) => self.reverse_over(SubCellEdges::new(*hess), ends),
+        };
+        Ok(found.map_err(RunError::Contact)?)
+    }
+
+    fn reverse_over<E: EdgeModel>(&mut self, edges: E, ends: &[Leg]) -> Result<Vec<Reversal>, ContactError> {
+        let memory = take(&mut self.memory);
+        let Some((_, tree)) = &self.adhesion else { return Ok(Vec::new()) };
+        let body = exact::adhesive_in(memory, &self.gaps, tree, edges, self.foundation, self.samples);
+        let mut reversals = Reversals::new(body, ends)?;
+        let found = reversals.all();
+        self.memory = reversals.into_body().into_memory();
+        found
     }
 
     fn load_over<E: EdgeModel>(&mut self, edges: E, legs: &[Leg]) -> Result<History, ContactError> {

@@ -1024,6 +1024,7 @@ fn scenes_are_drawn_and_pictures_hold_nothing_else() {
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), before, "nothing is written");
 }
 
+/// Few springs, for a profile that is only looked at.
 const FEW_SPRINGS: [&str; 2] = ["--set", "numerics.points=1024"];
 
 #[test]

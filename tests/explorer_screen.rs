@@ -119,7 +119,7 @@ fn everywhere() -> Vec<Driver> {
         "o",
         "/ h u",
         ": m a p",
-        "i",
+        "I",
         "Z",
         "d { ]",
         "c L",

@@ -7,6 +7,7 @@ use asperity::contact::{
 };
 use asperity::scene::{Edges, Leg};
 use asperity::surface::{Line, SelfAffine, UnitRoughness};
+use asperity::{Contact, Material, Profile};
 use proptest::prelude::*;
 
 /// Springs under adhesion and what is done with them.
@@ -221,5 +222,23 @@ fn the_line_is_walked_once_for_all_reversals() {
             })
             .sum();
         assert!(5 * counts[0] < separate, "{counts:?}, {separate} of separate loops at κ = {kappa}");
+    }
+}
+
+#[test]
+fn a_contact_gives_the_reversals_of_its_loads() {
+    let sphere = Profile::sphere(1e-4, 1e-4, 512).unwrap();
+    let ends = [Leg::ToForce(2e-4), Leg::ToTouch, Leg::ToIndentation(1e-6)];
+    for (work, edges) in [(0.05, Edges::Grid), (0.05, Edges::SubCell), (0.0, Edges::SubCell)] {
+        let contact = Contact::new(&sphere, Material::effective(1e6)).work_of_adhesion(work).edges(edges);
+        let mut contact = contact.build().unwrap();
+        let reversals = contact.reversals(&ends).unwrap();
+        for (end, reversal) in ends.iter().zip(&reversals) {
+            let cycle = contact.load(&[*end, Leg::ToSeparation]).unwrap();
+            assert_eq!(reversal.adhesion_force(), cycle.pull_off_force());
+            assert_eq!(Some(reversal.dissipated_energy), cycle.dissipated_energy());
+        }
+        assert!(contact.reversals(&[Leg::ToForce(-1.0)]).is_err());
+        assert_eq!(contact.reversals(&[]).unwrap(), []);
     }
 }

@@ -28,10 +28,10 @@ pub struct CompareArguments {
     /// The scene it is compared with
     #[arg(value_name = "OTHER")]
     pub second: String,
-    /// What is changed in both.
+    /// Changes of both scenes.
     #[command(flatten)]
     pub overrides: Overrides,
-    /// How the explorer looks.
+    /// Colours and markers of the explorer, and its mouse.
     #[command(flatten)]
     pub look: LookArguments,
 }

@@ -18,12 +18,12 @@ pub struct ExploreArguments {
     /// Overrides of the scene.
     #[command(flatten)]
     pub overrides: Overrides,
-    /// How the explorer looks.
+    /// Colours and markers of the explorer, and its mouse.
     #[command(flatten)]
     pub look: LookArguments,
 }
 
-/// How the explorer looks.
+/// Colours and markers of the explorer, and its mouse.
 #[derive(Args, Clone, Copy, Debug)]
 pub struct LookArguments {
     /// Colours

@@ -107,7 +107,7 @@ pub(super) fn text_for_reader(figure: &Figure, to_stdout: bool) -> String {
     figure_text(figure, columns, if terminal { colours() } else { Colours::None })
 }
 
-/// What the environment says of the terminal's colours.
+/// Colours of the terminal by the environment.
 fn colours() -> Colours {
     let value = |name| std::env::var(name).unwrap_or_default();
     if !value("NO_COLOR").is_empty() || value("TERM") == "dumb" {

@@ -54,7 +54,12 @@ impl<C: ContactModel> Reversals<C> {
         let mut order = Vec::with_capacity(ends.len());
         for (index, &leg) in ends.iter().enumerate() {
             let at = match plan(leg, apart, index)?.map(|(_, target)| target) {
-                Some(Target::Force(force)) => body.load_to_force(leg, force, 0.0, complete)?,
+                Some(Target::Force(force)) => {
+                    body.load_to_force(leg, force, 0.0, complete).map_err(|error| match error {
+                        ContactError::OutOfReach { leg, .. } => ContactError::OutOfReach { index, leg },
+                        other => other,
+                    })?
+                }
                 Some(Target::Indentation(indentation)) if indentation >= 0.0 => indentation,
                 _ => return Err(ContactError::NoContact { index, leg }),
             };
@@ -90,6 +95,20 @@ impl<C: ContactModel> Reversals<C> {
             see(index, reverse(&mut self.body, (number, turn), points)?)?;
         }
         Ok(())
+    }
+
+    /// All reversals in the order of their legs, without forces.
+    ///
+    /// # Errors
+    /// [`ContactError::OutOfMemory`].
+    pub fn all(&mut self) -> Result<Vec<Reversal>, ContactError> {
+        let mut found: Vec<(usize, Reversal)> = Vec::with_capacity(self.turns.len());
+        self.each(&[], &mut |index, reversal| {
+            found.push((index, reversal));
+            Ok(())
+        })?;
+        found.sort_by_key(|&(index, _)| index);
+        Ok(found.into_iter().map(|(_, reversal)| reversal).collect())
     }
 
     /// Work counts so far.

@@ -276,7 +276,7 @@ pub enum Command {
     ToggleCrosshair,
     /// Move the crosshair of the chosen pane.
     MoveCrosshair {
-        /// How often and which way: positive to the right.
+        /// Number of steps, positive to the right.
         steps: i32,
         /// By the large step.
         coarse: bool,

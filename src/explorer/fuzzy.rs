@@ -13,7 +13,7 @@ pub struct Candidate {
 /// each other keep their order. An empty query finds everything.
 ///
 /// A word counts most as a whole name, then at its start, at the start of a word, inside; then in the next text. Last
-/// are names that have its letters in this order, most of them at the starts of words.
+/// are names that have its letters in this order, most of them together or at the starts of words.
 pub fn find(candidates: impl IntoIterator<Item = Candidate>, query: &str) -> Vec<usize> {
     let words: Vec<&str> = query.split_whitespace().collect();
     let cost = |(index, candidate): (usize, Candidate)| {
@@ -29,6 +29,8 @@ pub fn find(candidates: impl IntoIterator<Item = Candidate>, query: &str) -> Vec
 const PLACES: usize = 5;
 /// Cost of scattered letters: more than that of any whole word, since no candidate has so many texts.
 const SCATTERED: usize = 1000;
+/// Most cost of scattered letters beside one for each letter: nearly any letters are somewhere in a long text.
+const MOST_OVER_LETTERS: usize = 2;
 /// Cost of a run of scattered letters at the start of a word, and inside one.
 const RUN: (usize, usize) = (1, 3);
 
@@ -38,7 +40,8 @@ fn cost(candidate: &Candidate, word: &str) -> Option<usize> {
     let whole = |(number, text): (usize, &String)| Some(PLACES * number + place(text, word)?);
     let whole = texts.enumerate().find_map(whole);
     let letters = lower(word);
-    let scattered = || candidate.names.iter().filter_map(|name| runs(name, &letters)).min();
+    let is_near = |cost: &usize| *cost <= letters.len() + MOST_OVER_LETTERS;
+    let scattered = || candidate.names.iter().filter_map(|name| runs(name, &letters)).filter(is_near).min();
     whole.or_else(|| scattered().map(|cost| SCATTERED + cost))
 }
 
@@ -167,9 +170,10 @@ mod tests {
             let found = find(candidates, &query);
             let words: Vec<String> = query.split_whitespace().map(str::to_lowercase).collect();
             let has = |(name, prose): &(String, String), word: &String| {
-                let mut letters = name.to_lowercase().chars().collect::<Vec<_>>().into_iter();
-                let scattered = word.chars().all(|letter| letters.any(|here| here == letter));
-                scattered || prose.to_lowercase().contains(word.as_str())
+                let letters = lower(word);
+                let most = letters.len() + MOST_OVER_LETTERS;
+                let scattered = runs(name, &letters).is_some_and(|cost| cost <= most);
+                scattered || name.to_lowercase().contains(word.as_str()) || prose.to_lowercase().contains(word.as_str())
             };
             for (index, text) in texts.iter().enumerate() {
                 prop_assert_eq!(found.contains(&index), words.iter().all(|word| has(text, word)));

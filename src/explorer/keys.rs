@@ -106,7 +106,7 @@ const FIND: &[ModeKind] = &[ModeKind::Find];
 const PALETTE: &[ModeKind] = &[ModeKind::Palette];
 const SEARCHED: &[ModeKind] = &[ModeKind::Library, ModeKind::Find, ModeKind::Palette];
 /// Lines with a path in them.
-const PATH: &[ModeKind] = &[ModeKind::SaveAs, ModeKind::Export, ModeKind::Library];
+const PATH: &[ModeKind] = &[ModeKind::Edit, ModeKind::SaveAs, ModeKind::Export, ModeKind::Library];
 const ASK: &[ModeKind] = &[ModeKind::Overwrite];
 const LEAVE: &[ModeKind] = &[ModeKind::Quit];
 const ANY: &[ModeKind] = &ModeKind::ALL;
@@ -262,9 +262,9 @@ pub const BINDINGS: &[Binding] = &[
     row(&[key(KeyCode::PageUp)], CHART, Command::NextSlice(-1), "", "show the previous one", MAP),
 
     row(&[char('o')], EXPLORE, Command::OpenLibrary, "open", "open a scene: built-in, your own, or by path; or the folder of a study", SCENE),
-    row(&DIGITS.split_at(1).1, OTHER_PANES, Command::Preset(0), "", "open a built-in scene by its number, unless the pane of parameters is selected", SCENE),
+    row(DIGITS.split_at(1).1, OTHER_PANES, Command::Preset(0), "", "open a built-in scene by its number, unless the pane of parameters is selected", SCENE),
     row(&[char('s')], EXPLORE, Command::Save, "save", "save the scene to a file", SCENE),
-    row(&[char('E')], EXPLORE, Command::Export, "export", "export the curve (.csv), all figures (.json) or the panes (.svg, .txt)", SCENE),
+    row(&[char('E')], EXPLORE, Command::Export, "export", "export the curve (.csv, .npy), all figures (.json) or the panes (.svg, .txt)", SCENE),
     row(&[char('y')], EXPLORE, Command::CopyCommand, "copy", "copy the command that opens the present scene", SCENE),
     row(&[char(':'), control('p')], EXPLORE, Command::OpenPalette, "commands", "find a command by letters of its description, and run it", SCENE),
     row(&[char('?'), key(KeyCode::F(1))], EXPLORE, Command::Help, "help", "show this help", SCENE),
@@ -279,7 +279,7 @@ pub const BINDINGS: &[Binding] = &[
     row(&[key(KeyCode::Enter)], FIND, Command::Accept, "go", "go to the selected parameter", TEXT),
     row(&[key(KeyCode::Enter)], LIBRARY, Command::Accept, "open", "open the selected scene, or the typed path", TEXT),
     row(&[key(KeyCode::Enter)], PALETTE, Command::Accept, "run", "run the selected command", TEXT),
-    row(&[key(KeyCode::Tab)], PATH, Command::Complete, "complete", "complete the typed path; again for the next candidate", TEXT),
+    row(&[key(KeyCode::Tab)], PATH, Command::Complete, "complete", "complete the typed path, in a value that of a measured surface between quotes; again for the next candidate", TEXT),
     row(&[key(KeyCode::Enter)], LINE, Command::Accept, "accept", "accept the typed text", TEXT),
     row(&[key(KeyCode::Esc), control('c')], TYPED, Command::Cancel, "cancel", "cancel: keep the previous value", TEXT),
     row(&[key(KeyCode::Left), control('b')], TYPED, Command::Move(Motion::Left), "", "move the cursor left", TEXT),

@@ -2,7 +2,6 @@
 
 use super::action::Content;
 use super::finder::Finder;
-use super::model::Pane;
 use super::text_line::TextLine;
 use crate::scene::Entry;
 use std::path::PathBuf;
@@ -21,12 +20,7 @@ pub enum Mode {
     /// Choosing a scene from the library.
     Library(Library),
     /// Searching the list of parameters.
-    Find {
-        /// The search.
-        finder: Finder,
-        /// The pane that was selected before.
-        back: Pane,
-    },
+    Find(Finder),
     /// Choosing a command from the list of all.
     Palette(Finder),
     /// Typing the name of the file to save the scene to.
@@ -139,24 +133,13 @@ impl Mode {
             Mode::Force(_) => ModeKind::Force,
             Mode::Tolerance(_) => ModeKind::Tolerance,
             Mode::Library(_) => ModeKind::Library,
-            Mode::Find { .. } => ModeKind::Find,
+            Mode::Find(_) => ModeKind::Find,
             Mode::Palette(_) => ModeKind::Palette,
             Mode::SaveAs { .. } => ModeKind::SaveAs,
             Mode::Export(_) => ModeKind::Export,
             Mode::Overwrite { .. } => ModeKind::Overwrite,
             Mode::Help { .. } => ModeKind::Help,
             Mode::Quit => ModeKind::Quit,
-        }
-    }
-
-    /// The search that is being typed.
-    #[must_use]
-    pub fn finder(&self) -> Option<&Finder> {
-        match self {
-            Mode::Library(Library { finder, .. }) | Mode::Find { finder, .. } | Mode::Palette(finder) => {
-                Some(finder)
-            }
-            _ => None,
         }
     }
 
@@ -168,7 +151,7 @@ impl Mode {
             | Mode::Tolerance(line)
             | Mode::Export(line)
             | Mode::SaveAs { line, .. } => Some(line),
-            Mode::Library(Library { finder, .. }) | Mode::Find { finder, .. } | Mode::Palette(finder) => {
+            Mode::Library(Library { finder, .. }) | Mode::Find(finder) | Mode::Palette(finder) => {
                 Some(&mut finder.query)
             }
             Mode::Explore | Mode::Overwrite { .. } | Mode::Help { .. } | Mode::Quit => None,

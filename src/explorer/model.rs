@@ -54,7 +54,7 @@ impl Pane {
     /// The panes while adhesion against preload is shown.
     pub const WITH_PRELOADS: [Pane; 3] = [Pane::Force, Pane::Preloads, Pane::Parameters];
 
-    /// Whether the crosshair can be moved in the pane.
+    /// True for panes in which the crosshair can be moved.
     #[must_use]
     pub fn has_crosshair(self) -> bool {
         matches!(self, Pane::Force | Pane::Profile | Pane::CloseUp)
@@ -196,6 +196,8 @@ pub struct Model {
     pub parameters: Vec<Parameter>,
     /// Index of the selected parameter, which is never in a folded group.
     pub selected: usize,
+    /// Place of the first row of the list of parameters in sight, as far as the selected one is in sight with it.
+    pub first_listed: usize,
     /// Groups of parameters of which only the first row is listed.
     pub folded: BTreeSet<&'static str>,
     /// What is wrong with a value that was refused, and the index of its parameter.
@@ -232,7 +234,7 @@ pub struct Model {
     pub crosshair: Option<Crosshair>,
     /// Loops kept to be compared with, the newest last.
     pub ghosts: Vec<Ghost>,
-    /// Whether the newest ghost is shown beside the scene, its profile in place of the close-up.
+    /// True while the newest ghost is shown beside the scene, its profile in place of the close-up.
     pub side_by_side: bool,
     /// Scene to open beside the present one as soon as that is computed.
     pub opens_beside: Option<Document>,
@@ -251,6 +253,8 @@ pub struct Model {
     pub pane: Pane,
     /// Whether it has the whole screen.
     pub zoomed: bool,
+    /// The pane that was chosen before the search of a parameter.
+    pub pane_before: Pane,
     /// Columns and rows of the terminal.
     pub size: (u16, u16),
     /// Colours and markers.
@@ -285,6 +289,7 @@ impl Model {
             redo: Vec::new(),
             generation: 1,
             selected: 0,
+            first_listed: 0,
             folded: BTreeSet::new(),
             refused: None,
             mode: Mode::Explore,
@@ -311,6 +316,7 @@ impl Model {
             preview: None,
             tried: None,
             pane: Pane::Force,
+            pane_before: Pane::Force,
             zoomed: false,
             size,
             appearance,

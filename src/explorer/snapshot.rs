@@ -44,7 +44,7 @@ pub struct Moment {
     pub close_up: CloseUp,
     /// How much of the whole line touches, in as many parts as the close-up has cells.
     pub strip: Vec<Share>,
-    /// What the crosshair reads on the profile.
+    /// Readings of the crosshair on the profile.
     pub probe: Option<Probe>,
     /// How long the fragments are, where that was asked for.
     pub lengths: Option<Vec<LengthBin>>,

@@ -194,7 +194,7 @@ impl Worker {
                 self.newest.set_preview(None);
             }
             Request::Preview { scene, .. } => self.newest.set_preview(Some(Arc::clone(scene))),
-            Request::Hand { .. } | Request::Show(_) => {}
+            Request::Hand { .. } | Request::Show(_) | Request::Beside(_) => {}
         }
         // The worker only ends with the explorer.
         let _ = self.requests.send(request);

@@ -77,7 +77,7 @@ pub fn reversals_text(report: &ReversalReport<'_>) -> String {
         all.filter_map(|(turn, point)| value(map, turn, point)).reduce(f64::max)
     };
     let everett = largest(|map, turn, point| map.everett(turn, point));
-    sheet.row_of("largest Everett function", everett.map(|force| format_quantity(force, "N")));
+    sheet.row_of("largest Everett value", everett.map(|force| format_quantity(force, "N")));
     sheet.row("density", format!("quadratic fit, {smoothing} steps on either side"));
     sheet.row_of("incongruent", loops.map(congruency));
     sheet.into_text().trim_start_matches('\n').to_string()

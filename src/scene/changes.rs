@@ -1,4 +1,4 @@
-//! What differs between two scenes, in the terms of the field.
+//! Differences between two scenes, in the terms of the field.
 
 use super::document::Document;
 use super::field::Field;

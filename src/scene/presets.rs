@@ -32,6 +32,10 @@ const PRESETS: &[Preset] = presets![
     "kendall-punch",
     "rough-sphere",
     "million-springs",
+    "two-works",
+    "wavy-sphere",
+    "elastic-energy-below",
+    "elastic-energy-above",
 ];
 
 /// All built-in scenes, in the order in which they are best looked at.

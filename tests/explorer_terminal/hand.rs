@@ -11,10 +11,17 @@ fn stands(rows: &[String]) -> Option<(f64, f64)> {
 }
 
 /// Numbers of springs that changed on the last move, and of entries looked at for it.
-fn cost(rows: &[String]) -> Option<(u64, u64)> {
-    let row = rows.iter().find(|row| row.contains("manual: d "))?;
+#[track_caller]
+fn cost(terminal: &mut Terminal) -> (u64, u64) {
+    terminal.send("I");
+    terminal.wait_for(" looked at");
+    let rows = terminal.rows();
+    let row = rows.iter().find(|row| row.contains(" looked at")).unwrap();
     let number = |words: &str| row.split(words).next()?.rsplit(' ').next()?.parse().ok();
-    Some((number(" springs changed")?, number(" looked at")?))
+    let numbers = number(" springs changed").zip(number(" looked at"));
+    terminal.send("I");
+    terminal.wait_for("manual: d ");
+    numbers.unwrap_or_else(|| panic!("{row}"))
 }
 
 /// Moves the body by a key, and gives where it stands then.
@@ -50,13 +57,13 @@ fn the_body_is_pressed_and_pulled_by_keys() {
             |rows: &[String]| stands(rows).is_some_and(|(_, force)| (force / 1e-5 - 1.0).abs() < 1e-3);
         terminal.wait("force of 10 µN", at_force);
         let (pressed, force) = stands(&terminal.rows()).unwrap();
-        let (changed, looked_at) = cost(&terminal.rows()).expect("it tells the cost");
+        let (changed, looked_at) = cost(&mut terminal);
         assert!(changed > 10 && looked_at >= changed, "{changed} springs changed, {looked_at} looked at");
         let (deeper, larger) = push(&mut terminal, "}");
         assert!(deeper > pressed && larger > force);
         // A held line: a small step costs no more than what changes, not the line's thousand springs.
         push(&mut terminal, "]");
-        let (changed, looked_at) = cost(&terminal.rows()).unwrap();
+        let (changed, looked_at) = cost(&mut terminal);
         assert!(changed < 100 && looked_at < 1024, "{changed} springs changed, {looked_at} looked at");
 
         terminal.send("S");

@@ -143,6 +143,64 @@ fn roughness_makes_a_sphere_depend_on_its_preload() {
     assert_eq!(micronewtons(&pressed(name, 1e-5)), 47.0);
 }
 
+/// Dissipated energy in whole picojoules.
+fn picojoules(outcome: &Outcome) -> f64 {
+    (outcome.figures.dissipated_energy.unwrap() * 1e12).round()
+}
+
+#[test]
+fn two_works_dissipate_more_at_the_same_pull_off_force() {
+    let name = "two-works";
+    assert_says(name, "Opening takes ten times the work that closing gives back");
+    assert_says(name, "the pull-off force stays (3/2)πγR, and the loop dissipates 16 pJ instead of 12 pJ");
+    let adhesion = scene(name).scene().adhesion.unwrap();
+    assert!((adhesion.work.unwrap() / adhesion.closing_work.unwrap() - 10.0).abs() < 1e-12);
+    let [two, one] = [run(&scene(name)), run(&scene(name).set("adhesion.closing_work", "None").unwrap())];
+    let exact = 1.5 * std::f64::consts::PI * 0.05 * 1e-4;
+    for outcome in [&two, &one] {
+        assert!((adhesion_force(outcome) / exact - 1.0).abs() < 1e-4);
+    }
+    assert_eq!([picojoules(&two), picojoules(&one)], [16.0, 12.0]);
+}
+
+#[test]
+fn waves_strengthen_a_sphere() {
+    let name = "wavy-sphere";
+    assert_says(
+        name,
+        "with waves of 80 nm the pull-off force is 1.17 times that of the smooth sphere, and the loop dissipates 11 pJ more",
+    );
+    let wavy = scene(name);
+    let smooth = run(&wavy.set("form", "Paraboloid(radius: 1.0e-3)").unwrap());
+    let outcome = run(&wavy);
+    assert_eq!((100.0 * adhesion_force(&outcome) / adhesion_force(&smooth)).round(), 117.0);
+    assert_eq!(picojoules(&outcome) - picojoules(&smooth), 11.0);
+    let Some(asperity::scene::Form::WavySphere { amplitude, .. }) = wavy.scene().form else {
+        panic!("no waves");
+    };
+    assert_eq!(amplitude, 8e-8);
+}
+
+#[test]
+fn adhesion_at_zero_force_ends_at_an_elastic_energy() {
+    let [below, above] = ["elastic-energy-below", "elastic-energy-above"];
+    assert_says(below, "would take twice the work of adhesion, e_el/γ = 2");
+    assert_says(below, "keeps 58 % of the ideal adhesion force; at e_el/γ = 2.5 it keeps 0.17 %");
+    assert_says(above, "at e_el/γ = 2.5 instead of 2");
+    assert_says(above, "keeps 0.17 % of the ideal adhesion force instead of 58 %");
+    let changed = scene(below).set("adhesion.elastic_energy_ratio", "2.5").unwrap();
+    assert_eq!(changed.scene().roughness, scene(above).scene().roughness);
+    assert_eq!(changed.scene().adhesion, scene(above).scene().adhesion);
+    for (name, ratio, share) in [(below, 2.0, 58.0), (above, 2.5, 0.17)] {
+        let outcome = run(&scene(name));
+        let energies =
+            outcome.governing.elastic_energy().unwrap() / outcome.governing.work_of_adhesion.unwrap();
+        assert!((energies / ratio - 1.0).abs() < 1e-12, "{name}: {energies}");
+        let kept = 100.0 * adhesion_force(&outcome) / outcome.ideal_adhesion_force.unwrap();
+        assert_eq!(two_digits(kept), share, "{name}: {kept}");
+    }
+}
+
 #[test]
 fn a_million_springs_have_a_shortest_wave_of_four() {
     assert_says("million-springs", "2²⁰ springs and a shortest wave of four springs");

@@ -219,7 +219,7 @@ fn two_scenes_that_are_opened_are_shown_side_by_side() {
         driver.press("x");
         assert!(is_up_to_date(&driver.model));
         assert!(driver.text().contains("A → this scene: κ 4 → 8"), "{}", driver.text());
-        // What takes its place hides it.
+        // Another pane in its place hides the ghost.
         for keys in ["A", "m", "m", "D"] {
             driver.press(keys);
             driver.screen();

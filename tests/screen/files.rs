@@ -51,7 +51,8 @@ fn the_ending_of_a_name_tells_what_is_exported() {
             let mut driver = pressed("");
             assert!(export(&mut driver, Path::new(name)).is_empty(), "{name}");
             assert!(driver.files.is_empty());
-            let said = format!("{name}: the name must end in .csv, .npy, .json, .svg, .txt");
+            let said =
+                format!("{name}: the curve is exported; the name must end in .csv, .npy, .json, .svg, .txt");
             assert!(driver.status().contains(&said), "{}", driver.status());
         }
         // The name that is proposed is that of the scene.

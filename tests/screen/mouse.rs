@@ -46,6 +46,20 @@ fn a_press_chooses_the_pane_and_the_row() {
             }
             assert!(chosen > 5, "{chosen}");
         }
+        // A second press on the first row of a group, which has stayed where it was, folds the group.
+        driver.press("g");
+        let area = place(&driver, Pane::Parameters);
+        let loading = driver.rows().iter().position(|row| row.contains("▾●loading")).unwrap() as u16;
+        let all = driver.model.listed().len();
+        mouse(&mut driver, area.x + 5, loading, Gesture::Press);
+        assert_eq!(driver.model.listed().len(), all);
+        mouse(&mut driver, area.x + 5, loading, Gesture::Press);
+        assert_eq!(
+            (driver.model.listed().len(), driver.model.parameter().unwrap().group),
+            (all - 1, "loading")
+        );
+        mouse(&mut driver, area.x + 5, loading, Gesture::Press);
+        assert_eq!(driver.model.listed().len(), all);
         assert!(mouse(&mut driver, 500, 500, Gesture::Press).is_empty(), "nothing is there");
     });
 }

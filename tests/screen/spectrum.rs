@@ -4,7 +4,7 @@ use super::common::deadline::within;
 use super::common::driver::Driver;
 use super::common::scenes::{changed, rough};
 use super::pressed;
-use asperity::explorer::model::Pane;
+use asperity::explorer::model::{Mode, Pane};
 use asperity::scene::Document;
 
 #[test]
@@ -64,5 +64,43 @@ fn a_measured_surface_has_its_spectrum_fit_and_errors() {
         std::fs::remove_file(&file).unwrap();
         driver.press("R");
         assert!(driver.text().contains("stylus.txt"), "{}", driver.text());
+    });
+}
+
+#[test]
+fn the_path_of_a_measured_surface_is_completed_beside_the_scene() {
+    within(60, || {
+        let folder = tempfile::tempdir().unwrap();
+        for name in ["stylus-1.txt", "stylus-2.txt", "other.txt"] {
+            std::fs::write(folder.path().join(name), "").unwrap();
+        }
+        let scene = rough();
+        let name = folder.path().join("scene.ron");
+        let mut driver = Driver::start(Document::parse(scene.text(), name.to_str().unwrap()).unwrap());
+        let typed = |driver: &Driver| match &driver.model.mode {
+            Mode::Edit(line) => line.text(),
+            other => panic!("not editing: {other:?}"),
+        };
+        driver.select("roughness");
+        driver.press("Enter Ctrl+u");
+        driver.type_text("Measured(file: \"st");
+        driver.press("Tab");
+        assert_eq!(typed(&driver), "Measured(file: \"stylus-");
+        assert!(driver.model.completion.is_some());
+        driver.press("Tab Tab");
+        assert_eq!(typed(&driver), "Measured(file: \"stylus-2.txt");
+        // From the root as well, and not outside of quotes.
+        driver.press("Ctrl+u");
+        driver.type_text(&format!("Measured(file: \"{}/ot", folder.path().display()));
+        driver.press("Tab");
+        assert_eq!(typed(&driver), format!("Measured(file: \"{}/other.txt", folder.path().display()));
+        for (field, text) in [("roughness", "st"), ("material.youngs_modulus", "\"st")] {
+            driver.press("Esc");
+            driver.select(field);
+            driver.press("Enter Ctrl+u");
+            driver.type_text(text);
+            driver.press("Tab");
+            assert_eq!((typed(&driver).as_str(), &driver.model.completion), (text, &None), "{field}");
+        }
     });
 }

@@ -291,6 +291,65 @@ fn below_the_monotone_limit_the_rule_detaches_before_jkr() {
     assert!((-jkr[0] / smooth - 1.556_549).abs() < 2e-6, "{}", -jkr[0] / smooth);
 }
 
+/// Waves of a sphere with λ²/(AR) = 5 by the closed form of the rule, at whatever resolution.
+#[test]
+fn steep_waves_follow_the_closed_form_of_the_rule() {
+    let exact = asperity::reference::WavySphere {
+        radius: 1.0,
+        amplitude: 2e-3,
+        wavelength: 0.1,
+        effective_modulus: 1e6,
+        work_of_adhesion: 1e3,
+    };
+    for deepest in [0.02, 0.06, 0.1] {
+        let cycle = exact.cycle_by_rule(deepest, 0.5).unwrap();
+        let [found, _] = waves(2e-3, 0.1, deepest, 4001);
+        for (found, expected) in
+            found.into_iter().zip([cycle.smallest_force, cycle.separation, cycle.dissipated_energy])
+        {
+            assert!((found / expected - 1.0).abs() < 1e-4, "to {deepest}: {found} for {expected}");
+        }
+    }
+}
+
+#[test]
+fn a_measured_profile_of_waves_gives_the_loop_of_the_form() {
+    use asperity::scene::open;
+    use asperity::simulation::Simulation;
+    let form = open("wavy-sphere").unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    let mut simulation = Simulation::new(folder.path().to_path_buf());
+    let (line, _, _) = simulation.make_line(form.scene()).unwrap();
+    let profile: String = line
+        .heights()
+        .enumerate()
+        .map(|(index, height)| format!("{:e},{height:e}\n", line.position(index)))
+        .collect();
+    std::fs::write(folder.path().join("waves.csv"), profile).unwrap();
+    let measured = form
+        .set_all(&[
+            ("form".to_owned(), "None".to_owned()),
+            ("roughness".to_owned(), "Measured(file: \"waves.csv\", as_line: true)".to_owned()),
+        ])
+        .unwrap();
+    let mut run = |document: &asperity::scene::Document| {
+        simulation.run(document.scene(), &|| false, &mut |_, _, _| Ok(())).unwrap()
+    };
+    let (of_form, of_profile) = (run(&form), run(&measured));
+    let [a, b] = [&of_form, &of_profile].map(|outcome| outcome.figures);
+    for (a, b) in [
+        (a.adhesion_force, b.adhesion_force),
+        (a.pull_off_indentation, b.pull_off_indentation),
+        (a.dissipated_energy, b.dissipated_energy),
+    ] {
+        assert!((a.unwrap() / b.unwrap() - 1.0).abs() < 1e-9, "{a:?} {b:?}");
+    }
+    let [a, b] = [&of_form, &of_profile].map(|outcome| &outcome.history.legs[1].curve);
+    assert_eq!(a.len(), b.len());
+    let largest = of_form.figures.preload.unwrap();
+    assert!(a.iter().zip(b).all(|(a, b)| (a.force - b.force).abs() < 1e-9 * largest));
+}
+
 /// A sphere under two works of adhesion: JKR with γ₁, a straight line with the edge pinned, JKR with γ₂.
 struct TwoWorks {
     closing: PowerLaw,

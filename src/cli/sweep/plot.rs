@@ -65,7 +65,7 @@ pub enum PlotScale {
     Logarithmic,
 }
 
-/// What a figure is written as.
+/// Format of a figure.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Picture {
     Text,

@@ -1,4 +1,4 @@
-//! What figures are drawn with, whatever the picture is written as.
+//! Operations that draw figures, the same for every format of pictures.
 
 use crate::draw::chart::Stroke;
 use crate::draw::colour::Rgb;

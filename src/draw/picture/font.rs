@@ -42,7 +42,7 @@ impl Font {
         (outlines.path.finish(), x)
     }
 
-    /// Whether the font has a character.
+    /// True for a character of the font.
     #[cfg(test)]
     pub(super) fn has(&self, character: char) -> bool {
         self.face.glyph_index(character).is_some()

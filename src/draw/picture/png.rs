@@ -20,7 +20,7 @@ const MOST_PIXELS: f64 = (1_u32 << 26) as f64;
 /// Pixels in a metre of a print on which a px is 1/96 inch.
 const PER_METRE: u32 = 7559;
 
-/// Why there is no picture.
+/// Error of a picture in pixels.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum PngError {
     /// Too many pixels.

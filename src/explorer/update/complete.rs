@@ -1,4 +1,4 @@
-//! Completion of the path that is typed, in the prompts of files and in the library.
+//! Completion of the path that is typed: in the prompts of files, in the library, and in the value of a measured surface.
 
 use super::{Effect, library};
 use crate::explorer::completion::Completion;
@@ -6,35 +6,77 @@ use crate::explorer::mode::Mode;
 use crate::explorer::model::Model;
 use crate::explorer::text_line::TextLine;
 
+/// Path that is being typed.
+struct TypedPath {
+    /// Text of the line before the path.
+    before: String,
+    /// Folder that a relative path is in; empty for the working folder.
+    folder: String,
+    /// The path as typed.
+    path: String,
+}
+
+impl TypedPath {
+    /// Path that ends at the end of the line: the whole line, or in the value of a roughness the text behind an open quote.
+    fn of(model: &Model) -> Option<Self> {
+        let (line, is_value) = match &model.mode {
+            Mode::SaveAs { line, .. } | Mode::Export(line) => (line, false),
+            Mode::Library(library) => (&library.finder.query, false),
+            Mode::Edit(line) if model.parameter()?.path.starts_with("roughness") => (line, true),
+            _ => return None,
+        };
+        let text = line.text();
+        if !is_value {
+            return Some(TypedPath { before: String::new(), folder: String::new(), path: text });
+        }
+        let quote = text.rfind('"').filter(|_| text.matches('"').count() % 2 == 1)?;
+        let (before, path) = text.split_at(quote + 1);
+        let is_absolute = std::path::Path::new(path).is_absolute();
+        let folder =
+            if is_absolute { String::new() } else { model.document.resolve("").display().to_string() };
+        Some(TypedPath { before: before.to_owned(), folder, path: path.to_owned() })
+    }
+
+    /// The path from the working folder.
+    fn whole(&self) -> String {
+        format!("{}{}", self.folder, self.path)
+    }
+
+    /// The line with another path from the working folder in place of this one.
+    fn line_with(&self, whole: &str) -> TextLine {
+        let path = whole.strip_prefix(&self.folder).unwrap_or(whole);
+        TextLine::new(&format!("{}{path}", self.before))
+    }
+}
+
 /// Takes the next candidate, or asks for candidates.
 pub fn obey(model: &mut Model) -> Vec<Effect> {
-    let next = model.completion.as_mut().and_then(Completion::take_next).map(str::to_owned);
-    match (next, model.mode.line_mut()) {
-        (Some(path), _) => put(model, &path),
-        (None, Some(line)) => vec![Effect::Complete(line.text())],
-        (None, None) => Vec::new(),
+    let Some(typed) = TypedPath::of(model) else { return Vec::new() };
+    match model.completion.as_mut().and_then(Completion::take_next).map(str::to_owned) {
+        Some(path) => put(model, &typed, &path),
+        None => vec![Effect::Complete(typed.whole())],
     }
 }
 
 /// Takes in the candidates for what was typed: what they have in common is typed at once, and where that is nothing more
 /// they are shown.
 pub fn completed(model: &mut Model, typed: &str, paths: Vec<String>) -> Vec<Effect> {
-    let takes_paths = matches!(model.mode, Mode::SaveAs { .. } | Mode::Export(_) | Mode::Library(_));
-    let Some(line) = model.mode.line_mut().filter(|line| takes_paths && line.text() == typed) else {
-        return Vec::new();
-    };
-    line.go(crate::explorer::action::Motion::End);
+    let Some(now) = TypedPath::of(model).filter(|now| now.whole() == typed) else { return Vec::new() };
+    if let Some(line) = model.mode.line_mut() {
+        line.go(crate::explorer::action::Motion::End);
+    }
     let completion = Completion::new(paths);
     let (common, is_only) = (completion.common_start(), completion.only().is_some());
     model.completion = Some(completion).filter(|_| !is_only);
     // Candidates that have the letters elsewhere have nothing in common with them.
-    if common.chars().count() > typed.chars().count() || is_only { put(model, &common) } else { Vec::new() }
+    let adds = common.chars().count() > typed.chars().count() || is_only;
+    if adds { put(model, &now, &common) } else { Vec::new() }
 }
 
-/// Puts a path in place of what is typed.
-fn put(model: &mut Model, path: &str) -> Vec<Effect> {
+/// Puts a path in place of the typed one.
+fn put(model: &mut Model, typed: &TypedPath, path: &str) -> Vec<Effect> {
     if let Some(line) = model.mode.line_mut() {
-        *line = TextLine::new(path);
+        *line = typed.line_with(path);
     }
     library::search(model)
 }

@@ -10,6 +10,7 @@ use crate::explorer::parameters::{Parameter, Setting, parameters};
 use crate::explorer::request::{Focus, LineView};
 use crate::explorer::session::scene_of;
 use crate::explorer::text_line::TextLine;
+use crate::explorer::view::first_listed;
 use crate::scene::{Computed, Document, Range, SceneErrors, Solver, Step, exact_quantity, presets};
 
 /// Edits that can be taken back.
@@ -87,6 +88,7 @@ pub fn select(model: &mut Model, row: usize) {
     if let Some(group) = hidden {
         model.folded.remove(group);
     }
+    model.first_listed = first_listed(model);
 }
 
 /// Folds the group of the selected parameter, which leaves its first row selected, or unfolds it.
@@ -99,6 +101,7 @@ fn fold(model: &mut Model, folds: bool) {
     } else {
         model.folded.remove(group);
     }
+    model.first_listed = first_listed(model);
 }
 
 /// Opens the editor on the selected value, which the first character typed replaces.

@@ -9,13 +9,14 @@ use crate::explorer::parameters::Parameter;
 
 /// Begins the search, in the pane of parameters.
 pub fn open(model: &mut Model) -> Vec<Effect> {
-    model.mode = Mode::Find { finder: Finder::new(model.parameters.len()), back: model.pane };
+    model.mode = Mode::Find(Finder::new(model.parameters.len()));
+    model.pane_before = model.pane;
     edit::show_parameters(model)
 }
 
 /// Finds what fits the query as it is now.
 pub fn search(model: &mut Model) -> Vec<Effect> {
-    if let Mode::Find { finder, .. } = &mut model.mode {
+    if let Mode::Find(finder) = &mut model.mode {
         finder.search(model.parameters.iter().map(Parameter::candidate));
     }
     Vec::new()
@@ -23,8 +24,7 @@ pub fn search(model: &mut Model) -> Vec<Effect> {
 
 /// Obeys a command during the search.
 pub fn obey(model: &mut Model, command: Command) -> Vec<Effect> {
-    let Mode::Find { finder, back } = &mut model.mode else { return Vec::new() };
-    let back = *back;
+    let Mode::Find(finder) = &mut model.mode else { return Vec::new() };
     match command {
         Command::Select(rows) => finder.select(rows),
         Command::Accept => {
@@ -40,7 +40,7 @@ pub fn obey(model: &mut Model, command: Command) -> Vec<Effect> {
         _ => edit_line(model, command),
     }
     if model.mode == Mode::Explore {
-        model.pane = back;
+        model.pane = model.pane_before;
         return vec![Effect::Show];
     }
     Vec::new()

@@ -170,7 +170,7 @@ fn obey(model: &mut Model, command: Command) -> Vec<Effect> {
             };
         }
         Mode::Library(_) => return library::obey(model, command),
-        Mode::Find { .. } => return find::obey(model, command),
+        Mode::Find(_) => return find::obey(model, command),
         Mode::Palette(_) => return palette::obey(model, command),
         Mode::Edit(line) => match command {
             Command::Accept => {
@@ -241,7 +241,7 @@ fn typed(model: &mut Model, text: &str) -> Vec<Effect> {
     match model.mode {
         Mode::Edit(_) => edit::preview(model),
         Mode::Library(_) => library::search(model),
-        Mode::Find { .. } => find::search(model),
+        Mode::Find(_) => find::search(model),
         Mode::Palette(_) => palette::search(model),
         _ => Vec::new(),
     }

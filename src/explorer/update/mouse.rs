@@ -13,10 +13,7 @@ use ratatui::layout::Position;
 pub fn act(model: &mut Model, mouse: Mouse) -> Vec<Effect> {
     match (&model.mode, mouse.gesture) {
         (Mode::Explore, _) => {}
-        (
-            Mode::Help { .. } | Mode::Library(_) | Mode::Find { .. } | Mode::Palette(_),
-            Gesture::Wheel(turns),
-        ) => {
+        (Mode::Help { .. } | Mode::Library(_) | Mode::Find(_) | Mode::Palette(_), Gesture::Wheel(turns)) => {
             return super::obey(model, Command::Select(-turns));
         }
         _ => return Vec::new(),
@@ -26,7 +23,7 @@ pub fn act(model: &mut Model, mouse: Mouse) -> Vec<Effect> {
     let Some((pane, area)) = layout.panes.iter().copied().find(|(_, area)| area.contains(here)) else {
         return Vec::new();
     };
-    // What began in a pane stays in that pane.
+    // A drag stays in the pane in which it began.
     let points = mouse.gesture == Gesture::Press || (mouse.gesture == Gesture::Drag && pane == model.pane);
     if let Some(effects) = points.then(|| crosshair::point_at(model, pane, area, here)).flatten() {
         model.pane = pane;

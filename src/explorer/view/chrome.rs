@@ -60,7 +60,7 @@ pub fn status(frame: &mut Frame<'_>, area: Rect, model: &Model) {
         (Mode::Tolerance(line), _) if area.width < 60 => prompted("Tolerance: ", line),
         (Mode::Tolerance(line), _) => prompted("Relative error allowed (0.1 % or 1e-3): ", line),
         (Mode::Library(library), _) => prompted("Search: ", &library.finder.query),
-        (Mode::Find { finder, .. }, _) => prompted("Find: ", &finder.query),
+        (Mode::Find(finder), _) => prompted("Find: ", &finder.query),
         (Mode::Palette(finder), _) => prompted(": ", &finder.query),
         (Mode::Overwrite { path, .. }, _) => error(format!("{} exists. Overwrite it?", path.display())),
         (Mode::Quit, _) => error("The scene has unsaved changes. Leave?".to_owned()),

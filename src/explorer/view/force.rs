@@ -202,7 +202,7 @@ pub fn stage_at(model: &Model, area: Rect, here: Position) -> Option<(usize, f64
     Some((nearest.1, nearest.2))
 }
 
-/// What the crosshair reads, for the lower edge of the frame.
+/// Readings of the crosshair, for the lower edge of the frame.
 pub fn reading(model: &Model, area: Rect) -> Option<Line<'static>> {
     model.crosshair?;
     let point = model.present()?.point;

@@ -26,7 +26,7 @@ mod wrap;
 
 pub use chart::{map_figure, place_at};
 pub use force::{indentation_at, stage_at};
-pub use parameters::parameter_at;
+pub use parameters::{first_listed, parameter_at};
 pub use position::position_at;
 pub use sections::section_cell;
 

@@ -2,7 +2,8 @@
 
 use super::typed::typed;
 use super::wrap::{clipped, filled, wrapped};
-use crate::explorer::model::{Mode, Model};
+use crate::explorer::layout::{Layout, inside};
+use crate::explorer::model::{Mode, Model, Pane};
 use crate::explorer::parameters::{Parameter, Setting};
 use crate::explorer::text_line::TextLine;
 use crate::explorer::theme::Meaning;
@@ -33,17 +34,20 @@ impl Places {
         let help_rows = if area.height >= 9 { 3 } else { u16::from(area.height >= 3) };
         let derived_rows = if area.height >= 12 { derived(model, area.width).len() as u16 } else { 0 };
         let list = Rect { height: area.height - help_rows - derived_rows, ..area };
-        let (rows, selected) = match &model.mode {
-            Mode::Find { finder, .. } => (finder.found.clone(), finder.selected),
+        let (rows, selected, first) = match &model.mode {
+            Mode::Find(finder) => (finder.found.clone(), finder.selected, 0),
             _ => {
                 let rows = model.listed();
                 let selected = rows.iter().position(|index| *index == model.selected).unwrap_or(0);
-                (rows, selected)
+                (rows, selected, model.first_listed)
             }
         };
-        // The selected row has rows above and below it, as far as there are any.
+        // The selected row has one above and one below it, as far as there are any.
         let height = usize::from(list.height);
-        let first = selected.saturating_sub(height / 2).min(rows.len().saturating_sub(height));
+        let margin = usize::from(height >= 5);
+        let lowest = (selected + 1 + margin).saturating_sub(height);
+        let first =
+            first.min(selected.saturating_sub(margin)).max(lowest).min(rows.len().saturating_sub(height));
         let derived = Rect { y: list.bottom(), height: derived_rows, ..area };
         let help = Rect { y: derived.bottom(), height: help_rows, ..area };
         Places { list, derived, help, rows, selected, first }
@@ -53,6 +57,12 @@ impl Places {
     fn is_scrolled(&self) -> bool {
         self.rows.len() > usize::from(self.list.height)
     }
+}
+
+/// Place of the first row in sight, which takes the list along as little as the selected row needs.
+pub fn first_listed(model: &Model) -> usize {
+    let pane = Layout::of(model).pane(Pane::Parameters);
+    pane.map_or(model.first_listed, |area| Places::within(inside(area), model).first)
 }
 
 /// The parameter in a row of the screen.

@@ -43,7 +43,7 @@ pub fn add_crosshair(chart: &mut Chart, moment: &Moment) {
     chart.layers.splice(0..0, lines.map(|line| Layer::unnamed(Ink::Cursor, line)));
 }
 
-/// What the crosshair reads: position, height, and the gap or the stretch of the spring.
+/// Readings of the crosshair: position, height, and the gap or the stretch of the spring.
 fn reading(moment: &Moment, theme: Theme) -> Vec<Vec<Text<'static>>> {
     let Some(probe) = moment.probe else { return Vec::new() };
     let length = |value: f64| format_quantity(short(value), "m");
@@ -60,7 +60,7 @@ fn reading(moment: &Moment, theme: Theme) -> Vec<Vec<Text<'static>>> {
     at.into_iter().chain([state]).chain(patch).map(part).collect()
 }
 
-/// What the crosshair reads, or label of the heights, names of the lines and further signs, as far as there is room on
+/// Readings of the crosshair, or label of the heights, names of the lines and further signs, as far as there is room on
 /// the frame.
 pub fn names(
     moment: &Moment,
