@@ -1006,7 +1006,7 @@ fn scenes_are_drawn_and_pictures_hold_nothing_else() {
             run(&["jkr-sphere"], &["--format", "json", "-o", &picture]),
             "not an ending of what is written; allowed: .json",
         ),
-        (run(&["jkr-sphere"], &["-o", &path("a.gif")]), "allowed: .json, .csv, .svg, .png"),
+        (run(&["jkr-sphere"], &["-o", &path("a.gif")]), "allowed: .json, .csv, .npy, .svg, .png"),
         (run(&["jkr-sphere"], &["--profile", "-o", &other]), "only a picture shows --profile"),
         (run(&["jkr-sphere", "kendall-punch"], &["-o", &other]), "only a picture shows several scenes"),
         (run(&["jkr-sphere"], &["--lines", "2", "-o", &picture]), "--lines: a picture shows one profile"),

@@ -234,7 +234,7 @@ pub const BINDINGS: &[Binding] = &[
     row(&[char('T')], EXPLORE, Command::NextTheme, "", "change the colours", LOOK),
     row(&[char('M')], EXPLORE, Command::NextMarker, "", "change the markers: braille, octants, half blocks, ASCII", LOOK),
 
-    row(&[char('*')], EXPLORE, Command::ToggleCrosshair, "read", "show or hide the crosshair: read d, F, l, n on the force curve and x, z on profile and close-up, linked", CROSS),
+    row(&[char('*')], EXPLORE, Command::ToggleCrosshair, "read", "show or hide the crosshair: d, F, l, n on the force curve, x, z on profile and close-up", CROSS),
     row(&[key(KeyCode::Left), char('h')], CROSSHAIR, cross(-1, false), "", "move the crosshair left: along the loading stage, or along the profile", CROSS),
     row(&[key(KeyCode::Right), char('l')], CROSSHAIR, cross(1, false), "move", "move the crosshair right", CROSS),
     row(&[shift(KeyCode::Left), char('H')], CROSSHAIR, cross(-1, true), "", "move the crosshair left by a large step", CROSS),

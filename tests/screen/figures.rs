@@ -47,7 +47,7 @@ fn elements(svg: &str, kind: &str) -> Vec<Element> {
         let inside = behind.split(&format!("</{kind}>")[..]).next().unwrap();
         let text =
             inside.split('<').map(|part| part.split_once('>').map_or(part, |(_, text)| text)).collect();
-        Element { tag: tag.to_owned(), text }
+        Element { tag: format!(" {tag}"), text }
     };
     svg.split(&format!("<{kind} ")[..]).skip(1).map(element).collect()
 }
