@@ -728,6 +728,7 @@ fn wrong_usage_is_exit_code_two() {
         &["line", "jkr-sphere", "--force"],
         &["presets"],
         &["presets", "check"],
+        &["reversals"],
         &["completions", "no-such-shell"],
         &["--set"],
         &["rough-sphere", "jkr-sphere"],

@@ -10,7 +10,6 @@ mod common {
 
 use asperity::explorer::action::{Action, Command};
 use asperity::explorer::keys::BINDINGS;
-use asperity::explorer::model::Mode;
 use asperity::explorer::parameters::parameters;
 use asperity::explorer::update::{Effect, update};
 use asperity::explorer::{Opening, view};
@@ -299,12 +298,10 @@ impl Explorer {
             assert!(model.player.leg < model.legs().len(), "{:?}", model.player);
             assert!(!model.is_computing());
         }
-        if let Mode::Edit(line) | Mode::Force(line) | Mode::Export(line) | Mode::SaveAs { line, .. } =
-            &model.mode
-        {
+        if let Some(line) = self.driver.model.mode.line_mut() {
             assert!(!line.text().contains(char::is_control));
         }
-        self.draw(model.size);
+        self.draw(self.driver.model.size);
     }
 
     /// Lets the worker catch up: what is shown is then what is explored, or it is told why not.

@@ -166,7 +166,10 @@ impl Server {
     /// The explorer behind a connection, in a terminal. Its process number comes to stand in a file.
     fn explorer(&self, arguments: &str) -> Terminal {
         let pid = self.pid_file();
-        let remote = format!("echo $$ > '{}'; exec '{ASPERITY}' {arguments}", pid.display());
+        // Nothing of the user's is read or written.
+        let home = self.folder.path();
+        let remote =
+            format!("echo $$ > '{}'; HOME='{}' exec '{ASPERITY}' {arguments}", pid.display(), home.display());
         let mut program = Program::new(&self.ssh).argument("-tt");
         for argument in self.arguments() {
             program = program.argument(argument);

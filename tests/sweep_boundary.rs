@@ -93,9 +93,9 @@ fn a_boundary_in_kappa_is_one_in_elastic_energy() {
     let spreads = spread["spreads"].as_array().unwrap();
     let values = [&kappas, &ratios].map(|all| [[all[0].1, all[2].1], [all[1].1, all[3].1]]);
     for (place, spread) in spreads.iter().enumerate() {
-        let [one, other] = values[place % 2][place / 2];
+        let [one, other] = values[place / 2][place % 2];
         let ratio = (one / other).max(other / one);
-        assert_eq!(spread["over"], ["kappa", "elastic_energy_ratio"][place % 2]);
+        assert_eq!(spread["over"], ["kappa", "elastic_energy_ratio"][place / 2]);
         assert!((spread["ratio"].as_f64().unwrap() / ratio - 1.0).abs() < 1e-12, "{spread}");
         assert_eq!(spread["ratio"], spread["ratio_over"]["H"], "{spread}");
     }

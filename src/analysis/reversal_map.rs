@@ -101,36 +101,36 @@ mod tests {
 
     /// A map of the forces of a function of the turning point and the indentation.
     fn map(force: impl Fn(f64, f64) -> f64) -> ReversalMap {
-        let points: Vec<f64> = (0..12).map(|index| 0.25 * f64::from(index) - 0.5).collect();
-        let below = 4;
+        let points: Vec<f64> = (0..20).map(|index| 0.25 * f64::from(index) - 2.0).collect();
+        let below = 8;
         let reversal = |turn: usize| {
             let at = points[below + turn];
             let forces = points[..=below + turn].iter().map(|&point| force(at, point)).collect();
             let turn = CurvePoint { indentation: at, force: force(at, at), ..CurvePoint::default() };
             Reversal { turn, smallest: turn, separation: -0.5, dissipated_energy: 1.0, forces }
         };
-        ReversalMap { reversals: (0..8).map(reversal).collect(), points, below }
+        ReversalMap { reversals: (0..12).map(reversal).collect(), points, below }
     }
 
     #[test]
     fn quadratics_have_their_own_density() {
         let map = map(|r, d| 3.0 - 2.0 * r + d + 5.0 * r * r - 0.5 * d * d + 7.0 * r * d);
         for smoothing in 1..=3 {
-            let density = map.density(4, 5, smoothing).unwrap();
+            let density = map.density(6, 5, smoothing).unwrap();
             assert!((density + 3.5).abs() < 1e-12, "{density}");
         }
-        assert_eq!(map.density(0, 2, 1), None);
+        assert_eq!(map.density(0, 5, 1), None);
         // The point beyond would lie above the shallowest of the turning points.
-        assert_eq!((map.density(4, 7, 1), map.density(4, 6, 1).is_some()), (None, true));
+        assert_eq!((map.density(4, 11, 1), map.density(4, 10, 1).is_some()), (None, true));
         assert_eq!(map.step(), 0.25);
     }
 
     #[test]
     fn the_everett_function_is_half_of_the_fall() {
         let map = map(|r, d| 10.0 * r + d);
-        assert_eq!(map.everett(0, 4), Some(0.0));
-        assert_eq!(map.everett(1, 4), Some(0.125));
-        assert_eq!(map.everett(0, 5), None);
+        assert_eq!(map.everett(0, 8), Some(0.0));
+        assert_eq!(map.everett(1, 8), Some(0.125));
+        assert_eq!(map.everett(0, 9), None);
     }
 
     #[test]

@@ -1,9 +1,9 @@
 //! Arguments of the program.
 
 use super::{
-    CheckArguments, CompareArguments, CompletionsArguments, CostArguments, DemoArguments, ExploreArguments,
-    LineArguments, PlanArguments, PresetsCommand, ReversalsArguments, RunArguments, SurfaceArguments,
-    SweepArguments,
+    CheckArguments, CompareArguments, CompletionsArguments, ConfigArguments, CostArguments, DemoArguments,
+    ExploreArguments, LineArguments, PlanArguments, PresetsCommand, ReversalsArguments, RunArguments,
+    SurfaceArguments, SweepArguments,
 };
 use clap::{Parser, Subcommand};
 
@@ -50,7 +50,7 @@ pub enum Command {
     Run(RunArguments),
     /// Show two scenes side by side: profiles, force curves, what differs
     Compare(CompareArguments),
-    /// Unload a scene from many turning points: adhesion against preload, reversal curves, maps
+    /// Unload from many turning points: adhesion against preload, reversal curves
     Reversals(ReversalsArguments),
     /// Play the explorer without a keyboard: on screen, as text, or as a recording
     Demo(DemoArguments),
@@ -69,6 +69,8 @@ pub enum Command {
     /// List, show and check scenes
     #[command(subcommand)]
     Presets(PresetsCommand),
+    /// Print the configuration of the explorer, or write a file to begin with
+    Config(ConfigArguments),
     /// Print a completion script for a shell
     Completions(CompletionsArguments),
 }

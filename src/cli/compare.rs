@@ -42,7 +42,7 @@ pub(super) fn compare(arguments: &CompareArguments, out: &mut dyn Write) -> Resu
     let (first, second) = (open(&arguments.first)?, open(&arguments.second)?);
     if stdin().is_terminal() && stdout().is_terminal() {
         let opening = Opening { beside: Some(second), ..Opening::from(first) };
-        return explore::open(opening, arguments.look, out);
+        return explore::open(opening, arguments.look.options(), out);
     }
     let outcomes = [compute(&first)?, compute(&second)?];
     let pair = [(&first, &outcomes[0]), (&second, &outcomes[1])];

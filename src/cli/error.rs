@@ -3,6 +3,7 @@
 use crate::accuracy::{ChoiceError, CostError};
 use crate::draw::PngError;
 use crate::explorer::OpeningError;
+use crate::explorer::config::ConfigError;
 use crate::io::WriteError;
 use crate::scene::{SceneErrors, quoted};
 use crate::simulation::RunError;
@@ -89,6 +90,12 @@ pub enum CliError {
         /// Reason.
         error: SpectrumError,
     },
+    /// The configuration is refused.
+    #[error(transparent)]
+    Config(#[from] ConfigError),
+    /// Unsaved changes of another session cannot be opened.
+    #[error("--restore: {0}")]
+    Restore(String),
     /// A table of spectra is not computed again.
     #[error("{file}: {reason}")]
     Spectra {

@@ -1,19 +1,23 @@
 //! `asperity [SCENE]`: opens the explorer on a scene or on a finished study.
 
 use super::{Arguments, CliError, Overrides};
+use crate::explorer::config::{Config, default_path};
+use crate::explorer::drafts::{Restored, restore};
 use crate::explorer::theme::{Marker, Theme};
 use crate::explorer::{self, Opening, OpeningError, Options};
 use crate::export::brief_summary;
 use crate::scene::DEFAULT;
 use clap::{Args, CommandFactory};
 use std::io::{IsTerminal, Write, stdin, stdout};
+use std::path::{Path, PathBuf};
 
 /// Arguments of the explorer.
 #[derive(Args, Debug)]
 pub struct ExploreArguments {
     /// Explore this scene file, built-in scene (see `asperity presets list`), or merged study
     ///
-    /// The folder of a merged study opens its map over κ and H, if the study varies both.
+    /// The folder of a merged study opens its map, or the section along its only axis. Default: `scene` of the
+    /// configuration file, else pressure-sensitive.
     pub scene: Option<String>,
     /// Overrides of the scene.
     #[command(flatten)]
@@ -21,6 +25,20 @@ pub struct ExploreArguments {
     /// Colours and markers of the explorer, and its mouse.
     #[command(flatten)]
     pub look: LookArguments,
+    /// Read this configuration file
+    ///
+    /// Default: asperity/config.ron in the configuration folder of the user, by default ~/.config, where it exists.
+    #[arg(long, value_name = "FILE")]
+    pub config: Option<PathBuf>,
+    /// Read no configuration file
+    #[arg(long, conflicts_with = "config")]
+    pub no_config: bool,
+    /// Open the unsaved changes of a session that was interrupted
+    ///
+    /// While the explorer runs, unsaved changes are kept in the state folder of the user, by default
+    /// ~/.local/state/asperity/unsaved. They are removed on saving and on leaving without saving.
+    #[arg(long, conflicts_with_all = ["scene", "set"])]
+    pub restore: bool,
 }
 
 /// Colours and markers of the explorer, and its mouse.
@@ -42,8 +60,8 @@ pub struct LookArguments {
 }
 
 impl LookArguments {
-    fn options(self) -> Options {
-        Options { theme: self.theme, marker: self.marker, no_mouse: self.no_mouse }
+    pub(super) fn options(self) -> Options {
+        Options { theme: self.theme, marker: self.marker, no_mouse: self.no_mouse, ..Options::default() }
     }
 }
 
@@ -51,7 +69,12 @@ impl LookArguments {
 ///
 /// On leaving, prints a brief summary of the last scene.
 pub(super) fn explore(arguments: &ExploreArguments, out: &mut dyn Write) -> Result<(), CliError> {
-    let opening = opening(arguments)?;
+    let drafts = explorer::drafts::folder();
+    let restored = if arguments.restore { Some(restored(drafts.as_deref())?) } else { None };
+    let first = restored.as_ref().and_then(|restored| restored.documents.first().cloned());
+    let config = config(arguments)?;
+    let scene = config.scene.as_deref();
+    let opening = first.map_or_else(|| opening(arguments, scene), |document| Ok(document.into()))?;
     if !stdin().is_terminal() || !stdout().is_terminal() {
         let name = opening.document.name().into();
         return Err(match opening.study_map {
@@ -59,16 +82,15 @@ pub(super) fn explore(arguments: &ExploreArguments, out: &mut dyn Write) -> Resu
             Some(_) => CliError::NoTerminalForStudy { folder: name },
         });
     }
-    open(opening, arguments.look, out)
+    open(opening, Options { restored, config, drafts, ..arguments.look.options() }, out)
 }
 
 /// Opens the explorer in the terminal; on leaving, prints a brief summary of the last scene.
-pub(super) fn open(opening: Opening, look: LookArguments, out: &mut dyn Write) -> Result<(), CliError> {
+pub(super) fn open(opening: Opening, options: Options, out: &mut dyn Write) -> Result<(), CliError> {
     if std::env::var_os("TERM").is_some_and(|term| term == "dumb") {
         return Err(CliError::DumbTerminal { scene: opening.document.name().into() });
     }
-    let left =
-        explorer::open(opening, look.options()).map_err(|error| CliError::Explorer(error.to_string()))?;
+    let left = explorer::open(opening, options).map_err(|error| CliError::Explorer(error.to_string()))?;
     if let Some(signal) = left.signal {
         explorer::end_by(signal);
     }
@@ -78,8 +100,23 @@ pub(super) fn open(opening: Opening, look: LookArguments, out: &mut dyn Write) -
     Ok(())
 }
 
-fn opening(arguments: &ExploreArguments) -> Result<Opening, CliError> {
-    let name = arguments.scene.as_deref().unwrap_or(DEFAULT);
+/// Unsaved changes of an interrupted session.
+fn restored(folder: Option<&Path>) -> Result<Restored, CliError> {
+    let none = || CliError::Restore("no unsaved changes are kept; asperity opens a scene".to_owned());
+    restore(folder.ok_or_else(none)?).map_err(CliError::Restore)?.ok_or_else(none)
+}
+
+/// The configuration that the arguments name, or that of the user.
+fn config(arguments: &ExploreArguments) -> Result<Config, CliError> {
+    match (&arguments.config, default_path()) {
+        (Some(path), _) => Ok(Config::read(path, true)?),
+        (None, Some(path)) if !arguments.no_config => Ok(Config::read(&path, false)?),
+        _ => Ok(Config::default()),
+    }
+}
+
+fn opening(arguments: &ExploreArguments, default: Option<&str>) -> Result<Opening, CliError> {
+    let name = arguments.scene.as_deref().or(default).unwrap_or(DEFAULT);
     let mut opening = Opening::of_argument(name).map_err(|error| match error {
         OpeningError::Scene(errors) => {
             // A single word that is no scene may have been meant as a command.

@@ -7,6 +7,7 @@ mod arguments;
 mod check;
 mod compare;
 mod completions;
+mod config;
 mod cost;
 mod demo;
 mod error;
@@ -27,6 +28,7 @@ pub use arguments::{Arguments, Command};
 pub use check::{CheckArguments, CheckFormat};
 pub use compare::CompareArguments;
 pub use completions::CompletionsArguments;
+pub use config::ConfigArguments;
 pub use cost::{CostArguments, CostFormat};
 pub use demo::DemoArguments;
 pub use error::CliError;
@@ -96,6 +98,7 @@ fn dispatch(arguments: &Arguments, stdout: &mut dyn Write) -> Result<(), CliErro
         Some(Command::Line(arguments)) => line::line(arguments, stdout),
         Some(Command::Surface(arguments)) => surface::surface(arguments, stdout),
         Some(Command::Presets(command)) => presets::presets(command, stdout),
+        Some(Command::Config(arguments)) => config::config(arguments, stdout),
         Some(Command::Completions(arguments)) => completions::completions(arguments, stdout),
     }
 }

@@ -3,7 +3,7 @@
 use super::CliError;
 use crate::export::sheet::Sheet;
 use crate::io::write_json_value;
-use crate::scene::{self, Document, Entry, Library, Source, Text, line_column};
+use crate::scene::{self, Document, Entry, Library, Text, line_column};
 use crate::simulation::measured_options;
 use crate::surface::MeasuredRoughness;
 use crate::text::printable;
@@ -26,7 +26,7 @@ Example:
 /// Subcommands on scenes.
 #[derive(Debug, Subcommand)]
 pub enum PresetsCommand {
-    /// List the built-in scenes and one's own
+    /// List the built-in scenes, one's own and those of the working folder
     List {
         /// Format of the list
         #[arg(long, value_enum, default_value_t = ListFormat::Text)]
@@ -52,7 +52,7 @@ pub enum PresetsCommand {
 pub enum ListFormat {
     /// Name and title in columns.
     Text,
-    /// Objects with name, title and notice; one's own scenes with path, and error if wrong.
+    /// Objects with name, title and notice; scenes of files with path, and error if wrong.
     Json,
 }
 
@@ -79,7 +79,7 @@ pub(super) fn presets(command: &PresetsCommand, stdout: &mut dyn Write) -> Resul
 
 fn list(format: ListFormat, stdout: &mut dyn Write) -> Result<(), CliError> {
     let library = Library::of_environment();
-    let entries = [Source::BuiltIn, Source::Own].map(|origin| library.list_of(origin)).concat();
+    let entries = library.list();
     match format {
         ListFormat::Json => {
             let listed: Vec<_> = entries.into_iter().map(Listed::from).collect();
@@ -108,9 +108,8 @@ fn show(name: &str, stdout: &mut dyn Write) -> Result<(), CliError> {
     if let Some(preset) = scene::find(name) {
         return Ok(stdout.write_all(preset.text.as_bytes())?);
     }
-    if let Some(path) = Library::of_environment().own_scene(name) {
-        let document = scene::open(&path.display().to_string())?;
-        return Ok(stdout.write_all(document.text().as_bytes())?);
+    if let Some(entry) = Library::of_environment().list().into_iter().find(|entry| entry.name == name) {
+        return Ok(stdout.write_all(entry.document()?.text().as_bytes())?);
     }
     let names: Vec<_> = scene::presets().iter().map(|preset| preset.name).collect();
     Err(CliError::NoPreset { name: name.into(), allowed: names.join(", ") })

@@ -37,16 +37,18 @@ pub struct ReversalsArguments {
     /// Turning points
     #[arg(long, value_name = "COUNT", default_value_t = 64, value_parser = clap::value_parser!(u16).range(*TURNING_POINTS.start() as i64..=*TURNING_POINTS.end() as i64))]
     pub count: u16,
-    /// Forces between which the turning points are: 1uN..20uN; default: first touch to the preload of the scene
+    /// Turn between the indentations of two forces: 1uN..20uN
+    ///
+    /// Default: between first touch and the preload of the scene.
     #[arg(long, value_name = "FROM..TO", value_parser = forces)]
     pub preloads: Option<(f64, f64)>,
-    /// Steps on either side over which the density is fitted by a quadratic
+    /// Steps on either side of the quadratic fit of the density
     #[arg(long, value_name = "STEPS", default_value_t = 3, value_parser = clap::value_parser!(u8).range(1..=MOST_SMOOTHING))]
     pub smoothing: u8,
-    /// Upper, and lower, indentations of the minor loops that are compared; 0: none
+    /// Upper, and lower, ends of the minor loops; 0: no loops
     #[arg(long, value_name = "LEVELS", default_value_t = 12, value_parser = clap::value_parser!(u8).range(0..=MOST_LEVELS))]
     pub loops: u8,
-    /// Write CSV with one row for each point of the map in place of each turning point
+    /// CSV with a row for each point of the map, not each turning point
     #[arg(long)]
     pub map: bool,
     /// text, json, csv or svg; default: by the extension of FILE, else text

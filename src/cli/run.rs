@@ -47,7 +47,7 @@ pub struct RunArguments {
     /// More scenes, whose force curves are drawn into the same picture
     #[arg(value_name = "SCENE")]
     pub more: Vec<String>,
-    /// summary, json, csv, npy, svg or png; default: by the extension of FILE, else summary
+    /// summary, json, csv, npy, svg or png; default: by the extension of FILE
     ///
     /// A summary is text for a person. JSON is one object with scene, profile, figures, curve,
     /// contacts and work. CSV is the curve: leg,indentation,force,contact_length,fragments.
@@ -72,11 +72,12 @@ pub struct RunArguments {
     /// CSV then has one row for each seed. A tolerance applies to the first profile.
     #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u32).range(2..=MOST_LINES), verbatim_doc_comment)]
     pub lines: Option<u32>,
-    /// Adhesion force for preloads from A to B, 64 or COUNT of them, in place of the loading
+    /// Adhesion force for many preloads in place of the loading
     ///
-    /// One loading and one unloading from each preload. With --lines the mean over the profiles
-    /// and its 95 % confidence. Forces take units: 0..20uN:128
-    #[arg(long, value_name = "A..B[:COUNT]", conflicts_with_all = ["more", "profile", "fragments"], value_parser = parse_preloads, verbatim_doc_comment)]
+    /// 64 preloads at equal distances, or as many as follow a colon: 0..20uN:128. One loading,
+    /// and one unloading from each preload. With --lines the mean over the profiles and its
+    /// 95 % confidence.
+    #[arg(long, value_name = "A..B", conflicts_with_all = ["more", "profile", "fragments"], value_parser = parse_preloads, verbatim_doc_comment)]
     pub preloads: Option<Preloads>,
     /// Threads that share the profiles; default: one for each core
     #[arg(long, value_name = "COUNT", requires = "lines", value_parser = clap::value_parser!(u16).range(1..=1024))]

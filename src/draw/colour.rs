@@ -85,8 +85,10 @@ pub enum Ink {
     Unloading,
     /// Manual loading.
     Manual,
-    /// A curve kept for comparison.
+    /// A curve in the background, kept while another one is shown.
     Kept,
+    /// One of several curves kept for comparison, counted from 0.
+    Compared(usize),
     /// The present state.
     Cursor,
     /// One of several curves, counted from 0.
@@ -106,6 +108,7 @@ impl Ink {
             Ink::Loading => ansi[2],
             Ink::Unloading => ansi[5],
             Ink::Manual => ansi[6],
+            Ink::Compared(number) => [ansi[4], ansi[6], ansi[3], ansi[8]][number % 4],
             // Blue, red, black, green, magenta: neighbours differ in lightness.
             Ink::Series(number) => [ansi[4], ansi[1], foreground, ansi[2], ansi[5]][number % 5],
         }

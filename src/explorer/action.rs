@@ -59,6 +59,12 @@ pub enum Action {
     Opened(Result<Box<Opening>, String>),
     /// The curve of a scene to look at.
     Previewed(Arc<Preview>),
+    /// Colours and markers are in the configuration file, or not, and why.
+    Remembered(Result<PathBuf, String>),
+    /// Unsaved changes of a session that was interrupted are kept: the names of their scenes.
+    Offered(Vec<String>),
+    /// Unsaved changes cannot be kept, and why.
+    NotKept(String),
     /// What the connection carries.
     Traffic(Traffic),
     /// The mouse did something.
@@ -295,8 +301,14 @@ pub enum Command {
     NextTheme,
     /// Other markers in the plots.
     NextMarker,
+    /// Keep colours and markers in the configuration file.
+    RememberAppearance,
+    /// Go to the next or previous line of several that are typed.
+    NextLine(i32),
     /// Accept the line of text or the question.
     Accept,
+    /// Answer the question with no.
+    Refuse,
     /// Leave the line of text or the question.
     Cancel,
     /// Move in a line of text.

@@ -3,8 +3,10 @@
 
 use super::action::{Action, Content, WriteFailure};
 use super::completion::complete;
+use super::config::remember;
 use super::model::Model;
 use super::opening::Opening;
+use super::theme::Appearance;
 use super::writing;
 use crate::scene::Library;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -14,6 +16,8 @@ use std::path::PathBuf;
 pub(super) enum FileJob {
     /// Write a file from the model as it was asked for.
     Write { model: Box<Model>, path: PathBuf, content: Content, overwrite: bool },
+    /// Keep colours and markers in the configuration file.
+    Remember { path: PathBuf, appearance: Appearance },
     /// List the scenes of the library.
     List,
     /// List the paths that complete a typed one.
@@ -27,6 +31,7 @@ impl FileJob {
     pub fn describe(&self) -> String {
         match self {
             FileJob::Write { path, .. } => format!("writing {} …", path.display()),
+            FileJob::Remember { path, .. } => format!("writing {} …", path.display()),
             FileJob::List => "listing scenes …".to_owned(),
             FileJob::Complete(_) => "listing files …".to_owned(),
             FileJob::Open(name) => format!("opening {name} …"),
@@ -56,6 +61,10 @@ impl FileJob {
         match self {
             FileJob::Write { model, path, content, overwrite } => {
                 Action::Written(writing::write(&model, path, content, overwrite))
+            }
+            FileJob::Remember { path, appearance } => {
+                let remembered = remember(&path, appearance).map_err(|error| error.to_string());
+                Action::Remembered(remembered.map(|()| path))
             }
             FileJob::List => Action::Listed(Library::of_environment().list()),
             FileJob::Complete(typed) => {

@@ -87,13 +87,12 @@ impl Headless {
             }
             Effect::StopPreview
             | Effect::Write { .. }
+            | Effect::Remember { .. }
             | Effect::Complete(_)
             | Effect::List
             | Effect::Open(_)
             | Effect::Copy(_)
-            | Effect::Suspend => {
-                return Vec::new();
-            }
+            | Effect::Suspend => return Vec::new(),
         };
         self.newest.set_generation(generation);
         if let Request::Preview { scene, .. } = &request {

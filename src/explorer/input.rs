@@ -1,7 +1,7 @@
 //! What comes in: keys and mouse on a thread of their own, and the actions they mean.
 
 use super::action::{Action, Gesture, Mouse};
-use super::keys;
+use super::keys::Bindings;
 use super::mode::ModeKind;
 use crossterm::event::{Event, KeyCode, KeyEventKind, KeyModifiers, MouseButton, MouseEvent, MouseEventKind};
 
@@ -27,10 +27,10 @@ pub fn read(send: impl Fn(Option<Event>) -> bool + Send + 'static) -> std::io::R
 }
 
 /// The action of an input event in a mode; `None` for one that means nothing.
-pub fn action_of(event: &Event, mode: ModeKind) -> Option<Action> {
+pub fn action_of(event: &Event, bindings: &Bindings, mode: ModeKind) -> Option<Action> {
     match event {
         Event::Key(key) if key.kind == KeyEventKind::Press => {
-            if let Some(command) = keys::command(key, mode) {
+            if let Some(command) = bindings.command(key, mode) {
                 return Some(Action::Command(command));
             }
             match key.code {

@@ -2,12 +2,15 @@
 
 use super::action::{Command, Jump, Motion};
 use super::mode::ModeKind;
+use crate::scene::nearest;
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
+use std::borrow::Cow;
 
 /// A row of the table: keys, where they are valid, and what they do.
+#[derive(Clone, Debug, PartialEq)]
 pub struct Binding {
     /// The keys.
-    pub keys: &'static [Key],
+    pub keys: Cow<'static, [Key]>,
     /// The modes in which they are valid.
     pub modes: &'static [ModeKind],
     /// What they do.
@@ -61,6 +64,51 @@ impl Key {
         }
         prefix + &name
     }
+
+    /// The key of a name, as [`Key::name`] writes it, or in the words on a keyboard: `Up`, `Ctrl+p`, `Shift+Left`.
+    #[must_use]
+    pub fn named(name: &str) -> Option<Key> {
+        let (control, rest) = name.strip_prefix("Ctrl+").map_or((false, name), |rest| (true, rest));
+        let (shift, rest) = rest.strip_prefix("Shift+").map_or((false, rest), |rest| (true, rest));
+        let mut characters = rest.chars();
+        let code = match (characters.next(), characters.next()) {
+            (Some(arrow @ ('↑' | '↓' | '←' | '→')), None) => match arrow {
+                '↑' => KeyCode::Up,
+                '↓' => KeyCode::Down,
+                '←' => KeyCode::Left,
+                _ => KeyCode::Right,
+            },
+            // Shift is part of a character.
+            (Some(character), None) if !shift && !crate::text::is_control(character) => {
+                KeyCode::Char(character)
+            }
+            _ => match rest {
+                "space" => KeyCode::Char(' '),
+                "Tab" if shift => KeyCode::BackTab,
+                "Up" => KeyCode::Up,
+                "Down" => KeyCode::Down,
+                "Left" => KeyCode::Left,
+                "Right" => KeyCode::Right,
+                "Tab" => KeyCode::Tab,
+                "Enter" => KeyCode::Enter,
+                "Esc" => KeyCode::Esc,
+                "Home" => KeyCode::Home,
+                "End" => KeyCode::End,
+                "PageUp" => KeyCode::PageUp,
+                "PageDown" => KeyCode::PageDown,
+                "Insert" => KeyCode::Insert,
+                "Delete" => KeyCode::Delete,
+                "Backspace" => KeyCode::Backspace,
+                function => KeyCode::F(
+                    function.strip_prefix('F')?.parse().ok().filter(|number| (1..=12).contains(number))?,
+                ),
+            },
+        };
+        let mut modifiers = KeyModifiers::NONE;
+        modifiers.set(KeyModifiers::CONTROL, control);
+        modifiers.set(KeyModifiers::SHIFT, shift && code != KeyCode::BackTab);
+        Some(Key { code, modifiers })
+    }
 }
 
 const fn key(code: KeyCode) -> Key {
@@ -108,6 +156,8 @@ const SEARCHED: &[ModeKind] = &[ModeKind::Library, ModeKind::Find, ModeKind::Pal
 /// Lines with a path in them.
 const PATH: &[ModeKind] = &[ModeKind::Edit, ModeKind::SaveAs, ModeKind::Export, ModeKind::Library];
 const ASK: &[ModeKind] = &[ModeKind::Overwrite];
+const SAVE: &[ModeKind] = &[ModeKind::SaveAs];
+const COMMENTS: &[ModeKind] = &[ModeKind::StaleComments];
 const LEAVE: &[ModeKind] = &[ModeKind::Quit];
 const ANY: &[ModeKind] = &ModeKind::ALL;
 
@@ -153,7 +203,7 @@ const fn row(
     help: &'static str,
     section: &'static str,
 ) -> Binding {
-    Binding { keys, modes, command, label, help, section }
+    Binding { keys: Cow::Borrowed(keys), modes, command, label, help, section }
 }
 
 const fn step(steps: i32, coarse: bool) -> Command {
@@ -226,10 +276,11 @@ pub const BINDINGS: &[Binding] = &[
     row(&[char('w')], EXPLORE, Command::ToggleFollow, "", "keep the profile centred on the patch of the close-up", LOOK),
     row(&[char('0')], OTHER_PANES, Command::ResetZoom, "", "show the whole profile", LOOK),
     row(&[char('A')], EXPLORE, Command::ToggleAccuracy, "accuracy", "show errors against time and the computing stages, in place of profile and close-up", LOOK),
-    row(&[char('Q')], EXPLORE, Command::ToggleSpectrum, "", "show spectra over the wave number q, measured, fitted and of the profile, in place of profile and close-up", LOOK),
+    row(&[char('Q')], EXPLORE, Command::ToggleSpectrum, "", "show spectra over the wave number q in place of profile and close-up", LOOK),
     row(&[char('i')], EXPLORE, Command::TogglePreloads, "", "show adhesion against preload, in place of profile and close-up", LOOK),
     row(&[key(KeyCode::Tab)], EXPLORE, Command::NextPane, "pane", "select the next pane", LOOK),
     row(&[char('z')], EXPLORE, Command::ZoomPane, "zoom", "show the selected pane on the whole screen, or all panes", LOOK),
+    row(&[control('s')], EXPLORE, Command::RememberAppearance, "", "keep the present colours and markers in the configuration file", LOOK),
     row(&[char('I')], EXPLORE, Command::ToggleWork, "", "show springs and stage times in the status line, or contact, stiffness, pressure and energy", LOOK),
     row(&[char('T')], EXPLORE, Command::NextTheme, "", "change the colours", LOOK),
     row(&[char('M')], EXPLORE, Command::NextMarker, "", "change the markers: braille, octants, half blocks, ASCII", LOOK),
@@ -247,14 +298,14 @@ pub const BINDINGS: &[Binding] = &[
 
     row(&[char('m')], EXPLORE, Command::ToggleChart, "map", "show the regimes over H and κ, in place of profile and close-up", MAP),
     row(&[key(KeyCode::Left), char('h')], CHART, Command::MoveAcross(-1), "", "move the scene to the value on the left: decrease H; successive moves are one edit", MAP),
-    row(&[key(KeyCode::Right), char('l')], CHART, Command::MoveAcross(1), "across", "move the scene to the value on the right: increase H", MAP),
+    row(&[key(KeyCode::Right), char('l')], CHART, Command::MoveAcross(1), "move", "move the scene to the value on the right: increase H", MAP),
     row(&[key(KeyCode::Down), char('j')], CHART, Command::MoveUp(-1), "", "move the scene to the value below: decrease κ", MAP),
-    row(&[key(KeyCode::Up), char('k')], CHART, Command::MoveUp(1), "up", "move the scene to the value above: increase κ", MAP),
+    row(&[key(KeyCode::Up), char('k')], CHART, Command::MoveUp(1), "", "move the scene to the value above: increase κ", MAP),
     row(&[shift(KeyCode::Left), char('H')], CHART, Command::MoveAcross(-4), "", "move by four values to the left", MAP),
     row(&[shift(KeyCode::Right), char('L')], CHART, Command::MoveAcross(4), "", "move by four values to the right", MAP),
     row(&[shift(KeyCode::Down), char('J')], CHART, Command::MoveUp(-4), "", "move by four values down: half the κ", MAP),
     row(&[shift(KeyCode::Up), char('K')], CHART, Command::MoveUp(4), "", "move by four values up: twice the κ", MAP),
-    row(&[char('t')], CHART, Command::TransposeMap, "transpose", "exchange the axes: κ across and H up, or H across and κ up", MAP),
+    row(&[char('t')], CHART, Command::TransposeMap, "axes", "exchange the axes: κ across and H up, or H across and κ up", MAP),
     row(&[char('X')], CHART, Command::ToggleSections, "sections", "show sections through the scene along both axes, or the map", MAP),
     row(&[char('V')], CHART, Command::NextCharted, "quantity", "map another quantity: regime, F_a(0)/F_a,max, F_a/F_n; all recorded ones of a study", MAP),
     row(&[char('W')], CHART, Command::ToggleStudy, "", "show the map of the opened study, or the live map", MAP),
@@ -264,7 +315,7 @@ pub const BINDINGS: &[Binding] = &[
     row(&[char('o')], EXPLORE, Command::OpenLibrary, "open", "open a scene: built-in, your own, or by path; or the folder of a study", SCENE),
     row(DIGITS.split_at(1).1, OTHER_PANES, Command::Preset(0), "", "open a built-in scene by its number, unless the pane of parameters is selected", SCENE),
     row(&[char('s')], EXPLORE, Command::Save, "save", "save the scene to a file", SCENE),
-    row(&[char('E')], EXPLORE, Command::Export, "export", "export the curve (.csv, .npy), all figures (.json) or the panes (.svg, .txt)", SCENE),
+    row(&[char('E')], EXPLORE, Command::Export, "export", "export curve (.csv, .npy), figures (.json), panes (.svg, .txt) or the selected map", SCENE),
     row(&[char('y')], EXPLORE, Command::CopyCommand, "copy", "copy the command that opens the present scene", SCENE),
     row(&[char(':'), control('p')], EXPLORE, Command::OpenPalette, "commands", "find a command by letters of its description, and run it", SCENE),
     row(&[char('?'), key(KeyCode::F(1))], EXPLORE, Command::Help, "help", "show this help", SCENE),
@@ -279,7 +330,7 @@ pub const BINDINGS: &[Binding] = &[
     row(&[key(KeyCode::Enter)], FIND, Command::Accept, "go", "go to the selected parameter", TEXT),
     row(&[key(KeyCode::Enter)], LIBRARY, Command::Accept, "open", "open the selected scene, or the typed path", TEXT),
     row(&[key(KeyCode::Enter)], PALETTE, Command::Accept, "run", "run the selected command", TEXT),
-    row(&[key(KeyCode::Tab)], PATH, Command::Complete, "complete", "complete the typed path, in a value that of a measured surface between quotes; again for the next candidate", TEXT),
+    row(&[key(KeyCode::Tab)], PATH, Command::Complete, "complete", "complete the typed path, in a value the one between quotes; again for the next", TEXT),
     row(&[key(KeyCode::Enter)], LINE, Command::Accept, "accept", "accept the typed text", TEXT),
     row(&[key(KeyCode::Esc), control('c')], TYPED, Command::Cancel, "cancel", "cancel: keep the previous value", TEXT),
     row(&[key(KeyCode::Left), control('b')], TYPED, Command::Move(Motion::Left), "", "move the cursor left", TEXT),
@@ -289,6 +340,11 @@ pub const BINDINGS: &[Binding] = &[
     row(&[key(KeyCode::Backspace), control('h')], TYPED, Command::Delete { backwards: true }, "", "delete the character before the cursor", TEXT),
     row(&[key(KeyCode::Delete), control('d')], TYPED, Command::Delete { backwards: false }, "", "delete the character under the cursor", TEXT),
     row(&[control('u')], TYPED, Command::Clear, "clear", "clear the typed text", TEXT),
+    row(&[key(KeyCode::Down)], SAVE, Command::NextLine(1), "title, notice", "edit the title, the notice, or the name of the file", TEXT),
+    row(&[key(KeyCode::Up)], SAVE, Command::NextLine(-1), "", "edit the line before", TEXT),
+    row(&[char('y')], COMMENTS, Command::Accept, "remove", "save without the comments about changed values", TEXT),
+    row(&[char('n')], COMMENTS, Command::Refuse, "keep", "save with all comments", TEXT),
+    row(&[key(KeyCode::Esc), control('c')], COMMENTS, Command::Cancel, "back", "do not save", TEXT),
     row(&[char('y')], ASK, Command::Accept, "overwrite", "overwrite the file", TEXT),
     row(&[char('n'), key(KeyCode::Esc), control('c')], ASK, Command::Cancel, "keep it", "keep the existing file", TEXT),
     row(&[char('s')], LEAVE, Command::Save, "save", "save, then quit", TEXT),
@@ -296,16 +352,50 @@ pub const BINDINGS: &[Binding] = &[
     row(&[char('n'), key(KeyCode::Esc)], LEAVE, Command::Cancel, "stay", "stay", TEXT),
 ];
 
-/// The command of a key in a mode. Where a row has a key for each digit, the command has that digit.
+impl Binding {
+    /// Whether the configuration may give the row other keys: keys for typing, lists and questions are the same for all,
+    /// and digits mean what they are.
+    #[must_use]
+    pub fn is_rebindable(&self) -> bool {
+        let has_digits = matches!(self.command, Command::StartValue(_) | Command::Preset(_));
+        !has_digits && self.modes.iter().all(|mode| mode.is_exploring())
+    }
+}
+
+/// Name of an action in the configuration, from its command: `step -1`, `push 1 coarse`.
 #[must_use]
-pub fn command(event: &KeyEvent, mode: ModeKind) -> Option<Command> {
-    let row = valid_in(mode).find(|row| row.keys.iter().any(|key| key.matches(event)))?;
-    let KeyCode::Char(character) = event.code else { return Some(row.command) };
-    Some(match row.command {
-        Command::StartValue(_) => Command::StartValue(character),
-        Command::Preset(_) => Command::Preset(character.to_digit(10)?.checked_sub(1)? as usize),
-        command => command,
-    })
+pub fn action_name(command: Command) -> String {
+    let text = format!("{command:?}");
+    let has_names = text.contains('{');
+    let words = text.split(|c: char| !(c.is_alphanumeric() || c == '-')).filter(|word| !word.is_empty());
+    let (mut name, mut member) = (String::new(), None);
+    for (number, word) in words.enumerate() {
+        let word = match (word, number, has_names) {
+            (member_name, 1.., true) if member.is_none() => {
+                member = Some(member_name);
+                continue;
+            }
+            ("false", ..) if has_names => {
+                member = None;
+                continue;
+            }
+            ("true", ..) if has_names => member.take().unwrap_or(word),
+            _ => {
+                member = None;
+                word
+            }
+        };
+        if !name.is_empty() {
+            name.push(' ');
+        }
+        for (place, character) in word.char_indices() {
+            if character.is_uppercase() && place > 0 {
+                name.push('-');
+            }
+            name.extend(character.to_lowercase());
+        }
+    }
+    name
 }
 
 /// Names of keys; consecutive digits have one name: `1–9`.
@@ -330,21 +420,118 @@ pub fn is_manual(row: &Binding) -> bool {
     row.section == HAND
 }
 
-/// The rows of the table that are valid in a mode.
-pub fn valid_in(mode: ModeKind) -> impl Iterator<Item = &'static Binding> {
-    BINDINGS.iter().filter(move |row| row.modes.contains(&mode))
+/// Reason why keys are refused.
+pub struct RebindError {
+    /// Value and allowed values.
+    pub message: String,
+    /// True for the keys, false for the action.
+    pub is_about_keys: bool,
 }
 
-/// The table as Markdown, for docs/keys.md: keys and their functions, by section.
+/// The keys in use: the table, with other keys where the configuration has them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Bindings(Vec<Binding>);
+
+impl Default for Bindings {
+    fn default() -> Self {
+        Bindings(BINDINGS.to_vec())
+    }
+}
+
+impl Bindings {
+    /// All rows.
+    pub fn rows(&self) -> impl Iterator<Item = &Binding> {
+        self.0.iter()
+    }
+
+    /// The rows that are valid in a mode.
+    pub fn valid_in(&self, mode: ModeKind) -> impl Iterator<Item = &Binding> {
+        self.rows().filter(move |row| row.modes.contains(&mode))
+    }
+
+    /// The command of a key in a mode. Where a row has a key for each digit, the command has that digit.
+    #[must_use]
+    pub fn command(&self, event: &KeyEvent, mode: ModeKind) -> Option<Command> {
+        let row = self.valid_in(mode).find(|row| row.keys.iter().any(|key| key.matches(event)))?;
+        let KeyCode::Char(character) = event.code else { return Some(row.command) };
+        Some(match row.command {
+            Command::StartValue(_) => Command::StartValue(character),
+            Command::Preset(_) => Command::Preset(character.to_digit(10)?.checked_sub(1)? as usize),
+            command => command,
+        })
+    }
+
+    /// Gives an action these keys in place of its own. Ctrl+C always quits.
+    ///
+    /// # Errors
+    /// An action or a key that does not exist.
+    pub fn rebind(&mut self, action: &str, keys: &[String]) -> Result<(), RebindError> {
+        let is_action = |row: &&mut Binding| row.is_rebindable() && action_name(row.command) == action;
+        let parsed = keys.iter().map(|name| {
+            Key::named(name).ok_or_else(|| RebindError {
+                message: format!("{name}: there is no such key; allowed: one character, Ctrl+c, Shift+Left, F5, PageUp and the like"),
+                is_about_keys: true,
+            })
+        });
+        let mut parsed = parsed.collect::<Result<Vec<Key>, _>>()?;
+        let rows: Vec<&mut Binding> = self.0.iter_mut().filter(is_action).collect();
+        if rows.is_empty() {
+            let names: Vec<String> = BINDINGS
+                .iter()
+                .filter(|row| row.is_rebindable())
+                .map(|row| action_name(row.command))
+                .collect();
+            let near = nearest(action, names.iter().map(String::as_str));
+            let near = near.map_or_else(String::new, |near| format!(" did you mean {near}?"));
+            let message = format!("{action}: there is no such action;{near} allowed: docs/keys.md lists all");
+            return Err(RebindError { message, is_about_keys: false });
+        }
+        for row in rows {
+            if row.command == Command::Quit && !parsed.contains(&control('c')) {
+                parsed.push(control('c'));
+            }
+            row.keys = Cow::Owned(parsed.clone());
+        }
+        Ok(())
+    }
+
+    /// A key with two actions in one mode, and their names.
+    #[must_use]
+    pub fn conflict(&self) -> Option<(String, String, String)> {
+        ModeKind::ALL.into_iter().find_map(|mode| {
+            let mut seen: Vec<(&Key, Command)> = Vec::new();
+            for row in self.valid_in(mode) {
+                for key in row.keys.iter() {
+                    if let Some((_, other)) = seen.iter().find(|(seen, _)| *seen == key) {
+                        return Some((key.name(), action_name(*other), action_name(row.command)));
+                    }
+                    seen.push((key, row.command));
+                }
+            }
+            None
+        })
+    }
+
+    /// Actions with other keys than those of the table, and the names of these keys.
+    #[must_use]
+    pub fn changed(&self) -> Vec<(Command, Vec<String>)> {
+        let pairs = self.0.iter().zip(BINDINGS).filter(|(row, usual)| row.keys != usual.keys);
+        pairs.map(|(row, _)| (row.command, row.keys.iter().map(Key::name).collect())).collect()
+    }
+}
+
+/// The table as Markdown, for docs/keys.md: keys, their functions, and the names of the actions in the configuration.
 #[must_use]
 pub fn markdown() -> String {
-    let mut text = String::from("| | key | does |\n| --- | --- | --- |\n");
+    let mut text = String::from("| | key | does | action |\n| --- | --- | --- | --- |\n");
     let mut section = "";
     for row in BINDINGS.iter().filter(|row| !row.help.is_empty()) {
         let shown = if row.section == section { "" } else { row.section };
         section = row.section;
-        let keys: Vec<String> = names(row.keys).iter().map(|name| format!("`{name}`")).collect();
-        text += &format!("| {shown} | {} | {} |\n", keys.join(" "), row.help);
+        let keys: Vec<String> = names(&row.keys).iter().map(|name| format!("`{name}`")).collect();
+        let action =
+            if row.is_rebindable() { format!("`{}`", action_name(row.command)) } else { String::new() };
+        text += &format!("| {shown} | {} | {} | {action} |\n", keys.join(" "), row.help);
     }
     text
 }
@@ -355,12 +542,35 @@ mod tests {
 
     #[test]
     fn no_mode_gives_a_key_two_meanings() {
-        for mode in ModeKind::ALL {
-            let mut seen: Vec<Key> = Vec::new();
-            for key in valid_in(mode).flat_map(|row| row.keys) {
-                assert!(!seen.contains(key), "{} twice in {mode:?}", key.name());
-                seen.push(*key);
+        assert_eq!(Bindings::default().conflict(), None);
+    }
+
+    #[test]
+    fn keys_are_found_by_their_names_and_actions_have_names_of_their_own() {
+        for row in BINDINGS {
+            for key in row.keys.iter() {
+                assert_eq!(Key::named(&key.name()), Some(*key), "{}", key.name());
             }
+        }
+        for name in ["", "ab", "Shift+a", "F0", "F13", "Ctrl+", "\u{1b}", "Alt+x"] {
+            assert_eq!(Key::named(name), None, "{name}");
+        }
+        for (command, name) in [
+            (Command::TogglePlay, "toggle-play"),
+            (Command::Step(-1), "step -1"),
+            (Command::Push { steps: -1, coarse: false }, "push -1"),
+            (Command::Push { steps: 1, coarse: true }, "push 1 coarse"),
+            (Command::SelectEnd(true), "select-end true"),
+            (Command::Fragment(Jump::MostLoaded), "fragment most-loaded"),
+            (Command::Delete { backwards: true }, "delete backwards"),
+        ] {
+            assert_eq!(action_name(command), name);
+        }
+        let all: Vec<Command> =
+            BINDINGS.iter().filter(|row| row.is_rebindable()).map(|row| row.command).collect();
+        for (place, command) in all.iter().enumerate() {
+            let same = all[..place].iter().find(|other| action_name(**other) == action_name(*command));
+            assert!(same.is_none_or(|same| same == command), "{command:?} {same:?}");
         }
     }
 
@@ -371,7 +581,7 @@ mod tests {
                 matches!(command, Command::Quit | Command::QuitAnyway | Command::Help | Command::Cancel)
             };
             let interrupt = KeyEvent::new(KeyCode::Char('c'), KeyModifiers::CONTROL);
-            assert!(command(&interrupt, mode).is_some_and(leaves), "Ctrl+C in {mode:?}");
+            assert!(Bindings::default().command(&interrupt, mode).is_some_and(leaves), "Ctrl+C in {mode:?}");
         }
     }
 }

@@ -23,10 +23,14 @@ pub enum Mode {
     Find(Finder),
     /// Choosing a command from the list of all.
     Palette(Finder),
-    /// Typing the name of the file to save the scene to.
-    SaveAs {
-        /// The name.
-        line: TextLine,
+    /// Typing title, notice and the name of the file to save the scene to.
+    SaveAs(SaveForm),
+    /// Asked whether to remove comments about values that have been changed.
+    StaleComments {
+        /// Number of the comments.
+        count: usize,
+        /// The file to save to.
+        path: PathBuf,
         /// Whether to leave afterwards.
         then_quit: bool,
     },
@@ -48,6 +52,28 @@ pub enum Mode {
     },
     /// Asked whether to leave with unsaved changes.
     Quit,
+}
+
+/// What is typed to save a scene, line by line.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SaveForm {
+    /// File, title and notice, in the order of [`SaveForm::PROMPTS`].
+    pub lines: [TextLine; 3],
+    /// Index of the line that is being typed.
+    pub line: usize,
+    /// Whether to leave afterwards.
+    pub then_quit: bool,
+}
+
+impl SaveForm {
+    /// Prompts of the lines.
+    pub const PROMPTS: [&'static str; 3] = ["Save as: ", "Title: ", "Notice: "];
+
+    /// Goes to the line so many after this one, from the last on to the first.
+    pub fn go(&mut self, lines: i32) {
+        let count = self.lines.len() as i32;
+        self.line = (self.line as i32 + lines.signum()).rem_euclid(count) as usize;
+    }
 }
 
 /// The library as one looks through it.
@@ -92,6 +118,8 @@ pub enum ModeKind {
     Palette,
     /// See [`Mode::SaveAs`].
     SaveAs,
+    /// See [`Mode::StaleComments`].
+    StaleComments,
     /// See [`Mode::Export`].
     Export,
     /// See [`Mode::Overwrite`].
@@ -104,7 +132,7 @@ pub enum ModeKind {
 
 impl ModeKind {
     /// All modes.
-    pub const ALL: [ModeKind; 15] = [
+    pub const ALL: [ModeKind; 16] = [
         ModeKind::Explore,
         ModeKind::Chart,
         ModeKind::Crosshair,
@@ -116,11 +144,20 @@ impl ModeKind {
         ModeKind::Find,
         ModeKind::Palette,
         ModeKind::SaveAs,
+        ModeKind::StaleComments,
         ModeKind::Export,
         ModeKind::Overwrite,
         ModeKind::Help,
         ModeKind::Quit,
     ];
+}
+
+impl ModeKind {
+    /// Whether keys act on scene and panes, rather than on a line, a list or a question.
+    #[must_use]
+    pub fn is_exploring(self) -> bool {
+        matches!(self, ModeKind::Explore | ModeKind::Chart | ModeKind::Parameters)
+    }
 }
 
 impl Mode {
@@ -135,7 +172,8 @@ impl Mode {
             Mode::Library(_) => ModeKind::Library,
             Mode::Find(_) => ModeKind::Find,
             Mode::Palette(_) => ModeKind::Palette,
-            Mode::SaveAs { .. } => ModeKind::SaveAs,
+            Mode::SaveAs(_) => ModeKind::SaveAs,
+            Mode::StaleComments { .. } => ModeKind::StaleComments,
             Mode::Export(_) => ModeKind::Export,
             Mode::Overwrite { .. } => ModeKind::Overwrite,
             Mode::Help { .. } => ModeKind::Help,
@@ -146,15 +184,16 @@ impl Mode {
     /// The line that is being typed.
     pub fn line_mut(&mut self) -> Option<&mut TextLine> {
         match self {
-            Mode::Edit(line)
-            | Mode::Force(line)
-            | Mode::Tolerance(line)
-            | Mode::Export(line)
-            | Mode::SaveAs { line, .. } => Some(line),
+            Mode::Edit(line) | Mode::Force(line) | Mode::Tolerance(line) | Mode::Export(line) => Some(line),
+            Mode::SaveAs(form) => form.lines.get_mut(form.line),
             Mode::Library(Library { finder, .. }) | Mode::Find(finder) | Mode::Palette(finder) => {
                 Some(&mut finder.query)
             }
-            Mode::Explore | Mode::Overwrite { .. } | Mode::Help { .. } | Mode::Quit => None,
+            Mode::Explore
+            | Mode::StaleComments { .. }
+            | Mode::Overwrite { .. }
+            | Mode::Help { .. }
+            | Mode::Quit => None,
         }
     }
 }

@@ -4,6 +4,8 @@ use super::action::{Content, Traffic};
 pub use super::appraisal::{Appraisal, Costs, Estimated};
 pub use super::chart::{Chart, OpenStudy};
 use super::completion::Completion;
+use super::config::{Animation, Config};
+use super::keys::Bindings;
 pub use super::mode::{Library, Mode, ModeKind};
 use super::parameters::{Parameter, Setting, parameters};
 use super::preload_curve::PreloadPane;
@@ -184,8 +186,12 @@ pub struct Writing {
 pub struct Model {
     /// The scene as edited.
     pub document: Document,
-    /// The text that is on disk or was opened, for each scene by its name.
-    pub saved_texts: BTreeMap<String, String>,
+    /// What is on disk or was opened, for each scene by its name.
+    pub saved: BTreeMap<String, Document>,
+    /// Number of times that a scene was saved or opened.
+    pub saves: u64,
+    /// Scenes with unsaved changes in whose place another one was opened, by their names.
+    pub left: BTreeMap<String, Document>,
     /// Documents before each edit, and those taken back.
     pub undo: Vec<Document>,
     /// See `undo`.
@@ -259,6 +265,12 @@ pub struct Model {
     pub size: (u16, u16),
     /// Colours and markers.
     pub appearance: Appearance,
+    /// Keys.
+    pub bindings: Arc<Bindings>,
+    /// Speed and end of the animation.
+    pub animation: Animation,
+    /// The configuration file; `None` where none is to be written.
+    pub config_path: Option<std::path::PathBuf>,
     /// What the connection carries, over SSH.
     pub traffic: Option<Traffic>,
     /// Whether times are shown: they differ from run to run.
@@ -282,7 +294,9 @@ impl Model {
     pub fn new(document: Document, size: (u16, u16), appearance: Appearance) -> Self {
         let springs = Look::springs_shown(&document);
         Model {
-            saved_texts: BTreeMap::from([(document.name().to_owned(), document.text().to_owned())]),
+            saved: BTreeMap::from([(document.name().to_owned(), document.clone())]),
+            saves: 0,
+            left: BTreeMap::new(),
             parameters: parameters(&document),
             document,
             undo: Vec::new(),
@@ -320,6 +334,9 @@ impl Model {
             zoomed: false,
             size,
             appearance,
+            bindings: Arc::default(),
+            animation: Animation::default(),
+            config_path: None,
             traffic: None,
             shows_times: true,
             writing: None,
@@ -332,7 +349,43 @@ impl Model {
     /// Whether the scene differs from what is saved.
     #[must_use]
     pub fn is_unsaved(&self) -> bool {
-        self.saved_texts.get(self.document.name()).is_none_or(|saved| saved != self.document.text())
+        self.is_changed(&self.document)
+    }
+
+    /// Whether a document differs from what is saved by a value or a comment; another way to write a number is no change.
+    #[must_use]
+    pub fn is_changed(&self, document: &Document) -> bool {
+        let is_same = |saved: &Document| {
+            saved.text() == document.text()
+                || saved.scene() == document.scene() && saved.comments() == document.comments()
+        };
+        !self.saved.get(document.name()).is_some_and(is_same)
+    }
+
+    /// All scenes with unsaved changes, the one that is explored first.
+    #[must_use]
+    pub fn unsaved(&self) -> Vec<&Document> {
+        let present = Some(&self.document).filter(|document| self.is_changed(document));
+        present.into_iter().chain(self.left.values().filter(|left| self.is_changed(left))).collect()
+    }
+
+    /// Takes over keys and animation of a configuration; colours and markers depend on options as well.
+    pub fn configure(&mut self, config: Config) {
+        self.bindings = Arc::new(config.bindings);
+        (self.animation, self.config_path) = (config.animation, config.path);
+    }
+
+    /// Takes scenes for unsaved changes of another session, the first of them for that of the explored scene.
+    pub fn restore(&mut self, documents: &[Document]) {
+        for (number, document) in documents.iter().enumerate() {
+            match Document::parse(document.opened(), document.name()) {
+                Ok(opened) => drop(self.saved.insert(document.name().to_owned(), opened)),
+                Err(_) => drop(self.saved.remove(document.name())),
+            }
+            if number > 0 {
+                self.left.insert(document.name().to_owned(), document.clone());
+            }
+        }
     }
 
     /// Takes the scene as it stands for saved to a file, and goes on with that file.
@@ -349,7 +402,12 @@ impl Model {
     pub fn governing(&self) -> Option<Governing> {
         let computed = self.computed.as_ref()?;
         let (before, now) = (computed.scene.as_ref(), self.document.scene());
-        let same_line = before.roughness == now.roughness
+        let mut roughness = now.roughness.clone();
+        if let Some(roughness) = &mut roughness {
+            // The scene that was computed names files from the working folder.
+            roughness.rename_files(|file| self.document.resolve(file).to_string_lossy().into_owned());
+        }
+        let same_line = before.roughness == roughness
             && before.length == now.length
             && before.form == now.form
             && before.material == now.material;
@@ -364,7 +422,8 @@ impl Model {
 
     /// Takes the scene as it stands for saved.
     pub fn set_saved(&mut self) {
-        self.saved_texts.insert(self.document.name().to_owned(), self.document.text().to_owned());
+        self.saves += 1;
+        self.saved.insert(self.document.name().to_owned(), self.document.clone());
     }
 
     /// Whether what has been computed is the scene as it stands: neither computing nor failed.

@@ -2,7 +2,7 @@
 
 use super::action::Command;
 use super::fuzzy::Candidate;
-use super::keys::{self, BINDINGS, Binding};
+use super::keys::{self, Binding, Bindings};
 use super::mode::ModeKind;
 use crate::scene::presets;
 
@@ -21,25 +21,22 @@ pub struct Entry {
     pub modes: &'static [ModeKind],
 }
 
-/// Modes without a text or a question.
-const EXPLORING: [ModeKind; 3] = [ModeKind::Explore, ModeKind::Chart, ModeKind::Parameters];
-
 /// All commands of the explorer but those of texts and questions, in the order of the table.
 #[must_use]
-pub fn entries() -> Vec<Entry> {
+pub fn entries(bindings: &Bindings) -> Vec<Entry> {
     let is_listed = |row: &&Binding| {
-        row.modes.iter().any(|mode| EXPLORING.contains(mode))
+        row.modes.iter().any(|mode| mode.is_exploring())
             // The value begins with the key itself, and the list is open.
             && !matches!(row.command, Command::StartValue(_) | Command::OpenPalette)
     };
-    BINDINGS.iter().filter(is_listed).flat_map(of_row).collect()
+    bindings.rows().filter(is_listed).flat_map(of_row).collect()
 }
 
 /// The command of a row; of the keys of built-in scenes one for each scene.
-fn of_row(row: &'static Binding) -> Vec<Entry> {
+fn of_row(row: &Binding) -> Vec<Entry> {
     let entry = |keys, help, command| Entry { keys, help, section: row.section, command, modes: row.modes };
     let Command::Preset(_) = row.command else {
-        return vec![entry(keys::names(row.keys), row.help.to_owned(), row.command)];
+        return vec![entry(keys::names(&row.keys), row.help.to_owned(), row.command)];
     };
     let scenes = row.keys.iter().zip(presets()).enumerate();
     scenes

@@ -89,7 +89,7 @@ impl PreloadCurve {
             self.own.clear();
             solve_preloads(&mut simulation, scene, &forces, stop, &mut |one| {
                 self.own.push(one);
-                if self.own.len() % SHOWN_EVERY == 0 {
+                if self.own.len().is_multiple_of(SHOWN_EVERY) {
                     tell(self);
                 }
             })?;

@@ -1,6 +1,8 @@
 //! A session: input, worker and terminal around one model.
 
 use super::action::{Action, Traffic};
+use super::config::Config;
+use super::drafts::{self, Drafts, Restored};
 use super::file_job::FileJob;
 use super::input;
 use super::model::{Model, Notice};
@@ -25,13 +27,15 @@ use std::cell::Cell;
 use std::collections::VecDeque;
 use std::io::{self, Write};
 use std::mem::ManuallyDrop;
+use std::path::PathBuf;
 use std::rc::Rc;
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::time::{Duration, Instant};
 
-/// Frames in a second: fewer over SSH, where each has to travel.
-const LOCAL_FRAMES: u32 = 30;
+/// Frames per second where the configuration has no other number.
+pub const FRAME_RATE: u32 = 30;
+/// Most frames per second over SSH, where each has to travel.
 const REMOTE_FRAMES: u32 = 12;
 
 /// Time in which a job with files is waited for before anything else is done: keys that are typed after it act
@@ -39,7 +43,7 @@ const REMOTE_FRAMES: u32 = 12;
 const JOB: Duration = Duration::from_millis(50);
 
 /// How the explorer opens.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Default)]
 pub struct Options {
     /// Colours, where the environment is not to be asked.
     pub theme: Option<Theme>,
@@ -47,6 +51,12 @@ pub struct Options {
     pub marker: Option<Marker>,
     /// Whether to leave the mouse to the terminal.
     pub no_mouse: bool,
+    /// Unsaved changes of another session; the scene that is opened is the first of them.
+    pub restored: Option<Restored>,
+    /// Configuration; what is given here as well has precedence.
+    pub config: Config,
+    /// Folder in which unsaved changes are kept; `None`: nowhere.
+    pub drafts: Option<PathBuf>,
 }
 
 /// What is left when the explorer has ended.
@@ -74,6 +84,8 @@ enum Message {
     Found(Found),
     /// The job with files of this number is done.
     Done(u64, Box<Action>),
+    /// What the thread of unsaved changes reports.
+    Drafts(drafts::Report),
 }
 
 /// A job with files that goes on beside.
@@ -139,14 +151,26 @@ pub fn open_with(
     let size = terminal.size()?;
     let environment = Appearance::of_environment();
     let appearance = Appearance {
-        theme: options.theme.unwrap_or(environment.theme),
-        marker: options.marker.unwrap_or(environment.marker),
+        theme: options.theme.or(options.config.theme).unwrap_or(environment.theme),
+        marker: options.marker.or(options.config.marker).unwrap_or(environment.marker),
     };
+    let frame_rate = options.config.frame_rate.unwrap_or(FRAME_RATE);
     let mut model = Model::new(document, (size.width, size.height), appearance);
     model.opens_beside = beside;
     if let Some(study_map) = study_map {
         model.show_study(study_map);
     }
+    model.configure(options.config);
+    if let Some(restored) = &options.restored {
+        model.restore(&restored.documents);
+    }
+    let drafts = match options.drafts {
+        Some(folder) => Some(Drafts::start(folder, options.restored, {
+            let messages = messages.clone();
+            move |report| drop(messages.send(Message::Drafts(report)))
+        })?),
+        None => None,
+    };
     let mut session = Session {
         terminal: &mut terminal,
         guard,
@@ -155,6 +179,7 @@ pub fn open_with(
         study,
         draw,
         remote: ["SSH_CONNECTION", "SSH_TTY"].iter().any(|name| std::env::var_os(name).is_some()),
+        frame_rate,
         redraw: false,
         own_stops: 0,
         written,
@@ -164,8 +189,11 @@ pub fn open_with(
         held: VecDeque::new(),
         jobs: 0,
         opening: None,
+        drafts,
+        kept: (0, 0),
     };
     let signal = session.run()?;
+    session.leave_drafts();
     let model = session.model;
     let computed = model.computed.clone().filter(|_| model.is_current());
     Ok(Left { document: model.document, computed, signal })
@@ -195,6 +223,8 @@ struct Session<'a, W: Write> {
     study: Study,
     draw: Draw,
     remote: bool,
+    /// Frames per second of the animation.
+    frame_rate: u32,
     /// Whether nothing that stands on the screen can be relied on.
     redraw: bool,
     /// Times it has stopped itself and has not been told yet that it goes on.
@@ -211,12 +241,16 @@ struct Session<'a, W: Write> {
     jobs: u64,
     /// The newest of those that open something and go on beside.
     opening: Option<Beside>,
+    /// Keeps unsaved changes.
+    drafts: Option<Drafts>,
+    /// Generation and number of saves at which they were kept last.
+    kept: (u64, u64),
 }
 
 impl<W: Write> Session<'_, W> {
     /// Runs until the explorer is to end; gives the signal that ends it, if one does.
     fn run(&mut self) -> io::Result<Option<i32>> {
-        let frames = if self.remote { REMOTE_FRAMES } else { LOCAL_FRAMES };
+        let frames = if self.remote { self.frame_rate.min(REMOTE_FRAMES) } else { self.frame_rate };
         let frame_time = Duration::from_secs(1) / frames;
         self.perform(vec![Effect::Compute])?;
         let mut moved = Instant::now();
@@ -240,6 +274,7 @@ impl<W: Write> Session<'_, W> {
                 terminal.draw(|frame| draw(frame, model))?;
                 changed = false;
             }
+            self.keep_drafts();
             let playing = self.model.player.playing && self.model.is_current() && self.model.hand.is_none();
             if !playing {
                 moved = Instant::now();
@@ -263,10 +298,14 @@ impl<W: Write> Session<'_, W> {
                         Some(Action::Resize(size.width, size.height))
                     }
                     // In the mode that holds by now: the key before may have changed it.
-                    Message::Input(event) => input::action_of(&event, self.model.keys()),
+                    Message::Input(event) => {
+                        input::action_of(&event, &self.model.bindings, self.model.keys())
+                    }
                     Message::Report(report) => Some(action_of(report)),
                     Message::Found(found) => Some(Action::Found(found)),
                     Message::Done(number, action) => Some(self.late(number, *action)),
+                    Message::Drafts(drafts::Report::Offered(names)) => Some(Action::Offered(names)),
+                    Message::Drafts(drafts::Report::NotKept(why)) => Some(Action::NotKept(why)),
                 };
                 if let Some(action) = action {
                     changed = true;
@@ -331,6 +370,25 @@ impl<W: Write> Session<'_, W> {
         Action::Opened(Err(format!("{name}: read too late, another scene is shown by now; open it again")))
     }
 
+    /// Keeps unsaved changes after an edit or a save.
+    fn keep_drafts(&mut self) {
+        let now = (self.model.generation, self.model.saves);
+        if let Some(drafts) = self.drafts.as_ref().filter(|_| now != self.kept) {
+            drafts.keep(self.model.unsaved().into_iter().cloned().collect());
+            self.kept = now;
+        }
+    }
+
+    /// Keeps unsaved changes where the user has not been asked about them, and none otherwise.
+    fn leave_drafts(&mut self) {
+        self.keep_drafts();
+        let Some(drafts) = &self.drafts else { return };
+        if self.model.finished {
+            drafts.keep(Vec::new());
+        }
+        drafts.flush();
+    }
+
     fn act(&mut self, action: Action) -> io::Result<()> {
         let effects = update(&mut self.model, action);
         self.perform(effects)
@@ -377,6 +435,9 @@ impl<W: Write> Session<'_, W> {
                 Effect::Write { path, content, overwrite } => {
                     let model = Box::new(self.model.clone());
                     self.work_on_files(FileJob::Write { model, path, content, overwrite })?;
+                }
+                Effect::Remember { path, appearance } => {
+                    self.work_on_files(FileJob::Remember { path, appearance })?;
                 }
                 Effect::Complete(typed) => self.work_on_files(FileJob::Complete(typed))?,
                 Effect::List => self.work_on_files(FileJob::List)?,

@@ -3,6 +3,7 @@
 use clap::ValueEnum;
 use ratatui::style::{Color, Modifier, Style};
 use ratatui::symbols::Marker as Symbols;
+use serde::Deserialize;
 
 /// How the explorer looks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -14,7 +15,7 @@ pub struct Appearance {
 }
 
 /// Colours and modifiers.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Deserialize)]
 pub enum Theme {
     /// Colours that read on dark and on light backgrounds
     Neutral,
@@ -29,7 +30,7 @@ pub enum Theme {
 }
 
 /// What plots are made of.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Deserialize)]
 pub enum Marker {
     /// Braille dots, 2 × 4 in a cell
     Braille,
@@ -141,7 +142,8 @@ impl Theme {
             (Theme::Light, Approach) => Color::Green,
             (Theme::Light, Retraction) => Color::Magenta,
             (Theme::Light, Hand) => Color::Cyan,
-            (Theme::HighContrast, Quiet | Ghost | Surface | Approach | Key) => Color::Reset,
+            (Theme::HighContrast, Quiet | Ghost | Approach | Key) => Color::Reset,
+            (Theme::HighContrast, Surface) => Color::LightBlue,
             (Theme::HighContrast, Contact | Error | Cursor | Retraction | Hand) => Color::LightRed,
         }
     }
@@ -225,5 +227,14 @@ mod tests {
         assert_eq!(seen.take(5).last(), Some(Theme::Neutral));
         assert_eq!(Marker::Ascii.next(), Marker::Braille);
         assert_eq!(Theme::HighContrast.name(), "high-contrast");
+    }
+
+    #[test]
+    fn every_theme_with_colours_tells_profile_from_surface_and_contact() {
+        for theme in Theme::value_variants().iter().filter(|theme| **theme != Theme::Plain) {
+            let [line, surface, contact] =
+                [Meaning::Line, Meaning::Surface, Meaning::Contact].map(|meaning| theme.colour(meaning));
+            assert!(line != surface && surface != contact && line != contact, "{theme:?}");
+        }
     }
 }

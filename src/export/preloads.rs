@@ -54,7 +54,7 @@ impl<'a> PreloadReport<'a> {
         let stride = first.len().div_ceil(MOST_ROWS).max(1);
         let last = first.len().saturating_sub(1);
         let shown = first.iter().zip(&self.statistics).enumerate();
-        let shown = shown.filter(|(index, _)| (last - index) % stride == 0).map(|(_, row)| row);
+        let shown = shown.filter(|(index, _)| (last - index).is_multiple_of(stride)).map(|(_, row)| row);
         if self.is_mean() {
             let header = ["preload F_n", "mean F_a", "standard error", "95 % confidence of the mean"];
             let mut rows = vec![header.map(String::from)];

@@ -60,7 +60,9 @@ pub fn reversals_text(report: &ReversalReport<'_>) -> String {
     let mut rows = vec![header.map(String::from)];
     let stride = reversals.len().div_ceil(MOST_ROWS).max(1);
     let last = reversals.len().saturating_sub(1);
-    for (_, reversal) in reversals.iter().enumerate().filter(|(index, _)| (last - index) % stride == 0) {
+    for (_, reversal) in
+        reversals.iter().enumerate().filter(|(index, _)| (last - index).is_multiple_of(stride))
+    {
         rows.push([
             format_quantity(reversal.turn.force, "N"),
             format_quantity(reversal.turn.indentation, "m"),

@@ -126,7 +126,7 @@ fn owner(name: &str) -> Option<u32> {
 /// Mark of this machine, and of this container on it, among others that use the same folder: a checksum of its
 /// name and of its numbering of processes.
 #[cfg(unix)]
-fn machine() -> String {
+pub fn machine() -> String {
     let mut hash = crc32fast::Hasher::new();
     hash.update(rustix::system::uname().nodename().to_bytes());
     let numbering = fs::read_link("/proc/self/ns/pid").unwrap_or_default();
@@ -135,12 +135,13 @@ fn machine() -> String {
 }
 
 #[cfg(not(unix))]
-fn machine() -> String {
+pub fn machine() -> String {
     "0".into()
 }
 
+/// Returns true for a number that no process of this machine has.
 #[cfg(unix)]
-fn is_gone(process: u32) -> bool {
+pub fn is_gone(process: u32) -> bool {
     use rustix::process::{Pid, test_kill_process};
     let process = i32::try_from(process).ok().and_then(Pid::from_raw);
     process.is_some_and(|process| test_kill_process(process) == Err(rustix::io::Errno::SRCH))
@@ -148,7 +149,7 @@ fn is_gone(process: u32) -> bool {
 
 /// Elsewhere no process is known to be gone.
 #[cfg(not(unix))]
-fn is_gone(_: u32) -> bool {
+pub fn is_gone(_: u32) -> bool {
     false
 }
 

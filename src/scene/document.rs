@@ -262,7 +262,7 @@ impl Document {
     }
 
     /// The document of a scene that was read from a table of results.
-    pub(super) fn from_table(self, content: Option<TableContent>) -> Document {
+    pub(super) fn with_table_content(self, content: Option<TableContent>) -> Document {
         Document { content, ..self }
     }
 
@@ -274,6 +274,40 @@ impl Document {
     /// Number of comments in the text; fewer after a change that replaces a value with a comment inside.
     pub fn comments(&self) -> usize {
         Text::new(&self.text).map_or(0, |text| text.comments())
+    }
+
+    /// Number of comments about values that have been changed since the text was opened.
+    pub fn stale_comments(&self) -> usize {
+        Text::new(&self.text).map_or(0, |text| self.stale(&text).len())
+    }
+
+    /// This document without the comments about values that have been changed.
+    pub fn without_stale_comments(&self) -> Document {
+        let mut new = self.clone();
+        if let Ok(text) = Text::new(&self.text) {
+            let without = text.without_comments(&self.stale(&text));
+            if read(&without).as_ref() == Ok(&self.scene) {
+                new.text = without;
+            }
+        }
+        new
+    }
+
+    fn stale(&self, text: &Text<'_>) -> Vec<std::ops::Range<usize>> {
+        let paths = self.overrides.iter().map(|(path, _)| path.as_str());
+        let is_changed = |path: &&str| Edit::between(&self.opened, &self.text, path).is_some();
+        text.comments_about(paths.filter(is_changed))
+    }
+
+    /// This document as one that was opened from another text, which these overrides have changed into this one.
+    #[must_use]
+    pub fn resumed(self, opened: String, overrides: Vec<(String, String)>) -> Document {
+        Document { opened, overrides, ..self }
+    }
+
+    /// The text that was opened.
+    pub fn opened(&self) -> &str {
+        &self.opened
     }
 
     /// The text differs from the one that was opened.
@@ -385,6 +419,36 @@ mod tests {
         let errors = Document::parse(&text, "x").unwrap_err();
         assert_eq!(errors.iter().count(), 101);
         assert!(errors.to_string().ends_with("and 49900 more errors"));
+    }
+
+    #[test]
+    fn comments_about_changed_values_are_found_and_removed() {
+        let text = SCENE
+            .replace("    length", "    // of the specimen\n    // in Fig. 2\n    length")
+            .replace("seed: 1),", "seed: 1), // measured /* twice */")
+            .replace("ToSeparation],", "ToSeparation], /* slow */ // and steady");
+        let document = Document::parse(&text, "a/scene.ron").unwrap();
+        let stale = |path: &str, value: &str| {
+            let changed = document.set(path, value).unwrap();
+            let without = changed.without_stale_comments();
+            assert_eq!(without.scene(), changed.scene());
+            assert_eq!(without.comments() + changed.stale_comments(), changed.comments());
+            (changed.stale_comments(), without.text().to_string())
+        };
+        assert_eq!(document.stale_comments(), 0);
+        assert_eq!(document.without_stale_comments(), document);
+        let (count, without) = stale("length", "2.0e-4");
+        let expected =
+            text.replace("    // of the specimen\n    // in Fig. 2\n", "").replace("1.0e-4", "2.0e-4");
+        assert_eq!((count, without), (2, expected));
+        let (count, without) = stale("roughness.hurst", "0.8");
+        assert_eq!((count, without.contains("measured")), (1, false));
+        let (count, without) = stale("loading", "[ToForce(2.0e-5), ToSeparation]");
+        assert_eq!((count, without.contains("slow"), without.contains("steady")), (2, false, false));
+        assert_eq!(stale("material.effective_modulus", "2.0e6").0, 1);
+        // Comments about other values stay.
+        assert!(without.contains("// soft") && without.contains("in Fig. 2"), "{without}");
+        assert_eq!(stale("length", "1.0e-4").0, 0, "nothing is changed");
     }
 
     #[test]

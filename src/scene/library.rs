@@ -9,6 +9,7 @@ use etcetera::{BaseStrategy, choose_base_strategy, home_dir};
 use super::document::{Document, LONGEST_TEXT};
 use super::errors::{Origin, SceneError, SceneErrors, shown};
 use super::presets::{Preset, presets};
+use super::text::Text;
 use crate::io::{ReadError, read_regular_text};
 use crate::text::is_control;
 
@@ -110,8 +111,8 @@ impl Library {
     /// Everything there is: the built-in scenes in their order, then one's own, then those of the
     /// working folder, each by name.
     ///
-    /// Files ending in `.ron` are listed, folders inside these folders are not looked into. What is
-    /// no scene or cannot be read is listed with its error. In each folder at most [`MOST_FILES`]
+    /// Files ending in `.ron` are listed, plans of studies aside; folders inside these folders are not looked into. What
+    /// is no scene or cannot be read is listed with its error. In each folder at most [`MOST_FILES`]
     /// files and [`MOST_BYTES`] bytes are read, and only regular files are opened.
     pub fn list(&self) -> Vec<Entry> {
         [Source::BuiltIn, Source::Own, Source::Working].map(|origin| self.list_of(origin)).concat()
@@ -185,6 +186,11 @@ fn in_one_line(errors: &SceneErrors) -> String {
     format!("{place}{}{more}", first.what())
 }
 
+/// Whether a text is the plan of a study: there is a scene in it.
+fn is_plan(text: &str) -> bool {
+    Text::new(text).is_ok_and(|text| text.span("scene").is_some())
+}
+
 /// Two folders are one.
 fn is_same(one: &Path, other: &Path) -> bool {
     matches!((one.canonicalize(), other.canonicalize()), (Ok(one), Ok(other)) if one == other)
@@ -206,6 +212,7 @@ fn list_folder(folder: &Path, origin: Source) -> Vec<Entry> {
     paths.truncate(MOST_FILES);
     let mut room = MOST_BYTES;
     let mut entries: Vec<Entry> = paths.into_iter().map(|path| entry_of(path, origin, &mut room)).collect();
+    entries.retain(|entry| entry.error.is_none() || !is_plan(&entry.text));
     if left > 0 {
         entries
             .push(about_folder(format!("{left} more scene files are not listed: at most {MOST_FILES} are")));
@@ -344,6 +351,9 @@ mod tests {
     fn what_is_no_scene_is_listed_with_its_error() {
         let (_root, library, _, working) = library();
         fs::write(working.join("other.ron"), "Config(colour: 1)").unwrap();
+        let plan = format!("(version: 1, title: \"A study\", scene: {SCENE}, lines: 3, record: [regime])");
+        fs::write(working.join("plan.ron"), plan).unwrap();
+        assert!(library.list().iter().all(|entry| entry.name != "plan.ron"), "it is no broken scene");
         fs::write(working.join("two.ron"), SCENE.replace("1.0e6", "0.0").replace("1.0e-4", "0.0")).unwrap();
         fs::write(working.join("empty.ron"), "").unwrap();
         fs::write(working.join("binary.ron"), [b'(', 0xff]).unwrap();

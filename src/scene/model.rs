@@ -166,6 +166,15 @@ fn is_default_seed(seed: &u64) -> bool {
 }
 
 impl Roughness {
+    /// Gives the files of the measured surfaces other names.
+    pub fn rename_files(&mut self, rename: impl Fn(&str) -> String) {
+        if let Roughness::Measured { file, opposite, .. } = self {
+            for name in std::iter::once(file).chain(opposite) {
+                *name = rename(name);
+            }
+        }
+    }
+
     /// Measured surface of a file, all else left out.
     pub fn measured(file: impl Into<String>) -> Self {
         let file = file.into();
@@ -203,10 +212,8 @@ impl Scene {
 
     /// Gives the files of the measured surfaces other names.
     pub fn rename_measured_files(&mut self, rename: impl Fn(&str) -> String) {
-        if let Some(Roughness::Measured { file, opposite, .. }) = &mut self.roughness {
-            for name in std::iter::once(file).chain(opposite) {
-                *name = rename(name);
-            }
+        if let Some(roughness) = &mut self.roughness {
+            roughness.rename_files(rename);
         }
     }
 

@@ -88,7 +88,7 @@ fn open_source(source: Result<Source, SourceError>, name: &str) -> Result<Docume
         SourceError::NoProvenance(message) => whole(name, message.to_owned()),
     };
     let Source { text, content } = source.map_err(refused)?;
-    Ok(Document::parse(&text, name)?.from_table(content))
+    Ok(Document::parse(&text, name)?.with_table_content(content))
 }
 
 fn whole(name: &str, message: String) -> SceneErrors {

@@ -1,8 +1,11 @@
 //! Reversals of a scene: the unloadings from many turning points of one loading, and the minor loops beside them.
 
+use super::stages::Prepared;
 use super::{Plan, RunError, Simulation};
 use crate::analysis::{MinorLoops, ReversalMap};
-use crate::contact::{ContactError, GridEdges, LegRecord, Reversal, Reversals, SubCellEdges, exact};
+use crate::contact::{
+    ContactError, ContactTree, EdgeModel, GridEdges, LegRecord, Reversal, Reversals, SubCellEdges, exact,
+};
 use crate::scene::{Edges, Leg, Scene, Solver as SolverChoice};
 use std::mem::take;
 use std::ops::RangeInclusive;
@@ -40,9 +43,7 @@ impl Simulation {
         stop: &dyn Fn() -> bool,
         see: &mut SeeReversal<'_>,
     ) -> Result<(), RunError> {
-        if scene.numerics.solver != SolverChoice::Exact {
-            return Err(RunError::NeedsExactSolver);
-        }
+        needs_exact_solver(scene)?;
         let deepest = ends.last().copied().unwrap_or(Leg::ToTouch);
         let plan = Plan::of(&Scene { loading: vec![deepest, Leg::ToSeparation], ..scene.clone() });
         let interrupted = || if stop() { Err(ContactError::Interrupted) } else { Ok(()) };
@@ -58,21 +59,10 @@ impl Simulation {
             let body = exact::nonadhesive(gaps, edges, foundation, samples);
             return Ok(Reversals::new(body, ends)?.each(points, &mut see)?);
         };
-        let memory = take(contact.memory);
         match edges {
-            Edges::Grid => {
-                let rule = GridEdges::new(hess);
-                let body = exact::adhesive_in(memory, gaps, tree, rule, foundation, samples);
-                let mut reversals = Reversals::new(body, ends)?;
-                reversals.each(points, &mut see)?;
-                *contact.memory = reversals.into_body().into_memory();
-            }
+            Edges::Grid => contact.reverse(tree, GridEdges::new(hess), samples, (ends, points), &mut see)?,
             Edges::SubCell => {
-                let rule = SubCellEdges::new(hess);
-                let body = exact::adhesive_in(memory, gaps, tree, rule, foundation, samples);
-                let mut reversals = Reversals::new(body, ends)?;
-                reversals.each(points, &mut see)?;
-                *contact.memory = reversals.into_body().into_memory();
+                contact.reverse(tree, SubCellEdges::new(hess), samples, (ends, points), &mut see)?
             }
         }
         Ok(())
@@ -90,11 +80,12 @@ impl Simulation {
         count: usize,
         stop: &dyn Fn() -> bool,
     ) -> Result<ReversalMap, RunError> {
+        needs_exact_solver(scene)?;
         let count = count.clamp(*TURNING_POINTS.start(), *TURNING_POINTS.end());
         let mut scene = scene.clone();
+        scene.numerics.samples = FEW_SAMPLES;
         let [low, high] = match turning {
             TurningPoints::OfScene => {
-                scene.numerics.samples = FEW_SAMPLES;
                 let outcome = self.run(&scene, stop, &mut |_, _, _| Ok(()))?;
                 let pressed = outcome.figures.preload_indentation.filter(|&indentation| indentation > 0.0);
                 [0.0, pressed.ok_or(RunError::NeverPressed)?]
@@ -180,5 +171,29 @@ impl Simulation {
         let held = loops.filter(|legs| holds(&legs[1]));
         let pairs = held.map(|legs| [loss(&legs[1..3]), loss(&legs[6..8])]).collect::<Vec<_>>();
         Ok(MinorLoops::new(&pairs, deepest.dissipated_energy))
+    }
+}
+
+/// Refuses a scene that asks for the stepwise solver.
+fn needs_exact_solver(scene: &Scene) -> Result<(), RunError> {
+    if scene.numerics.solver == SolverChoice::Exact { Ok(()) } else { Err(RunError::NeedsExactSolver) }
+}
+
+impl Prepared<'_> {
+    /// Unloads an adhesive body from the ends of legs.
+    fn reverse<E: EdgeModel>(
+        self,
+        tree: &ContactTree,
+        edges: E,
+        samples: usize,
+        (ends, points): (&[Leg], &[f64]),
+        see: &mut SeeReversal<'_>,
+    ) -> Result<(), ContactError> {
+        let gaps = self.line.gaps.as_slice();
+        let body = exact::adhesive_in(take(self.memory), gaps, tree, edges, self.foundation, samples);
+        let mut reversals = Reversals::new(body, ends)?;
+        let done = reversals.each(points, see);
+        *self.memory = reversals.into_body().into_memory();
+        done
     }
 }

@@ -120,7 +120,7 @@ pub fn solve_preloads_on_lines(
         }
     };
     std::thread::scope(|scope| {
-        begin_threads(scope, jobs.min(lines).saturating_sub(1), &solve);
+        begin_threads(scope, jobs.min(lines).saturating_sub(1), solve);
         on_this_thread(solve);
     });
     let mut solved = solved.into_inner().unwrap_or_else(PoisonError::into_inner);

@@ -113,6 +113,7 @@ impl Driver {
                 self.copied.push(text);
                 Vec::new()
             }
+            Effect::Remember { path, .. } => vec![Action::Remembered(Ok(path))],
             Effect::StopPreview => {
                 self.worker.stop_preview();
                 Vec::new()

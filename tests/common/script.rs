@@ -3,7 +3,6 @@
 
 use super::driver::Driver;
 use asperity::explorer::action::Action;
-use asperity::explorer::keys;
 use asperity::explorer::layout::Layout;
 use asperity::explorer::model::Model;
 use asperity::explorer::update::{Effect, update};
@@ -44,7 +43,7 @@ impl Driver {
         let mut effects = Vec::new();
         for name in names.split_whitespace() {
             let event = key_event(name);
-            effects = match (keys::command(&event, self.model.keys()), event.code) {
+            effects = match (self.model.bindings.command(&event, self.model.keys()), event.code) {
                 (Some(command), _) => self.act(Action::Command(command)),
                 (None, KeyCode::Char(character)) => self.act(Action::Type(character)),
                 (None, _) => Vec::new(),
@@ -145,6 +144,7 @@ fn key_event(name: &str) -> KeyEvent {
         "Down" => KeyCode::Down,
         "Home" => KeyCode::Home,
         "End" => KeyCode::End,
+        "PageUp" => KeyCode::PageUp,
         "Backspace" => KeyCode::Backspace,
         "Delete" => KeyCode::Delete,
         _ => match (name.chars().next(), name.chars().nth(1)) {

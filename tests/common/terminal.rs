@@ -14,6 +14,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
 use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
+use tempfile::TempDir;
 
 /// Longest time anything may take.
 const PATIENCE: Duration = Duration::from_secs(20);
@@ -45,6 +46,8 @@ pub struct Frame {
 pub struct Program {
     command: CommandBuilder,
     size: (u16, u16),
+    /// Home folder of its own: nothing of the user's is read or written.
+    home: TempDir,
 }
 
 impl Program {
@@ -53,7 +56,9 @@ impl Program {
         let mut command = CommandBuilder::new(path);
         command.env_clear();
         command.env("TERM", "xterm-256color");
-        Program { command, size: (120, 40) }
+        let home = tempfile::tempdir().unwrap();
+        command.env("HOME", home.path());
+        Program { command, size: (120, 40), home }
     }
 
     pub fn argument(mut self, argument: impl AsRef<OsStr>) -> Self {
@@ -115,6 +120,7 @@ impl Program {
             pid,
             closed: false,
             ended: None,
+            _home: self.home,
         }
     }
 }
@@ -187,6 +193,7 @@ pub struct Terminal {
     pid: u32,
     closed: bool,
     ended: Option<ExitStatus>,
+    _home: TempDir,
 }
 
 impl Terminal {

@@ -21,6 +21,7 @@ mod ghosts;
 mod hand;
 mod idle;
 mod jobs;
+mod keeping;
 mod leaving;
 mod library;
 mod mouse;

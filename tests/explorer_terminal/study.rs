@@ -16,16 +16,16 @@ fn a_folder_opens_as_the_map_of_its_study() {
         let program = Program::new(ASPERITY).argument("small/").folder(folder.path()).env("HOME", home);
         let mut terminal = paused(program);
         for told in
-            ["Small study", "Study small: 13 × 9 cells, 12 lines", "F_n/(E* h L) = 0.01", "◆ κ 1, H 0.5"]
+            ["Small study", "Study small: regime over H, κ, 12 lines", "F_n/(E* h L) = 0.01", "◆ H 0.5, κ 1"]
         {
             terminal.wait_for(told);
         }
         terminal.send("P");
         terminal.wait_for("F_n/(E* h L) = 0.1");
-        terminal.send("\x1b[C");
-        terminal.wait_for("◆ κ 1.41, H 0.5");
+        terminal.send("\x1b[A");
+        terminal.wait_for("◆ H 0.5, κ 1.41");
         terminal.send("W");
-        terminal.wait_for("Map over κ, H: 4 lines");
+        terminal.wait_for("Map of regime over H, κ, 4 lines");
         terminal.send("W");
         terminal.wait_for("Study small");
         // The command that is copied opens the study again.
@@ -50,7 +50,7 @@ fn a_study_is_opened_by_its_path_from_within() {
         terminal.wait_for("has not been merged yet");
         terminal.send("o");
         answer(&mut terminal, "Search: ", "./small");
-        terminal.wait_for("Study small: 13 × 9 cells, 12 lines");
+        terminal.wait_for("Study small: regime over H, κ, 12 lines");
         quit(&mut terminal);
     });
 }
@@ -77,6 +77,10 @@ fn a_folder_without_a_map_says_why() {
         );
         let one_axis = PLAN.replace("Linear(path: \"roughness.hurst\", from: 0.1, to: 0.9, count: 9),", "");
         merged(&at("one axis"), &one_axis);
+        let one_cell = one_axis
+            .replace("Logarithmic(path: \"kappa\", from: 0.25, to: 16, count: 13),", "")
+            .replace("preloads: [0.01, 0.1, 1.0],", "");
+        merged(&at("one cell"), &one_cell);
         std::fs::create_dir(at("notes")).unwrap();
         std::fs::create_dir(at("jkr-sphere")).unwrap();
         for (name, said) in [
@@ -87,8 +91,11 @@ fn a_folder_without_a_map_says_why() {
             ),
             (
                 "one axis",
-                "one axis: this study has no map over κ and H: it has kappa (13 values), preload (3 values); allowed: \
-                 axes kappa and roughness.hurst, each with two values at least. asperity sweep plot 'one axis' draws",
+                "the explorer needs a terminal; asperity sweep plot 'one axis' draws the study without one",
+            ),
+            (
+                "one cell",
+                "one cell: this study has neither map nor section: it has no axes; a section needs an axis",
             ),
             ("whole", "the explorer needs a terminal; asperity sweep plot whole draws the study without one"),
             (

@@ -10,6 +10,7 @@ use asperity::explorer::model::{Notice, Pane};
 use asperity::explorer::snapshot::Loop;
 use asperity::scene::{Document, format_quantity};
 use asperity::simulation::Outcome;
+use ratatui::style::Color;
 
 /// The scenes of the ghosts, the newest last.
 fn kept(driver: &Driver) -> Vec<Document> {
@@ -33,9 +34,9 @@ fn ghosts_have_letters_and_say_where_they_differ() {
     within(30, || {
         let mut driver = pressed("c");
         assert!(told(&driver).contains("x exchanges"), "{}", told(&driver));
-        assert!(driver.text().contains("A the same scene"), "{}", driver.text());
+        assert!(driver.text().contains("· the same scene"), "{}", driver.text());
         driver.press("L");
-        assert!(driver.text().contains("A H 0.7"), "{}", driver.text());
+        assert!(driver.text().contains("A F_a ") && driver.text().contains("· H 0.7"), "{}", driver.text());
         driver.press("c");
         driver.select("adhesion.kappa");
         driver.enter("4");
@@ -43,13 +44,13 @@ fn ghosts_have_letters_and_say_where_they_differ() {
         driver.press("j");
         driver.enter("10 µN");
         let text = driver.text();
-        for said in ["A H 0.7, κ 8, leg 1 F 20 µN", "B κ 8, leg 1 F 20 µN"] {
+        for said in ["· H 0.7, κ 8", "· κ 8, leg 1"] {
             assert!(text.contains(said), "{said}\n{text}");
         }
         driver.select("loading");
         driver.enter("[ToForce(1.0e-5), ToIndentation(0.0)]");
         let text = driver.text();
-        assert!(text.contains("B κ 8, loading [ToForce(2.0e-5), ToSeparation]"), "{text}");
+        assert!(text.contains("· κ 8, loading ["), "{text}");
         driver.press("u");
         // The letters stand in the plot too.
         driver.press("z");
@@ -229,5 +230,31 @@ fn two_scenes_that_are_opened_are_shown_side_by_side() {
         assert!(driver.model.side_by_side && !driver.model.lengths);
         driver.press("C");
         assert!(!driver.model.side_by_side && driver.model.moment.as_ref().unwrap().beside.is_none());
+    });
+}
+
+#[test]
+fn ghosts_have_their_force_and_its_difference_in_colours_of_their_own() {
+    within(30, || {
+        let mut driver = pressed("c");
+        driver.select("adhesion.kappa");
+        driver.enter("4");
+        driver.press("c");
+        driver.enter("2");
+        let force = |computed: &Loop| computed.outcome.figures.adhesion_force.unwrap();
+        let present = force(driver.model.computed.as_ref().unwrap());
+        let kept: Vec<f64> = driver.model.ghosts.iter().map(|ghost| force(&ghost.computed)).collect();
+        assert!(kept[0] < kept[1] && kept[1] < present);
+        let three = |value: f64| format_quantity(format!("{value:.2e}").parse().unwrap(), "N");
+        for (letter, force) in ["A", "B"].into_iter().zip(kept) {
+            let said = format!("{letter} F_a {} ({}) ·", three(force), three(force - present));
+            assert!(driver.text().contains(&said), "{said}\n{}", driver.text());
+        }
+        let screen = driver.screen();
+        let colour = |letter: &str| {
+            let cell = screen.content.iter().find(|cell| cell.symbol() == letter && cell.fg != Color::Reset);
+            cell.map(|cell| cell.fg)
+        };
+        assert!(colour("A").is_some() && colour("A") != colour("B"), "{:?} {:?}", colour("A"), colour("B"));
     });
 }

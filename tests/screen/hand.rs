@@ -160,14 +160,14 @@ fn a_force_out_of_reach_is_told_and_nothing_is_lost() {
         let before = point(&driver);
         for (typed, unit) in [("-1", "N"), ("-1e6 µN", "µN"), ("-3 mN", "mN")] {
             go(&mut driver, typed);
-            let said = format!("the contact detaches before {typed}; the smallest force within reach is -");
+            let said = format!("the contact detaches before {typed}; smallest force within reach: -");
             let status = driver.status();
             assert!(status.contains(&said) && status.ends_with(&format!(" {unit}")), "{typed}: {status}");
             assert_eq!(point(&driver), before, "what is refused moves nothing");
         }
         // The force that is named can be reached, and one that is smaller in its last digit cannot.
         let status = driver.status();
-        let least = status.rsplit("reach is ").next().unwrap().trim_end_matches(" mN");
+        let least = status.rsplit("reach: ").next().unwrap().trim_end_matches(" mN");
         let (least, digits): (f64, usize) = (least.parse().unwrap(), least.split('.').nth(1).unwrap().len());
         let beyond = least - 10.0_f64.powi(-(digits as i32)) * 2.0;
         go(&mut driver, &format!("{beyond:.digits$} mN"));

@@ -8,7 +8,7 @@ use asperity::explorer::layout::{Layout, inside};
 use asperity::explorer::model::{Mode, Pane};
 use asperity::explorer::theme::Marker;
 use asperity::explorer::update::Effect;
-use asperity::explorer::view::indentation_at;
+use asperity::explorer::view::{indentation_at, share_at};
 use ratatui::layout::Rect;
 
 fn mouse(driver: &mut Driver, column: u16, row: u16, gesture: Gesture) -> Vec<Effect> {
@@ -121,6 +121,23 @@ fn the_wheel_looks_closer_and_scrolls() {
         assert_eq!(driver.model.profile.share, 0.5);
         mouse(&mut driver, area.x, area.y, Gesture::Wheel(-1));
         assert_eq!(driver.model.profile.share, 1.0);
+        // What is under the pointer stays there.
+        let (column, row) = (area.x + 3 * area.width / 4, area.y + 2);
+        let at = |driver: &Driver| {
+            let share = share_at(&driver.model, Pane::Profile, place(driver, Pane::Profile), column).unwrap();
+            driver.model.profile.centre + (share - 0.5) * driver.model.profile.share
+        };
+        let before = at(&driver);
+        for turns in [1, 1, 1, -1] {
+            mouse(&mut driver, column, row, Gesture::Wheel(turns));
+            assert!(
+                (at(&driver) - before).abs() < 0.02 * driver.model.profile.share + 1e-3,
+                "{} {before}",
+                at(&driver)
+            );
+        }
+        assert_eq!(driver.model.profile.share, 0.25);
+        driver.press("0");
         let (area, springs) = (place(&driver, Pane::CloseUp), driver.model.look.springs);
         mouse(&mut driver, area.x, area.y, Gesture::Wheel(1));
         assert_eq!((driver.model.look.springs, driver.model.pane), (springs / 2, Pane::CloseUp));

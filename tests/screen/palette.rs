@@ -32,7 +32,7 @@ fn every_command_is_in_the_list_with_its_keys() {
             }
             // The start of a long description.
             let help: String = row.help.chars().take(60).collect();
-            let names = keys::names(row.keys).join(" ");
+            let names = keys::names(&row.keys).join(" ");
             let is_listed = |line: &String| line.contains(&help) && line.contains(&names);
             assert!(rows.iter().any(is_listed), "{names}: {help}\n{}", rows.join("\n"));
             listed += 1;

@@ -4,7 +4,9 @@ use super::common::deadline::within;
 use super::common::driver::Driver;
 use super::common::scenes::rough;
 use super::{is_up_to_date, pressed};
+use asperity::explorer::config::Config;
 use asperity::explorer::update::Effect;
+use std::path::Path;
 
 #[test]
 fn the_animation_plays_to_its_end_and_stops() {
@@ -144,5 +146,53 @@ fn the_animation_is_as_far_however_often_it_is_drawn() {
                 assert!((there.indentation - point.indentation).abs() < 5e-14, "{seconds}, {steps}");
             }
         }
+    });
+}
+
+#[test]
+fn the_configuration_sets_speed_end_and_keys() {
+    within(30, || {
+        let config = |text: &str| Config::parse(text, Path::new("config.ron")).unwrap();
+        let place = |config: Config, seconds: u32| {
+            let mut driver = Driver::start(rough());
+            driver.model.configure(config);
+            driver.press("r");
+            (0..10 * seconds).for_each(|_| drop(driver.elapse(0.1)));
+            let player = driver.model.player;
+            (player.leg, (10.0 * player.done).round(), player.playing)
+        };
+        assert_eq!(place(Config::default(), 3), (0, 5.0, true));
+        assert_eq!(place(config("(version: 1, speed: 2.0)"), 3), (0, 10.0, true));
+        assert_eq!(place(config("(version: 1)"), 20), (1, 10.0, false));
+        let (leg, _, playing) = place(config("(version: 1, repeat: true)"), 14);
+        assert!(leg == 0 && playing, "it begins again");
+        // Other keys show in the help.
+        let mut driver = Driver::start(rough());
+        driver
+            .model
+            .configure(config("(version: 1, keys: [(action: \"toggle-play\", keys: [\"_\", \"F5\"])])"));
+        assert!(driver.model.player.playing);
+        driver.press("Space");
+        assert!(driver.model.player.playing, "its key is another one");
+        driver.press("_");
+        assert!(!driver.model.player.playing);
+        driver.press("?");
+        driver.resize((120, 200));
+        assert!(driver.text().contains("_ F5"), "{}", driver.text());
+    });
+}
+
+#[test]
+fn colours_and_markers_are_kept_when_asked() {
+    within(30, || {
+        let mut driver = Driver::start(rough());
+        driver.press("T M Ctrl+s");
+        assert!(driver.status().contains("! there is no configuration file"), "{}", driver.status());
+        let config = Config { path: Some("my/config.ron".into()), ..Config::default() };
+        driver.model.configure(config);
+        let effects = driver.press("Ctrl+s");
+        let appearance = driver.model.appearance;
+        assert_eq!(effects, [Effect::Remember { path: "my/config.ron".into(), appearance }]);
+        assert!(driver.status().contains("are kept in my/config.ron"), "{}", driver.status());
     });
 }

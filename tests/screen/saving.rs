@@ -4,7 +4,7 @@ use super::common::deadline::within;
 use super::common::driver::{Driver, REFUSED};
 use super::common::scenes::rough;
 use super::pressed;
-use asperity::explorer::action::Content;
+use asperity::explorer::action::{Action, Content};
 use asperity::explorer::model::{Mode, ModeKind};
 use asperity::explorer::update::Effect;
 use asperity::scene::Document;
@@ -150,5 +150,140 @@ fn a_comment_that_goes_with_what_is_replaced_is_told() {
         driver.select("roughness.hurst");
         driver.press("l");
         assert!(!driver.text().contains("gone"), "{}", driver.text());
+    });
+}
+
+#[test]
+fn title_and_notice_are_edited_with_the_name_and_the_name_gets_its_extension() {
+    within(30, || {
+        let mut driver = pressed("s Ctrl+u");
+        driver.type_text("mine");
+        driver.press("Down");
+        assert!(driver.status().starts_with("Title: "), "{}", driver.status());
+        driver.press("Ctrl+u");
+        driver.type_text("My \"own\" line");
+        driver.press("Down Ctrl+u");
+        assert!(driver.status().starts_with("Notice:"), "{}", driver.status());
+        driver.type_text("Look here.");
+        driver.press("Up Up");
+        assert!(driver.status().starts_with("Save as: mine"), "{}", driver.status());
+        driver.press("Enter");
+        let text = &driver.files[Path::new("mine.ron")];
+        let saved = Document::parse(text, "mine.ron").unwrap();
+        assert_eq!(
+            (saved.scene().title.as_str(), saved.scene().notice.as_str()),
+            ("My \"own\" line", "Look here.")
+        );
+        assert_eq!(saved.comments(), rough().comments());
+        assert!(!driver.model.is_unsaved() && driver.model.document.name() == "mine.ron");
+        assert!(driver.rows()[0].starts_with("My \"own\" line"), "{}", driver.text());
+        // Another extension is kept.
+        driver.press("s Ctrl+u");
+        driver.type_text("mine.txt");
+        driver.press("Enter");
+        assert!(driver.files.contains_key(Path::new("mine.txt")));
+        for size in [(80, 24), (40, 12), (20, 5)] {
+            driver.resize(size);
+            driver.press("s Down");
+            driver.screen();
+            driver.press("Esc");
+        }
+    });
+}
+
+#[test]
+fn comments_about_changed_values_are_removed_only_when_asked() {
+    within(30, || {
+        let comments = rough().comments();
+        let asked = |keys: &str| {
+            let mut driver = pressed("");
+            driver.select("material.youngs_modulus");
+            driver.press("l s Enter");
+            assert!(
+                driver.status().contains("1 comment is about values that have changed"),
+                "{}",
+                driver.status()
+            );
+            assert!(driver.files.is_empty());
+            driver.press(keys);
+            driver
+        };
+        let of = |driver: &Driver| {
+            let text = driver.files.get(Path::new("rough-line.ron"))?;
+            Some(Document::parse(text, "rough-line.ron").unwrap().comments())
+        };
+        assert_eq!(of(&asked("n")), Some(comments));
+        assert_eq!(of(&asked("Esc")), None);
+        let mut driver = asked("y");
+        assert_eq!(of(&driver), Some(comments - 1));
+        driver.press("u");
+        assert_eq!(driver.model.document.comments(), comments, "undo brings it back");
+        // It is asked once: what is saved is the text from now on.
+        let mut driver = asked("n");
+        driver.press("s Enter");
+        assert!(driver.status().contains("Overwrite"), "{}", driver.status());
+    });
+}
+
+#[test]
+fn scenes_in_whose_place_others_were_opened_are_not_forgotten() {
+    within(30, || {
+        let mut driver = pressed("l 1 q");
+        assert_eq!(driver.model.mode, Mode::Quit, "the first scene is unsaved");
+        driver.press("n l q");
+        assert!(driver.status().contains("2 scenes have unsaved changes"), "{}", driver.status());
+        driver.press("n u u");
+        assert_eq!(driver.model.document.name(), "rough-line");
+        assert_eq!(driver.model.unsaved().len(), 1, "it is the explored scene again");
+        // Each is saved before the explorer ends.
+        driver.press("l 1 l q s Ctrl+u");
+        driver.type_text("first");
+        driver.press("Enter");
+        for _ in 0..3 {
+            match driver.model.mode.kind() {
+                ModeKind::StaleComments => driver.press("n"),
+                ModeKind::Quit => driver.press("s Enter"),
+                _ => Vec::new(),
+            };
+        }
+        assert!(driver.model.finished, "{}", driver.text());
+        let saved: Vec<&Path> = driver.files.keys().map(|path| path.as_path()).collect();
+        assert_eq!(saved, [Path::new("first.ron"), Path::new("rough-line.ron")]);
+        // Leaving without them is the second q.
+        let driver = pressed("l 1 q q");
+        assert!(driver.model.finished && driver.files.is_empty());
+    });
+}
+
+#[test]
+fn what_changes_only_the_view_or_the_writing_of_a_number_is_no_change() {
+    within(30, || {
+        let mut driver = pressed("v N a n + - A A m t X m z z M T D d d");
+        driver.select("roughness.hurst");
+        driver.press("l h");
+        assert!(driver.model.unsaved().is_empty(), "{}", driver.model.document.text());
+        driver.press("q");
+        assert!(driver.model.finished);
+    });
+}
+
+#[test]
+fn unsaved_changes_of_another_session_are_offered_and_restored() {
+    within(30, || {
+        let mut driver = Driver::start(rough());
+        driver.act(Action::Offered(vec!["mine".to_owned(), "other".to_owned()]));
+        assert!(driver.status().contains("unsaved changes of mine, other are kept"), "{}", driver.status());
+        driver.press("j");
+        assert!(!driver.status().contains("unsaved"), "{}", driver.status());
+        driver.act(Action::NotKept("no room".to_owned()));
+        assert!(driver.status().contains("! unsaved changes are not kept for another session: no room"));
+        let changed = rough().set("roughness.hurst", "0.5").unwrap();
+        let other = Document::parse(rough().text(), "other").unwrap().set("length", "2.0e-4").unwrap();
+        let mut driver = Driver::start(changed.clone());
+        driver.model.restore(&[changed, other]);
+        let names: Vec<&str> = driver.model.unsaved().iter().map(|document| document.name()).collect();
+        assert_eq!(names, ["rough-line", "other"]);
+        driver.press("q");
+        assert!(driver.status().contains("2 scenes have unsaved changes"), "{}", driver.status());
     });
 }

@@ -72,7 +72,7 @@ fn glyphs_tell_all_that_was_recorded() {
         for (quantity, told) in [
             (Quantity::ZeroLoadAdhesionShare, "F_a(0)/F_a,max over H, κ"),
             (Quantity::AdhesionCoefficient, "F_a/F_n over H, κ"),
-            (Quantity::AdhesionForce, "F_a (µN) "),
+            (Quantity::AdhesionForce, "F_a (mN) "),
         ] {
             driver.press("V");
             assert_eq!(driver.model.chart.charted(), Charted::Quantity(quantity));
@@ -80,9 +80,9 @@ fn glyphs_tell_all_that_was_recorded() {
         }
         // The map that is computed here does not have it, and shows what it has.
         driver.press("W");
-        assert!(!driver.text().contains("F_a (µN) "), "{}", driver.text());
+        assert!(!driver.text().contains("F_a (mN) "), "{}", driver.text());
         driver.press("W");
-        assert!(driver.text().contains("F_a (µN) "), "{}", driver.text());
+        assert!(driver.text().contains("F_a (mN) "), "{}", driver.text());
         driver.press("V");
         assert_eq!(driver.model.chart.charted(), Charted::Regime);
         for told in ["█ pressure-insensitive", "· non-adhesive", "▓ ░ divided", "of 12 lines"] {
@@ -147,7 +147,7 @@ fn the_scene_follows_to_the_next_preload() {
             regimes.push(driver.model.chart.map_model().cloned());
         }
         assert!(regimes[0] != regimes[1] && regimes[0] == regimes[3]);
-        driver.press("Ctrl+p");
+        driver.press("PageUp");
         assert!((preload(&driver) / first / 100.0 - 1.0).abs() < 1e-9);
         // A scene that is another one is left as it is.
         driver.press("Tab Tab");

@@ -1,12 +1,13 @@
 //! `asperity sweep boundary`: where adhesion without a preload vanishes.
 
+use super::boundary_terms::{BoundaryFormat, protocol, symbol};
 use super::spread;
 use crate::cli::CliError;
 use crate::export::sheet::Sheet;
 use crate::io::write_json_value;
 use crate::scene::RoughnessParameter;
 use crate::study::{Boundaries, Boundary, Crossing, DEFINITIONS, Quantity, USUAL_LEVELS, boundaries};
-use clap::{Args, ValueEnum};
+use clap::Args;
 use serde_json::{Map, Value, json};
 use std::io::Write;
 use std::path::PathBuf;
@@ -46,19 +47,6 @@ pub struct BoundaryArguments {
     pub format: BoundaryFormat,
 }
 
-/// Formats of boundaries.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum BoundaryFormat {
-    /// A table.
-    Text,
-    /// One object.
-    Json,
-    /// One row for each boundary.
-    Csv,
-    /// Tables for a document, one for each share.
-    Markdown,
-}
-
 fn level(text: &str) -> Result<f64, String> {
     let level = text.trim().parse::<f64>().ok().filter(|level| *level > 0.0 && *level < 1.0);
     level.ok_or_else(|| "allowed: a share above 0 and below 1, such as 0.05".to_string())
@@ -88,18 +76,6 @@ pub(super) fn boundary(arguments: &BoundaryArguments, stdout: &mut dyn Write) ->
         BoundaryFormat::Markdown => stdout.write_all(markdown(&boundaries, &levels).as_bytes())?,
     }
     Ok(())
-}
-
-pub(super) fn protocol(quantity: Quantity) -> &'static str {
-    if quantity == Quantity::ZeroLoadAdhesionShare { "touch" } else { "zero force" }
-}
-
-/// Symbol of a boundary in a parameter.
-pub(super) fn symbol(over: RoughnessParameter) -> &'static str {
-    match over {
-        RoughnessParameter::Kappa => "κ*",
-        RoughnessParameter::ElasticEnergyRatio => "(e_el/γ)*",
-    }
 }
 
 /// Columns of a boundary in a parameter, each with its factor.

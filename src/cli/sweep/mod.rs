@@ -1,6 +1,7 @@
 //! `asperity sweep`: parameter studies.
 
 mod boundary;
+mod boundary_terms;
 mod merge;
 mod plans;
 mod plot;

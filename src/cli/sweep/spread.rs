@@ -1,6 +1,6 @@
 //! `asperity sweep boundary --spread`: how far the boundaries of a study lie apart.
 
-use super::boundary::{BoundaryFormat, protocol, symbol};
+use super::boundary_terms::{BoundaryFormat, protocol, symbol};
 use crate::cli::CliError;
 use crate::export::sheet::Sheet;
 use crate::io::write_json_value;

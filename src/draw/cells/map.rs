@@ -95,10 +95,18 @@ fn class(map: &HeatMap, cell: usize) -> Option<&Class> {
     map.class_names.get(map.classes.get(cell).copied().flatten()?)
 }
 
-/// Column or row of the screen with a place among the values, or that at the end nearest to the place.
+/// Column or row of the screen with a place among the values, or that at the end nearest to the place: the middle of the
+/// cells of a value, and between values in proportion.
 pub(super) fn cell_of(place: f64, cells: u16, values: usize) -> u16 {
-    let at = ((place + 0.5) * f64::from(cells) / values.max(1) as f64).floor();
-    at.clamp(0.0, f64::from(cells.max(1) - 1)) as u16
+    let middle = |value: usize| {
+        let cells = cells_of(value, cells, values);
+        (cells.start + cells.end) as f64 / 2.0 - 0.5
+    };
+    let place = place.clamp(0.0, values.saturating_sub(1) as f64);
+    let (before, share) = (place.floor() as usize, place.fract());
+    let at = middle(before) + if share > 0.0 { share * (middle(before + 1) - middle(before)) } else { 0.0 };
+    // A place that is one of the values but for rounding is in its cells.
+    (at + 1e-6).floor().clamp(0.0, f64::from(cells.max(1) - 1)) as u16
 }
 
 /// Returns true if the contour passes between two cells.

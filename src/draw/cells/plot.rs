@@ -353,6 +353,46 @@ mod tests {
     }
 
     #[test]
+    fn a_value_of_a_map_is_found_at_its_cell() {
+        let columns: Vec<f64> = (1..20).map(|at| 0.05 * f64::from(at)).collect();
+        let rows: Vec<f64> = (0..33).map(|at| 0.125 * 2_f64.powf(0.25 * f64::from(at))).collect();
+        let span = |scale, values: &[f64]| HeatMap::span(scale, values);
+        let map = HeatMap {
+            values: vec![Some(1.0); columns.len() * rows.len()],
+            key: axis(0.0, 1.0, "", "1"),
+            classes: Vec::new(),
+            class_names: Vec::new(),
+            contour: None,
+            columns: columns.clone(),
+            rows: rows.clone(),
+        };
+        let chart = Chart {
+            heading: String::new(),
+            x: Axis::new(AxisScale::Linear, span(AxisScale::Linear, &columns), "", "H", "1"),
+            y: Axis::new(AxisScale::Logarithmic, span(AxisScale::Logarithmic, &rows), "", "κ", "1"),
+            layers: vec![Layer::unnamed(Ink::Text, Shape::Map(Box::new(map.clone())))],
+            inset: None,
+        };
+        for (width, height) in [(20, 5), (66, 30), (118, 37), (200, 90)] {
+            let place = CellPlot::within(Rect::new(3, 2, width, height), &chart);
+            for (x, y) in columns.iter().flat_map(|x| rows.iter().map(move |y| (*x, *y))) {
+                let cell = place.cell(&chart, MARKERS[0], (x, y)).unwrap();
+                let (across, up) = place.values_at(&map, cell).unwrap();
+                // Of several values in one cell it is one whose middle is there or in the next.
+                let (column, row) = place.cell(&chart, MARKERS[0], (across, up)).unwrap();
+                assert!(column.abs_diff(cell.0) <= 1 && row.abs_diff(cell.1) <= 1, "{x} {y} {across} {up}");
+                let has_room = |cells: u16, values: &[f64]| usize::from(cells) >= values.len();
+                assert!(!has_room(place.plot.width, &columns) || across == x, "{x} {across}");
+                assert!(!has_room(place.plot.height, &rows) || up == y, "{y} {up}");
+            }
+            // Beyond the map it is at its edge, and outside the plot there is nothing.
+            let corner = place.cell(&chart, MARKERS[0], (columns[columns.len() - 1], rows[rows.len() - 1]));
+            assert_eq!(place.cell(&chart, MARKERS[0], (9.0, 1e9)), corner);
+            assert_eq!(place.values_at(&map, (place.plot.right(), place.plot.y)), None);
+        }
+    }
+
+    #[test]
     fn two_numbers_give_each_axis_a_scale() {
         let [x, y] = [axis(-5.26e-8, 6.71e-7, "d", "m"), axis(-1.93e-5, 1.22e-5, "F", "N")];
         let chart = Chart { heading: String::new(), x, y, layers: Vec::new(), inset: None };

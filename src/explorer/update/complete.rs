@@ -20,7 +20,9 @@ impl TypedPath {
     /// Path that ends at the end of the line: the whole line, or in the value of a roughness the text behind an open quote.
     fn of(model: &Model) -> Option<Self> {
         let (line, is_value) = match &model.mode {
-            Mode::SaveAs { line, .. } | Mode::Export(line) => (line, false),
+            // Title and notice of a scene are no paths.
+            Mode::SaveAs(form) if form.line == 0 => (form.lines.first()?, false),
+            Mode::Export(line) => (line, false),
             Mode::Library(library) => (&library.finder.query, false),
             Mode::Edit(line) if model.parameter()?.path.starts_with("roughness") => (line, true),
             _ => return None,

@@ -67,6 +67,7 @@ pub fn obey(model: &mut Model, command: Command) -> Vec<Effect> {
 /// Explores another scene from its beginning.
 pub fn open(model: &mut Model, document: Document) -> Vec<Effect> {
     if model.is_unsaved() {
+        model.left.insert(model.document.name().to_owned(), model.document.clone());
         let kept = "the changed scene is kept: undo brings it back";
         model.notice = Some(Notice::Done(kept.to_owned()));
     }
@@ -336,7 +337,11 @@ pub fn undo(model: &mut Model, back: bool) -> Vec<Effect> {
     let (from, to) =
         if back { (&mut model.undo, &mut model.redo) } else { (&mut model.redo, &mut model.undo) };
     let Some(document) = from.pop() else { return Vec::new() };
-    to.push(std::mem::replace(&mut model.document, document));
+    let before = std::mem::replace(&mut model.document, document);
+    to.push(before.clone());
+    if before.name() != model.document.name() && model.is_changed(&before) {
+        model.left.insert(before.name().to_owned(), before);
+    }
     renew(model)
 }
 
@@ -351,6 +356,9 @@ fn row_of(model: &Model, path: &str) -> usize {
 /// Asks for the scene as it is now.
 fn renew(model: &mut Model) -> Vec<Effect> {
     let selected = model.parameter().map(|parameter| parameter.path.clone()).unwrap_or_default();
+    // What was left and is shown again is the scene itself.
+    let document = &model.document;
+    model.left.retain(|_, left| left.name() != document.name() || left.scene() != document.scene());
     model.parameters = parameters(&model.document);
     select(model, row_of(model, &selected));
     model.generation += 1;

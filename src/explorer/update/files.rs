@@ -1,19 +1,74 @@
 //! What leaves the explorer: the scene, exports, the command that opens it.
 
-use super::Effect;
+use super::{Effect, edit};
 use crate::explorer::action::{Content, WriteFailure, Written};
-use crate::explorer::mode::Mode;
+use crate::explorer::mode::{Mode, SaveForm};
 use crate::explorer::model::{Model, Notice, Writing};
 use crate::explorer::text_line::TextLine;
-use crate::scene::{Document, command_line};
+use crate::scene::{Document, command_line, ron_string, typed_path};
 use std::path::PathBuf;
 
-/// Asks for the name of the file to save to.
+/// Asks for the file to save to, for title and notice.
 pub fn save_as(document: &Document, then_quit: bool) -> Mode {
     let name = document.name();
     let is_file = std::path::Path::new(name).extension().is_some_and(|extension| extension == "ron");
-    let line = TextLine::new(&if is_file { name.to_owned() } else { format!("{name}.ron") });
-    Mode::SaveAs { line, then_quit }
+    let file = if is_file { name.to_owned() } else { format!("{name}.ron") };
+    let scene = document.scene();
+    let lines = [&file, &scene.title, &scene.notice].map(|text| TextLine::new(text));
+    Mode::SaveAs(SaveForm { lines, line: 0, then_quit })
+}
+
+/// Saves the scene with the title and the notice that were typed, as an edit where they are others. A name without an
+/// extension gets `.ron`. Comments about changed values are asked about first.
+pub fn save(model: &mut Model, form: &SaveForm) -> Vec<Effect> {
+    let [file, title, notice] = form.lines.each_ref().map(TextLine::text);
+    let mut path = typed_path(&file);
+    if path.as_os_str().is_empty() {
+        return Vec::new();
+    }
+    if path.extension().is_none() && path.file_name().is_some() {
+        path.set_extension("ron");
+    }
+    let scene = model.document.scene();
+    let texts = [("title", &scene.title, title), ("notice", &scene.notice, notice)];
+    // The lines have no line breaks; a text that was not touched keeps its own.
+    let changed = texts.into_iter().filter(|(_, before, now)| TextLine::new(before).text() != *now);
+    let changed: Vec<_> = changed.map(|(path, _, now)| (path.to_owned(), ron_string(&now))).collect();
+    let mut effects = Vec::new();
+    if !changed.is_empty() {
+        let document = model.document.set_all(&changed);
+        effects = edit::take_over(model, document);
+        if model.refused.is_some() {
+            return effects;
+        }
+    }
+    let (count, then_quit) = (model.document.stale_comments(), form.then_quit);
+    if count > 0 {
+        model.mode = Mode::StaleComments { count, path, then_quit };
+    } else {
+        effects.extend(write(model, path, Content::Scene, then_quit));
+    }
+    effects
+}
+
+/// Saves the scene without the comments about changed values.
+pub fn save_without_comments(model: &mut Model, path: PathBuf, then_quit: bool) -> Vec<Effect> {
+    let document = model.document.without_stale_comments();
+    let mut effects = edit::adopt(model, document);
+    effects.extend(write(model, path, Content::Scene, then_quit));
+    effects
+}
+
+/// Asks for the file of the scene or, where that is saved, of one that was left with unsaved changes.
+pub fn save_before_leaving(model: &mut Model) -> Vec<Effect> {
+    let mut effects = Vec::new();
+    if !model.is_unsaved()
+        && let Some(document) = model.unsaved().first().map(|document| Document::clone(document))
+    {
+        effects = edit::adopt(model, document);
+    }
+    model.mode = save_as(&model.document, true);
+    effects
 }
 
 /// Asks for the name of the file to export to.
@@ -33,7 +88,7 @@ pub fn export(model: &mut Model, path: PathBuf) -> Vec<Effect> {
         let what = if is_map { "the map" } else { "the curve" };
         let endings: Vec<String> = model.exports().iter().map(|(ending, _)| format!(".{ending}")).collect();
         let why =
-            format!("{}: {} is exported; the name must end in {}", path.display(), what, endings.join(", "));
+            format!("{}: the name must end in {}, to export {what}", path.display(), endings.join(", "));
         model.notice = Some(Notice::Error(why));
         model.mode = Mode::Explore;
         return Vec::new();
@@ -96,7 +151,7 @@ pub fn written(model: &mut Model, result: Result<Written, WriteFailure>) {
                 "exported"
             };
             model.notice = Some(Notice::Done(format!("{how} to {}", path.display())));
-            if then_quit && model.is_unsaved() {
+            if then_quit && !model.unsaved().is_empty() {
                 model.mode = Mode::Quit;
             } else {
                 model.finished = then_quit;

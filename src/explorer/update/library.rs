@@ -36,7 +36,7 @@ pub fn search(model: &mut Model) -> Vec<Effect> {
 }
 
 fn candidate(entry: &Entry) -> Candidate {
-    Candidate { names: vec![entry.name.clone(), entry.title.clone()], prose: vec![entry.notice.clone()] }
+    Candidate { names: vec![entry.name.clone()], prose: vec![entry.title.clone(), entry.notice.clone()] }
 }
 
 /// Obeys a command while the library is open.

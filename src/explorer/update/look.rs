@@ -67,6 +67,14 @@ pub fn obey(model: &mut Model, command: Command) -> Vec<Effect> {
             model.appearance.marker = model.appearance.marker.next();
             tell(model, format!("markers: {}", model.appearance.marker.name()));
         }
+        Command::RememberAppearance => {
+            let Some(path) = model.config_path.clone() else {
+                let why = "there is no configuration file: asperity was started with --no-config";
+                model.notice = Some(Notice::Error(why.to_owned()));
+                return Vec::new();
+            };
+            return vec![Effect::Remember { path, appearance: model.appearance }];
+        }
         _ => {}
     }
     vec![Effect::Show]
@@ -106,6 +114,24 @@ pub fn zoom(model: &mut Model, steps: i32) {
         let springs = model.look.springs;
         let springs = if steps > 0 { springs / 2 } else { springs * 2 };
         model.look.springs = springs.clamp(FEWEST_SPRINGS, most.max(FEWEST_SPRINGS));
+    }
+}
+
+/// Looks closer, or from further away, such that the point under the pointer, at a share of the pane, stays there.
+pub fn zoom_at(model: &mut Model, steps: i32, pointer: f64) {
+    let (profile, springs_before) = (model.profile, model.look.springs as f64);
+    zoom(model, steps);
+    let away = pointer - 0.5;
+    if model.pane == Pane::Profile {
+        let LineView { share, .. } = model.profile;
+        let centre = profile.centre + away * (profile.share - share);
+        let centre = centre.clamp(share / 2.0, 1.0 - share / 2.0);
+        model.profile = LineView { centre, share, follow: false };
+    } else if let Some(moment) = &model.moment {
+        let section = &moment.close_up.section;
+        let middle = section.first as f64 + section.springs as f64 / 2.0;
+        let to = middle + away * (springs_before - model.look.springs as f64);
+        model.look.focus = Focus::Spring(to.clamp(0.0, (springs(model) - 1) as f64) as usize);
     }
 }
 

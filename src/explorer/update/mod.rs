@@ -24,6 +24,7 @@ use super::layout::Layout;
 use super::mode::Mode;
 use super::model::{Model, Notice, Player};
 use super::request::{HandOrder, MomentRequest};
+use super::theme::Appearance;
 use super::view::help_end;
 use crate::scene::{Document, typed_path};
 use std::path::PathBuf;
@@ -51,6 +52,13 @@ pub enum Effect {
         content: Content,
         /// Whether to overwrite it.
         overwrite: bool,
+    },
+    /// Keep colours and markers in the configuration file.
+    Remember {
+        /// The file.
+        path: PathBuf,
+        /// Colours and markers.
+        appearance: Appearance,
     },
     /// List the scenes of the library.
     List,
@@ -116,6 +124,22 @@ pub fn update(model: &mut Model, action: Action) -> Vec<Effect> {
         Action::Opened(Ok(opening)) => return chart::open(model, *opening),
         Action::Opened(Err(why)) => model.notice = Some(Notice::Error(why)),
         Action::Previewed(preview) => model.preview = Some(preview),
+        Action::Remembered(Ok(path)) => {
+            model.notice = Some(Notice::Done(format!("colours and markers are kept in {}", path.display())));
+        }
+        Action::Remembered(Err(why)) => model.notice = Some(Notice::Error(why)),
+        Action::Offered(names) if model.mode == Mode::Explore && model.notice.is_none() => {
+            let of = names.join(", ");
+            let told = format!(
+                "unsaved changes of {of} are kept from another session: asperity --restore opens them"
+            );
+            model.notice = Some(Notice::Done(told));
+        }
+        Action::Offered(_) => {}
+        Action::NotKept(why) => {
+            model.notice =
+                Some(Notice::Error(format!("unsaved changes are not kept for another session: {why}")));
+        }
         Action::Traffic(traffic) => model.traffic = Some(traffic),
         Action::Mouse(mouse) => return mouse::act(model, mouse),
     }
@@ -199,13 +223,25 @@ fn obey(model: &mut Model, command: Command) -> Vec<Effect> {
             }
             _ => edit_line(model, command),
         },
-        Mode::SaveAs { line, then_quit } => match command {
+        Mode::SaveAs(form) => match command {
             Command::Accept => {
-                let (path, then_quit) = (typed_path(&line.text()), *then_quit);
-                return files::write(model, path, Content::Scene, then_quit);
+                let form = form.clone();
+                return files::save(model, &form);
             }
+            Command::NextLine(lines) => form.go(lines),
             _ => edit_line(model, command),
         },
+        Mode::StaleComments { path, then_quit, .. } => {
+            let (path, then_quit) = (path.clone(), *then_quit);
+            return match command {
+                Command::Accept => files::save_without_comments(model, path, then_quit),
+                Command::Refuse => files::write(model, path, Content::Scene, then_quit),
+                _ => {
+                    model.mode = Mode::Explore;
+                    Vec::new()
+                }
+            };
+        }
         Mode::Export(line) => match command {
             Command::Accept => {
                 let path = typed_path(&line.text());
@@ -222,7 +258,7 @@ fn obey(model: &mut Model, command: Command) -> Vec<Effect> {
         },
         Mode::Quit => match command {
             Command::QuitAnyway => files::quit(model),
-            Command::Save => model.mode = files::save_as(&model.document, true),
+            Command::Save => return files::save_before_leaving(model),
             _ => model.mode = Mode::Explore,
         },
     }
@@ -267,7 +303,7 @@ fn explore(model: &mut Model, command: Command) -> Vec<Effect> {
         model.notice = None;
     }
     match command {
-        Command::Quit if model.is_unsaved() => model.mode = Mode::Quit,
+        Command::Quit if !model.unsaved().is_empty() => model.mode = Mode::Quit,
         Command::Quit | Command::QuitAnyway => files::quit(model),
         Command::Help => model.mode = Mode::Help { scroll: 0 },
         Command::TogglePlay
@@ -326,9 +362,12 @@ fn explore(model: &mut Model, command: Command) -> Vec<Effect> {
         | Command::NextPane
         | Command::NextTheme
         | Command::ToggleWork
-        | Command::NextMarker => return look::obey(model, command),
+        | Command::NextMarker
+        | Command::RememberAppearance => return look::obey(model, command),
         Command::Suspend
+        | Command::NextLine(_)
         | Command::Accept
+        | Command::Refuse
         | Command::Cancel
         | Command::Move(_)
         | Command::Delete { .. }

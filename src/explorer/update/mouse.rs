@@ -6,7 +6,7 @@ use crate::explorer::layout::{Layout, inside};
 use crate::explorer::mode::Mode;
 use crate::explorer::model::{Model, Pane};
 use crate::explorer::request::HandOrder;
-use crate::explorer::view::{indentation_at, parameter_at, place_at};
+use crate::explorer::view::{indentation_at, parameter_at, place_at, share_at};
 use ratatui::layout::Position;
 
 /// Does what the mouse asks for.
@@ -59,7 +59,10 @@ pub fn act(model: &mut Model, mouse: Mouse) -> Vec<Effect> {
         (Gesture::Wheel(turns), Pane::Parameters) => explore(model, Command::Select(-turns)),
         (Gesture::Wheel(turns), Pane::Profile | Pane::CloseUp) => {
             model.pane = pane;
-            look::zoom(model, turns);
+            match share_at(model, pane, inside(area), mouse.column) {
+                Some(pointer) => look::zoom_at(model, turns, pointer),
+                None => look::zoom(model, turns),
+            }
             vec![Effect::Show]
         }
         (Gesture::Drag | Gesture::Wheel(_), _) => Vec::new(),

@@ -2,6 +2,7 @@
 
 use super::Effect;
 use crate::explorer::action::Command;
+use crate::explorer::config::Animation;
 use crate::explorer::mode::Mode;
 use crate::explorer::model::{Hand, Model, Notice, Player};
 use crate::explorer::request::{Focus, HandOrder};
@@ -11,7 +12,7 @@ use crate::scene::{parse_quantity, quantity_as_typed};
 use std::sync::Arc;
 use std::time::Duration;
 
-/// Time the animation takes for one leg.
+/// Time of the animation for one loading stage, at speed 1.
 const LEG_TIME: Duration = Duration::from_secs(6);
 /// Steps of the animation in one leg.
 const STEPS: f64 = 120.0;
@@ -77,14 +78,19 @@ pub fn elapse(model: &mut Model, time: Duration) -> Vec<Effect> {
     }
     let legs = model.legs().len();
     let player = &mut model.player;
-    player.done += time.as_secs_f64() / LEG_TIME.as_secs_f64();
+    let Animation { speed, repeats } = model.animation;
+    player.done += speed * time.as_secs_f64() / LEG_TIME.as_secs_f64();
     // How far it is does not depend on how often it is drawn: what is left goes on in the next leg.
     while player.done > 1.0 && player.leg + 1 < legs {
         player.leg += 1;
         player.done -= 1.0;
     }
     if player.done >= 1.0 && player.leg + 1 >= legs {
-        (player.done, player.playing) = (1.0, false);
+        *player = Player {
+            leg: if repeats { 0 } else { player.leg },
+            done: if repeats { 0.0 } else { 1.0 },
+            playing: repeats,
+        };
     }
     vec![Effect::Show]
 }
@@ -137,10 +143,7 @@ fn refusal(refusal: &Refusal, typed: &str) -> String {
     match *refusal {
         Refusal::Detaches { smallest } => {
             let least = force(rounded_up(smallest));
-            format!(
-                "the contact detaches before {}; the smallest force within reach is {least}",
-                typed.trim()
-            )
+            format!("the contact detaches before {}; smallest force within reach: {least}", typed.trim())
         }
         Refusal::BeyondFullContact { full_contact, largest } => {
             let (full, most) = (force(full_contact), force(-rounded_up(-largest)));

@@ -9,14 +9,14 @@ use crate::explorer::palette::{Entry, entries};
 
 /// Opens the list.
 pub fn open(model: &mut Model) -> Vec<Effect> {
-    model.mode = Mode::Palette(Finder::new(entries().len()));
+    model.mode = Mode::Palette(Finder::new(entries(&model.bindings).len()));
     Vec::new()
 }
 
 /// Finds what fits the query as it is now.
 pub fn search(model: &mut Model) -> Vec<Effect> {
     if let Mode::Palette(finder) = &mut model.mode {
-        finder.search(entries().iter().map(Entry::candidate));
+        finder.search(entries(&model.bindings).iter().map(Entry::candidate));
     }
     Vec::new()
 }
@@ -27,7 +27,7 @@ pub fn obey(model: &mut Model, command: Command) -> Vec<Effect> {
     match command {
         Command::Select(rows) => finder.select(rows),
         Command::Accept => {
-            let chosen = finder.choice().and_then(|index| entries().into_iter().nth(index));
+            let chosen = finder.choice().and_then(|index| entries(&model.bindings).into_iter().nth(index));
             return chosen.map_or_else(Vec::new, |entry| run(model, &entry));
         }
         Command::Delete { .. } | Command::Clear => {

@@ -8,6 +8,7 @@ use crate::contact::CurvePoint;
 use crate::explorer::action::{Command, Content, Traffic};
 use crate::explorer::completion::Completion;
 use crate::explorer::keys::{self, Binding};
+use crate::explorer::mode::SaveForm;
 use crate::explorer::model::{Estimated, Hand, Mode, ModeKind, Model, Notice};
 use crate::explorer::snapshot::Moment;
 use crate::explorer::text_line::TextLine;
@@ -49,7 +50,14 @@ pub fn status(frame: &mut Frame<'_>, area: Rect, model: &Model) {
         Line::from_iter([prompt].into_iter().chain(typed(line, room, theme)))
     };
     let line = match (&model.mode, &model.notice) {
-        (Mode::SaveAs { line, .. }, _) => prompted("Save as: ", line),
+        (Mode::SaveAs(form), _) => {
+            let name = SaveForm::PROMPTS.get(form.line).copied().unwrap_or_default();
+            form.lines.get(form.line).map_or_else(Line::default, |line| prompted(name, line))
+        }
+        (Mode::StaleComments { count, .. }, _) => {
+            let (comments, are) = if *count == 1 { ("comment", "is") } else { ("comments", "are") };
+            error(format!("{count} {comments} {are} about values that have changed. Save without?"))
+        }
         // What is typed is to be seen in the smallest window too.
         (Mode::Export(line), _) if area.width < 60 => prompted("Export to: ", line),
         (Mode::Export(line), _) if model.exports() == Content::MAP_EXPORTS => {
@@ -63,7 +71,13 @@ pub fn status(frame: &mut Frame<'_>, area: Rect, model: &Model) {
         (Mode::Find(finder), _) => prompted("Find: ", &finder.query),
         (Mode::Palette(finder), _) => prompted(": ", &finder.query),
         (Mode::Overwrite { path, .. }, _) => error(format!("{} exists. Overwrite it?", path.display())),
-        (Mode::Quit, _) => error("The scene has unsaved changes. Leave?".to_owned()),
+        (Mode::Quit, _) => error(match model.unsaved()[..] {
+            [] | [_] => "The scene has unsaved changes. Leave?".to_owned(),
+            ref several => {
+                let names: Vec<&str> = several.iter().map(|document| document.name()).collect();
+                format!("{} scenes have unsaved changes: {}. Leave?", several.len(), names.join(", "))
+            }
+        }),
         (_, Some(Notice::Error(text))) => error(format!("! {}", text.replace('\n', " · "))),
         (Mode::Explore | Mode::Edit(_), None) if model.refused.is_some() => {
             let text = model.refused.as_ref().map_or("", |(_, text)| text);
@@ -295,12 +309,12 @@ fn footer_items(model: &Model) -> Vec<(String, &'static str)> {
         Command::ToggleHand => true,
         _ => !row.label.is_empty() && (model.hand.is_some() || !keys::is_manual(row)),
     };
-    let mut rows: Vec<&Binding> = keys::valid_in(model.keys()).filter(is_shown).collect();
+    let mut rows: Vec<&Binding> = model.bindings.valid_in(model.keys()).filter(is_shown).collect();
     rows.sort_by_key(|row| rank(row, model));
     let items = rows.chunk_by(|one, next| one.label == next.label);
     items
         .map(|rows| {
-            let first = |row: &&Binding| keys::names(row.keys).into_iter().next().unwrap_or_default();
+            let first = |row: &&Binding| keys::names(&row.keys).into_iter().next().unwrap_or_default();
             (rows.iter().map(first).collect::<Vec<_>>().join(" "), rows[0].label)
         })
         .collect()

@@ -33,6 +33,13 @@ pub fn names(model: &Model, area: Rect) -> Option<Line<'static>> {
     Some(section::names(moment, &chart, [ring], model.appearance, area.width))
 }
 
+/// Share of the close-up under a column of the pane.
+pub fn share_at(model: &Model, area: Rect, column: u16) -> Option<f64> {
+    let moment = model.moment.as_ref()?;
+    let (chart, place) = placed(moment, area);
+    Some(chart.x.share(place.number_at(&chart.x, column)))
+}
+
 /// Draws the close-up and what is known of its fragment.
 pub fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
     let Some(moment) = model.moment.as_ref() else { return };

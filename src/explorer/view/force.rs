@@ -253,7 +253,9 @@ pub fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
     let rows = [plot::spaced(parts, usize::from(area.width))];
     let values = model.is_current().then(|| values(model.legs(), area.width, theme));
     let ghosts = model.ghosts.iter().enumerate().rev().map(|(number, ghost)| {
-        Line::styled(format!("{} {}", letter(number), ghost.differs), theme.style(Meaning::Ghost))
+        let force = adhesion(model, ghost).map_or_else(String::new, |force| format!(" {force} ·"));
+        let style = theme.style(plot::meaning(Ink::Compared(number)));
+        Line::styled(format!("{}{force} {}", letter(number), ghost.differs), style)
     });
     for (y, line) in (area.y..area.y + above).zip(rows.into_iter().chain(values).chain(ghosts)) {
         frame.render_widget(Paragraph::new(line), Rect { y, height: 1, ..area });
@@ -282,7 +284,11 @@ fn chart(model: &Model, units: Units) -> Chart {
         let is_beside = model.side_by_side && number + 1 == model.ghosts.len();
         let name = if is_beside { letter(number).into() } else { Label::default() };
         for leg in &ghost.computed.outcome.history.legs {
-            layers.push(Layer::new(name.clone(), Ink::Kept, line(along(&leg.curve), Stroke::Sparse)));
+            layers.push(Layer::new(
+                name.clone(),
+                Ink::Compared(number),
+                line(along(&leg.curve), Stroke::Sparse),
+            ));
         }
     }
     for leg in model.tried_outcome().into_iter().flat_map(|outcome| &outcome.history.legs) {
@@ -350,6 +356,18 @@ fn marked(ghost: &Ghost) -> Option<CurvePoint> {
     at.or_else(|| legs.last().and_then(|leg| leg.curve.last().copied()))
 }
 
+/// Adhesion force of a ghost, and how far it is above or below that of the present scene: `F_a 12 µN (+3 µN)`.
+fn adhesion(model: &Model, ghost: &Ghost) -> Option<String> {
+    let of = |computed: &Loop| computed.outcome.figures.adhesion_force;
+    let force = of(&ghost.computed)?;
+    let present = model.computed.as_deref().filter(|_| model.is_current()).and_then(of);
+    let difference = present.map_or_else(String::new, |present| {
+        let sign = if force > present { "+" } else { "" };
+        format!(" ({sign}{})", format_quantity(short(force - present), "N"))
+    });
+    Some(format!("F_a {}{difference}", format_quantity(short(force), "N")))
+}
+
 /// Draws the letters of ghosts, each in the nearest cell of its row without a sign.
 fn draw_letters(frame: &mut Frame<'_>, place: &CellPlot, chart: &Chart, model: &Model, units: Units) {
     let marker = model.appearance.marker.symbols();
@@ -366,7 +384,7 @@ fn draw_letters(frame: &mut Frame<'_>, place: &CellPlot, chart: &Chart, model: &
         let mut free = beside.filter(|column| columns.contains(column)).map(|column| (column, row));
         let cell = free.find(|cell| !taken.contains(cell)).unwrap_or((column, row));
         taken.push(cell);
-        let style = model.appearance.theme.style(Meaning::Ghost);
+        let style = model.appearance.theme.style(plot::meaning(Ink::Compared(number)));
         frame.buffer_mut()[cell].set_symbol(letter(number)).set_style(style);
     }
 }

@@ -1,6 +1,6 @@
 //! The help: the table of keys by section, and what the panes show.
 
-use crate::explorer::keys::{BINDINGS, names};
+use crate::explorer::keys::{Bindings, names};
 use crate::explorer::theme::{Meaning, Theme};
 use ratatui::Frame;
 use ratatui::layout::{Margin, Rect};
@@ -11,7 +11,7 @@ const PANES: &[(&str, &str)] = &[
     (
         "Curve",
         "F over indentation d: dotted while pressing, solid while pulling; ◇ jump-in, ▲ preload, ▼ pull-off, \
-         ◆ now; letters are ghosts, dashes are where the hand has been",
+         ◆ now; letters and colours are ghosts, dashes are where the hand has been",
     ),
     (
         "Profile",
@@ -28,9 +28,14 @@ const PANES: &[(&str, &str)] = &[
          scene. Below it the cost of 1 % and 0.1 %, and the computing stages",
     ),
     (
+        "Preloads",
+        "i: adhesion force over preload, of this profile and the mean of random profiles with its 95 % confidence; the \
+         line and ◆ are the present preload",
+    ),
+    (
         "Map",
-        "m: regime under other κ and H, of most of a few random profiles with few springs; █ adhesion at first \
-         touch, ▒ after pressing, · hardly any, × not computable; ◆ is the scene, moved by the arrows",
+        "m: regime under other H and κ, of most of a few random profiles with few springs; █ adhesion at first \
+         touch, ▒ after pressing, · hardly any, blank: not computed; ◆ is the scene, moved by the arrows",
     ),
     (
         "Study",
@@ -48,16 +53,16 @@ const PANES: &[(&str, &str)] = &[
 const KEYS: usize = 18;
 
 /// Draws the help.
-pub fn draw(frame: &mut Frame<'_>, area: Rect, theme: Theme, scroll: u16) {
-    let lines = lines(inside(area).width, theme);
+pub fn draw(frame: &mut Frame<'_>, area: Rect, theme: Theme, bindings: &Bindings, scroll: u16) {
+    let lines = lines(inside(area).width, theme, bindings);
     let last = end(lines.len(), area);
     let block = Block::bordered().border_style(theme.style(Meaning::Quiet)).title(" Help ");
     frame.render_widget(Paragraph::new(lines).block(block).scroll((scroll.min(last), 0)), area);
 }
 
 /// Lines it can be scrolled down in this area.
-pub fn last_scroll(area: Rect) -> u16 {
-    end(lines(inside(area).width, Theme::Plain).len(), area)
+pub fn last_scroll(area: Rect, bindings: &Bindings) -> u16 {
+    end(lines(inside(area).width, Theme::Plain, bindings).len(), area)
 }
 
 fn inside(area: Rect) -> Rect {
@@ -69,20 +74,20 @@ fn end(lines: usize, area: Rect) -> u16 {
 }
 
 /// All lines, none of them wider than so many columns.
-fn lines(width: u16, theme: Theme) -> Vec<Line<'static>> {
+fn lines(width: u16, theme: Theme, bindings: &Bindings) -> Vec<Line<'static>> {
     let title = |text| Line::styled(text, theme.style(Meaning::Title));
     let mut lines = vec![title("What you see")];
     for (name, meaning) in PANES {
         entry(&mut lines, name, meaning, width, theme);
     }
     let mut section = "";
-    for row in BINDINGS.iter().filter(|row| !row.help.is_empty()) {
+    for row in bindings.rows().filter(|row| !row.help.is_empty()) {
         if row.section != section {
             section = row.section;
             lines.push(Line::default());
             lines.push(title(section));
         }
-        entry(&mut lines, &names(row.keys).join(" "), row.help, width, theme);
+        entry(&mut lines, &names(&row.keys).join(" "), row.help, width, theme);
     }
     lines
 }

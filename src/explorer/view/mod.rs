@@ -48,7 +48,9 @@ pub fn draw(frame: &mut Frame<'_>, model: &Model) {
         chrome::title(frame, area, model);
     }
     match &model.mode {
-        Mode::Help { scroll } => help::draw(frame, body(&layout), model.appearance.theme, *scroll),
+        Mode::Help { scroll } => {
+            help::draw(frame, body(&layout), model.appearance.theme, &model.bindings, *scroll)
+        }
         Mode::Library(library) => library::draw(frame, body(&layout), model, library),
         _ => {
             for &(pane, area) in &layout.panes {
@@ -57,7 +59,7 @@ pub fn draw(frame: &mut Frame<'_>, model: &Model) {
         }
     }
     if let Mode::Palette(finder) = &model.mode {
-        palette::draw(frame, body(&layout), model.appearance.theme, finder);
+        palette::draw(frame, body(&layout), model.appearance.theme, &model.bindings, finder);
     }
     crate::draw::dry(frame.buffer_mut());
     chrome::status(frame, layout.status, model);
@@ -72,6 +74,16 @@ pub fn draw(frame: &mut Frame<'_>, model: &Model) {
     }
 }
 
+/// Share of the part of the profile that a pane shows, under a column of the screen; `None` for a pane without profile.
+#[must_use]
+pub fn share_at(model: &Model, pane: Pane, area: Rect, column: u16) -> Option<f64> {
+    match pane {
+        Pane::Profile => profile::share_at(model, area, column),
+        Pane::CloseUp if !model.lengths => close_up::share_at(model, area, column),
+        _ => None,
+    }
+}
+
 /// Where the panes are.
 fn body(layout: &Layout) -> Rect {
     layout.panes.iter().map(|(_, area)| *area).reduce(Rect::union).unwrap_or_default()
@@ -80,7 +92,7 @@ fn body(layout: &Layout) -> Rect {
 /// Lines the help can be scrolled down.
 #[must_use]
 pub fn help_end(model: &Model) -> u16 {
-    help::last_scroll(body(&Layout::of(model)))
+    help::last_scroll(body(&Layout::of(model)), &model.bindings)
 }
 
 fn draw_pane(frame: &mut Frame<'_>, area: Rect, model: &Model, pane: Pane) {

@@ -2,6 +2,7 @@
 
 use super::wrap::clipped;
 use crate::explorer::finder::Finder;
+use crate::explorer::keys::Bindings;
 use crate::explorer::palette::entries;
 use crate::explorer::theme::{Meaning, Theme};
 use ratatui::Frame;
@@ -13,8 +14,8 @@ use ratatui::widgets::{Block, Clear, Paragraph};
 const WIDEST: u16 = 100;
 
 /// Draws the list, scrolled so that the selected row shows.
-pub fn draw(frame: &mut Frame<'_>, area: Rect, theme: Theme, finder: &Finder) {
-    let entries = entries();
+pub fn draw(frame: &mut Frame<'_>, area: Rect, theme: Theme, bindings: &Bindings, finder: &Finder) {
+    let entries = entries(bindings);
     let width = area.width.min(WIDEST);
     let height = area.height.min(finder.found.len().max(1) as u16 + 2);
     let area = Rect { x: area.x + (area.width - width) / 2, width, height, ..area };

@@ -117,7 +117,8 @@ fn parameter_line(model: &Model, index: usize, selected: bool, width: usize) -> 
     }
     // The value is what is looked for: the name makes room for it.
     let value = value(model, parameter);
-    let least = columns(&lead) + columns(parameter.field.symbol).max(FEWEST_LETTERS) + 1;
+    let symbol = parameter.field.symbol;
+    let least = columns(&lead) + if symbol.is_empty() { FEWEST_LETTERS } else { columns(symbol) } + 1;
     let value = cut(&value, width.saturating_sub(least).max(width / 3));
     let room = width.saturating_sub(columns(&lead) + usize::from(!value.is_empty()) + columns(&value));
     let name = format!("{lead}{}", name_within(parameter, room));

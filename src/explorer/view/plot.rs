@@ -8,7 +8,7 @@ use ratatui::layout::Rect;
 use ratatui::text::{Line, Span as Text};
 
 /// Meaning of an ink on the screen.
-fn meaning(ink: Ink) -> Meaning {
+pub fn meaning(ink: Ink) -> Meaning {
     match ink {
         Ink::Text => Meaning::Title,
         Ink::Quiet => Meaning::Quiet,
@@ -19,6 +19,8 @@ fn meaning(ink: Ink) -> Meaning {
         Ink::Unloading => Meaning::Retraction,
         Ink::Manual => Meaning::Hand,
         Ink::Kept => Meaning::Ghost,
+        // The colours that the present curve has not.
+        Ink::Compared(number) => [Meaning::Surface, Meaning::Hand, Meaning::Text, Meaning::Ghost][number % 4],
         Ink::Cursor => Meaning::Cursor,
         Ink::Series(number) => {
             let all = [

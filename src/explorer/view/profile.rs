@@ -41,6 +41,13 @@ pub fn names(model: &Model, area: Rect) -> Option<Line<'static>> {
     Some(section::names(moment, &chart, beside, model.appearance, area.width))
 }
 
+/// Share of the shown part of the profile under a column of the pane.
+pub fn share_at(model: &Model, area: Rect, column: u16) -> Option<f64> {
+    let moment = model.moment.as_ref()?;
+    let (chart, place) = placed(moment, area, heights(moment));
+    Some(chart.x.share(place.number_at(&chart.x, column)))
+}
+
 /// Draws the profile with the histogram of its heights on the same axis.
 pub fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
     let Some(moment) = model.moment.as_ref() else {

@@ -83,6 +83,22 @@ impl Text<'_> {
         Ok(apply(self.text, edits))
     }
 
+    /// The text without these comments, and without the lines that hold nothing else.
+    pub(in crate::scene) fn without_comments(&self, comments: &[Range<usize>]) -> String {
+        let stretch = |comment: &Range<usize>| {
+            let before = self.text[..comment.start].trim_end_matches([' ', '\t']).len();
+            let has_own_line = self.text[..before].ends_with('\n');
+            let rest = &self.text[comment.end..];
+            let is_last = rest.trim_start_matches([' ', '\t', '\r']).starts_with('\n');
+            let end = match rest.find('\n').filter(|_| has_own_line && is_last) {
+                Some(line_break) => comment.end + line_break + 1,
+                None => comment.end,
+            };
+            (before..end, String::new())
+        };
+        apply(self.text, comments.iter().map(stretch).collect())
+    }
+
     /// The line break before an entry, where nothing else but comments is on its line; `gap` is the stretch behind it.
     fn line_of_its_own(&self, start: usize, gap: Range<usize>) -> Option<usize> {
         let line_break = start - indentation(self.text, start)?.len() - 1;

@@ -113,7 +113,39 @@ impl<'t> Text<'t> {
 
     /// Number of comments.
     pub(in crate::scene) fn comments(&self) -> usize {
-        comments(self.text, &self.tokens)
+        comments(self.text, &self.tokens).len()
+    }
+
+    /// Comments about the entries at these paths: behind an entry on its last line, and on lines of their own above it.
+    /// Of an entry that the text does not have, those about the group around it.
+    pub(in crate::scene) fn comments_about<'p>(
+        &self,
+        paths: impl Iterator<Item = &'p str>,
+    ) -> Vec<Range<usize>> {
+        let comments = comments(self.text, &self.tokens);
+        let mut about = vec![false; comments.len()];
+        for path in paths {
+            let around =
+                std::iter::successors(Some(path), |path| path.rsplit_once('.').map(|(group, _)| group));
+            let Some(entry) = around.filter_map(|path| self.span(path)).map(|span| span.entry).next() else {
+                continue;
+            };
+            for (comment, about) in comments.iter().zip(&mut about) {
+                let between = self.text.get(entry.end..comment.start);
+                *about |= between.is_some_and(|between| !between.contains('\n'));
+            }
+            // From the entry upwards.
+            let line_start = |at: usize| self.text[..at].rfind('\n').map_or(0, |line_break| line_break + 1);
+            let mut line = line_start(entry.start);
+            for (comment, about) in comments.iter().zip(&mut about).rev() {
+                let is_above = comment.end <= line && self.text[comment.end..line].trim().is_empty();
+                let is_alone = self.text[line_start(comment.start)..comment.start].trim().is_empty();
+                if is_above && is_alone {
+                    (*about, line) = (true, line_start(comment.start));
+                }
+            }
+        }
+        comments.into_iter().zip(about).filter_map(|(comment, about)| about.then_some(comment)).collect()
     }
 
     /// The text is one value and nothing else.

@@ -3,6 +3,8 @@
 //! The reader of the `ron` package says which text is wrong; this scanner finds the places of values, so that messages
 //! name them and edits exchange them without the comments around them. Nesting of any depth is read without recursion.
 
+use std::ops::Range;
+
 /// Kinds of brackets.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Bracket {
@@ -89,23 +91,25 @@ pub(super) fn tokens(text: &str) -> Result<Vec<Token>, Unreadable> {
     }
 }
 
-/// Number of comments of a text with these tokens.
-pub(super) fn comments(text: &str, tokens: &[Token]) -> usize {
+/// Bytes of the comments of a text with these tokens.
+pub(super) fn comments(text: &str, tokens: &[Token]) -> Vec<Range<usize>> {
     let starts = tokens.iter().map(|token| token.start).chain([text.len()]);
     let ends = [0].into_iter().chain(tokens.iter().map(|token| token.end));
-    ends.zip(starts).map(|(from, to)| comments_between(text, from, to)).sum()
-}
-
-/// Comments in a part of a text that holds nothing else but white space.
-fn comments_between(text: &str, from: usize, to: usize) -> usize {
-    let (mut at, mut count) = (from, 0);
-    while let Some(next) = text.get(at..to).and_then(|part| part.chars().next()) {
-        match comment_end(text, at) {
-            Ok(Some(end)) => (at, count) = (end.max(at + 1), count + 1),
-            _ => at += next.len_utf8(),
+    let mut comments = Vec::new();
+    // Between tokens there is nothing else but white space.
+    for (from, to) in ends.zip(starts) {
+        let mut at = from;
+        while let Some(next) = text.get(at..to).and_then(|part| part.chars().next()) {
+            match comment_end(text, at) {
+                Ok(Some(end)) => {
+                    comments.push(at..end);
+                    at = end.max(at + 1);
+                }
+                _ => at += next.len_utf8(),
+            }
         }
     }
-    count
+    comments
 }
 
 fn bracket(c: char) -> Bracket {
@@ -237,7 +241,7 @@ mod tests {
     #[test]
     fn comments_are_counted_wherever_they_stand() {
         let text = "// one\n( /* two /* within */ */ a: \"// no\", // three\n// four\n) /* five */";
-        let comments = |text: &str| super::comments(text, &tokens(text).unwrap());
+        let comments = |text: &str| super::comments(text, &tokens(text).unwrap()).len();
         assert_eq!((comments(text), comments(""), comments("(a: 1)")), (5, 0, 0));
     }
 

@@ -438,7 +438,8 @@ mod tests {
             let axes: Vec<&MapAxis> =
                 [Some(map_model.across()), map_model.up()].into_iter().flatten().collect();
             let last = axes.iter().map(|axis| (axis.path.as_str(), *axis.figure.values.last().unwrap()));
-            let moved = moved(&document, &last.collect::<Vec<_>>())?;
+            // The preload is in units that change with the length.
+            let moved = study_map.follow(0, &moved(&document, &last.collect::<Vec<_>>())?)?;
             for document in [&document, &moved] {
                 assert!(study_map.is_of(0, document.scene()), "{}", document.text());
             }
@@ -452,7 +453,7 @@ mod tests {
         };
         let one_kappa = "List(path: \"kappa\", values: [4.0])";
         let one_mode = "List(path: \"roughness.modes.1\", values: [16.0])";
-        let modes = "List(path: \"roughness.modes.1\", values: [16.0, 32.0])";
+        let modes = "List(path: \"roughness.modes.1\", values: [16, 32])";
         let unpressed = PLAN.replace("preloads: [0.5, 2.0],", "");
         for (plan, expected) in [
             (PLAN.replace(kappa, one_kappa), ["roughness.hurst", "roughness.modes.1"].as_slice()),

@@ -1,0 +1,45 @@
+//! `asperity config`: the configuration file of the explorer.
+
+use super::CliError;
+use crate::explorer::FRAME_RATE;
+use crate::explorer::config::{Config, ConfigError, default_path, text_of, write_template};
+use crate::explorer::theme::Appearance;
+use clap::Args;
+use std::io::Write;
+use std::path::PathBuf;
+
+const EXAMPLES: &str = "\
+Examples:
+  asperity config                           Print the settings in effect
+  asperity config --write                   Write a configuration file with all fields, as comments
+  asperity config my-config.ron             Check another file and print its settings";
+
+/// Arguments of `config`.
+#[derive(Args, Debug)]
+#[command(after_help = EXAMPLES)]
+pub struct ConfigArguments {
+    /// Configuration file; default: asperity/config.ron in the configuration folder of the user
+    pub file: Option<PathBuf>,
+    /// Write a file with all fields, as comments; an existing file is kept
+    #[arg(long)]
+    pub write: bool,
+}
+
+/// Prints the settings in effect, or writes a file to begin with.
+pub(super) fn config(arguments: &ConfigArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
+    let path = arguments.file.clone().or_else(default_path).ok_or(ConfigError::NoFolder)?;
+    if arguments.write {
+        write_template(&path)?;
+        return Ok(writeln!(stdout, "{}: written", path.display())?);
+    }
+    let config = Config::read(&path, arguments.file.is_some())?;
+    let environment = Appearance::of_environment();
+    let appearance = Appearance {
+        theme: config.theme.unwrap_or(environment.theme),
+        marker: config.marker.unwrap_or(environment.marker),
+    };
+    let is_there = if path.is_file() { "" } else { ", which does not exist: defaults" };
+    writeln!(stdout, "// {}{is_there}", path.display())?;
+    let text = text_of(&config, appearance, config.frame_rate.unwrap_or(FRAME_RATE));
+    Ok(stdout.write_all(text.as_bytes())?)
+}

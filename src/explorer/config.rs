@@ -1,0 +1,401 @@
+//! Configuration file of the explorer: appearance, animation, default scene and keys. The file is read where it exists, and
+//! written only when asked.
+
+use super::action::Command;
+use super::keys::Bindings;
+use super::theme::{Appearance, Marker, Theme};
+use crate::io::{WriteError, read_regular_text, write_new};
+use crate::scene::{Text, describe_error, line_column, ron_string};
+use etcetera::{BaseStrategy, choose_base_strategy};
+use ron::extensions::Extensions;
+use serde::Deserialize;
+use std::ops::RangeInclusive;
+use std::path::{Path, PathBuf};
+use thiserror::Error;
+
+/// Version of the file.
+const VERSION: u32 = 1;
+/// Bytes of a file that are read at most.
+const LONGEST: usize = 1 << 20;
+/// Allowed frames per second.
+const FRAME_RATES: RangeInclusive<u32> = 1..=60;
+/// Allowed speeds of the animation.
+const SPEEDS: RangeInclusive<f64> = 0.1..=10.0;
+
+/// A file with all fields in comments.
+pub const TEMPLATE: &str = r#"// Configuration of the explorer. A field that is left out has its default.
+(
+    version: 1,
+    // theme: Dark,            // Neutral, Dark, Light, HighContrast or Plain; default: by NO_COLOR and COLORFGBG
+    // markers: Braille,       // Braille, Octant, HalfBlock or Ascii; default: by the locale and TERM
+    // frame_rate: 30,         // frames per second of the animation, from 1 to 60; over SSH at most 12
+    // speed: 1.0,             // speed of the animation, from 0.1 to 10
+    // repeat: false,          // true: the animation begins again at its end
+    // scene: "rough-sphere",  // scene that opens where none is named
+    // keys: [(action: "toggle-play", keys: ["F5", "F6"])],  // actions: docs/keys.md
+)
+"#;
+
+/// Fields in the order of the template.
+const ORDER: [&str; 8] = ["version", "theme", "markers", "frame_rate", "speed", "repeat", "scene", "keys"];
+
+/// The file as it is written.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct ConfigFile {
+    version: u32,
+    #[serde(default)]
+    theme: Option<Theme>,
+    #[serde(default)]
+    markers: Option<Marker>,
+    #[serde(default)]
+    frame_rate: Option<u32>,
+    #[serde(default)]
+    speed: Option<f64>,
+    #[serde(default)]
+    repeat: bool,
+    #[serde(default)]
+    scene: Option<String>,
+    #[serde(default)]
+    keys: Vec<KeySetting>,
+}
+
+/// Keys of an action.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct KeySetting {
+    action: String,
+    keys: Vec<String>,
+}
+
+/// Configuration of the explorer.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Config {
+    /// The file; `None` where no configuration is read or written.
+    pub path: Option<PathBuf>,
+    /// Colours.
+    pub theme: Option<Theme>,
+    /// Markers.
+    pub marker: Option<Marker>,
+    /// Frames per second of the animation.
+    pub frame_rate: Option<u32>,
+    /// Speed and end of the animation.
+    pub animation: Animation,
+    /// Scene that opens where none is named.
+    pub scene: Option<String>,
+    /// Keys.
+    pub bindings: Bindings,
+}
+
+/// Speed and end of the animation.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Animation {
+    /// Speed; 1 takes six seconds for a loading stage.
+    pub speed: f64,
+    /// Whether the animation begins again at its end.
+    pub repeats: bool,
+}
+
+impl Default for Animation {
+    fn default() -> Self {
+        Animation { speed: 1.0, repeats: false }
+    }
+}
+
+/// Reason why a configuration is refused.
+#[derive(Debug, Error)]
+pub enum ConfigError {
+    /// The file cannot be read.
+    #[error("{path}: {why}")]
+    Unread {
+        /// The file.
+        path: String,
+        /// The reason.
+        why: String,
+    },
+    /// The text is wrong at a place.
+    #[error("{path}:{line}:{column}: {message}")]
+    Wrong {
+        /// The file.
+        path: String,
+        /// Line, from 1.
+        line: usize,
+        /// Column, from 1.
+        column: usize,
+        /// Field, value and allowed values.
+        message: String,
+    },
+    /// The system has no configuration folder.
+    #[error("this system has no configuration folder; allowed: --config FILE")]
+    NoFolder,
+    /// The file was not written.
+    #[error(transparent)]
+    Write(#[from] WriteError),
+}
+
+/// The file of this user, `asperity/config.ron` in the configuration folder, whether or not the file exists.
+#[must_use]
+pub fn default_path() -> Option<PathBuf> {
+    Some(choose_base_strategy().ok()?.config_dir().join("asperity").join("config.ron"))
+}
+
+impl Config {
+    /// Reads a file. `is_named`: the user has named the file, and a missing one is an error; otherwise a missing file has
+    /// the defaults.
+    ///
+    /// # Errors
+    /// The first thing that is wrong, with its place.
+    pub fn read(path: &Path, is_named: bool) -> Result<Config, ConfigError> {
+        let unread = |why: String| ConfigError::Unread { path: path.display().to_string(), why };
+        // A broken link is a file that cannot be read.
+        if !is_named
+            && path.symlink_metadata().is_err_and(|error| error.kind() == std::io::ErrorKind::NotFound)
+        {
+            return Ok(Config { path: Some(path.to_path_buf()), ..Config::default() });
+        }
+        let text = read_regular_text(path, LONGEST).map_err(|error| unread(error.to_string()))?;
+        Config::parse(&text, path)
+    }
+
+    /// Reads the text of a file.
+    ///
+    /// # Errors
+    /// The first thing that is wrong, with its place.
+    pub fn parse(text: &str, path: &Path) -> Result<Config, ConfigError> {
+        let wrong_at = |offset: usize, message: String| {
+            let (line, column) = line_column(text, offset);
+            ConfigError::Wrong { path: path.display().to_string(), line, column, message }
+        };
+        let options = ron::Options::default().with_default_extension(Extensions::IMPLICIT_SOME);
+        let file: ConfigFile = options.from_str(text).map_err(|error| {
+            let (offset, message) = describe_error(text, &error);
+            wrong_at(offset, message)
+        })?;
+        let wrong = |field: &str, message: String| {
+            let span = Text::new(text).ok().and_then(|text| text.span(field));
+            wrong_at(span.map_or(0, |span| span.value.start), message)
+        };
+        if file.version != VERSION {
+            return Err(wrong("version", format!("version = {}: allowed: {VERSION}", file.version)));
+        }
+        if let Some(rate) = file.frame_rate.filter(|rate| !FRAME_RATES.contains(rate)) {
+            let (from, to) = (FRAME_RATES.start(), FRAME_RATES.end());
+            let message = format!("frame_rate = {rate}: allowed: from {from} to {to} frames per second");
+            return Err(wrong("frame_rate", message));
+        }
+        if let Some(speed) = file.speed.filter(|speed| !SPEEDS.contains(speed)) {
+            let (from, to) = (SPEEDS.start(), SPEEDS.end());
+            return Err(wrong("speed", format!("speed = {speed}: allowed: from {from} to {to}")));
+        }
+        let mut bindings = Bindings::default();
+        for (number, KeySetting { action, keys }) in file.keys.iter().enumerate() {
+            bindings.rebind(action, keys).map_err(|error| {
+                let field = if error.is_about_keys { "keys" } else { "action" };
+                wrong(&format!("keys.{number}.{field}"), error.message)
+            })?;
+        }
+        if let Some((key, one, other)) = bindings.conflict() {
+            // The setting that has the key, or the last one.
+            let has = |setting: &KeySetting| setting.action == one || setting.action == other;
+            let number = file.keys.iter().rposition(has).unwrap_or_default();
+            let message = format!("{key}: bound to {one} and to {other}; allowed: one action for each key");
+            return Err(wrong(&format!("keys.{number}.keys"), message));
+        }
+        Ok(Config {
+            path: Some(path.to_path_buf()),
+            theme: file.theme,
+            marker: file.markers,
+            frame_rate: file.frame_rate,
+            animation: Animation { speed: file.speed.unwrap_or(1.0), repeats: file.repeat },
+            scene: file.scene,
+            bindings,
+        })
+    }
+}
+
+/// Writes the template to a file that does not exist yet, with the folders around the file.
+///
+/// # Errors
+/// A file of that name exists, or the system refuses.
+pub fn write_template(path: &Path) -> Result<(), ConfigError> {
+    write(path, TEMPLATE, false)
+}
+
+/// Writes colours and markers to a file; all else in the file stays, comments included. A missing file is made from the
+/// template.
+///
+/// # Errors
+/// The file is wrong, or cannot be written.
+pub fn remember(path: &Path, appearance: Appearance) -> Result<(), ConfigError> {
+    let exists = path.symlink_metadata().is_ok();
+    let unread = |why: String| ConfigError::Unread { path: path.display().to_string(), why };
+    let mut text = if exists {
+        read_regular_text(path, LONGEST).map_err(|error| unread(error.to_string()))?
+    } else {
+        TEMPLATE.to_owned()
+    };
+    Config::parse(&text, path)?;
+    let Appearance { theme, marker } = appearance;
+    for (field, value) in [("theme", format!("{theme:?}")), ("markers", format!("{marker:?}"))] {
+        let read = Text::new(&text).map_err(|error| unread(error.reason.to_owned()))?;
+        let set = match read.span(field) {
+            Some(_) => read.replace(field, &value),
+            None => read.insert("", field, &value, &ORDER),
+        };
+        text = set.map_err(unread)?;
+    }
+    // What is written can be read.
+    Config::parse(&text, path)?;
+    write(path, &text, exists)
+}
+
+fn write(path: &Path, text: &str, overwrite: bool) -> Result<(), ConfigError> {
+    if let Some(folder) = path.parent().filter(|folder| !folder.as_os_str().is_empty()) {
+        let failed = |reason| WriteError::Failed { path: path.to_path_buf(), reason };
+        std::fs::create_dir_all(folder).map_err(failed)?;
+    }
+    Ok(write_new(path, overwrite, |file| file.write_all(text.as_bytes()))?)
+}
+
+/// Settings in effect, as a file has them, for people.
+#[must_use]
+pub fn text_of(config: &Config, appearance: Appearance, frame_rate: u32) -> String {
+    let Config { animation, scene, bindings, .. } = config;
+    let mut lines = vec![
+        format!("theme: {:?}", appearance.theme),
+        format!("markers: {:?}", appearance.marker),
+        format!("frame_rate: {frame_rate}"),
+        format!("speed: {:?}", animation.speed),
+        format!("repeat: {}", animation.repeats),
+        format!("scene: {}", ron_string(scene.as_deref().unwrap_or(crate::scene::DEFAULT))),
+    ];
+    let changed = bindings.changed().into_iter().map(|(action, keys): (Command, Vec<String>)| {
+        let keys: Vec<String> = keys.iter().map(|key| ron_string(key)).collect();
+        format!("(action: {}, keys: [{}])", ron_string(&super::keys::action_name(action)), keys.join(", "))
+    });
+    lines.push(format!("keys: [{}]", changed.collect::<Vec<_>>().join(", ")));
+    format!(
+        "(\n    version: {VERSION},\n{})\n",
+        lines.iter().map(|line| format!("    {line},\n")).collect::<String>()
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn parse(text: &str) -> Result<Config, String> {
+        Config::parse(text, Path::new("config.ron")).map_err(|error| error.to_string())
+    }
+
+    /// The template with all its fields.
+    fn full() -> String {
+        let line = |line: &str| {
+            line.strip_prefix("    // ").map_or_else(|| line.to_owned(), |field| format!("    {field}"))
+        };
+        TEMPLATE.lines().map(|one| line(one) + "\n").collect()
+    }
+
+    #[test]
+    fn the_template_has_every_field_and_the_defaults() {
+        let path = Some(PathBuf::from("config.ron"));
+        assert_eq!(parse(TEMPLATE), Ok(Config { path, ..Config::default() }));
+        let config = parse(&full()).unwrap();
+        assert_eq!((config.theme, config.marker), (Some(Theme::Dark), Some(Marker::Braille)));
+        assert_eq!((config.frame_rate, config.scene.as_deref()), (Some(30), Some("rough-sphere")));
+        assert_eq!(config.animation, Animation::default());
+        let changed = config.bindings.changed();
+        assert_eq!(changed, [(Command::TogglePlay, vec!["F5".to_owned(), "F6".to_owned()])]);
+        for field in ORDER {
+            assert!(full().contains(&format!("    {field}: ")), "{field}");
+        }
+        // What is printed can be read, and is the same.
+        let appearance = Appearance { theme: Theme::Dark, marker: Marker::Braille };
+        assert_eq!(parse(&text_of(&config, appearance, 30)), Ok(config));
+    }
+
+    #[test]
+    fn what_is_wrong_has_its_line_and_column() {
+        for (from, to, said) in [
+            ("version: 1", "version: 2", "config.ron:3:14: version = 2: allowed: 1"),
+            (
+                "theme: Dark",
+                "theme: Drak",
+                "config.ron:4:12: Drak: allowed: Neutral, Dark, Light, HighContrast, Plain (did you mean Dark?)",
+            ),
+            ("markers: Braille", "marker: Braille", "config.ron:5:5: marker: "),
+            (
+                "frame_rate: 30",
+                "frame_rate: 61",
+                "config.ron:6:17: frame_rate = 61: allowed: from 1 to 60 frames per second",
+            ),
+            ("speed: 1.0", "speed: 0.0", "config.ron:7:12: speed = 0: allowed: from 0.1 to 10"),
+            ("speed: 1.0", "speed: NaN", "config.ron:7:12: speed = NaN: allowed"),
+            (
+                "toggle-play",
+                "togle-play",
+                "config.ron:10:21: togle-play: there is no such action; did you mean toggle-play? allowed: docs/keys.md lists all",
+            ),
+            (
+                "\"F5\"",
+                "\"Pp\"",
+                "config.ron:10:42: Pp: there is no such key; allowed: one character, Ctrl+c, Shift+Left",
+            ),
+            ("\"F5\"", "\"r\"", "config.ron:10:42: r: bound to toggle-play and to restart"),
+            ("repeat: false", "repeat: false, repeat: true", "config.ron:8:"),
+            ("    keys", "  ] keys", "config.ron:10:"),
+        ] {
+            let text = full().replace(from, to);
+            assert_ne!(text, full(), "{from}");
+            let why = parse(&text).unwrap_err();
+            assert!(why.starts_with(said), "{why}");
+        }
+    }
+
+    #[test]
+    fn keys_are_exchanged_and_quit_stays_in_reach() {
+        let keys = |settings: &str| parse(&format!("(version: 1, keys: [{settings}])"));
+        let swapped = keys(r#"(action: "restart", keys: ["R"]), (action: "reseed", keys: ["r"])"#).unwrap();
+        assert_eq!(swapped.bindings.changed().len(), 2);
+        let config = keys(r#"(action: "quit", keys: ["_"])"#).unwrap();
+        assert_eq!(config.bindings.changed(), [(Command::Quit, vec!["_".to_owned(), "Ctrl+c".to_owned()])]);
+        assert!(keys(r#"(action: "restart", keys: [])"#).is_ok(), "a key may be taken away");
+        let why = keys(r#"(action: "accept", keys: ["y"])"#).unwrap_err();
+        assert!(why.contains("accept: there is no such action"), "{why}");
+    }
+
+    #[test]
+    fn files_are_read_and_written_only_as_asked() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("asperity/config.ron");
+        let read = |is_named| Config::read(&path, is_named);
+        assert_eq!(read(false).unwrap(), Config { path: Some(path.clone()), ..Config::default() });
+        assert!(read(true).unwrap_err().to_string().contains("config.ron"));
+        assert!(!path.exists() && !path.parent().unwrap().exists(), "reading makes nothing");
+        write_template(&path).unwrap();
+        assert_eq!(std::fs::read_to_string(&path).unwrap(), TEMPLATE);
+        assert!(matches!(write_template(&path), Err(ConfigError::Write(WriteError::Exists { .. }))));
+        // Remembered colours leave all else as it is.
+        let mine =
+            TEMPLATE.replace("// speed: 1.0, ", "speed: 2.0, ").replace("version: 1,", "version: 1, // mine");
+        std::fs::write(&path, &mine).unwrap();
+        for theme in [Theme::Light, Theme::Plain] {
+            remember(&path, Appearance { theme, marker: Marker::Octant }).unwrap();
+            let config = read(true).unwrap();
+            assert_eq!(
+                (config.theme, config.marker, config.animation.speed),
+                (Some(theme), Some(Marker::Octant), 2.0)
+            );
+            let text = std::fs::read_to_string(&path).unwrap();
+            assert!(text.contains("// mine") && text.contains("// frame_rate: 30"), "{text}");
+        }
+        // A missing file is made, a wrong one stays.
+        std::fs::remove_file(&path).unwrap();
+        remember(&path, Appearance { theme: Theme::Dark, marker: Marker::Ascii }).unwrap();
+        assert_eq!(read(true).unwrap().marker, Some(Marker::Ascii));
+        std::fs::write(&path, "(version: 1, theme: Pink)").unwrap();
+        let why = remember(&path, Appearance { theme: Theme::Dark, marker: Marker::Ascii }).unwrap_err();
+        assert!(why.to_string().contains("config.ron:1:21: Pink"), "{why}");
+        assert_eq!(std::fs::read_to_string(&path).unwrap(), "(version: 1, theme: Pink)");
+    }
+}
