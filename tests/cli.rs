@@ -990,6 +990,16 @@ fn scenes_are_drawn_and_pictures_hold_nothing_else() {
             }
         });
     }
+    // The same picture as pixels: two for each px.
+    let (svg, png) = (fs::read_to_string(&loop_file).unwrap(), path("loop.png"));
+    with(&run(&["jkr-sphere"], &["-o", &png]), &|arguments| drop(done(arguments)));
+    let bytes = fs::read(&png).unwrap();
+    assert!(bytes.starts_with(b"\x89PNG\r\n\x1a\n") && bytes.ends_with(b"IEND\xaeB`\x82"));
+    let side = |at: usize| f64::from(u32::from_be_bytes(bytes[at..at + 4].try_into().unwrap()));
+    for (name, at) in [(" width=\"", 16), (" height=\"", 20)] {
+        let px: f64 = svg.split(name).nth(1).unwrap().split('"').next().unwrap().parse().unwrap();
+        assert_eq!(side(at), (2.0 * px).ceil(), "{name}");
+    }
     let before = fs::read_dir(folder.path()).unwrap().count();
     let (picture, other) = (path("a.svg"), path("a.json"));
     for (command, said) in [
@@ -997,6 +1007,7 @@ fn scenes_are_drawn_and_pictures_hold_nothing_else() {
             run(&["jkr-sphere"], &["--format", "json", "-o", &picture]),
             "not an ending of what is written; allowed: .json",
         ),
+        (run(&["jkr-sphere"], &["-o", &path("a.gif")]), "allowed: .json, .csv, .npy, .svg, .png"),
         (run(&["jkr-sphere"], &["--profile", "-o", &other]), "only a picture shows --profile"),
         (run(&["jkr-sphere", "kendall-punch"], &["-o", &other]), "only a picture shows several scenes"),
         (run(&["jkr-sphere"], &["--lines", "2", "-o", &picture]), "--lines: a picture shows one profile"),

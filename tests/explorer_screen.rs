@@ -17,6 +17,8 @@ mod chart;
 mod chrome;
 #[path = "screen/compare.rs"]
 mod compare;
+#[path = "screen/crosshair.rs"]
+mod crosshair;
 #[path = "screen/demo.rs"]
 mod demo;
 #[path = "screen/edit.rs"]
@@ -25,6 +27,8 @@ mod edit;
 mod effects;
 #[path = "screen/failures.rs"]
 mod failures;
+#[path = "screen/figures.rs"]
+mod figures;
 #[path = "screen/files.rs"]
 mod files;
 #[path = "screen/fragments.rs"]
@@ -131,6 +135,10 @@ fn everywhere() -> Vec<Driver> {
         "m",
         "m X z",
         "i",
+        "*",
+        "& L",
+        "* Tab Right",
+        "* O v Right",
         "i z",
     ];
     let mut all: Vec<Driver> = keys.into_iter().map(pressed).collect();

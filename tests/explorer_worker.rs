@@ -89,6 +89,8 @@ fn moment(leg: usize, indentation: f64) -> MomentRequest {
         focus: Focus::Summit,
         close_up_springs: 64,
         lengths: false,
+        crosshair: None,
+        beside: None,
         spectra: false,
     }
 }

@@ -1,9 +1,9 @@
 //! Arguments of the program.
 
 use super::{
-    CheckArguments, CompletionsArguments, ConfigArguments, CostArguments, DemoArguments, ExploreArguments,
-    LineArguments, PlanArguments, PresetsCommand, ReversalsArguments, RunArguments, SurfaceArguments,
-    SweepArguments,
+    CheckArguments, CompareArguments, CompletionsArguments, ConfigArguments, CostArguments, DemoArguments,
+    ExploreArguments, LineArguments, PlanArguments, PresetsCommand, ReversalsArguments, RunArguments,
+    SurfaceArguments, SweepArguments,
 };
 use clap::{Parser, Subcommand};
 
@@ -48,6 +48,8 @@ pub struct Arguments {
 pub enum Command {
     /// Compute a scene: a summary, JSON, or the curve as CSV
     Run(RunArguments),
+    /// Show two scenes side by side: profiles, force curves, what differs
+    Compare(CompareArguments),
     /// Unload from many turning points: adhesion against preload, reversal curves
     Reversals(ReversalsArguments),
     /// Play the explorer without a keyboard: on screen, as text, or as a recording

@@ -1,6 +1,7 @@
 //! Errors of commands.
 
 use crate::accuracy::{ChoiceError, CostError};
+use crate::draw::PngError;
 use crate::explorer::OpeningError;
 use crate::explorer::config::ConfigError;
 use crate::io::WriteError;
@@ -40,11 +41,17 @@ pub enum CliError {
         allowed: String,
     },
     /// Several scenes, or the profile or patches of a scene, in a format that cannot hold them.
-    #[error("{what}: only a picture shows {what}; allowed: -o FILE.svg, or --format svg")]
+    #[error("{what}: only a picture shows {what}; allowed: -o FILE.svg or FILE.png, or --format svg")]
     OnlyInPicture {
         /// Content that the format cannot hold.
         what: &'static str,
     },
+    /// A picture would be printed to a terminal.
+    #[error("--format png: a terminal shows no picture; allowed: -o FILE.png")]
+    BinaryInTerminal,
+    /// A picture cannot be made.
+    #[error(transparent)]
+    Picture(#[from] PngError),
     /// The points of a map in a format that cannot hold them, or that holds them anyway.
     #[error("{what}: only a table of the map; allowed: --format csv")]
     OnlyInTable {

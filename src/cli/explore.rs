@@ -22,19 +22,9 @@ pub struct ExploreArguments {
     /// Overrides of the scene.
     #[command(flatten)]
     pub overrides: Overrides,
-    /// Colours
-    ///
-    /// Default: chosen from NO_COLOR and COLORFGBG.
-    #[arg(long, value_enum)]
-    pub theme: Option<Theme>,
-    /// Markers
-    ///
-    /// Marker of plots; default: braille.
-    #[arg(long, value_enum)]
-    pub marker: Option<Marker>,
-    /// Leave the mouse to the terminal
-    #[arg(long)]
-    pub no_mouse: bool,
+    /// Colours and markers of the explorer, and its mouse.
+    #[command(flatten)]
+    pub look: LookArguments,
     /// Read this configuration file
     ///
     /// Default: asperity/config.ron in the configuration folder of the user, by default ~/.config, where it exists.
@@ -49,6 +39,30 @@ pub struct ExploreArguments {
     /// ~/.local/state/asperity/unsaved. They are removed on saving and on leaving without saving.
     #[arg(long, conflicts_with_all = ["scene", "set"])]
     pub restore: bool,
+}
+
+/// Colours and markers of the explorer, and its mouse.
+#[derive(Args, Clone, Copy, Debug)]
+pub struct LookArguments {
+    /// Colours
+    ///
+    /// Default: chosen from NO_COLOR and COLORFGBG.
+    #[arg(long, value_enum)]
+    pub theme: Option<Theme>,
+    /// Markers
+    ///
+    /// Marker of plots; default: braille.
+    #[arg(long, value_enum)]
+    pub marker: Option<Marker>,
+    /// Leave the mouse to the terminal
+    #[arg(long)]
+    pub no_mouse: bool,
+}
+
+impl LookArguments {
+    pub(super) fn options(self) -> Options {
+        Options { theme: self.theme, marker: self.marker, no_mouse: self.no_mouse, ..Options::default() }
+    }
 }
 
 /// Opens the explorer on a scene or a study.
@@ -68,12 +82,15 @@ pub(super) fn explore(arguments: &ExploreArguments, out: &mut dyn Write) -> Resu
             Some(_) => CliError::NoTerminalForStudy { folder: name },
         });
     }
+    open(opening, Options { restored, config, drafts, ..arguments.look.options() }, out)
+}
+
+/// Opens the explorer in the terminal; on leaving, prints a brief summary of the last scene.
+pub(super) fn open(opening: Opening, options: Options, out: &mut dyn Write) -> Result<(), CliError> {
     if std::env::var_os("TERM").is_some_and(|term| term == "dumb") {
         return Err(CliError::DumbTerminal { scene: opening.document.name().into() });
     }
-    let &ExploreArguments { theme, marker, no_mouse, .. } = arguments;
-    let left = explorer::open(opening, Options { theme, marker, no_mouse, restored, config, drafts })
-        .map_err(|error| CliError::Explorer(error.to_string()))?;
+    let left = explorer::open(opening, options).map_err(|error| CliError::Explorer(error.to_string()))?;
     if let Some(signal) = left.signal {
         explorer::end_by(signal);
     }

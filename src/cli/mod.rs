@@ -5,6 +5,7 @@
 
 mod arguments;
 mod check;
+mod compare;
 mod completions;
 mod config;
 mod cost;
@@ -25,12 +26,13 @@ mod usage;
 
 pub use arguments::{Arguments, Command};
 pub use check::{CheckArguments, CheckFormat};
+pub use compare::CompareArguments;
 pub use completions::CompletionsArguments;
 pub use config::ConfigArguments;
 pub use cost::{CostArguments, CostFormat};
 pub use demo::DemoArguments;
 pub use error::CliError;
-pub use explore::ExploreArguments;
+pub use explore::{ExploreArguments, LookArguments};
 pub use line::LineArguments;
 pub use output::OutputArguments;
 pub use plan::{PlanArguments, PlanFormat};
@@ -86,6 +88,7 @@ fn dispatch(arguments: &Arguments, stdout: &mut dyn Write) -> Result<(), CliErro
     match &arguments.command {
         None => explore::explore(&arguments.explore, stdout),
         Some(Command::Run(arguments)) => run::run(arguments, stdout),
+        Some(Command::Compare(arguments)) => compare::compare(arguments, stdout),
         Some(Command::Reversals(arguments)) => reversals::reversals(arguments, stdout),
         Some(Command::Demo(arguments)) => demo::demo(arguments, stdout),
         Some(Command::Cost(arguments)) => cost::cost(arguments, stdout),

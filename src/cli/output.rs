@@ -1,11 +1,12 @@
 //! Destinations of results.
 
 use super::CliError;
+use crate::draw::{Colours, Figure, figure_text};
 use crate::io::{check_writable, write_new};
 use crate::scene::{Document, Provenance, Scene, TableContent};
 use crate::text::path_name;
 use clap::Args;
-use std::io::{self, Write};
+use std::io::{self, IsTerminal, Write};
 use std::path::{Path, PathBuf};
 
 /// Endings of pictures.
@@ -52,7 +53,8 @@ impl OutputArguments {
         let by_ending = ending.as_deref().and_then(of);
         let format = chosen.or(by_ending).unwrap_or(usual);
         let is_picture = PICTURES.contains(&ending.as_deref().unwrap_or_default());
-        let (true, Some(path)) = (is_picture || of("svg") == Some(format) && ending.is_some(), path) else {
+        let is_drawn = ending.is_some() && PICTURES.iter().any(|picture| of(picture) == Some(format));
+        let (true, Some(path)) = (is_picture || is_drawn, path) else {
             return Ok(format);
         };
         if by_ending == Some(format) {
@@ -66,6 +68,14 @@ impl OutputArguments {
             allowed.push(".txt".to_owned());
         }
         Err(CliError::Ending { path: path_name(path), allowed: allowed.join(", ") })
+    }
+
+    /// Refuses to write what is no text to a terminal.
+    pub(super) fn check_binary(&self, is_binary: bool) -> Result<(), CliError> {
+        match self.file() {
+            None if is_binary && io::stdout().is_terminal() => Err(CliError::BinaryInTerminal),
+            _ => Ok(()),
+        }
     }
 
     /// Provenance of a table of a scene that goes where results go.
@@ -83,6 +93,29 @@ impl OutputArguments {
             Some(path) => Ok(write_new(path, self.force, |out| write(out))?),
             None => Ok(write(stdout)?),
         }
+    }
+}
+
+/// Columns of figures as text where there is no terminal.
+const COLUMNS: usize = 80;
+
+/// A figure as text, in the width and the colours of the terminal if it is for one.
+pub(super) fn text_for_reader(figure: &Figure, to_stdout: bool) -> String {
+    let terminal = to_stdout && io::stdout().is_terminal();
+    let size = crossterm::terminal::size().ok().filter(|_| terminal);
+    let columns = size.map_or(COLUMNS, |(columns, _)| usize::from(columns));
+    figure_text(figure, columns, if terminal { colours() } else { Colours::None })
+}
+
+/// Colours of the terminal by the environment.
+fn colours() -> Colours {
+    let value = |name| std::env::var(name).unwrap_or_default();
+    if !value("NO_COLOR").is_empty() || value("TERM") == "dumb" {
+        Colours::None
+    } else if ["truecolor", "24bit"].contains(&value("COLORTERM").as_str()) {
+        Colours::All
+    } else {
+        Colours::Palette
     }
 }
 

@@ -7,7 +7,7 @@ use super::{
 };
 use crate::accuracy::{Choice, Estimate, choose, estimate, parse_tolerance};
 use crate::contact::{LegRecord, Solver};
-use crate::draw::{Figure, figure_svg};
+use crate::draw::{Figure, figure_png, figure_svg};
 use crate::export::{
     ContactSets, PreloadReport, TableFormat, ensemble_text, force_figure, summary, write_curve,
     write_ensemble_json, write_ensemble_table, write_json, write_line,
@@ -47,11 +47,11 @@ pub struct RunArguments {
     /// More scenes, whose force curves are drawn into the same picture
     #[arg(value_name = "SCENE")]
     pub more: Vec<String>,
-    /// summary, json, csv, npy or svg; default: by the extension of FILE
+    /// summary, json, csv, npy, svg or png; default: by the extension of FILE
     ///
     /// A summary is text for a person. JSON is one object with scene, profile, figures, curve,
     /// contacts and work. CSV is the curve: leg,indentation,force,contact_length,fragments.
-    /// npy is the same as a structured array of NumPy. SVG is a picture of the curve.
+    /// npy is the same as a structured array of NumPy. SVG and PNG are pictures of the curve.
     #[arg(long, value_enum, hide_possible_values = true, verbatim_doc_comment)]
     pub format: Option<RunFormat>,
     /// Draw the profile and its contact at the largest force instead of the curve
@@ -101,21 +101,32 @@ pub enum RunFormat {
     Csv,
     /// The force curve as an array of NumPy.
     Npy,
-    /// A picture of the force curve, the profile or the contact patches.
+    /// A picture of the force curve, the profile or the contact patches, as lines.
     Svg,
+    /// The same picture as pixels.
+    Png,
 }
 
 /// Endings of files in each format.
-const ENDINGS: [(&str, RunFormat); 4] =
-    [("json", RunFormat::Json), ("csv", RunFormat::Csv), ("npy", RunFormat::Npy), ("svg", RunFormat::Svg)];
+const ENDINGS: [(&str, RunFormat); 5] = [
+    ("json", RunFormat::Json),
+    ("csv", RunFormat::Csv),
+    ("npy", RunFormat::Npy),
+    ("svg", RunFormat::Svg),
+    ("png", RunFormat::Png),
+];
 
 impl RunFormat {
+    fn is_picture(self) -> bool {
+        matches!(self, RunFormat::Svg | RunFormat::Png)
+    }
+
     /// Format of a table.
     fn of_table(self) -> Option<TableFormat> {
         match self {
             RunFormat::Csv => Some(TableFormat::Csv),
             RunFormat::Npy => Some(TableFormat::Npy),
-            RunFormat::Summary | RunFormat::Json | RunFormat::Svg => None,
+            RunFormat::Summary | RunFormat::Json | RunFormat::Svg | RunFormat::Png => None,
         }
     }
 }
@@ -133,15 +144,16 @@ impl RunArguments {
             (self.fragments, "--fragments"),
         ];
         let needs_picture = needs_picture.into_iter().find(|(is_asked, _)| *is_asked);
+        self.output.check_binary(self.format == Some(RunFormat::Png))?;
         let usual = if needs_picture.is_some() { RunFormat::Svg } else { RunFormat::Summary };
         let format = self.output.format(self.format, &ENDINGS, usual)?;
         match needs_picture {
-            Some((_, what)) if format != RunFormat::Svg => Err(CliError::OnlyInPicture { what }),
+            Some((_, what)) if !format.is_picture() => Err(CliError::OnlyInPicture { what }),
             _ if format == RunFormat::Npy && self.preloads.is_some() => Err(CliError::NoPicture {
                 what: "--preloads",
-                allowed: "allowed: summary, json, csv and svg",
+                allowed: "allowed: summary, json, csv, svg and png",
             }),
-            _ if format == RunFormat::Svg && self.lines.is_some() && self.preloads.is_none() => {
+            _ if format.is_picture() && self.lines.is_some() && self.preloads.is_none() => {
                 Err(CliError::NoPicture {
                     what: "--lines",
                     allowed: "a picture shows one profile; allowed: summary, json, csv and npy",
@@ -163,9 +175,13 @@ pub(super) fn run(arguments: &RunArguments, stdout: &mut dyn Write) -> Result<()
     if let Some(preloads) = arguments.preloads {
         return over_preloads(arguments, &document, (format, preloads), stdout);
     }
-    if format == RunFormat::Svg {
+    if format.is_picture() {
         let figure = figure(arguments, document)?;
-        return arguments.output.write(stdout, |out| out.write_all(figure_svg(&figure).as_bytes()));
+        let picture = match format {
+            RunFormat::Png => figure_png(&figure)?,
+            _ => figure_svg(&figure).into_bytes(),
+        };
+        return arguments.output.write(stdout, |out| out.write_all(&picture));
     }
     let choice = arguments.tolerance.map(|tolerance| choice(&document, tolerance)).transpose()?;
     let chosen = choice.as_ref().map(|choice| choice.apply(document.scene()));
@@ -223,6 +239,11 @@ fn surface_again(arguments: &RunArguments, format: RunFormat) -> Result<Option<S
         RunFormat::Csv => SurfaceFormat::Csv,
         RunFormat::Npy => SurfaceFormat::Npy,
         RunFormat::Svg => SurfaceFormat::Svg,
+        RunFormat::Png => {
+            return Err(refused(
+                "spectra are not drawn as PNG; allowed: summary, json, csv, npy and svg".to_owned(),
+            ));
+        }
     };
     let folder = path.parent().unwrap_or(Path::new("")).to_path_buf();
     Ok(Some(SurfaceArguments { format: Some(format), output: arguments.output.clone(), folder, ..surface }))
@@ -267,7 +288,7 @@ fn estimate_for(
     choice: Option<&Choice>,
 ) -> Result<Option<Estimate>, CliError> {
     match (format, choice) {
-        (RunFormat::Csv | RunFormat::Npy | RunFormat::Svg, _) => Ok(None),
+        (RunFormat::Csv | RunFormat::Npy | RunFormat::Svg | RunFormat::Png, _) => Ok(None),
         (_, Some(choice)) => Ok(Some(choice.estimate())),
         (_, None) => estimate(scene, &document.resolve(""), outcome, &|| false)
             .map_err(|error| CliError::Run { scene: document.name().into(), error }),
@@ -319,6 +340,7 @@ fn over_preloads(
         RunFormat::Json => report.write_json(out),
         RunFormat::Csv | RunFormat::Npy => report.write_csv(out),
         RunFormat::Svg => out.write_all(figure_svg(&report.figure(title)).as_bytes()),
+        RunFormat::Png => out.write_all(&figure_png(&report.figure(title)).map_err(io::Error::other)?),
     })
 }
 

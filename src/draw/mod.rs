@@ -1,4 +1,4 @@
-//! Figures: one model of charts, drawn as SVG or in the cells of a terminal.
+//! Figures: one model of charts, drawn as SVG, as PNG or in the cells of a terminal.
 //!
 //! A [`Figure`] holds [`Chart`]s, a chart two [`Axis`] and [`Layer`]s of data in SI units. Ticks, SI prefixes,
 //! typeset symbols and the legend follow from them, the same for every backend.
@@ -10,8 +10,8 @@ mod chart;
 mod colour;
 mod contour;
 mod label;
+mod picture;
 mod scale;
-mod svg;
 mod ticks;
 
 pub use axis::Axis;
@@ -20,9 +20,11 @@ pub use cells::{CellPlot, CellStyle, Colours, SHADES, dry, figure_text, glyph, k
 pub use chart::{Chart, Class, Contour, Entry, Figure, HeatMap, Layer, Sample, Shape, Sign, Stroke};
 pub use colour::{Ink, Palette, Rgb, hex, ink_on, shade};
 pub use label::{Label, prefixed, short, value_label};
+pub use picture::{Document, escaped, figure_svg};
+#[cfg(feature = "tui")]
+pub use picture::{PngError, figure_png};
 pub use scale::{AxisScale, Span};
-pub use svg::{Document, escaped, figure_svg};
 pub use ticks::Tick;
 
 #[cfg(test)]
-pub(crate) use svg::tests as svg_tests;
+pub(crate) use picture::tests as svg_tests;

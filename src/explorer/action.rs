@@ -216,6 +216,8 @@ pub enum Command {
     Pin,
     /// Exchange the scene with that of the newest ghost.
     Swap,
+    /// Show the newest ghost beside the scene: both profiles, both loops, what differs.
+    ToggleSideBySide,
     /// Let all ghosts go.
     ClearGhosts,
     /// Choose a command from the list of all.
@@ -276,6 +278,19 @@ pub enum Command {
     MoveAcross(i32),
     /// Move the mark, and the scene, by so many rows of the map.
     MoveUp(i32),
+    /// Show or hide the crosshair.
+    ToggleCrosshair,
+    /// Move the crosshair of the chosen pane.
+    MoveCrosshair {
+        /// Number of steps, positive to the right.
+        steps: i32,
+        /// By the large step.
+        coarse: bool,
+    },
+    /// Move the crosshair to the left or, if true, to the right end of the loading stage or of the section.
+    CrosshairEnd(bool),
+    /// Move the crosshair to the next or previous loading stage at the same indentation.
+    CrosshairStage(i32),
     /// Give one pane the whole screen, or all of them again.
     ZoomPane,
     /// Choose the next pane.

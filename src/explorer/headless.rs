@@ -3,7 +3,7 @@
 
 use super::action::{Action, Command};
 use super::model::Model;
-use super::session::{action_of, scene_of};
+use super::session::{action_of, scene_beside, scene_of};
 use super::study::{Accuracy, Found, Task, perform};
 use super::theme::Appearance;
 use super::update::{Effect, moment_request, study_tasks, update};
@@ -75,6 +75,7 @@ impl Headless {
                 Some(request) => Request::Show(request),
                 None => return Vec::new(),
             },
+            Effect::Beside => Request::Beside(scene_beside(&self.model)),
             Effect::Study => return self.study(),
             Effect::Hand(order) => Request::Hand { generation, order },
             Effect::Preview(document) => {

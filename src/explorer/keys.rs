@@ -128,13 +128,14 @@ const fn shift(code: KeyCode) -> Key {
 }
 
 /// Exploring, whichever pane is chosen.
-const EXPLORE: &[ModeKind] = &[ModeKind::Explore, ModeKind::Chart, ModeKind::Parameters];
+const EXPLORE: &[ModeKind] = &[ModeKind::Explore, ModeKind::Chart, ModeKind::Crosshair, ModeKind::Parameters];
 /// What the arrows do beside them is done in the map by other keys.
 const LIST: &[ModeKind] = &[ModeKind::Explore, ModeKind::Parameters];
 /// In the list of parameters these characters begin a value.
-const OTHER_PANES: &[ModeKind] = &[ModeKind::Explore, ModeKind::Chart];
+const OTHER_PANES: &[ModeKind] = &[ModeKind::Explore, ModeKind::Chart, ModeKind::Crosshair];
 const VALUES: &[ModeKind] = &[ModeKind::Parameters];
 const CHART: &[ModeKind] = &[ModeKind::Chart];
+const CROSSHAIR: &[ModeKind] = &[ModeKind::Crosshair];
 const HELP: &[ModeKind] = &[ModeKind::Help];
 const LINE: &[ModeKind] =
     &[ModeKind::Edit, ModeKind::Force, ModeKind::Tolerance, ModeKind::SaveAs, ModeKind::Export];
@@ -189,6 +190,7 @@ const HAND: &str = "Manual loading";
 const PARAMETERS: &str = "Parameters";
 const COMPARE: &str = "Comparison";
 const LOOK: &str = "View";
+const CROSS: &str = "Crosshair";
 const MAP: &str = "Map";
 const SCENE: &str = "Scene";
 const TEXT: &str = "Typing and lists";
@@ -206,6 +208,10 @@ const fn row(
 
 const fn step(steps: i32, coarse: bool) -> Command {
     Command::StepValue { steps, coarse }
+}
+
+const fn cross(steps: i32, coarse: bool) -> Command {
+    Command::MoveCrosshair { steps, coarse }
 }
 
 const fn push(steps: i32, coarse: bool) -> Command {
@@ -250,6 +256,7 @@ pub const BINDINGS: &[Binding] = &[
 
     row(&[char('c')], EXPLORE, Command::Pin, "compare", "keep this loop as a ghost for comparison", COMPARE),
     row(&[char('x')], EXPLORE, Command::Swap, "", "swap the scene with the newest ghost", COMPARE),
+    row(&[char('&')], EXPLORE, Command::ToggleSideBySide, "", "show the newest ghost beside the scene: profiles above each other, differences, F_a of both", COMPARE),
     row(&[char('C')], EXPLORE, Command::ClearGhosts, "", "remove all ghosts", COMPARE),
 
     row(&[char('v')], EXPLORE, Command::NextCurve, "", "plot force, contact length or number of contact patches", LOOK),
@@ -277,6 +284,17 @@ pub const BINDINGS: &[Binding] = &[
     row(&[char('I')], EXPLORE, Command::ToggleWork, "", "show springs and stage times in the status line, or contact, stiffness, pressure and energy", LOOK),
     row(&[char('T')], EXPLORE, Command::NextTheme, "", "change the colours", LOOK),
     row(&[char('M')], EXPLORE, Command::NextMarker, "", "change the markers: braille, octants, half blocks, ASCII", LOOK),
+
+    row(&[char('*')], EXPLORE, Command::ToggleCrosshair, "read", "show or hide the crosshair: d, F, l, n on the force curve, x, z on profile and close-up", CROSS),
+    row(&[key(KeyCode::Left), char('h')], CROSSHAIR, cross(-1, false), "", "move the crosshair left: along the loading stage, or along the profile", CROSS),
+    row(&[key(KeyCode::Right), char('l')], CROSSHAIR, cross(1, false), "move", "move the crosshair right", CROSS),
+    row(&[shift(KeyCode::Left), char('H')], CROSSHAIR, cross(-1, true), "", "move the crosshair left by a large step", CROSS),
+    row(&[shift(KeyCode::Right), char('L')], CROSSHAIR, cross(1, true), "", "move the crosshair right by a large step", CROSS),
+    row(&[key(KeyCode::Home), char('g')], CROSSHAIR, Command::CrosshairEnd(false), "", "move the crosshair to the left end", CROSS),
+    row(&[key(KeyCode::End), char('G')], CROSSHAIR, Command::CrosshairEnd(true), "", "move the crosshair to the right end", CROSS),
+    row(&[key(KeyCode::Up), char('k')], CROSSHAIR, Command::CrosshairStage(-1), "", "move to the previous loading stage at the same indentation", CROSS),
+    row(&[key(KeyCode::Down), char('j')], CROSSHAIR, Command::CrosshairStage(1), "stage", "move to the next loading stage at the same indentation", CROSS),
+    row(&[key(KeyCode::Esc)], CROSSHAIR, Command::ToggleCrosshair, "hide", "hide the crosshair", CROSS),
 
     row(&[char('m')], EXPLORE, Command::ToggleChart, "map", "show the regimes over H and κ, in place of profile and close-up", MAP),
     row(&[key(KeyCode::Left), char('h')], CHART, Command::MoveAcross(-1), "", "move the scene to the value on the left: decrease H; successive moves are one edit", MAP),

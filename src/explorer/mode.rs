@@ -100,6 +100,8 @@ pub enum ModeKind {
     Explore,
     /// See [`Mode::Explore`], with the map chosen.
     Chart,
+    /// See [`Mode::Explore`], with the crosshair in the chosen pane.
+    Crosshair,
     /// See [`Mode::Explore`], with the list of parameters chosen.
     Parameters,
     /// See [`Mode::Edit`].
@@ -130,9 +132,10 @@ pub enum ModeKind {
 
 impl ModeKind {
     /// All modes.
-    pub const ALL: [ModeKind; 15] = [
+    pub const ALL: [ModeKind; 16] = [
         ModeKind::Explore,
         ModeKind::Chart,
+        ModeKind::Crosshair,
         ModeKind::Parameters,
         ModeKind::Edit,
         ModeKind::Force,

@@ -55,6 +55,12 @@ impl Pane {
     pub const WITH_SPECTRUM: [Pane; 3] = [Pane::Force, Pane::Spectrum, Pane::Parameters];
     /// The panes while adhesion against preload is shown.
     pub const WITH_PRELOADS: [Pane; 3] = [Pane::Force, Pane::Preloads, Pane::Parameters];
+
+    /// True for panes in which the crosshair can be moved.
+    #[must_use]
+    pub fn has_crosshair(self) -> bool {
+        matches!(self, Pane::Force | Pane::Profile | Pane::CloseUp)
+    }
 }
 
 /// Where the animation stands.
@@ -135,6 +141,13 @@ impl Quantities {
     }
 }
 
+/// Lines through the state shown on the force curve, and through one position on profile and close-up.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Crosshair {
+    /// Position as a share of the profile, 0 to 1.
+    pub position: f64,
+}
+
 /// A loop that was kept to be compared with.
 #[derive(Clone, Debug)]
 pub struct Ghost {
@@ -144,6 +157,8 @@ pub struct Ghost {
     pub computed: Arc<Loop>,
     /// Where its scene differs from the present one.
     pub differs: String,
+    /// Names of what differs, with the values of the ghost and of the present scene: `κ 4 → 8`.
+    pub changes: String,
 }
 
 /// A line for the user, below the panes.
@@ -221,8 +236,14 @@ pub struct Model {
     pub profile: LineView,
     /// What the pane of the curve shows.
     pub curve: CurveLook,
+    /// The crosshair, while it is shown.
+    pub crosshair: Option<Crosshair>,
     /// Loops kept to be compared with, the newest last.
     pub ghosts: Vec<Ghost>,
+    /// True while the newest ghost is shown beside the scene, its profile in place of the close-up.
+    pub side_by_side: bool,
+    /// Scene to open beside the present one as soon as that is computed.
+    pub opens_beside: Option<Document>,
     /// How accurate the scene is and what accuracy costs.
     pub appraisal: Appraisal,
     /// The map over κ and H.
@@ -299,7 +320,10 @@ impl Model {
             spectrum: false,
             profile: LineView::WHOLE,
             curve: CurveLook::default(),
+            crosshair: None,
             ghosts: Vec::new(),
+            side_by_side: false,
+            opens_beside: None,
             appraisal: Appraisal::default(),
             chart: Chart::default(),
             preloads: PreloadPane::default(),
@@ -455,11 +479,13 @@ impl Model {
         self.spectrum = false;
     }
 
-    /// Which keys are valid: in the map the arrows move its mark, in the list of parameters digits begin a value.
+    /// Which keys are valid: in the map the arrows move its mark, in panes with a crosshair the crosshair; in the list of
+    /// parameters digits begin a value.
     #[must_use]
     pub fn keys(&self) -> ModeKind {
         match self.mode.kind() {
             ModeKind::Explore if self.chart.shown && self.pane == Pane::Chart => ModeKind::Chart,
+            ModeKind::Explore if self.crosshair.is_some() && self.pane.has_crosshair() => ModeKind::Crosshair,
             ModeKind::Explore if self.pane == Pane::Parameters => ModeKind::Parameters,
             kind => kind,
         }
@@ -494,6 +520,12 @@ impl Model {
         let value = |axis: &MapAxis| axis.value(scene, governing.as_ref());
         let place = value(&across)?;
         up.map_or(Some((place, None)), |up| Some((place, Some(value(&up)?))))
+    }
+
+    /// The ghost that is shown beside the scene.
+    #[must_use]
+    pub fn beside(&self) -> Option<&Ghost> {
+        self.ghosts.last().filter(|_| self.side_by_side)
     }
 
     /// What moves the body.
@@ -546,25 +578,50 @@ impl Model {
     /// Lowest and highest indentation of the curves shown, m; `None` when there is no curve.
     #[must_use]
     pub fn indentations(&self) -> Option<(f64, f64)> {
-        let points = self.legs().iter().flat_map(|leg| &leg.curve).map(|point| point.indentation);
-        points.fold(None, |range: Option<(f64, f64)>, d| {
-            Some(range.map_or((d, d), |(low, high)| (low.min(d), high.max(d))))
-        })
+        indentations(self.legs())
     }
 
-    /// The indentation at which the animation stands, m. The first leg begins a little above the
-    /// foundation.
+    /// The indentation at which the animation stands, m.
     #[must_use]
     pub fn indentation(&self) -> f64 {
-        let Some(leg) = self.legs().get(self.player.leg) else { return 0.0 };
-        let (low, high) = self.indentations().unwrap_or((0.0, 0.0));
-        let lift = if self.player.leg == 0 { LIFT * (high - low) } else { 0.0 };
-        let start = leg.start() - lift;
+        self.player.indentation(self.legs())
+    }
+
+    /// Part of a loading stage that is done at an indentation, 0 to 1: the inverse of [`Model::indentation`].
+    #[must_use]
+    pub fn done_at(&self, leg: usize, indentation: f64) -> f64 {
+        let Some(end) = self.legs().get(leg).map(LegRecord::end) else { return 0.0 };
+        let start = start_of(self.legs(), leg);
+        let done = (indentation - start) / (end - start);
+        if done.is_finite() { done.clamp(0.0, 1.0) } else { 0.0 }
+    }
+}
+
+impl Player {
+    /// The indentation at which the animation of these loading stages stands, m.
+    #[must_use]
+    pub fn indentation(&self, legs: &[LegRecord]) -> f64 {
+        let Some(leg) = legs.get(self.leg) else { return 0.0 };
+        let start = start_of(legs, self.leg);
         match leg.curve.last() {
             // There the contact is still held, and below it gone.
-            Some(end) if self.player.done >= 1.0 && end.springs == 0 => end.indentation.next_down(),
-            _ if self.player.done >= 1.0 => leg.end(),
-            _ => start + (leg.end() - start) * self.player.done,
+            Some(end) if self.done >= 1.0 && end.springs == 0 => end.indentation.next_down(),
+            _ if self.done >= 1.0 => leg.end(),
+            _ => start + (leg.end() - start) * self.done,
         }
     }
+}
+
+fn indentations(legs: &[LegRecord]) -> Option<(f64, f64)> {
+    let points = legs.iter().flat_map(|leg| &leg.curve).map(|point| point.indentation);
+    points.fold(None, |range: Option<(f64, f64)>, d| {
+        Some(range.map_or((d, d), |(low, high)| (low.min(d), high.max(d))))
+    })
+}
+
+/// Indentation at which the animation begins a loading stage, m. The first begins a little above the foundation.
+fn start_of(legs: &[LegRecord], leg: usize) -> f64 {
+    let (low, high) = indentations(legs).unwrap_or((0.0, 0.0));
+    let lift = if leg == 0 { LIFT * (high - low) } else { 0.0 };
+    legs.get(leg).map_or(0.0, LegRecord::start) - lift
 }

@@ -14,6 +14,8 @@ pub struct Opening {
     pub document: Document,
     /// The study it is from, whose maps are shown.
     pub study_map: Option<Arc<StudyMap>>,
+    /// Another scene that is shown beside.
+    pub beside: Option<Document>,
 }
 
 /// Why nothing was opened.
@@ -35,7 +37,7 @@ pub enum OpeningError {
 
 impl From<Document> for Opening {
     fn from(document: Document) -> Self {
-        Opening { document, study_map: None }
+        Opening { document, study_map: None, beside: None }
     }
 }
 
@@ -70,6 +72,6 @@ impl Opening {
 
     fn of_study(folder: &Path) -> Result<Self, StudyMapError> {
         let study_map = StudyMap::open(folder)?;
-        Ok(Opening { document: study_map.document()?, study_map: Some(Arc::new(study_map)) })
+        Ok(Opening { document: study_map.document()?, study_map: Some(Arc::new(study_map)), beside: None })
     }
 }

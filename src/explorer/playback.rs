@@ -4,7 +4,7 @@ use super::close_up::close_up;
 use super::engine::Engine;
 use super::held::Held;
 use super::request::{Drive, HandOrder, LineView, MomentRequest, Newest};
-use super::snapshot::{Loop, Moment, Report};
+use super::snapshot::{Loop, Moment, Probe, Report};
 use super::spectrum::SceneSpectra;
 use crate::analysis::section::{self, Contact, LineColumns, Part};
 use crate::contact::{ContactError, LegContact, LegRecord, Snapshot, Solver};
@@ -188,12 +188,14 @@ impl Playback {
             profile: contact.section(profile, &mut self.profile),
             close_up,
             strip: section::strip(&fragments, line.gaps.len(), request.strip_cells),
+            probe: request.crosshair.and_then(|position| probe(&contact, position)),
             lengths: request.lengths.then(|| section::lengths(&fragments)),
             spectra: self.spectra.clone().filter(|_| request.spectra),
             hand: match request.drive {
                 Drive::Leg(_) => None,
                 Drive::Hand => self.held.as_mut().map(Held::travel),
             },
+            beside: None,
         };
         self.last = Some((request.drive, fragments));
         Some(moment)
@@ -241,6 +243,20 @@ impl Playback {
             }
         }
     }
+}
+
+/// Profile and contact at a share of the profile; `None` for a profile without springs.
+fn probe(contact: &Contact<'_>, position: f64) -> Option<Probe> {
+    let last = contact.gaps.len().checked_sub(1)?;
+    let spring = ((position * contact.gaps.len() as f64) as usize).min(last);
+    let next = contact.fragments.partition_point(|&(_, last)| last < spring);
+    let holds = |&(first, _): &(usize, usize)| first <= spring;
+    Some(Probe {
+        spring,
+        height: contact.height(spring),
+        level: contact.summit - contact.indentation,
+        patch: contact.fragments.get(next).filter(|patch| holds(patch)).map(|_| next),
+    })
 }
 
 /// How far the curves of a scene reach, m.

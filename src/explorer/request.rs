@@ -23,6 +23,8 @@ pub enum Request {
     },
     /// Show a moment of the scene that was computed last.
     Show(MomentRequest),
+    /// Compute a scene to be shown beside, or none.
+    Beside(Option<Arc<Scene>>),
     /// Compute a scene to look at its curve: one of the library, or one with a value that is being typed.
     Preview {
         /// The scene's text.
@@ -77,6 +79,10 @@ pub struct MomentRequest {
     pub close_up_springs: usize,
     /// Whether the distribution of fragment lengths is shown.
     pub lengths: bool,
+    /// Position of the crosshair as a share of the profile, 0 to 1.
+    pub crosshair: Option<f64>,
+    /// Loading stage and indentation, m, of the scene beside.
+    pub beside: Option<(usize, f64)>,
     /// Whether the spectra of the scene are shown.
     pub spectra: bool,
 }

@@ -114,7 +114,7 @@ pub fn open_with(
     engine: Box<dyn Engine>,
     draw: Draw,
 ) -> io::Result<Left> {
-    let Opening { document, study_map } = opening.into();
+    let Opening { document, study_map, beside } = opening.into();
     let guard = TerminalGuard::take(!options.no_mouse)?;
     let (messages, inbox) = channel();
     let (requests, outbox) = channel();
@@ -156,6 +156,7 @@ pub fn open_with(
     };
     let frame_rate = options.config.frame_rate.unwrap_or(FRAME_RATE);
     let mut model = Model::new(document, (size.width, size.height), appearance);
+    model.opens_beside = beside;
     if let Some(study_map) = study_map {
         model.show_study(study_map);
     }
@@ -207,6 +208,11 @@ pub(super) fn scene_of(document: &Document) -> Arc<Scene> {
     let mut scene = document.scene().clone();
     scene.rename_measured_files(|file| document.resolve(file).to_string_lossy().into_owned());
     Arc::new(scene)
+}
+
+/// The scene that is shown beside, as the worker gets it.
+pub(super) fn scene_beside(model: &Model) -> Option<Arc<Scene>> {
+    model.beside().map(|ghost| scene_of(&ghost.document))
 }
 
 struct Session<'a, W: Write> {
@@ -418,6 +424,7 @@ impl<W: Write> Session<'_, W> {
                         self.worker.ask(Request::Show(request));
                     }
                 }
+                Effect::Beside => self.worker.ask(Request::Beside(scene_beside(&self.model))),
                 Effect::Study => self.study.ask(generation, study_tasks(&self.model)),
                 Effect::Hand(order) => self.worker.ask(Request::Hand { generation, order }),
                 Effect::DrawSeed => {

@@ -44,12 +44,29 @@ pub struct Moment {
     pub close_up: CloseUp,
     /// How much of the whole line touches, in as many parts as the close-up has cells.
     pub strip: Vec<Share>,
+    /// Readings of the crosshair on the profile.
+    pub probe: Option<Probe>,
     /// How long the fragments are, where that was asked for.
     pub lengths: Option<Vec<LengthBin>>,
     /// Spectra of the scene, where they were asked for.
     pub spectra: Option<Arc<SceneSpectra>>,
     /// How the hand came here.
     pub hand: Option<Travel>,
+    /// The scene beside, at the same part of its loading.
+    pub beside: Option<Box<Moment>>,
+}
+
+/// Rigid profile and elastic surface at one spring.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Probe {
+    /// The spring.
+    pub spring: usize,
+    /// Height of the rigid profile, m.
+    pub height: f64,
+    /// Height of the elastic surface where it is undeformed, m.
+    pub level: f64,
+    /// Number of the contact patch of the spring along the profile, from 0; none where the spring is free.
+    pub patch: Option<usize>,
 }
 
 /// The way of the hand since the moment before.

@@ -2,6 +2,7 @@
 
 pub use super::engine::Engine;
 use super::playback::Playback;
+use super::request::Drive;
 pub use super::request::{Focus, HandOrder, LineView, MomentRequest, Newest, Request};
 use super::snapshot::Preview;
 pub use super::snapshot::Report;
@@ -18,6 +19,8 @@ pub struct Desk {
     playback: Playback,
     /// The library's scenes have an engine of their own: the one shown keeps its line.
     previews: Simulation,
+    /// The scene that is shown beside.
+    beside: Option<(Simulation, Playback)>,
 }
 
 /// Requests that wait together: of each kind the newest counts, but each order of the hand.
@@ -27,6 +30,7 @@ struct Batch {
     orders: Vec<(u64, HandOrder)>,
     show: Option<MomentRequest>,
     preview: Option<(String, Arc<Scene>)>,
+    beside: Option<Option<Arc<Scene>>>,
 }
 
 impl Batch {
@@ -37,6 +41,7 @@ impl Batch {
                 Request::Compute { generation, scene } => batch.compute = Some((generation, scene)),
                 Request::Hand { generation, order } => batch.orders.push((generation, order)),
                 Request::Show(moment) => batch.show = Some(moment),
+                Request::Beside(scene) => batch.beside = Some(scene),
                 Request::Preview { text, scene } => batch.preview = Some((text, scene)),
             }
         }
@@ -48,7 +53,7 @@ impl Desk {
     /// A desk with an engine.
     #[must_use]
     pub fn new(engine: Box<dyn Engine>) -> Self {
-        Desk { engine, playback: Playback::default(), previews: Simulation::default() }
+        Desk { engine, playback: Playback::default(), previews: Simulation::default(), beside: None }
     }
 
     /// Does the requests that wait together, and reports.
@@ -69,6 +74,7 @@ impl Desk {
         let error = format!("internal error, please report it: {}", panic_text(panic.as_ref()));
         self.playback = Playback::default();
         self.previews = Simulation::default();
+        self.beside = None;
         if let Some(text) = previewed {
             report(Report::Previewed(Arc::new(Preview { text, outcome: Err(error.clone()) })));
         }
@@ -87,9 +93,17 @@ impl Desk {
                 playback.obey(engine.as_mut(), order);
             }
         }
+        if let Some(scene) = batch.beside {
+            self.beside = scene.and_then(compute_beside);
+        }
         if let Some(request) = batch.show.filter(|request| request.generation == playback.generation())
-            && let Some(moment) = playback.show(engine.as_mut(), &request)
+            && let Some(mut moment) = playback.show(engine.as_mut(), &request)
         {
+            if let (Some((leg, indentation)), Some((engine, playback))) = (request.beside, &mut self.beside) {
+                let drive = Drive::Leg(leg);
+                let request = MomentRequest { generation: 0, drive, indentation, ..request };
+                moment.beside = playback.show(engine, &request).map(Box::new);
+            }
             report(Report::Shown(Arc::new(moment)));
         }
         if let Some((text, scene)) = batch.preview {
@@ -101,6 +115,15 @@ impl Desk {
             report(Report::Previewed(Arc::new(Preview { text, outcome })));
         }
     }
+}
+
+/// A scene that is shown beside, computed; `None` where the scene cannot be computed.
+fn compute_beside(scene: Arc<Scene>) -> Option<(Simulation, Playback)> {
+    let (mut engine, mut playback) = (Simulation::default(), Playback::default());
+    // No newer scene takes its place before it is computed.
+    let only = Newest::default();
+    let report = playback.compute(&mut engine, 0, scene, &only, &|_| true);
+    matches!(report, Some(Report::Computed(_))).then_some((engine, playback))
 }
 
 fn panic_text(panic: &(dyn Any + Send)) -> &str {
@@ -171,7 +194,7 @@ impl Worker {
                 self.newest.set_preview(None);
             }
             Request::Preview { scene, .. } => self.newest.set_preview(Some(Arc::clone(scene))),
-            Request::Hand { .. } | Request::Show(_) => {}
+            Request::Hand { .. } | Request::Show(_) | Request::Beside(_) => {}
         }
         // The worker only ends with the explorer.
         let _ = self.requests.send(request);

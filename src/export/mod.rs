@@ -3,6 +3,7 @@
 //! Numbers are written in SI units and in the shortest form that reads back as the same number.
 
 mod check;
+mod comparison;
 mod cost;
 mod ensemble;
 mod json;
@@ -23,6 +24,7 @@ mod verdict;
 mod work_precision;
 
 pub use check::{check_markdown, check_text, write_check_json};
+pub use comparison::{Pair, adhesion_forces, comparison_figure, comparison_text};
 pub use cost::{cost_text, write_cost_csv, write_cost_json};
 pub use ensemble::{ensemble_text, write_ensemble_json, write_ensemble_table};
 pub use json::write_json;

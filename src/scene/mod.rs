@@ -15,6 +15,7 @@
 //! # Ok::<(), scene::SceneErrors>(())
 //! ```
 
+mod changes;
 mod check;
 mod choose;
 mod consistency;
@@ -52,6 +53,7 @@ mod violation;
 mod write;
 
 pub use crate::text::is_control;
+pub use changes::Change;
 pub use check::check;
 pub use document::{Document, LONGEST_TEXT};
 pub use effects::Effect;

@@ -51,8 +51,9 @@ impl Driver {
 
     /// The same with another engine.
     pub fn open_with(opening: impl Into<Opening>, engine: Box<dyn Engine>) -> Self {
-        let Opening { document, study_map } = opening.into();
+        let Opening { document, study_map, beside } = opening.into();
         let mut model = Model::new(document, (120, 40), APPEARANCE);
+        model.opens_beside = beside;
         if let Some(study_map) = study_map {
             model.show_study(study_map);
         }
@@ -84,6 +85,12 @@ impl Driver {
                 moment_request(&self.model).map_or(Vec::new(), |one| self.ask(Request::Show(one)))
             }
             Effect::Study => self.study(),
+            Effect::Beside => {
+                // Seen in the next moment.
+                let scene = self.model.beside().map(|ghost| Arc::new(ghost.document.scene().clone()));
+                self.worker.ask(Request::Beside(scene));
+                Vec::new()
+            }
             Effect::Hand(order) => {
                 // Answered with the next moment.
                 self.worker.ask(Request::Hand { generation: self.model.generation, order });

@@ -4,7 +4,9 @@ use super::common::deadline::within;
 use super::common::driver::Driver;
 use super::common::scenes::rough;
 use super::{is_up_to_date, pressed};
-use asperity::explorer::model::Notice;
+use asperity::explorer::Opening;
+use asperity::explorer::layout::Layout;
+use asperity::explorer::model::{Notice, Pane};
 use asperity::explorer::snapshot::Loop;
 use asperity::scene::{Document, format_quantity};
 use asperity::simulation::Outcome;
@@ -137,6 +139,97 @@ fn what_cannot_be_kept_or_exchanged_says_why() {
         driver.enter("[ToForce(2.0e-5), ToForce(-1.0)]");
         driver.press("c");
         assert!(driver.model.ghosts.is_empty(), "a scene that failed has no loop");
+    });
+}
+
+/// The rows of the pane that has the close-up or the scene beside in it.
+fn lower_pane(driver: &Driver) -> Vec<String> {
+    rows_of(driver, Pane::CloseUp)
+}
+
+fn rows_of(driver: &Driver, pane: Pane) -> Vec<String> {
+    let area = Layout::of(&driver.model).pane(pane).unwrap();
+    let row = |row: &String| row.chars().skip(usize::from(area.x)).take(usize::from(area.width)).collect();
+    driver.rows()[usize::from(area.y)..usize::from(area.bottom())].iter().map(row).collect()
+}
+
+/// Numbers on the scale beside a plot.
+fn scale(rows: &[String]) -> Vec<String> {
+    let number = |row: &String| Some(row.split_once(" ┤")?.0.trim_start_matches('│').trim().to_owned());
+    rows.iter().filter_map(number).collect()
+}
+
+#[test]
+fn two_scenes_are_shown_side_by_side() {
+    within(60, || {
+        for size in [(120, 40), (80, 24)] {
+            let mut driver = pressed("&");
+            driver.resize(size);
+            assert_eq!(driver.model.ghosts.len(), 1, "the present scene is the one to compare with");
+            let said = lower_pane(&driver).join("\n");
+            assert!(said.contains("A → this scene: the same scene") && said.contains("ratio 1 "), "{said}");
+            driver.press("L");
+            let now = driver.model.moment.clone().unwrap();
+            let before = now.beside.clone().unwrap();
+            let ghost = driver.model.ghosts[0].computed.outcome.clone();
+            assert_eq!(before.line, ghost.line);
+            assert_ne!(before.profile.columns, now.profile.columns);
+            // At the same part of its own loading.
+            let stage = &ghost.history.legs[1];
+            let part = (before.point.indentation - stage.start()) / (stage.end() - stage.start());
+            assert!((part - driver.model.player.done).abs() < 1e-9, "{part}");
+            let pane = lower_pane(&driver);
+            let [before, now] =
+                [ghost, outcome(&driver)].map(|outcome| outcome.figures.adhesion_force.unwrap());
+            let ratio: f64 = format!("{:.3e}", now / before).parse().unwrap();
+            let written = |force: f64| format_quantity(force, "N");
+            let forces = format!("F_a {} → {}, ratio {ratio}", written(before), written(now));
+            assert!(pane.iter().any(|row| row.contains(&forces)), "{forces}\n{}", pane.join("\n"));
+            assert!(
+                pane.iter().any(|row| row.contains("A → this scene: H 0.7 → 0.8")),
+                "{}",
+                pane.join("\n")
+            );
+            assert!(pane[0].contains("Profile z(x) of A: Rough line"), "{}", pane[0]);
+            // Both profiles are on one scale, as far as the panes are of one height.
+            let [upper, lower] = [scale(&rows_of(&driver, Pane::Profile)), scale(&pane)];
+            assert!(!lower.is_empty(), "{}", driver.text());
+            if size.0 == 120 {
+                assert_eq!(upper.first(), lower.first(), "{}", driver.text());
+            }
+            driver.press("&");
+            assert!(driver.model.moment.as_ref().unwrap().beside.is_none());
+            assert!(lower_pane(&driver)[0].contains("Fragments"));
+        }
+    });
+}
+
+#[test]
+fn two_scenes_that_are_opened_are_shown_side_by_side() {
+    within(30, || {
+        let second = rough().set("adhesion.kappa", "4").unwrap().set("title", "\"Stickier\"").unwrap();
+        let opening = Opening { beside: Some(second.clone()), ..Opening::from(rough()) };
+        let mut driver = Driver::start(opening);
+        let scenes: Vec<_> = kept(&driver).iter().map(|document| document.scene().clone()).collect();
+        assert_eq!(scenes, [rough().scene().clone()]);
+        assert_eq!(driver.model.document.scene(), second.scene());
+        assert!(!driver.model.is_unsaved() && driver.model.undo.is_empty());
+        let text = driver.text();
+        assert!(text.contains("Stickier") && text.contains("A → this scene: κ 8 → 4"), "{text}");
+        // Exchanged, the other one is beside.
+        driver.press("x");
+        assert!(is_up_to_date(&driver.model));
+        assert!(driver.text().contains("A → this scene: κ 4 → 8"), "{}", driver.text());
+        // Another pane in its place hides the ghost.
+        for keys in ["A", "m", "m", "D"] {
+            driver.press(keys);
+            driver.screen();
+        }
+        assert!(!driver.model.side_by_side);
+        driver.press("&");
+        assert!(driver.model.side_by_side && !driver.model.lengths);
+        driver.press("C");
+        assert!(!driver.model.side_by_side && driver.model.moment.as_ref().unwrap().beside.is_none());
     });
 }
 

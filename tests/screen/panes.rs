@@ -63,6 +63,8 @@ screens!(screen_of_the_force, pressed("z"));
 screens!(screen_of_the_profile, pressed("Tab z"));
 screens!(screen_of_the_parameters, pressed("Tab Tab z"));
 screens!(screen_of_the_close_up, pressed("Tab Tab Tab z n"));
+screens!(screen_of_the_crosshair, pressed("* Left"));
+screens!(screen_of_two_scenes, pressed("& L"));
 screens!(screen_of_a_scene_that_failed, {
     let mut driver = mid_retraction(rough());
     driver.select("loading");

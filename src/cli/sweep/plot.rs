@@ -1,12 +1,13 @@
 //! `asperity sweep plot`: figures of a merged study.
 
+use crate::cli::output::text_for_reader;
 use crate::cli::{CliError, OutputArguments};
-use crate::draw::{Colours, figure_svg, figure_text};
+use crate::draw::{figure_png, figure_svg};
 use crate::export::study_figure;
 use crate::study::figure::AxisScale;
 use crate::study::{Finished, Selection};
 use clap::{Args, ValueEnum};
-use std::io::{self, IsTerminal, Write};
+use std::io::Write;
 use std::path::PathBuf;
 
 const EXAMPLES: &str = "\
@@ -20,9 +21,6 @@ Two free axes make a map: colours are means, signs are regimes, and the line is 
 without a load vanishes. One free axis makes a section: the mean with its 95 % confidence, and in a
 corner on a logarithmic scale where it spans decades. A second axis of up to five values makes
 several curves, unless --y names it.";
-
-/// Columns of text where there is no terminal.
-const COLUMNS: usize = 80;
 
 /// Arguments of `sweep plot`.
 #[derive(Args, Debug)]
@@ -67,6 +65,17 @@ pub enum PlotScale {
     Logarithmic,
 }
 
+/// Format of a figure.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Picture {
+    Text,
+    Svg,
+    Png,
+}
+
+/// Endings of files in each format.
+const ENDINGS: [(&str, Picture); 3] = [("svg", Picture::Svg), ("png", Picture::Png), ("txt", Picture::Text)];
+
 fn fixed(text: &str) -> Result<(String, String), String> {
     let parts = text.split_once('=').map(|(axis, value)| (axis.trim(), value.trim()));
     let parts = parts.filter(|(axis, value)| !axis.is_empty() && !value.is_empty());
@@ -77,9 +86,9 @@ fn fixed(text: &str) -> Result<(String, String), String> {
 /// Draws a study.
 pub(super) fn plot(arguments: &PlotArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
     // `-o -` is an SVG into a pipe.
-    let usual = arguments.text || arguments.output.output.is_none();
-    let is_text =
-        arguments.output.format(arguments.text.then_some(true), &[("svg", false), ("txt", true)], usual)?;
+    let is_text = arguments.text || arguments.output.output.is_none();
+    let usual = if is_text { Picture::Text } else { Picture::Svg };
+    let format = arguments.output.format(arguments.text.then_some(Picture::Text), &ENDINGS, usual)?;
     let study = Finished::open(&arguments.folder)?;
     let selection = Selection {
         quantities: arguments.quantities.clone(),
@@ -93,25 +102,10 @@ pub(super) fn plot(arguments: &PlotArguments, stdout: &mut dyn Write) -> Result<
     };
     let figure = study_figure(&selection.figure(&study)?);
     let to_file = arguments.output.file().is_some();
-    let picture = if is_text {
-        let terminal = !to_file && io::stdout().is_terminal();
-        let size = crossterm::terminal::size().ok().filter(|_| terminal);
-        let columns = size.map_or(COLUMNS, |(columns, _)| usize::from(columns));
-        figure_text(&figure, columns, if terminal { colours() } else { Colours::None })
-    } else {
-        figure_svg(&figure)
+    let picture = match format {
+        Picture::Text => text_for_reader(&figure, !to_file).into_bytes(),
+        Picture::Svg => figure_svg(&figure).into_bytes(),
+        Picture::Png => figure_png(&figure)?,
     };
-    arguments.output.write(stdout, |out| out.write_all(picture.as_bytes()))
-}
-
-/// Colours of the terminal by the environment.
-fn colours() -> Colours {
-    let value = |name| std::env::var(name).unwrap_or_default();
-    if !value("NO_COLOR").is_empty() || value("TERM") == "dumb" {
-        Colours::None
-    } else if ["truecolor", "24bit"].contains(&value("COLORTERM").as_str()) {
-        Colours::All
-    } else {
-        Colours::Palette
-    }
+    arguments.output.write(stdout, |out| out.write_all(&picture))
 }

@@ -55,7 +55,8 @@ pub fn choose(model: &mut Model) -> Vec<Effect> {
 
 /// Explores what has been opened by its path.
 pub fn open(model: &mut Model, opening: Opening) -> Vec<Effect> {
-    let Opening { document, study_map } = opening;
+    let Opening { document, study_map, beside } = opening;
+    model.opens_beside = beside;
     let effects = edit::open(model, document);
     if let Some(study_map) = study_map {
         model.show_study(study_map);

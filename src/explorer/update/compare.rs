@@ -3,7 +3,8 @@
 use super::ghosts::name_ghosts;
 use super::{Effect, edit};
 use crate::explorer::action::Command;
-use crate::explorer::model::{Ghost, Model, Notice};
+use crate::explorer::model::{Ghost, Model, Notice, Pane};
+use crate::scene::Document;
 use std::sync::Arc;
 
 /// Ghosts that are kept; more could not be told apart.
@@ -11,17 +12,63 @@ const MOST_GHOSTS: usize = 8;
 
 /// Obeys a command on ghosts.
 pub fn obey(model: &mut Model, command: Command) -> Vec<Effect> {
+    let mut effects = Vec::new();
+    let was_beside = model.side_by_side;
     match command {
         Command::Pin => pin(model),
-        Command::Swap => return swap(model),
-        _ => model.ghosts.clear(),
+        Command::Swap => effects = swap(model),
+        Command::ToggleSideBySide => toggle(model),
+        _ => {
+            model.ghosts.clear();
+            model.side_by_side = false;
+        }
     }
-    Vec::new()
+    // Another ghost may be the newest, or none.
+    if was_beside || model.side_by_side {
+        effects.insert(0, Effect::Beside);
+    }
+    effects.push(Effect::Show);
+    effects
+}
+
+/// Shows or hides the newest ghost beside the scene; without a ghost the present scene becomes one.
+fn toggle(model: &mut Model) {
+    if model.side_by_side {
+        model.side_by_side = false;
+        return;
+    }
+    if model.ghosts.is_empty() {
+        pin(model);
+    }
+    if !model.ghosts.is_empty() {
+        model.side_by_side = true;
+        model.lengths = false;
+        model.hide_in_place_of_the_line();
+        if !model.panes().contains(&model.pane) {
+            model.pane = Pane::Force;
+        }
+    }
+}
+
+/// Keeps the scene that has been computed as a ghost and opens another one beside it.
+pub fn open_beside(model: &mut Model, document: Document) -> Vec<Effect> {
+    pin(model);
+    model.side_by_side = true;
+    let effects = edit::open(model, document);
+    model.notice = None;
+    // There is no edit to undo: both scenes are as they were opened.
+    model.undo.clear();
+    [vec![Effect::Beside], effects].concat()
 }
 
 fn ghost(model: &Model) -> Option<Ghost> {
     let computed = model.computed.as_ref().filter(|_| model.is_current())?;
-    Some(Ghost { document: model.document.clone(), computed: Arc::clone(computed), differs: String::new() })
+    Some(Ghost {
+        document: model.document.clone(),
+        computed: Arc::clone(computed),
+        differs: String::new(),
+        changes: String::new(),
+    })
 }
 
 fn pin(model: &mut Model) {

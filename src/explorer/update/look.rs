@@ -23,7 +23,12 @@ pub fn obey(model: &mut Model, command: Command) -> Vec<Effect> {
                 Jump::Summit => Focus::Summit,
             };
         }
-        Command::ToggleLengths => model.lengths = !model.lengths,
+        Command::ToggleLengths => {
+            model.lengths = !model.lengths;
+            if std::mem::take(&mut model.side_by_side) {
+                return vec![Effect::Beside, Effect::Show];
+            }
+        }
         Command::ToggleSpectrum => toggle_spectrum(model),
         Command::Zoom(steps) => zoom(model, steps),
         Command::Pan(quarters) => pan(model, quarters),

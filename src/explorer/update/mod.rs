@@ -5,6 +5,7 @@ mod accuracy;
 mod chart;
 mod compare;
 mod complete;
+mod crosshair;
 mod edit;
 mod files;
 mod find;
@@ -21,7 +22,7 @@ pub use accuracy::study_tasks;
 use super::action::{Action, Command, Content};
 use super::layout::Layout;
 use super::mode::Mode;
-use super::model::{Model, Notice};
+use super::model::{Model, Notice, Player};
 use super::request::{HandOrder, MomentRequest};
 use super::theme::Appearance;
 use super::view::help_end;
@@ -35,6 +36,8 @@ pub enum Effect {
     Compute,
     /// Show the moment at which the body stands.
     Show,
+    /// Compute the scene that is shown beside, or forget the last one.
+    Beside,
     /// Work out what is not known yet of the scene's accuracy, see [`study_tasks`], and nothing else.
     Study,
     /// Move the body by hand.
@@ -99,6 +102,9 @@ pub fn update(model: &mut Model, action: Action) -> Vec<Effect> {
             if matches!(model.notice, Some(Notice::Error(_))) {
                 model.notice = None;
             }
+            if let Some(document) = model.opens_beside.take() {
+                return compare::open_beside(model, document);
+            }
             return vec![Effect::Show, Effect::Study];
         }
         Action::Shown(moment) if moment.generation == model.generation => movement::shown(model, moment),
@@ -159,6 +165,12 @@ pub fn moment_request(model: &Model) -> Option<MomentRequest> {
         focus: model.look.focus,
         close_up_springs: model.look.springs,
         lengths: model.lengths,
+        crosshair: model.crosshair.map(|crosshair| crosshair.position),
+        beside: model.beside().map(|ghost| {
+            let legs = &ghost.computed.outcome.history.legs;
+            let leg = model.player.leg.min(legs.len().saturating_sub(1));
+            (leg, Player { leg, ..model.player }.indentation(legs))
+        }),
         spectra: model.spectrum,
     })
 }
@@ -314,7 +326,13 @@ fn explore(model: &mut Model, command: Command) -> Vec<Effect> {
         Command::OpenPalette => return palette::open(model),
         Command::Reseed => return vec![Effect::DrawSeed],
         Command::Undo | Command::Redo => return edit::undo(model, command == Command::Undo),
-        Command::Pin | Command::Swap | Command::ClearGhosts => return compare::obey(model, command),
+        Command::Pin | Command::Swap | Command::ClearGhosts | Command::ToggleSideBySide => {
+            return compare::obey(model, command);
+        }
+        Command::ToggleCrosshair
+        | Command::MoveCrosshair { .. }
+        | Command::CrosshairEnd(_)
+        | Command::CrosshairStage(_) => return crosshair::obey(model, command),
         Command::Save => model.mode = files::save_as(&model.document, false),
         Command::Export => files::ask_export(model),
         Command::CopyCommand => return files::copy_command(model),

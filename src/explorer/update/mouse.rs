@@ -1,6 +1,6 @@
 //! The mouse: it chooses panes and rows, drags the load and scrolls. Everything it does a key does too.
 
-use super::{Effect, chart, edit, explore, look, movement};
+use super::{Effect, chart, crosshair, edit, explore, look, movement};
 use crate::explorer::action::{Command, Gesture, Mouse};
 use crate::explorer::layout::{Layout, inside};
 use crate::explorer::mode::Mode;
@@ -23,6 +23,12 @@ pub fn act(model: &mut Model, mouse: Mouse) -> Vec<Effect> {
     let Some((pane, area)) = layout.panes.iter().copied().find(|(_, area)| area.contains(here)) else {
         return Vec::new();
     };
+    // A drag stays in the pane in which it began.
+    let points = mouse.gesture == Gesture::Press || (mouse.gesture == Gesture::Drag && pane == model.pane);
+    if let Some(effects) = points.then(|| crosshair::point_at(model, pane, area, here)).flatten() {
+        model.pane = pane;
+        return effects;
+    }
     match (mouse.gesture, pane) {
         (Gesture::Press, _) => {
             model.pane = pane;

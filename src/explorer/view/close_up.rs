@@ -1,11 +1,11 @@
 //! The close-up of contact fragments, with their boundary points as the paper's white circles, and a strip
 //! of the whole contact.
 
-use super::profile::short;
-use super::section;
-use crate::draw::Span;
+use super::section::short;
+use super::{plot, section};
+use crate::draw::{CellPlot, Chart, Span};
 use crate::explorer::model::Model;
-use crate::explorer::snapshot::{FragmentFacts, Section, Share};
+use crate::explorer::snapshot::{FragmentFacts, Moment, Section, Share};
 use crate::explorer::theme::{Meaning, Theme};
 use crate::scene::format_quantity;
 use ratatui::Frame;
@@ -30,21 +30,14 @@ pub fn names(model: &Model, area: Rect) -> Option<Line<'static>> {
     let chart = section::chart(shown, moment.line, heights(shown));
     let ring = Text::styled("○", model.appearance.theme.style(Meaning::Contact));
     let ring = vec![ring, Text::raw(" patch end")];
-    Some(section::names(&chart, [ring], model.appearance, area.width))
+    Some(section::names(moment, &chart, [ring], model.appearance, area.width))
 }
 
 /// Share of the close-up under a column of the pane.
 pub fn share_at(model: &Model, area: Rect, column: u16) -> Option<f64> {
     let moment = model.moment.as_ref()?;
-    let shown = &moment.close_up.section;
-    let chart = section::chart(shown, moment.line, heights(shown));
-    Some(section::share_at(plot_area(area), &chart, column))
-}
-
-/// Area of the plot, above the strip and the text.
-fn plot_area(area: Rect) -> Rect {
-    let below = [9, 4, 7].into_iter().filter(|rows| area.height >= *rows).count();
-    Rect { height: area.height - below as u16, ..area }
+    let (chart, place) = placed(moment, area);
+    Some(chart.x.share(place.number_at(&chart.x, column)))
 }
 
 /// Draws the close-up and what is known of its fragment.
@@ -53,11 +46,9 @@ pub fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
     let theme = model.appearance.theme;
     let close_up = &moment.close_up;
     let section = &close_up.section;
-    let strip_rows = u16::from(area.height >= 9);
-    let text_rows = u16::from(area.height >= 4) + u16::from(area.height >= 7);
-    let plot = plot_area(area);
-    let chart = section::chart(section, moment.line, heights(section));
-    let place = section::draw(frame, plot, &chart, model.appearance);
+    let (strip_rows, text_rows) = rows_below(area);
+    let (chart, place) = placed(moment, area);
+    plot::in_theme(model.appearance, |style| place.draw(frame.buffer_mut(), &chart, style));
     for &(spring, height) in &close_up.boundaries {
         let at = (section::position(moment.line, spring), height);
         if let Some(cell) = place.cell(&chart, model.appearance.marker.symbols(), at) {
@@ -67,12 +58,30 @@ pub fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
     if strip_rows > 0 {
         let springs = model.computed.as_ref().map_or(1, |computed| computed.outcome.history.work.springs);
         let line = strip(&moment.strip, section, springs as usize, theme);
-        frame.render_widget(Paragraph::new(line), Rect { y: plot.bottom(), height: 1, ..area });
+        frame.render_widget(
+            Paragraph::new(line),
+            Rect { y: area.bottom() - text_rows - strip_rows, height: 1, ..area },
+        );
     }
     let lines = describe(close_up.fragment, moment.point.fragments, area.width);
     for (row, line) in (area.bottom() - text_rows..area.bottom()).zip(lines) {
         frame.render_widget(Paragraph::new(line), Rect { y: row, height: 1, ..area });
     }
+}
+
+/// Rows below the plot: those of the whole contact and those of the text.
+fn rows_below(area: Rect) -> (u16, u16) {
+    (u16::from(area.height >= 9), u16::from(area.height >= 4) + u16::from(area.height >= 7))
+}
+
+/// The chart of the close-up and its place in the pane.
+pub fn placed(moment: &Moment, area: Rect) -> (Chart, CellPlot) {
+    let (strip, text) = rows_below(area);
+    let shown = &moment.close_up.section;
+    let mut chart = section::chart(shown, moment.line, heights(shown));
+    section::add_crosshair(&mut chart, moment);
+    let place = CellPlot::within(Rect { height: area.height - strip - text, ..area }, &chart);
+    (chart, place)
 }
 
 /// The axis of heights: the line, and the surface where it is not far above or below.

@@ -15,7 +15,7 @@ use crate::explorer::theme::{Meaning, Theme};
 use crate::export::sign;
 use crate::scene::format_quantity;
 use ratatui::Frame;
-use ratatui::layout::Rect;
+use ratatui::layout::{Position, Rect};
 use ratatui::text::{Line, Span as Text};
 use ratatui::widgets::Paragraph;
 
@@ -134,7 +134,7 @@ impl Units {
 }
 
 /// Decades of a logarithmic axis: a force near its change of sign would take all room.
-const MOST_DECADES: f64 = 6.0;
+const MOST_DECADES: f64 = 3.0;
 
 /// What the pane spans: the curve, its ghosts and the way of the hand.
 fn spans(model: &Model, units: Units) -> (Span, Span) {
@@ -176,6 +176,50 @@ pub fn indentation_at(model: &Model, area: Rect, column: u16) -> Option<f64> {
     let chart = plot::chart(x, y, Vec::new());
     let at = CellPlot::within(below(area, rows_above(model, area)), &chart).number_at(&chart.x, column);
     Some(at * units.indentation.unwrap_or(1.0))
+}
+
+/// Loading stage and indentation, m, of the point of the curves that is nearest to a cell.
+pub fn stage_at(model: &Model, area: Rect, here: Position) -> Option<(usize, f64)> {
+    let computed = model.computed.as_ref()?;
+    let units = Units::of(model, computed);
+    let (x, y) = spans(model, units);
+    let (x, y) = units.axes(x, y);
+    let chart = plot::chart(x, y, Vec::new());
+    let place = CellPlot::within(below(area, rows_above(model, area)), &chart);
+    let distance = |point: &CurvePoint| {
+        let (column, row) = place.cell(&chart, model.appearance.marker.symbols(), units.place(point))?;
+        // A row is about as high as two columns are wide.
+        let (across, down) = (f64::from(column.abs_diff(here.x)), 2.0 * f64::from(row.abs_diff(here.y)));
+        Some(across.hypot(down))
+    };
+    let points = model
+        .legs()
+        .iter()
+        .enumerate()
+        .flat_map(|(leg, record)| record.curve.iter().map(move |at| (leg, at)));
+    let near = points.filter_map(|(leg, point)| Some((distance(point)?, leg, point.indentation)));
+    let nearest = near.min_by(|a, b| a.0.total_cmp(&b.0))?;
+    Some((nearest.1, nearest.2))
+}
+
+/// Readings of the crosshair, for the lower edge of the frame.
+pub fn reading(model: &Model, area: Rect) -> Option<Line<'static>> {
+    model.crosshair?;
+    let point = model.present()?.point;
+    let [d, length] =
+        [point.indentation, point.contact_length].map(|value| format_quantity(short(value), "m"));
+    let mut parts = vec![
+        format!("d {d}"),
+        format!("F {}", format_quantity(short(point.force), "N")),
+        format!("l {length}"),
+        format!("n {}", point.fragments),
+    ];
+    if model.hand.is_none() {
+        parts.push(format!("stage {} of {}", model.player.leg + 1, model.legs().len()));
+    }
+    let style = model.appearance.theme.style(Meaning::Cursor);
+    let parts = parts.into_iter().map(|text| vec![Text::styled(text, style)]).collect();
+    Some(plot::on_frame(parts, area.width))
 }
 
 fn below(area: Rect, rows: u16) -> Rect {
@@ -236,8 +280,15 @@ fn chart(model: &Model, units: Units) -> Chart {
         layers.push(Layer::unnamed(Ink::Quiet, Shape::Inside(border)));
     }
     for (number, ghost) in model.ghosts.iter().enumerate() {
+        // One beside the scene is named with the curves; the others have their letters.
+        let is_beside = model.side_by_side && number + 1 == model.ghosts.len();
+        let name = if is_beside { letter(number).into() } else { Label::default() };
         for leg in &ghost.computed.outcome.history.legs {
-            layers.push(Layer::unnamed(Ink::Compared(number), line(along(&leg.curve), Stroke::Sparse)));
+            layers.push(Layer::new(
+                name.clone(),
+                Ink::Compared(number),
+                line(along(&leg.curve), Stroke::Sparse),
+            ));
         }
     }
     for leg in model.tried_outcome().into_iter().flat_map(|outcome| &outcome.history.legs) {
@@ -263,6 +314,11 @@ fn chart(model: &Model, units: Units) -> Chart {
             units.scale.number(units.scale.coordinate(number).clamp(span.low, span.high))
         };
         let at = (within(at, x), within(value, y));
+        if model.crosshair.is_some() {
+            let lines = [Shape::Upright(at.0), Shape::Level(at.1)];
+            // Below the curves, which stay whole.
+            layers.splice(0..0, lines.map(|line| Layer::unnamed(Ink::Cursor, line)));
+        }
         let name = if model.hand.is_some() { "manual" } else { "now" };
         layers.push(Layer::new(Label::plain(name), Ink::Cursor, point(at, Sign::Diamond)));
     }
@@ -331,6 +387,11 @@ fn draw_letters(frame: &mut Frame<'_>, place: &CellPlot, chart: &Chart, model: &
         let style = model.appearance.theme.style(plot::meaning(Ink::Compared(number)));
         frame.buffer_mut()[cell].set_symbol(letter(number)).set_style(style);
     }
+}
+
+/// Letter of the newest ghost.
+pub fn newest_letter(model: &Model) -> &'static str {
+    letter(model.ghosts.len().saturating_sub(1))
 }
 
 fn letter(number: usize) -> &'static str {

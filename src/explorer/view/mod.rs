@@ -1,6 +1,7 @@
 //! Draws the model. Nothing here changes it or computes anything.
 
 mod accuracy;
+mod beside;
 mod chart;
 mod chart_words;
 mod chrome;
@@ -13,6 +14,7 @@ mod library;
 mod palette;
 mod parameters;
 mod plot;
+mod position;
 mod preloads;
 mod profile;
 mod section;
@@ -23,8 +25,9 @@ mod typed;
 mod wrap;
 
 pub use chart::{map_figure, place_at};
-pub use force::indentation_at;
+pub use force::{indentation_at, stage_at};
 pub use parameters::{first_listed, parameter_at};
+pub use position::position_at;
 pub use sections::section_cell;
 
 use super::layout::{Layout, inside, is_framed};
@@ -99,6 +102,7 @@ fn draw_pane(frame: &mut Frame<'_>, area: Rect, model: &Model, pane: Pane) {
             Pane::Force => force::title(model),
             Pane::Profile => profile::title(model),
             Pane::CloseUp if model.lengths => lengths::TITLE.to_owned(),
+            Pane::CloseUp if model.side_by_side => beside::title(model),
             Pane::CloseUp => close_up::title(model),
             Pane::Parameters => " Parameters ".to_owned(),
             Pane::Accuracy => accuracy::TITLE.to_owned(),
@@ -112,8 +116,9 @@ fn draw_pane(frame: &mut Frame<'_>, area: Rect, model: &Model, pane: Pane) {
             .border_style(model.appearance.theme.style(Meaning::Quiet))
             .title(ratatui::text::Span::styled(format!("{mark}{name}"), style));
         let names = match pane {
+            Pane::Force => force::reading(model, area),
             Pane::Profile => profile::names(model, area),
-            Pane::CloseUp if !model.lengths => close_up::names(model, area),
+            Pane::CloseUp if !model.lengths && !model.side_by_side => close_up::names(model, area),
             _ => None,
         };
         frame.render_widget(names.into_iter().fold(block, Block::title_bottom), area);
@@ -124,6 +129,7 @@ fn draw_pane(frame: &mut Frame<'_>, area: Rect, model: &Model, pane: Pane) {
         Pane::Force => force::draw(frame, area, model),
         Pane::Profile => profile::draw(frame, area, model),
         Pane::CloseUp if model.lengths => lengths::draw(frame, area, model),
+        Pane::CloseUp if model.side_by_side => beside::draw(frame, area, model),
         Pane::CloseUp => close_up::draw(frame, area, model),
         Pane::Parameters => parameters::draw(frame, area, edge, model),
         Pane::Accuracy => accuracy::draw(frame, area, model),

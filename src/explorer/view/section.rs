@@ -1,12 +1,11 @@
 //! Part of the profile on its axes: rigid profile, elastic surface and contact, for profile and close-up.
 
 use super::plot;
-use crate::draw::{Axis, AxisScale, CellPlot, Chart, Ink, Layer, Shape, Span, legend};
-use crate::explorer::snapshot::{Column, Section};
-use crate::explorer::theme::{Appearance, Meaning};
+use crate::draw::{Axis, AxisScale, Chart, Ink, Layer, Shape, Span, legend};
+use crate::explorer::snapshot::{Column, Moment, Section};
+use crate::explorer::theme::{Appearance, Meaning, Theme};
+use crate::scene::format_quantity;
 use crate::simulation::LineFacts;
-use ratatui::Frame;
-use ratatui::layout::Rect;
 use ratatui::text::{Line, Span as Text};
 
 /// Chart of a section over the position; heights within `z`.
@@ -36,26 +35,51 @@ pub fn position(line: LineFacts, spring: usize) -> f64 {
     edge(line, spring) + 0.5 * line.spacing
 }
 
-/// Share of the width of a plot at a column of the screen.
-pub fn share_at(area: Rect, chart: &Chart, column: u16) -> f64 {
-    chart.x.share(CellPlot::within(area, chart).number_at(&chart.x, column))
+/// Adds the crosshair to the chart of a section.
+pub fn add_crosshair(chart: &mut Chart, moment: &Moment) {
+    let Some(probe) = moment.probe else { return };
+    let lines = [Shape::Upright(position(moment.line, probe.spring)), Shape::Level(probe.height)];
+    // Below the curves, which stay whole.
+    chart.layers.splice(0..0, lines.map(|line| Layer::unnamed(Ink::Cursor, line)));
 }
 
-/// Draws a chart of a section with its scales.
-pub fn draw(frame: &mut Frame<'_>, area: Rect, chart: &Chart, appearance: Appearance) -> CellPlot {
-    plot::draw_chart(frame, area, chart, appearance)
+/// Readings of the crosshair: position, height, and the gap or the stretch of the spring.
+fn reading(moment: &Moment, theme: Theme) -> Vec<Vec<Text<'static>>> {
+    let Some(probe) = moment.probe else { return Vec::new() };
+    let length = |value: f64| format_quantity(short(value), "m");
+    let part = |text: String| vec![Text::styled(text, theme.style(Meaning::Cursor))];
+    let distance = probe.level - probe.height;
+    let state = match probe.patch {
+        None => format!("gap {}", length(distance)),
+        Some(_) if distance > 0.0 => format!("stretched {}", length(distance)),
+        Some(_) => format!("compressed {}", length(-distance)),
+    };
+    let patch = probe.patch.map(|number| format!("patch {} of {}", number + 1, moment.point.fragments));
+    let at =
+        [format!("x {}", length(position(moment.line, probe.spring))), format!("z {}", length(probe.height))];
+    at.into_iter().chain([state]).chain(patch).map(part).collect()
 }
 
-/// Label of the heights, names of the lines and further signs, as far as there is room on the frame.
+/// Readings of the crosshair, or label of the heights, names of the lines and further signs, as far as there is room on
+/// the frame.
 pub fn names(
+    moment: &Moment,
     chart: &Chart,
     more: impl IntoIterator<Item = Vec<Text<'static>>>,
     appearance: Appearance,
     width: u16,
 ) -> Line<'static> {
-    let quiet = appearance.theme.style(Meaning::Quiet);
-    let mut parts = vec![vec![Text::styled(chart.y.label_with_unit().to_string(), quiet)]];
-    parts.extend(plot::in_theme(appearance, |style| legend(std::slice::from_ref(chart), style)));
-    parts.extend(more);
+    let mut parts = reading(moment, appearance.theme);
+    if parts.is_empty() {
+        let quiet = appearance.theme.style(Meaning::Quiet);
+        parts.push(vec![Text::styled(chart.y.label_with_unit().to_string(), quiet)]);
+        parts.extend(plot::in_theme(appearance, |style| legend(std::slice::from_ref(chart), style)));
+        parts.extend(more);
+    }
     plot::on_frame(parts, width)
+}
+
+/// To four digits: enough to find the place again.
+pub fn short(value: f64) -> f64 {
+    format!("{value:.3e}").parse().unwrap_or(value)
 }

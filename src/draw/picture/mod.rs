@@ -1,22 +1,31 @@
-//! Figures as SVG. The same figure gives the same bytes.
+//! Figures as pictures: SVG and PNG. The same figure gives the same bytes.
 
-mod document;
+mod canvas;
+#[cfg(feature = "tui")]
+mod font;
 mod frame;
 mod inset;
 mod layers;
 mod legend;
+#[cfg(feature = "tui")]
+mod png;
+mod svg;
 
-pub use document::{Document, escaped};
+#[cfg(feature = "tui")]
+pub use png::PngError;
+pub use svg::{Document, escaped};
 
 use super::axis::Axis;
 use super::chart::{Chart, Figure, HeatMap};
 use super::colour::shade;
 use super::label::Label;
 use super::scale::{AxisScale, Span};
-use document::{Anchor, Pen, Place};
+use canvas::{Anchor, Canvas, Pen, Place};
 use frame::{Frame, LABEL, NUMBER, Side};
 use layers::{PAPER, TEXT};
 use legend::Legend;
+#[cfg(feature = "tui")]
+use png::Raster;
 
 /// Least room on the left of a chart and room below it for the axes, px.
 const AXES: (f64, f64) = (78.0, 50.0);
@@ -36,46 +45,84 @@ const TITLE: f64 = 14.5;
 /// A figure as SVG.
 #[must_use]
 pub fn figure_svg(figure: &Figure) -> String {
-    let (before, beside) = rooms(figure);
-    let wide = before + figure.size.0 + beside;
-    let charts = figure.charts.len().max(1) as f64;
-    let legend = Legend::new(figure.legend(), charts * wide - 40.0);
-    let width = (charts * wide).max(legend.width() + 40.0);
-    let whole_title = Label::plain(&figure.title);
-    let title = whole_title.wrapped((width - 24.0) / TITLE);
-    let notes: Vec<Label> =
-        figure.notes.iter().flat_map(|note| note.wrapped((width - 24.0) / (LABEL - 1.0))).collect();
-    let headings = if figure.charts.len() > 1 { 22.0 } else { 6.0 };
-    let top = 12.0 + title.len() as f64 * 20.0 + notes.len() as f64 * 18.0 + headings;
-    let bottom = top + figure.size.1 + AXES.1;
-    let height = bottom + if legend.height() > 0.0 { legend.height() + 10.0 } else { 6.0 };
-    let middle = width / 2.0;
-
-    let mut document = Document::new(width, height, &whole_title.to_string());
+    let page = Page::new(figure);
+    let mut document = Document::new(page.width, page.height, &Label::plain(&figure.title).to_string());
     document.begin_text();
-    document.rectangle((0.0, 0.0), (width, height), PAPER);
-    let mut y = 20.0;
-    for line in &title {
-        document.label(line, (middle, y), TITLE, Anchor::Middle, TEXT);
-        y += 20.0;
-    }
-    for line in &notes {
-        document.label(line, (middle, y - 1.0), LABEL - 1.0, Anchor::Middle, TEXT);
-        y += 18.0;
-    }
-    let left = (width - charts * wide) / 2.0 + before;
-    for (index, chart) in figure.charts.iter().enumerate() {
-        let from: Place = (left + index as f64 * wide, top);
-        if figure.charts.len() > 1 {
-            let letter = char::from(b'a' + (index % 26) as u8);
-            let heading = Label::plain(&format!("({letter}) {}", chart.heading));
-            document.label(&heading, (from.0, from.1 - 12.0), LABEL, Anchor::Left, TEXT);
-        }
-        draw_chart(&mut document, chart, from, figure.size);
-    }
-    legend.draw(&mut document, middle, bottom + 12.0);
+    page.draw(&mut document);
     document.end_text();
     document.finish()
+}
+
+/// A figure as PNG, two pixels for each px of the SVG.
+///
+/// # Errors
+/// For a picture of more pixels than are allowed.
+#[cfg(feature = "tui")]
+pub fn figure_png(figure: &Figure) -> Result<Vec<u8>, PngError> {
+    let page = Page::new(figure);
+    let mut raster = Raster::new(page.width, page.height)?;
+    page.draw(&mut raster);
+    raster.finish()
+}
+
+/// A figure with the places of its parts, px.
+struct Page<'a> {
+    figure: &'a Figure,
+    legend: Legend,
+    title: Vec<Label>,
+    notes: Vec<Label>,
+    width: f64,
+    height: f64,
+    /// Width of a chart with the rooms beside it, and the room on its left.
+    wide: f64,
+    before: f64,
+    /// Upper and lower ends of the charts, the lower one with the axes.
+    top: f64,
+    bottom: f64,
+}
+
+impl<'a> Page<'a> {
+    fn new(figure: &'a Figure) -> Page<'a> {
+        let (before, beside) = rooms(figure);
+        let wide = before + figure.size.0 + beside;
+        let charts = figure.charts.len().max(1) as f64;
+        let legend = Legend::new(figure.legend(), charts * wide - 40.0);
+        let width = (charts * wide).max(legend.width() + 40.0);
+        let title = Label::plain(&figure.title).wrapped((width - 24.0) / TITLE);
+        let notes: Vec<Label> =
+            figure.notes.iter().flat_map(|note| note.wrapped((width - 24.0) / (LABEL - 1.0))).collect();
+        let headings = if figure.charts.len() > 1 { 22.0 } else { 6.0 };
+        let top = 12.0 + title.len() as f64 * 20.0 + notes.len() as f64 * 18.0 + headings;
+        let bottom = top + figure.size.1 + AXES.1;
+        let height = bottom + if legend.height() > 0.0 { legend.height() + 10.0 } else { 6.0 };
+        Page { figure, legend, title, notes, width, height, wide, before, top, bottom }
+    }
+
+    fn draw(&self, canvas: &mut dyn Canvas) {
+        let Page { figure, width, height, wide, .. } = *self;
+        let middle = width / 2.0;
+        canvas.rectangle((0.0, 0.0), (width, height), PAPER);
+        let mut y = 20.0;
+        for line in &self.title {
+            canvas.label(line, (middle, y), TITLE, Anchor::Middle, TEXT);
+            y += 20.0;
+        }
+        for line in &self.notes {
+            canvas.label(line, (middle, y - 1.0), LABEL - 1.0, Anchor::Middle, TEXT);
+            y += 18.0;
+        }
+        let left = (width - figure.charts.len().max(1) as f64 * wide) / 2.0 + self.before;
+        for (index, chart) in figure.charts.iter().enumerate() {
+            let from: Place = (left + index as f64 * wide, self.top);
+            if figure.charts.len() > 1 {
+                let letter = char::from(b'a' + (index % 26) as u8);
+                let heading = Label::plain(&format!("({letter}) {}", chart.heading));
+                canvas.label(&heading, (from.0, from.1 - 12.0), LABEL, Anchor::Left, TEXT);
+            }
+            draw_chart(canvas, chart, from, figure.size);
+        }
+        self.legend.draw(canvas, middle, self.bottom + 12.0);
+    }
 }
 
 fn frame_of<'a>(chart: &'a Chart, y: &'a Axis, from: Place, size: (f64, f64)) -> Frame<'a> {
@@ -94,30 +141,30 @@ fn rooms(figure: &Figure) -> (f64, f64) {
     })
 }
 
-fn draw_chart(document: &mut Document, chart: &Chart, from: Place, size: (f64, f64)) {
+fn draw_chart(canvas: &mut dyn Canvas, chart: &Chart, from: Place, size: (f64, f64)) {
     let frame = frame_of(chart, &chart.y, from, size);
     let y = if chart.inset.is_some() { inset::axis_with_room(chart, &frame) } else { chart.y.clone() };
     let frame = Frame { y: &y, ..frame };
-    layers::draw(document, &frame, &chart.layers);
-    document.frame(frame.from, frame.to, Pen::solid(TEXT, 1.0));
-    frame.axis(document, Side::Below, TEXT, true);
-    frame.axis(document, Side::Left, TEXT, true);
+    layers::draw(canvas, &frame, &chart.layers);
+    canvas.frame(frame.from, frame.to, Pen::solid(TEXT, 1.0));
+    frame.axis(canvas, Side::Below, TEXT, true);
+    frame.axis(canvas, Side::Left, TEXT, true);
     if let Some(map) = chart.map() {
-        scale_of_colours(document, map, &frame);
+        scale_of_colours(canvas, map, &frame);
     }
     if let Some(inner) = &chart.inset {
         let (from, to) = inset::place(chart, &frame);
         let paper = ((from.0 - inset::AXES.0, from.1 - 3.0), (to.0 + 6.0, to.1 + inset::AXES.1));
-        document.rectangle(paper.0, paper.1, PAPER);
+        canvas.rectangle(paper.0, paper.1, PAPER);
         let frame = Frame { from, to, x: &inner.x, y: &inner.y, size: 0.8 * NUMBER };
-        layers::draw(document, &frame, &inner.layers);
-        document.frame(from, to, Pen::solid(TEXT, 0.8));
-        frame.axis(document, Side::Left, TEXT, false);
-        frame.axis(document, Side::Below, TEXT, false);
+        layers::draw(canvas, &frame, &inner.layers);
+        canvas.frame(from, to, Pen::solid(TEXT, 0.8));
+        frame.axis(canvas, Side::Left, TEXT, false);
+        frame.axis(canvas, Side::Below, TEXT, false);
     }
 }
 
-fn scale_of_colours(document: &mut Document, map: &HeatMap, beside: &Frame<'_>) {
+fn scale_of_colours(canvas: &mut dyn Canvas, map: &HeatMap, beside: &Frame<'_>) {
     let left = beside.to.0 + FROM_MAP;
     let across = Axis::new(AxisScale::Linear, Span { low: 0.0, high: 1.0 }, "", "", "");
     let (from, to) = ((left, beside.from.1), (left + BAR, beside.to.1));
@@ -127,10 +174,10 @@ fn scale_of_colours(document: &mut Document, map: &HeatMap, beside: &Frame<'_>) 
         let height = |share: f64| to.1 - bar.height() * share;
         let top = (height(share(stripe + 1)) - 0.5).max(from.1);
         let colour = shade(f64::midpoint(share(stripe), share(stripe + 1)));
-        document.rectangle((from.0, top), (to.0, height(share(stripe))), colour);
+        canvas.rectangle((from.0, top), (to.0, height(share(stripe))), colour);
     }
-    document.frame(from, to, Pen::solid(TEXT, 1.0));
-    bar.axis(document, Side::Right, TEXT, true);
+    canvas.frame(from, to, Pen::solid(TEXT, 1.0));
+    bar.axis(canvas, Side::Right, TEXT, true);
 }
 
 #[cfg(test)]

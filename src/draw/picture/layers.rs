@@ -1,6 +1,6 @@
 //! Layers of a chart in its frame.
 
-use super::document::{Document, Pen, Place};
+use super::canvas::{Canvas, Pen, Place};
 use super::frame::Frame;
 use crate::draw::axis::Axis;
 use crate::draw::chart::{Contour, HeatMap, Layer, Shape, Sign, Stroke};
@@ -19,40 +19,40 @@ const SIGN_DISTANCE: f64 = 13.0;
 pub(super) const SIGN: f64 = 2.7;
 
 /// Draws the layers, areas below lines.
-pub(super) fn draw(document: &mut Document, frame: &Frame<'_>, layers: &[Layer]) {
+pub(super) fn draw(canvas: &mut dyn Canvas, frame: &Frame<'_>, layers: &[Layer]) {
     let is_line = |layer: &&Layer| matches!(layer.shape, Shape::Curve { .. } | Shape::Envelope { .. });
     for layer in layers.iter().filter(|layer| !is_line(layer)).chain(layers.iter().filter(is_line)) {
         let colour = layer.ink.on_paper();
         match &layer.shape {
-            Shape::Map(map) => heat_map(document, frame, map),
-            Shape::Band(points) => band(document, frame, points, colour),
+            Shape::Map(map) => heat_map(canvas, frame, map),
+            Shape::Band(points) => band(canvas, frame, points, colour),
             Shape::Inside(border) => {
                 let places: Vec<_> = border.iter().filter_map(|point| frame.place(*point)).collect();
-                document.area(&places, colour, AREA_OPACITY);
+                canvas.area(&places, colour, AREA_OPACITY);
             }
             Shape::Boxes(boxes) => {
                 let corners = boxes.iter().filter_map(|((left, right), (low, high))| {
                     Some((frame.place((*left, *high))?, frame.place((*right, *low))?))
                 });
-                document.boxes(corners, colour);
+                canvas.boxes(&corners.collect::<Vec<_>>(), colour);
             }
             Shape::Upright(x) => {
                 if let Some((x, _)) = inside(frame.x, *x).then(|| frame.place_at_end((*x, 0.0))).flatten() {
-                    document.line(&[(x, frame.from.1), (x, frame.to.1)], guide(layer.ink));
+                    canvas.line(&[(x, frame.from.1), (x, frame.to.1)], guide(layer.ink));
                 }
             }
             Shape::Level(y) => {
                 let low = frame.x.scale.number(frame.x.span.low);
                 if let Some((_, y)) = inside(frame.y, *y).then(|| frame.place((low, *y))).flatten() {
-                    document.line(&[(frame.from.0, y), (frame.to.0, y)], guide(layer.ink));
+                    canvas.line(&[(frame.from.0, y), (frame.to.0, y)], guide(layer.ink));
                 }
             }
-            Shape::Envelope { x, columns } => envelope(document, frame, *x, columns, colour),
+            Shape::Envelope { x, columns } => envelope(canvas, frame, *x, columns, colour),
             Shape::Curve { points, stroke, sign } => {
                 let width = if frame.size < super::frame::NUMBER { 1.1 } else { 1.6 };
                 let pen = stroke.map(|stroke| Pen { colour, width, stroke });
                 let sign = sign.map(|sign| (sign, radius(frame, points.len())));
-                curve(document, frame, points, pen, sign.map(|sign| (sign, colour)));
+                curve(canvas, frame, points, pen, sign.map(|sign| (sign, colour)));
             }
         }
     }
@@ -75,7 +75,7 @@ fn radius(frame: &Frame<'_>, points: usize) -> f64 {
 }
 
 fn curve(
-    document: &mut Document,
+    canvas: &mut dyn Canvas,
     frame: &Frame<'_>,
     points: &[(f64, f64)],
     pen: Option<Pen>,
@@ -85,16 +85,16 @@ fn curve(
     for run in places.split(Option::is_none) {
         let run: Vec<Place> = run.iter().flatten().copied().collect();
         if let Some(pen) = pen.filter(|_| run.len() > 1) {
-            document.line(&run, pen);
+            canvas.line(&run, pen);
         }
         if let Some(((sign, radius), colour)) = sign {
-            run.iter().for_each(|place| draw_sign(document, sign, *place, radius, colour));
+            run.iter().for_each(|place| draw_sign(canvas, sign, *place, radius, colour));
         }
     }
 }
 
 fn envelope(
-    document: &mut Document,
+    canvas: &mut dyn Canvas,
     frame: &Frame<'_>,
     (from, to): (f64, f64),
     columns: &[Option<(f64, f64)>],
@@ -116,10 +116,10 @@ fn envelope(
         last = Some(ends[1]);
     }
     let pen = Pen { colour, width: 1.2, stroke: Stroke::Solid };
-    curve(document, frame, &points, Some(pen), None);
+    curve(canvas, frame, &points, Some(pen), None);
 }
 
-fn band(document: &mut Document, frame: &Frame<'_>, points: &[(f64, f64, f64)], colour: Rgb) {
+fn band(canvas: &mut dyn Canvas, frame: &Frame<'_>, points: &[(f64, f64, f64)], colour: Rgb) {
     let ends: Vec<Option<(Place, Place)>> = points
         .iter()
         .map(|(x, low, high)| {
@@ -136,41 +136,41 @@ fn band(document: &mut Document, frame: &Frame<'_>, points: &[(f64, f64, f64)], 
                 let r = SIGN;
                 let corners =
                     [(low.0 - r, low.1), (low.0 + r, low.1), (high.0 + r, high.1), (high.0 - r, high.1)];
-                document.area(&corners, colour, AREA_OPACITY);
+                canvas.area(&corners, colour, AREA_OPACITY);
             }
             _ => {
                 let lower = run.iter().rev().map(|ends| ends.0);
                 let border: Vec<Place> = run.iter().map(|ends| ends.1).chain(lower).collect();
-                document.area(&border, colour, AREA_OPACITY);
+                canvas.area(&border, colour, AREA_OPACITY);
             }
         }
     }
 }
 
 /// Draws a sign of half this size.
-pub(super) fn draw_sign(document: &mut Document, sign: Sign, (x, y): Place, r: f64, colour: Rgb) {
+pub(super) fn draw_sign(canvas: &mut dyn Canvas, sign: Sign, (x, y): Place, r: f64, colour: Rgb) {
     match sign {
-        Sign::Dot => document.circle((x, y), r, colour, None),
-        Sign::Ring => document.circle((x, y), r, PAPER, Some(Pen::solid(colour, 0.45 * r))),
-        Sign::Square => document.rectangle((x - 0.9 * r, y - 0.9 * r), (x + 0.9 * r, y + 0.9 * r), colour),
+        Sign::Dot => canvas.circle((x, y), r, colour, None),
+        Sign::Ring => canvas.circle((x, y), r, PAPER, Some(Pen::solid(colour, 0.45 * r))),
+        Sign::Square => canvas.rectangle((x - 0.9 * r, y - 0.9 * r), (x + 0.9 * r, y + 0.9 * r), colour),
         Sign::Up | Sign::Down => {
             let up = if sign == Sign::Up { r } else { -r };
             let corners = [(x, y - 1.2 * up), (x + 1.1 * r, y + 0.9 * up), (x - 1.1 * r, y + 0.9 * up)];
-            document.area(&corners, colour, 1.0);
+            canvas.area(&corners, colour, 1.0);
         }
         Sign::Diamond | Sign::HollowDiamond => {
             let corners = [(x, y - 1.3 * r), (x + 1.2 * r, y), (x, y + 1.3 * r), (x - 1.2 * r, y)];
             if sign == Sign::Diamond {
-                document.area(&corners, colour, 1.0);
+                canvas.area(&corners, colour, 1.0);
             } else {
-                document.area(&corners, PAPER, 1.0);
-                document.line(&[&corners[..], &corners[..1]].concat(), Pen::solid(colour, 0.45 * r));
+                canvas.area(&corners, PAPER, 1.0);
+                canvas.line(&[&corners[..], &corners[..1]].concat(), Pen::solid(colour, 0.45 * r));
             }
         }
         Sign::Cross => {
             let arm = 0.9 * r;
             for turn in [1.0, -1.0] {
-                document.line(
+                canvas.line(
                     &[(x - arm, y - turn * arm), (x + arm, y + turn * arm)],
                     Pen::solid(colour, 0.5 * r),
                 );
@@ -179,7 +179,7 @@ pub(super) fn draw_sign(document: &mut Document, sign: Sign, (x, y): Place, r: f
     }
 }
 
-fn heat_map(document: &mut Document, frame: &Frame<'_>, map: &HeatMap) {
+fn heat_map(canvas: &mut dyn Canvas, frame: &Frame<'_>, map: &HeatMap) {
     let columns = HeatMap::borders(frame.x.scale, &map.columns);
     let rows = HeatMap::borders(frame.y.scale, &map.rows);
     for (row, up) in rows.windows(2).enumerate() {
@@ -191,9 +191,9 @@ fn heat_map(document: &mut Document, frame: &Frame<'_>, map: &HeatMap) {
                 Some(value) => {
                     let to = ((upper.0 + 0.5).min(frame.to.0), lower.1);
                     let from = (lower.0, (upper.1 - 0.5).max(frame.from.1));
-                    document.rectangle(from, to, shade(map.key.share(value)));
+                    canvas.rectangle(from, to, shade(map.key.share(value)));
                 }
-                None => document.line(&[lower, upper], Pen::solid(QUIET, 0.8)),
+                None => canvas.line(&[lower, upper], Pen::solid(QUIET, 0.8)),
             }
         }
     }
@@ -204,8 +204,8 @@ fn heat_map(document: &mut Document, frame: &Frame<'_>, map: &HeatMap) {
     if let Some(Contour { field, level, .. }) = &map.contour {
         for line in contour(&across, &up, field, *level) {
             let places: Vec<_> = line.into_iter().map(|point| frame.place_of_coordinates(point)).collect();
-            document.line(&places, Pen::solid(PAPER, 4.0));
-            document.line(&places, Pen::solid(TEXT, 1.8));
+            canvas.line(&places, Pen::solid(PAPER, 4.0));
+            canvas.line(&places, Pen::solid(TEXT, 1.8));
         }
     }
     let every = |count: usize, pixels: f64| ((SIGN_DISTANCE * count as f64 / pixels).ceil() as usize).max(1);
@@ -218,7 +218,7 @@ fn heat_map(document: &mut Document, frame: &Frame<'_>, map: &HeatMap) {
             let value = map.values.get(index).copied().flatten();
             if let Some((class, value)) = class.zip(value) {
                 let ink = ink_on(shade(map.key.share(value)));
-                draw_sign(document, class.sign, frame.place_of_coordinates((*x, *y)), SIGN, ink);
+                draw_sign(canvas, class.sign, frame.place_of_coordinates((*x, *y)), SIGN, ink);
             }
         }
     }

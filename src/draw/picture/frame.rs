@@ -1,6 +1,6 @@
 //! The frame of a chart: from numbers to places, and axes around it.
 
-use super::document::{Anchor, Document, Pen, Place};
+use super::canvas::{Anchor, Canvas, Pen, Place};
 use crate::draw::axis::Axis;
 use crate::draw::colour::Rgb;
 use crate::draw::label::Label;
@@ -70,7 +70,7 @@ impl Frame<'_> {
     }
 
     /// Draws an axis; with its label if `labelled`.
-    pub(super) fn axis(&self, document: &mut Document, side: Side, ink: Rgb, labelled: bool) {
+    pub(super) fn axis(&self, canvas: &mut dyn Canvas, side: Side, ink: Rgb, labelled: bool) {
         let size = self.size;
         let axis = if side == Side::Below { self.x } else { self.y };
         let ticks = axis.ticks(self.ticks(side));
@@ -88,9 +88,9 @@ impl Frame<'_> {
                 Side::Left => ([(edge + length, y), (edge, y)], (edge - 0.7 * size, y), Anchor::Right),
                 Side::Right => ([(edge, y), (edge + length, y)], (edge + 0.7 * size, y), Anchor::Left),
             };
-            document.line(&ends, Pen::solid(ink, 1.0));
+            canvas.line(&ends, Pen::solid(ink, 1.0));
             if let Some(label) = label {
-                document.label(label, place, size, anchor, ink);
+                canvas.label(label, place, size, anchor, ink);
             }
         }
         let label = axis.label_with_unit();
@@ -100,7 +100,7 @@ impl Frame<'_> {
                 Side::Below => ((middle.0, edge + 2.9 * size), Anchor::Middle),
                 _ => ((edge + outwards * beside(&ticks, size), middle.1), Anchor::Upwards),
             };
-            document.label(&label, place, LABEL * size / NUMBER, anchor, ink);
+            canvas.label(&label, place, LABEL * size / NUMBER, anchor, ink);
         }
     }
 

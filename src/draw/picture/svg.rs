@@ -1,12 +1,9 @@
 //! SVG documents: escaped text, elements, numbers to a hundredth of a pixel.
 
-use crate::draw::chart::Stroke;
+use super::canvas::{Anchor, Canvas, Pen, Place, below_middle, set};
 use crate::draw::colour::{Rgb, hex};
-use crate::draw::label::{Face, Label, SMALL};
+use crate::draw::label::{Face, Label};
 use std::fmt::Write;
-
-/// A place in a picture, px from the upper left.
-pub(super) type Place = (f64, f64);
 
 /// Fonts of figures, of nearly the same letters on all systems.
 const FONTS: &str = "Helvetica, Arial, Liberation Sans, DejaVu Sans, sans-serif";
@@ -14,40 +11,6 @@ const FONTS: &str = "Helvetica, Arial, Liberation Sans, DejaVu Sans, sans-serif"
 /// An SVG document of version 1.1 without references to other files.
 pub struct Document {
     text: String,
-}
-
-/// Point of a label at its place; vertically always the middle.
-#[derive(Clone, Copy, PartialEq, Eq)]
-pub(super) enum Anchor {
-    Left,
-    Middle,
-    Right,
-    /// Middle of a label that runs upwards.
-    Upwards,
-}
-
-/// A pen: colour, width in px, dashes.
-#[derive(Clone, Copy)]
-pub(super) struct Pen {
-    pub colour: Rgb,
-    pub width: f64,
-    pub stroke: Stroke,
-}
-
-impl Pen {
-    pub(super) fn solid(colour: Rgb, width: f64) -> Pen {
-        Pen { colour, width, stroke: Stroke::Solid }
-    }
-
-    fn attributes(self) -> String {
-        let dashes = match self.stroke {
-            Stroke::Solid => "",
-            Stroke::Dashed => " stroke-dasharray=\"6 3.5\"",
-            Stroke::Dotted => " stroke-dasharray=\"2.5 2.5\"",
-            Stroke::Sparse => " stroke-dasharray=\"1.5 4.5\"",
-        };
-        format!("stroke=\"{}\" stroke-width=\"{}\"{dashes}", hex(self.colour), px(self.width))
-    }
 }
 
 impl Document {
@@ -88,8 +51,10 @@ impl Document {
     pub(super) fn end_text(&mut self) {
         self.element(format_args!("</g>"));
     }
+}
 
-    pub(super) fn rectangle(&mut self, from: Place, to: Place, fill: Rgb) {
+impl Canvas for Document {
+    fn rectangle(&mut self, from: Place, to: Place, fill: Rgb) {
         let (width, height) = (px(to.0 - from.0), px(to.1 - from.1));
         let (x, y, fill) = (px(from.0), px(from.1), hex(fill));
         self.element(format_args!(
@@ -97,31 +62,31 @@ impl Document {
         ));
     }
 
-    pub(super) fn frame(&mut self, from: Place, to: Place, pen: Pen) {
-        let (width, height, pen) = (px(to.0 - from.0), px(to.1 - from.1), pen.attributes());
+    fn frame(&mut self, from: Place, to: Place, pen: Pen) {
+        let (width, height, pen) = (px(to.0 - from.0), px(to.1 - from.1), attributes(pen));
         let (x, y) = (px(from.0), px(from.1));
         self.element(format_args!(
             "<rect x=\"{x}\" y=\"{y}\" width=\"{width}\" height=\"{height}\" fill=\"none\" {pen}/>"
         ));
     }
 
-    pub(super) fn line(&mut self, places: &[Place], pen: Pen) {
-        let (points, pen) = (points(places), pen.attributes());
+    fn line(&mut self, places: &[Place], pen: Pen) {
+        let (points, pen) = (points(places), attributes(pen));
         self.element(format_args!(
             "<polyline points=\"{points}\" fill=\"none\" {pen} stroke-linejoin=\"round\"/>"
         ));
     }
 
-    pub(super) fn area(&mut self, places: &[Place], fill: Rgb, opacity: f64) {
+    fn area(&mut self, places: &[Place], fill: Rgb, opacity: f64) {
         let (points, fill) = (points(places), hex(fill));
         let opacity =
             if opacity < 1.0 { format!(" fill-opacity=\"{}\"", px(opacity)) } else { String::new() };
         self.element(format_args!("<polygon points=\"{points}\" fill=\"{fill}\"{opacity}/>"));
     }
 
-    /// Boxes by their upper left and lower right corners, at least half a pixel wide and high.
-    pub(super) fn boxes(&mut self, boxes: impl Iterator<Item = (Place, Place)>, fill: Rgb) {
+    fn boxes(&mut self, boxes: &[(Place, Place)], fill: Rgb) {
         let path: String = boxes
+            .iter()
             .map(|(from, to)| {
                 let (width, height) = (px((to.0 - from.0).max(0.5)), px((to.1 - from.1).max(0.5)));
                 format!("M{} {}h{width}v{height}h-{width}z", px(from.0), px(from.1))
@@ -133,13 +98,13 @@ impl Document {
         }
     }
 
-    pub(super) fn circle(&mut self, at: Place, radius: f64, fill: Rgb, pen: Option<Pen>) {
+    fn circle(&mut self, at: Place, radius: f64, fill: Rgb, pen: Option<Pen>) {
         let (x, y, radius, fill) = (px(at.0), px(at.1), px(radius), hex(fill));
-        let pen = pen.map_or_else(String::new, |pen| format!(" {}", pen.attributes()));
+        let pen = pen.map_or_else(String::new, |pen| format!(" {}", attributes(pen)));
         self.element(format_args!("<circle cx=\"{x}\" cy=\"{y}\" r=\"{radius}\" fill=\"{fill}\"{pen}/>"));
     }
 
-    pub(super) fn label(&mut self, label: &Label, at: Place, size: f64, anchor: Anchor, colour: Rgb) {
+    fn label(&mut self, label: &Label, at: Place, size: f64, anchor: Anchor, colour: Rgb) {
         let (x, y, fill) = (px(at.0), px(at.1), hex(colour));
         let side = match anchor {
             Anchor::Left => "start",
@@ -151,8 +116,7 @@ impl Document {
         } else {
             String::new()
         };
-        // Half the height of capital letters.
-        let base = px(at.1 + 0.35 * size);
+        let base = px(at.1 + below_middle(size));
         let (runs, size) = (runs(label, size), px(size));
         self.element(format_args!(
             "<text x=\"{x}\" y=\"{base}\" font-size=\"{size}\" text-anchor=\"{side}\" fill=\"{fill}\"{turned}>{runs}</text>"
@@ -160,16 +124,23 @@ impl Document {
     }
 }
 
+fn attributes(pen: Pen) -> String {
+    let dashes = pen
+        .dashes()
+        .map_or_else(String::new, |(dash, gap)| format!(" stroke-dasharray=\"{} {}\"", px(dash), px(gap)));
+    format!("stroke=\"{}\" stroke-width=\"{}\"{dashes}", hex(pen.colour), px(pen.width))
+}
+
 /// The runs of a label as elements within a text of this size, px.
 fn runs(label: &Label, size: f64) -> String {
     let mut elements = String::new();
     let mut shift = 0.0;
     for (face, text) in label.runs() {
-        let (own, looks) = match face {
-            Face::Upright => (0.0, String::new()),
-            Face::Italic => (0.0, " font-style=\"italic\"".to_owned()),
-            Face::Index => (0.25 * size, format!(" font-size=\"{}\"", px(SMALL * size))),
-            Face::Exponent => (-0.42 * size, format!(" font-size=\"{}\"", px(SMALL * size))),
+        let (own, small) = set(*face, size);
+        let looks = match face {
+            Face::Upright => String::new(),
+            Face::Italic => " font-style=\"italic\"".to_owned(),
+            Face::Index | Face::Exponent => format!(" font-size=\"{}\"", px(small)),
         };
         let step = px(own - shift);
         let step = if step == "0" { String::new() } else { format!(" dy=\"{step}\"") };

@@ -1,6 +1,6 @@
 //! Place of an inset: a corner of its chart that the curves leave free.
 
-use super::document::Place;
+use super::canvas::Place;
 use super::frame::Frame;
 use crate::draw::axis::Axis;
 use crate::draw::chart::{Chart, Shape};

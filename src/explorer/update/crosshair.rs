@@ -1,0 +1,130 @@
+//! The crosshair: on the force curve it is at the state shown, so that moving it moves the body; on profile and
+//! close-up it reads one position.
+
+use super::{Effect, movement};
+use crate::explorer::action::Command;
+use crate::explorer::layout::inside;
+use crate::explorer::model::{Crosshair, Model, Pane};
+use crate::explorer::snapshot::Section;
+use crate::explorer::view::{position_at, stage_at};
+use ratatui::layout::{Position, Rect};
+
+/// Small and large steps along a loading stage.
+const STEPS: (f64, f64) = (240.0, 24.0);
+/// Columns of dots in a large step along the profile.
+const COARSE: usize = 10;
+
+/// Obeys a command on the crosshair.
+pub fn obey(model: &mut Model, command: Command) -> Vec<Effect> {
+    match command {
+        Command::ToggleCrosshair => toggle(model),
+        Command::CrosshairStage(stages) => go_to_stage(model, stages),
+        Command::MoveCrosshair { steps, coarse } if model.pane == Pane::Force && model.hand.is_some() => {
+            return movement::obey(model, Command::Push { steps, coarse });
+        }
+        Command::MoveCrosshair { steps, coarse } if model.pane == Pane::Force => {
+            let share = f64::from(steps) / if coarse { STEPS.1 } else { STEPS.0 };
+            put(model, model.player.leg, model.player.done + direction(model) * share);
+        }
+        Command::CrosshairEnd(right) if model.pane == Pane::Force => {
+            let done = f64::from(u8::from(right == (direction(model) > 0.0)));
+            put(model, model.player.leg, done);
+        }
+        Command::MoveCrosshair { steps, coarse } => step(model, steps, coarse),
+        Command::CrosshairEnd(right) => {
+            if let Some((section, _)) = section(model) {
+                let end = section.first + if right { section.springs.saturating_sub(1) } else { 0 };
+                look_at(model, end);
+            }
+        }
+        _ => {}
+    }
+    vec![Effect::Show]
+}
+
+/// Moves the crosshair to the mouse; `None` where the pane has none, or where the mouse moves the body by hand.
+pub fn point_at(model: &mut Model, pane: Pane, area: Rect, here: Position) -> Option<Vec<Effect>> {
+    model.crosshair?;
+    match pane {
+        Pane::Force if model.hand.is_none() => {
+            let (leg, indentation) = stage_at(model, inside(area), here)?;
+            put(model, leg, model.done_at(leg, indentation));
+        }
+        Pane::Profile | Pane::CloseUp => {
+            let spring = position_at(model, pane, inside(area), here.x)?;
+            look_at(model, spring);
+        }
+        _ => return None,
+    }
+    Some(vec![Effect::Show])
+}
+
+/// The crosshair begins in the middle of the close-up.
+fn toggle(model: &mut Model) {
+    if model.crosshair.take().is_some() {
+        return;
+    }
+    model.crosshair = Some(Crosshair { position: 0.5 });
+    if let Some(close_up) = model.moment.as_ref().map(|moment| moment.close_up.clone()) {
+        let middle = close_up.section.first + close_up.section.springs / 2;
+        look_at(model, close_up.fragment.map_or(middle, |patch| patch.middle()));
+    }
+    if !model.pane.has_crosshair() {
+        model.pane = Pane::Force;
+    }
+}
+
+/// 1 where the indentation grows along the stage of the animation, else −1.
+fn direction(model: &Model) -> f64 {
+    let falls = model.legs().get(model.player.leg).is_some_and(|leg| leg.end() < leg.start());
+    if falls { -1.0 } else { 1.0 }
+}
+
+/// Pauses the animation at a part of a loading stage.
+fn put(model: &mut Model, leg: usize, done: f64) {
+    if model.hand.is_none() {
+        model.player.playing = false;
+        (model.player.leg, model.player.done) = (leg, done.clamp(0.0, 1.0));
+    }
+}
+
+/// Goes to another loading stage at the indentation shown, or at the end of the stage that is nearer.
+fn go_to_stage(model: &mut Model, stages: i32) {
+    let last = model.legs().len().saturating_sub(1);
+    let leg = model.player.leg.saturating_add_signed(stages as isize).min(last);
+    let indentation = model.indentation();
+    if leg != model.player.leg {
+        put(model, leg, model.done_at(leg, indentation));
+    }
+}
+
+/// The section of the chosen pane with its columns of dots.
+fn section(model: &Model) -> Option<(&Section, usize)> {
+    let moment = model.moment.as_ref()?;
+    let section = if model.pane == Pane::CloseUp { &moment.close_up.section } else { &moment.profile };
+    Some((section, section.columns.len().max(1)))
+}
+
+/// Moves along the profile within the section that is seen.
+fn step(model: &mut Model, steps: i32, coarse: bool) {
+    let Some((section, columns)) = section(model) else { return };
+    let springs = (section.springs / columns).max(1) * if coarse { COARSE } else { 1 };
+    let (first, last) = (section.first, section.first + section.springs.saturating_sub(1));
+    // Not the spring that is shown: keys may come faster than moments.
+    let now =
+        model.crosshair.map_or(first, |crosshair| (crosshair.position * springs_of(model) as f64) as usize);
+    let to = now.saturating_add_signed(springs as isize * steps as isize);
+    look_at(model, to.clamp(first, last));
+}
+
+fn springs_of(model: &Model) -> u64 {
+    model.computed.as_ref().map_or(1, |computed| computed.outcome.history.work.springs.max(1))
+}
+
+/// Puts the crosshair on the middle of a spring.
+fn look_at(model: &mut Model, spring: usize) {
+    let springs = springs_of(model);
+    if let Some(crosshair) = &mut model.crosshair {
+        crosshair.position = (spring as f64 + 0.5) / springs as f64;
+    }
+}

@@ -1,0 +1,78 @@
+//! Two scenes in words: titles, what differs, both adhesion forces.
+
+use super::force_figure;
+use crate::draw::Figure;
+use crate::scene::{Document, format_quantity};
+use crate::simulation::Outcome;
+
+/// Two computed scenes, the first and the one it is compared with.
+pub type Pair<'a> = [(&'a Document, &'a Outcome); 2];
+
+/// Titles of two scenes, what differs from the first to the second, both adhesion forces with their ratio.
+#[must_use]
+pub fn comparison_text([first, second]: Pair<'_>) -> String {
+    let title = |document: &Document| {
+        let title = &document.scene().title;
+        if title.is_empty() { document.name().to_owned() } else { title.clone() }
+    };
+    let changes = first.0.changes_to(second.0);
+    let changes: Vec<String> =
+        changes.iter().map(|change| format!("{} {} → {}", change.name, change.from, change.to)).collect();
+    let changes = if changes.is_empty() { "nothing".to_owned() } else { changes.join(", ") };
+    let forces = [first, second].map(|(_, outcome)| outcome.figures.adhesion_force);
+    format!(
+        "A  {}\nB  {}\ndifferent from A to B: {changes}\nadhesion force F_a: {}\n",
+        title(first.0),
+        title(second.0),
+        adhesion_forces(forces)
+    )
+}
+
+/// Force curves of two scenes in one figure.
+#[must_use]
+pub fn comparison_figure([first, second]: Pair<'_>) -> Figure {
+    force_figure(&[("A", first.1), ("B", second.1)])
+}
+
+/// Two adhesion forces, N, and the ratio of the second to the first.
+#[must_use]
+pub fn adhesion_forces(forces: [Option<f64>; 2]) -> String {
+    let [before, now] =
+        forces.map(|force| force.map_or_else(|| "none".to_owned(), |force| format_quantity(force, "N")));
+    let ratio = forces[0].zip(forces[1]).map(|(before, now)| now / before).filter(|ratio| ratio.is_finite());
+    let ratio = ratio.map_or_else(String::new, |ratio| {
+        let ratio = format!("{ratio:.3e}").parse().unwrap_or(ratio);
+        format!(", ratio {}", format_quantity(ratio, "1"))
+    });
+    format!("{before} → {now}{ratio}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::open;
+
+    #[test]
+    fn forces_have_a_ratio_where_both_are_there() {
+        assert_eq!(adhesion_forces([Some(2e-6), Some(5e-6)]), "2 µN → 5 µN, ratio 2.5");
+        assert_eq!(adhesion_forces([Some(2e-6), None]), "2 µN → none");
+        assert_eq!(adhesion_forces([Some(0.0), Some(1e-6)]), "0 N → 1 µN");
+    }
+
+    #[test]
+    fn a_comparison_names_both_scenes_and_what_differs() {
+        let first = open("jkr-sphere").unwrap();
+        let second = first.set("adhesion.work", "0.1").unwrap();
+        let outcomes = [&first, &second].map(|document| crate::run(document.scene()).unwrap());
+        let pair = [(&first, &outcomes[0]), (&second, &outcomes[1])];
+        let text = comparison_text(pair);
+        assert!(text.contains("different from A to B: γ 50 mJ/m² → 100 mJ/m²\n"), "{text}");
+        assert!(text.starts_with(&format!("A  {}\n", first.scene().title)), "{text}");
+        // The pull-off force of a sphere is proportional to the work of adhesion.
+        assert!(text.ends_with("ratio 2\n"), "{text}");
+        let names: Vec<String> =
+            comparison_figure(pair).legend().iter().map(|entry| entry.name.to_string()).collect();
+        assert_eq!(names, ["A", "B"]);
+        assert!(comparison_text([pair[0], pair[0]]).contains("different from A to B: nothing\n"));
+    }
+}
