@@ -101,7 +101,7 @@ pub enum CliError {
     Spectra {
         /// The table.
         file: String,
-        /// Why not, and what is allowed.
+        /// Reason, and the allowed input.
         reason: String,
     },
     /// There is no built-in scene of this name.

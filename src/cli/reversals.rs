@@ -54,12 +54,12 @@ pub struct ReversalsArguments {
     /// text, json, csv or svg; default: by the extension of FILE, else text
     #[arg(long, value_enum, hide_possible_values = true)]
     pub format: Option<ReversalsFormat>,
-    /// Where it goes.
+    /// Destination.
     #[command(flatten)]
     pub output: OutputArguments,
 }
 
-/// How reversals are printed.
+/// Formats of reversals.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum ReversalsFormat {
     /// A table.

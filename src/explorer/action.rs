@@ -39,7 +39,7 @@ pub enum Action {
     Failed {
         /// Generation of the scene.
         generation: u64,
-        /// Why, in one line.
+        /// Reason, in one line.
         error: String,
     },
     /// Something was found out about accuracy.
@@ -65,7 +65,7 @@ pub enum Action {
     Offered(Vec<String>),
     /// Unsaved changes cannot be kept, and why.
     NotKept(String),
-    /// What the connection carries.
+    /// Traffic of the connection.
     Traffic(Traffic),
     /// The mouse did something.
     Mouse(Mouse),
@@ -74,13 +74,13 @@ pub enum Action {
 /// A file that has been written.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Written {
-    /// Where it is.
+    /// Path.
     pub path: PathBuf,
-    /// What is in it.
+    /// Content.
     pub content: Content,
 }
 
-/// Why a file was not written.
+/// Reason for which a file was not written.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum WriteFailure {
     /// A file of that name is there already.
@@ -89,7 +89,7 @@ pub enum WriteFailure {
     Refused(String),
 }
 
-/// What is written to a file.
+/// Content of a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Content {
     /// The scene, in RON.
@@ -109,7 +109,7 @@ pub enum Content {
 }
 
 impl Content {
-    /// What can be exported, by the ending of the file's name.
+    /// Contents that can be exported, by the extension of the file.
     pub const EXPORTS: [(&'static str, Content); 5] = [
         ("csv", Content::Curve(TableFormat::Csv)),
         ("npy", Content::Curve(TableFormat::Npy)),
@@ -131,23 +131,23 @@ impl Content {
     }
 }
 
-/// What the mouse does, at a cell of the screen.
+/// Gesture of the mouse at a cell of the screen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Mouse {
     /// Column, from 0 at the left.
     pub column: u16,
     /// Row, from 0 at the top.
     pub row: u16,
-    /// What it does there.
+    /// Gesture.
     pub gesture: Gesture,
 }
 
-/// What a mouse can do.
+/// Gestures of a mouse.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Gesture {
     /// Its left button goes down.
     Press,
-    /// It moves while the button is down.
+    /// Movement with the button down.
     Drag,
     /// Its wheel turns: up is positive.
     Wheel(i32),
@@ -176,7 +176,7 @@ pub enum Command {
     ToggleHand,
     /// Press (positive) or pull the body by so many steps of the hand.
     Push {
-        /// How often and which way.
+        /// Number of steps; the sign is the direction.
         steps: i32,
         /// By the large step.
         coarse: bool,
@@ -191,7 +191,7 @@ pub enum Command {
     SelectEnd(bool),
     /// Step the selected value.
     StepValue {
-        /// How often and which way.
+        /// Number of steps; the sign is the direction.
         steps: i32,
         /// By the large step.
         coarse: bool,
@@ -322,7 +322,7 @@ pub enum Command {
     Clear,
 }
 
-/// Which fragment to look at.
+/// Fragment to look at.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Jump {
     /// The one to the right.
@@ -333,7 +333,7 @@ pub enum Jump {
     Largest,
     /// The one that carries the largest force, pressing or pulling.
     MostLoaded,
-    /// Where the bodies touch first.
+    /// Place of first touch.
     Summit,
 }
 
@@ -350,7 +350,7 @@ pub enum Motion {
     End,
 }
 
-/// What a connection carries.
+/// Traffic of a connection.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Traffic {
     /// Most frames in a second.

@@ -1,21 +1,21 @@
-//! What is known of the accuracy of the scene, and what is still to be worked out.
+//! Known accuracy of the scene, and the studies still to be done.
 
 use super::study::Finding;
 use crate::accuracy::{CostTable, Estimate};
 use std::sync::Arc;
 
-/// See the module.
+/// State of the pane of accuracy.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Appraisal {
-    /// Whether its pane stands in place of profile and close-up.
+    /// True if its pane stands in place of profile and close-up.
     pub shown: bool,
     /// The error of what has been computed.
     pub estimated: Estimated,
-    /// What accuracy costs.
+    /// Cost of accuracy.
     pub costs: Costs,
     /// The tolerance for which springs are searched, and how many are tried.
     pub choosing: Option<(f64, Option<u64>)>,
-    /// What the last tolerance led to, until the next edit.
+    /// Answer to the last tolerance, until the next edit.
     pub answer: Option<String>,
 }
 
@@ -27,7 +27,7 @@ pub enum Estimated {
     Waiting,
     /// This one.
     Known(Estimate),
-    /// Nothing can be told of it.
+    /// Nothing is known.
     Unknown,
 }
 
@@ -47,9 +47,9 @@ impl Appraisal {
 pub struct Costs {
     /// The rows so far.
     pub table: Option<Arc<CostTable>>,
-    /// What is tried at the moment.
+    /// Setting that is tried at present.
     pub trying: Option<String>,
-    /// Whether it is finished; or why there is no table.
+    /// True if it is finished; or why there is no table.
     pub ended: Option<Result<(), String>>,
 }
 

@@ -4,16 +4,16 @@ use crate::scene::Scene;
 use crate::study::map::{Charted, LiveMap, MapAxis, MapModel, NoMap, StudyMap, Template, hursts, kappas};
 use std::sync::Arc;
 
-/// See the module.
+/// State of the pane of the map.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Chart {
-    /// Whether its pane stands in place of profile and close-up.
+    /// True if its pane stands in place of profile and close-up.
     pub shown: bool,
-    /// Which quantity the glyphs tell, where the map has it.
+    /// Quantity of the glyphs, where the map has it.
     pub quantity: Charted,
-    /// Whether the sections through the mark stand in place of the map.
+    /// True if the sections through the mark stand in place of the map.
     pub sections: bool,
-    /// Whether columns and rows are exchanged: κ across.
+    /// True if columns and rows are exchanged: κ across.
     transposed: bool,
     /// The map that is computed here, so far. Kept while κ and H change, whether it is shown or not.
     pub map: Option<Arc<LiveMap>>,
@@ -21,13 +21,13 @@ pub struct Chart {
     live: Option<Arc<MapModel>>,
     /// A finished study, kept until another one is opened.
     pub study: Option<OpenStudy>,
-    /// Whether its map is shown rather than the one that is computed here.
+    /// True if its map is shown rather than the one that is computed here.
     pub of_study: bool,
-    /// Why the computing of it ended before it was whole.
+    /// Reason for which its computation ended early.
     pub failed: Option<String>,
-    /// Whether the scene has just been edited: somebody who holds a key down wants the machine.
+    /// True if the scene has just been edited: somebody who holds a key down wants the machine.
     pub edited: bool,
-    /// Whether the last edit was a move of the mark: the next one belongs to it.
+    /// True if the last edit was a move of the mark: the next one belongs to it.
     pub moving: bool,
 }
 
@@ -96,7 +96,7 @@ impl Chart {
         }
     }
 
-    /// What the glyphs tell: what was chosen, where the map that is shown has it.
+    /// Quantity of the glyphs: the chosen one, where the map has it.
     #[must_use]
     pub fn charted(&self) -> Charted {
         let all = self.map_model().map(MapModel::charted).unwrap_or_default();
@@ -104,7 +104,7 @@ impl Chart {
         *chosen.or(all.first()).unwrap_or(&self.quantity)
     }
 
-    /// What they can tell after that.
+    /// Next quantity of the glyphs.
     #[must_use]
     pub fn next_charted(&self) -> Charted {
         let all = self.map_model().map(MapModel::charted).unwrap_or_default();

@@ -92,7 +92,7 @@ pub struct Config {
 pub struct Animation {
     /// Speed; 1 takes six seconds for a loading stage.
     pub speed: f64,
-    /// Whether the animation begins again at its end.
+    /// True if the animation begins again at its end.
     pub repeats: bool,
 }
 

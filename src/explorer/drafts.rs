@@ -106,7 +106,7 @@ fn text_of(documents: &[Document]) -> Result<String, ron::Error> {
     ron::ser::to_string_pretty(&file, PrettyConfig::default())
 }
 
-/// What the thread is asked for.
+/// Request to the thread.
 enum Request {
     /// Keep these documents, in place of all before.
     Keep(Vec<Document>),
@@ -114,7 +114,7 @@ enum Request {
     Flush(Sender<()>),
 }
 
-/// What the thread reports.
+/// Report of the thread.
 pub enum Report {
     /// The names of scenes that another session has left.
     Offered(Vec<String>),

@@ -19,7 +19,7 @@ const MOST_ESTIMATED: u64 = 1 << 17;
 /// Nor is a map over κ and H computed, of hundreds of scenes.
 const MOST_CHARTED: u64 = 1 << 12;
 
-/// See the module.
+/// Explorer without a terminal.
 pub struct Headless {
     /// The model.
     pub model: Model,
@@ -66,7 +66,7 @@ impl Headless {
         }
     }
 
-    /// What comes back when an effect is done. Nothing leaves the program.
+    /// Actions that follow an effect. Nothing leaves the program.
     fn answer(&mut self, effect: Effect) -> Vec<Action> {
         let generation = self.model.generation;
         let request = match effect {
@@ -106,7 +106,7 @@ impl Headless {
         reports.into_inner().into_iter().map(action_of).collect()
     }
 
-    /// What is found out about accuracy, but for what it costs: times differ from run to run.
+    /// Findings on accuracy without its cost: times differ from run to run.
     fn study(&self) -> Vec<Action> {
         let generation = self.model.generation;
         let mut found = Vec::new();

@@ -17,7 +17,7 @@ const MOST_STEPS: u32 = 512;
 /// Largest force over that at full contact: beyond it the curve is a straight line to no end.
 const MOST_OVER_FULL_CONTACT: f64 = 10.0;
 
-/// See the module.
+/// Body under manual loading.
 pub struct Held {
     body: Box<dyn ManualLoading + Send>,
     travel: Travel,
@@ -64,7 +64,7 @@ impl Held {
         Some(Held { body, travel: Travel::default(), step, full_contact, largest })
     }
 
-    /// Where it stands.
+    /// Present state.
     pub fn point(&self) -> CurvePoint {
         self.body.point()
     }

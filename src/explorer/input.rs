@@ -1,4 +1,4 @@
-//! What comes in: keys and mouse on a thread of their own, and the actions they mean.
+//! Input: keys and mouse on a thread of their own, and their actions.
 
 use super::action::{Action, Gesture, Mouse};
 use super::keys::Bindings;

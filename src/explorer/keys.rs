@@ -13,7 +13,7 @@ pub struct Binding {
     pub keys: Cow<'static, [Key]>,
     /// The modes in which they are valid.
     pub modes: &'static [ModeKind],
-    /// What they do.
+    /// Command.
     pub command: Command,
     /// One word for the footer; empty where the footer leaves it out.
     pub label: &'static str,
@@ -31,7 +31,7 @@ pub struct Key {
 }
 
 impl Key {
-    /// Whether a key event is this key. Shift is part of a character, not beside it.
+    /// Returns true if a key event is this key. Shift is part of a character, not beside it.
     #[must_use]
     pub fn matches(&self, event: &KeyEvent) -> bool {
         let modifiers = match event.code {
@@ -129,7 +129,7 @@ const fn shift(code: KeyCode) -> Key {
 
 /// Exploring, whichever pane is chosen.
 const EXPLORE: &[ModeKind] = &[ModeKind::Explore, ModeKind::Chart, ModeKind::Crosshair, ModeKind::Parameters];
-/// What the arrows do beside them is done in the map by other keys.
+/// In the map other keys do what the arrows do beside these.
 const LIST: &[ModeKind] = &[ModeKind::Explore, ModeKind::Parameters];
 /// In the list of parameters these characters begin a value.
 const OTHER_PANES: &[ModeKind] = &[ModeKind::Explore, ModeKind::Chart, ModeKind::Crosshair];
@@ -353,7 +353,7 @@ pub const BINDINGS: &[Binding] = &[
 ];
 
 impl Binding {
-    /// Whether the configuration may give the row other keys: keys for typing, lists and questions are the same for all,
+    /// Returns true if the configuration may give the row other keys: keys for typing, lists and questions are the same for all,
     /// and digits mean what they are.
     #[must_use]
     pub fn is_rebindable(&self) -> bool {

@@ -1,4 +1,4 @@
-//! Where the panes stand: all four in a large window, fewer in a small one.
+//! Places of the panes: all four in a large window, fewer in a small one.
 
 use super::model::{Model, Pane};
 use ratatui::layout::Rect;
@@ -68,7 +68,7 @@ pub fn inside(area: Rect) -> Rect {
     if is_framed(area) { area.inner(ratatui::layout::Margin::new(1, 1)) } else { area }
 }
 
-/// Whether a pane is large enough for a frame.
+/// Returns true if a pane is large enough for a frame.
 #[must_use]
 pub fn is_framed(area: Rect) -> bool {
     area.height >= 6 && area.width >= 16

@@ -1,4 +1,4 @@
-//! What the keys mean at the moment.
+//! Mode: the present meaning of the keys.
 
 use super::action::Content;
 use super::finder::Finder;
@@ -6,7 +6,7 @@ use super::text_line::TextLine;
 use crate::scene::Entry;
 use std::path::PathBuf;
 
-/// What the keys mean at the moment.
+/// Mode: the present meaning of the keys.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Mode {
     /// Exploring.
@@ -31,7 +31,7 @@ pub enum Mode {
         count: usize,
         /// The file to save to.
         path: PathBuf,
-        /// Whether to leave afterwards.
+        /// True if to leave afterwards.
         then_quit: bool,
     },
     /// Typing the name of the file to export to.
@@ -40,9 +40,9 @@ pub enum Mode {
     Overwrite {
         /// The file.
         path: PathBuf,
-        /// What is to be written to it.
+        /// Content to be written.
         content: Content,
-        /// Whether to leave afterwards.
+        /// True if to leave afterwards.
         then_quit: bool,
     },
     /// Reading the help.
@@ -54,14 +54,14 @@ pub enum Mode {
     Quit,
 }
 
-/// What is typed to save a scene, line by line.
+/// Lines of the dialogue that saves a scene.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SaveForm {
     /// File, title and notice, in the order of [`SaveForm::PROMPTS`].
     pub lines: [TextLine; 3],
     /// Index of the line that is being typed.
     pub line: usize,
-    /// Whether to leave afterwards.
+    /// True if to leave afterwards.
     pub then_quit: bool,
 }
 
@@ -153,7 +153,7 @@ impl ModeKind {
 }
 
 impl ModeKind {
-    /// Whether keys act on scene and panes, rather than on a line, a list or a question.
+    /// Returns true if keys act on scene and panes, rather than on a line, a list or a question.
     #[must_use]
     pub fn is_exploring(self) -> bool {
         matches!(self, ModeKind::Explore | ModeKind::Chart | ModeKind::Parameters)
@@ -161,7 +161,7 @@ impl ModeKind {
 }
 
 impl Mode {
-    /// Which mode it is.
+    /// Kind of the mode.
     #[must_use]
     pub fn kind(&self) -> ModeKind {
         match self {

@@ -33,7 +33,7 @@ pub enum Pane {
     CloseUp,
     /// The list of parameters.
     Parameters,
-    /// What accuracy costs and what ran, in place of profile and close-up.
+    /// Cost of accuracy and stages of the run, in place of profile and close-up.
     Accuracy,
     /// The map over κ and H, in place of profile and close-up.
     Chart,
@@ -63,21 +63,21 @@ impl Pane {
     }
 }
 
-/// Where the animation stands.
+/// State of the animation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Player {
     /// Index of the leg.
     pub leg: usize,
-    /// How much of it is done, 0 to 1.
+    /// Share that is played, 0 to 1.
     pub done: f64,
-    /// Whether time moves it on.
+    /// True if time moves it on.
     pub playing: bool,
 }
 
-/// What the close-up looks at.
+/// Target of the close-up.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Look {
-    /// Where.
+    /// Place.
     pub focus: Focus,
     /// Springs it shows.
     pub springs: usize,
@@ -94,7 +94,7 @@ impl Look {
 /// The body in the user's hand.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Hand {
-    /// Where it has been, the newest last.
+    /// Path so far, the newest point last.
     pub path: Vec<CurvePoint>,
     /// Springs that joined or left on the last move.
     pub changed: u64,
@@ -104,14 +104,14 @@ pub struct Hand {
     pub dissipated_energy: f64,
 }
 
-/// What the pane of the curve shows.
+/// Content of the pane of the curve.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct CurveLook {
-    /// Which quantities.
+    /// Quantities.
     pub quantities: Quantities,
     /// In units of F_a,max, h and the whole line rather than in SI units.
     pub normalised: bool,
-    /// Whether the loss is shaded.
+    /// True if the loss is shaded.
     pub loss: bool,
     /// Scale of both axes; a logarithmic one shows the numbers above zero.
     pub scale: AxisScale,
@@ -153,9 +153,9 @@ pub struct Crosshair {
 pub struct Ghost {
     /// Its scene.
     pub document: Document,
-    /// What was computed for it.
+    /// Outcome.
     pub computed: Arc<Loop>,
-    /// Where its scene differs from the present one.
+    /// Differences of its scene from the present one.
     pub differs: String,
     /// Names of what differs, with the values of the ghost and of the present scene: `κ 4 → 8`.
     pub changes: String,
@@ -177,7 +177,7 @@ pub struct Writing {
     pub path: std::path::PathBuf,
     /// The scene as it was when that began.
     pub text: String,
-    /// Whether to leave afterwards.
+    /// True if to leave afterwards.
     pub then_quit: bool,
 }
 
@@ -186,7 +186,7 @@ pub struct Writing {
 pub struct Model {
     /// The scene as edited.
     pub document: Document,
-    /// What is on disk or was opened, for each scene by its name.
+    /// Document on disk or as opened, for each scene by its name.
     pub saved: BTreeMap<String, Document>,
     /// Number of times that a scene was saved or opened.
     pub saves: u64,
@@ -206,9 +206,9 @@ pub struct Model {
     pub first_listed: usize,
     /// Groups of parameters of which only the first row is listed.
     pub folded: BTreeSet<&'static str>,
-    /// What is wrong with a value that was refused, and the index of its parameter.
+    /// Error of a refused value, and the index of its parameter.
     pub refused: Option<(usize, String)>,
-    /// What the keys mean.
+    /// Present mode.
     pub mode: Mode,
     /// The newest scene that has been computed.
     pub computed: Option<Arc<Loop>>,
@@ -216,7 +216,7 @@ pub struct Model {
     pub moment: Option<Arc<Moment>>,
     /// Legs done of the scene that is being computed.
     pub progress: Option<usize>,
-    /// Where the animation stands.
+    /// State of the animation.
     pub player: Player,
     /// The body, while it is in hand.
     pub hand: Option<Hand>,
@@ -226,15 +226,15 @@ pub struct Model {
     pub shows_work: bool,
     /// Paths that complete the typed one, while they are shown.
     pub completion: Option<Completion>,
-    /// What the close-up looks at.
+    /// Target of the close-up.
     pub look: Look,
-    /// Whether its pane shows the distribution of lengths instead.
+    /// True if its pane shows the distribution of lengths instead.
     pub lengths: bool,
-    /// Whether the spectrum is shown in place of profile and close-up.
+    /// True if the spectrum is shown in place of profile and close-up.
     pub spectrum: bool,
-    /// What part of the line the profile shows.
+    /// Part of the line in the profile pane.
     pub profile: LineView,
-    /// What the pane of the curve shows.
+    /// Content of the pane of the curve.
     pub curve: CurveLook,
     /// The crosshair, while it is shown.
     pub crosshair: Option<Crosshair>,
@@ -244,7 +244,7 @@ pub struct Model {
     pub side_by_side: bool,
     /// Scene to open beside the present one as soon as that is computed.
     pub opens_beside: Option<Document>,
-    /// How accurate the scene is and what accuracy costs.
+    /// Accuracy of the scene and the cost of accuracy.
     pub appraisal: Appraisal,
     /// The map over κ and H.
     pub chart: Chart,
@@ -257,7 +257,7 @@ pub struct Model {
     pub tried: Option<String>,
     /// The chosen pane.
     pub pane: Pane,
-    /// Whether it has the whole screen.
+    /// True if it has the whole screen.
     pub zoomed: bool,
     /// The pane that was chosen before the search of a parameter.
     pub pane_before: Pane,
@@ -271,9 +271,9 @@ pub struct Model {
     pub animation: Animation,
     /// The configuration file; `None` where none is to be written.
     pub config_path: Option<std::path::PathBuf>,
-    /// What the connection carries, over SSH.
+    /// Traffic of the connection, over SSH.
     pub traffic: Option<Traffic>,
-    /// Whether times are shown: they differ from run to run.
+    /// True if times are shown: they differ from run to run.
     pub shows_times: bool,
     /// The file that is being written.
     pub writing: Option<Writing>,
@@ -281,7 +281,7 @@ pub struct Model {
     pub notice: Option<Notice>,
     /// Line in place of the keys while a script plays, since they do nothing then.
     pub demo: Option<&'static str>,
-    /// Whether the explorer is to end.
+    /// True if the explorer is to end.
     pub finished: bool,
 }
 
@@ -346,13 +346,13 @@ impl Model {
         }
     }
 
-    /// Whether the scene differs from what is saved.
+    /// Returns true if the scene differs from what is saved.
     #[must_use]
     pub fn is_unsaved(&self) -> bool {
         self.is_changed(&self.document)
     }
 
-    /// Whether a document differs from what is saved by a value or a comment; another way to write a number is no change.
+    /// Returns true if a document differs from what is saved by a value or a comment; another way to write a number is no change.
     #[must_use]
     pub fn is_changed(&self, document: &Document) -> bool {
         let is_same = |saved: &Document| {
@@ -396,7 +396,7 @@ impl Model {
         self.set_saved();
     }
 
-    /// What governs the scene as it stands, as far as the newest computation tells: its line must be that
+    /// Governing parameters of the present scene, as far as the newest computation gives them: its line must be that
     /// of the scene, its adhesion may be another.
     #[must_use]
     pub fn governing(&self) -> Option<Governing> {
@@ -426,13 +426,13 @@ impl Model {
         self.saved.insert(self.document.name().to_owned(), self.document.clone());
     }
 
-    /// Whether what has been computed is the scene as it stands: neither computing nor failed.
+    /// Returns true if what has been computed is the scene as it stands: neither computing nor failed.
     #[must_use]
     pub fn is_current(&self) -> bool {
         self.computed.as_ref().is_some_and(|computed| computed.generation == self.generation)
     }
 
-    /// Whether a newer scene than the one shown is being computed.
+    /// Returns true if a newer scene than the one shown is being computed.
     #[must_use]
     pub fn is_computing(&self) -> bool {
         self.progress.is_some()
@@ -450,7 +450,7 @@ impl Model {
         }
     }
 
-    /// What was computed for the value that is being typed.
+    /// Outcome for the value that is being typed.
     #[must_use]
     pub fn tried_outcome(&self) -> Option<&Outcome> {
         let Mode::Edit(_) = self.mode else { return None };
@@ -458,7 +458,7 @@ impl Model {
         preview.outcome.as_ref().ok()
     }
 
-    /// What is shown in place of profile and close-up.
+    /// Pane in place of profile and close-up.
     #[must_use]
     pub fn in_place_of_the_line(&self) -> Option<Pane> {
         [
@@ -479,7 +479,7 @@ impl Model {
         self.spectrum = false;
     }
 
-    /// Which keys are valid: in the map the arrows move its mark, in panes with a crosshair the crosshair; in the list of
+    /// Valid keys: in the map the arrows move its mark, in panes with a crosshair the crosshair; in the list of
     /// parameters digits begin a value.
     #[must_use]
     pub fn keys(&self) -> ModeKind {
@@ -491,7 +491,7 @@ impl Model {
         }
     }
 
-    /// What can be exported, by the extension of the file: of the map while its pane is selected.
+    /// Contents that can be exported, by the extension of the file; those of the map while its pane is selected.
     #[must_use]
     pub fn exports(&self) -> &'static [(&'static str, Content)] {
         let is_map = self.chart.shown && self.pane == Pane::Chart;
@@ -528,7 +528,7 @@ impl Model {
         self.ghosts.last().filter(|_| self.side_by_side)
     }
 
-    /// What moves the body.
+    /// Drive of the body.
     #[must_use]
     pub fn drive(&self) -> Drive {
         if self.hand.is_some() { Drive::Hand } else { Drive::Leg(self.player.leg) }

@@ -1,4 +1,4 @@
-//! What the explorer opens: a scene, or a finished study around one.
+//! Arguments of the explorer: a scene, or a finished study around one.
 
 use crate::scene::{Document, SceneErrors, open, open_argument};
 use crate::study::Folder;
@@ -7,7 +7,7 @@ use std::path::Path;
 use std::sync::Arc;
 use thiserror::Error;
 
-/// What the explorer opens.
+/// Argument of the explorer.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Opening {
     /// The scene.
@@ -18,19 +18,19 @@ pub struct Opening {
     pub beside: Option<Document>,
 }
 
-/// Why nothing was opened.
+/// Reason for which nothing was opened.
 #[derive(Debug, Error)]
 pub enum OpeningError {
-    /// It is no scene, or none that is allowed.
+    /// No scene, or a scene that is not allowed.
     #[error(transparent)]
     Scene(Box<SceneErrors>),
-    /// It is a folder, and not that of a study.
+    /// A folder of no study.
     #[error(
         "{0}: this folder is not that of a study: there is no plan.ron in it; allowed: a scene, or the folder of a \
          merged study"
     )]
     Folder(String),
-    /// It is the folder of a study that cannot be shown.
+    /// The folder of a study that cannot be shown.
     #[error(transparent)]
     Study(Box<StudyMapError>),
 }
@@ -46,7 +46,7 @@ impl Opening {
     /// same name it is the folder, where that is one of a study.
     ///
     /// # Errors
-    /// Where it is neither.
+    /// A name of neither.
     pub fn of(name: &str) -> Result<Self, OpeningError> {
         Self::with(name, open)
     }

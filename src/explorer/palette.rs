@@ -11,7 +11,7 @@ use crate::scene::presets;
 pub struct Entry {
     /// Names of its keys.
     pub keys: Vec<String>,
-    /// What it does.
+    /// Description.
     pub help: String,
     /// Its section in the table of keys.
     pub section: &'static str,

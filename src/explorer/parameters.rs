@@ -17,9 +17,9 @@ const FIRST: [&str; 4] =
 /// A parameter as the list shows it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Parameter {
-    /// What the table of fields says of it.
+    /// Row of the table of fields.
     pub field: &'static Field,
-    /// Where it stands in the scene.
+    /// Path in the scene.
     pub path: String,
     /// Name of its group, which is the path of the group's first row.
     pub group: &'static str,
@@ -31,16 +31,16 @@ pub struct Parameter {
     pub shown: String,
     /// The effect it belongs to.
     pub effect: Option<Effect>,
-    /// How it is set.
+    /// Way of setting.
     pub setting: Setting,
 }
 
-/// How a parameter is set.
+/// Way of setting a parameter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Setting {
     /// As a field of the scene.
     Field,
-    /// It is the switch of an effect.
+    /// The switch of an effect.
     Switch(Effect),
     /// Not at all: it names a group without a value of its own.
     Heading,

@@ -26,13 +26,13 @@ const STEPS_OF_A_PULL: f64 = 200.0;
 /// First and last spring of each fragment, in ascending order.
 type Fragments = Vec<(usize, usize)>;
 
-/// See the module.
+/// Playback of the newest computed scene.
 #[derive(Default)]
 pub struct Playback {
     generation: u64,
     scene: Option<Arc<Scene>>,
     computed: Option<Arc<Loop>>,
-    /// What was in contact on each leg, as far as it is kept.
+    /// Contact on each leg, as far as it is kept.
     legs: Vec<Option<LegContact>>,
     /// Memory for the legs of the next scene.
     spare: Vec<LegContact>,
@@ -41,7 +41,7 @@ pub struct Playback {
     last: Option<(Drive, Fragments)>,
     /// Spectra of the scene, once they have been asked for.
     spectra: Option<Arc<SceneSpectra>>,
-    /// What the panes show of the line whatever touches.
+    /// Columns of the line, independent of the contact.
     profile: LineColumns,
     close_up: LineColumns,
 }
@@ -259,7 +259,7 @@ fn probe(contact: &Contact<'_>, position: f64) -> Option<Probe> {
     })
 }
 
-/// How far the curves of a scene reach, m.
+/// Range of indentations of a scene's curves, m.
 fn range_of(computed: &Loop) -> f64 {
     let points = computed.outcome.history.legs.iter().flat_map(|leg| &leg.curve);
     let (low, high) = points.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), point| {

@@ -113,16 +113,16 @@ impl PreloadCurve {
     }
 }
 
-/// What the explorer shows of adhesion against preload.
+/// State of the pane of adhesion against preload.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PreloadPane {
-    /// Whether its pane stands in place of profile and close-up.
+    /// True if its pane stands in place of profile and close-up.
     pub shown: bool,
     /// The curve of the present scene, so far.
     pub curve: Option<Arc<PreloadCurve>>,
-    /// Why there is no more of it.
+    /// Reason for which the computation ended early.
     pub failed: Option<String>,
-    /// Whether the scene has just been edited: somebody who holds a key down wants the machine.
+    /// True if the scene has just been edited: somebody who holds a key down wants the machine.
     pub edited: bool,
 }
 

@@ -4,7 +4,7 @@ use crate::scene::Scene;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// What the explorer asks of the worker.
+/// Request from the explorer to the worker.
 #[derive(Clone, Debug)]
 pub enum Request {
     /// Compute a scene.
@@ -18,7 +18,7 @@ pub enum Request {
     Hand {
         /// Generation of the scene it belongs to.
         generation: u64,
-        /// Where to.
+        /// Move.
         order: HandOrder,
     },
     /// Show a moment of the scene that was computed last.
@@ -34,7 +34,7 @@ pub enum Request {
     },
 }
 
-/// What the hand does with the body.
+/// Move of manual loading.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum HandOrder {
     /// Takes it where a leg of the loading has it at this indentation, m.
@@ -56,45 +56,45 @@ pub enum HandOrder {
     Separate,
 }
 
-/// Which moment to show, and how large.
+/// Request for a snapshot of the contact, with the sizes of the panes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MomentRequest {
     /// Generation of the scene it belongs to.
     pub generation: u64,
-    /// What moves the body.
+    /// Drive of the body.
     pub drive: Drive,
     /// Indentation, m; the hand knows its own.
     pub indentation: f64,
     /// Columns of dots of the profile pane.
     pub profile_columns: usize,
-    /// What part of the line it shows.
+    /// Part of the line in the profile pane.
     pub profile: LineView,
     /// Columns of dots of the close-up pane.
     pub close_up_columns: usize,
     /// Cells across it.
     pub strip_cells: usize,
-    /// Where the close-up looks.
+    /// Place of the close-up.
     pub focus: Focus,
     /// Springs it shows.
     pub close_up_springs: usize,
-    /// Whether the distribution of fragment lengths is shown.
+    /// True if the distribution of fragment lengths is shown.
     pub lengths: bool,
     /// Position of the crosshair as a share of the profile, 0 to 1.
     pub crosshair: Option<f64>,
     /// Loading stage and indentation, m, of the scene beside.
     pub beside: Option<(usize, f64)>,
-    /// Whether the spectra of the scene are shown.
+    /// True if the spectra of the scene are shown.
     pub spectra: bool,
 }
 
-/// What part of the line the profile shows.
+/// Part of the line in the profile pane.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LineView {
     /// Its middle, as a share of the line.
     pub centre: f64,
-    /// How much of the line it shows, above 0 to 1.
+    /// Share of the line that it shows, above 0 to 1.
     pub share: f64,
-    /// Whether its middle follows the close-up instead.
+    /// True if its middle follows the close-up instead.
     pub follow: bool,
 }
 
@@ -103,10 +103,10 @@ impl LineView {
     pub const WHOLE: LineView = LineView { centre: 0.5, share: 1.0, follow: false };
 }
 
-/// Where the close-up looks.
+/// Place of the close-up.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Focus {
-    /// Where the bodies touch first.
+    /// Place of first touch.
     Summit,
     /// A spring.
     Spring(usize),
@@ -121,14 +121,14 @@ pub enum Focus {
 }
 
 impl Focus {
-    /// Whether it is a question, to which a spring is the answer.
+    /// Returns true if it is a question, to which a spring is the answer.
     #[must_use]
     pub fn is_question(self) -> bool {
         !matches!(self, Focus::Summit | Focus::Spring(_))
     }
 }
 
-/// What moves the body.
+/// Drive of the body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Drive {
     /// A leg of the scene's loading, by its index.
@@ -137,7 +137,7 @@ pub enum Drive {
     Hand,
 }
 
-/// What the explorer waits for; a run for anything older stops.
+/// Newest generation that the explorer waits for; a run for an older one stops.
 #[derive(Debug, Default)]
 pub struct Awaited {
     generation: AtomicU64,

@@ -5,7 +5,7 @@
 //! wherever terminals are, and which costs some milliseconds at the start. It has a process group of its own
 //! and ignores the signals of the terminal, so that it may set a terminal that a shell has taken back meanwhile.
 
-/// What undoes a frame that was cut off and all that the explorer sets.
+/// Sequence that ends an incomplete frame and resets all modes of the terminal.
 #[cfg(unix)]
 const RESTORE: &str =
     "\x18\x1b[?2026l\x1b[0m\x1b[?1006l\x1b[?1002l\x1b[?1000l\x1b[?2004l\x1b[?1049l\x1b[?25h";

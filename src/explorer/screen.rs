@@ -10,10 +10,10 @@ use std::cell::RefCell;
 use std::io::{self, Write};
 use std::rc::Rc;
 
-/// What one frame sends to the terminal.
+/// Bytes of one frame.
 pub struct FrameBytes(pub Vec<u8>);
 
-/// See the module.
+/// Screen of the explorer on a terminal.
 pub struct Screen {
     terminal: Terminal<CrosstermBackend<FrameWriter<Shared>>>,
     sent: Shared,

@@ -42,14 +42,14 @@ const REMOTE_FRAMES: u32 = 12;
 /// on what it gives. Longer jobs go on beside.
 const JOB: Duration = Duration::from_millis(50);
 
-/// How the explorer opens.
+/// Options of the explorer.
 #[derive(Default)]
 pub struct Options {
     /// Colours, where the environment is not to be asked.
     pub theme: Option<Theme>,
     /// Markers; left out, Braille dots.
     pub marker: Option<Marker>,
-    /// Whether to leave the mouse to the terminal.
+    /// True if to leave the mouse to the terminal.
     pub no_mouse: bool,
     /// Unsaved changes of another session; the scene that is opened is the first of them.
     pub restored: Option<Restored>,
@@ -59,11 +59,11 @@ pub struct Options {
     pub drafts: Option<PathBuf>,
 }
 
-/// What is left when the explorer has ended.
+/// State at the end of the explorer.
 pub struct Left {
     /// The scene as it was left.
     pub document: Document,
-    /// What was computed for it.
+    /// Outcome.
     pub computed: Option<Arc<Loop>>,
     /// Number of the signal that has ended it.
     pub signal: Option<i32>,
@@ -84,7 +84,7 @@ enum Message {
     Found(Found),
     /// The job with files of this number is done.
     Done(u64, Box<Action>),
-    /// What the thread of unsaved changes reports.
+    /// Report of the thread of unsaved changes.
     Drafts(drafts::Report),
 }
 
@@ -225,7 +225,7 @@ struct Session<'a, W: Write> {
     remote: bool,
     /// Frames per second of the animation.
     frame_rate: u32,
-    /// Whether nothing that stands on the screen can be relied on.
+    /// True if nothing that stands on the screen can be relied on.
     redraw: bool,
     /// Times it has stopped itself and has not been told yet that it goes on.
     own_stops: u32,
@@ -235,7 +235,7 @@ struct Session<'a, W: Write> {
     traffic: (Instant, u64),
     inbox: Receiver<Message>,
     messages: Sender<Message>,
-    /// What came while a job with files was waited for.
+    /// Messages that arrived during a job with files.
     held: VecDeque<Message>,
     /// Jobs with files so far.
     jobs: u64,
@@ -357,7 +357,7 @@ impl<W: Write> Session<'_, W> {
         Ok(())
     }
 
-    /// What a job that went on beside gives. A scene that is opened does not take the place of one that was opened
+    /// Action that follows a background job. An opened scene does not replace one that was opened
     /// or changed since.
     fn late(&mut self, number: u64, action: Action) -> Action {
         let Action::Opened(Ok(opening)) = &action else { return action };
@@ -465,7 +465,7 @@ impl<W: Write> Session<'_, W> {
     }
 }
 
-/// What a report does.
+/// Action of a report.
 pub(super) fn action_of(report: Report) -> Action {
     match report {
         Report::Computed(computed) => Action::Computed(computed),

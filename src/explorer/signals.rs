@@ -5,16 +5,16 @@ use std::io;
 /// A signal that the explorer answers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Told {
-    /// It is to end, by the signal of this number.
+    /// Request to end, by the signal of this number.
     End(i32),
-    /// It has been stopped, and goes on.
+    /// Continuation after a stop.
     Continue,
 }
 
 /// Calls `told` when the system tells the process to end or to go on; it says whether anyone still listens.
 ///
-/// Where the explorer has not ended some time after, as it cannot while the terminal takes nothing that is drawn,
-/// the process ends by the signal, and [`super::rescue::Rescue`] gives back what is left.
+/// If the explorer has not ended some time later, as while the terminal accepts no output,
+/// the process ends by the signal, and [`super::rescue::Rescue`] restores the terminal.
 ///
 /// # Errors
 /// When the system refuses.

@@ -1,5 +1,5 @@
-//! What the worker publishes: immutable, stamped with the generation of the scene it belongs to, and
-//! already reduced to what a pane can show.
+//! Results of the worker: immutable, stamped with the generation of their scene, and
+//! already reduced to the resolution of a pane.
 
 pub use super::request::Drive;
 use super::request::Focus;
@@ -17,7 +17,7 @@ pub struct Loop {
     pub generation: u64,
     /// The scene.
     pub scene: Arc<Scene>,
-    /// What was computed.
+    /// Outcome.
     pub outcome: Outcome,
 }
 
@@ -26,11 +26,11 @@ pub struct Loop {
 pub struct Moment {
     /// Generation of the scene.
     pub generation: u64,
-    /// What moves the body.
+    /// Drive of the body.
     pub drive: Drive,
     /// The profile that is shown.
     pub line: LineFacts,
-    /// Where the close-up was asked to look.
+    /// Requested place of the close-up.
     pub focus: Focus,
     /// Indentation, force, springs in contact and fragments.
     pub point: CurvePoint,
@@ -42,15 +42,15 @@ pub struct Moment {
     pub profile: Section,
     /// The neighbourhood of one fragment.
     pub close_up: CloseUp,
-    /// How much of the whole line touches, in as many parts as the close-up has cells.
+    /// Share of the whole line in contact, in as many parts as the close-up has cells.
     pub strip: Vec<Share>,
     /// Readings of the crosshair on the profile.
     pub probe: Option<Probe>,
-    /// How long the fragments are, where that was asked for.
+    /// Distribution of fragment lengths, where requested.
     pub lengths: Option<Vec<LengthBin>>,
     /// Spectra of the scene, where they were asked for.
     pub spectra: Option<Arc<SceneSpectra>>,
-    /// How the hand came here.
+    /// Path of manual loading to this state.
     pub hand: Option<Travel>,
     /// The scene beside, at the same part of its loading.
     pub beside: Option<Box<Moment>>,
@@ -154,11 +154,11 @@ impl FragmentFacts {
 pub struct Preview {
     /// The scene's text, which tells it from all others.
     pub text: String,
-    /// What was computed, or why nothing was.
+    /// Outcome, or the reason for none.
     pub outcome: Result<Outcome, String>,
 }
 
-/// What the worker reports.
+/// Report of the worker.
 #[derive(Clone, Debug)]
 pub enum Report {
     /// A scene has been computed.
@@ -176,7 +176,7 @@ pub enum Report {
     Failed {
         /// Its generation.
         generation: u64,
-        /// Why, in one line.
+        /// Reason, in one line.
         error: String,
     },
     /// A scene to look at has been computed, or could not be.

@@ -1,4 +1,4 @@
-//! How accurate the scene is, what accuracy costs, and the map over κ and H: worked out beside the worker, on a thread of its own, so
+//! Accuracy of the scene, its cost, and the map over κ and H: computed beside the worker, on a thread of its own, so
 //! that no edit waits for it. Whatever is asked for next ends what is under way.
 
 use super::preload_curve::PreloadCurve;
@@ -24,32 +24,32 @@ const QUIET: Duration = Duration::from_millis(300);
 /// Something to be worked out about a scene.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Task {
-    /// How large the error of the outcome is.
+    /// Estimated error of the outcome.
     Estimate(Arc<Loop>),
-    /// What accuracy costs.
+    /// Cost of accuracy.
     Measure(Arc<Scene>),
     /// Springs and edges for a tolerance.
     Choose(Arc<Scene>, f64),
-    /// What a map over κ and H still lacks.
+    /// Missing cells of a map over κ and H.
     Chart {
         /// The map so far.
         map: Arc<LiveMap>,
-        /// Whether it waits until it is quiet.
+        /// True if it waits until it is quiet.
         waits: bool,
     },
-    /// What a curve of adhesion against preload still lacks.
+    /// Missing part of a curve of adhesion against preload.
     Preloads {
         /// The curve so far.
         curve: Arc<PreloadCurve>,
         /// Its scene.
         scene: Arc<Scene>,
-        /// Whether it waits until it is quiet.
+        /// True if it waits until it is quiet.
         waits: bool,
     },
 }
 
 impl Task {
-    /// Whether it waits until it is quiet; what the user waits for does not.
+    /// Returns true if it waits until it is quiet; what the user waits for does not.
     fn waits(&self) -> bool {
         !matches!(
             self,
@@ -58,12 +58,12 @@ impl Task {
     }
 }
 
-/// What is found out.
+/// Findings.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Finding {
     /// The error of the outcome, where it can be told.
     Estimated(Option<Estimate>),
-    /// What is measured next.
+    /// Next measurement.
     Trying(Knob, String),
     /// The table so far.
     Costs(Arc<CostTable>),
@@ -73,7 +73,7 @@ pub enum Finding {
     NotMeasured(String),
     /// With how many springs a tolerance is tried next.
     Choosing(u64),
-    /// What reaches a tolerance, or why nothing does.
+    /// Choice for a tolerance, or the reason for none.
     Chosen(f64, Result<Choice, ChoiceError>),
     /// The map over κ and H so far.
     Charted(Arc<LiveMap>),
@@ -90,11 +90,11 @@ pub enum Finding {
 pub struct Found {
     /// Generation of the scene.
     pub generation: u64,
-    /// What was found.
+    /// Finding.
     pub finding: Finding,
 }
 
-/// What works it out. [`Accuracy`] does; tests put others in its place.
+/// Solver of the studies: [`Accuracy`], or a substitute in tests.
 pub trait Appraiser: Send {
     /// See [`estimate`].
     ///
@@ -235,7 +235,7 @@ pub fn perform(
     }));
 }
 
-/// What is to be done about one scene, one after the other, in place of all that was asked for before.
+/// Studies of one scene, one after the other; a new order replaces the one before.
 struct Order {
     number: u64,
     generation: u64,

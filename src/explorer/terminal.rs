@@ -172,7 +172,7 @@ impl<W: Write> FrameWriter<W> {
     }
 }
 
-/// Whether a frame changes the screen: ratatui resets styles and hides the cursor also where it has nothing
+/// Returns true if a frame changes the screen: ratatui resets styles and hides the cursor also where it has nothing
 /// to draw.
 fn shows_something(frame: &[u8]) -> bool {
     let mut rest = frame;

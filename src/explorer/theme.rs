@@ -1,16 +1,16 @@
-//! What each meaning looks like; a glyph carries it as well.
+//! Styles of the meanings; a glyph carries each meaning as well.
 
 use clap::ValueEnum;
 use ratatui::style::{Color, Modifier, Style};
 use ratatui::symbols::Marker as Symbols;
 use serde::Deserialize;
 
-/// How the explorer looks.
+/// Appearance of the explorer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Appearance {
     /// Its colours.
     pub theme: Theme,
-    /// What its plots are made of.
+    /// Marker of its plots.
     pub marker: Marker,
 }
 
@@ -29,7 +29,7 @@ pub enum Theme {
     Plain,
 }
 
-/// What plots are made of.
+/// Marker of plots.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Deserialize)]
 pub enum Marker {
     /// Braille dots, 2 × 4 in a cell
@@ -49,13 +49,13 @@ pub enum Meaning {
     Line,
     /// The elastic surface.
     Surface,
-    /// What is in contact.
+    /// Contact.
     Contact,
     /// Forces while loading.
     Approach,
     /// Forces while unloading.
     Retraction,
-    /// Where the hand has been.
+    /// Path of manual loading.
     Hand,
     /// Loops kept for comparison.
     Ghost,
@@ -65,9 +65,9 @@ pub enum Meaning {
     Quiet,
     /// Titles.
     Title,
-    /// What is selected.
+    /// Selection.
     Selected,
-    /// What is wrong.
+    /// Error.
     Error,
     /// Keys.
     Key,
@@ -175,7 +175,7 @@ impl Marker {
         name(&self)
     }
 
-    /// What a canvas draws with. ASCII is made from dots when everything is drawn.
+    /// Marker of a canvas. ASCII is made from dots when everything is drawn.
     #[must_use]
     pub fn symbols(self) -> Symbols {
         match self {

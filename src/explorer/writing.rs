@@ -1,4 +1,4 @@
-//! What the explorer writes to files: scenes, curves, pictures of its screen.
+//! Files of the explorer: scenes, curves, pictures of its screen.
 
 use super::action::{Content, WriteFailure, Written};
 use super::model::{Mode, Model, Notice};

@@ -47,7 +47,7 @@ impl<'d> Unfinished<'d> {
     /// Gives the file its name; where another has it, only with `overwrite`.
     ///
     /// # Errors
-    /// What the system says; [`io::ErrorKind::AlreadyExists`] without `overwrite`.
+    /// Error of the operating system; [`io::ErrorKind::AlreadyExists`] without `overwrite`.
     pub fn publish(mut self, path: &Path, overwrite: bool) -> io::Result<()> {
         if self.path.is_none() {
             if !overwrite {

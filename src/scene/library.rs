@@ -186,7 +186,7 @@ fn in_one_line(errors: &SceneErrors) -> String {
     format!("{place}{}{more}", first.what())
 }
 
-/// Whether a text is the plan of a study: there is a scene in it.
+/// Returns true if a text is the plan of a study: there is a scene in it.
 fn is_plan(text: &str) -> bool {
     Text::new(text).is_ok_and(|text| text.span("scene").is_some())
 }

@@ -137,7 +137,7 @@ pub enum Roughness {
         /// Part that is removed of the heights; `None`: the tilt for an equivalent line, nothing for `as_line`.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         detrend: Option<Detrend>,
-        /// Whether the surface repeats itself at its borders: then its spectrum is estimated without a window.
+        /// True if the surface repeats itself at its borders: then its spectrum is estimated without a window.
         #[serde(default, skip_serializing_if = "is_false")]
         periodic: bool,
         /// Unit of lengths where the file states none; empty: none is known, and m for `as_line`.

@@ -21,7 +21,7 @@ pub struct MeasuredOptions {
     pub cut: Option<Cut>,
     /// Part that is removed; `None`: the tilt for an equivalent line, nothing of a profile as the line.
     pub detrend: Option<Detrend>,
-    /// Whether the surface repeats itself at its borders: then its spectrum is estimated without a window.
+    /// True if the surface repeats itself at its borders: then its spectrum is estimated without a window.
     pub periodic: bool,
     /// Shortest wavelength, m, down to which the spectrum continues as a power law.
     pub continue_to: Option<f64>,

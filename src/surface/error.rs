@@ -1,10 +1,10 @@
-//! What can go wrong with the rigid line.
+//! Errors of the rigid profile.
 
 use thiserror::Error;
 
 use std::path::Path;
 
-/// Why a line could not be made.
+/// Reason for which a profile could not be made.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum SurfaceError {
     /// An array does not fit into memory.
@@ -27,7 +27,7 @@ pub enum SurfaceError {
     Measured {
         /// The file.
         file: String,
-        /// What is wrong with it, with the line number where there is one.
+        /// Fault, with its row where there is one.
         reason: String,
     },
     /// No spring lies under the body.

@@ -7,7 +7,7 @@ pub struct Histogram {
     pub low: f64,
     /// Upper end of the last bin, m.
     pub high: f64,
-    /// How many heights fall into each bin.
+    /// Number of heights in each bin.
     pub counts: Vec<u64>,
 }
 

@@ -175,3 +175,37 @@ fn files_of_the_contact_are_in_no_circle() {
     }
     assert!(count > 20 && left.is_empty(), "in circles: {:?}", left.keys());
 }
+
+/// First words that make a sentence of a comment an indirect question.
+const QUESTIONS: [&str; 6] = ["What ", "Whether ", "How ", "Why ", "Who ", "See the module"];
+
+#[test]
+fn comments_begin_with_a_noun_or_a_verb() {
+    let mut folders = vec![PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/src"))];
+    let mut seen = 0;
+    while let Some(folder) = folders.pop() {
+        for entry in fs::read_dir(folder).unwrap() {
+            let path = entry.unwrap().path();
+            if path.is_dir() {
+                folders.push(path);
+                continue;
+            }
+            let text = fs::read_to_string(&path).unwrap_or_default();
+            let of_line = |line: &str| -> Option<String> {
+                let line = line.trim_start();
+                ["/// ", "//! "].iter().find_map(|mark| line.strip_prefix(mark)).map(str::to_owned)
+            };
+            let mut before = None;
+            for line in text.lines() {
+                let comment = of_line(line);
+                if let (None, Some(first)) = (&before, &comment) {
+                    seen += 1;
+                    let question = QUESTIONS.iter().any(|question| first.starts_with(question));
+                    assert!(!question, "{}: {first}", path.display());
+                }
+                before = comment;
+            }
+        }
+    }
+    assert!(seen > 5000, "{seen} comments");
+}

@@ -259,7 +259,8 @@ fn scenes_choose_profile_detrending_window_and_opposite_face() {
     let folder = folder.path();
     // The map of the folder: row r begins at height 11 r mod 400.
     let all = heights(512);
-    let row: String = (0..40).map(|i| format!("{i} {:?}\n", all[11 * 6 % 400 + i])).collect();
+    let seventh = 11 * 6;
+    let row: String = (0..40).map(|i| format!("{i} {:?}\n", all[seventh + i])).collect();
     let column: String = (0..40).map(|r| format!("{r} {:?}\n", all[11 * r % 400 + 2])).collect();
     std::fs::write(folder.join("row.txt"), format!("x [um] z [nm]\n{row}")).unwrap();
     std::fs::write(folder.join("column.txt"), format!("x [um] z [nm]\n{column}")).unwrap();

@@ -44,7 +44,7 @@ pub struct SubmitArguments {
     /// Most tasks that run at the same time
     #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u64).range(1..=1_000_000))]
     pub at_once: Option<u64>,
-    /// How often a task starts a killed program again
+    /// Most restarts of a killed program by a task
     #[arg(long, value_name = "COUNT", default_value_t = 3, value_parser = clap::value_parser!(u32).range(0..=1000))]
     pub retries: u32,
     /// Most memory for a task: 500M, 2G

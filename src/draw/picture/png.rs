@@ -49,7 +49,8 @@ impl Raster {
     pub(super) fn new(width: f64, height: f64) -> Result<Raster, PngError> {
         let [width, height] = [width, height].map(|side| (SCALE * side).ceil());
         let too_large = PngError::TooLarge { width, height };
-        if !(width * height <= MOST_PIXELS) {
+        // Not a number is no size either.
+        if (width * height).is_nan() || width * height > MOST_PIXELS {
             return Err(too_large);
         }
         let font = Font::new().ok_or_else(|| PngError::Encoding("the font cannot be read".to_owned()))?;

@@ -23,7 +23,7 @@ const TYPING: f64 = 0.15;
 pub struct Demo {
     explorer: Headless,
     cues: VecDeque<Cue>,
-    /// What is still to be typed.
+    /// Characters still to be typed.
     typing: VecDeque<char>,
     /// Seconds until the next cue.
     pause: f64,

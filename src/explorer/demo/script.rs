@@ -1,4 +1,4 @@
-//! What the demo shows, and when.
+//! Script of the demo.
 
 use crate::explorer::action::{Command, Jump};
 

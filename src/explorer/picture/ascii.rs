@@ -145,13 +145,13 @@ pub fn to_ascii(buffer: &mut Buffer) {
     }
 }
 
-/// Whether a symbol is anything but one printable ASCII character in one cell.
+/// Returns true if a symbol is anything but one printable ASCII character in one cell.
 fn needs_change(glyph: &Glyph<'_>) -> bool {
     let symbol = glyph.cell.symbol();
     symbol.len() != 1 || glyph.width != 1 || symbol.bytes().any(|byte| byte.is_ascii_control())
 }
 
-/// What stands for a symbol. Marks over a letter vanish.
+/// ASCII substitute of a symbol. Marks over a letter vanish.
 fn of_glyph(glyph: &Glyph<'_>) -> char {
     match glyph.symbol().chars().next() {
         // A wide character with a narrow likeness would not be one any more.
@@ -160,7 +160,7 @@ fn of_glyph(glyph: &Glyph<'_>) -> char {
     }
 }
 
-/// What stands for a character.
+/// ASCII substitute of a character.
 fn of_character(character: char) -> char {
     if matches!(character, ' '..='~') {
         return character;

@@ -15,7 +15,7 @@ pub const FONTS: &str =
 /// Letters of these fonts are about 0.6 times as wide.
 const FONT_SIZE: &str = "13.3";
 
-/// How letters look.
+/// Typefaces.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 struct Face {
     colour: Rgb,
@@ -32,7 +32,7 @@ struct Run {
     columns: u16,
     /// Cells since its last letter.
     blanks: u16,
-    /// Whether it may go on.
+    /// True if it may go on.
     open: bool,
 }
 
@@ -108,7 +108,7 @@ impl Letters {
     }
 }
 
-/// Whether a character is in the common fonts of one width.
+/// Returns true if a character is in the common fonts of one width.
 fn is_common(character: char) -> bool {
     matches!(character, ' '..='~' | '\u{a1}'..='ſ' | 'Α'..='ω' | '–' | '—' | '‘'..='”' | '…' | '−')
 }

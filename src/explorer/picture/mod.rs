@@ -1,4 +1,4 @@
-//! What is drawn on a screen, in forms that leave the terminal: plain text, ASCII, a picture, a
+//! Screens in forms that leave the terminal: plain text, ASCII, a picture, a
 //! recording. Nothing here knows what the screen shows.
 
 mod ascii;
@@ -31,7 +31,7 @@ struct Glyph<'a> {
 }
 
 impl<'a> Glyph<'a> {
-    /// What is seen of it: a blank in place of marks without a width and of control characters.
+    /// Visible symbol: a blank in place of marks without a width and of control characters.
     fn symbol(&self) -> &'a str {
         let symbol = self.cell.symbol();
         if symbol.contains(is_control) || symbol.cell_width() == 0 { " " } else { symbol }

@@ -76,7 +76,7 @@ mod tests {
         one.max(other) / one.min(other)
     }
 
-    /// What eyes see: with three kinds of cones, without the long-wave ones, without the middle-wave ones.
+    /// Colours as seen with three kinds of cones, without the long-wave ones, without the middle-wave ones.
     /// Viénot, Brettel and Mollon, Color Res. Appl. 24, 243 (1999).
     const EYES: [[Light; 3]; 3] = [
         [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],

@@ -85,7 +85,7 @@ pub fn blocks(character: char) -> Option<Raster> {
     })
 }
 
-/// How many quarters of its cell a shade covers.
+/// Quarters of its cell that a shade covers.
 pub fn shade(character: char) -> Option<u8> {
     match character {
         '░' => Some(1),

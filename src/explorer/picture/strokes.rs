@@ -1,6 +1,6 @@
 //! The lines of box-drawing characters.
 
-/// How a line is drawn.
+/// Weight of a line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Weight {
     /// A thin line.
@@ -18,7 +18,7 @@ pub struct Strokes {
     pub arms: [Option<Weight>; 4],
     /// Pieces each line through the cell is cut into; 1 for a whole line.
     pub pieces: u8,
-    /// Whether the corner is rounded.
+    /// True if the corner is rounded.
     pub round: bool,
 }
 

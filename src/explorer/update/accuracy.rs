@@ -1,4 +1,4 @@
-//! What accuracy costs, and springs for a tolerance.
+//! Cost of accuracy, and springs for a tolerance.
 
 use super::{Effect, edit};
 use crate::accuracy::{Choice, ChoiceError, Estimate, Evidence, Target, parse_tolerance};
@@ -10,7 +10,7 @@ use crate::explorer::text_line::TextLine;
 use crate::scene::{Edges, format_quantity};
 use crate::text::grouped;
 
-/// What is still to be worked out about the scene as it stands, in this order.
+/// Studies of the present scene that are still to be done, in this order.
 #[must_use]
 pub fn study_tasks(model: &Model) -> Vec<Task> {
     let Some(computed) = model.computed.as_ref().filter(|_| model.is_current()) else { return Vec::new() };

@@ -7,7 +7,7 @@ use crate::explorer::model::{Ghost, Model, Notice, Pane};
 use crate::scene::Document;
 use std::sync::Arc;
 
-/// Ghosts that are kept; more could not be told apart.
+/// Most kept curves; more could not be distinguished.
 const MOST_GHOSTS: usize = 8;
 
 /// Obeys a command on ghosts.

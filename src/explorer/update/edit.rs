@@ -229,7 +229,7 @@ fn with_selected(model: &Model, written: &str) -> Result<Document, String> {
     changed.map_err(|errors| reasons(&errors))
 }
 
-/// What is wrong with values, without their places.
+/// Errors of values, without their places.
 fn reasons(errors: &SceneErrors) -> String {
     errors.iter().map(|error| error.what().to_string()).collect::<Vec<_>>().join("; ")
 }

@@ -1,4 +1,4 @@
-//! What leaves the explorer: the scene, exports, the command that opens it.
+//! Output of the explorer: the scene, exports, the command that opens the scene.
 
 use super::{Effect, edit};
 use crate::explorer::action::{Content, WriteFailure, Written};

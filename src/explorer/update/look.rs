@@ -1,4 +1,4 @@
-//! How it is looked at: panes, close-up, parts of the line, quantities, colours.
+//! Changes of the view: panes, close-up, parts of the line, quantities, colours.
 
 use super::Effect;
 use crate::draw::AxisScale;

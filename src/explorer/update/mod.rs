@@ -1,4 +1,4 @@
-//! What each action does to the model. Nothing here touches terminal, files or worker: what is to be
+//! Effect of each action on the model. Nothing here touches terminal, files or worker: work to be
 //! done outside is returned.
 
 mod accuracy;
@@ -48,9 +48,9 @@ pub enum Effect {
     Write {
         /// The file.
         path: PathBuf,
-        /// What is written to it.
+        /// Content.
         content: Content,
-        /// Whether to overwrite it.
+        /// True if to overwrite it.
         overwrite: bool,
     },
     /// Keep colours and markers in the configuration file.
@@ -146,7 +146,7 @@ pub fn update(model: &mut Model, action: Action) -> Vec<Effect> {
     Vec::new()
 }
 
-/// What the worker is asked to show for this model.
+/// Request to the worker for the panes of this model.
 #[must_use]
 pub fn moment_request(model: &Model) -> Option<MomentRequest> {
     if !model.is_current() {

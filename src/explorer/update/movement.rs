@@ -1,4 +1,4 @@
-//! What moves the body: the animation of the scene's loading, or the user's hand.
+//! Movement of the body: animation of the scene's loading, or manual loading.
 
 use super::Effect;
 use crate::explorer::action::Command;

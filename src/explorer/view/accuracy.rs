@@ -1,4 +1,4 @@
-//! What accuracy costs: errors over times, both logarithmic, what it takes to be good, and what ran.
+//! Cost of accuracy: errors over times, both logarithmic, requirements of a good accuracy, and the stages of the run.
 
 use super::plot;
 use super::stages;
@@ -74,7 +74,7 @@ pub fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
     }
 }
 
-/// Why there is no plot.
+/// Reason for which there is no plot.
 fn nothing_yet(model: &Model) -> String {
     let costs = &model.appraisal.costs;
     if model.is_computing() {
@@ -123,7 +123,7 @@ fn setting_of(numerics: &Numerics) -> (Knob, f64) {
     }
 }
 
-/// Where the scene itself stands: at the row of its setting, or between those beside it. `None` where it was
+/// Place of the scene itself: at the row of its setting, or between its neighbours. `None` where it was
 /// not tried, and for steps on other springs than they were tried with.
 fn present(numerics: &Numerics, table: &CostTable) -> Option<(f64, f64)> {
     let (knob, setting) = setting_of(numerics);
@@ -145,7 +145,7 @@ fn present(numerics: &Numerics, table: &CostTable) -> Option<(f64, f64)> {
     Some((between(before.0, there.0), between(before.1, there.1)))
 }
 
-/// Which sign is which knob, with its observed order.
+/// Legend: sign of each knob, with its observed order.
 fn entries(table: &CostTable, figure: &Figure, width: u16, appearance: Appearance) -> Vec<Line<'static>> {
     let mut parts = plot::in_theme(appearance, |style| legend(&figure.charts, style));
     for part in &mut parts {
@@ -165,7 +165,7 @@ fn entries(table: &CostTable, figure: &Figure, width: u16, appearance: Appearanc
     filled(parts, "  ", usize::from(width))
 }
 
-/// What stands below the plot, the most important first.
+/// Lines below the plot, the most important first.
 fn texts(model: &Model, table: Option<&CostTable>, area: Rect) -> Vec<Line<'static>> {
     let theme = model.appearance.theme;
     let mut lines = Vec::new();
@@ -244,7 +244,7 @@ fn now(model: &Model, table: Option<&CostTable>) -> Line<'static> {
     ])
 }
 
-/// What it takes to be within a bound; `None` while nothing can be said.
+/// Requirements of a bound; `None` while they are unknown.
 fn answer(table: &CostTable, bound: f64, finished: bool) -> Option<String> {
     let told = [(Knob::SubCellSprings, "SubCell"), (Knob::GridSprings, "Grid")].into_iter().filter_map(
         |(knob, edges)| {

@@ -50,7 +50,7 @@ fn lines(count: u64) -> String {
     if count == 1 { "1 line".to_owned() } else { format!("{} lines", grouped(count)) }
 }
 
-/// Why there is no map.
+/// Reason for which there is no map.
 pub fn nothing_yet(model: &Model) -> String {
     if let Err(why) = Template::of(model.document.scene()) {
         return why.to_string();
@@ -108,7 +108,7 @@ pub fn legend(model: &Model, chart: &Chart, width: u16) -> Vec<Line<'static>> {
     lines
 }
 
-/// Which map of a study it is, where it has several.
+/// Slice of a study that has several maps.
 fn slice(model: &Model, study: &OpenStudy, width: usize) -> Vec<Line<'static>> {
     let (theme, slices) = (model.appearance.theme, study.study_map.slices());
     if slices == 1 {
@@ -186,7 +186,7 @@ pub fn below(model: &Model, area: Rect) -> Vec<Line<'static>> {
     lines
 }
 
-/// How far the map that is computed here has come.
+/// Progress of the map that is computed here.
 fn computed_so_far(model: &Model, say: &mut impl FnMut(Line<'static>)) {
     let Some(map) = &model.chart.map else { return };
     let theme = model.appearance.theme;
@@ -261,7 +261,7 @@ pub fn told(charted: Charted, map_model: &MapModel) -> Vec<&Layer> {
     }
 }
 
-/// What the map says at a place, and at which one where no cell is at the mark.
+/// Values of the map at a place, with the place where no cell is at the mark.
 fn there(model: &Model, map_model: &MapModel, mark: Place, place: &ShownCell<'_>) -> String {
     let whose = if model.chart.shown_study().is_some() { "study" } else { "map" };
     let on = |axis: &MapAxis, index: usize| axis.figure.values.get(index).copied();

@@ -87,7 +87,7 @@ impl Units {
         }
     }
 
-    /// Whether any axis counts in other units than SI.
+    /// Returns true if any axis counts in other units than SI.
     fn is_normalised(&self) -> bool {
         match self.quantities {
             Quantities::ForceIndentation => self.indentation.is_some() || self.force.is_some(),
@@ -96,7 +96,7 @@ impl Units {
         }
     }
 
-    /// What stands over what, each in the unit it counts in: not every scene has an h or an F_a,max.
+    /// Quantities of the axes with their units: not every scene has an h or an F_a,max.
     fn title(&self) -> String {
         let indentation = if self.indentation.is_some() { "d/h" } else { "d" };
         let force = if self.force.is_some() { "F/F_a,max" } else { "F" };
@@ -136,7 +136,7 @@ impl Units {
 /// Decades of a logarithmic axis: a force near its change of sign would take all room.
 const MOST_DECADES: f64 = 3.0;
 
-/// What the pane spans: the curve, its ghosts and the way of the hand.
+/// Ranges of the pane: the curve, kept curves and the path of manual loading.
 fn spans(model: &Model, units: Units) -> (Span, Span) {
     let ghosts = model.ghosts.iter().flat_map(|ghost| &ghost.computed.outcome.history.legs);
     let tried = model.tried_outcome().into_iter().flat_map(|outcome| &outcome.history.legs);

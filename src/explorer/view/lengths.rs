@@ -1,4 +1,4 @@
-//! How long the contact fragments are: their number over their length, both logarithmic.
+//! Lengths of the contact fragments: their number over their length, both logarithmic.
 
 use super::plot;
 use crate::draw::{Axis, AxisScale, Ink, Layer, Shape, Sign, Span, Stroke};

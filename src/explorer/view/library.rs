@@ -60,7 +60,7 @@ fn draw_list(frame: &mut Frame<'_>, area: Rect, model: &Model, library: &Library
     }
 }
 
-/// Where a scene comes from, in words.
+/// Origin of a scene, in words.
 fn place_of(source: Source) -> &'static str {
     match source {
         Source::BuiltIn => "built-in",

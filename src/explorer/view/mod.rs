@@ -84,7 +84,7 @@ pub fn share_at(model: &Model, pane: Pane, area: Rect, column: u16) -> Option<f6
     }
 }
 
-/// Where the panes are.
+/// Area of the panes.
 fn body(layout: &Layout) -> Rect {
     layout.panes.iter().map(|(_, area)| *area).reduce(Rect::union).unwrap_or_default()
 }

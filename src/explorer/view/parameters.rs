@@ -18,7 +18,7 @@ const TYPED_COLUMNS: usize = 12;
 /// Letters of a name that still tell what it is.
 const FEWEST_LETTERS: usize = 4;
 
-/// Where the list, the derived values and the explanation go, and the first row of the list that shows.
+/// Areas of the list, the derived values and the explanation, and the first visible row of the list.
 struct Places {
     list: Rect,
     derived: Rect,
@@ -217,7 +217,7 @@ fn quantity(value: f64, unit: &str) -> String {
     format_quantity(format!("{value:.3e}").parse().unwrap_or(value), unit)
 }
 
-/// What follows from the parameters, in as many lines as it takes.
+/// Derived values, in as many lines as needed.
 fn derived(model: &Model, width: u16) -> Vec<Line<'static>> {
     let style = model.appearance.theme.style(Meaning::Quiet);
     let part = |(name, value): (&str, String)| vec![Span::styled(format!("{name} = {value}"), style)];
@@ -246,7 +246,7 @@ fn derived_values(model: &Model) -> Vec<(&'static str, String)> {
     values
 }
 
-/// What is wrong with a value, or what it means and what is allowed.
+/// Error of a value, or its meaning and allowed range.
 fn explanation(model: &Model, index: usize) -> Line<'static> {
     if let Some((_, error)) = &model.refused {
         return Line::styled(format!("! {error}"), model.appearance.theme.style(Meaning::Error));

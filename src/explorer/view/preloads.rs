@@ -35,7 +35,7 @@ pub fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
     section(frame, area, model, &Chart { heading: told(curve), ..chart(model, curve) });
 }
 
-/// What has been computed so far.
+/// Progress, in words.
 fn told(curve: &PreloadCurve) -> String {
     if curve.is_whole() || curve.profiles() < 2 {
         return String::new();

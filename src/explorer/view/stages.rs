@@ -1,4 +1,4 @@
-//! What ran for the scene, and how long each stage took; what did not run stands back.
+//! Stages of the scene with their times; skipped ones are dimmed.
 
 use super::wrap::filled;
 use crate::explorer::model::Model;

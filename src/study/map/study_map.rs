@@ -40,7 +40,7 @@ pub enum StudyMapError {
     Scene(#[from] SceneErrors),
 }
 
-/// See the module.
+/// Map of a finished study.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StudyMap {
     folder: PathBuf,
