@@ -253,7 +253,7 @@ fn lines_are_those_of_their_seeds() {
     let csv = lines(&["--format", "csv"]);
     let rows: Vec<Vec<&str>> =
         csv.lines().filter(|row| !row.starts_with('#')).map(|row| row.split(',').collect()).collect();
-    assert!(rows.len() == 7 && rows.iter().all(|row| row.len() == 8), "{csv}");
+    assert!(rows.len() == 7 && rows.iter().all(|row| row.len() == 9), "{csv}");
     assert_eq!(rows[1][1].parse::<f64>().unwrap(), forces[0]);
     let summary = lines(&[]);
     assert!(summary.contains("6 random lines of 2 048 springs, seeds 5 to 10"), "{summary}");

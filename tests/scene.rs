@@ -144,7 +144,8 @@ fn the_table_names_every_field_of_the_model_and_no_other() {
     for (form, rough, solver) in [
         (
             "Paraboloid(radius: 1.0)",
-            "Measured(file: \"x\", as_line: false, unit: \"mm\", continue_to: 1.0e-9, seed: 2)",
+            "Measured(file: \"x\", opposite: \"y\", row: 1, as_line: false, detrend: Tilt, periodic: true, \
+             unit: \"mm\", continue_to: 1.0e-9, seed: 2)",
             "Stepwise(step: 1.0)",
         ),
         ("Cone(angle: 0.1)", "SelfAffine(hurst: 0.5, modes: (1, 2), seed: 1, rms_height: 1.0e-9)", "Exact"),
@@ -153,7 +154,7 @@ fn the_table_names_every_field_of_the_model_and_no_other() {
             "SelfAffine(hurst: 0.5, modes: (1, 2), seed: 1, rms_gradient: 1.0)",
             "Exact",
         ),
-        ("Punch(radius: 1.0e-5)", "None", "Exact"),
+        ("Punch(radius: 1.0e-5)", "Measured(file: \"x\", column: 2)", "Exact"),
         ("WavySphere(radius: 1.0e-3, amplitude: 1.0e-9, wavelength: 1.0e-6)", "None", "Exact"),
     ] {
         for (material, adhesion) in [
@@ -209,7 +210,9 @@ fn the_choices_of_the_table_can_be_set() {
                         "(kappa: 2.0)" | "(elastic_energy_ratio: 0.5)" => {
                             document.set("roughness", roughness).unwrap()
                         }
-                        "false" | "true" => document.set("roughness", "Measured(file: \"x\")").unwrap(),
+                        "false" | "true" | "Nothing" | "Mean" | "Tilt" | "Curvature" => {
+                            document.set("roughness", "Measured(file: \"x\")").unwrap()
+                        }
                         _ => document.clone(),
                     };
                     document.set(field.path, choice).unwrap_or_else(|errors| panic!("{choice}: {errors}"));

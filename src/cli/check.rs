@@ -13,8 +13,8 @@ Examples:
   asperity check adhesion memory            Those with one of these words in their names
   asperity check --format json -o check.json
 
-Each case has one error and one bound, stated beforehand, and the kinds of evidence that it gives. Exit code 1 when a
-case fails that is not known to fail, or passes although it is.";
+Each case has one error, a bound stated beforehand, and the kinds of evidence that it gives.
+Exit code 1 when a case fails that is not known to fail, or passes although it is.";
 
 /// Arguments of `check`.
 #[derive(Args, Debug)]

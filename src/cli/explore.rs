@@ -16,8 +16,9 @@ use std::path::{Path, PathBuf};
 pub struct ExploreArguments {
     /// Explore this scene file, built-in scene (see `asperity presets list`), or merged study
     ///
-    /// The folder of a merged study opens its map, or the section along its only axis. Default: `scene` of the
-    /// configuration file, else pressure-sensitive.
+    /// The folder of a merged study opens its map, or the section along its only axis.
+    /// Default: `scene` of the configuration file, else pressure-sensitive.
+    #[arg(verbatim_doc_comment)]
     pub scene: Option<String>,
     /// Overrides of the scene.
     #[command(flatten)]
@@ -27,17 +28,18 @@ pub struct ExploreArguments {
     pub look: LookArguments,
     /// Read this configuration file
     ///
-    /// Default: asperity/config.ron in the configuration folder of the user, by default ~/.config, where it exists.
-    #[arg(long, value_name = "FILE")]
+    /// Default: asperity/config.ron in the configuration folder of the user (~/.config),
+    /// where it exists.
+    #[arg(long, value_name = "FILE", verbatim_doc_comment)]
     pub config: Option<PathBuf>,
     /// Read no configuration file
     #[arg(long, conflicts_with = "config")]
     pub no_config: bool,
     /// Open the unsaved changes of a session that was interrupted
     ///
-    /// While the explorer runs, unsaved changes are kept in the state folder of the user, by default
-    /// ~/.local/state/asperity/unsaved. They are removed on saving and on leaving without saving.
-    #[arg(long, conflicts_with_all = ["scene", "set"])]
+    /// While the explorer runs, unsaved changes are kept in ~/.local/state/asperity/unsaved.
+    /// They are removed on saving and on leaving without saving.
+    #[arg(long, conflicts_with_all = ["scene", "set"], verbatim_doc_comment)]
     pub restore: bool,
 }
 

@@ -46,19 +46,19 @@ pub struct SurfaceArguments {
     /// Options of the analysis.
     #[command(flatten)]
     pub analysis: AnalysisArguments,
-    /// summary, json, csv, npy or svg; default: by the extension of FILE, else summary
+    /// summary, json, csv, npy or svg; default: by the extension of FILE
     ///
-    /// A summary is text for a person. JSON is one object with statistics, fit, spectra and warnings.
-    /// CSV holds the spectra: spectrum,wave_number,power,waves. npy is the same as a structured array
-    /// of NumPy. SVG is a picture of the spectra.
+    /// A summary is text for a person. JSON is one object with statistics, fit, spectra and
+    /// warnings. CSV holds the spectra: spectrum,wave_number,power,waves. npy is the same as a
+    /// structured array of NumPy. SVG is a picture of the spectra.
     #[arg(long, value_enum, hide_possible_values = true, verbatim_doc_comment)]
     pub format: Option<SurfaceFormat>,
-    /// Write a scene with the equivalent line of the surface to FILE; needs --modulus
+    /// Write a scene with the equivalent line to FILE; needs --modulus
     ///
     /// The scene names the surface and holds --unit, --detrend, --periodic and --continue-to.
     #[arg(long, value_name = "FILE", requires = "modulus", verbatim_doc_comment)]
     pub scene: Option<PathBuf>,
-    /// Work of adhesion, as 50mJ/m^2: gives κ and e_el/γ, and is that of the scene; needs --modulus
+    /// Work of adhesion, as 50mJ/m^2: gives κ and e_el/γ; needs --modulus
     #[arg(long, value_name = "ENERGY", requires = "modulus", value_parser = energy)]
     pub work: Option<f64>,
     /// Output file.
@@ -87,7 +87,7 @@ pub struct ReadingArguments {
     /// Fill missing points from their neighbours
     #[arg(long)]
     pub interpolate: bool,
-    /// Resample profiles with uneven distances, linearly, at their mean distance
+    /// Resample uneven profiles linearly at their mean distance
     #[arg(long)]
     pub resample: bool,
     /// Number of the channel of files with several
@@ -98,19 +98,21 @@ pub struct ReadingArguments {
 /// Analysis of surfaces.
 #[derive(Args, Debug)]
 pub struct AnalysisArguments {
-    /// Part that is removed before: none, mean, tilt or curvature
+    /// Part that is removed: none, mean, tilt or curvature
     #[arg(long, value_enum, default_value = "tilt", hide_possible_values = true)]
     pub detrend: DetrendArgument,
     /// The surface repeats itself at its borders: no window
     #[arg(long)]
     pub periodic: bool,
-    /// Shortest wavelength down to which the spectrum continues as a power law; default: it ends at the last resolved wave
+    /// Wavelength down to which the spectrum continues as a power law
+    ///
+    /// Default: the spectrum ends at the last resolved wave.
     #[arg(long, value_name = "LENGTH", value_parser = length)]
     pub continue_to: Option<f64>,
-    /// Radius of the tip that measured the surface, as 10nm: gives the reliability cut-off
+    /// Radius of the tip, as 10nm: gives the reliability cut-off
     #[arg(long, value_name = "LENGTH", value_parser = length)]
     pub tip_radius: Option<f64>,
-    /// Effective modulus E*, as 2.7MPa: gives the elastic energy of full contact
+    /// Effective modulus E*, as 2.7MPa: gives the elastic energy
     #[arg(long, value_name = "PRESSURE", value_parser = pressure)]
     pub modulus: Option<f64>,
 }

@@ -156,7 +156,7 @@ impl ModeKind {
     /// Returns true if keys act on scene and panes, rather than on a line, a list or a question.
     #[must_use]
     pub fn is_exploring(self) -> bool {
-        matches!(self, ModeKind::Explore | ModeKind::Chart | ModeKind::Parameters)
+        matches!(self, ModeKind::Explore | ModeKind::Chart | ModeKind::Crosshair | ModeKind::Parameters)
     }
 }
 

@@ -25,7 +25,7 @@ pub struct Entry {
 #[must_use]
 pub fn entries(bindings: &Bindings) -> Vec<Entry> {
     let is_listed = |row: &&Binding| {
-        row.modes.iter().any(|mode| mode.is_exploring())
+        row.modes.iter().any(|mode| mode.is_exploring() && *mode != ModeKind::Crosshair)
             // The value begins with the key itself, and the list is open.
             && !matches!(row.command, Command::StartValue(_) | Command::OpenPalette)
     };

@@ -60,7 +60,7 @@ pub fn row_with(terminal: &Terminal, text: &str) -> String {
 
 /// The adhesion force as the screen tells it: a number and its unit.
 pub fn headline(rows: &[String]) -> Option<String> {
-    let after = rows.iter().find_map(|row| row.split_once("F_a "))?.1;
+    let after = rows.iter().rev().find_map(|row| row.split_once("F_a "))?.1;
     let words: Vec<&str> = after.split_whitespace().take(2).collect();
     Some(words.join(" "))
 }

@@ -19,7 +19,7 @@ fn a_loop_is_kept_compared_and_exchanged() {
         terminal.send("h");
         let after = wait_for_another(&mut terminal, &before);
         // The ghost stands in the legend by what it has that the scene has not.
-        terminal.wait_for("A κ 8");
+        terminal.wait_for("· κ 8 ");
         let value = |rows: &[String]| {
             let row = rows.iter().find(|row| row.contains("›") && row.contains('κ'))?;
             Some(row.rsplit(['│', ' ']).find(|word| !word.is_empty())?.to_owned())
@@ -29,14 +29,14 @@ fn a_loop_is_kept_compared_and_exchanged() {
 
         terminal.send("x");
         terminal.wait("first loop", |rows| headline(rows).as_ref() == Some(&before));
-        terminal.wait_for(&format!("A κ {changed}"));
+        terminal.wait_for(&format!("· κ {changed} "));
         assert_eq!(value(&terminal.rows()).as_deref(), Some("8"));
         terminal.send("x");
         terminal.wait("second loop", |rows| headline(rows).as_ref() == Some(&after));
-        terminal.wait_for("A κ 8");
+        terminal.wait_for("· κ 8 ");
 
         terminal.send("C");
-        terminal.wait_without("A κ 8");
+        terminal.wait_without("· κ 8 ");
         // Exchanges are edits: they can be taken back.
         terminal.send("u");
         terminal.wait("first loop", |rows| headline(rows).as_ref() == Some(&before));

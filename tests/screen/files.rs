@@ -52,7 +52,7 @@ fn the_ending_of_a_name_tells_what_is_exported() {
             assert!(export(&mut driver, Path::new(name)).is_empty(), "{name}");
             assert!(driver.files.is_empty());
             let said =
-                format!("{name}: the curve is exported; the name must end in .csv, .npy, .json, .svg, .txt");
+                format!("{name}: the name must end in .csv, .npy, .json, .svg, .txt, to export the curve");
             assert!(driver.status().contains(&said), "{}", driver.status());
         }
         // The name that is proposed is that of the scene.
