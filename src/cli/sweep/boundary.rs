@@ -36,14 +36,14 @@ pub struct BoundaryArguments {
     /// Share of F_a,max below which adhesion has vanished, as often as needed
     #[arg(long = "level", value_name = "SHARE", value_parser = level)]
     pub levels: Vec<f64>,
-    /// Parameter that the boundary is given in: kappa or elastic_energy_ratio
+    /// Parameter of boundaries: kappa or elastic_energy_ratio
     #[arg(long, value_name = "PARAMETER", value_parser = over, default_value = "kappa")]
     pub over: RoughnessParameter,
-    /// Print how far the boundaries lie apart, in κ and in e_el/γ
+    /// Print the spread of the boundaries, in κ and in e_el/γ
     #[arg(long, conflicts_with = "over")]
     pub spread: bool,
-    /// Format of the output
-    #[arg(long, value_enum, default_value_t = BoundaryFormat::Text)]
+    /// text, json, csv or markdown
+    #[arg(long, value_enum, hide_possible_values = true, default_value_t = BoundaryFormat::Text)]
     pub format: BoundaryFormat,
 }
 
