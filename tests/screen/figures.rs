@@ -143,7 +143,7 @@ fn the_pane_and_the_figure_have_the_same_marks_at_the_same_values() {
                     let (Some(&(_, d, force)), Some(said)) = (drawn, said) else { continue };
                     // In words: three digits here, as many there; F_a has the other sign.
                     let value = |text: &str| parse_quantity(&text.replace('−', "-"), "N").unwrap();
-                    let here = value(&said.split("  ").next().unwrap().replace('│', " ").trim().to_owned());
+                    let here = value(said.split("  ").next().unwrap().replace('│', " ").trim());
                     let there = legend.iter().find(|text| text.starts_with(name)).unwrap();
                     let there = value(there.split_once(" = ").unwrap().1);
                     assert!((here.abs() / there.abs() - 1.0).abs() < 6e-3, "{glyph}: {here} {there}");

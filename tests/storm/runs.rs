@@ -31,7 +31,7 @@ fn compute(document: &Document, folder: &std::path::Path) -> Result<(), TestCase
                 assert_leg(leg, &before, &outcome)?;
             }
             assert_energy(&outcome)?;
-            assert_written(&scene, &outcome)
+            assert_written(scene, &outcome)
         }
         Err(error) => assert_refused(&error, scene),
     }
