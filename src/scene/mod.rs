@@ -1,6 +1,6 @@
 //! The scene: what its author chose, read from RON, checked, and changed field by field.
 //!
-//! [`open`] gives a [`Document`]: a checked [`Scene`] with the text it came from. [`FIELDS`] is the
+//! [`open()`] gives a [`Document`]: a checked [`Scene`] with the text it came from. [`FIELDS`] is the
 //! table of everything a scene can say; the checks, overrides and the explorer read it.
 //!
 //! ```
