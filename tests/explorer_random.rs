@@ -195,7 +195,7 @@ impl Explorer {
         for effect in update(&mut self.driver.model, action) {
             // The hand waits for no answer: its orders are on their way at once.
             match effect {
-                Effect::Hand(_) => drop(self.driver.answer(effect)),
+                Effect::Manual(_) => drop(self.driver.answer(effect)),
                 // Of all scenes that wait, only the newest is computed.
                 Effect::Compute => {
                     self.waiting.retain(|one| *one != Effect::Compute);

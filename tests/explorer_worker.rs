@@ -7,9 +7,9 @@ mod common {
 }
 
 use asperity::contact::{ContactError, ContactTree, CurvePoint};
-use asperity::explorer::snapshot::{Drive, Loop, Moment};
+use asperity::explorer::snapshot::{ContactSnapshot, Drive, SolvedScene};
 use asperity::explorer::worker::{
-    self, Engine, Focus, LineView, MomentRequest, Newest, Report, Request, Worker,
+    self, Engine, Focus, LineView, Newest, Report, Request, SnapshotRequest, Worker,
 };
 use asperity::scene::{Document, Observer, Scene};
 use asperity::simulation::{AfterLeg, Outcome, RunError, Simulation};
@@ -59,7 +59,7 @@ impl Served {
         }
     }
 
-    fn computed(&self, generation: u64, document: &Document) -> Arc<Loop> {
+    fn computed(&self, generation: u64, document: &Document) -> Arc<SolvedScene> {
         self.compute(generation, document);
         match self.answer() {
             Report::Computed(computed) => computed,
@@ -67,7 +67,7 @@ impl Served {
         }
     }
 
-    fn shown(&self, request: MomentRequest) -> Arc<Moment> {
+    fn shown(&self, request: SnapshotRequest) -> Arc<ContactSnapshot> {
         self.worker.ask(Request::Show(request));
         match self.answer() {
             Report::Shown(moment) => moment,
@@ -77,8 +77,8 @@ impl Served {
 }
 
 /// A request for a moment of the first generation.
-fn moment(leg: usize, indentation: f64) -> MomentRequest {
-    MomentRequest {
+fn moment(leg: usize, indentation: f64) -> SnapshotRequest {
+    SnapshotRequest {
         generation: 1,
         drive: Drive::Leg(leg),
         indentation,
@@ -190,7 +190,7 @@ fn a_scene_is_computed_leg_by_leg_and_then_whole() {
 #[test]
 fn of_all_that_wait_only_the_newest_is_done() {
     within(30, || {
-        let show = |leg| Request::Show(MomentRequest { generation: 5, ..moment(leg, 0.0) });
+        let show = |leg| Request::Show(SnapshotRequest { generation: 5, ..moment(leg, 0.0) });
         let mut requests: Vec<_> = (1..=5).map(|number| compute(number, &seed(&rough(), number))).collect();
         requests.extend([show(0), show(0), show(1)]);
         let reports = serve_all(Simulation::default(), 5, requests);
@@ -205,14 +205,14 @@ fn of_all_that_wait_only_the_newest_is_done() {
 #[test]
 fn moments_of_another_scene_are_not_shown() {
     within(30, || {
-        let show = |generation| Request::Show(MomentRequest { generation, ..moment(0, 0.0) });
+        let show = |generation| Request::Show(SnapshotRequest { generation, ..moment(0, 0.0) });
         for generation in [1, 3] {
             let requests = vec![compute(2, &rough()), show(generation)];
             assert_eq!(generations(&serve_all(Simulation::default(), 2, requests)), (vec![2], vec![]));
         }
         // Before any scene there is nothing to show.
         assert!(serve_all(Simulation::default(), 0, vec![show(0)]).is_empty());
-        let past_the_end = Request::Show(MomentRequest { generation: 2, ..moment(2, 0.0) });
+        let past_the_end = Request::Show(SnapshotRequest { generation: 2, ..moment(2, 0.0) });
         let requests = vec![compute(2, &rough()), past_the_end];
         assert_eq!(generations(&serve_all(Simulation::default(), 2, requests)), (vec![2], vec![]));
     });
@@ -237,7 +237,7 @@ fn a_preview_that_is_no_longer_wanted_is_not_computed() {
         };
         let serve = |awaited: &Newest, requests: Vec<Request>| {
             let reports = RefCell::new(Vec::new());
-            let mut desk = worker::Desk::new(Box::new(Simulation::default()));
+            let mut desk = worker::WorkerState::new(Box::new(Simulation::default()));
             desk.serve(requests.into_iter(), awaited, &|report| {
                 reports.borrow_mut().push(report);
                 true
@@ -281,7 +281,7 @@ fn a_newer_scene_stops_the_one_that_is_being_computed() {
             .take_while(|report| !matches!(report, Report::Computed(_)))
             .collect();
         assert!(reports.iter().all(|report| matches!(report, Report::Progress { generation: 2, .. })));
-        served.worker.ask(Request::Show(MomentRequest { generation: 2, ..moment(0, 0.0) }));
+        served.worker.ask(Request::Show(SnapshotRequest { generation: 2, ..moment(0, 0.0) }));
         assert!(matches!(served.report(), Report::Shown(moment) if moment.generation == 2));
     });
 }
@@ -333,7 +333,7 @@ fn a_panic_is_told_and_the_next_scene_is_computed() {
             assert_eq!(error.lines().count(), 1, "{error}");
             generation += 1;
             assert_eq!(served.computed(generation, &rough()).generation, generation);
-            served.shown(MomentRequest { generation, ..moment(1, 0.0) });
+            served.shown(SnapshotRequest { generation, ..moment(1, 0.0) });
         }
     });
 }
@@ -457,7 +457,7 @@ fn above_the_foundation_nothing_touches() {
     within(30, || {
         let served = Served::by(Simulation::default());
         served.computed(1, &rough());
-        let shown = served.shown(MomentRequest { close_up_springs: 1024, ..moment(0, -1e-8) });
+        let shown = served.shown(SnapshotRequest { close_up_springs: 1024, ..moment(0, -1e-8) });
         assert_eq!((shown.point.springs, shown.point.fragments, shown.point.force), (0, 0, 0.0));
         assert!(shown.profile.columns.iter().all(|column| column.contact.is_none()));
         assert!(shown.close_up.boundaries.is_empty() && shown.close_up.fragment.is_none());
@@ -466,7 +466,7 @@ fn above_the_foundation_nothing_touches() {
 }
 
 /// First and last spring of each fragment, from one column for each spring.
-fn fragments(moment: &Moment) -> Vec<(usize, usize)> {
+fn fragments(moment: &ContactSnapshot) -> Vec<(usize, usize)> {
     let mut fragments: Vec<(usize, usize)> = Vec::new();
     for (spring, _) in
         moment.profile.columns.iter().enumerate().filter(|(_, column)| column.contact.is_some())
@@ -490,7 +490,7 @@ fn picture_counts_and_boundaries_say_the_same() {
                     let springs = document.scene().numerics.points as usize;
                     let line = computed.outcome.line;
                     let under = springs - 2 * line.first;
-                    let request = MomentRequest {
+                    let request = SnapshotRequest {
                         profile_columns: under,
                         close_up_columns: under,
                         close_up_springs: springs,
@@ -540,7 +540,7 @@ fn at_the_end_of_a_leg_the_fragments_are_those_observed() {
         let document = changed(&rough(), &fields);
         let computed = served.computed(1, &document);
         for (leg, record) in computed.outcome.history.legs.iter().enumerate() {
-            let request = MomentRequest { profile_columns: 1024, ..moment(leg, record.end()) };
+            let request = SnapshotRequest { profile_columns: 1024, ..moment(leg, record.end()) };
             let found = fragments(&served.shown(request));
             assert!(found.len() > 1, "{found:?}");
             assert_eq!(found, computed.outcome.fragments[leg]);
@@ -570,11 +570,11 @@ fn next_and_previous_fragment_go_round() {
         let served = Served::by(Simulation::default());
         let computed = served.computed(1, &rough());
         let leg = &computed.outcome.history.legs[0];
-        let request = MomentRequest { close_up_springs: 16, ..moment(0, leg.end()) };
+        let request = SnapshotRequest { close_up_springs: 16, ..moment(0, leg.end()) };
         let count = leg.curve.last().unwrap().fragments as usize;
         assert!(count > 3, "{count} fragments");
         let look = |focus| {
-            let shown = served.shown(MomentRequest { focus, ..request });
+            let shown = served.shown(SnapshotRequest { focus, ..request });
             let facts = shown.close_up.fragment.expect("something touches");
             let section = &shown.close_up.section;
             let seen = section.first..section.first + section.springs;
@@ -609,7 +609,7 @@ fn the_close_up_stays_on_the_line() {
             for close_up_springs in [0, 1, 2, 1023, 1024, usize::MAX] {
                 for close_up_columns in [0, 1, 3000] {
                     let request =
-                        MomentRequest { focus, close_up_springs, close_up_columns, ..moment(0, end) };
+                        SnapshotRequest { focus, close_up_springs, close_up_columns, ..moment(0, end) };
                     let close_up = &served.shown(request).close_up;
                     let section = &close_up.section;
                     assert_eq!(section.springs, close_up_springs.clamp(1, 1024));
@@ -628,8 +628,9 @@ fn a_section_knows_its_heights_without_a_column_to_show_them() {
     within(30, || {
         let served = Served::by(Simulation::default());
         served.computed(1, &rough());
-        let wide = served.shown(MomentRequest { profile_columns: 1024, ..moment(0, 0.0) });
-        let none = served.shown(MomentRequest { profile_columns: 0, close_up_columns: 0, ..moment(0, 0.0) });
+        let wide = served.shown(SnapshotRequest { profile_columns: 1024, ..moment(0, 0.0) });
+        let none =
+            served.shown(SnapshotRequest { profile_columns: 0, close_up_columns: 0, ..moment(0, 0.0) });
         for section in [&none.profile, &none.close_up.section] {
             let (low, high) = section.heights;
             assert!(low.is_finite() && high.is_finite() && low <= high, "{low} {high}");

@@ -1,7 +1,7 @@
 //! Everything that can happen to the explorer.
 
 use super::opening::Opening;
-use super::snapshot::{Loop, Moment, Preview};
+use super::snapshot::{ContactSnapshot, Preview, SolvedScene};
 use super::study::Found;
 use crate::export::TableFormat;
 use crate::scene::Entry;
@@ -25,9 +25,9 @@ pub enum Action {
     /// The seed is to be this one.
     SetSeed(u64),
     /// A scene has been computed.
-    Computed(Arc<Loop>),
+    Computed(Arc<SolvedScene>),
     /// A moment of the animation is ready.
-    Shown(Arc<Moment>),
+    Shown(Arc<ContactSnapshot>),
     /// Some legs of a scene are done.
     Progress {
         /// Generation of the scene.

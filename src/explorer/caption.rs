@@ -13,7 +13,7 @@ const NEAR: f64 = 0.01;
 pub fn caption(model: &Model) -> Option<&'static str> {
     let moment = model.present()?;
     match moment.drive {
-        Drive::Hand => Some("manual loading"),
+        Drive::Manual => Some("manual loading"),
         Drive::Leg(index) => event(model.legs().get(index)?, moment.point),
     }
 }

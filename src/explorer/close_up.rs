@@ -1,6 +1,6 @@
 //! The neighbourhood of one fragment: where it is, what it bears, what it carries.
 
-use super::request::{Focus, MomentRequest};
+use super::request::{Focus, SnapshotRequest};
 use super::snapshot::{CloseUp, FragmentFacts};
 use crate::analysis::section::{Contact, LineColumns, Part};
 use crate::contact::{Foundation, FragmentState, Snapshot};
@@ -8,7 +8,7 @@ use crate::contact::{Foundation, FragmentState, Snapshot};
 /// The part of the line that a request asks to see from near.
 pub fn close_up(
     (contact, rises): (&Contact<'_>, &[f64]),
-    request: &MomentRequest,
+    request: &SnapshotRequest,
     foundation: Foundation,
     snapshot: &Snapshot<'_>,
     line: &mut LineColumns,

@@ -7,7 +7,7 @@ use super::session::{action_of, scene_beside, scene_of};
 use super::study::{Accuracy, Found, Task, perform};
 use super::theme::Appearance;
 use super::update::{Effect, moment_request, study_tasks, update};
-use super::worker::{Desk, Engine, Newest, Report, Request};
+use super::worker::{Engine, Newest, Report, Request, WorkerState};
 use crate::scene::Document;
 use std::cell::RefCell;
 use std::collections::VecDeque;
@@ -23,7 +23,7 @@ const MOST_CHARTED: u64 = 1 << 12;
 pub struct Headless {
     /// The model.
     pub model: Model,
-    desk: Desk,
+    desk: WorkerState,
     newest: Newest,
     /// Seeds drawn so far: chance would not be the same twice.
     seeds: u64,
@@ -41,7 +41,8 @@ impl Headless {
         let mut model = Model::new(document, size, appearance);
         // Times differ from run to run.
         model.shows_times = false;
-        let mut headless = Headless { model, desk: Desk::new(engine), newest: Newest::default(), seeds: 0 };
+        let mut headless =
+            Headless { model, desk: WorkerState::new(engine), newest: Newest::default(), seeds: 0 };
         headless.perform(vec![Effect::Compute]);
         headless
     }
@@ -77,7 +78,7 @@ impl Headless {
             },
             Effect::Beside => Request::Beside(scene_beside(&self.model)),
             Effect::Study => return self.study(),
-            Effect::Hand(order) => Request::Hand { generation, order },
+            Effect::Manual(order) => Request::Manual { generation, order },
             Effect::Preview(document) => {
                 Request::Preview { text: document.text().to_owned(), scene: scene_of(&document) }
             }

@@ -10,7 +10,7 @@ pub use super::mode::{Library, Mode, ModeKind};
 use super::parameters::{Parameter, Setting, parameters};
 use super::preload_curve::PreloadPane;
 use super::request::{Focus, LineView};
-use super::snapshot::{Drive, Loop, Moment, Preview};
+use super::snapshot::{ContactSnapshot, Drive, Preview, SolvedScene};
 use super::theme::Appearance;
 use crate::analysis::Governing;
 use crate::contact::{CurvePoint, LegRecord};
@@ -76,14 +76,14 @@ pub struct Player {
 
 /// Target of the close-up.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Look {
+pub struct CloseUpTarget {
     /// Place.
     pub focus: Focus,
     /// Springs it shows.
     pub springs: usize,
 }
 
-impl Look {
+impl CloseUpTarget {
     /// Springs shown when a scene opens: a small part of the line, but several asperities.
     #[must_use]
     pub fn springs_shown(document: &Document) -> usize {
@@ -93,7 +93,7 @@ impl Look {
 
 /// The body in the user's hand.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Hand {
+pub struct ManualState {
     /// Path so far, the newest point last.
     pub path: Vec<CurvePoint>,
     /// Springs that joined or left on the last move.
@@ -154,7 +154,7 @@ pub struct Ghost {
     /// Its scene.
     pub document: Document,
     /// Outcome.
-    pub computed: Arc<Loop>,
+    pub computed: Arc<SolvedScene>,
     /// Differences of its scene from the present one.
     pub differs: String,
     /// Names of what differs, with the values of the ghost and of the present scene: `κ 4 → 8`.
@@ -211,15 +211,15 @@ pub struct Model {
     /// Present mode.
     pub mode: Mode,
     /// The newest scene that has been computed.
-    pub computed: Option<Arc<Loop>>,
+    pub computed: Option<Arc<SolvedScene>>,
     /// The newest moment of its animation.
-    pub moment: Option<Arc<Moment>>,
+    pub moment: Option<Arc<ContactSnapshot>>,
     /// Legs done of the scene that is being computed.
     pub progress: Option<usize>,
     /// State of the animation.
     pub player: Player,
     /// The body, while it is in hand.
-    pub hand: Option<Hand>,
+    pub hand: Option<ManualState>,
     /// The force to go to, as it was typed last.
     pub typed_force: String,
     /// The status line has springs and times of the computation in place of mechanical quantities.
@@ -227,7 +227,7 @@ pub struct Model {
     /// Paths that complete the typed one, while they are shown.
     pub completion: Option<Completion>,
     /// Target of the close-up.
-    pub look: Look,
+    pub look: CloseUpTarget,
     /// True if its pane shows the distribution of lengths instead.
     pub lengths: bool,
     /// True if the spectrum is shown in place of profile and close-up.
@@ -292,7 +292,7 @@ impl Model {
     /// The explorer as it opens on a scene.
     #[must_use]
     pub fn new(document: Document, size: (u16, u16), appearance: Appearance) -> Self {
-        let springs = Look::springs_shown(&document);
+        let springs = CloseUpTarget::springs_shown(&document);
         Model {
             saved: BTreeMap::from([(document.name().to_owned(), document.clone())]),
             saves: 0,
@@ -315,7 +315,7 @@ impl Model {
             typed_force: String::new(),
             shows_work: false,
             completion: None,
-            look: Look { focus: Focus::Summit, springs },
+            look: CloseUpTarget { focus: Focus::Summit, springs },
             lengths: false,
             spectrum: false,
             profile: LineView::WHOLE,
@@ -531,12 +531,12 @@ impl Model {
     /// Drive of the body.
     #[must_use]
     pub fn drive(&self) -> Drive {
-        if self.hand.is_some() { Drive::Hand } else { Drive::Leg(self.player.leg) }
+        if self.hand.is_some() { Drive::Manual } else { Drive::Leg(self.player.leg) }
     }
 
     /// The newest moment, where it belongs to the scene as it stands and to what moves the body.
     #[must_use]
-    pub fn present(&self) -> Option<&Moment> {
+    pub fn present(&self) -> Option<&ContactSnapshot> {
         let moment = self.moment.as_deref()?;
         (moment.generation == self.generation && moment.drive == self.drive()).then_some(moment)
     }

@@ -2,9 +2,9 @@
 
 use super::close_up::close_up;
 use super::engine::Engine;
-use super::held::Held;
-use super::request::{Drive, HandOrder, LineView, MomentRequest, Newest};
-use super::snapshot::{Loop, Moment, Probe, Report};
+use super::manual_body::ManualBody;
+use super::request::{Drive, LineView, ManualMove, Newest, SnapshotRequest};
+use super::snapshot::{ContactSnapshot, Probe, Report, SolvedScene};
 use super::spectrum::SceneSpectra;
 use crate::analysis::section::{self, Contact, LineColumns, Part};
 use crate::contact::{ContactError, LegContact, LegRecord, Snapshot, Solver};
@@ -31,12 +31,12 @@ type Fragments = Vec<(usize, usize)>;
 pub struct Playback {
     generation: u64,
     scene: Option<Arc<Scene>>,
-    computed: Option<Arc<Loop>>,
+    computed: Option<Arc<SolvedScene>>,
     /// Contact on each leg, as far as it is kept.
     legs: Vec<Option<LegContact>>,
     /// Memory for the legs of the next scene.
     spare: Vec<LegContact>,
-    held: Option<Held>,
+    held: Option<ManualBody>,
     /// The contact at the moment shown last, to tell how many springs changed.
     last: Option<(Drive, Fragments)>,
     /// Spectra of the scene, once they have been asked for.
@@ -96,7 +96,7 @@ impl Playback {
         self.spare = spare;
         match result {
             Ok(outcome) => {
-                let computed = Arc::new(Loop { generation, scene, outcome });
+                let computed = Arc::new(SolvedScene { generation, scene, outcome });
                 self.legs = legs;
                 self.scene = Some(Arc::new(observed));
                 self.computed = Some(Arc::clone(&computed));
@@ -108,9 +108,9 @@ impl Playback {
     }
 
     /// Moves the body by hand.
-    pub fn obey(&mut self, engine: &mut dyn Engine, order: HandOrder) {
+    pub fn obey(&mut self, engine: &mut dyn Engine, order: ManualMove) {
         match order {
-            HandOrder::Take { leg, indentation } => {
+            ManualMove::Take { leg, indentation } => {
                 self.held = None;
                 let Some((contact, rises)) = self.contact_on_leg(engine, leg, indentation) else { return };
                 let Some((computed, line)) = self.computed.as_ref().zip(engine.line()) else { return };
@@ -118,7 +118,7 @@ impl Playback {
                 let preload = computed.outcome.figures.preload.unwrap_or(0.0);
                 let scales = (range_of(computed) / STEPS_OF_A_PULL, preload);
                 let edges = computed.scene.numerics.edges;
-                self.held = Held::take(
+                self.held = ManualBody::take(
                     line,
                     engine.tree(),
                     edges,
@@ -128,7 +128,7 @@ impl Playback {
                 );
                 self.last = None;
             }
-            HandOrder::Give => {
+            ManualMove::Give => {
                 self.held = None;
                 self.last = None;
             }
@@ -141,16 +141,16 @@ impl Playback {
     }
 
     /// The moment asked for; `None` where there is no such leg, or nothing in hand.
-    pub fn show(&mut self, engine: &mut dyn Engine, request: &MomentRequest) -> Option<Moment> {
+    pub fn show(&mut self, engine: &mut dyn Engine, request: &SnapshotRequest) -> Option<ContactSnapshot> {
         let ((fragments, rises), at) = match request.drive {
             Drive::Leg(leg) => (self.contact_on_leg(engine, leg, request.indentation)?, None),
-            Drive::Hand => {
+            Drive::Manual => {
                 let held = self.held.as_ref()?;
                 ((held.fragments(), held.rises()), Some(held.point()))
             }
         };
         let line = engine.line()?;
-        let Loop { scene, outcome, .. } = self.computed.as_deref()?;
+        let SolvedScene { scene, outcome, .. } = self.computed.as_deref()?;
         let (governing, deepest) = (outcome.governing, outcome.line.deepest);
         let foundation = governing.foundation(line);
         let hess = governing.hess_rule(foundation);
@@ -177,7 +177,7 @@ impl Playback {
         if request.spectra && self.spectra.is_none() {
             self.spectra = Some(Arc::new(SceneSpectra::new(scene, outcome, line)));
         }
-        let moment = Moment {
+        let moment = ContactSnapshot {
             generation: request.generation,
             drive: request.drive,
             line: outcome.line,
@@ -193,7 +193,7 @@ impl Playback {
             spectra: self.spectra.clone().filter(|_| request.spectra),
             hand: match request.drive {
                 Drive::Leg(_) => None,
-                Drive::Hand => self.held.as_mut().map(Held::travel),
+                Drive::Manual => self.held.as_mut().map(ManualBody::travel),
             },
             beside: None,
         };
@@ -260,7 +260,7 @@ fn probe(contact: &Contact<'_>, position: f64) -> Option<Probe> {
 }
 
 /// Range of indentations of a scene's curves, m.
-fn range_of(computed: &Loop) -> f64 {
+fn range_of(computed: &SolvedScene) -> f64 {
     let points = computed.outcome.history.legs.iter().flat_map(|leg| &leg.curve);
     let (low, high) = points.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), point| {
         (low.min(point.indentation), high.max(point.indentation))
@@ -269,7 +269,7 @@ fn range_of(computed: &Loop) -> f64 {
 }
 
 /// The springs that the profile shows: a part of the line that never leaves it.
-fn profile_part(request: &MomentRequest, count: usize, close_up: usize) -> Part {
+fn profile_part(request: &SnapshotRequest, count: usize, close_up: usize) -> Part {
     let LineView { centre, share, follow } = request.profile;
     let springs = ((count as f64 * share).round() as usize).clamp(1, count.max(1));
     let middle = if follow { close_up } else { (count as f64 * centre) as usize };

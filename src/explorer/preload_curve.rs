@@ -1,7 +1,7 @@
 //! Adhesion against preload of the scene: the adhesion force of its own profile for many preloads, then the mean over
 //! random profiles, coarser in the preload.
 
-use super::snapshot::Loop;
+use super::snapshot::SolvedScene;
 use crate::analysis::Figures;
 use crate::scene::{Scene, Solver};
 use crate::simulation::{RunError, Simulation};
@@ -38,7 +38,7 @@ impl PreloadCurve {
     ///
     /// # Errors
     /// The reason why the scene has no such curve.
-    pub fn new(computed: &Loop) -> Result<Self, &'static str> {
+    pub fn new(computed: &SolvedScene) -> Result<Self, &'static str> {
         if computed.scene.numerics.solver != Solver::Exact {
             return Err("many preloads at once need the exact solver");
         }
@@ -134,7 +134,7 @@ impl PreloadPane {
 
     /// The curve to be gone on with, `None` once it is whole or where there is none.
     #[must_use]
-    pub fn wanted(&self, computed: &Loop) -> Option<Arc<PreloadCurve>> {
+    pub fn wanted(&self, computed: &SolvedScene) -> Option<Arc<PreloadCurve>> {
         if !self.shown || self.failed.is_some() {
             return None;
         }
@@ -149,11 +149,11 @@ mod tests {
     use crate::scene::{Leg, open};
     use std::cell::Cell;
 
-    fn computed(name: &str) -> Loop {
+    fn computed(name: &str) -> SolvedScene {
         let mut scene = open(name).unwrap().scene().clone();
         scene.numerics.points = 2048;
         let outcome = Simulation::default().run(&scene, &|| false, &mut |_, _, _| Ok(())).unwrap();
-        Loop { generation: 1, scene: Arc::new(scene), outcome }
+        SolvedScene { generation: 1, scene: Arc::new(scene), outcome }
     }
 
     #[test]

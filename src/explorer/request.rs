@@ -15,14 +15,14 @@ pub enum Request {
         scene: Arc<Scene>,
     },
     /// Move the body by hand, in the scene that was computed last.
-    Hand {
+    Manual {
         /// Generation of the scene it belongs to.
         generation: u64,
         /// Move.
-        order: HandOrder,
+        order: ManualMove,
     },
     /// Show a moment of the scene that was computed last.
-    Show(MomentRequest),
+    Show(SnapshotRequest),
     /// Compute a scene to be shown beside, or none.
     Beside(Option<Arc<Scene>>),
     /// Compute a scene to look at its curve: one of the library, or one with a value that is being typed.
@@ -36,7 +36,7 @@ pub enum Request {
 
 /// Move of manual loading.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum HandOrder {
+pub enum ManualMove {
     /// Takes it where a leg of the loading has it at this indentation, m.
     Take {
         /// Index of the leg.
@@ -58,7 +58,7 @@ pub enum HandOrder {
 
 /// Request for a snapshot of the contact, with the sizes of the panes.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct MomentRequest {
+pub struct SnapshotRequest {
     /// Generation of the scene it belongs to.
     pub generation: u64,
     /// Drive of the body.
@@ -134,7 +134,7 @@ pub enum Drive {
     /// A leg of the scene's loading, by its index.
     Leg(usize),
     /// The user's hand.
-    Hand,
+    Manual,
 }
 
 /// Newest generation that the explorer waits for; a run for an older one stops.

@@ -8,7 +8,7 @@ use super::input;
 use super::model::{Model, Notice};
 use super::opening::Opening;
 use super::signals::{Told, watch_for_signals};
-use super::snapshot::Loop;
+use super::snapshot::SolvedScene;
 use super::study::{Accuracy, Found, Study};
 use super::terminal::{self, FrameWriter, TerminalGuard};
 use super::theme::{Appearance, Marker, Theme};
@@ -60,11 +60,11 @@ pub struct Options {
 }
 
 /// State at the end of the explorer.
-pub struct Left {
+pub struct SessionEnd {
     /// The scene as it was left.
     pub document: Document,
     /// Outcome.
-    pub computed: Option<Arc<Loop>>,
+    pub computed: Option<Arc<SolvedScene>>,
     /// Number of the signal that has ended it.
     pub signal: Option<i32>,
 }
@@ -100,7 +100,7 @@ struct Beside {
 ///
 /// # Errors
 /// When the terminal refuses.
-pub fn open(opening: impl Into<Opening>, options: Options) -> io::Result<Left> {
+pub fn open(opening: impl Into<Opening>, options: Options) -> io::Result<SessionEnd> {
     open_with(opening, options, Box::new(Simulation::default()), view::draw)
 }
 
@@ -113,7 +113,7 @@ pub fn open_with(
     options: Options,
     engine: Box<dyn Engine>,
     draw: Draw,
-) -> io::Result<Left> {
+) -> io::Result<SessionEnd> {
     let Opening { document, study_map, beside } = opening.into();
     let guard = TerminalGuard::take(!options.no_mouse)?;
     let (messages, inbox) = channel();
@@ -196,7 +196,7 @@ pub fn open_with(
     session.leave_drafts();
     let model = session.model;
     let computed = model.computed.clone().filter(|_| model.is_current());
-    Ok(Left { document: model.document, computed, signal })
+    Ok(SessionEnd { document: model.document, computed, signal })
 }
 
 fn read_input(messages: Sender<Message>) -> io::Result<()> {
@@ -426,7 +426,7 @@ impl<W: Write> Session<'_, W> {
                 }
                 Effect::Beside => self.worker.ask(Request::Beside(scene_beside(&self.model))),
                 Effect::Study => self.study.ask(generation, study_tasks(&self.model)),
-                Effect::Hand(order) => self.worker.ask(Request::Hand { generation, order }),
+                Effect::Manual(order) => self.worker.ask(Request::Manual { generation, order }),
                 Effect::DrawSeed => {
                     // Six digits are enough for another line and can be read out to a colleague.
                     let seed = rand::random_range(0..1_000_000);

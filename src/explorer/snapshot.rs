@@ -12,7 +12,7 @@ use std::sync::Arc;
 
 /// A computed scene.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Loop {
+pub struct SolvedScene {
     /// Generation of the scene.
     pub generation: u64,
     /// The scene.
@@ -23,7 +23,7 @@ pub struct Loop {
 
 /// The contact at one moment.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Moment {
+pub struct ContactSnapshot {
     /// Generation of the scene.
     pub generation: u64,
     /// Drive of the body.
@@ -51,9 +51,9 @@ pub struct Moment {
     /// Spectra of the scene, where they were asked for.
     pub spectra: Option<Arc<SceneSpectra>>,
     /// Path of manual loading to this state.
-    pub hand: Option<Travel>,
+    pub hand: Option<ManualPath>,
     /// The scene beside, at the same part of its loading.
-    pub beside: Option<Box<Moment>>,
+    pub beside: Option<Box<ContactSnapshot>>,
 }
 
 /// Rigid profile and elastic surface at one spring.
@@ -71,7 +71,7 @@ pub struct Probe {
 
 /// The way of the hand since the moment before.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Travel {
+pub struct ManualPath {
     /// Points of the curve on the way, the one it began at left out.
     pub path: Vec<CurvePoint>,
     /// Springs that joined or left.
@@ -162,9 +162,9 @@ pub struct Preview {
 #[derive(Clone, Debug)]
 pub enum Report {
     /// A scene has been computed.
-    Computed(Arc<Loop>),
+    Computed(Arc<SolvedScene>),
     /// A moment is ready.
-    Shown(Arc<Moment>),
+    Shown(Arc<ContactSnapshot>),
     /// Part of a scene is done.
     Progress {
         /// Its generation.

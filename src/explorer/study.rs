@@ -2,7 +2,7 @@
 //! that no edit waits for it. Whatever is asked for next ends what is under way.
 
 use super::preload_curve::PreloadCurve;
-use super::snapshot::Loop;
+use super::snapshot::SolvedScene;
 use crate::accuracy::{
     Choice, ChoiceError, CostError, CostTable, Estimate, Knob, Progress, choose, estimate, measure,
 };
@@ -25,7 +25,7 @@ const QUIET: Duration = Duration::from_millis(300);
 #[derive(Clone, Debug, PartialEq)]
 pub enum Task {
     /// Estimated error of the outcome.
-    Estimate(Arc<Loop>),
+    Estimate(Arc<SolvedScene>),
     /// Cost of accuracy.
     Measure(Arc<Scene>),
     /// Springs and edges for a tolerance.
@@ -100,7 +100,7 @@ pub trait Appraiser: Send {
     ///
     /// # Errors
     /// When a solution that is needed fails.
-    fn estimate(&mut self, of: &Loop, stop: &dyn Fn() -> bool) -> Result<Option<Estimate>, RunError>;
+    fn estimate(&mut self, of: &SolvedScene, stop: &dyn Fn() -> bool) -> Result<Option<Estimate>, RunError>;
 
     /// See [`measure()`].
     ///
@@ -151,7 +151,7 @@ pub struct Accuracy;
 const FOLDER: &str = "";
 
 impl Appraiser for Accuracy {
-    fn estimate(&mut self, of: &Loop, stop: &dyn Fn() -> bool) -> Result<Option<Estimate>, RunError> {
+    fn estimate(&mut self, of: &SolvedScene, stop: &dyn Fn() -> bool) -> Result<Option<Estimate>, RunError> {
         estimate(&of.scene, Path::new(FOLDER), &of.outcome, stop)
     }
 

@@ -56,7 +56,7 @@ pub enum Meaning {
     /// Forces while unloading.
     Retraction,
     /// Path of manual loading.
-    Hand,
+    Manual,
     /// Loops kept for comparison.
     Ghost,
     /// The moment shown.
@@ -119,7 +119,7 @@ impl Theme {
     #[must_use]
     pub fn colour(self, meaning: Meaning) -> Color {
         use Meaning::{
-            Approach, Contact, Cursor, Error, Ghost, Hand, Key, Line, Quiet, Retraction, Selected, Surface,
+            Approach, Contact, Cursor, Error, Ghost, Key, Line, Manual, Quiet, Retraction, Selected, Surface,
             Text, Title,
         };
         match (self, meaning) {
@@ -129,22 +129,22 @@ impl Theme {
             (Theme::Neutral, Contact | Error | Cursor) => Color::Red,
             (Theme::Neutral, Approach) => Color::Green,
             (Theme::Neutral, Retraction | Key) => Color::Magenta,
-            (Theme::Neutral, Hand) => Color::Cyan,
+            (Theme::Neutral, Manual) => Color::Cyan,
             (Theme::Dark, Quiet | Ghost) => Color::Gray,
             (Theme::Dark, Surface) => Color::LightBlue,
             (Theme::Dark, Contact | Error | Cursor) => Color::LightRed,
             (Theme::Dark, Approach) => Color::LightGreen,
             (Theme::Dark, Retraction | Key) => Color::LightMagenta,
-            (Theme::Dark, Hand) => Color::LightYellow,
+            (Theme::Dark, Manual) => Color::LightYellow,
             (Theme::Light, Quiet | Ghost) => Color::DarkGray,
             (Theme::Light, Surface | Key) => Color::Blue,
             (Theme::Light, Contact | Error | Cursor) => Color::Red,
             (Theme::Light, Approach) => Color::Green,
             (Theme::Light, Retraction) => Color::Magenta,
-            (Theme::Light, Hand) => Color::Cyan,
+            (Theme::Light, Manual) => Color::Cyan,
             (Theme::HighContrast, Quiet | Ghost | Approach | Key) => Color::Reset,
             (Theme::HighContrast, Surface) => Color::LightBlue,
-            (Theme::HighContrast, Contact | Error | Cursor | Retraction | Hand) => Color::LightRed,
+            (Theme::HighContrast, Contact | Error | Cursor | Retraction | Manual) => Color::LightRed,
         }
     }
 

@@ -3,7 +3,7 @@
 pub use super::engine::Engine;
 use super::playback::Playback;
 use super::request::Drive;
-pub use super::request::{Focus, HandOrder, LineView, MomentRequest, Newest, Request};
+pub use super::request::{Focus, LineView, ManualMove, Newest, Request, SnapshotRequest};
 use super::snapshot::Preview;
 pub use super::snapshot::Report;
 use crate::scene::Scene;
@@ -14,7 +14,7 @@ use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender};
 
 /// The place where requests are done, one after the other.
-pub struct Desk {
+pub struct WorkerState {
     engine: Box<dyn Engine>,
     playback: Playback,
     /// The library's scenes have an engine of their own: the one shown keeps its line.
@@ -27,8 +27,8 @@ pub struct Desk {
 #[derive(Default)]
 struct Batch {
     compute: Option<(u64, Arc<Scene>)>,
-    orders: Vec<(u64, HandOrder)>,
-    show: Option<MomentRequest>,
+    orders: Vec<(u64, ManualMove)>,
+    show: Option<SnapshotRequest>,
     preview: Option<(String, Arc<Scene>)>,
     beside: Option<Option<Arc<Scene>>>,
 }
@@ -39,7 +39,7 @@ impl Batch {
         for request in requests {
             match request {
                 Request::Compute { generation, scene } => batch.compute = Some((generation, scene)),
-                Request::Hand { generation, order } => batch.orders.push((generation, order)),
+                Request::Manual { generation, order } => batch.orders.push((generation, order)),
                 Request::Show(moment) => batch.show = Some(moment),
                 Request::Beside(scene) => batch.beside = Some(scene),
                 Request::Preview { text, scene } => batch.preview = Some((text, scene)),
@@ -49,11 +49,11 @@ impl Batch {
     }
 }
 
-impl Desk {
+impl WorkerState {
     /// A desk with an engine.
     #[must_use]
     pub fn new(engine: Box<dyn Engine>) -> Self {
-        Desk { engine, playback: Playback::default(), previews: Simulation::default(), beside: None }
+        WorkerState { engine, playback: Playback::default(), previews: Simulation::default(), beside: None }
     }
 
     /// Does the requests that wait together, and reports.
@@ -82,7 +82,7 @@ impl Desk {
     }
 
     fn do_all(&mut self, batch: Batch, newest: &Newest, report: &dyn Fn(Report) -> bool) {
-        let Desk { engine, playback, .. } = self;
+        let WorkerState { engine, playback, .. } = self;
         if let Some((generation, scene)) = batch.compute
             && let Some(one) = playback.compute(engine.as_mut(), generation, scene, newest, report)
         {
@@ -101,7 +101,7 @@ impl Desk {
         {
             if let (Some((leg, indentation)), Some((engine, playback))) = (request.beside, &mut self.beside) {
                 let drive = Drive::Leg(leg);
-                let request = MomentRequest { generation: 0, drive, indentation, ..request };
+                let request = SnapshotRequest { generation: 0, drive, indentation, ..request };
                 moment.beside = playback.show(engine, &request).map(Box::new);
             }
             report(Report::Shown(Arc::new(moment)));
@@ -141,7 +141,7 @@ pub fn serve(
     requests: &Receiver<Request>,
     report: &dyn Fn(Report) -> bool,
 ) {
-    let mut desk = Desk::new(engine);
+    let mut desk = WorkerState::new(engine);
     let is_heard = std::cell::Cell::new(true);
     let report = |one| {
         is_heard.set(is_heard.get() && report(one));
@@ -194,7 +194,7 @@ impl Worker {
                 self.newest.set_preview(None);
             }
             Request::Preview { scene, .. } => self.newest.set_preview(Some(Arc::clone(scene))),
-            Request::Hand { .. } | Request::Show(_) | Request::Beside(_) => {}
+            Request::Manual { .. } | Request::Show(_) | Request::Beside(_) => {}
         }
         // The worker only ends with the explorer.
         let _ = self.requests.send(request);

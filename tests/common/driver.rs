@@ -3,7 +3,7 @@
 
 use asperity::explorer::action::{Action, Content, WriteFailure, Written};
 use asperity::explorer::model::Model;
-use asperity::explorer::snapshot::Loop;
+use asperity::explorer::snapshot::SolvedScene;
 use asperity::explorer::study::{Appraiser, Found, perform};
 use asperity::explorer::theme::{Appearance, Marker, Theme};
 use asperity::explorer::update::{Effect, moment_request, study_tasks};
@@ -91,9 +91,9 @@ impl Driver {
                 self.worker.ask(Request::Beside(scene));
                 Vec::new()
             }
-            Effect::Hand(order) => {
+            Effect::Manual(order) => {
                 // Answered with the next moment.
-                self.worker.ask(Request::Hand { generation: self.model.generation, order });
+                self.worker.ask(Request::Manual { generation: self.model.generation, order });
                 Vec::new()
             }
             Effect::Preview(document) => {
@@ -180,7 +180,7 @@ fn action_of(report: Report) -> Action {
             let mut outcome = computed.outcome.clone();
             outcome.timings = Timings::default();
             let scene = Arc::clone(&computed.scene);
-            Action::Computed(Arc::new(Loop { generation: computed.generation, scene, outcome }))
+            Action::Computed(Arc::new(SolvedScene { generation: computed.generation, scene, outcome }))
         }
         Report::Previewed(preview) => Action::Previewed(preview),
         Report::Shown(moment) => Action::Shown(moment),

@@ -11,7 +11,7 @@ use asperity::accuracy::{
 };
 use asperity::explorer::action::Action;
 use asperity::explorer::model::{Costs, Estimated, Notice, Pane};
-use asperity::explorer::snapshot::Loop;
+use asperity::explorer::snapshot::SolvedScene;
 use asperity::explorer::study::{Appraiser, Finding, Found, Study, Task};
 use asperity::explorer::update::Effect;
 use asperity::scene::{Document, Edges, Scene};
@@ -28,7 +28,7 @@ struct Scripted {
 }
 
 impl Appraiser for Scripted {
-    fn estimate(&mut self, _: &Loop, _: &dyn Fn() -> bool) -> Result<Option<Estimate>, RunError> {
+    fn estimate(&mut self, _: &SolvedScene, _: &dyn Fn() -> bool) -> Result<Option<Estimate>, RunError> {
         Ok(self.estimate.clone())
     }
 
@@ -287,7 +287,7 @@ const PATIENCE: Duration = Duration::from_secs(20);
 struct Endless(Sender<&'static str>);
 
 impl Appraiser for Endless {
-    fn estimate(&mut self, _: &Loop, _: &dyn Fn() -> bool) -> Result<Option<Estimate>, RunError> {
+    fn estimate(&mut self, _: &SolvedScene, _: &dyn Fn() -> bool) -> Result<Option<Estimate>, RunError> {
         panic!("no estimate")
     }
 

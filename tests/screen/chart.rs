@@ -10,7 +10,7 @@ use asperity::analysis::Regime;
 use asperity::explorer::action::{Action, Gesture, Mouse};
 use asperity::explorer::layout::{Layout, inside};
 use asperity::explorer::model::{ModeKind, Pane};
-use asperity::explorer::snapshot::Loop;
+use asperity::explorer::snapshot::SolvedScene;
 use asperity::explorer::study::{Appraiser, Finding, Found, Study, Task};
 use asperity::explorer::theme::Marker;
 use asperity::explorer::update::{Effect, study_tasks};
@@ -46,7 +46,7 @@ fn cell(kappa: f64, hurst: f64) -> CellSummary {
 }
 
 impl Appraiser for Mapper {
-    fn estimate(&mut self, _: &Loop, _: &dyn Fn() -> bool) -> Result<Option<Estimate>, RunError> {
+    fn estimate(&mut self, _: &SolvedScene, _: &dyn Fn() -> bool) -> Result<Option<Estimate>, RunError> {
         Ok(None)
     }
 
@@ -385,7 +385,7 @@ const PATIENCE: Duration = Duration::from_secs(20);
 struct Endless(Sender<&'static str>, Mapper);
 
 impl Appraiser for Endless {
-    fn estimate(&mut self, of: &Loop, stop: &dyn Fn() -> bool) -> Result<Option<Estimate>, RunError> {
+    fn estimate(&mut self, of: &SolvedScene, stop: &dyn Fn() -> bool) -> Result<Option<Estimate>, RunError> {
         self.1.estimate(of, stop)
     }
 

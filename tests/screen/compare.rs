@@ -7,7 +7,7 @@ use super::{is_up_to_date, pressed};
 use asperity::explorer::Opening;
 use asperity::explorer::layout::Layout;
 use asperity::explorer::model::{Notice, Pane};
-use asperity::explorer::snapshot::Loop;
+use asperity::explorer::snapshot::SolvedScene;
 use asperity::scene::{Document, format_quantity};
 use asperity::simulation::Outcome;
 use ratatui::style::Color;
@@ -19,7 +19,7 @@ fn kept(driver: &Driver) -> Vec<Document> {
 
 /// What was computed for the scene.
 fn outcome(driver: &Driver) -> Outcome {
-    driver.model.computed.as_deref().map(|Loop { outcome, .. }| outcome.clone()).unwrap()
+    driver.model.computed.as_deref().map(|SolvedScene { outcome, .. }| outcome.clone()).unwrap()
 }
 
 fn told(driver: &Driver) -> String {
@@ -241,7 +241,7 @@ fn ghosts_have_their_force_and_its_difference_in_colours_of_their_own() {
         driver.enter("4");
         driver.press("c");
         driver.enter("2");
-        let force = |computed: &Loop| computed.outcome.figures.adhesion_force.unwrap();
+        let force = |computed: &SolvedScene| computed.outcome.figures.adhesion_force.unwrap();
         let present = force(driver.model.computed.as_ref().unwrap());
         let kept: Vec<f64> = driver.model.ghosts.iter().map(|ghost| force(&ghost.computed)).collect();
         assert!(kept[0] < kept[1] && kept[1] < present);

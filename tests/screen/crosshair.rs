@@ -7,11 +7,11 @@ use super::{default_scene, mid_retraction, pressed};
 use asperity::explorer::action::{Action, Gesture, Mouse};
 use asperity::explorer::layout::{Layout, inside};
 use asperity::explorer::model::{ModeKind, Pane};
-use asperity::explorer::snapshot::{Moment, Probe};
+use asperity::explorer::snapshot::{ContactSnapshot, Probe};
 use asperity::scene::format_quantity;
 use ratatui::layout::Rect;
 
-fn moment(driver: &Driver) -> &Moment {
+fn moment(driver: &Driver) -> &ContactSnapshot {
     driver.model.moment.as_deref().unwrap()
 }
 

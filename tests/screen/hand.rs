@@ -5,16 +5,16 @@ use super::common::driver::Driver;
 use super::common::scenes::{changed, rough, smooth, without_adhesion};
 use super::{is_up_to_date, mid_retraction, pressed};
 use asperity::contact::CurvePoint;
-use asperity::explorer::model::{Hand, Notice};
+use asperity::explorer::model::{ManualState, Notice};
 use asperity::explorer::snapshot::Drive;
 use asperity::explorer::update::Effect;
-use asperity::explorer::worker::HandOrder;
+use asperity::explorer::worker::ManualMove;
 
 fn point(driver: &Driver) -> CurvePoint {
     driver.model.moment.as_ref().unwrap().point
 }
 
-fn hand(driver: &Driver) -> &Hand {
+fn hand(driver: &Driver) -> &ManualState {
     driver.model.hand.as_ref().expect("the body is in hand")
 }
 
@@ -34,7 +34,7 @@ fn the_body_is_taken_where_it_stands() {
                 driver.press(keys);
                 let stood = point(&driver);
                 driver.press("d");
-                assert_eq!(driver.model.moment.as_ref().unwrap().drive, Drive::Hand);
+                assert_eq!(driver.model.moment.as_ref().unwrap().drive, Drive::Manual);
                 assert_eq!(point(&driver), stood, "{}", driver.model.document.name());
                 assert_eq!(hand(&driver).path, [stood]);
                 driver.press("d");
@@ -247,7 +247,7 @@ fn playing_gives_it_back() {
             let leg = driver.model.player.leg;
             driver.press("d { [");
             let effects = driver.press(keys);
-            assert_eq!(effects, [Effect::Hand(HandOrder::Give), Effect::Show], "{keys}");
+            assert_eq!(effects, [Effect::Manual(ManualMove::Give), Effect::Show], "{keys}");
             assert!(driver.model.hand.is_none(), "{keys}");
             assert!(matches!(driver.model.moment.as_ref().unwrap().drive, Drive::Leg(_)), "{keys}");
             if keys == "Space" {

@@ -7,7 +7,7 @@ use super::keep;
 use asperity::accuracy::{Choice, ChoiceError, CostError, CostTable, Estimate, Progress};
 use asperity::explorer::model::Pane;
 use asperity::explorer::preload_curve::{PROFILES, PreloadCurve};
-use asperity::explorer::snapshot::Loop;
+use asperity::explorer::snapshot::SolvedScene;
 use asperity::explorer::study::{Appraiser, Task};
 use asperity::explorer::update::{Effect, study_tasks};
 use asperity::scene::{Document, Scene};
@@ -20,7 +20,7 @@ use std::path::Path;
 struct Profiles(usize);
 
 impl Appraiser for Profiles {
-    fn estimate(&mut self, _: &Loop, _: &dyn Fn() -> bool) -> Result<Option<Estimate>, RunError> {
+    fn estimate(&mut self, _: &SolvedScene, _: &dyn Fn() -> bool) -> Result<Option<Estimate>, RunError> {
         Ok(None)
     }
 

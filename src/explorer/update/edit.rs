@@ -5,7 +5,7 @@ use super::ghosts::name_ghosts;
 use crate::explorer::action::Command;
 use crate::explorer::layout::Layout;
 use crate::explorer::mode::Mode;
-use crate::explorer::model::{Look, Model, Notice, Pane, Player};
+use crate::explorer::model::{CloseUpTarget, Model, Notice, Pane, Player};
 use crate::explorer::parameters::{Parameter, Setting, parameters};
 use crate::explorer::request::{Focus, LineView};
 use crate::explorer::session::scene_of;
@@ -72,7 +72,7 @@ pub fn open(model: &mut Model, document: Document) -> Vec<Effect> {
         model.notice = Some(Notice::Done(kept.to_owned()));
     }
     model.player = Player { leg: 0, done: 0.0, playing: true };
-    model.look = Look { focus: Focus::Summit, springs: Look::springs_shown(&document) };
+    model.look = CloseUpTarget { focus: Focus::Summit, springs: CloseUpTarget::springs_shown(&document) };
     model.profile = LineView::WHOLE;
     // The map that is shown is that of the scene; a study stays at hand.
     model.chart.of_study = false;

@@ -3,7 +3,7 @@
 use super::Effect;
 use crate::draw::AxisScale;
 use crate::explorer::action::{Command, Jump};
-use crate::explorer::model::{Look, Model, Notice, Pane};
+use crate::explorer::model::{CloseUpTarget, Model, Notice, Pane};
 use crate::explorer::request::{Focus, LineView};
 
 /// Fewest springs that fill a pane.
@@ -34,7 +34,7 @@ pub fn obey(model: &mut Model, command: Command) -> Vec<Effect> {
         Command::Pan(quarters) => pan(model, quarters),
         Command::ResetZoom => {
             model.profile = LineView::WHOLE;
-            model.look.springs = Look::springs_shown(&model.document);
+            model.look.springs = CloseUpTarget::springs_shown(&model.document);
         }
         Command::ToggleFollow => {
             model.profile.follow = !model.profile.follow;

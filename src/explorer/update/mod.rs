@@ -23,7 +23,7 @@ use super::action::{Action, Command, Content};
 use super::layout::Layout;
 use super::mode::Mode;
 use super::model::{Model, Notice, Player};
-use super::request::{HandOrder, MomentRequest};
+use super::request::{ManualMove, SnapshotRequest};
 use super::theme::Appearance;
 use super::view::help_end;
 use crate::scene::{Document, typed_path};
@@ -41,7 +41,7 @@ pub enum Effect {
     /// Work out what is not known yet of the scene's accuracy, see [`study_tasks`], and nothing else.
     Study,
     /// Move the body by hand.
-    Hand(HandOrder),
+    Manual(ManualMove),
     /// Draw a random seed and give it back as an action.
     DrawSeed,
     /// Write a file.
@@ -148,13 +148,13 @@ pub fn update(model: &mut Model, action: Action) -> Vec<Effect> {
 
 /// Request to the worker for the panes of this model.
 #[must_use]
-pub fn moment_request(model: &Model) -> Option<MomentRequest> {
+pub fn moment_request(model: &Model) -> Option<SnapshotRequest> {
     if !model.is_current() {
         return None;
     }
     let layout = Layout::of(model);
     let dots = model.appearance.marker.columns();
-    Some(MomentRequest {
+    Some(SnapshotRequest {
         generation: model.generation,
         drive: model.drive(),
         indentation: model.indentation(),

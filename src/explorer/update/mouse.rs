@@ -5,7 +5,7 @@ use crate::explorer::action::{Command, Gesture, Mouse};
 use crate::explorer::layout::{Layout, inside};
 use crate::explorer::mode::Mode;
 use crate::explorer::model::{Model, Pane};
-use crate::explorer::request::HandOrder;
+use crate::explorer::request::ManualMove;
 use crate::explorer::view::{indentation_at, parameter_at, place_at, share_at};
 use ratatui::layout::Position;
 
@@ -87,7 +87,7 @@ fn drag(model: &mut Model, area: ratatui::layout::Rect, column: u16) -> Vec<Effe
     let mut effects = if model.hand.is_none() { movement::take(model, None) } else { Vec::new() };
     effects.retain(|effect| *effect != Effect::Show);
     if let Some(indentation) = indentation_at(model, area, column) {
-        effects.extend(movement::take(model, Some(HandOrder::To(indentation))));
+        effects.extend(movement::take(model, Some(ManualMove::To(indentation))));
     }
     effects
 }

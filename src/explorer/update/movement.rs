@@ -4,9 +4,9 @@ use super::Effect;
 use crate::explorer::action::Command;
 use crate::explorer::config::Animation;
 use crate::explorer::mode::Mode;
-use crate::explorer::model::{Hand, Model, Notice, Player};
-use crate::explorer::request::{Focus, HandOrder};
-use crate::explorer::snapshot::{Moment, Refusal};
+use crate::explorer::model::{ManualState, Model, Notice, Player};
+use crate::explorer::request::{Focus, ManualMove};
+use crate::explorer::snapshot::{ContactSnapshot, Refusal};
 use crate::explorer::text_line::TextLine;
 use crate::scene::{parse_quantity, quantity_as_typed};
 use std::sync::Arc;
@@ -29,9 +29,9 @@ pub fn obey(model: &mut Model, command: Command) -> Vec<Effect> {
         Command::Push { steps, coarse } => {
             let (low, high) = model.indentations().unwrap_or_default();
             let step = (high - low) / if coarse { HAND_STEPS.1 } else { HAND_STEPS.0 };
-            return take(model, Some(HandOrder::By(f64::from(steps) * step)));
+            return take(model, Some(ManualMove::By(f64::from(steps) * step)));
         }
-        Command::Separate => return take(model, Some(HandOrder::Separate)),
+        Command::Separate => return take(model, Some(ManualMove::Separate)),
         Command::TypeForce => {
             model.mode = Mode::Force(TextLine::new(""));
             return Vec::new();
@@ -41,7 +41,7 @@ pub fn obey(model: &mut Model, command: Command) -> Vec<Effect> {
     // What plays is the scene's loading.
     let mut effects = Vec::new();
     if model.hand.take().is_some() {
-        effects.push(Effect::Hand(HandOrder::Give));
+        effects.push(Effect::Manual(ManualMove::Give));
     }
     match command {
         Command::TogglePlay => {
@@ -116,7 +116,7 @@ pub fn stay_on_legs(model: &mut Model, last: usize) {
 }
 
 /// Takes a moment in.
-pub fn shown(model: &mut Model, moment: Arc<Moment>) {
+pub fn shown(model: &mut Model, moment: Arc<ContactSnapshot>) {
     // Another moment may have been on its way when the fragment was asked for.
     if moment.focus == model.look.focus && model.look.focus.is_question() {
         let middle = moment.close_up.fragment.map(|fragment| fragment.middle());
@@ -162,7 +162,7 @@ fn rounded_up(value: f64) -> f64 {
 }
 
 /// Takes the body in hand, unless it is already, and moves it.
-pub fn take(model: &mut Model, order: Option<HandOrder>) -> Vec<Effect> {
+pub fn take(model: &mut Model, order: Option<ManualMove>) -> Vec<Effect> {
     if !model.is_current() || model.legs().is_empty() {
         return Vec::new();
     }
@@ -171,17 +171,17 @@ pub fn take(model: &mut Model, order: Option<HandOrder>) -> Vec<Effect> {
         let (leg, indentation) = (model.player.leg, model.indentation());
         let start = model.present().map(|moment| moment.point);
         model.player.playing = false;
-        model.hand = Some(Hand { path: start.into_iter().collect(), ..Hand::default() });
-        effects.push(Effect::Hand(HandOrder::Take { leg, indentation }));
+        model.hand = Some(ManualState { path: start.into_iter().collect(), ..ManualState::default() });
+        effects.push(Effect::Manual(ManualMove::Take { leg, indentation }));
     }
-    effects.extend(order.map(Effect::Hand));
+    effects.extend(order.map(Effect::Manual));
     effects.push(Effect::Show);
     effects
 }
 
 fn give_back(model: &mut Model) -> Vec<Effect> {
     model.hand = None;
-    vec![Effect::Hand(HandOrder::Give), Effect::Show]
+    vec![Effect::Manual(ManualMove::Give), Effect::Show]
 }
 
 /// Moves the body to a force that was typed.
@@ -189,7 +189,7 @@ pub fn accept_force(model: &mut Model, typed: &str) -> Vec<Effect> {
     match parse_quantity(typed.trim(), "N") {
         Ok(force) => {
             model.typed_force = typed.trim().to_owned();
-            take(model, Some(HandOrder::ToForce(force)))
+            take(model, Some(ManualMove::ToForce(force)))
         }
         Err(error) => {
             model.notice = Some(Notice::Error(format!("{error}; for example 10 µN, or -2e-6 to pull")));

@@ -4,7 +4,7 @@
 use super::wrap::clipped;
 use super::{force, profile};
 use crate::explorer::model::{Ghost, Model};
-use crate::explorer::snapshot::Loop;
+use crate::explorer::snapshot::SolvedScene;
 use crate::explorer::theme::Meaning;
 use crate::export::adhesion_forces;
 use crate::scene::format_quantity;
@@ -45,7 +45,7 @@ pub fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
 
 /// Adhesion forces of the ghost and of the scene, and their ratio.
 fn forces(model: &Model, ghost: &Ghost) -> Line<'static> {
-    let force = |computed: &Loop| computed.outcome.figures.adhesion_force;
+    let force = |computed: &SolvedScene| computed.outcome.figures.adhesion_force;
     let before = force(&ghost.computed);
     Line::raw(match model.computed.as_deref().filter(|_| model.is_current()) {
         Some(now) => format!("F_a {}", adhesion_forces([before, force(now)])),

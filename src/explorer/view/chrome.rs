@@ -9,8 +9,8 @@ use crate::explorer::action::{Command, Content, Traffic};
 use crate::explorer::completion::Completion;
 use crate::explorer::keys::{self, Binding};
 use crate::explorer::mode::SaveForm;
-use crate::explorer::model::{Estimated, Hand, Mode, ModeKind, Model, Notice};
-use crate::explorer::snapshot::Moment;
+use crate::explorer::model::{Estimated, ManualState, Mode, ModeKind, Model, Notice};
+use crate::explorer::snapshot::ContactSnapshot;
 use crate::explorer::text_line::TextLine;
 use crate::explorer::theme::Meaning;
 use crate::scene::format_quantity;
@@ -144,7 +144,7 @@ fn headline(model: &Model, width: u16) -> Line<'static> {
 type Part = (&'static str, String, Meaning);
 
 /// The state under manual loading: what the move changed comes before what it led to.
-fn manual(model: &Model, moment: &Moment, hand: &Hand) -> Vec<Part> {
+fn manual(model: &Model, moment: &ContactSnapshot, hand: &ManualState) -> Vec<Part> {
     let dissipated = format!("ΔW {}", format_quantity(short(hand.dissipated_energy), "J"));
     let mut parts = vec![
         ("  ", format!("manual: {}", place(moment.point)), Meaning::Text),
@@ -157,7 +157,7 @@ fn manual(model: &Model, moment: &Moment, hand: &Hand) -> Vec<Part> {
 }
 
 /// The present state in mechanical quantities, and those of the whole loop.
-fn mechanics(model: &Model, moment: Option<&Moment>) -> Vec<Part> {
+fn mechanics(model: &Model, moment: Option<&ContactSnapshot>) -> Vec<Part> {
     let Some(computed) = &model.computed else { return Vec::new() };
     let outcome = &computed.outcome;
     let mut parts = Vec::new();
@@ -185,7 +185,7 @@ fn mechanics(model: &Model, moment: Option<&Moment>) -> Vec<Part> {
 }
 
 /// Stiffness and mean pressure of the present contact.
-fn response(model: &Model, moment: &Moment) -> Vec<Part> {
+fn response(model: &Model, moment: &ContactSnapshot) -> Vec<Part> {
     let Some(computed) = &model.computed else { return Vec::new() };
     let stiffness = computed.outcome.governing.effective_modulus * moment.point.contact_length;
     let mut parts =

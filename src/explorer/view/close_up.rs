@@ -5,7 +5,7 @@ use super::section::short;
 use super::{plot, section};
 use crate::draw::{CellPlot, Chart, Span};
 use crate::explorer::model::Model;
-use crate::explorer::snapshot::{FragmentFacts, Moment, Section, Share};
+use crate::explorer::snapshot::{ContactSnapshot, FragmentFacts, Section, Share};
 use crate::explorer::theme::{Meaning, Theme};
 use crate::scene::format_quantity;
 use ratatui::Frame;
@@ -75,7 +75,7 @@ fn rows_below(area: Rect) -> (u16, u16) {
 }
 
 /// The chart of the close-up and its place in the pane.
-pub fn placed(moment: &Moment, area: Rect) -> (Chart, CellPlot) {
+pub fn placed(moment: &ContactSnapshot, area: Rect) -> (Chart, CellPlot) {
     let (strip, text) = rows_below(area);
     let shown = &moment.close_up.section;
     let mut chart = section::chart(shown, moment.line, heights(shown));

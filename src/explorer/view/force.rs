@@ -10,7 +10,7 @@ use crate::draw::{
 };
 use crate::explorer::caption::caption;
 use crate::explorer::model::{Ghost, Model, Quantities};
-use crate::explorer::snapshot::Loop;
+use crate::explorer::snapshot::SolvedScene;
 use crate::explorer::theme::{Meaning, Theme};
 use crate::export::sign;
 use crate::scene::format_quantity;
@@ -72,7 +72,7 @@ struct Units {
 }
 
 impl Units {
-    fn of(model: &Model, computed: &Loop) -> Self {
+    fn of(model: &Model, computed: &SolvedScene) -> Self {
         let outcome = &computed.outcome;
         let normalised = model.curve.normalised;
         let positive = |value: f64| Some(value).filter(|value| normalised && *value > 0.0);
@@ -358,7 +358,7 @@ fn marked(ghost: &Ghost) -> Option<CurvePoint> {
 
 /// Adhesion force of a ghost, and how far it is above or below that of the present scene: `F_a 12 µN (+3 µN)`.
 fn adhesion(model: &Model, ghost: &Ghost) -> Option<String> {
-    let of = |computed: &Loop| computed.outcome.figures.adhesion_force;
+    let of = |computed: &SolvedScene| computed.outcome.figures.adhesion_force;
     let force = of(&ghost.computed)?;
     let present = model.computed.as_deref().filter(|_| model.is_current()).and_then(of);
     let difference = present.map_or_else(String::new, |present| {

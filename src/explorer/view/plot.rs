@@ -17,16 +17,18 @@ pub fn meaning(ink: Ink) -> Meaning {
         Ink::Contact => Meaning::Contact,
         Ink::Loading => Meaning::Approach,
         Ink::Unloading => Meaning::Retraction,
-        Ink::Manual => Meaning::Hand,
+        Ink::Manual => Meaning::Manual,
         Ink::Kept => Meaning::Ghost,
         // The colours that the present curve has not.
-        Ink::Compared(number) => [Meaning::Surface, Meaning::Hand, Meaning::Text, Meaning::Ghost][number % 4],
+        Ink::Compared(number) => {
+            [Meaning::Surface, Meaning::Manual, Meaning::Text, Meaning::Ghost][number % 4]
+        }
         Ink::Cursor => Meaning::Cursor,
         Ink::Series(number) => {
             let all = [
                 Meaning::Retraction,
                 Meaning::Surface,
-                Meaning::Hand,
+                Meaning::Manual,
                 Meaning::Approach,
                 Meaning::Quiet,
                 Meaning::Text,

@@ -4,7 +4,7 @@ use super::{histogram, plot, section};
 use crate::draw::{CellPlot, Chart, Span};
 use crate::explorer::layout::{inside, split_profile};
 use crate::explorer::model::Model;
-use crate::explorer::snapshot::{Moment, Section};
+use crate::explorer::snapshot::{ContactSnapshot, Section};
 use crate::explorer::theme::{Appearance, Meaning, Theme};
 use crate::scene::format_quantity;
 use crate::surface::Histogram;
@@ -63,7 +63,7 @@ pub fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
 pub fn draw_scene(
     frame: &mut Frame<'_>,
     area: Rect,
-    (moment, histogram): (&Moment, Option<&Histogram>),
+    (moment, histogram): (&ContactSnapshot, Option<&Histogram>),
     z: Span,
     appearance: Appearance,
 ) {
@@ -87,7 +87,7 @@ fn strip_rows(area: Rect) -> u16 {
 }
 
 /// The chart of the profile, heights within `z`, and its place in the pane.
-pub fn placed(moment: &Moment, area: Rect, z: Span) -> (Chart, CellPlot) {
+pub fn placed(moment: &ContactSnapshot, area: Rect, z: Span) -> (Chart, CellPlot) {
     let (area, _) = split_profile(area);
     let mut chart = section::chart(&moment.profile, moment.line, z);
     section::add_crosshair(&mut chart, moment);
@@ -97,7 +97,7 @@ pub fn placed(moment: &Moment, area: Rect, z: Span) -> (Chart, CellPlot) {
 
 /// The axis of heights: the whole line and the surface, though not where it is far away. Two scenes side by side
 /// share the axis.
-pub fn heights(moment: &Moment) -> Span {
+pub fn heights(moment: &ContactSnapshot) -> Span {
     let ends = |section: &Section| {
         let (low, high) = section.heights;
         let far = high + 0.5 * (high - low);

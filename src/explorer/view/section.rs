@@ -2,7 +2,7 @@
 
 use super::plot;
 use crate::draw::{Axis, AxisScale, Chart, Ink, Layer, Shape, Span, legend};
-use crate::explorer::snapshot::{Column, Moment, Section};
+use crate::explorer::snapshot::{Column, ContactSnapshot, Section};
 use crate::explorer::theme::{Appearance, Meaning, Theme};
 use crate::scene::format_quantity;
 use crate::simulation::LineFacts;
@@ -36,7 +36,7 @@ pub fn position(line: LineFacts, spring: usize) -> f64 {
 }
 
 /// Adds the crosshair to the chart of a section.
-pub fn add_crosshair(chart: &mut Chart, moment: &Moment) {
+pub fn add_crosshair(chart: &mut Chart, moment: &ContactSnapshot) {
     let Some(probe) = moment.probe else { return };
     let lines = [Shape::Upright(position(moment.line, probe.spring)), Shape::Level(probe.height)];
     // Below the curves, which stay whole.
@@ -44,7 +44,7 @@ pub fn add_crosshair(chart: &mut Chart, moment: &Moment) {
 }
 
 /// Readings of the crosshair: position, height, and the gap or the stretch of the spring.
-fn reading(moment: &Moment, theme: Theme) -> Vec<Vec<Text<'static>>> {
+fn reading(moment: &ContactSnapshot, theme: Theme) -> Vec<Vec<Text<'static>>> {
     let Some(probe) = moment.probe else { return Vec::new() };
     let length = |value: f64| format_quantity(short(value), "m");
     let part = |text: String| vec![Text::styled(text, theme.style(Meaning::Cursor))];
@@ -63,7 +63,7 @@ fn reading(moment: &Moment, theme: Theme) -> Vec<Vec<Text<'static>>> {
 /// Readings of the crosshair, or label of the heights, names of the lines and further signs, as far as there is room on
 /// the frame.
 pub fn names(
-    moment: &Moment,
+    moment: &ContactSnapshot,
     chart: &Chart,
     more: impl IntoIterator<Item = Vec<Text<'static>>>,
     appearance: Appearance,

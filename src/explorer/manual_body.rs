@@ -1,7 +1,7 @@
 //! The body in the user's hand: moved by small steps, each of which costs what it changes.
 
-use super::request::HandOrder;
-use super::snapshot::{Refusal, Travel};
+use super::request::ManualMove;
+use super::snapshot::{ManualPath, Refusal};
 use crate::analysis::Governing;
 use crate::contact::{
     ContactTree, CurvePoint, GridEdges, HessRule, Manual, ManualError, ManualLoading, Move, SubCellEdges,
@@ -18,9 +18,9 @@ const MOST_STEPS: u32 = 512;
 const MOST_OVER_FULL_CONTACT: f64 = 10.0;
 
 /// Body under manual loading.
-pub struct Held {
+pub struct ManualBody {
     body: Box<dyn ManualLoading + Send>,
-    travel: Travel,
+    travel: ManualPath,
     /// A small part of the range of indentations, m.
     step: f64,
     /// Force at which the last spring touches the rigid body, N.
@@ -29,7 +29,7 @@ pub struct Held {
     largest: f64,
 }
 
-impl Held {
+impl ManualBody {
     /// Begins manual loading where these fragments are in contact at this indentation, m, with edges of this kind;
     /// `tree` is that of the line, where there is one. `step` is the distance of the points of a pull, m, and `preload`
     /// the largest force of the scene's loading, N.
@@ -61,7 +61,7 @@ impl Held {
         let deepest = gaps.iter().copied().fold(0.0, f64::max);
         let full_contact = foundation.spring_stiffness() * gaps.iter().map(|gap| deepest - gap).sum::<f64>();
         let largest = MOST_OVER_FULL_CONTACT * full_contact.max(preload);
-        Some(Held { body, travel: Travel::default(), step, full_contact, largest })
+        Some(ManualBody { body, travel: ManualPath::default(), step, full_contact, largest })
     }
 
     /// Present state.
@@ -80,20 +80,20 @@ impl Held {
     }
 
     /// Its way since this was asked last.
-    pub fn travel(&mut self) -> Travel {
+    pub fn travel(&mut self) -> ManualPath {
         let dissipated_energy = self.travel.dissipated_energy;
-        std::mem::replace(&mut self.travel, Travel { dissipated_energy, ..Travel::default() })
+        std::mem::replace(&mut self.travel, ManualPath { dissipated_energy, ..ManualPath::default() })
     }
 
     /// Moves it.
-    pub fn obey(&mut self, order: HandOrder) {
+    pub fn obey(&mut self, order: ManualMove) {
         let from = self.body.point();
         let went = match order {
-            HandOrder::Take { .. } | HandOrder::Give => Ok(()),
-            HandOrder::To(indentation) => self.go(from.indentation, indentation).map_err(Refusal::from),
-            HandOrder::By(way) => self.go(from.indentation, from.indentation + way).map_err(Refusal::from),
-            HandOrder::ToForce(force) => self.find(force),
-            HandOrder::Separate => self.separate().map_err(Refusal::from),
+            ManualMove::Take { .. } | ManualMove::Give => Ok(()),
+            ManualMove::To(indentation) => self.go(from.indentation, indentation).map_err(Refusal::from),
+            ManualMove::By(way) => self.go(from.indentation, from.indentation + way).map_err(Refusal::from),
+            ManualMove::ToForce(force) => self.find(force),
+            ManualMove::Separate => self.separate().map_err(Refusal::from),
         };
         self.travel.refused = went.err();
     }
