@@ -10,7 +10,7 @@ use serde::Serialize;
 pub enum Family {
     /// From no adhesion to adhesion that holds everything.
     Adhesion,
-    /// Units and sizes, to the ends of what numbers can tell.
+    /// Units and sizes, up to the ends of the range of numbers.
     Scales,
     /// Shapes and numbers of springs.
     Lines,

@@ -7,7 +7,7 @@ use std::sync::Arc;
 /// State of the pane of accuracy.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Appraisal {
-    /// True if its pane stands in place of profile and close-up.
+    /// True while its pane replaces profile and close-up.
     pub shown: bool,
     /// The error of what has been computed.
     pub estimated: Estimated,

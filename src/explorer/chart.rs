@@ -7,7 +7,7 @@ use std::sync::Arc;
 /// State of the pane of the map.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Chart {
-    /// True if its pane stands in place of profile and close-up.
+    /// True while its pane replaces profile and close-up.
     pub shown: bool,
     /// Quantity of the glyphs, where the map has it.
     pub quantity: Charted,

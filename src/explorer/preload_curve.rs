@@ -71,8 +71,8 @@ impl PreloadCurve {
         self.profiles.first().map_or(&[], Vec::as_slice)
     }
 
-    /// Computes what is left, the profile of the scene first. `tell` sees the curve each time that it has grown; what has
-    /// been computed when `stop` says so is kept.
+    /// Computes the missing part, the profile of the scene first. `tell` receives the curve after each addition; a curve
+    /// interrupted by `stop` is kept.
     ///
     /// # Errors
     /// When a profile or its contact fails, or `stop` says so.
@@ -116,7 +116,7 @@ impl PreloadCurve {
 /// State of the pane of adhesion against preload.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PreloadPane {
-    /// True if its pane stands in place of profile and close-up.
+    /// True while its pane replaces profile and close-up.
     pub shown: bool,
     /// The curve of the present scene, so far.
     pub curve: Option<Arc<PreloadCurve>>,

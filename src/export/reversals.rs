@@ -234,7 +234,7 @@ fn map_chart(
     (symbol, unit): (&str, &str),
     value: &dyn Fn(usize, usize) -> Option<f64>,
 ) -> Chart {
-    // Every so many points of a fine map: more cells than that are no longer told apart.
+    // A part of the points of a fine map: the eye cannot distinguish more cells.
     let every = |count: usize| (0..count).step_by(count.div_ceil(MOST_CELLS).max(1)).collect::<Vec<_>>();
     let (columns, rows) = (every(map.points.len()), every(map.reversals.len()));
     let values: Vec<Option<f64>> =

@@ -1,4 +1,4 @@
-//! Units and sizes: what only scales must only scale, to the ends of what numbers can tell.
+//! Units and sizes: results scale with their units, up to the ends of the range of numbers.
 
 use super::{Body, WORK, ensure, points, rough, same_bits};
 use crate::check::case::{Case, Evidence, Family, Scope};

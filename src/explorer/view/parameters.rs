@@ -15,7 +15,7 @@ use ratatui::widgets::{Paragraph, Scrollbar, ScrollbarOrientation, ScrollbarStat
 
 /// Columns for a typed value beside its name.
 const TYPED_COLUMNS: usize = 12;
-/// Letters of a name that still tell what it is.
+/// Fewest letters of a shortened name.
 const FEWEST_LETTERS: usize = 4;
 
 /// Areas of the list, the derived values and the explanation, and the first visible row of the list.
