@@ -109,6 +109,37 @@ proptest! {
     }
 
     #[test]
+    fn a_leg_divided_at_an_event_loses_no_more(
+        body in body(), deep in 0.2..1.2_f64, springs in prop::array::uniform4(any::<prop::sample::Index>()),
+    ) {
+        let tree = body.tree();
+        let mut solver = body.on(&tree, 2);
+        let whole = [Leg::ToIndentation(deep), Leg::ToSeparation].map(|leg| {
+            let record = solver.advance(leg).unwrap();
+            let mut thresholds = Vec::new();
+            solver.thresholds_along_line(&mut thresholds);
+            thresholds.retain(|threshold| threshold.is_finite());
+            (record.dissipated_energy, thresholds)
+        });
+        let [(loading, attached), (unloading, detached)] = whole;
+        let scale = body.force_scale() * (body.deepest() + body.largest_stretch() + deep);
+        for spring in springs {
+            let mut parts = body.on(&tree, 2);
+            let mut lost = |legs: [Leg; 2]| -> f64 {
+                legs.into_iter().map(|leg| parts.advance(leg).unwrap().dissipated_energy).sum()
+            };
+            let event = spring.get(&attached).min(deep);
+            let found = lost([Leg::ToIndentation(event), Leg::ToIndentation(deep)]);
+            prop_assert!((found - loading).abs() <= 1e-14 * scale, "{found} against {loading} at {event}");
+            if !detached.is_empty() {
+                let event = spring.get(&detached).min(deep);
+                let found = lost([Leg::ToIndentation(event), Leg::ToSeparation]);
+                prop_assert!((found - unloading).abs() <= 1e-14 * scale, "{found} against {unloading} at {event}");
+            }
+        }
+    }
+
+    #[test]
     fn no_closed_loop_gains_energy(body in body(), outer in 0.0..1.2_f64, inner in -0.8..1.2_f64) {
         let inner = inner.min(outer);
         let history = body.history(&to_indentations(&[outer, inner, outer]), 2);
