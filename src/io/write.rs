@@ -68,6 +68,18 @@ pub fn check_writable(path: &Path, overwrite: bool) -> Result<(), WriteError> {
     }
 }
 
+/// Checks whether a name can be that of a regular file: it ends in no separator, and no folder, pipe or device has it.
+///
+/// # Errors
+/// [`WriteError::NoFileName`] or [`WriteError::NotRegular`].
+pub fn check_file_name(path: &Path) -> Result<(), WriteError> {
+    match Target::of(path, true) {
+        Err(error @ WriteError::NoFileName { .. }) => Err(error),
+        Ok(Target::Stream) => Err(WriteError::NotRegular { path: path.to_path_buf() }),
+        Ok(Target::File { .. }) | Err(_) => Ok(()),
+    }
+}
+
 /// Writes a file through a temporary one in the same folder: whoever looks sees the old file or the
 /// whole new one, and after a failure nothing is left behind.
 ///

@@ -56,7 +56,9 @@ impl Served {
 
     fn computed(&self, generation: u64, document: &Document) -> Arc<SolvedScene> {
         self.compute(generation, document);
-        match self.answer() {
+        // The moment of a scene before may have been asked for.
+        let of_before = |report: &Report| matches!(report, Report::Shown(one) if one.generation < generation);
+        match std::iter::repeat_with(|| self.answer()).find(|report| !of_before(report)).unwrap() {
             Report::Computed(computed) => computed,
             other => panic!("not computed: {other:?}"),
         }
@@ -278,6 +280,30 @@ fn a_newer_scene_stops_the_one_that_is_being_computed() {
         assert!(reports.iter().all(|report| matches!(report, Report::Progress { generation: 2, .. })));
         served.worker.ask(Request::Show(SnapshotRequest { generation: 2, ..moment(0, 0.0) }));
         assert!(matches!(served.report(), Report::Shown(moment) if moment.generation == 2));
+    });
+}
+
+#[test]
+fn a_scene_beside_is_computed_only_in_sight_and_gives_way_to_a_newer_scene() {
+    within(60, || {
+        let served = Served::by(Simulation::default());
+        served.computed(1, &rough());
+        // Ten million relaxations of a million springs take hours.
+        let endless = [
+            ("numerics.points", "1048576"),
+            ("numerics.solver", "Stepwise(step: 1.0e-15)"),
+            ("loading", "[ToIndentation(1.0e-8)]"),
+        ];
+        let endless = Arc::new(changed(&rough(), &endless).scene().clone());
+        served.worker.ask(Request::Beside(Some(Arc::clone(&endless))));
+        assert!(served.shown(moment(0, 0.0)).beside.is_none(), "out of sight it takes no time");
+        let in_sight = |generation| SnapshotRequest { generation, beside: Some((0, 0.0)), ..moment(0, 0.0) };
+        served.worker.ask(Request::Show(in_sight(1)));
+        served.computed(2, &rough());
+        let small = Arc::new(smooth().scene().clone());
+        served.worker.ask(Request::Beside(Some(small)));
+        let shown = served.shown(in_sight(2));
+        assert_eq!(shown.beside.as_ref().map(|beside| beside.line.seed), Some(None), "the smooth sphere");
     });
 }
 

@@ -67,7 +67,7 @@ pub fn completed(model: &mut Model, typed: &str, paths: Vec<String>) -> Vec<Effe
     if let Some(line) = model.mode.line_mut() {
         line.go(crate::explorer::action::Motion::End);
     }
-    let completion = Completion::new(paths);
+    let completion = Completion::new(typed, paths);
     let (common, is_only) = (completion.common_start(), completion.only().is_some());
     model.completion = Some(completion).filter(|_| !is_only);
     // Candidates that have the letters elsewhere have nothing in common with them.

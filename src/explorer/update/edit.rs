@@ -118,7 +118,8 @@ fn edit_value(model: &mut Model, first: Option<char>) -> Vec<Effect> {
                 first.into_iter().for_each(|character| line.insert(character));
                 model.mode = Mode::Edit(line);
                 model.refused = None;
-                model.tried = None;
+                // No preview of an earlier edit.
+                (model.tried, model.preview) = (None, None);
             }
         }
     }

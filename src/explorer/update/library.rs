@@ -3,7 +3,6 @@
 use super::{Effect, edit, edit_line};
 use crate::explorer::action::Command;
 use crate::explorer::finder::Finder;
-use crate::explorer::fuzzy::Candidate;
 use crate::explorer::mode::{Library, Mode};
 use crate::explorer::model::{Model, Notice};
 use crate::scene::{Entry, typed_path};
@@ -30,13 +29,9 @@ pub fn search(model: &mut Model) -> Vec<Effect> {
     if library.finder.query.text().contains(std::path::is_separator) {
         library.finder.search([]);
     } else {
-        library.finder.search(entries.iter().map(candidate));
+        library.finder.search(entries.iter().map(Library::candidate));
     }
     preview(model)
-}
-
-fn candidate(entry: &Entry) -> Candidate {
-    Candidate { names: vec![entry.name.clone()], prose: vec![entry.title.clone(), entry.notice.clone()] }
 }
 
 /// Obeys a command while the library is open.

@@ -1,5 +1,6 @@
 //! The lines around the panes: title, status, footer.
 
+use super::found::marked;
 use super::stages;
 use super::typed::typed;
 use super::wrap::{clipped, fitting, wrapped};
@@ -105,10 +106,11 @@ fn headline(model: &Model, width: u16) -> Line<'static> {
         let apart = if parts.is_empty() { "" } else { apart };
         parts.push(vec![Span::raw(apart), Span::styled(text, theme.style(meaning))]);
     };
-    if let Some(tried) = model.tried_outcome() {
+    if let (Mode::Edit(_), Some(tried)) = (&model.mode, model.tried_outcome()) {
         let force =
             tried.figures.adhesion_force.map_or("none".to_owned(), |force| format_quantity(force, "N"));
-        part("", format!("preview: F_a {force}"), Meaning::Title);
+        let told = if model.is_tried() { format!("F_a {force}") } else { "computing…".to_owned() };
+        part("", format!("preview: {told}"), Meaning::Title);
         part(" · ", "Enter accepts".to_owned(), Meaning::Quiet);
     }
     let in_hand = model.present().is_some() && model.hand.is_some();
@@ -293,7 +295,8 @@ fn candidates(completion: &Completion, width: u16, model: &Model) -> Line<'stati
     let theme = model.appearance.theme;
     let names = completion.names().into_iter();
     let parts = names.map(|(name, taken)| {
-        vec![Span::styled(name, theme.style(if taken { Meaning::Selected } else { Meaning::Quiet }))]
+        let style = theme.style(if taken { Meaning::Selected } else { Meaning::Quiet });
+        marked(&name, &completion.letters_found(&name), style, theme)
     });
     let parts: Vec<_> = parts.collect();
     if parts.is_empty() {

@@ -7,6 +7,7 @@ mod chart_words;
 mod chrome;
 mod close_up;
 mod force;
+mod found;
 mod help;
 mod histogram;
 mod lengths;

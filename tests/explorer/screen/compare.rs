@@ -8,6 +8,7 @@ use asperity::explorer::Opening;
 use asperity::explorer::layout::Layout;
 use asperity::explorer::model::{Notice, Pane};
 use asperity::explorer::snapshot::SolvedScene;
+use asperity::explorer::update::moment_request;
 use asperity::scene::{Document, format_quantity};
 use asperity::simulation::Outcome;
 use ratatui::style::Color;
@@ -201,6 +202,30 @@ fn two_scenes_are_shown_side_by_side() {
             assert!(driver.model.moment.as_ref().unwrap().beside.is_none());
             assert!(lower_pane(&driver)[0].contains("Fragments"));
         }
+    });
+}
+
+#[test]
+fn the_scene_beside_is_asked_for_only_where_it_is_in_sight() {
+    within(60, || {
+        let is_asked_for =
+            |driver: &Driver| moment_request(&driver.model).is_some_and(|request| request.beside.is_some());
+        let mut driver = pressed("& L");
+        assert!(is_asked_for(&driver));
+        for (keys, back) in [("D", "D"), ("z", "z"), ("Tab z", "z")] {
+            driver.press(keys);
+            let is_shown = Layout::of(&driver.model).pane(Pane::CloseUp).is_some() && !driver.model.lengths;
+            assert_eq!(is_asked_for(&driver), is_shown, "{keys}");
+            driver.press(back);
+            assert!(is_asked_for(&driver) && driver.text().contains("A → this scene"), "{back}");
+        }
+        for size in [(60, 20), (40, 12), (20, 5)] {
+            driver.resize(size);
+            driver.model.pane = Pane::Force;
+            assert!(!is_asked_for(&driver), "{size:?}");
+        }
+        driver.resize((80, 24));
+        assert!(is_asked_for(&driver) && driver.model.moment.as_ref().unwrap().beside.is_some());
     });
 }
 

@@ -4,12 +4,15 @@ use super::common::deadline::within;
 use super::common::driver::Driver;
 use super::common::scenes::{changed, rough};
 use super::{SIZES, generation, is_up_to_date, mid_retraction, pressed, reversed, row_with};
-use asperity::explorer::action::Action;
+use asperity::explorer::action::{Action, Command};
 use asperity::explorer::layout::Layout;
 use asperity::explorer::model::ModeKind;
+use asperity::explorer::snapshot::Preview;
 use asperity::explorer::theme::Theme;
+use asperity::explorer::update::{Effect, update};
 use asperity::scene::Leg;
 use ratatui::buffer::Cell;
+use std::sync::Arc;
 
 #[test]
 fn values_are_typed_with_prefix_and_unit() {
@@ -272,5 +275,41 @@ fn a_value_that_is_typed_shows_its_curve_before_it_is_taken() {
             driver.press("Enter");
             assert_eq!(driver.model.computed.as_ref().unwrap().outcome.figures, tried);
         }
+    });
+}
+
+#[test]
+fn no_older_curve_is_shown_between_a_preview_and_the_next_one() {
+    within(60, || {
+        let mut driver = pressed("");
+        driver.select("roughness.rms_height");
+        driver.press("e Ctrl+u");
+        driver.type_text("300 nm");
+        let force = |driver: &Driver| driver.model.tried_outcome().and_then(|one| one.figures.adhesion_force);
+        let first = force(&driver).expect("a preview");
+        let older = driver.model.preview.clone().unwrap();
+        // The next value is typed, and its curve is not there yet: that of the value before stays.
+        driver.press("Home Delete");
+        let waiting = update(&mut driver.model, Action::Type('4'));
+        assert!(matches!(waiting[..], [Effect::Preview(_)]), "{waiting:?}");
+        // "00 nm" is no allowed height, and has no curve.
+        assert!(driver.status().starts_with("preview: computing…") || force(&driver).is_none());
+        let seen = force(&driver);
+        // A curve that comes late, of a value that was typed over, is not shown.
+        let late = Preview { text: older.text.clone() + " ", outcome: older.outcome.clone() };
+        driver.act(Action::Previewed(Arc::new(late)));
+        assert_eq!(force(&driver), seen);
+        driver.perform(waiting);
+        let second = force(&driver).expect("a preview");
+        assert_ne!(first, second);
+        assert!(!driver.status().contains("computing"), "{}", driver.status());
+        // Accepted, the curve is there until the scene itself is computed.
+        let accepted = update(&mut driver.model, Action::Command(Command::Accept));
+        assert_eq!(accepted, [Effect::Compute]);
+        assert_eq!((driver.model.is_computing(), force(&driver)), (true, Some(second)));
+        assert!(driver.text().contains("preview"), "{}", driver.text());
+        driver.perform(accepted);
+        assert_eq!(driver.model.tried_outcome(), None);
+        assert_eq!(driver.model.computed.as_ref().unwrap().outcome.figures.adhesion_force, Some(second));
     });
 }
