@@ -51,6 +51,11 @@ impl TypedPath {
     }
 }
 
+/// A path is being typed.
+pub fn can_complete(model: &Model) -> bool {
+    TypedPath::of(model).is_some()
+}
+
 /// Takes the next candidate, or asks for candidates.
 pub fn obey(model: &mut Model) -> Vec<Effect> {
     let Some(typed) = TypedPath::of(model) else { return Vec::new() };

@@ -7,6 +7,9 @@ use crate::explorer::mode::{Library, Mode};
 use crate::explorer::model::{Model, Notice};
 use crate::scene::{Entry, typed_path};
 
+/// Most springs of a scene that is computed to be looked at in the list: its curve is there before the next row.
+const MOST_SPRINGS_SEEN: u64 = 1 << 17;
+
 /// Opens the library.
 pub fn open(model: &mut Model) -> Vec<Effect> {
     model.mode = Mode::Library(Library { entries: None, finder: Finder::default() });
@@ -83,7 +86,9 @@ fn preview(model: &mut Model) -> Vec<Effect> {
         return Vec::new();
     }
     match entry.document() {
-        Ok(document) if edit::is_previewed(&document) => vec![Effect::Preview(Box::new(document))],
+        Ok(document) if edit::is_previewed(&document, MOST_SPRINGS_SEEN) => {
+            vec![Effect::Preview(Box::new(document))]
+        }
         _ => Vec::new(),
     }
 }

@@ -18,6 +18,7 @@ mod palette;
 mod preloads;
 
 pub use accuracy::study_tasks;
+pub use complete::can_complete;
 
 use super::action::{Action, Command, Content};
 use super::layout::Layout;

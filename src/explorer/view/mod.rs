@@ -31,6 +31,7 @@ pub use parameters::{first_listed, parameter_at};
 pub use position::position_at;
 pub use sections::section_cell;
 
+use self::wrap::clipped;
 use super::layout::{Layout, inside, is_framed};
 use super::model::{Mode, Model, Pane};
 use super::picture::to_ascii;
@@ -38,6 +39,7 @@ use super::theme::{Marker, Meaning, Theme};
 use ratatui::Frame;
 use ratatui::layout::Rect;
 use ratatui::style::Modifier;
+use ratatui::text::Line;
 use ratatui::widgets::Block;
 
 /// Draws the whole screen.
@@ -113,9 +115,10 @@ fn draw_pane(frame: &mut Frame<'_>, area: Rect, model: &Model, pane: Pane) {
         };
         let style = model.appearance.theme.style(if chosen { Meaning::Title } else { Meaning::Quiet });
         let mark = if chosen { "▸" } else { "" };
-        let block = Block::bordered()
-            .border_style(model.appearance.theme.style(Meaning::Quiet))
-            .title(ratatui::text::Span::styled(format!("{mark}{name}"), style));
+        let title = Line::styled(format!("{mark}{name}"), style);
+        let room = area.width - 2;
+        let title = if title.width() > usize::from(room) { clipped(title, room) } else { title };
+        let block = Block::bordered().border_style(model.appearance.theme.style(Meaning::Quiet)).title(title);
         let names = match pane {
             Pane::Force => force::reading(model, area),
             Pane::Profile => profile::names(model, area),

@@ -2,7 +2,7 @@
 
 use super::found::marked;
 use super::typed::typed;
-use super::wrap::{clipped, filled, wrapped};
+use super::wrap::{clipped, filled, wrapped_within};
 use crate::explorer::fuzzy::letters_found;
 use crate::explorer::layout::{Layout, inside};
 use crate::explorer::model::{Mode, Model, Pane};
@@ -101,7 +101,7 @@ pub fn draw(frame: &mut Frame<'_>, area: Rect, edge: u16, model: &Model) {
         Some(index) => explanation(model, *index),
         None => Line::styled("no parameter of this scene fits", model.appearance.theme.style(Meaning::Quiet)),
     };
-    frame.render_widget(Paragraph::new(wrapped(&explained, help.width)), help);
+    frame.render_widget(Paragraph::new(wrapped_within(&explained, help)), help);
 }
 
 fn parameter_line(model: &Model, index: usize, selected: bool, width: usize) -> Line<'static> {

@@ -212,7 +212,7 @@ fn the_scene_beside_is_asked_for_only_where_it_is_in_sight() {
             |driver: &Driver| moment_request(&driver.model).is_some_and(|request| request.beside.is_some());
         let mut driver = pressed("& L");
         assert!(is_asked_for(&driver));
-        for (keys, back) in [("D", "D"), ("z", "z"), ("Tab z", "z")] {
+        for (keys, back) in [("z", "z"), ("Tab z", "z"), ("Tab z", "z")] {
             driver.press(keys);
             let is_shown = Layout::of(&driver.model).pane(Pane::CloseUp).is_some() && !driver.model.lengths;
             assert_eq!(is_asked_for(&driver), is_shown, "{keys}");
