@@ -24,6 +24,7 @@ pub mod mode;
 pub mod model;
 mod opening;
 mod palette;
+pub mod panes;
 pub mod parameters;
 pub mod picture;
 mod playback;

@@ -2,6 +2,7 @@
 
 use super::action::{Content, WriteFailure, Written};
 use super::model::{Mode, Model, Notice};
+use super::panes;
 use super::picture::{svg, text};
 use super::theme::Theme;
 use super::view;
@@ -68,11 +69,11 @@ fn write_content(file: &mut dyn Write, model: &Model, path: &Path, content: Cont
         Content::Picture => file.write_all(svg_of(model).as_bytes()),
         Content::MapCells => {
             let map_model = model.chart.map_model().ok_or_else(no_map)?;
-            write_map(file, map_model, model.chart.sections.then(|| view::section_cell(model, map_model)))
+            write_map(file, map_model, model.chart.sections.then(|| panes::section_cell(model, map_model)))
         }
         Content::MapFigure => {
             let map_model = model.chart.map_model().ok_or_else(no_map)?;
-            file.write_all(figure_svg(&view::map_figure(model, map_model)).as_bytes())
+            file.write_all(figure_svg(&panes::map_figure(model, map_model)).as_bytes())
         }
         Content::Text => file.write_all(text(&picture_of(model)).as_bytes()),
     }

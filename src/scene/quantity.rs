@@ -203,7 +203,7 @@ pub fn quantity_as_typed(value: f64, typed: &str, unit: &str) -> String {
     else {
         return format_quantity(value, unit);
     };
-    // A prefix alone, or nothing, stands for the unit with it.
+    // A prefix alone, or nothing, means the unit with this prefix.
     let is_whole = suffix.ends_with(unit) || canonical(suffix).ends_with(&canonical(unit)) || factor != 1.0;
     let shown = if is_whole { suffix.to_owned() } else { format!("{suffix}{unit}") };
     let scientific = format!("{:.*e}", DIGITS - 1, value / factor);

@@ -322,7 +322,7 @@ mod tests {
         assert_eq!(value(&bare.set("roughness", rough).unwrap(), Effect::Adhesion), "(kappa: 2.0)");
         let sphere = bare.with(Effect::Form).unwrap().set("numerics.points", "40").unwrap();
         assert!(value(&sphere, Effect::Roughness).contains("modes: (4, 5)"));
-        // An observer that stands there twice makes room.
+        // An observer that is listed twice makes room.
         let twice = bare.set("observe", "[Fragments, Fragments]").unwrap();
         assert_eq!(value(&twice, Effect::HeightHistogram), "[Fragments, HeightHistogram]");
         // One spring carries no wave at all.

@@ -6,11 +6,11 @@ use crate::explorer::action::Command;
 use crate::explorer::layout::Layout;
 use crate::explorer::mode::Mode;
 use crate::explorer::model::{CloseUpTarget, Model, Notice, Pane, Player};
+use crate::explorer::panes::first_listed;
 use crate::explorer::parameters::{Parameter, Setting, parameters};
 use crate::explorer::request::{Focus, LineView};
 use crate::explorer::session::scene_of;
 use crate::explorer::text_line::TextLine;
-use crate::explorer::view::first_listed;
 use crate::scene::{Computed, Document, Range, SceneErrors, Solver, Step, exact_quantity, presets};
 
 /// Edits that can be taken back.

@@ -7,7 +7,7 @@ use super::{default_scene, mid_retraction};
 use asperity::draw::figure_svg;
 use asperity::explorer::layout::{Layout, inside};
 use asperity::explorer::model::Pane;
-use asperity::explorer::view::indentation_at;
+use asperity::explorer::panes::indentation_at;
 use asperity::export::force_figure;
 use asperity::scene::parse_quantity;
 

@@ -7,8 +7,8 @@ use super::{default_scene, mid_retraction, pressed};
 use asperity::contact::CurvePoint;
 use asperity::explorer::layout::{Layout, inside};
 use asperity::explorer::model::Pane;
+use asperity::explorer::panes::indentation_at;
 use asperity::explorer::snapshot::Section;
-use asperity::explorer::view::indentation_at;
 use asperity::scene::format_quantity;
 
 fn profile(driver: &Driver) -> Section {

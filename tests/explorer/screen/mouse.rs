@@ -6,9 +6,9 @@ use super::{default_scene, mid_retraction, pressed};
 use asperity::explorer::action::{Action, Gesture, Mouse};
 use asperity::explorer::layout::{Layout, inside};
 use asperity::explorer::model::{Mode, Pane};
+use asperity::explorer::panes::{indentation_at, share_at};
 use asperity::explorer::theme::Marker;
 use asperity::explorer::update::Effect;
-use asperity::explorer::view::{indentation_at, share_at};
 use ratatui::layout::Rect;
 
 fn mouse(driver: &mut Driver, column: u16, row: u16, gesture: Gesture) -> Vec<Effect> {

@@ -1,11 +1,11 @@
 //! The newest ghost beside the scene: its profile and contact at the same part of its loading, what differs between the
 //! scenes, and both adhesion forces.
 
-use super::wrap::clipped;
 use super::{force, profile};
 use crate::explorer::model::{Ghost, Model};
 use crate::explorer::snapshot::SolvedScene;
 use crate::explorer::theme::Meaning;
+use crate::explorer::view::wrap::clipped;
 use crate::export::adhesion_forces;
 use crate::scene::format_quantity;
 use ratatui::Frame;

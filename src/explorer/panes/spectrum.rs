@@ -1,11 +1,13 @@
 //! Spectra over the wave number, both logarithmic: as measured, fitted, and of the line.
 
-use super::plot;
-use super::wrap::{filled, wrapped};
+use super::PaneRow;
 use crate::draw::legend;
+use crate::explorer::layout::inside;
 use crate::explorer::model::Model;
 use crate::explorer::spectrum::SceneSpectra;
 use crate::explorer::theme::Meaning;
+use crate::explorer::view::plot;
+use crate::explorer::view::wrap::{filled, wrapped};
 use crate::scene::format_quantity;
 use crate::spectrum::Estimate;
 use crate::text::per_cent;
@@ -14,14 +16,16 @@ use ratatui::layout::Rect;
 use ratatui::text::Line;
 use ratatui::widgets::Paragraph;
 
-/// Title of the pane.
-pub const TITLE: &str = " Spectrum: C over q, log–log ";
+/// Row of the pane.
+pub static ROW: PaneRow =
+    PaneRow { title: |_| " Spectrum: C over q, log–log ".to_owned(), draw: draw, ..PaneRow::EMPTY };
 
 /// Rows of plot that make it worth drawing.
 const FEWEST_PLOT_ROWS: u16 = 5;
 
 /// Draws legend, chart and how well the moments are known, as far as there is room.
-pub fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
+fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
+    let area = inside(area);
     let shown = model.present().and_then(|moment| moment.spectra.as_deref());
     let quiet = model.appearance.theme.style(Meaning::Quiet);
     let chart = shown.map(|shown| shown.spectra.chart()).filter(|chart| !chart.layers.is_empty());

@@ -1,11 +1,12 @@
 //! The profile: the rigid line, the elastic surface above it, and where they touch.
 
-use super::{histogram, plot, section};
+use super::{PaneRow, histogram, section};
 use crate::draw::{CellPlot, Chart, Span};
 use crate::explorer::layout::{inside, split_profile};
 use crate::explorer::model::Model;
 use crate::explorer::snapshot::{ContactSnapshot, Section};
 use crate::explorer::theme::{Appearance, Meaning, Theme};
+use crate::explorer::view::plot;
 use crate::scene::format_quantity;
 use crate::surface::Histogram;
 use ratatui::Frame;
@@ -13,8 +14,22 @@ use ratatui::layout::Rect;
 use ratatui::text::{Line, Span as Text};
 use ratatui::widgets::Paragraph;
 
+/// Row of the pane.
+pub static ROW: PaneRow = PaneRow {
+    title: title,
+    draw: draw,
+    edge: names,
+    has_crosshair: true,
+    help: &[(
+        "Profile",
+        "rigid profile below, elastic surface above; ■ marks contact. Beside it the histogram of heights, and ¦ the \
+         normal distribution of the same rms height",
+    )],
+    ..PaneRow::EMPTY
+};
+
 /// Title of the pane.
-pub fn title(model: &Model) -> String {
+fn title(model: &Model) -> String {
     let length = format_quantity(model.document.scene().length, "m");
     if model.side_by_side {
         return format!(" Profile z(x) of this scene, x to {length} ");
@@ -32,7 +47,7 @@ pub fn title(model: &Model) -> String {
 }
 
 /// Names of what is drawn, for the lower edge of the frame.
-pub fn names(model: &Model, area: Rect) -> Option<Line<'static>> {
+fn names(model: &Model, area: Rect) -> Option<Line<'static>> {
     let moment = model.moment.as_ref()?;
     let chart = section::chart(&moment.profile, moment.line, heights(moment));
     let theme = model.appearance.theme;
@@ -49,7 +64,8 @@ pub fn share_at(model: &Model, area: Rect, column: u16) -> Option<f64> {
 }
 
 /// Draws the profile with the histogram of its heights on the same axis.
-pub fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
+fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
+    let area = inside(area);
     let Some(moment) = model.moment.as_ref() else {
         let quiet = model.appearance.theme.style(Meaning::Quiet);
         frame.render_widget(Paragraph::new("…").style(quiet), area);

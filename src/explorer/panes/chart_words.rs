@@ -1,11 +1,11 @@
 //! Words of the map: its title, its legend, and the values at the mark.
 
-use super::plot;
-use super::wrap::{filled, wrapped};
 use crate::analysis::{INSENSITIVE_SHARE, NEGLIGIBLE_COEFFICIENT, VANISHING_SHARE};
 use crate::draw::{Chart, Colours, SHADES, key, legend as entries};
 use crate::explorer::model::{Model, OpenStudy};
 use crate::explorer::theme::Meaning;
+use crate::explorer::view::plot;
+use crate::explorer::view::wrap::{filled, wrapped};
 use crate::scene::format_quantity;
 use crate::study::Quantity;
 use crate::study::figure::Estimate;

@@ -1,23 +1,35 @@
 //! Adhesion against preload: the curve of the profile, the mean over random profiles with its confidence, and the
 //! preload of the scene.
 
+use super::PaneRow;
 use super::sections::section;
-use super::wrap::wrapped;
 use crate::draw::{Axis, AxisScale, Chart, Ink, Layer, Shape, Sign};
+use crate::explorer::layout::inside;
 use crate::explorer::model::Model;
 use crate::explorer::preload_curve::PreloadCurve;
 use crate::explorer::theme::Meaning;
+use crate::explorer::view::wrap::wrapped;
 use crate::export::{preload_axes, preload_layers};
 use ratatui::Frame;
 use ratatui::layout::Rect;
 use ratatui::text::Line;
 use ratatui::widgets::Paragraph;
 
-/// Title of the pane.
-pub const TITLE: &str = " Adhesion against preload ";
+/// Row of the pane.
+pub static ROW: PaneRow = PaneRow {
+    title: |_| " Adhesion against preload ".to_owned(),
+    draw: draw,
+    help: &[(
+        "Preloads",
+        "i: adhesion force over preload, of this profile and the mean of random profiles with its 95 % confidence; the \
+         line and ◆ are the present preload",
+    )],
+    ..PaneRow::EMPTY
+};
 
 /// Draws the pane.
-pub fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
+fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
+    let area = inside(area);
     let pane = &model.preloads;
     let curve = pane.curve.as_deref().filter(|curve| !curve.own.is_empty());
     let Some(curve) = curve else {

@@ -1,7 +1,6 @@
 //! The curve: the hysteresis loop with its two branches, what is compared with it, and the hand.
 
-use super::plot;
-use super::wrap::fitting;
+use super::PaneRow;
 use crate::analysis::LEAST_TABOR_NUMBER;
 use crate::analysis::{Mark, marks};
 use crate::contact::{CurvePoint, Direction, LegRecord};
@@ -9,9 +8,12 @@ use crate::draw::{
     Axis, AxisScale, CellPlot, Chart, Ink, Label, Layer, Shape, Sign, Span, Stroke, glyph, legend,
 };
 use crate::explorer::caption::caption;
+use crate::explorer::layout::inside;
 use crate::explorer::model::{Ghost, Model, Quantities};
 use crate::explorer::snapshot::SolvedScene;
 use crate::explorer::theme::{Meaning, Theme};
+use crate::explorer::view::plot;
+use crate::explorer::view::wrap::fitting;
 use crate::export::sign;
 use crate::scene::format_quantity;
 use ratatui::Frame;
@@ -19,8 +21,22 @@ use ratatui::layout::{Position, Rect};
 use ratatui::text::{Line, Span as Text};
 use ratatui::widgets::Paragraph;
 
+/// Row of the pane.
+pub static ROW: PaneRow = PaneRow {
+    title: title,
+    draw: draw,
+    edge: reading,
+    has_crosshair: true,
+    help: &[(
+        "Curve",
+        "F over indentation d: dotted while pressing, solid while pulling; ◇ jump-in, ▲ preload, ▼ pull-off, \
+         ◆ now; letters and colours are ghosts, dashes are where the hand has been",
+    )],
+    ..PaneRow::EMPTY
+};
+
 /// Title of the pane.
-pub fn title(model: &Model) -> String {
+fn title(model: &Model) -> String {
     let units = model.computed.as_ref().map(|computed| Units::of(model, computed));
     let name = match units.filter(Units::is_normalised) {
         Some(units) => units.title(),
@@ -203,7 +219,7 @@ pub fn stage_at(model: &Model, area: Rect, here: Position) -> Option<(usize, f64
 }
 
 /// Readings of the crosshair, for the lower edge of the frame.
-pub fn reading(model: &Model, area: Rect) -> Option<Line<'static>> {
+fn reading(model: &Model, area: Rect) -> Option<Line<'static>> {
     model.crosshair?;
     let point = model.present()?.point;
     let [d, length] =
@@ -228,7 +244,8 @@ fn below(area: Rect, rows: u16) -> Rect {
 }
 
 /// Draws the curve with its axes.
-pub fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
+fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
+    let area = inside(area);
     let theme = model.appearance.theme;
     let shown = model.computed.as_ref().filter(|_| model.indentations().is_some());
     let Some(computed) = shown else {

@@ -1,10 +1,10 @@
 //! Lengths of the contact fragments: their number over their length, both logarithmic.
 
-use super::plot;
 use crate::draw::{Axis, AxisScale, Ink, Layer, Shape, Sign, Span, Stroke};
 use crate::explorer::model::Model;
 use crate::explorer::snapshot::LengthBin;
 use crate::explorer::theme::Meaning;
+use crate::explorer::view::plot;
 use ratatui::Frame;
 use ratatui::layout::Rect;
 use ratatui::widgets::Paragraph;

@@ -1,11 +1,11 @@
 //! Sections through the mark of the map: means along its axes, with their confidence where it is known.
 
 use super::chart_words::{name_of, on_axis, told};
-use super::plot;
-use super::wrap::filled;
 use crate::draw::{Axis, AxisScale, Chart, Ink, Label, Layer as Drawn, Shape, Sign, Span, Stroke, legend};
 use crate::explorer::model::Model;
 use crate::explorer::theme::Meaning;
+use crate::explorer::view::plot;
+use crate::explorer::view::wrap::filled;
 use crate::study::figure::Estimate;
 use crate::study::map::{Layer, MapAxis, MapModel};
 use ratatui::Frame;

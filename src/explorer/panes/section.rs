@@ -1,9 +1,9 @@
 //! Part of the profile on its axes: rigid profile, elastic surface and contact, for profile and close-up.
 
-use super::plot;
 use crate::draw::{Axis, AxisScale, Chart, Ink, Layer, Shape, Span, legend};
 use crate::explorer::snapshot::{Column, ContactSnapshot, Section};
 use crate::explorer::theme::{Appearance, Meaning, Theme};
+use crate::explorer::view::plot;
 use crate::scene::format_quantity;
 use crate::simulation::LineFacts;
 use ratatui::text::{Line, Span as Text};

@@ -1,16 +1,38 @@
 //! The map in its pane: shades in the colours of the regimes, and the mark of the scene. Beside the map are its [words].
 
-use super::wrap::wrapped;
-use super::{chart_words as words, plot, sections};
+use super::{PaneRow, chart_words as words, sections};
 use crate::draw::{CellPlot, Chart, Figure, Label};
+use crate::explorer::layout::inside;
 use crate::explorer::model::Model;
 use crate::explorer::theme::{Meaning, Theme};
+use crate::explorer::view::plot;
+use crate::explorer::view::wrap::wrapped;
 use crate::export::study_figure;
 use crate::study::map::{Charted, MapModel, Place};
 use ratatui::Frame;
 use ratatui::layout::{Position, Rect};
 use ratatui::text::{Line, Span as Text};
 use ratatui::widgets::Paragraph;
+
+/// Row of the pane.
+pub static ROW: PaneRow = PaneRow {
+    title: words::title,
+    draw: draw,
+    help: &[
+        (
+            "Map",
+            "m: regime under other H and κ, of most of a few random profiles with few springs; █ adhesion at first \
+             touch, ▒ after pressing, · hardly any, blank: not computed; ◆ is the scene, moved by the arrows",
+        ),
+        (
+            "Study",
+            "map of a merged study, opened by the path of its folder: means over its profiles, ▓ ░ where profiles \
+             differ in their regimes; ◆ moves from cell to cell, P selects the next preload, W switches between the \
+             study and the live map",
+        ),
+    ],
+    ..PaneRow::EMPTY
+};
 
 /// Rows of map that make it worth drawing.
 const FEWEST_ROWS: u16 = 4;
@@ -86,7 +108,8 @@ pub fn place_at(model: &Model, area: Rect, here: Position) -> Option<Place> {
 }
 
 /// Draws legend, map, and what the map says at the mark, as far as there is room.
-pub fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
+fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
+    let area = inside(area);
     let theme = model.appearance.theme;
     let Some(map_model) = model.chart.map_model() else {
         let text = wrapped(&Line::styled(words::nothing_yet(model), theme.style(Meaning::Quiet)), area.width);

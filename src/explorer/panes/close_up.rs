@@ -2,19 +2,62 @@
 //! of the whole contact.
 
 use super::section::short;
-use super::{plot, section};
+use super::{PaneRow, beside, lengths, section};
 use crate::draw::{CellPlot, Chart, Span};
+use crate::explorer::layout::inside;
 use crate::explorer::model::Model;
 use crate::explorer::snapshot::{ContactSnapshot, FragmentFacts, Section, Share};
 use crate::explorer::theme::{Meaning, Theme};
+use crate::explorer::view::plot;
 use crate::scene::format_quantity;
 use ratatui::Frame;
 use ratatui::layout::Rect;
 use ratatui::text::{Line, Span as Text};
 use ratatui::widgets::Paragraph;
 
+/// Row of the pane.
+pub static ROW: PaneRow = PaneRow {
+    title: |model| match shown(model) {
+        Shown::Lengths => lengths::TITLE.to_owned(),
+        Shown::Beside => beside::title(model),
+        Shown::CloseUp => title(model),
+    },
+    draw: |frame, area, model| match shown(model) {
+        Shown::Lengths => lengths::draw(frame, inside(area), model),
+        Shown::Beside => beside::draw(frame, inside(area), model),
+        Shown::CloseUp => draw(frame, inside(area), model),
+    },
+    edge: |model, area| match shown(model) {
+        Shown::Lengths | Shown::Beside => None,
+        Shown::CloseUp => names(model, area),
+    },
+    has_crosshair: true,
+    help: &[(
+        "Fragments",
+        "close-up of a contact patch; ○ marks its edges. Below it the whole contact, [ ] around the close-up",
+    )],
+    ..PaneRow::EMPTY
+};
+
+/// Content of the pane.
+enum Shown {
+    CloseUp,
+    Lengths,
+    Beside,
+}
+
+fn shown(model: &Model) -> Shown {
+    if model.lengths {
+        Shown::Lengths
+    } else if model.side_by_side {
+        Shown::Beside
+    } else {
+        Shown::CloseUp
+    }
+}
+
 /// Title of the pane.
-pub fn title(model: &Model) -> String {
+fn title(model: &Model) -> String {
     let Some(moment) = model.moment.as_ref() else { return " Fragments ".to_owned() };
     let shown = &moment.close_up.section;
     let from = (moment.line.first + shown.first) as f64 * moment.line.spacing;
@@ -24,7 +67,7 @@ pub fn title(model: &Model) -> String {
 }
 
 /// Names of what is drawn, for the lower edge of the frame.
-pub fn names(model: &Model, area: Rect) -> Option<Line<'static>> {
+fn names(model: &Model, area: Rect) -> Option<Line<'static>> {
     let moment = model.moment.as_ref()?;
     let shown = &moment.close_up.section;
     let chart = section::chart(shown, moment.line, heights(shown));
@@ -41,7 +84,7 @@ pub fn share_at(model: &Model, area: Rect, column: u16) -> Option<f64> {
 }
 
 /// Draws the close-up and what is known of its fragment.
-pub fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
+fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
     let Some(moment) = model.moment.as_ref() else { return };
     let theme = model.appearance.theme;
     let close_up = &moment.close_up;

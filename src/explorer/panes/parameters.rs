@@ -1,19 +1,31 @@
 //! The list of parameters and what the selected one means.
 
-use super::found::marked;
-use super::typed::typed;
-use super::wrap::{clipped, filled, wrapped_within};
+use super::PaneRow;
 use crate::explorer::fuzzy::letters_found;
 use crate::explorer::layout::{Layout, inside};
 use crate::explorer::model::{Mode, Model, Pane};
 use crate::explorer::parameters::{Parameter, Setting, spelled};
 use crate::explorer::text_line::TextLine;
 use crate::explorer::theme::Meaning;
+use crate::explorer::view::found::marked;
+use crate::explorer::view::typed::typed;
+use crate::explorer::view::wrap::{clipped, filled, wrapped_within};
 use crate::scene::format_quantity;
 use ratatui::Frame;
 use ratatui::layout::Rect;
 use ratatui::text::{Line, Span};
 use ratatui::widgets::{Paragraph, Scrollbar, ScrollbarOrientation, ScrollbarState};
+
+/// Row of the pane.
+pub static ROW: PaneRow = PaneRow {
+    title: |_| " Parameters ".to_owned(),
+    draw: draw,
+    help: &[(
+        "Parameters",
+        "fields of the scene by use, in groups; ● marks an effect that is on, ▸ a folded group, = a derived value",
+    )],
+    ..PaneRow::EMPTY
+};
 
 /// Columns for a typed value beside its name.
 const TYPED_COLUMNS: usize = 12;
@@ -75,8 +87,10 @@ pub fn parameter_at(model: &Model, area: Rect, row: u16) -> Option<usize> {
 }
 
 /// Draws the list, scrolled so that the selected row shows, derived values, and a line or two of explanation below. A
-/// scroll bar in the column `edge` says that there are rows out of sight.
-pub fn draw(frame: &mut Frame<'_>, area: Rect, edge: u16, model: &Model) {
+/// scroll bar in the last column of the frame says that there are rows out of sight.
+fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
+    let edge = area.right().saturating_sub(1);
+    let area = inside(area);
     let places = Places::within(area, model);
     let Places { mut list, derived: below, help, .. } = places;
     if places.is_scrolled() {

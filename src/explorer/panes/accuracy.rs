@@ -1,12 +1,14 @@
 //! Cost of accuracy: errors over times, both logarithmic, requirements of a good accuracy, and the stages of the run.
 
-use super::plot;
-use super::stages;
-use super::wrap::{filled, wrapped};
+use super::PaneRow;
 use crate::accuracy::{CostTable, ErrorFigure, Estimate, Evidence, Knob, Row};
 use crate::draw::{Chart, Figure, Ink, Layer, Shape, Sign, Span, legend};
+use crate::explorer::layout::inside;
 use crate::explorer::model::{Estimated, Model};
 use crate::explorer::theme::{Appearance, Meaning};
+use crate::explorer::view::plot;
+use crate::explorer::view::stages;
+use crate::explorer::view::wrap::{filled, wrapped};
 use crate::export::work_precision;
 use crate::scene::{Edges, Numerics, Solver, format_quantity};
 use crate::text::grouped;
@@ -15,8 +17,17 @@ use ratatui::layout::Rect;
 use ratatui::text::{Line, Span as Text};
 use ratatui::widgets::Paragraph;
 
-/// Title of the pane.
-pub const TITLE: &str = " Accuracy: error over time, log–log ";
+/// Row of the pane.
+pub static ROW: PaneRow = PaneRow {
+    title: |_| " Accuracy: error over time, log–log ".to_owned(),
+    draw: draw,
+    help: &[(
+        "Accuracy",
+        "A: relative error against the time of a run, one line for each setting that affects accuracy; ◆ is the \
+         scene. Below it the cost of 1 % and 0.1 %, and the computing stages",
+    )],
+    ..PaneRow::EMPTY
+};
 
 /// Relative errors that are answered for, and looked for in the plot.
 const TARGETS: [f64; 2] = [0.01, 0.001];
@@ -38,7 +49,8 @@ fn point(row: &Row) -> Option<(f64, f64)> {
 }
 
 /// Draws plot, answers and stages, as far as there is room.
-pub fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
+fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
+    let area = inside(area);
     let table = model.appraisal.costs.table.as_deref();
     let figure = table.map(|table| work_precision("", table));
     let figure = figure.filter(|figure| !figure.legend().is_empty());
