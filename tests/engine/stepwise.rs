@@ -204,7 +204,7 @@ proptest! {
 
 #[test]
 fn one_spring_has_a_closed_form() {
-    // Touches at d = 0 and lets go at d = −√(πΔxγ/E*).
+    // Touches at d = 0 and detaches at d = −√(πΔxγ/E*).
     let work = 0.3;
     let stretch = (PI * FOUNDATION.spacing * work / FOUNDATION.effective_modulus).sqrt();
     let legs = [Leg::ToIndentation(0.1), Leg::ToSeparation];
@@ -213,7 +213,7 @@ fn one_spring_has_a_closed_form() {
         for (records, allowed) in [(&found, step), (&expected, 1e-15)] {
             assert_eq!(records[0].largest.force, 0.1 * FOUNDATION.spring_stiffness());
             let late = records[1].smallest.indentation + stretch;
-            assert!((0.0..=allowed).contains(&late), "step {step}: let go {late} early");
+            assert!((0.0..=allowed).contains(&late), "step {step}: detached {late} early");
             let smallest = FOUNDATION.spring_stiffness() * records[1].smallest.indentation;
             assert!((records[1].smallest.force - smallest).abs() < 1e-17);
             assert_eq!(records.iter().map(|leg| leg.joins + leg.leaves).sum::<u64>(), 2);
