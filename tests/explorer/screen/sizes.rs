@@ -93,9 +93,9 @@ fn titles_notices_and_explanations_are_whole_or_end_in_an_ellipsis() {
                 let layout = Layout::of(&driver.model);
                 let rows = driver.rows();
                 if let Some(title) = layout.title {
-                    let told = rows[..usize::from(title.height)].join(" ");
+                    let head = rows[..usize::from(title.height)].join(" ");
                     let end = notice.split_whitespace().last().unwrap();
-                    assert!(told.trim_end().ends_with(end) || told.contains('…'), "{size:?}: {told}");
+                    assert!(head.trim_end().ends_with(end) || head.contains('…'), "{size:?}: {head}");
                 }
                 driver.press("Tab Tab");
                 for (pane, area) in Layout::of(&driver.model).panes {
