@@ -144,7 +144,7 @@ fn what_cannot_be_kept_or_exchanged_says_why() {
 
 /// The rows of the pane that has the close-up or the scene beside in it.
 fn lower_pane(driver: &Driver) -> Vec<String> {
-    rows_of(driver, Pane::CloseUp)
+    rows_of(driver, Pane::Beside)
 }
 
 fn rows_of(driver: &Driver, pane: Pane) -> Vec<String> {
@@ -225,11 +225,13 @@ fn two_scenes_that_are_opened_are_shown_side_by_side() {
             driver.press(keys);
             driver.screen();
         }
-        assert!(!driver.model.side_by_side);
+        assert!(!driver.model.is_shown(Pane::Beside));
         driver.press("&");
-        assert!(driver.model.side_by_side && !driver.model.lengths);
+        assert!(driver.model.is_shown(Pane::Beside));
         driver.press("C");
-        assert!(!driver.model.side_by_side && driver.model.moment.as_ref().unwrap().beside.is_none());
+        assert!(
+            !driver.model.is_shown(Pane::Beside) && driver.model.moment.as_ref().unwrap().beside.is_none()
+        );
     });
 }
 
