@@ -410,12 +410,23 @@ impl Model {
         }
     }
 
-    /// Outcome for the value that is being typed.
+    /// Outcome for the value that is being typed, or for the one typed before until that is there; after a value was accepted,
+    /// its outcome until the scene is computed.
     #[must_use]
     pub fn tried_outcome(&self) -> Option<&Outcome> {
-        let Mode::Edit(_) = self.mode else { return None };
-        let preview = self.preview.as_ref().filter(|preview| self.tried.as_ref() == Some(&preview.text))?;
-        preview.outcome.as_ref().ok()
+        let preview = self.preview.as_ref()?;
+        let is_shown = match self.mode {
+            Mode::Edit(_) => self.tried.is_some(),
+            Mode::Explore => self.is_computing() && preview.text == self.document.text(),
+            _ => false,
+        };
+        preview.outcome.as_ref().ok().filter(|_| is_shown)
+    }
+
+    /// Returns true if the outcome for the typed value itself is there.
+    #[must_use]
+    pub fn is_tried(&self) -> bool {
+        self.preview.as_ref().is_some_and(|preview| self.tried.as_ref() == Some(&preview.text))
     }
 
     /// Returns true if a pane is in its place, as far as the window has room for it.

@@ -170,8 +170,10 @@ fn write(frame: &mut Frame<'_>, area: Rect, lines: Vec<Line<'static>>) {
     }
 }
 
-/// The scene as it is, with a pointer on each axis.
+/// The scene as it is, with a pointer on each axis that has a line.
 fn mark(frame: &mut Frame<'_>, area: Rect, plot: Rect, (x, y): (u16, u16), theme: Theme) {
+    let below = frame.buffer_mut().cell((x, plot.bottom()));
+    let has_line = below.is_some_and(|cell| ["─", "┬"].contains(&cell.symbol()));
     let mut put = |x: u16, y: u16, text: &'static str| {
         let place = Rect { x, y, width: text.chars().count() as u16, height: 1 };
         let text = Text::styled(text, theme.style(Meaning::Cursor));
@@ -185,7 +187,10 @@ fn mark(frame: &mut Frame<'_>, area: Rect, plot: Rect, (x, y): (u16, u16), theme
         put(x + 1, y, " ");
     }
     put(x, y, "◆");
-    put(x, plot.bottom(), "▲");
+    // Without a line of its own the scale below has names and numbers there.
+    if has_line {
+        put(x, plot.bottom(), "▲");
+    }
     if plot.x > area.x {
         put(plot.x - 1, y, "▶");
     }

@@ -32,9 +32,9 @@ pub fn title(model: &Model) -> String {
     let study = model.chart.shown_study().map(|study| (&study.study_map, study.study_map.plan().lines));
     match (study, template) {
         (Some((study_map, count)), _) => {
-            format!(" Study {}: {quantity} over {over}, {} ", study_map.name(), lines(count))
+            format!(" Study {}: {quantity} over {over}, {} ", study_map.name(), profiles(count))
         }
-        (None, Ok(template)) => format!(" Map of {quantity} over {over}, {} ", lines(template.lines())),
+        (None, Ok(template)) => format!(" Map of {quantity} over {over}, {} ", profiles(template.lines())),
         (None, Err(_)) => " Map ".to_owned(),
     }
 }
@@ -47,8 +47,8 @@ fn charted_name(map_model: &MapModel, charted: Charted) -> String {
     }
 }
 
-fn lines(count: u64) -> String {
-    if count == 1 { "1 line".to_owned() } else { format!("{} lines", grouped(count)) }
+fn profiles(count: u64) -> String {
+    if count == 1 { "1 profile".to_owned() } else { format!("{} profiles", grouped(count)) }
 }
 
 /// Reason for which there is no map.
@@ -206,7 +206,7 @@ fn note_of_computed(model: &Model) -> String {
     let cells = Template::of(model.document.scene()).map_or_else(
         |_| String::new(),
         |template| {
-            format!("Each cell: {} of {} springs. ", lines(template.lines()), grouped(template.springs()))
+            format!("Each cell: {} of {} springs. ", profiles(template.lines()), grouped(template.springs()))
         },
     );
     format!(
@@ -228,9 +228,9 @@ fn note_of_study(study: &OpenStudy, map_model: &MapModel) -> String {
     };
     let plan = study.study_map.plan();
     format!(
-        "A finished study of {}, from seed {}. {regimes}± is the 95 % confidence of the mean. ◆ is its scene on the first line; W shows the map that is \
+        "A finished study of {}, from seed {}. {regimes}± is the 95 % confidence of the mean. ◆ is its scene with the first profile; W shows the map that is \
          computed here around it, and this one again.",
-        lines(plan.lines),
+        profiles(plan.lines),
         plan.seed
     )
 }
@@ -276,7 +276,7 @@ fn there(model: &Model, map_model: &MapModel, mark: Place, place: &ShownCell<'_>
     let agree = if map_cell.lines == 1 {
         String::new()
     } else {
-        format!(" ({} of {} lines)", grouped(map_cell.agreeing), grouped(map_cell.lines))
+        format!(" ({} of {} profiles)", grouped(map_cell.agreeing), grouped(map_cell.lines))
     };
     let regime = map_cell.regime.map(|regime| format!("{}{agree}", regime.name()));
     // What goes with the regime is told together, so that the map keeps its place.

@@ -2,15 +2,17 @@
 
 use super::{PaneRow, Place};
 use crate::explorer::action::Command;
+use crate::explorer::fuzzy::letters_found;
 use crate::explorer::layout::{Layout, inside};
 use crate::explorer::mode::ModeKind;
 use crate::explorer::model::{Mode, Model, Pane};
-use crate::explorer::parameters::{Parameter, Setting};
+use crate::explorer::parameters::{Parameter, Setting, spelled};
 use crate::explorer::text_line::TextLine;
 use crate::explorer::theme::Meaning;
 use crate::explorer::update::{Effect, edit, explore};
+use crate::explorer::view::found::marked;
 use crate::explorer::view::typed::typed;
-use crate::explorer::view::wrap::{clipped, filled, wrapped};
+use crate::explorer::view::wrap::{clipped, filled, wrapped_within};
 use crate::scene::format_quantity;
 use ratatui::Frame;
 use ratatui::layout::{Position, Rect};
@@ -132,7 +134,7 @@ fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
         Some(index) => explanation(model, *index),
         None => Line::styled("no parameter of this scene fits", model.appearance.theme.style(Meaning::Quiet)),
     };
-    frame.render_widget(Paragraph::new(wrapped(&explained, help.width)), help);
+    frame.render_widget(Paragraph::new(wrapped_within(&explained, help)), help);
 }
 
 fn parameter_line(model: &Model, index: usize, selected: bool, width: usize) -> Line<'static> {
@@ -156,13 +158,35 @@ fn parameter_line(model: &Model, index: usize, selected: bool, width: usize) -> 
     let room = width.saturating_sub(columns(&lead) + usize::from(!value.is_empty()) + columns(&value));
     let name = format!("{lead}{}", name_within(parameter, room));
     let gap = width.saturating_sub(columns(&name) + columns(&value));
-    let text = format!("{name}{}{value}", " ".repeat(gap));
+    let rest = format!("{}{value}", " ".repeat(gap));
     let style = match (refused, selected) {
         (true, _) => theme.style(Meaning::Error),
         (false, true) => theme.style(Meaning::Selected),
         (false, false) => theme.style(Meaning::Text),
     };
-    Line::styled(text, style)
+    let letters = found_in(model, parameter, &name, lead.chars().count());
+    let name = marked(&name, &letters, style, theme);
+    Line::from_iter(name.into_iter().chain([Span::styled(rest, style)])).style(style)
+}
+
+/// Characters of the shown name and symbol that the search has found, by their indices; `lead` characters come before.
+fn found_in(model: &Model, parameter: &Parameter, shown: &str, lead: usize) -> Vec<usize> {
+    let Mode::Find(finder) = &model.mode else { return Vec::new() };
+    let (query, candidate, name) = (finder.query.text(), parameter.candidate(), parameter.name());
+    // The name may be cut.
+    let kept = shown.chars().skip(lead).zip(name.chars()).take_while(|(one, other)| one == other).count();
+    let in_name = letters_found(&candidate, &name, &query).into_iter().filter(|index| *index < kept);
+    let mut letters: Vec<usize> = in_name.map(|index| index + lead).collect();
+    let symbol = parameter.field.symbol;
+    if shown.ends_with(symbol) {
+        let (all, end) = (symbol.chars().count(), shown.chars().count());
+        // A Greek letter is found by its name as a whole.
+        let is_spelled = !letters_found(&candidate, &spelled(symbol), &query).is_empty();
+        let in_symbol = letters_found(&candidate, symbol, &query);
+        let in_symbol = if in_symbol.is_empty() && is_spelled { (0..all).collect() } else { in_symbol };
+        letters.extend(in_symbol.into_iter().map(|index| index + end - all));
+    }
+    letters
 }
 
 /// Marks before a name: the first row of a group is folded or not, and an effect is on or off; the others are set in.

@@ -59,7 +59,9 @@ fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
         frame.render_widget(Paragraph::new(lines), area);
         return;
     };
-    section(frame, area, model, &Chart { heading: told(curve), ..chart(model, curve) });
+    let chart = chart(model, curve);
+    let heading = format!("{}  {}", chart.y.label_with_unit(), told(curve)).trim_end().to_owned();
+    section(frame, area, model, &Chart { heading, ..chart });
 }
 
 /// Progress, in words.

@@ -1,6 +1,7 @@
 //! Draws the model. Nothing here changes it or computes anything.
 
 mod chrome;
+pub mod found;
 mod help;
 mod library;
 mod palette;
@@ -9,6 +10,7 @@ pub mod stages;
 pub mod typed;
 pub mod wrap;
 
+use self::wrap::clipped;
 use super::layout::{Layout, is_framed};
 use super::model::{Mode, Model};
 use super::panes::Pane;
@@ -17,6 +19,7 @@ use super::theme::{Marker, Meaning, Theme};
 use ratatui::Frame;
 use ratatui::layout::Rect;
 use ratatui::style::Modifier;
+use ratatui::text::Line;
 use ratatui::widgets::Block;
 
 /// Draws the whole screen.
@@ -72,9 +75,10 @@ fn draw_pane(frame: &mut Frame<'_>, area: Rect, model: &Model, pane: Pane) {
         let name = (row.title)(model);
         let style = model.appearance.theme.style(if chosen { Meaning::Title } else { Meaning::Quiet });
         let mark = if chosen { "▸" } else { "" };
-        let block = Block::bordered()
-            .border_style(model.appearance.theme.style(Meaning::Quiet))
-            .title(ratatui::text::Span::styled(format!("{mark}{name}"), style));
+        let title = Line::styled(format!("{mark}{name}"), style);
+        let room = area.width - 2;
+        let title = if title.width() > usize::from(room) { clipped(title, room) } else { title };
+        let block = Block::bordered().border_style(model.appearance.theme.style(Meaning::Quiet)).title(title);
         let names = (row.edge)(model, area);
         frame.render_widget(names.into_iter().fold(block, Block::title_bottom), area);
     }
