@@ -39,7 +39,10 @@ pub fn title(frame: &mut Frame<'_>, area: Rect, model: &Model) {
 /// The headline figures, or a question, an error, or what is being typed.
 pub fn status(frame: &mut Frame<'_>, area: Rect, model: &Model) {
     let theme = model.appearance.theme;
-    let error = |text: String| Line::styled(text, theme.style(Meaning::Error));
+    let stated = |line: Line<'static>| {
+        if line.width() > usize::from(area.width) { clipped(line, area.width) } else { line }
+    };
+    let error = |text: String| stated(Line::styled(text, theme.style(Meaning::Error)));
     let prompted = |prompt: &'static str, line: &TextLine| {
         let prompt = Span::raw(prompt);
         let room = usize::from(area.width).saturating_sub(prompt.width());
@@ -79,11 +82,10 @@ pub fn status(frame: &mut Frame<'_>, area: Rect, model: &Model) {
             let text = model.refused.as_ref().map_or("", |(_, text)| text);
             error(format!("! {text}"))
         }
-        (_, Some(Notice::Done(text))) => Line::raw(text.clone()),
+        (_, Some(Notice::Done(text))) => stated(Line::raw(text.clone())),
         (Mode::Explore, None) if model.appraisal.choosing.is_some() => choosing(model),
         _ => headline(model, area.width),
     };
-    let line = if line.width() > usize::from(area.width) { clipped(line, area.width) } else { line };
     frame.render_widget(Paragraph::new(line), area);
 }
 

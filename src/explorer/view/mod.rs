@@ -75,8 +75,12 @@ fn draw_pane(frame: &mut Frame<'_>, area: Rect, model: &Model, pane: Pane) {
         let name = (row.title)(model);
         let style = model.appearance.theme.style(if chosen { Meaning::Title } else { Meaning::Quiet });
         let mark = if chosen { "▸" } else { "" };
-        let title = Line::styled(format!("{mark}{name}"), style);
         let room = area.width - 2;
+        let mut name = format!("{mark}{name}");
+        if name.chars().count() > usize::from(room) {
+            name.truncate(name.trim_end().len());
+        }
+        let title = Line::styled(name, style);
         let title = if title.width() > usize::from(room) { clipped(title, room) } else { title };
         let block = Block::bordered().border_style(model.appearance.theme.style(Meaning::Quiet)).title(title);
         let names = (row.edge)(model, area);

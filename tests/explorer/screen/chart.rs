@@ -120,7 +120,7 @@ fn the_map_is_shown_beside_what_can_be_changed() {
             for size in [(120, 40), (80, 24)] {
                 driver.resize(size);
                 screens += &format!("── {keys} {} × {} ──\n{}\n", size.0, size.1, driver.text());
-                assert!(driver.text().contains("over H, κ, 4 lines") || keys == "V", "{}", driver.text());
+                assert!(driver.text().contains("over H, κ, 4 profiles") || keys == "V", "{}", driver.text());
                 assert!(driver.text().contains("◆ H 0.7, κ 8"), "{}", driver.text());
                 assert_eq!(
                     driver.text().contains("5 × 5 cells so far"),
