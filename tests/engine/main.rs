@@ -4,6 +4,7 @@
 mod closed_forms;
 mod equilibrium;
 mod formed;
+mod former_engine;
 mod hard_cases;
 mod incremental;
 mod large_lines;

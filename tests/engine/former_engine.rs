@@ -1,8 +1,6 @@
 //! Random loops under adhesion against the results of the former engine, which used a tree of all springs.
 
-#[path = "former_engine/loops.rs"]
 mod loops;
-#[path = "former_engine/trace.rs"]
 mod trace;
 
 use asperity::contact::{
@@ -101,7 +99,7 @@ struct Deviations {
 }
 
 #[test]
-#[ignore = "needs the whole results that tests/former_engine/record.sh writes"]
+#[ignore = "needs the whole results that tests/engine/former_engine/record.sh writes"]
 fn deviations_from_the_former_engine() {
     let path = std::env::var_os("FORMER_ENGINE").expect("FORMER_ENGINE: file of results");
     let recorded = std::fs::read(path).unwrap();
