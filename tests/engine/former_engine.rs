@@ -50,7 +50,7 @@ fn trace<E: EdgeModel>(case: &Loop, edges: E, foundation: Foundation) -> Trace {
         ContactError::OutOfReach { .. } => [3.0, 0.0],
         other => panic!("{other}"),
     };
-    let changes = |record: &LegRecord| [record.joins, record.leaves];
+    let changes = |record: &LegRecord| [record.attached, record.detached];
     let tree = ContactTree::build(&case.gaps, E::EDGES).unwrap();
     let mut body = exact::adhesive(&case.gaps, &tree, edges, foundation, case.samples);
     let advance = |body: &mut exact::Exact<_>, leg: Leg| body.advance(leg);

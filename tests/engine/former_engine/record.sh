@@ -6,7 +6,7 @@
 # Builds the former source, runs its engine on the random loops of loops.rs, and writes checksums and energies to
 # recorded.bin and whole results to the file WHOLE. Then
 #
-#   FORMER_ENGINE=WHOLE cargo test --test engine former_engine -- --ignored --nocapture
+#   FORMER_ENGINE=WHOLE cargo test --test engine deviations -- --ignored --nocapture
 #
 # prints the table of docs/accuracy.md.
 set -euo pipefail
