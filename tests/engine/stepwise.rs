@@ -231,7 +231,16 @@ fn one_spring_has_a_closed_form() {
 }
 
 #[test]
-fn it_gives_up_when_told_to_or_when_steps_are_too_many() {
+fn of_equal_forces_the_first_is_the_smallest() {
+    let step = 0.003;
+    let [records, _] = both(&[0.0], 0.0, step, &[Leg::ToIndentation(0.1), Leg::ToIndentation(-0.05)]);
+    let smallest = records[1].smallest;
+    assert_eq!(smallest.force, 0.0);
+    assert!((-step..=0.0).contains(&smallest.indentation), "{smallest:?}");
+}
+
+#[test]
+fn it_gives_up_on_demand_or_when_steps_are_too_many() {
     let gaps = rough(16, 1);
     let stop = || true;
     let mut solver = Stepwise::new(&gaps, None, FOUNDATION, 0.01, 9, &stop).unwrap();
