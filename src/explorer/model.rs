@@ -16,7 +16,7 @@ use super::theme::Appearance;
 use crate::analysis::Governing;
 use crate::contact::{CurvePoint, LegRecord};
 use crate::draw::AxisScale;
-use crate::scene::{Document, Scene, ron_float};
+use crate::scene::{Document, Observer, Scene, ron_float};
 use crate::simulation::Outcome;
 pub use crate::study::map::Charted;
 use crate::study::map::{MapAxis, Place, StudyMap, Template};
@@ -44,10 +44,13 @@ pub struct CloseUpTarget {
 }
 
 impl CloseUpTarget {
-    /// Springs shown when a scene opens: a small part of the line, but several asperities.
+    /// Springs shown when a scene opens: a small part of the line, but several asperities; a larger part of a scene that
+    /// observes its contact patches, with both ends of the patch at first touch.
     #[must_use]
     pub fn springs_shown(document: &Document) -> usize {
-        (document.scene().numerics.points / 32).max(64) as usize
+        let scene = document.scene();
+        let part = if scene.observe.contains(&Observer::Fragments) { 4 } else { 32 };
+        (scene.numerics.points / part).max(64) as usize
     }
 }
 

@@ -200,7 +200,7 @@ fn two_scenes_are_shown_side_by_side() {
             }
             driver.press("&");
             assert!(driver.model.moment.as_ref().unwrap().beside.is_none());
-            assert!(lower_pane(&driver)[0].contains("Fragments"));
+            assert!(rows_of(&driver, Pane::CloseUp)[0].contains("Fragments"));
         }
     });
 }
