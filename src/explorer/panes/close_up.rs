@@ -156,7 +156,7 @@ fn describe(fragment: Option<FragmentFacts>, fragments: u64, width: u16) -> [Lin
     let second = if width >= 60 {
         format!("  Δl_max {bears} · most stretched {stretched} · margin {margin}")
     } else {
-        format!("  Δl {stretched} of {bears}")
+        format!("  Δl {stretched} of Δl_max {bears}")
     };
     [Line::raw(first), Line::raw(second)]
 }

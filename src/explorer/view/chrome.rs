@@ -102,8 +102,8 @@ fn headline(model: &Model, width: u16) -> Line<'static> {
     if let (Mode::Edit(_), Some(tried)) = (&model.mode, model.tried_outcome()) {
         let force =
             tried.figures.adhesion_force.map_or("none".to_owned(), |force| format_quantity(force, "N"));
-        let told = if model.is_tried() { format!("F_a {force}") } else { "computing…".to_owned() };
-        part("", format!("preview: {told}"), Meaning::Title);
+        let shown = if model.is_tried() { format!("F_a {force}") } else { "computing…".to_owned() };
+        part("", format!("preview: {shown}"), Meaning::Title);
         part(" · ", "Enter accepts".to_owned(), Meaning::Quiet);
     }
     let in_hand = model.present().is_some() && model.hand.is_some();
