@@ -1,4 +1,7 @@
-//! Reversals of one loading against loadings and unloadings of their own, bit for bit.
+//! Reversals of one loading against loadings and unloadings of their own, bit for bit, and their memory.
+
+#[path = "common/allocations.rs"]
+mod allocations;
 
 use asperity::analysis::Figures;
 use asperity::contact::{
@@ -8,6 +11,10 @@ use asperity::contact::{
 use asperity::scene::{Edges, Leg};
 use asperity::surface::{Line, SelfAffine, UnitRoughness};
 use proptest::prelude::*;
+use std::sync::Mutex;
+
+/// Held by tests on large lines, one of which measures memory.
+static LARGE: Mutex<()> = Mutex::new(());
 
 /// Springs under adhesion and what is done with them.
 #[derive(Clone, Debug)]
@@ -188,6 +195,7 @@ fn turning_points_out_of_contact_are_refused() {
 /// three loops to the deepest turning point, although each of these would walk all of its contact again.
 #[test]
 fn the_line_is_walked_once_for_all_reversals() {
+    let _alone = LARGE.lock();
     let springs = 1 << 13;
     let spectrum = SelfAffine { hurst: 0.7, first: 1, last: springs as u64 / 4 };
     let rough = UnitRoughness::synthesize(spectrum, 1, springs).unwrap();
@@ -221,5 +229,43 @@ fn the_line_is_walked_once_for_all_reversals() {
             })
             .sum();
         assert!(5 * counts[0] < separate, "{counts:?}, {separate} of separate loops at κ = {kappa}");
+    }
+}
+
+/// Bound of the documentation: bytes for each spring beside gaps and tree, and for each turning point.
+const PER_SPRING: usize = 96;
+const PER_TURN: usize = 256;
+/// What other tests hold meanwhile, bytes.
+const OF_OTHERS: usize = 1 << 20;
+
+#[test]
+fn memory_of_512_reversals_is_that_of_a_few() {
+    let _alone = LARGE.lock();
+    let springs = 1 << 15;
+    let spectrum = SelfAffine { hurst: 0.7, first: 1, last: springs as u64 / 4 };
+    let rough = UnitRoughness::synthesize(spectrum, 1, springs).unwrap();
+    let line = Line::new(1e-3, springs, None, Some(&rough.heights), 5e-7).unwrap();
+    let foundation = Foundation::endless(line.spacing, 2e6);
+    let rms_gradient = 5e-7 * spectrum.gradient_per_height(1e-3);
+    let tree = ContactTree::build(&line.gaps, Edges::SubCell).unwrap();
+    for kappa in [2.0_f64, 20.0] {
+        let work = 5e-7 * rms_gradient * 2e6 / (kappa * kappa);
+        for closing in [work, 0.25 * work] {
+            let edges = SubCellEdges::new(HessRule::from_works(foundation, closing, work));
+            let most = |count: u32| {
+                let deepest = 0.4 * 2e6 * 1e-3 * 5e-7;
+                let turn = |turn: u32| Leg::ToForce(deepest * f64::from(turn) / f64::from(count));
+                let turns: Vec<Leg> = (1..=count).map(turn).collect();
+                let of = || {
+                    let body = exact::adhesive(&line.gaps, &tree, edges, foundation, 512);
+                    Reversals::new(body, &turns).unwrap().each(&[], &mut |_, _| Ok(())).unwrap();
+                };
+                allocations::most_held(of).1
+            };
+            let [few, many] = [8, 512].map(most);
+            println!("κ = {kappa}, γ₁/γ = {}: {few} bytes for 8, {many} for 512", closing / work);
+            assert!(many <= PER_SPRING * springs + 512 * PER_TURN + OF_OTHERS, "κ = {kappa}: {many} bytes");
+            assert!(many <= few + few / 4 + 512 * PER_TURN + OF_OTHERS, "κ = {kappa}: {few}, {many} bytes");
+        }
     }
 }
