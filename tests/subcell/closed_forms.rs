@@ -280,6 +280,70 @@ fn the_wavy_form_converges_with_the_square_of_the_distance_to_its_closed_form() 
     }
 }
 
+/// Contact radius of a sphere with waves on its way up to an indentation, or back from a larger one, by δ(a) alone: the
+/// smallest radius at which δ reaches the indentation, or the largest one below which δ falls under it.
+fn wavy_radius(exact: &asperity::reference::WavySphere, d: f64, loading: bool, widest: f64) -> f64 {
+    const STEPS: u32 = 4000;
+    let radius = |k: u32| widest * f64::from(k) / f64::from(STEPS);
+    let beyond = |k: &u32| exact.indentation(radius(*k)) >= d;
+    let (low, high) = if loading {
+        // From the first touch, where δ falls first, on to its rise.
+        let rises =
+            (1..STEPS).find(|&k| exact.indentation(radius(k + 1)) > exact.indentation(radius(k))).unwrap();
+        let high = (rises..=STEPS).find(beyond).unwrap();
+        (radius(high - 1), radius(high))
+    } else {
+        let low = (1..=STEPS).rev().find(|k| !beyond(k)).unwrap();
+        (radius(low), radius(low + 1))
+    };
+    invert(|a| exact.indentation(a), d, low, high)
+}
+
+#[test]
+fn the_wavy_form_follows_both_branches_and_jumps_of_its_closed_form() {
+    let (radius, modulus, work) = (1.0, 1e6, 1e3);
+    for (amplitude, wavelength) in [(5e-4, 0.1), (0.1_f64.powi(2) / 13.0, 0.1)] {
+        let form = Form::WavySphere { radius, amplitude, wavelength };
+        let exact = asperity::reference::WavySphere {
+            radius,
+            amplitude,
+            wavelength,
+            effective_modulus: modulus,
+            work_of_adhesion: work,
+        };
+        let body = smooth(Some(form), 1.0, 1601, modulus, work);
+        let history = body.history(&[Leg::ToIndentation(0.06), Leg::ToSeparation], 1001);
+        let pull_off = -history.legs[1].smallest.force;
+        for (record, loading) in history.legs.iter().zip([true, false]) {
+            let deepest = record.curve.iter().map(|point| point.contact_length).fold(0.0, f64::max) / 2.0;
+            let widest = 1.02 * deepest;
+            let (mut followed, mut jumps, mut before) = (0, 0, None);
+            for point in record.curve.iter().filter(|point| point.springs > 0) {
+                let d = point.indentation;
+                // Just beside a jump either side is right to the error of the grid.
+                let [a, b] = [-2e-5, 2e-5].map(|by| wavy_radius(&exact, (d + by).min(0.06), loading, widest));
+                if (a - b).abs() > 0.1 * wavelength {
+                    continue;
+                }
+                let expected = wavy_radius(&exact, d, loading, widest);
+                let found = 0.5 * point.contact_length;
+                assert!(
+                    (found / expected - 1.0).abs() < 2e-3,
+                    "A = {amplitude}, d = {d}: {found} {expected}"
+                );
+                let force = exact.force(expected);
+                assert!((point.force - force).abs() < 2e-3 * pull_off, "A = {amplitude}: {point:?}, {force}");
+                jumps +=
+                    usize::from(before.is_some_and(|before: f64| (before - found).abs() > 0.1 * wavelength));
+                before = Some(found);
+                followed += 1;
+            }
+            println!("A = {amplitude}, loading {loading}: {followed} points, {jumps} jumps");
+            assert!(followed > 950 && jumps >= 1, "A = {amplitude}: {followed} points, {jumps} jumps");
+        }
+    }
+}
+
 /// Where the line falls behind a crest an inner spring is the most stretched one, and the rule of Hess detaches earlier
 /// than JKR. Both figures are of an independent computation.
 #[test]
