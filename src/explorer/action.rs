@@ -276,6 +276,8 @@ pub enum Command {
     TransposeMap,
     /// Move the mark, and the scene, by so many columns of the map.
     MoveAcross(i32),
+    /// Map over e_el/γ in place of κ, or over κ again.
+    NextMapParameter,
     /// Move the mark, and the scene, by so many rows of the map.
     MoveUp(i32),
     /// Show or hide the crosshair.

@@ -345,6 +345,7 @@ fn explore(model: &mut Model, command: Command) -> Vec<Effect> {
         | Command::ToggleStudy
         | Command::NextSlice(_)
         | Command::TransposeMap
+        | Command::NextMapParameter
         | Command::MoveAcross(_)
         | Command::MoveUp(_) => return chart::obey(model, command),
         Command::Fragment(_)

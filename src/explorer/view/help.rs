@@ -34,7 +34,7 @@ const PANES: &[(&str, &str)] = &[
     ),
     (
         "Map",
-        "m: regime under other H and κ, of most of a few random profiles with few springs; █ adhesion at first \
+        "m: regime under other H and κ (e: e_el/γ), of most of a few random profiles with few springs; █ adhesion at first \
          touch, ▒ after pressing, · hardly any, blank: not computed; ◆ is the scene, moved by the arrows",
     ),
     (
