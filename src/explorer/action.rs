@@ -260,6 +260,8 @@ pub enum Command {
     ToggleAccuracy,
     /// Type a tolerance.
     TypeTolerance,
+    /// Draw the approximate JKR curve beside the loop, or leave it out.
+    ToggleApproximate,
     /// Show adhesion against preload, or the profile and the fragments again.
     TogglePreloads,
     /// Show the map, choose it, or show the profile and the fragments again.
@@ -274,10 +276,10 @@ pub enum Command {
     NextSlice(i32),
     /// Exchange columns and rows of the map.
     TransposeMap,
-    /// Move the mark, and the scene, by so many columns of the map.
-    MoveAcross(i32),
     /// Map over e_el/γ in place of κ, or over κ again.
     NextMapParameter,
+    /// Move the mark, and the scene, by so many columns of the map.
+    MoveAcross(i32),
     /// Move the mark, and the scene, by so many rows of the map.
     MoveUp(i32),
     /// Show or hide the crosshair.

@@ -93,6 +93,7 @@ impl Appraisal {
             // Not about accuracy.
             Finding::Charted(_)
             | Finding::NotCharted(_)
+            | Finding::Approximated(_)
             | Finding::Preloaded(_)
             | Finding::NotPreloaded(_) => {}
         }

@@ -263,6 +263,7 @@ pub const BINDINGS: &[Binding] = &[
     row(&[char('N')], EXPLORE, Command::ToggleNormalised, "", "plot in units of F_a,max and h, or in SI units", LOOK),
     row(&[char('O')], EXPLORE, Command::ToggleLogarithmic, "", "plot the curve with logarithmic axes, for numbers above zero, or with linear ones", LOOK),
     row(&[char('a')], EXPLORE, Command::ToggleLoss, "", "shade the area of the loop: the dissipated energy", LOOK),
+    row(&[char('~')], EXPLORE, Command::ToggleApproximate, "", "draw the approximate JKR curve (Ciavarella 2018) under the loop: an estimate without hysteresis", LOOK),
     row(&[char('n')], EXPLORE, Command::Fragment(Jump::Next), "fragment", "show the next contact patch", LOOK),
     row(&[char('p')], EXPLORE, Command::Fragment(Jump::Previous), "", "show the previous contact patch", LOOK),
     row(&[char('b')], EXPLORE, Command::Fragment(Jump::Largest), "", "show the longest contact patch", LOOK),

@@ -6,8 +6,9 @@ use super::snapshot::SolvedScene;
 use crate::accuracy::{
     Choice, ChoiceError, CostError, CostTable, Estimate, Knob, Progress, choose, estimate, measure,
 };
+use crate::analysis::ApproximateJkr;
 use crate::scene::Scene;
-use crate::simulation::RunError;
+use crate::simulation::{RunError, Simulation};
 use crate::study::map::{LiveMap, compute};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
@@ -26,6 +27,8 @@ const QUIET: Duration = Duration::from_millis(300);
 pub enum Task {
     /// Estimated error of the outcome.
     Estimate(Arc<SolvedScene>),
+    /// Approximate JKR curve beside the loop of the outcome.
+    ApproximateJkr(Arc<SolvedScene>),
     /// Cost of accuracy.
     Measure(Arc<Scene>),
     /// Springs and edges for a tolerance.
@@ -63,6 +66,8 @@ impl Task {
 pub enum Finding {
     /// The error of the outcome, where it can be told.
     Estimated(Option<Estimate>),
+    /// The approximate JKR curve, or the reason for none.
+    Approximated(Result<Arc<ApproximateJkr>, String>),
     /// Next measurement.
     Trying(Knob, String),
     /// The table so far.
@@ -127,6 +132,18 @@ pub trait Appraiser: Send {
 
     /// See [`compute()`].
     fn chart(&mut self, map: &mut LiveMap, stop: &dyn Fn() -> bool, tell: &mut dyn FnMut(&LiveMap));
+
+    /// See [`Simulation::approximate_jkr`].
+    ///
+    /// # Errors
+    /// For a scene without such a curve, when the profile fails or `stop` says so.
+    fn approximate_jkr(
+        &mut self,
+        of: &SolvedScene,
+        stop: &dyn Fn() -> bool,
+    ) -> Result<ApproximateJkr, RunError> {
+        Simulation::new(FOLDER.into()).approximate_jkr(&of.scene, &of.outcome.history, stop)
+    }
 
     /// See [`PreloadCurve::compute`].
     ///
@@ -193,6 +210,10 @@ pub fn perform(
     };
     let done = catch_unwind(AssertUnwindSafe(|| match task {
         Task::Estimate(of) => Finding::Estimated(appraiser.estimate(of, stop).unwrap_or(None)),
+        Task::ApproximateJkr(of) => {
+            let curve = appraiser.approximate_jkr(of, stop);
+            Finding::Approximated(curve.map(Arc::new).map_err(|error| error.to_string()))
+        }
         Task::Measure(scene) => {
             let measured = appraiser.measure(scene, stop, &mut |progress| match progress {
                 Progress::Trying(knob, setting) => tell(Finding::Trying(knob, setting.to_owned())),
@@ -228,6 +249,7 @@ pub fn perform(
     }));
     tell(done.unwrap_or_else(|_| match task {
         Task::Estimate(_) => Finding::Estimated(None),
+        Task::ApproximateJkr(_) => Finding::Approximated(Err("internal error, please report it".to_owned())),
         Task::Measure(_) => Finding::NotMeasured("internal error, please report it".to_owned()),
         Task::Choose(_, tolerance) => Finding::Chosen(*tolerance, Err(ChoiceError::Stopped)),
         Task::Chart { .. } => Finding::NotCharted("internal error, please report it".to_owned()),

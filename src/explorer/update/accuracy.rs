@@ -31,7 +31,8 @@ pub fn study_tasks(model: &Model) -> Vec<Task> {
         (appraisal.estimated == Estimated::Waiting).then(|| Task::Estimate(std::sync::Arc::clone(computed)));
     let measure = (appraisal.shown && appraisal.costs.ended.is_none())
         .then(|| Task::Measure(std::sync::Arc::clone(&computed.scene)));
-    estimate.into_iter().chain(chart).chain(preloads).chain(measure).collect()
+    let approximate = model.approximate.wanted(computed).map(Task::ApproximateJkr);
+    estimate.into_iter().chain(approximate).chain(chart).chain(preloads).chain(measure).collect()
 }
 
 /// Obeys a command that has to do with accuracy.
@@ -95,6 +96,13 @@ pub fn found(model: &mut Model, found: Found) -> Vec<Effect> {
                     vec![Effect::Study]
                 }
             }
+        }
+        Finding::Approximated(found) => {
+            if let Err(why) = &found {
+                model.notice = Some(Notice::Error(why.clone()));
+            }
+            model.approximate.found = Some(found);
+            Vec::new()
         }
         Finding::Charted(map) => {
             model.chart.take_in(map);

@@ -359,6 +359,7 @@ fn explore(model: &mut Model, command: Command) -> Vec<Effect> {
         | Command::ToggleNormalised
         | Command::ToggleLogarithmic
         | Command::ToggleLoss
+        | Command::ToggleApproximate
         | Command::ZoomPane
         | Command::NextPane
         | Command::NextTheme

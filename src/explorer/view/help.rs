@@ -33,6 +33,11 @@ const PANES: &[(&str, &str)] = &[
          line and ◆ are the present preload",
     ),
     (
+        "Estimate",
+        "~: approximate JKR curve under the loop, from the contact without adhesion (Ciavarella 2018): contact areas as \
+         there, patches as circles that never merge, no hysteresis of single patches; exact for one patch",
+    ),
+    (
         "Map",
         "m: regime under other H and κ (e: e_el/γ), of most of a few random profiles with few springs; █ adhesion at first \
          touch, ▒ after pressing, · hardly any, blank: not computed; ◆ is the scene, moved by the arrows",
