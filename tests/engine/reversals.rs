@@ -1,0 +1,225 @@
+//! Reversals of one loading against loadings and unloadings of their own, bit for bit.
+
+use asperity::analysis::Figures;
+use asperity::contact::{
+    ContactError, ContactTree, EdgeModel, Foundation, GridEdges, HessRule, History, Reversal, Reversals,
+    Solver, SubCellEdges, exact, run,
+};
+use asperity::scene::{Edges, Leg};
+use asperity::surface::{Line, SelfAffine, UnitRoughness};
+use proptest::prelude::*;
+
+/// Springs under adhesion and what is done with them.
+#[derive(Clone, Debug)]
+struct Case {
+    /// m, the smallest 0.
+    gaps: Vec<f64>,
+    foundation: Foundation,
+    hess: HessRule,
+    samples: usize,
+    /// Turning points; forces as shares of a force of the order of those that act.
+    turns: Vec<Leg>,
+    /// Indentations at which forces are wanted, m.
+    points: Vec<f64>,
+}
+
+/// Gaps of a line of one of several kinds: random walk, noise, waves, a few levels, flat.
+fn gaps() -> impl Strategy<Value = Vec<f64>> {
+    let walk = prop::collection::vec(-1.0..1.0_f64, 1..200).prop_map(|steps| {
+        let mut height = 0.0;
+        let rise = |step: &f64| {
+            height += 0.1 * step;
+            height
+        };
+        steps.iter().map(rise).collect::<Vec<f64>>()
+    });
+    let noise = prop::collection::vec(0.0..1.0_f64, 1..100);
+    let waves = (prop::collection::vec((0.0..0.3_f64, 0.0..6.3_f64), 1..12), 2_usize..160).prop_map(
+        |(waves, springs)| {
+            let height = |x: f64| {
+                let wave = |(mode, &(amplitude, phase)): (usize, &(f64, f64))| {
+                    amplitude * ((mode as f64 + 1.0) * x + phase).cos()
+                };
+                waves.iter().enumerate().map(wave).sum::<f64>()
+            };
+            (0..springs)
+                .map(|spring| height(spring as f64 * std::f64::consts::TAU / springs as f64))
+                .collect()
+        },
+    );
+    let levels = prop::collection::vec(0_u8..5, 1..100)
+        .prop_map(|levels| levels.iter().map(|&level| 0.25 * f64::from(level)).collect());
+    let flat = (1_usize..50).prop_map(|count| vec![0.0; count]);
+    prop_oneof![4 => walk, 2 => noise, 4 => waves, 2 => levels, 1 => flat].prop_map(|heights: Vec<f64>| {
+        let lowest = heights.iter().copied().fold(f64::INFINITY, f64::min);
+        heights.iter().map(|height| height - lowest).collect()
+    })
+}
+
+fn turns() -> impl Strategy<Value = Vec<Leg>> {
+    let turn = prop_oneof![
+        4 => (0.0..1.3_f64).prop_map(Leg::ToIndentation),
+        // At levels of the line with levels.
+        1 => (0_u8..6).prop_map(|level| Leg::ToIndentation(0.25 * f64::from(level))),
+        4 => (0.0..1.0_f64).prop_map(Leg::ToForce),
+        1 => Just(Leg::ToTouch),
+        1 => Just(Leg::ToZeroForce),
+    ];
+    prop::collection::vec(turn, 1..24)
+}
+
+/// From no adhesion to far more than it takes, with the works of closing and opening equal or not.
+fn cases() -> impl Strategy<Value = Case> {
+    let work = prop_oneof![1 => Just(0.0), 6 => (-5.0..2.0_f64).prop_map(|power| 10.0_f64.powf(power))];
+    let share = prop_oneof![2 => Just(1.0), 1 => Just(0.0), 2 => 0.0..1.0_f64];
+    let body = (gaps(), work, share, 0.003..0.03_f64, 0.3..3.0_f64);
+    let asked =
+        (prop_oneof![Just(2_usize), 2_usize..600], turns(), prop::collection::vec(-1.0..1.3_f64, 0..9));
+    (body, asked).prop_map(|((gaps, work, share, spacing, modulus), (samples, mut turns, mut points))| {
+        let foundation = Foundation::endless(spacing, modulus);
+        let hess = HessRule::from_works(foundation, share * work * modulus, work * modulus);
+        let deepest = gaps.iter().copied().fold(1e-3, f64::max);
+        let force = gaps.len() as f64 * foundation.spring_stiffness() * deepest;
+        for turn in &mut turns {
+            if let Leg::ToForce(share) = turn {
+                *share *= force;
+            }
+        }
+        points.sort_by(f64::total_cmp);
+        Case { gaps, foundation, hess, samples, turns, points }
+    })
+}
+
+/// What both ways must agree in, bit for bit.
+fn bits(turn: [f64; 4], smallest: [f64; 4], rest: &[Option<f64>]) -> Vec<Option<u64>> {
+    let points = turn.into_iter().chain(smallest).map(Some);
+    points.chain(rest.iter().copied()).map(|value| value.map(f64::to_bits)).collect()
+}
+
+fn point(point: &asperity::contact::CurvePoint) -> [f64; 4] {
+    [
+        point.indentation,
+        point.force,
+        point.contact_length,
+        point.springs as f64 + 1e-3 * point.fragments as f64,
+    ]
+}
+
+fn bits_of(reversal: &Reversal) -> Vec<Option<u64>> {
+    let rest = [reversal.adhesion_force(), Some(reversal.dissipated_energy), Some(reversal.separation)];
+    bits(point(&reversal.turn), point(&reversal.smallest), &rest)
+}
+
+fn bits_of_history(history: &History) -> Vec<Option<u64>> {
+    let figures = Figures::of(history);
+    let [loading, unloading] = &history.legs[..] else { panic!("{history:?}") };
+    let rest = [figures.adhesion_force, figures.dissipated_energy, Some(unloading.end())];
+    bits(point(loading.curve.last().unwrap()), point(&unloading.smallest), &rest)
+}
+
+/// Receiver of reversals and the numbers of their legs.
+type See<'a> = dyn FnMut(usize, Reversal) -> Result<(), ContactError> + 'a;
+
+/// All reversals in the order of their legs.
+fn all(count: usize, each: impl FnOnce(&mut See<'_>) -> Result<(), ContactError>) -> Vec<Reversal> {
+    let mut found = vec![None; count];
+    let see = &mut |index: usize, reversal| {
+        assert!(found[index].replace(reversal).is_none());
+        Ok(())
+    };
+    each(see).unwrap();
+    found.into_iter().map(Option::unwrap).collect()
+}
+
+/// Compares all reversals of a case with histories of their own, each on a new body.
+fn compare<S: Solver>(reversals: &[Reversal], new: impl Fn() -> S, case: &Case) -> Result<(), TestCaseError> {
+    for (leg, reversal) in case.turns.iter().zip(reversals) {
+        let separate = run(&mut new(), &[*leg, Leg::ToSeparation], |_, _| Ok(())).unwrap();
+        prop_assert_eq!(bits_of(reversal), bits_of_history(&separate), "{:?}: {:?}", leg, reversal);
+        let below: Vec<_> =
+            case.points.iter().copied().filter(|&point| point <= reversal.turn.indentation).collect();
+        prop_assert_eq!(reversal.forces.len(), below.len());
+        for (point, force) in below.iter().zip(&reversal.forces) {
+            let to_point = [*leg, Leg::ToIndentation(*point)];
+            let separate = run(&mut new(), &to_point, |_, _| Ok(())).unwrap();
+            let end = separate.legs[1].curve.last().unwrap();
+            prop_assert_eq!(force.to_bits(), end.force.to_bits(), "{:?} at {:?}", leg, point);
+        }
+    }
+    Ok(())
+}
+
+fn adhesive<E: EdgeModel>(case: &Case, edges: E) -> Result<(), TestCaseError> {
+    let tree = ContactTree::build(&case.gaps, E::EDGES).unwrap();
+    let new = || exact::adhesive(&case.gaps, &tree, edges, case.foundation, case.samples);
+    let mut reversals = Reversals::new(new(), &case.turns).unwrap();
+    compare(&all(case.turns.len(), |see| reversals.each(&case.points, see)), new, case)
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 400, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn reversals_are_those_of_separate_runs(case in cases()) {
+        adhesive(&case, GridEdges::new(case.hess))?;
+        adhesive(&case, SubCellEdges::new(case.hess))?;
+        for edges in [Edges::Grid, Edges::SubCell] {
+            let new = || exact::nonadhesive(&case.gaps, edges, case.foundation, case.samples);
+            let mut reversals = Reversals::new(new(), &case.turns).unwrap();
+            compare(&all(case.turns.len(), |see| reversals.each(&case.points, see)), new, &case)?;
+        }
+    }
+}
+
+#[test]
+fn turning_points_out_of_contact_are_refused() {
+    let gaps = [0.0, 0.5, 0.25];
+    let body = || exact::nonadhesive(&gaps, Edges::SubCell, Foundation::endless(0.01, 1.0), 2);
+    let leg = Leg::ToIndentation(-0.1);
+    let refused = Reversals::new(body(), &[Leg::ToTouch, leg]).err();
+    assert_eq!(refused, Some(ContactError::NoContact { index: 1, leg }));
+    let refused = Reversals::new(body(), &[Leg::ToForce(-1.0)]).err();
+    assert_eq!(refused, Some(ContactError::NothingToPull { index: 0, force: -1.0 }));
+    let refused = Reversals::new(body(), &[Leg::ToSeparation]).err();
+    assert_eq!(refused, Some(ContactError::NoContact { index: 0, leg: Leg::ToSeparation }));
+}
+
+/// Evaluations of the rule of Hess tell how much of the line is walked: 64 reversals of a rough line together less than
+/// three loops to the deepest turning point, although each of these would walk all of its contact again.
+#[test]
+fn the_line_is_walked_once_for_all_reversals() {
+    let springs = 1 << 13;
+    let spectrum = SelfAffine { hurst: 0.7, first: 1, last: springs as u64 / 4 };
+    let rough = UnitRoughness::synthesize(spectrum, 1, springs).unwrap();
+    let line = Line::new(1e-3, springs, None, Some(&rough.heights), 5e-7).unwrap();
+    let foundation = Foundation::endless(line.spacing, 2e6);
+    let rms_gradient = 5e-7 * spectrum.gradient_per_height(1e-3);
+    for kappa in [6.0_f64, 20.0] {
+        let work = 5e-7 * rms_gradient * 2e6 / (kappa * kappa);
+        let edges = SubCellEdges::new(HessRule::new(foundation, work));
+        let tree = ContactTree::build(&line.gaps, Edges::SubCell).unwrap();
+        let body = || exact::adhesive(&line.gaps, &tree, edges, foundation, 2);
+        let deepest = 0.4 * 2e6 * 1e-3 * 5e-7;
+        let turn = |share: u32| Leg::ToForce(deepest * f64::from(share) / 64.0);
+        let mut one = body();
+        one.advance(turn(64)).unwrap();
+        one.advance(Leg::ToSeparation).unwrap();
+        let turns: Vec<Leg> = (1..=64).map(turn).collect();
+        let mut reversals = Reversals::new(body(), &turns).unwrap();
+        reversals.each(&[], &mut |_, _| Ok(())).unwrap();
+        let (of_one, of_all) = (one.work(), reversals.work());
+        assert_eq!((of_all.loading_passes, of_all.unloading_passes), (1, 64));
+        let counts = [of_all, of_one].map(|work| work.hess_evaluations);
+        assert!(counts[0] < 3 * counts[1], "{counts:?} at κ = {kappa}");
+        let separate: u64 = turns
+            .iter()
+            .map(|&turn| {
+                let mut one = body();
+                one.advance(turn).unwrap();
+                one.advance(Leg::ToSeparation).unwrap();
+                one.work().hess_evaluations
+            })
+            .sum();
+        assert!(5 * counts[0] < separate, "{counts:?}, {separate} of separate loops at κ = {kappa}");
+    }
+}
