@@ -174,10 +174,10 @@ fn a_scene_that_does_not_fit_is_refused_and_never_an_abort() {
 }
 
 /// Bound of the documentation: bytes for each spring beside gaps and tree, and for each turning point.
-const REVERSALS_PER_SPRING: usize = 96;
+const REVERSALS_PER_SPRING: usize = 16;
 const REVERSALS_PER_TURN: usize = 256;
 /// What tests hold that run processes meanwhile, bytes.
-const OF_OTHERS: usize = 1 << 18;
+const OF_OTHERS: usize = 1 << 17;
 
 #[test]
 fn memory_of_512_reversals_is_that_of_a_few() {

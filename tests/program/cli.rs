@@ -584,8 +584,8 @@ fn a_table_computes_again_from_itself() {
                 "3",
             ],
         ),
-        ("approximate", &["run", &scene, "--approximate-jkr"]),
-        ("preloads", &["run", &scene, "--preloads", "0..1uN:5"]),
+        ("approximate", &["run", "jkr-sphere", "--set", "numerics.points=512", "--approximate-jkr"]),
+        ("preloads", &["run", "jkr-sphere", "--set", "numerics.points=512", "--preloads", "0..1uN:5"]),
         (
             "random-preloads",
             &[
@@ -1096,7 +1096,7 @@ fn an_approximate_curve_is_printed_beside_the_loop() {
     };
     let text = run("jkr-sphere", &[]);
     assert!(text.contains("Approximate JKR solution (Ciavarella 2018)\n"), "{text}");
-    assert!(text.contains("patches as circles that never merge"), "{text}");
+    assert!(text.contains("patches as circles"), "{text}");
     assert!(text.lines().all(|line| line.chars().count() <= 80), "{text}");
     let json: Value = serde_json::from_str(&run("jkr-sphere", &["--format", "json"])).unwrap();
     let (exact, approximate) = (&json["adhesion_force"], &json["approximate_jkr"]);
