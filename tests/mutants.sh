@@ -111,7 +111,7 @@ choose_modules() {
 # Makes a package of the room, those above it and its tests, all in one program, and a package below it of those that
 # do not change.
 assemble() {
-    local name file
+    local name file module
     rm -rf "$tree"
     mkdir -p "$tree/below"
     cp -r docs presets fuzz tests "$tree/"
@@ -131,7 +131,11 @@ assemble() {
         echo 'extern crate self as asperity;'
         for name in $below; do echo "pub use below::$name;"; done
         for name in $own $above; do echo "pub mod $name;"; done
-        for name in $(roots); do printf '#[cfg(test)]\n#[path = "../tests/%s.rs"]\nmod %s;\n' "$name" "${name//\//_}"; done
+        for name in $(roots); do
+            # Of the name that snapshots have.
+            module="${name%/main}"
+            printf '#[cfg(test)]\n#[path = "../tests/%s.rs"]\nmod %s;\n' "$name" "${module//\//_}"
+        done
     } >"$tree/src/lib.rs"
     for name in $(roots); do
         if [ "${name##*/}" = main ]; then choose_modules "${name%/main}"; fi

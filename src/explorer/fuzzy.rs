@@ -26,7 +26,7 @@ pub fn find(candidates: impl IntoIterator<Item = Candidate>, query: &str) -> Vec
 }
 
 /// Characters of a text of a candidate that the words of a query have found, by their indices in ascending order: a word
-/// that is whole in any text of the candidate is marked where it is whole, another one by its scattered letters.
+/// that is whole in any text of the candidate where it is whole, another one by its letters scattered over a name.
 pub fn letters_found(candidate: &Candidate, text: &str, query: &str) -> Vec<usize> {
     let mut found: Vec<usize> =
         query.split_whitespace().flat_map(|word| found_by(candidate, text, word)).collect();
@@ -39,6 +39,8 @@ fn found_by(candidate: &Candidate, text: &str, word: &str) -> Vec<usize> {
     let (letters, mut texts) = (lower(word), candidate.names.iter().chain(&candidate.prose));
     let found: Vec<usize> = if texts.any(|other| place(other, word).is_some()) {
         place(text, word).map_or_else(Vec::new, |(_, start)| (start..start + letters.len()).collect())
+    } else if !candidate.names.iter().any(|name| name == text) {
+        Vec::new()
     } else {
         runs(text, &letters).filter(|(cost, _)| is_near(*cost, &letters)).map_or_else(Vec::new, |(_, at)| at)
     };
@@ -192,9 +194,10 @@ mod tests {
         assert_eq!(marked("rough-sphere", "rghsph"), "r..gh.sph...", "scattered");
         assert_eq!(marked("Sphère", "sphère"), "Sphère");
         assert_eq!(marked("Sphère", "rough"), "......", "found in another text");
-        assert_eq!(marked("h-hurst h", "hu"), "..hu.....", "at the start of a word");
+        assert_eq!(marked("A rough sphere", "rghsph"), "..............", "not over prose");
+        assert_eq!(marked("h-hurst h", "hu"), ".........", "found nowhere");
+        assert_eq!(marked("burrough rough", "rough"), ".........rough", "at the start of a word");
         assert_eq!(marked("rough-sphere", "zz"), "............");
-        assert_eq!(marked("İ b", "b"), "..b");
         assert_eq!(marked("rough", ""), ".....");
     }
 

@@ -1,7 +1,7 @@
 //! Accuracy of the scene, its cost, and the map over κ and H: computed beside the worker, on a thread of its own, so
 //! that no edit waits for it. Whatever is asked for next ends what is under way.
 
-use super::preload_curve::PreloadCurve;
+use super::panes::{Pane, PreloadCurve};
 use super::snapshot::SolvedScene;
 use crate::accuracy::{
     Choice, ChoiceError, CostError, CostTable, Estimate, Knob, Progress, choose, estimate, measure,
@@ -22,6 +22,47 @@ pub const BUDGET: Duration = Duration::from_secs(10);
 /// Nothing is begun before it has been as quiet as that: somebody who holds a key down wants the machine.
 const QUIET: Duration = Duration::from_millis(300);
 
+/// Data of a pane, computed in parts: each part is shown as soon as it is there, and an interrupted computation continues
+/// where it ended.
+#[derive(Clone, Debug, PartialEq)]
+pub enum PaneData {
+    /// The map over κ and H.
+    Map(Arc<LiveMap>),
+    /// Adhesion against preload.
+    Preloads(Arc<PreloadCurve>),
+}
+
+impl PaneData {
+    /// Pane that shows the data.
+    #[must_use]
+    pub fn pane(&self) -> Pane {
+        match self {
+            PaneData::Map(_) => Pane::Chart,
+            PaneData::Preloads(_) => Pane::Preloads,
+        }
+    }
+
+    /// Computes the missing part; `tell` receives the data after each addition.
+    ///
+    /// # Errors
+    /// When a solution fails, or `stop` says so before the end.
+    pub fn extended(self, stop: &dyn Fn() -> bool, tell: &mut dyn FnMut(PaneData)) -> Result<Self, RunError> {
+        let folder = Path::new(FOLDER);
+        Ok(match self {
+            PaneData::Map(mut map) => {
+                let whole = Arc::make_mut(&mut map);
+                compute(whole, folder, stop, &mut |map| tell(PaneData::Map(Arc::new(map.clone()))));
+                PaneData::Map(map)
+            }
+            PaneData::Preloads(mut curve) => {
+                let whole = Arc::make_mut(&mut curve);
+                whole.compute(folder, stop, &mut |one| tell(PaneData::Preloads(Arc::new(one.clone()))))?;
+                PaneData::Preloads(curve)
+            }
+        })
+    }
+}
+
 /// Something to be worked out about a scene.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Task {
@@ -33,19 +74,10 @@ pub enum Task {
     Measure(Arc<Scene>),
     /// Springs and edges for a tolerance.
     Choose(Arc<Scene>, f64),
-    /// Missing cells of a map over κ and H.
-    Chart {
-        /// The map so far.
-        map: Arc<LiveMap>,
-        /// True if it waits until it is quiet.
-        waits: bool,
-    },
-    /// Missing part of a curve of adhesion against preload.
-    Preloads {
-        /// The curve so far.
-        curve: Arc<PreloadCurve>,
-        /// Its scene.
-        scene: Arc<Scene>,
+    /// Missing part of the data of a pane.
+    Extend {
+        /// The data so far.
+        data: PaneData,
         /// True if it waits until it is quiet.
         waits: bool,
     },
@@ -54,10 +86,7 @@ pub enum Task {
 impl Task {
     /// Returns true if it waits until it is quiet; what the user waits for does not.
     fn waits(&self) -> bool {
-        !matches!(
-            self,
-            Task::Choose(..) | Task::Chart { waits: false, .. } | Task::Preloads { waits: false, .. }
-        )
+        !matches!(self, Task::Choose(..) | Task::Extend { waits: false, .. })
     }
 }
 
@@ -80,14 +109,10 @@ pub enum Finding {
     Choosing(u64),
     /// Choice for a tolerance, or the reason for none.
     Chosen(f64, Result<Choice, ChoiceError>),
-    /// The map over κ and H so far.
-    Charted(Arc<LiveMap>),
-    /// There is no more of it, and why.
-    NotCharted(String),
-    /// The curve of adhesion against preload so far.
-    Preloaded(Arc<PreloadCurve>),
-    /// There is no more of it, and why.
-    NotPreloaded(String),
+    /// The data of a pane so far.
+    Extended(PaneData),
+    /// The data of a pane are not computed further, and why.
+    NotExtended(Pane, String),
 }
 
 /// A finding and the generation of the scene it belongs to.
@@ -130,9 +155,6 @@ pub trait Appraiser: Send {
         trying: &mut dyn FnMut(u64),
     ) -> Result<Choice, ChoiceError>;
 
-    /// See [`compute()`].
-    fn chart(&mut self, map: &mut LiveMap, stop: &dyn Fn() -> bool, tell: &mut dyn FnMut(&LiveMap));
-
     /// See [`Simulation::approximate_jkr`].
     ///
     /// # Errors
@@ -145,18 +167,17 @@ pub trait Appraiser: Send {
         Simulation::new(FOLDER.into()).approximate_jkr(&of.scene, &of.outcome.history, stop)
     }
 
-    /// See [`PreloadCurve::compute`].
+    /// See [`PaneData::extended`].
     ///
     /// # Errors
-    /// When a profile fails or `stop` says so.
-    fn preloads(
+    /// When a solution fails, or `stop` says so before the end.
+    fn extend(
         &mut self,
-        curve: &mut PreloadCurve,
-        scene: &Scene,
+        data: PaneData,
         stop: &dyn Fn() -> bool,
-        tell: &mut dyn FnMut(&PreloadCurve),
-    ) -> Result<(), RunError> {
-        curve.compute(scene, Path::new(FOLDER), stop, tell)
+        tell: &mut dyn FnMut(PaneData),
+    ) -> Result<PaneData, RunError> {
+        data.extended(stop, tell)
     }
 }
 
@@ -190,11 +211,10 @@ impl Appraiser for Accuracy {
     ) -> Result<Choice, ChoiceError> {
         choose(scene, Path::new(FOLDER), tolerance, stop, trying)
     }
-
-    fn chart(&mut self, map: &mut LiveMap, stop: &dyn Fn() -> bool, tell: &mut dyn FnMut(&LiveMap)) {
-        compute(map, Path::new(FOLDER), stop, tell);
-    }
 }
+
+/// Reason after a panic.
+const INTERNAL: &str = "internal error, please report it";
 
 /// Does a task. What is told after `stop` has said to give up is of no use to anyone and is not told.
 pub fn perform(
@@ -233,27 +253,20 @@ pub fn perform(
                 appraiser.choose(scene, *tolerance, stop, &mut |points| tell(Finding::Choosing(points)));
             Finding::Chosen(*tolerance, choice)
         }
-        Task::Chart { map, .. } => {
-            let mut map = LiveMap::clone(map);
-            appraiser.chart(&mut map, stop, &mut |map| tell(Finding::Charted(Arc::new(map.clone()))));
-            Finding::Charted(Arc::new(map))
-        }
-        Task::Preloads { curve, scene, .. } => {
-            let mut curve = PreloadCurve::clone(curve);
-            let mut tell = |curve: &PreloadCurve| tell(Finding::Preloaded(Arc::new(curve.clone())));
-            match appraiser.preloads(&mut curve, scene, stop, &mut tell) {
-                Ok(()) => Finding::Preloaded(Arc::new(curve)),
-                Err(error) => Finding::NotPreloaded(error.to_string()),
+        Task::Extend { data, .. } => {
+            let mut tell = |data| tell(Finding::Extended(data));
+            match appraiser.extend(data.clone(), stop, &mut tell) {
+                Ok(data) => Finding::Extended(data),
+                Err(error) => Finding::NotExtended(data.pane(), error.to_string()),
             }
         }
     }));
     tell(done.unwrap_or_else(|_| match task {
         Task::Estimate(_) => Finding::Estimated(None),
-        Task::ApproximateJkr(_) => Finding::Approximated(Err("internal error, please report it".to_owned())),
-        Task::Measure(_) => Finding::NotMeasured("internal error, please report it".to_owned()),
+        Task::ApproximateJkr(_) => Finding::Approximated(Err(INTERNAL.to_owned())),
+        Task::Measure(_) => Finding::NotMeasured(INTERNAL.to_owned()),
         Task::Choose(_, tolerance) => Finding::Chosen(*tolerance, Err(ChoiceError::Stopped)),
-        Task::Chart { .. } => Finding::NotCharted("internal error, please report it".to_owned()),
-        Task::Preloads { .. } => Finding::NotPreloaded("internal error, please report it".to_owned()),
+        Task::Extend { data, .. } => Finding::NotExtended(data.pane(), INTERNAL.to_owned()),
     }));
 }
 

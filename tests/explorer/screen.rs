@@ -24,6 +24,7 @@ mod parameters;
 mod play;
 mod preloads;
 mod saving;
+mod sizes;
 mod spectrum;
 mod study;
 mod typing;

@@ -11,7 +11,7 @@ use crate::explorer::action::{Command, Content, Traffic};
 use crate::explorer::completion::Completion;
 use crate::explorer::keys::{self, Binding};
 use crate::explorer::mode::SaveForm;
-use crate::explorer::model::{Estimated, ManualState, Mode, ModeKind, Model, Notice};
+use crate::explorer::model::{Estimated, ManualState, Mode, ModeKind, Model, Notice, Pane};
 use crate::explorer::snapshot::ContactSnapshot;
 use crate::explorer::text_line::TextLine;
 use crate::explorer::theme::Meaning;
@@ -40,7 +40,10 @@ pub fn title(frame: &mut Frame<'_>, area: Rect, model: &Model) {
 /// The headline figures, or a question, an error, or what is being typed.
 pub fn status(frame: &mut Frame<'_>, area: Rect, model: &Model) {
     let theme = model.appearance.theme;
-    let error = |text: String| Line::styled(text, theme.style(Meaning::Error));
+    let stated = |line: Line<'static>| {
+        if line.width() > usize::from(area.width) { clipped(line, area.width) } else { line }
+    };
+    let error = |text: String| stated(Line::styled(text, theme.style(Meaning::Error)));
     let prompted = |prompt: &'static str, line: &TextLine| {
         let prompt = Span::raw(prompt);
         let room = usize::from(area.width).saturating_sub(prompt.width());
@@ -80,11 +83,10 @@ pub fn status(frame: &mut Frame<'_>, area: Rect, model: &Model) {
             let text = model.refused.as_ref().map_or("", |(_, text)| text);
             error(format!("! {text}"))
         }
-        (_, Some(Notice::Done(text))) => Line::raw(text.clone()),
+        (_, Some(Notice::Done(text))) => stated(Line::raw(text.clone())),
         (Mode::Explore, None) if model.appraisal.choosing.is_some() => choosing(model),
         _ => headline(model, area.width),
     };
-    let line = if line.width() > usize::from(area.width) { clipped(line, area.width) } else { line };
     frame.render_widget(Paragraph::new(line), area);
 }
 
@@ -106,8 +108,8 @@ fn headline(model: &Model, width: u16) -> Line<'static> {
     if let (Mode::Edit(_), Some(tried)) = (&model.mode, model.tried_outcome()) {
         let force =
             tried.figures.adhesion_force.map_or("none".to_owned(), |force| format_quantity(force, "N"));
-        let told = if model.is_tried() { format!("F_a {force}") } else { "computing…".to_owned() };
-        part("", format!("preview: {told}"), Meaning::Title);
+        let shown = if model.is_tried() { format!("F_a {force}") } else { "computing…".to_owned() };
+        part("", format!("preview: {shown}"), Meaning::Title);
         part(" · ", "Enter accepts".to_owned(), Meaning::Quiet);
     }
     let in_hand = model.present().is_some() && model.hand.is_some();
@@ -336,7 +338,7 @@ fn rank(row: &Binding, model: &Model) -> u8 {
         _ if model.hand.is_some() && keys::is_manual(row) => 1,
         _ if !row.modes.contains(&ModeKind::Explore) => 1,
         Command::NextPane
-        | Command::ToggleChart
+        | Command::Toggle(Pane::Chart)
         | Command::OpenLibrary
         | Command::Save
         | Command::Pin

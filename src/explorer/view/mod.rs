@@ -31,9 +31,7 @@ pub fn draw(frame: &mut Frame<'_>, model: &Model) {
         chrome::title(frame, area, model);
     }
     match &model.mode {
-        Mode::Help { scroll } => {
-            help::draw(frame, body(&layout), model.appearance.theme, &model.bindings, *scroll)
-        }
+        Mode::Help { scroll } => help::draw(frame, body(&layout), model, *scroll),
         Mode::Library(library) => library::draw(frame, body(&layout), model, library),
         _ => {
             for &(pane, area) in &layout.panes {
@@ -65,7 +63,7 @@ fn body(layout: &Layout) -> Rect {
 /// Lines the help can be scrolled down.
 #[must_use]
 pub fn help_end(model: &Model) -> u16 {
-    help::last_scroll(body(&Layout::of(model)), &model.bindings)
+    help::last_scroll(body(&Layout::of(model)), model)
 }
 
 fn draw_pane(frame: &mut Frame<'_>, area: Rect, model: &Model, pane: Pane) {
@@ -75,8 +73,12 @@ fn draw_pane(frame: &mut Frame<'_>, area: Rect, model: &Model, pane: Pane) {
         let name = (row.title)(model);
         let style = model.appearance.theme.style(if chosen { Meaning::Title } else { Meaning::Quiet });
         let mark = if chosen { "▸" } else { "" };
-        let title = Line::styled(format!("{mark}{name}"), style);
         let room = area.width - 2;
+        let mut name = format!("{mark}{name}");
+        if name.chars().count() > usize::from(room) {
+            name.truncate(name.trim_end().len());
+        }
+        let title = Line::styled(name, style);
         let title = if title.width() > usize::from(room) { clipped(title, room) } else { title };
         let block = Block::bordered().border_style(model.appearance.theme.style(Meaning::Quiet)).title(title);
         let names = (row.edge)(model, area);

@@ -3,12 +3,15 @@
 use super::common::deadline::within;
 use super::common::driver::Driver;
 use super::common::scenes::rough;
-use super::{SIZES, mid_retraction, pressed};
+use super::{SIZES, mid_retraction, pressed, row_with};
 use asperity::explorer::action::Command;
 use asperity::explorer::keys::{self, BINDINGS};
 use asperity::explorer::layout::Layout;
 use asperity::explorer::model::{ModeKind, Pane};
+use asperity::explorer::theme::Theme;
 use asperity::scene::presets;
+use ratatui::buffer::Cell;
+use ratatui::style::Modifier;
 use std::fs;
 
 /// Opens the list and types a query.
@@ -79,7 +82,7 @@ fn a_command_is_found_by_letters_and_runs_as_its_key_does() {
         let mut driver = pressed("");
         query(&mut driver, "sections");
         driver.press("Enter");
-        assert!(driver.model.chart.shown && driver.model.chart.sections);
+        assert!(driver.model.is_shown(Pane::Chart) && driver.model.chart.sections);
         assert_eq!(driver.model.pane, Pane::Chart);
         let mut driver = mid_retraction(rough());
         query(&mut driver, "switch effect");
@@ -154,6 +157,48 @@ fn a_path_is_completed_and_its_candidates_follow_each_other() {
             driver.press("Esc");
             assert!(driver.model.completion.is_none());
         }
+    });
+}
+
+#[test]
+fn letters_that_are_found_are_marked_in_every_list() {
+    within(60, || {
+        let marked = |driver: &Driver, text: &str| -> String {
+            let screen = driver.screen();
+            let cells = row_with(&screen, text).iter();
+            cells.filter(|cell| cell.modifier.contains(Modifier::UNDERLINED)).map(Cell::symbol).collect()
+        };
+        for size in [(120, 40), (80, 24), (60, 20)] {
+            for theme in [Theme::Neutral, Theme::Plain] {
+                let mut driver = pressed("");
+                driver.model.appearance.theme = theme;
+                driver.resize(size);
+                query(&mut driver, "shdarea");
+                assert_eq!(marked(&driver, "› shade the area"), "shdarea", "{size:?}");
+                driver.press("Ctrl+u");
+                driver.type_text("loop area");
+                assert_eq!(marked(&driver, "shade the area"), "arealoop", "each word at its place");
+                driver.press("Esc /");
+                driver.type_text("hrst");
+                assert_eq!(marked(&driver, "›  Hurst"), "Hrst", "{size:?}");
+                driver.press("Ctrl+u");
+                driver.type_text("kappa");
+                assert_eq!(marked(&driver, "κ"), "κ", "a Greek letter is found by its name");
+                driver.press("Esc o");
+                driver.type_text("rghsph");
+                assert_eq!(marked(&driver, "› rough-sphere"), "rghsph", "{size:?}");
+                driver.press("Esc");
+            }
+        }
+        let folder = tempfile::tempdir().unwrap();
+        for file in ["rough-sphere.ron", "rigid-sphere.ron"] {
+            fs::write(folder.path().join(file), "").unwrap();
+        }
+        let mut driver = pressed("s Ctrl+u");
+        driver.resize((200, 40));
+        driver.type_text(&format!("{}/rsph", folder.path().display()));
+        driver.press("Tab");
+        assert_eq!(marked(&driver, "rigid-sphere.ron  rough-sphere.ron"), "rsphrsph");
     });
 }
 

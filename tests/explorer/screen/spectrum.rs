@@ -11,18 +11,15 @@ use asperity::scene::Document;
 fn q_shows_the_spectrum_in_place_of_the_line() {
     within(60, || {
         let mut driver = pressed("Q");
-        assert_eq!(
-            (driver.model.pane, driver.model.in_place_of_the_line()),
-            (Pane::Spectrum, Some(Pane::Spectrum))
-        );
+        assert_eq!((driver.model.pane, driver.model.large), (Pane::Spectrum, Some(Pane::Spectrum)));
         driver.press("Q");
-        assert_eq!((driver.model.pane, driver.model.in_place_of_the_line()), (Pane::Force, None));
+        assert_eq!((driver.model.pane, driver.model.large), (Pane::Force, None));
         // One thing at a time is in that place.
         for (keys, pane) in
             [("Q A", Pane::Accuracy), ("Q", Pane::Spectrum), ("m", Pane::Chart), ("Q", Pane::Spectrum)]
         {
             driver.press(keys);
-            assert_eq!(driver.model.in_place_of_the_line(), Some(pane), "{keys}");
+            assert_eq!(driver.model.large, Some(pane), "{keys}");
         }
         // Another scene has another spectrum.
         let before = driver.model.present().unwrap().spectra.clone().unwrap();

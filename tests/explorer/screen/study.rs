@@ -85,7 +85,7 @@ fn glyphs_tell_all_that_was_recorded() {
         assert!(driver.text().contains("F_a (mN) "), "{}", driver.text());
         driver.press("V");
         assert_eq!(driver.model.chart.charted(), Charted::Regime);
-        for told in ["█ pressure-insensitive", "· non-adhesive", "▓ ░ divided", "of 12 lines"] {
+        for told in ["█ pressure-insensitive", "· non-adhesive", "▓ ░ divided", "of 12 profiles"] {
             assert!(driver.text().contains(told), "{told}\n{}", driver.text());
         }
     });
@@ -177,7 +177,7 @@ fn the_computed_map_can_be_had_instead() {
     within(60, || {
         let (_folder, mut driver) = opened();
         let charts = |driver: &Driver| {
-            study_tasks(&driver.model).iter().any(|task| matches!(task, Task::Chart { .. }))
+            study_tasks(&driver.model).iter().any(|task| matches!(task, Task::Extend { .. }))
         };
         assert!(!charts(&driver), "nothing is computed that is not shown");
         assert_eq!(driver.press("W"), [Effect::Study]);
@@ -218,11 +218,11 @@ fn sections_have_the_confidence_of_the_mean() {
         }
         driver.press("V V V");
         assert!(driver.text().contains("⠒⠒⠒ F_a  ⠂ ⠂ 95 % confidence"), "{}", driver.text());
-        // Of one line there is none.
+        // Of one profile there is none.
         let (_folder, mut driver) = opened_with(&PLAN.replace("lines: 12", "lines: 1"));
         driver.press("X");
         assert!(
-            !driver.text().contains("⠂ ⠂ 95 %") && driver.text().contains("1 line "),
+            !driver.text().contains("⠂ ⠂ 95 %") && driver.text().contains("1 profile "),
             "{}",
             driver.text()
         );
@@ -276,7 +276,7 @@ fn studies_of_other_quantities_open_as_maps_and_sections() {
         // The length in place of κ: the mark moves along the length, in its unit.
         let (_folder, mut driver) = opened_with(&PLAN.replace(kappa, length));
         assert!(
-            driver.text().contains("over H, L, 12 lines") && driver.text().contains("L (µm)"),
+            driver.text().contains("over H, L, 12 profiles") && driver.text().contains("L (µm)"),
             "{}",
             driver.text()
         );
@@ -289,7 +289,7 @@ fn studies_of_other_quantities_open_as_maps_and_sections() {
         let (_folder, mut driver) =
             opened_with(&alone.replace("preloads: [0.01, 0.1, 1.0]", "preloads: [0.1]"));
         assert!(
-            driver.text().contains("over H, 12 lines") && driver.text().contains("⠒⠒⠒ F_a(0)/F_a,max"),
+            driver.text().contains("over H, 12 profiles") && driver.text().contains("⠒⠒⠒ F_a(0)/F_a,max"),
             "{}",
             driver.text()
         );
@@ -333,7 +333,7 @@ fn a_study_is_opened_by_its_path() {
         driver.press("o");
         driver.act(Action::Paste(path("small")));
         driver.press("Enter");
-        assert!(driver.text().contains("Study small: regime over H, κ, 12 lines"), "{}", driver.text());
+        assert!(driver.text().contains("Study small: regime over H, κ, 12 profiles"), "{}", driver.text());
         assert!(is_up_to_date(&driver.model) && !driver.model.is_unsaved());
         let Some(Roughness::SelfAffine { modes, .. }) = driver.model.document.scene().roughness else {
             panic!()
