@@ -7,12 +7,14 @@
 
 #[path = "instructions/mod.rs"]
 mod instructions;
+#[path = "instructions/reversals.rs"]
+mod reversals;
 
 use instructions::{Case, Report, callgrind};
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    if instructions::run_as_child() {
+    if instructions::run_as_child() || reversals::run_as_child() {
         return ExitCode::SUCCESS;
     }
     Case::all().iter().for_each(instructions::assert_agree);
@@ -26,7 +28,10 @@ fn main() -> ExitCode {
     }
     let reports = instructions::count(&Case::all(), &[]);
     print!("{}", Report::table(&reports));
-    let failures: Vec<String> = reports.iter().flat_map(Report::failures).collect();
+    let mut failures: Vec<String> = reports.iter().flat_map(Report::failures).collect();
+    let (table, slow) = reversals::count(&[]);
+    print!("\n{table}");
+    failures.extend(slow);
     failures.iter().for_each(|failure| println!("{failure}"));
     if failures.is_empty() { ExitCode::SUCCESS } else { ExitCode::FAILURE }
 }

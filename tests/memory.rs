@@ -6,14 +6,19 @@ mod allocations;
 #[path = "common/peak.rs"]
 mod peak;
 
-use asperity::scene::{Document, open};
+use asperity::contact::{ContactTree, Foundation, HessRule, Reversals, SubCellEdges, exact};
+use asperity::scene::{Document, Edges, Leg, open};
 use asperity::simulation::{Plan, Simulation};
-use asperity::surface::{Line, SelfAffine, Synthesizer};
+use asperity::surface::{Line, SelfAffine, Synthesizer, UnitRoughness};
 use peak::{Changed, arguments, peak};
 use std::mem::take;
 use std::process::{Command, Stdio};
+use std::sync::Mutex;
 
 const ASPERITY: &str = env!("CARGO_BIN_EXE_asperity");
+
+/// Held by tests that take much memory in this process.
+static ALONE: Mutex<()> = Mutex::new(());
 
 /// Largest ratio of what is stated to what is taken, and the other way round, beside what the program itself takes
 /// more or less in one build than in another.
@@ -86,6 +91,7 @@ fn kept_after(simulation: &mut Simulation, document: &Document, before: usize) -
 
 #[test]
 fn memory_of_a_large_scene_is_given_back_when_a_much_smaller_one_is_computed() {
+    let _alone = ALONE.lock();
     let before = allocations::held();
     let mut simulation = Simulation::default();
     let large = open("million-springs").unwrap();
@@ -110,6 +116,7 @@ fn memory_of_a_large_scene_is_given_back_when_a_much_smaller_one_is_computed() {
 
 #[test]
 fn a_line_of_a_new_seed_takes_the_memory_and_the_transform_of_the_one_before() {
+    let _alone = ALONE.lock();
     let spectrum = SelfAffine { hurst: 0.7, first: 1, last: 1 << 14 };
     for points in [1 << 16, (1 << 16) + 1] {
         let (mut synthesizer, mut heights, mut gaps) = (Synthesizer::default(), Vec::new(), Vec::new());
@@ -163,5 +170,49 @@ fn a_scene_that_does_not_fit_is_refused_and_never_an_abort() {
             }
         }
         assert!(refused > 0, "{changed:?}");
+    }
+}
+
+/// Bound of the documentation: bytes for each spring beside gaps and tree, and for each turning point.
+const REVERSALS_PER_SPRING: usize = 16;
+const REVERSALS_PER_TURN: usize = 256;
+/// What tests hold that run processes meanwhile, bytes.
+const OF_OTHERS: usize = 1 << 17;
+
+#[test]
+fn memory_of_512_reversals_is_that_of_a_few() {
+    let _alone = ALONE.lock();
+    let springs = 1 << 15;
+    let spectrum = SelfAffine { hurst: 0.7, first: 1, last: springs as u64 / 4 };
+    let rough = UnitRoughness::synthesize(spectrum, 1, springs).unwrap();
+    let line = Line::new(1e-3, springs, None, Some(&rough.heights), 5e-7).unwrap();
+    let foundation = Foundation::endless(line.spacing, 2e6);
+    let rms_gradient = 5e-7 * spectrum.gradient_per_height(1e-3);
+    let tree = ContactTree::build(&line.gaps, Edges::SubCell).unwrap();
+    for kappa in [2.0_f64, 20.0] {
+        let work = 5e-7 * rms_gradient * 2e6 / (kappa * kappa);
+        for closing in [work, 0.25 * work] {
+            let edges = SubCellEdges::new(HessRule::from_works(foundation, closing, work));
+            let most = |count: u32| {
+                let deepest = 0.4 * 2e6 * 1e-3 * 5e-7;
+                let turn = |turn: u32| Leg::ToForce(deepest * f64::from(turn) / f64::from(count));
+                let turns: Vec<Leg> = (1..=count).map(turn).collect();
+                let of = || {
+                    let body = exact::adhesive(&line.gaps, &tree, edges, foundation, 512);
+                    Reversals::new(body, &turns).unwrap().each(&[], &mut |_, _| Ok(())).unwrap();
+                };
+                allocations::most_held(of).1
+            };
+            let [few, many] = [8, 512].map(most);
+            println!("κ = {kappa}, γ₁/γ = {}: {few} bytes for 8, {many} for 512", closing / work);
+            assert!(
+                many <= REVERSALS_PER_SPRING * springs + 512 * REVERSALS_PER_TURN + OF_OTHERS,
+                "κ = {kappa}: {many} bytes"
+            );
+            assert!(
+                many <= few + few / 4 + 512 * REVERSALS_PER_TURN + OF_OTHERS,
+                "κ = {kappa}: {few}, {many} bytes"
+            );
+        }
     }
 }

@@ -1,5 +1,6 @@
-//! Governing parameters of a scene, eqs. (11) and (14): κ and e_el/γ, which compare roughness with adhesion.
+//! Governing parameters of a scene: κ, eq. (11), and e_el/γ, which compare roughness with adhesion.
 
+use super::derived::{energy_of, force_unit, value_of};
 use crate::contact::{Foundation, HessRule};
 use crate::scene::{Adhesion, Roughness, RoughnessParameter, Scene};
 use crate::surface::{Amplitude, Line, WaveNumbers};
@@ -117,6 +118,12 @@ impl Governing {
         self.amplitude.map(|amplitude| energy_of(parameter, amplitude, self.effective_modulus))
     }
 
+    /// Unit of forces E* h L, N, of a body of this length, m; `None` without roughness.
+    #[must_use]
+    pub fn force_unit(&self, length: f64) -> Option<f64> {
+        self.amplitude.map(|amplitude| force_unit(self.effective_modulus, amplitude.rms_height, length))
+    }
+
     /// The rule of Hess on the foundation under a line; `None` without adhesion.
     #[must_use]
     pub fn hess_rule(&self, foundation: Foundation) -> Option<HessRule> {
@@ -129,25 +136,6 @@ impl Governing {
     pub fn adhesive_work(&self) -> Option<f64> {
         self.work_of_adhesion.filter(|&work| work > 0.0)
     }
-}
-
-/// Ideal adhesion force F_a,max = √(π γ E* L³), N, of a flat face of length L, eq. (14).
-#[must_use]
-pub fn ideal_adhesion_force(work_of_adhesion: f64, effective_modulus: f64, length: f64) -> f64 {
-    (std::f64::consts::PI * work_of_adhesion * effective_modulus * length.powi(3)).sqrt()
-}
-
-/// Energy per area of a line that a parameter compares with the work of adhesion, J/m²: h⟨∇z⟩E* or e_el.
-fn energy_of(parameter: RoughnessParameter, amplitude: Amplitude, effective_modulus: f64) -> f64 {
-    match parameter {
-        RoughnessParameter::Kappa => amplitude.rms_height * amplitude.rms_gradient * effective_modulus,
-        RoughnessParameter::ElasticEnergyRatio => amplitude.elastic_energy(effective_modulus),
-    }
-}
-
-/// Value of a parameter. So little adhesion that the value is beyond all numbers is none.
-fn value_of(parameter: RoughnessParameter, energy: f64, work: f64) -> Option<f64> {
-    Some(parameter.of_energy_over_work(energy / work)).filter(|value| work > 0.0 && value.is_finite())
 }
 
 #[cfg(test)]
@@ -227,21 +215,5 @@ mod tests {
         assert_eq!((by_ratio.work_of_adhesion, by_ratio.kappa), (Some(9.0), Some(8.0_f64.sqrt())));
         let none = base.with_adhesion(None);
         assert_eq!((none.work_of_adhesion, none.kappa), (None, None));
-    }
-
-    #[test]
-    fn a_kappa_beyond_all_numbers_is_none() {
-        assert_eq!(value_of(RoughnessParameter::Kappa, 1e300, 5e-324), None);
-        for (parameter, value) in RoughnessParameter::ALL.into_iter().zip([2.0, 4.0]) {
-            assert_eq!(value_of(parameter, 1.0, 0.0), None);
-            assert_eq!(value_of(parameter, 8.0, 2.0), Some(value));
-        }
-    }
-
-    #[test]
-    fn the_ideal_force_is_that_of_a_flat_face() {
-        // π γ E* L³ = 750 π.
-        let force = ideal_adhesion_force(2.0, 3.0, 5.0);
-        assert!((force - (750.0 * std::f64::consts::PI).sqrt()).abs() < 1e-13, "{force}");
     }
 }

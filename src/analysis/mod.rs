@@ -1,6 +1,8 @@
 //! Figures drawn from a scene and its history: the governing parameter, adhesion, regime, energy, and what a picture
 //! shows of a profile and its contact.
 
+mod approximate_jkr;
+mod derived;
 mod figures;
 mod governing;
 mod marks;
@@ -9,8 +11,13 @@ mod reversal_map;
 pub mod section;
 mod tabor;
 
+pub use approximate_jkr::{APPROXIMATE_JKR_ASSUMPTIONS, ApproximateJkr, ApproximatePoint};
+pub use derived::{
+    contact_stiffness, elastic_energy_ratio, force_unit, ideal_adhesion_force, roughness_adhesion_parameter,
+    tabor_number,
+};
 pub use figures::Figures;
-pub use governing::{Governing, ideal_adhesion_force};
+pub use governing::Governing;
 pub use marks::{Mark, marks};
 pub use regime::{
     AGREEING_SHARE, CellRegime, INSENSITIVE_SHARE, NEGLIGIBLE_COEFFICIENT, Regime, RegimeEvidence,
@@ -18,4 +25,4 @@ pub use regime::{
 };
 pub use reversal_map::{CONGRUENT_SHARE, MinorLoops, ReversalMap};
 pub use section::{Column, LengthBin, Section, Share};
-pub use tabor::{DEFAULT_RANGE, LEAST_TABOR_NUMBER, tabor_number};
+pub use tabor::{DEFAULT_RANGE, LEAST_TABOR_NUMBER, curvature_radius, scene_tabor_number};

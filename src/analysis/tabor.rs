@@ -3,7 +3,7 @@
 //! The rule of Hess is the limit of short-ranged attraction, as the theory of Johnson, Kendall and Roberts is. Attraction
 //! of a finite range dissipates less: in three dimensions the hysteresis is gone at a Tabor number of about 1.
 
-use super::Governing;
+use super::{Governing, tabor_number};
 use crate::scene::{Form, Scene};
 use std::f64::consts::TAU;
 
@@ -13,17 +13,23 @@ pub const DEFAULT_RANGE: f64 = 0.3e-9;
 /// Tabor number below which dissipated energies are too large.
 pub const LEAST_TABOR_NUMBER: f64 = 5.0;
 
-/// Tabor number μ = (ργ²/(E*²z₀³))^(1/3); `None` without adhesion, and for bodies without a radius of curvature: flat
-/// faces, cones and powers.
-///
-/// The radius of curvature is ρ = 2/z″ with the rms curvature z″ of the line, which is the rms Laplacian of the surface:
-/// twice its mean curvature. A paraboloid of radius R has the line x²/R and thus ρ = R; crests of a sphere with waves
-/// have 1/R + 4π²A/λ². On a rough form the squares of both curvatures add.
+/// Tabor number μ of a scene, see [`tabor_number`]; `None` without adhesion, and for bodies without a radius of curvature.
+/// Of two works of adhesion that of opening counts.
 #[must_use]
-pub fn tabor_number(scene: &Scene, governing: &Governing) -> Option<f64> {
-    let work = governing.adhesive_work()?;
+pub fn scene_tabor_number(scene: &Scene, governing: &Governing) -> Option<f64> {
+    let (radius, work) = (curvature_radius(scene.form.as_ref(), governing)?, governing.adhesive_work()?);
     let range = scene.adhesion?.range.unwrap_or(DEFAULT_RANGE);
-    let of_form = match scene.form {
+    Some(tabor_number(radius, work, governing.effective_modulus, range)).filter(|number| number.is_finite())
+}
+
+/// Radius of curvature ρ of the summits of a form and its roughness, m; `None` for flat faces, cones and powers.
+///
+/// ρ = 2/z″ with the rms curvature z″ of the line, which is the rms Laplacian of the surface: twice its mean curvature. A
+/// paraboloid of radius R has the line x²/R and thus ρ = R; crests of a sphere with waves have 1/R + 4π²A/λ². On a rough
+/// form the squares of both curvatures add.
+#[must_use]
+pub fn curvature_radius(form: Option<&Form>, governing: &Governing) -> Option<f64> {
+    let of_form = match form {
         None => 0.0,
         Some(Form::Paraboloid { radius }) => 1.0 / radius,
         Some(Form::WavySphere { radius, amplitude, wavelength }) => {
@@ -34,9 +40,7 @@ pub fn tabor_number(scene: &Scene, governing: &Governing) -> Option<f64> {
         Some(Form::Cone { .. } | Form::Power { .. }) => return None,
     };
     let of_roughness = governing.amplitude.map_or(0.0, |amplitude| 0.5 * amplitude.rms_curvature);
-    let curvature = of_form.hypot(of_roughness);
-    let number = ((work / governing.effective_modulus).powi(2) / (curvature * range.powi(3))).cbrt();
-    Some(number).filter(|number| curvature > 0.0 && number.is_finite())
+    Some(of_form.hypot(of_roughness).recip()).filter(|radius| radius.is_finite())
 }
 
 #[cfg(test)]
@@ -49,7 +53,7 @@ mod tests {
     fn of(document: &Document) -> Option<f64> {
         let mut simulation = Simulation::default();
         let (_, _, governing) = simulation.make_line(document.scene()).unwrap();
-        tabor_number(document.scene(), &governing)
+        scene_tabor_number(document.scene(), &governing)
     }
 
     fn set(document: &Document, fields: &[(&str, &str)]) -> Document {

@@ -1,7 +1,6 @@
 //! Preloads as they are typed: `1uN..20uN`, and their number.
 
-use crate::scene::parse_quantity;
-use crate::study::{PRELOADS, Preloads};
+use crate::scene::{PRELOADS, Preloads, parse_quantity};
 
 /// Number of preloads without one that is typed.
 const USUAL: usize = 64;
@@ -20,12 +19,7 @@ pub(super) fn parse_preloads(text: &str) -> Result<Preloads, String> {
     let count = count.map_or(Ok(USUAL), |count| count.trim().parse().map_err(|_| allowed()))?;
     let (from, to) = range.split_once("..").ok_or_else(allowed)?;
     let force = |text: &str| parse_quantity(text, "N").map_err(|error| format!("{error}; {}", allowed()));
-    let (from, to) = (force(from)?, force(to)?);
-    if from >= 0.0 && to > from && PRELOADS.contains(&count) {
-        Ok(Preloads { from, to, count })
-    } else {
-        Err(allowed())
-    }
+    Preloads::new(force(from)?, force(to)?, count).ok_or_else(allowed)
 }
 
 #[cfg(test)]
@@ -34,7 +28,7 @@ mod tests {
 
     #[test]
     fn preloads_are_two_forces_and_a_number() {
-        let of = |from, to, count| Ok(Preloads { from, to, count });
+        let of = |from, to, count| Ok(Preloads::new(from, to, count).unwrap());
         assert_eq!(parse_preloads("0..20uN"), of(0.0, 2e-5, 64));
         assert_eq!(parse_preloads("1e-6 .. 2e-5:8"), of(1e-6, 2e-5, 8));
         for wrong in

@@ -8,8 +8,9 @@ use crate::export::{
     ReversalReport, reversals_figure, reversals_text, write_reversal_map_csv, write_reversals_csv,
     write_reversals_json,
 };
+use crate::scene::Preloads;
 use crate::simulation::{RunError, TURNING_POINTS, TurningPoints};
-use crate::study::{Preloads, solve_preloads};
+use crate::study::solve_preloads;
 use clap::{Args, ValueEnum};
 use std::io::Write;
 
@@ -80,7 +81,7 @@ fn forces(text: &str) -> Result<(f64, f64), String> {
     if text.contains(':') {
         return Err("allowed: two forces, such as 1uN..20uN; --count is the number of turning points".into());
     }
-    parse_preloads(text).map(|Preloads { from, to, .. }| (from, to))
+    parse_preloads(text).map(|preloads| preloads.ends())
 }
 
 /// Unloads a scene from many turning points and writes the result.
@@ -109,9 +110,9 @@ pub(super) fn reversals(arguments: &ReversalsArguments, stdout: &mut dyn Write) 
     let largest = map.reversals.iter().map(|reversal| reversal.turn.force).fold(0.0, f64::max);
     let (from, to) = arguments.preloads.unwrap_or((0.0, largest));
     let mut preloads = Vec::new();
-    if to > from && format != ReversalsFormat::Csv {
-        let forces = Preloads { from, to, count: usize::from(arguments.count) }.forces();
-        solve_preloads(&mut simulation, scene, &forces, &never, &mut |one| preloads.push(one))
+    let asked = Preloads::new(from, to, usize::from(arguments.count));
+    if let Some(asked) = asked.filter(|_| format != ReversalsFormat::Csv) {
+        solve_preloads(&mut simulation, scene, &asked.forces(), &never, &mut |one| preloads.push(one))
             .map_err(failed)?;
     }
     let report = ReversalReport { scene, map: &map, preloads: &preloads, loops, smoothing };

@@ -9,12 +9,12 @@ use crate::accuracy::{Choice, Estimate, choose, estimate, parse_tolerance};
 use crate::contact::{LegRecord, Solver};
 use crate::draw::{Figure, figure_png, figure_svg};
 use crate::export::{
-    ContactSets, PreloadReport, TableFormat, ensemble_text, force_figure, summary, write_curve,
-    write_ensemble_json, write_ensemble_table, write_json, write_line,
+    ContactSets, PreloadReport, TableFormat, ensemble_text, force_figure, summary, write_approximate_jkr,
+    write_curve, write_ensemble_json, write_ensemble_table, write_json, write_line,
 };
-use crate::scene::{Document, Scene, TableContent, arguments_of_spectra, open_argument};
-use crate::simulation::Outcome;
-use crate::study::{self, Preloads};
+use crate::scene::{Document, Preloads, Scene, TableContent, arguments_of_spectra, open_argument};
+use crate::simulation::{Outcome, Simulation};
+use crate::study;
 use crate::text::path_name;
 use clap::{Args, Parser, ValueEnum};
 use std::io::{self, Write};
@@ -60,6 +60,13 @@ pub struct RunArguments {
     /// Draw the contact patches over the indentation instead of the curve
     #[arg(long, conflicts_with_all = ["more", "lines"])]
     pub fragments: bool,
+    /// Add the approximate JKR curve: an estimate from the contact without adhesion
+    ///
+    /// Ciavarella, J. Mech. Phys. Solids 114 (2018) 209: contact areas as without adhesion,
+    /// patches as circles that never merge, lifted as flat punches. Exact for one patch, a mean
+    /// over many. CSV and npy then hold this curve.
+    #[arg(long, conflicts_with_all = ["more", "profile", "fragments", "lines", "preloads"], verbatim_doc_comment)]
+    pub approximate_jkr: bool,
     /// Choose springs and edges for an adhesion force within T, as 1e-3 or 0.1%
     ///
     /// Doubles the springs until the error is small enough: the error from the closed form of
@@ -137,6 +144,18 @@ impl RunArguments {
         self.jobs.map_or_else(|| available_parallelism().map_or(1, std::num::NonZero::get), usize::from)
     }
 
+    /// Preloads and number of random profiles that are asked for, or those of a scene from a table of preloads.
+    fn asked_preloads(&self, document: &Document) -> Option<(Preloads, Option<u32>)> {
+        let asks_for_more = self.profile || self.fragments || self.approximate_jkr || !self.more.is_empty();
+        match (self.preloads, document.table_content()) {
+            (Some(preloads), _) => Some((preloads, self.lines)),
+            (None, Some(TableContent::Preloads(preloads, lines))) if !asks_for_more => {
+                Some((preloads, self.lines.or(lines)))
+            }
+            _ => None,
+        }
+    }
+
     fn chosen_format(&self) -> Result<RunFormat, CliError> {
         let needs_picture = [
             (!self.more.is_empty(), "several scenes"),
@@ -149,10 +168,6 @@ impl RunArguments {
         let format = self.output.format(self.format, &ENDINGS, usual)?;
         match needs_picture {
             Some((_, what)) if !format.is_picture() => Err(CliError::OnlyInPicture { what }),
-            _ if format == RunFormat::Npy && self.preloads.is_some() => Err(CliError::NoPicture {
-                what: "--preloads",
-                allowed: "allowed: summary, json, csv, svg and png",
-            }),
             _ if format.is_picture() && self.lines.is_some() && self.preloads.is_none() => {
                 Err(CliError::NoPicture {
                     what: "--lines",
@@ -172,8 +187,8 @@ pub(super) fn run(arguments: &RunArguments, stdout: &mut dyn Write) -> Result<()
     }
     let document = arguments.scene.open()?;
     arguments.output.check()?;
-    if let Some(preloads) = arguments.preloads {
-        return over_preloads(arguments, &document, (format, preloads), stdout);
+    if let Some(asked) = arguments.asked_preloads(&document) {
+        return over_preloads(arguments, &document, format, asked, stdout);
     }
     if format.is_picture() {
         let figure = figure(arguments, document)?;
@@ -200,18 +215,40 @@ pub(super) fn run(arguments: &RunArguments, stdout: &mut dyn Write) -> Result<()
         let provenance = arguments.output.provenance(&document, scene, TableContent::Profile);
         return arguments.output.write(stdout, |out| write_line(out, format, &provenance, line));
     }
-    let outcome = simulation_of(&document).run(scene, &|| false, &mut |_, _, _| Ok(())).map_err(failed)?;
+    let mut simulation = simulation_of(&document);
+    let outcome = run_with_approximate(arguments, &document, scene, &mut simulation)?;
     let choice = choice.as_ref();
     let estimate = estimate_for(format, &document, scene, &outcome, choice)?;
-    let provenance = arguments.output.provenance(&document, scene, TableContent::ForceCurve);
+    let provenance = |content| arguments.output.provenance(&document, scene, content);
     arguments.output.write(stdout, |out| match (format, format.of_table()) {
-        (_, Some(format)) => write_curve(out, format, &provenance, &outcome),
+        (_, Some(format)) => match &outcome.approximate_jkr {
+            Some(curve) => {
+                write_approximate_jkr(out, format, &provenance(TableContent::ApproximateJkr), curve)
+            }
+            None => write_curve(out, format, &provenance(TableContent::ForceCurve), &outcome),
+        },
         (RunFormat::Json, _) => write_json(out, scene, &outcome, choice, estimate.as_ref()),
         _ => {
             out.write_all(summary(scene, &outcome, estimate.as_ref()).as_bytes())?;
             choice.map_or(Ok(()), |choice| writeln!(out, "\n{}", choice.sentence()))
         }
     })
+}
+
+/// Computes a scene, and its approximate JKR curve where that is asked for, or the scene is a table of one.
+fn run_with_approximate(
+    arguments: &RunArguments,
+    document: &Document,
+    scene: &Scene,
+    simulation: &mut Simulation,
+) -> Result<Outcome, CliError> {
+    let failed = |error| CliError::Run { scene: document.name().into(), error };
+    let mut outcome = simulation.run(scene, &|| false, &mut |_, _, _| Ok(())).map_err(failed)?;
+    if arguments.approximate_jkr || document.table_content() == Some(TableContent::ApproximateJkr) {
+        let curve = simulation.approximate_jkr(scene, &outcome.history, &|| false).map_err(failed)?;
+        outcome.approximate_jkr = Some(curve);
+    }
+    Ok(outcome)
 }
 
 /// Arguments of `surface` where the scene is a table of spectra.
@@ -229,6 +266,7 @@ fn surface_again(arguments: &RunArguments, format: RunFormat) -> Result<Option<S
         (arguments.fragments, "--fragments"),
         (arguments.tolerance.is_some(), "--tolerance"),
         (arguments.lines.is_some(), "--lines"),
+        (arguments.approximate_jkr, "--approximate-jkr"),
     ];
     if let Some((_, what)) = others.into_iter().find(|(is_given, _)| *is_given) {
         return Err(refused(format!("spectra have no {what}; allowed: --format and -o")));
@@ -262,7 +300,7 @@ fn figure(arguments: &RunArguments, document: Document) -> Result<Figure, CliErr
         let title = if scene.title.is_empty() { document.name() } else { scene.title.as_str() }.to_owned();
         let mut simulation = simulation_of(document);
         if !(arguments.profile || arguments.fragments) {
-            let outcome = simulation.run(scene, &|| false, &mut |_, _, _| Ok(())).map_err(failed)?;
+            let outcome = run_with_approximate(arguments, document, scene, &mut simulation)?;
             computed.push((title, outcome));
             continue;
         }
@@ -308,14 +346,15 @@ fn choice(document: &Document, tolerance: f64) -> Result<Choice, CliError> {
 fn over_preloads(
     arguments: &RunArguments,
     document: &Document,
-    (format, preloads): (RunFormat, Preloads),
+    format: RunFormat,
+    (preloads, lines): (Preloads, Option<u32>),
     stdout: &mut dyn Write,
 ) -> Result<(), CliError> {
     let choice = arguments.tolerance.map(|tolerance| choice(document, tolerance)).transpose()?;
     let chosen = choice.as_ref().map(|choice| choice.apply(document.scene()));
     let scene = chosen.as_ref().unwrap_or(document.scene());
     let (forces, name) = (preloads.forces(), || document.name().into());
-    let results = match arguments.lines {
+    let results = match lines {
         Some(lines) => {
             let (folder, lines) = (document.resolve(""), lines as usize);
             let solved = study::solve_preloads_on_lines(scene, &folder, &forces, lines, arguments.threads());
@@ -331,16 +370,19 @@ fn over_preloads(
         }
     };
     let report = PreloadReport::new(scene, results);
+    let provenance = arguments.output.provenance(document, scene, TableContent::Preloads(preloads, lines));
     let title = if scene.title.is_empty() { document.name() } else { &scene.title };
-    arguments.output.write(stdout, |out| match format {
-        RunFormat::Summary => {
+    arguments.output.write(stdout, |out| match (format, format.of_table()) {
+        (_, Some(format)) => report.write_table(out, format, &provenance),
+        (RunFormat::Summary | RunFormat::Csv | RunFormat::Npy, None) => {
             out.write_all(report.text().as_bytes())?;
             choice.as_ref().map_or(Ok(()), |choice| writeln!(out, "\n{}", choice.sentence()))
         }
-        RunFormat::Json => report.write_json(out),
-        RunFormat::Csv | RunFormat::Npy => report.write_csv(out),
-        RunFormat::Svg => out.write_all(figure_svg(&report.figure(title)).as_bytes()),
-        RunFormat::Png => out.write_all(&figure_png(&report.figure(title)).map_err(io::Error::other)?),
+        (RunFormat::Json, None) => report.write_json(out),
+        (RunFormat::Svg, None) => out.write_all(figure_svg(&report.figure(title)).as_bytes()),
+        (RunFormat::Png, None) => {
+            out.write_all(&figure_png(&report.figure(title)).map_err(io::Error::other)?)
+        }
     })
 }
 

@@ -133,11 +133,17 @@ pub trait ContactModel {
     /// [`ContactError::OutOfMemory`].
     fn sample_reversal(&self, grid: Grid) -> Result<Sampled, ContactError>;
 
-    /// The smallest force on the range of a grid of this unloading.
+    /// The smallest force on the range of a grid of this unloading, from separation to the turning point, the contact at
+    /// which is given.
     ///
     /// # Errors
     /// [`ContactError::OutOfMemory`].
-    fn smallest_of_reversal(&self, grid: &Grid, sorted: &mut u64) -> Result<ContactState, ContactError>;
+    fn smallest_of_reversal(
+        &self,
+        grid: &Grid,
+        turn: ContactState,
+        sorted: &mut u64,
+    ) -> Result<ContactState, ContactError>;
 
     /// Σ e² over the springs that attach up to the turning point with a stretch e, and over those that detach from there
     /// on, m².

@@ -360,7 +360,12 @@ impl ContactModel for Nonadhesive<'_> {
         self.sample(grid)
     }
 
-    fn smallest_of_reversal(&self, grid: &Grid, _: &mut u64) -> Result<ContactState, ContactError> {
+    fn smallest_of_reversal(
+        &self,
+        grid: &Grid,
+        _: ContactState,
+        _: &mut u64,
+    ) -> Result<ContactState, ContactError> {
         let leg = self.sample(Grid::at(vec![grid.points()[0]]))?;
         Ok(leg.states[0])
     }

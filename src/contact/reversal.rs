@@ -134,7 +134,7 @@ fn reverse<C: ContactModel>(
     let separation = contact.reverse((number, high), work)?.min(high);
     let (grid, _) = body.grid(separation, high);
     let (contact, work) = body.work_mut();
-    let smallest = contact.smallest_of_reversal(&grid, &mut work.events_sorted)?;
+    let smallest = contact.smallest_of_reversal(&grid, turn, &mut work.events_sorted)?;
     let [attached, detached] = contact.squared_stretches();
     let below = &points[..points.partition_point(|&point| point <= high)];
     let apart = below.partition_point(|&point| point < separation);

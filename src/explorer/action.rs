@@ -238,6 +238,8 @@ pub enum Command {
     ToggleLoss,
     /// Type a tolerance.
     TypeTolerance,
+    /// Draw the approximate JKR curve beside the loop, or leave it out.
+    ToggleApproximate,
     /// Show sections through the mark in place of the map, or the other way round.
     ToggleSections,
     /// Let the glyphs of the map tell another quantity.
@@ -248,6 +250,8 @@ pub enum Command {
     NextSlice(i32),
     /// Exchange columns and rows of the map.
     TransposeMap,
+    /// Map over e_el/γ in place of κ, or over κ again.
+    NextMapParameter,
     /// Move the mark, and the scene, by so many columns of the map.
     MoveAcross(i32),
     /// Move the mark, and the scene, by so many rows of the map.

@@ -1,7 +1,9 @@
-//! State of the map that is shown, over H and κ or over the axes of a study, and what is still to be computed of it.
+//! State of the map that is shown, over H and κ or e_el/γ, or over the axes of a study, and what is still to be computed of it.
 
-use crate::scene::Scene;
-use crate::study::map::{Charted, LiveMap, MapAxis, MapModel, NoMap, StudyMap, Template, hursts, kappas};
+use crate::scene::{RoughnessParameter, Scene};
+use crate::study::map::{
+    Charted, LiveMap, MapAxis, MapModel, NoMap, StudyMap, Template, hursts, parameter_values,
+};
 use std::sync::Arc;
 
 /// State of the pane of the map.
@@ -11,9 +13,11 @@ pub struct Chart {
     pub quantity: Charted,
     /// True if the sections through the mark stand in place of the map.
     pub sections: bool,
-    /// True if columns and rows are exchanged: κ across.
+    /// True if columns and rows are exchanged: κ or e_el/γ across.
     transposed: bool,
-    /// The map that is computed here, so far. Kept while κ and H change, whether it is shown or not.
+    /// Parameter of the map that is computed here, beside H.
+    parameter: RoughnessParameter,
+    /// The map that is computed here, so far. Kept while its parameter and H change, whether it is shown or not.
     pub map: Option<Arc<LiveMap>>,
     /// The same as it is shown.
     live: Option<Arc<MapModel>>,
@@ -75,6 +79,21 @@ impl Chart {
         }
     }
 
+    /// Parameter of the map that is computed here, beside H.
+    #[must_use]
+    pub fn parameter(&self) -> RoughnessParameter {
+        self.parameter
+    }
+
+    /// Maps over the other parameter of roughness: e_el/γ in place of κ, or κ again.
+    pub fn next_parameter(&mut self) {
+        self.parameter = match self.parameter {
+            RoughnessParameter::Kappa => RoughnessParameter::ElasticEnergyRatio,
+            RoughnessParameter::ElasticEnergyRatio => RoughnessParameter::Kappa,
+        };
+        (self.map, self.live, self.moving) = (None, None, false);
+    }
+
     fn placed(&self, map_model: MapModel) -> Arc<MapModel> {
         Arc::new(if self.transposed { map_model.transposed() } else { map_model })
     }
@@ -84,9 +103,9 @@ impl Chart {
     pub fn axes(&self, has_hurst: bool) -> (MapAxis, Option<MapAxis>) {
         match (self.map_model(), has_hurst, self.transposed) {
             (Some(map_model), ..) => (map_model.across().clone(), map_model.up().cloned()),
-            (None, true, false) => (hursts(), Some(kappas())),
-            (None, true, true) => (kappas(), Some(hursts())),
-            (None, false, _) => (kappas(), None),
+            (None, true, false) => (hursts(), Some(parameter_values(self.parameter))),
+            (None, true, true) => (parameter_values(self.parameter), Some(hursts())),
+            (None, false, _) => (parameter_values(self.parameter), None),
         }
     }
 
@@ -116,7 +135,7 @@ impl Chart {
     /// The scene has been changed: a map of another one is of no use.
     pub fn renew(&mut self, scene: &Scene) {
         self.moving = false;
-        let template = Template::of(scene).ok();
+        let template = Template::of(scene).ok().map(|template| template.over(self.parameter));
         self.map = self.map.take().filter(|map| Some(map.template().as_ref()) == template.as_ref());
         self.live = self.live.take().filter(|_| self.map.is_some());
     }
@@ -126,7 +145,7 @@ impl Chart {
     /// # Errors
     /// When the scene has none.
     pub fn wanted(&self, scene: &Scene) -> Result<Option<Arc<LiveMap>>, NoMap> {
-        let template = Template::of(scene)?;
+        let template = Template::of(scene)?.over(self.parameter);
         let map = match &self.map {
             Some(map) if **map.template() == template => Arc::clone(map),
             _ => Arc::new(LiveMap::new(Arc::new(template))),

@@ -4,6 +4,7 @@
 
 pub mod action;
 pub mod appraisal;
+pub mod approximate;
 mod caption;
 pub mod chart;
 mod close_up;

@@ -2,6 +2,7 @@
 
 use super::action::Traffic;
 pub use super::appraisal::{Appraisal, Estimated};
+use super::approximate::Approximate;
 pub use super::chart::{Chart, OpenStudy};
 use super::completion::Completion;
 use super::config::{Animation, Config};
@@ -190,6 +191,8 @@ pub struct Model {
     pub profile: LineView,
     /// Content of the pane of the curve.
     pub curve: CurveLook,
+    /// Approximate JKR curve beside the loop.
+    pub approximate: Approximate,
     /// The crosshair, while it is shown.
     pub crosshair: Option<Crosshair>,
     /// Loops kept to be compared with, the newest last.
@@ -273,6 +276,7 @@ impl Model {
             lower: Pane::CloseUp,
             profile: LineView::WHOLE,
             curve: CurveLook::default(),
+            approximate: Approximate::default(),
             crosshair: None,
             ghosts: Vec::new(),
             opens_beside: None,

@@ -4,8 +4,9 @@
 use super::panes::{Costs, Pane, PreloadCurve};
 use super::snapshot::SolvedScene;
 use crate::accuracy::{Choice, ChoiceError, Estimate, choose, estimate};
+use crate::analysis::ApproximateJkr;
 use crate::scene::Scene;
-use crate::simulation::RunError;
+use crate::simulation::{RunError, Simulation};
 use crate::study::map::{LiveMap, compute};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
@@ -74,6 +75,8 @@ impl PaneData {
 pub enum Task {
     /// Estimated error of the outcome.
     Estimate(Arc<SolvedScene>),
+    /// Approximate JKR curve beside the loop of the outcome.
+    ApproximateJkr(Arc<SolvedScene>),
     /// Springs and edges for a tolerance.
     Choose(Arc<Scene>, f64),
     /// Missing part of the data of a pane.
@@ -97,6 +100,8 @@ impl Task {
 pub enum Finding {
     /// The error of the outcome, where it can be told.
     Estimated(Option<Estimate>),
+    /// The approximate JKR curve, or the reason for none.
+    Approximated(Result<Arc<ApproximateJkr>, String>),
     /// With how many springs a tolerance is tried next.
     Choosing(u64),
     /// Choice for a tolerance, or the reason for none.
@@ -136,6 +141,18 @@ pub trait Appraiser: Send {
         trying: &mut dyn FnMut(u64),
     ) -> Result<Choice, ChoiceError>;
 
+    /// See [`Simulation::approximate_jkr`].
+    ///
+    /// # Errors
+    /// For a scene without such a curve, when the profile fails or `stop` says so.
+    fn approximate_jkr(
+        &mut self,
+        of: &SolvedScene,
+        stop: &dyn Fn() -> bool,
+    ) -> Result<ApproximateJkr, RunError> {
+        Simulation::new(FOLDER.into()).approximate_jkr(&of.scene, &of.outcome.history, stop)
+    }
+
     /// See [`PaneData::extended`].
     ///
     /// # Errors
@@ -173,6 +190,9 @@ impl Appraiser for Accuracy {
     }
 }
 
+/// Reason for no result after a panic.
+const INTERNAL: &str = "internal error, please report it";
+
 /// Does a task. What is told after `stop` has said to give up is of no use to anyone and is not told.
 pub fn perform(
     appraiser: &mut dyn Appraiser,
@@ -187,6 +207,10 @@ pub fn perform(
     };
     let done = catch_unwind(AssertUnwindSafe(|| match task {
         Task::Estimate(of) => Finding::Estimated(appraiser.estimate(of, stop).unwrap_or(None)),
+        Task::ApproximateJkr(of) => {
+            let curve = appraiser.approximate_jkr(of, stop);
+            Finding::Approximated(curve.map(Arc::new).map_err(|error| error.to_string()))
+        }
         Task::Choose(scene, tolerance) => {
             let choice =
                 appraiser.choose(scene, *tolerance, stop, &mut |points| tell(Finding::Choosing(points)));
@@ -202,10 +226,9 @@ pub fn perform(
     }));
     tell(done.unwrap_or_else(|_| match task {
         Task::Estimate(_) => Finding::Estimated(None),
+        Task::ApproximateJkr(_) => Finding::Approximated(Err(INTERNAL.to_owned())),
         Task::Choose(_, tolerance) => Finding::Chosen(*tolerance, Err(ChoiceError::Stopped)),
-        Task::Extend { data, .. } => {
-            Finding::NotExtended(data.pane(), "internal error, please report it".to_owned())
-        }
+        Task::Extend { data, .. } => Finding::NotExtended(data.pane(), INTERNAL.to_owned()),
     }));
 }
 

@@ -1,7 +1,7 @@
 //! A computed scene as one JSON object: SI units, numbers that are finite or null.
 
 use crate::accuracy::{Choice, Estimate};
-use crate::analysis::Regime;
+use crate::analysis::{ApproximateJkr, ApproximatePoint, Regime};
 use crate::contact::Work;
 use crate::io::write_json_value;
 use crate::scene::{Observer, Scene};
@@ -56,6 +56,8 @@ struct Report<'a> {
     /// Those of each leg, where they are observed.
     fragments: Option<&'a [Vec<(usize, usize)>]>,
     histogram: Option<HistogramReport<'a>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    approximate_jkr: Option<ApproximateReport>,
     work: Work,
     timings: Timings,
 }
@@ -76,6 +78,41 @@ struct HistogramReport<'a> {
     low: f64,
     high: f64,
     counts: &'a [u64],
+}
+
+#[derive(Serialize)]
+struct ApproximateReport {
+    adhesion_force: Option<f64>,
+    pull_off_indentation: Option<f64>,
+    curve: Vec<ApproximateRow>,
+}
+
+#[derive(Serialize)]
+struct ApproximateRow {
+    indentation: f64,
+    force: f64,
+    nonadhesive_indentation: f64,
+    nonadhesive_force: f64,
+    contact_length: f64,
+    growing_length: Option<f64>,
+}
+
+impl From<&ApproximateJkr> for ApproximateReport {
+    fn from(of: &ApproximateJkr) -> Self {
+        let row = |point: &ApproximatePoint| ApproximateRow {
+            indentation: point.indentation,
+            force: point.force,
+            nonadhesive_indentation: point.nonadhesive.indentation,
+            nonadhesive_force: point.nonadhesive.force,
+            contact_length: point.nonadhesive.contact_length,
+            growing_length: point.nonadhesive.growing_length,
+        };
+        ApproximateReport {
+            adhesion_force: of.adhesion_force(),
+            pull_off_indentation: of.pull_off().map(|point| point.indentation),
+            curve: of.points.iter().map(row).collect(),
+        }
+    }
 }
 
 #[derive(Serialize)]
@@ -128,6 +165,7 @@ impl<'a> Report<'a> {
                 high: histogram.high,
                 counts: &histogram.counts,
             }),
+            approximate_jkr: outcome.approximate_jkr.as_ref().map(ApproximateReport::from),
             work: history.work,
             timings: outcome.timings,
         }

@@ -1,9 +1,10 @@
-//! Adhesion against preload as text, JSON, CSV and a figure.
+//! Adhesion against preload as text, JSON, tables and a figure.
 
 use super::sheet::Sheet;
+use super::table::{Cell, Column, TableFormat, write_table};
 use crate::draw::{Axis, AxisScale, Chart, Figure, Ink, Label, Layer, Shape, Span, Stroke};
 use crate::io::write_json_value;
-use crate::scene::{Scene, format_quantity};
+use crate::scene::{Provenance, Scene, format_quantity};
 use crate::study::{Preloaded, Statistics, preload_statistics};
 use crate::text::grouped;
 use serde::Serialize;
@@ -107,27 +108,54 @@ impl<'a> PreloadReport<'a> {
         write_json_value(out, &json)
     }
 
-    /// Writes one row for each preload of each profile, in SI units.
+    /// Writes one row for each preload of each profile, in SI units; the seed comes first where profiles have one.
     ///
     /// # Errors
     /// Those of `out`.
-    pub fn write_csv(&self, out: &mut (impl Write + ?Sized)) -> io::Result<()> {
-        writeln!(
-            out,
-            "seed,preload,preload_indentation,adhesion_force,pull_off_indentation,dissipated_energy"
-        )?;
-        for (seed, line) in self.seeds.iter().zip(&self.lines) {
-            let seed = seed.map_or_else(String::new, |seed| seed.to_string());
-            for one in line {
-                let force = one.adhesion_force.map_or_else(String::new, |force| format!("{force:?}"));
-                writeln!(
-                    out,
-                    "{seed},{:?},{:?},{force},{:?},{:?}",
-                    one.preload, one.preload_indentation, one.pull_off_indentation, one.dissipated_energy
-                )?;
-            }
-        }
-        Ok(())
+    pub fn write_table(
+        &self,
+        out: &mut (impl Write + ?Sized),
+        format: TableFormat,
+        provenance: &Provenance,
+    ) -> io::Result<()> {
+        let columns = [
+            ("preload", Column::Real),
+            ("preload_indentation", Column::Real),
+            ("adhesion_force", Column::Real),
+            ("pull_off_indentation", Column::Real),
+            ("dissipated_energy", Column::Real),
+        ];
+        let cells = |one: &Preloaded| {
+            [
+                Cell::Real(one.preload),
+                Cell::Real(one.preload_indentation),
+                one.adhesion_force.into(),
+                Cell::Real(one.pull_off_indentation),
+                Cell::Real(one.dissipated_energy),
+            ]
+        };
+        let count = self.lines.iter().map(Vec::len).sum();
+        let seeds: Option<Vec<u64>> = self.seeds.iter().copied().collect();
+        let Some(seeds) = seeds else {
+            return write_table(
+                out,
+                format,
+                provenance,
+                columns,
+                count,
+                self.lines.iter().flatten().map(cells),
+            );
+        };
+        let [a, b, c, d, e] = columns;
+        let columns = [("seed", Column::Whole), a, b, c, d, e];
+        let lines = seeds.into_iter().zip(&self.lines);
+        let rows = lines.flat_map(|(seed, line)| {
+            line.iter().map(move |one| {
+                let [a, b, c, d, e] = cells(one);
+                [Cell::Whole(seed), a, b, c, d, e]
+            })
+        });
+        write_table(out, format, provenance, columns, count, rows)
     }
 
     /// The adhesion force over the preload: of the first profile, and the mean with its 95 % confidence.

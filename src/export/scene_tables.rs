@@ -1,6 +1,8 @@
-//! Tables of a scene: its force curve and its profile.
+//! Tables of a scene: its force curve, the approximate one beside it, and its profile.
 
 use super::table::{Cell, Column, TableFormat, write_table};
+use crate::analysis::ApproximateJkr;
+use crate::contact::NonadhesivePoint;
 use crate::scene::Provenance;
 use crate::simulation::Outcome;
 use crate::surface::Line;
@@ -38,6 +40,35 @@ pub fn write_curve(
         })
     });
     write_table(out, format, provenance, columns, points, rows)
+}
+
+/// Writes the approximate JKR curve: indentation in m and force in N, and of the contact without adhesion of the same area
+/// its indentation in m, force in N, contact length in m and mean length of the growing patches in m.
+///
+/// # Errors
+/// Those of `out`.
+pub fn write_approximate_jkr(
+    out: &mut (impl Write + ?Sized),
+    format: TableFormat,
+    provenance: &Provenance,
+    curve: &ApproximateJkr,
+) -> io::Result<()> {
+    let columns = [
+        ("indentation", Column::Real),
+        ("force", Column::Real),
+        ("nonadhesive_indentation", Column::Real),
+        ("nonadhesive_force", Column::Real),
+        ("contact_length", Column::Real),
+        ("growing_length", Column::Real),
+    ];
+    let rows = curve.points.iter().map(|point| {
+        let NonadhesivePoint { indentation, force, contact_length, growing_length } = point.nonadhesive;
+        let [adhesive, nonadhesive] =
+            [[point.indentation, point.force], [indentation, force]].map(|point| point.map(Cell::Real));
+        let lengths = [Cell::Real(contact_length), growing_length.into()];
+        [adhesive[0], adhesive[1], nonadhesive[0], nonadhesive[1], lengths[0], lengths[1]]
+    });
+    write_table(out, format, provenance, columns, curve.points.len(), rows)
 }
 
 /// Writes the line: position x and height z in m of every spring under the body.

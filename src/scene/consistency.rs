@@ -99,8 +99,12 @@ fn check_form(scene: &Scene, found: &mut Found) {
             "the body rises too steeply: at the ends of the line it is higher than the {} m an indentation can reach",
             LEG_INDENTATION.range.max().unwrap_or_default()
         );
-        // The first number of a form is its size.
-        let size = FIELDS.iter().find(|field| field.parent() == "form" && field.get(scene).is_some());
+        // The first number of a form is its size; waves may be higher than their sphere.
+        let is_by_waves = 2.0 * wave_rise(form, scene.length / 2.0) > rise_at_end(form, scene.length / 2.0);
+        let size = FIELDS.iter().find(|field| {
+            let is_size = !is_by_waves || field.path == "form.amplitude";
+            field.parent() == "form" && is_size && field.get(scene).is_some()
+        });
         let (path, value) = size.map_or(("form", None), |field| (field.path, field.written(scene)));
         found.add(inconsistency(
             path,
@@ -117,12 +121,20 @@ fn rise_at_end(form: Form, radius: f64) -> f64 {
         Form::Paraboloid { radius: curvature } => radius * radius / (2.0 * curvature),
         Form::Cone { angle } => radius * angle.tan(),
         Form::Power { coefficient, exponent } => coefficient * radius.powf(exponent),
-        // On the line the waves grow to about π A √(r/λ).
-        Form::WavySphere { radius: curvature, amplitude, wavelength } => {
-            let waves = (radius / wavelength).max(1.0);
-            radius * radius / (2.0 * curvature) + std::f64::consts::PI * amplitude * waves.sqrt()
+        Form::WavySphere { radius: curvature, .. } => {
+            radius * radius / (2.0 * curvature) + wave_rise(form, radius)
         }
         Form::Punch { .. } => 0.0,
+    }
+}
+
+/// Part of the waves of a form in its rise at a radius, m: on the line they grow to about π A √(r/λ).
+fn wave_rise(form: Form, radius: f64) -> f64 {
+    match form {
+        Form::WavySphere { amplitude, wavelength, .. } => {
+            std::f64::consts::PI * amplitude * (radius / wavelength).max(1.0).sqrt()
+        }
+        _ => 0.0,
     }
 }
 
@@ -501,6 +513,13 @@ mod tests {
         ] {
             scene.form = Some(form);
             assert!(only(&scene).1.contains("rises too steeply"));
+        }
+        // Waves are named where they are what rises.
+        scene.length = 1.0;
+        for (radius, amplitude, field) in [(1.0, 1e6, "form.amplitude"), (1e-6, 1e-9, "form.radius")] {
+            scene.form = Some(Form::WavySphere { radius, amplitude, wavelength: 0.1 });
+            let (named, reason) = only(&scene);
+            assert!(named == field && reason.contains("rises too steeply"), "{named}: {reason}");
         }
     }
 

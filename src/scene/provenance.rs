@@ -189,7 +189,8 @@ impl Source {
         ))?;
         let content = head.lines().find_map(|line| TableContent::from_name(line.strip_prefix("content: ")?));
         let content = content.ok_or(SourceError::NoProvenance(
-            "a table without its content; allowed: `content: force curve`, `profile` or `COUNT random profiles`",
+            "a table without its content; allowed: `content: force curve`, `approximate JKR curve`, `profile`, \
+             `COUNT random profiles` or `COUNT preloads from FORCE to FORCE N`",
         ))?;
         Ok(Source { text: scene.to_owned(), content: Some(content) })
     }
@@ -199,6 +200,7 @@ impl Source {
 mod tests {
     use super::super::document::Document;
     use super::super::model::Roughness;
+    use super::super::preloads::Preloads;
     use super::super::strategies::sound_scenes;
     use super::*;
     use proptest::prelude::*;
@@ -214,9 +216,15 @@ mod tests {
         #[test]
         fn a_scene_comes_back_from_either_format(scene in sound_scenes(), count in 2_u32..) {
             let here = Path::new("");
-            for content in
-                [TableContent::ForceCurve, TableContent::Profile, TableContent::RandomProfiles(count)]
-            {
+            let preloads = Preloads::new(0.0, 1e-5 * f64::from(count), 2 + count as usize % 511).unwrap();
+            for content in [
+                TableContent::ForceCurve,
+                TableContent::ApproximateJkr,
+                TableContent::Profile,
+                TableContent::RandomProfiles(count),
+                TableContent::Preloads(preloads, None),
+                TableContent::Preloads(preloads, Some(count)),
+            ] {
                 let provenance = Provenance::new(content, &scene, here, here);
                 let csv = provenance.comments() + "x,z\n1,2\n";
                 let mut array = Vec::new();
@@ -273,6 +281,14 @@ mod tests {
         for (file, expected) in [
             (&b"# asperity 0.1.0\nx,z\n"[..], "first comments hold no scene"),
             (b"# asperity 0.1.0\n# content: nothing\n# scene:\n# ()\n", "without its content"),
+            (
+                b"# asperity 0.1.0\n# content: 9 preloads from 2.0 to 1.0 N\n# scene:\n# ()\n",
+                "without its content",
+            ),
+            (
+                b"# asperity 0.1.0\n# content: 999 preloads from 0.0 to 1.0 N\n# scene:\n# ()\n",
+                "without its content",
+            ),
             (&array, "an array without a scene"),
         ] {
             match read(file) {

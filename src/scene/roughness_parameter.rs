@@ -4,9 +4,10 @@ use super::fields::field;
 use super::model::Adhesion;
 
 /// Dimensionless parameter of roughness against adhesion.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum RoughnessParameter {
     /// κ = √(h⟨∇z⟩E*/γ), eq. (11).
+    #[default]
     Kappa,
     /// e_el/γ, with the elastic energy of conformity e_el per area.
     ElasticEnergyRatio,

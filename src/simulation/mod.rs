@@ -1,5 +1,6 @@
 //! From a scene to its curve: the stages, which of them a scene calls for, and what they give.
 
+mod approximate_jkr;
 mod contact_stage;
 mod error;
 mod outcome;

@@ -1,6 +1,6 @@
 //! Outcome of a computed scene.
 
-use crate::analysis::{Figures, Governing, Regime};
+use crate::analysis::{ApproximateJkr, Figures, Governing, Regime};
 use crate::contact::History;
 use crate::surface::Histogram;
 use serde::Serialize;
@@ -30,6 +30,8 @@ pub struct Outcome {
     pub fragments: Vec<Vec<(usize, usize)>>,
     /// Histogram of the line's heights, where it is observed.
     pub histogram: Option<Histogram>,
+    /// Approximate JKR curve, where [`super::Simulation::approximate_jkr`] has been asked for one.
+    pub approximate_jkr: Option<ApproximateJkr>,
     /// Times of the stages.
     pub timings: Timings,
 }

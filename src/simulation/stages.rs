@@ -2,7 +2,7 @@
 
 use super::contact_stage::{ContactMemory, ContactStage};
 use super::{LineFacts, Outcome, Plan, RunError, Stage, Timings};
-use crate::analysis::{Figures, Governing, Regime, ideal_adhesion_force, tabor_number};
+use crate::analysis::{Figures, Governing, Regime, ideal_adhesion_force, scene_tabor_number};
 use crate::contact::{ContactError, ContactTree, Foundation, HessRule, LegRecord, Solver};
 use crate::memory::check_room;
 use crate::parallel::in_parallel;
@@ -367,12 +367,13 @@ impl Simulation {
             ideal_adhesion_force: work.map(|work| ideal_adhesion_force(work, modulus, scene.length)),
             smooth_adhesion_force: smooth,
             zero_load_adhesion_force,
-            tabor_number: tabor_number(scene, &governing),
+            tabor_number: scene_tabor_number(scene, &governing),
             regime,
             figures,
             history,
             fragments,
             histogram,
+            approximate_jkr: None,
             timings,
         })
     }

@@ -7,8 +7,8 @@ use super::cells::Cells;
 use super::height_shape::HeightShape;
 use super::plan::Plan;
 use super::quantity::Quantity;
-use super::recorder::Records;
-use super::solve::{Case, Next, SharedWork, Sink, Solver};
+use super::recorder::Recorder;
+use super::solve::{Case, CaseSolver, Next, SharedWork, Sink, Solver};
 use super::statistics::Statistics;
 use crate::analysis::Regime;
 use crate::parallel::{begin_threads, on_this_thread};
@@ -82,26 +82,43 @@ pub fn solve_lines(
     lines: usize,
     jobs: usize,
 ) -> Result<Vec<LineResult>, LinesError> {
-    if scene.seed().is_none() {
+    let plan = Plan::of_scene(scene, lines as u64, &RECORD);
+    let recorder = || Recorder::new(&plan, Simulation::new(folder.to_path_buf()), &|| false);
+    let solved = solve_profiles(&plan, jobs, recorder)?;
+    Ok(solved.into_iter().map(|(seed, records)| LineResult::new(seed, &records.concat())).collect())
+}
+
+/// Solves the only cell of a plan on all of its profiles: the seed of each with its result, in the order of the
+/// profiles. `jobs` threads share the profiles, each with a solver of its own.
+///
+/// # Errors
+/// [`LinesError`]; of several profiles that fail, the first.
+pub(super) fn solve_profiles<C: CaseSolver>(
+    plan: &Plan,
+    jobs: usize,
+    of_case: impl Fn() -> C + Sync,
+) -> Result<Vec<(u64, C::Record)>, LinesError>
+where
+    C::Record: Send,
+{
+    if plan.scene.seed().is_none() {
         return Err(LinesError::OneLine);
     }
-    let plan = Plan::of_scene(scene, lines as u64, &RECORD);
-    let cells = Cells::of(&plan);
-    let work = &SharedWork::new(&plan, &cells, (0..cells.units()).map(|unit| cells.unit(unit)));
-    let solved = Mutex::new(Vec::new());
-    let solve = || work.solve(Simulation::new(folder.to_path_buf()), &mut &solved);
+    let cells = Cells::of(plan);
+    let work = &SharedWork::new(plan, &cells, (0..cells.units()).map(|unit| cells.unit(unit)));
+    let solved: &Solved<C::Record> = &Mutex::new(Vec::new());
+    let solve = || work.solve(of_case(), &mut &*solved);
+    let solve = &solve;
+    let threads = usize::try_from(plan.lines).map_or(jobs, |lines| jobs.min(lines));
     std::thread::scope(|scope| {
-        begin_threads(scope, jobs.min(lines).saturating_sub(1), solve);
+        begin_threads(scope, threads.saturating_sub(1), solve);
         on_this_thread(solve);
     });
-    let mut solved = solved.into_inner().unwrap_or_else(PoisonError::into_inner);
+    let mut solved = std::mem::take(&mut *solved.lock().unwrap_or_else(PoisonError::into_inner));
     solved.sort_by_key(|&(line, _)| line);
-    let result = |(line, records): (u64, Result<Records, RunError>)| {
+    let result = |(line, record): (u64, Result<C::Record, RunError>)| {
         let seed = plan.seed_of(line);
-        match records {
-            Ok(records) => Ok(LineResult::new(seed, &records.concat())),
-            Err(error) => Err(LinesError::Run { seed, error }),
-        }
+        record.map(|record| (seed, record)).map_err(|error| LinesError::Run { seed, error })
     };
     solved.into_iter().map(result).collect()
 }
@@ -118,20 +135,20 @@ pub(crate) fn solve_in_turn(
 ) {
     let plan = Plan::of_scene(scene, lines, record);
     let cells = Cells::of(&plan);
-    let mut solver = Solver::new(&plan, &cells, simulation, stop);
+    let mut solver = Solver::new(&plan, &cells, Recorder::new(&plan, simulation, stop));
     let mut units = (0..cells.units()).map(|unit| cells.unit(unit));
     let _ = units.try_for_each(|unit| solver.solve(&unit, sink));
 }
 
 /// Profiles that have been solved, by their numbers.
-type Solved = Mutex<Vec<(u64, Result<Records, RunError>)>>;
+type Solved<R> = Mutex<Vec<(u64, Result<R, RunError>)>>;
 
-impl Sink for &Solved {
+impl<R> Sink<R> for &Solved<R> {
     fn next(&mut self, _: Case) -> Next {
         Next::Solve
     }
 
-    fn take(&mut self, case: Case, records: Result<Records, RunError>) -> ControlFlow<()> {
+    fn take(&mut self, case: Case, records: Result<R, RunError>) -> ControlFlow<()> {
         // After a failure the profiles that follow are of no use; those before are under way or done.
         let flow = if records.is_err() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) };
         self.lock().unwrap_or_else(PoisonError::into_inner).push((case.line, records));

@@ -1,30 +1,14 @@
 //! Adhesion against preload: the adhesion force of one profile for many preloads, and its mean over random profiles.
 
-use super::lines::LinesError;
+use super::lines::{LinesError, solve_profiles};
+use super::plan::Plan;
+use super::solve::CaseSolver;
 use super::statistics::{Statistics, StudentT};
 use crate::contact::Reversal;
-use crate::parallel::{begin_threads, on_this_thread};
 use crate::scene::{Leg, Scene};
 use crate::simulation::{RunError, Simulation};
 use serde::Serialize;
-use std::ops::RangeInclusive;
 use std::path::Path;
-use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::{Mutex, PoisonError};
-
-/// Numbers of preloads.
-pub const PRELOADS: RangeInclusive<usize> = 2..=512;
-
-/// Preloads at equal distances, N.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Preloads {
-    /// The smallest, at least 0 N.
-    pub from: f64,
-    /// The largest.
-    pub to: f64,
-    /// Their number, in [`PRELOADS`].
-    pub count: usize,
-}
 
 /// The unloading from one preload to separation, in SI units.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -39,16 +23,6 @@ pub struct Preloaded {
     pub pull_off_indentation: f64,
     /// Energy dissipated from separation to separation, J.
     pub dissipated_energy: f64,
-}
-
-impl Preloads {
-    /// The forces, N.
-    #[must_use]
-    pub fn forces(&self) -> Vec<f64> {
-        let last = (self.count.max(2) - 1) as f64;
-        let at = |index: usize| (self.from + (self.to - self.from) * (index as f64 / last)).min(self.to);
-        (0..self.count).map(at).collect()
-    }
 }
 
 impl Preloaded {
@@ -96,36 +70,29 @@ pub fn solve_preloads_on_lines(
     lines: usize,
     jobs: usize,
 ) -> Result<Vec<(u64, Vec<Preloaded>)>, LinesError> {
-    let first = scene.seed().ok_or(LinesError::OneLine)?;
-    let next = AtomicUsize::new(0);
-    let solved = Mutex::new(Vec::new());
-    let solve = || {
-        let mut simulation = Simulation::new(folder.to_path_buf());
-        let mut scene = scene.clone();
-        loop {
-            let line = next.fetch_add(1, Ordering::Relaxed);
-            if line >= lines {
-                return;
-            }
-            let seed = first.wrapping_add(line as u64);
-            scene.set_seed(seed);
-            let mut found = Vec::with_capacity(forces.len());
-            let done = solve_preloads(&mut simulation, &scene, forces, &|| false, &mut |one| found.push(one));
-            let result = done.map(|()| (seed, found)).map_err(|error| LinesError::Run { seed, error });
-            if result.is_err() {
-                // Of no use are the profiles that follow; those before are under way or done.
-                next.store(lines, Ordering::Relaxed);
-            }
-            solved.lock().unwrap_or_else(PoisonError::into_inner).push((line, result));
-        }
-    };
-    std::thread::scope(|scope| {
-        begin_threads(scope, jobs.min(lines).saturating_sub(1), solve);
-        on_this_thread(solve);
-    });
-    let mut solved = solved.into_inner().unwrap_or_else(PoisonError::into_inner);
-    solved.sort_by_key(|&(line, _)| line);
-    solved.into_iter().map(|(_, result)| result).collect()
+    let plan = Plan::of_scene(scene, lines as u64, &[]);
+    solve_profiles(&plan, jobs, || PreloadSolver {
+        simulation: Simulation::new(folder.to_path_buf()),
+        forces,
+    })
+}
+
+/// Solver of many preloads on one profile after the other.
+struct PreloadSolver<'f> {
+    simulation: Simulation,
+    /// N.
+    forces: &'f [f64],
+}
+
+impl CaseSolver for PreloadSolver<'_> {
+    type Record = Vec<Preloaded>;
+
+    fn solve(&mut self, scene: &mut Scene, seed: u64) -> Result<Vec<Preloaded>, RunError> {
+        scene.set_seed(seed);
+        let mut found = Vec::with_capacity(self.forces.len());
+        solve_preloads(&mut self.simulation, scene, self.forces, &|| false, &mut |one| found.push(one))?;
+        Ok(found)
+    }
 }
 
 /// Statistics of the adhesion force over profiles for each preload; a profile that does not pull counts with 0 N, since
@@ -147,12 +114,12 @@ pub fn preload_statistics(lines: &[Vec<Preloaded>]) -> Vec<Option<Statistics>> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::open;
+    use crate::scene::{Preloads, open};
 
     #[test]
     fn adhesion_grows_with_the_preload_over_sixteen_profiles() {
         let document = open("pressure-sensitive").unwrap();
-        let forces = Preloads { from: 0.0, to: 2e-5, count: 9 }.forces();
+        let forces = Preloads::new(0.0, 2e-5, 9).unwrap().forces();
         assert_eq!((forces[0], forces[8], forces.len()), (0.0, 2e-5, 9));
         let of = |jobs| {
             solve_preloads_on_lines(document.scene(), &document.resolve(""), &forces, 16, jobs).unwrap()

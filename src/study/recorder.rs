@@ -4,7 +4,7 @@ use super::case_outcome::{CaseOutcome, Exponents, HeightStatistics, ProfileRecor
 use super::height_shape::HeightShape;
 use super::plan::{Plan, StiffnessRange};
 use super::quantity::Needs;
-use crate::analysis::{Figures, Governing};
+use crate::analysis::Figures;
 use crate::contact::{History, LegRecord};
 use crate::scene::{Leg, Roughness, Scene};
 use crate::simulation::{Outcome, RunError, Simulation};
@@ -41,7 +41,7 @@ impl<'p> Recorder<'p> {
         scene.numerics.samples = scene.numerics.samples.min(SAMPLES);
         let profile = self.profile_record(scene)?;
         let (_, _, governing) = self.simulation.make_line(scene)?;
-        let unit = unit_of_force(&governing, scene.length);
+        let unit = governing.force_unit(scene.length);
         let own = std::mem::take(&mut scene.loading);
         let mut loops = Vec::new();
         if plan.records(Needs::Loading) {
@@ -136,7 +136,7 @@ impl<'p> Recorder<'p> {
     /// springs the stiffness is E* times the length in contact.
     fn exponents(&mut self, scene: &Scene) -> Result<Option<Exponents>, RunError> {
         let (_, _, governing) = self.simulation.make_line(scene)?;
-        let Some(unit) = unit_of_force(&governing, scene.length) else { return Ok(None) };
+        let Some(unit) = governing.force_unit(scene.length) else { return Ok(None) };
         let StiffnessRange { from, to, count } = self.plan.stiffness;
         let step = (to / from).ln() / (count - 1) as f64;
         let force = |index: u64| unit * from * (step * index as f64).exp();
@@ -151,11 +151,6 @@ impl<'p> Recorder<'p> {
             .zip(slope(&indentations, &forces))
             .map(|(stiffness, force)| Exponents { stiffness, force }))
     }
-}
-
-/// E* h L, N.
-fn unit_of_force(governing: &Governing, length: f64) -> Option<f64> {
-    governing.amplitude.map(|amplitude| governing.effective_modulus * amplitude.rms_height * length)
 }
 
 /// The legs of an outcome, loop by loop.

@@ -5,7 +5,7 @@ use super::cells::Cells;
 use super::done::Done;
 use super::measured::profile;
 use super::record::{Key, encode};
-use super::recorder::Records;
+use super::recorder::{Recorder, Records};
 use super::shard::Shard;
 use super::solve::{Case, Next, SharedWork, Sink};
 use super::status::count;
@@ -127,7 +127,8 @@ pub fn run(
                 Some(profile) => simulation.with_measured(profile),
                 None => simulation,
             };
-            work.solve(simulation, &mut FolderSink { shared, sender });
+            let recorder = Recorder::new(folder.plan(), simulation, &|| false);
+            work.solve(recorder, &mut FolderSink { shared, sender });
         });
         // A system that gives fewer threads than asked for has those do all.
         if begun == 0 {

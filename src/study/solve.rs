@@ -7,7 +7,7 @@ use super::cells::{Cells, Unit};
 use super::plan::Plan;
 use super::recorder::{Recorder, Records};
 use crate::scene::Scene;
-use crate::simulation::{RunError, Simulation};
+use crate::simulation::RunError;
 use std::ops::ControlFlow;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
@@ -31,36 +31,51 @@ pub(crate) enum Next {
     End,
 }
 
+/// Solver of one case.
+pub(super) trait CaseSolver {
+    /// Result on one profile.
+    type Record;
+
+    /// Solves a scene on the profile of a seed.
+    ///
+    /// # Errors
+    /// When the profile or the contact fails, or when stopped.
+    fn solve(&mut self, scene: &mut Scene, seed: u64) -> Result<Self::Record, RunError>;
+}
+
+impl CaseSolver for Recorder<'_> {
+    type Record = Records;
+
+    fn solve(&mut self, scene: &mut Scene, seed: u64) -> Result<Records, RunError> {
+        self.record(scene, seed)
+    }
+}
+
 /// Receiver of records.
-pub(crate) trait Sink {
+pub(crate) trait Sink<R = Records> {
     /// Next step before a case.
     fn next(&mut self, case: Case) -> Next;
 
     /// Takes the records of a case, or the reason why there are none; `Break` ends the work.
-    fn take(&mut self, case: Case, records: Result<Records, RunError>) -> ControlFlow<()>;
+    fn take(&mut self, case: Case, records: Result<R, RunError>) -> ControlFlow<()>;
 }
 
 /// Runner on one thread. Neighbouring cases share the profile and its tree.
-pub(super) struct Solver<'p> {
+pub(super) struct Solver<'p, C> {
     plan: &'p Plan,
     cells: &'p Cells,
-    recorder: Recorder<'p>,
+    of_case: C,
     scene: Scene,
 }
 
-impl<'p> Solver<'p> {
-    /// A runner of a plan. `stop` is asked within a case.
-    pub fn new(
-        plan: &'p Plan,
-        cells: &'p Cells,
-        simulation: Simulation,
-        stop: &'p dyn Fn() -> bool,
-    ) -> Solver<'p> {
-        Solver { plan, cells, recorder: Recorder::new(plan, simulation, stop), scene: plan.prototype() }
+impl<'p, C: CaseSolver> Solver<'p, C> {
+    /// A runner of a plan, each case by a solver.
+    pub fn new(plan: &'p Plan, cells: &'p Cells, of_case: C) -> Self {
+        Solver { plan, cells, of_case, scene: plan.prototype() }
     }
 
     /// Solves the cases of a unit that the sink wants; `Break` where the sink ends the work.
-    pub fn solve(&mut self, unit: &Unit, sink: &mut dyn Sink) -> ControlFlow<()> {
+    pub fn solve(&mut self, unit: &Unit, sink: &mut dyn Sink<C::Record>) -> ControlFlow<()> {
         let seed = self.plan.seed_of(unit.line);
         for run in self.cells.runs_of(unit) {
             let case = Case { run, line: unit.line };
@@ -71,7 +86,7 @@ impl<'p> Solver<'p> {
             }
             // The scene of every cell has been checked.
             if self.cells.shape(run, &self.plan.scene, &mut self.scene).is_ok() {
-                sink.take(case, self.recorder.record(&mut self.scene, seed))?;
+                sink.take(case, self.of_case.solve(&mut self.scene, seed))?;
             }
         }
         ControlFlow::Continue(())
@@ -93,8 +108,8 @@ impl<'p, I: Iterator<Item = Unit>> SharedWork<'p, I> {
     }
 
     /// Solves one unit after the other until none is left or a sink ends the work of all threads.
-    pub fn solve(&self, simulation: Simulation, sink: &mut dyn Sink) {
-        let mut solver = Solver::new(self.plan, self.cells, simulation, &|| false);
+    pub fn solve<C: CaseSolver>(&self, of_case: C, sink: &mut dyn Sink<C::Record>) {
+        let mut solver = Solver::new(self.plan, self.cells, of_case);
         while let Some(unit) = self.next_unit() {
             if solver.solve(&unit, sink).is_break() {
                 *self.units() = None;
@@ -115,6 +130,7 @@ impl<'p, I: Iterator<Item = Unit>> SharedWork<'p, I> {
 mod tests {
     use super::*;
     use crate::scene::{Roughness, open};
+    use crate::simulation::Simulation;
     use crate::study::Quantity;
     use std::sync::atomic::{AtomicUsize, Ordering};
     use std::time::{Duration, Instant};
@@ -163,8 +179,10 @@ mod tests {
             std::thread::scope(|scope| {
                 for _ in 0..threads {
                     let mut sink = Meeting { met: &met, threads, taken: &taken, most, first: true };
-                    let work = &work;
-                    scope.spawn(move || work.solve(Simulation::default(), &mut sink));
+                    let (work, plan) = (&work, &plan);
+                    scope.spawn(move || {
+                        work.solve(Recorder::new(plan, Simulation::default(), &|| false), &mut sink);
+                    });
                 }
             });
             let taken = taken.into_inner();

@@ -12,6 +12,8 @@ thread_local! {
 
 /// Bytes that have been given out and not taken back, on all threads.
 static HELD: AtomicUsize = AtomicUsize::new(0);
+/// Most of them since the last reset.
+static MOST: AtomicUsize = AtomicUsize::new(0);
 
 struct Watched;
 
@@ -26,7 +28,8 @@ fn note(size: usize) {
 /// Counts what the system has given in place of what it had given before.
 fn count(given: *mut u8, before: usize, size: usize) -> *mut u8 {
     if !given.is_null() {
-        HELD.fetch_add(size, Ordering::Relaxed);
+        let held = HELD.fetch_add(size, Ordering::Relaxed) + size;
+        MOST.fetch_max(held, Ordering::Relaxed);
         HELD.fetch_sub(before, Ordering::Relaxed);
     }
     given
@@ -58,6 +61,14 @@ unsafe impl GlobalAlloc for Watched {
 /// Bytes held by all threads at this moment.
 pub fn held() -> usize {
     HELD.load(Ordering::Relaxed)
+}
+
+/// What `work` gives, and the most memory that all threads held meanwhile beyond that before, bytes.
+pub fn most_held<T>(work: impl FnOnce() -> T) -> (T, usize) {
+    let before = held();
+    MOST.store(before, Ordering::Relaxed);
+    let result = work();
+    (result, MOST.load(Ordering::Relaxed) - before)
 }
 
 /// What `work` gives, and the largest piece of memory it asked for on this thread, bytes.

@@ -25,6 +25,8 @@ struct Blind {
 enum Order {
     LeftToRight,
     RightToLeft,
+    /// From both ends to the middle.
+    Inwards,
     /// Every so many springs, around and around.
     Stride(usize),
     /// Shuffled anew for each round.
@@ -38,6 +40,7 @@ impl Order {
         match self {
             Order::LeftToRight => {}
             Order::RightToLeft => springs.reverse(),
+            Order::Inwards => springs.sort_by_key(|index| (*index).min(count - 1 - index)),
             Order::Stride(stride) => {
                 let stride = *stride;
                 springs.sort_by_key(|index| (index % stride, *index));
@@ -164,6 +167,7 @@ fn order() -> impl Strategy<Value = Order> {
     prop_oneof![
         Just(Order::LeftToRight),
         Just(Order::RightToLeft),
+        Just(Order::Inwards),
         (2_usize..50).prop_map(Order::Stride),
         any::<u64>().prop_map(Order::Shuffled),
     ]
@@ -204,7 +208,6 @@ fn steps() -> impl Strategy<Value = Vec<(Move, Vec<f64>)>> {
 }
 
 /// What has been compared so far.
-#[derive(Default)]
 struct Compared {
     /// Whole contact states.
     states: AtomicU64,
@@ -212,12 +215,53 @@ struct Compared {
     springs: AtomicU64,
     /// Legs that could not be done.
     refused: AtomicU64,
+    /// Whole contact states of each kind of case, and under each order of rules.
+    of_kinds: [AtomicU64; KINDS.len()],
 }
 
+/// Kinds of cases that have to be among those compared.
+const KINDS: [&str; 9] = [
+    "gaps alike",
+    "γ₁ = 0 < γ₂",
+    "0 < γ₁ < γ₂",
+    "γ₁ = γ₂ > 0",
+    "left to right",
+    "right to left",
+    "inwards",
+    "strides",
+    "shuffled",
+];
+
 impl Compared {
-    fn one_of(&self, springs: usize) {
+    const fn nothing() -> Compared {
+        Compared {
+            states: AtomicU64::new(0),
+            springs: AtomicU64::new(0),
+            refused: AtomicU64::new(0),
+            of_kinds: [const { AtomicU64::new(0) }; KINDS.len()],
+        }
+    }
+
+    fn one_of(&self, blind: &Blind) {
         self.states.fetch_add(1, Ordering::Relaxed);
-        self.springs.fetch_add(springs as u64, Ordering::Relaxed);
+        self.springs.fetch_add(blind.gaps.len() as u64, Ordering::Relaxed);
+        let mut sorted = blind.gaps.clone();
+        sorted.sort_by(f64::total_cmp);
+        let [closing, opening] = blind.ranges;
+        let kinds = [
+            sorted.windows(2).any(|pair| pair[0] == pair[1]),
+            closing == 0.0 && opening > 0.0,
+            closing > 0.0 && closing < opening,
+            closing == opening && opening > 0.0,
+            matches!(blind.order, Order::LeftToRight),
+            matches!(blind.order, Order::RightToLeft),
+            matches!(blind.order, Order::Inwards),
+            matches!(blind.order, Order::Stride(_)),
+            matches!(blind.order, Order::Shuffled(_)),
+        ];
+        for (count, _) in self.of_kinds.iter().zip(kinds).filter(|(_, is_one)| *is_one) {
+            count.fetch_add(1, Ordering::Relaxed);
+        }
     }
 }
 
@@ -252,7 +296,7 @@ fn compare(
                 if blind.contact.contains(&true) {
                     let found = solver.fragments(present);
                     prop_assert_eq!(found, blind.fragments(), "after {:?} failed", leg);
-                    compared.one_of(count);
+                    compared.one_of(&blind);
                 }
                 compared.refused.fetch_add(1, Ordering::Relaxed);
                 continue;
@@ -270,7 +314,7 @@ fn compare(
             let d = present + probe * (to - present);
             let there = blind.relaxed(d);
             prop_assert_eq!(solver.fragments(d), there.fragments(), "at {} of {:?}", d, leg);
-            compared.one_of(count);
+            compared.one_of(&blind);
         }
         if separates {
             if to < present {
@@ -285,16 +329,14 @@ fn compare(
         }
         prop_assert_eq!(end.springs as usize, blind.contact.iter().filter(|&&c| c).count());
         prop_assert_eq!(end.fragments as usize, blind.fragments().len());
-        compared.one_of(count);
+        compared.one_of(&blind);
         (present, force) = (end.indentation, end.force);
     }
     Ok(())
 }
 
-static SHORT: Compared =
-    Compared { states: AtomicU64::new(0), springs: AtomicU64::new(0), refused: AtomicU64::new(0) };
-static LONG: Compared =
-    Compared { states: AtomicU64::new(0), springs: AtomicU64::new(0), refused: AtomicU64::new(0) };
+static SHORT: Compared = Compared::nothing();
+static LONG: Compared = Compared::nothing();
 
 proptest! {
     #![proptest_config(ProptestConfig { cases: 24_000, failure_persistence: None, ..ProptestConfig::default() })]
@@ -320,6 +362,11 @@ fn contact_states_of_short_lines_agree_with_blind_relaxation() {
     println!("{states} contact states, {springs} states of springs, {refused} legs refused");
     assert!(states >= 300_000, "only {states} contact states compared");
     assert!(refused >= 1000, "only {refused} legs refused");
+    for (kind, count) in KINDS.iter().zip(&SHORT.of_kinds) {
+        let count = count.load(Ordering::Relaxed);
+        println!("{count} contact states: {kind}");
+        assert!(count >= 20_000, "only {count} contact states: {kind}");
+    }
 }
 
 #[test]
@@ -333,7 +380,7 @@ fn spring_states_of_long_lines_agree_with_blind_relaxation() {
 
 #[test]
 fn few_springs_agree_with_blind_relaxation() {
-    let compared = Compared::default();
+    let compared = Compared::nothing();
     // Without adhesion the deepest spring touches last, though its neighbours are in contact.
     let gaps = [0.0, 0.718_352_439_046_38, 0.747_622_633_866_587_6];
     compare(&gaps, [0.0; 2], Order::LeftToRight, &[(Move::To(0.75), vec![0.99])], &compared).unwrap();

@@ -125,12 +125,12 @@ impl<E: EdgeModel> Ground<'_, E> {
     }
 
     /// Calls `jump` with each stretch of the line that detaches at once when a run of these parts that is `wanted`, and
-    /// the number of this run; the unloading began at `high`, m.
+    /// the number of this run; `wanted` is asked once for each, in their order; the unloading began at `high`, m.
     pub fn each_jump(
         &self,
         runs: &[Run],
         high: f64,
-        wanted: impl Fn(usize) -> bool,
+        mut wanted: impl FnMut(usize) -> bool,
         mut jump: impl FnMut(usize, AtOnce),
     ) {
         let mut nesting = Nesting::default();

@@ -210,8 +210,13 @@ impl<E: EdgeModel> ContactModel for Adhesive<'_, E> {
         ground.sample(runs, unloading, grid)
     }
 
-    fn smallest_of_reversal(&self, grid: &Grid, sorted: &mut u64) -> Result<ContactState, ContactError> {
-        self.reversal().smallest_on(grid, sorted)
+    fn smallest_of_reversal(
+        &self,
+        grid: &Grid,
+        turn: ContactState,
+        sorted: &mut u64,
+    ) -> Result<ContactState, ContactError> {
+        self.reversal().smallest_below(turn, grid, sorted)
     }
 
     fn squared_stretches(&self) -> [f64; 2] {

@@ -299,10 +299,11 @@ impl Unloading {
         let wanted: Vec<usize> = (0..runs.len()).filter(|&index| detaching[index].jump.is_none()).collect();
         if !wanted.is_empty() {
             wanted.iter().for_each(|&index| detaching[index].jump = Some(CompensatedSum::default()));
+            let mut next = wanted.iter().peekable();
             ground.each_jump(
                 runs,
                 high,
-                |index| wanted.binary_search(&index).is_ok(),
+                |index| next.next_if(|&&wanted| wanted == index).is_some(),
                 |index, at_once| {
                     let squares = ground.edges.squared_stretch(ground.gaps, at_once.between, at_once.at);
                     detaching[index].jump.get_or_insert_default().add(squares);

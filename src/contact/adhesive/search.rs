@@ -14,6 +14,12 @@ use crate::contact::interval::{Interval, Piece, lower_bound, upper_bound};
 /// Points of a grid from one to the next of those that are looked at first.
 const STRIDE: usize = 16;
 
+/// Most times that a range is cut where the force is above zero, each time by this part at least.
+const MOST_CUTS: usize = 8;
+const LEAST_CUT: usize = 8;
+/// Share of the way to the zero of a bound that rounding leaves certain.
+const CERTAIN: f64 = 1.0 - 1e-6;
+
 /// A leg that is searched.
 pub struct Search<'a, E> {
     pub ground: Ground<'a, E>,
@@ -35,10 +41,16 @@ impl<E: EdgeModel> Search<'_, E> {
         best
     }
 
-    /// The smallest force on the range of a grid, most points of which are left out: those between two neighbours of a
-    /// coarser grid whose bounds exclude a smaller force.
-    pub fn smallest_on(&self, grid: &Grid, sorted: &mut u64) -> Result<ContactState, ContactError> {
-        let points = grid.points();
+    /// The smallest force of an unloading to separation, on the range of a grid from there to the turning point, the
+    /// contact at which is given. Most points of the grid are left out: those where the force is certain to be above
+    /// zero, and those between two neighbours of a coarser grid whose bounds exclude a smaller force.
+    pub fn smallest_below(
+        &self,
+        turn: ContactState,
+        grid: &Grid,
+        sorted: &mut u64,
+    ) -> Result<ContactState, ContactError> {
+        let points = self.pulling(grid.points(), turn)?;
         let last = points.len() - 1;
         let coarse = (0..last).step_by(STRIDE).chain([last]).map(|index| points[index]).collect();
         let leg = self.ground.sample(self.runs, self.unloading, Grid::at(coarse))?;
@@ -51,6 +63,30 @@ impl<E: EdgeModel> Search<'_, E> {
         }
         let fine = self.ground.sample(self.runs, self.unloading, Grid::at(fine))?;
         Ok(self.smallest(&leg.merged(fine), sorted))
+    }
+
+    /// The points of an unloading, from separation on, beyond which the force is above zero.
+    ///
+    /// On the way back a contact only shrinks, and what detaches was stretched: the force falls no faster than with the
+    /// length of a contact further up. Just before separation the force is not above zero, so that the smallest force
+    /// lies among these points.
+    fn pulling<'p>(&self, points: &'p [f64], turn: ContactState) -> Result<&'p [f64], ContactError> {
+        let (mut points, mut state) = (points, turn);
+        for _ in 0..MOST_CUTS {
+            if !(state.compression > 0.0 && state.length > 0.0) {
+                break;
+            }
+            let crossing = state.indentation - CERTAIN * state.compression / state.length;
+            let end = (points.partition_point(|&point| point < crossing) + 1).min(points.len());
+            let is_worth = points.len() - end >= (points.len() / LEAST_CUT).max(1);
+            points = &points[..end];
+            if !is_worth {
+                break;
+            }
+            let at = Grid::at(vec![points[end - 1]]);
+            state = self.ground.sample(self.runs, self.unloading, at)?.states[0];
+        }
+        Ok(points)
     }
 
     /// The largest force on the range of a grid.

@@ -42,7 +42,7 @@ pub static ROW: PaneRow = PaneRow {
     help: &[
         (
             "Map",
-            "m: regime under other H and κ, of most of a few random profiles with few springs; █ adhesion at first \
+            "m: regime under other H and κ (e: e_el/γ), of most of a few random profiles with few springs; █ adhesion at first \
              touch, ▒ after pressing, · hardly any, blank: not computed; ◆ is the scene, moved by the arrows",
         ),
         (

@@ -7,7 +7,7 @@ use crate::explorer::model::{Model, OpenStudy};
 use crate::explorer::theme::Meaning;
 use crate::explorer::view::plot;
 use crate::explorer::view::wrap::{filled, wrapped};
-use crate::scene::format_rounded;
+use crate::scene::{RoughnessParameter, format_rounded};
 use crate::study::Quantity;
 use crate::study::figure::Estimate;
 use crate::study::map::{Charted, Layer, Level, LiveMap, MapAxis, MapModel, Place, ShownCell, Template};
@@ -203,9 +203,18 @@ fn note_of_computed(model: &Model) -> String {
             format!("Each cell: {} of {} springs. ", profiles(template.lines()), grouped(template.springs()))
         },
     );
+    let parameter = match model.chart.parameter() {
+        RoughnessParameter::Kappa => {
+            "κ ≈ 0.6 is the boundary of eq. (15) in the paper: with smaller κ bodies adhere without a preload, with larger κ \
+             only once pressed."
+        }
+        RoughnessParameter::ElasticEnergyRatio => {
+            "e_el/γ is the elastic energy of full conformity over the work of adhesion: with smaller e_el/γ bodies adhere \
+             without a preload, with larger e_el/γ only once pressed."
+        }
+    };
     format!(
-        "{cells}κ ≈ 0.6 is the boundary of eq. (15) in the paper: with smaller κ bodies adhere without a preload, with larger κ \
-         only once pressed. Pressure-insensitive: F_a(0) is at least {} % of F_a and {} % of that of the smooth body. \
+        "{cells}{parameter} Pressure-insensitive: F_a(0) is at least {} % of F_a and {} % of that of the smooth body. \
          Non-adhesive: F_a is below {} % of F_n. The regime of a cell is that of most of its profiles, forces are \
          means; profiles have the seed of the scene and the next ones, exact, with sub-cell edges.",
         100.0 * INSENSITIVE_SHARE,

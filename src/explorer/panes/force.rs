@@ -1,8 +1,7 @@
 //! The curve: the hysteresis loop with its two branches, what is compared with it, and the hand.
 
 use super::{PaneRow, Place};
-use crate::analysis::LEAST_TABOR_NUMBER;
-use crate::analysis::{Mark, marks};
+use crate::analysis::{ApproximatePoint, LEAST_TABOR_NUMBER, Mark, marks};
 use crate::contact::{CurvePoint, Direction, LegRecord};
 use crate::draw::{
     Axis, AxisScale, CellPlot, Chart, Ink, Label, Layer, Shape, Sign, Span, Stroke, glyph, legend,
@@ -18,7 +17,7 @@ use crate::explorer::update::{Effect, movement};
 use crate::explorer::view::lines::{draw_lines, draw_reason};
 use crate::explorer::view::plot;
 use crate::explorer::view::wrap::fitting;
-use crate::export::sign;
+use crate::export::{approximate_jkr_layer, sign};
 use crate::scene::format_rounded;
 use ratatui::Frame;
 use ratatui::layout::{Position, Rect};
@@ -33,11 +32,18 @@ pub static ROW: PaneRow = PaneRow {
     keys: Some(ModeKind::Crosshair),
     press: drag,
     drag,
-    help: &[(
-        "Curve",
-        "F over indentation d: dotted while pressing, solid while pulling; ◇ jump-in, ▲ preload, ▼ pull-off, \
-         ◆ now; letters and colours are ghosts, dashes are where the hand has been",
-    )],
+    help: &[
+        (
+            "Curve",
+            "F over indentation d: dotted while pressing, solid while pulling; ◇ jump-in, ▲ preload, ▼ pull-off, \
+             ◆ now; letters and colours are ghosts, dashes are where the hand has been",
+        ),
+        (
+            "Estimate",
+            "~: approximate JKR curve under the loop, from the contact without adhesion (Ciavarella 2018): contact areas \
+             as there, patches as circles that never merge, no hysteresis of single patches; exact for one patch",
+        ),
+    ],
     ..PaneRow::EMPTY
 };
 
@@ -158,14 +164,27 @@ impl Units {
 /// Decades of a logarithmic axis: a force near its change of sign would take all room.
 const MOST_DECADES: f64 = 3.0;
 
-/// Ranges of the pane: the curve, kept curves and the path of manual loading.
+/// Points of the approximate JKR curve on the axes of the force over the indentation.
+fn approximate(model: &Model, units: Units) -> Vec<(f64, f64)> {
+    let is_force = units.quantities == Quantities::ForceIndentation && model.is_current();
+    let points = model.approximate.curve().filter(|_| is_force).into_iter().flat_map(|curve| &curve.points);
+    let point = |point: &ApproximatePoint| CurvePoint {
+        indentation: point.indentation,
+        force: point.force,
+        ..CurvePoint::default()
+    };
+    points.map(|of| units.place(&point(of))).collect()
+}
+
+/// Ranges of the pane: the curve, kept curves, the approximate one and the path of manual loading.
 fn spans(model: &Model, units: Units) -> (Span, Span) {
     let ghosts = model.ghosts.iter().flat_map(|ghost| &ghost.computed.outcome.history.legs);
     let tried = model.tried_outcome().into_iter().flat_map(|outcome| &outcome.history.legs);
     let points = model.legs().iter().chain(ghosts).chain(tried).flat_map(|leg| &leg.curve);
     let hand = model.hand.iter().flat_map(|hand| &hand.path);
     let coordinate = |number| units.scale.coordinate(number);
-    let places: Vec<(f64, f64)> = points.chain(hand).map(|point| units.place(point)).collect();
+    let mut places: Vec<(f64, f64)> = points.chain(hand).map(|point| units.place(point)).collect();
+    places.extend(approximate(model, units));
     let x = Span::around(places.iter().map(|place| coordinate(place.0)), 0.06);
     let y = Span::around(places.iter().map(|place| place.1).chain([0.0]).map(coordinate), 0.08);
     let decades = |span: Span| Span { low: span.low.max(span.high - MOST_DECADES), ..span };
@@ -328,6 +347,10 @@ fn chart(model: &Model, units: Units) -> Chart {
     }
     for leg in model.tried_outcome().into_iter().flat_map(|outcome| &outcome.history.legs) {
         layers.push(Layer::new("preview".into(), Ink::Kept, line(along(&leg.curve), Stroke::Dashed)));
+    }
+    let approximate = approximate(model, units);
+    if !approximate.is_empty() {
+        layers.push(approximate_jkr_layer(approximate));
     }
     for (direction, name, of, stroke) in [
         (Direction::Loading, "loading", Ink::Loading, Stroke::Dotted),

@@ -3,9 +3,9 @@
 
 use crate::analysis::Figures;
 use crate::explorer::snapshot::SolvedScene;
-use crate::scene::{Scene, Solver};
+use crate::scene::{Preloads, Scene, Solver};
 use crate::simulation::{RunError, Simulation};
-use crate::study::{Preloaded, Preloads, Statistics, preload_statistics, solve_preloads};
+use crate::study::{Preloaded, Statistics, preload_statistics, solve_preloads};
 use std::path::Path;
 use std::sync::Arc;
 
@@ -48,8 +48,8 @@ impl PreloadCurve {
         }
         let Figures { preload, adhesion_force, .. } = computed.outcome.figures;
         let scale = preload.filter(|&force| force > 0.0).or(adhesion_force).filter(|&force| force > 0.0);
-        let Some(scale) = scale else { return Err("no stage presses the bodies together") };
-        let forces = Preloads { from: 0.0, to: REACH * scale, count: FINE }.forces();
+        let preloads = scale.and_then(|scale| Preloads::new(0.0, REACH * scale, FINE));
+        let forces = preloads.ok_or("no stage presses the bodies together")?.forces();
         let wanted = if computed.scene.seed().is_some() { PROFILES } else { 0 };
         let scene = Arc::clone(&computed.scene);
         let (own, profiles, statistics) = (Vec::new(), Vec::new(), Vec::new());

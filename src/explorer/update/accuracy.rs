@@ -19,9 +19,10 @@ pub fn study_tasks(model: &Model) -> Vec<Task> {
     }
     let estimate =
         (appraisal.estimated == Estimated::Waiting).then(|| Task::Estimate(std::sync::Arc::clone(computed)));
+    let approximate = model.approximate.wanted(computed).map(Task::ApproximateJkr);
     let shown = model.large.filter(|pane| !model.failures.contains_key(pane));
     let shown = shown.and_then(|pane| (pane.row().task)(model, computed));
-    estimate.into_iter().chain(shown).collect()
+    estimate.into_iter().chain(approximate).chain(shown).collect()
 }
 
 /// Asks for a tolerance.
@@ -74,6 +75,13 @@ pub fn found(model: &mut Model, found: Found) -> Vec<Effect> {
                     vec![Effect::Study]
                 }
             }
+        }
+        Finding::Approximated(found) => {
+            if let Err(why) = &found {
+                model.notice = Some(Notice::Error(why.clone()));
+            }
+            model.approximate.found = Some(found);
+            Vec::new()
         }
         Finding::Extended(data) => {
             (data.pane().row().take_in)(model, data);

@@ -4,6 +4,7 @@ use super::{Effect, edit};
 use crate::explorer::action::Command;
 use crate::explorer::model::{Model, Notice};
 use crate::explorer::opening::Opening;
+use crate::explorer::panes::Pane;
 use crate::scene::{Document, SceneErrors};
 use crate::study::map::{MapAxis, Place, Template, moved, next_beyond};
 use std::sync::Arc;
@@ -19,6 +20,7 @@ pub fn obey(model: &mut Model, command: Command) -> Vec<Effect> {
             model.chart.transpose();
             Vec::new()
         }
+        Command::NextMapParameter => next_parameter(model),
         Command::NextCharted => {
             model.chart.quantity = model.chart.next_charted();
             Vec::new()
@@ -55,6 +57,19 @@ fn toggle_study(model: &mut Model) -> Vec<Effect> {
     vec![Effect::Study]
 }
 
+/// Maps over the other parameter of roughness.
+fn next_parameter(model: &mut Model) -> Vec<Effect> {
+    if model.chart.shown_study().is_some() {
+        let why = "a study has its own axes; W shows the map that is computed here";
+        model.notice = Some(Notice::Error(why.to_owned()));
+        return Vec::new();
+    }
+    model.chart.next_parameter();
+    model.failures.remove(&Pane::Chart);
+    model.edited = false;
+    vec![Effect::Study]
+}
+
 /// Shows another map of the study. A scene that is of the map before goes with it.
 fn step_slice(model: &mut Model, steps: i32) -> Vec<Effect> {
     let Some(study) = model.chart.shown_study() else {
@@ -84,7 +99,7 @@ fn step(model: &mut Model, columns: i32, rows: i32) -> Vec<Effect> {
         let why = match Template::of(model.document.scene()) {
             Err(why) => why.to_string(),
             Ok(_) if model.chart.shown_study().is_some() => NO_PLACE.to_owned(),
-            Ok(_) => "not before the scene is computed: its κ follows from its profile".to_owned(),
+            Ok(_) => "not before the scene is computed: its κ and e_el/γ follow from its profile".to_owned(),
         };
         model.notice = Some(Notice::Error(why));
         return Vec::new();

@@ -365,6 +365,7 @@ fn renew(model: &mut Model) -> Vec<Effect> {
     for pane in Pane::ALL {
         (pane.row().renew)(model);
     }
+    model.approximate.renew();
     // What was in hand was pressed on another line, or under another force.
     if model.hand.take().is_some() {
         let back = "the body is back on the scene's loading".to_owned();

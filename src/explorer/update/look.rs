@@ -45,6 +45,10 @@ pub fn obey(model: &mut Model, command: Command) -> Vec<Effect> {
             };
         }
         Command::ToggleLoss => model.curve.loss = !model.curve.loss,
+        Command::ToggleApproximate => {
+            model.approximate.shown = !model.approximate.shown;
+            return vec![Effect::Study, Effect::Show];
+        }
         Command::ZoomPane => model.zoomed = !model.zoomed,
         Command::NextPane => {
             let panes = model.panes();

@@ -356,6 +356,7 @@ pub(super) fn explore(model: &mut Model, command: Command) -> Vec<Effect> {
         | Command::ToggleStudy
         | Command::NextSlice(_)
         | Command::TransposeMap
+        | Command::NextMapParameter
         | Command::MoveAcross(_)
         | Command::MoveUp(_) => return chart::obey(model, command),
         Command::Fragment(_)
@@ -367,6 +368,7 @@ pub(super) fn explore(model: &mut Model, command: Command) -> Vec<Effect> {
         | Command::ToggleNormalised
         | Command::ToggleLogarithmic
         | Command::ToggleLoss
+        | Command::ToggleApproximate
         | Command::ZoomPane
         | Command::NextPane
         | Command::NextTheme

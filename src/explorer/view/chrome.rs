@@ -5,6 +5,7 @@ use super::stages;
 use super::typed::typed;
 use super::wrap::{clipped, fitting, wrapped_within};
 use crate::accuracy::Target;
+use crate::analysis::contact_stiffness;
 use crate::contact::CurvePoint;
 use crate::explorer::action::{Command, Content, Traffic};
 use crate::explorer::completion::Completion;
@@ -182,7 +183,8 @@ fn mechanics(model: &Model, moment: Option<&ContactSnapshot>) -> Vec<Part> {
 /// Stiffness and mean pressure of the present contact.
 fn response(model: &Model, moment: &ContactSnapshot) -> Vec<Part> {
     let Some(computed) = &model.computed else { return Vec::new() };
-    let stiffness = computed.outcome.governing.effective_modulus * moment.point.contact_length;
+    let stiffness =
+        contact_stiffness(computed.outcome.governing.effective_modulus, moment.point.contact_length);
     let mut parts = vec![(" · ", format!("dF/dd {}", format_rounded(stiffness, 2, "N/m")), Meaning::Text)];
     if moment.contact_radius > 0.0 {
         let pressure = moment.point.force / (PI * moment.contact_radius * moment.contact_radius);

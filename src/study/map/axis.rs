@@ -50,8 +50,7 @@ fn parameter_of(target: Target, path: &str) -> Option<RoughnessParameter> {
 
 /// Unit of preloads, E* h L, of a scene with a self-affine profile, N.
 pub(super) fn force_unit(scene: &Scene) -> Option<f64> {
-    let governing = governing(scene)?;
-    Some(governing.effective_modulus * governing.amplitude?.rms_height * scene.length)
+    governing(scene)?.force_unit(scene.length)
 }
 
 /// A document with other values of quantities, by their paths. κ or e_el/γ changes the work of adhesion of a scene that states it,

@@ -5,7 +5,7 @@ use super::live_map::LiveMap;
 use crate::simulation::{RunError, Simulation};
 use crate::study::cell_summary::CellSummary;
 use crate::study::cells::Cells;
-use crate::study::recorder::Records;
+use crate::study::recorder::{Recorder, Records};
 use crate::study::solve::{Case, Next, Sink, Solver};
 use crate::study::statistics::StudentT;
 use std::collections::BTreeMap;
@@ -22,7 +22,8 @@ pub fn compute(map: &mut LiveMap, folder: &Path, stop: &dyn Fn() -> bool, tell: 
     let template = Arc::clone(map.template());
     let plan = template.plan();
     let cells = Cells::of(&plan);
-    let mut solver = Solver::new(&plan, &cells, Simulation::new(folder.to_path_buf()), stop);
+    let recorder = Recorder::new(&plan, Simulation::new(folder.to_path_buf()), stop);
+    let mut solver = Solver::new(&plan, &cells, recorder);
     let mut quantiles = StudentT::default();
     for level in Level::ALL.into_iter().take_while(|level| *level <= template.finest()) {
         for &row in map.rows_of(level) {
@@ -82,18 +83,27 @@ impl Sink for RowSink<'_> {
 mod tests {
     use super::*;
     use crate::analysis::Regime;
+    use crate::scene::RoughnessParameter;
     use crate::scene::{Roughness, Scene, open, to_ron};
-    use crate::study::map::{KAPPAS, MapModel, StudyMap, Template, hurst, kappa};
+    use crate::study::map::{COLUMNS, MapModel, StudyMap, Template, hurst, parameter_value};
     use crate::study::{Changes, Folder, Options, Plan, Quantity, Shard, merge, run};
     use std::sync::Arc;
 
-    /// The map of a small scene.
+    fn kappa(column: usize) -> f64 {
+        parameter_value(RoughnessParameter::Kappa, column)
+    }
+
+    /// The map of a small scene over κ.
     fn map() -> LiveMap {
+        map_over(RoughnessParameter::Kappa)
+    }
+
+    fn map_over(parameter: RoughnessParameter) -> LiveMap {
         let document = open("pressure-sensitive").unwrap();
         let small = [("numerics.points", "128"), ("roughness.modes", "(1, 32)")];
         let small = small.map(|(path, value)| (path.to_owned(), value.to_owned()));
         let document = document.set_all(&small).unwrap();
-        LiveMap::new(Arc::new(Template::of(document.scene()).unwrap()))
+        LiveMap::new(Arc::new(Template::of(document.scene()).unwrap().over(parameter)))
     }
 
     /// The scene of a cell on one of its profiles.
@@ -116,20 +126,20 @@ mod tests {
         levels.dedup();
         assert_eq!(levels, Level::ALL);
         assert_eq!(rows, 5 + 9 + 19 + 19);
-        assert_eq!(map.model().size(), (map.rows(), KAPPAS), "H across");
+        assert_eq!(map.model().size(), (map.rows(), COLUMNS), "H across");
         let shown = map.model().transposed();
         let share = shown.layer(Quantity::ZeroLoadAdhesionShare).unwrap();
         for row in 0..map.rows() {
             let map_cells: Vec<_> =
-                (0..KAPPAS).map(|column| shown.shown(column, row).unwrap().cell.clone().unwrap()).collect();
+                (0..COLUMNS).map(|column| shown.shown(column, row).unwrap().cell.clone().unwrap()).collect();
             assert_eq!(map_cells[0].regime, Some(Regime::PressureInsensitive));
-            assert_eq!(map_cells[KAPPAS - 1].regime, Some(Regime::NonAdhesive));
+            assert_eq!(map_cells[COLUMNS - 1].regime, Some(Regime::NonAdhesive));
             assert!(
                 map_cells.iter().all(|map_cell| (1..=4).contains(&map_cell.agreeing) && map_cell.lines == 4)
             );
             let along = shown.along_row(share, row);
-            assert_eq!(along.len(), KAPPAS);
-            assert!(along[0].1.mean > 0.5 && along[KAPPAS - 1].1.mean < 0.01);
+            assert_eq!(along.len(), COLUMNS);
+            assert!(along[0].1.mean > 0.5 && along[COLUMNS - 1].1.mean < 0.01);
         }
         let place = shown.nearest((1.02, Some(0.31))).unwrap();
         assert_eq!((kappa(place.column), hurst(place.row)), (1.0, 0.3));
@@ -149,7 +159,11 @@ mod tests {
 
     #[test]
     fn the_map_of_a_study_of_the_same_cells_is_the_same() {
-        let (mut live, mut rows) = (map(), 0);
+        RoughnessParameter::ALL.into_iter().for_each(a_study_of_the_same_cells_has_the_same_map);
+    }
+
+    fn a_study_of_the_same_cells_has_the_same_map(parameter: RoughnessParameter) {
+        let (mut live, mut rows) = (map_over(parameter), 0);
         let is_enough = std::cell::Cell::new(false);
         compute(&mut live, Path::new(""), &|| is_enough.get(), &mut |_| {
             rows += 1;
@@ -162,10 +176,11 @@ mod tests {
             |values: Vec<f64>| values.iter().map(|value| format!("{value:?}")).collect::<Vec<_>>().join(", ");
         let text = format!(
             "(version: 1, title: \"Map\", scene: {}, lines: {}, record: [zero_load_adhesion_share, adhesion_coefficient, regime], axes: [\
-             List(path: \"kappa\", values: [{}]), List(path: \"roughness.hurst\", values: [{}])])",
-            to_ron(&scene(&live, 1.0, 0.5, 0)),
+             List(path: \"{}\", values: [{}]), List(path: \"roughness.hurst\", values: [{}])])",
+            to_ron(&live.template().plan().scene),
             template.lines(),
-            list(columns.iter().map(|&column| kappa(column)).collect()),
+            parameter.name(),
+            list(columns.iter().map(|&column| parameter_value(parameter, column)).collect()),
             list(rows.iter().map(|&row| hurst(row)).collect()),
         );
         let plan = Plan::parse(&text, "map", &Changes::default()).unwrap_or_else(|errors| panic!("{errors}"));
@@ -180,7 +195,8 @@ mod tests {
             for (across, &column) in columns.iter().enumerate() {
                 let [studied, shown] = [study.shown(across, up), live.shown(column, row)]
                     .map(|place| place.unwrap().cell.clone().unwrap());
-                assert_eq!(studied, shown, "κ = {}, H = {}", kappa(column), hurst(row));
+                let place = (parameter_value(parameter, column), hurst(row));
+                assert_eq!(studied, shown, "{parameter:?}, H: {place:?}");
                 for quantity in [Quantity::ZeroLoadAdhesionShare, Quantity::AdhesionCoefficient] {
                     let mean = |map: &MapModel, column, row| {
                         Some(map.estimate(map.layer(quantity)?, column, row)?.mean.to_bits())
@@ -219,7 +235,7 @@ mod tests {
         }
         // A section has what was computed, and nothing that only stands for it.
         assert_eq!(shown.along_row(&shown.layers()[0], 0).len(), 5);
-        assert_eq!((shown.shown(KAPPAS, 0), shown.shown(0, 19)), (None, None));
+        assert_eq!((shown.shown(COLUMNS, 0), shown.shown(0, 19)), (None, None));
     }
 
     #[test]

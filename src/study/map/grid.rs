@@ -1,17 +1,22 @@
-//! The values of κ and H that a map has, and the order in which it gets them.
+//! The values of κ or e_el/γ and of H that a map has, and the order in which it gets them.
 
 use super::axis::MapAxis;
+use crate::scene::RoughnessParameter;
 use crate::study::figure::{AxisScale, FigureAxis};
 
-/// Values of κ: quarters of octaves from 1/8 to 32.
-pub const KAPPAS: usize = 33;
+/// Values of κ: quarters of octaves from 1/8 to 32; of e_el/γ, which grows with κ²: half octaves from 1/64 to 1024.
+pub const COLUMNS: usize = 33;
 /// Values of H, from 0.05 to 0.95.
 pub const HURSTS: usize = 19;
 
-/// The κ of a column, to three digits: what a scene is set to is what the map has been computed for.
+/// The κ or e_el/γ of a column, to three digits: what a scene is set to is what the map has been computed for.
 #[must_use]
-pub fn kappa(column: usize) -> f64 {
-    let exact = ((column as f64 - 12.0) / 4.0).exp2();
+pub fn parameter_value(parameter: RoughnessParameter, column: usize) -> f64 {
+    let per_octave = match parameter {
+        RoughnessParameter::Kappa => 4.0,
+        RoughnessParameter::ElasticEnergyRatio => 2.0,
+    };
+    let exact = ((column as f64 - 12.0) / per_octave).exp2();
     format!("{exact:.2e}").parse().unwrap_or(exact)
 }
 
@@ -24,10 +29,15 @@ pub fn hurst(row: usize) -> f64 {
 /// A value differs from another on a grid, rather than by rounding.
 const APART: f64 = 1e-6;
 
-/// The κ of all columns.
+/// The κ or e_el/γ of all columns.
 #[must_use]
-pub fn kappas() -> MapAxis {
-    axis("kappa", "governing parameter", "κ", AxisScale::Logarithmic, (0..KAPPAS).map(kappa).collect())
+pub fn parameter_values(parameter: RoughnessParameter) -> MapAxis {
+    let name = match parameter {
+        RoughnessParameter::Kappa => "governing parameter",
+        RoughnessParameter::ElasticEnergyRatio => "elastic energy ratio",
+    };
+    let values = (0..COLUMNS).map(|column| parameter_value(parameter, column)).collect();
+    axis(parameter.name(), name, parameter.symbol(), AxisScale::Logarithmic, values)
 }
 
 /// The H of all rows.
@@ -68,7 +78,7 @@ pub enum Level {
     Coarse,
     /// 9 × 9 cells.
     Medium,
-    /// 17 values of κ, all of H.
+    /// 17 values of κ or e_el/γ, all of H.
     Fine,
     /// All cells.
     Whole,
@@ -86,7 +96,7 @@ impl Level {
             Level::Fine => 2,
             Level::Whole => 1,
         };
-        (0..KAPPAS).step_by(stride)
+        (0..COLUMNS).step_by(stride)
     }
 
     /// Rows of the level, the lowest H first.
@@ -106,10 +116,15 @@ mod tests {
 
     #[test]
     fn the_values_are_round() {
+        let [kappa, ratio] =
+            RoughnessParameter::ALL.map(|parameter| move |column| parameter_value(parameter, column));
         assert_eq!([0, 4, 8, 12, 16, 24, 32].map(kappa), [0.125, 0.25, 0.5, 1.0, 2.0, 8.0, 32.0]);
-        assert_eq!(kappa(13), 1.19);
+        assert_eq!([0, 8, 12, 14, 32].map(ratio), [0.0156, 0.25, 1.0, 2.0, 1020.0]);
+        assert_eq!((kappa(13), ratio(13)), (1.19, 1.41));
         assert_eq!([0, 9, 13, 18].map(hurst), [0.05, 0.5, 0.7, 0.95]);
-        assert!((1..KAPPAS).all(|column| kappa(column) > kappa(column - 1)));
+        assert!(
+            (1..COLUMNS).all(|column| kappa(column) > kappa(column - 1) && ratio(column) > ratio(column - 1))
+        );
     }
 
     #[test]
@@ -120,14 +135,16 @@ mod tests {
             assert!(pair[0].rows().iter().all(|row| pair[1].rows().contains(row)));
         }
         let counts = Level::ALL.map(|level| (level.columns().count(), level.rows().len()));
-        assert_eq!(counts, [(5, 5), (9, 9), (17, 19), (KAPPAS, HURSTS)]);
-        assert!(Level::ALL.iter().all(|level| level.columns().last() == Some(KAPPAS - 1)));
+        assert_eq!(counts, [(5, 5), (9, 9), (17, 19), (COLUMNS, HURSTS)]);
+        assert!(Level::ALL.iter().all(|level| level.columns().last() == Some(COLUMNS - 1)));
         assert!(Level::ALL.iter().all(|level| level.rows().last() == Some(&(HURSTS - 1))));
     }
 
     #[test]
     fn steps_go_to_the_next_value_of_the_grid_and_end_with_it() {
-        let to = |value, steps| next_beyond(value, steps, &kappas().figure.values);
+        let to = |value, steps| {
+            next_beyond(value, steps, &parameter_values(RoughnessParameter::Kappa).figure.values)
+        };
         assert_eq!((to(6.0, 1), to(6.0, -1), to(6.0, 4)), (Some(6.73), Some(5.66), Some(11.3)));
         // A value that is one of the grid but for rounding.
         assert_eq!((to(1.0 + 1e-12, 1), to(1.0 - 1e-12, -1)), (Some(1.19), Some(0.841)));

@@ -1,6 +1,6 @@
-//! The live map over κ and H, as far as it has been computed.
+//! The live map over H and κ or e_el/γ, as far as it has been computed.
 
-use super::grid::{HURSTS, KAPPAS, Level, hursts, kappas};
+use super::grid::{COLUMNS, HURSTS, Level, hursts, parameter_values};
 use super::model::{MapModel, MapScale};
 use super::template::{RECORD, Template};
 use crate::study::cell_summary::CellSummary;
@@ -20,7 +20,7 @@ impl LiveMap {
     #[must_use]
     pub fn new(template: Arc<Template>) -> Self {
         let rows = if template.has_hurst() { HURSTS } else { 1 };
-        LiveMap { template, cells: vec![None; rows * KAPPAS] }
+        LiveMap { template, cells: vec![None; rows * COLUMNS] }
     }
 
     /// Template of the map.
@@ -32,7 +32,7 @@ impl LiveMap {
     /// Number of rows: one where there is no H.
     #[must_use]
     pub fn rows(&self) -> usize {
-        self.cells.len() / KAPPAS
+        self.cells.len() / COLUMNS
     }
 
     /// The rows that a level has of it.
@@ -44,17 +44,17 @@ impl LiveMap {
     /// A cell, once it has been computed, or why it could not be.
     #[must_use]
     pub fn cell(&self, column: usize, row: usize) -> Option<&Result<CellSummary, String>> {
-        self.cells.get(row * KAPPAS + column).filter(|_| column < KAPPAS)?.as_ref()
+        self.cells.get(row * COLUMNS + column).filter(|_| column < COLUMNS)?.as_ref()
     }
 
     /// The number of a cell in the plan of its template.
     pub(super) fn index(&self, column: usize, row: usize) -> u64 {
-        (row * KAPPAS + column) as u64
+        (row * COLUMNS + column) as u64
     }
 
     /// Sets a cell.
     pub fn set(&mut self, column: usize, row: usize, cell: Result<CellSummary, String>) {
-        if let Some(place) = self.cells.get_mut(row * KAPPAS + column).filter(|_| column < KAPPAS) {
+        if let Some(place) = self.cells.get_mut(row * COLUMNS + column).filter(|_| column < COLUMNS) {
             *place = Some(cell);
         }
     }
@@ -86,7 +86,7 @@ impl LiveMap {
         Level::ALL.into_iter().rev().find_map(|level| {
             let column = near(&mut level.columns(), column);
             let row = near(&mut self.rows_of(level).iter().copied(), row);
-            self.cell(column, row).map(|_| row * KAPPAS + column)
+            self.cell(column, row).map(|_| row * COLUMNS + column)
         })
     }
 
@@ -101,12 +101,12 @@ impl LiveMap {
             (column, MapScale::new(quantity, &estimates))
         };
         let map_model = MapModel::new(
-            (kappas(), self.template.has_hurst().then(hursts)),
+            (parameter_values(self.template.parameter()), self.template.has_hurst().then(hursts)),
             &drawn.map(scale).collect::<Vec<_>>(),
             &cells,
-            (0..cells.len()).map(|index| self.stand_in(index % KAPPAS, index / KAPPAS)).collect(),
+            (0..cells.len()).map(|index| self.stand_in(index % COLUMNS, index / COLUMNS)).collect(),
         );
-        // As in the paper: H across, κ up.
+        // As in the paper: H across, κ up; e_el/γ likewise.
         map_model.transposed()
     }
 }

@@ -1,6 +1,6 @@
 //! Maps of adhesion: the regime of a scene, and forces, under other values of two of its quantities.
 //!
-//! The live map is over H and κ. [`Template`] has all else of its scene, [`LiveMap`] its cells so far, and [`compute()`]
+//! The live map is over H and κ or e_el/γ. [`Template`] has all else of its scene, [`LiveMap`] its cells so far, and [`compute()`]
 //! computes those that are missing, from coarse to fine. The live map shows where the boundaries run; it is computed on
 //! fewer springs than the scene may have and is the mean of a few random profiles.
 //!
@@ -16,7 +16,7 @@ mod template;
 
 pub use axis::{MapAxis, moved};
 pub use compute::compute;
-pub use grid::{HURSTS, KAPPAS, Level, hurst, hursts, kappa, kappas, next_beyond};
+pub use grid::{COLUMNS, HURSTS, Level, hurst, hursts, next_beyond, parameter_value, parameter_values};
 pub use live_map::LiveMap;
 pub use model::{Charted, Layer, MapCell, MapModel, Place, ShownCell};
 pub use study_map::{StudyMap, StudyMapError};

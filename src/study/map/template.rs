@@ -1,8 +1,8 @@
-//! Template of a map: a scene without its κ and H.
+//! Template of a map: a scene without its κ or e_el/γ and H.
 
 use super::axis::MapAxis;
-use super::grid::{Level, hursts, kappas};
-use crate::scene::{Adhesion, Edges, Numerics, Roughness, Scene, Solver};
+use super::grid::{Level, hursts, parameter_values};
+use crate::scene::{Adhesion, Edges, Numerics, Roughness, RoughnessParameter, Scene, Solver};
 use crate::study::axis::Axis;
 use crate::study::governing::governing;
 use crate::study::plan::Plan;
@@ -21,7 +21,7 @@ const SPRINGS_PER_WAVE: u64 = 4;
 /// With more springs than these a map gets fewer cells, and with more than those fewer still.
 const MANY: u64 = 1 << 14;
 const VERY_MANY: u64 = 1 << 17;
-/// Stand for all κ and H.
+/// Stand for all κ or e_el/γ and all H.
 const ANY: (f64, f64) = (1.0, 0.5);
 
 /// Reason why a scene has no map.
@@ -42,13 +42,14 @@ pub enum NoMap {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Template {
     scene: Scene,
+    parameter: RoughnessParameter,
 }
 
 impl Template {
-    /// Template of a checked scene.
+    /// Template of a checked scene for a map over κ.
     ///
     /// # Errors
-    /// When it has no κ.
+    /// When the scene has no κ.
     pub fn of(scene: &Scene) -> Result<Self, NoMap> {
         let adhesion = scene.adhesion.ok_or(NoMap::NoAdhesion)?;
         if adhesion.closing_work.is_some() {
@@ -76,7 +77,23 @@ impl Template {
         let points = points.min(scene.numerics.points);
         // Edges between springs: a map of few springs is then as good as one of very many.
         scene.numerics = Numerics { points, solver: Solver::Exact, edges: Edges::SubCell, samples: 2 };
-        Ok(Template { scene })
+        Ok(Template { scene, parameter: RoughnessParameter::Kappa })
+    }
+
+    /// The same over this parameter.
+    #[must_use]
+    pub fn over(mut self, parameter: RoughnessParameter) -> Self {
+        self.scene.adhesion = self
+            .scene
+            .adhesion
+            .map(|adhesion| Adhesion { work: adhesion.work, ..adhesion.with_parameter(parameter, ANY.0) });
+        Template { parameter, ..self }
+    }
+
+    /// Parameter of the map beside H.
+    #[must_use]
+    pub fn parameter(&self) -> RoughnessParameter {
+        self.parameter
     }
 
     /// Springs of each of its lines.
@@ -110,14 +127,14 @@ impl Template {
         if self.has_hurst() { LINES } else { 1 }
     }
 
-    /// The study of all cells of the map: number row · [`super::KAPPAS`] + column.
+    /// The study of all cells of the map: number row · [`super::COLUMNS`] + column.
     pub(super) fn plan(&self) -> Plan {
         let list = |axis: MapAxis| Axis::List { path: axis.path, values: axis.figure.values };
         let mut plan = Plan::of_scene(&self.scene, self.lines(), &RECORD);
         if self.has_hurst() {
             plan.axes.push(list(hursts()));
         }
-        plan.axes.push(list(kappas()));
+        plan.axes.push(list(parameter_values(self.parameter)));
         plan
     }
 
@@ -137,7 +154,7 @@ mod tests {
     use crate::simulation::Simulation;
     use crate::study::cells::Cells;
     use crate::study::map::axis::moved;
-    use crate::study::map::grid::{HURSTS, KAPPAS, hurst, kappa};
+    use crate::study::map::grid::{COLUMNS, HURSTS, hurst, parameter_value};
 
     fn document() -> Document {
         open("pressure-sensitive").unwrap().set("numerics.points", "2048").unwrap()
@@ -181,18 +198,22 @@ mod tests {
 
     #[test]
     fn the_scene_of_a_cell_is_a_sound_one() {
-        let plan = Template::of(document().scene()).unwrap().plan();
-        let (cells, mut scene) = (Cells::of(&plan), plan.scene.clone());
-        let mut run = 0;
-        for row in 0..HURSTS {
-            for column in 0..KAPPAS {
-                cells.shape(run, &plan.scene, &mut scene).unwrap();
-                assert_eq!(crate::scene::check(&scene), []);
-                assert_eq!(Template::place(&scene), Some((kappa(column), hurst(row))));
-                run += 1;
+        for parameter in RoughnessParameter::ALL {
+            let plan = Template::of(document().scene()).unwrap().over(parameter).plan();
+            let (cells, mut scene) = (Cells::of(&plan), plan.scene.clone());
+            let mut run = 0;
+            for row in 0..HURSTS {
+                for column in 0..COLUMNS {
+                    cells.shape(run, &plan.scene, &mut scene).unwrap();
+                    assert_eq!(crate::scene::check(&scene), []);
+                    let known = governing(&scene).unwrap().parameter(parameter);
+                    assert_eq!(known, Some(parameter_value(parameter, column)));
+                    assert_eq!(Template::place(&scene).unwrap().1, hurst(row));
+                    run += 1;
+                }
             }
+            assert_eq!((plan.cells(), plan.lines, plan.seed_of(3)), (run, LINES, 8));
         }
-        assert_eq!((plan.cells(), plan.lines, plan.seed_of(3)), (run, LINES, 8));
     }
 
     #[test]

@@ -280,6 +280,90 @@ fn the_wavy_form_converges_with_the_square_of_the_distance_to_its_closed_form() 
     }
 }
 
+/// Contact radius of a sphere with waves on its way up to an indentation, or back from a larger one, by δ(a) alone: the
+/// smallest radius at which δ reaches the indentation, or the largest one below which δ falls under it.
+struct Branch<'a> {
+    exact: &'a asperity::reference::WavySphere,
+    loading: bool,
+    widest: f64,
+    /// δ at radii of equal distances, from the first one on.
+    levels: Vec<f64>,
+}
+
+impl<'a> Branch<'a> {
+    const STEPS: usize = 2000;
+
+    fn new(exact: &'a asperity::reference::WavySphere, loading: bool, widest: f64) -> Self {
+        let radius = |step: usize| widest * step as f64 / Self::STEPS as f64;
+        let levels = (0..=Self::STEPS).map(|step| exact.indentation(radius(step))).collect();
+        Branch { exact, loading, widest, levels }
+    }
+
+    fn radius(&self, d: f64) -> f64 {
+        let above = |step: &usize| self.levels[*step] >= d;
+        let high = if self.loading {
+            // From first touch, where δ falls, on to the rise.
+            let rises = self.levels.windows(2).position(|pair| pair[1] > pair[0]).unwrap();
+            (rises..=Self::STEPS).find(above).unwrap()
+        } else {
+            1 + (0..Self::STEPS).rev().find(|step| !above(step)).unwrap()
+        };
+        let radius = |step: usize| self.widest * step as f64 / Self::STEPS as f64;
+        invert(|a| self.exact.indentation(a), d, radius(high - 1), radius(high))
+    }
+}
+
+/// Indentation just above separation, m.
+const BACK: f64 = -0.0385;
+
+/// Back to just above separation and in again, so that an edge jumps over a wave on the way out and on the way in.
+#[test]
+fn the_wavy_form_follows_both_branches_and_jumps_of_its_closed_form() {
+    let (amplitude, wavelength, deepest) = (0.1_f64.powi(2) / 13.0, 0.1, 0.06);
+    let exact = asperity::reference::WavySphere {
+        radius: 1.0,
+        amplitude,
+        wavelength,
+        effective_modulus: 1e6,
+        work_of_adhesion: 4e3,
+    };
+    assert!(exact.is_monotone());
+    let form = Form::WavySphere { radius: 1.0, amplitude, wavelength };
+    let body = smooth(Some(form), 1.0, 1601, exact.effective_modulus, exact.work_of_adhesion);
+    let to = Leg::ToIndentation;
+    let history = body.history(&[to(deepest), to(BACK), to(deepest), Leg::ToSeparation], 401);
+    let widest = 0.51 * history.legs[0].curve.last().unwrap().contact_length;
+    let pull_off = -history.legs[3].smallest.force;
+    let branches = [true, false].map(|loading| Branch::new(&exact, loading, widest));
+    for (record, (branch, most)) in
+        history.legs.iter().zip([(&branches[0], 0), (&branches[1], 1), (&branches[0], 1), (&branches[1], 1)])
+    {
+        let (mut jumps, mut followed, mut before) = (0, 0, None);
+        for point in record.curve.iter().filter(|point| point.springs > 0) {
+            let (d, found) = (point.indentation, 0.5 * point.contact_length);
+            // Beside a jump, and just before separation, either side is right to the error of the grid.
+            if d < BACK - 1e-9 {
+                continue;
+            }
+            let [a, b] = [-2e-5, 2e-5].map(|by| branch.radius((d + by).min(deepest)));
+            if (a - b).abs() > 0.1 * wavelength {
+                continue;
+            }
+            let expected = branch.radius(d);
+            assert!((found - expected).abs() < 0.1 * wavelength, "d = {d}: {found} {expected}");
+            assert!((exact.indentation(found) - d).abs() < 2e-5, "d = {d}: {found} {expected}");
+            let force = exact.force(expected);
+            assert!((point.force - force).abs() < 2e-3 * pull_off, "{point:?}, {force}");
+            jumps += usize::from(before.is_some_and(|before: f64| (before - found).abs() > 0.2 * wavelength));
+            before = Some(found);
+            followed += 1;
+        }
+        println!("{:?}: {followed} points, {jumps} jumps", record.leg);
+        assert_eq!(jumps, most, "{:?}", record.leg);
+        assert!(followed > 300, "{:?}: {followed} points", record.leg);
+    }
+}
+
 /// Where the line falls behind a crest an inner spring is the most stretched one, and the rule of Hess detaches earlier
 /// than JKR. Both figures are of an independent computation.
 #[test]

@@ -14,9 +14,11 @@ use asperity::explorer::snapshot::SolvedScene;
 use asperity::explorer::study::{Appraiser, Finding, Found, PaneData, Study, Task};
 use asperity::explorer::theme::Marker;
 use asperity::explorer::update::{Effect, study_tasks};
-use asperity::scene::{Document, Scene};
+use asperity::scene::{Document, RoughnessParameter, Scene};
 use asperity::simulation::RunError;
-use asperity::study::map::{Charted, HURSTS, KAPPAS, Level, LiveMap, RECORD, Template, hurst, kappa};
+use asperity::study::map::{
+    COLUMNS, Charted, HURSTS, Level, LiveMap, RECORD, Template, hurst, parameter_value,
+};
 use asperity::study::{CellSummary, Quantity, Spread};
 use std::sync::Arc;
 use std::sync::mpsc::{Sender, channel};
@@ -24,6 +26,10 @@ use std::time::Duration;
 
 /// Fills the levels of a map that it is told to; nothing else is known to it.
 struct Mapper(Vec<Level>);
+
+fn kappa(column: usize) -> f64 {
+    parameter_value(RoughnessParameter::Kappa, column)
+}
 
 /// Adhesion falls with κ, and with it the regime.
 fn cell(kappa: f64, hurst: f64) -> CellSummary {
@@ -97,6 +103,36 @@ pub fn charted(document: Document) -> Driver {
 fn place(driver: &Driver) -> (f64, f64) {
     let (hurst, kappa) = driver.model.place().unwrap();
     (kappa.unwrap(), hurst)
+}
+
+#[test]
+fn e_maps_over_the_elastic_energy() {
+    within(60, || {
+        let mut driver = charted(rough());
+        let over_kappa = place(&driver);
+        driver.press("e");
+        for size in [(120, 40), (80, 24)] {
+            driver.resize(size);
+            assert!(driver.text().contains("over H, e_el/γ, 4 profiles"), "{}", driver.text());
+            assert!(driver.text().contains("◆ H 0.7, e_el/γ "), "{}", driver.text());
+        }
+        let ratio = driver.model.governing().unwrap().elastic_energy_ratio.unwrap();
+        assert_eq!(place(&driver), (ratio, over_kappa.1));
+        // The mark goes to values of the map, and the scene with it.
+        driver.press("k");
+        let (moved, _) = place(&driver);
+        let values =
+            (0..COLUMNS).map(|column| parameter_value(RoughnessParameter::ElasticEnergyRatio, column));
+        assert!(
+            moved > ratio && values.into_iter().any(|value| (moved / value - 1.0).abs() < 1e-9),
+            "{moved}"
+        );
+        let kappa = driver.model.governing().unwrap().kappa.unwrap();
+        assert!((kappa / over_kappa.0 - (moved / ratio).sqrt()).abs() < 1e-9, "{kappa}");
+        driver.press("e");
+        assert!(driver.text().contains("over H, κ, 4 profiles"), "{}", driver.text());
+        assert!((place(&driver).0 / kappa - 1.0).abs() < 1e-12);
+    });
 }
 
 #[test]
@@ -205,7 +241,7 @@ fn the_map_is_exported_as_it_is_seen() {
         };
         let (cells, _) = export("", "map.csv");
         let rows: Vec<&str> = cells.lines().collect();
-        assert_eq!(rows.len(), 1 + KAPPAS * HURSTS);
+        assert_eq!(rows.len(), 1 + COLUMNS * HURSTS);
         assert_eq!(
             rows[0],
             "roughness.hurst,kappa,lines,regime,zero_load_adhesion_share_mean,zero_load_adhesion_share_low,\
@@ -226,7 +262,7 @@ fn the_map_is_exported_as_it_is_seen() {
         let (figure, _) = export("X", "sections.svg");
         assert!(figure.starts_with("<svg") && figure.contains("at κ 8"), "{figure}");
         let (cells, _) = export("", "sections.csv");
-        assert_eq!(cells.lines().count(), 1 + KAPPAS + HURSTS - 1);
+        assert_eq!(cells.lines().count(), 1 + COLUMNS + HURSTS - 1);
         let (nothing, said) = export("", "map.json");
         assert!(nothing.is_empty() && said.contains("the name must end in .csv, .svg, .txt"), "{said}");
         // The curve, while another pane is selected.
@@ -293,7 +329,7 @@ fn adhesion_given_by_its_work_stays_so() {
         let adhesion = driver.model.document.scene().adhesion.unwrap();
         assert!(adhesion.kappa.is_none() && adhesion.work.is_some_and(|work| work != 0.02));
         let (at, hurst) = place(&driver);
-        assert!((0..KAPPAS).any(|column| (kappa(column) / at - 1.0).abs() < 1e-9), "{at}");
+        assert!((0..COLUMNS).any(|column| (kappa(column) / at - 1.0).abs() < 1e-9), "{at}");
         assert_eq!(hurst, 0.75);
         // What ran agrees.
         let computed = driver.model.computed.as_ref().unwrap().outcome.governing.kappa.unwrap();
@@ -368,7 +404,7 @@ fn a_scene_without_a_map_says_why() {
         // A cell that cannot be computed.
         let mut driver = charted(rough());
         let mut map = LiveMap::clone(driver.model.chart.map.as_deref().unwrap());
-        for (column, row) in (0..KAPPAS).flat_map(|column| (0..HURSTS).map(move |row| (column, row))) {
+        for (column, row) in (0..COLUMNS).flat_map(|column| (0..HURSTS).map(move |row| (column, row))) {
             map.set(column, row, Err("the force is never reached".to_owned()));
         }
         let generation = driver.model.generation;

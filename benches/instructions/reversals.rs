@@ -1,0 +1,109 @@
+//! Instructions of 64 reversals over those of one loop to the deepest of them on the same line, trees included.
+
+use crate::instructions::callgrind;
+use asperity::contact::{
+    ContactTree, EdgeModel, Foundation, GridEdges, HessRule, Reversals, Solver, SubCellEdges, exact,
+};
+use asperity::scene::{Edges, Leg};
+use asperity::surface::{Line, SelfAffine, UnitRoughness};
+use std::hint::black_box;
+
+/// Most loops that the reversals may take.
+const MOST_LOOPS: f64 = 4.0;
+
+/// Tells the process that callgrind watches what to do: the number of a task.
+const CHILD: &str = "ASPERITY_INSTRUCTIONS_OF_REVERSALS";
+
+const SPRINGS: usize = 1 << 16;
+const SAMPLES: usize = 512;
+/// Turning points at equal forces up to the load, in units of E* h L.
+const REVERSALS: u32 = 64;
+const LOAD: f64 = 0.4;
+const LENGTH: f64 = 1.0e-3;
+const EFFECTIVE_MODULUS: f64 = 2.0e6;
+const RMS_HEIGHT: f64 = 5.0e-7;
+
+/// κ and edges of the bodies. At a large κ most patches are new at each turning point.
+const BODIES: [(f64, Edges); 6] = [
+    (2.0, Edges::Grid),
+    (2.0, Edges::SubCell),
+    (6.0, Edges::Grid),
+    (6.0, Edges::SubCell),
+    (20.0, Edges::Grid),
+    (20.0, Edges::SubCell),
+];
+
+/// Part of a body's computation: its line alone, which all parts need; the loop; the reversals.
+#[derive(Clone, Copy)]
+enum Part {
+    Line,
+    Loop,
+    Reversals,
+}
+
+const PARTS: [Part; 3] = [Part::Line, Part::Loop, Part::Reversals];
+
+/// Does what the environment asks of a process under callgrind; `false` where it asks for nothing.
+pub fn run_as_child() -> bool {
+    let Ok(asked) = std::env::var(CHILD) else { return false };
+    let task: usize = asked.parse().expect("a number");
+    let ((kappa, edges), part) = (BODIES[task / PARTS.len()], PARTS[task % PARTS.len()]);
+    let spectrum = SelfAffine { hurst: 0.7, first: 1, last: SPRINGS as u64 / 4 };
+    let rough = UnitRoughness::synthesize(spectrum, 1, SPRINGS).expect("memory for the line");
+    let line = Line::new(LENGTH, SPRINGS, None, Some(&rough.heights), RMS_HEIGHT).expect("a finite line");
+    let foundation = Foundation::new(LENGTH, SPRINGS, EFFECTIVE_MODULUS);
+    let rms_gradient = RMS_HEIGHT * spectrum.gradient_per_height(LENGTH);
+    let work = RMS_HEIGHT * rms_gradient * EFFECTIVE_MODULUS / (kappa * kappa);
+    let hess = HessRule::new(foundation, work);
+    match edges {
+        Edges::Grid => compute(&line.gaps, GridEdges::new(hess), foundation, part),
+        Edges::SubCell => compute(&line.gaps, SubCellEdges::new(hess), foundation, part),
+    }
+    true
+}
+
+fn compute<E: EdgeModel>(gaps: &[f64], edges: E, foundation: Foundation, part: Part) {
+    let force = LOAD * EFFECTIVE_MODULUS * LENGTH * RMS_HEIGHT;
+    let body = |tree| exact::adhesive(gaps, tree, edges, foundation, SAMPLES);
+    match part {
+        Part::Line => drop(black_box(gaps.len())),
+        Part::Loop => {
+            let tree = ContactTree::build(gaps, E::EDGES).expect("memory for the tree");
+            let mut body = body(&tree);
+            for leg in [Leg::ToForce(force), Leg::ToSeparation] {
+                black_box(body.advance(leg).expect("a reachable leg"));
+            }
+        }
+        Part::Reversals => {
+            let tree = ContactTree::build(gaps, E::EDGES).expect("memory for the tree");
+            let turn = |turn: u32| Leg::ToForce(force * f64::from(turn) / f64::from(REVERSALS));
+            let turns: Vec<Leg> = (1..=REVERSALS).map(turn).collect();
+            let mut reversals = Reversals::new(body(&tree), &turns).expect("reachable turning points");
+            let mut see = |_, reversal| {
+                black_box(reversal);
+                Ok(())
+            };
+            reversals.each(&[], &mut see).expect("memory for the unloadings");
+        }
+    }
+}
+
+/// Counts all bodies: a table, and a line for each that takes too many loops. `arguments` start the process as a child.
+pub fn count(arguments: &[&str]) -> (String, Vec<String>) {
+    let mut table = format!("{REVERSALS} reversals of {SPRINGS} springs, in loops\n");
+    let mut failures = Vec::new();
+    for (index, (kappa, edges)) in BODIES.into_iter().enumerate() {
+        let counted = |part: Part| {
+            let task = (PARTS.len() * index + part as usize).to_string();
+            callgrind::profile(arguments, &[(CHILD, &task)]).total()
+        };
+        let [line, one, all] = PARTS.map(counted);
+        let loops = (all - line) as f64 / (one - line) as f64;
+        let row = format!("κ = {kappa:>4}, {edges:?}: {loops:.2}");
+        if loops > MOST_LOOPS {
+            failures.push(format!("{row}, at most {MOST_LOOPS}"));
+        }
+        table += &format!("{row}\n");
+    }
+    (table, failures)
+}

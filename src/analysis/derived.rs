@@ -1,0 +1,105 @@
+//! Derived quantities of a contact from plain numbers in SI units. Every other part of the program calls these.
+//!
+//! Adhesion forces of smooth bodies are in [`crate::reference`], the rule of Hess is [`crate::contact::HessRule`], the
+//! elastic energy of conformity [`Amplitude::elastic_energy`].
+
+use crate::scene::RoughnessParameter;
+use crate::surface::Amplitude;
+use std::f64::consts::PI;
+
+/// Roughness–adhesion parameter κ = √(h⟨∇z⟩E*/γ) of roughness under an effective modulus E*, Pa, and a work of adhesion γ,
+/// J/m²; `None` where κ is beyond all numbers. Popov and Filippov (2012), eq. (11).
+#[must_use]
+pub fn roughness_adhesion_parameter(
+    amplitude: Amplitude,
+    effective_modulus: f64,
+    work_of_adhesion: f64,
+) -> Option<f64> {
+    let parameter = RoughnessParameter::Kappa;
+    value_of(parameter, energy_of(parameter, amplitude, effective_modulus), work_of_adhesion)
+}
+
+/// Elastic energy of conformity over the work of adhesion, e_el/γ, of roughness under an effective modulus E*, Pa, and a
+/// work of adhesion γ, J/m²; `None` where the ratio is beyond all numbers. Persson and Tosatti (2001).
+#[must_use]
+pub fn elastic_energy_ratio(
+    amplitude: Amplitude,
+    effective_modulus: f64,
+    work_of_adhesion: f64,
+) -> Option<f64> {
+    let parameter = RoughnessParameter::ElasticEnergyRatio;
+    value_of(parameter, energy_of(parameter, amplitude, effective_modulus), work_of_adhesion)
+}
+
+/// Ideal adhesion force F_a,max = √(πγE*L³), N, of a flat face of length L, m, with a work of adhesion γ, J/m², and an
+/// effective modulus E*, Pa. Popov and Filippov (2012), eq. (14); Kendall (1971).
+#[must_use]
+pub fn ideal_adhesion_force(work_of_adhesion: f64, effective_modulus: f64, length: f64) -> f64 {
+    (PI * work_of_adhesion * effective_modulus * length.powi(3)).sqrt()
+}
+
+/// Tabor number μ = (ργ²/(E*²z₀³))^(1/3) of a summit of curvature radius ρ, m, under a work of adhesion γ, J/m², an effective
+/// modulus E*, Pa, and an attraction of range z₀, m. Tabor (1977).
+#[must_use]
+pub fn tabor_number(curvature_radius: f64, work_of_adhesion: f64, effective_modulus: f64, range: f64) -> f64 {
+    ((work_of_adhesion / effective_modulus).powi(2) * curvature_radius / range.powi(3)).cbrt()
+}
+
+/// Stiffness dF/dd = E* l, N/m, of a contact of length l, m, whose edges keep their place, under an effective modulus E*, Pa.
+/// Popov and Filippov (2012), eq. (1).
+#[must_use]
+pub fn contact_stiffness(effective_modulus: f64, contact_length: f64) -> f64 {
+    effective_modulus * contact_length
+}
+
+/// Unit of forces E* h L, N, of a body of an rms height h, m, and a length L, m, under an effective modulus E*, Pa. Pohrt,
+/// Popov and Filippov (2012).
+#[must_use]
+pub fn force_unit(effective_modulus: f64, rms_height: f64, length: f64) -> f64 {
+    effective_modulus * rms_height * length
+}
+
+/// Energy per area of a line that a parameter compares with the work of adhesion, J/m²: h⟨∇z⟩E* or e_el.
+pub(super) fn energy_of(parameter: RoughnessParameter, amplitude: Amplitude, effective_modulus: f64) -> f64 {
+    match parameter {
+        RoughnessParameter::Kappa => amplitude.rms_height * amplitude.rms_gradient * effective_modulus,
+        RoughnessParameter::ElasticEnergyRatio => amplitude.elastic_energy(effective_modulus),
+    }
+}
+
+/// Value of a parameter at this energy and work of adhesion per area, J/m². So little adhesion that the value is beyond
+/// all numbers is none.
+pub(super) fn value_of(parameter: RoughnessParameter, energy: f64, work: f64) -> Option<f64> {
+    Some(parameter.of_energy_over_work(energy / work)).filter(|value| work > 0.0 && value.is_finite())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_parameter_beyond_all_numbers_is_none() {
+        assert_eq!(value_of(RoughnessParameter::Kappa, 1e300, 5e-324), None);
+        for (parameter, value) in RoughnessParameter::ALL.into_iter().zip([2.0, 4.0]) {
+            assert_eq!(value_of(parameter, 1.0, 0.0), None);
+            assert_eq!(value_of(parameter, 8.0, 2.0), Some(value));
+        }
+    }
+
+    #[test]
+    fn quantities_follow_from_plain_numbers() {
+        let amplitude =
+            Amplitude { rms_height: 3.0, rms_gradient: 6.0, rms_curvature: 15.0, mean_wave_number: 0.5 };
+        // h⟨∇z⟩E*/γ = 36 and E* h² q̄/4γ = 2.25.
+        assert_eq!(roughness_adhesion_parameter(amplitude, 4.0, 2.0), Some(6.0));
+        assert_eq!(elastic_energy_ratio(amplitude, 4.0, 2.0), Some(2.25));
+        assert_eq!(roughness_adhesion_parameter(amplitude, 4.0, 0.0), None);
+        // π γ E* L³ = 750 π.
+        let force = ideal_adhesion_force(2.0, 3.0, 5.0);
+        assert!((force - (750.0 * PI).sqrt()).abs() < 1e-13, "{force}");
+        // ρ γ²/(E*² z₀³) = 27.
+        let number = tabor_number(6.0, 3.0, 0.5, 2.0);
+        assert!((number - 3.0).abs() < 1e-14, "{number}");
+        assert_eq!((contact_stiffness(3.0, 2.0), force_unit(2.0, 3.0, 4.0)), (6.0, 24.0));
+    }
+}
