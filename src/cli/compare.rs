@@ -15,6 +15,7 @@ const EXAMPLES: &str = "\
 Examples:
   asperity compare ideal-adhesion pressure-sensitive
   asperity compare before.ron after.ron --set roughness.seed=7 | less
+  asperity compare measured.ron --as-line   ... the equivalent line with the profile itself
   asperity run before.ron after.ron -o loops.svg
                                             ... draws both force curves into one picture";
 
@@ -26,8 +27,11 @@ pub struct CompareArguments {
     #[arg(value_name = "SCENE")]
     pub first: String,
     /// The scene it is compared with
-    #[arg(value_name = "OTHER")]
-    pub second: String,
+    #[arg(value_name = "OTHER", required_unless_present = "as_line")]
+    pub second: Option<String>,
+    /// Compare with the measured profile itself as the line
+    #[arg(long, conflicts_with = "second")]
+    pub as_line: bool,
     /// Changes of both scenes.
     #[command(flatten)]
     pub overrides: Overrides,
@@ -39,7 +43,11 @@ pub struct CompareArguments {
 /// Opens the explorer on two scenes side by side; without a terminal, prints both in words and figures.
 pub(super) fn compare(arguments: &CompareArguments, out: &mut dyn Write) -> Result<(), CliError> {
     let open = |name: &str| arguments.overrides.apply(open_argument(name)?);
-    let (first, second) = (open(&arguments.first)?, open(&arguments.second)?);
+    let first = open(&arguments.first)?;
+    let second = match &arguments.second {
+        Some(second) => open(second)?,
+        None => first.set("roughness.as_line", "true")?,
+    };
     if stdin().is_terminal() && stdout().is_terminal() {
         let opening = Opening { beside: Some(second), ..Opening::from(first) };
         return explore::open(opening, arguments.look.options(), out);

@@ -5,7 +5,7 @@ use crate::draw::PngError;
 use crate::explorer::OpeningError;
 use crate::explorer::config::ConfigError;
 use crate::io::WriteError;
-use crate::scene::{SceneErrors, quoted};
+use crate::scene::{MeasuredHashError, SceneErrors, quoted};
 use crate::simulation::RunError;
 use crate::spectrum::SpectrumError;
 use crate::study::LinesError;
@@ -82,6 +82,9 @@ pub enum CliError {
         /// Option that would be lost.
         option: &'static str,
     },
+    /// A measured file cannot be read, or is not the one behind a table.
+    #[error(transparent)]
+    Measured(#[from] MeasuredHashError),
     /// Measured surfaces cannot be analysed.
     #[error("{file}: {error}")]
     Spectrum {

@@ -33,10 +33,10 @@ pub(super) fn line(arguments: &LineArguments, stdout: &mut dyn Write) -> Result<
     let format = arguments.output.format(None, &endings, TableFormat::Csv)?;
     let document = arguments.scene.open()?;
     arguments.output.check()?;
-    let provenance = arguments.output.provenance(&document, document.scene(), TableContent::Profile);
     let mut simulation = simulation_of(&document);
     let (line, ..) = simulation
         .make_line(document.scene())
         .map_err(|error| CliError::Run { scene: document.name().into(), error })?;
+    let provenance = arguments.output.provenance(&document, document.scene(), TableContent::Profile)?;
     arguments.output.write(stdout, |out| write_line(out, format, &provenance, line))
 }

@@ -12,7 +12,7 @@ use crate::export::{
     ContactSets, PreloadReport, TableFormat, ensemble_text, force_figure, summary, write_curve,
     write_ensemble_json, write_ensemble_table, write_json, write_line,
 };
-use crate::scene::{Document, Scene, TableContent, arguments_of_spectra, open_argument};
+use crate::scene::{Document, Scene, SpectraTable, TableContent, open_argument};
 use crate::simulation::Outcome;
 use crate::study::{self, Preloads};
 use crate::text::path_name;
@@ -88,7 +88,7 @@ pub struct RunArguments {
 }
 
 /// Most random lines.
-const MOST_LINES: i64 = 1_000_000;
+pub(super) const MOST_LINES: i64 = 1_000_000;
 
 /// Formats of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -171,6 +171,7 @@ pub(super) fn run(arguments: &RunArguments, stdout: &mut dyn Write) -> Result<()
         return surface::surface(&again, stdout);
     }
     let document = arguments.scene.open()?;
+    document.check_measured_files()?;
     arguments.output.check()?;
     if let Some(preloads) = arguments.preloads {
         return over_preloads(arguments, &document, (format, preloads), stdout);
@@ -197,16 +198,18 @@ pub(super) fn run(arguments: &RunArguments, stdout: &mut dyn Write) -> Result<()
     if let (Some(format), Some(TableContent::Profile)) = (format.of_table(), document.table_content()) {
         let mut simulation = simulation_of(&document);
         let (line, ..) = simulation.make_line(scene).map_err(failed)?;
-        let provenance = arguments.output.provenance(&document, scene, TableContent::Profile);
+        let provenance = arguments.output.provenance(&document, scene, TableContent::Profile)?;
         return arguments.output.write(stdout, |out| write_line(out, format, &provenance, line));
     }
     let outcome = simulation_of(&document).run(scene, &|| false, &mut |_, _, _| Ok(())).map_err(failed)?;
     let choice = choice.as_ref();
     let estimate = estimate_for(format, &document, scene, &outcome, choice)?;
-    let provenance = arguments.output.provenance(&document, scene, TableContent::ForceCurve);
-    arguments.output.write(stdout, |out| match (format, format.of_table()) {
-        (_, Some(format)) => write_curve(out, format, &provenance, &outcome),
-        (RunFormat::Json, _) => write_json(out, scene, &outcome, choice, estimate.as_ref()),
+    if let Some(format) = format.of_table() {
+        let provenance = arguments.output.provenance(&document, scene, TableContent::ForceCurve)?;
+        return arguments.output.write(stdout, |out| write_curve(out, format, &provenance, &outcome));
+    }
+    arguments.output.write(stdout, |out| match format {
+        RunFormat::Json => write_json(out, scene, &outcome, choice, estimate.as_ref()),
         _ => {
             out.write_all(summary(scene, &outcome, estimate.as_ref()).as_bytes())?;
             choice.map_or(Ok(()), |choice| writeln!(out, "\n{}", choice.sentence()))
@@ -217,7 +220,9 @@ pub(super) fn run(arguments: &RunArguments, stdout: &mut dyn Write) -> Result<()
 /// Arguments of `surface` where the scene is a table of spectra.
 fn surface_again(arguments: &RunArguments, format: RunFormat) -> Result<Option<SurfaceArguments>, CliError> {
     let path = Path::new(&arguments.scene.scene);
-    let Some(deciding) = arguments_of_spectra(path) else { return Ok(None) };
+    let Some(SpectraTable { arguments: deciding, measured }) = SpectraTable::open(path) else {
+        return Ok(None);
+    };
     let refused = |reason: String| CliError::Spectra { file: path_name(path), reason };
     let named = ["asperity", "surface"].map(str::to_owned).into_iter().chain(deciding);
     let parsed = Arguments::try_parse_from(named).map_err(|error| refused(error.kind().to_string()))?;
@@ -246,6 +251,7 @@ fn surface_again(arguments: &RunArguments, format: RunFormat) -> Result<Option<S
         }
     };
     let folder = path.parent().unwrap_or(Path::new("")).to_path_buf();
+    measured.iter().try_for_each(|hash| hash.check(&folder, &path_name(path)))?;
     Ok(Some(SurfaceArguments { format: Some(format), output: arguments.output.clone(), folder, ..surface }))
 }
 
@@ -355,10 +361,14 @@ fn on_lines(
 ) -> Result<(), CliError> {
     let results = study::solve_lines(scene, &document.resolve(""), lines as usize, arguments.threads())
         .map_err(|error| CliError::Lines { scene: document.name().into(), error })?;
-    let provenance = arguments.output.provenance(document, scene, TableContent::RandomProfiles(lines));
-    arguments.output.write(stdout, |out| match (format, format.of_table()) {
-        (_, Some(format)) => write_ensemble_table(out, format, &provenance, &results),
-        (RunFormat::Json, _) => write_ensemble_json(out, scene, choice, &results),
+    if let Some(format) = format.of_table() {
+        let provenance = arguments.output.provenance(document, scene, TableContent::RandomProfiles(lines))?;
+        return arguments
+            .output
+            .write(stdout, |out| write_ensemble_table(out, format, &provenance, &results));
+    }
+    arguments.output.write(stdout, |out| match format {
+        RunFormat::Json => write_ensemble_json(out, scene, choice, &results),
         _ => {
             out.write_all(ensemble_text(scene, &results).as_bytes())?;
             choice.map_or(Ok(()), |choice| writeln!(out, "\n{}", choice.sentence()))

@@ -1,26 +1,34 @@
 //! `asperity surface`: measured surfaces, their statistics and spectrum, and the equivalent line.
 
+use super::run::MOST_LINES;
 use super::{CliError, OutputArguments};
 use crate::draw::figure_svg;
 use crate::export::{
-    Spectra, SurfaceContact, SurfaceFile, TableFormat, surface_text, write_surface_json, write_surface_table,
+    Spectra, SurfaceAdhesion, SurfaceContact, SurfaceFile, TableFormat, surface_text, write_surface_json,
+    write_surface_table,
 };
 use crate::io::{check_writable, write_new};
 use crate::scene::{
-    Adhesion, Document, Leg, MOST_POINTS, Material, Numerics, Provenance, Roughness, SCENE_VERSIONS, Scene,
-    exact_quantity, named_from, parse_quantity,
+    Adhesion, Document, Leg, MOST_POINTS, Material, MeasuredHash, MeasuredHashError, Numerics, Provenance,
+    Roughness, SCENE_VERSIONS, Scene, exact_quantity, named_from, parse_quantity,
 };
+use crate::simulation::RunError;
 use crate::spectrum::{Analysis, Detrend, End, Options, SpectrumError, analyse};
+use crate::study::MeasuredAdhesion;
+use crate::surface::EquivalentLine;
 use crate::text::path_name;
 use crate::topography::{Missing, ReadOptions, Topography, Unit, read};
 use clap::{Args, ValueEnum};
 use std::io::Write;
+use std::num::NonZero;
 use std::path::{Path, PathBuf};
+use std::thread::available_parallelism;
 
 const EXAMPLES: &str = "\
 Examples:
   asperity surface stylus.txt --unit um
-  asperity surface afm.gwy --tip-radius 10nm --modulus 2.7MPa --work 50mJ/m^2
+  asperity surface stylus.txt --unit um --modulus 2.7MPa --work 50mJ/m^2
+  asperity surface afm.gwy --modulus 2.7MPa --work 50mJ/m^2 --preload 1mN --lines 100
   asperity surface a.x3p b.x3p c.x3p --format json -o surface.json
   asperity surface profile.csv --unit um -o spectra.csv
   asperity surface afm.gwy --tip-radius 10nm -o spectra.svg
@@ -32,6 +40,10 @@ surface; the equivalent line is what the contact computation needs.";
 
 /// Springs of a scene for each of its shortest waves.
 const SPRINGS_PER_WAVE: f64 = 8.0;
+
+/// Random profiles of the adhesion force, and springs up to which they are computed unasked: some seconds.
+const LINES: u32 = 16;
+const MOST_SPRINGS: u64 = 1 << 17;
 
 /// Arguments of `surface`.
 #[derive(Args, Debug)]
@@ -58,9 +70,18 @@ pub struct SurfaceArguments {
     /// The scene names the surface and holds --unit, --detrend, --periodic and --continue-to.
     #[arg(long, value_name = "FILE", requires = "modulus", verbatim_doc_comment)]
     pub scene: Option<PathBuf>,
-    /// Work of adhesion, as 50mJ/m^2: gives κ and e_el/γ; needs --modulus
+    /// Work of adhesion, as 50mJ/m^2: gives κ, e_el/γ, F_a and regime; needs --modulus
     #[arg(long, value_name = "ENERGY", requires = "modulus", value_parser = energy)]
     pub work: Option<f64>,
+    /// Force that presses before the pull, as 1mN; default: touch alone
+    #[arg(long, value_name = "FORCE", requires = "modulus", value_parser = force)]
+    pub preload: Option<f64>,
+    /// Random profiles of the adhesion force; needs --work
+    ///
+    /// Each is solved on the fitted spectrum and on one drawn from its uncertainty: the spread
+    /// over lines beside that of the fit. Default: 16 up to 131 072 springs, else none.
+    #[arg(long, value_name = "COUNT", requires = "work", value_parser = clap::value_parser!(u32).range(2..=MOST_LINES), verbatim_doc_comment)]
+    pub lines: Option<u32>,
     /// Output file.
     #[command(flatten)]
     pub output: OutputArguments,
@@ -216,6 +237,13 @@ impl SurfaceArguments {
         options.chain(flags).chain(["--".to_owned()]).chain(self.files.iter().map(file)).collect()
     }
 
+    /// Hashes of the files for a table.
+    fn hashes(&self) -> Result<Vec<MeasuredHash>, MeasuredHashError> {
+        let files: Vec<_> = self.files.iter().map(|file| file.to_string_lossy()).collect();
+        let names = files.iter().map(|file| &**file);
+        MeasuredHash::of_files(names, &self.folder, self.output.folder())
+    }
+
     /// Files as they are opened.
     fn paths(&self) -> impl Iterator<Item = PathBuf> + '_ {
         self.files.iter().map(|file| self.folder.join(file))
@@ -240,15 +268,27 @@ pub(super) fn surface(arguments: &SurfaceArguments, stdout: &mut dyn Write) -> R
     let modulus = arguments.analysis.modulus;
     let contact = modulus.map(|modulus| SurfaceContact { modulus, work: arguments.work });
     if let (Some(path), Some(modulus)) = (&arguments.scene, modulus) {
-        let text = scene_text(arguments, path, &analysis, modulus)?;
-        write_new(path, arguments.force_scene, |out| out.write_all(text.as_bytes()))?;
+        let scene = scene(arguments, path, &analysis, modulus)?;
+        let document = Document::from_scene(&scene, &path_name(path))?;
+        write_new(path, arguments.force_scene, |out| out.write_all(document.text().as_bytes()))?;
     }
+    let states_adhesion = matches!(format, SurfaceFormat::Summary | SurfaceFormat::Json);
+    let adhesion = match modulus.filter(|_| arguments.work.is_some() && states_adhesion) {
+        Some(modulus) => Some(adhesion(arguments, &analysis, modulus)?),
+        None => None,
+    };
+    let adhesion = adhesion.as_ref();
+    let is_table = matches!(format, SurfaceFormat::Csv | SurfaceFormat::Npy);
+    let hashes = if is_table { arguments.hashes()? } else { Vec::new() };
     let table = |out: &mut dyn Write, format| {
-        write_surface_table(out, format, &Provenance::of_spectra(&arguments.deciding()), &analysis)
+        let provenance = Provenance::of_spectra(&arguments.deciding()).with_hashes(&hashes);
+        write_surface_table(out, format, &provenance, &analysis)
     };
     arguments.output.write(stdout, |out| match format {
-        SurfaceFormat::Summary => out.write_all(surface_text(&files, &analysis, contact).as_bytes()),
-        SurfaceFormat::Json => write_surface_json(out, &files, &analysis, contact),
+        SurfaceFormat::Summary => {
+            out.write_all(surface_text(&files, &analysis, contact, adhesion).as_bytes())
+        }
+        SurfaceFormat::Json => write_surface_json(out, &files, &analysis, contact, adhesion),
         SurfaceFormat::Csv => table(out, TableFormat::Csv),
         SurfaceFormat::Npy => table(out, TableFormat::Npy),
         SurfaceFormat::Svg => {
@@ -287,13 +327,35 @@ fn check_scene(arguments: &SurfaceArguments) -> Result<(), CliError> {
     }
 }
 
+/// Adhesion of the equivalent line, computed where that was asked for or takes but seconds.
+fn adhesion(
+    arguments: &SurfaceArguments,
+    analysis: &Analysis,
+    modulus: f64,
+) -> Result<SurfaceAdhesion, CliError> {
+    let scene = scene(arguments, Path::new(""), analysis, modulus)?;
+    scene.check()?;
+    let unasked = (scene.numerics.points <= MOST_SPRINGS).then_some(LINES);
+    let failed = |error| {
+        let file = arguments.paths().next();
+        CliError::Run { scene: file.map_or_else(String::new, |file| path_name(&file)), error }
+    };
+    let solve = |lines: u32| {
+        let line = EquivalentLine::from_spectra(vec![analysis.isotropic.clone()]).map_err(RunError::from)?;
+        let threads = available_parallelism().map_or(1, NonZero::get);
+        MeasuredAdhesion::solve(&scene, &line, lines, threads)
+    };
+    let computed = arguments.lines.or(unasked).map(solve).transpose().map_err(failed)?;
+    Ok(SurfaceAdhesion { scene, computed })
+}
+
 /// Scene of the equivalent line over the length of the scan, on springs that resolve its shortest wave.
-fn scene_text(
+fn scene(
     arguments: &SurfaceArguments,
     path: &Path,
     analysis: &Analysis,
     modulus: f64,
-) -> Result<String, CliError> {
+) -> Result<Scene, CliError> {
     let file = &arguments.files[0];
     let beside = |file: &Path| std::path::absolute(file).ok()?.parent().map(Path::to_path_buf);
     let name = match file.file_name() {
@@ -302,7 +364,7 @@ fn scene_text(
     };
     let waves = analysis.length * analysis.isotropic.range()[1] / std::f64::consts::TAU;
     let points = ((SPRINGS_PER_WAVE * waves) as u64).next_power_of_two().clamp(1024, MOST_POINTS);
-    let scene = Scene {
+    Ok(Scene {
         version: *SCENE_VERSIONS.end(),
         title: format!(
             "Equivalent line of {}",
@@ -325,12 +387,10 @@ fn scene_text(
             seed: 1,
         }),
         adhesion: arguments.work.map(|work| Adhesion::default().with_work(work)),
-        loading: vec![Leg::ToZeroForce, Leg::ToSeparation],
+        loading: vec![arguments.preload.map_or(Leg::ToZeroForce, Leg::ToForce), Leg::ToSeparation],
         numerics: Numerics { points, ..Numerics::default() },
         observe: Vec::new(),
-    };
-    let document = Document::from_scene(&scene, &path_name(path))?;
-    Ok(document.text().to_owned())
+    })
 }
 
 /// Length above 0, m.
@@ -341,6 +401,11 @@ fn length(text: &str) -> Result<f64, String> {
 /// Energy per area above 0, J/m².
 fn energy(text: &str) -> Result<f64, String> {
     positive(text, "J/m²")
+}
+
+/// Force above 0, N.
+fn force(text: &str) -> Result<f64, String> {
+    positive(text, "N")
 }
 
 /// Pressure above 0, Pa.

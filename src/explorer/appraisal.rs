@@ -94,7 +94,9 @@ impl Appraisal {
             Finding::Charted(_)
             | Finding::NotCharted(_)
             | Finding::Preloaded(_)
-            | Finding::NotPreloaded(_) => {}
+            | Finding::NotPreloaded(_)
+            | Finding::Adhesion(_)
+            | Finding::NoAdhesion(_) => {}
         }
     }
 }

@@ -1,6 +1,7 @@
 //! The state of the explorer: changed by `update` alone, drawn by the views.
 
 use super::action::{Content, Traffic};
+use super::adhesion_spread::AdhesionSpread;
 pub use super::appraisal::{Appraisal, Costs, Estimated};
 pub use super::chart::{Chart, OpenStudy};
 use super::completion::Completion;
@@ -242,6 +243,8 @@ pub struct Model {
     pub ghosts: Vec<Ghost>,
     /// True while the newest ghost is shown beside the scene, its profile in place of the close-up.
     pub side_by_side: bool,
+    /// Scene that becomes a ghost as soon as it is computed.
+    pub next_ghost: Option<Document>,
     /// Scene to open beside the present one as soon as that is computed.
     pub opens_beside: Option<Document>,
     /// Accuracy of the scene and the cost of accuracy.
@@ -250,6 +253,8 @@ pub struct Model {
     pub chart: Chart,
     /// Adhesion against preload.
     pub preloads: PreloadPane,
+    /// Adhesion of random profiles of a measured surface.
+    pub adhesion_spread: AdhesionSpread,
     /// The newest curve of a scene to look at: the one selected in the library, or the one with a value that is being
     /// typed.
     pub preview: Option<Arc<Preview>>,
@@ -323,10 +328,12 @@ impl Model {
             crosshair: None,
             ghosts: Vec::new(),
             side_by_side: false,
+            next_ghost: None,
             opens_beside: None,
             appraisal: Appraisal::default(),
             chart: Chart::default(),
             preloads: PreloadPane::default(),
+            adhesion_spread: AdhesionSpread::default(),
             preview: None,
             tried: None,
             pane: Pane::Force,

@@ -1,6 +1,7 @@
 //! Accuracy of the scene, its cost, and the map over κ and H: computed beside the worker, on a thread of its own, so
 //! that no edit waits for it. Whatever is asked for next ends what is under way.
 
+use super::adhesion_spread;
 use super::preload_curve::PreloadCurve;
 use super::snapshot::SolvedScene;
 use crate::accuracy::{
@@ -8,6 +9,7 @@ use crate::accuracy::{
 };
 use crate::scene::Scene;
 use crate::simulation::RunError;
+use crate::study::MeasuredAdhesion;
 use crate::study::map::{LiveMap, compute};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
@@ -46,6 +48,15 @@ pub enum Task {
         /// True if it waits until it is quiet.
         waits: bool,
     },
+    /// Missing random profiles of a measured surface.
+    Adhesion {
+        /// The profiles so far.
+        found: Arc<MeasuredAdhesion>,
+        /// Their scene.
+        scene: Arc<Scene>,
+        /// True if it waits until it is quiet.
+        waits: bool,
+    },
 }
 
 impl Task {
@@ -53,7 +64,10 @@ impl Task {
     fn waits(&self) -> bool {
         !matches!(
             self,
-            Task::Choose(..) | Task::Chart { waits: false, .. } | Task::Preloads { waits: false, .. }
+            Task::Choose(..)
+                | Task::Chart { waits: false, .. }
+                | Task::Preloads { waits: false, .. }
+                | Task::Adhesion { waits: false, .. }
         )
     }
 }
@@ -83,6 +97,10 @@ pub enum Finding {
     Preloaded(Arc<PreloadCurve>),
     /// There is no more of it, and why.
     NotPreloaded(String),
+    /// Adhesion of random profiles of a measured surface so far.
+    Adhesion(Arc<MeasuredAdhesion>),
+    /// There is no more of it, and why.
+    NoAdhesion(String),
 }
 
 /// A finding and the generation of the scene it belongs to.
@@ -140,6 +158,20 @@ pub trait Appraiser: Send {
         tell: &mut dyn FnMut(&PreloadCurve),
     ) -> Result<(), RunError> {
         curve.compute(scene, Path::new(FOLDER), stop, tell)
+    }
+
+    /// See [`adhesion_spread::compute`].
+    ///
+    /// # Errors
+    /// When a profile fails or `stop` says so.
+    fn adhesion(
+        &mut self,
+        found: &mut MeasuredAdhesion,
+        scene: &Scene,
+        stop: &dyn Fn() -> bool,
+        tell: &mut dyn FnMut(&MeasuredAdhesion),
+    ) -> Result<(), RunError> {
+        adhesion_spread::compute(found, scene, Path::new(FOLDER), stop, tell)
     }
 }
 
@@ -225,6 +257,14 @@ pub fn perform(
                 Err(error) => Finding::NotPreloaded(error.to_string()),
             }
         }
+        Task::Adhesion { found, scene, .. } => {
+            let mut found = MeasuredAdhesion::clone(found);
+            let mut tell = |found: &MeasuredAdhesion| tell(Finding::Adhesion(Arc::new(found.clone())));
+            match appraiser.adhesion(&mut found, scene, stop, &mut tell) {
+                Ok(()) => Finding::Adhesion(Arc::new(found)),
+                Err(error) => Finding::NoAdhesion(error.to_string()),
+            }
+        }
     }));
     tell(done.unwrap_or_else(|_| match task {
         Task::Estimate(_) => Finding::Estimated(None),
@@ -232,6 +272,7 @@ pub fn perform(
         Task::Choose(_, tolerance) => Finding::Chosen(*tolerance, Err(ChoiceError::Stopped)),
         Task::Chart { .. } => Finding::NotCharted("internal error, please report it".to_owned()),
         Task::Preloads { .. } => Finding::NotPreloaded("internal error, please report it".to_owned()),
+        Task::Adhesion { .. } => Finding::NoAdhesion("internal error, please report it".to_owned()),
     }));
 }
 

@@ -1,5 +1,6 @@
 //! Files: reading within limits, writing whole or not at all, JSON text and arrays of NumPy.
 
+mod hash;
 mod json;
 pub(crate) mod npy;
 mod read;
@@ -9,6 +10,7 @@ mod write;
 /// First characters of CSV that begins with the scene behind it.
 pub(crate) const PROVENANCE: &str = "# asperity ";
 
+pub(crate) use hash::{hexadecimal, sha256_of};
 pub use json::write_json_value;
 pub(crate) use read::*;
 #[cfg(feature = "tui")]

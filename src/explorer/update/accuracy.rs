@@ -27,11 +27,17 @@ pub fn study_tasks(model: &Model) -> Vec<Task> {
         scene: std::sync::Arc::clone(&computed.scene),
         waits: model.preloads.edited,
     });
+    let spread = model.adhesion_spread.wanted(computed).filter(|_| model.spectrum);
+    let spread = spread.map(|found| Task::Adhesion {
+        found,
+        scene: std::sync::Arc::clone(&computed.scene),
+        waits: model.adhesion_spread.edited,
+    });
     let estimate =
         (appraisal.estimated == Estimated::Waiting).then(|| Task::Estimate(std::sync::Arc::clone(computed)));
     let measure = (appraisal.shown && appraisal.costs.ended.is_none())
         .then(|| Task::Measure(std::sync::Arc::clone(&computed.scene)));
-    estimate.into_iter().chain(chart).chain(preloads).chain(measure).collect()
+    estimate.into_iter().chain(chart).chain(preloads).chain(spread).chain(measure).collect()
 }
 
 /// Obeys a command that has to do with accuracy.
@@ -110,6 +116,14 @@ pub fn found(model: &mut Model, found: Found) -> Vec<Effect> {
         }
         Finding::NotPreloaded(why) => {
             model.preloads.failed = Some(why);
+            Vec::new()
+        }
+        Finding::Adhesion(found) => {
+            model.adhesion_spread.found = found;
+            Vec::new()
+        }
+        Finding::NoAdhesion(why) => {
+            model.adhesion_spread.failed = Some(why);
             Vec::new()
         }
         finding => {

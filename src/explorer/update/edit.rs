@@ -365,6 +365,7 @@ fn renew(model: &mut Model) -> Vec<Effect> {
     model.progress = Some(0);
     model.appraisal.forget();
     model.preloads.renew();
+    model.adhesion_spread.renew();
     model.chart.renew(&scene_of(&model.document));
     // What was in hand was pressed on another line, or under another force.
     if model.hand.take().is_some() {

@@ -29,7 +29,10 @@ pub fn obey(model: &mut Model, command: Command) -> Vec<Effect> {
                 return vec![Effect::Beside, Effect::Show];
             }
         }
-        Command::ToggleSpectrum => toggle_spectrum(model),
+        Command::ToggleSpectrum => {
+            toggle_spectrum(model);
+            return vec![Effect::Study, Effect::Show];
+        }
         Command::Zoom(steps) => zoom(model, steps),
         Command::Pan(quarters) => pan(model, quarters),
         Command::ResetZoom => {
@@ -85,6 +88,7 @@ fn toggle_spectrum(model: &mut Model) {
     let shown = !model.spectrum;
     model.hide_in_place_of_the_line();
     model.spectrum = shown;
+    model.adhesion_spread.edited = false;
     model.pane = match model.pane {
         _ if shown => Pane::Spectrum,
         Pane::Spectrum => Pane::Force,

@@ -123,7 +123,7 @@ pub fn update(model: &mut Model, action: Action) -> Vec<Effect> {
         Action::Completed { typed, paths } => return complete::completed(model, &typed, paths),
         Action::Opened(Ok(opening)) => return chart::open(model, *opening),
         Action::Opened(Err(why)) => model.notice = Some(Notice::Error(why)),
-        Action::Previewed(preview) => model.preview = Some(preview),
+        Action::Previewed(preview) => return compare::previewed(model, preview),
         Action::Remembered(Ok(path)) => {
             model.notice = Some(Notice::Done(format!("colours and markers are kept in {}", path.display())));
         }
@@ -326,7 +326,11 @@ fn explore(model: &mut Model, command: Command) -> Vec<Effect> {
         Command::OpenPalette => return palette::open(model),
         Command::Reseed => return vec![Effect::DrawSeed],
         Command::Undo | Command::Redo => return edit::undo(model, command == Command::Undo),
-        Command::Pin | Command::Swap | Command::ClearGhosts | Command::ToggleSideBySide => {
+        Command::Pin
+        | Command::PinOtherUse
+        | Command::Swap
+        | Command::ClearGhosts
+        | Command::ToggleSideBySide => {
             return compare::obey(model, command);
         }
         Command::ToggleCrosshair

@@ -3,9 +3,11 @@
 use super::plot;
 use super::wrap::{filled, wrapped};
 use crate::draw::legend;
+use crate::explorer::adhesion_spread::{AdhesionSpread, PROFILES};
 use crate::explorer::model::Model;
 use crate::explorer::spectrum::SceneSpectra;
 use crate::explorer::theme::Meaning;
+use crate::export::measured_adhesion_text;
 use crate::scene::format_quantity;
 use crate::spectrum::Estimate;
 use crate::text::per_cent;
@@ -69,8 +71,26 @@ fn words(model: &Model, shown: Option<&SceneSpectra>) -> Vec<String> {
         }
         words.push(parts.join(" · "));
     }
+    if shown.moments.is_some() {
+        words.extend(adhesion(model));
+    }
     if words.is_empty() && shown.spectra == crate::export::Spectra::default() {
         words.push("the profile has no roughness and no spectrum".to_owned());
     }
     words
+}
+
+/// Adhesion force with its spread over random profiles beside that of the fit, as far as it is computed.
+fn adhesion(model: &Model) -> Option<String> {
+    model.computed.as_ref().filter(|computed| AdhesionSpread::is_of(&computed.scene))?;
+    let AdhesionSpread { found, failed, .. } = &model.adhesion_spread;
+    if failed.is_some() {
+        return failed.clone();
+    }
+    let goes_on = match found.profiles.len() {
+        PROFILES => String::new(),
+        count => format!(" · {count} of {PROFILES} lines"),
+    };
+    let force = measured_adhesion_text(found).unwrap_or_else(|| "…".to_owned());
+    Some(format!("F_a = {force}{goes_on}"))
 }
