@@ -37,6 +37,9 @@ mod measure {
     /// Time in which nothing comes before the next key: the one before is done with.
     const QUIET: Duration = Duration::from_millis(120);
 
+    /// A work of adhesion, J/m², that is typed: from the third digit on each character gives another curve.
+    const VALUE: &str = "0.0123456";
+
     /// What is typed where, and what it may take.
     struct Case {
         what: &'static str,
@@ -92,6 +95,7 @@ mod measure {
         println!("{:<36} {:>8} {:>8} {:>8} {:>6}", "key", "p50", "p99", "max", "bar");
         let mut terminal = opened(options.scene);
         tell("selecting: the key is seen", &echoes(&mut terminal, options.runs), ECHO);
+        tell("typing a value: the digit is seen", &digits(&mut terminal, options.runs), ECHO);
         for case in &CASES {
             let (echo, done) = edits(&mut terminal, case, options.runs);
             tell(case.what, &done, case.bar);
@@ -124,6 +128,26 @@ mod measure {
             let before = selected(&terminal.rows());
             let key = if run / 10 % 2 == 0 { "j" } else { "k" };
             times.push(time(terminal, key, |rows| selected(rows) != before));
+            terminal.settle_for(QUIET);
+        }
+        times
+    }
+
+    /// Times from a digit of a value to the frame that has it, ms, while curves of the values typed so far are computed.
+    fn digits(terminal: &mut Terminal, runs: usize) -> Vec<f64> {
+        select(terminal, "work of adhesion");
+        let mut times = Vec::new();
+        while times.len() < runs {
+            terminal.send("e");
+            terminal.settle_for(QUIET);
+            let mut typed = ": ".to_owned();
+            for digit in VALUE.split_inclusive(|_: char| true) {
+                typed.push_str(digit);
+                times.push(time(terminal, digit, |rows| {
+                    selected(rows).is_some_and(|row| row.contains(&typed))
+                }));
+            }
+            terminal.send("\x1b");
             terminal.settle_for(QUIET);
         }
         times

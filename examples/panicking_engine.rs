@@ -1,8 +1,8 @@
-//! The explorer with an engine that panics on the seed 13, or with the argument `draw` one whose view
-//! does. The tests open it to see that the explorer says so and goes on, or else gives the terminal
-//! back.
+//! The explorer with an engine that panics on the seed 13 and computes without end on the seed 14, or with the argument
+//! `draw` one whose view panics. The tests open it to see that the explorer says so and goes on, shows keys at once
+//! whatever the engine does, or else gives the terminal back.
 
-use asperity::contact::ContactTree;
+use asperity::contact::{ContactError, ContactTree};
 use asperity::explorer::model::Model;
 use asperity::explorer::worker::Engine;
 use asperity::explorer::{Options, open_with, view};
@@ -12,8 +12,10 @@ use asperity::surface::Line;
 use ratatui::Frame;
 use std::process::ExitCode;
 use std::sync::Arc;
+use std::thread::sleep;
+use std::time::Duration;
 
-/// An engine that panics on the seed 13, and simulates otherwise.
+/// An engine that panics on the seed 13, takes all the time it is given on the seed 14, and simulates otherwise.
 struct Superstitious(Simulation);
 
 impl Engine for Superstitious {
@@ -24,6 +26,12 @@ impl Engine for Superstitious {
         after: &mut AfterLeg<'_>,
     ) -> Result<Outcome, RunError> {
         beware(scene);
+        if matches!(scene.roughness, Some(Roughness::SelfAffine { seed: 14, .. })) {
+            while !stop() {
+                sleep(Duration::from_millis(1));
+            }
+            return Err(ContactError::Interrupted.into());
+        }
         self.0.run(scene, stop, after)
     }
 

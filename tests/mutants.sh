@@ -37,11 +37,11 @@ own="$room" below="" above="" beside="" slow="" unfit=""
 case "$room" in
 scene)
     below="disk io memory parallel spectrum text topography" above="analysis contact reference simulation surface"
-    beside="scene readme/scenes fuzz_corpus" slow="nesting_does_not_overflow" unfit="every_target_has"
+    beside="engine/scene fuzz/corpus program/readme/scenes" slow="nesting_does_not_overflow" unfit="every_target_has"
     ;;
 surface)
     below="contact disk io memory parallel scene spectrum text topography" above="analysis reference simulation"
-    beside="closed_forms subcell fuzz_corpus" unfit="every_target_has"
+    beside="engine/closed_forms engine/subcell fuzz/corpus" unfit="every_target_has"
     slow="a_sphere_in_other_units heights_are_those hertz_without power_laws_converge rough_bodies rough_lines
         what_is_kept what_is_lost"
     ;;
@@ -49,14 +49,15 @@ analysis) below="contact disk io memory parallel scene spectrum surface text top
 store)
     own="study" files=(src/study/{store,done,other_plan,record,merge,tables,shard}.rs)
     below="analysis contact disk draw io memory parallel reference scene simulation spectrum surface text topography"
-    above="accuracy check export" beside="simulated_disk sweep"
+    above="accuracy check export" beside="engine/simulated_disk program/sweep"
     # The unfit ones start the program, which is not there, or do not always pass.
     export CARGO_BIN_EXE_asperity=""
     unfit="a_disk_that_does foreign:: killed_ processes:: two_thousand" slow="a_study_outlives a_saved_scene every_prefix"
     ;;
 contact)
     below="disk io memory parallel scene spectrum surface text topography" above="analysis reference simulation"
-    beside="closed_forms incremental laws reversals stepwise subcell sums"
+    beside="engine/closed_forms engine/incremental engine/laws engine/reversals engine/stepwise engine/subcell
+        engine/sums"
     slow="a_million_terms a_sphere_in_other_units a_step_costs contact_sets_on_the_way forces_at_full_contact
         hertz_without power_laws_converge_to rough_lines_of_few what_is_lost"
     ;;
@@ -88,10 +89,29 @@ copy_room() {
     done < <(find "src/$name" "src/$name.rs" -type f 2>/dev/null)
 }
 
+# Files of the tests beside the room that its package includes: the roots of those that are modules of a root, and the
+# others themselves.
+roots() {
+    local name
+    for name in $beside; do
+        case "$name" in */*/*) echo "$name" ;; *) echo "${name%/*}/main" ;; esac
+    done | sort -u
+}
+
+# Leaves in a root only the modules beside the room, and those that these share.
+choose_modules() {
+    local root="$tree/tests/$1/main.rs"
+    awk -v chosen=" $(for name in $beside; do echo "${name#"$1/"}"; done | xargs) formed mutator numerics " '
+        /^#\[/ { held = held $0 "\n"; next }
+        !/^mod [a-z_]+;$/ || held ~ /path/ || index(chosen, " " substr($2, 1, length($2) - 1) " ") { print held $0 }
+        { held = "" }' "$root" >"$root.chosen"
+    mv "$root.chosen" "$root"
+}
+
 # Makes a package of the room, those above it and its tests, all in one program, and a package below it of those that
 # do not change.
 assemble() {
-    local name file
+    local name file module
     rm -rf "$tree"
     mkdir -p "$tree/below"
     cp -r docs presets fuzz tests "$tree/"
@@ -99,7 +119,7 @@ assemble() {
     rm "$tree"/tests/*.sh "$tree/fuzz/Cargo.toml"
     for name in $below; do copy_room "$name" "$tree/below"; done
     for name in $own $above; do copy_room "$name" "$tree"; done
-    for file in tests/snapshots/*.snap; do cp "$file" "$tree/tests/snapshots/asperity__of_$(basename "$file")"; done
+    for file in tests/engine/snapshots/*.snap; do cp "$file" "$tree/tests/engine/snapshots/asperity__${file##*/}"; done
     # Items that a crate keeps to itself are shared by two of them.
     find "$tree/below" -name '*.rs' -exec sed -i 's/pub(crate)/pub/' {} +
     {
@@ -111,8 +131,15 @@ assemble() {
         echo 'extern crate self as asperity;'
         for name in $below; do echo "pub use below::$name;"; done
         for name in $own $above; do echo "pub mod $name;"; done
-        for name in $beside; do printf '#[cfg(test)]\n#[path = "../tests/%s.rs"]\nmod of_%s;\n' "$name" "${name/\//_}"; done
+        for name in $(roots); do
+            # Of the name that snapshots have.
+            module="${name%/main}"
+            printf '#[cfg(test)]\n#[path = "../tests/%s.rs"]\nmod %s;\n' "$name" "${module//\//_}"
+        done
     } >"$tree/src/lib.rs"
+    for name in $(roots); do
+        if [ "${name##*/}" = main ]; then choose_modules "${name%/main}"; fi
+    done
     # Packages of the same name and version would be taken for one another in a folder that rooms build in.
     awk 'NR == 1 { keep = 1 } /^\[/ { keep = !/^\[(profile|\[)/ } keep && !/^default-run/' Cargo.toml |
         sed -e "s/^version = .*/version = \"0.1.0+$room\"/" -e 's/^edition/autotests = false\n&/' \

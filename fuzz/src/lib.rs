@@ -1,6 +1,6 @@
 //! What must hold for whatever is read: properties that panic where they do not hold.
 //!
-//! The targets of cargo-fuzz call them with what it makes up; `tests/fuzz_corpus.rs` includes this file
+//! The targets of cargo-fuzz call them with what it makes up; `tests/fuzz/main.rs` includes this file
 //! and calls them with the seeds, with what was found, and with mutations of both.
 
 mod overrides;

@@ -13,7 +13,7 @@ const SHARE_OF_COARSER: f64 = 0.2;
 /// the remaining error is then at most the last difference. On rough profiles the error also changes its sign by
 /// chance, so that one difference may be small: hence the factor of two and the coarser differences. On random scenes at
 /// least 95 of 100 true errors are within the estimate, and the estimate is at most ten times the true error in the
-/// median (`tests/cost/estimates.rs`).
+/// median (`tests/program/cost/estimates.rs`).
 #[must_use]
 pub fn error_of_finest(differences: &[f64]) -> f64 {
     match differences {

@@ -15,7 +15,7 @@ pub struct Section {
     pub columns: Vec<Column>,
 }
 
-/// One column of dots: the springs it stands for.
+/// One column of dots: the springs in it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Column {
     /// Lowest and highest point of the rigid line, m.
@@ -172,7 +172,7 @@ impl Contact<'_> {
             let part = if end - first == to - from { line } else { self.line(first, end) };
             contact = Some(contact.map_or(part, |(low, high)| (low.min(part.0), high.max(part.1))));
         }
-        // Where springs are free the surface stands at its level, where they touch it follows the line.
+        // Where springs are free the surface is at its level, where they touch it follows the line.
         let surface = match contact {
             Some(contact) if held == to - from => contact,
             Some((low, high)) => (low.min(level), high.max(level)),

@@ -247,8 +247,8 @@ impl Rest {
         let at_rest = half * half + a + b * Extended::from(d);
         let root = half + at_rest.sqrt();
         let level = Extended::from(d) + s * root;
-        // No level of its own rests: the one next to it must, to rounding. On one number, where an edge passes
-        // a spring and what is left is about to let go, a fragment may stand at the end of its levels.
+        // No level of its own is at rest, so that the one next to it must be, to rounding. At one number, where an edge
+        // passes a spring and the rest is about to detach, a fragment may end at the end of its levels.
         let clamp = |level: Extended| {
             if level.rounded() > wall {
                 Extended::from(wall)

@@ -7,7 +7,7 @@ const SLACK: f64 = 8.0 * f64::EPSILON;
 
 /// Whole springs that relax to equilibrium wherever they are moved.
 ///
-/// With adhesion stronger or weaker by less than rounding can tell, so that the contact of a solver must lie
+/// With adhesion stronger or weaker by less than the rounding, so that the contact of a solver must lie
 /// between that of two of them. The order in which rules are applied does not matter, so it moves to each
 /// turning point in one step.
 #[derive(Clone, Debug)]
@@ -44,7 +44,7 @@ impl<'a> Relaxation<'a> {
         !self.contact.contains(&true)
     }
 
-    /// Lets go of everything.
+    /// Frees all springs.
     pub fn separate(&mut self) {
         self.contact.fill(false);
     }

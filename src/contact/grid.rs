@@ -11,7 +11,7 @@ impl Grid {
     /// `intervals` equal intervals from `low` to `high`; a single point where they coincide.
     pub fn new(low: f64, high: f64, intervals: usize) -> Self {
         let width = (high - low) / intervals as f64;
-        // Also too narrow a range to tell its points apart is one point at each end.
+        // A range too narrow for two different points is also one point at each end.
         let even = low + width > low && high - width < high && width.recip().is_finite();
         let mut points: Vec<f64> = if even {
             (0..intervals).map(|k| (low + width * k as f64).min(high)).collect()

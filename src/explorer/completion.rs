@@ -1,6 +1,6 @@
 //! Completion of a typed path by the files and folders there are.
 
-use super::fuzzy::{Candidate, find};
+use super::fuzzy::{Candidate, find, letters_found};
 use crate::scene::typed_path;
 use crate::text::is_control;
 use std::fs::read_dir;
@@ -28,12 +28,15 @@ pub fn complete(typed: &str) -> Vec<String> {
     names.sort_unstable();
     let begin: Vec<&String> = names.iter().filter(|one| one.starts_with(name)).collect();
     let found = if begin.is_empty() {
-        let candidates = names.iter().map(|one| Candidate { names: vec![one.clone()], prose: Vec::new() });
-        find(candidates, name).into_iter().map(|index| &names[index]).collect()
+        find(names.iter().map(|one| candidate(one)), name).into_iter().map(|index| &names[index]).collect()
     } else {
         begin
     };
     found.into_iter().map(|one| format!("{folder}{one}")).collect()
+}
+
+fn candidate(name: &str) -> Candidate {
+    Candidate { names: vec![name.to_owned()], prose: Vec::new() }
 }
 
 /// Folder of a path as typed, with its separator, and the rest.
@@ -46,15 +49,26 @@ fn split(path: &str) -> (&str, &str) {
 /// Paths that complete a typed one, and the one that has taken its place.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Completion {
+    /// Name as it was typed, without its folder.
+    typed: String,
     paths: Vec<String>,
     taken: Option<usize>,
 }
 
 impl Completion {
-    /// Candidates of which none has been taken.
+    /// Candidates for a typed path, of which none has been taken.
     #[must_use]
-    pub fn new(paths: Vec<String>) -> Self {
-        Completion { paths, taken: None }
+    pub fn new(typed: &str, paths: Vec<String>) -> Self {
+        Completion { typed: split(typed.trim_start()).1.to_owned(), paths, taken: None }
+    }
+
+    /// Characters of the name of a candidate that the typed name has found.
+    #[must_use]
+    pub fn letters_found(&self, name: &str) -> Vec<usize> {
+        if name.starts_with(&self.typed) {
+            return (0..self.typed.chars().count()).collect();
+        }
+        letters_found(&candidate(name), name, &self.typed)
     }
 
     /// Longest text with which all paths begin.
@@ -130,7 +144,7 @@ mod tests {
     #[test]
     fn candidates_are_taken_in_turn() {
         let paths = ["a/rough.ron", "a/rough-sphere.ron"].map(str::to_owned).to_vec();
-        let mut completion = Completion::new(paths);
+        let mut completion = Completion::new("a/ro", paths);
         assert_eq!((completion.common_start().as_str(), completion.only()), ("a/rough", None));
         assert!(completion.names().iter().all(|(_, taken)| !taken));
         let taken: Vec<_> = (0..3).map(|_| completion.take_next().map(str::to_owned)).collect();
@@ -138,7 +152,10 @@ mod tests {
         assert_eq!(taken, [first.clone(), second, first]);
         let names = [("rough.ron".to_owned(), true), ("rough-sphere.ron".to_owned(), false)];
         assert_eq!(completion.names(), names);
-        assert_eq!(Completion::new(Vec::new()).take_next(), None);
-        assert_eq!(Completion::new(vec!["a/b/".to_owned()]).names(), [("b/".to_owned(), false)]);
+        assert_eq!(completion.letters_found("rough.ron"), [0, 1]);
+        let scattered = Completion::new("a/rghs", Vec::new());
+        assert_eq!(scattered.letters_found("rough-sphere.ron"), [0, 3, 4, 6]);
+        assert_eq!(Completion::new("", Vec::new()).take_next(), None);
+        assert_eq!(Completion::new("a/", vec!["a/b/".to_owned()]).names(), [("b/".to_owned(), false)]);
     }
 }

@@ -25,6 +25,32 @@ pub fn find(candidates: impl IntoIterator<Item = Candidate>, query: &str) -> Vec
     found.into_iter().map(|(_, index)| index).collect()
 }
 
+/// Characters of a text of a candidate that the words of a query have found, by their indices in ascending order: a word
+/// that is whole in any text of the candidate where it is whole, another one by its letters scattered over a name.
+pub fn letters_found(candidate: &Candidate, text: &str, query: &str) -> Vec<usize> {
+    let mut found: Vec<usize> =
+        query.split_whitespace().flat_map(|word| found_by(candidate, text, word)).collect();
+    found.sort_unstable();
+    found.dedup();
+    found
+}
+
+fn found_by(candidate: &Candidate, text: &str, word: &str) -> Vec<usize> {
+    let (letters, mut texts) = (lower(word), candidate.names.iter().chain(&candidate.prose));
+    let found: Vec<usize> = if texts.any(|other| place(other, word).is_some()) {
+        place(text, word).map_or_else(Vec::new, |(_, start)| (start..start + letters.len()).collect())
+    } else if !candidate.names.iter().any(|name| name == text) {
+        Vec::new()
+    } else {
+        runs(text, &letters).filter(|(cost, _)| is_near(*cost, &letters)).map_or_else(Vec::new, |(_, at)| at)
+    };
+    // A letter may be two in lower case.
+    let lowered =
+        text.chars().enumerate().flat_map(|(index, letter)| letter.to_lowercase().map(move |_| index));
+    let characters: Vec<usize> = lowered.collect();
+    found.into_iter().filter_map(|letter| characters.get(letter).copied()).collect()
+}
+
 /// Costs of a word in one text, from a whole text to a part of a word.
 const PLACES: usize = 5;
 /// Cost of scattered letters: more than that of any whole word, since no candidate has so many texts.
@@ -37,32 +63,38 @@ const RUN: (usize, usize) = (1, 3);
 /// Least cost of a word in the texts of a candidate.
 fn cost(candidate: &Candidate, word: &str) -> Option<usize> {
     let texts = candidate.names.iter().chain(&candidate.prose);
-    let whole = |(number, text): (usize, &String)| Some(PLACES * number + place(text, word)?);
+    let whole = |(number, text): (usize, &String)| Some(PLACES * number + place(text, word)?.0);
     let whole = texts.enumerate().find_map(whole);
     let letters = lower(word);
-    let is_near = |cost: &usize| *cost <= letters.len() + MOST_OVER_LETTERS;
-    let scattered = || candidate.names.iter().filter_map(|name| runs(name, &letters)).filter(is_near).min();
+    let scattered = || {
+        let costs = candidate.names.iter().filter_map(|name| Some(runs(name, &letters)?.0));
+        costs.filter(|cost| is_near(*cost, &letters)).min()
+    };
     whole.or_else(|| scattered().map(|cost| SCATTERED + cost))
+}
+
+fn is_near(cost: usize, letters: &[char]) -> bool {
+    cost <= letters.len() + MOST_OVER_LETTERS
 }
 
 fn lower(text: &str) -> Vec<char> {
     text.chars().flat_map(char::to_lowercase).collect()
 }
 
-/// Place of a word in a text, below [`PLACES`]: the whole text with its capitals, the whole text, at its start, at the
-/// start of a word, anywhere.
-fn place(text: &str, word: &str) -> Option<usize> {
+/// Place of a word in a text, below [`PLACES`], and its first letter: the whole text with its capitals, the whole text, at
+/// its start, at the start of a word, anywhere.
+fn place(text: &str, word: &str) -> Option<(usize, usize)> {
     if text == word {
-        return Some(0);
+        return Some((0, 0));
     }
     let (text, word) = (lower(text), lower(word));
     let starts = || (0..=text.len()).filter(|start| text[*start..].starts_with(&word));
     let first = starts().next()?;
-    Some(match () {
-        () if text.len() == word.len() => 1,
-        () if first == 0 => 2,
-        () if starts().any(|start| begins_word(&text, start)) => 3,
-        () => 4,
+    Some(match starts().find(|start| begins_word(&text, *start)) {
+        _ if text.len() == word.len() => (1, first),
+        _ if first == 0 => (2, first),
+        Some(start) => (3, start),
+        None => (4, first),
     })
 }
 
@@ -71,26 +103,35 @@ fn begins_word(text: &[char], at: usize) -> bool {
     at == 0 || !text[at - 1].is_alphanumeric()
 }
 
-/// Least cost of the runs in which a text has these letters in their order; `None` where it has not.
-fn runs(text: &str, letters: &[char]) -> Option<usize> {
+/// Runs of least cost in which a text has these letters in their order: the cost, and the place of each letter. `None` for
+/// a text that has not.
+fn runs(text: &str, letters: &[char]) -> Option<(usize, Vec<usize>)> {
     let text = lower(text);
-    // Least cost of the letters so far, with the last of them at each place.
-    let mut ends: Vec<Option<usize>> = vec![None; text.len()];
+    // For each letter and each place of it the least cost of the letters so far, and the place of the letter before.
+    let mut ends: Vec<Vec<Option<(usize, usize)>>> = Vec::new();
     for (number, letter) in letters.iter().enumerate() {
         let mut next = vec![None; text.len()];
-        // Least cost of the letters before, all of them left of the place.
-        let mut before = (number == 0).then_some(0);
+        // The letters before at their least cost, all of them left of the place: cost, and place of the last.
+        let mut before = (number == 0).then_some((0, 0));
         for (at, here) in text.iter().enumerate() {
-            let last = if number > 0 && at > 0 { ends[at - 1] } else { None };
+            let last = at.checked_sub(1).and_then(|at| Some((ends.last()?[at]?.0, at)));
             before = before.into_iter().chain(last).min();
             if here == letter {
                 let run = if begins_word(&text, at) { RUN.0 } else { RUN.1 };
-                next[at] = last.into_iter().chain(before.map(|cost| cost + run)).min();
+                next[at] = last.into_iter().chain(before.map(|(cost, at)| (cost + run, at))).min();
             }
         }
-        ends = next;
+        ends.push(next);
     }
-    ends.into_iter().flatten().min()
+    let costs = ends.last()?.iter().enumerate();
+    let (cost, mut at) = costs.filter_map(|(at, end)| Some((end.as_ref()?.0, at))).min()?;
+    let mut places = Vec::with_capacity(letters.len());
+    for ends in ends.iter().rev() {
+        places.push(at);
+        at = ends[at]?.1;
+    }
+    places.reverse();
+    Some((cost, places))
 }
 
 #[cfg(test)]
@@ -140,6 +181,26 @@ mod tests {
         assert_eq!(find(candidates(), "he"), [2, 0, 3], "height, adhesion, hurst exponent");
     }
 
+    #[test]
+    fn letters_of_a_text_are_found_where_its_rank_is_from() {
+        let rough = candidate(&["rough-sphere", "Sphère"], &["A rough sphere"]);
+        let marked = |text: &str, query: &str| {
+            let found = letters_found(&rough, text, query);
+            let mark = |(at, letter)| if found.contains(&at) { letter } else { '.' };
+            text.chars().enumerate().map(mark).collect::<String>()
+        };
+        assert_eq!(marked("rough-sphere", "sph"), "......sph...");
+        assert_eq!(marked("rough-sphere", "sphere RO"), "ro....sphere");
+        assert_eq!(marked("rough-sphere", "rghsph"), "r..gh.sph...", "scattered");
+        assert_eq!(marked("Sphère", "sphère"), "Sphère");
+        assert_eq!(marked("Sphère", "rough"), "......", "found in another text");
+        assert_eq!(marked("A rough sphere", "rghsph"), "..............", "not over prose");
+        assert_eq!(marked("h-hurst h", "hu"), ".........", "found nowhere");
+        assert_eq!(marked("burrough rough", "rough"), ".........rough", "at the start of a word");
+        assert_eq!(marked("rough-sphere", "zz"), "............");
+        assert_eq!(marked("rough", ""), ".....");
+    }
+
     /// All ways to choose the letters from the text, each with its cost.
     fn brute_force(text: &[char], letters: &[char], from: usize, last: Option<usize>) -> Option<usize> {
         let Some((letter, rest)) = letters.split_first() else { return Some(0) };
@@ -158,7 +219,16 @@ mod tests {
         #[test]
         fn the_cost_of_scattered_letters_is_the_least(text in "[ab -]{0,9}", letters in "[ab]{1,5}") {
             let (characters, letters): (Vec<char>, Vec<char>) = (text.chars().collect(), letters.chars().collect());
-            prop_assert_eq!(runs(&text, &letters), brute_force(&characters, &letters, 0, None));
+            let found = runs(&text, &letters);
+            prop_assert_eq!(found.as_ref().map(|(cost, _)| *cost), brute_force(&characters, &letters, 0, None));
+            // The places have the letters, and cost as much.
+            if let Some((cost, places)) = found {
+                prop_assert!(places.is_sorted_by(|one, next| one < next));
+                prop_assert!(places.iter().map(|at| &characters[*at]).eq(&letters));
+                let starts = (0..places.len()).filter(|at| *at == 0 || places[at - 1] + 1 != places[*at]);
+                let run = |at: usize| if begins_word(&characters, places[at]) { RUN.0 } else { RUN.1 };
+                prop_assert_eq!(starts.map(run).sum::<usize>(), cost);
+            }
         }
 
         #[test]
@@ -172,7 +242,7 @@ mod tests {
             let has = |(name, prose): &(String, String), word: &String| {
                 let letters = lower(word);
                 let most = letters.len() + MOST_OVER_LETTERS;
-                let scattered = runs(name, &letters).is_some_and(|cost| cost <= most);
+                let scattered = runs(name, &letters).is_some_and(|(cost, _)| cost <= most);
                 scattered || name.to_lowercase().contains(word.as_str()) || prose.to_lowercase().contains(word.as_str())
             };
             for (index, text) in texts.iter().enumerate() {

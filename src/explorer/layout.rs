@@ -49,6 +49,12 @@ impl Layout {
         self.panes.iter().find(|(pane, _)| *pane == wanted).map(|(_, area)| *area)
     }
 
+    /// Returns true if the pane of the scene beside is in sight.
+    #[must_use]
+    pub fn shows_beside(&self, model: &Model) -> bool {
+        model.side_by_side && !model.lengths && self.pane(Pane::CloseUp).is_some()
+    }
+
     /// Cells across the profile, without its histogram.
     #[must_use]
     pub fn profile_cells(&self) -> usize {

@@ -2,6 +2,7 @@
 
 use super::action::Content;
 use super::finder::Finder;
+use super::fuzzy::Candidate;
 use super::text_line::TextLine;
 use crate::scene::Entry;
 use std::path::PathBuf;
@@ -90,6 +91,12 @@ impl Library {
     #[must_use]
     pub fn entry(&self) -> Option<&Entry> {
         self.entries.as_ref()?.get(self.finder.choice()?)
+    }
+
+    /// The words by which an entry is found: name, and as prose title and notice.
+    #[must_use]
+    pub fn candidate(entry: &Entry) -> Candidate {
+        Candidate { names: vec![entry.name.clone()], prose: vec![entry.title.clone(), entry.notice.clone()] }
     }
 }
 

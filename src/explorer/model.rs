@@ -8,6 +8,7 @@ use super::completion::Completion;
 use super::config::{Animation, Config};
 use super::keys::Bindings;
 pub use super::mode::{Library, Mode, ModeKind};
+pub use super::panes::Pane;
 use super::parameters::{Parameter, Setting, parameters};
 use super::preload_curve::PreloadPane;
 use super::request::{Focus, LineView};
@@ -22,47 +23,6 @@ pub use crate::study::map::Charted;
 use crate::study::map::{MapAxis, Place, StudyMap, Template};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
-
-/// The panes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Pane {
-    /// The force curve.
-    Force,
-    /// The profile with the histogram of its heights.
-    Profile,
-    /// The close-up of fragments.
-    CloseUp,
-    /// The list of parameters.
-    Parameters,
-    /// Cost of accuracy and stages of the run, in place of profile and close-up.
-    Accuracy,
-    /// The map over κ and H, in place of profile and close-up.
-    Chart,
-    /// Spectra, in place of profile and close-up.
-    Spectrum,
-    /// Adhesion against preload, in place of profile and close-up.
-    Preloads,
-}
-
-impl Pane {
-    /// The panes as the explorer opens, the most important first: the order in which they stay when the window
-    /// shrinks.
-    pub const ALL: [Pane; 4] = [Pane::Force, Pane::Profile, Pane::Parameters, Pane::CloseUp];
-    /// The panes while accuracy is shown.
-    pub const WITH_ACCURACY: [Pane; 3] = [Pane::Force, Pane::Accuracy, Pane::Parameters];
-    /// The panes while the map is shown.
-    pub const WITH_CHART: [Pane; 3] = [Pane::Force, Pane::Chart, Pane::Parameters];
-    /// The panes while the spectrum is shown.
-    pub const WITH_SPECTRUM: [Pane; 3] = [Pane::Force, Pane::Spectrum, Pane::Parameters];
-    /// The panes while adhesion against preload is shown.
-    pub const WITH_PRELOADS: [Pane; 3] = [Pane::Force, Pane::Preloads, Pane::Parameters];
-
-    /// True for panes in which the crosshair can be moved.
-    #[must_use]
-    pub fn has_crosshair(self) -> bool {
-        matches!(self, Pane::Force | Pane::Profile | Pane::CloseUp)
-    }
-}
 
 /// State of the animation.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -445,24 +405,32 @@ impl Model {
         self.progress.is_some()
     }
 
-    /// The panes there are to choose from.
+    /// The panes there are to choose from, the most important first.
     #[must_use]
-    pub fn panes(&self) -> &'static [Pane] {
+    pub fn panes(&self) -> Vec<Pane> {
         match self.in_place_of_the_line() {
-            Some(Pane::Chart) => &Pane::WITH_CHART,
-            Some(Pane::Spectrum) => &Pane::WITH_SPECTRUM,
-            Some(Pane::Preloads) => &Pane::WITH_PRELOADS,
-            Some(_) => &Pane::WITH_ACCURACY,
-            None => &Pane::ALL,
+            Some(large) => vec![Pane::Force, large, Pane::Parameters],
+            None => vec![Pane::Force, Pane::Profile, Pane::Parameters, Pane::CloseUp],
         }
     }
 
-    /// Outcome for the value that is being typed.
+    /// Outcome for the value that is being typed, or for the one typed before until that is there; after a value was accepted,
+    /// its outcome until the scene is computed.
     #[must_use]
     pub fn tried_outcome(&self) -> Option<&Outcome> {
-        let Mode::Edit(_) = self.mode else { return None };
-        let preview = self.preview.as_ref().filter(|preview| self.tried.as_ref() == Some(&preview.text))?;
-        preview.outcome.as_ref().ok()
+        let preview = self.preview.as_ref()?;
+        let is_shown = match self.mode {
+            Mode::Edit(_) => self.tried.is_some(),
+            Mode::Explore => self.is_computing() && preview.text == self.document.text(),
+            _ => false,
+        };
+        preview.outcome.as_ref().ok().filter(|_| is_shown)
+    }
+
+    /// Returns true if the outcome for the typed value itself is there.
+    #[must_use]
+    pub fn is_tried(&self) -> bool {
+        self.preview.as_ref().is_some_and(|preview| self.tried.as_ref() == Some(&preview.text))
     }
 
     /// Pane in place of profile and close-up.
@@ -492,7 +460,9 @@ impl Model {
     pub fn keys(&self) -> ModeKind {
         match self.mode.kind() {
             ModeKind::Explore if self.chart.shown && self.pane == Pane::Chart => ModeKind::Chart,
-            ModeKind::Explore if self.crosshair.is_some() && self.pane.has_crosshair() => ModeKind::Crosshair,
+            ModeKind::Explore if self.crosshair.is_some() && self.pane.row().has_crosshair => {
+                ModeKind::Crosshair
+            }
             ModeKind::Explore if self.pane == Pane::Parameters => ModeKind::Parameters,
             kind => kind,
         }

@@ -84,7 +84,8 @@ impl Parameter {
 const GREEK: [(char, &str); 6] =
     [('γ', "gamma"), ('κ', "kappa"), ('λ', "lambda"), ('θ', "theta"), ('ν', "nu"), ('Δ', "delta ")];
 
-fn spelled(symbol: &str) -> String {
+/// A symbol with the names of its Greek letters in their place.
+pub(super) fn spelled(symbol: &str) -> String {
     GREEK.iter().fold(symbol.to_owned(), |text, (letter, name)| text.replace(*letter, name))
 }
 

@@ -148,6 +148,12 @@ impl Theme {
         }
     }
 
+    /// The style of letters that a search has found, in a text of this style.
+    #[must_use]
+    pub fn found(self, style: Style) -> Style {
+        style.add_modifier(Modifier::BOLD | Modifier::UNDERLINED)
+    }
+
     /// The style of a meaning.
     #[must_use]
     pub fn style(self, meaning: Meaning) -> Style {

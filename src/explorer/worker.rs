@@ -20,7 +20,14 @@ pub struct WorkerState {
     /// The library's scenes have an engine of their own: the one shown keeps its line.
     previews: Simulation,
     /// The scene that is shown beside.
-    beside: Option<(Simulation, Playback)>,
+    beside: Option<Beside>,
+}
+
+/// The scene that is shown beside: computed as soon as it is in sight.
+struct Beside {
+    /// The scene, until it is computed or has failed.
+    waiting: Option<Arc<Scene>>,
+    solved: Option<(Simulation, Playback)>,
 }
 
 /// Requests that wait together: of each kind the newest counts, but each order of the hand.
@@ -94,14 +101,15 @@ impl WorkerState {
             }
         }
         if let Some(scene) = batch.beside {
-            self.beside = scene.and_then(compute_beside);
+            self.beside = scene.map(|scene| Beside { waiting: Some(scene), solved: None });
         }
         if let Some(request) = batch.show.filter(|request| request.generation == playback.generation())
             && let Some(mut moment) = playback.show(engine.as_mut(), &request)
         {
-            if let (Some((leg, indentation)), Some((engine, playback))) = (request.beside, &mut self.beside) {
-                let drive = Drive::Leg(leg);
-                let request = SnapshotRequest { generation: 0, drive, indentation, ..request };
+            if let (Some((leg, indentation)), Some(beside)) = (request.beside, &mut self.beside)
+                && let Some((engine, playback)) = beside.solve(request.generation, newest)
+            {
+                let request = SnapshotRequest { drive: Drive::Leg(leg), indentation, ..request };
                 moment.beside = playback.show(engine, &request).map(Box::new);
             }
             report(Report::Shown(Arc::new(moment)));
@@ -117,13 +125,18 @@ impl WorkerState {
     }
 }
 
-/// A scene that is shown beside, computed; `None` where the scene cannot be computed.
-fn compute_beside(scene: Arc<Scene>) -> Option<(Simulation, Playback)> {
-    let (mut engine, mut playback) = (Simulation::default(), Playback::default());
-    // No newer scene takes its place before it is computed.
-    let only = Newest::default();
-    let report = playback.compute(&mut engine, 0, scene, &only, &|_| true);
-    matches!(report, Some(Report::Computed(_))).then_some((engine, playback))
+impl Beside {
+    /// The scene computed, now if need be; `None` where it cannot be computed, or not before a newer scene than that of the
+    /// generation, which is waited for.
+    fn solve(&mut self, generation: u64, newest: &Newest) -> Option<&mut (Simulation, Playback)> {
+        if let Some(scene) = &self.waiting {
+            let (mut engine, mut playback) = (Simulation::default(), Playback::default());
+            let report = playback.compute(&mut engine, generation, Arc::clone(scene), newest, &|_| true)?;
+            self.solved = matches!(report, Report::Computed(_)).then_some((engine, playback));
+            self.waiting = None;
+        }
+        self.solved.as_mut()
+    }
 }
 
 fn panic_text(panic: &(dyn Any + Send)) -> &str {

@@ -2,12 +2,13 @@
 
 use super::action::{Content, WriteFailure, Written};
 use super::model::{Mode, Model, Notice};
+use super::panes;
 use super::picture::{svg, text};
 use super::theme::Theme;
 use super::view;
 use crate::draw::{Palette, figure_svg};
 use crate::export::{write_curve, write_json, write_map};
-use crate::io::{WriteError, write_new_file};
+use crate::io::{WriteError, check_file_name, write_new_file};
 use crate::scene::{MeasuredHash, Provenance, TableContent};
 use ratatui::Terminal;
 use ratatui::backend::TestBackend;
@@ -15,7 +16,8 @@ use ratatui::buffer::Buffer;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-/// Writes what is asked for, to a regular file: a pipe would be waited for.
+/// Writes what is asked for, to a regular file: a pipe would be waited for. The name of a scene without an extension gets
+/// `.ron`.
 ///
 /// # Errors
 /// When the file is there and is not to be overwritten, or the system refuses.
@@ -25,12 +27,27 @@ pub fn write(
     content: Content,
     overwrite: bool,
 ) -> Result<Written, WriteFailure> {
+    let named = if content == Content::Scene { scene_file(path) } else { Ok(path) };
+    let path = named.map_err(|error| WriteFailure::Refused(error.to_string()))?;
     let written = write_new_file(&path, overwrite, |file| write_content(file, model, &path, content));
     match written {
         Ok(()) => Ok(Written { path, content }),
         Err(WriteError::Exists { .. }) => Err(WriteFailure::Exists(path, content)),
         Err(other) => Err(WriteFailure::Refused(other.to_string())),
     }
+}
+
+/// The file of a scene by its name as typed. What the name itself cannot be is refused: with an extension it is another
+/// name.
+///
+/// # Errors
+/// When the name is that of a folder, a pipe or a device.
+pub fn scene_file(mut path: PathBuf) -> Result<PathBuf, WriteError> {
+    if path.extension().is_none() {
+        check_file_name(&path)?;
+        path.set_extension("ron");
+    }
+    Ok(path)
 }
 
 fn write_content(file: &mut dyn Write, model: &Model, path: &Path, content: Content) -> io::Result<()> {
@@ -54,11 +71,11 @@ fn write_content(file: &mut dyn Write, model: &Model, path: &Path, content: Cont
         Content::Picture => file.write_all(svg_of(model).as_bytes()),
         Content::MapCells => {
             let map_model = model.chart.map_model().ok_or_else(no_map)?;
-            write_map(file, map_model, model.chart.sections.then(|| view::section_cell(model, map_model)))
+            write_map(file, map_model, model.chart.sections.then(|| panes::section_cell(model, map_model)))
         }
         Content::MapFigure => {
             let map_model = model.chart.map_model().ok_or_else(no_map)?;
-            file.write_all(figure_svg(&view::map_figure(model, map_model)).as_bytes())
+            file.write_all(figure_svg(&panes::map_figure(model, map_model)).as_bytes())
         }
         Content::Text => file.write_all(text(&picture_of(model)).as_bytes()),
     }

@@ -131,7 +131,7 @@ fn seconds(value: f64) -> String {
     format_quantity(format!("{value:.2e}").parse().unwrap_or(value), "s")
 }
 
-/// The object; its keys stand in the order of these fields.
+/// The object; its keys have the order of these fields.
 #[derive(Serialize)]
 struct Report<'a> {
     scene: &'a Scene,

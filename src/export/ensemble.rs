@@ -66,7 +66,7 @@ fn cells(name: &str, unit: &str, statistics: &Statistics) -> [String; 6] {
     ]
 }
 
-/// The object; its keys stand in the order of these fields.
+/// The object; its keys have the order of these fields.
 #[derive(Serialize)]
 struct Report<'a> {
     scene: &'a Scene,

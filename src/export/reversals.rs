@@ -85,7 +85,7 @@ pub fn reversals_text(report: &ReversalReport<'_>) -> String {
     sheet.into_text().trim_start_matches('\n').to_string()
 }
 
-/// The object; its keys stand in the order of these fields.
+/// The object; its keys have the order of these fields.
 #[derive(Serialize)]
 struct Report<'a> {
     scene: &'a Scene,

@@ -5,7 +5,7 @@ use serde::Serialize;
 use serde_json::ser::{Formatter, Serializer};
 use std::io::{self, Write};
 
-/// Entries nested more deeply than this stand on one line.
+/// Entries nested more deeply than this share one line.
 const BROKEN_LEVELS: usize = 2;
 
 /// Writes a value as JSON with a line for every entry of its two outer levels.

@@ -15,4 +15,6 @@ pub use json::write_json_value;
 pub(crate) use read::*;
 #[cfg(feature = "tui")]
 pub(crate) use unfinished::{is_gone, machine};
+#[cfg(feature = "tui")]
+pub(crate) use write::check_file_name;
 pub use write::{WriteError, check_writable, write_new, write_new_file, write_new_on};

@@ -76,7 +76,7 @@ pub(crate) fn read_regular_text(path: &Path, limit: usize) -> Result<String, Rea
 /// [`ReadError::TooLong`] or [`ReadError::Failed`].
 pub(crate) fn read_limited(source: impl Read, limit: usize) -> Result<Vec<u8>, ReadError> {
     let mut bytes = Vec::new();
-    // One byte more tells a file of the limit from a longer one.
+    // One byte more distinguishes a file of the limit from a longer one.
     source.take(limit as u64 + 1).read_to_end(&mut bytes)?;
     if bytes.len() > limit { Err(ReadError::TooLong { limit }) } else { Ok(bytes) }
 }

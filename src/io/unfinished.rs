@@ -97,8 +97,8 @@ fn named<T>(folder: &Path, make: impl Fn(&Path) -> io::Result<T>) -> io::Result<
     }
 }
 
-/// Beginning of the temporary names of a process, which tells it and its machine: a folder can be shared by
-/// several.
+/// Beginning of the temporary names of a process, with its number and machine: several machines can share a
+/// folder.
 fn prefix(process: u32) -> String {
     format!(".asperity-{}-{process}-", machine())
 }

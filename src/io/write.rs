@@ -26,7 +26,7 @@ pub enum WriteError {
         /// The name.
         path: PathBuf,
     },
-    /// The folder the file should stand in is not there.
+    /// The folder of the file does not exist.
     #[error("{}: there is no folder {}", path_name(path), path_name(folder))]
     NoFolder {
         /// The file.
@@ -68,11 +68,23 @@ pub fn check_writable(path: &Path, overwrite: bool) -> Result<(), WriteError> {
     }
 }
 
+/// Checks whether a name can be that of a regular file: it ends in no separator, and no folder, pipe or device has it.
+///
+/// # Errors
+/// [`WriteError::NoFileName`] or [`WriteError::NotRegular`].
+pub fn check_file_name(path: &Path) -> Result<(), WriteError> {
+    match Target::of(path, true) {
+        Err(error @ WriteError::NoFileName { .. }) => Err(error),
+        Ok(Target::Stream) => Err(WriteError::NotRegular { path: path.to_path_buf() }),
+        Ok(Target::File { .. }) | Err(_) => Ok(()),
+    }
+}
+
 /// Writes a file through a temporary one in the same folder: whoever looks sees the old file or the
 /// whole new one, and after a failure nothing is left behind.
 ///
-/// An existing file is replaced only when `overwrite` says so; what is no file that could be
-/// overwritten, a pipe or a device, is written to as it stands, which waits for a reader.
+/// An existing file is replaced only when `overwrite` says so; a pipe or a device, which
+/// cannot be overwritten, is written to directly, which waits for a reader.
 ///
 /// On systems that allow it the temporary file has no name until it is whole: whatever ends the process, at any
 /// moment, leaves nothing behind. Elsewhere, and between naming and renaming, a file `.asperity-….tmp` can
@@ -255,8 +267,8 @@ mod tests {
             (folder.path().join("none/curve.csv"), "there is no folder"),
             (folder.path().join("x".repeat(1000)), "cannot be written"),
         ] {
-            let told = check_writable(&path, true).unwrap_err().to_string();
-            assert!(told.contains(expected), "{told}");
+            let message = check_writable(&path, true).unwrap_err().to_string();
+            assert!(message.contains(expected), "{message}");
         }
         assert_eq!(names(folder.path()), Vec::<String>::new());
     }

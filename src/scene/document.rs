@@ -12,9 +12,10 @@ use super::fields::{FIELDS, field};
 use super::measured_hash::{MeasuredHash, MeasuredHashError};
 use super::model::{Roughness, Scene};
 use super::read::{Unread, read, wrong_version};
+use super::switch::Computed;
 use super::table_content::TableContent;
 use super::text::{Text, is_within};
-use super::undo::Edit;
+use super::undo::{Edit, SwitchedOff};
 use super::write::to_ron;
 use crate::text::printable;
 
@@ -34,8 +35,8 @@ pub struct Document {
     content: Option<TableContent>,
     /// Measured files behind this table.
     measured: Vec<MeasuredHash>,
-    /// Effects that edits have switched off, with the edits that bring each of them back when undone.
-    switched_off: Vec<(Effect, Vec<Edit>)>,
+    /// Effects that edits have switched off, in this order.
+    switched_off: Vec<SwitchedOff>,
 }
 
 impl Scene {
@@ -144,30 +145,48 @@ impl Document {
     }
 
     /// As [`Document::set_all`], for overrides that switch an effect off: all of them are undone where the effect is
-    /// switched on again.
+    /// switched on again. `computed` has the values of this scene.
     pub(super) fn switch_off(
         &self,
         effect: Effect,
         overrides: &[(String, String)],
+        computed: &Computed,
     ) -> Result<Document, SceneErrors> {
         let mut new = self.set_all(overrides)?;
         let edits =
             overrides.iter().filter_map(|(path, _)| Edit::between(&self.text, &new.text, path)).collect();
-        new.switched_off.retain(|(other, _)| *other != effect);
-        new.switched_off.push((effect, edits));
+        new.switched_off.retain(|off| off.effect != effect);
+        new.switched_off.push(SwitchedOff { effect, edits, computed: *computed });
         Ok(new)
     }
 
     /// This document with an effect as it was before an edit switched it off; `None` where no edit did, or where the
     /// effect as it was is not allowed in the scene as it is now. What has been changed since stays changed.
+    ///
+    /// Effects that were switched off later are undone first and switched off again afterwards: their values may be in
+    /// place of those of this one.
     pub(super) fn restored(&self, effect: Effect) -> Option<Document> {
-        let (_, edits) = self.switched_off.iter().find(|(other, _)| *other == effect)?;
+        let place = self.switched_off.iter().position(|off| off.effect == effect)?;
+        let later = &self.switched_off[place + 1..];
+        let in_order = || {
+            let undone = later.iter().rev().try_fold(self.clone(), |new, off| new.restored_alone(off.effect));
+            later.iter().try_fold(undone?.restored_alone(effect)?, |new, off| {
+                new.without(off.effect, &off.computed.or(self.switched_off[place].computed)).ok()
+            })
+        };
+        in_order().filter(|new| effect.is_on(&new.scene)).or_else(|| self.restored_alone(effect))
+    }
+
+    fn restored_alone(&self, effect: Effect) -> Option<Document> {
+        let SwitchedOff { edits, .. } = self.switched_off.iter().find(|off| off.effect == effect)?;
         let own: Vec<Edit> =
             edits.iter().filter(|edit| is_within(&edit.path, effect.path())).cloned().collect();
         [edits, &own].into_iter().find_map(|edits| self.undone(edits).filter(|new| effect.is_on(&new.scene)))
     }
 
-    /// This document without these edits, the last of them first; those whose values have been changed since stay.
+    /// This document without these edits, the last of them first; values that have been changed since stay. Where the scene
+    /// is not allowed then, waves that are too short are left out, and of adhesion that has set the amplitude of the
+    /// roughness its work stays.
     fn undone(&self, edits: &[Edit]) -> Option<Document> {
         let mut new = self.clone();
         let mut paths = Vec::new();
@@ -185,6 +204,14 @@ impl Document {
             // Waves too short for the present springs are left out.
             new.splice("roughness.modes", &format!("({}, {shortest})", first.min(shortest))).ok()?;
         }
+        if let Some(adhesion) = new.scene.adhesion
+            && let (Some(_), Some((parameter, _))) = (adhesion.work, adhesion.parameter())
+            && new.scene.roughness.as_ref().is_some_and(Roughness::has_amplitude)
+        {
+            // The amplitude has been given since, so that the parameter follows.
+            new.text = Text::new(&new.text).ok()?.remove(parameter.path()).ok()?;
+            new.scene = read(&new.text).ok()?;
+        }
         for path in paths {
             let value = field(path, None).and_then(|field| field.written(&new.scene));
             remember(&mut new.overrides, path, &value.unwrap_or_else(|| "None".to_string()));
@@ -200,10 +227,11 @@ impl Document {
     fn record_switches(&mut self, before: &Document) {
         for effect in Effect::ALL {
             if effect.is_on(&self.scene) {
-                self.switched_off.retain(|(other, _)| *other != effect);
+                self.switched_off.retain(|off| off.effect != effect);
             } else if effect.is_on(&before.scene) {
                 let edit = Edit::between(&before.text, &self.text, effect.path());
-                self.switched_off.push((effect, edit.into_iter().collect()));
+                let edits = edit.into_iter().collect();
+                self.switched_off.push(SwitchedOff { effect, edits, computed: Computed::default() });
             }
         }
     }

@@ -166,6 +166,11 @@ fn is_default_seed(seed: &u64) -> bool {
 }
 
 impl Roughness {
+    /// Returns true if the amplitude is given with the roughness, rather than by the adhesion.
+    pub(super) fn has_amplitude(&self) -> bool {
+        !matches!(self, Roughness::SelfAffine { rms_height: None, rms_gradient: None, .. })
+    }
+
     /// Gives the files of the measured surfaces other names.
     pub fn rename_files(&mut self, rename: impl Fn(&str) -> String) {
         if let Roughness::Measured { file, opposite, .. } = self {

@@ -124,7 +124,7 @@ fn leads_to(base: &Document, overrides: &[(String, String)], field: &Field, valu
 pub fn command_line(name: &str, overrides: &[(String, String)]) -> String {
     let set = |(path, value): &(String, String)| format!(" --set {}", quoted(&format!("{path}={value}")));
     let sets: String = overrides.iter().map(set).collect();
-    // A name that looks like an option stands behind all options.
+    // A name that looks like an option follows all options.
     if name.starts_with('-') {
         format!("asperity{sets} -- {}", quoted(name))
     } else {

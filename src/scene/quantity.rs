@@ -41,7 +41,7 @@ const DIMENSIONS: &[(&str, &str, &str)] = &[
     ("J/m²", "energy per area", "J/m², mJ/m², N/m, mN/m"),
     ("rad", "angle", "rad, mrad, °"),
     ("s", "time", "s, ms, µs"),
-    ("1", "multiple of 1", "k, M, G, Ki, Mi, Gi"),
+    ("1", "prefix of a number", "k, M, G, Ki, Mi, Gi"),
 ];
 
 /// Reason why a typed text is no quantity.
@@ -203,7 +203,7 @@ pub fn quantity_as_typed(value: f64, typed: &str, unit: &str) -> String {
     else {
         return format_quantity(value, unit);
     };
-    // A prefix alone, or nothing, stands for the unit with it.
+    // A prefix alone, or nothing, means the unit with this prefix.
     let is_whole = suffix.ends_with(unit) || canonical(suffix).ends_with(&canonical(unit)) || factor != 1.0;
     let shown = if is_whole { suffix.to_owned() } else { format!("{suffix}{unit}") };
     let scientific = format!("{:.*e}", DIGITS - 1, value / factor);
@@ -353,7 +353,7 @@ mod tests {
         for (text, unit, message) in [
             ("2 kg", "m", "kg is no length: m, mm, µm, nm"),
             ("1 N/m2", "J/m²", "N/m2 is no energy per area: J/m², mJ/m², N/m, mN/m"),
-            ("5 %", "1", "% is no multiple of 1: k, M, G, Ki, Mi, Gi"),
+            ("5 %", "1", "% is no prefix of a number: k, M, G, Ki, Mi, Gi"),
             ("1k", "m^(1−n)", "k is not the unit m^(1−n)"),
             ("ten", "N", "\"ten\" is no number, such as 1.0e-3, 2.5 mN or 2.5kN"),
             ("1e400", "1", "1e400 is too large"),

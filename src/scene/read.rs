@@ -64,7 +64,7 @@ pub(crate) fn describe_error(text: &str, error: &ron::error::SpannedError) -> (u
     (place_of(text, error).0, message)
 }
 
-/// The byte at which what is wrong begins, and where the reader stood.
+/// First byte of the error, and the position of the reader.
 fn place_of(text: &str, error: &ron::error::SpannedError) -> (usize, usize) {
     let start = offset_of(text, error.span.start.line, error.span.start.col);
     let end = offset_of(text, error.span.end.line, error.span.end.col).max(start);
@@ -117,7 +117,7 @@ fn explain_at(text: &str, outline: &Text, offset: usize, error: &ron::Error) -> 
     }
 }
 
-/// A value that stands by itself is pointed at as a whole and repeated, with what is allowed there.
+/// A single value is marked as a whole and repeated, with the values allowed there.
 fn explain_value(text: &str, outline: &Text, at: Unread, error: &ron::Error) -> Unread {
     let scalar = outline.span(&at.field).filter(|place| {
         let value = &text[place.value.clone()];

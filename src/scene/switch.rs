@@ -10,7 +10,7 @@ use super::errors::{Origin, SceneError, SceneErrors};
 use super::fields::field;
 use super::model::{Adhesion, Leg, Observer, Roughness, Scene};
 use super::roughness_parameter::RoughnessParameter;
-use super::text::ron_float;
+use super::text::{Text, ron_float};
 use super::write::{legs, observers};
 
 /// Values that a scene determines through its profile, known once it is computed.
@@ -27,6 +27,16 @@ pub struct Computed {
 }
 
 impl Computed {
+    /// These values, and in place of those that are not known those of another scene.
+    pub(super) fn or(self, other: Computed) -> Computed {
+        Computed {
+            work_of_adhesion: self.work_of_adhesion.or(other.work_of_adhesion),
+            kappa: self.kappa.or(other.kappa),
+            elastic_energy_ratio: self.elastic_energy_ratio.or(other.elastic_energy_ratio),
+            rms_height: self.rms_height.or(other.rms_height),
+        }
+    }
+
     /// Value of a parameter of roughness against adhesion.
     pub(super) fn parameter(&self, parameter: RoughnessParameter) -> Option<f64> {
         match parameter {
@@ -55,19 +65,18 @@ impl Document {
             Effect::Form => vec![pair("form", "None")],
             Effect::Roughness => self.without_roughness(computed)?,
             Effect::Adhesion => self.without_adhesion(computed)?,
-            Effect::Unloading => vec![pair("loading", legs(&pressing(&scene.loading)))],
-            Effect::Fragments => vec![pair("observe", observers(&others(scene, Observer::Fragments)))],
-            Effect::HeightHistogram => {
-                vec![pair("observe", observers(&others(scene, Observer::HeightHistogram)))]
-            }
+            Effect::Unloading => vec![self.only("loading", &pressing(&scene.loading))],
+            Effect::Fragments => vec![self.only("observe", &others(scene, Observer::Fragments))],
+            Effect::HeightHistogram => vec![self.only("observe", &others(scene, Observer::HeightHistogram))],
         };
-        self.switch_off(effect, &overrides)
+        self.switch_off(effect, &overrides, computed)
     }
 
     /// This document with an effect; the same where the effect is on.
     ///
     /// Undoes the edits that have switched the effect off: the text is as it was before, but for values that have been
-    /// changed since. Where no edit has, or the effect as it was is not allowed any more, it is one that suits the scene.
+    /// changed since, loading stages among them. Where no edit has, or the effect as it was is not allowed any more, it is
+    /// one that suits the scene.
     ///
     /// # Errors
     ///
@@ -115,6 +124,14 @@ impl Document {
         }
     }
 
+    /// The list at a path with these of its elements alone, as they are written.
+    fn only(&self, path: &str, elements: &[usize]) -> (String, String) {
+        let list = self.value(path).unwrap_or_default();
+        let all = Text::new(list).ok().and_then(|text| text.elements()).unwrap_or_default();
+        let kept: Vec<&str> = elements.iter().filter_map(|index| all.get(*index).copied()).collect();
+        pair(path, format!("[{}]", kept.join(", ")))
+    }
+
     fn without_roughness(&self, computed: &Computed) -> Result<Vec<(String, String)>, SceneErrors> {
         let adhesion = self.scene().adhesion;
         let parameter = adhesion.and_then(|adhesion| adhesion.parameter()).map(|(parameter, _)| parameter);
@@ -144,7 +161,7 @@ impl Document {
         &self,
         computed: &Computed,
     ) -> Result<Option<(String, String)>, SceneErrors> {
-        if self.scene().roughness.as_ref().is_none_or(has_amplitude) {
+        if self.scene().roughness.as_ref().is_none_or(Roughness::has_amplitude) {
             return Ok(None);
         }
         let height = computed.rms_height.ok_or_else(|| {
@@ -189,12 +206,10 @@ fn suited_height(scene: &Scene) -> f64 {
     format!("{height:.1e}").parse().unwrap_or(height)
 }
 
-fn has_amplitude(roughness: &Roughness) -> bool {
-    !matches!(roughness, Roughness::SelfAffine { rms_height: None, rms_gradient: None, .. })
-}
-
-fn others(scene: &Scene, observer: Observer) -> Vec<Observer> {
-    scene.observe.iter().copied().filter(|other| *other != observer).collect()
+/// Indices of the observers other than this one.
+fn others(scene: &Scene, observer: Observer) -> Vec<usize> {
+    let observed = scene.observe.iter().enumerate();
+    observed.filter(|(_, other)| **other != observer).map(|(index, _)| index).collect()
 }
 
 fn observing(scene: &Scene, observer: Observer) -> Vec<Observer> {
@@ -226,7 +241,8 @@ mod tests {
     use proptest::prelude::*;
 
     use super::super::model::Form;
-    use super::super::strategies::sound_scenes;
+    use super::super::strategies::{Drawn, sound_scenes};
+    use super::super::text::is_within;
     use super::*;
 
     const SCENE: &str = "(
@@ -306,7 +322,7 @@ mod tests {
         assert_eq!(value(&bare.set("roughness", rough).unwrap(), Effect::Adhesion), "(kappa: 2.0)");
         let sphere = bare.with(Effect::Form).unwrap().set("numerics.points", "40").unwrap();
         assert!(value(&sphere, Effect::Roughness).contains("modes: (4, 5)"));
-        // An observer that stands there twice makes room.
+        // An observer that is listed twice makes room.
         let twice = bare.set("observe", "[Fragments, Fragments]").unwrap();
         assert_eq!(value(&twice, Effect::HeightHistogram), "[Fragments, HeightHistogram]");
         // One spring carries no wave at all.
@@ -353,11 +369,57 @@ mod tests {
         assert_eq!(adhesion(&back(&stickier)), (Some(0.2), Some(6.0)));
         let none = off(&stickier, Effect::Adhesion);
         let rough = back(&none);
-        assert_eq!((adhesion(&rough), rough.value("roughness.rms_height")), ((None, None), Some("2.0e-7")));
+        assert_eq!((adhesion(&rough), rough.value("roughness.rms_height")), ((None, None), Some("1.5e-7")));
         // Other legs that press are kept.
         let held = off(&document, Effect::Unloading).set("loading.0", "ToForce(3.0e-5)").unwrap();
         let pulled = held.with(Effect::Unloading).unwrap();
         assert_eq!(pulled.scene().loading, [Leg::ToForce(3e-5), Leg::ToSeparation]);
+    }
+
+    #[test]
+    fn loading_edited_without_unloading_keeps_the_stages_that_pull() {
+        let cycles = "[ToForce(1.0e-5), ToZeroForce, /* deeper */ ToForce(2e-5), ToSeparation]";
+        let document = document().set("loading", "[ToForce(1.0), ToSeparation]").unwrap();
+        let document =
+            Document::parse(&document.text().replace("[ToForce(1.0), ToSeparation]", cycles), "cycles")
+                .unwrap();
+        let pressed = off(&document, Effect::Unloading);
+        assert_eq!(pressed.value("loading"), Some("[ToForce(2e-5)]"));
+        for (path, value, expected) in [
+            ("loading.0.0", "3e-5", cycles.replace("2e-5", "3e-5")),
+            ("loading.0", "ToIndentation(1e-7)", cycles.replace("ToForce(2e-5)", "ToIndentation(1e-7)")),
+            (
+                "loading",
+                "[ToTouch, ToIndentation(1e-7)]",
+                cycles.replace("ToForce(2e-5)", "ToTouch, ToIndentation(1e-7)"),
+            ),
+        ] {
+            let edited = pressed.set(path, value).unwrap();
+            let back = edited.with(Effect::Unloading).unwrap();
+            assert_eq!(back.value("loading"), Some(expected.as_str()), "{path}={value}");
+        }
+    }
+
+    #[test]
+    fn effects_come_back_in_any_order() {
+        let set = [pair("roughness.rms_height", "None"), pair("adhesion.work", "0.1")];
+        let documents = [document(), document().set_all(&set).unwrap()];
+        let pairs = Effect::ALL.into_iter().flat_map(|one| Effect::ALL.map(|other| (one, other)));
+        for (first, second) in pairs.filter(|(first, second)| first != second) {
+            for document in &documents {
+                let without = off(&off(document, first), second);
+                for (one, other) in [(first, second), (second, first)] {
+                    let back = without.with(one).unwrap();
+                    assert!(one.is_on(back.scene()) && !other.is_on(back.scene()), "{one:?} {other:?}");
+                    let back = back.with(other).unwrap();
+                    assert_eq!(
+                        back.scene(),
+                        document.scene(),
+                        "{first:?} {second:?}, back {one:?} {other:?}"
+                    );
+                }
+            }
+        }
     }
 
     #[test]
@@ -390,12 +452,12 @@ mod tests {
             (adhesion(&back), back.value("roughness.rms_height")),
             ((Some(0.1), Some(6.0)), Some("None"))
         );
-        // Where neither the amplitude nor the adhesion as they were are possible, adhesion suits the scene.
+        // An amplitude that has been given since stays, and κ follows from it and from the same work of adhesion.
         let rougher = without.set("roughness.rms_height", "3.0e-7").unwrap();
         let back = rougher.with(Effect::Adhesion).unwrap();
         assert_eq!(
             (adhesion(&back), back.value("roughness.rms_height")),
-            ((None, Some(2.0)), Some("3.0e-7"))
+            ((Some(0.1), None), Some("3.0e-7"))
         );
     }
 
@@ -467,6 +529,62 @@ mod tests {
                 let back = without.with(effect).unwrap();
                 prop_assert_eq!(back.text(), document.text(), "{:?}", effect);
                 prop_assert!(back.overrides().is_empty() && !back.is_changed());
+            }
+        }
+
+        /// For the table of effects and that of fields alike: an edit made without an effect gives, once the effect is on
+        /// again, the scene of the same edit made with it.
+        #[test]
+        fn switching_an_effect_on_undoes_that_switch_alone(
+            scene in sound_scenes(),
+            effect in prop::sample::select(Effect::ALL.to_vec()),
+            edits in Drawn::default().overrides(1),
+            work in 0.001..10.0,
+            rms_height in 1e-9..1e-5,
+        ) {
+            prop_assume!(effect.is_on(&scene));
+            let document = Document::from_scene(&scene, "scene").unwrap();
+            let computed = Computed { work_of_adhesion: Some(work), rms_height: Some(rms_height), ..Computed::default() };
+            let without = document.without(effect, &computed).unwrap();
+            let Ok(edited) = without.set_all(&edits) else { return Ok(()) };
+            prop_assume!(!effect.is_on(edited.scene()));
+            let Ok(back) = edited.with(effect) else { return Ok(()) };
+            prop_assert!(effect.is_on(back.scene()));
+            let path = edits[0].0.as_str();
+            let is_list = ["loading", "observe"].iter().any(|list| is_within(path, list));
+            // What the switch itself has changed is compared below.
+            let is_switched = |field: &str| without.value(field) != document.value(field);
+            if !is_list && !is_switched(path)
+                && let Ok(expected) = document.set_all(&edits)
+                && edited.value(path) == expected.value(path)
+            {
+                prop_assert_eq!(back.scene(), expected.scene(), "{:?} {:?}", effect, edits);
+            }
+            if !is_list && !is_within(path, effect.path()) {
+                prop_assert_eq!(back.value(path), edited.value(path), "{:?} {:?}", effect, edits);
+            }
+        }
+
+        /// Loading stages that pull come back around those that press, whatever these are by then.
+        #[test]
+        fn stages_that_pull_come_back_around_edited_ones(scene in sound_scenes(), other in sound_scenes()) {
+            prop_assume!(Effect::Unloading.is_on(&scene));
+            let document = Document::from_scene(&scene, "scene").unwrap();
+            let without = document.without(Effect::Unloading, &Computed::default()).unwrap();
+            let (kept, pressing_others) = (pressing(&scene.loading), pressing(&other.loading));
+            let pressed: Vec<Leg> =
+                kept.iter().enumerate().map(|(at, kept)| match pressing_others.get(at) {
+                    Some(index) => other.loading[*index],
+                    None => scene.loading[*kept],
+                }).collect();
+            let Ok(edited) = without.set("loading", &legs(&pressed)) else { return Ok(()) };
+            prop_assume!(!Effect::Unloading.is_on(edited.scene()));
+            let mut loading = scene.loading.clone();
+            kept.iter().zip(&pressed).for_each(|(place, leg)| loading[*place] = *leg);
+            let expected = Scene { loading, ..scene };
+            if expected.check().is_ok() && Effect::Unloading.is_on(&expected) {
+                let back = edited.with(Effect::Unloading).unwrap();
+                prop_assert_eq!(&back.scene().loading, &expected.loading);
             }
         }
     }

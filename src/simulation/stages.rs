@@ -114,7 +114,7 @@ pub(super) struct Prepared<'a> {
     pub memory: &'a mut ContactMemory,
 }
 
-/// Called after each leg with its index, its record and the solver as it then stands; an error stops
+/// Called after each leg with its index, its record and the solver at the end of the leg; an error stops
 /// the run.
 pub type AfterLeg<'a> = dyn FnMut(usize, &LegRecord, &dyn Solver) -> Result<(), ContactError> + 'a;
 
@@ -150,7 +150,7 @@ impl Simulation {
         self.tree.as_ref().filter(|_| self.tree_is_current)
     }
 
-    /// Makes the line of a checked scene, unless the last one was the same, and tells what is known
+    /// Makes the line of a checked scene, unless the last one was the same, and returns the values known
     /// of it.
     ///
     /// # Errors

@@ -228,7 +228,7 @@ impl IsotropicSpectrum {
     }
 
     /// Moments of the equivalent line, with the waves that begin at half the first wave number: wave 1 of a length
-    /// stands for the range from ½ to 1½.
+    /// covers the range from ½ to 1½.
     #[must_use]
     pub fn line_moments(&self) -> LineMoments {
         let estimate = |power: i32, factor: f64, root: bool| {

@@ -4,7 +4,7 @@ use super::{SurfaceError, mdr_profile};
 use crate::memory;
 use crate::scene::Form;
 
-/// The rigid line under which springs stand at x = (i + ½)Δx.
+/// The rigid line above springs at x = (i + ½)Δx.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Line {
     /// Gaps c_i = max z − z_i ≥ 0, m, of the springs under the body.
@@ -111,7 +111,7 @@ impl Line {
     }
 }
 
-/// The largest of finite numbers, or where the first stands that is not finite.
+/// The largest of finite numbers, or the index of the first number that is not finite.
 fn largest(values: &[f64]) -> Result<f64, usize> {
     // Side by side: one after the other, each comparison would wait for the one before.
     let mut largest = [f64::NEG_INFINITY; 8];

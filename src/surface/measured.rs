@@ -327,8 +327,8 @@ mod tests {
     #[test]
     fn devices_are_not_read() {
         for device in ["/dev/zero", "/dev/null", "/dev/tty"] {
-            let told = MeasuredProfile::read(Path::new(device)).unwrap_err().to_string();
-            assert!(told.contains("not a regular file"), "{device}: {told}");
+            let message = MeasuredProfile::read(Path::new(device)).unwrap_err().to_string();
+            assert!(message.contains("not a regular file"), "{device}: {message}");
         }
     }
 

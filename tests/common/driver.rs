@@ -8,7 +8,7 @@ use asperity::explorer::study::{Appraiser, Found, perform};
 use asperity::explorer::theme::{Appearance, Marker, Theme};
 use asperity::explorer::update::{Effect, moment_request, study_tasks};
 use asperity::explorer::worker::{self, Engine, Newest, Report, Request, Worker};
-use asperity::explorer::{Opening, complete, write};
+use asperity::explorer::{Opening, complete, scene_file, write};
 use asperity::scene::Library;
 use asperity::simulation::{Simulation, Timings};
 use std::collections::BTreeMap;
@@ -128,6 +128,7 @@ impl Driver {
                 vec![Action::Written(write(&self.model, path, content, overwrite))]
             }
             Effect::Write { path, content, overwrite } => {
+                let path = if content == Content::Scene { scene_file(path).unwrap() } else { path };
                 let result = if self.files.contains_key(&path) && !overwrite {
                     Err(WriteFailure::Exists(path, content))
                 } else {

@@ -64,16 +64,27 @@ fn a_scene_is_not_saved_to_a_pipe_or_a_device() {
     within(60, || {
         let (program, folder) = explorer();
         make_pipe(&folder.path().join("pipe.ron"));
-        let mut terminal = paused(program);
+        make_pipe(&folder.path().join("pipe"));
         std::os::unix::fs::symlink("/dev/tty", folder.path().join("tty.ron")).unwrap();
-        for path in ["pipe.ron", "tty.ron"] {
+        let before = fs::read_dir(folder.path()).unwrap().count();
+        let mut terminal = paused(program);
+        for (path, why) in [
+            ("pipe.ron", "this is not a regular file"),
+            ("tty.ron", "this is not a regular file"),
+            // An extension is added to the name of a file, and to no other name.
+            ("pipe", "this is not a regular file; allowed: the name of a file"),
+            ("/dev/tty", "this is not a regular file; allowed: the name of a file"),
+            ("/dev/", "this is not the name of a file"),
+            ("/dev", "this is not the name of a file"),
+        ] {
             terminal.send("s");
             terminal.wait_for("Save as: ");
             terminal.send(CLEAR_LINE);
             answer(&mut terminal, "Save as: ", path);
-            terminal.wait_for(&format!("not written: {path}: this is not a regular file"));
+            terminal.wait_for(&format!("not written: {path}: {why}"));
             assert_answers(&mut terminal);
         }
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), before, "nothing is written");
         quit(&mut terminal);
     });
 }

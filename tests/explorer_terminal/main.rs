@@ -27,5 +27,6 @@ mod library;
 mod mouse;
 mod opening;
 mod panics;
+mod ssh;
 mod study;
 mod window;

@@ -1,4 +1,4 @@
-//! Panics of the engine and of the view.
+//! Panics of the engine and of the view, and an engine that does not come to an end.
 
 use crate::common::deadline::within;
 use crate::common::terminal::{Program, Terminal};
@@ -8,7 +8,7 @@ use crate::driving::{
 use crate::idle::assert_idle;
 use std::path::{Path, PathBuf};
 
-/// The explorer with the engine that panics on the seed 13.
+/// The explorer with the engine that panics on the seed 13 and computes without end on the seed 14.
 fn panicking() -> Program {
     let folder = Path::new(ASPERITY).parent().expect("the program stands in a folder");
     let path: PathBuf = folder.join("examples").join("panicking_engine");
@@ -16,18 +16,20 @@ fn panicking() -> Program {
     Program::new(path)
 }
 
+/// Types another seed.
+fn seed(terminal: &mut Terminal, seed: &str) {
+    terminal.send("e");
+    terminal.wait_for("Esc cancel");
+    terminal.send(CLEAR_LINE);
+    terminal.send(seed);
+    terminal.send(ENTER);
+}
+
 #[test]
 fn a_panic_of_the_engine_is_a_line_and_the_explorer_goes_on() {
     within(60, || {
         let mut terminal = paused(panicking());
         let before = headline(&terminal.rows()).unwrap();
-        let seed = |terminal: &mut Terminal, seed: &str| {
-            terminal.send("e");
-            terminal.wait_for("Esc cancel");
-            terminal.send(CLEAR_LINE);
-            terminal.send(seed);
-            terminal.send(ENTER);
-        };
         select(&mut terminal, "seed");
         seed(&mut terminal, "13");
         terminal.wait_for("thirteen is unlucky");
@@ -59,5 +61,32 @@ fn a_panic_while_drawing_gives_the_terminal_back_and_tells_why() {
         // Told below one another: the terminal starts each line at its left again.
         let told = terminal.rows();
         assert!(told.iter().any(|row| row.starts_with("thirteen is unlucky")), "{}", terminal.text());
+    });
+}
+
+#[test]
+fn a_typed_digit_is_in_the_next_frame_whatever_the_engine_does() {
+    within(60, || {
+        let mut terminal = paused(panicking());
+        select(&mut terminal, "seed");
+        seed(&mut terminal, "14");
+        terminal.wait_for("computing");
+        terminal.settle();
+        terminal.send("e");
+        terminal.settle();
+        let mut typed = String::new();
+        for digit in ["2", "7", "1", "8", "2", "8"] {
+            let before = terminal.frames().len();
+            terminal.send(digit);
+            typed.push_str(digit);
+            terminal.wait("typed digits", |rows| rows.iter().any(|row| row.contains(&format!(": {typed}"))));
+            assert_eq!(terminal.frames().len() - before, 1, "frames from the key to its echo");
+        }
+        // The engine gives up for the newer scene.
+        terminal.send(CLEAR_LINE);
+        terminal.send("5");
+        terminal.send(ENTER);
+        terminal.wait_without("computing");
+        quit(&mut terminal);
     });
 }

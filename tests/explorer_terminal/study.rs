@@ -15,9 +15,12 @@ fn a_folder_opens_as_the_map_of_its_study() {
         let home = folder.path().to_str().unwrap();
         let program = Program::new(ASPERITY).argument("small/").folder(folder.path()).env("HOME", home);
         let mut terminal = paused(program);
-        for told in
-            ["Small study", "Study small: regime over H, κ, 12 lines", "F_n/(E* h L) = 0.01", "◆ H 0.5, κ 1"]
-        {
+        for told in [
+            "Small study",
+            "Study small: regime over H, κ, 12 profiles",
+            "F_n/(E* h L) = 0.01",
+            "◆ H 0.5, κ 1",
+        ] {
             terminal.wait_for(told);
         }
         terminal.send("P");
@@ -25,7 +28,7 @@ fn a_folder_opens_as_the_map_of_its_study() {
         terminal.send("\x1b[A");
         terminal.wait_for("◆ H 0.5, κ 1.41");
         terminal.send("W");
-        terminal.wait_for("Map of regime over H, κ, 4 lines");
+        terminal.wait_for("Map of regime over H, κ, 4 profiles");
         terminal.send("W");
         terminal.wait_for("Study small");
         // The command that is copied opens the study again.
@@ -50,7 +53,7 @@ fn a_study_is_opened_by_its_path_from_within() {
         terminal.wait_for("has not been merged yet");
         terminal.send("o");
         answer(&mut terminal, "Search: ", "./small");
-        terminal.wait_for("Study small: regime over H, κ, 12 lines");
+        terminal.wait_for("Study small: regime over H, κ, 12 profiles");
         quit(&mut terminal);
     });
 }

@@ -156,7 +156,7 @@ fn thousand_legs(edges: Edges) -> Result<f64, Fault> {
     let legs: Vec<Leg> = to(&turns(&body, 9).take(1000).collect::<Vec<_>>());
     let agreement = follow(&body, edges, &legs)?;
     ensure(agreement.undecided * 10 < agreement.states && agreement.partial > 500, || {
-        format!("{agreement:?}: too few states that tell anything")
+        format!("{agreement:?}: too few states that the bounds decide")
     })?;
     Ok(agreement.error())
 }
@@ -270,7 +270,7 @@ fn refined_line() -> Result<f64, Fault> {
     let coarse = UnitRoughness::synthesize(spectrum, 13, points)?;
     let mut worst = 0.0_f64;
     for factor in [3, 5, 9] {
-        // Every spring stands where one of the finer line does, in the middle of a cell.
+        // Every spring is at the place of one of the finer line, in the middle of a cell.
         let fine = UnitRoughness::synthesize(spectrum, 13, factor * points)?;
         for (index, height) in coarse.heights.iter().enumerate() {
             worst = worst.max((fine.heights[factor * index + factor / 2] - height).abs());

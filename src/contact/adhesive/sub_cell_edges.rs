@@ -233,7 +233,7 @@ impl EdgeModel for SubCellEdges {
     #[inline]
     fn pin(&self, slider: Slider, rise: f64) -> Slider {
         let grown = slider.levels.growth * rise;
-        let levels = Levels { length: slider.levels.length + grown, growth: 0.0, ..slider.levels };
+        let levels = Levels { growth: 0.0, ..slider.levels };
         let compression = slider.compression - 0.5 * grown * rise;
         Slider { levels, edges: slider.edges + grown, compression, ..slider }
     }
@@ -252,11 +252,11 @@ impl EdgeModel for SubCellEdges {
     /// The length times (2y − 3k)/(2y − k) with y = √ℓ and k = stretch × growth, as the edges move with the
     /// indentation, less the whole cells. It only grows with the indentation: between events the force is convex.
     fn edge_stiffness(&self, slider: &Slider, indentation: f64) -> f64 {
+        if slider.levels.growth <= 0.0 {
+            return slider.edges;
+        }
         let above = indentation - slider.gap;
         let length = slider.levels.length + slider.levels.growth * slider.rise(above);
-        if slider.levels.growth <= 0.0 {
-            return length - slider.cells;
-        }
         // Also at the ends of its levels its edges slide, to the one side at least.
         let (root, fall) = (slider.root(above), 2.0 * slider.half);
         let rises = 2.0 * root - fall;

@@ -257,7 +257,7 @@ fn scale_beside(chart: &Chart, height: u16, marker: Marker) -> Vec<(u16, String)
         Some((cell_at(down, height, dots_of(marker).1), label?.to_string()))
     };
     let fewest = usize::from(height / 3).clamp(2, 6);
-    numbers_at(&chart.y, fewest..=fewest.max(usize::from(height / 2)), place, |_| true)
+    numbers_at(&chart.y, fewest..=fewest.max(height.into()), place, |_| true)
 }
 
 /// Numbers of an axis with the fewest ticks of which two can be seen, or with the fewest of all: one number gives no scale.

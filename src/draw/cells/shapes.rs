@@ -5,7 +5,7 @@ use ratatui::buffer::Buffer;
 use ratatui::style::Color;
 use ratatui::widgets::canvas::{Painter, Shape as CanvasShape};
 
-/// Stands on a canvas for the colour of the terminal's text, which the grid of half blocks would take for
+/// Represents on a canvas the colour of the terminal's text, which the grid of half blocks would take for
 /// that of its background where it meets another colour. No theme has it.
 const INK: Color = Color::Indexed(16);
 
@@ -180,7 +180,7 @@ impl CanvasShape for LayerShape<'_> {
     }
 }
 
-/// Dots of a line that are painted: lines are told apart without colours.
+/// Dots of a line that are painted: lines differ without colours.
 fn paints(stroke: Stroke, dot: usize) -> bool {
     match stroke {
         Stroke::Solid => true,

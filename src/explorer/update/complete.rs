@@ -51,6 +51,11 @@ impl TypedPath {
     }
 }
 
+/// A path is being typed.
+pub fn can_complete(model: &Model) -> bool {
+    TypedPath::of(model).is_some()
+}
+
 /// Takes the next candidate, or asks for candidates.
 pub fn obey(model: &mut Model) -> Vec<Effect> {
     let Some(typed) = TypedPath::of(model) else { return Vec::new() };
@@ -67,7 +72,7 @@ pub fn completed(model: &mut Model, typed: &str, paths: Vec<String>) -> Vec<Effe
     if let Some(line) = model.mode.line_mut() {
         line.go(crate::explorer::action::Motion::End);
     }
-    let completion = Completion::new(paths);
+    let completion = Completion::new(typed, paths);
     let (common, is_only) = (completion.common_start(), completion.only().is_some());
     model.completion = Some(completion).filter(|_| !is_only);
     // Candidates that have the letters elsewhere have nothing in common with them.

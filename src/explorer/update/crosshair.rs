@@ -5,8 +5,8 @@ use super::{Effect, movement};
 use crate::explorer::action::Command;
 use crate::explorer::layout::inside;
 use crate::explorer::model::{Crosshair, Model, Pane};
+use crate::explorer::panes::{position_at, stage_at};
 use crate::explorer::snapshot::Section;
-use crate::explorer::view::{position_at, stage_at};
 use ratatui::layout::{Position, Rect};
 
 /// Small and large steps along a loading stage.
@@ -69,7 +69,7 @@ fn toggle(model: &mut Model) {
         let middle = close_up.section.first + close_up.section.springs / 2;
         look_at(model, close_up.fragment.map_or(middle, |patch| patch.middle()));
     }
-    if !model.pane.has_crosshair() {
+    if !model.pane.row().has_crosshair {
         model.pane = Pane::Force;
     }
 }

@@ -6,11 +6,11 @@ use crate::explorer::action::Command;
 use crate::explorer::layout::Layout;
 use crate::explorer::mode::Mode;
 use crate::explorer::model::{CloseUpTarget, Model, Notice, Pane, Player};
+use crate::explorer::panes::first_listed;
 use crate::explorer::parameters::{Parameter, Setting, parameters};
 use crate::explorer::request::{Focus, LineView};
 use crate::explorer::session::scene_of;
 use crate::explorer::text_line::TextLine;
-use crate::explorer::view::first_listed;
 use crate::scene::{Computed, Document, Range, SceneErrors, Solver, Step, exact_quantity, presets};
 
 /// Edits that can be taken back.
@@ -118,7 +118,8 @@ fn edit_value(model: &mut Model, first: Option<char>) -> Vec<Effect> {
                 first.into_iter().for_each(|character| line.insert(character));
                 model.mode = Mode::Edit(line);
                 model.refused = None;
-                model.tried = None;
+                // No preview of an earlier edit.
+                (model.tried, model.preview) = (None, None);
             }
         }
     }
@@ -234,13 +235,14 @@ fn reasons(errors: &SceneErrors) -> String {
     errors.iter().map(|error| error.what().to_string()).collect::<Vec<_>>().join("; ")
 }
 
-/// Most springs of a scene that is computed only to look at: its curve is there before the next key.
-const MOST_SPRINGS_PREVIEWED: u64 = 1 << 17;
+/// Most springs of a scene that is computed for a value while the value is typed: the next character stops it.
+const MOST_SPRINGS_TRIED: u64 = 1 << 20;
 
-/// A scene is small enough to be computed only to look at; steps of the stepwise solver may be any number.
-pub fn is_previewed(document: &Document) -> bool {
+/// A scene of so many springs at most is small enough to be computed only to look at; steps of the stepwise solver may be
+/// any number.
+pub fn is_previewed(document: &Document, most_springs: u64) -> bool {
     let numerics = document.scene().numerics;
-    numerics.points <= MOST_SPRINGS_PREVIEWED && numerics.solver == Solver::Exact
+    numerics.points <= most_springs && numerics.solver == Solver::Exact
 }
 
 /// Asks for the curve with the value as it is typed so far, or for none where that is no allowed value.
@@ -252,7 +254,8 @@ pub fn preview(model: &mut Model) -> Vec<Effect> {
         }
         _ => None,
     };
-    let tried = tried.filter(|tried| tried.text() != model.document.text() && is_previewed(tried));
+    let tried = tried
+        .filter(|tried| tried.text() != model.document.text() && is_previewed(tried, MOST_SPRINGS_TRIED));
     let text = tried.as_ref().map(|tried| tried.text().to_owned());
     if text == model.tried {
         return Vec::new();

@@ -18,16 +18,13 @@ pub fn save_as(document: &Document, then_quit: bool) -> Mode {
     Mode::SaveAs(SaveForm { lines, line: 0, then_quit })
 }
 
-/// Saves the scene with the title and the notice that were typed, as an edit where they are others. A name without an
-/// extension gets `.ron`. Comments about changed values are asked about first.
+/// Saves the scene with the title and the notice that were typed, as an edit where they are others. Comments about changed
+/// values are asked about first.
 pub fn save(model: &mut Model, form: &SaveForm) -> Vec<Effect> {
     let [file, title, notice] = form.lines.each_ref().map(TextLine::text);
-    let mut path = typed_path(&file);
+    let path = typed_path(&file);
     if path.as_os_str().is_empty() {
         return Vec::new();
-    }
-    if path.extension().is_none() && path.file_name().is_some() {
-        path.set_extension("ron");
     }
     let scene = model.document.scene();
     let texts = [("title", &scene.title, title), ("notice", &scene.notice, notice)];

@@ -3,10 +3,12 @@
 use super::{Effect, edit, edit_line};
 use crate::explorer::action::Command;
 use crate::explorer::finder::Finder;
-use crate::explorer::fuzzy::Candidate;
 use crate::explorer::mode::{Library, Mode};
 use crate::explorer::model::{Model, Notice};
 use crate::scene::{Entry, typed_path};
+
+/// Most springs of a scene that is computed to be looked at in the list: its curve is there before the next row.
+const MOST_SPRINGS_SEEN: u64 = 1 << 17;
 
 /// Opens the library.
 pub fn open(model: &mut Model) -> Vec<Effect> {
@@ -30,13 +32,9 @@ pub fn search(model: &mut Model) -> Vec<Effect> {
     if library.finder.query.text().contains(std::path::is_separator) {
         library.finder.search([]);
     } else {
-        library.finder.search(entries.iter().map(candidate));
+        library.finder.search(entries.iter().map(Library::candidate));
     }
     preview(model)
-}
-
-fn candidate(entry: &Entry) -> Candidate {
-    Candidate { names: vec![entry.name.clone()], prose: vec![entry.title.clone(), entry.notice.clone()] }
 }
 
 /// Obeys a command while the library is open.
@@ -88,7 +86,9 @@ fn preview(model: &mut Model) -> Vec<Effect> {
         return Vec::new();
     }
     match entry.document() {
-        Ok(document) if edit::is_previewed(&document) => vec![Effect::Preview(Box::new(document))],
+        Ok(document) if edit::is_previewed(&document, MOST_SPRINGS_SEEN) => {
+            vec![Effect::Preview(Box::new(document))]
+        }
         _ => Vec::new(),
     }
 }

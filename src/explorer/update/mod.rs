@@ -18,6 +18,7 @@ mod palette;
 mod preloads;
 
 pub use accuracy::study_tasks;
+pub use complete::can_complete;
 
 use super::action::{Action, Command, Content};
 use super::layout::Layout;
@@ -123,6 +124,9 @@ pub fn update(model: &mut Model, action: Action) -> Vec<Effect> {
         Action::Completed { typed, paths } => return complete::completed(model, &typed, paths),
         Action::Opened(Ok(opening)) => return chart::open(model, *opening),
         Action::Opened(Err(why)) => model.notice = Some(Notice::Error(why)),
+        // Of a text that has been typed over since.
+        Action::Previewed(preview)
+            if matches!(model.mode, Mode::Edit(_)) && model.tried.as_ref() != Some(&preview.text) => {}
         Action::Previewed(preview) => return compare::previewed(model, preview),
         Action::Remembered(Ok(path)) => {
             model.notice = Some(Notice::Done(format!("colours and markers are kept in {}", path.display())));
@@ -166,7 +170,7 @@ pub fn moment_request(model: &Model) -> Option<SnapshotRequest> {
         close_up_springs: model.look.springs,
         lengths: model.lengths,
         crosshair: model.crosshair.map(|crosshair| crosshair.position),
-        beside: model.beside().map(|ghost| {
+        beside: model.beside().filter(|_| layout.shows_beside(model)).map(|ghost| {
             let legs = &ghost.computed.outcome.history.legs;
             let leg = model.player.leg.min(legs.len().saturating_sub(1));
             (leg, Player { leg, ..model.player }.indentation(legs))

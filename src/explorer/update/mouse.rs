@@ -5,8 +5,8 @@ use crate::explorer::action::{Command, Gesture, Mouse};
 use crate::explorer::layout::{Layout, inside};
 use crate::explorer::mode::Mode;
 use crate::explorer::model::{Model, Pane};
+use crate::explorer::panes::{indentation_at, parameter_at, place_at, share_at};
 use crate::explorer::request::ManualMove;
-use crate::explorer::view::{indentation_at, parameter_at, place_at, share_at};
 use ratatui::layout::Position;
 
 /// Does what the mouse asks for.

@@ -1,8 +1,9 @@
 //! The lines around the panes: title, status, footer.
 
+use super::found::marked;
 use super::stages;
 use super::typed::typed;
-use super::wrap::{clipped, fitting, wrapped};
+use super::wrap::{clipped, fitting, wrapped_within};
 use crate::accuracy::Target;
 use crate::contact::CurvePoint;
 use crate::explorer::action::{Command, Content, Traffic};
@@ -13,6 +14,7 @@ use crate::explorer::model::{Estimated, ManualState, Mode, ModeKind, Model, Noti
 use crate::explorer::snapshot::ContactSnapshot;
 use crate::explorer::text_line::TextLine;
 use crate::explorer::theme::Meaning;
+use crate::explorer::update::can_complete;
 use crate::scene::format_quantity;
 use crate::text::grouped;
 use ratatui::Frame;
@@ -31,19 +33,16 @@ pub fn title(frame: &mut Frame<'_>, area: Rect, model: &Model) {
         Span::styled(format!("{name}{changed}  "), model.appearance.theme.style(Meaning::Title)),
         Span::styled(notice, model.appearance.theme.style(Meaning::Quiet)),
     ]);
-    let mut lines = wrapped(&line, area.width);
-    if lines.len() > usize::from(area.height) {
-        lines.truncate(usize::from(area.height));
-        let last = lines.pop().map(|last| clipped(last, area.width));
-        lines.extend(last);
-    }
-    frame.render_widget(Paragraph::new(lines), area);
+    frame.render_widget(Paragraph::new(wrapped_within(&line, area)), area);
 }
 
 /// The headline figures, or a question, an error, or what is being typed.
 pub fn status(frame: &mut Frame<'_>, area: Rect, model: &Model) {
     let theme = model.appearance.theme;
-    let error = |text: String| Line::styled(text, theme.style(Meaning::Error));
+    let stated = |line: Line<'static>| {
+        if line.width() > usize::from(area.width) { clipped(line, area.width) } else { line }
+    };
+    let error = |text: String| stated(Line::styled(text, theme.style(Meaning::Error)));
     let prompted = |prompt: &'static str, line: &TextLine| {
         let prompt = Span::raw(prompt);
         let room = usize::from(area.width).saturating_sub(prompt.width());
@@ -83,7 +82,7 @@ pub fn status(frame: &mut Frame<'_>, area: Rect, model: &Model) {
             let text = model.refused.as_ref().map_or("", |(_, text)| text);
             error(format!("! {text}"))
         }
-        (_, Some(Notice::Done(text))) => Line::raw(text.clone()),
+        (_, Some(Notice::Done(text))) => stated(Line::raw(text.clone())),
         (Mode::Explore, None) if model.appraisal.choosing.is_some() => choosing(model),
         _ => headline(model, area.width),
     };
@@ -105,10 +104,11 @@ fn headline(model: &Model, width: u16) -> Line<'static> {
         let apart = if parts.is_empty() { "" } else { apart };
         parts.push(vec![Span::raw(apart), Span::styled(text, theme.style(meaning))]);
     };
-    if let Some(tried) = model.tried_outcome() {
+    if let (Mode::Edit(_), Some(tried)) = (&model.mode, model.tried_outcome()) {
         let force =
             tried.figures.adhesion_force.map_or("none".to_owned(), |force| format_quantity(force, "N"));
-        part("", format!("preview: F_a {force}"), Meaning::Title);
+        let told = if model.is_tried() { format!("F_a {force}") } else { "computing…".to_owned() };
+        part("", format!("preview: {told}"), Meaning::Title);
         part(" · ", "Enter accepts".to_owned(), Meaning::Quiet);
     }
     let in_hand = model.present().is_some() && model.hand.is_some();
@@ -255,12 +255,16 @@ fn counted(number: u64, thing: &str) -> String {
 
 /// Narrower windows have no room for what the connection carries.
 const TRAFFIC_FROM: u16 = 80;
+/// And more narrow ones none for the frames: the keys come first.
+const TRAFFIC_WITH_FRAMES: u16 = 100;
 
 /// The keys that are valid now, and what the connection carries: the line above is full.
 pub fn footer(frame: &mut Frame<'_>, area: Rect, model: &Model) {
     let traffic = model.traffic.filter(|_| area.width >= TRAFFIC_FROM).map(|Traffic { frames, bytes }| {
         let bytes = format_quantity(short(bytes as f64), "B/s");
-        let text = format!("{bytes}, at most {frames} frames/s");
+        let most =
+            if area.width < TRAFFIC_WITH_FRAMES { "" } else { &format!(", at most {frames} frames/s") };
+        let text = format!("{bytes}{most}");
         Line::styled(text, model.appearance.theme.style(Meaning::Quiet)).right_aligned()
     });
     if let Some(note) = model.demo {
@@ -271,7 +275,9 @@ pub fn footer(frame: &mut Frame<'_>, area: Rect, model: &Model) {
         return frame.render_widget(Paragraph::new(candidates(completion, area.width, model)), area);
     }
     let mut spans = Vec::new();
-    let mut room = usize::from(area.width) - traffic.as_ref().map_or(0, Line::width);
+    // Two columns apart.
+    let mut room =
+        usize::from(area.width).saturating_sub(traffic.as_ref().map_or(0, |line| line.width() + 2));
     for (keys, label) in footer_items(model) {
         let width = keys.chars().count() + label.chars().count() + 3;
         if width > room + 2 {
@@ -293,7 +299,8 @@ fn candidates(completion: &Completion, width: u16, model: &Model) -> Line<'stati
     let theme = model.appearance.theme;
     let names = completion.names().into_iter();
     let parts = names.map(|(name, taken)| {
-        vec![Span::styled(name, theme.style(if taken { Meaning::Selected } else { Meaning::Quiet }))]
+        let style = theme.style(if taken { Meaning::Selected } else { Meaning::Quiet });
+        marked(&name, &completion.letters_found(&name), style, theme)
     });
     let parts: Vec<_> = parts.collect();
     if parts.is_empty() {
@@ -307,6 +314,7 @@ fn candidates(completion: &Completion, width: u16, model: &Model) -> Line<'stati
 fn footer_items(model: &Model) -> Vec<(String, &'static str)> {
     let is_shown = |row: &&Binding| match row.command {
         Command::ToggleHand => true,
+        Command::Complete => can_complete(model),
         _ => !row.label.is_empty() && (model.hand.is_some() || !keys::is_manual(row)),
     };
     let mut rows: Vec<&Binding> = model.bindings.valid_in(model.keys()).filter(is_shown).collect();

@@ -1,53 +1,12 @@
 //! The help: the table of keys by section, and what the panes show.
 
 use crate::explorer::keys::{Bindings, names};
+use crate::explorer::panes::Pane;
 use crate::explorer::theme::{Meaning, Theme};
 use ratatui::Frame;
 use ratatui::layout::{Margin, Rect};
 use ratatui::text::{Line, Span};
 use ratatui::widgets::{Block, Paragraph};
-
-const PANES: &[(&str, &str)] = &[
-    (
-        "Curve",
-        "F over indentation d: dotted while pressing, solid while pulling; ◇ jump-in, ▲ preload, ▼ pull-off, \
-         ◆ now; letters and colours are ghosts, dashes are where the hand has been",
-    ),
-    (
-        "Profile",
-        "rigid profile below, elastic surface above; ■ marks contact. Beside it the histogram of heights, and ¦ the \
-         normal distribution of the same rms height",
-    ),
-    (
-        "Fragments",
-        "close-up of a contact patch; ○ marks its edges. Below it the whole contact, [ ] around the close-up",
-    ),
-    (
-        "Accuracy",
-        "A: relative error against the time of a run, one line for each setting that affects accuracy; ◆ is the \
-         scene. Below it the cost of 1 % and 0.1 %, and the computing stages",
-    ),
-    (
-        "Preloads",
-        "i: adhesion force over preload, of this profile and the mean of random profiles with its 95 % confidence; the \
-         line and ◆ are the present preload",
-    ),
-    (
-        "Map",
-        "m: regime under other H and κ, of most of a few random profiles with few springs; █ adhesion at first \
-         touch, ▒ after pressing, · hardly any, blank: not computed; ◆ is the scene, moved by the arrows",
-    ),
-    (
-        "Study",
-        "map of a merged study, opened by the path of its folder: means over its profiles, ▓ ░ where profiles \
-         differ in their regimes; ◆ moves from cell to cell, P selects the next preload, W switches between the \
-         study and the live map",
-    ),
-    (
-        "Parameters",
-        "fields of the scene by use, in groups; ● marks an effect that is on, ▸ a folded group, = a derived value",
-    ),
-];
 
 /// Columns for the keys.
 const KEYS: usize = 18;
@@ -77,7 +36,7 @@ fn end(lines: usize, area: Rect) -> u16 {
 fn lines(width: u16, theme: Theme, bindings: &Bindings) -> Vec<Line<'static>> {
     let title = |text| Line::styled(text, theme.style(Meaning::Title));
     let mut lines = vec![title("What you see")];
-    for (name, meaning) in PANES {
+    for (name, meaning) in Pane::ALL.iter().flat_map(|pane| pane.row().help) {
         entry(&mut lines, name, meaning, width, theme);
     }
     let mut section = "";

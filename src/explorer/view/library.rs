@@ -1,9 +1,11 @@
 //! The library: scenes to choose from on the left, the selected one on the right.
 
+use super::found::found;
 use super::plot::draw_chart;
 use super::wrap::wrapped;
 use crate::explorer::mode::Library;
 use crate::explorer::model::Model;
+use crate::explorer::text_line::TextLine;
 use crate::explorer::theme::Meaning;
 use crate::export::force_figure;
 use crate::scene::{Entry, Source, format_quantity};
@@ -26,7 +28,7 @@ pub fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model, library: &Library)
     draw_list(frame, list, model, library);
     if beside && let Some(entry) = library.entry() {
         let right = Rect { x: list.right() + 2, width: inner.width - list.width - 2, ..inner };
-        draw_entry(frame, right, model, entry);
+        draw_entry(frame, right, model, entry, &library.finder.query);
     }
 }
 
@@ -52,11 +54,17 @@ fn draw_list(frame: &mut Frame<'_>, area: Rect, model: &Model, library: &Library
             (None, false) => " ",
         };
         let style = if selected { Meaning::Selected } else { Meaning::Text };
-        let spans = vec![
-            Text::styled(format!("{mark} {}", entry.name), theme.style(style)),
-            Text::styled(format!("  {}", place_of(entry.origin)), theme.style(Meaning::Quiet)),
-        ];
-        frame.render_widget(Paragraph::new(Line::from(spans)), Rect { y: row, height: 1, ..area });
+        let style = theme.style(style);
+        let mut line = Line::from(Text::styled(format!("{mark} "), style));
+        line.extend(found(
+            &Library::candidate(entry),
+            &entry.name,
+            &library.finder.query.text(),
+            style,
+            theme,
+        ));
+        line.push_span(Text::styled(format!("  {}", place_of(entry.origin)), theme.style(Meaning::Quiet)));
+        frame.render_widget(Paragraph::new(line), Rect { y: row, height: 1, ..area });
     }
 }
 
@@ -70,11 +78,13 @@ fn place_of(source: Source) -> &'static str {
 }
 
 /// Title, what to look at, the curve, and the text of a scene.
-fn draw_entry(frame: &mut Frame<'_>, area: Rect, model: &Model, entry: &Entry) {
+fn draw_entry(frame: &mut Frame<'_>, area: Rect, model: &Model, entry: &Entry, query: &TextLine) {
     let theme = model.appearance.theme;
-    let mut lines = wrapped(&Line::styled(entry.title.clone(), theme.style(Meaning::Title)), area.width);
+    let (candidate, query) = (Library::candidate(entry), query.text());
+    let mark = |text: &str, meaning| Line::from(found(&candidate, text, &query, theme.style(meaning), theme));
+    let mut lines = wrapped(&mark(&entry.title, Meaning::Title), area.width);
     let notice = entry.notice.split_whitespace().collect::<Vec<_>>().join(" ");
-    lines.extend(wrapped(&Line::raw(notice), area.width));
+    lines.extend(wrapped(&mark(&notice, Meaning::Text), area.width));
     if let Some(error) = &entry.error {
         lines.extend(wrapped(&Line::styled(format!("! {error}"), theme.style(Meaning::Error)), area.width));
     }

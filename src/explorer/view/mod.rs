@@ -1,42 +1,25 @@
 //! Draws the model. Nothing here changes it or computes anything.
 
-mod accuracy;
-mod beside;
-mod chart;
-mod chart_words;
 mod chrome;
-mod close_up;
-mod force;
+pub mod found;
 mod help;
-mod histogram;
-mod lengths;
 mod library;
 mod palette;
-mod parameters;
-mod plot;
-mod position;
-mod preloads;
-mod profile;
-mod section;
-mod sections;
-mod spectrum;
-mod stages;
-mod typed;
-mod wrap;
+pub mod plot;
+pub mod stages;
+pub mod typed;
+pub mod wrap;
 
-pub use chart::{map_figure, place_at};
-pub use force::{indentation_at, stage_at};
-pub use parameters::{first_listed, parameter_at};
-pub use position::position_at;
-pub use sections::section_cell;
-
-use super::layout::{Layout, inside, is_framed};
-use super::model::{Mode, Model, Pane};
+use self::wrap::clipped;
+use super::layout::{Layout, is_framed};
+use super::model::{Mode, Model};
+use super::panes::Pane;
 use super::picture::to_ascii;
 use super::theme::{Marker, Meaning, Theme};
 use ratatui::Frame;
 use ratatui::layout::Rect;
 use ratatui::style::Modifier;
+use ratatui::text::Line;
 use ratatui::widgets::Block;
 
 /// Draws the whole screen.
@@ -74,16 +57,6 @@ pub fn draw(frame: &mut Frame<'_>, model: &Model) {
     }
 }
 
-/// Share of the part of the profile that a pane shows, under a column of the screen; `None` for a pane without profile.
-#[must_use]
-pub fn share_at(model: &Model, pane: Pane, area: Rect, column: u16) -> Option<f64> {
-    match pane {
-        Pane::Profile => profile::share_at(model, area, column),
-        Pane::CloseUp if !model.lengths => close_up::share_at(model, area, column),
-        _ => None,
-    }
-}
-
 /// Area of the panes.
 fn body(layout: &Layout) -> Rect {
     layout.panes.iter().map(|(_, area)| *area).reduce(Rect::union).unwrap_or_default()
@@ -96,45 +69,22 @@ pub fn help_end(model: &Model) -> u16 {
 }
 
 fn draw_pane(frame: &mut Frame<'_>, area: Rect, model: &Model, pane: Pane) {
+    let row = pane.row();
     if is_framed(area) {
         let chosen = model.pane == pane;
-        let name = match pane {
-            Pane::Force => force::title(model),
-            Pane::Profile => profile::title(model),
-            Pane::CloseUp if model.lengths => lengths::TITLE.to_owned(),
-            Pane::CloseUp if model.side_by_side => beside::title(model),
-            Pane::CloseUp => close_up::title(model),
-            Pane::Parameters => " Parameters ".to_owned(),
-            Pane::Accuracy => accuracy::TITLE.to_owned(),
-            Pane::Chart => chart_words::title(model),
-            Pane::Spectrum => spectrum::TITLE.to_owned(),
-            Pane::Preloads => preloads::TITLE.to_owned(),
-        };
+        let name = (row.title)(model);
         let style = model.appearance.theme.style(if chosen { Meaning::Title } else { Meaning::Quiet });
         let mark = if chosen { "▸" } else { "" };
-        let block = Block::bordered()
-            .border_style(model.appearance.theme.style(Meaning::Quiet))
-            .title(ratatui::text::Span::styled(format!("{mark}{name}"), style));
-        let names = match pane {
-            Pane::Force => force::reading(model, area),
-            Pane::Profile => profile::names(model, area),
-            Pane::CloseUp if !model.lengths && !model.side_by_side => close_up::names(model, area),
-            _ => None,
-        };
+        let room = area.width - 2;
+        let mut name = format!("{mark}{name}");
+        if name.chars().count() > usize::from(room) {
+            name.truncate(name.trim_end().len());
+        }
+        let title = Line::styled(name, style);
+        let title = if title.width() > usize::from(room) { clipped(title, room) } else { title };
+        let block = Block::bordered().border_style(model.appearance.theme.style(Meaning::Quiet)).title(title);
+        let names = (row.edge)(model, area);
         frame.render_widget(names.into_iter().fold(block, Block::title_bottom), area);
     }
-    let edge = area.right().saturating_sub(1);
-    let area = inside(area);
-    match pane {
-        Pane::Force => force::draw(frame, area, model),
-        Pane::Profile => profile::draw(frame, area, model),
-        Pane::CloseUp if model.lengths => lengths::draw(frame, area, model),
-        Pane::CloseUp if model.side_by_side => beside::draw(frame, area, model),
-        Pane::CloseUp => close_up::draw(frame, area, model),
-        Pane::Parameters => parameters::draw(frame, area, edge, model),
-        Pane::Accuracy => accuracy::draw(frame, area, model),
-        Pane::Chart => chart::draw(frame, area, model),
-        Pane::Spectrum => spectrum::draw(frame, area, model),
-        Pane::Preloads => preloads::draw(frame, area, model),
-    }
+    (row.draw)(frame, area, model);
 }

@@ -1,5 +1,6 @@
 //! The list of all commands, over the panes.
 
+use super::found::found;
 use super::wrap::clipped;
 use crate::explorer::finder::Finder;
 use crate::explorer::keys::Bindings;
@@ -33,10 +34,14 @@ pub fn draw(frame: &mut Frame<'_>, area: Rect, theme: Theme, bindings: &Bindings
     for (y, place) in (inner.y..inner.bottom()).zip(first..finder.found.len()) {
         let Some(entry) = entries.get(finder.found[place]) else { continue };
         let selected = place == finder.selected;
-        let keys = Line::styled(entry.keys.join(" "), theme.style(Meaning::Key)).right_aligned();
+        let (candidate, query) = (entry.candidate(), finder.query.text());
+        let key = |key: &String| found(&candidate, key, &query, theme.style(Meaning::Key), theme);
+        let keys: Vec<_> = entry.keys.iter().map(key).collect();
+        let keys = Line::from(keys.join(&Span::raw(" "))).right_aligned();
         let mark = if selected { "›" } else { " " };
         let style = theme.style(if selected { Meaning::Selected } else { Meaning::Text });
-        let mut line = Line::from(Span::styled(format!("{mark} {}", entry.help), style));
+        let help = found(&candidate, &entry.help, &query, style, theme);
+        let mut line: Line<'_> = [Span::styled(format!("{mark} "), style)].into_iter().chain(help).collect();
         let room = inner.width.saturating_sub(keys.width() as u16 + 1);
         if line.width() > usize::from(room) {
             line = clipped(line, room);

@@ -3,6 +3,7 @@
 //! ratatui does so as well, but overruns its area, and panics, where a word has wide characters or
 //! begins with a combining mark; titles and typed values may.
 
+use ratatui::layout::Rect;
 use ratatui::style::Style;
 use ratatui::text::{Line, Span};
 
@@ -23,6 +24,17 @@ pub fn wrapped(line: &Line<'_>, columns: u16) -> Vec<Line<'static>> {
     }
     page.turn();
     page.lines
+}
+
+/// A line in as many lines as an area has room for, the last of them with `…` where the text goes on.
+pub fn wrapped_within(line: &Line<'_>, area: Rect) -> Vec<Line<'static>> {
+    let mut lines = wrapped(line, area.width);
+    if lines.len() > usize::from(area.height) {
+        lines.truncate(area.height.into());
+        let last = lines.pop().map(|last| clipped(last, area.width));
+        lines.extend(last);
+    }
+    lines
 }
 
 /// As many parts, from the first one on, as fit whole into so many columns, and what stands between them.

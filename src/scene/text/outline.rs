@@ -148,6 +148,18 @@ impl<'t> Text<'t> {
         comments.into_iter().zip(about).filter_map(|(comment, about)| about.then_some(comment)).collect()
     }
 
+    /// The elements of a text that is one list, as they are written; `None` for any other value.
+    pub(in crate::scene) fn elements(&self) -> Option<Vec<&'t str>> {
+        let body = self.body("").filter(|_| self.text.starts_with('[') && self.is_one_value())?;
+        self.entries(body).map(|entry| self.text.get(entry.span.value)).collect()
+    }
+
+    /// The names of the fields of a text that is one group; `None` for any other value.
+    pub(in crate::scene) fn names(&self) -> Option<Vec<&'t str>> {
+        let body = self.body("").filter(|_| self.text.starts_with('(') && self.is_one_value())?;
+        self.entries(body).map(|entry| entry.name).collect()
+    }
+
     /// The text is one value and nothing else.
     pub(super) fn is_one_value(&self) -> bool {
         let ends = self.tokens.first().zip(self.tokens.last());

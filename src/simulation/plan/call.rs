@@ -52,9 +52,9 @@ impl Called {
 /// Cost of one stage.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct StageCost {
-    /// Passes over the line or its tree; `None` where only the run can tell.
+    /// Passes over the line or its tree; `None` where only the run shows it.
     pub passes: Option<u64>,
-    /// Springs looked at in all of them, at the most; `None` where only the run can tell.
+    /// Springs looked at in all of them, at the most; `None` where only the run shows it.
     pub springs_touched: Option<u64>,
     /// Bytes of the arrays it adds while it runs.
     pub bytes: u64,

@@ -34,11 +34,11 @@ enum Way {
 impl Legs {
     pub fn of(loading: &[Leg]) -> Legs {
         let mut legs = Legs::default();
-        let mut standing = BodyState { touches: Some(false), force: Some(0.0), indentation: Some(0.0) };
+        let mut state = BodyState { touches: Some(false), force: Some(0.0), indentation: Some(0.0) };
         for leg in loading {
-            let way = standing.way(leg);
+            let way = state.way(leg);
             match way {
-                Way::Loading if standing.touches == Some(false) => {
+                Way::Loading if state.touches == Some(false) => {
                     legs.from_separation += 1;
                     legs.loading += 1;
                 }
@@ -47,7 +47,7 @@ impl Legs {
                 Way::Idle => legs.idle += 1,
                 Way::Unclear => legs.unclear += 1,
             }
-            standing = standing.after(leg);
+            state = state.after(leg);
         }
         legs
     }

@@ -1,6 +1,6 @@
 //! Stages that a scene calls for, the fields that call for them, and their costs. The run follows this plan.
 //!
-//! Each stage is a file with its row, and stands once in the table; nothing else knows all of them.
+//! Each stage is a file with its row, and has one entry in the table, the only list of all stages.
 
 mod call;
 mod form;

@@ -1,0 +1,281 @@
+//! Cost of accuracy: errors over times, both logarithmic, requirements of a good accuracy, and the stages of the run.
+
+use super::PaneRow;
+use crate::accuracy::{CostTable, ErrorFigure, Estimate, Evidence, Knob, Row};
+use crate::draw::{Chart, Figure, Ink, Layer, Shape, Sign, Span, legend};
+use crate::explorer::layout::inside;
+use crate::explorer::model::{Estimated, Model};
+use crate::explorer::theme::{Appearance, Meaning};
+use crate::explorer::view::plot;
+use crate::explorer::view::stages;
+use crate::explorer::view::wrap::{filled, wrapped};
+use crate::export::work_precision;
+use crate::scene::{Edges, Numerics, Solver, format_quantity};
+use crate::text::grouped;
+use ratatui::Frame;
+use ratatui::layout::Rect;
+use ratatui::text::{Line, Span as Text};
+use ratatui::widgets::Paragraph;
+
+/// Row of the pane.
+pub static ROW: PaneRow = PaneRow {
+    title: |_| " Accuracy: error over time, log–log ".to_owned(),
+    draw: draw,
+    help: &[(
+        "Accuracy",
+        "A: relative error against the time of a run, one line for each setting that affects accuracy; ◆ is the \
+         scene. Below it the cost of 1 % and 0.1 %, and the computing stages",
+    )],
+    ..PaneRow::EMPTY
+};
+
+/// Relative errors that are answered for, and looked for in the plot.
+const TARGETS: [f64; 2] = [0.01, 0.001];
+
+/// Errors below this stand in the lowest row.
+const LOWEST: f64 = 1e-8;
+
+/// Rows of plot that make it worth drawing.
+const FEWEST_PLOT_ROWS: u16 = 4;
+
+fn error_of(row: &Row) -> Option<ErrorFigure> {
+    row.errors.adhesion_force.or(row.errors.curve)
+}
+
+/// Time, s, and error of a setting, as far as both have logarithms.
+fn point(row: &Row) -> Option<(f64, f64)> {
+    let at = (row.seconds?.minimum, error_of(row)?.error);
+    (at.0 > 0.0 && at.1 > 0.0 && at.1.is_finite()).then_some(at)
+}
+
+/// Draws plot, answers and stages, as far as there is room.
+fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
+    let area = inside(area);
+    let table = model.appraisal.costs.table.as_deref();
+    let figure = table.map(|table| work_precision("", table));
+    let figure = figure.filter(|figure| !figure.legend().is_empty());
+    let shown = table.zip(figure.as_ref());
+    let legend =
+        shown.map(|(table, figure)| entries(table, figure, area.width, model.appearance)).unwrap_or_default();
+    let below = texts(model, shown.map(|(table, _)| table), area);
+    let room = area.height.saturating_sub(if shown.is_none() { 1 } else { FEWEST_PLOT_ROWS + 1 });
+    let above = (legend.len() as u16).min(room);
+    let text_rows = (below.len() as u16).min(room - above);
+    let lines = |frame: &mut Frame<'_>, y: u16, rows: u16, lines: Vec<Line<'static>>| {
+        for (y, line) in (y..y + rows).zip(lines) {
+            frame.render_widget(Paragraph::new(line), Rect { y, height: 1, ..area });
+        }
+    };
+    let plot = Rect { y: area.y + above, height: area.height - above - text_rows, ..area };
+    lines(frame, area.y, above, legend);
+    lines(frame, plot.bottom(), text_rows, below);
+    match shown {
+        Some((table, figure)) => {
+            for chart in &figure.charts {
+                let chart = with_scene(chart.clone(), model, table);
+                plot::draw_chart(frame, plot, &chart, model.appearance);
+            }
+        }
+        None => {
+            let text = wrapped(
+                &Line::styled(nothing_yet(model), model.appearance.theme.style(Meaning::Quiet)),
+                area.width,
+            );
+            lines(frame, plot.y, plot.height, text);
+        }
+    }
+}
+
+/// Reason for which there is no plot.
+fn nothing_yet(model: &Model) -> String {
+    let costs = &model.appraisal.costs;
+    if model.is_computing() {
+        return "first the scene itself…".to_owned();
+    }
+    match (&costs.ended, model.is_current()) {
+        (_, false) => "the scene has no curve to estimate an error of".to_owned(),
+        (Some(Err(why)), _) => format!("nothing is measured: {why}"),
+        (Some(Ok(())), _) => {
+            "nothing to show: no force in this scene whose error depends on springs, steps, samples or lines"
+                .to_owned()
+        }
+        (None, _) if !model.shows_times => {
+            "times are not measured here: they differ from run to run".to_owned()
+        }
+        (None, _) => "measuring: each knob from coarse to fine, as often as 10 s allow…".to_owned(),
+    }
+}
+
+/// The chart with the errors that are asked for and the scene itself, down to errors of interest.
+fn with_scene(mut chart: Chart, model: &Model, table: &CostTable) -> Chart {
+    let Span { low, high } = chart.y.span;
+    chart.y.span = Span { low: low.max(LOWEST.log10()).min(high - 1.0), high };
+    let lowest = 10_f64.powf(chart.y.span.low);
+    for layer in &mut chart.layers {
+        if let Shape::Curve { points, .. } = &mut layer.shape {
+            points.iter_mut().for_each(|point| point.1 = point.1.max(lowest));
+        }
+    }
+    let targets = TARGETS.map(|target| Layer::unnamed(Ink::Quiet, Shape::Level(target)));
+    chart.layers.splice(0..0, targets);
+    if let Some((seconds, error)) = present(&model.document.scene().numerics, table) {
+        let points = vec![(seconds, error.max(lowest))];
+        let shape = Shape::Curve { points, stroke: None, sign: Some(Sign::Diamond) };
+        chart.layers.push(Layer::unnamed(Ink::Cursor, shape));
+    }
+    chart
+}
+
+/// The knob that a scene has and the setting it has it at.
+fn setting_of(numerics: &Numerics) -> (Knob, f64) {
+    match (numerics.solver, numerics.edges) {
+        (Solver::Stepwise { step }, _) => (Knob::Step, step),
+        (Solver::Exact, Edges::Grid) => (Knob::GridSprings, numerics.points as f64),
+        (Solver::Exact, Edges::SubCell) => (Knob::SubCellSprings, numerics.points as f64),
+    }
+}
+
+/// Place of the scene itself: at the row of its setting, or between its neighbours. `None` where it was
+/// not tried, and for steps on other springs than they were tried with.
+fn present(numerics: &Numerics, table: &CostTable) -> Option<(f64, f64)> {
+    let (knob, setting) = setting_of(numerics);
+    let mut rows: Vec<(f64, (f64, f64))> = table
+        .rows_of(knob)
+        .filter(|row| knob != Knob::Step || row.springs == numerics.points)
+        .filter_map(|row| Some((row.setting.ln(), point(row)?)))
+        .collect();
+    rows.sort_by(|one, other| one.0.total_cmp(&other.0));
+    let at = setting.ln();
+    let above = rows.iter().position(|(setting, _)| *setting >= at)?;
+    let (right, there) = &rows[above];
+    if *right == at {
+        return Some(*there);
+    }
+    let (left, before) = rows.get(above.checked_sub(1)?)?;
+    let share = (at - left) / (right - left);
+    let between = |one: f64, other: f64| one * (other / one).powf(share);
+    Some((between(before.0, there.0), between(before.1, there.1)))
+}
+
+/// Legend: sign of each knob, with its observed order.
+fn entries(table: &CostTable, figure: &Figure, width: u16, appearance: Appearance) -> Vec<Line<'static>> {
+    let mut parts = plot::in_theme(appearance, |style| legend(&figure.charts, style));
+    for part in &mut parts {
+        let is_of = |knob: &Knob| part.last().is_some_and(|name| name.content.trim_start() == knob.name());
+        if let Some(order) = Knob::ALL.iter().find(|knob| is_of(knob)).and_then(|knob| table.order(*knob)) {
+            part.push(Text::raw(format!(" order {order:.1}")));
+        }
+    }
+    let single = table.rows_of(Knob::SinglePrecision).next().and_then(error_of);
+    if let Some(single) = single {
+        let quiet = appearance.theme.style(Meaning::Quiet);
+        parts.push(vec![Text::styled(
+            format!("{} {:.0e}", Knob::SinglePrecision.name(), single.error),
+            quiet,
+        )]);
+    }
+    filled(parts, "  ", usize::from(width))
+}
+
+/// Lines below the plot, the most important first.
+fn texts(model: &Model, table: Option<&CostTable>, area: Rect) -> Vec<Line<'static>> {
+    let theme = model.appearance.theme;
+    let mut lines = Vec::new();
+    let mut say = |line: Line<'static>| lines.extend(wrapped(&line, area.width));
+    if model.is_current() {
+        say(now(model, table));
+    }
+    if let Some(table) = table {
+        for bound in TARGETS {
+            let percent = format!("{} %", 100.0 * bound);
+            if let Some(answer) = answer(table, bound, model.appraisal.costs.ended.is_some()) {
+                let percent = Text::styled(format!("{percent}: "), theme.style(Meaning::Title));
+                say(Line::from(vec![percent, Text::raw(answer)]));
+            }
+        }
+    }
+    if let Some((tolerance, trying)) = model.appraisal.choosing {
+        let trying = trying.map_or_else(String::new, |points| format!(", {} springs", grouped(points)));
+        say(Line::styled(format!("trying for {tolerance:e}{trying}…"), theme.style(Meaning::Key)));
+    }
+    if let Some(trying) = &model.appraisal.costs.trying {
+        say(Line::styled(format!("trying {trying}…"), theme.style(Meaning::Key)));
+    }
+    if let Some(answer) = &model.appraisal.answer {
+        say(Line::raw(answer.clone()));
+    }
+    let rows = if area.height >= 12 { 2 } else { 1 };
+    lines.extend(stages::strip(model, area.width, rows));
+    if let Some(table) = table.filter(|_| area.height >= 24) {
+        let from = if table.reference.closed_form {
+            "Errors of F_a are counted from its closed form".to_owned()
+        } else {
+            format!("Errors are counted from {} springs, edges SubCell", grouped(table.reference.springs))
+        };
+        let steps = table.rows_of(Knob::Step).next().map_or_else(String::new, |row| {
+            format!("; of steps, from the exact solver on {} springs", grouped(row.springs))
+        });
+        let note = format!("{from}{steps}. ○ is below what they resolve.");
+        lines.extend(wrapped(&Line::styled(note, theme.style(Meaning::Quiet)), area.width));
+    }
+    lines
+}
+
+/// The setting of the scene, and how good it is.
+fn now(model: &Model, table: Option<&CostTable>) -> Line<'static> {
+    let theme = model.appearance.theme;
+    let numerics = model.document.scene().numerics;
+    let springs = grouped(numerics.points);
+    let setting = match setting_of(&numerics) {
+        (Knob::Step, step) => format!("{springs} springs, step {}", format_quantity(step, "m")),
+        (Knob::GridSprings, _) => format!("{springs} springs, edges Grid"),
+        _ => format!("{springs} springs, edges SubCell"),
+    };
+    let error = match &model.appraisal.estimated {
+        Estimated::Waiting if model.shows_times => ", error …".to_owned(),
+        Estimated::Waiting => String::new(),
+        Estimated::Known(Estimate { error, evidence, .. }) => {
+            let from = match evidence {
+                Evidence::ClosedForm => " by the closed form".to_owned(),
+                Evidence::Solutions(springs) => {
+                    let springs: Vec<_> = springs.iter().map(|&springs| grouped(springs)).collect();
+                    format!(" by {} springs", springs.join(", "))
+                }
+            };
+            format!(", error {error:.1e}{from}")
+        }
+        Estimated::Unknown => ", error unknown".to_owned(),
+    };
+    let absent = table.is_some_and(|table| {
+        model.appraisal.costs.ended.is_some() && !table.rows.is_empty() && present(&numerics, table).is_none()
+    });
+    let absent = if absent { "; not among those tried" } else { "" };
+    Line::from(vec![
+        Text::styled("◆ ", theme.style(Meaning::Cursor)),
+        Text::raw(format!("{setting}{error}{absent}")),
+    ])
+}
+
+/// Requirements of a bound; `None` while they are unknown.
+fn answer(table: &CostTable, bound: f64, finished: bool) -> Option<String> {
+    let told = [(Knob::SubCellSprings, "SubCell"), (Knob::GridSprings, "Grid")].into_iter().filter_map(
+        |(knob, edges)| {
+            let finest = table.rows_of(knob).next_back();
+            match (table.first_row_within(knob, bound), finest) {
+                (Some(row), _) => {
+                    let time = row.seconds.map_or_else(String::new, |time| {
+                        let minimum = format!("{:.1e}", time.minimum).parse().unwrap_or(time.minimum);
+                        format!(", {}", format_quantity(minimum, "s"))
+                    });
+                    Some(format!("{edges} {}{time}", grouped(row.springs)))
+                }
+                (None, Some(finest)) if finished => {
+                    Some(format!("{edges} more than {}", grouped(finest.springs)))
+                }
+                _ => None,
+            }
+        },
+    );
+    let told: Vec<_> = told.collect();
+    (!told.is_empty()).then(|| told.join("; "))
+}

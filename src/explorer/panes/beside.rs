@@ -1,0 +1,54 @@
+//! The newest ghost beside the scene: its profile and contact at the same part of its loading, what differs between the
+//! scenes, and both adhesion forces.
+
+use super::{force, profile};
+use crate::explorer::model::{Ghost, Model};
+use crate::explorer::snapshot::SolvedScene;
+use crate::explorer::theme::Meaning;
+use crate::explorer::view::wrap::clipped;
+use crate::export::adhesion_forces;
+use crate::scene::format_quantity;
+use ratatui::Frame;
+use ratatui::layout::Rect;
+use ratatui::text::Line;
+use ratatui::widgets::Paragraph;
+
+/// Title of the pane.
+pub fn title(model: &Model) -> String {
+    let Some(ghost) = model.beside() else { return String::new() };
+    let scene = ghost.document.scene();
+    let name = if scene.title.is_empty() { ghost.document.name() } else { &scene.title };
+    let length = format_quantity(scene.length, "m");
+    format!(" Profile z(x) of {}: {name}, x to {length} ", force::newest_letter(model))
+}
+
+/// Draws the profile of the ghost on the heights of the scene, and compares the two.
+pub fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
+    let Some(ghost) = model.beside() else { return };
+    let text_rows = u16::from(area.height >= 4) + u16::from(area.height >= 6);
+    let above = Rect { height: area.height - text_rows, ..area };
+    let shown = model.moment.as_deref().and_then(|moment| Some((moment, moment.beside.as_deref()?)));
+    if let Some((moment, beside)) = shown {
+        let histogram = ghost.computed.outcome.histogram.as_ref();
+        profile::draw_scene(frame, above, (beside, histogram), profile::heights(moment), model.appearance);
+    } else {
+        let quiet = model.appearance.theme.style(Meaning::Quiet);
+        frame.render_widget(Paragraph::new("computing…").style(quiet), above);
+    }
+    let changes = Line::raw(format!("{} → this scene: {}", force::newest_letter(model), ghost.changes));
+    let lines = [forces(model, ghost), changes];
+    for (row, line) in (area.bottom() - text_rows..area.bottom()).zip(lines) {
+        let line = if line.width() > usize::from(area.width) { clipped(line, area.width) } else { line };
+        frame.render_widget(Paragraph::new(line), Rect { y: row, height: 1, ..area });
+    }
+}
+
+/// Adhesion forces of the ghost and of the scene, and their ratio.
+fn forces(model: &Model, ghost: &Ghost) -> Line<'static> {
+    let force = |computed: &SolvedScene| computed.outcome.figures.adhesion_force;
+    let before = force(&ghost.computed);
+    Line::raw(match model.computed.as_deref().filter(|_| model.is_current()) {
+        Some(now) => format!("F_a {}", adhesion_forces([before, force(now)])),
+        None => "computing…".to_owned(),
+    })
+}

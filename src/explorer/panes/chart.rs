@@ -1,0 +1,168 @@
+//! The map in its pane: shades in the colours of the regimes, and the mark of the scene. Beside the map are its [words].
+
+use super::{PaneRow, chart_words as words, sections};
+use crate::draw::{CellPlot, Chart, Figure, Label};
+use crate::explorer::layout::inside;
+use crate::explorer::model::Model;
+use crate::explorer::theme::{Meaning, Theme};
+use crate::explorer::view::plot;
+use crate::explorer::view::wrap::wrapped;
+use crate::export::study_figure;
+use crate::study::map::{Charted, MapModel, Place};
+use ratatui::Frame;
+use ratatui::layout::{Position, Rect};
+use ratatui::text::{Line, Span as Text};
+use ratatui::widgets::Paragraph;
+
+/// Row of the pane.
+pub static ROW: PaneRow = PaneRow {
+    title: words::title,
+    draw: draw,
+    help: &[
+        (
+            "Map",
+            "m: regime under other H and κ, of most of a few random profiles with few springs; █ adhesion at first \
+             touch, ▒ after pressing, · hardly any, blank: not computed; ◆ is the scene, moved by the arrows",
+        ),
+        (
+            "Study",
+            "map of a merged study, opened by the path of its folder: means over its profiles, ▓ ░ where profiles \
+             differ in their regimes; ◆ moves from cell to cell, P selects the next preload, W switches between the \
+             study and the live map",
+        ),
+    ],
+    ..PaneRow::EMPTY
+};
+
+/// Rows of map that make it worth drawing.
+const FEWEST_ROWS: u16 = 4;
+
+/// Chart of what is charted of a map over two axes.
+pub(super) fn chart(map_model: &MapModel, charted: Charted) -> Option<Chart> {
+    let mut figure = map_model.figure(&[charted], true);
+    if charted == Charted::Regime {
+        // The shades are the regimes.
+        figure.boundary = None;
+    }
+    let mut chart = study_figure(&figure).charts.pop()?;
+    if let (Charted::Regime, Some(map)) = (charted, chart.map_mut()) {
+        map.class_names.iter_mut().for_each(|class| class.letter = None);
+    }
+    Some(chart)
+}
+
+/// Figure of what the pane shows: the map, with the quantities behind the regimes while these are mapped, or the sections.
+pub fn map_figure(model: &Model, map_model: &MapModel) -> Figure {
+    let mut figure = if model.chart.sections || map_model.up().is_none() {
+        Figure {
+            title: String::new(),
+            notes: Vec::new(),
+            charts: sections::charts(model),
+            size: Figure::SMALL,
+        }
+    } else {
+        let layers = words::told(model.chart.charted(), map_model);
+        let mut charted: Vec<_> = layers.into_iter().map(|layer| Charted::Quantity(layer.quantity)).collect();
+        if charted.is_empty() {
+            charted.push(Charted::Regime);
+        }
+        study_figure(&map_model.figure(&charted, false))
+    };
+    let study = model.chart.shown_study();
+    let title = study.map_or(&model.document.scene().title, |study| &study.study_map.plan().title);
+    figure.title.clone_from(title);
+    let fixed = study.map_or_else(Vec::new, |study| study.study_map.stands_at(study.slice));
+    let fixed = fixed.iter().map(|fixed| Label::statement(fixed));
+    figure.notes = fixed.reduce(|line, fixed| line.then(", ").join(&fixed)).into_iter().collect();
+    figure
+}
+
+/// The parts of the pane.
+struct Parts {
+    chart: Chart,
+    legend: Vec<Line<'static>>,
+    plot: CellPlot,
+    below: Vec<Line<'static>>,
+}
+
+fn parts(model: &Model, map_model: &MapModel, area: Rect) -> Option<Parts> {
+    let chart = chart(map_model, model.chart.charted())?;
+    let mut legend = words::legend(model, &chart, area.width);
+    let mut below = words::below(model, area);
+    // The map comes first, then what the mark says, then the legend.
+    let room = usize::from(area.height.saturating_sub(FEWEST_ROWS + 1));
+    below.truncate(room.min(usize::from(area.height / 3)));
+    legend.truncate(room - below.len());
+    let (above, rows) = (legend.len() as u16, (legend.len() + below.len()) as u16);
+    let middle = Rect { y: area.y + above, height: area.height.saturating_sub(rows), ..area };
+    Some(Parts { plot: CellPlot::within(middle, &chart), chart, legend, below })
+}
+
+/// Place on the map under a place on the screen.
+pub fn place_at(model: &Model, area: Rect, here: Position) -> Option<Place> {
+    let map_model = model.chart.map_model().filter(|_| !model.chart.sections)?;
+    map_model.up()?;
+    let Parts { chart, plot, .. } = parts(model, map_model, area)?;
+    let (across, up) = plot.values_at(chart.map()?, here.into())?;
+    Some((across, Some(up)))
+}
+
+/// Draws legend, map, and what the map says at the mark, as far as there is room.
+fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
+    let area = inside(area);
+    let theme = model.appearance.theme;
+    let Some(map_model) = model.chart.map_model() else {
+        let text = wrapped(&Line::styled(words::nothing_yet(model), theme.style(Meaning::Quiet)), area.width);
+        return write(frame, area, text);
+    };
+    if model.chart.sections || map_model.up().is_none() {
+        let below = words::below(model, area);
+        let rows = (below.len() as u16).min(area.height.saturating_sub(FEWEST_ROWS));
+        let plots = Rect { height: area.height - rows, ..area };
+        sections::draw(frame, plots, model);
+        return write(frame, Rect { y: plots.bottom(), height: rows, ..area }, below);
+    }
+    let Some(Parts { chart, legend, plot, below }) = parts(model, map_model, area) else { return };
+    write(frame, Rect { height: legend.len() as u16, ..area }, legend);
+    let rows = (below.len() as u16).min(area.height);
+    write(frame, Rect { y: area.bottom() - rows, height: rows, ..area }, below);
+    plot::in_theme(model.appearance, |style| plot.draw(frame.buffer_mut(), &chart, style));
+    if let Some((across, Some(up))) = model.place() {
+        let marker = model.appearance.marker.symbols();
+        if let Some(cell) = plot.cell(&chart, marker, (across, up)) {
+            mark(frame, area, plot.plot, cell, theme);
+        }
+    }
+}
+
+fn write(frame: &mut Frame<'_>, area: Rect, lines: Vec<Line<'static>>) {
+    for (y, line) in (area.y..area.bottom()).zip(lines) {
+        frame.render_widget(Paragraph::new(line), Rect { y, height: 1, ..area });
+    }
+}
+
+/// The scene as it is, with a pointer on each axis that has a line.
+fn mark(frame: &mut Frame<'_>, area: Rect, plot: Rect, (x, y): (u16, u16), theme: Theme) {
+    let below = frame.buffer_mut().cell((x, plot.bottom()));
+    let has_line = below.is_some_and(|cell| ["─", "┬"].contains(&cell.symbol()));
+    let mut put = |x: u16, y: u16, text: &'static str| {
+        let place = Rect { x, y, width: text.chars().count() as u16, height: 1 };
+        let text = Text::styled(text, theme.style(Meaning::Cursor));
+        frame.render_widget(Paragraph::new(text), place.intersection(area));
+    };
+    // Blanks on both sides, so that the mark is seen without colours.
+    if x > plot.x {
+        put(x - 1, y, " ");
+    }
+    if x + 1 < plot.right() {
+        put(x + 1, y, " ");
+    }
+    put(x, y, "◆");
+    // Without a line of its own the scale below has names and numbers there.
+    if has_line {
+        put(x, plot.bottom(), "▲");
+    }
+    if plot.x > area.x {
+        put(plot.x - 1, y, "▶");
+    }
+}

@@ -1,0 +1,186 @@
+//! The close-up of contact fragments, with their boundary points as the paper's white circles, and a strip
+//! of the whole contact.
+
+use super::section::short;
+use super::{PaneRow, beside, lengths, section};
+use crate::draw::{CellPlot, Chart, Span};
+use crate::explorer::layout::inside;
+use crate::explorer::model::Model;
+use crate::explorer::snapshot::{ContactSnapshot, FragmentFacts, Section, Share};
+use crate::explorer::theme::{Meaning, Theme};
+use crate::explorer::view::plot;
+use crate::scene::format_quantity;
+use ratatui::Frame;
+use ratatui::layout::Rect;
+use ratatui::text::{Line, Span as Text};
+use ratatui::widgets::Paragraph;
+
+/// Row of the pane.
+pub static ROW: PaneRow = PaneRow {
+    title: |model| match shown(model) {
+        Shown::Lengths => lengths::TITLE.to_owned(),
+        Shown::Beside => beside::title(model),
+        Shown::CloseUp => title(model),
+    },
+    draw: |frame, area, model| match shown(model) {
+        Shown::Lengths => lengths::draw(frame, inside(area), model),
+        Shown::Beside => beside::draw(frame, inside(area), model),
+        Shown::CloseUp => draw(frame, inside(area), model),
+    },
+    edge: |model, area| match shown(model) {
+        Shown::Lengths | Shown::Beside => None,
+        Shown::CloseUp => names(model, area),
+    },
+    has_crosshair: true,
+    help: &[(
+        "Fragments",
+        "close-up of a contact patch; ○ marks its edges. Below it the whole contact, [ ] around the close-up",
+    )],
+    ..PaneRow::EMPTY
+};
+
+/// Content of the pane.
+enum Shown {
+    CloseUp,
+    Lengths,
+    Beside,
+}
+
+fn shown(model: &Model) -> Shown {
+    if model.lengths {
+        Shown::Lengths
+    } else if model.side_by_side {
+        Shown::Beside
+    } else {
+        Shown::CloseUp
+    }
+}
+
+/// Title of the pane.
+fn title(model: &Model) -> String {
+    let Some(moment) = model.moment.as_ref() else { return " Fragments ".to_owned() };
+    let shown = &moment.close_up.section;
+    let from = (moment.line.first + shown.first) as f64 * moment.line.spacing;
+    let width = shown.springs as f64 * moment.line.spacing;
+    let [width, from] = [width, from].map(|x| format_quantity(short(x), "m"));
+    format!(" Fragments, {width} from x = {from} ")
+}
+
+/// Names of what is drawn, for the lower edge of the frame.
+fn names(model: &Model, area: Rect) -> Option<Line<'static>> {
+    let moment = model.moment.as_ref()?;
+    let shown = &moment.close_up.section;
+    let chart = section::chart(shown, moment.line, heights(shown));
+    let ring = Text::styled("○", model.appearance.theme.style(Meaning::Contact));
+    let ring = vec![ring, Text::raw(" patch end")];
+    Some(section::names(moment, &chart, [ring], model.appearance, area.width))
+}
+
+/// Share of the close-up under a column of the pane.
+pub fn share_at(model: &Model, area: Rect, column: u16) -> Option<f64> {
+    let moment = model.moment.as_ref()?;
+    let (chart, place) = placed(moment, area);
+    Some(chart.x.share(place.number_at(&chart.x, column)))
+}
+
+/// Draws the close-up and what is known of its fragment.
+fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
+    let Some(moment) = model.moment.as_ref() else { return };
+    let theme = model.appearance.theme;
+    let close_up = &moment.close_up;
+    let section = &close_up.section;
+    let (strip_rows, text_rows) = rows_below(area);
+    let (chart, place) = placed(moment, area);
+    plot::in_theme(model.appearance, |style| place.draw(frame.buffer_mut(), &chart, style));
+    for &(spring, height) in &close_up.boundaries {
+        let at = (section::position(moment.line, spring), height);
+        if let Some(cell) = place.cell(&chart, model.appearance.marker.symbols(), at) {
+            frame.buffer_mut()[cell].set_symbol("○").set_style(theme.style(Meaning::Contact));
+        }
+    }
+    if strip_rows > 0 {
+        let springs = model.computed.as_ref().map_or(1, |computed| computed.outcome.history.work.springs);
+        let line = strip(&moment.strip, section, springs as usize, theme);
+        frame.render_widget(
+            Paragraph::new(line),
+            Rect { y: area.bottom() - text_rows - strip_rows, height: 1, ..area },
+        );
+    }
+    let lines = describe(close_up.fragment, moment.point.fragments, area.width);
+    for (row, line) in (area.bottom() - text_rows..area.bottom()).zip(lines) {
+        frame.render_widget(Paragraph::new(line), Rect { y: row, height: 1, ..area });
+    }
+}
+
+/// Rows below the plot: those of the whole contact and those of the text.
+fn rows_below(area: Rect) -> (u16, u16) {
+    (u16::from(area.height >= 9), u16::from(area.height >= 4) + u16::from(area.height >= 7))
+}
+
+/// The chart of the close-up and its place in the pane.
+pub fn placed(moment: &ContactSnapshot, area: Rect) -> (Chart, CellPlot) {
+    let (strip, text) = rows_below(area);
+    let shown = &moment.close_up.section;
+    let mut chart = section::chart(shown, moment.line, heights(shown));
+    section::add_crosshair(&mut chart, moment);
+    let place = CellPlot::within(Rect { height: area.height - strip - text, ..area }, &chart);
+    (chart, place)
+}
+
+/// The axis of heights: the line, and the surface where it is not far above or below.
+fn heights(section: &Section) -> Span {
+    let (low, high) = section.heights;
+    let room = 0.4 * (high - low);
+    Span::around([low, high, section.level.clamp(low - room, high + room)].into_iter(), 0.05)
+}
+
+/// The whole contact in one row; the brackets hold what the close-up shows.
+fn strip(strip: &[Share], section: &Section, springs: usize, theme: Theme) -> Line<'static> {
+    let glyph = |share: &Share| match share {
+        Share::Nothing => '·',
+        Share::Something => '▪',
+        Share::Everything => '■',
+    };
+    let (count, springs) = (strip.len(), springs.max(1));
+    if count < 4 {
+        return Line::default();
+    }
+    let cell = |spring: usize| (spring * count / springs).min(count - 1);
+    let open = cell(section.first).min(count - 2);
+    let close = cell((section.first + section.springs).saturating_sub(1)).max(open + 1);
+    let part = |from: usize, to: usize| -> Text<'static> {
+        let glyphs: String = strip.get(from..to).unwrap_or_default().iter().map(glyph).collect();
+        Text::styled(glyphs, theme.style(Meaning::Contact))
+    };
+    let bracket = |text: &'static str| Text::styled(text, theme.style(Meaning::Title));
+    Line::from(vec![part(0, open), bracket("["), part(open + 1, close), bracket("]"), part(close + 1, count)])
+}
+
+/// Share of a stretch below which it is rounding.
+const ROUNDING: f64 = 1e-13;
+
+/// The fragment in words: where it stands, what it carries, and how near its most stretched spring is to
+/// letting go.
+fn describe(fragment: Option<FragmentFacts>, fragments: u64, width: u16) -> [Line<'static>; 2] {
+    let Some(facts) = fragment else { return [Line::raw("○ nothing is in contact"), Line::default()] };
+    let length = format_quantity(short(facts.length), "m");
+    let springs = facts.springs.1 + 1 - facts.springs.0;
+    let plural = if springs == 1 { "" } else { "s" };
+    let mut first =
+        format!("○ fragment {} of {fragments}: {springs} spring{plural}, δx {length}", facts.number + 1);
+    let force = format!(", F {}", format_quantity(short(facts.force), "N"));
+    if first.chars().count() + force.chars().count() <= usize::from(width) {
+        first += &force;
+    }
+    let margin = facts.largest_stretch - facts.most_stretched;
+    // At the very edge of letting go what is left of it is rounding.
+    let margin = if margin.abs() <= ROUNDING * facts.largest_stretch { 0.0 } else { margin };
+    let [bears, stretched, margin] =
+        [facts.largest_stretch, facts.most_stretched, margin].map(|value| format_quantity(short(value), "m"));
+    let second = if width >= 60 {
+        format!("  Δl_max {bears} · most stretched {stretched} · margin {margin}")
+    } else {
+        format!("  Δl {stretched} of {bears}")
+    };
+    [Line::raw(first), Line::raw(second)]
+}

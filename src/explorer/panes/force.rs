@@ -1,0 +1,422 @@
+//! The curve: the hysteresis loop with its two branches, what is compared with it, and the hand.
+
+use super::PaneRow;
+use crate::analysis::LEAST_TABOR_NUMBER;
+use crate::analysis::{Mark, marks};
+use crate::contact::{CurvePoint, Direction, LegRecord};
+use crate::draw::{
+    Axis, AxisScale, CellPlot, Chart, Ink, Label, Layer, Shape, Sign, Span, Stroke, glyph, legend,
+};
+use crate::explorer::caption::caption;
+use crate::explorer::layout::inside;
+use crate::explorer::model::{Ghost, Model, Quantities};
+use crate::explorer::snapshot::SolvedScene;
+use crate::explorer::theme::{Meaning, Theme};
+use crate::explorer::view::plot;
+use crate::explorer::view::wrap::fitting;
+use crate::export::sign;
+use crate::scene::format_quantity;
+use ratatui::Frame;
+use ratatui::layout::{Position, Rect};
+use ratatui::text::{Line, Span as Text};
+use ratatui::widgets::Paragraph;
+
+/// Row of the pane.
+pub static ROW: PaneRow = PaneRow {
+    title: title,
+    draw: draw,
+    edge: reading,
+    has_crosshair: true,
+    help: &[(
+        "Curve",
+        "F over indentation d: dotted while pressing, solid while pulling; ◇ jump-in, ▲ preload, ▼ pull-off, \
+         ◆ now; letters and colours are ghosts, dashes are where the hand has been",
+    )],
+    ..PaneRow::EMPTY
+};
+
+/// Title of the pane.
+fn title(model: &Model) -> String {
+    let units = model.computed.as_ref().map(|computed| Units::of(model, computed));
+    let name = match units.filter(Units::is_normalised) {
+        Some(units) => units.title(),
+        None => match model.curve.quantities {
+            Quantities::ForceIndentation => "Force F(d)".to_owned(),
+            Quantities::LengthForce => "Contact length l(F)".to_owned(),
+            Quantities::FragmentsIndentation => "Fragments n(d)".to_owned(),
+        },
+    };
+    let is_shaded = model.curve.loss && model.curve.scale == AxisScale::Linear;
+    let loss = if is_shaded && model.curve.quantities == Quantities::ForceIndentation {
+        match model.computed.as_ref().and_then(|computed| computed.outcome.figures.dissipated_energy) {
+            Some(energy) => {
+                let number = model.computed.as_ref().and_then(|computed| computed.outcome.tabor_number);
+                let number = number.map_or_else(String::new, |number| {
+                    let low = if number < LEAST_TABOR_NUMBER {
+                        format!(" < {LEAST_TABOR_NUMBER}")
+                    } else {
+                        String::new()
+                    };
+                    format!(", μ {}{low}", format_quantity(short(number), "1"))
+                });
+                format!(" · loss {}{number}", format_quantity(short(energy), "J"))
+            }
+            None => " · loss open".to_owned(),
+        }
+    } else {
+        String::new()
+    };
+    let event = match caption(model) {
+        _ if model.is_computing() => " · computing".to_owned(),
+        Some(event) => format!(" · {event}"),
+        None => String::new(),
+    };
+    let scale = if model.curve.scale == AxisScale::Logarithmic { ", log–log" } else { "" };
+    format!(" {name}{scale}{loss}{event} ")
+}
+
+/// In what the axes count: metres and newtons, or what governs the scene.
+#[derive(Clone, Copy)]
+struct Units {
+    quantities: Quantities,
+    indentation: Option<f64>,
+    force: Option<f64>,
+    /// Contact length of one spring.
+    spring: f64,
+    in_lengths: bool,
+    scale: AxisScale,
+}
+
+impl Units {
+    fn of(model: &Model, computed: &SolvedScene) -> Self {
+        let outcome = &computed.outcome;
+        let normalised = model.curve.normalised;
+        let positive = |value: f64| Some(value).filter(|value| normalised && *value > 0.0);
+        let height = outcome.governing.amplitude.map(|amplitude| amplitude.rms_height);
+        Units {
+            quantities: model.curve.quantities,
+            indentation: height.and_then(positive),
+            force: outcome.ideal_adhesion_force.and_then(positive),
+            spring: outcome.line.spacing / if normalised { outcome.line.length } else { 1.0 },
+            in_lengths: normalised,
+            scale: model.curve.scale,
+        }
+    }
+
+    /// Returns true if any axis counts in other units than SI.
+    fn is_normalised(&self) -> bool {
+        match self.quantities {
+            Quantities::ForceIndentation => self.indentation.is_some() || self.force.is_some(),
+            Quantities::LengthForce => self.in_lengths,
+            Quantities::FragmentsIndentation => self.indentation.is_some(),
+        }
+    }
+
+    /// Quantities of the axes with their units: not every scene has an h or an F_a,max.
+    fn title(&self) -> String {
+        let indentation = if self.indentation.is_some() { "d/h" } else { "d" };
+        let force = if self.force.is_some() { "F/F_a,max" } else { "F" };
+        match self.quantities {
+            Quantities::ForceIndentation => format!("Force {force} over {indentation}"),
+            Quantities::LengthForce => format!("Contact length l/L over {force}"),
+            Quantities::FragmentsIndentation => format!("Fragments n over {indentation}"),
+        }
+    }
+
+    fn place(&self, point: &CurvePoint) -> (f64, f64) {
+        let indentation = point.indentation / self.indentation.unwrap_or(1.0);
+        let force = point.force / self.force.unwrap_or(1.0);
+        match self.quantities {
+            Quantities::ForceIndentation => (indentation, force),
+            Quantities::LengthForce => (force, point.springs as f64 * self.spring),
+            Quantities::FragmentsIndentation => (indentation, point.fragments as f64),
+        }
+    }
+
+    fn axes(&self, x: Span, y: Span) -> (Axis, Axis) {
+        let axis = |span, symbol: &str, over: &str, unit: &str, normalised: bool| {
+            let (symbol, unit) =
+                if normalised { (format!("{symbol}/{over}"), "1") } else { (symbol.to_owned(), unit) };
+            Axis::new(self.scale, span, "", &symbol, unit)
+        };
+        let indentation = |span| axis(span, "d", "h", "m", self.indentation.is_some());
+        let force = |span| axis(span, "F", "F_a,max", "N", self.force.is_some());
+        match self.quantities {
+            Quantities::ForceIndentation => (indentation(x), force(y)),
+            Quantities::LengthForce => (force(x), axis(y, "l", "L", "m", self.in_lengths)),
+            Quantities::FragmentsIndentation => (indentation(x), axis(y, "n", "", "1", false)),
+        }
+    }
+}
+
+/// Decades of a logarithmic axis: a force near its change of sign would take all room.
+const MOST_DECADES: f64 = 3.0;
+
+/// Ranges of the pane: the curve, kept curves and the path of manual loading.
+fn spans(model: &Model, units: Units) -> (Span, Span) {
+    let ghosts = model.ghosts.iter().flat_map(|ghost| &ghost.computed.outcome.history.legs);
+    let tried = model.tried_outcome().into_iter().flat_map(|outcome| &outcome.history.legs);
+    let points = model.legs().iter().chain(ghosts).chain(tried).flat_map(|leg| &leg.curve);
+    let hand = model.hand.iter().flat_map(|hand| &hand.path);
+    let coordinate = |number| units.scale.coordinate(number);
+    let places: Vec<(f64, f64)> = points.chain(hand).map(|point| units.place(point)).collect();
+    let x = Span::around(places.iter().map(|place| coordinate(place.0)), 0.06);
+    let y = Span::around(places.iter().map(|place| place.1).chain([0.0]).map(coordinate), 0.08);
+    let decades = |span: Span| Span { low: span.low.max(span.high - MOST_DECADES), ..span };
+    match (units.scale, units.quantities) {
+        (AxisScale::Logarithmic, _) => (decades(x), decades(y)),
+        (AxisScale::Linear, Quantities::ForceIndentation) => (x, y),
+        // There is no negative length or number.
+        (AxisScale::Linear, _) => (x, Span { low: 0.0, ..y }),
+    }
+}
+
+/// Rows of text above the plot.
+fn rows_above(model: &Model, area: Rect) -> u16 {
+    match area.height {
+        0..8 => 0,
+        8..12 => 1,
+        height => 2 + (model.ghosts.len() as u16).min(height / 5),
+    }
+}
+
+/// The indentation under a column of the pane, m; `None` where that axis is not shown.
+pub fn indentation_at(model: &Model, area: Rect, column: u16) -> Option<f64> {
+    let computed = model.computed.as_ref()?;
+    if model.curve.quantities == Quantities::LengthForce || model.indentations().is_none() {
+        return None;
+    }
+    let units = Units::of(model, computed);
+    let (x, y) = spans(model, units);
+    let (x, y) = units.axes(x, y);
+    let chart = plot::chart(x, y, Vec::new());
+    let at = CellPlot::within(below(area, rows_above(model, area)), &chart).number_at(&chart.x, column);
+    Some(at * units.indentation.unwrap_or(1.0))
+}
+
+/// Loading stage and indentation, m, of the point of the curves that is nearest to a cell.
+pub fn stage_at(model: &Model, area: Rect, here: Position) -> Option<(usize, f64)> {
+    let computed = model.computed.as_ref()?;
+    let units = Units::of(model, computed);
+    let (x, y) = spans(model, units);
+    let (x, y) = units.axes(x, y);
+    let chart = plot::chart(x, y, Vec::new());
+    let place = CellPlot::within(below(area, rows_above(model, area)), &chart);
+    let distance = |point: &CurvePoint| {
+        let (column, row) = place.cell(&chart, model.appearance.marker.symbols(), units.place(point))?;
+        // A row is about as high as two columns are wide.
+        let (across, down) = (f64::from(column.abs_diff(here.x)), 2.0 * f64::from(row.abs_diff(here.y)));
+        Some(across.hypot(down))
+    };
+    let points = model
+        .legs()
+        .iter()
+        .enumerate()
+        .flat_map(|(leg, record)| record.curve.iter().map(move |at| (leg, at)));
+    let near = points.filter_map(|(leg, point)| Some((distance(point)?, leg, point.indentation)));
+    let nearest = near.min_by(|a, b| a.0.total_cmp(&b.0))?;
+    Some((nearest.1, nearest.2))
+}
+
+/// Readings of the crosshair, for the lower edge of the frame.
+fn reading(model: &Model, area: Rect) -> Option<Line<'static>> {
+    model.crosshair?;
+    let point = model.present()?.point;
+    let [d, length] =
+        [point.indentation, point.contact_length].map(|value| format_quantity(short(value), "m"));
+    let mut parts = vec![
+        format!("d {d}"),
+        format!("F {}", format_quantity(short(point.force), "N")),
+        format!("l {length}"),
+        format!("n {}", point.fragments),
+    ];
+    if model.hand.is_none() {
+        parts.push(format!("stage {} of {}", model.player.leg + 1, model.legs().len()));
+    }
+    let style = model.appearance.theme.style(Meaning::Cursor);
+    let parts = parts.into_iter().map(|text| vec![Text::styled(text, style)]).collect();
+    Some(plot::on_frame(parts, area.width))
+}
+
+fn below(area: Rect, rows: u16) -> Rect {
+    let rows = rows.min(area.height);
+    Rect { y: area.y + rows, height: area.height - rows, ..area }
+}
+
+/// Draws the curve with its axes.
+fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
+    let area = inside(area);
+    let theme = model.appearance.theme;
+    let shown = model.computed.as_ref().filter(|_| model.indentations().is_some());
+    let Some(computed) = shown else {
+        let text = if model.is_computing() { "computing…" } else { "no curve" };
+        frame.render_widget(Paragraph::new(text).style(theme.style(Meaning::Quiet)), area);
+        return;
+    };
+    let above = rows_above(model, area);
+    let units = Units::of(model, computed);
+    let chart = chart(model, units);
+    let place = plot::draw_chart(frame, below(area, above), &chart, model.appearance);
+    draw_letters(frame, &place, &chart, model, units);
+    if model.is_current() {
+        let marks = marks(model.legs());
+        let names: Vec<_> = marks.iter().map(|(mark, point)| (units.place(point), mark.name())).collect();
+        plot::in_theme(model.appearance, |style| place.draw_names(frame.buffer_mut(), &chart, style, &names));
+    }
+    let legend = plot::in_theme(model.appearance, |style| legend(std::slice::from_ref(&chart), style));
+    let mut parts =
+        vec![vec![Text::styled(chart.y.label_with_unit().to_string(), theme.style(Meaning::Quiet))]];
+    parts.extend(legend);
+    let rows = [plot::spaced(parts, usize::from(area.width))];
+    let values = model.is_current().then(|| values(model.legs(), area.width, theme));
+    let ghosts = model.ghosts.iter().enumerate().rev().map(|(number, ghost)| {
+        let force = adhesion(model, ghost).map_or_else(String::new, |force| format!(" {force} ·"));
+        let style = theme.style(plot::meaning(Ink::Compared(number)));
+        Line::styled(format!("{}{force} {}", letter(number), ghost.differs), style)
+    });
+    for (y, line) in (area.y..area.y + above).zip(rows.into_iter().chain(values).chain(ghosts)) {
+        frame.render_widget(Paragraph::new(line), Rect { y, height: 1, ..area });
+    }
+}
+
+/// The curve, what is compared with it, the way of manual loading, and marks.
+fn chart(model: &Model, units: Units) -> Chart {
+    // A curve of a scene that has been changed since stays in the background until the new one is there.
+    let stale = !model.is_current();
+    let ink = |ink| if stale { Ink::Quiet } else { ink };
+    let legs = model.legs();
+    let along =
+        |points: &[CurvePoint]| -> Vec<(f64, f64)> { points.iter().map(|p| units.place(p)).collect() };
+    let line = |points, stroke| Shape::Curve { points, stroke: Some(stroke), sign: None };
+    let point = |at, sign| Shape::Curve { points: vec![at], stroke: None, sign: Some(sign) };
+    let mut layers = vec![Layer::unnamed(Ink::Quiet, Shape::Level(0.0))];
+    // On logarithmic axes areas are no energies.
+    let is_linear = units.scale == AxisScale::Linear;
+    if model.curve.loss && is_linear && units.quantities == Quantities::ForceIndentation {
+        let border = legs.iter().flat_map(|leg| along(&leg.curve)).collect();
+        layers.push(Layer::unnamed(Ink::Quiet, Shape::Inside(border)));
+    }
+    for (number, ghost) in model.ghosts.iter().enumerate() {
+        // One beside the scene is named with the curves; the others have their letters.
+        let is_beside = model.side_by_side && number + 1 == model.ghosts.len();
+        let name = if is_beside { letter(number).into() } else { Label::default() };
+        for leg in &ghost.computed.outcome.history.legs {
+            layers.push(Layer::new(
+                name.clone(),
+                Ink::Compared(number),
+                line(along(&leg.curve), Stroke::Sparse),
+            ));
+        }
+    }
+    for leg in model.tried_outcome().into_iter().flat_map(|outcome| &outcome.history.legs) {
+        layers.push(Layer::new("preview".into(), Ink::Kept, line(along(&leg.curve), Stroke::Dashed)));
+    }
+    for (direction, name, of, stroke) in [
+        (Direction::Loading, "loading", Ink::Loading, Stroke::Dotted),
+        (Direction::Unloading, "unloading", Ink::Unloading, Stroke::Solid),
+    ] {
+        for leg in legs.iter().filter(|leg| leg.direction == direction) {
+            layers.push(Layer::new(name.into(), ink(of), line(along(&leg.curve), stroke)));
+        }
+    }
+    if let Some(hand) = &model.hand {
+        layers.push(Layer::new("manual".into(), Ink::Manual, line(along(&hand.path), Stroke::Dashed)));
+    }
+    let marks = marks(legs).into_iter().filter(|_| !stale);
+    layers.extend(marks.map(|(mark, at)| Layer::unnamed(Ink::Text, point(units.place(&at), sign(mark)))));
+    let (x, y) = spans(model, units);
+    if let Some(moment) = model.present() {
+        let (at, value) = units.place(&moment.point);
+        let within = |number, span: Span| {
+            units.scale.number(units.scale.coordinate(number).clamp(span.low, span.high))
+        };
+        let at = (within(at, x), within(value, y));
+        if model.crosshair.is_some() {
+            let lines = [Shape::Upright(at.0), Shape::Level(at.1)];
+            // Below the curves, which stay whole.
+            layers.splice(0..0, lines.map(|line| Layer::unnamed(Ink::Cursor, line)));
+        }
+        let name = if model.hand.is_some() { "manual" } else { "now" };
+        layers.push(Layer::new(Label::plain(name), Ink::Cursor, point(at, Sign::Diamond)));
+    }
+    let (x, y) = units.axes(x, y);
+    plot::chart(x, y, layers)
+}
+
+/// The marked forces with their values, in words where there is room. Where there is none for all, the
+/// pull-off force stays longest.
+fn values(legs: &[LegRecord], width: u16, theme: Theme) -> Line<'static> {
+    let marks = marks(legs);
+    let parts = |words: bool, from: usize| -> Vec<Vec<Text<'static>>> {
+        let text = |&(mark, point): &(Mark, CurvePoint)| {
+            let force = format_quantity(short(point.force), "N");
+            let name = if words { format!(" {}", mark.name()) } else { String::new() };
+            vec![
+                Text::styled(glyph(sign(mark)), theme.style(Meaning::Title)),
+                Text::raw(format!("{name} {force}")),
+            ]
+        };
+        marks.iter().skip(from).map(text).collect()
+    };
+    let forms = [(true, 0)].into_iter().chain((0..marks.len()).map(|from| (false, from)));
+    let width = usize::from(width);
+    forms
+        .map(|(words, from)| fitting(parts(words, from), "  ", usize::MAX))
+        .find(|line| line.width() <= width)
+        .unwrap_or_default()
+}
+
+/// Point of the letter of a ghost: its pull-off, or its end.
+fn marked(ghost: &Ghost) -> Option<CurvePoint> {
+    let legs = &ghost.computed.outcome.history.legs;
+    let at = marks(legs).into_iter().rev().find(|(mark, _)| *mark != Mark::JumpOut).map(|(_, point)| point);
+    at.or_else(|| legs.last().and_then(|leg| leg.curve.last().copied()))
+}
+
+/// Adhesion force of a ghost, and how far it is above or below that of the present scene: `F_a 12 µN (+3 µN)`.
+fn adhesion(model: &Model, ghost: &Ghost) -> Option<String> {
+    let of = |computed: &SolvedScene| computed.outcome.figures.adhesion_force;
+    let force = of(&ghost.computed)?;
+    let present = model.computed.as_deref().filter(|_| model.is_current()).and_then(of);
+    let difference = present.map_or_else(String::new, |present| {
+        let sign = if force > present { "+" } else { "" };
+        format!(" ({sign}{})", format_quantity(short(force - present), "N"))
+    });
+    Some(format!("F_a {}{difference}", format_quantity(short(force), "N")))
+}
+
+/// Draws the letters of ghosts, each in the nearest cell of its row without a sign.
+fn draw_letters(frame: &mut Frame<'_>, place: &CellPlot, chart: &Chart, model: &Model, units: Units) {
+    let marker = model.appearance.marker.symbols();
+    let signs = chart.layers.iter().filter_map(|layer| match &layer.shape {
+        Shape::Curve { points, sign: Some(_), .. } => points.first(),
+        _ => None,
+    });
+    let mut taken: Vec<(u16, u16)> = signs.filter_map(|at| place.cell(chart, marker, *at)).collect();
+    let columns = place.plot.x..place.plot.right();
+    for (number, ghost) in model.ghosts.iter().enumerate() {
+        let at = marked(ghost).and_then(|point| place.cell(chart, marker, units.place(&point)));
+        let Some((column, row)) = at else { continue };
+        let beside = (0..place.plot.width).flat_map(|step| [column + step, column.wrapping_sub(step)]);
+        let mut free = beside.filter(|column| columns.contains(column)).map(|column| (column, row));
+        let cell = free.find(|cell| !taken.contains(cell)).unwrap_or((column, row));
+        taken.push(cell);
+        let style = model.appearance.theme.style(plot::meaning(Ink::Compared(number)));
+        frame.buffer_mut()[cell].set_symbol(letter(number)).set_style(style);
+    }
+}
+
+/// Letter of the newest ghost.
+pub fn newest_letter(model: &Model) -> &'static str {
+    letter(model.ghosts.len().saturating_sub(1))
+}
+
+fn letter(number: usize) -> &'static str {
+    const LETTERS: [&str; 8] = ["A", "B", "C", "D", "E", "F", "G", "H"];
+    LETTERS[number % LETTERS.len()]
+}
+
+/// The value to three digits.
+fn short(value: f64) -> f64 {
+    format!("{value:.2e}").parse().unwrap_or(value)
+}

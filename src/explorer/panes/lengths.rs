@@ -1,0 +1,48 @@
+//! Lengths of the contact fragments: their number over their length, both logarithmic.
+
+use crate::draw::{Axis, AxisScale, Ink, Layer, Shape, Sign, Span, Stroke};
+use crate::explorer::model::Model;
+use crate::explorer::snapshot::LengthBin;
+use crate::explorer::theme::Meaning;
+use crate::explorer::view::plot;
+use ratatui::Frame;
+use ratatui::layout::Rect;
+use ratatui::widgets::Paragraph;
+
+/// Title of the pane.
+pub const TITLE: &str = " Fragments by length, log–log ";
+
+/// Draws the distribution: one point for each bin that is not empty.
+pub fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
+    let theme = model.appearance.theme;
+    let shown = model.moment.as_ref().and_then(|moment| moment.lengths.as_ref()).zip(model.computed.as_ref());
+    let Some((bins, computed)) = shown else { return };
+    let spacing = computed.outcome.line.spacing;
+    let filled: Vec<&LengthBin> = bins.iter().filter(|bin| bin.fragments > 0).collect();
+    if filled.is_empty() {
+        frame.render_widget(Paragraph::new("nothing is in contact").style(theme.style(Meaning::Quiet)), area);
+        return;
+    }
+    let points: Vec<(f64, f64)> = filled
+        .iter()
+        // Lengths from `from` to `to` − 1: their geometric mean.
+        .map(|bin| ((bin.from as f64 * (bin.to - 1) as f64).sqrt() * spacing, bin.fragments as f64))
+        .collect();
+    let axis = |numbers: &mut dyn Iterator<Item = f64>, symbol: &str, unit: &str| {
+        let span = Span::decades(numbers.map(f64::log10));
+        Axis::new(AxisScale::Logarithmic, span, "", symbol, unit)
+    };
+    let x = axis(&mut points.iter().map(|point| point.0), "δx", "m");
+    let y = axis(&mut points.iter().map(|point| point.1), "n", "1");
+    let text_rows = u16::from(area.height >= 6);
+    let shape = Shape::Curve { points, stroke: Some(Stroke::Dotted), sign: Some(Sign::Ring) };
+    let chart = plot::chart(x, y, vec![Layer::unnamed(Ink::Contact, shape)]);
+    let plot = Rect { height: area.height - text_rows, ..area };
+    plot::draw_chart(frame, plot, &chart, model.appearance);
+    if text_rows > 0 {
+        let count: u64 = bins.iter().map(|bin| bin.fragments).sum();
+        let text = format!("○ number of fragments in each step of length by √2; {count} in all");
+        let row = Rect { y: area.bottom() - 1, height: 1, ..area };
+        frame.render_widget(Paragraph::new(text).style(theme.style(Meaning::Quiet)), row);
+    }
+}

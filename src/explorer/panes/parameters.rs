@@ -1,0 +1,299 @@
+//! The list of parameters and what the selected one means.
+
+use super::PaneRow;
+use crate::explorer::fuzzy::letters_found;
+use crate::explorer::layout::{Layout, inside};
+use crate::explorer::model::{Mode, Model, Pane};
+use crate::explorer::parameters::{Parameter, Setting, spelled};
+use crate::explorer::text_line::TextLine;
+use crate::explorer::theme::Meaning;
+use crate::explorer::view::found::marked;
+use crate::explorer::view::typed::typed;
+use crate::explorer::view::wrap::{clipped, filled, wrapped_within};
+use crate::scene::format_quantity;
+use ratatui::Frame;
+use ratatui::layout::Rect;
+use ratatui::text::{Line, Span};
+use ratatui::widgets::{Paragraph, Scrollbar, ScrollbarOrientation, ScrollbarState};
+
+/// Row of the pane.
+pub static ROW: PaneRow = PaneRow {
+    title: |_| " Parameters ".to_owned(),
+    draw: draw,
+    help: &[(
+        "Parameters",
+        "fields of the scene by use, in groups; ● marks an effect that is on, ▸ a folded group, = a derived value",
+    )],
+    ..PaneRow::EMPTY
+};
+
+/// Columns for a typed value beside its name.
+const TYPED_COLUMNS: usize = 12;
+/// Fewest letters of a shortened name.
+const FEWEST_LETTERS: usize = 4;
+
+/// Areas of the list, the derived values and the explanation, and the first visible row of the list.
+struct Places {
+    list: Rect,
+    derived: Rect,
+    help: Rect,
+    /// Indices of the parameters in the list, and the place of the selected one.
+    rows: Vec<usize>,
+    selected: usize,
+    first: usize,
+}
+
+impl Places {
+    fn within(area: Rect, model: &Model) -> Self {
+        let help_rows = if area.height >= 9 { 3 } else { u16::from(area.height >= 3) };
+        let derived_rows = if area.height >= 12 { derived(model, area.width).len() as u16 } else { 0 };
+        let list = Rect { height: area.height - help_rows - derived_rows, ..area };
+        let (rows, selected, first) = match &model.mode {
+            Mode::Find(finder) => (finder.found.clone(), finder.selected, 0),
+            _ => {
+                let rows = model.listed();
+                let selected = rows.iter().position(|index| *index == model.selected).unwrap_or(0);
+                (rows, selected, model.first_listed)
+            }
+        };
+        // The selected row has one above and one below it, as far as there are any.
+        let height = usize::from(list.height);
+        let margin = usize::from(height >= 5);
+        let lowest = (selected + 1 + margin).saturating_sub(height);
+        let first =
+            first.min(selected.saturating_sub(margin)).max(lowest).min(rows.len().saturating_sub(height));
+        let derived = Rect { y: list.bottom(), height: derived_rows, ..area };
+        let help = Rect { y: derived.bottom(), height: help_rows, ..area };
+        Places { list, derived, help, rows, selected, first }
+    }
+
+    /// Rows out of sight.
+    fn is_scrolled(&self) -> bool {
+        self.rows.len() > usize::from(self.list.height)
+    }
+}
+
+/// Place of the first row in sight, which takes the list along as little as the selected row needs.
+pub fn first_listed(model: &Model) -> usize {
+    let pane = Layout::of(model).pane(Pane::Parameters);
+    pane.map_or(model.first_listed, |area| Places::within(inside(area), model).first)
+}
+
+/// The parameter in a row of the screen.
+pub fn parameter_at(model: &Model, area: Rect, row: u16) -> Option<usize> {
+    let Places { list, first, rows, .. } = Places::within(area, model);
+    let below = row.checked_sub(list.y).filter(|below| *below < list.height)?;
+    rows.get(first + usize::from(below)).copied()
+}
+
+/// Draws the list, scrolled so that the selected row shows, derived values, and a line or two of explanation below. A
+/// scroll bar in the last column of the frame says that there are rows out of sight.
+fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
+    let edge = area.right().saturating_sub(1);
+    let area = inside(area);
+    let places = Places::within(area, model);
+    let Places { mut list, derived: below, help, .. } = places;
+    if places.is_scrolled() {
+        let bar = Rect { x: edge, width: 1, ..list }.intersection(frame.area());
+        list.width = list.width.min(edge.saturating_sub(list.x));
+        let mut state =
+            ScrollbarState::new(places.rows.len() - usize::from(list.height) + 1).position(places.first);
+        state = state.viewport_content_length(usize::from(list.height));
+        let style = model.appearance.theme.style(Meaning::Quiet);
+        let scroll_bar = Scrollbar::new(ScrollbarOrientation::VerticalRight).style(style);
+        let scroll_bar =
+            scroll_bar.begin_symbol(None).end_symbol(None).track_symbol(Some("│")).thumb_symbol("█");
+        frame.render_stateful_widget(scroll_bar, bar, &mut state);
+    }
+    for (row, place) in (list.y..list.bottom()).zip(places.first..places.rows.len()) {
+        let (index, selected) = (places.rows[place], place == places.selected);
+        let line = parameter_line(model, index, selected, usize::from(list.width));
+        frame.render_widget(Paragraph::new(line), Rect { y: row, height: 1, ..list });
+    }
+    frame.render_widget(Paragraph::new(derived(model, below.width)), below);
+    let explained = match places.rows.get(places.selected) {
+        Some(index) => explanation(model, *index),
+        None => Line::styled("no parameter of this scene fits", model.appearance.theme.style(Meaning::Quiet)),
+    };
+    frame.render_widget(Paragraph::new(wrapped_within(&explained, help)), help);
+}
+
+fn parameter_line(model: &Model, index: usize, selected: bool, width: usize) -> Line<'static> {
+    let theme = model.appearance.theme;
+    let parameter = &model.parameters[index];
+    let refused = model.refused.as_ref().is_some_and(|(row, _)| *row == index);
+    let mark = match (refused, selected) {
+        (true, _) => "!",
+        (false, true) => "›",
+        (false, false) => " ",
+    };
+    let lead = format!("{mark}{}", lead(model, parameter));
+    if let (true, Mode::Edit(line)) = (selected, &model.mode) {
+        return editor(model, parameter, line, &lead, width);
+    }
+    // The value is what is looked for: the name makes room for it.
+    let value = value(model, parameter);
+    let symbol = parameter.field.symbol;
+    let least = columns(&lead) + if symbol.is_empty() { FEWEST_LETTERS } else { columns(symbol) } + 1;
+    let value = cut(&value, width.saturating_sub(least).max(width / 3));
+    let room = width.saturating_sub(columns(&lead) + usize::from(!value.is_empty()) + columns(&value));
+    let name = format!("{lead}{}", name_within(parameter, room));
+    let gap = width.saturating_sub(columns(&name) + columns(&value));
+    let rest = format!("{}{value}", " ".repeat(gap));
+    let style = match (refused, selected) {
+        (true, _) => theme.style(Meaning::Error),
+        (false, true) => theme.style(Meaning::Selected),
+        (false, false) => theme.style(Meaning::Text),
+    };
+    let letters = found_in(model, parameter, &name, lead.chars().count());
+    let name = marked(&name, &letters, style, theme);
+    Line::from_iter(name.into_iter().chain([Span::styled(rest, style)])).style(style)
+}
+
+/// Characters of the shown name and symbol that the search has found, by their indices; `lead` characters come before.
+fn found_in(model: &Model, parameter: &Parameter, shown: &str, lead: usize) -> Vec<usize> {
+    let Mode::Find(finder) = &model.mode else { return Vec::new() };
+    let (query, candidate, name) = (finder.query.text(), parameter.candidate(), parameter.name());
+    // The name may be cut.
+    let kept = shown.chars().skip(lead).zip(name.chars()).take_while(|(one, other)| one == other).count();
+    let in_name = letters_found(&candidate, &name, &query).into_iter().filter(|index| *index < kept);
+    let mut letters: Vec<usize> = in_name.map(|index| index + lead).collect();
+    let symbol = parameter.field.symbol;
+    if shown.ends_with(symbol) {
+        let (all, end) = (symbol.chars().count(), shown.chars().count());
+        // A Greek letter is found by its name as a whole.
+        let is_spelled = !letters_found(&candidate, &spelled(symbol), &query).is_empty();
+        let in_symbol = letters_found(&candidate, symbol, &query);
+        let in_symbol = if in_symbol.is_empty() && is_spelled { (0..all).collect() } else { in_symbol };
+        letters.extend(in_symbol.into_iter().map(|index| index + end - all));
+    }
+    letters
+}
+
+/// Marks before a name: the first row of a group is folded or not, and an effect is on or off; the others are set in.
+fn lead(model: &Model, parameter: &Parameter) -> &'static str {
+    let is_on = parameter.effect.map(|effect| effect.is_on(model.document.scene()));
+    match parameter.setting {
+        Setting::Switch(_) if is_on == Some(true) => return " ●",
+        Setting::Switch(_) => return " ○",
+        _ if !parameter.is_head() => return "  ",
+        _ => {}
+    }
+    match (model.folded.contains(parameter.group), is_on) {
+        (false, None) => "▾",
+        (true, None) => "▸",
+        (false, Some(true)) => "▾●",
+        (true, Some(true)) => "▸●",
+        (false, Some(false)) => "▾○",
+        (true, Some(false)) => "▸○",
+    }
+}
+
+/// The row of a value that is typed: its name, symbol and SI unit, as far as there is room, and what is typed.
+fn editor(model: &Model, parameter: &Parameter, line: &TextLine, lead: &str, width: usize) -> Line<'static> {
+    let (name, symbol) = (parameter.name(), parameter.field.symbol);
+    let unit = match parameter.field.unit {
+        "" | "1" => String::new(),
+        unit => format!(" ({unit})"),
+    };
+    let named = if symbol.is_empty() { name } else { format!("{name} {symbol}") };
+    let mark = lead.chars().next().unwrap_or(' ');
+    let labels = [
+        format!("{lead}{named}{unit}: "),
+        format!("{lead}{named}: "),
+        format!("{mark} {symbol}{unit}: "),
+        format!("{mark} {symbol}: "),
+        format!("{mark} "),
+    ];
+    let fits = |label: &&String| columns(label) + TYPED_COLUMNS.max(columns(&line.text()) + 1) <= width;
+    let label = Span::raw(labels.iter().find(fits).unwrap_or(&labels[labels.len() - 1]).clone());
+    let room = width.saturating_sub(label.width());
+    Line::from_iter([label].into_iter().chain(typed(line, room, model.appearance.theme)))
+}
+
+/// Name and symbol in so many columns: the name is cut, and where little of it would be left the symbol is enough.
+fn name_within(parameter: &Parameter, room: usize) -> String {
+    let (name, symbol) = (parameter.name(), parameter.field.symbol);
+    if symbol.is_empty() {
+        return cut(&name, room);
+    }
+    let whole = format!("{name} {symbol}");
+    match room.checked_sub(columns(symbol) + 1) {
+        _ if columns(&whole) <= room => whole,
+        Some(left) if left > FEWEST_LETTERS => format!("{} {symbol}", cut(&name, left)),
+        _ => cut(symbol, room),
+    }
+}
+
+fn columns(text: &str) -> usize {
+    Span::raw(text).width()
+}
+
+/// A text in so many columns, with `…` where it goes on.
+fn cut(text: &str, room: usize) -> String {
+    if columns(text) <= room {
+        return text.to_owned();
+    }
+    clipped(Line::raw(text.to_owned()), room as u16).to_string()
+}
+
+/// A value as people read it; one that follows from others is marked.
+fn value(model: &Model, parameter: &Parameter) -> String {
+    if !parameter.shown.is_empty() || parameter.setting == Setting::Heading {
+        return parameter.shown.clone();
+    }
+    let written = model.written(parameter).and_then(|written| written.parse::<f64>().ok());
+    match written {
+        Some(value) => format!("= {}", quantity(value, parameter.field.unit)),
+        // A smooth body has no κ; of a scene that is not computed yet it is not known.
+        None if model.governing().is_some() => "none".to_owned(),
+        None => "= …".to_owned(),
+    }
+}
+
+fn quantity(value: f64, unit: &str) -> String {
+    format_quantity(format!("{value:.3e}").parse().unwrap_or(value), unit)
+}
+
+/// Derived values, in as many lines as needed.
+fn derived(model: &Model, width: u16) -> Vec<Line<'static>> {
+    let style = model.appearance.theme.style(Meaning::Quiet);
+    let part = |(name, value): (&str, String)| vec![Span::styled(format!("{name} = {value}"), style)];
+    filled(derived_values(model).into_iter().map(part).collect(), "  ", usize::from(width))
+}
+
+fn derived_values(model: &Model) -> Vec<(&'static str, String)> {
+    let Some(computed) = &model.computed else { return Vec::new() };
+    let outcome = &computed.outcome;
+    let governing = model.governing().unwrap_or(outcome.governing);
+    let mut values = vec![("E*", quantity(governing.effective_modulus, "Pa"))];
+    if let Some(amplitude) = governing.amplitude {
+        values.push(("h", quantity(amplitude.rms_height, "m")));
+        values.push(("⟨∇z⟩", quantity(amplitude.rms_gradient, "1")));
+    }
+    // Of a scene that failed nothing more is known.
+    if !model.is_current() && !model.is_computing() {
+        return values;
+    }
+    if let Some(force) = outcome.ideal_adhesion_force {
+        values.push(("F_a,max", quantity(force, "N")));
+    }
+    if let Some(regime) = outcome.regime {
+        values.push(("regime", regime.name().to_owned()));
+    }
+    values
+}
+
+/// Error of a value, or its meaning and allowed range.
+fn explanation(model: &Model, index: usize) -> Line<'static> {
+    if let Some((_, error)) = &model.refused {
+        return Line::styled(format!("! {error}"), model.appearance.theme.style(Meaning::Error));
+    }
+    let Some(parameter) = model.parameters.get(index) else { return Line::default() };
+    let text = match parameter.setting {
+        Setting::Switch(effect) => format!("{}: observed or not; t switches it", effect.name()),
+        Setting::Heading => format!("{}; Enter folds the group", parameter.field.meaning),
+        _ => format!("{}. Allowed: {}", parameter.field.meaning, parameter.field.allowed()),
+    };
+    Line::styled(text, model.appearance.theme.style(Meaning::Quiet))
+}

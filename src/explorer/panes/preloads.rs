@@ -1,0 +1,79 @@
+//! Adhesion against preload: the curve of the profile, the mean over random profiles with its confidence, and the
+//! preload of the scene.
+
+use super::PaneRow;
+use super::sections::section;
+use crate::draw::{Axis, AxisScale, Chart, Ink, Layer, Shape, Sign};
+use crate::explorer::layout::inside;
+use crate::explorer::model::Model;
+use crate::explorer::preload_curve::PreloadCurve;
+use crate::explorer::theme::Meaning;
+use crate::explorer::view::wrap::wrapped;
+use crate::export::{preload_axes, preload_layers};
+use ratatui::Frame;
+use ratatui::layout::Rect;
+use ratatui::text::Line;
+use ratatui::widgets::Paragraph;
+
+/// Row of the pane.
+pub static ROW: PaneRow = PaneRow {
+    title: |_| " Adhesion against preload ".to_owned(),
+    draw: draw,
+    help: &[(
+        "Preloads",
+        "i: adhesion force over preload, of this profile and the mean of random profiles with its 95 % confidence; the \
+         line and ◆ are the present preload",
+    )],
+    ..PaneRow::EMPTY
+};
+
+/// Draws the pane.
+fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
+    let area = inside(area);
+    let pane = &model.preloads;
+    let curve = pane.curve.as_deref().filter(|curve| !curve.own.is_empty());
+    let Some(curve) = curve else {
+        let why = match (&pane.failed, model.computed.as_ref().filter(|_| model.is_current())) {
+            (Some(why), _) => why.clone(),
+            (None, Some(computed)) => {
+                PreloadCurve::new(computed).map_or_else(str::to_owned, |_| "computing …".to_owned())
+            }
+            (None, None) => "computing …".to_owned(),
+        };
+        let lines = wrapped(&Line::styled(why, model.appearance.theme.style(Meaning::Quiet)), area.width);
+        frame.render_widget(Paragraph::new(lines), area);
+        return;
+    };
+    let chart = chart(model, curve);
+    let heading = format!("{}  {}", chart.y.label_with_unit(), told(curve)).trim_end().to_owned();
+    section(frame, area, model, &Chart { heading, ..chart });
+}
+
+/// Progress, in words.
+fn told(curve: &PreloadCurve) -> String {
+    if curve.is_whole() || curve.profiles() < 2 {
+        return String::new();
+    }
+    format!("{} of {} profiles", curve.profiles(), curve.wanted)
+}
+
+fn chart(model: &Model, curve: &PreloadCurve) -> Chart {
+    // The statistics are at fewer preloads than the curve of the profile.
+    let mut layers = preload_layers(curve.coarse(), &curve.statistics);
+    if let Some(own) = preload_layers(&curve.own, &[]).pop() {
+        layers.pop();
+        layers.push(own);
+    }
+    let figures = model.computed.as_ref().filter(|_| model.is_current()).map(|one| one.outcome.figures);
+    let present = figures.and_then(|figures| figures.preload.zip(figures.adhesion_force));
+    if let Some((preload, force)) = present {
+        layers.push(Layer::unnamed(Ink::Cursor, Shape::Upright(preload)));
+        let shape = Shape::Curve { points: vec![(preload, force)], stroke: None, sign: Some(Sign::Diamond) };
+        layers.push(Layer::new("present preload".into(), Ink::Cursor, shape));
+    }
+    let chart = preload_axes("", layers);
+    // The title of the pane has the names of both axes.
+    let axis = |axis: &Axis, symbol| Axis::new(AxisScale::Linear, axis.span, "", symbol, "N");
+    let (x, y) = (axis(&chart.x, "F_n"), axis(&chart.y, "F_a"));
+    Chart { x, y, ..chart }
+}

@@ -1,0 +1,144 @@
+//! The profile: the rigid line, the elastic surface above it, and where they touch.
+
+use super::{PaneRow, histogram, section};
+use crate::draw::{CellPlot, Chart, Span};
+use crate::explorer::layout::{inside, split_profile};
+use crate::explorer::model::Model;
+use crate::explorer::snapshot::{ContactSnapshot, Section};
+use crate::explorer::theme::{Appearance, Meaning, Theme};
+use crate::explorer::view::plot;
+use crate::scene::format_quantity;
+use crate::surface::Histogram;
+use ratatui::Frame;
+use ratatui::layout::Rect;
+use ratatui::text::{Line, Span as Text};
+use ratatui::widgets::Paragraph;
+
+/// Row of the pane.
+pub static ROW: PaneRow = PaneRow {
+    title: title,
+    draw: draw,
+    edge: names,
+    has_crosshair: true,
+    help: &[(
+        "Profile",
+        "rigid profile below, elastic surface above; ■ marks contact. Beside it the histogram of heights, and ¦ the \
+         normal distribution of the same rms height",
+    )],
+    ..PaneRow::EMPTY
+};
+
+/// Title of the pane.
+fn title(model: &Model) -> String {
+    let length = format_quantity(model.document.scene().length, "m");
+    if model.side_by_side {
+        return format!(" Profile z(x) of this scene, x to {length} ");
+    }
+    let follows = if model.profile.follow { " · follows" } else { "" };
+    let Some(moment) = model.moment.as_ref() else { return format!(" Profile z(x), x to {length} ") };
+    let shown = &moment.profile;
+    if model.profile.share >= 1.0 {
+        return format!(" Profile z(x), x to {length}{follows} ");
+    }
+    let from = (moment.line.first + shown.first) as f64 * moment.line.spacing;
+    let to = from + shown.springs as f64 * moment.line.spacing;
+    let [from, to] = [from, to].map(|x| format_quantity(section::short(x), "m"));
+    format!(" Profile z(x), x from {from} to {to} of {length}{follows} ")
+}
+
+/// Names of what is drawn, for the lower edge of the frame.
+fn names(model: &Model, area: Rect) -> Option<Line<'static>> {
+    let moment = model.moment.as_ref()?;
+    let chart = section::chart(&moment.profile, moment.line, heights(moment));
+    let theme = model.appearance.theme;
+    let bell = || vec![Text::styled("¦", theme.style(Meaning::Surface)), Text::raw(" normal")];
+    let beside = split_profile(inside(area)).1.map(|_| bell());
+    Some(section::names(moment, &chart, beside, model.appearance, area.width))
+}
+
+/// Share of the shown part of the profile under a column of the pane.
+pub fn share_at(model: &Model, area: Rect, column: u16) -> Option<f64> {
+    let moment = model.moment.as_ref()?;
+    let (chart, place) = placed(moment, area, heights(moment));
+    Some(chart.x.share(place.number_at(&chart.x, column)))
+}
+
+/// Draws the profile with the histogram of its heights on the same axis.
+fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
+    let area = inside(area);
+    let Some(moment) = model.moment.as_ref() else {
+        let quiet = model.appearance.theme.style(Meaning::Quiet);
+        frame.render_widget(Paragraph::new("…").style(quiet), area);
+        return;
+    };
+    let histogram = model.computed.as_ref().and_then(|computed| computed.outcome.histogram.as_ref());
+    draw_scene(frame, area, (moment, histogram), heights(moment), model.appearance);
+}
+
+/// Draws the profile of a scene at one moment with its histogram, heights within `z`.
+pub fn draw_scene(
+    frame: &mut Frame<'_>,
+    area: Rect,
+    (moment, histogram): (&ContactSnapshot, Option<&Histogram>),
+    z: Span,
+    appearance: Appearance,
+) {
+    let (chart, place) = placed(moment, area, z);
+    plot::in_theme(appearance, |style| place.draw(frame.buffer_mut(), &chart, style));
+    let (area, beside) = split_profile(area);
+    let plot = place.plot;
+    if strip_rows(area) > 0 {
+        let row = Rect { x: plot.x, width: plot.width, y: area.bottom() - 1, height: 1 };
+        contact_strip(frame, row, &moment.profile, appearance.theme);
+    }
+    if let Some(beside) = beside {
+        let beside = Rect { y: plot.y, height: plot.height, ..beside };
+        histogram::draw(frame, beside, place.numbers(), histogram, z, appearance.theme);
+    }
+}
+
+/// Rows below the plot that show where there is contact.
+fn strip_rows(area: Rect) -> u16 {
+    u16::from(area.height >= 5)
+}
+
+/// The chart of the profile, heights within `z`, and its place in the pane.
+pub fn placed(moment: &ContactSnapshot, area: Rect, z: Span) -> (Chart, CellPlot) {
+    let (area, _) = split_profile(area);
+    let mut chart = section::chart(&moment.profile, moment.line, z);
+    section::add_crosshair(&mut chart, moment);
+    let place = CellPlot::within(Rect { height: area.height - strip_rows(area), ..area }, &chart);
+    (chart, place)
+}
+
+/// The axis of heights: the whole line and the surface, though not where it is far away. Two scenes side by side
+/// share the axis.
+pub fn heights(moment: &ContactSnapshot) -> Span {
+    let ends = |section: &Section| {
+        let (low, high) = section.heights;
+        let far = high + 0.5 * (high - low);
+        [low, high, section.level.min(far)]
+    };
+    let beside = moment.beside.iter().flat_map(|beside| ends(&beside.profile));
+    Span::around(ends(&moment.profile).into_iter().chain(beside), 0.05)
+}
+
+/// One row that shows by its glyphs where along the section there is contact.
+fn contact_strip(frame: &mut Frame<'_>, row: Rect, section: &Section, theme: Theme) {
+    let (count, cells) = (section.columns.len(), usize::from(row.width));
+    if count == 0 {
+        return;
+    }
+    let glyphs: String = (0..cells)
+        .map(|cell| {
+            let from = cell * count / cells;
+            let part = &section.columns[from..((cell + 1) * count / cells).max(from + 1)];
+            match part.iter().filter(|column| column.contact.is_some()).count() {
+                0 => '·',
+                held if held < part.len() => '▪',
+                _ => '■',
+            }
+        })
+        .collect();
+    frame.render_widget(Paragraph::new(Line::styled(glyphs, theme.style(Meaning::Contact))), row);
+}

@@ -1,0 +1,85 @@
+//! Part of the profile on its axes: rigid profile, elastic surface and contact, for profile and close-up.
+
+use crate::draw::{Axis, AxisScale, Chart, Ink, Layer, Shape, Span, legend};
+use crate::explorer::snapshot::{Column, ContactSnapshot, Section};
+use crate::explorer::theme::{Appearance, Meaning, Theme};
+use crate::explorer::view::plot;
+use crate::scene::format_quantity;
+use crate::simulation::LineFacts;
+use ratatui::text::{Line, Span as Text};
+
+/// Chart of a section over the position; heights within `z`.
+pub fn chart(section: &Section, line: LineFacts, z: Span) -> Chart {
+    let [low, high] =
+        [section.first, section.first + section.springs.max(1)].map(|spring| edge(line, spring));
+    let layer = |name: &str, ink, ends: &dyn Fn(&Column) -> Option<(f64, f64)>| {
+        let columns = section.columns.iter().map(ends).collect();
+        Layer::new(name.into(), ink, Shape::Envelope { x: (low, high), columns })
+    };
+    let layers = vec![
+        layer("surface", Ink::Surface, &|column| Some(column.surface)),
+        layer("profile", Ink::Profile, &|column| Some(column.line)),
+        layer("contact", Ink::Contact, &|column| column.contact),
+    ];
+    let axis = |span, symbol, unit| Axis::new(AxisScale::Linear, span, "", symbol, unit);
+    plot::chart(axis(Span { low, high }, "x", "m"), axis(z, "z", "m"), layers)
+}
+
+/// Position of the left edge of a spring, m.
+fn edge(line: LineFacts, spring: usize) -> f64 {
+    (line.first + spring) as f64 * line.spacing
+}
+
+/// Position of the middle of a spring, m.
+pub fn position(line: LineFacts, spring: usize) -> f64 {
+    edge(line, spring) + 0.5 * line.spacing
+}
+
+/// Adds the crosshair to the chart of a section.
+pub fn add_crosshair(chart: &mut Chart, moment: &ContactSnapshot) {
+    let Some(probe) = moment.probe else { return };
+    let lines = [Shape::Upright(position(moment.line, probe.spring)), Shape::Level(probe.height)];
+    // Below the curves, which stay whole.
+    chart.layers.splice(0..0, lines.map(|line| Layer::unnamed(Ink::Cursor, line)));
+}
+
+/// Readings of the crosshair: position, height, and the gap or the stretch of the spring.
+fn reading(moment: &ContactSnapshot, theme: Theme) -> Vec<Vec<Text<'static>>> {
+    let Some(probe) = moment.probe else { return Vec::new() };
+    let length = |value: f64| format_quantity(short(value), "m");
+    let part = |text: String| vec![Text::styled(text, theme.style(Meaning::Cursor))];
+    let distance = probe.level - probe.height;
+    let state = match probe.patch {
+        None => format!("gap {}", length(distance)),
+        Some(_) if distance > 0.0 => format!("stretched {}", length(distance)),
+        Some(_) => format!("compressed {}", length(-distance)),
+    };
+    let patch = probe.patch.map(|number| format!("patch {} of {}", number + 1, moment.point.fragments));
+    let at =
+        [format!("x {}", length(position(moment.line, probe.spring))), format!("z {}", length(probe.height))];
+    at.into_iter().chain([state]).chain(patch).map(part).collect()
+}
+
+/// Readings of the crosshair, or label of the heights, names of the lines and further signs, as far as there is room on
+/// the frame.
+pub fn names(
+    moment: &ContactSnapshot,
+    chart: &Chart,
+    more: impl IntoIterator<Item = Vec<Text<'static>>>,
+    appearance: Appearance,
+    width: u16,
+) -> Line<'static> {
+    let mut parts = reading(moment, appearance.theme);
+    if parts.is_empty() {
+        let quiet = appearance.theme.style(Meaning::Quiet);
+        parts.push(vec![Text::styled(chart.y.label_with_unit().to_string(), quiet)]);
+        parts.extend(plot::in_theme(appearance, |style| legend(std::slice::from_ref(chart), style)));
+        parts.extend(more);
+    }
+    plot::on_frame(parts, width)
+}
+
+/// To four digits: enough to find the place again.
+pub fn short(value: f64) -> f64 {
+    format!("{value:.3e}").parse().unwrap_or(value)
+}

@@ -1,0 +1,131 @@
+//! Laws that hold for every line, whatever its heights: symmetries, memory, order, energy, and that
+//! extremes and crossings of the force are found exactly.
+
+mod brute_force;
+mod extreme_inputs;
+mod memory;
+mod refusals;
+mod reuse;
+mod search;
+mod snapshot;
+mod symmetries;
+mod ties;
+mod work;
+
+use super::formed;
+use asperity::contact::{
+    Adhesive, ContactTree, CurvePoint, Exact, Foundation, GridEdges, HessRule, History, LegRecord, Solver,
+    exact, run,
+};
+use asperity::scene::{Edges, Leg};
+use proptest::prelude::*;
+
+/// Springs under adhesion.
+#[derive(Clone, Debug)]
+struct Body {
+    /// m, the smallest 0.
+    gaps: Vec<f64>,
+    foundation: Foundation,
+    /// γ, J/m².
+    work: f64,
+}
+
+impl Body {
+    fn tree(&self) -> ContactTree {
+        ContactTree::build(&self.gaps, Edges::Grid).unwrap()
+    }
+
+    /// The exact solver over its tree.
+    fn on<'a>(&'a self, tree: &'a ContactTree, samples: usize) -> Exact<Adhesive<'a, GridEdges>> {
+        let rule = GridEdges::new(HessRule::new(self.foundation, self.work));
+        exact::adhesive(&self.gaps, tree, rule, self.foundation, samples)
+    }
+
+    fn history(&self, legs: &[Leg], samples: usize) -> History {
+        run(&mut self.on(&self.tree(), samples), legs, |_, _| Ok(())).unwrap()
+    }
+
+    fn deepest(&self) -> f64 {
+        self.gaps.iter().copied().fold(0.0, f64::max)
+    }
+
+    /// Largest stretch of a fragment that is the whole line, m.
+    fn largest_stretch(&self) -> f64 {
+        let length = self.gaps.len() as f64 * self.foundation.spacing;
+        (std::f64::consts::PI * length * self.work / self.foundation.effective_modulus).sqrt()
+    }
+
+    /// A force of the order of those that act, N.
+    fn force_scale(&self) -> f64 {
+        let springs = self.gaps.len() as f64 * self.foundation.spring_stiffness();
+        springs * (self.deepest() + self.largest_stretch()).max(1e-3)
+    }
+}
+
+/// Gaps of a line of one of several kinds: random walk, noise, a few levels, flat.
+fn gaps() -> impl Strategy<Value = Vec<f64>> {
+    let walk = prop::collection::vec(-1.0..1.0_f64, 1..200).prop_map(|steps| {
+        let mut height = 0.0;
+        let heights = steps.iter().map(|step| {
+            height += 0.1 * step;
+            height
+        });
+        heights.collect::<Vec<f64>>()
+    });
+    let noise = prop::collection::vec(0.0..1.0_f64, 1..100);
+    let levels = prop::collection::vec(0_u8..5, 1..100)
+        .prop_map(|levels| levels.iter().map(|&level| 0.25 * f64::from(level)).collect());
+    let flat = (1_usize..50).prop_map(|count| vec![0.0; count]);
+    prop_oneof![6 => walk, 2 => noise, 2 => levels, 1 => flat].prop_map(|heights: Vec<f64>| {
+        let lowest = heights.iter().copied().fold(f64::INFINITY, f64::min);
+        heights.iter().map(|height| height - lowest).collect()
+    })
+}
+
+/// Bodies about 1 m deep, from hardly any adhesion to far more than it takes.
+fn body() -> impl Strategy<Value = Body> {
+    (gaps(), -5.0..2.0_f64, 0.003..0.03_f64, 0.3..3.0_f64).prop_map(
+        |(gaps, range, spacing, effective_modulus)| Body {
+            gaps,
+            foundation: Foundation::endless(spacing, effective_modulus),
+            work: effective_modulus * 10_f64.powf(range),
+        },
+    )
+}
+
+/// Bodies without adhesion.
+fn bare_body() -> impl Strategy<Value = Body> {
+    body().prop_map(|body| Body { work: 0.0, ..body })
+}
+
+/// Indentations of turning points; some of them equal, some on a level.
+fn indentations(most: usize) -> impl Strategy<Value = Vec<f64>> {
+    let indentation = prop_oneof![4 => -0.8..1.2_f64, 1 => (-3_i8..6).prop_map(|l| 0.25 * f64::from(l))];
+    prop::collection::vec(indentation, 1..most)
+}
+
+fn cases(cases: u32) -> ProptestConfig {
+    ProptestConfig { cases, failure_persistence: None, ..ProptestConfig::default() }
+}
+
+/// The end of a history.
+fn end(history: &History) -> CurvePoint {
+    *history.legs.last().unwrap().curve.last().unwrap()
+}
+
+/// All of a point, bit for bit.
+fn bits(point: &CurvePoint) -> [u64; 4] {
+    [point.indentation.to_bits(), point.force.to_bits(), point.springs, point.fragments]
+}
+
+fn curve_bits(record: &LegRecord) -> Vec<[u64; 4]> {
+    record.curve.iter().map(bits).collect()
+}
+
+fn indices(fragments: &[(usize, usize)]) -> Vec<usize> {
+    fragments.iter().flat_map(|&(first, last)| first..=last).collect()
+}
+
+fn to_indentations(indentations: &[f64]) -> Vec<Leg> {
+    indentations.iter().map(|&to| Leg::ToIndentation(to)).collect()
+}

@@ -1,0 +1,13 @@
+//! The explorer without a terminal: screens after each key, random keys, and the worker.
+
+#[path = "../common"]
+mod common {
+    pub mod deadline;
+    pub mod driver;
+    pub mod scenes;
+    pub mod script;
+    pub mod study;
+}
+mod random;
+mod screen;
+mod worker;

@@ -1,0 +1,348 @@
+//! Whatever happens to the explorer, in whatever order, in a window of whatever size: it does not
+//! panic, it draws, and its scene is one that may be computed.
+
+use super::common::deadline::within;
+use super::common::driver::{Driver, REFUSED};
+use super::common::scenes::{changed, one_spring, punch, rough, smooth, without_adhesion};
+use super::common::study::PLAN;
+use super::common::study::merged;
+use asperity::explorer::action::{Action, Command};
+use asperity::explorer::keys::BINDINGS;
+use asperity::explorer::parameters::parameters;
+use asperity::explorer::update::{Effect, update};
+use asperity::explorer::{Opening, view};
+use asperity::scene::{Document, Solver, check};
+use asperity::study::map::Charted;
+use proptest::prelude::*;
+use proptest::test_runner::{Config, TestRunner};
+use ratatui::Terminal;
+use ratatui::backend::TestBackend;
+use std::collections::VecDeque;
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+const CASES: u32 = 1200;
+const LONGEST: usize = 60;
+
+/// Scenes with more springs or samples are not computed, but reported as failed.
+const MOST: u64 = 2048;
+
+/// Something that happens.
+#[derive(Clone, Debug)]
+enum Event {
+    Command(Command),
+    Type(char),
+    Paste(String),
+    /// A value typed for the selected parameter.
+    Enter(String),
+    /// The scene saved under a name.
+    Save(String),
+    /// The folder of the study, or one that is none, opened by its path.
+    Open(bool),
+    Resize(u16, u16),
+    /// The window has another size by now, and nobody has told the explorer.
+    Shrunk(u16, u16),
+    Elapse(f64),
+    /// The oldest request that waits is answered.
+    Answer,
+    /// A report that came earlier comes again.
+    Stale(usize),
+}
+
+fn size() -> impl Strategy<Value = (u16, u16)> {
+    prop_oneof![
+        4 => (0..=4_u16, 0..=4_u16),
+        8 => (0..=80_u16, 0..=26_u16),
+        4 => (60..=130_u16, 12..=42_u16),
+        1 => (0..=4_u16, 0..=400_u16),
+        1 => (0..=400_u16, 0..=4_u16),
+    ]
+}
+
+fn value() -> impl Strategy<Value = String> {
+    let values = [
+        "0",
+        "1",
+        "-1",
+        "2",
+        "64",
+        "1e-7",
+        "1e400",
+        "NaN",
+        "inf",
+        "50m",
+        "2.5 MPa",
+        "10 µm",
+        "None",
+        "()",
+        "",
+        "(work: 0.05)",
+        "(kappa: 3.0)",
+        "Punch(radius: 1.0e-5)",
+        "Cone(angle: 0.1)",
+        "Stepwise(step: 1.0e-9)",
+        "(effective_modulus: 2.0e6)",
+        "(1, 8)",
+        "(9, 2)",
+        "[]",
+        "[ToTouch]",
+        "[ToForce(1.0e-5), ToForce(-1.0)]",
+        "[ToIndentation(-1.0e-7)]",
+        "[ToTouch, ToForce(1.0e-5), ToZeroForce, ToSeparation, ToTouch]",
+        "Measured(file: \"nowhere.csv\")",
+        "[",
+        "\"",
+        "1 /*",
+        "𝟙",
+        "18446744073709551616",
+    ];
+    prop_oneof![4 => prop::sample::select(values.to_vec()).prop_map(str::to_owned), 1 => ".{0,12}"]
+}
+
+fn command() -> impl Strategy<Value = Command> {
+    let bound: Vec<Command> = BINDINGS.iter().map(|row| row.command).collect();
+    let extreme = vec![
+        Command::Step(i32::MAX),
+        Command::Step(i32::MIN),
+        Command::Leg(i32::MAX),
+        Command::Leg(i32::MIN),
+        Command::Select(i32::MAX),
+        Command::Select(i32::MIN),
+        Command::StepValue { steps: 1000, coarse: true },
+        Command::StepValue { steps: -1000, coarse: false },
+        Command::StepValue { steps: 0, coarse: false },
+        Command::Zoom(i32::MIN),
+        Command::Pan(i32::MAX),
+        Command::Push { steps: i32::MIN, coarse: true },
+        Command::Push { steps: i32::MAX, coarse: true },
+        Command::Preset(usize::MAX),
+        Command::NextSlice(i32::MIN),
+        Command::NextSlice(i32::MAX),
+        Command::MoveAcross(i32::MIN),
+        Command::MoveUp(i32::MAX),
+        Command::TransposeMap,
+    ];
+    prop_oneof![8 => prop::sample::select(bound), 1 => prop::sample::select(extreme)]
+}
+
+fn event() -> impl Strategy<Value = Event> {
+    let stepped =
+        (-3..=3_i32, any::<bool>()).prop_map(|(steps, coarse)| Command::StepValue { steps, coarse });
+    let names = prop_oneof![Just("a.ron".to_owned()), Just(REFUSED.to_owned()), Just("b/c.ron".to_owned())];
+    prop_oneof![
+        12 => command().prop_map(Event::Command),
+        3 => stepped.prop_map(Event::Command),
+        3 => (-30..30_i32).prop_map(|rows| Event::Command(Command::Select(rows))),
+        2 => any::<char>().prop_map(Event::Type),
+        1 => ".{0,80}".prop_map(Event::Paste),
+        4 => value().prop_map(Event::Enter),
+        1 => names.prop_map(Event::Save),
+        1 => prop::bool::weighted(0.8).prop_map(Event::Open),
+        3 => size().prop_map(|(columns, rows)| Event::Resize(columns, rows)),
+        2 => size().prop_map(|(columns, rows)| Event::Shrunk(columns, rows)),
+        4 => (0.0..9.0).prop_map(Event::Elapse),
+        12 => Just(Event::Answer),
+        1 => any::<usize>().prop_map(Event::Stale),
+    ]
+}
+
+/// Small scenes of each kind, one that cannot be computed, and a study.
+fn scenes(study: &Path) -> Vec<Opening> {
+    let few = [("numerics.points", "64"), ("numerics.samples", "16")];
+    let small = changed(&rough(), &[("roughness.modes", "(2, 16)"), few[0], few[1]]);
+    let beyond = small.set("loading", "[ToForce(1.0e-5), ToForce(-1.0)]").unwrap();
+    let mut scenes: Vec<Opening> = [
+        small.clone(),
+        small.set("loading", "[ToForce(1.0e-5), ToZeroForce, ToForce(2.0e-5), ToSeparation]").unwrap(),
+        changed(&smooth(), &few),
+        changed(&punch(), &few),
+        changed(&without_adhesion(), &[("roughness.modes", "(2, 16)"), few[0], few[1]]),
+        one_spring(),
+        beyond,
+    ]
+    .map(Opening::from)
+    .to_vec();
+    scenes.push(Opening::of(study.to_str().unwrap()).unwrap());
+    scenes
+}
+
+/// An explorer whose worker answers only when it is let.
+struct Explorer {
+    driver: Driver,
+    waiting: VecDeque<Effect>,
+    /// All that has been reported.
+    reports: Vec<Action>,
+    /// The generation that has been looked at.
+    judged: u64,
+    /// Folder of the study.
+    study: PathBuf,
+}
+
+impl Explorer {
+    fn new(opening: Opening, study: &Path) -> Self {
+        let (driver, waiting) = (Driver::open(opening), VecDeque::from([Effect::Compute]));
+        Explorer { driver, waiting, reports: Vec::new(), judged: 0, study: study.to_owned() }
+    }
+
+    fn act(&mut self, action: Action) {
+        for effect in update(&mut self.driver.model, action) {
+            // The hand waits for no answer: its orders are on their way at once.
+            match effect {
+                Effect::Manual(_) => drop(self.driver.answer(effect)),
+                // Of all scenes that wait, only the newest is computed.
+                Effect::Compute => {
+                    self.waiting.retain(|one| *one != Effect::Compute);
+                    self.waiting.push_back(Effect::Compute);
+                }
+                other => self.waiting.push_back(other),
+            }
+        }
+        self.judge();
+    }
+
+    fn happen(&mut self, event: &Event) {
+        match event {
+            Event::Command(command) => self.act(Action::Command(*command)),
+            Event::Type(character) => self.act(Action::Type(*character)),
+            Event::Paste(text) => self.act(Action::Paste(text.clone())),
+            Event::Enter(value) => {
+                self.act(Action::Command(Command::EditValue));
+                self.act(Action::Command(Command::Clear));
+                self.act(Action::Paste(value.clone()));
+                self.act(Action::Command(Command::Accept));
+            }
+            Event::Save(name) => {
+                self.act(Action::Command(Command::Save));
+                self.act(Action::Command(Command::Clear));
+                self.act(Action::Paste(name.clone()));
+                self.act(Action::Command(Command::Accept));
+            }
+            Event::Open(sound) => {
+                self.act(Action::Command(Command::OpenLibrary));
+                let folder = if *sound { self.study.clone() } else { self.study.join("shards") };
+                self.act(Action::Paste(folder.to_str().unwrap().to_owned()));
+                self.act(Action::Command(Command::Accept));
+            }
+            Event::Resize(columns, rows) => self.act(Action::Resize(*columns, *rows)),
+            Event::Shrunk(columns, rows) => self.draw((*columns, *rows)),
+            Event::Elapse(seconds) => self.act(Action::Elapse(Duration::from_secs_f64(*seconds))),
+            Event::Answer => self.answer(),
+            Event::Stale(which) => {
+                if !self.reports.is_empty() {
+                    self.act(self.reports[which % self.reports.len()].clone());
+                }
+            }
+        }
+    }
+
+    fn answer(&mut self) {
+        let Some(effect) = self.waiting.pop_front() else { return };
+        let is_cheap = |document: &Document| {
+            let scene = document.scene();
+            let numerics = scene.numerics;
+            let is_small = numerics.points <= MOST && numerics.samples <= MOST && scene.loading.len() <= 16;
+            is_small && numerics.solver == Solver::Exact
+        };
+        let actions = match &effect {
+            Effect::Compute if !is_cheap(&self.driver.model.document) => {
+                let generation = self.driver.model.generation;
+                vec![Action::Failed { generation, error: "too large for a test\nin two lines".to_owned() }]
+            }
+            Effect::Preview(document) if !is_cheap(document) => Vec::new(),
+            _ => self.driver.answer(effect),
+        };
+        self.reports.extend(actions.iter().cloned());
+        actions.into_iter().for_each(|action| self.act(action));
+    }
+
+    /// Draws into a window of this size.
+    fn draw(&self, (columns, rows): (u16, u16)) {
+        let mut terminal = Terminal::new(TestBackend::new(columns, rows)).unwrap();
+        terminal.draw(|frame| view::draw(frame, &self.driver.model)).unwrap();
+    }
+
+    /// What holds whatever has happened.
+    fn judge(&mut self) {
+        let model = &self.driver.model;
+        assert!(model.generation >= self.judged, "generations only grow");
+        if model.generation > self.judged {
+            self.judged = model.generation;
+            let document = &model.document;
+            assert_eq!(check(document.scene()), []);
+            let again = Document::parse(document.text(), document.name()).expect("the text is a scene");
+            assert_eq!(again.scene(), document.scene());
+            assert_eq!(model.parameters, parameters(document));
+            assert!(model.refused.is_none(), "a changed scene is not refused");
+        }
+        assert!(model.listed().contains(&model.selected), "the selected parameter is in no folded group");
+        assert!(model.refused.as_ref().is_none_or(|(row, _)| *row < model.parameters.len()));
+        assert!((0.0..=1.0).contains(&model.player.done), "{:?}", model.player);
+        assert!(model.indentation().is_finite());
+        if let Some(study) = model.chart.shown_study() {
+            assert!(study.slice < study.study_map.slices());
+            let charted = model.chart.charted();
+            assert!(model.chart.map_model().is_some_and(|map_model| map_model.charted().contains(&charted)));
+        } else {
+            assert!(
+                !matches!(model.chart.charted(), Charted::Quantity(one) if model.chart.map_model().is_some_and(|map_model| map_model.layer(one).is_none()))
+            );
+        }
+        if model.computed.as_ref().is_some_and(|computed| computed.generation == model.generation) {
+            assert!(model.player.leg < model.legs().len(), "{:?}", model.player);
+            assert!(!model.is_computing());
+        }
+        if let Some(line) = self.driver.model.mode.line_mut() {
+            assert!(!line.text().contains(char::is_control));
+        }
+        self.draw(self.driver.model.size);
+    }
+
+    /// Lets the worker catch up: what is shown is then what is explored, or it is told why not.
+    fn settle(&mut self) {
+        while !self.waiting.is_empty() {
+            self.answer();
+        }
+        let model = &self.driver.model;
+        assert!(!model.is_computing());
+        let current = |generation: u64| generation == model.generation;
+        if model.computed.as_ref().is_some_and(|computed| current(computed.generation)) {
+            assert!(model.moment.as_ref().is_some_and(|moment| current(moment.generation)));
+        } else {
+            assert!(
+                model.notice.is_some() || model.mode.kind() != asperity::explorer::model::ModeKind::Explore
+            );
+        }
+    }
+}
+
+#[test]
+fn whatever_happens_it_draws_and_its_scene_is_sound() {
+    within(60, || {
+        let folder = tempfile::tempdir().unwrap();
+        // Few values: the edges of the map are near.
+        let plan = PLAN
+            .replace("count: 9", "count: 2")
+            .replace("count: 13", "count: 3")
+            .replace("lines: 12", "lines: 2");
+        merged(folder.path(), &plan);
+        let scenes = scenes(folder.path());
+        let cases = (0..scenes.len(), size(), prop::collection::vec(event(), 1..=LONGEST));
+        let mut runner = TestRunner::new(Config {
+            failure_persistence: None,
+            max_shrink_time: 20_000,
+            ..Config::with_cases(CASES)
+        });
+        let outcome = runner.run(&cases, |(scene, (columns, rows), events)| {
+            let mut explorer = Explorer::new(scenes[scene].clone(), folder.path());
+            explorer.act(Action::Resize(columns, rows));
+            for event in &events {
+                explorer.happen(event);
+            }
+            explorer.settle();
+            Ok(())
+        });
+        if let Err(failure) = outcome {
+            panic!("{failure}");
+        }
+    });
+}

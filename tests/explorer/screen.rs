@@ -1,0 +1,153 @@
+//! The screen of the explorer: what a user sees after each key, in large windows and small ones, with
+//! colours and without.
+
+mod accuracy;
+mod chart;
+mod chrome;
+mod compare;
+mod crosshair;
+mod demo;
+mod edit;
+mod effects;
+mod failures;
+mod figures;
+mod files;
+mod fragments;
+mod hand;
+mod library;
+mod look;
+mod looks;
+mod mouse;
+mod palette;
+mod panes;
+mod parameters;
+mod play;
+mod preloads;
+mod saving;
+mod sizes;
+mod spectrum;
+mod study;
+mod typing;
+mod windows;
+
+use super::common::{self, driver::Driver, scenes::rough, script::rows};
+use asperity::explorer::model::Model;
+use asperity::scene::{Document, open};
+use ratatui::buffer::{Buffer, Cell};
+use ratatui::style::Modifier;
+
+/// Windows, columns and rows.
+const SIZES: [(u16, u16); 5] = [(120, 40), (80, 24), (60, 20), (40, 12), (20, 5)];
+
+/// The scene the explorer opens on.
+fn default_scene() -> Document {
+    open(asperity::scene::DEFAULT).unwrap_or_else(|errors| panic!("{errors}"))
+}
+
+/// Half way through the retraction, paused.
+fn mid_retraction(document: Document) -> Driver {
+    let mut driver = Driver::start(document);
+    driver.press("Space >");
+    driver.elapse(3.0);
+    assert_eq!((driver.model.player.leg, driver.model.player.playing), (1, false));
+    driver.press(".");
+    while driver.model.player.done < 0.5 {
+        driver.press(".");
+    }
+    driver
+}
+
+/// The rough scene half way through its retraction, its Hurst exponent selected, and then some keys.
+fn pressed(keys: &str) -> Driver {
+    let mut driver = mid_retraction(rough());
+    driver.select("roughness.hurst");
+    driver.press(keys);
+    driver
+}
+
+/// Explorers in every mode and pane.
+fn everywhere() -> Vec<Driver> {
+    let keys = [
+        "",
+        "?",
+        "e",
+        "s",
+        "s Enter s Enter",
+        "l q",
+        "z",
+        "Tab z",
+        "Tab Tab z",
+        "Tab Tab Tab z",
+        "F",
+        "E",
+        "o",
+        "/ h u",
+        ": m a p",
+        "I",
+        "Z",
+        "d { ]",
+        "c L",
+        "a v",
+        "D",
+        "N w",
+        "A",
+        "A z",
+        "Q",
+        "Q z",
+        "% 1",
+        "y",
+        "m",
+        "m X z",
+        "i",
+        "*",
+        "& L",
+        "* Tab Right",
+        "* O v Right",
+        "i z",
+    ];
+    let mut all: Vec<Driver> = keys.into_iter().map(pressed).collect();
+    all.push(Driver::open(rough()));
+    all.push(accuracy::measured(rough()));
+    all.extend(["", "V", "V V", "X", "z"].map(|keys| {
+        let mut driver = chart::charted(rough());
+        driver.press(keys);
+        driver
+    }));
+    all.extend(["", "V V", "X", "W", "V V V X z"].map(|keys| {
+        let (_folder, mut driver) = study::opened();
+        driver.press(keys);
+        driver
+    }));
+    let mut refused = pressed("");
+    refused.enter("nothing");
+    all.push(refused);
+    all
+}
+
+/// The cells of a row of the screen that has this text in it.
+fn row_with<'a>(screen: &'a Buffer, text: &str) -> &'a [Cell] {
+    let number = rows(screen).iter().position(|row| row.contains(text));
+    let number = number.unwrap_or_else(|| panic!("{text} in\n{}", rows(screen).join("\n")));
+    let width = usize::from(screen.area.width);
+    &screen.content[number * width..(number + 1) * width]
+}
+
+fn reversed(cells: &[Cell]) -> String {
+    cells.iter().filter(|cell| cell.modifier.contains(Modifier::REVERSED)).map(Cell::symbol).collect()
+}
+
+fn generation(driver: &Driver) -> u64 {
+    driver.model.generation
+}
+
+/// Whether what is shown belongs to the scene as it stands.
+fn is_up_to_date(model: &Model) -> bool {
+    model.computed.as_ref().is_some_and(|computed| computed.generation == model.generation)
+        && model.moment.as_ref().is_some_and(|moment| moment.generation == model.generation)
+        && !model.is_computing()
+}
+
+/// Compares with the picture that is kept, beside those of the other tests.
+fn keep(name: &str, screens: &str) {
+    insta::assert_snapshot!(name, screens);
+}

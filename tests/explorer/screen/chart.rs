@@ -1,0 +1,438 @@
+//! The map over H and κ: what it shows, its mark, which is the scene, and what is computed of it when. Told by a
+//! scripted appraiser.
+
+use super::common::deadline::within;
+use super::common::driver::Driver;
+use super::common::scenes::{changed, rough, smooth, without_adhesion};
+use super::{is_up_to_date, keep};
+use asperity::accuracy::{Choice, ChoiceError, CostError, CostTable, Estimate, Progress};
+use asperity::analysis::Regime;
+use asperity::explorer::action::{Action, Gesture, Mouse};
+use asperity::explorer::layout::{Layout, inside};
+use asperity::explorer::model::{ModeKind, Pane};
+use asperity::explorer::snapshot::SolvedScene;
+use asperity::explorer::study::{Appraiser, Finding, Found, Study, Task};
+use asperity::explorer::theme::Marker;
+use asperity::explorer::update::{Effect, study_tasks};
+use asperity::scene::{Document, Scene};
+use asperity::simulation::RunError;
+use asperity::study::map::{Charted, HURSTS, KAPPAS, Level, LiveMap, RECORD, Template, hurst, kappa};
+use asperity::study::{CellSummary, Quantity, Spread};
+use std::sync::Arc;
+use std::sync::mpsc::{Sender, channel};
+use std::time::Duration;
+
+/// Fills the levels of a map that it is told to; nothing else is known to it.
+struct Mapper(Vec<Level>);
+
+/// Adhesion falls with κ, and with it the regime.
+fn cell(kappa: f64, hurst: f64) -> CellSummary {
+    let regime = match kappa * (0.5 + hurst) {
+        ..2.0 => Regime::PressureInsensitive,
+        2.0..12.0 => Regime::PressureSensitive,
+        _ => Regime::NonAdhesive,
+    };
+    let spread = |mean| Some(Spread { mean, standard_deviation: None, confidence_interval: None });
+    // Of four profiles one is in another regime.
+    let mut regimes = [0.0; 3];
+    regimes[regime as usize] = 0.75;
+    regimes[(regime as usize + 1) % 3] = 0.25;
+    let values = RECORD.map(|quantity| match quantity {
+        Quantity::ZeroLoadAdhesionShare => spread((-kappa).exp()),
+        Quantity::AdhesionCoefficient => spread(2.0 * (-kappa / 2.0).exp()),
+        _ => None,
+    });
+    CellSummary { cell: 0, lines: 4, quantities: values.to_vec(), regimes: Some(regimes) }
+}
+
+impl Appraiser for Mapper {
+    fn estimate(&mut self, _: &SolvedScene, _: &dyn Fn() -> bool) -> Result<Option<Estimate>, RunError> {
+        Ok(None)
+    }
+
+    fn measure(
+        &mut self,
+        _: &Scene,
+        _: &dyn Fn() -> bool,
+        _: &mut dyn FnMut(Progress<'_>),
+    ) -> Result<CostTable, CostError> {
+        Err(CostError::Stopped)
+    }
+
+    fn choose(
+        &mut self,
+        _: &Scene,
+        _: f64,
+        _: &dyn Fn() -> bool,
+        _: &mut dyn FnMut(u64),
+    ) -> Result<Choice, ChoiceError> {
+        Err(ChoiceError::Stopped)
+    }
+
+    fn chart(&mut self, map: &mut LiveMap, _: &dyn Fn() -> bool, tell: &mut dyn FnMut(&LiveMap)) {
+        for level in &self.0 {
+            for &row in map.rows_of(*level) {
+                level.columns().for_each(|column| map.set(column, row, Ok(cell(kappa(column), hurst(row)))));
+                tell(map);
+            }
+        }
+    }
+}
+
+fn driver_with(document: Document, levels: &[Level]) -> Driver {
+    let mut driver = Driver::open(document);
+    driver.appraiser = Some(Box::new(Mapper(levels.to_vec())));
+    driver.perform(vec![Effect::Compute]);
+    driver.press("Space m");
+    driver
+}
+
+/// The explorer with a whole map, and the map shown.
+pub fn charted(document: Document) -> Driver {
+    driver_with(document, &Level::ALL)
+}
+
+/// κ and H of the mark, on a map with H across.
+fn place(driver: &Driver) -> (f64, f64) {
+    let (hurst, kappa) = driver.model.place().unwrap();
+    (kappa.unwrap(), hurst)
+}
+
+#[test]
+fn the_map_is_shown_beside_what_can_be_changed() {
+    within(60, || {
+        let mut screens = String::new();
+        for (keys, levels) in
+            [("", &Level::ALL[..]), ("", &[Level::Coarse]), ("V", &Level::ALL), ("X", &Level::ALL)]
+        {
+            let mut driver = driver_with(rough(), levels);
+            driver.press(keys);
+            for size in [(120, 40), (80, 24)] {
+                driver.resize(size);
+                screens += &format!("── {keys} {} × {} ──\n{}\n", size.0, size.1, driver.text());
+                assert!(driver.text().contains("over H, κ, 4 profiles") || keys == "V", "{}", driver.text());
+                assert!(driver.text().contains("◆ H 0.7, κ 8"), "{}", driver.text());
+                assert_eq!(
+                    driver.text().contains("5 × 5 cells so far"),
+                    levels.len() == 1,
+                    "{}",
+                    driver.text()
+                );
+                assert!(driver.text().contains("Parameters") && driver.text().contains("Force F(d)"));
+            }
+        }
+        keep("screen_of_the_map", &screens);
+    });
+}
+
+#[test]
+fn the_map_says_without_colours_what_it_says_with_them() {
+    within(60, || {
+        let mut driver = charted(rough());
+        for told in ["█ pressure-insensitive", "▒ pressure-sensitive", "· non-adhesive"] {
+            assert!(driver.text().contains(told), "{told}\n{}", driver.text());
+        }
+        // The same three in every column, from below.
+        let [insensitive, sensitive, adhesive] = ["████", "▒▒▒▒", "····"].map(|shades| {
+            let rows = driver.rows();
+            let all: Vec<usize> = (0..rows.len()).filter(|row| rows[*row].contains(shades)).collect();
+            (all[0], all[all.len() - 1])
+        });
+        assert!(adhesive.0 < sensitive.0 && sensitive.1 < insensitive.1, "{}", driver.text());
+        // κ ≈ 0.6 is explained.
+        driver.press("z");
+        let words = driver.text().replace(['│', '\n'], " ").split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(words.contains("κ ≈ 0.6 is the boundary of eq. (15)"), "{words}");
+        driver.press("z");
+        driver.model.appearance.marker = Marker::Ascii;
+        assert!(driver.text().is_ascii() && driver.text().contains("##"), "{}", driver.text());
+        driver.model.appearance.marker = Marker::Braille;
+        // Each quantity has a legend of its own, with the scale of the shades, and the regimes as letters.
+        for (quantity, said) in [
+            (Quantity::ZeroLoadAdhesionShare, "F_a(0)/F_a,max "),
+            (Quantity::AdhesionCoefficient, "F_a/F_n "),
+        ] {
+            driver.press("V");
+            assert_eq!(driver.model.chart.quantity, Charted::Quantity(quantity));
+            for said in [said, "···", "███", "i pressure-insensitive", "▁▕ F_a(0) = 0.05 F_a,max"]
+            {
+                assert!(driver.text().contains(said), "{said}\n{}", driver.text());
+            }
+        }
+        driver.press("V");
+        assert_eq!(driver.model.chart.quantity, Charted::Regime);
+        assert!(driver.text().contains("█ pressure-insensitive"), "{}", driver.text());
+    });
+}
+
+#[test]
+fn a_key_exchanges_the_axes() {
+    within(60, || {
+        let mut driver = charted(rough());
+        let before = driver.text();
+        assert!(
+            before.contains("↑ governing parameter κ") && before.contains("Hurst exponent H"),
+            "{before}"
+        );
+        driver.press("t");
+        let text = driver.text();
+        assert!(text.contains("↑ Hurst exponent H") && text.contains("governing parameter κ"), "{text}");
+        assert!(text.contains("◆ κ 8, H 0.7"), "{text}");
+        driver.press("Right");
+        assert_eq!(driver.model.place(), Some((9.51, Some(0.7))));
+        // The map of another scene has the same axes across and up.
+        driver.press("Tab Tab R");
+        assert!(driver.text().contains("↑ Hurst exponent H"), "{}", driver.text());
+        driver.press("m t u u");
+        assert_eq!(driver.text(), before);
+    });
+}
+
+#[test]
+fn the_map_is_exported_as_it_is_seen() {
+    within(60, || {
+        let folder = tempfile::tempdir().unwrap();
+        let mut driver = charted(rough());
+        let mut export = |keys: &str, name: &str| {
+            driver.press(keys);
+            driver.press("E Ctrl+u");
+            assert!(driver.status().contains("Export the map to"), "{}", driver.status());
+            let path = folder.path().join(name);
+            driver.act(Action::Paste(path.to_str().unwrap().to_owned()));
+            driver.press("Enter");
+            (std::fs::read_to_string(path).unwrap_or_default(), driver.status())
+        };
+        let (cells, _) = export("", "map.csv");
+        let rows: Vec<&str> = cells.lines().collect();
+        assert_eq!(rows.len(), 1 + KAPPAS * HURSTS);
+        assert_eq!(
+            rows[0],
+            "roughness.hurst,kappa,lines,regime,zero_load_adhesion_share_mean,zero_load_adhesion_share_low,\
+             zero_load_adhesion_share_high,adhesion_coefficient_mean,adhesion_coefficient_low,adhesion_coefficient_high"
+        );
+        assert_eq!(
+            rows[1],
+            format!(
+                "0.05,0.125,4,pressure-insensitive,{:?},,,{:?},,",
+                (-0.125_f64).exp(),
+                2.0 * (-0.0625_f64).exp()
+            )
+        );
+        let (figure, _) = export("", "map.svg");
+        for said in ["Hurst exponent", "pressure-sensitive", "adhesion coefficient"] {
+            assert!(figure.starts_with("<svg") && figure.contains(said), "{said}");
+        }
+        let (figure, _) = export("X", "sections.svg");
+        assert!(figure.starts_with("<svg") && figure.contains("at κ 8"), "{figure}");
+        let (cells, _) = export("", "sections.csv");
+        assert_eq!(cells.lines().count(), 1 + KAPPAS + HURSTS - 1);
+        let (nothing, said) = export("", "map.json");
+        assert!(nothing.is_empty() && said.contains("the name must end in .csv, .svg, .txt"), "{said}");
+        // The curve, while another pane is selected.
+        driver.press("Tab Tab E");
+        assert!(driver.status().contains("Export to"), "{}", driver.status());
+    });
+}
+
+#[test]
+fn moves_in_a_row_are_one_edit() {
+    within(60, || {
+        let mut driver = charted(rough());
+        assert_eq!(driver.model.keys(), ModeKind::Chart);
+        let before = driver.model.document.clone();
+        let (edits, map) = (driver.model.undo.len(), driver.model.chart.map.clone());
+        assert_eq!(driver.press("Down"), [Effect::Compute]);
+        assert_eq!(place(&driver), (6.73, 0.7));
+        driver.press("Down Left h k Shift+Down Right");
+        assert_eq!(place(&driver), (3.36, 0.65));
+        assert_eq!(driver.model.undo.len(), edits + 1);
+        assert!(is_up_to_date(&driver.model));
+        // The map is that of all of them.
+        assert_eq!(driver.model.chart.map, map);
+        assert!(driver.text().contains("◆ H 0.65, κ 3.36"), "{}", driver.text());
+        // Any other key ends the row.
+        driver.press("V Up");
+        assert_eq!((place(&driver).0, driver.model.undo.len()), (4.0, edits + 2));
+        driver.press("u");
+        assert_eq!(place(&driver), (3.36, 0.65));
+        driver.press("Down u u");
+        assert_eq!(driver.model.document, before);
+        driver.press("U");
+        assert_eq!(place(&driver), (3.36, 0.65));
+        assert_eq!(driver.model.chart.map, map);
+    });
+}
+
+#[test]
+fn the_mark_stays_on_the_map() {
+    within(60, || {
+        let mut driver = charted(rough());
+        driver.press(&"Shift+Right Shift+Up ".repeat(9));
+        assert_eq!(place(&driver), (32.0, 0.95));
+        let generation = driver.model.generation;
+        driver.press("Up");
+        assert!(driver.status().contains("here the map ends"), "{}", driver.status());
+        assert_eq!(driver.model.generation, generation);
+        // A scene beyond it comes back with the first step.
+        driver.press("Tab Tab");
+        assert_eq!(driver.model.keys(), ModeKind::Explore);
+        driver.select("adhesion.kappa");
+        driver.enter("100");
+        assert!(driver.text().contains("H 0.95, κ 100, outside the map"), "{}", driver.text());
+        driver.press("m j");
+        assert_eq!(place(&driver).0, 32.0);
+    });
+}
+
+#[test]
+fn adhesion_given_by_its_work_stays_so() {
+    within(60, || {
+        let mut driver = charted(changed(&rough(), &[("adhesion", "(work: 0.02)")]));
+        driver.press("Right Up");
+        let adhesion = driver.model.document.scene().adhesion.unwrap();
+        assert!(adhesion.kappa.is_none() && adhesion.work.is_some_and(|work| work != 0.02));
+        let (at, hurst) = place(&driver);
+        assert!((0..KAPPAS).any(|column| (kappa(column) / at - 1.0).abs() < 1e-9), "{at}");
+        assert_eq!(hurst, 0.75);
+        // What ran agrees.
+        let computed = driver.model.computed.as_ref().unwrap().outcome.governing.kappa.unwrap();
+        assert!((computed / at - 1.0).abs() < 1e-9);
+    });
+}
+
+#[test]
+fn the_mouse_moves_the_mark() {
+    within(60, || {
+        let mut driver = charted(rough());
+        let edits = driver.model.undo.len();
+        let area = inside(Layout::of(&driver.model).pane(Pane::Chart).unwrap());
+        let mut mouse = |column, row, gesture| driver.act(Action::Mouse(Mouse { column, row, gesture }));
+        mouse(area.x + 20, area.y + 10, Gesture::Press);
+        for column in 20..30 {
+            mouse(area.x + column, area.y + 12, Gesture::Drag);
+        }
+        assert_eq!(driver.model.undo.len(), edits + 1);
+        // A cell of the map has two of the screen.
+        let screen = driver.screen();
+        let near = |x: u16, y: u16| screen[(area.x + x, area.y + y)].symbol() == "◆";
+        let seen = (27..=31).any(|x| (11..=13).any(|y| near(x, y)));
+        assert!(seen, "{}", driver.text());
+    });
+}
+
+#[test]
+fn other_edits_begin_the_map_anew_and_wait_for_quiet() {
+    within(60, || {
+        let mut driver = charted(rough());
+        let chart = |driver: &Driver| {
+            study_tasks(&driver.model).into_iter().find_map(|task| match task {
+                Task::Chart { map, waits } => Some((map.level(), waits)),
+                _ => None,
+            })
+        };
+        assert_eq!(chart(&driver), None, "it is whole");
+        driver.appraiser = None;
+        driver.press("Tab Tab R");
+        assert_eq!(chart(&driver), Some((None, true)));
+        assert!(driver.text().contains("computing the map"), "{}", driver.text());
+        // What comes late is of no use.
+        let generation = driver.model.generation - 1;
+        let late = Arc::new(LiveMap::new(Arc::new(Template::of(rough().scene()).unwrap())));
+        driver.act(Action::Found(Found { generation, finding: Finding::Charted(late) }));
+        assert!(driver.model.chart.map.is_none());
+        // Nobody looks on.
+        driver.press("m m");
+        assert!(!driver.model.chart.shown);
+        assert_eq!(chart(&driver), None);
+        assert_eq!(driver.press("m"), [Effect::Study, Effect::Show]);
+        assert_eq!(chart(&driver), Some((None, false)), "shown, it begins at once");
+        // Accuracy takes its place, and the other way round.
+        driver.press("A");
+        assert!(driver.model.appraisal.shown && !driver.model.chart.shown);
+        driver.press("m");
+        assert!(!driver.model.appraisal.shown && driver.model.chart.shown);
+    });
+}
+
+#[test]
+fn a_scene_without_a_map_says_why() {
+    within(60, || {
+        for (document, why) in [(smooth(), "a smooth body has"), (without_adhesion(), "has no adhesion")] {
+            let mut driver = charted(document);
+            assert!(driver.text().contains(why), "{}", driver.text());
+            let generation = driver.model.generation;
+            driver.press("Left Up X");
+            assert_eq!(driver.model.generation, generation);
+        }
+        // A cell that cannot be computed.
+        let mut driver = charted(rough());
+        let mut map = LiveMap::clone(driver.model.chart.map.as_deref().unwrap());
+        for (column, row) in (0..KAPPAS).flat_map(|column| (0..HURSTS).map(move |row| (column, row))) {
+            map.set(column, row, Err("the force is never reached".to_owned()));
+        }
+        let generation = driver.model.generation;
+        driver.act(Action::Found(Found { generation, finding: Finding::Charted(Arc::new(map)) }));
+        assert!(!driver.text().contains("▒▒▒▒"), "{}", driver.text());
+        assert!(driver.text().contains("the force is never"), "{}", driver.text());
+        driver.press("X");
+        driver.screen();
+    });
+}
+
+const PATIENCE: Duration = Duration::from_secs(20);
+
+/// Draws a map until it is told to stop, and says when it begins and when it has stopped.
+struct Endless(Sender<&'static str>, Mapper);
+
+impl Appraiser for Endless {
+    fn estimate(&mut self, of: &SolvedScene, stop: &dyn Fn() -> bool) -> Result<Option<Estimate>, RunError> {
+        self.1.estimate(of, stop)
+    }
+
+    fn measure(
+        &mut self,
+        scene: &Scene,
+        stop: &dyn Fn() -> bool,
+        watch: &mut dyn FnMut(Progress<'_>),
+    ) -> Result<CostTable, CostError> {
+        self.1.measure(scene, stop, watch)
+    }
+
+    fn choose(
+        &mut self,
+        scene: &Scene,
+        tolerance: f64,
+        stop: &dyn Fn() -> bool,
+        trying: &mut dyn FnMut(u64),
+    ) -> Result<Choice, ChoiceError> {
+        self.1.choose(scene, tolerance, stop, trying)
+    }
+
+    fn chart(&mut self, map: &mut LiveMap, stop: &dyn Fn() -> bool, tell: &mut dyn FnMut(&LiveMap)) {
+        self.1.chart(map, stop, tell);
+        self.0.send("begun").unwrap();
+        while !stop() {
+            std::thread::yield_now();
+        }
+        tell(map);
+        self.0.send("stopped").unwrap();
+    }
+}
+
+#[test]
+fn an_edit_ends_the_computing_of_the_map() {
+    within(60, || {
+        let (says, said) = channel();
+        let (report, reports) = channel();
+        let endless = Endless(says, Mapper(vec![Level::Coarse]));
+        let study = Study::start(Box::new(endless), move |found| report.send(found).is_ok()).unwrap();
+        let map = Arc::new(LiveMap::new(Arc::new(Template::of(rough().scene()).unwrap())));
+        study.ask(1, vec![Task::Chart { map, waits: false }]);
+        assert_eq!(said.recv_timeout(PATIENCE), Ok("begun"));
+        study.stop();
+        assert_eq!(said.recv_timeout(PATIENCE), Ok("stopped"));
+        drop(study);
+        let told: Vec<Found> = reports.iter().collect();
+        assert_eq!(told.len(), 5, "a finding for each row, and none after the stop");
+    });
+}

@@ -1,0 +1,285 @@
+//! Loops kept as ghosts beside the present one.
+
+use super::common::deadline::within;
+use super::common::driver::Driver;
+use super::common::scenes::rough;
+use super::{is_up_to_date, pressed};
+use asperity::explorer::Opening;
+use asperity::explorer::layout::Layout;
+use asperity::explorer::model::{Notice, Pane};
+use asperity::explorer::snapshot::SolvedScene;
+use asperity::explorer::update::moment_request;
+use asperity::scene::{Document, format_quantity};
+use asperity::simulation::Outcome;
+use ratatui::style::Color;
+
+/// The scenes of the ghosts, the newest last.
+fn kept(driver: &Driver) -> Vec<Document> {
+    driver.model.ghosts.iter().map(|ghost| ghost.document.clone()).collect()
+}
+
+/// What was computed for the scene.
+fn outcome(driver: &Driver) -> Outcome {
+    driver.model.computed.as_deref().map(|SolvedScene { outcome, .. }| outcome.clone()).unwrap()
+}
+
+fn told(driver: &Driver) -> String {
+    match &driver.model.notice {
+        Some(Notice::Done(text) | Notice::Error(text)) => text.clone(),
+        None => String::new(),
+    }
+}
+
+#[test]
+fn ghosts_have_letters_and_say_where_they_differ() {
+    within(30, || {
+        let mut driver = pressed("c");
+        assert!(told(&driver).contains("x exchanges"), "{}", told(&driver));
+        assert!(driver.text().contains("· the same scene"), "{}", driver.text());
+        driver.press("L");
+        assert!(driver.text().contains("A F_a ") && driver.text().contains("· H 0.7"), "{}", driver.text());
+        driver.press("c");
+        driver.select("adhesion.kappa");
+        driver.enter("4");
+        driver.select("loading");
+        driver.press("j");
+        driver.enter("10 µN");
+        let text = driver.text();
+        for said in ["· H 0.7, κ 8", "· κ 8, leg 1"] {
+            assert!(text.contains(said), "{said}\n{text}");
+        }
+        driver.select("loading");
+        driver.enter("[ToForce(1.0e-5), ToIndentation(0.0)]");
+        let text = driver.text();
+        assert!(text.contains("· κ 8, loading ["), "{text}");
+        driver.press("u");
+        // The letters stand in the plot too.
+        driver.press("z");
+        let plot = driver.rows()[8..36].join("\n");
+        for letter in ['A', 'B'] {
+            assert_eq!(plot.matches(letter).count(), 1, "{letter}\n{}", driver.text());
+        }
+        driver.press("C");
+        assert!(driver.model.ghosts.is_empty());
+        assert!(!driver.text().contains("κ 8"), "{}", driver.text());
+    });
+}
+
+#[test]
+fn the_plot_has_room_for_its_ghosts() {
+    within(30, || {
+        let mut driver = pressed("");
+        driver.select("loading");
+        driver.press("j c");
+        driver.enter("2 µN");
+        let high = |driver: &Driver| driver.text().contains("20 ┤");
+        assert!(high(&driver), "the larger loop is seen as well: {}", driver.text());
+        driver.press("C");
+        assert!(!high(&driver), "{}", driver.text());
+    });
+}
+
+#[test]
+fn one_loop_is_kept_once_and_eight_at_most() {
+    within(60, || {
+        let mut driver = pressed("c c");
+        assert_eq!(driver.model.ghosts.len(), 1);
+        assert!(told(&driver).contains("kept already"), "{}", told(&driver));
+        // Also when it was left meanwhile.
+        driver.press("l c h c");
+        assert_eq!(driver.model.ghosts.len(), 2);
+        driver.press("C");
+        let mut scenes = Vec::new();
+        for _ in 0..10 {
+            driver.press("l c");
+            scenes.push(driver.model.document.clone());
+        }
+        assert_eq!(kept(&driver), scenes[2..], "the oldest are let go");
+        driver.screen();
+    });
+}
+
+#[test]
+fn two_exchanges_are_none() {
+    within(30, || {
+        let mut driver = pressed("c L");
+        driver.select("adhesion.kappa");
+        driver.press("c L L");
+        let (document, ghosts, computed) = (driver.model.document.clone(), kept(&driver), outcome(&driver));
+        driver.press("x");
+        assert_eq!(driver.model.document, ghosts[1]);
+        assert_eq!(kept(&driver), [ghosts[0].clone(), document.clone()]);
+        assert!(is_up_to_date(&driver.model));
+        assert_ne!(outcome(&driver).history, computed.history);
+        driver.press("x");
+        assert_eq!(driver.model.document, document);
+        assert_eq!(kept(&driver), ghosts);
+        assert_eq!(outcome(&driver).history, computed.history);
+        // An exchange is taken back like any other edit, and the ghosts stay.
+        driver.press("x u");
+        assert_eq!(driver.model.document, document);
+        assert_eq!(outcome(&driver).history, computed.history);
+        assert_eq!(driver.model.ghosts.len(), 2);
+        driver.press("U");
+        assert_eq!(driver.model.document, ghosts[1]);
+    });
+}
+
+#[test]
+fn what_cannot_be_kept_or_exchanged_says_why() {
+    within(30, || {
+        let mut driver = Driver::open(rough());
+        driver.press("c");
+        assert!(driver.model.ghosts.is_empty() && told(&driver).contains("no curve yet"));
+        let mut driver = pressed("");
+        let before = driver.model.document.clone();
+        driver.press("x");
+        assert!(told(&driver).contains("nothing to exchange"), "{}", told(&driver));
+        assert_eq!(driver.model.document, before);
+        driver.select("loading");
+        driver.enter("[ToForce(2.0e-5), ToForce(-1.0)]");
+        driver.press("c");
+        assert!(driver.model.ghosts.is_empty(), "a scene that failed has no loop");
+    });
+}
+
+/// The rows of the pane that has the close-up or the scene beside in it.
+fn lower_pane(driver: &Driver) -> Vec<String> {
+    rows_of(driver, Pane::CloseUp)
+}
+
+fn rows_of(driver: &Driver, pane: Pane) -> Vec<String> {
+    let area = Layout::of(&driver.model).pane(pane).unwrap();
+    let row = |row: &String| row.chars().skip(usize::from(area.x)).take(usize::from(area.width)).collect();
+    driver.rows()[usize::from(area.y)..usize::from(area.bottom())].iter().map(row).collect()
+}
+
+/// Numbers on the scale beside a plot.
+fn scale(rows: &[String]) -> Vec<String> {
+    let number = |row: &String| Some(row.split_once(" ┤")?.0.trim_start_matches('│').trim().to_owned());
+    rows.iter().filter_map(number).collect()
+}
+
+#[test]
+fn two_scenes_are_shown_side_by_side() {
+    within(60, || {
+        for size in [(120, 40), (80, 24)] {
+            let mut driver = pressed("&");
+            driver.resize(size);
+            assert_eq!(driver.model.ghosts.len(), 1, "the present scene is the one to compare with");
+            let said = lower_pane(&driver).join("\n");
+            assert!(said.contains("A → this scene: the same scene") && said.contains("ratio 1 "), "{said}");
+            driver.press("L");
+            let now = driver.model.moment.clone().unwrap();
+            let before = now.beside.clone().unwrap();
+            let ghost = driver.model.ghosts[0].computed.outcome.clone();
+            assert_eq!(before.line, ghost.line);
+            assert_ne!(before.profile.columns, now.profile.columns);
+            // At the same part of its own loading.
+            let stage = &ghost.history.legs[1];
+            let part = (before.point.indentation - stage.start()) / (stage.end() - stage.start());
+            assert!((part - driver.model.player.done).abs() < 1e-9, "{part}");
+            let pane = lower_pane(&driver);
+            let [before, now] =
+                [ghost, outcome(&driver)].map(|outcome| outcome.figures.adhesion_force.unwrap());
+            let ratio: f64 = format!("{:.3e}", now / before).parse().unwrap();
+            let written = |force: f64| format_quantity(force, "N");
+            let forces = format!("F_a {} → {}, ratio {ratio}", written(before), written(now));
+            assert!(pane.iter().any(|row| row.contains(&forces)), "{forces}\n{}", pane.join("\n"));
+            assert!(
+                pane.iter().any(|row| row.contains("A → this scene: H 0.7 → 0.8")),
+                "{}",
+                pane.join("\n")
+            );
+            assert!(pane[0].contains("Profile z(x) of A: Rough line"), "{}", pane[0]);
+            // Both profiles are on one scale, as far as the panes are of one height.
+            let [upper, lower] = [scale(&rows_of(&driver, Pane::Profile)), scale(&pane)];
+            assert!(!lower.is_empty(), "{}", driver.text());
+            if size.0 == 120 {
+                assert_eq!(upper.first(), lower.first(), "{}", driver.text());
+            }
+            driver.press("&");
+            assert!(driver.model.moment.as_ref().unwrap().beside.is_none());
+            assert!(lower_pane(&driver)[0].contains("Fragments"));
+        }
+    });
+}
+
+#[test]
+fn the_scene_beside_is_asked_for_only_where_it_is_in_sight() {
+    within(60, || {
+        let is_asked_for =
+            |driver: &Driver| moment_request(&driver.model).is_some_and(|request| request.beside.is_some());
+        let mut driver = pressed("& L");
+        assert!(is_asked_for(&driver));
+        for (keys, back) in [("z", "z"), ("Tab z", "z"), ("Tab z", "z")] {
+            driver.press(keys);
+            let is_shown = Layout::of(&driver.model).pane(Pane::CloseUp).is_some() && !driver.model.lengths;
+            assert_eq!(is_asked_for(&driver), is_shown, "{keys}");
+            driver.press(back);
+            assert!(is_asked_for(&driver) && driver.text().contains("A → this scene"), "{back}");
+        }
+        for size in [(60, 20), (40, 12), (20, 5)] {
+            driver.resize(size);
+            driver.model.pane = Pane::Force;
+            assert!(!is_asked_for(&driver), "{size:?}");
+        }
+        driver.resize((80, 24));
+        assert!(is_asked_for(&driver) && driver.model.moment.as_ref().unwrap().beside.is_some());
+    });
+}
+
+#[test]
+fn two_scenes_that_are_opened_are_shown_side_by_side() {
+    within(30, || {
+        let second = rough().set("adhesion.kappa", "4").unwrap().set("title", "\"Stickier\"").unwrap();
+        let opening = Opening { beside: Some(second.clone()), ..Opening::from(rough()) };
+        let mut driver = Driver::start(opening);
+        let scenes: Vec<_> = kept(&driver).iter().map(|document| document.scene().clone()).collect();
+        assert_eq!(scenes, [rough().scene().clone()]);
+        assert_eq!(driver.model.document.scene(), second.scene());
+        assert!(!driver.model.is_unsaved() && driver.model.undo.is_empty());
+        let text = driver.text();
+        assert!(text.contains("Stickier") && text.contains("A → this scene: κ 8 → 4"), "{text}");
+        // Exchanged, the other one is beside.
+        driver.press("x");
+        assert!(is_up_to_date(&driver.model));
+        assert!(driver.text().contains("A → this scene: κ 4 → 8"), "{}", driver.text());
+        // Another pane in its place hides the ghost.
+        for keys in ["A", "m", "m", "D"] {
+            driver.press(keys);
+            driver.screen();
+        }
+        assert!(!driver.model.side_by_side);
+        driver.press("&");
+        assert!(driver.model.side_by_side && !driver.model.lengths);
+        driver.press("C");
+        assert!(!driver.model.side_by_side && driver.model.moment.as_ref().unwrap().beside.is_none());
+    });
+}
+
+#[test]
+fn ghosts_have_their_force_and_its_difference_in_colours_of_their_own() {
+    within(30, || {
+        let mut driver = pressed("c");
+        driver.select("adhesion.kappa");
+        driver.enter("4");
+        driver.press("c");
+        driver.enter("2");
+        let force = |computed: &SolvedScene| computed.outcome.figures.adhesion_force.unwrap();
+        let present = force(driver.model.computed.as_ref().unwrap());
+        let kept: Vec<f64> = driver.model.ghosts.iter().map(|ghost| force(&ghost.computed)).collect();
+        assert!(kept[0] < kept[1] && kept[1] < present);
+        let three = |value: f64| format_quantity(format!("{value:.2e}").parse().unwrap(), "N");
+        for (letter, force) in ["A", "B"].into_iter().zip(kept) {
+            let said = format!("{letter} F_a {} ({}) ·", three(force), three(force - present));
+            assert!(driver.text().contains(&said), "{said}\n{}", driver.text());
+        }
+        let screen = driver.screen();
+        let colour = |letter: &str| {
+            let cell = screen.content.iter().find(|cell| cell.symbol() == letter && cell.fg != Color::Reset);
+            cell.map(|cell| cell.fg)
+        };
+        assert!(colour("A").is_some() && colour("A") != colour("B"), "{:?} {:?}", colour("A"), colour("B"));
+    });
+}

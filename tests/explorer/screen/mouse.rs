@@ -1,0 +1,181 @@
+//! The mouse: all it does, keys do too.
+
+use super::common::deadline::within;
+use super::common::driver::Driver;
+use super::{default_scene, mid_retraction, pressed};
+use asperity::explorer::action::{Action, Gesture, Mouse};
+use asperity::explorer::layout::{Layout, inside};
+use asperity::explorer::model::{Mode, Pane};
+use asperity::explorer::panes::{indentation_at, share_at};
+use asperity::explorer::theme::Marker;
+use asperity::explorer::update::Effect;
+use ratatui::layout::Rect;
+
+fn mouse(driver: &mut Driver, column: u16, row: u16, gesture: Gesture) -> Vec<Effect> {
+    driver.act(Action::Mouse(Mouse { column, row, gesture }))
+}
+
+fn place(driver: &Driver, pane: Pane) -> Rect {
+    inside(Layout::of(&driver.model).pane(pane).expect("the pane is shown"))
+}
+
+#[test]
+fn a_press_chooses_the_pane_and_the_row() {
+    within(30, || {
+        let mut driver = pressed("");
+        for pane in [Pane::Profile, Pane::CloseUp, Pane::Parameters, Pane::Force] {
+            let area = place(&driver, pane);
+            mouse(&mut driver, area.x + 1, area.y, Gesture::Press);
+            assert_eq!(driver.model.pane, pane);
+        }
+        // Each row that shows, in a list that is scrolled too.
+        for keys in ["g", "G"] {
+            let area = place(&driver, Pane::Parameters);
+            let mut chosen = 0;
+            for row in area.y..area.bottom() {
+                driver.press(keys);
+                let rows = driver.rows();
+                let text: String = rows[usize::from(row)].chars().skip(usize::from(area.x)).collect();
+                let before = driver.model.selected;
+                mouse(&mut driver, area.x + 3, row, Gesture::Press);
+                if driver.model.selected != before || text.contains('›') {
+                    let name = driver.model.parameter().unwrap().name();
+                    assert!(text.contains(&name), "{name}: {text}");
+                    chosen += 1;
+                }
+            }
+            assert!(chosen > 5, "{chosen}");
+        }
+        // A second press on the first row of a group, which has stayed where it was, folds the group.
+        driver.press("g");
+        let area = place(&driver, Pane::Parameters);
+        let loading = driver.rows().iter().position(|row| row.contains("▾●loading")).unwrap() as u16;
+        let all = driver.model.listed().len();
+        mouse(&mut driver, area.x + 5, loading, Gesture::Press);
+        assert_eq!(driver.model.listed().len(), all);
+        mouse(&mut driver, area.x + 5, loading, Gesture::Press);
+        assert_eq!(
+            (driver.model.listed().len(), driver.model.parameter().unwrap().group),
+            (all - 1, "loading")
+        );
+        mouse(&mut driver, area.x + 5, loading, Gesture::Press);
+        assert_eq!(driver.model.listed().len(), all);
+        assert!(mouse(&mut driver, 500, 500, Gesture::Press).is_empty(), "nothing is there");
+    });
+}
+
+#[test]
+fn a_drag_takes_the_body_to_where_the_mouse_is() {
+    within(60, || {
+        for (document, size, keys) in [
+            (default_scene(), (120, 40), ""),
+            (default_scene(), (80, 24), "N"),
+            (default_scene(), (120, 40), "v v z"),
+        ] {
+            let mut driver = mid_retraction(document);
+            driver.press(keys);
+            driver.resize(size);
+            let area = place(&driver, Pane::Force);
+            // The legend has the mark as well.
+            let above = if area.height < 12 { 1 } else { 3 };
+            let gutter = 9;
+            let columns =
+                [area.x + gutter + 12, area.x + gutter + 16, area.x + gutter + 9, area.x + gutter + 14];
+            for (number, column) in columns.into_iter().enumerate() {
+                let gesture = if number == 0 { Gesture::Press } else { Gesture::Drag };
+                mouse(&mut driver, column, area.y + 5, gesture);
+                let wanted = indentation_at(&driver.model, area, column).unwrap();
+                let next = indentation_at(&driver.model, area, column + 1).unwrap();
+                let stands = driver.model.moment.as_ref().unwrap().point.indentation;
+                assert!(driver.model.hand.is_some());
+                // What is seen may change a little as the way of the hand grows.
+                assert!((stands - wanted).abs() <= next - wanted, "{stands}, not {wanted}");
+                let screen = driver.screen();
+                let seen: Vec<u16> = (0..driver.model.size.1)
+                    .filter(|row| *row >= area.y + above && *row < area.bottom())
+                    .flat_map(|row| (area.x..area.right()).map(move |column| (column, row)))
+                    .filter(|&(column, row)| screen[(column, row)].symbol() == "◆")
+                    .map(|(column, _)| column)
+                    .collect();
+                assert!(
+                    seen.iter().any(|seen| seen.abs_diff(column) <= 1),
+                    "{seen:?}, not {column}\n{}",
+                    driver.text()
+                );
+            }
+        }
+        // Over the axis of forces there is no indentation.
+        let mut driver = pressed("v");
+        let area = place(&driver, Pane::Force);
+        mouse(&mut driver, area.x + 20, area.y + 5, Gesture::Press);
+        assert!(driver.model.hand.is_none() && driver.model.pane == Pane::Force);
+    });
+}
+
+#[test]
+fn the_wheel_looks_closer_and_scrolls() {
+    within(30, || {
+        let mut driver = pressed("");
+        let area = place(&driver, Pane::Profile);
+        mouse(&mut driver, area.x, area.y, Gesture::Wheel(1));
+        assert_eq!(driver.model.profile.share, 0.5);
+        mouse(&mut driver, area.x, area.y, Gesture::Wheel(-1));
+        assert_eq!(driver.model.profile.share, 1.0);
+        // What is under the pointer stays there.
+        let (column, row) = (area.x + 3 * area.width / 4, area.y + 2);
+        let at = |driver: &Driver| {
+            let share = share_at(&driver.model, Pane::Profile, place(driver, Pane::Profile), column).unwrap();
+            driver.model.profile.centre + (share - 0.5) * driver.model.profile.share
+        };
+        let before = at(&driver);
+        for turns in [1, 1, 1, -1] {
+            mouse(&mut driver, column, row, Gesture::Wheel(turns));
+            assert!(
+                (at(&driver) - before).abs() < 0.02 * driver.model.profile.share + 1e-3,
+                "{} {before}",
+                at(&driver)
+            );
+        }
+        assert_eq!(driver.model.profile.share, 0.25);
+        driver.press("0");
+        let (area, springs) = (place(&driver, Pane::CloseUp), driver.model.look.springs);
+        mouse(&mut driver, area.x, area.y, Gesture::Wheel(1));
+        assert_eq!((driver.model.look.springs, driver.model.pane), (springs / 2, Pane::CloseUp));
+        driver.press("g");
+        let area = place(&driver, Pane::Parameters);
+        mouse(&mut driver, area.x, area.y, Gesture::Wheel(-1));
+        assert_eq!(driver.model.selected, 1);
+        mouse(&mut driver, area.x, area.y, Gesture::Wheel(1));
+        assert_eq!(driver.model.selected, 0);
+        driver.resize((80, 24));
+        driver.press("?");
+        mouse(&mut driver, 3, 3, Gesture::Wheel(-1));
+        assert_eq!(driver.model.mode, Mode::Help { scroll: 1 });
+        mouse(&mut driver, 3, 3, Gesture::Press);
+        assert_eq!(driver.model.mode, Mode::Help { scroll: 1 }, "a press does nothing there");
+        driver.press("Esc o");
+        mouse(&mut driver, 3, 3, Gesture::Wheel(-1));
+        assert!(matches!(&driver.model.mode, Mode::Library(library) if library.finder.selected == 1));
+    });
+}
+
+#[test]
+fn no_place_and_no_window_is_too_strange_for_it() {
+    within(60, || {
+        for keys in ["", "z", "?", "o", "e", "s", "l q", "D", "v"] {
+            for size in [(120, 40), (80, 24), (40, 12), (20, 5), (1, 1), (0, 0)] {
+                let mut driver = pressed(keys);
+                driver.model.appearance.marker = Marker::HalfBlock;
+                driver.resize(size);
+                for (column, row) in [(0, 0), (19, 3), (70, 5), (79, 23), (u16::MAX, u16::MAX)] {
+                    for gesture in
+                        [Gesture::Press, Gesture::Drag, Gesture::Wheel(1), Gesture::Wheel(i32::MIN + 1)]
+                    {
+                        mouse(&mut driver, column, row, gesture);
+                    }
+                }
+                driver.screen();
+            }
+        }
+    });
+}

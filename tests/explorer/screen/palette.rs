@@ -1,0 +1,209 @@
+//! The list of all commands, and paths that are completed.
+
+use super::common::deadline::within;
+use super::common::driver::Driver;
+use super::common::scenes::rough;
+use super::{SIZES, mid_retraction, pressed, row_with};
+use asperity::explorer::action::Command;
+use asperity::explorer::keys::{self, BINDINGS};
+use asperity::explorer::layout::Layout;
+use asperity::explorer::model::{ModeKind, Pane};
+use asperity::explorer::theme::Theme;
+use asperity::scene::presets;
+use ratatui::buffer::Cell;
+use ratatui::style::Modifier;
+use std::fs;
+
+/// Opens the list and types a query.
+fn query(driver: &mut Driver, text: &str) {
+    driver.press(":");
+    driver.type_text(text);
+}
+
+#[test]
+fn every_command_is_in_the_list_with_its_keys() {
+    within(60, || {
+        let mut driver = pressed("");
+        driver.resize((120, 200));
+        driver.press(":");
+        let rows = driver.rows();
+        let exploring = [ModeKind::Explore, ModeKind::Chart, ModeKind::Parameters];
+        let mut listed = 0;
+        for row in BINDINGS.iter().filter(|row| row.modes.iter().any(|mode| exploring.contains(mode))) {
+            if matches!(row.command, Command::Preset(_) | Command::StartValue(_) | Command::OpenPalette) {
+                continue;
+            }
+            // The start of a long description.
+            let help: String = row.help.chars().take(60).collect();
+            let names = keys::names(&row.keys).join(" ");
+            let is_listed = |line: &String| line.contains(&help) && line.contains(&names);
+            assert!(rows.iter().any(is_listed), "{names}: {help}\n{}", rows.join("\n"));
+            listed += 1;
+        }
+        for preset in presets().iter().take(9) {
+            assert!(
+                rows.iter().any(|line| line.contains(&format!("scene {}", preset.name))),
+                "{}",
+                preset.name
+            );
+        }
+        assert!(driver.text().contains(&format!("of {}", listed + 9)), "{listed}\n{}", driver.text());
+    });
+}
+
+#[test]
+fn a_command_is_found_by_letters_and_runs_as_its_key_does() {
+    within(60, || {
+        let seventh = format!("scene {}", presets()[6].name);
+        for (typed, keys) in [
+            ("shade area", "a"),
+            ("dissipated", "a"),
+            ("next patch", "n"),
+            ("undo", "u"),
+            ("swap", "x"),
+            ("separation", "S"),
+            ("no such thing", ""),
+            ("patch lengths", "D"),
+            (&seventh, "7"),
+            ("shdarea", "a"),
+        ] {
+            let (mut by_list, mut by_key) = (pressed("l"), pressed("l"));
+            query(&mut by_list, typed);
+            if keys.is_empty() {
+                // No command has all these words.
+                assert!(by_list.text().contains("no command fits"), "{}", by_list.text());
+                continue;
+            }
+            by_list.press("Enter");
+            by_key.press(keys);
+            assert_eq!(by_list.text(), by_key.text(), "{typed}");
+        }
+        // Commands of another pane go there first.
+        let mut driver = pressed("");
+        query(&mut driver, "sections");
+        driver.press("Enter");
+        assert!(driver.model.chart.shown && driver.model.chart.sections);
+        assert_eq!(driver.model.pane, Pane::Chart);
+        let mut driver = mid_retraction(rough());
+        query(&mut driver, "switch effect");
+        driver.press("Enter");
+        assert!(driver.model.is_unsaved(), "{}", driver.text());
+    });
+}
+
+#[test]
+fn the_list_is_moved_through_and_left_at_every_size() {
+    within(60, || {
+        for size in SIZES {
+            let mut driver = pressed("");
+            driver.resize(size);
+            let before = driver.text();
+            driver.press("Ctrl+p");
+            assert_eq!(driver.model.keys(), ModeKind::Palette);
+            for _ in 0..100 {
+                driver.press("Down");
+                let rows = driver.rows();
+                assert!(
+                    size.1 < 6 || rows.iter().any(|row| row.contains('›')),
+                    "{size:?}\n{}",
+                    rows.join("\n")
+                );
+            }
+            driver.type_text("quit");
+            assert!(driver.status().contains(": quit"), "{}", driver.status());
+            driver.press("Esc");
+            assert_eq!(driver.text(), before);
+        }
+    });
+}
+
+#[test]
+fn a_path_is_completed_and_its_candidates_follow_each_other() {
+    within(60, || {
+        let folder = tempfile::tempdir().unwrap();
+        for file in ["alpha-one.ron", "alpha-two.ron", "beta.ron"] {
+            fs::write(folder.path().join(file), "").unwrap();
+        }
+        fs::create_dir(folder.path().join("results")).unwrap();
+        let base = format!("{}/", folder.path().display());
+        for open in ["s", "E", "o"] {
+            let mut driver = pressed(open);
+            let mut line = |text: &str, keys: &str| {
+                if !text.is_empty() {
+                    driver.press("Ctrl+u");
+                    driver.type_text(text);
+                }
+                driver.press(keys);
+                let typed = driver.model.mode.line_mut().unwrap().text();
+                (typed.trim_start_matches(&base).to_owned(), footer(&driver))
+            };
+            let start = format!("{base}al");
+            let (typed, shown) = line(&start, "Tab");
+            assert_eq!(typed, "alpha-", "{open}");
+            assert!(shown.contains("alpha-one.ron  alpha-two.ron"), "{open}: {shown}");
+            assert_eq!(line("", "Tab").0, "alpha-one.ron");
+            assert_eq!(line("", "Tab").0, "alpha-two.ron");
+            assert_eq!(line("", "Tab").0, "alpha-one.ron");
+            // A key in between begins anew, from what is typed by then.
+            let (typed, shown) = line("", "Backspace Tab");
+            assert_eq!(typed, "alpha-one.ron");
+            assert!(shown.contains("cancel"), "a single candidate needs no list: {shown}");
+            assert_eq!(line(&format!("{base}re"), "Tab").0, "results/");
+            let (typed, shown) = line(&format!("{base}bt"), "Tab");
+            assert_eq!((typed.as_str(), shown.contains("cancel")), ("beta.ron", true), "letters of a name");
+            assert!(line(&format!("{base}zzz"), "Tab").1.contains("no file or folder"));
+            let escaped = line("", "x").1;
+            assert!(escaped.contains("cancel"), "{escaped}");
+            driver.press("Esc");
+            assert!(driver.model.completion.is_none());
+        }
+    });
+}
+
+#[test]
+fn letters_that_are_found_are_marked_in_every_list() {
+    within(60, || {
+        let marked = |driver: &Driver, text: &str| -> String {
+            let screen = driver.screen();
+            let cells = row_with(&screen, text).iter();
+            cells.filter(|cell| cell.modifier.contains(Modifier::UNDERLINED)).map(Cell::symbol).collect()
+        };
+        for size in [(120, 40), (80, 24), (60, 20)] {
+            for theme in [Theme::Neutral, Theme::Plain] {
+                let mut driver = pressed("");
+                driver.model.appearance.theme = theme;
+                driver.resize(size);
+                query(&mut driver, "shdarea");
+                assert_eq!(marked(&driver, "› shade the area"), "shdarea", "{size:?}");
+                driver.press("Ctrl+u");
+                driver.type_text("loop area");
+                assert_eq!(marked(&driver, "shade the area"), "arealoop", "each word at its place");
+                driver.press("Esc /");
+                driver.type_text("hrst");
+                assert_eq!(marked(&driver, "›  Hurst"), "Hrst", "{size:?}");
+                driver.press("Ctrl+u");
+                driver.type_text("kappa");
+                assert_eq!(marked(&driver, "κ"), "κ", "a Greek letter is found by its name");
+                driver.press("Esc o");
+                driver.type_text("rghsph");
+                assert_eq!(marked(&driver, "› rough-sphere"), "rghsph", "{size:?}");
+                driver.press("Esc");
+            }
+        }
+        let folder = tempfile::tempdir().unwrap();
+        for file in ["rough-sphere.ron", "rigid-sphere.ron"] {
+            fs::write(folder.path().join(file), "").unwrap();
+        }
+        let mut driver = pressed("s Ctrl+u");
+        driver.resize((200, 40));
+        driver.type_text(&format!("{}/rsph", folder.path().display()));
+        driver.press("Tab");
+        assert_eq!(marked(&driver, "rigid-sphere.ron  rough-sphere.ron"), "rsphrsph");
+    });
+}
+
+/// The row of the keys.
+fn footer(driver: &Driver) -> String {
+    let area = Layout::of(&driver.model).footer.expect("there is a footer");
+    driver.rows()[usize::from(area.y)].clone()
+}

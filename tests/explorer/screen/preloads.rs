@@ -1,0 +1,134 @@
+//! Adhesion against preload beside the force curve.
+
+use super::common::deadline::within;
+use super::common::driver::Driver;
+use super::common::scenes::{rough, without_adhesion};
+use super::keep;
+use asperity::accuracy::{Choice, ChoiceError, CostError, CostTable, Estimate, Progress};
+use asperity::explorer::model::Pane;
+use asperity::explorer::preload_curve::{PROFILES, PreloadCurve};
+use asperity::explorer::snapshot::SolvedScene;
+use asperity::explorer::study::{Appraiser, Task};
+use asperity::explorer::update::{Effect, study_tasks};
+use asperity::scene::{Document, Scene};
+use asperity::simulation::RunError;
+use asperity::study::map::LiveMap;
+use std::cell::Cell;
+use std::path::Path;
+
+/// Computes the curve and nothing else, until it has so many profiles.
+struct Profiles(usize);
+
+impl Appraiser for Profiles {
+    fn estimate(&mut self, _: &SolvedScene, _: &dyn Fn() -> bool) -> Result<Option<Estimate>, RunError> {
+        Ok(None)
+    }
+
+    fn measure(
+        &mut self,
+        _: &Scene,
+        _: &dyn Fn() -> bool,
+        _: &mut dyn FnMut(Progress<'_>),
+    ) -> Result<CostTable, CostError> {
+        Err(CostError::Stopped)
+    }
+
+    fn choose(
+        &mut self,
+        _: &Scene,
+        _: f64,
+        _: &dyn Fn() -> bool,
+        _: &mut dyn FnMut(u64),
+    ) -> Result<Choice, ChoiceError> {
+        Err(ChoiceError::Stopped)
+    }
+
+    fn chart(&mut self, _: &mut LiveMap, _: &dyn Fn() -> bool, _: &mut dyn FnMut(&LiveMap)) {}
+
+    fn preloads(
+        &mut self,
+        curve: &mut PreloadCurve,
+        scene: &Scene,
+        _: &dyn Fn() -> bool,
+        tell: &mut dyn FnMut(&PreloadCurve),
+    ) -> Result<(), RunError> {
+        let profiles = Cell::new(0);
+        let stop = || profiles.get() >= self.0;
+        let done = curve.compute(scene, Path::new(""), &stop, &mut |curve| {
+            profiles.set(curve.profiles());
+            tell(curve);
+        });
+        // What it has so far is enough.
+        if done.as_ref().is_err_and(RunError::is_interruption) { Ok(()) } else { done }
+    }
+}
+
+fn shown(document: Document, profiles: usize) -> Driver {
+    let mut driver = Driver::open(document);
+    driver.appraiser = Some(Box::new(Profiles(profiles)));
+    driver.perform(vec![Effect::Compute]);
+    driver.press("Space i");
+    driver
+}
+
+#[test]
+fn adhesion_against_preload_is_shown_beside_the_curve() {
+    within(120, || {
+        let mut screens = String::new();
+        for profiles in [PROFILES, 3] {
+            let mut driver = shown(rough(), profiles);
+            for size in [(120, 40), (80, 24)] {
+                driver.resize(size);
+                let text = driver.text();
+                screens += &format!("── {profiles} profiles, {} × {} ──\n{text}\n", size.0, size.1);
+                for words in ["Adhesion against preload", "present preload", "Parameters", "this profile"] {
+                    assert!(text.contains(words), "{words}\n{text}");
+                }
+                assert_eq!(text.contains("3 of 16 profiles"), profiles == 3, "{text}");
+                assert!(text.contains(&format!("mean of {profiles} profiles")), "{text}");
+            }
+        }
+        keep("screen_of_adhesion_against_preload", &screens);
+    });
+}
+
+#[test]
+fn the_pane_takes_the_place_of_map_and_accuracy_and_gives_it_back() {
+    within(60, || {
+        let mut driver = shown(rough(), 1);
+        assert_eq!(driver.model.panes(), [Pane::Force, Pane::Preloads, Pane::Parameters]);
+        for (keys, pane) in
+            [("m", Some(Pane::Chart)), ("i", Some(Pane::Preloads)), ("A", Some(Pane::Accuracy))]
+        {
+            driver.press(keys);
+            assert_eq!(driver.model.in_place_of_the_line(), pane, "{keys}");
+        }
+        driver.press("i i");
+        assert_eq!((driver.model.in_place_of_the_line(), driver.model.pane), (None, Pane::Force));
+    });
+}
+
+#[test]
+fn an_edit_begins_a_new_curve_and_a_scene_without_one_says_why() {
+    within(60, || {
+        let mut driver = shown(rough(), 2);
+        let before = driver.model.preloads.curve.clone().unwrap();
+        assert_eq!(before.profiles(), 2);
+        // It goes on with what there is.
+        let goes_on = |driver: &Driver| {
+            study_tasks(&driver.model).into_iter().find_map(|task| match task {
+                Task::Preloads { curve, waits, .. } => Some((curve.profiles(), waits)),
+                _ => None,
+            })
+        };
+        assert_eq!(goes_on(&driver), Some((2, false)));
+        driver.appraiser = None;
+        driver.select("roughness.hurst");
+        driver.press("l");
+        assert_eq!(driver.model.preloads.curve, None);
+        assert_eq!(goes_on(&driver), Some((0, true)));
+        let driver = shown(without_adhesion(), 2);
+        assert_eq!(goes_on(&driver), None);
+        assert!(driver.text().contains("without adhesion nothing holds"), "{}", driver.text());
+    });
+}

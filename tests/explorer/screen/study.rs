@@ -1,0 +1,352 @@
+//! A finished study in place of the map that is computed here.
+
+use super::common::deadline::within;
+use super::common::driver::Driver;
+use super::common::scenes::rough;
+use super::common::study::{PLAN, begun, merged};
+use super::{is_up_to_date, keep, pressed};
+use asperity::explorer::Opening;
+use asperity::explorer::action::{Action, Gesture, Mouse};
+use asperity::explorer::layout::{Layout, inside};
+use asperity::explorer::model::{Mode, ModeKind, Pane};
+use asperity::explorer::study::Task;
+use asperity::explorer::update::{Effect, study_tasks};
+use asperity::scene::{Leg, Roughness};
+use asperity::study::Quantity;
+use asperity::study::map::Charted;
+use tempfile::TempDir;
+
+/// The explorer on a study of this plan, in a folder of its own.
+fn opened_with(plan: &str) -> (TempDir, Driver) {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("small");
+    merged(&path, plan);
+    let mut driver = Driver::start(Opening::of(path.to_str().unwrap()).unwrap());
+    driver.press("Space");
+    (folder, driver)
+}
+
+/// The explorer on the small study.
+pub fn opened() -> (TempDir, Driver) {
+    opened_with(PLAN)
+}
+
+/// κ and H of the mark, on a map with H across.
+fn place(driver: &Driver) -> (f64, f64) {
+    let (hurst, kappa) = driver.model.place().unwrap();
+    (kappa.unwrap(), hurst)
+}
+
+fn preload(driver: &Driver) -> f64 {
+    match driver.model.document.scene().loading[..] {
+        [Leg::ToForce(force), Leg::ToSeparation] => force,
+        ref other => panic!("{other:?}"),
+    }
+}
+
+#[test]
+fn a_study_is_shown_as_a_map() {
+    within(60, || {
+        let mut screens = String::new();
+        for keys in
+            ["", "P P", "V", "V V V", "t", "X", "X V V V", "Shift+Right Shift+Right Shift+Right Tab Tab g t"]
+        {
+            let (_folder, mut driver) = opened();
+            driver.press(keys);
+            for size in [(120, 40), (80, 24)] {
+                driver.resize(size);
+                screens += &format!("── {keys} {} × {} ──\n{}\n", size.0, size.1, driver.text());
+                assert!(driver.text().contains("Study small: "), "{}", driver.text());
+            }
+        }
+        keep("screen_of_a_study", &screens);
+    });
+}
+
+#[test]
+fn glyphs_tell_all_that_was_recorded() {
+    within(60, || {
+        let (_folder, mut driver) = opened();
+        assert_eq!(driver.model.keys(), ModeKind::Chart);
+        assert_eq!(driver.model.chart.charted(), Charted::Regime);
+        for (quantity, told) in [
+            (Quantity::ZeroLoadAdhesionShare, "F_a(0)/F_a,max over H, κ"),
+            (Quantity::AdhesionCoefficient, "F_a/F_n over H, κ"),
+            (Quantity::AdhesionForce, "F_a (mN) "),
+        ] {
+            driver.press("V");
+            assert_eq!(driver.model.chart.charted(), Charted::Quantity(quantity));
+            assert!(driver.text().contains(told), "{told}\n{}", driver.text());
+        }
+        // The map that is computed here does not have it, and shows what it has.
+        driver.press("W");
+        assert!(!driver.text().contains("F_a (mN) "), "{}", driver.text());
+        driver.press("W");
+        assert!(driver.text().contains("F_a (mN) "), "{}", driver.text());
+        driver.press("V");
+        assert_eq!(driver.model.chart.charted(), Charted::Regime);
+        for told in ["█ pressure-insensitive", "· non-adhesive", "▓ ░ divided", "of 12 profiles"] {
+            assert!(driver.text().contains(told), "{told}\n{}", driver.text());
+        }
+    });
+}
+
+#[test]
+fn the_mark_goes_from_cell_to_cell_and_beyond_the_map_stays_at_its_edge() {
+    within(60, || {
+        let (_folder, mut driver) = opened();
+        let before = driver.model.document.clone();
+        assert_eq!(place(&driver), (1.0, 0.5));
+        driver.press("Up Right k L");
+        // Values of the study: 12 digits, and not those of the map that is computed here.
+        assert_eq!(place(&driver), (2.0, 0.9));
+        assert!(driver.text().contains("◆ H 0.9, κ 2"), "{}", driver.text());
+        assert!(is_up_to_date(&driver.model));
+        driver.press(&"K ".repeat(4));
+        assert_eq!(place(&driver), (16.0, 0.9));
+        driver.press("k");
+        assert!(driver.status().contains("here the map ends"), "{}", driver.status());
+        driver.press("u u");
+        assert_eq!(driver.model.document, before);
+        for (kappa, hurst, back) in [("100", "0.5", (16.0, 0.5)), ("0.01", "0.97", (0.25, 0.9))] {
+            driver.press("Tab Tab");
+            driver.select("adhesion.kappa");
+            driver.enter(kappa);
+            driver.select("roughness.hurst");
+            driver.enter(hurst);
+            for size in [(120, 40), (80, 24), (20, 5), (1, 1)] {
+                driver.resize(size);
+                driver.screen();
+            }
+            driver.resize((120, 40));
+            assert!(driver.text().contains("outside the map"), "{}", driver.text());
+            assert!(driver.rows().iter().any(|row| row.chars().take(68).any(|cell| cell == '◆')));
+            assert!(!driver.text().contains("no longer"), "{}", driver.text());
+            driver.press("m");
+            driver.press(if back.0 > 1.0 { "j" } else { "k" });
+            if back.1 != place(&driver).1 {
+                driver.press("h");
+            }
+            assert_eq!(place(&driver), back);
+        }
+    });
+}
+
+#[test]
+fn the_scene_follows_to_the_next_preload() {
+    within(60, || {
+        let (_folder, mut driver) = opened();
+        let first = preload(&driver);
+        assert!(driver.text().contains("F_n/(E* h L) = 0.01  1 of 3, P: the next"), "{}", driver.text());
+        let mut regimes = vec![driver.model.chart.map_model().cloned()];
+        for (times, told) in [(10.0, "0.1  2 of 3"), (100.0, "1  3 of 3"), (1.0, "0.01  1 of 3")] {
+            driver.press("P");
+            assert!((preload(&driver) / first / times - 1.0).abs() < 1e-9);
+            assert!(driver.text().contains(&format!("F_n/(E* h L) = {told}")), "{}", driver.text());
+            assert!(is_up_to_date(&driver.model));
+            regimes.push(driver.model.chart.map_model().cloned());
+        }
+        assert!(regimes[0] != regimes[1] && regimes[0] == regimes[3]);
+        driver.press("PageUp");
+        assert!((preload(&driver) / first / 100.0 - 1.0).abs() < 1e-9);
+        // A scene that is another one is left as it is.
+        driver.press("Tab Tab");
+        driver.select("material.youngs_modulus");
+        driver.press("L");
+        assert!(driver.text().contains("no longer that of the study"), "{}", driver.text());
+        let other = driver.model.document.clone();
+        driver.press("m P P");
+        assert_eq!(driver.model.document, other);
+        assert!(driver.text().contains("0.1  2 of 3"), "{}", driver.text());
+    });
+}
+
+#[test]
+fn a_preload_in_units_that_follow_from_h_goes_with_the_mark() {
+    within(60, || {
+        let (_folder, mut driver) = opened_with(&PLAN.replace("rms_height: 2.0e-7", "rms_gradient: 0.1"));
+        let before = preload(&driver);
+        driver.press("Right");
+        assert!(preload(&driver) > 1.01 * before, "{before} {}", preload(&driver));
+        assert!(!driver.text().contains("no longer"), "{}", driver.text());
+    });
+}
+
+#[test]
+fn the_computed_map_can_be_had_instead() {
+    within(60, || {
+        let (_folder, mut driver) = opened();
+        let charts = |driver: &Driver| {
+            study_tasks(&driver.model).iter().any(|task| matches!(task, Task::Chart { .. }))
+        };
+        assert!(!charts(&driver), "nothing is computed that is not shown");
+        assert_eq!(driver.press("W"), [Effect::Study]);
+        assert!(charts(&driver));
+        assert!(driver.text().contains("over H, κ, 4 profiles"), "{}", driver.text());
+        driver.press("Up");
+        assert_eq!(place(&driver).0, 1.19, "from cell to cell of the map that is shown");
+        driver.press("P");
+        assert!(driver.status().contains("W shows the study's"), "{}", driver.status());
+        driver.press("W");
+        assert!(driver.text().contains("Study small"), "{}", driver.text());
+        // It is hidden and shown again with the pane.
+        driver.press("m m");
+        assert!(driver.text().contains("Study small"), "{}", driver.text());
+        // Another scene has a map of its own, and the study stays at hand.
+        driver.press("1 W");
+        assert!(driver.text().contains("no longer that of the study"), "{}", driver.text());
+        driver.press("W");
+        assert!(driver.text().contains("over H, κ, 4 profiles"), "{}", driver.text());
+
+        let mut driver = pressed("m");
+        for key in ["W", "P"] {
+            driver.press(key);
+            assert!(driver.status().contains("! no study is open"), "{}", driver.status());
+        }
+    });
+}
+
+#[test]
+fn sections_have_the_confidence_of_the_mean() {
+    within(60, || {
+        let (_folder, mut driver) = opened();
+        driver.press("X");
+        for told in
+            ["over H at κ 1", "over κ at H 0.5", "⠒⠒⠒ F_a(0)/F_a,max", "⠒ ⠒ F_a/F_n", "⠂ ⠂ 95 % confidence"]
+        {
+            assert!(driver.text().contains(told), "{told}\n{}", driver.text());
+        }
+        driver.press("V V V");
+        assert!(driver.text().contains("⠒⠒⠒ F_a  ⠂ ⠂ 95 % confidence"), "{}", driver.text());
+        // Of one profile there is none.
+        let (_folder, mut driver) = opened_with(&PLAN.replace("lines: 12", "lines: 1"));
+        driver.press("X");
+        assert!(
+            !driver.text().contains("⠂ ⠂ 95 %") && driver.text().contains("1 profile "),
+            "{}",
+            driver.text()
+        );
+    });
+}
+
+#[test]
+fn the_mouse_puts_the_mark_on_a_cell() {
+    within(60, || {
+        let (_folder, mut driver) = opened();
+        let area = inside(Layout::of(&driver.model).pane(Pane::Chart).unwrap());
+        let press = Mouse { column: area.right() - 1, row: area.y + 3, gesture: Gesture::Press };
+        driver.act(Action::Mouse(press));
+        assert_eq!(place(&driver), (16.0, 0.9));
+    });
+}
+
+#[test]
+fn a_scene_without_kappa_has_no_mark() {
+    within(60, || {
+        let (_folder, mut driver) = opened();
+        driver.press("Tab Tab");
+        driver.select("adhesion");
+        driver.press("t");
+        assert!(driver.text().contains("no mark: the scene has no adhesion"), "{}", driver.text());
+        assert!(driver.text().contains("Study small"));
+        driver.press("m Left X");
+        assert!(driver.model.document.scene().adhesion.is_none());
+        driver.screen();
+    });
+}
+
+#[test]
+fn cells_that_are_missing_are_blank() {
+    within(60, || {
+        let folder = tempfile::tempdir().unwrap();
+        let study = begun(folder.path(), PLAN);
+        asperity::study::merge(&study, true).unwrap();
+        let mut driver = Driver::start(Opening::of(folder.path().to_str().unwrap()).unwrap());
+        assert!(driver.text().contains("the study was merged without this cell"), "{}", driver.text());
+        driver.press("V V X Right");
+        driver.screen();
+    });
+}
+
+#[test]
+fn studies_of_other_quantities_open_as_maps_and_sections() {
+    within(60, || {
+        let kappa = "Logarithmic(path: \"kappa\", from: 0.25, to: 16, count: 13)";
+        let length = "List(path: \"length\", values: [5.0e-5, 1.0e-4, 2.0e-4])";
+        // The length in place of κ: the mark moves along the length, in its unit.
+        let (_folder, mut driver) = opened_with(&PLAN.replace(kappa, length));
+        assert!(
+            driver.text().contains("over H, L, 12 profiles") && driver.text().contains("L (µm)"),
+            "{}",
+            driver.text()
+        );
+        assert!(driver.text().contains("◆ H 0.5, L 100 µm"), "{}", driver.text());
+        driver.press("Up");
+        assert_eq!(driver.model.document.scene().length, 2.0e-4);
+        assert!(!driver.text().contains("no longer"), "{}", driver.text());
+        // H alone: sections, for each preload.
+        let alone = PLAN.replace(&format!("{kappa},"), "");
+        let (_folder, mut driver) =
+            opened_with(&alone.replace("preloads: [0.01, 0.1, 1.0]", "preloads: [0.1]"));
+        assert!(
+            driver.text().contains("over H, 12 profiles") && driver.text().contains("⠒⠒⠒ F_a(0)/F_a,max"),
+            "{}",
+            driver.text()
+        );
+        driver.press("Right");
+        assert_eq!(driver.model.place(), Some((0.6, None)));
+        driver.press("Up");
+        assert!(driver.status().contains("this map has one axis, H"), "{}", driver.status());
+        for size in [(80, 24), (40, 12), (20, 5), (1, 1)] {
+            driver.resize(size);
+            driver.screen();
+        }
+    });
+}
+
+#[test]
+fn a_study_is_opened_by_its_path() {
+    within(60, || {
+        let folder = tempfile::tempdir().unwrap();
+        let path = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+        merged(&folder.path().join("small"), PLAN);
+        begun(&folder.path().join("begun"), PLAN);
+        std::fs::create_dir(folder.path().join("another")).unwrap();
+        let mut driver = pressed("");
+        let before = driver.model.document.clone();
+        for (name, said) in [
+            ("begun", "has not been merged yet; asperity sweep merge"),
+            ("another", "this folder is not that of a study"),
+            ("nowhere", "nowhere"),
+        ] {
+            driver.press("o");
+            driver.act(Action::Paste(path(name)));
+            assert!(driver.text().contains("Enter tries it as a path"), "{}", driver.text());
+            driver.press("Enter");
+            assert_eq!((&driver.model.mode, &driver.model.document), (&Mode::Explore, &before));
+            let Some(asperity::explorer::model::Notice::Error(error)) = &driver.model.notice else {
+                panic!()
+            };
+            assert!(error.contains(said), "{error}");
+            assert!(driver.model.chart.study.is_none());
+        }
+        driver.press("o");
+        driver.act(Action::Paste(path("small")));
+        driver.press("Enter");
+        assert!(driver.text().contains("Study small: regime over H, κ, 12 profiles"), "{}", driver.text());
+        assert!(is_up_to_date(&driver.model) && !driver.model.is_unsaved());
+        let Some(Roughness::SelfAffine { modes, .. }) = driver.model.document.scene().roughness else {
+            panic!()
+        };
+        assert_eq!(modes, (1, 32));
+        driver.press("u");
+        assert_eq!(driver.model.document.scene(), rough().scene());
+        // A scene file opens so as well.
+        std::fs::write(folder.path().join("mine.ron"), rough().text()).unwrap();
+        driver.press("o");
+        driver.act(Action::Paste(path("mine.ron")));
+        driver.press("Enter");
+        assert_eq!(driver.model.document.name(), path("mine.ron"));
+        assert!(driver.model.chart.shown_study().is_none());
+    });
+}

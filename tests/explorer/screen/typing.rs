@@ -1,0 +1,315 @@
+//! Values as they are typed, taken and refused.
+
+use super::common::deadline::within;
+use super::common::driver::Driver;
+use super::common::scenes::{changed, rough};
+use super::{SIZES, generation, is_up_to_date, mid_retraction, pressed, reversed, row_with};
+use asperity::explorer::action::{Action, Command};
+use asperity::explorer::layout::Layout;
+use asperity::explorer::model::ModeKind;
+use asperity::explorer::snapshot::Preview;
+use asperity::explorer::theme::Theme;
+use asperity::explorer::update::{Effect, update};
+use asperity::scene::Leg;
+use ratatui::buffer::Cell;
+use std::sync::Arc;
+
+#[test]
+fn values_are_typed_with_prefix_and_unit() {
+    within(30, || {
+        let document =
+            changed(&rough(), &[("adhesion", "(work: 0.05)"), ("form", "Paraboloid(radius: 1.0e-3)")]);
+        let mut driver = Driver::start(document);
+        for (path, typed, value) in [
+            ("adhesion.work", "50m", 0.05),
+            ("adhesion.work", "40 mJ/m²", 0.04),
+            ("material.youngs_modulus", "2.5 MPa", 2.5e6),
+            ("material.youngs_modulus", "3e6", 3e6),
+            ("form.radius", "10 µm", 1e-5),
+            ("form.radius", "20um", 2e-5),
+            ("length", "0.2 mm", 2e-4),
+        ] {
+            driver.select(path);
+            driver.enter(typed);
+            let written: f64 = driver.model.document.value(path).unwrap().parse().unwrap();
+            assert_eq!(written, value, "{path}: {typed}");
+            assert!(is_up_to_date(&driver.model));
+        }
+        driver.select("numerics.points");
+        driver.enter("2Ki");
+        assert_eq!(driver.model.document.scene().numerics.points, 2048);
+        // The force of a leg is a parameter as well.
+        driver.select("loading");
+        driver.press("j");
+        driver.enter("30 µN");
+        assert_eq!(driver.model.document.scene().loading, [Leg::ToForce(3e-5), Leg::ToSeparation]);
+    });
+}
+
+#[test]
+fn the_editor_opens_with_the_value_selected_and_keeps_what_is_refused() {
+    within(30, || {
+        let mut driver = pressed("");
+        driver.select("length");
+        driver.press("e");
+        let row =
+            |driver: &Driver| driver.rows().into_iter().find(|row| row.contains('›')).unwrap_or_default();
+        assert!(row(&driver).contains("apparent diameter L (m): 100 µm"), "{}", row(&driver));
+        assert_eq!(reversed(&driver.screen().content), "100 µm");
+        let before = driver.model.document.clone();
+        driver.type_text("10 kg");
+        driver.press("Enter");
+        assert_eq!((&driver.model.document, driver.model.mode.kind()), (&before, ModeKind::Edit));
+        let refused = "kg is no length: m, mm, µm, nm";
+        assert!(driver.status().contains(refused), "{}", driver.status());
+        let line = driver.rows().into_iter().find(|row| row.contains("10 kg")).unwrap_or_default();
+        assert!(line.contains('!'), "{line}");
+        driver.press("Backspace");
+        assert!(!driver.text().contains("is no length"), "{}", driver.text());
+        driver.press("Backspace");
+        driver.type_text("mm");
+        driver.press("Enter");
+        assert_eq!(driver.model.mode.kind(), ModeKind::Explore);
+        assert_eq!(driver.model.document.scene().length, 0.01);
+        // Neither the value as it is nor leaving the editor changes the text.
+        let text = driver.model.document.text().to_owned();
+        for path in
+            ["length", "roughness.rms_height", "material.youngs_modulus", "adhesion.work", "loading.0.0"]
+        {
+            driver.select(path.trim_end_matches(".0.0"));
+            driver.press(if path.ends_with(".0.0") { "j e Enter" } else { "e Enter" });
+            assert_eq!((driver.model.document.text(), driver.model.mode.kind()), (&*text, ModeKind::Explore));
+        }
+    });
+}
+
+#[test]
+fn what_is_typed_can_be_edited_pasted_and_left() {
+    within(30, || {
+        let mut driver = pressed("");
+        driver.select("length");
+        driver.press("e Home Delete");
+        driver.type_text("3");
+        driver.press("End");
+        driver.act(Action::Paste("\n".to_owned()));
+        driver.press("Enter");
+        assert_eq!(driver.model.document.scene().length, 3e-4);
+        let before = driver.model.document.clone();
+        driver.press("e Ctrl+u 7 Esc");
+        assert_eq!((&driver.model.document, driver.model.mode.kind()), (&before, ModeKind::Explore));
+        // While a value is typed, letters are letters.
+        driver.press("e Ctrl+u q u");
+        assert_eq!(driver.model.mode.kind(), ModeKind::Edit);
+        assert!(driver.text().contains("qu"), "{}", driver.text());
+        driver.press("Ctrl+c");
+        assert_eq!((&driver.model.document, driver.model.mode.kind()), (&before, ModeKind::Explore));
+        // Typing the value it has changes nothing of it.
+        driver.press("e Enter");
+        assert_eq!(driver.model.document.scene(), before.scene());
+    });
+}
+
+#[test]
+fn what_is_chosen_and_typed_is_seen_in_the_smallest_window() {
+    within(30, || {
+        for size in SIZES {
+            for pane in ["", "Tab", "Tab Tab", "Tab Tab Tab"] {
+                for zoom in ["", "z"] {
+                    let mut driver = pressed(pane);
+                    driver.resize(size);
+                    driver.press(zoom);
+                    driver.press("j");
+                    assert!(driver.text().contains('›'), "{size:?} {pane} {zoom}\n{}", driver.text());
+                    driver.press("Tab e Ctrl+u");
+                    driver.type_text("31415");
+                    assert!(driver.text().contains("31415"), "{size:?} {pane} {zoom}\n{}", driver.text());
+                }
+            }
+        }
+    });
+}
+
+#[test]
+fn the_cursor_of_what_is_typed_is_on_the_screen() {
+    within(30, || {
+        let long =
+            "[ToForce(1.0e-5), ToZeroForce, ToForce(2.0e-5), ToZeroForce, ToForce(3.0e-5), ToSeparation]";
+        for size in SIZES {
+            let mut driver = pressed("Tab Tab");
+            driver.resize(size);
+            driver.select("loading");
+            driver.press("e Ctrl+u");
+            driver.type_text(long);
+            for keys in ["", "Home", "End", "Left Left Left"] {
+                driver.press(keys);
+                let screen = driver.screen();
+                assert_eq!(
+                    reversed(&screen.content).chars().count(),
+                    1,
+                    "{size:?} {keys}\n{}",
+                    driver.text()
+                );
+            }
+            driver.press("Esc s");
+            driver.type_text(
+                "/a/folder/with/a/name/that/is/longer/than/many/windows/are/wide/and/then/some/more.ron",
+            );
+            let screen = driver.screen();
+            let status = Layout::of(&driver.model).status;
+            let from = usize::from(status.y) * usize::from(status.width);
+            let status = &screen.content[from..from + usize::from(status.width)];
+            assert_eq!(reversed(status).chars().count(), 1, "{size:?}\n{}", driver.text());
+        }
+    });
+}
+
+#[test]
+fn a_value_that_is_refused_says_so_beside_its_field_and_leaves_the_scene() {
+    within(30, || {
+        for theme in [Theme::Plain, Theme::Neutral] {
+            let mut driver = pressed("");
+            driver.model.appearance.theme = theme;
+            let before = driver.model.document.clone();
+            let of_before = generation(&driver);
+            driver.select("roughness.hurst");
+            driver.enter("1.5");
+            assert_eq!(driver.model.document, before);
+            assert_eq!(generation(&driver), of_before);
+            assert!(is_up_to_date(&driver.model), "the curve is kept");
+            let screen = driver.screen();
+            let row = row_with(&screen, "Hurst exponent");
+            let text: String = row.iter().map(Cell::symbol).collect();
+            assert!(text.contains('!') && text.contains("1.5"), "{text}");
+            assert!(driver.text().contains("above 0 and below 1"), "{}", driver.text());
+            // The error goes with the value, or when the value is mended.
+            driver.press("Esc");
+            assert!(!driver.text().contains('!'), "{}", driver.text());
+            driver.select("roughness.hurst");
+            driver.enter("1.5");
+            driver.enter("0.6");
+            assert!(!driver.text().contains('!'), "{}", driver.text());
+            assert!(driver.text().contains("0.6"));
+        }
+    });
+}
+
+#[test]
+fn wide_and_combining_characters_are_drawn_in_windows_of_any_width() {
+    within(60, || {
+        // A mark without a letter to stand on, and words that no window is as wide as.
+        let odd = "\u{301}e wörter 漢字 e\u{301}\u{301} a漢字b ".repeat(6) + &"漢".repeat(60);
+        let quoted = format!("\"{odd}\"");
+        let document = changed(&rough(), &[("title", &quoted), ("notice", &quoted)]);
+        let mut driver = mid_retraction(document);
+        driver.press("Tab Tab");
+        for columns in (1..20).chain([33, 60, 79, 80, 119, 120]) {
+            driver.resize((columns, 40));
+            driver.press("e Ctrl+u");
+            driver.type_text(&odd);
+            driver.screen();
+            // What is wrong with it is told with the value itself.
+            driver.press("Enter");
+            assert!(driver.model.refused.is_some());
+            driver.screen();
+        }
+    });
+}
+
+#[test]
+fn digits_begin_a_value_while_the_pane_of_parameters_is_selected() {
+    within(30, || {
+        let mut driver = pressed("Tab Tab");
+        assert_eq!(driver.model.pane, asperity::explorer::model::Pane::Parameters);
+        driver.press(". 6 5 Enter");
+        assert_eq!(driver.model.document.value("roughness.hurst"), Some(".65"), "{}", driver.text());
+        driver.press("0");
+        assert_eq!(driver.model.mode.line_mut().map(|line| line.text()).as_deref(), Some("0"));
+        driver.press(". 7 Enter");
+        assert_eq!(driver.model.document.scene().roughness, rough().scene().roughness);
+        driver.select("loading");
+        driver.press("j - 2");
+        assert!(driver.text().contains("F (N): -2"), "{}", driver.text());
+        driver.press("Esc");
+        // A switch and a group have no number.
+        driver.select("numerics");
+        driver.press("3");
+        assert_eq!(driver.model.mode.kind(), ModeKind::Explore);
+        // In the other panes a digit opens a scene.
+        driver.press("Tab 3");
+        assert_eq!(driver.model.document.name(), asperity::scene::presets()[2].name);
+    });
+}
+
+#[test]
+fn a_value_that_is_typed_shows_its_curve_before_it_is_taken() {
+    within(60, || {
+        for size in [(120, 40), (80, 24)] {
+            let mut driver = pressed("");
+            driver.resize(size);
+            driver.select("roughness.rms_height");
+            let (document, computed) =
+                (driver.model.document.clone(), driver.model.computed.clone().unwrap());
+            let before = driver.text();
+            driver.press("e");
+            assert!(driver.model.tried_outcome().is_none(), "the value as it is needs no preview");
+            driver.type_text("300 nm");
+            let tried = driver.model.tried_outcome().expect("a preview").figures;
+            assert_ne!(tried.adhesion_force, computed.outcome.figures.adhesion_force);
+            let alone = document.set("roughness.rms_height", "3.0e-7").unwrap();
+            let alone = Driver::start(alone).model.computed.unwrap();
+            assert_eq!(tried, alone.outcome.figures);
+            let force = asperity::scene::format_quantity(tried.adhesion_force.unwrap(), "N");
+            assert!(driver.status().starts_with(&format!("preview: F_a {force}")), "{}", driver.status());
+            // The scene itself is as it was, and so it is after Esc.
+            assert_eq!((&driver.model.document, is_up_to_date(&driver.model)), (&document, true));
+            // A text that is no value has none.
+            driver.type_text("kg");
+            assert!(driver.model.tried_outcome().is_none() && driver.model.tried.is_none());
+            driver.press("Backspace Backspace");
+            assert!(driver.model.tried_outcome().is_some());
+            let effects = driver.press("Esc");
+            assert_eq!(effects, [asperity::explorer::update::Effect::StopPreview]);
+            assert_eq!(driver.text(), before);
+            driver.press("e Ctrl+u");
+            driver.type_text("300 nm");
+            driver.press("Enter");
+            assert_eq!(driver.model.computed.as_ref().unwrap().outcome.figures, tried);
+        }
+    });
+}
+
+#[test]
+fn no_older_curve_is_shown_between_a_preview_and_the_next_one() {
+    within(60, || {
+        let mut driver = pressed("");
+        driver.select("roughness.rms_height");
+        driver.press("e Ctrl+u");
+        driver.type_text("300 nm");
+        let force = |driver: &Driver| driver.model.tried_outcome().and_then(|one| one.figures.adhesion_force);
+        let first = force(&driver).expect("a preview");
+        let older = driver.model.preview.clone().unwrap();
+        // The next value is typed, and its curve is not there yet: that of the value before stays.
+        driver.press("Home Delete");
+        let waiting = update(&mut driver.model, Action::Type('4'));
+        assert!(matches!(waiting[..], [Effect::Preview(_)]), "{waiting:?}");
+        // "00 nm" is no allowed height, and has no curve.
+        assert!(driver.status().starts_with("preview: computing…") || force(&driver).is_none());
+        let seen = force(&driver);
+        // A curve that comes late, of a value that was typed over, is not shown.
+        let late = Preview { text: older.text.clone() + " ", outcome: older.outcome.clone() };
+        driver.act(Action::Previewed(Arc::new(late)));
+        assert_eq!(force(&driver), seen);
+        driver.perform(waiting);
+        let second = force(&driver).expect("a preview");
+        assert_ne!(first, second);
+        assert!(!driver.status().contains("computing"), "{}", driver.status());
+        // Accepted, the curve is there until the scene itself is computed.
+        let accepted = update(&mut driver.model, Action::Command(Command::Accept));
+        assert_eq!(accepted, [Effect::Compute]);
+        assert_eq!((driver.model.is_computing(), force(&driver)), (true, Some(second)));
+        assert!(driver.text().contains("preview"), "{}", driver.text());
+        driver.perform(accepted);
+        assert_eq!(driver.model.tried_outcome(), None);
+        assert_eq!(driver.model.computed.as_ref().unwrap().outcome.figures.adhesion_force, Some(second));
+    });
+}

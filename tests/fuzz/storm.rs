@@ -1,0 +1,62 @@
+//! Storms of random input, drawn from the table of fields: texts of scenes, overrides, profiles, plans, and the
+//! runs of those that are allowed.
+//!
+//! `STORM_TIMES=100 cargo test --test fuzz storm` draws a hundred times as many; `PROPTEST_RNG_SEED=7` draws others.
+
+mod plans;
+mod profiles;
+mod runs;
+#[allow(dead_code, reason = "unit tests of the scene use the rest")]
+#[path = "../../src/scene/strategies.rs"]
+mod strategies;
+mod texts;
+
+use super::properties;
+// For the strategies, which name them as the room of the scene does.
+use asperity::scene::{
+    DEFAULT, Document, End, FIELDS, Field, LEG_FORCE, LEG_INDENTATION, Range, Scene, find, is_control,
+    ron_float, ron_string,
+};
+use proptest::prelude::*;
+use strategies::Drawn;
+
+/// Most springs of a line that is computed.
+const MOST_POINTS: u64 = 2000;
+
+/// So many draws, times what the environment says.
+fn draws(draws: u32) -> ProptestConfig {
+    let times = std::env::var("STORM_TIMES").map_or(1, |times| match times.parse() {
+        Ok(times) => times,
+        Err(_) => panic!("STORM_TIMES = {times:?}: allowed: a whole number"),
+    });
+    ProptestConfig {
+        cases: draws.saturating_mul(times),
+        failure_persistence: None,
+        max_local_rejects: u32::MAX,
+        max_global_rejects: u32::MAX,
+        ..ProptestConfig::default()
+    }
+}
+
+/// Whole numbers from `min` to `max`, all orders of magnitude alike, as text.
+fn whole(min: u64, max: u64) -> BoxedStrategy<String> {
+    ((min as f64).ln()..=(max as f64).ln()).prop_map(|log| log.exp().round().to_string()).boxed()
+}
+
+/// Scenes of all kinds that are computed in milliseconds.
+fn quick() -> Drawn {
+    let modes = (whole(1, 300), 0_u64..300);
+    Drawn::default()
+        .narrowed("numerics.points", whole(1, MOST_POINTS))
+        .narrowed("numerics.samples", whole(2, 40))
+        .narrowed("numerics.solver", Just("Exact".to_string()).boxed())
+        .narrowed(
+            "roughness.modes",
+            modes
+                .prop_map(|(first, more)| {
+                    format!("({first}, {})", first.parse::<u64>().map_or(0, |k| k + more))
+                })
+                .boxed(),
+        )
+        .narrowed("roughness.file", Just(format!("{:?}", profiles::FILE)).boxed())
+}

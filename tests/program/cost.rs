@@ -1,0 +1,295 @@
+//! What accuracy costs, tolerances and many lines, as users have them: through the program itself. What is
+//! demanded is structure, errors and orders, never times.
+
+mod estimates;
+
+use serde_json::Value;
+use std::fs;
+use std::process::{Command, Stdio};
+
+/// Exit code, standard output and standard error.
+fn asperity(arguments: &[&str]) -> (Option<i32>, String, String) {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_asperity"));
+    command.stdin(Stdio::null()).env("XDG_CONFIG_HOME", concat!(env!("CARGO_TARGET_TMPDIR"), "/nothing"));
+    let output = command.args(arguments).output().unwrap();
+    let text = |bytes| String::from_utf8(bytes).unwrap();
+    (output.status.code(), text(output.stdout), text(output.stderr))
+}
+
+fn done(arguments: &[&str]) -> String {
+    let (code, stdout, stderr) = asperity(arguments);
+    assert_eq!(code, Some(0), "{arguments:?}: {stderr}");
+    stdout
+}
+
+/// Standard error of a command that fails with this code and prints no results.
+fn failed(code: i32, arguments: &[&str]) -> String {
+    let (found, stdout, stderr) = asperity(arguments);
+    assert_eq!((found, stdout.as_str()), (Some(code), ""), "{arguments:?}: {stderr}");
+    assert!(!stderr.contains("panicked"), "{stderr}");
+    stderr
+}
+
+fn json(arguments: &[&str]) -> Value {
+    serde_json::from_str(&done(arguments)).unwrap()
+}
+
+/// Springs and error of a figure in the rows of a knob, those that are resolved.
+fn errors(table: &Value, knob: &str, figure: &str) -> Vec<(f64, f64)> {
+    let rows = table["rows"].as_array().unwrap().iter().filter(|row| row["knob"] == knob);
+    let resolved = rows.filter(|row| row["errors"][figure]["resolved"] == true);
+    resolved
+        .map(|row| (row["setting"].as_f64().unwrap(), row["errors"][figure]["error"].as_f64().unwrap()))
+        .collect()
+}
+
+/// Slope of ln(error) over −ln(springs) by least squares, up to so many springs.
+fn order(errors: &[(f64, f64)], most: f64) -> f64 {
+    let points: Vec<_> = errors
+        .iter()
+        .filter(|(springs, _)| *springs <= most)
+        .map(|(springs, error)| (-springs.ln(), error.ln()))
+        .collect();
+    assert!(points.len() >= 6, "{errors:?}");
+    let count = points.len() as f64;
+    let (x, y) = points.iter().fold((0.0, 0.0), |(x, y), point| (x + point.0 / count, y + point.1 / count));
+    let covariance: f64 = points.iter().map(|point| (point.0 - x) * (point.1 - y)).sum();
+    covariance / points.iter().map(|point| (point.0 - x).powi(2)).sum::<f64>()
+}
+
+#[test]
+fn a_sphere_is_reached_with_the_orders_of_its_edges() {
+    // A machine busy with other things gets no further in the shorter time.
+    let has_enough = |table: &Value| {
+        let rows = |knob, figure| errors(table, knob, figure).iter().filter(|row| row.0 <= 1024.0).count();
+        let springs = ["sub-cell-springs", "grid-springs"];
+        springs.iter().all(|knob| rows(knob, "adhesion_force") >= 6 && rows(knob, "dissipated_energy") >= 6)
+            && ["step", "samples"].iter().all(|knob| errors(table, knob, "curve").len() >= 4)
+            && errors(table, "single-precision", "adhesion_force").len() == 1
+    };
+    let tables = ["8s", "60s"]
+        .map(|budget| move || json(&["cost", "jkr-sphere", "--format", "json", "--budget", budget]));
+    let table = tables.iter().map(|table| table()).find(has_enough).expect("enough rows within a minute");
+    let reference = &table["reference"];
+    assert_eq!(reference["closed_form"], true);
+    let exact = 1.5 * std::f64::consts::PI * 0.05 * 1e-4;
+    assert!((reference["adhesion_force"].as_f64().unwrap() / exact - 1.0).abs() < 1e-12);
+    for figure in ["adhesion_force", "curve", "dissipated_energy"] {
+        let sub_cell = order(&errors(&table, "sub-cell-springs", figure), 1024.0);
+        let grid = order(&errors(&table, "grid-springs", figure), 1024.0);
+        assert!((1.6..2.5).contains(&sub_cell), "order {sub_cell} of the {figure} with edges SubCell");
+        assert!((0.85..1.25).contains(&grid), "order {grid} of the {figure} with edges Grid");
+    }
+    // Steps and samples make the curve better as well, and the last of them by far.
+    for knob in ["step", "samples"] {
+        let errors = errors(&table, knob, "curve");
+        let (first, last) = (errors.first().unwrap().1, errors.last().unwrap().1);
+        assert!(errors.len() >= 4 && last < first / 10.0, "{knob}: {errors:?}");
+    }
+    let single = errors(&table, "single-precision", "adhesion_force");
+    assert!(single.len() == 1 && single[0].1 < 1e-5, "{single:?}");
+    // A smooth body has no random lines.
+    assert!(errors(&table, "lines", "adhesion_force").is_empty());
+    for row in table["rows"].as_array().unwrap() {
+        let (least, median) = (&row["seconds"]["minimum"], &row["seconds"]["median"]);
+        assert!(
+            row["knob"] == "single-precision" || least.as_f64().unwrap() <= median.as_f64().unwrap(),
+            "{row}"
+        );
+    }
+}
+
+#[test]
+fn rough_scenes_are_counted_from_their_finest_solution() {
+    let table = json(&["cost", "rough-sphere", "--format", "json", "--budget", "3s"]);
+    let reference = &table["reference"];
+    assert_eq!(reference["closed_form"], false);
+    let own = reference["errors"]["adhesion_force"].as_f64().unwrap();
+    assert!(own > 0.0 && own < 0.01, "{own}");
+    // The finest differs from itself by nothing: what is told is the error of the reference.
+    let rows = table["rows"].as_array().unwrap();
+    let finest = rows.iter().rfind(|row| row["knob"] == "sub-cell-springs").unwrap();
+    assert_eq!(finest["setting"].as_f64(), reference["springs"].as_f64());
+    assert_eq!(finest["errors"]["adhesion_force"]["resolved"], false);
+    assert_eq!(finest["errors"]["adhesion_force"]["error"], reference["errors"]["adhesion_force"]);
+    // As many springs as twice the last mode are the fewest.
+    assert_eq!(rows[0]["setting"], 1024.0);
+    let lines = errors(&table, "lines", "adhesion_force");
+    assert_eq!(lines[0].0, 4.0);
+    assert!(lines.iter().all(|line| line.1 > 0.0 && line.1 < 1.0), "{lines:?}");
+    assert_eq!(table["answer"].as_array().unwrap().len(), 2);
+}
+
+#[test]
+fn the_text_begins_with_the_answer_and_ends_with_what_was_too_much() {
+    let (code, text, progress) = asperity(&["cost", "jkr-sphere", "--budget", "1s"]);
+    assert_eq!(code, Some(0));
+    assert!(text.starts_with("1 % of the adhesion force: "), "{text}");
+    let (_, end) = text.rsplit_once("affordable").unwrap();
+    assert!(end.lines().skip(1).all(|line| line.starts_with("- ")), "{text}");
+    assert!(text.lines().all(|line| line.chars().count() <= 100), "{text}");
+    // One line for each knob.
+    let mut told: Vec<_> = progress.lines().collect();
+    let lines = told.len();
+    told.dedup();
+    assert!(lines == told.len() && (2..=6).contains(&lines), "{progress}");
+    // Without adhesion it is about the curve.
+    let text = done(&["cost", "jkr-sphere", "--budget", "1s", "--set", "adhesion=None"]);
+    assert!(text.starts_with("1 % of the force curve: "), "{text}");
+}
+
+#[test]
+fn costs_go_to_files_that_are_not_overwritten() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+    let (csv, svg) = (path("cost.csv"), path("cost.svg"));
+    let command = ["cost", "kendall-punch", "--budget", "1s", "-o", &csv, "--svg", &svg];
+    assert_eq!(done(&command), "");
+    let rows = fs::read_to_string(&csv).unwrap();
+    let columns = |row: &str| row.split(',').count();
+    assert!(rows.starts_with("knob,setting,springs,minimum_seconds,"));
+    assert!(rows.lines().count() > 8 && rows.lines().all(|row| columns(row) == 18), "{rows}");
+    let picture = fs::read_to_string(&svg).unwrap();
+    assert!(picture.starts_with("<svg ") && picture.contains("Grid") && !picture.contains("NaN"));
+    assert!(failed(1, &command).contains("--force overwrites it"));
+    fs::remove_file(&csv).unwrap();
+    assert!(failed(1, &command).contains("cost.svg"));
+    assert!(!fs::exists(&csv).unwrap());
+    done(&[&command[..], &["--force"]].concat());
+    assert!(fs::exists(&csv).unwrap());
+}
+
+#[test]
+fn wrong_costs_are_refused() {
+    failed(2, &["cost"]);
+    failed(2, &["cost", "jkr-sphere", "--format", "xml"]);
+    failed(2, &["cost", "jkr-sphere", "--budget", "soon"]);
+    failed(1, &["cost", "no-such-scene"]);
+    failed(1, &["cost", "jkr-sphere", "--set", "length=-1"]);
+    assert!(failed(1, &["cost", "million-springs", "--budget", "1ms"]).contains("budget of 0.001 s"));
+}
+
+#[test]
+fn help_is_for_reading() {
+    for command in ["cost", "run"] {
+        for flag in ["-h", "--help"] {
+            let text = done(&[command, flag]);
+            assert!(text.contains("Usage: asperity") && text.contains("Examples:"), "{text}");
+            assert!(text.lines().all(|line| line.chars().count() <= 100), "{text}");
+        }
+    }
+}
+
+#[test]
+fn tolerances_are_kept() {
+    let (code, stdout, stderr) = asperity(&["run", "jkr-sphere", "--tolerance", "0.1%", "--format", "json"]);
+    let run: Value = serde_json::from_str(&stdout).unwrap();
+    assert_eq!(code, Some(0));
+    let exact = 1.5 * std::f64::consts::PI * 0.05 * 1e-4;
+    assert!((run["adhesion_force"].as_f64().unwrap() / exact - 1.0).abs() <= 1e-3);
+    assert_eq!(run["choice"]["edges"], "SubCell");
+    assert_eq!(run["choice"]["points"], run["line"]["points"]);
+    assert_eq!(run["scene"]["numerics"]["points"], run["line"]["points"]);
+    let springs = run["line"]["points"].as_u64().unwrap();
+    assert!(
+        springs <= 1024 && stderr.starts_with(&format!("{springs} springs with edges SubCell")),
+        "{stderr}"
+    );
+    assert!(done(&["run", "jkr-sphere", "--tolerance", "0.1%"]).contains("springs with edges SubCell"));
+
+    let adhesion = |arguments: &[&str]| json(arguments)["adhesion_force"].as_f64().unwrap();
+    let fine = ["--set", "numerics.points=262144", "--set", "numerics.edges=SubCell"];
+    let fine = adhesion(&[&["run", "rough-sphere", "--format", "json"], &fine[..]].concat());
+    let chosen = adhesion(&["run", "rough-sphere", "--format", "json", "--tolerance", "1e-2"]);
+    assert!((chosen / fine - 1.0).abs() <= 1e-2, "{chosen} for {fine}");
+
+    let bare = ["--set", "adhesion=None", "--tolerance", "1e-3", "--format", "json"];
+    assert_eq!(json(&[&["run", "jkr-sphere"], &bare[..]].concat())["choice"]["target"], "curve");
+}
+
+#[test]
+fn tolerances_out_of_reach_are_refused_with_what_is_in_reach() {
+    let said = failed(1, &["run", "pressure-sensitive", "--tolerance", "1e-13"]);
+    assert!(said.contains("is not reached with at most 2 097 152 springs; what is reached is "), "{said}");
+    let stepwise = ["run", "jkr-sphere", "--set", "numerics.solver=Stepwise(step: 1e-8)"];
+    assert!(failed(1, &[&stepwise[..], &["--tolerance", "0.01"]].concat()).contains("Exact"));
+    for wrong in ["0", "1", "nan", "much"] {
+        failed(2, &["run", "jkr-sphere", "--tolerance", wrong]);
+    }
+}
+
+#[test]
+fn lines_are_those_of_their_seeds() {
+    let scene = ["run", "pressure-sensitive", "--set", "numerics.points=2048", "--set", "roughness.seed=5"];
+    let lines = |more: &[&str]| done(&[&scene[..], &["--lines", "6"], more].concat());
+    let text = lines(&["--format", "json", "--jobs", "1"]);
+    assert_eq!(lines(&["--format", "json", "--jobs", "3"]), text);
+    assert_eq!(lines(&["--format", "json"]), text);
+    let object: Value = serde_json::from_str(&text).unwrap();
+    let of_lines = object["lines"].as_array().unwrap();
+    let forces: Vec<f64> = of_lines.iter().map(|line| line["adhesion_force"].as_f64().unwrap()).collect();
+    assert_eq!(of_lines[5]["seed"], 10);
+    let alone = json(&[&scene[..], &["--set", "roughness.seed=7", "--format", "json"]].concat());
+    assert_eq!(of_lines[2]["adhesion_force"], alone["adhesion_force"]);
+    assert_eq!(of_lines[2]["preload_indentation"], alone["preload_indentation"]);
+    assert_eq!(of_lines[2]["dissipated_energy"], alone["dissipated_energy"]);
+    assert_eq!(of_lines[2]["regime"], alone["regime"]);
+
+    let mean = forces.iter().sum::<f64>() / 6.0;
+    let deviation = (forces.iter().map(|force| (force - mean).powi(2)).sum::<f64>() / 5.0).sqrt();
+    // Student's t for five degrees of freedom.
+    let half = 2.570_581_836 * deviation / 6.0_f64.sqrt();
+    let statistics = &object["adhesion_force"];
+    for (found, expected) in [
+        (&statistics["mean"], mean),
+        (&statistics["standard_deviation"], deviation),
+        (&statistics["confidence_interval"][0], mean - half),
+        (&statistics["confidence_interval"][1], mean + half),
+    ] {
+        assert!((found.as_f64().unwrap() / expected - 1.0).abs() < 1e-8, "{found} for {expected}");
+    }
+
+    let csv = lines(&["--format", "csv"]);
+    let rows: Vec<Vec<&str>> =
+        csv.lines().filter(|row| !row.starts_with('#')).map(|row| row.split(',').collect()).collect();
+    assert!(rows.len() == 7 && rows.iter().all(|row| row.len() == 9), "{csv}");
+    assert_eq!(rows[1][1].parse::<f64>().unwrap(), forces[0]);
+    let summary = lines(&[]);
+    assert!(summary.contains("6 random lines of 2 048 springs, seeds 5 to 10"), "{summary}");
+    assert!(summary.contains("adhesion force F_a") && summary.contains("rms skewness"), "{summary}");
+    assert!(summary.lines().all(|line| line.chars().count() <= 100), "{summary}");
+}
+
+#[test]
+fn lines_that_mean_nothing_are_refused() {
+    assert!(failed(1, &["run", "jkr-sphere", "--lines", "4"]).contains("but one line"));
+    failed(2, &["run", "pressure-sensitive", "--lines", "1"]);
+    failed(2, &["run", "pressure-sensitive", "--lines", "many"]);
+    failed(2, &["run", "pressure-sensitive", "--jobs", "2"]);
+    failed(2, &["run", "pressure-sensitive", "--lines", "4", "--jobs", "0"]);
+}
+
+/// More springs, and as many more waves as they allow, do not bring a line's heights nearer to a bell curve.
+#[test]
+fn heights_do_not_average_themselves() {
+    let skewness = |points: u32| {
+        let points_set = format!("numerics.points={points}");
+        let modes = format!("roughness.modes=(1, {})", points / 2);
+        let object = json(&[
+            "run",
+            "profile-hurst-075",
+            "--lines",
+            "64",
+            "--format",
+            "json",
+            "--set",
+            &points_set,
+            "--set",
+            &modes,
+        ]);
+        object["rms_skewness"].as_f64().unwrap()
+    };
+    let (few, many) = (skewness(256), skewness(16_384));
+    // Heights that are independent would bring it down by sqrt(64) = 8.
+    assert!(many > 0.2 && many / few > 0.7 && many / few < 1.4, "{few} and {many}");
+}

@@ -1,0 +1,17 @@
+//! The program without the explorer: commands, results, studies, tables for others, and the documentation.
+
+#[path = "../common"]
+mod common {
+    pub mod deadline;
+}
+mod cli;
+mod cost;
+mod readme;
+mod rounding;
+#[cfg(target_os = "linux")]
+mod slurm;
+mod surfaces;
+mod sweep;
+mod sweep_boundary;
+mod sweep_plot;
+mod tables;

@@ -1,0 +1,520 @@
+//! Studies on a cluster: a real Slurm of two nodes on the loopback, and stand-ins for what one may answer.
+//!
+//! Needs `slurmctld`, `slurmd`, `sbatch` and `munged`; where one of them is missing, or no such cluster can be
+//! started, the tests on it say so and do nothing. What takes minutes, because Slurm waits for lost nodes, is run
+//! by `cargo test --test program slurm -- --ignored`.
+
+use super::common::deadline::within;
+use std::fs;
+use std::io::{BufRead, BufReader, Read, Write};
+use std::net::TcpListener;
+use std::os::unix::fs::PermissionsExt;
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, Output, Stdio};
+use std::time::{Duration, Instant};
+
+const ASPERITY: &str = env!("CARGO_BIN_EXE_asperity");
+const CLUSTER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/program/slurm_cluster/cluster.sh");
+
+/// Small, but its cells take long enough to be killed in: about a tenth of a second each.
+const PLAN: &str = r#"(
+    version: 1,
+    scene: (
+        version: 1,
+        material: (youngs_modulus: 2.0e6, poisson_ratio: 0.5),
+        length: 1.0e-4,
+        roughness: SelfAffine(hurst: 0.5, rms_height: 2.0e-7, modes: (1, 64), seed: 1),
+        adhesion: (kappa: 1.0),
+        loading: [ToForce(1.0e-5), ToSeparation],
+        numerics: (points: POINTS, edges: SubCell),
+    ),
+    axes: [Linear(path: "roughness.hurst", from: 0.2, to: 0.9, count: 8)],
+    lines: 3,
+    record: [adhesion_force, dissipated_energy],
+)"#;
+
+/// Says what is left out, past the test runner, which keeps what passing tests print to itself.
+fn tell(note: &str) {
+    let _ = writeln!(std::io::stderr(), "{note}");
+}
+
+/// A program by its name, on the path or where Debian keeps those of the administrator.
+fn program(name: &str) -> Option<PathBuf> {
+    let path = std::env::var_os("PATH").unwrap_or_default();
+    let folders = std::env::split_paths(&path).chain([PathBuf::from("/usr/sbin"), PathBuf::from("/sbin")]);
+    folders.map(|folder| folder.join(name)).find(|file| file.is_absolute() && file.is_file())
+}
+
+/// A cluster that ends with the test, however that ends.
+struct Cluster {
+    keeper: Child,
+    folder: tempfile::TempDir,
+}
+
+impl Drop for Cluster {
+    fn drop(&mut self) {
+        // It is told by the end of its input, and waited for.
+        drop(self.keeper.stdin.take());
+        let _ = self.keeper.wait();
+    }
+}
+
+impl Cluster {
+    /// Starts one; `None`, and a note, where that is not possible here.
+    fn start() -> Option<Cluster> {
+        let [munged, slurmctld, slurmd, _] = ["munged", "slurmctld", "slurmd", "sbatch"].map(|name| {
+            let found = program(name);
+            if found.is_none() {
+                tell(&format!(
+                    "skipped: there is no {name} (Debian: slurmctld, slurmd, slurm-client, munge)"
+                ));
+            }
+            found
+        });
+        let (munged, slurmctld, slurmd) = (munged?, slurmctld?, slurmd?);
+        program("sbatch")?;
+        let folder = tempfile::tempdir().unwrap();
+        let home = folder.path().join("cluster");
+        fs::create_dir(&home).unwrap();
+        for path in [folder.path(), &home] {
+            fs::set_permissions(path, fs::Permissions::from_mode(0o755)).unwrap();
+        }
+        // Free now; whoever takes one of them before Slurm does fails the test, which can be run again.
+        let listeners = [(); 3].map(|()| TcpListener::bind("127.0.0.1:0").unwrap());
+        let ports = listeners.each_ref().map(|listener| listener.local_addr().unwrap().port().to_string());
+        drop(listeners);
+        let mut command = Command::new("bash");
+        command.arg(CLUSTER).arg(&home).args(ports).args([munged, slurmctld, slurmd]);
+        command.stdin(Stdio::piped()).stdout(Stdio::piped());
+        let mut keeper = command.spawn().unwrap();
+        let mut said = BufReader::new(keeper.stdout.take().unwrap());
+        let mut line = String::new();
+        said.read_line(&mut line).unwrap();
+        let cluster = Cluster { keeper, folder };
+        if line.trim() == "ready" {
+            return Some(cluster);
+        }
+        let mut rest = String::new();
+        said.read_to_string(&mut rest).unwrap();
+        tell(&format!("skipped: no cluster can be started here:\n{line}{rest}"));
+        None
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        self.folder.path().join(name)
+    }
+
+    /// A program that asks this cluster.
+    fn command(&self, program: impl AsRef<std::ffi::OsStr>) -> Command {
+        let mut command = Command::new(program);
+        command.env("SLURM_CONF", self.path("cluster/slurm.conf")).current_dir(self.folder.path());
+        command
+    }
+
+    fn plan(&self, points: u64) -> PathBuf {
+        let path = self.path("plan.ron");
+        fs::write(&path, PLAN.replace("POINTS", &points.to_string())).unwrap();
+        path
+    }
+
+    /// Submits a plan; the numbers of the array and the merge.
+    fn submit(&self, plan: &Path, folder: &str, options: &[&str]) -> (String, String) {
+        let mut submit = self.command(ASPERITY);
+        submit.args(["sweep", "submit"]).arg(plan).arg("-o").arg(self.path(folder)).args(options);
+        let said = succeeded(&mut submit);
+        let numbers: Vec<_> =
+            said.split(|c: char| !c.is_ascii_digit()).filter(|word| !word.is_empty()).collect();
+        // job ARRAY: TASKS tasks; job MERGE: …
+        (numbers[0].to_owned(), numbers[2].to_owned())
+    }
+
+    /// What squeue says of a job, one line for each of its tasks; nothing when it is over.
+    fn queue(&self, job: &str) -> String {
+        let format = "--format=%K %T %N %r";
+        let output =
+            self.command("squeue").args(["--noheader", "--array", "--jobs", job, format]).output().unwrap();
+        String::from_utf8_lossy(&output.stdout).trim().to_owned()
+    }
+
+    /// Waits until a job is over.
+    fn wait_for(&self, job: &str, seconds: u64) {
+        self.wait_until(&format!("job {job} is over"), seconds, || self.queue(job).is_empty());
+    }
+
+    fn wait_until(&self, what: &str, seconds: u64, mut done: impl FnMut() -> bool) {
+        let deadline = Instant::now() + Duration::from_secs(seconds);
+        while !done() {
+            if Instant::now() > deadline {
+                let queue = self.command("squeue").output().unwrap();
+                panic!("not yet: {what}\n{}\n{}", String::from_utf8_lossy(&queue.stdout), self.logs());
+            }
+            std::thread::sleep(Duration::from_millis(100));
+        }
+    }
+
+    /// What jobs and daemons said.
+    fn logs(&self) -> String {
+        let mut logs = String::new();
+        let mut folders = vec![self.folder.path().to_path_buf()];
+        while let Some(folder) = folders.pop() {
+            for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
+                let path = entry.path();
+                if path.is_dir() {
+                    folders.push(path);
+                } else if path.extension().is_some_and(|extension| extension == "log") {
+                    let text = fs::read_to_string(&path).unwrap_or_default();
+                    logs += &format!("--- {}\n{text}\n", path.display());
+                }
+            }
+        }
+        logs
+    }
+
+    /// Computes the same in this process's own way, without a cluster.
+    fn serial(&self, plan: &Path, folder: &str) {
+        let mut run = self.command(ASPERITY);
+        succeeded(run.arg("sweep").arg(plan).arg("-o").arg(self.path(folder)).args(["--jobs", "1"]));
+    }
+
+    /// The tables of a study.
+    fn tables(&self, folder: &str) -> [Vec<u8>; 2] {
+        ["results.csv", "summary.csv"].map(|name| {
+            let path = self.path(folder).join(name);
+            fs::read(&path).unwrap_or_else(|error| panic!("{}: {error}\n{}", path.display(), self.logs()))
+        })
+    }
+
+    /// Processes that compute this shard of a study, as Slurm started them.
+    fn processes(&self, folder: &str, shard: &str) -> Vec<u32> {
+        let folder = self.path(folder).display().to_string();
+        let found = fs::read_dir("/proc").unwrap().flatten().filter_map(|entry| {
+            let number = entry.file_name().to_str()?.parse().ok()?;
+            let line = fs::read(entry.path().join("cmdline")).ok()?;
+            let words: Vec<_> = line.split(|byte| *byte == 0).collect();
+            let has = |word: &str| words.contains(&word.as_bytes());
+            (words[0] == ASPERITY.as_bytes() && has(&folder) && has(shard)).then_some(number)
+        });
+        found.collect()
+    }
+
+    /// Records in the files of a study.
+    fn records(&self, folder: &str) -> usize {
+        let files = fs::read_dir(self.path(folder).join("shards")).into_iter().flatten().flatten();
+        let texts = files.map(|file| fs::read_to_string(file.path()).unwrap_or_default());
+        // The first line of a file is its header.
+        texts.map(|text| text.lines().count().saturating_sub(1)).sum()
+    }
+}
+
+fn succeeded(command: &mut Command) -> String {
+    let Output { status, stdout, stderr } = command.output().unwrap();
+    let said = String::from_utf8_lossy(&stderr);
+    assert!(status.success(), "{command:?}: {said}");
+    String::from_utf8(stdout).unwrap()
+}
+
+fn kill(signal: &str, processes: &[u32]) {
+    for process in processes {
+        let _ = Command::new("kill").arg(signal).arg(process.to_string()).status();
+    }
+}
+
+#[test]
+fn a_cluster_gives_the_bytes_of_one_machine_even_when_programs_are_killed() {
+    within(100, || {
+        let Some(cluster) = Cluster::start() else { return };
+        let plan = cluster.plan(1 << 10);
+        cluster.serial(&plan, "serial");
+
+        // A folder that a shell and Slurm could read otherwise.
+        let name = "it's %j & $HOME";
+        let (_, merge) = cluster.submit(&plan, name, &["--shards", "4"]);
+        cluster.wait_for(&merge, 40);
+        assert_eq!(cluster.tables(name), cluster.tables("serial"));
+        let log = cluster.path(name).join("slurm").join(format!("merge-{merge}.log"));
+        assert!(fs::read_to_string(log).unwrap().contains("24 of 24 records"), "{}", cluster.logs());
+
+        // Cells so large that the program is killed in the middle of one.
+        let plan = cluster.plan(1 << 21);
+        let (array, merge) = cluster.submit(&plan, "killed", &["--shards", "2", "--", "--job-name=killed"]);
+        cluster.wait_until("there is a record, and shard 1 runs", 30, || {
+            cluster.records("killed") > 0 && !cluster.processes("killed", "1/2").is_empty()
+        });
+        let running = cluster.processes("killed", "1/2");
+        kill("-9", &running);
+        cluster.wait_for(&merge, 60);
+        let log = fs::read_to_string(cluster.path("killed/slurm").join(format!("{array}_1.log"))).unwrap();
+        assert!(log.contains("killed by signal 9: retry 1 of 3"), "{log}");
+        cluster.serial(&plan, "whole");
+        assert_eq!(cluster.tables("killed"), cluster.tables("whole"));
+    });
+}
+
+#[test]
+#[ignore = "Slurm waits two minutes and more for lost nodes"]
+fn lost_nodes_and_twins_change_no_byte() {
+    within(900, || {
+        let Some(cluster) = Cluster::start() else { return };
+        let plan = cluster.plan(1 << 20);
+        cluster.serial(&plan, "serial");
+        let started = Instant::now();
+        let (array, merge) = cluster.submit(&plan, "lost", &["--shards", "2"]);
+        cluster.wait_until("both shards run", 30, || {
+            ["1/2", "2/2"].iter().all(|shard| !cluster.processes("lost", shard).is_empty())
+                && cluster.records("lost") > 1
+        });
+        // Shard 1 is slowed down so that it outlives its node; then the node's daemon is killed and the task is not.
+        let lost = cluster.processes("lost", "1/2");
+        kill("-STOP", &lost);
+        let on = |task: &str| {
+            let queue = cluster.queue(&array);
+            let line = queue.lines().find(|line| line.starts_with(task)).unwrap_or_default().to_owned();
+            line.split(' ').nth(2).unwrap_or_default().to_owned()
+        };
+        let node = on("1 ");
+        let daemon = fs::read_to_string(cluster.path(&format!("cluster/{node}.pid"))).unwrap();
+        kill("-9", &[daemon.trim().parse().unwrap()]);
+        cluster.wait_until("the task of the lost node runs again elsewhere", 400, || {
+            // Stopped anew each time: continued by anyone else, it would end before its twin begins.
+            kill("-STOP", &lost);
+            cluster.processes("lost", "1/2").iter().any(|process| !lost.contains(process))
+        });
+        println!("started again after {:.0} s, on {}", started.elapsed().as_secs_f64(), on("1 "));
+        // Now both of them compute.
+        kill("-CONT", &lost);
+        cluster.wait_until("both twins compute", 20, || cluster.processes("lost", "1/2").len() > 1);
+        cluster.wait_for(&merge, 400);
+        cluster.wait_until("the lost task is over", 60, || cluster.processes("lost", "1/2").is_empty());
+        println!("merged after {:.0} s", started.elapsed().as_secs_f64());
+        assert_eq!(cluster.tables("lost"), cluster.tables("serial"));
+        // What the lost one has written since is merged as well.
+        let said = succeeded(cluster.command(ASPERITY).args(["sweep", "merge"]).arg(cluster.path("lost")));
+        println!("{said}");
+        assert!(said.contains("records were computed twice, with the same bits"), "{said}");
+        assert_eq!(cluster.tables("lost"), cluster.tables("serial"));
+    });
+}
+
+#[test]
+#[ignore = "Slurm waits two minutes and more for lost nodes"]
+fn a_node_that_dies_with_its_task_is_replaced() {
+    within(900, || {
+        let Some(cluster) = Cluster::start() else { return };
+        let plan = cluster.plan(1 << 20);
+        cluster.serial(&plan, "serial");
+        let started = Instant::now();
+        let (array, merge) = cluster.submit(&plan, "dead", &["--shards", "2"]);
+        cluster.wait_until("both shards run", 30, || {
+            ["1/2", "2/2"].iter().all(|shard| !cluster.processes("dead", shard).is_empty())
+                && cluster.records("dead") > 1
+        });
+        let queue = cluster.queue(&array);
+        let node = queue.lines().find(|line| line.starts_with("1 ")).unwrap().split(' ').nth(2).unwrap();
+        let daemon = fs::read_to_string(cluster.path(&format!("cluster/{node}.pid"))).unwrap();
+        // The keeper of the task and its shell die with the node, or they would start the program again.
+        let task = cluster.processes("dead", "1/2");
+        let parent = |process: u32| -> Option<u32> {
+            let status = fs::read_to_string(format!("/proc/{process}/status")).ok()?;
+            status.lines().find_map(|line| line.strip_prefix("PPid:")?.trim().parse().ok())
+        };
+        let shell = parent(task[0]).unwrap();
+        let keeper = parent(shell).unwrap();
+        kill("-9", &[daemon.trim().parse().unwrap(), keeper, shell, task[0]]);
+        cluster.wait_for(&merge, 400);
+        println!("done after {:.0} s", started.elapsed().as_secs_f64());
+        assert_eq!(cluster.tables("dead"), cluster.tables("serial"));
+    });
+}
+
+/// A folder with stand-ins for the programs of Slurm, and nothing else on the path.
+fn stand_ins(scripts: &[(&str, &str)]) -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("plan.ron"), PLAN.replace("POINTS", "256")).unwrap();
+    fs::create_dir(folder.path().join("bin")).unwrap();
+    for (name, script) in scripts {
+        let path = folder.path().join("bin").join(name);
+        fs::write(&path, format!("#!/bin/sh\n{script}\n")).unwrap();
+        fs::set_permissions(&path, fs::Permissions::from_mode(0o755)).unwrap();
+    }
+    folder
+}
+
+fn submit_to(folder: &Path, options: &[&str]) -> (Option<i32>, String, String) {
+    let mut command = Command::new(ASPERITY);
+    command.current_dir(folder).env("PATH", folder.join("bin"));
+    command.args(["sweep", "submit", "plan.ron", "-o", "study"]).args(options);
+    let output = command.output().unwrap();
+    let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();
+    (output.status.code(), text(output.stdout), text(output.stderr))
+}
+
+#[test]
+fn what_slurm_refuses_is_passed_on() {
+    let none = stand_ins(&[]);
+    let (code, _, said) = submit_to(none.path(), &["--shards", "4"]);
+    assert_eq!(code, Some(1));
+    assert!(said.contains("sbatch: there is no such program here"), "{said}");
+    assert!(said.contains("parallel --joblog shards.log --resume-failed --retries 3"), "{said}");
+
+    let refusing =
+        stand_ins(&[("sbatch", "echo 'sbatch: error: invalid partition specified: x' >&2; exit 1")]);
+    let (code, _, said) = submit_to(refusing.path(), &["--shards", "4", "--", "--partition=x"]);
+    assert_eq!(code, Some(1));
+    assert_eq!(said.trim(), "sbatch refuses the array: sbatch: error: invalid partition specified: x");
+
+    // The array is taken, the merge is not: then the array goes as well.
+    let sbatch = r#"case "$*" in *--dependency*) echo "no dependencies today" >&2; exit 1 ;; esac; echo 17"#;
+    let half = stand_ins(&[("sbatch", sbatch), ("scancel", "echo \"$*\" >cancelled")]);
+    let (code, _, said) = submit_to(half.path(), &["--shards", "4"]);
+    assert_eq!(code, Some(1));
+    assert!(
+        said.contains("refuses the merge: no dependencies today") && said.contains("17 was cancelled"),
+        "{said}"
+    );
+    assert_eq!(fs::read_to_string(half.path().join("cancelled")).unwrap().trim(), "17");
+}
+
+#[test]
+fn arrays_are_no_larger_than_the_cluster_has_them() {
+    let small = stand_ins(&[
+        ("sbatch", "echo \"$*\" >>asked; echo '21;east'"),
+        ("scontrol", "echo 'MaxArraySize            = 5'"),
+    ]);
+    let (code, _, said) = submit_to(small.path(), &["--shards", "5"]);
+    assert_eq!(code, Some(1));
+    assert!(said.contains("arrays of at most 4 tasks") && said.contains("allowed: 1 to 4"), "{said}");
+    assert!(!small.path().join("study").exists());
+    let (code, told, said) = submit_to(small.path(), &["--shards", "4", "--at-once", "2", "--", "-p", "x"]);
+    assert_eq!(code, Some(0), "{said}");
+    assert!(told.starts_with("job 21: 4 tasks; job 21: the merge after them\n"), "{told}");
+    let asked = fs::read_to_string(small.path().join("asked")).unwrap();
+    let [array, merge] = asked.lines().collect::<Vec<_>>()[..] else { panic!("{asked}") };
+    assert!(array.contains("--partition=x --array=1-4%2 --requeue "), "{array}");
+    assert!(merge.contains("--partition=x --dependency=afterok:21 --kill-on-invalid-dep=yes"), "{merge}");
+
+    // Where the cluster does not say, Slurm's own limit holds.
+    let silent = stand_ins(&[]);
+    let (code, _, said) = submit_to(silent.path(), &["--shards", "1001", "--dry-run"]);
+    assert_eq!(code, Some(1));
+    assert!(said.contains("arrays of at most 1000 tasks"), "{said}");
+    let (_, _, said) = submit_to(silent.path(), &["--shards", "4", "--", "--array=1-9"]);
+    assert!(said.contains("--array=1-9: this is not for sbatch here"), "{said}");
+}
+
+#[test]
+fn only_known_options_and_no_variables_reach_sbatch() {
+    // Does what sbatch does with the words it is given, as far as it can be told apart.
+    let sbatch = "printf '%s\\n' \"$@\" >>asked; /usr/bin/env >>variables; echo 17";
+    let folder = stand_ins(&[("sbatch", sbatch)]);
+    for words in [
+        &["x.sh"][..],
+        &["--quiet"],
+        &["--arr=1-50"],
+        &["-HW"],
+        &["-pshort"],
+        &["--partition=x", "x.sh"],
+        &["--exclusive", "x.sh"],
+        &["--wrap", "true"],
+        &["--", "x.sh"],
+    ] {
+        let arguments = [&["--shards", "4", "--"], words].concat();
+        let (code, told, said) = submit_to(folder.path(), &arguments);
+        assert_eq!((code, told.as_str()), (Some(1), ""), "{words:?}: {said}");
+        assert!(
+            said.contains("this is not for sbatch here; allowed: --account, --begin,"),
+            "{words:?}: {said}"
+        );
+    }
+    assert!(!folder.path().join("asked").exists() && !folder.path().join("study").exists());
+    let mut command = Command::new(ASPERITY);
+    command.current_dir(folder.path()).env("PATH", folder.path().join("bin"));
+    command.envs([("SBATCH_ARRAY_INX", "1-50"), ("SBATCH_QUIET", "1"), ("SLURM_CONF", "kept")]);
+    command.args([
+        "sweep", "submit", "plan.ron", "-o", "study", "--shards", "4", "--", "-t", "1:00", "--mem=1G",
+    ]);
+    let output = command.output().unwrap();
+    let said = String::from_utf8(output.stderr).unwrap();
+    assert!(output.status.success(), "{said}");
+    assert!(said.contains("not passed on to sbatch: SBATCH_ARRAY_INX, SBATCH_QUIET"), "{said}");
+    let variables = fs::read_to_string(folder.path().join("variables")).unwrap();
+    assert!(variables.contains("SLURM_CONF=kept") && !variables.contains("SBATCH_"), "{variables}");
+    let asked = fs::read_to_string(folder.path().join("asked")).unwrap();
+    assert_eq!(asked.matches("--time=1:00\n--mem=1G\n").count(), 2, "{asked}");
+    assert_eq!(asked.lines().filter(|word| !word.starts_with("--")).count(), 2, "{asked}");
+}
+
+#[test]
+fn an_answer_that_is_no_number_of_a_job_is_an_error() {
+    for answer in ["", "Submitted batch job 17", "17;", "+17", "0", "17\\n18", "17 18"] {
+        let sbatch = format!("printf '{answer}\\n'");
+        let folder = stand_ins(&[("sbatch", &sbatch)]);
+        let (code, told, said) = submit_to(folder.path(), &["--shards", "4"]);
+        assert_eq!((code, told.as_str()), (Some(1), ""), "{answer:?}: {said}");
+        assert!(
+            said.contains("sbatch took the array and did not answer with the number"),
+            "{answer:?}: {said}"
+        );
+        assert!(said.contains("squeue --me lists the array"), "{answer:?}: {said}");
+    }
+    // Where it is that of the merge, the array goes.
+    let sbatch = r#"case "$*" in *--dependency*) echo what ;; *) echo '17;east' ;; esac"#;
+    let folder = stand_ins(&[("sbatch", sbatch), ("scancel", "echo \"$*\" >cancelled")]);
+    let (code, _, said) = submit_to(folder.path(), &["--shards", "4"]);
+    assert_eq!(code, Some(1));
+    assert!(said.contains("no number of a job: what") && said.contains("17 was cancelled"), "{said}");
+    assert_eq!(fs::read_to_string(folder.path().join("cancelled")).unwrap().trim(), "--clusters=east 17");
+}
+
+#[test]
+fn a_dry_run_tells_and_touches_nothing() {
+    let folder = stand_ins(&[("sbatch", "touch submitted; echo 1")]);
+    let (code, told, said) = submit_to(folder.path(), &["--shards", "12", "--memory", "2G", "--dry-run"]);
+    assert_eq!((code, said.as_str()), (Some(0), ""));
+    for expected in [
+        "--shard \"$SLURM_ARRAY_TASK_ID/12\"",
+        "--memory 2147483648",
+        "sweep merge \"$folder\"",
+        "--array=1-12 --requeue",
+        "--dependency=afterok:ARRAY",
+    ] {
+        assert!(told.contains(expected), "{expected}: {told}");
+    }
+    let mut left: Vec<_> =
+        fs::read_dir(folder.path()).unwrap().map(|entry| entry.unwrap().file_name()).collect();
+    left.sort();
+    assert_eq!(left, ["bin", "plan.ron"]);
+}
+
+#[test]
+fn a_task_starts_killed_programs_again_and_no_others() {
+    // The script of a task, run by a shell, with a stand-in for the program.
+    let folder = stand_ins(&[]);
+    let (_, told, _) = submit_to(folder.path(), &["--shards", "4", "--retries", "2", "--dry-run"]);
+    let script = told.split("==> ").nth(1).unwrap().split_once(" <==\n").unwrap().1;
+    let script = script.replace(ASPERITY, "./program");
+    for (program, code, runs) in [
+        ("exit 0", 0, 1),
+        ("exit 1", 1, 1),
+        ("exit 2", 2, 1),
+        ("kill -9 $$", 137, 3),
+        ("kill -TERM $$", 143, 1),
+        ("kill -SEGV $$", 139, 3),
+        ("[ $(wc -l <runs) -ge 2 ] || kill -KILL $$", 0, 2),
+    ] {
+        let runs_file = folder.path().join("runs");
+        let _ = fs::remove_file(&runs_file);
+        let path = folder.path().join("program");
+        fs::write(&path, format!("#!/bin/sh\necho \"$*\" >>runs\n{program}\n")).unwrap();
+        fs::set_permissions(&path, fs::Permissions::from_mode(0o755)).unwrap();
+        let mut task = Command::new("/bin/sh");
+        task.current_dir(folder.path()).args(["-c", &script]).env("SLURM_ARRAY_TASK_ID", "3");
+        let output = task.env("SLURM_CPUS_ON_NODE", "7").env_remove("SLURM_CPUS_PER_TASK").output().unwrap();
+        let asked = fs::read_to_string(&runs_file).unwrap();
+        assert_eq!(
+            (output.status.code(), asked.lines().count()),
+            (Some(code), runs),
+            "{program}: {output:?}"
+        );
+        assert!(asked.lines().all(|line| line.ends_with("--shard 3/4 --jobs 7")), "{asked}");
+    }
+}
