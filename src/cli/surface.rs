@@ -34,8 +34,8 @@ Examples:
   asperity surface afm.gwy --tip-radius 10nm -o spectra.svg
   asperity surface profile.csv --unit um --modulus 2.7MPa --work 50mJ/m^2 --scene rough.ron
 
-Files are profiles or maps: text in columns or as a matrix, SDF, GSF, NumPy, X3P, GWY, SUR, and
-these in gzip. Several files are samples of the same roughness. A profile is a cut through the
+Files are profiles or maps: text in columns or as a matrix, SDF, GSF, NumPy, X3P, GWY, SUR,
+NetCDF, and these in gzip. Several files are samples of the same roughness. A profile is a cut through the
 surface; the equivalent line is what the contact computation needs.";
 
 /// Springs of a scene for each of its shortest waves.
@@ -78,7 +78,7 @@ pub struct SurfaceArguments {
     pub preload: Option<f64>,
     /// Random profiles of the adhesion force; needs --work
     ///
-    /// Each is solved on the fitted spectrum and on one drawn from its uncertainty: the spread
+    /// Each is solved on the fitted spectrum and on one moved within its uncertainty: the spread
     /// over lines beside that of the fit. Default: 16 up to 131 072 springs, else none.
     #[arg(long, value_name = "COUNT", requires = "work", value_parser = clap::value_parser!(u32).range(2..=MOST_LINES), verbatim_doc_comment)]
     pub lines: Option<u32>,

@@ -135,10 +135,10 @@ impl SurfaceAdhesion {
     fn rows(&self, sheet: &mut Sheet) {
         sheet.heading("Adhesion of the equivalent line");
         let loading = self.preload().map_or_else(
-            || "touch without force; --preload presses".to_owned(),
-            |force| format!("to {}", format_quantity(force, "N")),
+            || "touch without force, then pull (--preload presses before)".to_owned(),
+            |force| format!("to {}, then pull", format_quantity(force, "N")),
         );
-        sheet.row("loading", format!("{loading}, then pull"));
+        sheet.row("loading", loading);
         let springs = grouped(self.scene.numerics.points);
         sheet.row("length L", format!("{} on {springs} springs", format_quantity(self.scene.length, "m")));
         sheet.row("adhesion force F_a", self.force());

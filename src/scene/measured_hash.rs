@@ -1,6 +1,6 @@
 //! Hashes of the measured files behind a table of results, which hold part of what was computed.
 
-use super::provenance::named_from;
+use super::named_file::named_from;
 use crate::io::{ReadError, sha256_of};
 use crate::text::path_name;
 use std::path::Path;

@@ -5,6 +5,7 @@
 use super::document::LONGEST_TEXT;
 use super::measured_hash::MeasuredHash;
 use super::model::Scene;
+use super::named_file::named_from;
 use super::table_content::TableContent;
 use super::write::to_ron;
 use crate::io::{PROVENANCE, ReadError, into_text, npy, open_regular, read_limited};
@@ -76,16 +77,6 @@ fn head(content: &str) -> String {
     format!("{PROGRAM}{}\ncontent: {content}\n", env!("CARGO_PKG_VERSION"))
 }
 
-/// Name of a file relative to `folder` in a table that is written into `destination`: as it is in the same folder, else
-/// its absolute path.
-#[must_use]
-pub fn named_from(file: &str, folder: &Path, destination: &Path) -> String {
-    match std::path::absolute(folder.join(file)) {
-        Ok(absolute) if !is_same_folder(folder, destination) => absolute.to_string_lossy().into_owned(),
-        _ => file.to_owned(),
-    }
-}
-
 /// Origin of a table of spectra.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SpectraTable {
@@ -106,14 +97,6 @@ impl SpectraTable {
         let arguments = arguments.collect::<Option<Vec<String>>>().filter(|_| is_of_spectra)?;
         Some(SpectraTable { arguments, measured: MeasuredHash::of_lines(head) })
     }
-}
-
-fn is_same_folder(one: &Path, other: &Path) -> bool {
-    let whole = |folder: &Path| {
-        let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
-        folder.canonicalize().ok()
-    };
-    one == other || whole(one).is_some_and(|folder| Some(folder) == whole(other))
 }
 
 /// Reason why no scene was read.

@@ -191,10 +191,10 @@ impl IsotropicSpectrum {
         })
     }
 
-    /// A spectrum as likely as the standard errors allow: values of ln C2D from the normal distribution of the fit. The same
-    /// for the same number.
+    /// The spectrum with its values of ln C2D moved by a share of steps drawn from the normal distribution of the fit. The
+    /// same steps for the same number.
     #[must_use]
-    pub fn drawn(&self, number: u64) -> IsotropicSpectrum {
+    pub fn drawn(&self, number: u64, share: f64) -> IsotropicSpectrum {
         let mut key = [0; 32];
         key[..8].copy_from_slice(&number.to_le_bytes());
         key[8..].copy_from_slice(PURPOSE);
@@ -203,7 +203,7 @@ impl IsotropicSpectrum {
         let mut uniform = || ((generator.next_u64() >> 11) + 1) as f64 / (1_u64 << 53) as f64;
         let mut normal = || (-2.0 * uniform().ln()).sqrt() * (TAU * uniform()).cos();
         let steps = self.information.solve_transposed(self.values.iter().map(|_| normal()).collect());
-        let values = self.values.iter().zip(steps).map(|(value, step)| value + step).collect();
+        let values = self.values.iter().zip(steps).map(|(value, step)| value + share * step).collect();
         IsotropicSpectrum { values, ..self.clone() }
     }
 
@@ -337,13 +337,14 @@ pub(super) mod tests {
         }
         let information = Cholesky::new(information, count).unwrap();
         let spectrum = IsotropicSpectrum { information, ..known(nodes, |q| q.powi(-3)) };
-        assert_eq!(spectrum.drawn(7), spectrum.drawn(7));
-        assert_ne!(spectrum.drawn(7).values, spectrum.drawn(8).values);
+        assert_eq!(spectrum.drawn(7, 1.0), spectrum.drawn(7, 1.0));
+        assert_eq!(spectrum.drawn(7, 0.0), spectrum);
+        assert_ne!(spectrum.drawn(7, 1.0).values, spectrum.drawn(8, 1.0).values);
         let stated = spectrum.line_moments();
         let draws = 4000;
         let (mut mean, mut square) = ([0.0; 3], [0.0; 3]);
         for number in 0..draws {
-            let drawn = spectrum.drawn(number).line_moments();
+            let drawn = spectrum.drawn(number, 1.0).line_moments();
             let logarithms = [
                 drawn.rms_gradient.value / stated.rms_gradient.value,
                 drawn.height_gradient.value / stated.height_gradient.value,

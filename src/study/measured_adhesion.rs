@@ -1,9 +1,9 @@
 //! Adhesion of a measured surface, with two spreads: that over random profiles of one spectrum, and that of the spectrum,
 //! which the measurement leaves uncertain.
 //!
-//! Each random profile is solved on the fitted spectrum and, with the same phases, on one drawn from the uncertainty of the
-//! fit. Forces on the fitted spectrum differ from profile to profile; the two forces of a profile differ by the spectrum
-//! alone.
+//! Each random profile is solved on the fitted spectrum and, with the same phases, on one that is moved a little in a
+//! direction drawn from the uncertainty of the fit. Forces on the fitted spectrum differ from profile to profile; the two
+//! forces of a profile differ by the spectrum alone.
 
 use super::lines::RegimeCounts;
 use super::statistics::Statistics;
@@ -19,6 +19,10 @@ use std::sync::{Arc, Mutex, PoisonError};
 /// Curve samples on a leg: the figures are exact extremes.
 const SAMPLES: u64 = 2;
 
+/// Share of a drawn step by which a spectrum is moved. Errors of the fit are stated to first order; of its longest waves
+/// nearly nothing is known, and whole steps of their logarithms would be powers of ten.
+const SHARE: f64 = 1.0 / 32.0;
+
 /// Adhesion of one random profile.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct ProfileAdhesion {
@@ -26,8 +30,8 @@ pub struct ProfileAdhesion {
     pub seed: u64,
     /// Adhesion force F_a on the fitted spectrum, N; `None` where nothing is pulled.
     pub adhesion_force: Option<f64>,
-    /// The same on a spectrum drawn from the uncertainty of the fit, N.
-    pub drawn_adhesion_force: Option<f64>,
+    /// Its change with the spectrum, to first order, by a step drawn from the uncertainty of the fit, N.
+    pub fit_change: Option<f64>,
     /// Regime on the fitted spectrum.
     pub regime: Option<Regime>,
 }
@@ -56,11 +60,12 @@ impl ProfileAdhesion {
         if let Some(work) = fitted.governing.work_of_adhesion {
             scene.adhesion = scene.adhesion.map(|adhesion| adhesion.with_work(work));
         }
-        let drawn = on(&scene, line.drawn(seed))?;
+        let moved = on(&scene, line.drawn(seed, SHARE))?;
+        let (one, other) = (fitted.figures.adhesion_force, moved.figures.adhesion_force);
         Ok(ProfileAdhesion {
             seed,
-            adhesion_force: fitted.figures.adhesion_force,
-            drawn_adhesion_force: drawn.figures.adhesion_force,
+            adhesion_force: one,
+            fit_change: one.zip(other).map(|(one, other)| (other - one) / SHARE),
             regime: fitted.regime,
         })
     }
@@ -113,17 +118,13 @@ impl MeasuredAdhesion {
         Statistics::of(&forces)
     }
 
-    /// Standard deviation of the adhesion force by the uncertainty of the spectrum, N: root mean square of the differences
-    /// between both forces of a profile. `None` for fewer than two profiles with both.
+    /// Standard deviation of the adhesion force by the uncertainty of the spectrum, N: root mean square of the changes of the
+    /// profiles. `None` for fewer than two.
     #[must_use]
     pub fn fit_deviation(&self) -> Option<f64> {
-        let differences = self.profiles.iter().filter_map(|profile| {
-            let (fitted, drawn) = (profile.adhesion_force?, profile.drawn_adhesion_force?);
-            Some(drawn - fitted)
-        });
-        let differences: Vec<f64> = differences.collect();
-        let square = differences.iter().map(|difference| difference.powi(2)).sum::<f64>();
-        (differences.len() >= 2).then(|| (square / differences.len() as f64).sqrt())
+        let changes: Vec<f64> = self.profiles.iter().filter_map(|profile| profile.fit_change).collect();
+        let square = changes.iter().map(|change| change.powi(2)).sum::<f64>();
+        (changes.len() >= 2).then(|| (square / changes.len() as f64).sqrt())
     }
 
     /// Number of profiles in each regime.
@@ -168,11 +169,15 @@ mod tests {
         };
         let (mut fitted, mut square) = (Vec::new(), 0.0);
         for (profile, seed) in found.profiles.iter().zip(5..) {
-            let (one, other) = (force(line.clone(), seed), force(line.drawn(seed), seed));
+            let (one, other) = (force(line.clone(), seed), force(line.drawn(seed, SHARE), seed));
             assert_eq!((profile.seed, profile.adhesion_force), (seed, Some(one)));
-            assert_eq!(profile.drawn_adhesion_force, Some(other));
+            let change = (other - one) / SHARE;
+            assert_eq!(profile.fit_change, Some(change));
+            // To first order: a step of half the size changes the force by half as much.
+            let half = 2.0 * (force(line.drawn(seed, 0.5 * SHARE), seed) - one) / SHARE;
+            assert!((half - change).abs() < 0.2 * change.abs() + 1e-3 * one, "{seed}: {half} {change}");
             fitted.push(one);
-            square += (other - one).powi(2) / 6.0;
+            square += change.powi(2) / 6.0;
         }
         assert_eq!(found.adhesion_force(), Statistics::of(&fitted));
         let deviation = found.fit_deviation().unwrap();
@@ -194,16 +199,15 @@ mod tests {
 
     #[test]
     fn one_force_has_no_spread() {
-        let profile = |adhesion_force, drawn_adhesion_force| ProfileAdhesion {
+        let profile = |adhesion_force, fit_change| ProfileAdhesion {
             seed: 1,
             adhesion_force,
-            drawn_adhesion_force,
+            fit_change,
             regime: None,
         };
-        let found =
-            MeasuredAdhesion { profiles: vec![profile(Some(1.0), Some(3.0)), profile(None, Some(1.0))] };
+        let found = MeasuredAdhesion { profiles: vec![profile(Some(1.0), Some(2.0)), profile(None, None)] };
         assert_eq!((found.adhesion_force(), found.fit_deviation()), (None, None));
-        let found = MeasuredAdhesion { profiles: vec![profile(Some(1.0), Some(3.0)); 2] };
+        let found = MeasuredAdhesion { profiles: vec![profile(Some(1.0), Some(-2.0)); 2] };
         assert_eq!(found.fit_deviation(), Some(2.0));
     }
 }

@@ -127,12 +127,13 @@ impl EquivalentLine {
         Ok(EquivalentLine { faces })
     }
 
-    /// Line of spectra drawn from the uncertainty of those that are estimated; the same for the same number.
+    /// Line of spectra that are moved by a share of steps drawn from the uncertainty of their fits; the same steps for the same
+    /// number.
     #[must_use]
-    pub fn drawn(&self, number: u64) -> EquivalentLine {
+    pub fn drawn(&self, number: u64, share: f64) -> EquivalentLine {
         let of_face = |(face, spectrum): (u64, &IsotropicSpectrum)| {
             // Faces are independent of each other.
-            spectrum.drawn(number ^ face.rotate_right(1))
+            spectrum.drawn(number ^ face.rotate_right(1), share)
         };
         EquivalentLine { faces: (0..).zip(&self.faces).map(of_face).collect() }
     }

@@ -3,7 +3,7 @@
 use super::error::{Place, TopographyError, refused};
 use super::expansion::{MOST_EXPANSION, most_expanded};
 use super::reading::{ReadOptions, Reading};
-use super::{Topography, gsf, gwy, npy, sdf, sur, text, x3p};
+use super::{Topography, gsf, gwy, netcdf, npy, sdf, sur, text, x3p};
 use crate::io::{open_regular, read_limited};
 use flate2::read::MultiGzDecoder;
 use std::cell::Cell;
@@ -28,9 +28,10 @@ const LARGE: u64 = 1 << 24;
 type BinaryReader = fn(&[u8], &ReadOptions) -> Result<Reading, TopographyError>;
 
 /// First bytes of the binary formats. All others are text.
-const SIGNATURES: [(&[u8], BinaryReader); 9] = [
+const SIGNATURES: [(&[u8], BinaryReader); 10] = [
     (npy::SIGNATURE, |bytes, _| npy::read(bytes)),
     (gsf::SIGNATURE, |bytes, _| gsf::read(bytes)),
+    (netcdf::SIGNATURE, |bytes, _| netcdf::read(bytes)),
     (gwy::SIGNATURE, |bytes, options| gwy::read(bytes, options.channel)),
     (b"DIGITAL SURF", |bytes, _| sur::read(bytes)),
     (b"DSCOMPRESSED", |bytes, _| sur::read(bytes)),

@@ -57,6 +57,8 @@ pub enum Format {
     Gwy,
     /// Digital Surf SUR.
     Sur,
+    /// NetCDF in its classic format.
+    NetCdf,
 }
 
 impl Format {
@@ -72,6 +74,7 @@ impl Format {
             Format::X3p => "X3P",
             Format::Gwy => "GWY",
             Format::Sur => "SUR",
+            Format::NetCdf => "NetCDF",
         }
     }
 }

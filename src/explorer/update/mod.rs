@@ -126,7 +126,9 @@ pub fn update(model: &mut Model, action: Action) -> Vec<Effect> {
         Action::Opened(Err(why)) => model.notice = Some(Notice::Error(why)),
         // Of a text that has been typed over since.
         Action::Previewed(preview)
-            if matches!(model.mode, Mode::Edit(_)) && model.tried.as_ref() != Some(&preview.text) => {}
+            if matches!(model.mode, Mode::Edit(_))
+                && model.tried.as_ref() != Some(&preview.text)
+                && model.next_ghost.is_none() => {}
         Action::Previewed(preview) => return compare::previewed(model, preview),
         Action::Remembered(Ok(path)) => {
             model.notice = Some(Notice::Done(format!("colours and markers are kept in {}", path.display())));
