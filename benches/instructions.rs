@@ -1,4 +1,4 @@
-//! How many instructions the program takes for a scene beyond those of a kernel written by hand for it, counted
+//! Number of instructions that the program takes for a scene beyond those of a kernel written by hand for it, counted
 //! by callgrind.
 //!
 //! `cargo bench --bench instructions` prints the table and fails where the program takes more than 2 % more, or

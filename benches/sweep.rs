@@ -158,7 +158,7 @@ impl Cost {
     }
 }
 
-/// Time of the processors that this process has taken, s; of the clock where the system does not tell.
+/// Time of the processors that this process has taken, s; of the clock where the system does not state it.
 fn processor_time() -> f64 {
     #[cfg(unix)]
     {
@@ -220,7 +220,7 @@ fn transform(points: usize, repeats: usize) -> f64 {
         .fold(f64::INFINITY, f64::min)
 }
 
-/// Most memory this process has had, KiB, where the system tells.
+/// Most memory this process has had, KiB, where the system states it.
 fn peak() -> Option<f64> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
     let line = status.lines().find(|line| line.starts_with("VmHWM:"))?;

@@ -19,7 +19,7 @@ impl Profile {
         self.lines.iter().map(|(file, lines)| (file.as_str(), lines))
     }
 
-    /// Reads what callgrind writes without compression. Inlined code stands under the file it was written
+    /// Reads what callgrind writes without compression. Inlined code is listed under the file of its source
     /// in (`fi`, `fe`); after `calls` follows what the called function took, which is counted there.
     fn parse(text: &str) -> Profile {
         let mut lines: HashMap<String, BTreeMap<u64, u64>> = HashMap::new();
@@ -65,7 +65,7 @@ pub fn profile(arguments: &[&str], environment: &[(&str, &str)]) -> Profile {
     assert!(output.status.success(), "valgrind: {said}");
     let text = String::from_utf8_lossy(&std::fs::read(file).expect("a profile")).into_owned();
     let profile = Profile::parse(&text);
-    let told = text.lines().find_map(|line| line.strip_prefix("totals: ")?.trim().parse().ok());
-    assert_eq!(Some(profile.total()), told, "all that was counted is read");
+    let stated = text.lines().find_map(|line| line.strip_prefix("totals: ")?.trim().parse().ok());
+    assert_eq!(Some(profile.total()), stated, "all that was counted is read");
     profile
 }

@@ -9,7 +9,7 @@ use super::cases::Case;
 use asperity::contact::Work;
 use std::path::Path;
 
-/// Where the instructions of an effect stand.
+/// Place of the instructions of an effect.
 pub enum Lines {
     /// All lines of functions: files of this project, and how each function is declared in it.
     Of(&'static [(&'static str, &'static str)]),
@@ -21,7 +21,7 @@ pub enum Lines {
 pub struct Effect {
     /// In words.
     pub name: &'static str,
-    /// Where it stands.
+    /// Its place.
     pub lines: Lines,
     /// Whether a case calls for it.
     pub called_for: fn(&Case) -> bool,

@@ -18,7 +18,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 /// The program may take so many times the instructions of the kernel.
 pub const MOST: f64 = 1.02;
 
-/// Tells the process that callgrind watches what to do.
+/// Environment variable with the task of the process under callgrind.
 const CHILD: &str = "ASPERITY_INSTRUCTIONS";
 
 /// What a process under callgrind does with the scene of a case once it has read it.

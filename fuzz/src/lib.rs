@@ -65,7 +65,7 @@ fn assert_errors(errors: &SceneErrors, assert_origin: impl Fn(&Origin)) {
     }
 }
 
-/// A place stands in the text, or just behind its last character.
+/// A place is in the text, or directly behind its last character.
 fn assert_place(text: &str, line: usize, column: usize) {
     let line_text = line.checked_sub(1).and_then(|index| text.split('\n').nth(index));
     let Some(line_text) = line_text else { panic!("line {line} is not in {text:?}") };

@@ -9,7 +9,7 @@ const MOST: usize = 16;
 /// The first line names a built-in scene (the default where there is none of that name), each further one
 /// is an override.
 ///
-/// Overrides that are accepted make a sound scene, in one go as one by one, and those a document tells of
+/// Overrides that are accepted make a sound scene, together as one by one, and those that a document lists
 /// make it again; those that are refused are named.
 pub fn overrides(bytes: &[u8]) {
     let text = text(bytes);
@@ -27,8 +27,8 @@ pub fn overrides(bytes: &[u8]) {
     match &all {
         Ok(changed) => {
             assert_document(changed);
-            let told = base.set_all(changed.overrides()).unwrap_or_else(|errors| panic!("{errors}"));
-            assert_eq!(told.scene(), changed.scene(), "{:?} told by {pairs:?}", changed.overrides());
+            let listed = base.set_all(changed.overrides()).unwrap_or_else(|errors| panic!("{errors}"));
+            assert_eq!(listed.scene(), changed.scene(), "{:?} listed for {pairs:?}", changed.overrides());
             assert!(changed.overrides().iter().all(|pair| pairs.contains(pair)));
             assert_leads(&base, changed);
             assert_leads(changed, &base);

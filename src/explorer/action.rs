@@ -1,6 +1,7 @@
 //! Everything that can happen to the explorer.
 
 use super::opening::Opening;
+use super::panes::Pane;
 use super::snapshot::{ContactSnapshot, Preview, SolvedScene};
 use super::study::Found;
 use crate::export::TableFormat;
@@ -239,10 +240,8 @@ pub enum Command {
     Preset(usize),
     /// Look at another fragment in the close-up.
     Fragment(Jump),
-    /// Show the distribution of fragment lengths in place of the close-up, or the other way round.
-    ToggleLengths,
-    /// Show the spectrum in place of profile and close-up, or these again.
-    ToggleSpectrum,
+    /// Show a pane in its place, or the panes again that were there.
+    Toggle(Pane),
     /// Look closer in the chosen pane, or from further away.
     Zoom(i32),
     /// Move along the line by so many quarters of what is seen.
@@ -259,14 +258,8 @@ pub enum Command {
     ToggleLogarithmic,
     /// Shade the loss.
     ToggleLoss,
-    /// Show what accuracy costs and what ran, or the profile and the fragments again.
-    ToggleAccuracy,
     /// Type a tolerance.
     TypeTolerance,
-    /// Show adhesion against preload, or the profile and the fragments again.
-    TogglePreloads,
-    /// Show the map, choose it, or show the profile and the fragments again.
-    ToggleChart,
     /// Show sections through the mark in place of the map, or the other way round.
     ToggleSections,
     /// Let the glyphs of the map tell another quantity.

@@ -11,57 +11,50 @@ use std::sync::Arc;
 /// Random profiles.
 pub const PROFILES: usize = 16;
 
-/// Adhesion of random profiles of the present scene, as far as it is computed.
-#[derive(Clone, Debug, Default, PartialEq)]
+/// Adhesion of random profiles of a scene, as far as it is computed.
+#[derive(Clone, Debug, PartialEq)]
 pub struct AdhesionSpread {
+    scene: Arc<Scene>,
     /// The profiles so far.
-    pub found: Arc<MeasuredAdhesion>,
-    /// Reason for which the computation ended early.
-    pub failed: Option<String>,
-    /// True if the scene has just been edited: somebody who holds a key down wants the machine.
-    pub edited: bool,
+    pub found: MeasuredAdhesion,
 }
 
 impl AdhesionSpread {
-    /// Forgets the scene, which has been changed.
-    pub fn renew(&mut self) {
-        *self = AdhesionSpread { edited: true, ..AdhesionSpread::default() };
-    }
-
-    /// Returns true for an equivalent line that adheres.
+    /// No profile yet of a computed scene; `None` unless its profile is an equivalent line that adheres.
     #[must_use]
-    pub fn is_of(scene: &Scene) -> bool {
-        let is_measured =
-            matches!(scene.roughness, Some(Roughness::Measured { .. })) && !scene.measured_as_line();
-        is_measured && scene.adhesion.is_some() && scene.numerics.solver == Solver::Exact
+    pub fn new(computed: &SolvedScene) -> Option<Self> {
+        let scene = &computed.scene;
+        let is_measured = matches!(scene.roughness, Some(Roughness::Measured { .. }));
+        let adheres = scene.adhesion.is_some() && scene.numerics.solver == Solver::Exact;
+        (is_measured && adheres && !scene.measured_as_line())
+            .then(|| AdhesionSpread { scene: Arc::clone(scene), found: MeasuredAdhesion::default() })
     }
 
-    /// The profiles to be gone on with, `None` once all are there or where there are none.
+    /// Returns true once nothing is left to be computed.
     #[must_use]
-    pub fn wanted(&self, computed: &SolvedScene) -> Option<Arc<MeasuredAdhesion>> {
-        let goes_on = self.failed.is_none() && self.found.profiles.len() < PROFILES;
-        (goes_on && AdhesionSpread::is_of(&computed.scene)).then(|| Arc::clone(&self.found))
+    pub fn is_whole(&self) -> bool {
+        self.found.profiles.len() >= PROFILES
     }
-}
 
-/// Computes the missing profiles. `tell` receives them after each; they are kept where `stop` interrupts.
-///
-/// # Errors
-/// When the surface cannot be read, or a profile or its contact fails, or `stop` says so.
-pub fn compute(
-    found: &mut MeasuredAdhesion,
-    scene: &Scene,
-    folder: &Path,
-    stop: &dyn Fn() -> bool,
-    tell: &mut dyn FnMut(&MeasuredAdhesion),
-) -> Result<(), RunError> {
-    let files: Vec<_> = scene.measured_files().into_iter().map(|file| folder.join(file)).collect();
-    let line = EquivalentLine::read(&files, &measured_options(scene), &mut |_| ())?;
-    let first = scene.seed().unwrap_or(0);
-    while found.profiles.len() < PROFILES {
-        let seed = first.wrapping_add(found.profiles.len() as u64);
-        found.profiles.push(ProfileAdhesion::solve(scene, &line, seed, stop)?);
-        tell(found);
+    /// Computes the missing profiles. `tell` receives them after each; they are kept where `stop` interrupts.
+    ///
+    /// # Errors
+    /// When the surface cannot be read, or a profile or its contact fails, or `stop` says so.
+    pub fn compute(
+        &mut self,
+        folder: &Path,
+        stop: &dyn Fn() -> bool,
+        tell: &mut dyn FnMut(&AdhesionSpread),
+    ) -> Result<(), RunError> {
+        let scene = Arc::clone(&self.scene);
+        let files: Vec<_> = scene.measured_files().into_iter().map(|file| folder.join(file)).collect();
+        let line = EquivalentLine::read(&files, &measured_options(&scene), &mut |_| ())?;
+        let first = scene.seed().unwrap_or(0);
+        while !self.is_whole() {
+            let seed = first.wrapping_add(self.found.profiles.len() as u64);
+            self.found.profiles.push(ProfileAdhesion::solve(&scene, &line, seed, stop)?);
+            tell(self);
+        }
+        Ok(())
     }
-    Ok(())
 }

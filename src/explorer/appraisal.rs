@@ -7,8 +7,6 @@ use std::sync::Arc;
 /// State of the pane of accuracy.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Appraisal {
-    /// True while its pane replaces profile and close-up.
-    pub shown: bool,
     /// The error of what has been computed.
     pub estimated: Estimated,
     /// Cost of accuracy.
@@ -54,19 +52,6 @@ pub struct Costs {
 }
 
 impl Appraisal {
-    /// Of another scene nothing is known.
-    pub fn forget(&mut self) {
-        *self = Appraisal { shown: self.shown, ..Appraisal::default() };
-    }
-
-    /// Nobody looks on any more: what was not finished begins anew when it is shown again.
-    pub fn hide(&mut self) {
-        self.shown = false;
-        if self.costs.ended.is_none() {
-            self.costs = Costs::default();
-        }
-    }
-
     /// Takes in a finding. What a tolerance led to is for others to act on.
     pub fn take_in(&mut self, finding: Finding) {
         match finding {
@@ -91,12 +76,7 @@ impl Appraisal {
             }
             Finding::Chosen(..) => self.choosing = None,
             // Not about accuracy.
-            Finding::Charted(_)
-            | Finding::NotCharted(_)
-            | Finding::Preloaded(_)
-            | Finding::NotPreloaded(_)
-            | Finding::Adhesion(_)
-            | Finding::NoAdhesion(_) => {}
+            Finding::Extended(_) | Finding::NotExtended(..) => {}
         }
     }
 }

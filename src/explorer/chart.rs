@@ -7,8 +7,6 @@ use std::sync::Arc;
 /// State of the pane of the map.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Chart {
-    /// True while its pane replaces profile and close-up.
-    pub shown: bool,
     /// Quantity of the glyphs, where the map has it.
     pub quantity: Charted,
     /// True if the sections through the mark stand in place of the map.
@@ -23,10 +21,6 @@ pub struct Chart {
     pub study: Option<OpenStudy>,
     /// True if its map is shown rather than the one that is computed here.
     pub of_study: bool,
-    /// Reason for which its computation ended early.
-    pub failed: Option<String>,
-    /// True if the scene has just been edited: somebody who holds a key down wants the machine.
-    pub edited: bool,
     /// True if the last edit was a move of the mark: the next one belongs to it.
     pub moving: bool,
 }
@@ -121,9 +115,7 @@ impl Chart {
 
     /// The scene has been changed: a map of another one is of no use.
     pub fn renew(&mut self, scene: &Scene) {
-        self.edited = true;
         self.moving = false;
-        self.failed = None;
         let template = Template::of(scene).ok();
         self.map = self.map.take().filter(|map| Some(map.template().as_ref()) == template.as_ref());
         self.live = self.live.take().filter(|_| self.map.is_some());

@@ -4,7 +4,7 @@
 use super::action::{Action, Command};
 use super::model::Model;
 use super::session::{action_of, scene_beside, scene_of};
-use super::study::{Accuracy, Found, Task, perform};
+use super::study::{Accuracy, Found, PaneData, Task, perform};
 use super::theme::Appearance;
 use super::update::{Effect, moment_request, study_tasks, update};
 use super::worker::{Engine, Newest, Report, Request, WorkerState};
@@ -114,7 +114,9 @@ impl Headless {
         for task in study_tasks(&self.model) {
             match &task {
                 Task::Measure(_) => continue,
-                Task::Chart { map, .. } if map.template().springs() > MOST_CHARTED => continue,
+                Task::Extend { data: PaneData::Map(map), .. } if map.template().springs() > MOST_CHARTED => {
+                    continue;
+                }
                 Task::Estimate(of) if of.scene.numerics.points > MOST_ESTIMATED => continue,
                 _ => {}
             }

@@ -2,6 +2,7 @@
 
 use super::action::{Command, Jump, Motion};
 use super::mode::ModeKind;
+use super::panes::Pane;
 use crate::scene::nearest;
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 use std::borrow::Cow;
@@ -269,16 +270,16 @@ pub const BINDINGS: &[Binding] = &[
     row(&[char('b')], EXPLORE, Command::Fragment(Jump::Largest), "", "show the longest contact patch", LOOK),
     row(&[char('B')], EXPLORE, Command::Fragment(Jump::MostLoaded), "", "show the contact patch under the largest force", LOOK),
     row(&[char('f')], EXPLORE, Command::Fragment(Jump::Summit), "", "show the point of first touch", LOOK),
-    row(&[char('D')], EXPLORE, Command::ToggleLengths, "", "show the distribution of patch lengths in place of the close-up", LOOK),
+    row(&[char('D')], EXPLORE, Command::Toggle(Pane::Lengths), "", "show the distribution of patch lengths in place of the close-up", LOOK),
     row(&[char('+'), char('=')], EXPLORE, Command::Zoom(1), "", "zoom in: profile if selected, else close-up", LOOK),
     row(&[char('-')], OTHER_PANES, Command::Zoom(-1), "", "zoom out", LOOK),
     row(&[char('(')], EXPLORE, Command::Pan(-1), "", "pan left along the profile", LOOK),
     row(&[char(')')], EXPLORE, Command::Pan(1), "", "pan right along the profile", LOOK),
     row(&[char('w')], EXPLORE, Command::ToggleFollow, "", "keep the profile centred on the patch of the close-up", LOOK),
     row(&[char('0')], OTHER_PANES, Command::ResetZoom, "", "show the whole profile", LOOK),
-    row(&[char('A')], EXPLORE, Command::ToggleAccuracy, "accuracy", "show errors against time and the computing stages, in place of profile and close-up", LOOK),
-    row(&[char('Q')], EXPLORE, Command::ToggleSpectrum, "", "show spectra over the wave number q in place of profile and close-up", LOOK),
-    row(&[char('i')], EXPLORE, Command::TogglePreloads, "", "show adhesion against preload, in place of profile and close-up", LOOK),
+    row(&[char('A')], EXPLORE, Command::Toggle(Pane::Accuracy), "accuracy", "show errors against time and the computing stages, in place of profile and close-up", LOOK),
+    row(&[char('Q')], EXPLORE, Command::Toggle(Pane::Spectrum), "", "show spectra over the wave number q in place of profile and close-up", LOOK),
+    row(&[char('i')], EXPLORE, Command::Toggle(Pane::Preloads), "", "show adhesion against preload, in place of profile and close-up", LOOK),
     row(&[key(KeyCode::Tab)], EXPLORE, Command::NextPane, "pane", "select the next pane", LOOK),
     row(&[char('z')], EXPLORE, Command::ZoomPane, "zoom", "show the selected pane on the whole screen, or all panes", LOOK),
     row(&[control('s')], EXPLORE, Command::RememberAppearance, "", "keep the present colours and markers in the configuration file", LOOK),
@@ -297,7 +298,7 @@ pub const BINDINGS: &[Binding] = &[
     row(&[key(KeyCode::Down), char('j')], CROSSHAIR, Command::CrosshairStage(1), "stage", "move to the next loading stage at the same indentation", CROSS),
     row(&[key(KeyCode::Esc)], CROSSHAIR, Command::ToggleCrosshair, "hide", "hide the crosshair", CROSS),
 
-    row(&[char('m')], EXPLORE, Command::ToggleChart, "map", "show the regimes over H and κ, in place of profile and close-up", MAP),
+    row(&[char('m')], EXPLORE, Command::Toggle(Pane::Chart), "map", "show the regimes over H and κ, in place of profile and close-up", MAP),
     row(&[key(KeyCode::Left), char('h')], CHART, Command::MoveAcross(-1), "", "move the scene to the value on the left: decrease H; successive moves are one edit", MAP),
     row(&[key(KeyCode::Right), char('l')], CHART, Command::MoveAcross(1), "move", "move the scene to the value on the right: increase H", MAP),
     row(&[key(KeyCode::Down), char('j')], CHART, Command::MoveUp(-1), "", "move the scene to the value below: decrease κ", MAP),
@@ -366,7 +367,10 @@ impl Binding {
 /// Name of an action in the configuration, from its command: `step -1`, `push 1 coarse`.
 #[must_use]
 pub fn action_name(command: Command) -> String {
-    let text = format!("{command:?}");
+    let text = match command {
+        Command::Toggle(pane) => format!("Toggle{pane:?}"),
+        command => format!("{command:?}"),
+    };
     let has_names = text.contains('{');
     let words = text.split(|c: char| !(c.is_alphanumeric() || c == '-')).filter(|word| !word.is_empty());
     let (mut name, mut member) = (String::new(), None);

@@ -49,12 +49,6 @@ impl Layout {
         self.panes.iter().find(|(pane, _)| *pane == wanted).map(|(_, area)| *area)
     }
 
-    /// Returns true if the pane of the scene beside is in sight.
-    #[must_use]
-    pub fn shows_beside(&self, model: &Model) -> bool {
-        model.side_by_side && !model.lengths && self.pane(Pane::CloseUp).is_some()
-    }
-
     /// Cells across the profile, without its histogram.
     #[must_use]
     pub fn profile_cells(&self) -> usize {
@@ -102,7 +96,7 @@ fn panes(model: &Model, body: Rect) -> Vec<(Pane, Rect)> {
         let left = body.width * 58 / 100;
         let upper = body.height / 2;
         let part = |x: u16, y: u16, width: u16, height: u16| Rect::new(body.x + x, body.y + y, width, height);
-        if let Some(pane) = model.in_place_of_the_line() {
+        if let Some(pane) = model.large {
             return vec![
                 (pane, part(0, 0, left, body.height)),
                 (Pane::Force, part(left, 0, body.width - left, upper)),
@@ -112,13 +106,13 @@ fn panes(model: &Model, body: Rect) -> Vec<(Pane, Rect)> {
         return vec![
             (Pane::Profile, part(0, 0, left, upper)),
             (Pane::Force, part(left, 0, body.width - left, upper)),
-            (Pane::CloseUp, part(0, upper, left, body.height - upper)),
+            (model.lower, part(0, upper, left, body.height - upper)),
             (Pane::Parameters, part(left, upper, body.width - left, body.height - upper)),
         ];
     }
     // Too small for four: the most important ones, side by side or one above the other.
     let second = match model.pane {
-        Pane::Force => model.in_place_of_the_line().unwrap_or(Pane::Profile),
+        Pane::Force => model.large.unwrap_or(Pane::Profile),
         chosen => chosen,
     };
     if body.width >= 36 && body.height >= 6 {

@@ -29,7 +29,6 @@ pub mod panes;
 pub mod parameters;
 pub mod picture;
 mod playback;
-pub mod preload_curve;
 pub mod request;
 mod rescue;
 mod screen;

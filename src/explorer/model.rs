@@ -9,8 +9,8 @@ use super::config::{Animation, Config};
 use super::keys::Bindings;
 pub use super::mode::{Library, Mode, ModeKind};
 pub use super::panes::Pane;
+use super::panes::{Place as PanePlace, PreloadCurve};
 use super::parameters::{Parameter, Setting, parameters};
-use super::preload_curve::PreloadPane;
 use super::request::{Focus, LineView};
 use super::snapshot::{ContactSnapshot, Drive, Preview, SolvedScene};
 use super::theme::Appearance;
@@ -189,10 +189,10 @@ pub struct Model {
     pub completion: Option<Completion>,
     /// Target of the close-up.
     pub look: CloseUpTarget,
-    /// True if its pane shows the distribution of lengths instead.
-    pub lengths: bool,
-    /// True if the spectrum is shown in place of profile and close-up.
-    pub spectrum: bool,
+    /// Pane in the place of profile and close-up; `None`: these.
+    pub large: Option<Pane>,
+    /// Pane in the place of the close-up, or the close-up.
+    pub lower: Pane,
     /// Part of the line in the profile pane.
     pub profile: LineView,
     /// Content of the pane of the curve.
@@ -201,8 +201,6 @@ pub struct Model {
     pub crosshair: Option<Crosshair>,
     /// Loops kept to be compared with, the newest last.
     pub ghosts: Vec<Ghost>,
-    /// True while the newest ghost is shown beside the scene, its profile in place of the close-up.
-    pub side_by_side: bool,
     /// Scene that becomes a ghost as soon as it is computed.
     pub next_ghost: Option<Document>,
     /// Scene to open beside the present one as soon as that is computed.
@@ -211,10 +209,14 @@ pub struct Model {
     pub appraisal: Appraisal,
     /// The map over κ and H.
     pub chart: Chart,
-    /// Adhesion against preload.
-    pub preloads: PreloadPane,
-    /// Adhesion of random profiles of a measured surface.
-    pub adhesion_spread: AdhesionSpread,
+    /// Adhesion against preload, so far.
+    pub preloads: Option<Arc<PreloadCurve>>,
+    /// Adhesion of random profiles of a measured surface, so far.
+    pub adhesion_spread: Option<Arc<AdhesionSpread>>,
+    /// Reasons for which data of panes are not computed further.
+    pub failures: BTreeMap<Pane, String>,
+    /// True if the scene was edited after the last pane was shown: its data wait while a key is held down.
+    pub edited: bool,
     /// The newest curve of a scene to look at: the one selected in the library, or the one with a value that is being
     /// typed.
     pub preview: Option<Arc<Preview>>,
@@ -281,19 +283,20 @@ impl Model {
             shows_work: false,
             completion: None,
             look: CloseUpTarget { focus: Focus::Summit, springs },
-            lengths: false,
-            spectrum: false,
+            large: None,
+            lower: Pane::CloseUp,
             profile: LineView::WHOLE,
             curve: CurveLook::default(),
             crosshair: None,
             ghosts: Vec::new(),
-            side_by_side: false,
             next_ghost: None,
             opens_beside: None,
             appraisal: Appraisal::default(),
             chart: Chart::default(),
-            preloads: PreloadPane::default(),
-            adhesion_spread: AdhesionSpread::default(),
+            preloads: None,
+            adhesion_spread: None,
+            failures: BTreeMap::new(),
+            edited: false,
             preview: None,
             tried: None,
             pane: Pane::Force,
@@ -408,9 +411,9 @@ impl Model {
     /// The panes there are to choose from, the most important first.
     #[must_use]
     pub fn panes(&self) -> Vec<Pane> {
-        match self.in_place_of_the_line() {
+        match self.large {
             Some(large) => vec![Pane::Force, large, Pane::Parameters],
-            None => vec![Pane::Force, Pane::Profile, Pane::Parameters, Pane::CloseUp],
+            None => vec![Pane::Force, Pane::Profile, Pane::Parameters, self.lower],
         }
     }
 
@@ -433,25 +436,42 @@ impl Model {
         self.preview.as_ref().is_some_and(|preview| self.tried.as_ref() == Some(&preview.text))
     }
 
-    /// Pane in place of profile and close-up.
+    /// Returns true if a pane is in its place, as far as the window has room for it.
     #[must_use]
-    pub fn in_place_of_the_line(&self) -> Option<Pane> {
-        [
-            (self.chart.shown, Pane::Chart),
-            (self.appraisal.shown, Pane::Accuracy),
-            (self.spectrum, Pane::Spectrum),
-            (self.preloads.shown, Pane::Preloads),
-        ]
-        .into_iter()
-        .find_map(|(is_shown, pane)| is_shown.then_some(pane))
+    pub fn is_shown(&self, pane: Pane) -> bool {
+        self.panes().contains(&pane)
     }
 
-    /// Shows profile and close-up again.
-    pub fn hide_in_place_of_the_line(&mut self) {
-        self.chart.shown = false;
-        self.appraisal.hide();
-        self.preloads.shown = false;
-        self.spectrum = false;
+    /// Shows a pane in its place. A pane in the place of the close-up is selected where that was, any other always.
+    pub fn show(&mut self, pane: Pane) {
+        let is_same_place = self.pane == self.lower;
+        match pane.row().place {
+            PanePlace::Own => {}
+            PanePlace::CloseUp => (self.large, self.lower) = (None, pane),
+            PanePlace::Large => (self.large, self.edited) = (Some(pane), false),
+        }
+        if pane.row().place != PanePlace::CloseUp || is_same_place {
+            self.pane = pane;
+        }
+        self.keep_selection();
+    }
+
+    /// Shows the panes again in whose place a pane is.
+    pub fn hide(&mut self, pane: Pane) {
+        if self.large == Some(pane) {
+            self.large = None;
+        } else if self.lower == pane {
+            self.lower = Pane::CloseUp;
+            self.pane = if self.pane == pane { Pane::CloseUp } else { self.pane };
+        }
+        self.keep_selection();
+    }
+
+    /// Selects the force curve where the selected pane is no longer shown.
+    fn keep_selection(&mut self) {
+        if !self.is_shown(self.pane) {
+            self.pane = Pane::Force;
+        }
     }
 
     /// Valid keys: in the map the arrows move its mark, in panes with a crosshair the crosshair; in the list of
@@ -459,11 +479,10 @@ impl Model {
     #[must_use]
     pub fn keys(&self) -> ModeKind {
         match self.mode.kind() {
-            ModeKind::Explore if self.chart.shown && self.pane == Pane::Chart => ModeKind::Chart,
-            ModeKind::Explore if self.crosshair.is_some() && self.pane.row().has_crosshair => {
-                ModeKind::Crosshair
-            }
-            ModeKind::Explore if self.pane == Pane::Parameters => ModeKind::Parameters,
+            ModeKind::Explore => match self.pane.row().keys {
+                Some(ModeKind::Crosshair) if self.crosshair.is_none() => ModeKind::Explore,
+                keys => keys.unwrap_or(ModeKind::Explore),
+            },
             kind => kind,
         }
     }
@@ -471,16 +490,14 @@ impl Model {
     /// Contents that can be exported, by the extension of the file; those of the map while its pane is selected.
     #[must_use]
     pub fn exports(&self) -> &'static [(&'static str, Content)] {
-        let is_map = self.chart.shown && self.pane == Pane::Chart;
-        if is_map { &Content::MAP_EXPORTS } else { &Content::EXPORTS }
+        if self.pane == Pane::Chart { &Content::MAP_EXPORTS } else { &Content::EXPORTS }
     }
 
     /// Shows the map of a study, the first of them.
     pub fn show_study(&mut self, study_map: Arc<StudyMap>) {
         self.chart.open_study(study_map, 0);
-        self.hide_in_place_of_the_line();
-        (self.chart.of_study, self.chart.shown) = (true, true);
-        self.pane = Pane::Chart;
+        self.chart.of_study = true;
+        self.show(Pane::Chart);
     }
 
     /// Values of the scene on the axes of the map: its mark. `None` where the scene has no such quantity, or none that is
@@ -502,7 +519,7 @@ impl Model {
     /// The ghost that is shown beside the scene.
     #[must_use]
     pub fn beside(&self) -> Option<&Ghost> {
-        self.ghosts.last().filter(|_| self.side_by_side)
+        self.ghosts.last().filter(|_| self.lower == Pane::Beside)
     }
 
     /// Drive of the body.

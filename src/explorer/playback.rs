@@ -3,6 +3,7 @@
 use super::close_up::close_up;
 use super::engine::Engine;
 use super::manual_body::ManualBody;
+use super::panes::Pane;
 use super::request::{Drive, LineView, ManualMove, Newest, SnapshotRequest};
 use super::snapshot::{ContactSnapshot, Probe, Report, SolvedScene};
 use super::spectrum::SceneSpectra;
@@ -174,7 +175,8 @@ impl Playback {
         let close_up = close_up((&contact, &rises), request, foundation, &snapshot, &mut self.close_up);
         let middle = close_up.section.first + close_up.section.springs / 2;
         let profile = profile_part(request, line.gaps.len(), middle);
-        if request.spectra && self.spectra.is_none() {
+        let shows_spectra = request.large == Some(Pane::Spectrum);
+        if shows_spectra && self.spectra.is_none() {
             self.spectra = Some(Arc::new(SceneSpectra::new(scene, outcome, line)));
         }
         let moment = ContactSnapshot {
@@ -189,8 +191,8 @@ impl Playback {
             close_up,
             strip: section::strip(&fragments, line.gaps.len(), request.strip_cells),
             probe: request.crosshair.and_then(|position| probe(&contact, position)),
-            lengths: request.lengths.then(|| section::lengths(&fragments)),
-            spectra: self.spectra.clone().filter(|_| request.spectra),
+            lengths: (request.lower == Pane::Lengths).then(|| section::lengths(&fragments)),
+            spectra: self.spectra.clone().filter(|_| shows_spectra),
             hand: match request.drive {
                 Drive::Leg(_) => None,
                 Drive::Manual => self.held.as_mut().map(ManualBody::travel),

@@ -1,5 +1,6 @@
 //! Requests from the explorer to the worker.
 
+use super::panes::Pane;
 use crate::scene::Scene;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -77,14 +78,14 @@ pub struct SnapshotRequest {
     pub focus: Focus,
     /// Springs it shows.
     pub close_up_springs: usize,
-    /// True if the distribution of fragment lengths is shown.
-    pub lengths: bool,
+    /// Pane in the place of profile and close-up.
+    pub large: Option<Pane>,
+    /// Pane in the place of the close-up.
+    pub lower: Pane,
     /// Position of the crosshair as a share of the profile, 0 to 1.
     pub crosshair: Option<f64>,
     /// Loading stage and indentation, m, of the scene beside.
     pub beside: Option<(usize, f64)>,
-    /// True if the spectra of the scene are shown.
-    pub spectra: bool,
 }
 
 /// Part of the line in the profile pane.

@@ -1,15 +1,14 @@
 //! Accuracy of the scene, its cost, and the map over κ and H: computed beside the worker, on a thread of its own, so
 //! that no edit waits for it. Whatever is asked for next ends what is under way.
 
-use super::adhesion_spread;
-use super::preload_curve::PreloadCurve;
+use super::adhesion_spread::AdhesionSpread;
+use super::panes::{Pane, PreloadCurve};
 use super::snapshot::SolvedScene;
 use crate::accuracy::{
     Choice, ChoiceError, CostError, CostTable, Estimate, Knob, Progress, choose, estimate, measure,
 };
 use crate::scene::Scene;
 use crate::simulation::RunError;
-use crate::study::MeasuredAdhesion;
 use crate::study::map::{LiveMap, compute};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
@@ -23,6 +22,55 @@ pub const BUDGET: Duration = Duration::from_secs(10);
 /// Nothing is begun before it has been as quiet as that: somebody who holds a key down wants the machine.
 const QUIET: Duration = Duration::from_millis(300);
 
+/// Data of a pane, computed in parts: each part is shown as soon as it is there, and an interrupted computation continues
+/// where it ended.
+#[derive(Clone, Debug, PartialEq)]
+pub enum PaneData {
+    /// The map over κ and H.
+    Map(Arc<LiveMap>),
+    /// Adhesion against preload.
+    Preloads(Arc<PreloadCurve>),
+    /// Adhesion of random profiles of a measured surface.
+    Adhesion(Arc<AdhesionSpread>),
+}
+
+impl PaneData {
+    /// Pane that shows the data.
+    #[must_use]
+    pub fn pane(&self) -> Pane {
+        match self {
+            PaneData::Map(_) => Pane::Chart,
+            PaneData::Preloads(_) => Pane::Preloads,
+            PaneData::Adhesion(_) => Pane::Spectrum,
+        }
+    }
+
+    /// Computes the missing part; `tell` receives the data after each addition.
+    ///
+    /// # Errors
+    /// When a solution fails, or `stop` says so before the end.
+    pub fn extended(self, stop: &dyn Fn() -> bool, tell: &mut dyn FnMut(PaneData)) -> Result<Self, RunError> {
+        let folder = Path::new(FOLDER);
+        Ok(match self {
+            PaneData::Map(mut map) => {
+                let whole = Arc::make_mut(&mut map);
+                compute(whole, folder, stop, &mut |map| tell(PaneData::Map(Arc::new(map.clone()))));
+                PaneData::Map(map)
+            }
+            PaneData::Preloads(mut curve) => {
+                let whole = Arc::make_mut(&mut curve);
+                whole.compute(folder, stop, &mut |one| tell(PaneData::Preloads(Arc::new(one.clone()))))?;
+                PaneData::Preloads(curve)
+            }
+            PaneData::Adhesion(mut spread) => {
+                let whole = Arc::make_mut(&mut spread);
+                whole.compute(folder, stop, &mut |one| tell(PaneData::Adhesion(Arc::new(one.clone()))))?;
+                PaneData::Adhesion(spread)
+            }
+        })
+    }
+}
+
 /// Something to be worked out about a scene.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Task {
@@ -32,28 +80,10 @@ pub enum Task {
     Measure(Arc<Scene>),
     /// Springs and edges for a tolerance.
     Choose(Arc<Scene>, f64),
-    /// Missing cells of a map over κ and H.
-    Chart {
-        /// The map so far.
-        map: Arc<LiveMap>,
-        /// True if it waits until it is quiet.
-        waits: bool,
-    },
-    /// Missing part of a curve of adhesion against preload.
-    Preloads {
-        /// The curve so far.
-        curve: Arc<PreloadCurve>,
-        /// Its scene.
-        scene: Arc<Scene>,
-        /// True if it waits until it is quiet.
-        waits: bool,
-    },
-    /// Missing random profiles of a measured surface.
-    Adhesion {
-        /// The profiles so far.
-        found: Arc<MeasuredAdhesion>,
-        /// Their scene.
-        scene: Arc<Scene>,
+    /// Missing part of the data of a pane.
+    Extend {
+        /// The data so far.
+        data: PaneData,
         /// True if it waits until it is quiet.
         waits: bool,
     },
@@ -62,13 +92,7 @@ pub enum Task {
 impl Task {
     /// Returns true if it waits until it is quiet; what the user waits for does not.
     fn waits(&self) -> bool {
-        !matches!(
-            self,
-            Task::Choose(..)
-                | Task::Chart { waits: false, .. }
-                | Task::Preloads { waits: false, .. }
-                | Task::Adhesion { waits: false, .. }
-        )
+        !matches!(self, Task::Choose(..) | Task::Extend { waits: false, .. })
     }
 }
 
@@ -89,18 +113,10 @@ pub enum Finding {
     Choosing(u64),
     /// Choice for a tolerance, or the reason for none.
     Chosen(f64, Result<Choice, ChoiceError>),
-    /// The map over κ and H so far.
-    Charted(Arc<LiveMap>),
-    /// There is no more of it, and why.
-    NotCharted(String),
-    /// The curve of adhesion against preload so far.
-    Preloaded(Arc<PreloadCurve>),
-    /// There is no more of it, and why.
-    NotPreloaded(String),
-    /// Adhesion of random profiles of a measured surface so far.
-    Adhesion(Arc<MeasuredAdhesion>),
-    /// There is no more of it, and why.
-    NoAdhesion(String),
+    /// The data of a pane so far.
+    Extended(PaneData),
+    /// The data of a pane are not computed further, and why.
+    NotExtended(Pane, String),
 }
 
 /// A finding and the generation of the scene it belongs to.
@@ -143,35 +159,17 @@ pub trait Appraiser: Send {
         trying: &mut dyn FnMut(u64),
     ) -> Result<Choice, ChoiceError>;
 
-    /// See [`compute()`].
-    fn chart(&mut self, map: &mut LiveMap, stop: &dyn Fn() -> bool, tell: &mut dyn FnMut(&LiveMap));
-
-    /// See [`PreloadCurve::compute`].
+    /// See [`PaneData::extended`].
     ///
     /// # Errors
-    /// When a profile fails or `stop` says so.
-    fn preloads(
+    /// When a solution fails, or `stop` says so before the end.
+    fn extend(
         &mut self,
-        curve: &mut PreloadCurve,
-        scene: &Scene,
+        data: PaneData,
         stop: &dyn Fn() -> bool,
-        tell: &mut dyn FnMut(&PreloadCurve),
-    ) -> Result<(), RunError> {
-        curve.compute(scene, Path::new(FOLDER), stop, tell)
-    }
-
-    /// See [`adhesion_spread::compute`].
-    ///
-    /// # Errors
-    /// When a profile fails or `stop` says so.
-    fn adhesion(
-        &mut self,
-        found: &mut MeasuredAdhesion,
-        scene: &Scene,
-        stop: &dyn Fn() -> bool,
-        tell: &mut dyn FnMut(&MeasuredAdhesion),
-    ) -> Result<(), RunError> {
-        adhesion_spread::compute(found, scene, Path::new(FOLDER), stop, tell)
+        tell: &mut dyn FnMut(PaneData),
+    ) -> Result<PaneData, RunError> {
+        data.extended(stop, tell)
     }
 }
 
@@ -205,11 +203,10 @@ impl Appraiser for Accuracy {
     ) -> Result<Choice, ChoiceError> {
         choose(scene, Path::new(FOLDER), tolerance, stop, trying)
     }
-
-    fn chart(&mut self, map: &mut LiveMap, stop: &dyn Fn() -> bool, tell: &mut dyn FnMut(&LiveMap)) {
-        compute(map, Path::new(FOLDER), stop, tell);
-    }
 }
+
+/// Reason after a panic.
+const INTERNAL: &str = "internal error, please report it";
 
 /// Does a task. What is told after `stop` has said to give up is of no use to anyone and is not told.
 pub fn perform(
@@ -244,35 +241,19 @@ pub fn perform(
                 appraiser.choose(scene, *tolerance, stop, &mut |points| tell(Finding::Choosing(points)));
             Finding::Chosen(*tolerance, choice)
         }
-        Task::Chart { map, .. } => {
-            let mut map = LiveMap::clone(map);
-            appraiser.chart(&mut map, stop, &mut |map| tell(Finding::Charted(Arc::new(map.clone()))));
-            Finding::Charted(Arc::new(map))
-        }
-        Task::Preloads { curve, scene, .. } => {
-            let mut curve = PreloadCurve::clone(curve);
-            let mut tell = |curve: &PreloadCurve| tell(Finding::Preloaded(Arc::new(curve.clone())));
-            match appraiser.preloads(&mut curve, scene, stop, &mut tell) {
-                Ok(()) => Finding::Preloaded(Arc::new(curve)),
-                Err(error) => Finding::NotPreloaded(error.to_string()),
-            }
-        }
-        Task::Adhesion { found, scene, .. } => {
-            let mut found = MeasuredAdhesion::clone(found);
-            let mut tell = |found: &MeasuredAdhesion| tell(Finding::Adhesion(Arc::new(found.clone())));
-            match appraiser.adhesion(&mut found, scene, stop, &mut tell) {
-                Ok(()) => Finding::Adhesion(Arc::new(found)),
-                Err(error) => Finding::NoAdhesion(error.to_string()),
+        Task::Extend { data, .. } => {
+            let mut tell = |data| tell(Finding::Extended(data));
+            match appraiser.extend(data.clone(), stop, &mut tell) {
+                Ok(data) => Finding::Extended(data),
+                Err(error) => Finding::NotExtended(data.pane(), error.to_string()),
             }
         }
     }));
     tell(done.unwrap_or_else(|_| match task {
         Task::Estimate(_) => Finding::Estimated(None),
-        Task::Measure(_) => Finding::NotMeasured("internal error, please report it".to_owned()),
+        Task::Measure(_) => Finding::NotMeasured(INTERNAL.to_owned()),
         Task::Choose(_, tolerance) => Finding::Chosen(*tolerance, Err(ChoiceError::Stopped)),
-        Task::Chart { .. } => Finding::NotCharted("internal error, please report it".to_owned()),
-        Task::Preloads { .. } => Finding::NotPreloaded("internal error, please report it".to_owned()),
-        Task::Adhesion { .. } => Finding::NoAdhesion("internal error, please report it".to_owned()),
+        Task::Extend { data, .. } => Finding::NotExtended(data.pane(), INTERNAL.to_owned()),
     }));
 }
 

@@ -126,8 +126,8 @@ impl WorkerState {
 }
 
 impl Beside {
-    /// The scene computed, now if need be; `None` where it cannot be computed, or not before a newer scene than that of the
-    /// generation, which is waited for.
+    /// Engine and playback of the scene, which is computed first if need be; `None` where the computation fails or gives way
+    /// to a newer scene than that of the generation.
     fn solve(&mut self, generation: u64, newest: &Newest) -> Option<&mut (Simulation, Playback)> {
         if let Some(scene) = &self.waiting {
             let (mut engine, mut playback) = (Simulation::default(), Playback::default());

@@ -31,8 +31,16 @@ pub(crate) enum ReadError {
         byte: usize,
     },
     /// The system refused, or has no memory for the content.
-    #[error("cannot be read: {0}")]
+    #[error("cannot be read: {}", reason(.0))]
     Failed(#[from] io::Error),
+}
+
+/// Reason of the system, without the number of its error where the reason is a plain one.
+fn reason(error: &io::Error) -> String {
+    match error.kind() {
+        io::ErrorKind::NotFound => "there is no such file".to_owned(),
+        _ => error.to_string(),
+    }
 }
 
 /// Opens a regular file for reading. Never waits for a writer or for a terminal.
@@ -127,7 +135,8 @@ mod tests {
         std::fs::write(&path, b"a\xff").unwrap();
         assert!(matches!(read_regular_text(&path, 5), Err(ReadError::NotText { byte: 1 })));
         assert!(matches!(read_regular(folder.path(), 5), Err(ReadError::Folder)));
-        assert!(matches!(read_regular(&folder.path().join("none"), 5), Err(ReadError::Failed(_))));
+        let none = read_regular(&folder.path().join("none"), 5).unwrap_err();
+        assert_eq!(none.to_string(), "cannot be read: there is no such file");
     }
 
     #[test]

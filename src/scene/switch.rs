@@ -27,7 +27,7 @@ pub struct Computed {
 }
 
 impl Computed {
-    /// These values, and in place of those that are not known those of another scene.
+    /// Values of this scene, and in place of those that are not known the values of another scene.
     pub(super) fn or(self, other: Computed) -> Computed {
         Computed {
             work_of_adhesion: self.work_of_adhesion.or(other.work_of_adhesion),

@@ -37,7 +37,7 @@ pub struct Driver {
     pub copied: Vec<String>,
     /// The seed that is drawn next.
     pub seed: u64,
-    /// What tells of accuracy. Left out, nothing is found out.
+    /// Computes estimates of accuracy; without it nothing is estimated.
     pub appraiser: Option<Box<dyn Appraiser>>,
     worker: Worker,
     reports: Receiver<Report>,

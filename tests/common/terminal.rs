@@ -270,7 +270,7 @@ impl Terminal {
         }
     }
 
-    /// Whether the last byte so far stands between the beginning of a frame and its end.
+    /// True if the last byte so far is between the beginning of a frame and its end.
     fn is_within_frame(&self) -> bool {
         self.begun.is_some()
     }
@@ -358,14 +358,14 @@ impl Terminal {
     /// Closes the terminal, as a window that is shut or a connection that drops.
     pub fn hang_up(&mut self) {
         self.closing.store(true, Ordering::SeqCst);
-        // The reader lets go with the next byte that is written: that of a key.
+        // The reader returns with the next byte that is written: that of a key.
         self.send("?");
         self.reader.take().expect("the terminal is open").join().unwrap();
         self.keyboard = None;
         self.master = None;
     }
 
-    /// Takes one event, of what is written one frame, and tells whether there was one in time.
+    /// Takes one event, of what is written one frame, and returns true if there was one in time.
     fn take(&mut self, time: Duration) -> bool {
         if let Some(part) = self.waiting.pop_front() {
             self.show(&part);

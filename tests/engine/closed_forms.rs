@@ -266,7 +266,7 @@ fn flat(diameter: f64, modulus: f64, work: f64) -> ClosedForm {
     let radius = 0.5 * diameter;
     let stretch = (2.0 * PI * radius * work / modulus).sqrt();
     let force = -(8.0 * PI * radius.powi(3) * modulus * work).sqrt();
-    // The elastic energy ½ F Δl when it lets go: twice what the interface takes, πa²γ.
+    // The elastic energy ½ F Δl at detachment: twice the energy of the interface, πa²γ.
     let lost = 2.0 * PI * radius * radius * work;
     ClosedForm {
         figures: vec![

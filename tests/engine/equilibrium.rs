@@ -235,7 +235,7 @@ fn compare(
     let mut solver = exact::adhesive(gaps, &tree, rule, foundation, 2);
     let count = gaps.len();
     let mut blind = Blind { gaps: gaps.to_vec(), ranges, contact: vec![false; count], order };
-    let (mut stands_at, mut force) = (0.0, 0.0);
+    let (mut present, mut force) = (0.0, 0.0);
     for &(step, ref probes) in legs {
         let leg = match step {
             Move::To(to) => Leg::ToIndentation(to),
@@ -248,9 +248,9 @@ fn compare(
         let record = match solver.advance(leg) {
             Ok(record) => record,
             Err(ContactError::NothingToPull { .. } | ContactError::DetachesBefore { .. }) => {
-                // It stands where it stood. The leg of a separation still says what its end held.
+                // The body is where it was. The leg of a separation still has the contact of its end.
                 if blind.contact.contains(&true) {
-                    let found = solver.fragments(stands_at);
+                    let found = solver.fragments(present);
                     prop_assert_eq!(found, blind.fragments(), "after {:?} failed", leg);
                     compared.one_of(count);
                 }
@@ -260,22 +260,22 @@ fn compare(
             Err(error) => return Err(TestCaseError::fail(error.to_string())),
         };
         let end = record.curve.last().unwrap();
-        // A separated body that stays may stand at d = 0, just before first touch.
+        // A separated body that stays may be at d = 0, just before first touch.
         let stays = record.curve.len() == 1;
         let separates = leg == Leg::ToSeparation;
-        // Separation ends just where the last springs still hold: to rounding, which side of it blind
-        // stands on is open. Everywhere else both stand at the same number.
-        let to = if separates { (end.indentation + ROUNDING).min(stands_at) } else { end.indentation };
+        // Separation ends just where the last springs still hold: to rounding, the blind relaxation may be on either
+        // side of it. Everywhere else both are at the same number.
+        let to = if separates { (end.indentation + ROUNDING).min(present) } else { end.indentation };
         for probe in probes.iter().filter(|_| !stays) {
-            let d = stands_at + probe * (to - stands_at);
+            let d = present + probe * (to - present);
             let there = blind.relaxed(d);
             prop_assert_eq!(solver.fragments(d), there.fragments(), "at {} of {:?}", d, leg);
             compared.one_of(count);
         }
         if separates {
-            if to < stands_at {
+            if to < present {
                 blind.relax(to);
-                prop_assert!(blind.contact.contains(&true), "let go before {}", to);
+                prop_assert!(blind.contact.contains(&true), "detached before {}", to);
                 prop_assert_eq!(solver.fragments(to), blind.fragments(), "before separation at {}", to);
             }
             blind.relax(end.indentation - ROUNDING);
@@ -286,7 +286,7 @@ fn compare(
         prop_assert_eq!(end.springs as usize, blind.contact.iter().filter(|&&c| c).count());
         prop_assert_eq!(end.fragments as usize, blind.fragments().len());
         compared.one_of(count);
-        (stands_at, force) = (end.indentation, end.force);
+        (present, force) = (end.indentation, end.force);
     }
     Ok(())
 }
@@ -337,7 +337,7 @@ fn few_springs_agree_with_blind_relaxation() {
     // Without adhesion the deepest spring touches last, though its neighbours are in contact.
     let gaps = [0.0, 0.718_352_439_046_38, 0.747_622_633_866_587_6];
     compare(&gaps, [0.0; 2], Order::LeftToRight, &[(Move::To(0.75), vec![0.99])], &compared).unwrap();
-    // A single spring is held below first touch, then lets go, and needs a touch to join again.
+    // A single spring is held below first touch, then detaches, and needs a touch to attach again.
     let legs =
         [0.0, -0.183_601_704_731_071_62, -2.344_984_497_776_057e-5, -0.493_355_240_886_346_4, -0.1, 0.0]
             .map(|to| (Move::To(to), vec![0.25, 0.5, 1.0]));

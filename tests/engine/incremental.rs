@@ -93,7 +93,7 @@ fn gaps() -> impl Strategy<Value = Vec<f64>> {
         let rising = (0..count).map(|k| (k as f64 / 50.0).powi(2));
         if falls { rising.rev().collect() } else { rising.collect() }
     });
-    // The last places of neighbours: joining and leaving come to lie at one number.
+    // Neighbours in the last digit: attachment and detachment are at one number.
     let fine = prop::collection::vec(0_u64..9, 1..60).prop_map(|places| {
         let mut gaps: Vec<f64> = places.iter().map(|p| f64::from_bits(0.5_f64.to_bits() + p)).collect();
         gaps[0] = 0.0;
@@ -179,7 +179,7 @@ fn fragments(body: &dyn ManualLoading) -> Vec<(usize, usize)> {
     body.fragments().collect()
 }
 
-/// Where a body stands: all of its point and its fragments.
+/// State of a body: all of its point and its fragments.
 fn state(body: &dyn ManualLoading) -> ([u64; 4], Vec<(usize, usize)>) {
     (bits(&body.point()), fragments(body))
 }

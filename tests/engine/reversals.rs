@@ -184,7 +184,7 @@ fn turning_points_out_of_contact_are_refused() {
     assert_eq!(refused, Some(ContactError::NoContact { index: 0, leg: Leg::ToSeparation }));
 }
 
-/// Evaluations of the rule of Hess tell how much of the line is walked: 64 reversals of a rough line together less than
+/// Evaluations of the rule of Hess measure the walked share of the line: 64 reversals of a rough line together less than
 /// three loops to the deepest turning point, although each of these would walk all of its contact again.
 #[test]
 fn the_line_is_walked_once_for_all_reversals() {

@@ -71,9 +71,9 @@ fn study(disk: &Arc<dyn Disk>, root: &Path, reported: &mut Reported) -> Result<(
     reported.folder = true;
     for number in [1, 2] {
         let shard = Shard { number, count: 2 };
-        let told = &mut reported.records[number as usize - 1];
+        let reported_done = &mut reported.records[number as usize - 1];
         let ended = run(&folder, Options { jobs: 1, shard }, &|| false, &mut |progress| {
-            *told = (*told).max(progress.done);
+            *reported_done = (*reported_done).max(progress.done);
         })?;
         assert!(ended.complete);
         assert_eq!(reported.records[number as usize - 1], HALF);
@@ -123,10 +123,10 @@ impl Expected {
 
     /// Checks what is found of a study, takes it up again, and checks what that gives; what is lost otherwise.
     fn check(&self, root: &Path, reported: Reported) -> Result<(), String> {
-        let told = |error: StudyError| error.to_string();
+        let message = |error: StudyError| error.to_string();
         let path = root.join("study");
         if reported.folder {
-            let done = Status::of(&Folder::open(&path).map_err(told)?).map_err(told)?.done;
+            let done = Status::of(&Folder::open(&path).map_err(message)?).map_err(message)?.done;
             let records: u64 = reported.records.iter().sum();
             if done < records {
                 return Err(format!("{done} of {records} records that were reported"));
@@ -140,10 +140,10 @@ impl Expected {
             return Err(format!("{reported:?}: {found:?}"));
         }
         // The disk is simulated so that it need not be waited for.
-        let folder = Folder::create_on(SimulatedDisk::new(root).shared(), &path, &plan()).map_err(told)?;
+        let folder = Folder::create_on(SimulatedDisk::new(root).shared(), &path, &plan()).map_err(message)?;
         let options = Options { jobs: 1, shard: Shard::WHOLE };
-        assert!(run(&folder, options, &|| false, &mut |_| ()).map_err(told)?.complete);
-        let merged = merge(&folder, false).map_err(told)?;
+        assert!(run(&folder, options, &|| false, &mut |_| ()).map_err(message)?.complete);
+        let merged = merge(&folder, false).map_err(message)?;
         if (merged.records, merged.missing_cells) != (2 * HALF, 0) || tables(&path) != self.whole {
             return Err(format!("{merged:?}: {:?}", tables(&path)));
         }

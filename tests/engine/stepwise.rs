@@ -204,7 +204,7 @@ proptest! {
 
 #[test]
 fn one_spring_has_a_closed_form() {
-    // Touches at d = 0 and lets go at d = −√(πΔxγ/E*).
+    // Touches at d = 0 and detaches at d = −√(πΔxγ/E*).
     let work = 0.3;
     let stretch = (PI * FOUNDATION.spacing * work / FOUNDATION.effective_modulus).sqrt();
     let legs = [Leg::ToIndentation(0.1), Leg::ToSeparation];
@@ -213,7 +213,7 @@ fn one_spring_has_a_closed_form() {
         for (records, allowed) in [(&found, step), (&expected, 1e-15)] {
             assert_eq!(records[0].largest.force, 0.1 * FOUNDATION.spring_stiffness());
             let late = records[1].smallest.indentation + stretch;
-            assert!((0.0..=allowed).contains(&late), "step {step}: let go {late} early");
+            assert!((0.0..=allowed).contains(&late), "step {step}: detached {late} early");
             let smallest = FOUNDATION.spring_stiffness() * records[1].smallest.indentation;
             assert!((records[1].smallest.force - smallest).abs() < 1e-17);
             assert_eq!(records.iter().map(|leg| leg.joins + leg.leaves).sum::<u64>(), 2);
@@ -231,7 +231,17 @@ fn one_spring_has_a_closed_form() {
 }
 
 #[test]
-fn it_gives_up_when_told_to_or_when_steps_are_too_many() {
+fn of_equal_forces_the_first_is_the_smallest() {
+    let step = 0.003;
+    for records in both(&[0.0], 0.0, step, &[Leg::ToIndentation(0.1), Leg::ToIndentation(-0.05)]) {
+        let smallest = records[1].smallest;
+        assert_eq!(smallest.force, 0.0);
+        assert!((-step..=0.0).contains(&smallest.indentation), "{smallest:?}");
+    }
+}
+
+#[test]
+fn it_gives_up_on_demand_or_when_steps_are_too_many() {
     let gaps = rough(16, 1);
     let stop = || true;
     let mut solver = Stepwise::new(&gaps, None, FOUNDATION, 0.01, 9, &stop).unwrap();

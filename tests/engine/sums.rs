@@ -58,7 +58,7 @@ fn bound(exact: &Unrounded, springs: usize, scale: &GapScale) -> Unrounded {
 }
 
 /// Whether the compressions of these gaps are within their bound, at these indentations and where the
-/// gaps nearly balance; tells what is not.
+/// gaps nearly balance; returns the rest.
 fn check(gaps: &[f64], indentations: &[f64]) -> Result<(), String> {
     let scale = scale_of(gaps);
     let (totals, sum) = (totals(gaps, &scale), sum(gaps));
@@ -137,7 +137,7 @@ proptest! {
         let scale = scale_of(&gaps);
         let other = shuffled(&gaps, seed);
         prop_assert_eq!(totals(&gaps, &scale), totals(&other, &scale));
-        // Without adhesion a force does not depend on where the springs stand.
+        // Without adhesion a force does not depend on the places of the springs.
         let lowest = gaps.iter().copied().fold(f64::INFINITY, f64::min);
         let largest = gaps.iter().copied().fold(0.0, f64::max);
         let forces = [gaps, other].map(|gaps| {

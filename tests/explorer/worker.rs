@@ -4,6 +4,7 @@
 use super::common::deadline::within;
 use super::common::scenes::{changed, one_spring, punch, rough, smooth, without_adhesion};
 use asperity::contact::{ContactError, ContactTree, CurvePoint};
+use asperity::explorer::panes::Pane;
 use asperity::explorer::snapshot::{ContactSnapshot, Drive, SolvedScene};
 use asperity::explorer::worker::{
     self, Engine, Focus, LineView, Newest, Report, Request, SnapshotRequest, Worker,
@@ -85,10 +86,10 @@ fn moment(leg: usize, indentation: f64) -> SnapshotRequest {
         strip_cells: 50,
         focus: Focus::Summit,
         close_up_springs: 64,
-        lengths: false,
+        large: None,
+        lower: Pane::CloseUp,
         crosshair: None,
         beside: None,
-        spectra: false,
     }
 }
 

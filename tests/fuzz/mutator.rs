@@ -89,7 +89,7 @@ impl<'a> Mutator<'a> {
             }
         }
         tokens.extend(["ToForce(1e-3)", "ToIndentation(-1e-7)", "ToTouch", "ToZeroForce", "ToSeparation"]);
-        // xorshift stands still at zero.
+        // xorshift stays at zero.
         Mutator { state: seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1, inputs, tokens, longest }
     }
 

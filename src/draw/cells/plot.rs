@@ -19,8 +19,9 @@ pub(super) const WITH_LEFT_SCALE: (u16, u16) = (30, 6);
 /// Least rows of an area whose plot has a scale below, and those of one with a line between plot and scale.
 const WITH_SCALE_BELOW: u16 = 5;
 const WITH_LINE_BELOW: u16 = 12;
-/// Least rows of an area where the label below has a row of its own, if it hides a number.
-const WITH_LABEL_BELOW: u16 = 16;
+/// Least rows of an area where the label below has a row of its own, if it hides a number: of a curve, and of a map, which
+/// says little without the values of its columns.
+const WITH_LABEL_BELOW: (u16, u16) = (16, 10);
 
 /// Place of a chart in an area: plot and scales.
 pub struct CellPlot {
@@ -38,7 +39,8 @@ impl CellPlot {
     pub fn within(area: Rect, chart: &Chart) -> CellPlot {
         let below = area.height >= WITH_SCALE_BELOW;
         let line = area.height >= WITH_LINE_BELOW;
-        let label = area.height >= WITH_LABEL_BELOW && label_hides_numbers(chart, area.width);
+        let least = if chart.map().is_some() { WITH_LABEL_BELOW.1 } else { WITH_LABEL_BELOW.0 };
+        let label = area.height >= least && label_hides_numbers(chart, area.width);
         let height = area.height - u16::from(below) - u16::from(line) - u16::from(label);
         let mut left = 0;
         if area.width >= WITH_LEFT_SCALE.0 && area.height >= WITH_LEFT_SCALE.1 {

@@ -1,6 +1,7 @@
 //! Script of the demo.
 
 use crate::explorer::action::{Command, Jump};
+use crate::explorer::panes::Pane;
 
 /// Something the demo does.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -53,9 +54,9 @@ pub const TOUR: &[Cue] = &[
     Wait(6.0),
     Do(Command::TogglePlay),
     Repeat(4, 1.0, Command::Fragment(Jump::Next)),
-    Do(Command::ToggleLengths),
+    Do(Command::Toggle(Pane::Lengths)),
     Wait(3.0),
-    Do(Command::ToggleLengths),
+    Do(Command::Toggle(Pane::Lengths)),
     Do(Command::Preset(8)),
     Wait(LOOP),
     Do(Command::Pin),

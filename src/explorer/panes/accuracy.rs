@@ -5,6 +5,7 @@ use crate::accuracy::{CostTable, ErrorFigure, Estimate, Evidence, Knob, Row};
 use crate::draw::{Chart, Figure, Ink, Layer, Shape, Sign, Span, legend};
 use crate::explorer::layout::inside;
 use crate::explorer::model::{Estimated, Model};
+use crate::explorer::study::Task;
 use crate::explorer::theme::{Appearance, Meaning};
 use crate::explorer::view::plot;
 use crate::explorer::view::stages;
@@ -16,11 +17,15 @@ use ratatui::Frame;
 use ratatui::layout::Rect;
 use ratatui::text::{Line, Span as Text};
 use ratatui::widgets::Paragraph;
+use std::sync::Arc;
 
 /// Row of the pane.
 pub static ROW: PaneRow = PaneRow {
     title: |_| " Accuracy: error over time, log–log ".to_owned(),
-    draw: draw,
+    draw,
+    task: |model, computed| {
+        model.appraisal.costs.ended.is_none().then(|| Task::Measure(Arc::clone(&computed.scene)))
+    },
     help: &[(
         "Accuracy",
         "A: relative error against the time of a run, one line for each setting that affects accuracy; ◆ is the \

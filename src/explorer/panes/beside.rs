@@ -1,7 +1,9 @@
 //! The newest ghost beside the scene: its profile and contact at the same part of its loading, what differs between the
 //! scenes, and both adhesion forces.
 
-use super::{force, profile};
+use super::{PaneRow, Place, force, profile};
+use crate::explorer::layout::inside;
+use crate::explorer::mode::ModeKind;
 use crate::explorer::model::{Ghost, Model};
 use crate::explorer::snapshot::SolvedScene;
 use crate::explorer::theme::Meaning;
@@ -13,8 +15,12 @@ use ratatui::layout::Rect;
 use ratatui::text::Line;
 use ratatui::widgets::Paragraph;
 
+/// Row of the pane.
+pub static ROW: PaneRow =
+    PaneRow { place: Place::CloseUp, title, draw, keys: Some(ModeKind::Crosshair), ..PaneRow::EMPTY };
+
 /// Title of the pane.
-pub fn title(model: &Model) -> String {
+fn title(model: &Model) -> String {
     let Some(ghost) = model.beside() else { return String::new() };
     let scene = ghost.document.scene();
     let name = if scene.title.is_empty() { ghost.document.name() } else { &scene.title };
@@ -23,7 +29,8 @@ pub fn title(model: &Model) -> String {
 }
 
 /// Draws the profile of the ghost on the heights of the scene, and compares the two.
-pub fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
+fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
+    let area = inside(area);
     let Some(ghost) = model.beside() else { return };
     let text_rows = u16::from(area.height >= 4) + u16::from(area.height >= 6);
     let above = Rect { height: area.height - text_rows, ..area };

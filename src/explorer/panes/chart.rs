@@ -1,10 +1,14 @@
 //! The map in its pane: shades in the colours of the regimes, and the mark of the scene. Beside the map are its [words].
 
-use super::{PaneRow, chart_words as words, sections};
+use super::{Pane, PaneRow, chart_words as words, sections};
 use crate::draw::{CellPlot, Chart, Figure, Label};
 use crate::explorer::layout::inside;
+use crate::explorer::mode::ModeKind;
 use crate::explorer::model::Model;
+use crate::explorer::session::scene_of;
+use crate::explorer::study::{PaneData, Task};
 use crate::explorer::theme::{Meaning, Theme};
+use crate::explorer::update::{self, Effect};
 use crate::explorer::view::plot;
 use crate::explorer::view::wrap::wrapped;
 use crate::export::study_figure;
@@ -17,7 +21,24 @@ use ratatui::widgets::Paragraph;
 /// Row of the pane.
 pub static ROW: PaneRow = PaneRow {
     title: words::title,
-    draw: draw,
+    draw,
+    keys: Some(ModeKind::Chart),
+    press: |model, area, here| {
+        model.chart.moving = false;
+        put(model, area, here)
+    },
+    drag: |model, area, here| if model.chart.moving { put(model, area, here) } else { Vec::new() },
+    task: |model, computed| {
+        let map = model.chart.wanted(&computed.scene).ok().flatten();
+        let is_live = model.chart.shown_study().is_none() && !model.failures.contains_key(&Pane::Chart);
+        map.filter(|_| is_live).map(|map| Task::Extend { data: PaneData::Map(map), waits: model.edited })
+    },
+    take_in: |model, data| {
+        if let PaneData::Map(map) = data {
+            model.chart.take_in(map);
+        }
+    },
+    renew: |model| model.chart.renew(&scene_of(&model.document)),
     help: &[
         (
             "Map",
@@ -98,8 +119,16 @@ fn parts(model: &Model, map_model: &MapModel, area: Rect) -> Option<Parts> {
     Some(Parts { plot: CellPlot::within(middle, &chart), chart, legend, below })
 }
 
+/// Puts the mark under the mouse.
+fn put(model: &mut Model, area: Rect, here: Position) -> Vec<Effect> {
+    match place_at(model, area, here) {
+        Some(place) => update::chart::move_to(model, place),
+        None => vec![Effect::Show],
+    }
+}
+
 /// Place on the map under a place on the screen.
-pub fn place_at(model: &Model, area: Rect, here: Position) -> Option<Place> {
+fn place_at(model: &Model, area: Rect, here: Position) -> Option<Place> {
     let map_model = model.chart.map_model().filter(|_| !model.chart.sections)?;
     map_model.up()?;
     let Parts { chart, plot, .. } = parts(model, map_model, area)?;

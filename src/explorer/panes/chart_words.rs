@@ -1,5 +1,6 @@
 //! Words of the map: its title, its legend, and the values at the mark.
 
+use super::Pane;
 use crate::analysis::{INSENSITIVE_SHARE, NEGLIGIBLE_COEFFICIENT, VANISHING_SHARE};
 use crate::draw::{Chart, Colours, SHADES, key, legend as entries};
 use crate::explorer::model::{Model, OpenStudy};
@@ -55,7 +56,7 @@ pub fn nothing_yet(model: &Model) -> String {
     if let Err(why) = Template::of(model.document.scene()) {
         return why.to_string();
     }
-    if let Some(why) = &model.chart.failed {
+    if let Some(why) = model.failures.get(&Pane::Chart) {
         return format!("no map: {why}");
     }
     match (model.is_computing(), model.is_current()) {
@@ -191,7 +192,7 @@ fn computed_so_far(model: &Model, say: &mut impl FnMut(Line<'static>)) {
     let Some(map) = &model.chart.map else { return };
     let theme = model.appearance.theme;
     let sides = |level: Level| format!("{} × {} cells", level.columns().count(), map.rows_of(level).len());
-    match (map.level(), &model.chart.failed) {
+    match (map.level(), model.failures.get(&Pane::Chart)) {
         (_, Some(why)) => say(Line::styled(format!("the map ends here: {why}"), theme.style(Meaning::Error))),
         (Some(_), None) if LiveMap::is_whole(map) => {}
         (Some(level), None) => {

@@ -1,10 +1,12 @@
 //! The close-up of contact fragments, with their boundary points as the paper's white circles, and a strip
 //! of the whole contact.
 
+use super::position::zoom_at;
 use super::section::short;
-use super::{PaneRow, beside, lengths, section};
+use super::{PaneRow, Place, section};
 use crate::draw::{CellPlot, Chart, Span};
 use crate::explorer::layout::inside;
+use crate::explorer::mode::ModeKind;
 use crate::explorer::model::Model;
 use crate::explorer::snapshot::{ContactSnapshot, FragmentFacts, Section, Share};
 use crate::explorer::theme::{Meaning, Theme};
@@ -17,44 +19,19 @@ use ratatui::widgets::Paragraph;
 
 /// Row of the pane.
 pub static ROW: PaneRow = PaneRow {
-    title: |model| match shown(model) {
-        Shown::Lengths => lengths::TITLE.to_owned(),
-        Shown::Beside => beside::title(model),
-        Shown::CloseUp => title(model),
-    },
-    draw: |frame, area, model| match shown(model) {
-        Shown::Lengths => lengths::draw(frame, inside(area), model),
-        Shown::Beside => beside::draw(frame, inside(area), model),
-        Shown::CloseUp => draw(frame, inside(area), model),
-    },
-    edge: |model, area| match shown(model) {
-        Shown::Lengths | Shown::Beside => None,
-        Shown::CloseUp => names(model, area),
-    },
-    has_crosshair: true,
+    place: Place::CloseUp,
+    title,
+    draw,
+    edge: names,
+    keys: Some(ModeKind::Crosshair),
+    section: Some(section_at),
+    wheel: zoom_at,
     help: &[(
         "Fragments",
         "close-up of a contact patch; ○ marks its edges. Below it the whole contact, [ ] around the close-up",
     )],
     ..PaneRow::EMPTY
 };
-
-/// Content of the pane.
-enum Shown {
-    CloseUp,
-    Lengths,
-    Beside,
-}
-
-fn shown(model: &Model) -> Shown {
-    if model.lengths {
-        Shown::Lengths
-    } else if model.side_by_side {
-        Shown::Beside
-    } else {
-        Shown::CloseUp
-    }
-}
 
 /// Title of the pane.
 fn title(model: &Model) -> String {
@@ -76,15 +53,16 @@ fn names(model: &Model, area: Rect) -> Option<Line<'static>> {
     Some(section::names(moment, &chart, [ring], model.appearance, area.width))
 }
 
-/// Share of the close-up under a column of the pane.
-pub fn share_at(model: &Model, area: Rect, column: u16) -> Option<f64> {
-    let moment = model.moment.as_ref()?;
+/// The section in the close-up, with its chart and place.
+fn section_at(model: &Model, area: Rect) -> Option<(&Section, Chart, CellPlot)> {
+    let moment = model.moment.as_deref()?;
     let (chart, place) = placed(moment, area);
-    Some(chart.x.share(place.number_at(&chart.x, column)))
+    Some((&moment.close_up.section, chart, place))
 }
 
 /// Draws the close-up and what is known of its fragment.
 fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
+    let area = inside(area);
     let Some(moment) = model.moment.as_ref() else { return };
     let theme = model.appearance.theme;
     let close_up = &moment.close_up;
@@ -118,7 +96,7 @@ fn rows_below(area: Rect) -> (u16, u16) {
 }
 
 /// The chart of the close-up and its place in the pane.
-pub fn placed(moment: &ContactSnapshot, area: Rect) -> (Chart, CellPlot) {
+fn placed(moment: &ContactSnapshot, area: Rect) -> (Chart, CellPlot) {
     let (strip, text) = rows_below(area);
     let shown = &moment.close_up.section;
     let mut chart = section::chart(shown, moment.line, heights(shown));
@@ -180,7 +158,7 @@ fn describe(fragment: Option<FragmentFacts>, fragments: u64, width: u16) -> [Lin
     let second = if width >= 60 {
         format!("  Δl_max {bears} · most stretched {stretched} · margin {margin}")
     } else {
-        format!("  Δl {stretched} of {bears}")
+        format!("  Δl {stretched} of Δl_max {bears}")
     };
     [Line::raw(first), Line::raw(second)]
 }

@@ -1,6 +1,6 @@
 //! The curve: the hysteresis loop with its two branches, what is compared with it, and the hand.
 
-use super::PaneRow;
+use super::{PaneRow, Place};
 use crate::analysis::LEAST_TABOR_NUMBER;
 use crate::analysis::{Mark, marks};
 use crate::contact::{CurvePoint, Direction, LegRecord};
@@ -9,9 +9,12 @@ use crate::draw::{
 };
 use crate::explorer::caption::caption;
 use crate::explorer::layout::inside;
+use crate::explorer::mode::ModeKind;
 use crate::explorer::model::{Ghost, Model, Quantities};
+use crate::explorer::request::ManualMove;
 use crate::explorer::snapshot::SolvedScene;
 use crate::explorer::theme::{Meaning, Theme};
+use crate::explorer::update::{Effect, movement};
 use crate::explorer::view::plot;
 use crate::explorer::view::wrap::fitting;
 use crate::export::sign;
@@ -23,10 +26,13 @@ use ratatui::widgets::Paragraph;
 
 /// Row of the pane.
 pub static ROW: PaneRow = PaneRow {
-    title: title,
-    draw: draw,
+    title,
+    draw,
     edge: reading,
-    has_crosshair: true,
+    place: Place::Own,
+    keys: Some(ModeKind::Crosshair),
+    press: drag,
+    drag,
     help: &[(
         "Curve",
         "F over indentation d: dotted while pressing, solid while pulling; ◇ jump-in, ▲ preload, ▼ pull-off, \
@@ -218,6 +224,21 @@ pub fn stage_at(model: &Model, area: Rect, here: Position) -> Option<(usize, f64
     Some((nearest.1, nearest.2))
 }
 
+/// Drags the body to the indentation under the mouse.
+fn drag(model: &mut Model, area: Rect, here: Position) -> Vec<Effect> {
+    if indentation_at(model, area, here.x).is_none() {
+        return vec![Effect::Show];
+    }
+    // Manual loading begins first: its axis may reach further than that of the loading, and the body is to be under the
+    // mouse.
+    let mut effects = if model.hand.is_none() { movement::take(model, None) } else { Vec::new() };
+    effects.retain(|effect| *effect != Effect::Show);
+    if let Some(indentation) = indentation_at(model, area, here.x) {
+        effects.extend(movement::take(model, Some(ManualMove::To(indentation))));
+    }
+    effects
+}
+
 /// Readings of the crosshair, for the lower edge of the frame.
 fn reading(model: &Model, area: Rect) -> Option<Line<'static>> {
     model.crosshair?;
@@ -298,7 +319,7 @@ fn chart(model: &Model, units: Units) -> Chart {
     }
     for (number, ghost) in model.ghosts.iter().enumerate() {
         // One beside the scene is named with the curves; the others have their letters.
-        let is_beside = model.side_by_side && number + 1 == model.ghosts.len();
+        let is_beside = model.beside().is_some() && number + 1 == model.ghosts.len();
         let name = if is_beside { letter(number).into() } else { Label::default() };
         for leg in &ghost.computed.outcome.history.legs {
             layers.push(Layer::new(

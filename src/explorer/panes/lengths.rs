@@ -1,6 +1,8 @@
 //! Lengths of the contact fragments: their number over their length, both logarithmic.
 
+use super::{PaneRow, Place};
 use crate::draw::{Axis, AxisScale, Ink, Layer, Shape, Sign, Span, Stroke};
+use crate::explorer::layout::inside;
 use crate::explorer::model::Model;
 use crate::explorer::snapshot::LengthBin;
 use crate::explorer::theme::Meaning;
@@ -9,11 +11,17 @@ use ratatui::Frame;
 use ratatui::layout::Rect;
 use ratatui::widgets::Paragraph;
 
-/// Title of the pane.
-pub const TITLE: &str = " Fragments by length, log–log ";
+/// Row of the pane.
+pub static ROW: PaneRow = PaneRow {
+    place: Place::CloseUp,
+    title: |_| " Fragments by length, log–log ".to_owned(),
+    draw,
+    ..PaneRow::EMPTY
+};
 
 /// Draws the distribution: one point for each bin that is not empty.
-pub fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
+fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
+    let area = inside(area);
     let theme = model.appearance.theme;
     let shown = model.moment.as_ref().and_then(|moment| moment.lengths.as_ref()).zip(model.computed.as_ref());
     let Some((bins, computed)) = shown else { return };

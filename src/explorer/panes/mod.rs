@@ -10,6 +10,7 @@ mod histogram;
 mod lengths;
 mod parameters;
 mod position;
+mod preload_curve;
 mod preloads;
 mod profile;
 mod row;
@@ -17,15 +18,16 @@ mod section;
 mod sections;
 mod spectrum;
 
-pub use chart::{map_figure, place_at};
+pub use chart::map_figure;
 pub use force::{indentation_at, stage_at};
-pub use parameters::{first_listed, parameter_at};
+pub use parameters::first_listed;
 pub use position::{position_at, share_at};
-pub use row::PaneRow;
+pub use preload_curve::{PROFILES, PreloadCurve};
+pub use row::{PaneRow, Place};
 pub use sections::section_cell;
 
 /// The panes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Pane {
     /// The force curve.
     Force,
@@ -33,6 +35,10 @@ pub enum Pane {
     Profile,
     /// The close-up of contact patches.
     CloseUp,
+    /// Distribution of the lengths of contact patches, in place of the close-up.
+    Lengths,
+    /// The profile of the newest loop kept for comparison, in place of the close-up.
+    Beside,
     /// Cost of accuracy and stages of the run, in place of profile and close-up.
     Accuracy,
     /// Spectra, in place of profile and close-up.
@@ -47,10 +53,12 @@ pub enum Pane {
 
 impl Pane {
     /// All panes, in the order of the help.
-    pub const ALL: [Pane; 8] = [
+    pub const ALL: [Pane; 10] = [
         Pane::Force,
         Pane::Profile,
         Pane::CloseUp,
+        Pane::Lengths,
+        Pane::Beside,
         Pane::Accuracy,
         Pane::Spectrum,
         Pane::Preloads,
@@ -65,6 +73,8 @@ impl Pane {
             Pane::Force => &force::ROW,
             Pane::Profile => &profile::ROW,
             Pane::CloseUp => &close_up::ROW,
+            Pane::Lengths => &lengths::ROW,
+            Pane::Beside => &beside::ROW,
             Pane::Accuracy => &accuracy::ROW,
             Pane::Spectrum => &spectrum::ROW,
             Pane::Preloads => &preloads::ROW,

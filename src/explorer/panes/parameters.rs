@@ -1,25 +1,32 @@
 //! The list of parameters and what the selected one means.
 
-use super::PaneRow;
+use super::{PaneRow, Place};
+use crate::explorer::action::Command;
 use crate::explorer::fuzzy::letters_found;
 use crate::explorer::layout::{Layout, inside};
+use crate::explorer::mode::ModeKind;
 use crate::explorer::model::{Mode, Model, Pane};
 use crate::explorer::parameters::{Parameter, Setting, spelled};
 use crate::explorer::text_line::TextLine;
 use crate::explorer::theme::Meaning;
+use crate::explorer::update::{Effect, edit, explore};
 use crate::explorer::view::found::marked;
 use crate::explorer::view::typed::typed;
 use crate::explorer::view::wrap::{clipped, filled, wrapped_within};
 use crate::scene::format_quantity;
 use ratatui::Frame;
-use ratatui::layout::Rect;
+use ratatui::layout::{Position, Rect};
 use ratatui::text::{Line, Span};
 use ratatui::widgets::{Paragraph, Scrollbar, ScrollbarOrientation, ScrollbarState};
 
 /// Row of the pane.
 pub static ROW: PaneRow = PaneRow {
     title: |_| " Parameters ".to_owned(),
-    draw: draw,
+    place: Place::Own,
+    draw,
+    keys: Some(ModeKind::Parameters),
+    press,
+    wheel: |model, _, _, turns| explore(model, Command::Select(-turns)),
     help: &[(
         "Parameters",
         "fields of the scene by use, in groups; ● marks an effect that is on, ▸ a folded group, = a derived value",
@@ -79,8 +86,20 @@ pub fn first_listed(model: &Model) -> usize {
     pane.map_or(model.first_listed, |area| Places::within(inside(area), model).first)
 }
 
+/// Selects the parameter under the mouse. A second press on the first row of a group folds the group.
+fn press(model: &mut Model, area: Rect, here: Position) -> Vec<Effect> {
+    if let Some(row) = parameter_at(model, area, here.y) {
+        let again = row == model.selected && model.parameters[row].is_head();
+        edit::select(model, row);
+        if again {
+            return edit::obey(model, Command::ToggleFold);
+        }
+    }
+    vec![Effect::Show]
+}
+
 /// The parameter in a row of the screen.
-pub fn parameter_at(model: &Model, area: Rect, row: u16) -> Option<usize> {
+fn parameter_at(model: &Model, area: Rect, row: u16) -> Option<usize> {
     let Places { list, first, rows, .. } = Places::within(area, model);
     let below = row.checked_sub(list.y).filter(|below| *below < list.height)?;
     rows.get(first + usize::from(below)).copied()

@@ -1,30 +1,28 @@
-//! From a cell of profile or close-up to the spring that is drawn there.
+//! From a cell of a pane to the place on the profile that is drawn there.
 
 use super::Pane;
-use super::{close_up, profile};
 use crate::explorer::model::Model;
-use ratatui::layout::Rect;
+use crate::explorer::update::{Effect, look};
+use ratatui::layout::{Position, Rect};
 
-/// Spring of the section of profile or close-up under a column of the screen.
+/// Spring under a column of the screen, in a pane with a section of the profile.
 pub fn position_at(model: &Model, pane: Pane, area: Rect, column: u16) -> Option<usize> {
-    let moment = model.moment.as_deref()?;
-    let (chart, place) = match pane {
-        Pane::Profile => profile::placed(moment, area, profile::heights(moment)),
-        Pane::CloseUp if !model.lengths && !model.side_by_side => close_up::placed(moment, area),
-        _ => return None,
-    };
-    let section = if pane == Pane::Profile { &moment.profile } else { &moment.close_up.section };
-    let spring = (place.number_at(&chart.x, column) / moment.line.spacing) as usize;
-    let spring = spring.saturating_sub(moment.line.first);
+    let line = model.moment.as_deref()?.line;
+    let (section, chart, place) = (pane.row().section?)(model, area)?;
+    let spring = (place.number_at(&chart.x, column) / line.spacing) as usize;
+    let spring = spring.saturating_sub(line.first);
     Some(spring.clamp(section.first, section.first + section.springs.saturating_sub(1)))
 }
 
-/// Share of the part of the profile that a pane shows, under a column of the screen; `None` for a pane without profile.
+/// Share of the section in a pane that is left of a column of the screen; `None` for a pane without section.
 #[must_use]
 pub fn share_at(model: &Model, pane: Pane, area: Rect, column: u16) -> Option<f64> {
-    match pane {
-        Pane::Profile => profile::share_at(model, area, column),
-        Pane::CloseUp if !model.lengths => close_up::share_at(model, area, column),
-        _ => None,
-    }
+    let (_, chart, place) = (pane.row().section?)(model, area)?;
+    Some(chart.x.share(place.number_at(&chart.x, column)))
+}
+
+/// Selects the pane under the mouse and zooms such that the point under the mouse stays there.
+pub fn zoom_at(model: &mut Model, area: Rect, here: Position, turns: i32) -> Vec<Effect> {
+    look::zoom_at(model, turns, share_at(model, model.pane, area, here.x));
+    vec![Effect::Show]
 }

@@ -1,12 +1,12 @@
 //! Adhesion against preload: the curve of the profile, the mean over random profiles with its confidence, and the
 //! preload of the scene.
 
-use super::PaneRow;
 use super::sections::section;
+use super::{Pane, PaneRow, PreloadCurve};
 use crate::draw::{Axis, AxisScale, Chart, Ink, Layer, Shape, Sign};
 use crate::explorer::layout::inside;
 use crate::explorer::model::Model;
-use crate::explorer::preload_curve::PreloadCurve;
+use crate::explorer::study::{PaneData, Task};
 use crate::explorer::theme::Meaning;
 use crate::explorer::view::wrap::wrapped;
 use crate::export::{preload_axes, preload_layers};
@@ -14,11 +14,24 @@ use ratatui::Frame;
 use ratatui::layout::Rect;
 use ratatui::text::Line;
 use ratatui::widgets::Paragraph;
+use std::sync::Arc;
 
 /// Row of the pane.
 pub static ROW: PaneRow = PaneRow {
     title: |_| " Adhesion against preload ".to_owned(),
-    draw: draw,
+    draw,
+    task: |model, computed| {
+        let begun = model.preloads.clone();
+        let curve = begun.or_else(|| PreloadCurve::new(computed).ok().map(Arc::new));
+        let curve = curve.filter(|one| !one.is_whole() && !model.failures.contains_key(&Pane::Preloads));
+        curve.map(|curve| Task::Extend { data: PaneData::Preloads(curve), waits: model.edited })
+    },
+    take_in: |model, data| {
+        if let PaneData::Preloads(curve) = data {
+            model.preloads = Some(curve);
+        }
+    },
+    renew: |model| model.preloads = None,
     help: &[(
         "Preloads",
         "i: adhesion force over preload, of this profile and the mean of random profiles with its 95 % confidence; the \
@@ -30,10 +43,12 @@ pub static ROW: PaneRow = PaneRow {
 /// Draws the pane.
 fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
     let area = inside(area);
-    let pane = &model.preloads;
-    let curve = pane.curve.as_deref().filter(|curve| !curve.own.is_empty());
+    let curve = model.preloads.as_deref().filter(|curve| !curve.own.is_empty());
     let Some(curve) = curve else {
-        let why = match (&pane.failed, model.computed.as_ref().filter(|_| model.is_current())) {
+        let why = match (
+            model.failures.get(&Pane::Preloads),
+            model.computed.as_ref().filter(|_| model.is_current()),
+        ) {
             (Some(why), _) => why.clone(),
             (None, Some(computed)) => {
                 PreloadCurve::new(computed).map_or_else(str::to_owned, |_| "computing …".to_owned())

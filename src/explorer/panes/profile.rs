@@ -1,8 +1,10 @@
 //! The profile: the rigid line, the elastic surface above it, and where they touch.
 
-use super::{PaneRow, histogram, section};
+use super::position::zoom_at;
+use super::{PaneRow, Place, histogram, section};
 use crate::draw::{CellPlot, Chart, Span};
 use crate::explorer::layout::{inside, split_profile};
+use crate::explorer::mode::ModeKind;
 use crate::explorer::model::Model;
 use crate::explorer::snapshot::{ContactSnapshot, Section};
 use crate::explorer::theme::{Appearance, Meaning, Theme};
@@ -16,10 +18,13 @@ use ratatui::widgets::Paragraph;
 
 /// Row of the pane.
 pub static ROW: PaneRow = PaneRow {
-    title: title,
-    draw: draw,
+    title,
+    draw,
     edge: names,
-    has_crosshair: true,
+    place: Place::Own,
+    keys: Some(ModeKind::Crosshair),
+    section: Some(section_at),
+    wheel: zoom_at,
     help: &[(
         "Profile",
         "rigid profile below, elastic surface above; ■ marks contact. Beside it the histogram of heights, and ¦ the \
@@ -31,7 +36,7 @@ pub static ROW: PaneRow = PaneRow {
 /// Title of the pane.
 fn title(model: &Model) -> String {
     let length = format_quantity(model.document.scene().length, "m");
-    if model.side_by_side {
+    if model.beside().is_some() {
         return format!(" Profile z(x) of this scene, x to {length} ");
     }
     let follows = if model.profile.follow { " · follows" } else { "" };
@@ -56,11 +61,11 @@ fn names(model: &Model, area: Rect) -> Option<Line<'static>> {
     Some(section::names(moment, &chart, beside, model.appearance, area.width))
 }
 
-/// Share of the shown part of the profile under a column of the pane.
-pub fn share_at(model: &Model, area: Rect, column: u16) -> Option<f64> {
-    let moment = model.moment.as_ref()?;
+/// The part of the profile that is shown, with its chart and place.
+fn section_at(model: &Model, area: Rect) -> Option<(&Section, Chart, CellPlot)> {
+    let moment = model.moment.as_deref()?;
     let (chart, place) = placed(moment, area, heights(moment));
-    Some(chart.x.share(place.number_at(&chart.x, column)))
+    Some((&moment.profile, chart, place))
 }
 
 /// Draws the profile with the histogram of its heights on the same axis.
@@ -103,7 +108,7 @@ fn strip_rows(area: Rect) -> u16 {
 }
 
 /// The chart of the profile, heights within `z`, and its place in the pane.
-pub fn placed(moment: &ContactSnapshot, area: Rect, z: Span) -> (Chart, CellPlot) {
+fn placed(moment: &ContactSnapshot, area: Rect, z: Span) -> (Chart, CellPlot) {
     let (area, _) = split_profile(area);
     let mut chart = section::chart(&moment.profile, moment.line, z);
     section::add_crosshair(&mut chart, moment);

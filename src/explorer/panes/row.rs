@@ -1,31 +1,79 @@
-//! The row of a pane: everything that layout, drawing, keys and mouse need to know of the pane.
+//! The row of a pane: everything that layout, drawing, keys, mouse and data need to know of the pane.
 
+use crate::draw::{CellPlot, Chart};
+use crate::explorer::mode::ModeKind;
 use crate::explorer::model::Model;
+use crate::explorer::snapshot::{Section, SolvedScene};
+use crate::explorer::study::{PaneData, Task};
+use crate::explorer::update::Effect;
 use ratatui::Frame;
-use ratatui::layout::Rect;
+use ratatui::layout::{Position, Rect};
 use ratatui::text::Line;
+use std::sync::Arc;
 
-/// One pane. Areas are those of the whole pane, frame included.
+/// Place of a pane in a window with room for all.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Place {
+    /// A place of its own.
+    Own,
+    /// The place of the close-up.
+    CloseUp,
+    /// The place of profile and close-up.
+    Large,
+}
+
+/// Reply of a pane to the mouse at a position inside of its frame.
+pub type Reply = fn(&mut Model, Rect, Position) -> Vec<Effect>;
+
+/// Section of the profile in a pane, as a chart and its place on the screen.
+pub type PlacedSection = for<'m> fn(&'m Model, Rect) -> Option<(&'m Section, Chart, CellPlot)>;
+
+/// Everything about one pane. Drawing, title and edge get the area of the whole pane, all others the area inside of the
+/// frame.
 pub struct PaneRow {
+    /// Place in a window with room for all.
+    pub place: Place,
     /// Title in the frame.
     pub title: fn(&Model) -> String,
     /// Draws the inside.
     pub draw: fn(&mut Frame<'_>, Rect, &Model),
     /// Text in the lower edge of the frame.
     pub edge: fn(&Model, Rect) -> Option<Line<'static>>,
-    /// True if the crosshair can be moved in the pane.
-    pub has_crosshair: bool,
+    /// Keys of the pane while it is selected; those of the crosshair, while this is shown.
+    pub keys: Option<ModeKind>,
+    /// Section of the profile that the pane shows.
+    pub section: Option<PlacedSection>,
+    /// Reply to a press, which also selects the pane.
+    pub press: Reply,
+    /// Reply to a movement with the button down.
+    pub drag: Reply,
+    /// Reply to turns of the wheel, up positive.
+    pub wheel: fn(&mut Model, Rect, Position, i32) -> Vec<Effect>,
+    /// Computation that the pane waits for while it is shown.
+    pub task: fn(&Model, &Arc<SolvedScene>) -> Option<Task>,
+    /// Takes in an addition to the data of the pane.
+    pub take_in: fn(&mut Model, PaneData),
+    /// Drops data of a scene that has been changed.
+    pub renew: fn(&mut Model),
     /// Paragraphs of the help: a name and the meaning of the signs in the pane.
     pub help: &'static [(&'static str, &'static str)],
 }
 
 impl PaneRow {
-    /// A pane that shows nothing.
+    /// A pane that shows nothing, in the place of profile and close-up.
     pub const EMPTY: PaneRow = PaneRow {
+        place: Place::Large,
         title: |_| String::new(),
         draw: |_, _, _| (),
         edge: |_, _| None,
-        has_crosshair: false,
+        keys: None,
+        section: None,
+        press: |_, _, _| vec![Effect::Show],
+        drag: |_, _, _| Vec::new(),
+        wheel: |_, _, _, _| Vec::new(),
+        task: |_, _| None,
+        take_in: |_, _| (),
+        renew: |_| (),
         help: &[],
     };
 }

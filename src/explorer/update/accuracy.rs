@@ -2,9 +2,8 @@
 
 use super::{Effect, edit};
 use crate::accuracy::{Choice, ChoiceError, Estimate, Evidence, Target, parse_tolerance};
-use crate::explorer::action::Command;
 use crate::explorer::mode::Mode;
-use crate::explorer::model::{Estimated, Model, Notice, Pane};
+use crate::explorer::model::{Estimated, Model, Notice};
 use crate::explorer::study::{Finding, Found, Task};
 use crate::explorer::text_line::TextLine;
 use crate::scene::{Edges, format_quantity};
@@ -18,47 +17,20 @@ pub fn study_tasks(model: &Model) -> Vec<Task> {
     if let Some((tolerance, _)) = appraisal.choosing {
         return vec![Task::Choose(computed.scene.clone(), tolerance)];
     }
-    let chart = model.chart.wanted(&computed.scene).ok().flatten();
-    let chart = chart
-        .filter(|_| model.chart.shown && model.chart.shown_study().is_none() && model.chart.failed.is_none())
-        .map(|map| Task::Chart { map, waits: model.chart.edited });
-    let preloads = model.preloads.wanted(computed).map(|curve| Task::Preloads {
-        curve,
-        scene: std::sync::Arc::clone(&computed.scene),
-        waits: model.preloads.edited,
-    });
-    let spread = model.adhesion_spread.wanted(computed).filter(|_| model.spectrum);
-    let spread = spread.map(|found| Task::Adhesion {
-        found,
-        scene: std::sync::Arc::clone(&computed.scene),
-        waits: model.adhesion_spread.edited,
-    });
     let estimate =
         (appraisal.estimated == Estimated::Waiting).then(|| Task::Estimate(std::sync::Arc::clone(computed)));
-    let measure = (appraisal.shown && appraisal.costs.ended.is_none())
-        .then(|| Task::Measure(std::sync::Arc::clone(&computed.scene)));
-    estimate.into_iter().chain(chart).chain(preloads).chain(spread).chain(measure).collect()
+    let shown = model.large.and_then(|pane| (pane.row().task)(model, computed));
+    estimate.into_iter().chain(shown).collect()
 }
 
-/// Obeys a command that has to do with accuracy.
-pub fn obey(model: &mut Model, command: Command) -> Vec<Effect> {
-    if command == Command::TypeTolerance {
-        if model.is_current() {
-            model.mode = Mode::Tolerance(TextLine::new(""));
-        } else {
-            model.notice = Some(Notice::Error("not before the scene is computed".to_owned()));
-        }
-        return Vec::new();
-    }
-    if model.appraisal.shown {
-        model.appraisal.hide();
-        model.pane = if model.pane == Pane::Accuracy { Pane::Force } else { model.pane };
+/// Asks for a tolerance.
+pub fn type_tolerance(model: &mut Model) -> Vec<Effect> {
+    if model.is_current() {
+        model.mode = Mode::Tolerance(TextLine::new(""));
     } else {
-        model.hide_in_place_of_the_line();
-        model.appraisal.shown = true;
-        model.pane = Pane::Accuracy;
+        model.notice = Some(Notice::Error("not before the scene is computed".to_owned()));
     }
-    vec![Effect::Study, Effect::Show]
+    Vec::new()
 }
 
 /// Searches springs for a tolerance that was typed.
@@ -102,28 +74,12 @@ pub fn found(model: &mut Model, found: Found) -> Vec<Effect> {
                 }
             }
         }
-        Finding::Charted(map) => {
-            model.chart.take_in(map);
+        Finding::Extended(data) => {
+            (data.pane().row().take_in)(model, data);
             Vec::new()
         }
-        Finding::NotCharted(why) => {
-            model.chart.failed = Some(why);
-            Vec::new()
-        }
-        Finding::Preloaded(curve) => {
-            model.preloads.curve = Some(curve);
-            Vec::new()
-        }
-        Finding::NotPreloaded(why) => {
-            model.preloads.failed = Some(why);
-            Vec::new()
-        }
-        Finding::Adhesion(found) => {
-            model.adhesion_spread.found = found;
-            Vec::new()
-        }
-        Finding::NoAdhesion(why) => {
-            model.adhesion_spread.failed = Some(why);
+        Finding::NotExtended(pane, why) => {
+            model.failures.insert(pane, why);
             Vec::new()
         }
         finding => {

@@ -2,7 +2,7 @@
 
 use super::{Effect, edit};
 use crate::explorer::action::Command;
-use crate::explorer::model::{Model, Notice, Pane};
+use crate::explorer::model::{Model, Notice};
 use crate::explorer::opening::Opening;
 use crate::scene::{Document, SceneErrors};
 use crate::study::map::{MapAxis, Place, Template, moved, next_beyond};
@@ -11,7 +11,6 @@ use std::sync::Arc;
 /// Obeys a command that has to do with the map.
 pub fn obey(model: &mut Model, command: Command) -> Vec<Effect> {
     match command {
-        Command::ToggleChart => toggle(model),
         Command::ToggleSections => {
             model.chart.sections = !model.chart.sections;
             Vec::new()
@@ -30,27 +29,6 @@ pub fn obey(model: &mut Model, command: Command) -> Vec<Effect> {
         Command::MoveUp(steps) => step(model, 0, steps),
         _ => Vec::new(),
     }
-}
-
-fn toggle(model: &mut Model) -> Vec<Effect> {
-    // Whoever comes from another pane wants the arrows to move the mark.
-    if !model.chart.shown || model.pane != Pane::Chart {
-        return choose(model);
-    }
-    (model.chart.shown, model.chart.edited) = (false, false);
-    model.pane = Pane::Force;
-    vec![Effect::Study, Effect::Show]
-}
-
-/// Shows the map and selects its pane.
-pub fn choose(model: &mut Model) -> Vec<Effect> {
-    model.pane = Pane::Chart;
-    if model.chart.shown {
-        return vec![Effect::Show];
-    }
-    model.hide_in_place_of_the_line();
-    (model.chart.shown, model.chart.edited) = (true, false);
-    vec![Effect::Study, Effect::Show]
 }
 
 /// Explores what has been opened by its path.
@@ -73,7 +51,7 @@ fn toggle_study(model: &mut Model) -> Vec<Effect> {
         return Vec::new();
     }
     model.chart.of_study = !model.chart.of_study;
-    model.chart.edited = false;
+    model.edited = false;
     vec![Effect::Study]
 }
 

@@ -1,7 +1,7 @@
 //! Loops kept beside the present one.
 
 use super::ghosts::name_ghosts;
-use super::{Effect, edit};
+use super::{Effect, edit, show};
 use crate::explorer::action::Command;
 use crate::explorer::model::{Ghost, Model, Notice, Pane};
 use crate::explorer::snapshot::{Preview, SolvedScene};
@@ -14,19 +14,19 @@ const MOST_GHOSTS: usize = 8;
 /// Obeys a command on ghosts.
 pub fn obey(model: &mut Model, command: Command) -> Vec<Effect> {
     let mut effects = Vec::new();
-    let was_beside = model.side_by_side;
+    let was_beside = model.beside().is_some();
     match command {
         Command::Pin => pin(model),
         Command::PinOtherUse => effects = pin_other_use(model),
         Command::Swap => effects = swap(model),
-        Command::ToggleSideBySide => toggle(model),
+        Command::ToggleSideBySide => return show::change(model, toggle),
         _ => {
+            model.hide(Pane::Beside);
             model.ghosts.clear();
-            model.side_by_side = false;
         }
     }
     // Another ghost may be the newest, or none.
-    if was_beside || model.side_by_side {
+    if was_beside {
         effects.insert(0, Effect::Beside);
     }
     effects.push(Effect::Show);
@@ -35,27 +35,21 @@ pub fn obey(model: &mut Model, command: Command) -> Vec<Effect> {
 
 /// Shows or hides the newest ghost beside the scene; without a ghost the present scene becomes one.
 fn toggle(model: &mut Model) {
-    if model.side_by_side {
-        model.side_by_side = false;
-        return;
+    if model.is_shown(Pane::Beside) {
+        return model.hide(Pane::Beside);
     }
     if model.ghosts.is_empty() {
         pin(model);
     }
     if !model.ghosts.is_empty() {
-        model.side_by_side = true;
-        model.lengths = false;
-        model.hide_in_place_of_the_line();
-        if !model.panes().contains(&model.pane) {
-            model.pane = Pane::Force;
-        }
+        model.show(Pane::Beside);
     }
 }
 
 /// Keeps the scene that has been computed as a ghost and opens another one beside it.
 pub fn open_beside(model: &mut Model, document: Document) -> Vec<Effect> {
     pin(model);
-    model.side_by_side = true;
+    model.show(Pane::Beside);
     let effects = edit::open(model, document);
     model.notice = None;
     // There is no edit to undo: both scenes are as they were opened.

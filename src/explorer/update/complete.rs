@@ -51,7 +51,7 @@ impl TypedPath {
     }
 }
 
-/// A path is being typed.
+/// Returns true if a path is being typed.
 pub fn can_complete(model: &Model) -> bool {
     TypedPath::of(model).is_some()
 }

@@ -4,6 +4,7 @@
 use super::{Effect, movement};
 use crate::explorer::action::Command;
 use crate::explorer::layout::inside;
+use crate::explorer::mode::ModeKind;
 use crate::explorer::model::{Crosshair, Model, Pane};
 use crate::explorer::panes::{position_at, stage_at};
 use crate::explorer::snapshot::Section;
@@ -50,11 +51,11 @@ pub fn point_at(model: &mut Model, pane: Pane, area: Rect, here: Position) -> Op
             let (leg, indentation) = stage_at(model, inside(area), here)?;
             put(model, leg, model.done_at(leg, indentation));
         }
-        Pane::Profile | Pane::CloseUp => {
+        Pane::Force => return None,
+        pane => {
             let spring = position_at(model, pane, inside(area), here.x)?;
             look_at(model, spring);
         }
-        _ => return None,
     }
     Some(vec![Effect::Show])
 }
@@ -69,7 +70,7 @@ fn toggle(model: &mut Model) {
         let middle = close_up.section.first + close_up.section.springs / 2;
         look_at(model, close_up.fragment.map_or(middle, |patch| patch.middle()));
     }
-    if !model.pane.row().has_crosshair {
+    if model.pane.row().keys != Some(ModeKind::Crosshair) {
         model.pane = Pane::Force;
     }
 }

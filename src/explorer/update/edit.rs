@@ -1,15 +1,14 @@
 //! Edits of the scene. Each gives a document of its own; the one before can be brought back.
 
-use super::Effect;
 use super::ghosts::name_ghosts;
+use super::{Effect, show};
 use crate::explorer::action::Command;
 use crate::explorer::layout::Layout;
 use crate::explorer::mode::Mode;
-use crate::explorer::model::{CloseUpTarget, Model, Notice, Pane, Player};
+use crate::explorer::model::{Appraisal, CloseUpTarget, Model, Notice, Pane, Player};
 use crate::explorer::panes::first_listed;
 use crate::explorer::parameters::{Parameter, Setting, parameters};
 use crate::explorer::request::{Focus, LineView};
-use crate::explorer::session::scene_of;
 use crate::explorer::text_line::TextLine;
 use crate::scene::{Computed, Document, Range, SceneErrors, Solver, Step, exact_quantity, presets};
 
@@ -128,18 +127,12 @@ fn edit_value(model: &mut Model, first: Option<char>) -> Vec<Effect> {
     effects
 }
 
-/// Selects the pane of parameters.
-pub fn choose_parameters(model: &mut Model) -> Vec<Effect> {
-    model.pane = Pane::Parameters;
-    vec![Effect::Show]
-}
-
 /// Chooses the list of parameters where a small window does not show it: nothing is changed unseen.
 pub fn show_parameters(model: &mut Model) -> Vec<Effect> {
     if Layout::of(model).pane(Pane::Parameters).is_some() {
         return Vec::new();
     }
-    choose_parameters(model)
+    show::choose(model, Pane::Parameters)
 }
 
 fn step_value(model: &mut Model, steps: i32, coarse: bool) -> Vec<Effect> {
@@ -366,10 +359,12 @@ fn renew(model: &mut Model) -> Vec<Effect> {
     select(model, row_of(model, &selected));
     model.generation += 1;
     model.progress = Some(0);
-    model.appraisal.forget();
-    model.preloads.renew();
-    model.adhesion_spread.renew();
-    model.chart.renew(&scene_of(&model.document));
+    model.edited = true;
+    model.failures.clear();
+    model.appraisal = Appraisal::default();
+    for pane in Pane::ALL {
+        (pane.row().renew)(model);
+    }
     // What was in hand was pressed on another line, or under another force.
     if model.hand.take().is_some() {
         let back = "the body is back on the scene's loading".to_owned();

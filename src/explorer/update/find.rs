@@ -1,10 +1,10 @@
 //! Search of the list of parameters by letters of a name or symbol.
 
-use super::{Effect, edit, edit_line};
+use super::{Effect, edit, edit_line, show};
 use crate::explorer::action::Command;
 use crate::explorer::finder::Finder;
 use crate::explorer::mode::Mode;
-use crate::explorer::model::Model;
+use crate::explorer::model::{Model, Pane};
 use crate::explorer::parameters::Parameter;
 
 /// Begins the search, in the pane of parameters.
@@ -31,7 +31,7 @@ pub fn obey(model: &mut Model, command: Command) -> Vec<Effect> {
             let Some(found) = finder.choice() else { return Vec::new() };
             model.mode = Mode::Explore;
             edit::select(model, found);
-            return edit::choose_parameters(model);
+            return show::choose(model, Pane::Parameters);
         }
         Command::Delete { .. } | Command::Clear => {
             edit_line(model, command);

@@ -23,16 +23,6 @@ pub fn obey(model: &mut Model, command: Command) -> Vec<Effect> {
                 Jump::Summit => Focus::Summit,
             };
         }
-        Command::ToggleLengths => {
-            model.lengths = !model.lengths;
-            if std::mem::take(&mut model.side_by_side) {
-                return vec![Effect::Beside, Effect::Show];
-            }
-        }
-        Command::ToggleSpectrum => {
-            toggle_spectrum(model);
-            return vec![Effect::Study, Effect::Show];
-        }
         Command::Zoom(steps) => zoom(model, steps),
         Command::Pan(quarters) => pan(model, quarters),
         Command::ResetZoom => {
@@ -83,19 +73,6 @@ pub fn obey(model: &mut Model, command: Command) -> Vec<Effect> {
     vec![Effect::Show]
 }
 
-/// Shows the spectrum in place of profile and close-up, or these again.
-fn toggle_spectrum(model: &mut Model) {
-    let shown = !model.spectrum;
-    model.hide_in_place_of_the_line();
-    model.spectrum = shown;
-    model.adhesion_spread.edited = false;
-    model.pane = match model.pane {
-        _ if shown => Pane::Spectrum,
-        Pane::Spectrum => Pane::Force,
-        other => other,
-    };
-}
-
 fn tell(model: &mut Model, text: String) {
     model.notice = Some(Notice::Done(text));
 }
@@ -105,7 +82,7 @@ fn springs(model: &Model) -> usize {
 }
 
 /// Looks closer in the profile, where it is the chosen pane, or in the close-up.
-pub fn zoom(model: &mut Model, steps: i32) {
+fn zoom(model: &mut Model, steps: i32) {
     let most = springs(model);
     if model.pane == Pane::Profile {
         let least = (FEWEST_SPRINGS as f64 / most as f64).min(1.0);
@@ -122,9 +99,10 @@ pub fn zoom(model: &mut Model, steps: i32) {
 }
 
 /// Looks closer, or from further away, such that the point under the pointer, at a share of the pane, stays there.
-pub fn zoom_at(model: &mut Model, steps: i32, pointer: f64) {
+pub fn zoom_at(model: &mut Model, steps: i32, pointer: Option<f64>) {
     let (profile, springs_before) = (model.profile, model.look.springs as f64);
     zoom(model, steps);
+    let Some(pointer) = pointer else { return };
     let away = pointer - 0.5;
     if model.pane == Pane::Profile {
         let LineView { share, .. } = model.profile;

@@ -2,20 +2,20 @@
 //! done outside is returned.
 
 mod accuracy;
-mod chart;
+pub(super) mod chart;
 mod compare;
 mod complete;
 mod crosshair;
-mod edit;
+pub(super) mod edit;
 mod files;
 mod find;
 mod ghosts;
 mod library;
-mod look;
+pub(super) mod look;
 mod mouse;
-mod movement;
+pub(super) mod movement;
 mod palette;
-mod preloads;
+mod show;
 
 pub use accuracy::study_tasks;
 pub use complete::can_complete;
@@ -23,7 +23,7 @@ pub use complete::can_complete;
 use super::action::{Action, Command, Content};
 use super::layout::Layout;
 use super::mode::Mode;
-use super::model::{Model, Notice, Player};
+use super::model::{Model, Notice, Pane, Player};
 use super::request::{ManualMove, SnapshotRequest};
 use super::theme::Appearance;
 use super::view::help_end;
@@ -170,14 +170,14 @@ pub fn moment_request(model: &Model) -> Option<SnapshotRequest> {
         strip_cells: layout.close_up_cells(),
         focus: model.look.focus,
         close_up_springs: model.look.springs,
-        lengths: model.lengths,
+        large: model.large,
+        lower: model.lower,
         crosshair: model.crosshair.map(|crosshair| crosshair.position),
-        beside: model.beside().filter(|_| layout.shows_beside(model)).map(|ghost| {
+        beside: model.beside().filter(|_| layout.pane(Pane::Beside).is_some()).map(|ghost| {
             let legs = &ghost.computed.outcome.history.legs;
             let leg = model.player.leg.min(legs.len().saturating_sub(1));
             (leg, Player { leg, ..model.player }.indentation(legs))
         }),
-        spectra: model.spectrum,
     })
 }
 
@@ -300,7 +300,8 @@ fn edit_line(model: &mut Model, command: Command) {
     }
 }
 
-fn explore(model: &mut Model, command: Command) -> Vec<Effect> {
+/// Obeys a command while no line, list or question is open.
+pub(super) fn explore(model: &mut Model, command: Command) -> Vec<Effect> {
     if !matches!(command, Command::MoveAcross(_) | Command::MoveUp(_)) {
         model.chart.moving = false;
     }
@@ -347,10 +348,9 @@ fn explore(model: &mut Model, command: Command) -> Vec<Effect> {
         Command::Export => files::ask_export(model),
         Command::CopyCommand => return files::copy_command(model),
         Command::OpenLibrary => return library::open(model),
-        Command::ToggleAccuracy | Command::TypeTolerance => return accuracy::obey(model, command),
-        Command::TogglePreloads => return preloads::toggle(model),
-        Command::ToggleChart
-        | Command::ToggleSections
+        Command::TypeTolerance => return accuracy::type_tolerance(model),
+        Command::Toggle(pane) => return show::toggle(model, pane),
+        Command::ToggleSections
         | Command::NextCharted
         | Command::ToggleStudy
         | Command::NextSlice(_)
@@ -358,8 +358,6 @@ fn explore(model: &mut Model, command: Command) -> Vec<Effect> {
         | Command::MoveAcross(_)
         | Command::MoveUp(_) => return chart::obey(model, command),
         Command::Fragment(_)
-        | Command::ToggleLengths
-        | Command::ToggleSpectrum
         | Command::Zoom(_)
         | Command::Pan(_)
         | Command::ResetZoom

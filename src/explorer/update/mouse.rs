@@ -1,12 +1,10 @@
 //! The mouse: it chooses panes and rows, drags the load and scrolls. Everything it does a key does too.
 
-use super::{Effect, chart, crosshair, edit, explore, look, movement};
+use super::{Effect, crosshair};
 use crate::explorer::action::{Command, Gesture, Mouse};
 use crate::explorer::layout::{Layout, inside};
 use crate::explorer::mode::Mode;
-use crate::explorer::model::{Model, Pane};
-use crate::explorer::panes::{indentation_at, parameter_at, place_at, share_at};
-use crate::explorer::request::ManualMove;
+use crate::explorer::model::Model;
 use ratatui::layout::Position;
 
 /// Does what the mouse asks for.
@@ -29,65 +27,18 @@ pub fn act(model: &mut Model, mouse: Mouse) -> Vec<Effect> {
         model.pane = pane;
         return effects;
     }
-    match (mouse.gesture, pane) {
-        (Gesture::Press, _) => {
+    let (row, inner) = (pane.row(), inside(area));
+    match mouse.gesture {
+        Gesture::Press => {
             model.pane = pane;
-            match pane {
-                Pane::Parameters => {
-                    if let Some(row) = parameter_at(model, inside(area), mouse.row) {
-                        // A second press on the first row of a group folds the group.
-                        let again = row == model.selected && model.parameters[row].is_head();
-                        edit::select(model, row);
-                        if again {
-                            return edit::obey(model, Command::ToggleFold);
-                        }
-                    }
-                    vec![Effect::Show]
-                }
-                Pane::Force => drag(model, inside(area), mouse.column),
-                Pane::Chart => {
-                    model.chart.moving = false;
-                    put(model, inside(area), here)
-                }
-                Pane::Profile | Pane::CloseUp | Pane::Accuracy | Pane::Spectrum | Pane::Preloads => {
-                    vec![Effect::Show]
-                }
-            }
+            (row.press)(model, inner, here)
         }
-        (Gesture::Drag, Pane::Chart) if model.chart.moving => put(model, inside(area), here),
-        (Gesture::Drag, Pane::Force) => drag(model, inside(area), mouse.column),
-        (Gesture::Wheel(turns), Pane::Parameters) => explore(model, Command::Select(-turns)),
-        (Gesture::Wheel(turns), Pane::Profile | Pane::CloseUp) => {
-            model.pane = pane;
-            match share_at(model, pane, inside(area), mouse.column) {
-                Some(pointer) => look::zoom_at(model, turns, pointer),
-                None => look::zoom(model, turns),
+        Gesture::Drag => (row.drag)(model, inner, here),
+        Gesture::Wheel(turns) => {
+            if row.section.is_some() {
+                model.pane = pane;
             }
-            vec![Effect::Show]
+            (row.wheel)(model, inner, here, turns)
         }
-        (Gesture::Drag | Gesture::Wheel(_), _) => Vec::new(),
     }
-}
-
-/// Puts the mark of the map under the mouse.
-fn put(model: &mut Model, area: ratatui::layout::Rect, here: Position) -> Vec<Effect> {
-    match place_at(model, area, here) {
-        Some(place) => chart::move_to(model, place),
-        None => vec![Effect::Show],
-    }
-}
-
-/// Drags the body to the indentation under the mouse.
-fn drag(model: &mut Model, area: ratatui::layout::Rect, column: u16) -> Vec<Effect> {
-    if indentation_at(model, area, column).is_none() {
-        return vec![Effect::Show];
-    }
-    // Taken first: its axis may reach further than that of the loading, and the body is to come to stand
-    // under the mouse.
-    let mut effects = if model.hand.is_none() { movement::take(model, None) } else { Vec::new() };
-    effects.retain(|effect| *effect != Effect::Show);
-    if let Some(indentation) = indentation_at(model, area, column) {
-        effects.extend(movement::take(model, Some(ManualMove::To(indentation))));
-    }
-    effects
 }

@@ -1,10 +1,10 @@
 //! The list of all commands, and the one that is chosen from it.
 
-use super::{Effect, chart, edit, edit_line, explore};
+use super::{Effect, edit_line, explore, show};
 use crate::explorer::action::Command;
 use crate::explorer::finder::Finder;
 use crate::explorer::mode::{Mode, ModeKind};
-use crate::explorer::model::Model;
+use crate::explorer::model::{Model, Pane};
 use crate::explorer::palette::{Entry, entries};
 
 /// Opens the list.
@@ -44,8 +44,8 @@ fn run(model: &mut Model, entry: &Entry) -> Vec<Effect> {
     model.mode = Mode::Explore;
     let mut effects = match model.keys() {
         here if entry.modes.contains(&here) => Vec::new(),
-        _ if entry.modes.contains(&ModeKind::Chart) => chart::choose(model),
-        _ => edit::choose_parameters(model),
+        _ if entry.modes.contains(&ModeKind::Chart) => show::choose(model, Pane::Chart),
+        _ => show::choose(model, Pane::Parameters),
     };
     effects.extend(explore(model, entry.command));
     effects

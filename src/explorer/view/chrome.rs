@@ -10,7 +10,7 @@ use crate::explorer::action::{Command, Content, Traffic};
 use crate::explorer::completion::Completion;
 use crate::explorer::keys::{self, Binding};
 use crate::explorer::mode::SaveForm;
-use crate::explorer::model::{Estimated, ManualState, Mode, ModeKind, Model, Notice};
+use crate::explorer::model::{Estimated, ManualState, Mode, ModeKind, Model, Notice, Pane};
 use crate::explorer::snapshot::ContactSnapshot;
 use crate::explorer::text_line::TextLine;
 use crate::explorer::theme::Meaning;
@@ -107,8 +107,8 @@ fn headline(model: &Model, width: u16) -> Line<'static> {
     if let (Mode::Edit(_), Some(tried)) = (&model.mode, model.tried_outcome()) {
         let force =
             tried.figures.adhesion_force.map_or("none".to_owned(), |force| format_quantity(force, "N"));
-        let told = if model.is_tried() { format!("F_a {force}") } else { "computing…".to_owned() };
-        part("", format!("preview: {told}"), Meaning::Title);
+        let shown = if model.is_tried() { format!("F_a {force}") } else { "computing…".to_owned() };
+        part("", format!("preview: {shown}"), Meaning::Title);
         part(" · ", "Enter accepts".to_owned(), Meaning::Quiet);
     }
     let in_hand = model.present().is_some() && model.hand.is_some();
@@ -336,7 +336,7 @@ fn rank(row: &Binding, model: &Model) -> u8 {
         _ if model.hand.is_some() && keys::is_manual(row) => 1,
         _ if !row.modes.contains(&ModeKind::Explore) => 1,
         Command::NextPane
-        | Command::ToggleChart
+        | Command::Toggle(Pane::Chart)
         | Command::OpenLibrary
         | Command::Save
         | Command::Pin

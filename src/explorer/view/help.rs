@@ -1,6 +1,7 @@
-//! The help: the table of keys by section, and what the panes show.
+//! The help: what the scene shows, the table of keys by section, and what the panes show.
 
-use crate::explorer::keys::{Bindings, names};
+use crate::explorer::keys::names;
+use crate::explorer::model::Model;
 use crate::explorer::panes::Pane;
 use crate::explorer::theme::{Meaning, Theme};
 use ratatui::Frame;
@@ -12,16 +13,16 @@ use ratatui::widgets::{Block, Paragraph};
 const KEYS: usize = 18;
 
 /// Draws the help.
-pub fn draw(frame: &mut Frame<'_>, area: Rect, theme: Theme, bindings: &Bindings, scroll: u16) {
-    let lines = lines(inside(area).width, theme, bindings);
+pub fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model, scroll: u16) {
+    let (theme, lines) = (model.appearance.theme, lines(inside(area).width, model));
     let last = end(lines.len(), area);
     let block = Block::bordered().border_style(theme.style(Meaning::Quiet)).title(" Help ");
     frame.render_widget(Paragraph::new(lines).block(block).scroll((scroll.min(last), 0)), area);
 }
 
 /// Lines it can be scrolled down in this area.
-pub fn last_scroll(area: Rect, bindings: &Bindings) -> u16 {
-    end(lines(inside(area).width, Theme::Plain, bindings).len(), area)
+pub fn last_scroll(area: Rect, model: &Model) -> u16 {
+    end(lines(inside(area).width, model).len(), area)
 }
 
 fn inside(area: Rect) -> Rect {
@@ -33,14 +34,20 @@ fn end(lines: usize, area: Rect) -> u16 {
 }
 
 /// All lines, none of them wider than so many columns.
-fn lines(width: u16, theme: Theme, bindings: &Bindings) -> Vec<Line<'static>> {
+fn lines(width: u16, model: &Model) -> Vec<Line<'static>> {
+    let theme = model.appearance.theme;
     let title = |text| Line::styled(text, theme.style(Meaning::Title));
     let mut lines = vec![title("What you see")];
+    // A small window has no room for it above the panes.
+    let notice = model.document.scene().notice.split_whitespace().collect::<Vec<_>>().join(" ");
+    if !notice.is_empty() {
+        entry(&mut lines, "This scene", &notice, width, theme);
+    }
     for (name, meaning) in Pane::ALL.iter().flat_map(|pane| pane.row().help) {
         entry(&mut lines, name, meaning, width, theme);
     }
     let mut section = "";
-    for row in bindings.rows().filter(|row| !row.help.is_empty()) {
+    for row in model.bindings.rows().filter(|row| !row.help.is_empty()) {
         if row.section != section {
             section = row.section;
             lines.push(Line::default());

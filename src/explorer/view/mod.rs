@@ -31,9 +31,7 @@ pub fn draw(frame: &mut Frame<'_>, model: &Model) {
         chrome::title(frame, area, model);
     }
     match &model.mode {
-        Mode::Help { scroll } => {
-            help::draw(frame, body(&layout), model.appearance.theme, &model.bindings, *scroll)
-        }
+        Mode::Help { scroll } => help::draw(frame, body(&layout), model, *scroll),
         Mode::Library(library) => library::draw(frame, body(&layout), model, library),
         _ => {
             for &(pane, area) in &layout.panes {
@@ -65,7 +63,7 @@ fn body(layout: &Layout) -> Rect {
 /// Lines the help can be scrolled down.
 #[must_use]
 pub fn help_end(model: &Model) -> u16 {
-    help::last_scroll(body(&Layout::of(model)), &model.bindings)
+    help::last_scroll(body(&Layout::of(model)), model)
 }
 
 fn draw_pane(frame: &mut Frame<'_>, area: Rect, model: &Model, pane: Pane) {

@@ -75,6 +75,10 @@ impl Text<'_> {
             (Some(comma), None) if self.text[comma..span.entry.start].trim().is_empty() => comma,
             _ => span.entry.start,
         };
+        // Without the first entry the next one begins where it began.
+        let blanks = &self.text[end..next];
+        let is_same_line = index + 1 < entries.len() && blanks.trim().is_empty() && !blanks.contains('\n');
+        let end = if before.is_none() && is_same_line { next } else { end };
         let mut edits = vec![(start..end, String::new())];
         // The last entry without a comma leaves the one before it without a comma.
         if let (None, Some(comma)) = (entry.comma, comma) {
@@ -192,7 +196,7 @@ mod tests {
             ("(a: 1, b: 2)", "b", "(a: 1)"),
             ("(a: 1, b: 2,)", "b", "(a: 1,)"),
             ("(a: 1, b: 2, c: 3)", "b", "(a: 1, c: 3)"),
-            ("(a: 1, b: 2, c: 3)", "a", "( b: 2, c: 3)"),
+            ("(a: 1, b: 2, c: 3)", "a", "(b: 2, c: 3)"),
             ("(a: 1, /* c */ b: 2)", "b", "(a: 1 /* c */ )"),
             ("(\n a: 1, // x\n b: 2, // y\n c: 3,\n)", "b", "(\n a: 1, // x // y\n c: 3,\n)"),
             ("(\n a: 1, // x\n b: 2, c: 3,\n)", "b", "(\n a: 1, // x\n  c: 3,\n)"),

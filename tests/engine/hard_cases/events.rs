@@ -16,7 +16,7 @@ pub struct Events<'a> {
     gaps: Wide,
 }
 
-/// What a move came to.
+/// Outcome of a move.
 #[derive(Default)]
 pub struct Moved {
     pub joins: u64,

@@ -36,7 +36,7 @@ fn compare(body: &Body) -> ([f64; 3], usize) {
             } else if let Some(at) = moved.separated_at.as_ref().filter(|_| leg == Leg::ToSeparation) {
                 assert!(distance(last.indentation, at) <= 4.0 * f64::EPSILON * size, "{leg:?}");
             }
-            // The smallest force stands at an event, so it moves with the rounding of that.
+            // The smallest force is at an event, and moves with its rounding.
             if let Some((smallest, _)) =
                 moved.smallest.filter(|_| last.springs > 0 || leg == Leg::ToSeparation)
             {

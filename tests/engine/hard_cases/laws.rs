@@ -19,7 +19,7 @@ fn shares() -> impl Strategy<Value = Vec<f64>> {
     prop::collection::vec(0.0..1.0_f64, 1..6)
 }
 
-/// From where everything has let go to full contact.
+/// From separation to full contact.
 fn legs(body: &Body, shares: &[f64]) -> Vec<Leg> {
     let (low, high) = (-body.largest_stretch(), 1.1 * body.deepest() + 1e-3 * body.largest_stretch());
     shares.iter().map(|share| Leg::ToIndentation(low + share * (high - low))).collect()

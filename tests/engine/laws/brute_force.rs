@@ -75,7 +75,7 @@ impl Steps {
         self.stiffness * self.at(d).compression(d)
     }
 
-    /// Smallest force in contact on a range, N: it stands at a threshold or at the low end.
+    /// Smallest force in contact on a range, N: it is at a threshold or at the low end.
     pub fn smallest(&self, low: f64, high: f64) -> f64 {
         let held = self.pieces(low, high).filter(|(_, _, step)| step.springs > 0.0);
         let ends = held.map(|(from, _, step)| self.stiffness * step.compression(from));

@@ -174,7 +174,7 @@ fn refining_the_grid_refines_the_same_line() {
     let coarse = heights(2_000);
     let deepest = coarse.iter().fold(0.0_f64, |most, height| most.max(height.abs()));
     for factor in [3, 5, 9] {
-        // Every springs of the coarse grid stands where one of the finer stands, in the middle of a cell.
+        // Each spring of the coarse grid is at the place of one of the finer grid, in the middle of a cell.
         let fine = heights(2_000 * factor as u64);
         for (index, height) in coarse.iter().enumerate() {
             let same = fine[factor * index + factor / 2];

@@ -1,4 +1,4 @@
-//! Legs that cannot be done are errors that say why, and leave the body where it stood; legs without
+//! Legs that cannot be done are errors with their reason, and leave the body where it was; legs without
 //! anything to do are done at once.
 
 use super::*;
@@ -38,8 +38,8 @@ proptest! {
                 },
             };
             prop_assert_eq!(&error, &expected);
-            if let ContactError::DetachesBefore { index: told, leg, .. } = error {
-                prop_assert_eq!((told, leg), (index, Leg::ToForce(force)));
+            if let ContactError::DetachesBefore { index: refused, leg, .. } = error {
+                prop_assert_eq!((refused, leg), (index, Leg::ToForce(force)));
             }
             let (one, other) = (asked.advance(leg).unwrap(), spared.advance(leg).unwrap());
             prop_assert_eq!(&one, &other, "{:?} after a refused leg", leg);
@@ -85,7 +85,7 @@ proptest! {
         let mut legs = vec![Leg::ToIndentation(to), Leg::ToSeparation];
         let figures = Figures::of(&body.history(&legs, 17));
         prop_assert!(figures.adhesion_force.is_some() && figures.dissipated_energy.is_some());
-        // High enough not to be moved towards the body from where it let go.
+        // High enough not to be moved towards the body from where it detached.
         let low = body.largest_stretch() + 1.0;
         legs.extend(heights.iter().map(|height| Leg::ToIndentation(-low - height)));
         legs.push(Leg::ToSeparation);

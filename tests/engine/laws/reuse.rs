@@ -35,8 +35,8 @@ proptest! {
             for (leg, copy) in to_indentations(&turns).into_iter().chain(fly).zip(&mut copies) {
                 solver.advance(leg).unwrap();
                 solver.copy_leg(copy).unwrap();
-                let told: Vec<_> = probes.iter().map(|&probe| solver.fragments(probe)).collect();
-                expected.push(told);
+                let found: Vec<_> = probes.iter().map(|&probe| solver.fragments(probe)).collect();
+                expected.push(found);
             }
             for (copy, expected) in copies.iter().zip(&expected) {
                 for (&probe, expected) in probes.iter().zip(expected) {

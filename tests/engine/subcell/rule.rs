@@ -13,7 +13,7 @@ proptest! {
     ) {
         let tree = body.tree();
         let mut solver = body.on(&tree, 6);
-        // A body with hardly more and one with hardly less adhesion: where these do not stand in the same
+        // A body with hardly more and one with hardly less adhesion: where these are not in the same
         // fragments, an event lies at the turning point to rounding and either is right.
         let work = |factor: f64| {
             Relaxed::new(&body.gaps, body.foundation, body.closing_work * factor, body.work * factor)
@@ -26,9 +26,9 @@ proptest! {
             let record = solver.advance(Leg::ToIndentation(turn)).unwrap();
             let before = record.curve.iter().filter(|point| point.springs > 0).count();
             for (index, point) in record.curve.iter().enumerate() {
-                // Where it lets go or forms at once, the point before and the point after.
+                // Where it detaches or forms at once, the point before and the point after.
                 let moved_on = record.curve.get(index + 1).is_some_and(|p| p.indentation == point.indentation);
-                // Nor does the brute force tell levels apart that are 0 but for the rounding of any gap.
+                // Nor does the brute force distinguish levels that are 0 but for the rounding of any gap.
                 if moved_on || before == 0 || point.indentation.abs() < 1e-16 {
                     continue;
                 }

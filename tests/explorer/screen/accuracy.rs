@@ -12,11 +12,10 @@ use asperity::accuracy::{
 use asperity::explorer::action::Action;
 use asperity::explorer::model::{Costs, Estimated, Notice, Pane};
 use asperity::explorer::snapshot::SolvedScene;
-use asperity::explorer::study::{Appraiser, Finding, Found, Study, Task};
+use asperity::explorer::study::{Appraiser, Finding, Found, PaneData, Study, Task};
 use asperity::explorer::update::Effect;
 use asperity::scene::{Document, Edges, Scene};
 use asperity::simulation::RunError;
-use asperity::study::map::LiveMap;
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::time::Duration;
@@ -66,7 +65,14 @@ impl Appraiser for Scripted {
         Err(ChoiceError::Unreached { tolerance, best: Some(Box::new(choice)) })
     }
 
-    fn chart(&mut self, _: &mut LiveMap, _: &dyn Fn() -> bool, _: &mut dyn FnMut(&LiveMap)) {}
+    fn extend(
+        &mut self,
+        data: PaneData,
+        _: &dyn Fn() -> bool,
+        _: &mut dyn FnMut(PaneData),
+    ) -> Result<PaneData, RunError> {
+        Ok(data)
+    }
 }
 
 /// A row whose error falls with a power of its setting, and whose time grows with it.
@@ -136,7 +142,7 @@ fn what_accuracy_costs_is_shown_beside_what_can_be_changed() {
         }
         keep("screen_of_what_accuracy_costs", &screens);
         driver.press("A");
-        assert_eq!((driver.model.appraisal.shown, driver.model.pane), (false, Pane::Force));
+        assert_eq!((driver.model.large, driver.model.pane), (None, Pane::Force));
         assert!(driver.text().contains("Profile"), "{}", driver.text());
         // It is not measured twice.
         assert!(driver.model.appraisal.costs.ended.is_some());
@@ -173,7 +179,7 @@ fn an_edit_forgets_what_was_found_out() {
         driver.appraiser = None;
         driver.select("roughness.hurst");
         assert_eq!(driver.press("l"), [Effect::Compute]);
-        assert!(driver.model.appraisal.shown);
+        assert!(driver.model.is_shown(Pane::Accuracy));
         assert_eq!(driver.model.appraisal.estimated, Estimated::Waiting);
         assert_eq!(driver.model.appraisal.costs, Costs::default());
         assert!(driver.status().contains("± …"), "{}", driver.status());
@@ -317,7 +323,14 @@ impl Appraiser for Endless {
         Err(ChoiceError::Stepwise)
     }
 
-    fn chart(&mut self, _: &mut LiveMap, _: &dyn Fn() -> bool, _: &mut dyn FnMut(&LiveMap)) {}
+    fn extend(
+        &mut self,
+        data: PaneData,
+        _: &dyn Fn() -> bool,
+        _: &mut dyn FnMut(PaneData),
+    ) -> Result<PaneData, RunError> {
+        Ok(data)
+    }
 }
 
 fn endless() -> (Study, Receiver<Found>, Receiver<&'static str>) {

@@ -11,7 +11,7 @@ use asperity::explorer::action::{Action, Gesture, Mouse};
 use asperity::explorer::layout::{Layout, inside};
 use asperity::explorer::model::{ModeKind, Pane};
 use asperity::explorer::snapshot::SolvedScene;
-use asperity::explorer::study::{Appraiser, Finding, Found, Study, Task};
+use asperity::explorer::study::{Appraiser, Finding, Found, PaneData, Study, Task};
 use asperity::explorer::theme::Marker;
 use asperity::explorer::update::{Effect, study_tasks};
 use asperity::scene::{Document, Scene};
@@ -69,13 +69,23 @@ impl Appraiser for Mapper {
         Err(ChoiceError::Stopped)
     }
 
-    fn chart(&mut self, map: &mut LiveMap, _: &dyn Fn() -> bool, tell: &mut dyn FnMut(&LiveMap)) {
+    fn extend(
+        &mut self,
+        data: PaneData,
+        _: &dyn Fn() -> bool,
+        tell: &mut dyn FnMut(PaneData),
+    ) -> Result<PaneData, RunError> {
+        let PaneData::Map(mut map) = data else { return Ok(data) };
+        let whole = Arc::make_mut(&mut map);
         for level in &self.0 {
-            for &row in map.rows_of(*level) {
-                level.columns().for_each(|column| map.set(column, row, Ok(cell(kappa(column), hurst(row)))));
-                tell(map);
+            for &row in whole.rows_of(*level) {
+                level
+                    .columns()
+                    .for_each(|column| whole.set(column, row, Ok(cell(kappa(column), hurst(row)))));
+                tell(PaneData::Map(Arc::new(whole.clone())));
             }
         }
+        Ok(PaneData::Map(map))
     }
 }
 
@@ -326,7 +336,7 @@ fn other_edits_begin_the_map_anew_and_wait_for_quiet() {
         let mut driver = charted(rough());
         let chart = |driver: &Driver| {
             study_tasks(&driver.model).into_iter().find_map(|task| match task {
-                Task::Chart { map, waits } => Some((map.level(), waits)),
+                Task::Extend { data: PaneData::Map(map), waits } => Some((map.level(), waits)),
                 _ => None,
             })
         };
@@ -338,19 +348,19 @@ fn other_edits_begin_the_map_anew_and_wait_for_quiet() {
         // What comes late is of no use.
         let generation = driver.model.generation - 1;
         let late = Arc::new(LiveMap::new(Arc::new(Template::of(rough().scene()).unwrap())));
-        driver.act(Action::Found(Found { generation, finding: Finding::Charted(late) }));
+        driver.act(Action::Found(Found { generation, finding: Finding::Extended(PaneData::Map(late)) }));
         assert!(driver.model.chart.map.is_none());
         // Nobody looks on.
         driver.press("m m");
-        assert!(!driver.model.chart.shown);
+        assert!(!driver.model.is_shown(Pane::Chart));
         assert_eq!(chart(&driver), None);
         assert_eq!(driver.press("m"), [Effect::Study, Effect::Show]);
         assert_eq!(chart(&driver), Some((None, false)), "shown, it begins at once");
         // Accuracy takes its place, and the other way round.
         driver.press("A");
-        assert!(driver.model.appraisal.shown && !driver.model.chart.shown);
+        assert_eq!(driver.model.large, Some(Pane::Accuracy));
         driver.press("m");
-        assert!(!driver.model.appraisal.shown && driver.model.chart.shown);
+        assert_eq!(driver.model.large, Some(Pane::Chart));
     });
 }
 
@@ -371,7 +381,10 @@ fn a_scene_without_a_map_says_why() {
             map.set(column, row, Err("the force is never reached".to_owned()));
         }
         let generation = driver.model.generation;
-        driver.act(Action::Found(Found { generation, finding: Finding::Charted(Arc::new(map)) }));
+        driver.act(Action::Found(Found {
+            generation,
+            finding: Finding::Extended(PaneData::Map(Arc::new(map))),
+        }));
         assert!(!driver.text().contains("▒▒▒▒"), "{}", driver.text());
         assert!(driver.text().contains("the force is never"), "{}", driver.text());
         driver.press("X");
@@ -408,14 +421,20 @@ impl Appraiser for Endless {
         self.1.choose(scene, tolerance, stop, trying)
     }
 
-    fn chart(&mut self, map: &mut LiveMap, stop: &dyn Fn() -> bool, tell: &mut dyn FnMut(&LiveMap)) {
-        self.1.chart(map, stop, tell);
+    fn extend(
+        &mut self,
+        data: PaneData,
+        stop: &dyn Fn() -> bool,
+        tell: &mut dyn FnMut(PaneData),
+    ) -> Result<PaneData, RunError> {
+        let data = self.1.extend(data, stop, tell)?;
         self.0.send("begun").unwrap();
         while !stop() {
             std::thread::yield_now();
         }
-        tell(map);
+        tell(data.clone());
         self.0.send("stopped").unwrap();
+        Ok(data)
     }
 }
 
@@ -427,7 +446,7 @@ fn an_edit_ends_the_computing_of_the_map() {
         let endless = Endless(says, Mapper(vec![Level::Coarse]));
         let study = Study::start(Box::new(endless), move |found| report.send(found).is_ok()).unwrap();
         let map = Arc::new(LiveMap::new(Arc::new(Template::of(rough().scene()).unwrap())));
-        study.ask(1, vec![Task::Chart { map, waits: false }]);
+        study.ask(1, vec![Task::Extend { data: PaneData::Map(map), waits: false }]);
         assert_eq!(said.recv_timeout(PATIENCE), Ok("begun"));
         study.stop();
         assert_eq!(said.recv_timeout(PATIENCE), Ok("stopped"));

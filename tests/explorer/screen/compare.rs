@@ -145,7 +145,7 @@ fn what_cannot_be_kept_or_exchanged_says_why() {
 
 /// The rows of the pane that has the close-up or the scene beside in it.
 fn lower_pane(driver: &Driver) -> Vec<String> {
-    rows_of(driver, Pane::CloseUp)
+    rows_of(driver, Pane::Beside)
 }
 
 fn rows_of(driver: &Driver, pane: Pane) -> Vec<String> {
@@ -214,7 +214,7 @@ fn the_scene_beside_is_asked_for_only_where_it_is_in_sight() {
         assert!(is_asked_for(&driver));
         for (keys, back) in [("z", "z"), ("Tab z", "z"), ("Tab z", "z")] {
             driver.press(keys);
-            let is_shown = Layout::of(&driver.model).pane(Pane::CloseUp).is_some() && !driver.model.lengths;
+            let is_shown = Layout::of(&driver.model).pane(Pane::Beside).is_some();
             assert_eq!(is_asked_for(&driver), is_shown, "{keys}");
             driver.press(back);
             assert!(is_asked_for(&driver) && driver.text().contains("A → this scene"), "{back}");
@@ -250,11 +250,13 @@ fn two_scenes_that_are_opened_are_shown_side_by_side() {
             driver.press(keys);
             driver.screen();
         }
-        assert!(!driver.model.side_by_side);
+        assert!(!driver.model.is_shown(Pane::Beside));
         driver.press("&");
-        assert!(driver.model.side_by_side && !driver.model.lengths);
+        assert!(driver.model.is_shown(Pane::Beside));
         driver.press("C");
-        assert!(!driver.model.side_by_side && driver.model.moment.as_ref().unwrap().beside.is_none());
+        assert!(
+            !driver.model.is_shown(Pane::Beside) && driver.model.moment.as_ref().unwrap().beside.is_none()
+        );
     });
 }
 

@@ -4,7 +4,7 @@ use super::common::deadline::within;
 use super::common::driver::APPEARANCE;
 use super::common::scenes::rough;
 use asperity::explorer::demo::{Cue, Demo, ONE_SCENE, TOUR};
-use asperity::explorer::model::Mode;
+use asperity::explorer::model::{Mode, Pane};
 use asperity::explorer::theme::{Appearance, Theme};
 use asperity::explorer::{FrameBytes, Screen, picture, picture_of};
 use asperity::scene::{Document, open, presets};
@@ -90,7 +90,7 @@ fn the_tour_shows_what_it_is_to_show() {
                 model.hand.as_ref().is_some_and(|hand| hand.path.len() > 100),
                 !model.ghosts.is_empty(),
                 model.curve.loss,
-                model.lengths,
+                model.lower == Pane::Lengths,
                 matches!(model.mode, Mode::Edit(_)),
                 model.is_unsaved() && model.document.scene().roughness.is_none(),
             ];

@@ -82,7 +82,7 @@ fn a_command_is_found_by_letters_and_runs_as_its_key_does() {
         let mut driver = pressed("");
         query(&mut driver, "sections");
         driver.press("Enter");
-        assert!(driver.model.chart.shown && driver.model.chart.sections);
+        assert!(driver.model.is_shown(Pane::Chart) && driver.model.chart.sections);
         assert_eq!(driver.model.pane, Pane::Chart);
         let mut driver = mid_retraction(rough());
         query(&mut driver, "switch effect");

@@ -6,15 +6,13 @@ use super::common::scenes::{rough, without_adhesion};
 use super::keep;
 use asperity::accuracy::{Choice, ChoiceError, CostError, CostTable, Estimate, Progress};
 use asperity::explorer::model::Pane;
-use asperity::explorer::preload_curve::{PROFILES, PreloadCurve};
+use asperity::explorer::panes::PROFILES;
 use asperity::explorer::snapshot::SolvedScene;
-use asperity::explorer::study::{Appraiser, Task};
+use asperity::explorer::study::{Appraiser, PaneData, Task};
 use asperity::explorer::update::{Effect, study_tasks};
 use asperity::scene::{Document, Scene};
 use asperity::simulation::RunError;
-use asperity::study::map::LiveMap;
-use std::cell::Cell;
-use std::path::Path;
+use std::cell::RefCell;
 
 /// Computes the curve and nothing else, until it has so many profiles.
 struct Profiles(usize);
@@ -43,23 +41,23 @@ impl Appraiser for Profiles {
         Err(ChoiceError::Stopped)
     }
 
-    fn chart(&mut self, _: &mut LiveMap, _: &dyn Fn() -> bool, _: &mut dyn FnMut(&LiveMap)) {}
-
-    fn preloads(
+    fn extend(
         &mut self,
-        curve: &mut PreloadCurve,
-        scene: &Scene,
+        data: PaneData,
         _: &dyn Fn() -> bool,
-        tell: &mut dyn FnMut(&PreloadCurve),
-    ) -> Result<(), RunError> {
-        let profiles = Cell::new(0);
-        let stop = || profiles.get() >= self.0;
-        let done = curve.compute(scene, Path::new(""), &stop, &mut |curve| {
-            profiles.set(curve.profiles());
-            tell(curve);
+        tell: &mut dyn FnMut(PaneData),
+    ) -> Result<PaneData, RunError> {
+        let last = RefCell::new(data.clone());
+        let is_enough = || matches!(&*last.borrow(), PaneData::Preloads(curve) if curve.profiles() >= self.0);
+        let done = data.extended(&is_enough, &mut |data| {
+            last.replace(data.clone());
+            tell(data);
         });
-        // What it has so far is enough.
-        if done.as_ref().is_err_and(RunError::is_interruption) { Ok(()) } else { done }
+        match done {
+            // The data so far are enough.
+            Err(error) if error.is_interruption() => Ok(last.into_inner()),
+            done => done,
+        }
     }
 }
 
@@ -101,10 +99,10 @@ fn the_pane_takes_the_place_of_map_and_accuracy_and_gives_it_back() {
             [("m", Some(Pane::Chart)), ("i", Some(Pane::Preloads)), ("A", Some(Pane::Accuracy))]
         {
             driver.press(keys);
-            assert_eq!(driver.model.in_place_of_the_line(), pane, "{keys}");
+            assert_eq!(driver.model.large, pane, "{keys}");
         }
         driver.press("i i");
-        assert_eq!((driver.model.in_place_of_the_line(), driver.model.pane), (None, Pane::Force));
+        assert_eq!((driver.model.large, driver.model.pane), (None, Pane::Force));
     });
 }
 
@@ -112,12 +110,12 @@ fn the_pane_takes_the_place_of_map_and_accuracy_and_gives_it_back() {
 fn an_edit_begins_a_new_curve_and_a_scene_without_one_says_why() {
     within(60, || {
         let mut driver = shown(rough(), 2);
-        let before = driver.model.preloads.curve.clone().unwrap();
+        let before = driver.model.preloads.clone().unwrap();
         assert_eq!(before.profiles(), 2);
         // It goes on with what there is.
         let goes_on = |driver: &Driver| {
             study_tasks(&driver.model).into_iter().find_map(|task| match task {
-                Task::Preloads { curve, waits, .. } => Some((curve.profiles(), waits)),
+                Task::Extend { data: PaneData::Preloads(curve), waits } => Some((curve.profiles(), waits)),
                 _ => None,
             })
         };
@@ -125,7 +123,7 @@ fn an_edit_begins_a_new_curve_and_a_scene_without_one_says_why() {
         driver.appraiser = None;
         driver.select("roughness.hurst");
         driver.press("l");
-        assert_eq!(driver.model.preloads.curve, None);
+        assert_eq!(driver.model.preloads, None);
         assert_eq!(goes_on(&driver), Some((0, true)));
         let driver = shown(without_adhesion(), 2);
         assert_eq!(goes_on(&driver), None);

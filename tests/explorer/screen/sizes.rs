@@ -58,7 +58,7 @@ fn messages_are_whole_or_end_in_an_ellipsis() {
             ("d F - 1 Enter", "! the contact detaches before -1; smallest force within reach: -"),
             ("d F 1 e 3 0 Enter", "! "),
             ("e Ctrl+u 1 2 k g Enter", "! "),
-            ("e Ctrl+u - 1 Enter", "! roughness.hurst = -1: allowed: above 0 and below 1"),
+            ("e Ctrl+u - 1 Enter", "! roughness.hurst = -1.0: allowed: above 0 and below 1"),
             ("L q", "The scene has unsaved changes. Leave?"),
         ];
         for (keys, begins) in scenes {
@@ -93,9 +93,9 @@ fn titles_notices_and_explanations_are_whole_or_end_in_an_ellipsis() {
                 let layout = Layout::of(&driver.model);
                 let rows = driver.rows();
                 if let Some(title) = layout.title {
-                    let told = rows[..usize::from(title.height)].join(" ");
+                    let head = rows[..usize::from(title.height)].join(" ");
                     let end = notice.split_whitespace().last().unwrap();
-                    assert!(told.trim_end().ends_with(end) || told.contains('…'), "{size:?}: {told}");
+                    assert!(head.trim_end().ends_with(end) || head.contains('…'), "{size:?}: {head}");
                 }
                 driver.press("Tab Tab");
                 for (pane, area) in Layout::of(&driver.model).panes {
@@ -116,6 +116,25 @@ fn titles_notices_and_explanations_are_whole_or_end_in_an_ellipsis() {
                 let is_explained = text.contains("Allowed:") || text.contains('…') || size.1 < 6;
                 assert!(is_explained, "{size:?}\n{text}");
             }
+        }
+    });
+}
+
+#[test]
+fn the_help_has_the_whole_notice() {
+    within(60, || {
+        for size in &SIZES[..4] {
+            let mut driver = Driver::start(default_scene());
+            driver.resize(*size);
+            driver.press("?");
+            let mut seen = driver.text();
+            for _ in 0..12 {
+                driver.press("j");
+                seen += &driver.text();
+            }
+            let notice = driver.model.document.scene().notice.clone();
+            let missing = notice.split_whitespace().find(|word| !seen.contains(word));
+            assert_eq!(missing, None, "{size:?}\n{seen}");
         }
     });
 }

@@ -15,18 +15,15 @@ use std::path::Path;
 fn q_shows_the_spectrum_in_place_of_the_line() {
     within(60, || {
         let mut driver = pressed("Q");
-        assert_eq!(
-            (driver.model.pane, driver.model.in_place_of_the_line()),
-            (Pane::Spectrum, Some(Pane::Spectrum))
-        );
+        assert_eq!((driver.model.pane, driver.model.large), (Pane::Spectrum, Some(Pane::Spectrum)));
         driver.press("Q");
-        assert_eq!((driver.model.pane, driver.model.in_place_of_the_line()), (Pane::Force, None));
+        assert_eq!((driver.model.pane, driver.model.large), (Pane::Force, None));
         // One thing at a time is in that place.
         for (keys, pane) in
             [("Q A", Pane::Accuracy), ("Q", Pane::Spectrum), ("m", Pane::Chart), ("Q", Pane::Spectrum)]
         {
             driver.press(keys);
-            assert_eq!(driver.model.in_place_of_the_line(), Some(pane), "{keys}");
+            assert_eq!(driver.model.large, Some(pane), "{keys}");
         }
         // Another scene has another spectrum.
         let before = driver.model.present().unwrap().spectra.clone().unwrap();
@@ -57,9 +54,9 @@ fn the_spread_over_lines_is_beside_that_of_the_fit() {
         driver.appraiser = Some(Box::new(Accuracy));
         driver.perform(vec![Effect::Compute]);
         // Not before the pane is shown.
-        assert!(driver.model.adhesion_spread.found.profiles.is_empty());
+        assert_eq!(driver.model.adhesion_spread, None);
         driver.press("Q");
-        assert_eq!(driver.model.adhesion_spread.found.profiles.len(), PROFILES);
+        assert_eq!(driver.model.adhesion_spread.as_ref().unwrap().found.profiles.len(), PROFILES);
         assert!(study_tasks(&driver.model).is_empty());
         driver.press("z");
         for size in [(120, 40), (80, 24)] {
@@ -69,7 +66,7 @@ fn the_spread_over_lines_is_beside_that_of_the_fit() {
         }
         driver.appraiser = None;
         driver.press("R");
-        assert!(driver.model.adhesion_spread.found.profiles.is_empty());
+        assert_eq!(driver.model.adhesion_spread, None);
         assert!(driver.text().contains("0 of 16 lines"), "{}", driver.text());
     });
 }

@@ -177,7 +177,7 @@ fn the_computed_map_can_be_had_instead() {
     within(60, || {
         let (_folder, mut driver) = opened();
         let charts = |driver: &Driver| {
-            study_tasks(&driver.model).iter().any(|task| matches!(task, Task::Chart { .. }))
+            study_tasks(&driver.model).iter().any(|task| matches!(task, Task::Extend { .. }))
         };
         assert!(!charts(&driver), "nothing is computed that is not shown");
         assert_eq!(driver.press("W"), [Effect::Study]);

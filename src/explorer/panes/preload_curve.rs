@@ -1,8 +1,8 @@
 //! Adhesion against preload of the scene: the adhesion force of its own profile for many preloads, then the mean over
 //! random profiles, coarser in the preload.
 
-use super::snapshot::SolvedScene;
 use crate::analysis::Figures;
+use crate::explorer::snapshot::SolvedScene;
 use crate::scene::{Scene, Solver};
 use crate::simulation::{RunError, Simulation};
 use crate::study::{Preloaded, Preloads, Statistics, preload_statistics, solve_preloads};
@@ -22,6 +22,7 @@ const REACH: f64 = 2.0;
 /// Adhesion forces of a scene for many preloads, as far as they are computed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PreloadCurve {
+    scene: Arc<Scene>,
     forces: Vec<f64>,
     /// Results of the profile of the scene, from the smallest preload on.
     pub own: Vec<Preloaded>,
@@ -50,7 +51,9 @@ impl PreloadCurve {
         let Some(scale) = scale else { return Err("no stage presses the bodies together") };
         let forces = Preloads { from: 0.0, to: REACH * scale, count: FINE }.forces();
         let wanted = if computed.scene.seed().is_some() { PROFILES } else { 0 };
-        Ok(PreloadCurve { forces, own: Vec::new(), profiles: Vec::new(), statistics: Vec::new(), wanted })
+        let scene = Arc::clone(&computed.scene);
+        let (own, profiles, statistics) = (Vec::new(), Vec::new(), Vec::new());
+        Ok(PreloadCurve { scene, forces, own, profiles, statistics, wanted })
     }
 
     /// Returns true once nothing is left to be computed.
@@ -78,24 +81,23 @@ impl PreloadCurve {
     /// When a profile or its contact fails, or `stop` says so.
     pub fn compute(
         &mut self,
-        scene: &Scene,
         folder: &Path,
         stop: &dyn Fn() -> bool,
         tell: &mut dyn FnMut(&PreloadCurve),
     ) -> Result<(), RunError> {
         let mut simulation = Simulation::new(folder.to_path_buf());
         if self.own.len() < self.forces.len() {
-            let forces = self.forces.clone();
+            let (scene, forces) = (Arc::clone(&self.scene), self.forces.clone());
             self.own.clear();
-            solve_preloads(&mut simulation, scene, &forces, stop, &mut |one| {
+            solve_preloads(&mut simulation, &scene, &forces, stop, &mut |one| {
                 self.own.push(one);
                 if self.own.len().is_multiple_of(SHOWN_EVERY) {
                     tell(self);
                 }
             })?;
         }
+        let mut scene = Scene::clone(&self.scene);
         let first = scene.seed().unwrap_or(0);
-        let mut scene = scene.clone();
         let coarse: Vec<f64> = self.forces.iter().copied().step_by(EVERY).collect();
         while self.profiles.len() < self.wanted {
             let mut found = Vec::with_capacity(coarse.len());
@@ -110,36 +112,6 @@ impl PreloadCurve {
             tell(self);
         }
         Ok(())
-    }
-}
-
-/// State of the pane of adhesion against preload.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct PreloadPane {
-    /// True while its pane replaces profile and close-up.
-    pub shown: bool,
-    /// The curve of the present scene, so far.
-    pub curve: Option<Arc<PreloadCurve>>,
-    /// Reason for which the computation ended early.
-    pub failed: Option<String>,
-    /// True if the scene has just been edited: somebody who holds a key down wants the machine.
-    pub edited: bool,
-}
-
-impl PreloadPane {
-    /// Forgets the scene, which has been changed.
-    pub fn renew(&mut self) {
-        *self = PreloadPane { shown: self.shown, edited: true, ..PreloadPane::default() };
-    }
-
-    /// The curve to be gone on with, `None` once it is whole or where there is none.
-    #[must_use]
-    pub fn wanted(&self, computed: &SolvedScene) -> Option<Arc<PreloadCurve>> {
-        if !self.shown || self.failed.is_some() {
-            return None;
-        }
-        let curve = self.curve.clone().or_else(|| PreloadCurve::new(computed).ok().map(Arc::new))?;
-        Some(curve).filter(|curve| !curve.is_whole())
     }
 }
 
@@ -163,14 +135,14 @@ mod tests {
         let told = Cell::new(0);
         let stop = || told.get() >= 12;
         let mut sizes = Vec::new();
-        let done = curve.compute(&computed.scene, Path::new(""), &stop, &mut |curve| {
+        let done = curve.compute(Path::new(""), &stop, &mut |curve| {
             told.set(told.get() + 1);
             sizes.push((curve.own.len(), curve.profiles()));
         });
         assert!(done.unwrap_err().is_interruption());
         assert!(sizes.windows(2).all(|pair| pair[0] < pair[1]), "{sizes:?}");
         assert!(!curve.is_whole() && curve.own.len() == FINE && curve.profiles() > 1);
-        curve.compute(&computed.scene, Path::new(""), &|| false, &mut |_| ()).unwrap();
+        curve.compute(Path::new(""), &|| false, &mut |_| ()).unwrap();
         assert!(curve.is_whole() && curve.profiles() == PROFILES);
         assert_eq!(curve.coarse().len(), curve.statistics.len());
         let means: Vec<f64> = curve.statistics.iter().map(|one| one.unwrap().mean).collect();

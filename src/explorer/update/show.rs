@@ -1,0 +1,35 @@
+//! Panes that are shown and hidden by a key.
+
+use super::Effect;
+use crate::explorer::model::{Model, Pane};
+
+/// Shows and selects a pane, or hides it again. A pane with keys of its own is selected before it is hidden: whoever is in
+/// another pane wants these keys.
+pub fn toggle(model: &mut Model, pane: Pane) -> Vec<Effect> {
+    let is_in_use = model.pane == pane || pane.row().keys.is_none();
+    if model.is_shown(pane) && is_in_use {
+        change(model, |model| model.hide(pane))
+    } else {
+        choose(model, pane)
+    }
+}
+
+/// Shows and selects a pane.
+pub fn choose(model: &mut Model, pane: Pane) -> Vec<Effect> {
+    change(model, |model| model.show(pane))
+}
+
+/// Effects of a change of the shown panes: other data are computed, the scene beside is needed or not.
+pub fn change(model: &mut Model, change: impl FnOnce(&mut Model)) -> Vec<Effect> {
+    let before = (model.large, model.lower);
+    change(model);
+    let mut effects = Vec::new();
+    if before.1 != model.lower && [before.1, model.lower].contains(&Pane::Beside) {
+        effects.push(Effect::Beside);
+    }
+    if before.0 != model.large {
+        effects.push(Effect::Study);
+    }
+    effects.push(Effect::Show);
+    effects
+}
