@@ -1,7 +1,7 @@
 //! `asperity run`: computes a scene without a terminal.
 
 use super::preloads::parse_preloads;
-use super::scene::simulation_of;
+use super::scene::{MOST_LINES, simulation_of};
 use super::{
     Arguments, CliError, Command, OutputArguments, SceneArguments, SurfaceArguments, SurfaceFormat, surface,
 };
@@ -86,9 +86,6 @@ pub struct RunArguments {
     #[command(flatten)]
     pub output: OutputArguments,
 }
-
-/// Most random lines.
-pub(super) const MOST_LINES: i64 = 1_000_000;
 
 /// Formats of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]

@@ -1,6 +1,6 @@
 //! `asperity surface`: measured surfaces, their statistics and spectrum, and the equivalent line.
 
-use super::run::MOST_LINES;
+use super::scene::MOST_LINES;
 use super::{CliError, OutputArguments};
 use crate::draw::figure_svg;
 use crate::export::{
