@@ -2,7 +2,7 @@
 
     python3 tests/surface_topography.py ASPERITY
 
-Writes a map and a profile in every format that the package writes and the program reads, and compares rms height, rms
+Writes a map and profiles in every format that the package writes, except image tiles (DZI), and compares rms height, rms
 slope, reliability cut-off and power spectral density. Exit code 77: the package is not installed.
 """
 
@@ -14,7 +14,7 @@ import tempfile
 
 try:
     import numpy as np
-    from SurfaceTopography import Topography, UniformLineScan
+    from SurfaceTopography import NonuniformLineScan, Topography, UniformLineScan
 except ImportError as error:
     print(f"SurfaceTopography cannot be imported ({error}): nothing is compared")
     sys.exit(77)
@@ -53,9 +53,11 @@ def main(program, folder):
     for kind in "DFLI":
         full.to_x3p(f"{folder}/map{kind}.x3p", dtype=kind)
     full.to_matrix(f"{folder}/map.txt")
+    full.to_netcdf(f"{folder}/map.nc")
     np.save(f"{folder}/map.npy", heights)
     expected = full.detrend("height").rms_height_from_area()
     files = {"map.gwy": 1e-10, "mapD.x3p": 1e-10, "mapF.x3p": 1e-6, "mapL.x3p": 1e-6, "mapI.x3p": 1e-3, "map.txt": 1e-10}
+    files["map.nc"] = 1e-10
     for file, tolerance in files.items():
         close(file, asperity(program, f"{folder}/{file}")["rms_height"], expected, tolerance)
     spaced = ["--unit", "m", "--spacing", f"{scale}m"]
@@ -65,6 +67,10 @@ def main(program, folder):
     x = np.arange(POINTS) * scale
     np.savetxt(f"{folder}/line.txt", np.c_[1e6 * x, 1e9 * profile], header="x [um] z [nm]", fmt="%.17e")
     line = UniformLineScan(profile, LENGTH, unit="m").detrend("height")
+    UniformLineScan(profile, LENGTH, unit="m").to_netcdf(f"{folder}/line.nc")
+    NonuniformLineScan(1e6 * x, 1e6 * profile, unit="um").to_netcdf(f"{folder}/points.nc")
+    for file in ["line.nc", "points.nc"]:
+        close(file, asperity(program, f"{folder}/{file}")["rms_height"], line.rms_height_from_profile())
     report = asperity(program, f"{folder}/line.txt", "--tip-radius", f"{TIP_RADIUS}m")
     close("rms height", report["rms_height"], line.rms_height_from_profile())
     close("rms slope", report["rms_slope"], line.rms_slope_from_profile())
@@ -86,7 +92,7 @@ def main(program, folder):
         # The package interpolates between points; the program takes the next whole distance.
         if not cutoff - 1e-9 * cutoff <= found <= cutoff + 4 * scale:
             sys.exit(f"reliability cut-off: {found}, SurfaceTopography has {cutoff}")
-    print(f"{len(files) + 1} maps, a profile, {len(bins)} bins and the cut-off {found} agree with SurfaceTopography")
+    print(f"{len(files) + 1} maps, 3 profiles, {len(bins)} bins and the cut-off {found} agree with SurfaceTopography")
 
 
 if __name__ == "__main__":

@@ -14,6 +14,7 @@ const EXAMPLES: &str = "\
 Examples:
   asperity compare ideal-adhesion pressure-sensitive
   asperity compare before.ron after.ron --set roughness.seed=7 | less
+  asperity compare measured.ron --as-line   ... the equivalent line with the profile itself
   asperity compare before.ron after.ron -o loops.png
                                             ... draws both force curves into one picture";
 
@@ -28,8 +29,11 @@ pub struct CompareArguments {
     #[arg(value_name = "SCENE")]
     pub first: String,
     /// The scene it is compared with
-    #[arg(value_name = "OTHER")]
-    pub second: String,
+    #[arg(value_name = "OTHER", required_unless_present = "as_line")]
+    pub second: Option<String>,
+    /// Compare with the measured profile itself as the line
+    #[arg(long, conflicts_with = "second")]
+    pub as_line: bool,
     /// Changes of both scenes.
     #[command(flatten)]
     pub overrides: Overrides,
@@ -49,7 +53,11 @@ pub struct CompareArguments {
 pub(super) fn compare(arguments: &CompareArguments, out: &mut dyn Write) -> Result<(), CliError> {
     let format = arguments.output.format(arguments.format, FORMATS, Format::Text)?;
     let open = |name: &str| arguments.overrides.apply(open_argument(name)?);
-    let (first, second) = (open(&arguments.first)?, open(&arguments.second)?);
+    let first = open(&arguments.first)?;
+    let second = match &arguments.second {
+        Some(second) => open(second)?,
+        None => first.set("roughness.as_line", "true")?,
+    };
     let is_printed = arguments.format.is_some() || arguments.output.output.is_some();
     if !is_printed && stdin().is_terminal() && stdout().is_terminal() {
         let opening = Opening { beside: Some(second), ..Opening::from(first) };

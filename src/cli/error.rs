@@ -4,7 +4,7 @@ use crate::draw::PngError;
 use crate::explorer::OpeningError;
 use crate::explorer::config::ConfigError;
 use crate::io::WriteError;
-use crate::scene::{SceneErrors, quoted};
+use crate::scene::{MeasuredHashError, SceneErrors, quoted};
 use crate::study::slurm::SlurmError;
 use crate::study::{FigureError, StudyError};
 use std::io;
@@ -42,6 +42,8 @@ pub enum CliError {
         "--scene: a scene does not hold {option}; allowed: one file, --unit, --detrend, --periodic, --continue-to"
     )]
     LostInScene { option: &'static str },
+    #[error(transparent)]
+    Measured(#[from] MeasuredHashError),
     #[error(transparent)]
     Config(#[from] ConfigError),
     #[error("--restore: {0}")]

@@ -33,9 +33,9 @@ pub(super) fn line(arguments: &LineArguments, stdout: &mut dyn Write) -> Result<
     let format = format.table().unwrap_or(TableFormat::Csv);
     let document = arguments.scene.open()?;
     arguments.output.check()?;
-    let provenance = arguments.output.provenance(&document, document.scene(), TableContent::Profile);
     let mut simulation = simulation_of(&document);
     let (line, ..) =
         simulation.make_line(document.scene()).map_err(|error| CliError::named(document.name(), error))?;
+    let provenance = arguments.output.provenance(&document, document.scene(), TableContent::Profile)?;
     arguments.output.write(stdout, |out| write_line(out, format, &provenance, line))
 }

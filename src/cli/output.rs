@@ -3,7 +3,7 @@
 use super::{CliError, Format};
 use crate::draw::{Colours, Figure, figure_text};
 use crate::io::{check_writable, write_new};
-use crate::scene::{Document, Provenance, Scene, TableContent};
+use crate::scene::{Document, MeasuredHash, Provenance, Scene, TableContent};
 use crate::text::path_name;
 use clap::Args;
 use std::io::{self, IsTerminal, Write};
@@ -94,8 +94,15 @@ impl OutputArguments {
     }
 
     /// Provenance of a table of a scene that goes where results go.
-    pub(super) fn provenance(&self, document: &Document, scene: &Scene, content: TableContent) -> Provenance {
-        Provenance::new(content, scene, &document.resolve(""), self.folder())
+    pub(super) fn provenance(
+        &self,
+        document: &Document,
+        scene: &Scene,
+        content: TableContent,
+    ) -> Result<Provenance, CliError> {
+        let (folder, destination) = (document.resolve(""), self.folder());
+        let hashes = MeasuredHash::of_files(scene.measured_files(), &folder, destination)?;
+        Ok(Provenance::new(content, scene, &folder, destination).with_hashes(&hashes))
     }
 
     /// Writes results to where they go.

@@ -1,7 +1,7 @@
 //! `asperity run`: computes a scene without a terminal.
 
 use super::preloads::parse_preloads;
-use super::scene::{compute, simulation_of};
+use super::scene::{MOST_LINES, compute, simulation_of};
 use super::{
     Arguments, CliError, Command, Format, OutputArguments, SceneArguments, SurfaceArguments, surface,
 };
@@ -12,7 +12,7 @@ use crate::export::{
     ContactSets, PreloadReport, ensemble_text, force_figure, summary, write_approximate_jkr, write_curve,
     write_ensemble_json, write_ensemble_table, write_json, write_line,
 };
-use crate::scene::{Document, Preloads, Scene, TableContent, arguments_of_spectra, open_argument};
+use crate::scene::{Document, Preloads, Scene, SpectraTable, TableContent, open_argument};
 use crate::simulation::Outcome;
 use crate::study;
 use crate::text::path_name;
@@ -94,9 +94,6 @@ pub struct RunArguments {
     pub output: OutputArguments,
 }
 
-/// Most random lines.
-const MOST_LINES: i64 = 1_000_000;
-
 /// Formats of a run: text, one object with everything, the force curve, and pictures of the force curve, the profile or
 /// the contact patches.
 const FORMATS: &[Format] = &[Format::Text, Format::Json, Format::Csv, Format::Npy, Format::Svg, Format::Png];
@@ -169,6 +166,7 @@ pub(super) fn run(arguments: &RunArguments, stdout: &mut dyn Write) -> Result<()
         return surface::surface(&again, stdout);
     }
     let document = arguments.scene.open()?;
+    document.check_measured_files()?;
     arguments.output.check()?;
     if let Some(asked) = arguments.asked_preloads(&document) {
         return over_preloads(arguments, &document, format, asked, stdout);
@@ -188,17 +186,19 @@ pub(super) fn run(arguments: &RunArguments, stdout: &mut dyn Write) -> Result<()
         let mut simulation = simulation_of(&document);
         let line = simulation.make_line(&scene);
         let (line, ..) = line.map_err(|error| CliError::named(document.name(), error))?;
-        let provenance = arguments.output.provenance(&document, &scene, TableContent::Profile);
+        let provenance = arguments.output.provenance(&document, &scene, TableContent::Profile)?;
         return arguments.output.write(stdout, |out| write_line(out, format, &provenance, line));
     }
     let outcome = run_with_approximate(arguments, &document, &scene)?;
     if let Some(format) = format.table() {
-        let provenance = |content| arguments.output.provenance(&document, &scene, content);
+        let content = match &outcome.approximate_jkr {
+            Some(_) => TableContent::ApproximateJkr,
+            None => TableContent::ForceCurve,
+        };
+        let provenance = arguments.output.provenance(&document, &scene, content)?;
         return arguments.output.write(stdout, |out| match &outcome.approximate_jkr {
-            Some(curve) => {
-                write_approximate_jkr(out, format, &provenance(TableContent::ApproximateJkr), curve)
-            }
-            None => write_curve(out, format, &provenance(TableContent::ForceCurve), &outcome),
+            Some(curve) => write_approximate_jkr(out, format, &provenance, curve),
+            None => write_curve(out, format, &provenance, &outcome),
         });
     }
     let choice = choice.as_ref();
@@ -234,7 +234,9 @@ fn run_with_approximate(
 /// Arguments of `surface` where the scene is a table of spectra.
 fn surface_again(arguments: &RunArguments, format: Format) -> Result<Option<SurfaceArguments>, CliError> {
     let path = Path::new(&arguments.scene.scene);
-    let Some(deciding) = arguments_of_spectra(path) else { return Ok(None) };
+    let Some(SpectraTable { arguments: deciding, measured }) = SpectraTable::open(path) else {
+        return Ok(None);
+    };
     let refused = |reason: String| CliError::named(path_name(path), reason);
     let named = ["asperity", "surface"].map(str::to_owned).into_iter().chain(deciding);
     let parsed = Arguments::try_parse_from(named).map_err(|error| refused(error.kind().to_string()))?;
@@ -252,6 +254,7 @@ fn surface_again(arguments: &RunArguments, format: Format) -> Result<Option<Surf
         return Err(refused(format!("spectra have no {what}; allowed: --format and -o")));
     }
     let folder = path.parent().unwrap_or(Path::new("")).to_path_buf();
+    measured.iter().try_for_each(|hash| hash.check(&folder, &path_name(path)))?;
     Ok(Some(SurfaceArguments { format: Some(format), output: arguments.output.clone(), folder, ..surface }))
 }
 
@@ -307,8 +310,9 @@ fn over_preloads(
         }
     };
     let report = PreloadReport::new(&scene, results);
-    let provenance = arguments.output.provenance(document, &scene, TableContent::Preloads(preloads, lines));
     if let Some(format) = format.table() {
+        let content = TableContent::Preloads(preloads, lines);
+        let provenance = arguments.output.provenance(document, &scene, content)?;
         return arguments.output.write(stdout, |out| report.write_table(out, format, &provenance));
     }
     match format {
@@ -328,14 +332,15 @@ fn on_lines(
 ) -> Result<(), CliError> {
     let results = study::solve_lines(&scene, &document.resolve(""), lines as usize, arguments.threads())
         .map_err(|error| CliError::named(document.name(), error))?;
-    let provenance = arguments.output.provenance(document, &scene, TableContent::RandomProfiles(lines));
-    match (format, format.table()) {
-        (_, Some(format)) => {
-            arguments.output.write(stdout, |out| write_ensemble_table(out, format, &provenance, &results))
-        }
-        (Format::Json, _) => {
-            arguments.output.write(stdout, |out| write_ensemble_json(out, &scene, choice, &results))
-        }
-        _ => arguments.write_text(stdout, &ensemble_text(&scene, &results), choice),
+    if let Some(format) = format.table() {
+        let provenance =
+            arguments.output.provenance(document, &scene, TableContent::RandomProfiles(lines))?;
+        let write = |out: &mut dyn Write| write_ensemble_table(out, format, &provenance, &results);
+        return arguments.output.write(stdout, write);
     }
+    if format == Format::Json {
+        let write = |out: &mut dyn Write| write_ensemble_json(out, &scene, choice, &results);
+        return arguments.output.write(stdout, write);
+    }
+    arguments.write_text(stdout, &ensemble_text(&scene, &results), choice)
 }

@@ -5,6 +5,9 @@ use crate::scene::{Document, Scene, open_argument};
 use crate::simulation::{Outcome, Simulation};
 use clap::Args;
 
+/// Most random profiles of a scene.
+pub(super) const MOST_LINES: i64 = 1_000_000;
+
 /// A scene, with overrides.
 #[derive(Args, Debug)]
 pub struct SceneArguments {

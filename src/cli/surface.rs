@@ -1,36 +1,48 @@
 //! `asperity surface`: measured surfaces, their statistics and spectrum, and the equivalent line.
 
+use super::scene::MOST_LINES;
 use super::{CliError, Format, OutputArguments};
 use crate::export::{
-    Spectra, SurfaceContact, SurfaceFile, surface_text, write_surface_json, write_surface_table,
+    Spectra, SurfaceAdhesion, SurfaceContact, SurfaceFile, surface_text, write_surface_json,
+    write_surface_table,
 };
 use crate::io::{check_writable, write_new};
 use crate::scene::{
-    Adhesion, Document, Leg, MOST_POINTS, Material, Numerics, Provenance, Roughness, SCENE_VERSIONS, Scene,
-    exact_quantity, named_from, parse_quantity,
+    Adhesion, Document, Leg, MOST_POINTS, Material, MeasuredHash, MeasuredHashError, Numerics, Provenance,
+    Roughness, SCENE_VERSIONS, Scene, exact_quantity, named_from, parse_quantity,
 };
+use crate::simulation::RunError;
 use crate::spectrum::{Analysis, Detrend, End, Options, SpectrumError, analyse};
+use crate::study::MeasuredAdhesion;
+use crate::surface::EquivalentLine;
 use crate::text::path_name;
 use crate::topography::{Missing, ReadOptions, Topography, Unit, read};
 use clap::{Args, ValueEnum};
 use std::io::Write;
+use std::num::NonZero;
 use std::path::{Path, PathBuf};
+use std::thread::available_parallelism;
 
 const EXAMPLES: &str = "\
 Examples:
   asperity surface stylus.txt --unit um
-  asperity surface afm.gwy --tip-radius 10nm --modulus 2.7MPa --work 50mJ/m^2
+  asperity surface stylus.txt --unit um --modulus 2.7MPa --work 50mJ/m^2
+  asperity surface afm.gwy --modulus 2.7MPa --work 50mJ/m^2 --preload 1mN --lines 100
   asperity surface a.x3p b.x3p c.x3p --format json -o surface.json
   asperity surface profile.csv --unit um -o spectra.csv
   asperity surface afm.gwy --tip-radius 10nm -o spectra.svg
   asperity surface profile.csv --unit um --modulus 2.7MPa --work 50mJ/m^2 --scene rough.ron
 
-Files are profiles or maps: text in columns or as a matrix, SDF, GSF, NumPy, X3P, GWY, SUR, and
-these in gzip. Several files are samples of the same roughness. A profile is a cut through the
+Files are profiles or maps: text in columns or as a matrix, SDF, GSF, NumPy, X3P, GWY, SUR,
+NetCDF, and these in gzip. Several files are samples of the same roughness. A profile is a cut through the
 surface; the equivalent line is what the contact computation needs.";
 
 /// Springs of a scene for each of its shortest waves.
 const SPRINGS_PER_WAVE: f64 = 8.0;
+
+/// Random profiles of the adhesion force, and springs up to which they are computed unasked: some seconds.
+const LINES: u32 = 16;
+const MOST_SPRINGS: u64 = 1 << 17;
 
 /// Arguments of `surface`.
 #[derive(Args, Debug)]
@@ -57,9 +69,18 @@ pub struct SurfaceArguments {
     /// The scene names the surface and holds --unit, --detrend, --periodic and --continue-to.
     #[arg(long, value_name = "FILE", requires = "modulus", verbatim_doc_comment)]
     pub scene: Option<PathBuf>,
-    /// Work of adhesion, as 50mJ/m^2: gives κ and e_el/γ; needs --modulus
+    /// Work of adhesion, as 50mJ/m^2: gives κ, e_el/γ, F_a and regime; needs --modulus
     #[arg(long, value_name = "ENERGY", requires = "modulus", value_parser = energy)]
     pub work: Option<f64>,
+    /// Force that presses before the pull, as 1mN; default: touch alone
+    #[arg(long, value_name = "FORCE", requires = "modulus", value_parser = force)]
+    pub preload: Option<f64>,
+    /// Random profiles of the adhesion force; needs --work
+    ///
+    /// Each is solved on the fitted spectrum and on one moved within its uncertainty: the spread
+    /// over lines beside that of the fit. Default: 16 up to 131 072 springs, else none.
+    #[arg(long, value_name = "COUNT", requires = "work", value_parser = clap::value_parser!(u32).range(2..=MOST_LINES), verbatim_doc_comment)]
+    pub lines: Option<u32>,
     /// Output file.
     #[command(flatten)]
     pub output: OutputArguments,
@@ -195,6 +216,13 @@ impl SurfaceArguments {
         options.chain(flags).chain(["--".to_owned()]).chain(self.files.iter().map(file)).collect()
     }
 
+    /// Hashes of the files for a table.
+    fn hashes(&self) -> Result<Vec<MeasuredHash>, MeasuredHashError> {
+        let files: Vec<_> = self.files.iter().map(|file| file.to_string_lossy()).collect();
+        let names = files.iter().map(|file| &**file);
+        MeasuredHash::of_files(names, &self.folder, self.output.folder())
+    }
+
     /// Files as they are opened.
     fn paths(&self) -> impl Iterator<Item = PathBuf> + '_ {
         self.files.iter().map(|file| self.folder.join(file))
@@ -219,20 +247,28 @@ pub(super) fn surface(arguments: &SurfaceArguments, stdout: &mut dyn Write) -> R
     let modulus = arguments.analysis.modulus;
     let contact = modulus.map(|modulus| SurfaceContact { modulus, work: arguments.work });
     if let (Some(path), Some(modulus)) = (&arguments.scene, modulus) {
-        let text = scene_text(arguments, path, &analysis, modulus)?;
-        write_new(path, arguments.force_scene, |out| out.write_all(text.as_bytes()))?;
+        let scene = scene(arguments, path, &analysis, modulus)?;
+        let document = Document::from_scene(&scene, &path_name(path))?;
+        write_new(path, arguments.force_scene, |out| out.write_all(document.text().as_bytes()))?;
     }
     if format.picture().is_some() {
         let names: Vec<String> = files.iter().map(|file| path_name(&file.path)).collect();
         let figure = Spectra::of_analysis(&analysis).figure(&names.join(", "));
         return arguments.output.write_figure(stdout, &figure, format);
     }
-    arguments.output.write(stdout, |out| match (format, format.table()) {
-        (_, Some(format)) => {
-            write_surface_table(out, format, &Provenance::of_spectra(&arguments.deciding()), &analysis)
-        }
-        (Format::Json, _) => write_surface_json(out, &files, &analysis, contact),
-        _ => out.write_all(surface_text(&files, &analysis, contact).as_bytes()),
+    if let Some(format) = format.table() {
+        let provenance = Provenance::of_spectra(&arguments.deciding()).with_hashes(&arguments.hashes()?);
+        let write = |out: &mut dyn Write| write_surface_table(out, format, &provenance, &analysis);
+        return arguments.output.write(stdout, write);
+    }
+    let adhesion = match modulus.filter(|_| arguments.work.is_some()) {
+        Some(modulus) => Some(adhesion(arguments, &analysis, modulus)?),
+        None => None,
+    };
+    let adhesion = adhesion.as_ref();
+    arguments.output.write(stdout, |out| match format {
+        Format::Json => write_surface_json(out, &files, &analysis, contact, adhesion),
+        _ => out.write_all(surface_text(&files, &analysis, contact, adhesion).as_bytes()),
     })
 }
 
@@ -264,13 +300,35 @@ fn check_scene(arguments: &SurfaceArguments) -> Result<(), CliError> {
     }
 }
 
+/// Adhesion of the equivalent line, computed where that was asked for or takes but seconds.
+fn adhesion(
+    arguments: &SurfaceArguments,
+    analysis: &Analysis,
+    modulus: f64,
+) -> Result<SurfaceAdhesion, CliError> {
+    let scene = scene(arguments, Path::new(""), analysis, modulus)?;
+    scene.check()?;
+    let unasked = (scene.numerics.points <= MOST_SPRINGS).then_some(LINES);
+    let failed = |error| {
+        let file = arguments.paths().next();
+        CliError::named(file.map_or_else(String::new, |file| path_name(&file)), error)
+    };
+    let solve = |lines: u32| {
+        let line = EquivalentLine::from_spectra(vec![analysis.isotropic.clone()]).map_err(RunError::from)?;
+        let threads = available_parallelism().map_or(1, NonZero::get);
+        MeasuredAdhesion::solve(&scene, &line, lines, threads)
+    };
+    let computed = arguments.lines.or(unasked).map(solve).transpose().map_err(failed)?;
+    Ok(SurfaceAdhesion { scene, computed })
+}
+
 /// Scene of the equivalent line over the length of the scan, on springs that resolve its shortest wave.
-fn scene_text(
+fn scene(
     arguments: &SurfaceArguments,
     path: &Path,
     analysis: &Analysis,
     modulus: f64,
-) -> Result<String, CliError> {
+) -> Result<Scene, CliError> {
     let file = &arguments.files[0];
     let beside = |file: &Path| std::path::absolute(file).ok()?.parent().map(Path::to_path_buf);
     let name = match file.file_name() {
@@ -279,7 +337,7 @@ fn scene_text(
     };
     let waves = analysis.length * analysis.isotropic.range()[1] / std::f64::consts::TAU;
     let points = ((SPRINGS_PER_WAVE * waves) as u64).next_power_of_two().clamp(1024, MOST_POINTS);
-    let scene = Scene {
+    Ok(Scene {
         version: *SCENE_VERSIONS.end(),
         title: format!(
             "Equivalent line of {}",
@@ -302,12 +360,10 @@ fn scene_text(
             seed: 1,
         }),
         adhesion: arguments.work.map(|work| Adhesion::default().with_work(work)),
-        loading: vec![Leg::ToZeroForce, Leg::ToSeparation],
+        loading: vec![arguments.preload.map_or(Leg::ToZeroForce, Leg::ToForce), Leg::ToSeparation],
         numerics: Numerics { points, ..Numerics::default() },
         observe: Vec::new(),
-    };
-    let document = Document::from_scene(&scene, &path_name(path))?;
-    Ok(document.text().to_owned())
+    })
 }
 
 /// Length above 0, m.
@@ -318,6 +374,11 @@ fn length(text: &str) -> Result<f64, String> {
 /// Energy per area above 0, J/m².
 fn energy(text: &str) -> Result<f64, String> {
     positive(text, "J/m²")
+}
+
+/// Force above 0, N.
+fn force(text: &str) -> Result<f64, String> {
+    positive(text, "N")
 }
 
 /// Pressure above 0, Pa.

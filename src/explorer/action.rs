@@ -205,7 +205,10 @@ pub enum Command {
     Swap,
     /// Show the newest ghost beside the scene: both profiles, both loops, what differs.
     ToggleSideBySide,
-    /// Let all ghosts go.
+    /// Keep the other use of a measured profile as a ghost: the profile itself beside its equivalent line, or the line
+    /// beside the profile.
+    PinOtherUse,
+    /// Remove all ghosts.
     ClearGhosts,
     /// Choose a command from the list of all.
     OpenPalette,

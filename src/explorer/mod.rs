@@ -3,6 +3,7 @@
 //! nothing happens.
 
 pub mod action;
+pub mod adhesion_spread;
 pub mod appraisal;
 pub mod approximate;
 mod caption;

@@ -1,6 +1,7 @@
 //! The state of the explorer: changed by `update` alone, drawn by the views.
 
 use super::action::Traffic;
+use super::adhesion_spread::AdhesionSpread;
 pub use super::appraisal::{Appraisal, Estimated};
 use super::approximate::Approximate;
 pub use super::chart::{Chart, OpenStudy};
@@ -197,6 +198,8 @@ pub struct Model {
     pub crosshair: Option<Crosshair>,
     /// Loops kept to be compared with, the newest last.
     pub ghosts: Vec<Ghost>,
+    /// Scene that becomes a ghost as soon as it is computed.
+    pub next_ghost: Option<Document>,
     /// Scene to open beside the present one as soon as that is computed.
     pub opens_beside: Option<Document>,
     /// Accuracy of the scene and the cost of accuracy.
@@ -205,6 +208,8 @@ pub struct Model {
     pub chart: Chart,
     /// Adhesion against preload, so far.
     pub preloads: Option<Arc<PreloadCurve>>,
+    /// Adhesion of random profiles of a measured surface, so far.
+    pub adhesion_spread: Option<Arc<AdhesionSpread>>,
     /// Reasons for which data of panes are not computed further.
     pub failures: BTreeMap<Pane, String>,
     /// True if the scene was edited after the last pane was shown: its data wait while a key is held down.
@@ -279,10 +284,12 @@ impl Model {
             approximate: Approximate::default(),
             crosshair: None,
             ghosts: Vec::new(),
+            next_ghost: None,
             opens_beside: None,
             appraisal: Appraisal::default(),
             chart: Chart::default(),
             preloads: None,
+            adhesion_spread: None,
             failures: BTreeMap::new(),
             edited: false,
             preview: None,

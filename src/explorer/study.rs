@@ -1,6 +1,7 @@
 //! Accuracy of the scene, its cost, and the map over κ and H: computed beside the worker, on a thread of its own, so
 //! that no edit waits for it. Whatever is asked for next ends what is under way.
 
+use super::adhesion_spread::AdhesionSpread;
 use super::panes::{Costs, Pane, PreloadCurve};
 use super::snapshot::SolvedScene;
 use crate::accuracy::{Choice, ChoiceError, Estimate, choose, estimate};
@@ -26,6 +27,8 @@ pub enum PaneData {
     Map(Arc<LiveMap>),
     /// Adhesion against preload.
     Preloads(Arc<PreloadCurve>),
+    /// Adhesion of random profiles of a measured surface.
+    Adhesion(Arc<AdhesionSpread>),
     /// Cost of accuracy of a scene.
     Costs(Arc<Scene>, Costs),
 }
@@ -37,6 +40,7 @@ impl PaneData {
         match self {
             PaneData::Map(_) => Pane::Chart,
             PaneData::Preloads(_) => Pane::Preloads,
+            PaneData::Adhesion(_) => Pane::Spectrum,
             PaneData::Costs(..) => Pane::Accuracy,
         }
     }
@@ -59,6 +63,13 @@ impl PaneData {
                     whole.compute(folder, stop, &mut |one| tell(PaneData::Preloads(Arc::new(one.clone()))));
                 done.map_err(|error| error.to_string())?;
                 PaneData::Preloads(curve)
+            }
+            PaneData::Adhesion(mut spread) => {
+                let whole = Arc::make_mut(&mut spread);
+                let done =
+                    whole.compute(folder, stop, &mut |one| tell(PaneData::Adhesion(Arc::new(one.clone()))));
+                done.map_err(|error| error.to_string())?;
+                PaneData::Adhesion(spread)
             }
             PaneData::Costs(scene, _) => {
                 let mut tell = |costs: &Costs| tell(PaneData::Costs(Arc::clone(&scene), costs.clone()));

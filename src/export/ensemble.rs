@@ -42,14 +42,8 @@ pub fn ensemble_text(scene: &Scene, lines: &[LineResult]) -> String {
         lines.iter().filter(|line| line.dissipated_energy.is_some()).find_map(|line| line.tabor_number);
     sheet.row_of("Tabor number μ", number.map(tabor_number));
     sheet.heading("Regimes");
-    let regimes = summary.regimes;
-    for (name, count) in [
-        ("pressure-insensitive", regimes.pressure_insensitive),
-        ("pressure-sensitive", regimes.pressure_sensitive),
-        ("non-adhesive", regimes.non_adhesive),
-        ("not known", regimes.none),
-    ] {
-        sheet.row_of(name, (count > 0).then(|| grouped(count as u64)));
+    for (name, count) in summary.regimes.present() {
+        sheet.row(name, grouped(count as u64));
     }
     sheet.heading("Heights of single lines; both would be 0 if they averaged themselves");
     let number = |value: Option<f64>| value.map(|value| format_quantity(value, "1"));

@@ -39,6 +39,9 @@ pub use scene_tables::{write_approximate_jkr, write_curve, write_line};
 pub use spectrum_figure::{Spectra, SpectrumPoint};
 pub use study_figure::study_figure;
 pub use summary::{brief_summary, summary};
-pub use surface::{SurfaceContact, SurfaceFile, surface_text, write_surface_json, write_surface_table};
+pub use surface::{
+    SurfaceAdhesion, SurfaceContact, SurfaceFile, measured_adhesion_text, surface_text, write_surface_json,
+    write_surface_table,
+};
 pub use table::TableFormat;
 pub use work_precision::work_precision;

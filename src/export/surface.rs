@@ -3,8 +3,9 @@
 use super::sheet::Sheet;
 use super::table::{Cell, Column, TableFormat, write_table};
 use crate::io::write_json_value;
-use crate::scene::{Provenance, format_quantity};
+use crate::scene::{Leg, Provenance, Scene, format_quantity};
 use crate::spectrum::{Analysis, Bin, End, Estimate, LineMoments};
+use crate::study::MeasuredAdhesion;
 use crate::text::{grouped, path_name, per_cent};
 use crate::topography::Topography;
 use serde::Serialize;
@@ -88,9 +89,87 @@ fn scaled(estimate: Estimate, factor: f64) -> Estimate {
     Estimate { value: factor * estimate.value, error: factor * estimate.error }
 }
 
-/// Analysed surfaces in plain text, with the constants of a contact where they are known.
+/// Adhesion force with its spread over random profiles beside that of the fit; `None` for fewer than two forces.
 #[must_use]
-pub fn surface_text(files: &[SurfaceFile], analysis: &Analysis, contact: Option<SurfaceContact>) -> String {
+pub fn measured_adhesion_text(computed: &MeasuredAdhesion) -> Option<String> {
+    let force = computed.adhesion_force()?;
+    let mean = format_quantity(force.mean, "N");
+    let lines = force.count;
+    if force.mean <= 0.0 {
+        return Some(format!("{mean} on all of {lines} lines"));
+    }
+    let share = |deviation: f64| per_cent(deviation / force.mean);
+    let fit = computed.fit_deviation();
+    let fit = fit.map_or_else(String::new, |fit| format!(", ± {} by the fit", share(fit)));
+    Some(format!("{mean} ± {} over {lines} lines{fit}", share(force.standard_deviation)))
+}
+
+/// Adhesion of the equivalent line.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SurfaceAdhesion {
+    /// Scene that is computed.
+    pub scene: Scene,
+    /// Its random profiles; `None` where nobody asked for so many springs.
+    pub computed: Option<MeasuredAdhesion>,
+}
+
+impl SurfaceAdhesion {
+    /// Preload, N; `None` for mere touch.
+    fn preload(&self) -> Option<f64> {
+        match self.scene.loading.first() {
+            Some(Leg::ToForce(force)) => Some(*force),
+            _ => None,
+        }
+    }
+
+    /// Adhesion force with its spread over the profiles beside that by the fit.
+    fn force(&self) -> String {
+        let Some(computed) = &self.computed else {
+            let springs = grouped(self.scene.numerics.points);
+            return format!("not computed on {springs} springs; --lines 16 does");
+        };
+        measured_adhesion_text(computed).unwrap_or_else(|| "none: nothing is pulled".to_owned())
+    }
+
+    /// Rows of the text.
+    fn rows(&self, sheet: &mut Sheet) {
+        sheet.heading("Adhesion of the equivalent line");
+        let loading = self.preload().map_or_else(
+            || "touch without force, then pull (--preload presses before)".to_owned(),
+            |force| format!("to {}, then pull", format_quantity(force, "N")),
+        );
+        sheet.row("loading", loading);
+        let springs = grouped(self.scene.numerics.points);
+        sheet.row("length L", format!("{} on {springs} springs", format_quantity(self.scene.length, "m")));
+        sheet.row("adhesion force F_a", self.force());
+        let regimes = self.computed.as_ref().map(|computed| {
+            let count = computed.profiles.len();
+            let each =
+                computed.regimes().present().map(|(name, lines)| format!("{name} on {lines} of {count}"));
+            each.collect::<Vec<_>>().join(", ")
+        });
+        sheet.row_of("regime", regimes.map(|regimes| regimes + " lines"));
+    }
+
+    /// Object of JSON.
+    fn json(&self) -> Value {
+        let Some(computed) = &self.computed else { return Value::Null };
+        json!({
+            "length": self.scene.length, "springs": self.scene.numerics.points, "preload": self.preload(),
+            "adhesion_force": computed.adhesion_force(), "fit_deviation": computed.fit_deviation(),
+            "regimes": computed.regimes(), "lines": computed.profiles,
+        })
+    }
+}
+
+/// Analysed surfaces in plain text, with the constants of a contact and its adhesion where they are known.
+#[must_use]
+pub fn surface_text(
+    files: &[SurfaceFile],
+    analysis: &Analysis,
+    contact: Option<SurfaceContact>,
+    adhesion: Option<&SurfaceAdhesion>,
+) -> String {
     let mut sheet = Sheet::default();
     sheet.heading("Measured surface");
     for file in files {
@@ -127,6 +206,9 @@ pub fn surface_text(files: &[SurfaceFile], analysis: &Analysis, contact: Option<
     let energy = 100.0 * cut.energy_per_modulus.value / analysis.line.energy_per_modulus.value;
     let gradient = format_quantity(cut.rms_gradient.value, "1");
     sheet.row("a profile as the line", format!("⟨∇z⟩ = {gradient} and {energy:.0} % of the elastic energy"));
+    if let Some(adhesion) = adhesion {
+        adhesion.rows(&mut sheet);
+    }
     let warnings = analysis.warnings();
     if !warnings.is_empty() {
         sheet.heading("Warnings");
@@ -196,8 +278,9 @@ pub fn write_surface_json(
     files: &[SurfaceFile],
     analysis: &Analysis,
     contact: Option<SurfaceContact>,
+    adhesion: Option<&SurfaceAdhesion>,
 ) -> io::Result<()> {
-    write_json_value(out, &Report::new(files, analysis, contact))
+    write_json_value(out, &Report::new(files, analysis, contact, adhesion))
 }
 
 /// The object; its keys are in the order of these fields. SI units.
@@ -215,6 +298,7 @@ struct Report {
     hurst_exponent: Value,
     roll_off_wave_number: Value,
     equivalent_line: Value,
+    adhesion: Value,
     spectrum: Vec<Value>,
     profile_spectra: Vec<Value>,
     accuracy: &'static str,
@@ -222,7 +306,12 @@ struct Report {
 }
 
 impl Report {
-    fn new(files: &[SurfaceFile], analysis: &Analysis, contact: Option<SurfaceContact>) -> Self {
+    fn new(
+        files: &[SurfaceFile],
+        analysis: &Analysis,
+        contact: Option<SurfaceContact>,
+        adhesion: Option<&SurfaceAdhesion>,
+    ) -> Self {
         let statistics = &analysis.statistics;
         let fit = analysis.power_law;
         let moments = &analysis.line;
@@ -263,6 +352,7 @@ impl Report {
                 "kappa": estimate(contact.and_then(|contact| contact.kappa(moments))),
                 "elastic_energy_ratio": estimate(contact.and_then(|contact| contact.energy_ratio(moments))),
             }),
+            adhesion: adhesion.map_or(Value::Null, SurfaceAdhesion::json),
             spectrum: nodes.collect(),
             profile_spectra: spectra.collect(),
             accuracy: analysis.promise(),

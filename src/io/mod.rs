@@ -1,6 +1,7 @@
 //! Files: reading within limits, writing whole or not at all on a disk, JSON text and arrays of NumPy.
 
 mod disk;
+mod hash;
 mod json;
 pub(crate) mod npy;
 mod object;
@@ -13,6 +14,7 @@ pub(crate) const PROVENANCE: &str = "# asperity ";
 
 pub use disk::{Disk, DiskFile, SystemDisk};
 pub(crate) use disk::{folder_of, make_folders};
+pub(crate) use hash::{hexadecimal, sha256_of};
 pub use json::write_json_value;
 pub(crate) use object::{Entry, Object, Optional, object};
 pub(crate) use read::*;

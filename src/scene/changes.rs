@@ -20,6 +20,11 @@ impl Document {
     /// The fields, other than texts, with different values in this scene and another one.
     #[must_use]
     pub fn changes_to(&self, other: &Document) -> Vec<Change> {
+        let [this, other] = [self, other].map(with_stated_use);
+        this.stated_changes_to(&other)
+    }
+
+    fn stated_changes_to(&self, other: &Document) -> Vec<Change> {
         let theirs = other.overrides_from(self);
         let is_text = |path: &str| ["title", "notice", "version"].contains(&path);
         let change = |(path, value): &(String, String)| {
@@ -38,6 +43,14 @@ impl Document {
         let mine = self.overrides_from(other);
         mine.iter().filter(|(path, _)| !is_text(path)).map(change).collect()
     }
+}
+
+/// The document with the use of its measured profile as the line, which is left out mostly.
+fn with_stated_use(document: &Document) -> Document {
+    let use_as_line = document.scene().measured_as_line().to_string();
+    let is_measured = !document.scene().measured_files().is_empty();
+    let stated = is_measured.then(|| document.set("roughness.as_line", &use_as_line).ok()).flatten();
+    stated.unwrap_or_else(|| document.clone())
 }
 
 /// Name of a path in the terms of the field, and its field where it has one.
@@ -73,6 +86,11 @@ mod tests {
         assert_eq!(changes(&other, &scene), ["H 0.5 → 0.7"]);
         let other = scene.set("loading.0.0", "2e-5").unwrap();
         assert_eq!(changes(&scene, &other), ["leg 1 F 10 µN → 20 µN"]);
+        let text = "(version: 2, material: (effective_modulus: 1.0e6), length: 1.0e-4, roughness: Measured(file: \"a\"))";
+        let line = Document::parse(text, "test").unwrap();
+        let profile = line.set("roughness.as_line", "true").unwrap();
+        assert_eq!(changes(&line, &profile), ["profile as line false → true"]);
+        assert_eq!(changes(&line, &line), Vec::<String>::new());
         let other = scene.set("material", "(effective_modulus: 3e6)").unwrap();
         assert_eq!(changes(&scene, &other).len(), 1, "{:?}", changes(&scene, &other));
     }

@@ -10,12 +10,14 @@ use super::error_source::{all_errors, errors_of, nearest_byte, origin_at, overri
 use super::errors::{Origin, SceneError, SceneErrors};
 use super::field::Field;
 use super::fields::{FIELDS, field};
+use super::measured_hash::{MeasuredHash, MeasuredHashError};
 use super::model::{Roughness, Scene};
 use super::read::{Unread, read, wrong_version};
 use super::table_content::TableContent;
 use super::text::{Text, is_within};
 use super::undo::{Edit, SwitchedOff};
 use super::write::to_ron;
+use crate::text::printable;
 
 /// Longer texts are refused before they are read; scenes are a few hundred bytes.
 pub const LONGEST_TEXT: usize = 1 << 20;
@@ -31,6 +33,8 @@ pub struct Document {
     overrides: Vec<(String, String)>,
     /// Content of the table that the text comes from.
     content: Option<TableContent>,
+    /// Measured files behind this table.
+    measured: Vec<MeasuredHash>,
     /// Effects that edits have switched off, in this order.
     switched_off: Vec<SwitchedOff>,
 }
@@ -79,6 +83,7 @@ impl Document {
                 scene,
                 overrides: Vec::new(),
                 content: None,
+                measured: Vec::new(),
                 switched_off: Vec::new(),
             });
         }
@@ -296,8 +301,18 @@ impl Document {
     }
 
     /// The document of a scene that was read from a table of results.
-    pub(super) fn with_table_content(self, content: Option<TableContent>) -> Document {
-        Document { content, ..self }
+    pub(super) fn with_table(self, content: Option<TableContent>, measured: Vec<MeasuredHash>) -> Document {
+        Document { content, measured, ..self }
+    }
+
+    /// Checks that the measured files of the scene are those behind the table of results that it was read from.
+    ///
+    /// # Errors
+    /// [`MeasuredHashError`] of the first that is not.
+    pub fn check_measured_files(&self) -> Result<(), MeasuredHashError> {
+        let files = self.scene.measured_files();
+        let named = self.measured.iter().filter(|hash| files.contains(&hash.file.as_str()));
+        named.into_iter().try_for_each(|hash| hash.check(&self.resolve(""), &printable(&self.name)))
     }
 
     /// Content of the table of results that the scene was read from; `None` for a scene of its own.

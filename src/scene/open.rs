@@ -87,8 +87,8 @@ fn open_source(source: Result<Source, SourceError>, name: &str) -> Result<Docume
         SourceError::Unread(error) => whole(name, describe(error)),
         SourceError::NoProvenance(message) => whole(name, message.to_owned()),
     };
-    let Source { text, content } = source.map_err(refused)?;
-    Ok(Document::parse(&text, name)?.with_table_content(content))
+    let Source { text, content, measured } = source.map_err(refused)?;
+    Ok(Document::parse(&text, name)?.with_table(content, measured))
 }
 
 fn whole(name: &str, message: String) -> SceneErrors {

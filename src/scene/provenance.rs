@@ -3,7 +3,9 @@
 //! In CSV the text fills the first lines, each after `# `; in `.npy` it is an array behind that of the results.
 
 use super::document::LONGEST_TEXT;
+use super::measured_hash::MeasuredHash;
 use super::model::Scene;
+use super::named_file::named_from;
 use super::table_content::TableContent;
 use super::write::to_ron;
 use crate::io::{PROVENANCE, ReadError, into_text, npy, open_regular, read_limited};
@@ -49,7 +51,16 @@ impl Provenance {
         Provenance { text: format!("{}{ARGUMENTS}{quoted}", head(SPECTRA)) }
     }
 
-    /// The text: version, content and seed, a line for each, and the scene.
+    /// The same with the hashes of its measured files.
+    #[must_use]
+    pub fn with_hashes(mut self, hashes: &[MeasuredHash]) -> Self {
+        // Behind the first line.
+        let place = self.text.find('\n').map_or(0, |end| end + 1);
+        self.text.insert_str(place, &hashes.iter().map(MeasuredHash::line).collect::<String>());
+        self
+    }
+
+    /// The text: version, hashes of measured files, content and seed, a line for each, and the scene.
     #[must_use]
     pub fn text(&self) -> &str {
         &self.text
@@ -66,32 +77,26 @@ fn head(content: &str) -> String {
     format!("{PROGRAM}{}\ncontent: {content}\n", env!("CARGO_PKG_VERSION"))
 }
 
-/// Name of a file relative to `folder` in a table that is written into `destination`: as it is in the same folder, else
-/// its absolute path.
-#[must_use]
-pub fn named_from(file: &str, folder: &Path, destination: &Path) -> String {
-    match std::path::absolute(folder.join(file)) {
-        Ok(absolute) if !is_same_folder(folder, destination) => absolute.to_string_lossy().into_owned(),
-        _ => file.to_owned(),
+/// Origin of a table of spectra.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SpectraTable {
+    /// Arguments of `asperity surface`.
+    pub arguments: Vec<String>,
+    /// Measured files.
+    pub measured: Vec<MeasuredHash>,
+}
+
+impl SpectraTable {
+    /// Origin of the spectra in a regular file; `None` for any other file.
+    #[must_use]
+    pub fn open(path: &Path) -> Option<Self> {
+        let Ok(Raw::Provenance(text)) = Raw::of_file(path) else { return None };
+        let (head, arguments) = text.split_once(&format!("\n{ARGUMENTS}"))?;
+        let is_of_spectra = head.lines().any(|line| line == format!("content: {SPECTRA}"));
+        let arguments = arguments.lines().map(|line| ron::from_str(line).ok());
+        let arguments = arguments.collect::<Option<Vec<String>>>().filter(|_| is_of_spectra)?;
+        Some(SpectraTable { arguments, measured: MeasuredHash::of_lines(head) })
     }
-}
-
-/// Arguments of `asperity surface` behind the spectra in a regular file; `None` for any other file.
-#[must_use]
-pub fn arguments_of_spectra(path: &Path) -> Option<Vec<String>> {
-    let Ok(Raw::Provenance(text)) = Raw::of_file(path) else { return None };
-    let (head, arguments) = text.split_once(&format!("\n{ARGUMENTS}"))?;
-    let is_of_spectra = head.lines().any(|line| line == format!("content: {SPECTRA}"));
-    let arguments = arguments.lines().map(|line| ron::from_str(line).ok());
-    arguments.collect::<Option<Vec<String>>>().filter(|_| is_of_spectra)
-}
-
-fn is_same_folder(one: &Path, other: &Path) -> bool {
-    let whole = |folder: &Path| {
-        let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
-        folder.canonicalize().ok()
-    };
-    one == other || whole(one).is_some_and(|folder| Some(folder) == whole(other))
 }
 
 /// Reason why no scene was read.
@@ -165,6 +170,7 @@ impl Raw {
 pub(super) struct Source {
     pub text: String,
     pub content: Option<TableContent>,
+    pub measured: Vec<MeasuredHash>,
 }
 
 impl Source {
@@ -180,7 +186,7 @@ impl Source {
 
     fn of_raw(raw: Raw) -> Result<Self, SourceError> {
         let text = match raw {
-            Raw::Scene(text) => return Ok(Source { text, content: None }),
+            Raw::Scene(text) => return Ok(Source { text, content: None, measured: Vec::new() }),
             Raw::Provenance(text) => text,
         };
         let split = text.split_once(&format!("\n{SCENE}")).filter(|(head, _)| head.starts_with(PROGRAM));
@@ -192,7 +198,8 @@ impl Source {
             "a table without its content; allowed: `content: force curve`, `approximate JKR curve`, `profile`, \
              `COUNT random profiles` or `COUNT preloads from FORCE to FORCE N`",
         ))?;
-        Ok(Source { text: scene.to_owned(), content: Some(content) })
+        let measured = MeasuredHash::of_lines(head);
+        Ok(Source { text: scene.to_owned(), content: Some(content), measured })
     }
 }
 
@@ -225,7 +232,9 @@ mod tests {
                 TableContent::Preloads(preloads, None),
                 TableContent::Preloads(preloads, Some(count)),
             ] {
-                let provenance = Provenance::new(content, &scene, here, here);
+                let hash = MeasuredHash { file: "a\nb.txt".into(), sha256: "0".repeat(64) };
+                let provenance =
+                    Provenance::new(content, &scene, here, here).with_hashes(std::slice::from_ref(&hash));
                 let csv = provenance.comments() + "x,z\n1,2\n";
                 let mut array = Vec::new();
                 npy::write_header(&mut array, "'<f8'", "1,").unwrap();
@@ -234,6 +243,7 @@ mod tests {
                 for file in [csv.clone().into_bytes(), csv.replace('\n', "\r\n").into_bytes(), array] {
                     let source = read(&file).unwrap();
                     prop_assert_eq!(source.content, Some(content));
+                    prop_assert_eq!(&source.measured, std::slice::from_ref(&hash));
                     let document = Document::parse(&source.text, "table").unwrap();
                     prop_assert_eq!(document.scene(), &scene);
                 }
@@ -265,13 +275,15 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("spectra.csv");
         let arguments = ["--unit", "µm", "a \"b\"\n.txt", "\u{1b}"].map(str::to_owned);
-        let provenance = Provenance::of_spectra(&arguments);
+        let hash = MeasuredHash { file: "a".into(), sha256: "1".repeat(64) };
+        let provenance = Provenance::of_spectra(&arguments).with_hashes(std::slice::from_ref(&hash));
         std::fs::write(&path, provenance.comments() + "spectrum\n").unwrap();
-        assert_eq!(arguments_of_spectra(&path).as_deref(), Some(&arguments[..]));
+        let expected = SpectraTable { arguments: arguments.to_vec(), measured: vec![hash] };
+        assert_eq!(SpectraTable::open(&path), Some(expected));
         assert!(matches!(Source::of_file(&path), Err(SourceError::NoProvenance(_))));
         std::fs::write(&path, "()").unwrap();
-        assert_eq!(arguments_of_spectra(&path), None);
-        assert_eq!(arguments_of_spectra(folder.path()), None);
+        assert_eq!(SpectraTable::open(&path), None);
+        assert_eq!(SpectraTable::open(folder.path()), None);
     }
 
     #[test]

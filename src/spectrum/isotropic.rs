@@ -1,7 +1,12 @@
 //! Isotropic spectra C2D(q) between nodes, and their equivalent lines.
 
 use super::linear::Cholesky;
-use std::f64::consts::{FRAC_PI_2, PI, SQRT_2};
+use rand::{Rng, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use std::f64::consts::{FRAC_PI_2, PI, SQRT_2, TAU};
+
+/// Separates this use of the generator from any other.
+const PURPOSE: &[u8; 24] = b"asperity-spectrum-draws\0";
 
 /// Nodes and weights of Gauss and Legendre's rule on (−1, 1), half of them: errors below 1e-9 for the pieces used here.
 const GAUSS: [(f64, f64); 3] = [
@@ -186,6 +191,22 @@ impl IsotropicSpectrum {
         })
     }
 
+    /// The spectrum with its values of ln C2D moved by a share of steps drawn from the normal distribution of the fit. The
+    /// same steps for the same number.
+    #[must_use]
+    pub fn drawn(&self, number: u64, share: f64) -> IsotropicSpectrum {
+        let mut key = [0; 32];
+        key[..8].copy_from_slice(&number.to_le_bytes());
+        key[8..].copy_from_slice(PURPOSE);
+        let mut generator = ChaCha8Rng::from_seed(key);
+        // From 0, left out, to 1: by Box and Muller.
+        let mut uniform = || ((generator.next_u64() >> 11) + 1) as f64 / (1_u64 << 53) as f64;
+        let mut normal = || (-2.0 * uniform().ln()).sqrt() * (TAU * uniform()).cos();
+        let steps = self.information.solve_transposed(self.values.iter().map(|_| normal()).collect());
+        let values = self.values.iter().zip(steps).map(|(value, step)| value + share * step).collect();
+        IsotropicSpectrum { values, ..self.clone() }
+    }
+
     fn value(&self, ln_q: f64) -> f64 {
         let (index, share) = self.nodes.place(ln_q);
         ((1.0 - share) * self.values[index] + share * self.values[index + 1]).exp()
@@ -300,5 +321,48 @@ pub(super) mod tests {
         assert!((spectrum.line(10.0) / 5e-3 - 1.0).abs() < 1e-12);
         let further = known(Nodes::new(1.0, 100.0, 6.0, End::Continues(200.0)), |q| q.powi(-3));
         assert!((further.c2d(200.0) / 1.25e-7 - 1.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn drawn_spectra_spread_as_the_standard_errors_say() {
+        let nodes = Nodes::new(1.0, 100.0, 6.0, End::Ends);
+        let count = nodes.count;
+        // Neighbours are correlated.
+        let mut information = vec![0.0; count * count];
+        for row in 0..count {
+            information[row * count + row] = 30.0;
+            if row > 0 {
+                information[row * count + row - 1] = -10.0;
+            }
+        }
+        let information = Cholesky::new(information, count).unwrap();
+        let spectrum = IsotropicSpectrum { information, ..known(nodes, |q| q.powi(-3)) };
+        assert_eq!(spectrum.drawn(7, 1.0), spectrum.drawn(7, 1.0));
+        assert_eq!(spectrum.drawn(7, 0.0), spectrum);
+        assert_ne!(spectrum.drawn(7, 1.0).values, spectrum.drawn(8, 1.0).values);
+        let stated = spectrum.line_moments();
+        let draws = 4000;
+        let (mut mean, mut square) = ([0.0; 3], [0.0; 3]);
+        for number in 0..draws {
+            let drawn = spectrum.drawn(number, 1.0).line_moments();
+            let logarithms = [
+                drawn.rms_gradient.value / stated.rms_gradient.value,
+                drawn.height_gradient.value / stated.height_gradient.value,
+                drawn.energy_per_modulus.value / stated.energy_per_modulus.value,
+            ]
+            .map(f64::ln);
+            for (moment, logarithm) in logarithms.into_iter().enumerate() {
+                mean[moment] += logarithm / draws as f64;
+                square[moment] += logarithm * logarithm / draws as f64;
+            }
+        }
+        let errors = [stated.rms_gradient, stated.height_gradient, stated.energy_per_modulus];
+        for (moment, estimate) in errors.into_iter().enumerate() {
+            let spread = (square[moment] - mean[moment].powi(2)).sqrt();
+            let expected = estimate.error / estimate.value;
+            // To second order in the errors, and a hundredth by chance.
+            assert!((spread / expected - 1.0).abs() < 0.1, "{moment}: {spread} {expected}");
+            assert!(mean[moment].abs() < 0.3 * expected, "{moment}: {}", mean[moment]);
+        }
     }
 }

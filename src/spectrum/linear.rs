@@ -34,6 +34,12 @@ impl Cholesky {
             let sum: f64 = (0..row).map(|k| at(row, k) * right[k]).sum();
             right[row] = (right[row] - sum) / at(row, row);
         }
+        self.solve_transposed(right)
+    }
+
+    /// Solution of Lᵀ x = b with the factor L. Of independent normal numbers b of variance 1 it has the covariance M⁻¹.
+    pub fn solve_transposed(&self, mut right: Vec<f64>) -> Vec<f64> {
+        let at = |row: usize, column: usize| self.factor[row * self.size + column];
         for row in (0..self.size).rev() {
             let sum: f64 = (row + 1..self.size).map(|k| at(k, row) * right[k]).sum();
             right[row] = (right[row] - sum) / at(row, row);

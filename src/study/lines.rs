@@ -209,6 +209,34 @@ pub struct RegimeCounts {
     pub none: usize,
 }
 
+impl RegimeCounts {
+    /// Counts regimes of profiles.
+    pub(super) fn of(regimes: impl Iterator<Item = Option<Regime>>) -> Self {
+        let mut counts = RegimeCounts::default();
+        for regime in regimes {
+            *match regime {
+                Some(Regime::PressureInsensitive) => &mut counts.pressure_insensitive,
+                Some(Regime::PressureSensitive) => &mut counts.pressure_sensitive,
+                Some(Regime::NonAdhesive) => &mut counts.non_adhesive,
+                None => &mut counts.none,
+            } += 1;
+        }
+        counts
+    }
+
+    /// Regimes that occur, by name, with their numbers of profiles.
+    pub fn present(self) -> impl Iterator<Item = (&'static str, usize)> {
+        let [insensitive, sensitive, none] = Regime::ALL.map(Regime::name);
+        let rows = [
+            (insensitive, self.pressure_insensitive),
+            (sensitive, self.pressure_sensitive),
+            (none, self.non_adhesive),
+            ("not known", self.none),
+        ];
+        rows.into_iter().filter(|(_, count)| *count > 0)
+    }
+}
+
 impl LinesSummary {
     /// Of what the lines gave.
     #[must_use]
@@ -221,21 +249,12 @@ impl LinesSummary {
                 lines.iter().filter_map(|line| Some(figure(line.heights.as_ref()?).powi(2))).collect();
             (!squares.is_empty()).then(|| (squares.iter().sum::<f64>() / squares.len() as f64).sqrt())
         };
-        let mut regimes = RegimeCounts::default();
-        for line in lines {
-            *match line.regime {
-                Some(Regime::PressureInsensitive) => &mut regimes.pressure_insensitive,
-                Some(Regime::PressureSensitive) => &mut regimes.pressure_sensitive,
-                Some(Regime::NonAdhesive) => &mut regimes.non_adhesive,
-                None => &mut regimes.none,
-            } += 1;
-        }
         LinesSummary {
             adhesion_force: statistics(|line| line.adhesion_force),
             preload_indentation: statistics(|line| line.preload_indentation),
             dissipated_energy: statistics(|line| line.dissipated_energy),
             contact_fraction: statistics(|line| Some(line.contact_fraction)),
-            regimes,
+            regimes: RegimeCounts::of(lines.iter().map(|line| line.regime)),
             rms_skewness: rms(|shape| shape.skewness),
             rms_excess_kurtosis: rms(|shape| shape.excess_kurtosis),
         }

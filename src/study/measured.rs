@@ -6,6 +6,7 @@
 
 use super::StudyError;
 use super::plan::{PLAN_FILE, Plan};
+use crate::io::hexadecimal;
 use crate::scene::Scene;
 use crate::simulation::measured_options;
 use crate::surface::MeasuredRoughness;
@@ -64,7 +65,7 @@ fn read(scene: &Scene) -> Result<(MeasuredRoughness, String), StudyError> {
     let profile = MeasuredRoughness::read(&scene.measured_files(), &measured_options(scene), &mut |bytes| {
         hasher.update(bytes);
     })?;
-    Ok((profile, hasher.finalize().iter().map(|byte| format!("{byte:02x}")).collect()))
+    Ok((profile, hexadecimal(hasher)))
 }
 
 #[cfg(test)]

@@ -46,6 +46,7 @@ mod height_shape;
 mod lines;
 pub mod map;
 mod measured;
+mod measured_adhesion;
 mod merge;
 mod merged;
 mod numbering;
@@ -83,6 +84,7 @@ pub use finished::{Finished, Row};
 pub use height_shape::HeightShape;
 pub(crate) use lines::solve_in_turn;
 pub use lines::{LineResult, LinesError, LinesSummary, RegimeCounts, solve_lines};
+pub use measured_adhesion::{MeasuredAdhesion, ProfileAdhesion};
 pub use merge::merge;
 pub use merged::Merged;
 #[cfg(feature = "parquet")]

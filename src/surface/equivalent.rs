@@ -116,6 +116,28 @@ impl EquivalentLine {
         Ok(EquivalentLine { faces: vec![options.analysis(surface)?.isotropic] })
     }
 
+    /// Line of the faces with these spectra; at least one.
+    ///
+    /// # Errors
+    /// [`SurfaceError::Measured`] when there is none.
+    pub fn from_spectra(faces: Vec<IsotropicSpectrum>) -> Result<Self, SurfaceError> {
+        if faces.is_empty() {
+            return Err(SurfaceError::measured(Path::new(""), "no file; allowed: one for each face"));
+        }
+        Ok(EquivalentLine { faces })
+    }
+
+    /// Line of spectra that are moved by a share of steps drawn from the uncertainty of their fits; the same steps for the same
+    /// number.
+    #[must_use]
+    pub fn drawn(&self, number: u64, share: f64) -> EquivalentLine {
+        let of_face = |(face, spectrum): (u64, &IsotropicSpectrum)| {
+            // Faces are independent of each other.
+            spectrum.drawn(number ^ face.rotate_right(1), share)
+        };
+        EquivalentLine { faces: (0..).zip(&self.faces).map(of_face).collect() }
+    }
+
     /// Line of both faces, whose roughnesses are independent of each other.
     #[must_use]
     pub fn with_opposite(mut self, other: EquivalentLine) -> Self {
@@ -137,15 +159,9 @@ impl EquivalentLine {
                 options.read(path, None, seen).map_err(|error| SurfaceError::measured(path, &error))?;
             EquivalentLine::new(surface, options).map_err(|error| SurfaceError::measured(path, &error))
         };
-        let mut line: Option<EquivalentLine> = None;
-        for file in files {
-            let other = face(file.as_ref(), seen)?;
-            line = Some(match line {
-                Some(line) => line.with_opposite(other),
-                None => other,
-            });
-        }
-        line.ok_or_else(|| SurfaceError::measured(Path::new(""), "no file; allowed: one for each face"))
+        let faces =
+            files.iter().map(|file| Ok(face(file.as_ref(), seen)?.faces)).collect::<Result<Vec<_>, _>>()?;
+        EquivalentLine::from_spectra(faces.concat())
     }
 
     /// First and last wave number, rad/m, that are known of all faces. Each spectrum ends where it does.

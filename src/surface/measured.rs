@@ -15,7 +15,7 @@ const TRANSFORM_BYTES: u64 = 96;
 ///
 /// Points at x = Δx/2, 3Δx/2, …, as `asperity line` writes them, are middles of cells: N points cover N Δx from x = 0 on,
 /// the first and the last half cell at the height of the point next to it. Any other profile covers the distance from
-/// its first to its last point.
+/// its first to its last point, and on request, at even distances, half a distance more at both ends.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MeasuredProfile {
     positions: Vec<f64>,
@@ -96,9 +96,7 @@ impl MeasuredProfile {
     /// Distance between points, m, where these are the middles of cells that begin at x = 0.
     fn cell(&self) -> Option<f64> {
         let cell = self.span() / (self.positions.len() - 1) as f64;
-        let middles = (0..self.positions.len()).map(|index| (index as f64 + 0.5) * cell);
-        let near = |(x, middle): (&f64, f64)| (x - middle).abs() <= UNEVEN * cell;
-        self.positions.iter().zip(middles).all(near).then_some(cell)
+        self.are_even(0.5 * cell, cell).then_some(cell)
     }
 
     /// Root mean square height about the mean and root mean square gradient of the straight pieces
@@ -158,18 +156,11 @@ impl MeasuredProfile {
     /// # Errors
     /// When the profile is shorter than `length` m.
     pub fn sample(&self, length: f64, points: usize, shift: f64) -> Result<Vec<f64>, String> {
-        let cell = self.cell();
-        // The last half cell may be as far out as points are.
-        let margin = cell.map_or(0.0, |cell| UNEVEN * cell);
-        if self.length() + margin < length {
-            return Err(format!(
-                "the profile covers {:e} m; allowed: at least length = {length:e} m",
-                self.length()
-            ));
-        }
+        let begins = self.begins(length).map_err(|covers| {
+            format!("the profile covers {covers:e} m; allowed: at least length = {length:e} m")
+        })?;
         let mut heights = Vec::new();
         heights.try_reserve_exact(points).map_err(|_| format!("not enough memory for {points} points"))?;
-        let begins = if cell.is_some() { 0.0 } else { self.positions[0] };
         let level = self.level();
         let mut piece = 0;
         for index in 0..points {
@@ -188,6 +179,30 @@ impl MeasuredProfile {
             });
         }
         Ok(heights)
+    }
+
+    /// Position, m, at which a line of a length, m, begins.
+    ///
+    /// # Errors
+    /// The length, m, that the profile covers.
+    fn begins(&self, length: f64) -> Result<f64, f64> {
+        let points = self.positions.len() as f64;
+        let (first, distance) = (self.positions[0], self.span() / (points - 1.0));
+        let (begins, covers) = if self.are_even(0.5 * distance, distance) {
+            (0.0, points * distance)
+        } else if length > self.span() && self.are_even(first, distance) {
+            (first - 0.5 * distance, points * distance)
+        } else {
+            return if length <= self.span() { Ok(first) } else { Err(self.span()) };
+        };
+        // The last half cell may be as far out as points are.
+        if length <= covers + UNEVEN * distance { Ok(begins) } else { Err(covers) }
+    }
+
+    /// Returns true for points at an even distance, m, from a first position, m, on.
+    fn are_even(&self, first: f64, distance: f64) -> bool {
+        let middles = (0..self.positions.len()).map(|index| first + index as f64 * distance);
+        self.positions.iter().zip(middles).all(|(x, middle)| (x - middle).abs() <= UNEVEN * distance)
     }
 
     /// Height, m, subtracted from all others: the first one, if all differences are exact, else 0.
@@ -229,7 +244,7 @@ mod tests {
         // Halfway between 1 and 3, and between 3 and −1.
         assert!((heights[0] - 2e-7).abs() < 1e-20 && (heights[1] - 1e-7).abs() < 1e-20, "{heights:?}");
         assert_eq!(profile.sample(2e-6, 2, 0.5).unwrap(), [1e-7, 3e-7]);
-        assert!(profile.sample(3e-6, 2, 0.0).unwrap_err().contains("covers 2e-6 m"));
+        assert!(profile.sample(3.1e-6, 2, 0.0).unwrap_err().contains("covers 3e-6 m"));
     }
 
     #[test]
@@ -251,8 +266,16 @@ mod tests {
         {
             let profile = MeasuredProfile::parse(text).unwrap();
             assert!((profile.length() - length).abs() < 1e-15);
-            assert!(profile.sample(length, 3, 0.0).is_ok() && profile.sample(1.01 * length, 3, 0.0).is_err());
+            assert!(profile.sample(length, 3, 0.0).is_ok());
+            // At even distances, half a distance beyond each end.
+            let longest = if length == 1.9 { length } else { 3.0 };
+            assert!(
+                profile.sample(longest, 3, 0.0).is_ok() && profile.sample(1.01 * longest, 3, 0.0).is_err()
+            );
         }
+        let even = MeasuredProfile::parse("1 3\n2 4\n3 -1").unwrap();
+        assert_eq!(even.sample(3.0, 3, 0.0).unwrap(), [3.0, 4.0, -1.0]);
+        assert_eq!(even.sample(2.0, 2, 0.0).unwrap(), [3.5, 1.5]);
     }
 
     #[test]

@@ -25,6 +25,16 @@ impl<'a> Bytes<'a> {
 
     numbers!(u16: u16, u32: u32, i32: i32, f32: f32, f64: f64);
 
+    /// Big-endian number.
+    pub fn big_u32(&mut self) -> Result<u32, TopographyError> {
+        Ok(u32::from_be_bytes(self.array()?))
+    }
+
+    /// Big-endian number.
+    pub fn big_u64(&mut self) -> Result<u64, TopographyError> {
+        Ok(u64::from_be_bytes(self.array()?))
+    }
+
     /// Offset from the beginning of the file.
     pub fn place(&self) -> Place {
         Place::Byte(self.at)

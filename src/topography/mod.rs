@@ -11,6 +11,7 @@ mod expansion;
 mod gsf;
 mod gwy;
 mod missing;
+mod netcdf;
 mod npy;
 mod open;
 mod reading;

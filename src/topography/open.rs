@@ -3,7 +3,7 @@
 use super::error::{Place, TopographyError, refused};
 use super::expansion::{MOST_EXPANSION, most_expanded};
 use super::reading::{ReadOptions, Reading};
-use super::{Topography, gsf, gwy, npy, sdf, sur, text, x3p};
+use super::{Topography, gsf, gwy, netcdf, npy, sdf, sur, text, x3p};
 use crate::io::{open_regular, read_limited};
 use flate2::read::MultiGzDecoder;
 use std::cell::Cell;
@@ -17,16 +17,21 @@ pub const MOST_BYTES: u64 = 1 << 30;
 /// First bytes of gzip.
 const GZIP: [u8; 2] = [0x1f, 0x8b];
 
-/// Bytes gathered from a file.
+/// Bytes gathered from a file, and from a large one, whose lines several threads read.
 const BUFFER: usize = 1 << 16;
+const LARGE_BUFFER: usize = 1 << 22;
+
+/// Bytes from which on a file is large.
+const LARGE: u64 = 1 << 24;
 
 /// A reader of a whole binary file.
 type BinaryReader = fn(&[u8], &ReadOptions) -> Result<Reading, TopographyError>;
 
 /// First bytes of the binary formats. All others are text.
-const SIGNATURES: [(&[u8], BinaryReader); 9] = [
+const SIGNATURES: [(&[u8], BinaryReader); 10] = [
     (npy::SIGNATURE, |bytes, _| npy::read(bytes)),
     (gsf::SIGNATURE, |bytes, _| gsf::read(bytes)),
+    (netcdf::SIGNATURE, |bytes, _| netcdf::read(bytes)),
     (gwy::SIGNATURE, |bytes, options| gwy::read(bytes, options.channel)),
     (b"DIGITAL SURF", |bytes, _| sur::read(bytes)),
     (b"DSCOMPRESSED", |bytes, _| sur::read(bytes)),
@@ -63,8 +68,9 @@ fn read_up_to(
     seen: &mut dyn FnMut(&[u8]),
 ) -> Result<Topography, TopographyError> {
     let file = open_regular(path)?;
+    let buffer = if file.metadata()?.len() < LARGE { BUFFER } else { LARGE_BUFFER };
     let mut source = Observed { source: file, left: most, most, seen };
-    let surface = from_source(&mut source, options)?;
+    let surface = from_source(&mut source, buffer, options)?;
     // What follows the surface belongs to the file as well.
     io::copy(&mut source, &mut io::sink())?;
     Ok(surface)
@@ -75,11 +81,15 @@ fn read_up_to(
 /// # Errors
 /// As [`read`].
 pub fn parse(bytes: &[u8], options: &ReadOptions) -> Result<Topography, TopographyError> {
-    from_source(bytes, options)
+    from_source(bytes, BUFFER, options)
 }
 
-fn from_source(source: impl Read, options: &ReadOptions) -> Result<Topography, TopographyError> {
-    let mut source = BufReader::with_capacity(BUFFER, source);
+fn from_source(
+    source: impl Read,
+    buffer: usize,
+    options: &ReadOptions,
+) -> Result<Topography, TopographyError> {
+    let mut source = BufReader::with_capacity(buffer, source);
     let reading = if starts_with(&mut source, &GZIP)? {
         let read = Rc::new(Cell::new(0));
         let counted = Counted { source, read: Rc::clone(&read) };

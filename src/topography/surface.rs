@@ -56,22 +56,28 @@ impl Topography {
         interpolated: usize,
     ) -> Result<Self, TopographyError> {
         let surface = Topography { format, heights, grid, interpolated };
-        let columns = surface.columns();
-        let distance = |index: usize| match &surface.grid {
-            Grid::Positions(positions) => positions[index + 1] - positions[index],
+        if let Some((index, slope)) = surface.first_steep() {
+            let fault = format!("a slope of {slope:e} from the point before");
+            return Err(refused(Place::Point(index + 1), fault, format!("at most {LARGEST:e}")));
+        }
+        Ok(surface)
+    }
+
+    /// Index of the first point of a row behind a slope that is not allowed, and the slope.
+    fn first_steep(&self) -> Option<(usize, f64)> {
+        let slope = |heights: &[f64], distance: f64| (heights[1] - heights[0]).abs() / distance;
+        let spacing = match &self.grid {
+            Grid::Positions(positions) => {
+                let pairs = self.heights.windows(2).zip(positions.windows(2));
+                return first_steep(pairs.map(|(z, x)| slope(z, x[1] - x[0])));
+            }
             Grid::Profile { spacing } => *spacing,
             Grid::Map { spacing: [along, between], .. } => along.min(*between),
         };
-        for index in 1..surface.heights.len() {
-            if index % columns != 0 {
-                let slope = (surface.heights[index] - surface.heights[index - 1]).abs() / distance(index - 1);
-                if slope.is_nan() || slope > LARGEST {
-                    let fault = format!("a slope of {slope:e} from the point before");
-                    return Err(refused(Place::Point(index + 1), fault, format!("at most {LARGEST:e}")));
-                }
-            }
-        }
-        Ok(surface)
+        let columns = self.columns();
+        let in_row = |row: &[f64]| first_steep(row.windows(2).map(|z| slope(z, spacing)));
+        let mut rows = self.heights.chunks_exact(columns).zip((0..).step_by(columns));
+        rows.find_map(|(row, first)| in_row(row).map(|(index, slope)| (first + index, slope)))
     }
 
     /// Format of the file.
@@ -221,6 +227,16 @@ impl Topography {
         self.grid = Grid::Profile { spacing };
         Ok(self)
     }
+}
+
+/// The first slope that is not allowed, and the index of the point behind it. All slopes are looked at first without a
+/// branch for each.
+fn first_steep(slopes: impl Iterator<Item = f64> + Clone) -> Option<(usize, f64)> {
+    let is_steep = |slope: f64| slope.is_nan() || slope > LARGEST;
+    if !slopes.clone().fold(false, |any, slope| any | is_steep(slope)) {
+        return None;
+    }
+    (1..).zip(slopes).find(|(_, slope)| is_steep(*slope))
 }
 
 /// Mean distance between positions, m.

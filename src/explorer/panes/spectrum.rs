@@ -1,23 +1,42 @@
 //! Spectra over the wave number, both logarithmic: as measured, fitted, and of the line.
 
-use super::{PaneRow, SceneSpectra};
+use super::{Pane, PaneRow, SceneSpectra};
 use crate::draw::legend;
+use crate::explorer::adhesion_spread::{AdhesionSpread, PROFILES};
 use crate::explorer::layout::inside;
 use crate::explorer::model::Model;
+use crate::explorer::study::{PaneData, Task};
 use crate::explorer::theme::Meaning;
 use crate::explorer::view::lines::draw_around;
 use crate::explorer::view::plot;
 use crate::explorer::view::wrap::{filled, wrapped};
+use crate::export::measured_adhesion_text;
 use crate::scene::format_quantity;
 use crate::spectrum::Estimate;
 use crate::text::per_cent;
 use ratatui::Frame;
 use ratatui::layout::Rect;
 use ratatui::text::Line;
+use std::sync::Arc;
 
 /// Row of the pane.
-pub static ROW: PaneRow =
-    PaneRow { title: |_| " Spectrum: C over q, log–log ".to_owned(), draw, ..PaneRow::EMPTY };
+pub static ROW: PaneRow = PaneRow {
+    title: |_| " Spectrum: C over q, log–log ".to_owned(),
+    draw,
+    task: |model, computed| {
+        let begun = model.adhesion_spread.clone();
+        let spread = begun.or_else(|| AdhesionSpread::new(computed).map(Arc::new));
+        let spread = spread.filter(|one| !one.is_whole());
+        spread.map(|spread| Task::Extend { data: PaneData::Adhesion(spread), waits: model.edited })
+    },
+    take_in: |model, data| {
+        if let PaneData::Adhesion(spread) = data {
+            model.adhesion_spread = Some(spread);
+        }
+    },
+    renew: |model| model.adhesion_spread = None,
+    ..PaneRow::EMPTY
+};
 
 /// Rows of plot that make it worth drawing.
 const FEWEST_PLOT_ROWS: u16 = 5;
@@ -68,8 +87,26 @@ fn words(model: &Model, shown: Option<&SceneSpectra>) -> Vec<String> {
         }
         words.push(parts.join(" · "));
     }
+    if shown.moments.is_some() {
+        words.extend(adhesion(model));
+    }
     if words.is_empty() && shown.spectra == crate::export::Spectra::default() {
         words.push("the profile has no roughness and no spectrum".to_owned());
     }
     words
+}
+
+/// Adhesion force with its spread over random profiles beside that of the fit, as far as it is computed.
+fn adhesion(model: &Model) -> Option<String> {
+    let none = || AdhesionSpread::new(model.computed.as_ref()?).map(Arc::new);
+    let spread = model.adhesion_spread.clone().or_else(none)?;
+    if let Some(why) = model.failures.get(&Pane::Spectrum) {
+        return Some(why.clone());
+    }
+    let goes_on = match spread.found.profiles.len() {
+        PROFILES => String::new(),
+        count => format!(" · {count} of {PROFILES} lines"),
+    };
+    let force = measured_adhesion_text(&spread.found).unwrap_or_else(|| "…".to_owned());
+    Some(format!("F_a = {force}{goes_on}"))
 }

@@ -4,7 +4,8 @@ use super::ghosts::name_ghosts;
 use super::{Effect, edit, show};
 use crate::explorer::action::Command;
 use crate::explorer::model::{Ghost, Model, Notice, Pane};
-use crate::scene::Document;
+use crate::explorer::snapshot::{Preview, SolvedScene};
+use crate::scene::{Document, Roughness};
 use std::sync::Arc;
 
 /// Most kept curves; more could not be distinguished.
@@ -16,6 +17,7 @@ pub fn obey(model: &mut Model, command: Command) -> Vec<Effect> {
     let was_beside = model.beside().is_some();
     match command {
         Command::Pin => pin(model),
+        Command::PinOtherUse => effects = pin_other_use(model),
         Command::Swap => effects = swap(model),
         Command::ToggleSideBySide => return show::change(model, toggle),
         _ => {
@@ -70,16 +72,64 @@ fn pin(model: &mut Model) {
         model.notice = Some(Notice::Error("there is no curve yet to keep".to_owned()));
         return;
     };
+    if keep(model, ghost) {
+        model.notice = Some(Notice::Done("kept; now change something, x exchanges the two".to_owned()));
+    }
+}
+
+/// Adds a ghost; returns false where it is there already.
+fn keep(model: &mut Model, ghost: Ghost) -> bool {
     if model.ghosts.iter().any(|kept| kept.document.scene() == ghost.document.scene()) {
         model.notice = Some(Notice::Done("this loop is kept already".to_owned()));
-        return;
+        return false;
     }
     if model.ghosts.len() == MOST_GHOSTS {
         model.ghosts.remove(0);
     }
     model.ghosts.push(ghost);
     name_ghosts(model);
-    model.notice = Some(Notice::Done("kept; now change something, x exchanges the two".to_owned()));
+    true
+}
+
+/// Asks for the other use of a measured profile, which becomes a ghost once it is computed.
+fn pin_other_use(model: &mut Model) -> Vec<Effect> {
+    let scene = model.document.scene();
+    if !matches!(scene.roughness, Some(Roughness::Measured { .. })) {
+        model.notice = Some(Notice::Error("the roughness of this scene is not measured".to_owned()));
+        return Vec::new();
+    }
+    let as_line = !scene.measured_as_line();
+    match model.document.set("roughness.as_line", &as_line.to_string()) {
+        Ok(document) => {
+            model.next_ghost = Some(document.clone());
+            vec![Effect::Preview(Box::new(document))]
+        }
+        Err(errors) => {
+            model.notice = Some(Notice::Error(errors.to_string()));
+            Vec::new()
+        }
+    }
+}
+
+/// Takes in a scene that was computed to be looked at, or for a ghost.
+pub fn previewed(model: &mut Model, preview: Arc<Preview>) -> Vec<Effect> {
+    let Some(document) = model.next_ghost.take_if(|document| document.text() == preview.text) else {
+        model.preview = Some(preview);
+        return Vec::new();
+    };
+    match &preview.outcome {
+        Ok(outcome) => {
+            let what = if document.scene().measured_as_line() { "profile itself" } else { "equivalent line" };
+            let scene = Arc::new(document.scene().clone());
+            let computed = Arc::new(SolvedScene { generation: 0, scene, outcome: outcome.clone() });
+            let ghost = Ghost { document, computed, differs: String::new(), changes: String::new() };
+            if keep(model, ghost) {
+                model.notice = Some(Notice::Done(format!("kept: the {what}; x exchanges the two")));
+            }
+        }
+        Err(why) => model.notice = Some(Notice::Error(why.clone())),
+    }
+    vec![Effect::Show]
 }
 
 /// The scene and the newest ghost change places.

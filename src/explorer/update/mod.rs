@@ -151,8 +151,10 @@ fn reported(model: &mut Model, report: Report) -> Vec<Effect> {
         }
         Report::Computed(_) | Report::Shown(_) | Report::Progress { .. } | Report::Failed { .. } => {}
         Report::Previewed(preview)
-            if matches!(model.mode, Mode::Edit(_)) && model.tried.as_ref() != Some(&preview.text) => {}
-        Report::Previewed(preview) => model.preview = Some(preview),
+            if matches!(model.mode, Mode::Edit(_))
+                && model.tried.as_ref() != Some(&preview.text)
+                && model.next_ghost.is_none() => {}
+        Report::Previewed(preview) => return compare::previewed(model, preview),
     }
     Vec::new()
 }
@@ -338,7 +340,11 @@ pub(super) fn explore(model: &mut Model, command: Command) -> Vec<Effect> {
         Command::OpenPalette => return palette::open(model),
         Command::Reseed => return vec![Effect::DrawSeed],
         Command::Undo | Command::Redo => return edit::undo(model, command == Command::Undo),
-        Command::Pin | Command::Swap | Command::ClearGhosts | Command::ToggleSideBySide => {
+        Command::Pin
+        | Command::PinOtherUse
+        | Command::Swap
+        | Command::ClearGhosts
+        | Command::ToggleSideBySide => {
             return compare::obey(model, command);
         }
         Command::ToggleCrosshair

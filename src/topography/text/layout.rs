@@ -73,14 +73,16 @@ pub(super) struct Decimal {
 }
 
 impl Decimal {
-    /// Returns false if the mark is a comma.
-    pub fn may_be_point(self) -> bool {
-        self.found != Some(b',')
+    /// Returns true if the mark is a comma.
+    pub fn is_comma(self) -> bool {
+        self.found == Some(b',')
     }
 
-    /// The mark is a point, if none was found before.
-    pub fn find_point(&mut self) {
-        self.found.get_or_insert(b'.');
+    /// Looks for the mark of numbers that have no comma.
+    pub fn look_for_point(&mut self, numbers: &[u8]) {
+        if self.found.is_none() && numbers.contains(&b'.') {
+            self.found = Some(b'.');
+        }
     }
 
     /// Reads a column.

@@ -78,7 +78,7 @@ impl<R: BufRead> Lines<R> {
             return Err(refused(
                 place,
                 fault,
-                "text, SDF, GSF, NumPy array, X3P, GWY, SUR, or these in gzip",
+                "text, SDF, GSF, NumPy array, X3P, GWY, SUR, NetCDF, or these in gzip",
             ));
         }
         let line = self.line.trim_ascii_end();

@@ -17,7 +17,7 @@ use crate::io::PROVENANCE;
 use header::Header;
 use layout::{Cell, Decimal, Separator};
 use lines::Lines;
-use plain::PlainLine;
+use plain::{Direction, PlainForm, Points};
 use std::io::BufRead;
 
 /// Reads a text line by line.
@@ -67,19 +67,10 @@ struct Rows {
     separator: Separator,
     decimal: Decimal,
     columns: usize,
-    /// Columns of positions, file unit: none, x, or x and y.
-    positions: [Vec<f64>; 2],
-    heights: Vec<f64>,
-    direction: Direction,
+    points: Points,
+    /// Memory for points on their way.
+    spare: Points,
     first_missing: Option<Place>,
-}
-
-/// Order of the positions of a profile.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Direction {
-    Unknown,
-    Ascending,
-    Descending,
 }
 
 impl Rows {
@@ -90,73 +81,35 @@ impl Rows {
             separator,
             decimal: Decimal::default(),
             columns: separator.split(line).count(),
-            positions: [Vec::new(), Vec::new()],
-            heights: Vec::new(),
-            direction: Direction::Unknown,
+            points: Points::default(),
+            spare: Points::default(),
             first_missing: None,
         }
     }
 
-    /// Number of columns of positions.
-    fn position_columns(&self) -> usize {
-        if self.columns <= 3 { self.columns - 1 } else { 0 }
+    fn form(&self) -> PlainForm {
+        let has_commas = self.decimal.is_comma();
+        PlainForm { separator: self.separator, has_commas, columns: self.columns }
     }
 
     /// Takes the plain lines at the beginning of a block. Returns their bytes and their number.
     fn take_plain(&mut self, block: &[u8]) -> (usize, usize) {
-        let is_usual = self.columns <= plain::MOST_COLUMNS && self.decimal.may_be_point();
-        let has_order = self.columns != 2 || self.direction != Direction::Unknown;
-        if !is_usual || !has_order {
-            return (0, 0);
+        let read = self.points.read_shared(block, self.form(), &mut self.spare);
+        if self.separator != Separator::Comma {
+            self.decimal.look_for_point(&block[..read.0]);
         }
-        let (separator, columns) = (self.separator, self.columns);
-        plain::read_lines(block, separator, columns, &mut |line| self.push_plain(line))
-    }
-
-    /// Takes a plain line, unless its numbers are not allowed: then the general way names the reason.
-    fn push_plain(&mut self, line: PlainLine) -> bool {
-        let values = &line.values[..self.columns];
-        if values.iter().any(|value| value.abs() > LARGEST * 1e12) {
-            return false;
-        }
-        if self.columns == 2
-            && let Some(before) = self.positions[0].last()
-        {
-            let goes_on = match self.direction {
-                Direction::Ascending => values[0] > *before,
-                Direction::Descending => values[0] < *before,
-                Direction::Unknown => false,
-            };
-            if !goes_on {
-                return false;
-            }
-        }
-        let position_columns = self.position_columns();
-        let room = self.heights.try_reserve(1).is_ok()
-            && self.positions[..position_columns]
-                .iter_mut()
-                .all(|positions| positions.try_reserve(1).is_ok());
-        if !room {
-            return false;
-        }
-        let (positions, heights) = values.split_at(position_columns);
-        self.positions.iter_mut().zip(positions).for_each(|(all, position)| all.push(*position));
-        self.heights.extend_from_slice(heights);
-        if line.has_point {
-            self.decimal.find_point();
-        }
-        true
+        read
     }
 
     /// Takes a line without spaces around it.
     fn take(&mut self, number: usize, line: &str) -> Result<(), TopographyError> {
-        let positions = self.position_columns();
+        let positions = self.form().position_columns();
         let mut found = 0;
         for cell in self.separator.split(line) {
             let value = self.value(number, cell, found < positions)?;
             let values = match found {
-                0 | 1 if found < positions => &mut self.positions[found],
-                _ => &mut self.heights,
+                0 | 1 if found < positions => &mut self.points.positions[found],
+                _ => &mut self.points.heights,
             };
             let points = values.len();
             values.try_reserve(1).map_err(|_| TopographyError::OutOfMemory { points })?;
@@ -200,13 +153,13 @@ impl Rows {
 
     /// Positions of a profile either ascend or descend.
     fn check_order(&mut self, number: usize) -> Result<(), TopographyError> {
-        let [.., before, x] = self.positions[0][..] else { return Ok(()) };
+        let [.., before, x] = self.points.positions[0][..] else { return Ok(()) };
         let now = if x > before { Direction::Ascending } else { Direction::Descending };
-        if self.direction == Direction::Unknown && x != before {
-            self.direction = now;
+        if self.points.direction == Direction::Unknown && x != before {
+            self.points.direction = now;
         }
-        if x == before || now != self.direction {
-            let order = match self.direction {
+        if x == before || now != self.points.direction {
+            let order = match self.points.direction {
                 Direction::Unknown => "another position than before",
                 Direction::Ascending => "ascending positions, as before",
                 Direction::Descending => "descending positions, as before",
@@ -221,17 +174,17 @@ impl Rows {
         let (format, grid) = match self.columns {
             1 => (Format::Columns, RawGrid::Profile(None)),
             2 => {
-                let [mut positions, _] = std::mem::take(&mut self.positions);
-                if self.direction == Direction::Descending {
+                let [mut positions, _] = std::mem::take(&mut self.points.positions);
+                if self.points.direction == Direction::Descending {
                     // A profile scanned backwards is the same profile.
                     positions.reverse();
-                    self.heights.reverse();
+                    self.points.heights.reverse();
                 }
                 (Format::Columns, RawGrid::Positions(positions))
             }
-            3 => (Format::Columns, grid::from_points(&self.positions)?),
+            3 => (Format::Columns, grid::from_points(&self.points.positions)?),
             columns => {
-                let rows = self.heights.len() / columns;
+                let rows = self.points.heights.len() / columns;
                 let spacing = match header.sizes {
                     [Some(width), Some(height)] => {
                         lateral_unit = Some(Unit::METRE);
@@ -242,7 +195,7 @@ impl Rows {
                 (Format::Matrix, RawGrid::Map { columns, spacing })
             }
         };
-        let Rows { heights, first_missing, .. } = self;
+        let Rows { points: Points { heights, .. }, first_missing, .. } = self;
         Ok(Reading { format, heights, grid, lateral_unit, height_unit, first_missing })
     }
 }
@@ -266,6 +219,7 @@ mod tests {
             1 => Just("# 1 2".to_owned()),
             1 => Just(String::new()),
             1 => Just(format!("  {x}   7 \r")),
+            2 => any::<f64>().prop_map(move |z| format!("  {x:.18e} {:.18e}", z % 1e20)),
             1 => Just(format!("{x} bad")),
             1 => prop::sample::select(vec!["1 2 3", "0 1", "1", "1,5 2,5", "1e400 1", "1e30 1", "-3 1", "x 1"])
                 .prop_map(str::to_owned),

@@ -1,135 +1,200 @@
 //! Plain lines of numbers, read where they are in the buffer: most lines of large files.
 //!
-//! A plain line has one to three decimal numbers of at most 2⁵³, one separator between them and nothing else. A power of
-//! ten up to 10²² is exact, so that one multiplication or division rounds the number correctly (Clinger, 1990), as
-//! [`str::parse`] does. Any other line is left to the general reader.
+//! A plain line has finite decimal numbers, separators between them, spaces and nothing else. Any other line is left to the
+//! general reader.
 
+use super::super::reading::LARGEST;
 use super::layout::Separator;
+use crate::parallel::in_parallel;
 
-/// Most columns of a plain line.
-pub(super) const MOST_COLUMNS: usize = 3;
+/// Bytes from which on two threads share a block.
+const WORTH_SHARING: usize = 1 << 20;
 
-/// Powers of ten that are exact.
-const POWERS: [f64; 23] = [
-    1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18,
-    1e19, 1e20, 1e21, 1e22,
-];
+/// Most bytes of a number with a decimal comma.
+const LONGEST_WITH_COMMA: usize = 32;
 
-/// Most digits that fit into 64 bits whatever they are.
-const MOST_DIGITS: usize = 19;
-
-/// Numbers up to this one are exact.
-const MOST_EXACT: u64 = 1 << 53;
-
-/// Numbers of a line.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct PlainLine {
-    pub values: [f64; MOST_COLUMNS],
-    /// A number has a decimal point.
-    pub has_point: bool,
+/// Form of plain lines.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct PlainForm {
+    pub separator: Separator,
+    /// True for decimal commas in place of points.
+    pub has_commas: bool,
+    pub columns: usize,
 }
 
-/// Reads plain lines of so many columns from the beginning of a block, until one is not plain, not whole or not taken.
-/// Returns the bytes and the number of lines taken.
-pub(super) fn read_lines(
-    block: &[u8],
-    separator: Separator,
-    columns: usize,
-    take: &mut dyn FnMut(PlainLine) -> bool,
-) -> (usize, usize) {
-    let (mut bytes, mut lines) = (0, 0);
-    while let Some((line, length)) = read_line(&block[bytes..], separator, columns) {
-        if !take(line) {
-            break;
-        }
-        bytes += length;
-        lines += 1;
-    }
-    (bytes, lines)
+/// Order of the positions of a profile.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) enum Direction {
+    #[default]
+    Unknown,
+    Ascending,
+    Descending,
 }
 
-/// A plain line and its bytes, line break included.
-fn read_line(bytes: &[u8], separator: Separator, columns: usize) -> Option<(PlainLine, usize)> {
-    let mut line = PlainLine { values: [0.0; MOST_COLUMNS], has_point: false };
-    let mut at = 0;
-    for (index, value) in line.values.iter_mut().enumerate().take(columns) {
-        if index > 0 {
-            at += separator_length(&bytes[at..], separator)?;
-        }
-        let (number, length, has_point) = read_number(&bytes[at..])?;
-        *value = number;
-        line.has_point |= has_point;
-        at += length;
-    }
-    match bytes[at..] {
-        [b'\n', ..] => Some((line, at + 1)),
-        [b'\r', b'\n', ..] => Some((line, at + 2)),
-        _ => None,
-    }
+/// Numbers of lines, file unit.
+#[derive(Debug, Default)]
+pub(super) struct Points {
+    /// Columns of positions: none, x, or x and y.
+    pub positions: [Vec<f64>; 2],
+    /// Row by row.
+    pub heights: Vec<f64>,
+    /// Order of the positions of a profile.
+    pub direction: Direction,
 }
 
-fn separator_length(bytes: &[u8], separator: Separator) -> Option<usize> {
-    let mark = match separator {
-        Separator::Semicolon => b';',
-        Separator::Tab => b'\t',
-        Separator::Comma => b',',
-        Separator::Space => b' ',
-    };
-    match separator {
-        Separator::Space => {
-            Some(bytes.iter().take_while(|byte| **byte == mark).count()).filter(|count| *count > 0)
-        }
-        _ => (bytes.first() == Some(&mark)).then_some(1),
+impl PlainForm {
+    /// Number of columns of positions.
+    pub fn position_columns(self) -> usize {
+        if self.columns <= 3 { self.columns - 1 } else { 0 }
+    }
+
+    /// Bytes of a separator with the spaces around it.
+    fn separator_length(self, bytes: &[u8]) -> Option<usize> {
+        let before = spaces(bytes);
+        let mark = match self.separator {
+            Separator::Semicolon => b';',
+            Separator::Tab => b'\t',
+            Separator::Comma => b',',
+            Separator::Space => return Some(before).filter(|count| *count > 0),
+        };
+        let behind = bytes[before..].strip_prefix(&[mark])?;
+        Some(before + 1 + spaces(behind))
+    }
+
+    /// A number and its bytes; `None` where another rule is needed.
+    fn read_number(self, bytes: &[u8]) -> Option<(f64, usize)> {
+        let (value, length) = if self.has_commas {
+            let mut copy = [0; LONGEST_WITH_COMMA];
+            let is_part = |byte: &u8| matches!(byte, b'0'..=b'9' | b',' | b'-' | b'+' | b'e' | b'E');
+            let part = copy.iter_mut().zip(bytes.iter().take_while(|byte| is_part(byte)));
+            part.for_each(|(to, byte)| *to = if *byte == b',' { b'.' } else { *byte });
+            fast_float2::parse_partial(copy).ok()?
+        } else {
+            fast_float2::parse_partial(bytes).ok()?
+        };
+        // No word for what is not a number, and none beyond all lengths.
+        (f64::abs(value) <= LARGEST * 1e12).then_some((value, length))
     }
 }
 
-/// A decimal number, its bytes, and true if it has a decimal point; `None` where another rule is needed.
-fn read_number(bytes: &[u8]) -> Option<(f64, usize, bool)> {
-    let is_signed = matches!(bytes.first()?, b'-' | b'+');
-    let mut at = usize::from(is_signed);
-    let (mut mantissa, whole) = digits(&bytes[at..], 0);
-    at += whole;
-    let mut count = whole;
-    let mut exponent = 0;
-    let has_point = bytes.get(at) == Some(&b'.');
-    if has_point {
-        let (longer, decimals) = digits(&bytes[at + 1..], mantissa);
-        mantissa = longer;
-        at += 1 + decimals;
-        count += decimals;
-        exponent = -(decimals as i32);
-    }
-    if whole == 0 || count > MOST_DIGITS || mantissa > MOST_EXACT {
-        return None;
-    }
-    if let Some(b'e' | b'E') = bytes.get(at) {
-        let is_negative = bytes.get(at + 1) == Some(&b'-');
-        at += 1 + usize::from(is_negative || bytes.get(at + 1) == Some(&b'+'));
-        let (power, length) = digits(&bytes[at..], 0);
-        if !(1..=3).contains(&length) {
-            return None;
+impl Points {
+    /// Reads plain lines from the beginning of a block, until one is not plain, not whole, or its position is not in order.
+    /// Returns the bytes and the number of lines read. `spare` is memory for half of them.
+    pub fn read_shared(&mut self, block: &[u8], form: PlainForm, spare: &mut Points) -> (usize, usize) {
+        let middle = block.len() / 2;
+        let line_end = block[middle..].iter().position(|byte| *byte == b'\n');
+        let Some(line_end) = line_end.filter(|_| block.len() >= WORTH_SHARING) else {
+            return self.read(block, form);
+        };
+        let (one, other) = block.split_at(middle + line_end + 1);
+        spare.clear();
+        spare.direction = self.direction;
+        let (of_other, (bytes, lines)) =
+            in_parallel(true, || spare.read(other, form), || self.read(one, form));
+        if bytes < one.len() || !self.append(spare, form) {
+            return (bytes, lines);
         }
-        at += length;
-        exponent += if is_negative { -(power as i32) } else { power as i32 };
+        (bytes + of_other.0, lines + of_other.1)
     }
-    let power = *POWERS.get(exponent.unsigned_abs() as usize)?;
-    let value = if exponent < 0 { mantissa as f64 / power } else { mantissa as f64 * power };
-    Some((if bytes[0] == b'-' { -value } else { value }, at, has_point))
+
+    fn read(&mut self, block: &[u8], form: PlainForm) -> (usize, usize) {
+        // A number has a digit and a mark behind it.
+        let most = 1 + block.len() / 2 / form.columns.min(3);
+        let mut columns =
+            std::iter::once(&mut self.heights).chain(&mut self.positions[..form.position_columns()]);
+        if columns.any(|values| values.try_reserve(most).is_err()) {
+            // Line by line there may be room still.
+            return (0, 0);
+        }
+        let (mut bytes, mut lines) = (0, 0);
+        while let Some(length) = self.read_line(&block[bytes..], form) {
+            bytes += length;
+            lines += 1;
+        }
+        (bytes, lines)
+    }
+
+    /// Reads a plain line. Returns its bytes, line break included.
+    fn read_line(&mut self, bytes: &[u8], form: PlainForm) -> Option<usize> {
+        let count = self.heights.len();
+        let length = self.read_numbers(bytes, form).filter(|_| self.is_in_order(count, form));
+        if length.is_none() {
+            // Both columns of positions have as many values as there are heights.
+            self.positions.iter_mut().for_each(|positions| positions.truncate(count));
+            self.heights.truncate(count);
+        }
+        length
+    }
+
+    fn read_numbers(&mut self, bytes: &[u8], form: PlainForm) -> Option<usize> {
+        let position_columns = form.position_columns();
+        let mut at = spaces(bytes);
+        for column in 0..form.columns {
+            if column > 0 {
+                at += form.separator_length(&bytes[at..])?;
+            }
+            let (value, length) = form.read_number(&bytes[at..])?;
+            at += length;
+            if column < position_columns {
+                self.positions[column].push(value);
+            } else {
+                self.heights.push(value);
+            }
+        }
+        at += spaces(&bytes[at..]);
+        match bytes[at..] {
+            [b'\n', ..] => Some(at + 1),
+            [b'\r', b'\n', ..] => Some(at + 2),
+            _ => None,
+        }
+    }
+
+    /// Returns true if the position with this number goes on in the direction of a profile.
+    fn is_in_order(&self, number: usize, form: PlainForm) -> bool {
+        if form.columns != 2 || number == 0 {
+            return true;
+        }
+        let (before, x) = (self.positions[0][number - 1], self.positions[0][number]);
+        match self.direction {
+            Direction::Ascending => x > before,
+            Direction::Descending => x < before,
+            Direction::Unknown => false,
+        }
+    }
+
+    /// Adds points behind these. Returns false, and adds nothing, where there is no room, or their first position is not in
+    /// order.
+    fn append(&mut self, behind: &Points, form: PlainForm) -> bool {
+        let count = self.heights.len();
+        let more = behind.heights.len();
+        if more == 0 {
+            return true;
+        }
+        let mut columns =
+            std::iter::once(&mut self.heights).chain(&mut self.positions[..form.position_columns()]);
+        if columns.any(|values| values.try_reserve(more).is_err()) {
+            return false;
+        }
+        self.positions[0].extend(behind.positions[0].first());
+        let is_in_order = self.is_in_order(count, form);
+        self.positions[0].truncate(count);
+        if is_in_order {
+            self.heights.extend_from_slice(&behind.heights);
+            let columns = self.positions.iter_mut().zip(&behind.positions);
+            columns.for_each(|(positions, more)| positions.extend_from_slice(more));
+        }
+        is_in_order
+    }
+
+    fn clear(&mut self) {
+        self.heights.clear();
+        self.positions.iter_mut().for_each(Vec::clear);
+    }
 }
 
-/// Digits at the beginning, behind those of `before`: their number modulo 2⁶⁴, and how many they are.
-fn digits(bytes: &[u8], before: u64) -> (u64, usize) {
-    let mut number = before;
-    let mut count = 0;
-    for byte in bytes {
-        let digit = byte.wrapping_sub(b'0');
-        if digit > 9 {
-            break;
-        }
-        number = number.wrapping_mul(10).wrapping_add(u64::from(digit));
-        count += 1;
-    }
-    (number, count)
+/// Number of spaces at the beginning.
+fn spaces(bytes: &[u8]) -> usize {
+    bytes.iter().take_while(|byte| **byte == b' ').count()
 }
 
 #[cfg(test)]
@@ -137,56 +202,94 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
+    fn form(separator: Separator, has_commas: bool, columns: usize) -> PlainForm {
+        PlainForm { separator, has_commas, columns }
+    }
+
     proptest! {
         #[test]
         fn plain_numbers_are_those_of_the_standard_library(
-            text in "[-+]?[0-9]{0,20}(\\.[0-9]{0,20})?([eE][-+]?[0-9]{0,4})?[ \n]"
+            text in "[-+]?([0-9]{0,20}([.,][0-9]{0,20})?([eE][-+]?[0-9]{0,4})?|inf|nan|NaN|infinity)[ \n]{0,9}",
+            has_commas in any::<bool>(),
         ) {
-            if let Some((value, length, has_point)) = read_number(text.as_bytes()) {
-                let number = &text[..length];
+            if let Some((value, length)) = form(Separator::Space, has_commas, 1).read_number(text.as_bytes()) {
+                let number = if has_commas { text[..length].replace(',', ".") } else { text[..length].to_owned() };
                 prop_assert_eq!(number.parse::<f64>().map(f64::to_bits), Ok(value.to_bits()), "{}", number);
-                prop_assert_eq!(has_point, number.contains('.'));
+                prop_assert!(value.is_finite());
             }
         }
 
         #[test]
-        fn usual_numbers_are_plain(value in -1e6..1e6_f64, decimals in 0..9_usize) {
-            let text = format!("{value:.decimals$}");
-            let (read, length, _) = read_number(text.as_bytes()).unwrap();
+        fn usual_numbers_are_plain(
+            value in -1e6..1e6_f64,
+            decimals in 0..19_usize,
+            scientific in any::<bool>(),
+            has_commas in any::<bool>(),
+        ) {
+            let text = if scientific { format!("{value:.decimals$e}") } else { format!("{value:.decimals$}") };
+            let written = if has_commas { text.replace('.', ",") } else { text.clone() };
+            let (read, length) = form(Separator::Space, has_commas, 1).read_number(written.as_bytes()).unwrap();
             prop_assert_eq!((read.to_bits(), length), (text.parse::<f64>().unwrap().to_bits(), text.len()));
         }
     }
 
     #[test]
     fn lines_that_are_not_plain_are_left() {
-        fn read(block: &str, separator: Separator, columns: usize) -> (Vec<Vec<f64>>, &str) {
-            let mut found = Vec::new();
-            let (bytes, lines) = read_lines(block.as_bytes(), separator, columns, &mut |line| {
-                found.push(line.values[..columns].to_vec());
-                line.values[0] != 99.0
-            });
-            found.truncate(lines);
-            (found, &block[bytes..])
+        fn read(block: &str, form: PlainForm) -> (Vec<f64>, Vec<f64>, &str) {
+            let mut points = Points { direction: Direction::Ascending, ..Points::default() };
+            let (bytes, lines) = points.read_shared(block.as_bytes(), form, &mut Points::default());
+            assert_eq!(lines, block[..bytes].lines().count());
+            let Points { positions: [x, _], heights, .. } = points;
+            (x, heights, &block[bytes..])
         }
-        let two = vec![vec![1.0, -2.5], vec![3e2, 4.0]];
-        assert_eq!(read("1\t-2.5\r\n3e2\t4\n", Separator::Tab, 2), (two.clone(), ""));
-        assert_eq!(read("1  -2.5\n3e2 4\n5 6", Separator::Space, 2), (two.clone(), "5 6"));
+        fn two(rest: &str) -> (Vec<f64>, Vec<f64>, &str) {
+            (vec![1.0, 3e2], vec![-2.5, 4.0], rest)
+        }
+        assert_eq!(read("1\t-2.5\r\n3e2\t4\n", form(Separator::Tab, false, 2)), two(""));
+        assert_eq!(read(" 1  -2.5 \r\n3e2 4\n5 6", form(Separator::Space, false, 2)), two("5 6"));
+        assert_eq!(read("1; -2,5\n3e2 ;4\n1;1.5\n", form(Separator::Semicolon, true, 2)), two("1;1.5\n"));
         for rest in [
             "# 1;2\n",
-            "1;2;3\n",
-            "1\n",
+            "1e4;2;3\n",
+            "1e4\n",
             ";2\n",
-            "1; 2\n",
+            "1e4;\t2\n",
             "NaN;1\n",
-            "1;2,5\n",
+            "1e4;NaN\n",
+            "1e4;2,5\n",
             "\n",
             "1e99;1\n",
+            "1e9999;1\n",
             "99;1\n",
-            "1;\u{0}\n",
+            "1e4;\u{0}\n",
         ] {
-            let block = format!("1;-2.5\n3e2;4\n{rest}7;8\n");
-            assert_eq!(read(&block, Separator::Semicolon, 2), (two.clone(), &block[13..]), "{rest}");
+            let block = format!("1;-2.5\n3e2;4\n{rest}1e5;8\n");
+            assert_eq!(read(&block, form(Separator::Semicolon, false, 2)), two(&block[13..]), "{rest}");
         }
-        assert_eq!(read("1,2,3\n", Separator::Comma, 3), (vec![vec![1.0, 2.0, 3.0]], ""));
+        assert_eq!(read("1,2,3\n", form(Separator::Comma, false, 3)), (vec![1.0], vec![3.0], ""));
+        assert_eq!(
+            read("1 2 3 4\n5 6 7 8\n9 1\n", form(Separator::Space, false, 4)),
+            (vec![], (1..9).map(f64::from).collect(), "9 1\n")
+        );
+    }
+
+    #[test]
+    fn large_blocks_are_read_as_their_lines_are() {
+        let line = |index: usize| format!("{index} {:.9}\n", (index as f64).sin());
+        let lines = WORTH_SHARING / 12;
+        // Whole, and with one line that ends it, in either half or where both meet.
+        for wrong in
+            [lines, lines / 3, lines / 2, lines - 1].into_iter().chain(lines / 2 - 40..lines / 2 + 40)
+        {
+            let text: String = (0..lines).map(|index| line(if index == wrong { 0 } else { index })).collect();
+            assert!(text.len() > WORTH_SHARING);
+            let form = form(Separator::Space, false, 2);
+            let mut found = [(); 2].map(|()| Points { direction: Direction::Ascending, ..Points::default() });
+            let [shared, alone] = &mut found;
+            let counts = shared.read_shared(text.as_bytes(), form, &mut Points::default());
+            assert_eq!(counts, alone.read(text.as_bytes(), form), "{wrong}");
+            assert_eq!((counts.1, shared.heights.len()), (wrong.min(lines), wrong.min(lines)));
+            assert!(shared.heights == alone.heights && shared.positions == alone.positions, "{wrong}");
+        }
     }
 }

@@ -4,8 +4,12 @@ use super::common::deadline::within;
 use super::common::driver::Driver;
 use super::common::scenes::{changed, rough};
 use super::pressed;
-use asperity::explorer::model::{Mode, Pane};
+use asperity::explorer::adhesion_spread::PROFILES;
+use asperity::explorer::model::{Mode, Notice, Pane};
+use asperity::explorer::study::Accuracy;
+use asperity::explorer::update::{Effect, study_tasks};
 use asperity::scene::Document;
+use std::path::Path;
 
 #[test]
 fn q_shows_the_spectrum_in_place_of_the_line() {
@@ -30,17 +34,94 @@ fn q_shows_the_spectrum_in_place_of_the_line() {
     });
 }
 
+/// A scene of a measured profile of 512 µm, whose file is written.
+fn measured(file: &Path) -> Document {
+    let height = |i: u32| (1..60).map(|k| f64::from(i * k * k + 7 * k).sin() / f64::from(k)).sum::<f64>();
+    let rows: String = (0..512).map(|i| format!("{i} {}\n", 30.0 * height(i))).collect();
+    std::fs::write(file, format!("x [um] z [nm]\n{rows}")).unwrap();
+    let roughness = format!("Measured(file: {:?}, as_line: false)", file.to_str().unwrap());
+    let scene = changed(&rough(), &[("roughness", &roughness), ("adhesion", "(work: 0.05)")]);
+    Document::parse(scene.text(), "measured").unwrap()
+}
+
+#[test]
+fn the_spread_over_lines_is_beside_that_of_the_fit() {
+    within(120, || {
+        let folder = tempfile::tempdir().unwrap();
+        let document = measured(&folder.path().join("stylus.txt"));
+        let document = document.set("numerics.points", "1024").unwrap();
+        let mut driver = Driver::open(document);
+        driver.appraiser = Some(Box::new(Accuracy));
+        driver.perform(vec![Effect::Compute]);
+        // Not before the pane is shown.
+        assert_eq!(driver.model.adhesion_spread, None);
+        driver.press("Q");
+        assert_eq!(driver.model.adhesion_spread.as_ref().unwrap().found.profiles.len(), PROFILES);
+        assert!(study_tasks(&driver.model).is_empty());
+        driver.press("z");
+        for size in [(120, 40), (80, 24)] {
+            driver.resize(size);
+            let screen = driver.text();
+            assert!(screen.contains("over 16 lines, ± ") && screen.contains("F_a = "), "{screen}");
+        }
+        driver.appraiser = None;
+        driver.press("R");
+        assert_eq!(driver.model.adhesion_spread, None);
+        assert!(driver.text().contains("0 of 16 lines"), "{}", driver.text());
+    });
+}
+
+#[test]
+fn the_profile_itself_is_kept_beside_its_equivalent_line() {
+    within(60, || {
+        let folder = tempfile::tempdir().unwrap();
+        let file = folder.path().join("stylus.txt");
+        // The whole scan: the equivalent line is as long as its points are many.
+        let document = measured(&file)
+            .set_all(&[("length".to_owned(), "512 µm".to_owned()), ("form".to_owned(), "None".to_owned())]);
+        let mut driver = Driver::start(document.unwrap());
+        let equivalent = driver.model.document.clone();
+        driver.press("|");
+        let ghost = driver.model.ghosts.last().unwrap();
+        assert!(ghost.document.scene().measured_as_line());
+        let profile = ghost.computed.outcome.figures.adhesion_force;
+        assert!(profile.is_some() && ghost.computed.outcome.governing.kappa.is_some());
+        assert!(driver.text().contains("profile as line true"), "{}", driver.text());
+        // A small pane has room for the letter alone.
+        driver.resize((80, 24));
+        driver.press("z");
+        assert!(driver.text().contains("profile as line true"), "{}", driver.text());
+        driver.press("z");
+        driver.resize((120, 40));
+        assert_eq!(driver.model.document.scene(), equivalent.scene());
+        driver.press("|");
+        assert_eq!(driver.model.ghosts.len(), 1);
+        // And the other way round.
+        driver.press("x");
+        assert_eq!(driver.model.computed.as_ref().unwrap().outcome.figures.adhesion_force, profile);
+        driver.press("C |");
+        assert!(!driver.model.ghosts[0].document.scene().measured_as_line());
+        // A file that is gone, and roughness that is not measured.
+        let mut driver = Driver::start(equivalent);
+        std::fs::remove_file(&file).unwrap();
+        driver.press("|");
+        let told = |driver: &Driver| match &driver.model.notice {
+            Some(Notice::Error(text)) => text.clone(),
+            other => panic!("{other:?}"),
+        };
+        assert!(told(&driver).contains("stylus.txt") && driver.model.ghosts.is_empty());
+        let mut other = Driver::start(rough());
+        other.press("|");
+        assert!(told(&other).contains("not measured"));
+    });
+}
+
 #[test]
 fn a_measured_surface_has_its_spectrum_fit_and_errors() {
     within(60, || {
         let folder = tempfile::tempdir().unwrap();
-        let height = |i: u32| (1..60).map(|k| f64::from(i * k * k + 7 * k).sin() / f64::from(k)).sum::<f64>();
-        let rows: String = (0..512).map(|i| format!("{i} {}\n", 30.0 * height(i))).collect();
         let file = folder.path().join("stylus.txt");
-        std::fs::write(&file, format!("x [um] z [nm]\n{rows}")).unwrap();
-        let roughness = format!("Measured(file: {:?}, as_line: false)", file.to_str().unwrap());
-        let scene = changed(&rough(), &[("roughness", &roughness), ("adhesion", "(work: 0.05)")]);
-        let mut driver = Driver::start(Document::parse(scene.text(), "measured").unwrap());
+        let mut driver = Driver::start(measured(&file));
         driver.press("Q z");
         for (size, words) in [
             (

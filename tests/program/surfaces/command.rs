@@ -143,6 +143,42 @@ fn spectra_are_computed_again_from_their_table() {
 }
 
 #[test]
+fn a_table_is_not_computed_again_from_a_changed_file() {
+    let folder = folder();
+    let folder = folder.path();
+    let scene = ["surface", "line.txt", "--modulus", "1MPa", "--work", "50mJ/m^2", "--scene", "rough.ron"];
+    done(folder, &scene);
+    done(folder, &["run", "rough.ron", "-o", "curve.csv"]);
+    done(folder, &["run", "rough.ron", "--lines", "2", "-o", "lines.npy"]);
+    done(folder, &["line", "rough.ron", "-o", "profile.csv"]);
+    done(folder, &["surface", "line.txt", "map.txt", "-o", "spectra.csv"]);
+    let table = std::fs::read_to_string(folder.join("spectra.csv")).unwrap();
+    assert_eq!(table.lines().filter(|line| line.starts_with("# sha256: ")).count(), 2, "{table}");
+    let tables = ["curve.csv", "lines.npy", "profile.csv", "spectra.csv"];
+    for table in tables {
+        done(folder, &["run", table, "-o", &format!("again.{table}")]);
+        let [one, other] = [table.to_owned(), format!("again.{table}")]
+            .map(|name| std::fs::read(folder.join(name)).unwrap());
+        assert!(one == other, "{table}");
+    }
+    let mut text = std::fs::read_to_string(folder.join("line.txt")).unwrap();
+    text.push_str("600\t1\n");
+    std::fs::write(folder.join("line.txt"), text).unwrap();
+    for table in tables {
+        let message = refused(folder, &["run", table]);
+        let expected = "line.txt: the measured file has changed: its SHA-256 is ";
+        assert!(message.starts_with(expected) && message.contains(&format!("…, {table} has ")), "{message}");
+    }
+    // Another file in its place is another scene.
+    done(
+        folder,
+        &["run", "curve.csv", "--set", "roughness=Measured(file: \"map.txt\")", "--set", "length=4e-5"],
+    );
+    std::fs::remove_file(folder.join("line.txt")).unwrap();
+    assert!(refused(folder, &["run", "curve.csv"]).starts_with("line.txt: cannot be read: "));
+}
+
+#[test]
 fn several_files_are_one_roughness() {
     let folder = folder();
     let both = json(folder.path(), &["surface", "line.txt", "map.txt", "--format", "json"]);
@@ -213,6 +249,32 @@ fn a_scene_of_a_surface_runs_on_its_equivalent_line() {
     let seven = json(folder, &["run", "rough.ron", "--set", "roughness.seed=7", "--format", "json"]);
     assert_eq!(seven["line"]["rms_height"], run["line"]["rms_height"]);
     assert_ne!(seven["adhesion_force"], run["adhesion_force"]);
+}
+
+#[test]
+fn the_adhesion_force_has_the_spread_over_lines_beside_that_of_the_fit() {
+    let folder = folder();
+    let folder = folder.path();
+    let arguments = ["surface", "line.txt", "--modulus", "1MPa", "--work", "50mJ/m^2", "--preload", "10uN"];
+    let summary = done(folder, &arguments);
+    for words in
+        ["loading                 to 10 µN, then pull", "over 16 lines, ± ", "by the fit", " of 16 lines"]
+    {
+        assert!(summary.contains(words), "{words}: {summary}");
+    }
+    let few = [&arguments[..], &["--lines", "4", "--scene", "rough.ron", "--format", "json"]].concat();
+    let adhesion = json(folder, &few)["adhesion"].take();
+    assert_eq!((&adhesion["preload"], &adhesion["adhesion_force"]["count"]), (&1e-5.into(), &4.into()));
+    assert!(adhesion["fit_deviation"].as_f64().unwrap() > 0.0, "{adhesion}");
+    // The same lines as those of the scene.
+    let lines = done(folder, &["run", "rough.ron", "--lines", "4", "--format", "csv"]);
+    for (row, line) in rows(&lines).skip(1).zip(adhesion["lines"].as_array().unwrap()) {
+        let force: f64 = row.split(',').nth(1).unwrap().parse().unwrap();
+        assert!((force / line["adhesion_force"].as_f64().unwrap() - 1.0).abs() < 1e-9, "{row} {line}");
+    }
+    // Without a work of adhesion there is none.
+    let none = json(folder, &["surface", "line.txt", "--modulus", "1MPa", "--format", "json"]);
+    assert_eq!(none["adhesion"], serde_json::Value::Null);
 }
 
 #[test]

@@ -1,0 +1,60 @@
+//! Adhesion of random profiles of a measured surface, beside its spectra: the spread over profiles and that of the fit.
+
+use super::snapshot::SolvedScene;
+use crate::scene::{Roughness, Scene, Solver};
+use crate::simulation::{RunError, measured_options};
+use crate::study::{MeasuredAdhesion, ProfileAdhesion};
+use crate::surface::EquivalentLine;
+use std::path::Path;
+use std::sync::Arc;
+
+/// Random profiles.
+pub const PROFILES: usize = 16;
+
+/// Adhesion of random profiles of a scene, as far as it is computed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct AdhesionSpread {
+    scene: Arc<Scene>,
+    /// The profiles so far.
+    pub found: MeasuredAdhesion,
+}
+
+impl AdhesionSpread {
+    /// No profile yet of a computed scene; `None` unless its profile is an equivalent line that adheres.
+    #[must_use]
+    pub fn new(computed: &SolvedScene) -> Option<Self> {
+        let scene = &computed.scene;
+        let is_measured = matches!(scene.roughness, Some(Roughness::Measured { .. }));
+        let adheres = scene.adhesion.is_some() && scene.numerics.solver == Solver::Exact;
+        (is_measured && adheres && !scene.measured_as_line())
+            .then(|| AdhesionSpread { scene: Arc::clone(scene), found: MeasuredAdhesion::default() })
+    }
+
+    /// Returns true once nothing is left to be computed.
+    #[must_use]
+    pub fn is_whole(&self) -> bool {
+        self.found.profiles.len() >= PROFILES
+    }
+
+    /// Computes the missing profiles. `tell` receives them after each; they are kept where `stop` interrupts.
+    ///
+    /// # Errors
+    /// When the surface cannot be read, or a profile or its contact fails, or `stop` says so.
+    pub fn compute(
+        &mut self,
+        folder: &Path,
+        stop: &dyn Fn() -> bool,
+        tell: &mut dyn FnMut(&AdhesionSpread),
+    ) -> Result<(), RunError> {
+        let scene = Arc::clone(&self.scene);
+        let files: Vec<_> = scene.measured_files().into_iter().map(|file| folder.join(file)).collect();
+        let line = EquivalentLine::read(&files, &measured_options(&scene), &mut |_| ())?;
+        let first = scene.seed().unwrap_or(0);
+        while !self.is_whole() {
+            let seed = first.wrapping_add(self.found.profiles.len() as u64);
+            self.found.profiles.push(ProfileAdhesion::solve(&scene, &line, seed, stop)?);
+            tell(self);
+        }
+        Ok(())
+    }
+}

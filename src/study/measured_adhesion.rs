@@ -1,0 +1,213 @@
+//! Adhesion of a measured surface, with two spreads: that over random profiles of one spectrum, and that of the spectrum,
+//! which the measurement leaves uncertain.
+//!
+//! Each random profile is solved on the fitted spectrum and, with the same phases, on one that is moved a little in a
+//! direction drawn from the uncertainty of the fit. Forces on the fitted spectrum differ from profile to profile; the two
+//! forces of a profile differ by the spectrum alone.
+
+use super::lines::RegimeCounts;
+use super::statistics::Statistics;
+use crate::analysis::Regime;
+use crate::parallel::{begin_threads, on_this_thread};
+use crate::scene::Scene;
+use crate::simulation::{RunError, Simulation};
+use crate::surface::{EquivalentLine, MeasuredRoughness};
+use serde::Serialize;
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
+
+/// Curve samples on a leg: the figures are exact extremes.
+const SAMPLES: u64 = 2;
+
+/// Share of a drawn step by which a spectrum is moved. Errors of the fit are stated to first order; of its longest waves
+/// nearly nothing is known, and whole steps of their logarithms would be powers of ten.
+const SHARE: f64 = 1.0 / 32.0;
+
+/// Adhesion of one random profile.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct ProfileAdhesion {
+    /// Seed of the profile.
+    pub seed: u64,
+    /// Adhesion force F_a on the fitted spectrum, N; `None` where nothing is pulled.
+    pub adhesion_force: Option<f64>,
+    /// Its change with the spectrum, to first order, by a step drawn from the uncertainty of the fit, N.
+    pub fit_change: Option<f64>,
+    /// Regime on the fitted spectrum.
+    pub regime: Option<Regime>,
+}
+
+impl ProfileAdhesion {
+    /// Solves a checked scene of a measured surface on one profile of its equivalent line.
+    ///
+    /// # Errors
+    /// When a profile or its contact fails, or `stop` returns true.
+    pub fn solve(
+        scene: &Scene,
+        line: &EquivalentLine,
+        seed: u64,
+        stop: &dyn Fn() -> bool,
+    ) -> Result<Self, RunError> {
+        let mut scene = scene.clone();
+        scene.set_seed(seed);
+        scene.observe.clear();
+        scene.numerics.samples = scene.numerics.samples.min(SAMPLES);
+        let on = |scene: &Scene, line: EquivalentLine| {
+            let measured = Arc::new(MeasuredRoughness::Equivalent(line));
+            Simulation::default().with_measured(measured).run(scene, stop, &mut |_, _, _| Ok(()))
+        };
+        let fitted = on(&scene, line.clone())?;
+        // Where κ or e_el/γ is given, the work of adhesion is that of the fitted spectrum.
+        if let Some(work) = fitted.governing.work_of_adhesion {
+            scene.adhesion = scene.adhesion.map(|adhesion| adhesion.with_work(work));
+        }
+        let moved = on(&scene, line.drawn(seed, SHARE))?;
+        let (one, other) = (fitted.figures.adhesion_force, moved.figures.adhesion_force);
+        Ok(ProfileAdhesion {
+            seed,
+            adhesion_force: one,
+            fit_change: one.zip(other).map(|(one, other)| (other - one) / SHARE),
+            regime: fitted.regime,
+        })
+    }
+}
+
+/// Adhesion of several random profiles of a measured surface.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct MeasuredAdhesion {
+    /// The profiles, in the order of their seeds.
+    pub profiles: Vec<ProfileAdhesion>,
+}
+
+impl MeasuredAdhesion {
+    /// Solves a checked scene on `count` profiles: its seed and the seeds that follow. `jobs` threads share them; no bit of
+    /// a result depends on their number.
+    ///
+    /// # Errors
+    /// Of several profiles that fail, the first.
+    pub fn solve(scene: &Scene, line: &EquivalentLine, count: u32, jobs: usize) -> Result<Self, RunError> {
+        let first = scene.seed().unwrap_or(0);
+        let (next, solved) = (AtomicU64::new(0), Mutex::new(Vec::new()));
+        let work = || {
+            loop {
+                let number = next.fetch_add(1, Ordering::Relaxed);
+                if number >= u64::from(count) {
+                    return;
+                }
+                let one = ProfileAdhesion::solve(scene, line, first.wrapping_add(number), &|| false);
+                if one.is_err() {
+                    // Those before are under way.
+                    next.store(u64::from(count), Ordering::Relaxed);
+                }
+                solved.lock().unwrap_or_else(PoisonError::into_inner).push((number, one));
+            }
+        };
+        std::thread::scope(|scope| {
+            begin_threads(scope, jobs.min(count as usize).saturating_sub(1), work);
+            on_this_thread(work);
+        });
+        let mut solved = solved.into_inner().unwrap_or_else(PoisonError::into_inner);
+        solved.sort_by_key(|(number, _)| *number);
+        let profiles = solved.into_iter().map(|(_, one)| one).collect::<Result<_, _>>()?;
+        Ok(MeasuredAdhesion { profiles })
+    }
+
+    /// Statistics of the adhesion force over the profiles of the fitted spectrum, N.
+    #[must_use]
+    pub fn adhesion_force(&self) -> Option<Statistics> {
+        let forces: Vec<f64> = self.profiles.iter().filter_map(|profile| profile.adhesion_force).collect();
+        Statistics::of(&forces)
+    }
+
+    /// Standard deviation of the adhesion force by the uncertainty of the spectrum, N: root mean square of the changes of the
+    /// profiles. `None` for fewer than two.
+    #[must_use]
+    pub fn fit_deviation(&self) -> Option<f64> {
+        let changes: Vec<f64> = self.profiles.iter().filter_map(|profile| profile.fit_change).collect();
+        let square = changes.iter().map(|change| change.powi(2)).sum::<f64>();
+        (changes.len() >= 2).then(|| (square / changes.len() as f64).sqrt())
+    }
+
+    /// Number of profiles in each regime.
+    #[must_use]
+    pub fn regimes(&self) -> RegimeCounts {
+        RegimeCounts::of(self.profiles.iter().map(|profile| profile.regime))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Document;
+    use crate::simulation::measured_options;
+    use crate::topography::{ReadOptions, parse};
+
+    fn scene_and_line(adhesion: &str) -> (Scene, EquivalentLine) {
+        let text = format!(
+            "(version: 2, material: (effective_modulus: 1.0e6), length: 2.56e-4, adhesion: {adhesion}, \
+             roughness: Measured(file: \"none.txt\", seed: 5), numerics: (points: 1024), \
+             loading: [ToForce(1.0e-4), ToSeparation])"
+        );
+        let scene = Document::parse(&text, "test").unwrap().scene().clone();
+        let height = |i: u32| (1..60).map(|k| f64::from(i * k * k + 7 * k).sin() / f64::from(k)).sum::<f64>();
+        let rows: String = (0..256).map(|i| format!("{i} {}\n", 30.0 * height(i))).collect();
+        let surface = parse(format!("x [um] z [nm]\n{rows}").as_bytes(), &ReadOptions::default()).unwrap();
+        let line = EquivalentLine::new(surface, &measured_options(&scene)).unwrap();
+        (scene, line)
+    }
+
+    #[test]
+    fn both_spreads_are_those_of_separate_runs() {
+        let (scene, line) = scene_and_line("(work: 0.05)");
+        let found = MeasuredAdhesion::solve(&scene, &line, 6, 1).unwrap();
+        assert_eq!(MeasuredAdhesion::solve(&scene, &line, 6, 3).unwrap(), found);
+        let force = |line: EquivalentLine, seed: u64| {
+            let mut scene = scene.clone();
+            scene.set_seed(seed);
+            let measured = Arc::new(MeasuredRoughness::Equivalent(line));
+            let mut simulation = Simulation::default().with_measured(measured);
+            simulation.run(&scene, &|| false, &mut |_, _, _| Ok(())).unwrap().figures.adhesion_force.unwrap()
+        };
+        let (mut fitted, mut square) = (Vec::new(), 0.0);
+        for (profile, seed) in found.profiles.iter().zip(5..) {
+            let (one, other) = (force(line.clone(), seed), force(line.drawn(seed, SHARE), seed));
+            assert_eq!((profile.seed, profile.adhesion_force), (seed, Some(one)));
+            let change = (other - one) / SHARE;
+            assert_eq!(profile.fit_change, Some(change));
+            // To first order: a step of half the size changes the force by half as much.
+            let half = 2.0 * (force(line.drawn(seed, 0.5 * SHARE), seed) - one) / SHARE;
+            assert!((half - change).abs() < 0.2 * change.abs() + 1e-3 * one, "{seed}: {half} {change}");
+            fitted.push(one);
+            square += change.powi(2) / 6.0;
+        }
+        assert_eq!(found.adhesion_force(), Statistics::of(&fitted));
+        let deviation = found.fit_deviation().unwrap();
+        assert!((deviation / square.sqrt() - 1.0).abs() < 1e-12 && deviation > 0.0, "{deviation}");
+        assert_eq!(found.regimes().present().map(|(_, count)| count).sum::<usize>(), 6);
+    }
+
+    #[test]
+    fn a_given_kappa_is_that_of_the_fitted_spectrum() {
+        let (scene, line) = scene_and_line("(kappa: 1.5)");
+        let by_kappa = MeasuredAdhesion::solve(&scene, &line, 2, 1).unwrap();
+        let measured = Arc::new(MeasuredRoughness::Equivalent(line.clone()));
+        let mut simulation = Simulation::default().with_measured(measured);
+        let outcome = simulation.run(&scene, &|| false, &mut |_, _, _| Ok(())).unwrap();
+        let work = outcome.governing.work_of_adhesion.unwrap();
+        let scene = Scene { adhesion: scene.adhesion.map(|adhesion| adhesion.with_work(work)), ..scene };
+        assert_eq!(MeasuredAdhesion::solve(&scene, &line, 2, 1).unwrap(), by_kappa);
+    }
+
+    #[test]
+    fn one_force_has_no_spread() {
+        let profile = |adhesion_force, fit_change| ProfileAdhesion {
+            seed: 1,
+            adhesion_force,
+            fit_change,
+            regime: None,
+        };
+        let found = MeasuredAdhesion { profiles: vec![profile(Some(1.0), Some(2.0)), profile(None, None)] };
+        assert_eq!((found.adhesion_force(), found.fit_deviation()), (None, None));
+        let found = MeasuredAdhesion { profiles: vec![profile(Some(1.0), Some(-2.0)); 2] };
+        assert_eq!(found.fit_deviation(), Some(2.0));
+    }
+}

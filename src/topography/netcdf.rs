@@ -1,0 +1,351 @@
+//! NetCDF in its classic format (CDF-1 and CDF-2), in which contact.engineering and SurfaceTopography write surfaces: a
+//! variable `heights` over positions `x`, and `y` of a map.
+
+use super::UNEVEN;
+use super::bytes::{Bytes, Number, Order};
+use super::error::{Place, TopographyError, refused};
+use super::reading::{Format, RawGrid, Reading};
+use super::unit::Unit;
+
+/// First bytes, without the version.
+pub(super) const SIGNATURE: &[u8] = b"CDF";
+
+/// Marks of the lists of dimensions, variables and attributes.
+const DIMENSIONS: u32 = 10;
+const VARIABLES: u32 = 11;
+const ATTRIBUTES: u32 = 12;
+
+/// Type of characters; all others are numbers.
+const CHARACTERS: u32 = 2;
+
+/// A variable of a file.
+struct Variable<'a> {
+    name: &'a [u8],
+    /// Indices of its dimensions, the fastest last.
+    dimensions: Vec<u32>,
+    unit: Option<Unit>,
+    /// Values of points that are missing.
+    missing: Vec<f64>,
+    scale: f64,
+    offset: f64,
+    of: Number,
+    begin: usize,
+}
+
+/// A file behind its header.
+struct Dataset<'a> {
+    bytes: &'a [u8],
+    /// Lengths.
+    dimensions: Vec<usize>,
+    variables: Vec<Variable<'a>>,
+}
+
+/// Reads the variable `heights`.
+pub(super) fn read(bytes: &[u8]) -> Result<Reading, TopographyError> {
+    let dataset = Dataset::new(bytes)?;
+    let heights = dataset.variable(b"heights").ok_or_else(|| {
+        refused(Place::File, "no variable `heights`", "NetCDF with `heights` over `x`, and `y` of a map")
+    })?;
+    let mut values = dataset.values(heights)?;
+    if let Some(mask) = dataset.variable(b"mask").filter(|mask| mask.dimensions == heights.dimensions) {
+        let mask = dataset.values(mask)?;
+        values.iter_mut().zip(mask).filter(|(_, mask)| *mask != 0.0).for_each(|(value, _)| *value = f64::NAN);
+    }
+    // Positions over a dimension have its name, or that of the axis.
+    let over = |dimension: u32| {
+        let is_over = |variable: &&Variable| {
+            variable.dimensions == [dimension] && [&b"x"[..], b"y"].contains(&variable.name)
+        };
+        dataset.variables.iter().find(is_over)
+    };
+    let position_unit = dataset.variable(b"x").and_then(|x| x.unit);
+    let grid = match heights.dimensions[..] {
+        [along] => match over(along) {
+            Some(x) => RawGrid::Positions(dataset.values(x)?),
+            None => RawGrid::Profile(None),
+        },
+        [slow, fast] => {
+            let spacing = |dimension: u32| {
+                over(dimension).map(|positions| even_distance(&dataset.values(positions)?)).transpose()
+            };
+            let [rows, columns] = [slow, fast].map(|dimension| dataset.length(dimension));
+            let (rows, columns) = (rows?, columns?);
+            let spacings = spacing(fast)?.zip(spacing(slow)?).map(|(fast, slow)| [fast, slow]);
+            if over(slow).is_some_and(|variable| variable.name == b"x") {
+                // Rows run along x.
+                values = transposed(&values, columns)?;
+                RawGrid::of(rows, columns, spacings.map(|[fast, slow]| [slow, fast]))
+            } else {
+                RawGrid::of(columns, rows, spacings)
+            }
+        }
+        _ => {
+            let fault = format!("`heights` over {} dimensions", heights.dimensions.len());
+            return Err(refused(Place::File, fault, "one of a profile, or two of a map"));
+        }
+    };
+    Ok(Reading {
+        format: Format::NetCdf,
+        heights: values,
+        grid,
+        lateral_unit: position_unit,
+        height_unit: heights.unit.or(position_unit),
+        first_missing: None,
+    })
+}
+
+impl<'a> Dataset<'a> {
+    fn new(bytes: &'a [u8]) -> Result<Self, TopographyError> {
+        let mut header = Bytes::new(bytes);
+        header.take(SIGNATURE.len())?;
+        let place = header.place();
+        let is_wide = match header.take(1)? {
+            [1] => false,
+            [2] => true,
+            [version, ..] => {
+                return Err(refused(
+                    place,
+                    format!("version {version} of NetCDF"),
+                    "1 or 2, the classic format",
+                ));
+            }
+            [] => return Err(refused(place, "no version of NetCDF", "1 or 2, the classic format")),
+        };
+        header.take(4)?; // Number of records.
+        let mut dimensions = Vec::new();
+        for _ in 0..list(&mut header, DIMENSIONS)? {
+            name(&mut header)?;
+            dimensions.push(header.big_u32()? as usize);
+        }
+        for _ in 0..list(&mut header, ATTRIBUTES)? {
+            attribute(&mut header)?;
+        }
+        let mut variables = Vec::new();
+        for _ in 0..list(&mut header, VARIABLES)? {
+            variables.push(variable(&mut header, is_wide)?);
+        }
+        Ok(Dataset { bytes, dimensions, variables })
+    }
+
+    fn variable(&self, name: &[u8]) -> Option<&Variable<'a>> {
+        self.variables.iter().find(|variable| variable.name == name)
+    }
+
+    fn length(&self, dimension: u32) -> Result<usize, TopographyError> {
+        match self.dimensions.get(dimension as usize) {
+            Some(0) => Err(refused(Place::File, "a dimension without a fixed length", "fixed lengths")),
+            Some(length) => Ok(*length),
+            None => Err(refused(
+                Place::File,
+                format!("dimension {dimension}"),
+                format!("below {}", self.dimensions.len()),
+            )),
+        }
+    }
+
+    /// Values of a variable; those of missing points are not numbers.
+    fn values(&self, variable: &Variable) -> Result<Vec<f64>, TopographyError> {
+        let mut count = 1_usize;
+        for dimension in &variable.dimensions {
+            count = count.saturating_mul(self.length(*dimension)?);
+        }
+        let mut data = Bytes::new(self.bytes);
+        data.take(variable.begin)?;
+        let mut values = data.numbers(count, variable.of, Order::Big)?;
+        for value in &mut values {
+            let is_missing = variable.missing.contains(value);
+            *value = if is_missing { f64::NAN } else { variable.offset + variable.scale * *value };
+        }
+        Ok(values)
+    }
+}
+
+/// Number of entries of a list.
+fn list(header: &mut Bytes, mark: u32) -> Result<u32, TopographyError> {
+    let place = header.place();
+    match (header.big_u32()?, header.big_u32()?) {
+        (0, 0) => Ok(0),
+        (found, count) if found == mark => Ok(count),
+        (found, _) => Err(refused(place, format!("mark {found}"), format!("{mark}, or an empty list"))),
+    }
+}
+
+/// Bytes, of which a multiple of four is there.
+fn padded<'a>(header: &mut Bytes<'a>, count: usize) -> Result<&'a [u8], TopographyError> {
+    let bytes = header.take(count)?;
+    header.take(count.next_multiple_of(4) - count)?;
+    Ok(bytes)
+}
+
+fn name<'a>(header: &mut Bytes<'a>) -> Result<&'a [u8], TopographyError> {
+    let length = header.big_u32()? as usize;
+    padded(header, length)
+}
+
+/// Type of numbers; `None` for characters.
+fn number(header: &mut Bytes) -> Result<Option<Number>, TopographyError> {
+    let place = header.place();
+    match header.big_u32()? {
+        1 => Ok(Some(Number::I8)),
+        CHARACTERS => Ok(None),
+        3 => Ok(Some(Number::I16)),
+        4 => Ok(Some(Number::I32)),
+        5 => Ok(Some(Number::F32)),
+        6 => Ok(Some(Number::F64)),
+        other => Err(refused(place, format!("type {other}"), "types 1 to 6")),
+    }
+}
+
+/// Value of an attribute: text, or its first number.
+enum Value<'a> {
+    Text(&'a [u8]),
+    Number(f64),
+    Empty,
+}
+
+/// Name and value of an attribute.
+fn attribute<'a>(header: &mut Bytes<'a>) -> Result<(&'a [u8], Value<'a>), TopographyError> {
+    let name = name(header)?;
+    let of = number(header)?;
+    let count = header.big_u32()? as usize;
+    let size = of.map_or(1, Number::size);
+    let bytes = padded(header, count.saturating_mul(size))?;
+    let value = match of {
+        None => Value::Text(bytes),
+        Some(_) if count == 0 => Value::Empty,
+        Some(of) => Value::Number(Bytes::new(bytes).numbers(1, of, Order::Big)?[0]),
+    };
+    Ok((name, value))
+}
+
+fn variable<'a>(header: &mut Bytes<'a>, is_wide: bool) -> Result<Variable<'a>, TopographyError> {
+    let name = name(header)?;
+    let mut dimensions = Vec::new();
+    for _ in 0..header.big_u32()? {
+        dimensions.push(header.big_u32()?);
+    }
+    let (mut unit, mut missing, mut scale, mut offset) = (None, Vec::new(), 1.0, 0.0);
+    for _ in 0..list(header, ATTRIBUTES)? {
+        match attribute(header)? {
+            (b"unit" | b"units", Value::Text(text)) => {
+                unit = str::from_utf8(text).ok().and_then(|text| text.trim().parse().ok());
+            }
+            (b"missing_value" | b"_FillValue", Value::Number(value)) => missing.push(value),
+            (b"scale_factor", Value::Number(value)) => scale = value,
+            (b"add_offset", Value::Number(value)) => offset = value,
+            _ => {}
+        }
+    }
+    let place = header.place();
+    let of = number(header)?;
+    header.take(4)?; // Bytes of the values, which follow from the dimensions.
+    let begin = if is_wide { header.big_u64()? } else { u64::from(header.big_u32()?) };
+    let begin = usize::try_from(begin)
+        .map_err(|_| refused(place, format!("values from byte {begin} on"), "bytes of the file"))?;
+    // Of text no value is asked for.
+    Ok(Variable { name, dimensions, unit, missing, scale, offset, of: of.unwrap_or(Number::U8), begin })
+}
+
+/// Distance between positions at an even distance.
+fn even_distance(positions: &[f64]) -> Result<f64, TopographyError> {
+    let ([first, .., last], count) = (positions, positions.len()) else {
+        return Err(refused(Place::File, "a map of one row", "at least 2 positions along each axis"));
+    };
+    let distance = (last - first) / (count - 1) as f64;
+    let is_off = |(index, x): (usize, &f64)| {
+        let off = (x - first - index as f64 * distance).abs();
+        off.is_nan() || off > UNEVEN * distance.abs()
+    };
+    match positions.iter().enumerate().position(is_off) {
+        Some(index) => Err(refused(Place::Point(index + 1), "uneven positions of a map", "even ones")),
+        None => Ok(distance.abs()),
+    }
+}
+
+/// Rows for columns.
+fn transposed(values: &[f64], columns: usize) -> Result<Vec<f64>, TopographyError> {
+    let points = values.len();
+    let mut turned = Vec::new();
+    turned.try_reserve_exact(points).map_err(|_| TopographyError::OutOfMemory { points })?;
+    turned.extend((0..columns).flat_map(|column| values.iter().skip(column).step_by(columns)));
+    Ok(turned)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::topography::{Grid, ReadOptions, parse};
+
+    /// A file with these dimensions and variables of doubles.
+    fn file(dimensions: &[(&str, u32)], variables: &[(&str, &[u32], &str, &[f64])]) -> Vec<u8> {
+        let text = |text: &str| {
+            let mut bytes = (text.len() as u32).to_be_bytes().to_vec();
+            bytes.extend(text.as_bytes());
+            bytes.resize(bytes.len().next_multiple_of(4), 0);
+            bytes
+        };
+        let words = |words: &[u32]| words.iter().flat_map(|word| word.to_be_bytes()).collect::<Vec<u8>>();
+        let mut bytes = [b"CDF\x01".to_vec(), words(&[0, DIMENSIONS, dimensions.len() as u32])].concat();
+        for (name, length) in dimensions {
+            bytes.extend([text(name), words(&[*length])].concat());
+        }
+        bytes.extend(words(&[0, 0, VARIABLES, variables.len() as u32]));
+        let header = |begin: &dyn Fn(usize) -> u32| {
+            let of = |(index, (name, dimensions, unit, values)): (usize, &(&str, &[u32], &str, &[f64]))| {
+                let fill = [text("_FillValue"), words(&[4, 1, 999_999])].concat();
+                let unit = [text("unit"), words(&[CHARACTERS]), text(unit)].concat();
+                let head = [text(name), words(&[dimensions.len() as u32]), words(dimensions)].concat();
+                let data = words(&[6, 8 * values.len() as u32, begin(index)]);
+                [head, words(&[ATTRIBUTES, 2]), fill, unit, data].concat()
+            };
+            variables.iter().enumerate().flat_map(of).collect::<Vec<u8>>()
+        };
+        let first = (bytes.len() + header(&|_| 0).len()) as u32;
+        let before =
+            |index: usize| variables[..index].iter().map(|variable| 8 * variable.3.len() as u32).sum::<u32>();
+        bytes.extend(header(&|index| first + before(index)));
+        bytes.extend(variables.iter().flat_map(|variable| variable.3).flat_map(|value| value.to_be_bytes()));
+        bytes
+    }
+
+    #[test]
+    fn profiles_and_maps_are_read_with_their_units() {
+        let none = ReadOptions::default();
+        let profile = file(
+            &[("n", 3)],
+            &[("x", &[0], "um", &[0.0, 1.0, 4.0]), ("heights", &[0], "nm", &[1.0, 5.0, 2.0])],
+        );
+        let surface = parse(&profile, &none).unwrap();
+        assert_eq!((surface.format(), surface.heights()), (Format::NetCdf, &[1e-9, 5e-9, 2e-9][..]));
+        assert_eq!(surface.grid(), &Grid::Positions(vec![0.0, 1e-6, 4e-6]));
+        let axes: [(&str, &[u32], &str, &[f64]); 2] =
+            [("x", &[0], "m", &[0.0, 2.0]), ("y", &[1], "m", &[0.0, 1.0, 2.0])];
+        let heights: (&str, &[u32], &str, &[f64]) = ("heights", &[0, 1], "", &[1.0, 2.0, 3.0, 4.0, 5.0, 6.0]);
+        let map = parse(&file(&[("x", 2), ("y", 3)], &[heights, axes[0], axes[1]]), &none).unwrap();
+        // Two points along x in each of three rows.
+        assert_eq!(map.heights(), [1.0, 4.0, 2.0, 5.0, 3.0, 6.0]);
+        assert_eq!(map.grid(), &Grid::Map { columns: 2, spacing: [2.0, 1.0] });
+        let missing = file(&[("n", 2)], &[("heights", &[0], "m", &[1.0, 999_999.0])]);
+        let error = parse(&missing, &ReadOptions { spacing: Some(1.0), ..none }).unwrap_err().to_string();
+        assert!(error.starts_with("point 2: 1 of 2 points are missing"), "{error}");
+    }
+
+    #[test]
+    fn wrong_files_are_refused() {
+        let heights: (&str, &[u32], &str, &[f64]) = ("heights", &[0], "m", &[1.0, 2.0]);
+        let whole = file(&[("n", 2)], &[heights]);
+        let error = |bytes: &[u8]| read(bytes).map(drop).unwrap_err().to_string();
+        for end in 4..whole.len() {
+            assert!(error(&whole[..end]).contains("up to the end; allowed: at least"), "{end}");
+        }
+        assert!(error(b"CDF\x05\0\0\0\0").contains("version 5 of NetCDF; allowed: 1 or 2"));
+        assert!(error(&file(&[("n", 2)], &[])).contains("no variable `heights`"));
+        assert!(error(&file(&[("n", 0)], &[heights])).contains("without a fixed length"));
+        assert!(error(&file(&[("n", u32::MAX)], &[heights])).contains("up to the end"));
+        assert!(error(&file(&[], &[heights])).contains("dimension 0; allowed: below 0"));
+        let uneven: (&str, &[u32], &str, &[f64]) = ("x", &[0], "m", &[0.0, 1.0, 3.0]);
+        let map: (&str, &[u32], &str, &[f64]) = ("heights", &[0, 1], "m", &[0.0; 6]);
+        let y: (&str, &[u32], &str, &[f64]) = ("y", &[1], "m", &[0.0, 1.0]);
+        assert!(error(&file(&[("x", 3), ("y", 2)], &[map, uneven, y])).contains("uneven positions of a map"));
+    }
+}
