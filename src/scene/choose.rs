@@ -1,12 +1,13 @@
 //! The next choice of a field, as a key selects it.
 
+use super::computed::Computed;
 use super::document::Document;
 use super::effects::Effect;
 use super::errors::SceneErrors;
 use super::field::Field;
 use super::range::choice_key;
 use super::roughness_parameter::RoughnessParameter;
-use super::switch::{Computed, by_parameter, by_work, pair};
+use super::switch::{by_parameter, by_work, pair};
 
 /// Significant digits that survive the conversion of adhesion from one of its ways to another and back.
 const DIGITS: usize = 14;

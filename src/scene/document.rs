@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use super::check::check;
+use super::computed::Computed;
 use super::edit;
 use super::effects::Effect;
 use super::error_source::{all_errors, errors_of, nearest_byte, origin_at, overrides_behind};
@@ -11,7 +12,6 @@ use super::field::Field;
 use super::fields::{FIELDS, field};
 use super::model::{Roughness, Scene};
 use super::read::{Unread, read, wrong_version};
-use super::switch::Computed;
 use super::table_content::TableContent;
 use super::text::{Text, is_within};
 use super::undo::{Edit, SwitchedOff};

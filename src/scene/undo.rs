@@ -1,7 +1,7 @@
 //! Edits that a document remembers, so that they can be undone one by one, whatever has been edited since.
 
+use super::computed::Computed;
 use super::effects::Effect;
-use super::switch::Computed;
 use super::text::Text;
 
 /// An effect that edits have switched off, with the edits that bring it back when undone.

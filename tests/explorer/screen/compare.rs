@@ -145,7 +145,7 @@ fn what_cannot_be_kept_or_exchanged_says_why() {
 
 /// The rows of the pane that has the close-up or the scene beside in it.
 fn lower_pane(driver: &Driver) -> Vec<String> {
-    rows_of(driver, Pane::Beside)
+    rows_of(driver, driver.model.lower)
 }
 
 fn rows_of(driver: &Driver, pane: Pane) -> Vec<String> {
@@ -200,7 +200,7 @@ fn two_scenes_are_shown_side_by_side() {
             }
             driver.press("&");
             assert!(driver.model.moment.as_ref().unwrap().beside.is_none());
-            assert!(lower_pane(&driver)[0].contains("Fragments"));
+            assert!(rows_of(&driver, Pane::CloseUp)[0].contains("Fragments"));
         }
     });
 }

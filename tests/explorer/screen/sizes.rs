@@ -6,7 +6,7 @@ use super::common::scenes::rough;
 use super::{SIZES, default_scene, mid_retraction, pressed};
 use asperity::explorer::layout::Layout;
 use asperity::explorer::model::Pane;
-use asperity::scene::Effect;
+use asperity::scene::{Effect, open};
 
 /// A window in which every message has room.
 const WIDE: (u16, u16) = (400, 40);
@@ -135,6 +135,28 @@ fn the_help_has_the_whole_notice() {
             let notice = driver.model.document.scene().notice.clone();
             let missing = notice.split_whitespace().find(|word| !seen.contains(word));
             assert_eq!(missing, None, "{size:?}\n{seen}");
+        }
+    });
+}
+
+#[test]
+fn ends_of_contact_patches_are_seen_where_a_scene_observes_them() {
+    within(60, || {
+        for size in SIZES {
+            let mut driver = Driver::start(open("fragment-closeup").unwrap());
+            driver.model.pane = Pane::CloseUp;
+            driver.resize(size);
+            driver.elapse(30.0);
+            let close_up = &driver.model.moment.as_ref().unwrap().close_up;
+            assert!(close_up.boundaries.len() >= 2, "{size:?}: {:?}", close_up.boundaries);
+            let area = Layout::of(&driver.model).pane(Pane::CloseUp).unwrap();
+            let inside = |row: &String| -> String {
+                row.chars().skip(area.x.into()).take(area.width.into()).collect()
+            };
+            let rows = driver.rows();
+            let rows = rows[usize::from(area.y)..usize::from(area.bottom())].iter().map(inside);
+            let circles: usize = rows.map(|row| row.matches('○').count()).sum();
+            assert!(circles >= 2 || size.1 < 12 && circles >= 1, "{size:?}: {circles}\n{}", driver.text());
         }
     });
 }
