@@ -1,6 +1,6 @@
 //! Contact without adhesion over the indentation: force, contact length, and the length of the patches that grow.
 
-use super::contact_model::{ContactModel, ContactState};
+use super::contact_model::ContactModel;
 use super::fragments::runs;
 use super::grid::Grid;
 use super::{ContactError, Foundation, Nonadhesive};
@@ -33,9 +33,10 @@ pub fn nonadhesive_curve(
     if indentations.is_empty() {
         return Ok(Vec::new());
     }
-    let states = Nonadhesive::new(gaps, edges).sample(Grid::at(indentations.to_vec()))?.states;
-    let point = |(state, &indentation): (ContactState, &f64)| {
-        let state = state.point(foundation);
+    let contact = Nonadhesive::new(gaps, edges);
+    let sampled = contact.sample(Grid::at(indentations.to_vec()))?;
+    let point = |(index, &indentation): (usize, &f64)| {
+        let state = sampled.states[index].point(foundation);
         let (mut products, mut growth) = (0.0, 0.0);
         for (length, grows) in patches(gaps, edges, indentation) {
             products += length * grows;
@@ -49,7 +50,7 @@ pub fn nonadhesive_curve(
             growing_length: mean.map(|length| foundation.contact_length(length)),
         }
     };
-    Ok(states.into_iter().zip(indentations).map(point).collect())
+    Ok(indentations.iter().enumerate().map(point).collect())
 }
 
 /// Lengths of the contact patches at an indentation, m, and their growth with the indentation, both in units of the

@@ -190,6 +190,9 @@ impl Appraiser for Accuracy {
     }
 }
 
+/// Reason for no result after a panic.
+const INTERNAL: &str = "internal error, please report it";
+
 /// Does a task. What is told after `stop` has said to give up is of no use to anyone and is not told.
 pub fn perform(
     appraiser: &mut dyn Appraiser,
@@ -223,11 +226,9 @@ pub fn perform(
     }));
     tell(done.unwrap_or_else(|_| match task {
         Task::Estimate(_) => Finding::Estimated(None),
-        Task::ApproximateJkr(_) => Finding::Approximated(Err("internal error, please report it".to_owned())),
+        Task::ApproximateJkr(_) => Finding::Approximated(Err(INTERNAL.to_owned())),
         Task::Choose(_, tolerance) => Finding::Chosen(*tolerance, Err(ChoiceError::Stopped)),
-        Task::Extend { data, .. } => {
-            Finding::NotExtended(data.pane(), "internal error, please report it".to_owned())
-        }
+        Task::Extend { data, .. } => Finding::NotExtended(data.pane(), INTERNAL.to_owned()),
     }));
 }
 
