@@ -69,7 +69,6 @@ pub mod check;
 pub mod cli;
 pub mod contact;
 mod contact_cycle;
-pub mod disk;
 pub mod draw;
 #[cfg(feature = "tui")]
 pub mod explorer;

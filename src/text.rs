@@ -58,6 +58,20 @@ pub(crate) fn grouped(count: u64) -> String {
     grouped
 }
 
+/// A number of bytes in binary units.
+#[cfg(feature = "tui")]
+pub(crate) fn memory_size(bytes: u64) -> String {
+    let units = ["B", "KiB", "MiB", "GiB", "TiB"];
+    let mut size = bytes as f64;
+    let mut unit = 0;
+    while size >= 1024.0 && unit + 1 < units.len() {
+        size /= 1024.0;
+        unit += 1;
+    }
+    let decimals = usize::from(unit > 0 && size < 10.0);
+    format!("{size:.decimals$} {}", units[unit])
+}
+
 /// A relative error in per cent, with one digit, or two after a leading one: an estimate supports no more.
 pub(crate) fn per_cent(error: f64) -> String {
     let per_cent = 100.0 * error;

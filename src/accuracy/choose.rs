@@ -94,7 +94,7 @@ impl Choice {
     /// Choice and reason, in a sentence.
     #[must_use]
     pub fn sentence(&self) -> String {
-        let edges = name_of(self.edges);
+        let edges = self.edges.name();
         let from = if self.closed_form {
             "by the closed form".to_owned()
         } else {
@@ -107,13 +107,6 @@ impl Choice {
             self.tolerance,
             self.error
         )
-    }
-}
-
-fn name_of(edges: Edges) -> &'static str {
-    match edges {
-        Edges::Grid => "Grid",
-        Edges::SubCell => "SubCell",
     }
 }
 
@@ -153,7 +146,7 @@ fn unreached(tolerance: &f64, best: &Option<Box<Choice>>) -> String {
             best.error,
             best.target.name(),
             grouped(best.points),
-            name_of(best.edges)
+            best.edges.name()
         ),
     }
 }

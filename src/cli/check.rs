@@ -1,10 +1,11 @@
 //! `asperity check`: the catalogue of hard cases, on this machine.
 
-use super::{CliError, OutputArguments};
+use super::progress::ProgressLine;
+use super::{CliError, Format, OutputArguments};
 use crate::check::{Case, Check, Verdict, catalogue, checks, judge};
 use crate::export::{check_text, write_check_json};
-use clap::{Args, ValueEnum};
-use std::io::{self, IsTerminal, Write};
+use clap::Args;
+use std::io::Write;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -27,21 +28,15 @@ pub struct CheckArguments {
     #[arg(long)]
     pub quick: bool,
     /// text or json; default: by the extension of FILE, else text
-    #[arg(long, value_enum, hide_possible_values = true)]
-    pub format: Option<CheckFormat>,
+    #[arg(long, value_parser = Format::parser(FORMATS), hide_possible_values = true)]
+    pub format: Option<Format>,
     /// Destination.
     #[command(flatten)]
     pub output: OutputArguments,
 }
 
-/// Formats of the verdicts.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum CheckFormat {
-    /// A table.
-    Text,
-    /// One object.
-    Json,
-}
+/// Formats of the verdicts: a table, or one object.
+const FORMATS: &[Format] = &[Format::Text, Format::Json];
 
 impl CheckArguments {
     /// The cases that are meant; an error for a word that is in no name.
@@ -50,7 +45,8 @@ impl CheckArguments {
         for word in &self.words {
             if !catalogue().into_iter().any(|case| has(case, word)) {
                 let allowed: Vec<&str> = catalogue().into_iter().map(|case| case.name).collect();
-                return Err(CliError::NoCase { word: word.clone(), allowed: allowed.join(", ") });
+                let none = format!("no case has this in its name; allowed: parts of {}", allowed.join(", "));
+                return Err(CliError::named(word, none));
             }
         }
         let is_meant = |case: &Case| {
@@ -65,19 +61,18 @@ impl CheckArguments {
 /// Runs the cases and writes what came of them.
 pub(super) fn check(arguments: &CheckArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
     let chosen = arguments.chosen()?;
-    let endings = [("json", CheckFormat::Json)];
-    let format = arguments.output.format(arguments.format, &endings, CheckFormat::Text)?;
+    let format = arguments.output.format(arguments.format, FORMATS, Format::Text)?;
     arguments.output.check()?;
-    let progress = Progress { count: chosen.len() };
+    let (mut progress, count) = (ProgressLine::default(), chosen.len());
     let run = |(index, check): (usize, Check)| {
-        progress.tell(index, &check);
+        progress.show(&format!("{}/{count} {}", index + 1, check.case.name), None);
         judge(check)
     };
     let verdicts: Vec<Verdict> = chosen.into_iter().enumerate().map(run).collect();
-    progress.end();
+    progress.clear();
     arguments.output.write(stdout, |out| match format {
-        CheckFormat::Text => out.write_all(check_text(&verdicts).as_bytes()),
-        CheckFormat::Json => write_check_json(out, &verdicts),
+        Format::Json => write_check_json(out, &verdicts),
+        _ => out.write_all(check_text(&verdicts).as_bytes()),
     })?;
     conclude(&verdicts)
 }
@@ -86,29 +81,6 @@ pub(super) fn check(arguments: &CheckArguments, stdout: &mut dyn Write) -> Resul
 fn conclude(verdicts: &[Verdict]) -> Result<(), CliError> {
     let failed = verdicts.iter().filter(|verdict| !verdict.is_expected()).count();
     if failed == 0 { Ok(()) } else { Err(CliError::CasesFail { failed, checks: verdicts.len() }) }
-}
-
-/// Progress: on a terminal one line that changes, elsewhere nothing.
-struct Progress {
-    count: usize,
-}
-
-impl Progress {
-    fn tell(&self, index: usize, check: &Check) {
-        let mut stderr = io::stderr();
-        if stderr.is_terminal() {
-            // Who cannot be told does without.
-            let _ = write!(stderr, "\r\x1b[K{}/{} {}", index + 1, self.count, check.case.name)
-                .and_then(|()| stderr.flush());
-        }
-    }
-
-    fn end(&self) {
-        let mut stderr = io::stderr();
-        if stderr.is_terminal() {
-            let _ = write!(stderr, "\r\x1b[K").and_then(|()| stderr.flush());
-        }
-    }
 }
 
 #[cfg(test)]
@@ -134,10 +106,7 @@ mod tests {
         };
         assert_eq!(names(&["sawtooth", "memory"], false), ["sawtooth", "return-point-memory"]);
         assert!(names(&[], false).contains(&"springs-2^24") && !names(&[], true).contains(&"springs-2^24"));
-        assert!(matches!(
-            arguments(&["sawtooth", "trapezium"], false).chosen(),
-            Err(CliError::NoCase { .. })
-        ));
+        assert!(matches!(arguments(&["sawtooth", "trapezium"], false).chosen(), Err(CliError::Named { .. })));
         assert!(matches!(arguments(&["2^24"], true).chosen(), Err(CliError::OnlyLargeCases)));
     }
 

@@ -2,12 +2,11 @@
 
 use super::explore::{self, LookArguments};
 use super::output::text_for_reader;
-use super::scene::simulation_of;
-use super::{CliError, Overrides};
+use super::scene::compute;
+use super::{CliError, Format, OutputArguments, Overrides};
 use crate::explorer::Opening;
 use crate::export::{comparison_figure, comparison_text};
-use crate::scene::{Document, open_argument};
-use crate::simulation::Outcome;
+use crate::scene::open_argument;
 use clap::Args;
 use std::io::{IsTerminal, Write, stdin, stdout};
 
@@ -15,8 +14,11 @@ const EXAMPLES: &str = "\
 Examples:
   asperity compare ideal-adhesion pressure-sensitive
   asperity compare before.ron after.ron --set roughness.seed=7 | less
-  asperity run before.ron after.ron -o loops.svg
+  asperity compare before.ron after.ron -o loops.png
                                             ... draws both force curves into one picture";
+
+/// Formats of a comparison.
+const FORMATS: &[Format] = &[Format::Text, Format::Svg, Format::Png];
 
 /// Arguments of `compare`.
 #[derive(Args, Debug)]
@@ -34,24 +36,32 @@ pub struct CompareArguments {
     /// Colours and markers of the explorer, and its mouse.
     #[command(flatten)]
     pub look: LookArguments,
+    /// text, svg or png; default: by the extension of FILE, else text
+    #[arg(long, value_parser = Format::parser(FORMATS), hide_possible_values = true)]
+    pub format: Option<Format>,
+    /// Destination.
+    #[command(flatten)]
+    pub output: OutputArguments,
 }
 
-/// Opens the explorer on two scenes side by side; without a terminal, prints both in words and figures.
+/// Opens the explorer on two scenes side by side; without a terminal, or with a format or a file, writes both in words
+/// and figures.
 pub(super) fn compare(arguments: &CompareArguments, out: &mut dyn Write) -> Result<(), CliError> {
+    let format = arguments.output.format(arguments.format, FORMATS, Format::Text)?;
     let open = |name: &str| arguments.overrides.apply(open_argument(name)?);
     let (first, second) = (open(&arguments.first)?, open(&arguments.second)?);
-    if stdin().is_terminal() && stdout().is_terminal() {
+    let is_printed = arguments.format.is_some() || arguments.output.output.is_some();
+    if !is_printed && stdin().is_terminal() && stdout().is_terminal() {
         let opening = Opening { beside: Some(second), ..Opening::from(first) };
         return explore::open(opening, arguments.look.options(), out);
     }
-    let outcomes = [compute(&first)?, compute(&second)?];
+    arguments.output.check()?;
+    let outcomes = [compute(&first, first.scene())?, compute(&second, second.scene())?];
     let pair = [(&first, &outcomes[0]), (&second, &outcomes[1])];
-    let figure = text_for_reader(&comparison_figure(pair), false);
-    Ok(out.write_all(format!("{}\n{figure}", comparison_text(pair)).as_bytes())?)
-}
-
-fn compute(document: &Document) -> Result<Outcome, CliError> {
-    simulation_of(document)
-        .run(document.scene(), &|| false, &mut |_, _, _| Ok(()))
-        .map_err(|error| CliError::Run { scene: document.name().into(), error })
+    let figure = comparison_figure(pair);
+    if format != Format::Text {
+        return arguments.output.write_figure(out, &figure, format);
+    }
+    let text = format!("{}\n{}", comparison_text(pair), text_for_reader(&figure, false));
+    arguments.output.write(out, |out| out.write_all(text.as_bytes()))
 }

@@ -1,20 +1,20 @@
 //! `asperity cost`: what accuracy costs for a scene.
 
-use super::{CliError, OutputArguments, SceneArguments};
-use crate::accuracy::{Knob, Progress, measure};
-use crate::draw::figure_svg;
+use super::output::PICTURES;
+use super::progress::ProgressLine;
+use super::{CliError, Format, OutputArguments, SceneArguments};
+use crate::accuracy::{Progress, measure};
 use crate::export::{cost_text, work_precision, write_cost_csv, write_cost_json};
-use crate::io::{check_writable, write_new};
 use crate::scene::parse_quantity;
-use clap::{Args, ValueEnum};
-use std::io::{self, IsTerminal, Write};
+use clap::Args;
+use std::io::Write;
 use std::path::PathBuf;
 use std::time::Duration;
 
 const EXAMPLES: &str = "\
 Examples:
   asperity cost jkr-sphere
-  asperity cost my-scene.ron --budget 30s --svg my-scene.svg
+  asperity cost my-scene.ron --budget 30s --picture my-scene.svg
   asperity cost rough-sphere --set adhesion.work=0.1 --format csv -o rough.csv
 
 Errors are relative. They are counted from the closed form of the adhesion force where the scene has
@@ -25,7 +25,7 @@ const LONGEST: f64 = 86_400.0;
 
 /// Arguments of `cost`.
 #[derive(Args, Debug)]
-#[command(after_help = EXAMPLES)]
+#[command(after_help = EXAMPLES, mut_arg("force", |force| force.requires(clap::builder::Resettable::Reset)))]
 pub struct CostArguments {
     /// The scene.
     #[command(flatten)]
@@ -33,36 +33,19 @@ pub struct CostArguments {
     /// Time limit of the whole measurement: 500ms, 30s, 2min
     #[arg(long, value_name = "TIME", default_value = "10s", value_parser = budget)]
     pub budget: Duration,
-    /// text, json, csv or svg; default: by the extension of FILE, else text
-    #[arg(long, value_enum, hide_possible_values = true)]
-    pub format: Option<CostFormat>,
-    /// Draw errors over times to FILE, in SVG
-    #[arg(long, value_name = "FILE")]
-    pub svg: Option<PathBuf>,
-    /// Write to FILE, whole or not at all; `-` is standard output
-    #[arg(short, long, value_name = "FILE")]
-    pub output: Option<PathBuf>,
-    /// Overwrite files that exist
-    #[arg(long)]
-    pub force: bool,
+    /// text, json, csv, svg or png; default: by the extension of FILE, else text
+    #[arg(long, value_parser = Format::parser(FORMATS), hide_possible_values = true)]
+    pub format: Option<Format>,
+    /// Draw errors over times to FILE as well, .svg or .png
+    #[arg(long, alias = "svg", value_name = "FILE")]
+    pub picture: Option<PathBuf>,
+    /// Destination; --force is for both files.
+    #[command(flatten)]
+    pub output: OutputArguments,
 }
 
-/// Formats of costs.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum CostFormat {
-    /// The answer, then tables.
-    Text,
-    /// One object.
-    Json,
-    /// One row for each setting.
-    Csv,
-    /// A picture of errors over times.
-    Svg,
-}
-
-/// Endings of files in each format.
-const ENDINGS: [(&str, CostFormat); 3] =
-    [("json", CostFormat::Json), ("csv", CostFormat::Csv), ("svg", CostFormat::Svg)];
+/// Formats of costs: answer and tables, one object, a row for each setting, errors over times.
+const FORMATS: &[Format] = &[Format::Text, Format::Json, Format::Csv, Format::Svg, Format::Png];
 
 /// A time as people write it.
 fn budget(text: &str) -> Result<Duration, String> {
@@ -76,62 +59,36 @@ fn budget(text: &str) -> Result<Duration, String> {
 
 /// Measures what accuracy costs and writes it.
 pub(super) fn cost(arguments: &CostArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
-    let output = OutputArguments { output: arguments.output.clone(), force: arguments.force };
-    let format = output.format(arguments.format, &ENDINGS, CostFormat::Text)?;
-    let svg_ending = OutputArguments { output: arguments.svg.clone(), force: arguments.force };
-    svg_ending.format(Some(CostFormat::Svg), &ENDINGS, CostFormat::Svg)?;
+    let output = &arguments.output;
+    let format = output.format(arguments.format, FORMATS, Format::Text)?;
+    let beside = arguments.picture.clone().map(|path| output.beside(path));
+    let beside = beside
+        .map(|beside| Ok::<_, CliError>((beside.format(None, PICTURES, Format::Svg)?, beside)))
+        .transpose()?;
     let document = arguments.scene.open()?;
     let scene = document.scene();
     output.check()?;
-    if let Some(svg) = &arguments.svg {
-        check_writable(svg, arguments.force)?;
-    }
-    let mut told = Told::default();
+    beside.as_ref().map_or(Ok(()), |(_, beside)| beside.check())?;
+    let (mut line, mut last) = (ProgressLine::default(), None);
     let measured =
         measure(scene, &document.resolve(""), arguments.budget, &|| false, &mut |progress| match progress {
-            Progress::Trying(knob, setting) => told.tell(knob, setting),
+            Progress::Trying(knob, setting) => {
+                let is_new = last.replace(knob) != Some(knob);
+                line.show(&format!("{}: {setting}", knob.name()), is_new.then_some(knob.name()));
+            }
             Progress::Rows(_) => {}
         });
-    told.end();
-    let table = measured.map_err(|error| CliError::Cost { scene: document.name().into(), error })?;
-    let title = if scene.title.is_empty() { document.name() } else { &scene.title };
-    let picture = || figure_svg(&work_precision(title, &table));
-    if let Some(svg) = &arguments.svg {
-        write_new(svg, arguments.force, |out| out.write_all(picture().as_bytes()))?;
+    line.clear();
+    let table = measured.map_err(|error| CliError::named(document.name(), error))?;
+    let figure = || work_precision(document.title(), &table);
+    if let Some((format, beside)) = beside {
+        beside.write_figure(stdout, &figure(), format)?;
     }
-    output.write(stdout, |out| match format {
-        CostFormat::Text => out.write_all(cost_text(&table).as_bytes()),
-        CostFormat::Json => write_cost_json(out, scene, &table),
-        CostFormat::Csv => write_cost_csv(out, &table),
-        CostFormat::Svg => out.write_all(picture().as_bytes()),
-    })
-}
-
-/// Progress: on a terminal one line that changes, elsewhere one line for each knob.
-#[derive(Default)]
-struct Told {
-    knob: Option<Knob>,
-}
-
-impl Told {
-    fn tell(&mut self, knob: Knob, setting: &str) {
-        let mut stderr = io::stderr();
-        // Who cannot be told does without.
-        let _ = if stderr.is_terminal() {
-            write!(stderr, "\r\x1b[K{}: {setting}", knob.name()).and_then(|()| stderr.flush())
-        } else if self.knob != Some(knob) {
-            writeln!(stderr, "{}", knob.name())
-        } else {
-            Ok(())
-        };
-        self.knob = Some(knob);
-    }
-
-    fn end(&self) {
-        let mut stderr = io::stderr();
-        if self.knob.is_some() && stderr.is_terminal() {
-            let _ = write!(stderr, "\r\x1b[K").and_then(|()| stderr.flush());
-        }
+    match format {
+        Format::Json => output.write(stdout, |out| write_cost_json(out, scene, &table)),
+        Format::Csv => output.write(stdout, |out| write_cost_csv(out, &table)),
+        Format::Text => output.write(stdout, |out| out.write_all(cost_text(&table).as_bytes())),
+        _ => output.write_figure(stdout, &figure(), format),
     }
 }
 

@@ -1,7 +1,7 @@
 //! `asperity line`: the rigid line of a scene.
 
 use super::scene::simulation_of;
-use super::{CliError, OutputArguments, SceneArguments};
+use super::{CliError, Format, OutputArguments, SceneArguments};
 use crate::export::{TableFormat, write_line};
 use crate::scene::TableContent;
 use clap::Args;
@@ -29,14 +29,13 @@ pub struct LineArguments {
 
 /// Makes the line of a scene and writes it.
 pub(super) fn line(arguments: &LineArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
-    let endings = [("csv", TableFormat::Csv), ("npy", TableFormat::Npy)];
-    let format = arguments.output.format(None, &endings, TableFormat::Csv)?;
+    let format = arguments.output.format(None, &[Format::Csv, Format::Npy], Format::Csv)?;
+    let format = format.table().unwrap_or(TableFormat::Csv);
     let document = arguments.scene.open()?;
     arguments.output.check()?;
     let provenance = arguments.output.provenance(&document, document.scene(), TableContent::Profile);
     let mut simulation = simulation_of(&document);
-    let (line, ..) = simulation
-        .make_line(document.scene())
-        .map_err(|error| CliError::Run { scene: document.name().into(), error })?;
+    let (line, ..) =
+        simulation.make_line(document.scene()).map_err(|error| CliError::named(document.name(), error))?;
     arguments.output.write(stdout, |out| write_line(out, format, &provenance, line))
 }

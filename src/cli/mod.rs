@@ -12,11 +12,13 @@ mod cost;
 mod demo;
 mod error;
 mod explore;
+mod format;
 mod line;
 mod output;
 mod plan;
 mod preloads;
 mod presets;
+mod progress;
 mod reversals;
 mod run;
 mod scene;
@@ -25,25 +27,25 @@ mod sweep;
 mod usage;
 
 pub use arguments::{Arguments, Command};
-pub use check::{CheckArguments, CheckFormat};
-pub use compare::CompareArguments;
-pub use completions::CompletionsArguments;
-pub use config::ConfigArguments;
-pub use cost::{CostArguments, CostFormat};
-pub use demo::DemoArguments;
-pub use error::CliError;
-pub use explore::{ExploreArguments, LookArguments};
-pub use line::LineArguments;
-pub use output::OutputArguments;
-pub use plan::{PlanArguments, PlanFormat};
-pub use presets::{ListFormat, PresetsCommand};
-pub use reversals::{ReversalsArguments, ReversalsFormat};
-pub use run::{RunArguments, RunFormat};
-pub use scene::{Overrides, SceneArguments};
-pub use surface::{AnalysisArguments, DetrendArgument, ReadingArguments, SurfaceArguments, SurfaceFormat};
-pub use sweep::{
-    MergeArguments, PlansArguments, StatusArguments, SweepArguments, SweepCommand, SweepRunArguments,
-};
+
+use check::CheckArguments;
+use compare::CompareArguments;
+use completions::CompletionsArguments;
+use config::ConfigArguments;
+use cost::CostArguments;
+use demo::DemoArguments;
+use error::CliError;
+use explore::ExploreArguments;
+use format::Format;
+use line::LineArguments;
+use output::OutputArguments;
+use plan::PlanArguments;
+use presets::PresetsCommand;
+use reversals::ReversalsArguments;
+use run::RunArguments;
+use scene::{Overrides, SceneArguments};
+use surface::SurfaceArguments;
+use sweep::SweepArguments;
 
 use crate::text::printable_lines;
 use clap::Parser;

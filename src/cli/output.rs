@@ -1,6 +1,6 @@
 //! Destinations of results.
 
-use super::CliError;
+use super::{CliError, Format};
 use crate::draw::{Colours, Figure, figure_text};
 use crate::io::{check_writable, write_new};
 use crate::scene::{Document, Provenance, Scene, TableContent};
@@ -9,8 +9,11 @@ use clap::Args;
 use std::io::{self, IsTerminal, Write};
 use std::path::{Path, PathBuf};
 
-/// Endings of pictures.
-const PICTURES: [&str; 9] = ["svg", "svgz", "png", "pdf", "eps", "ps", "jpg", "jpeg", "gif"];
+/// Formats of pictures.
+pub(super) const PICTURES: &[Format] = &[Format::Svg, Format::Png];
+
+/// Extensions of pictures, those of formats that are not written among them.
+const ENDINGS_OF_PICTURES: [&str; 9] = ["svg", "svgz", "png", "pdf", "eps", "ps", "jpg", "jpeg", "gif"];
 
 /// A file for results in place of standard output.
 #[derive(Args, Clone, Debug)]
@@ -29,6 +32,11 @@ impl OutputArguments {
         self.output.as_deref().filter(|path| *path != Path::new("-"))
     }
 
+    /// Another file, to be overwritten if this one is.
+    pub(super) fn beside(&self, path: PathBuf) -> OutputArguments {
+        OutputArguments { output: Some(path), force: self.force }
+    }
+
     /// Folder of the file; the working folder for standard output.
     pub(super) fn folder(&self) -> &Path {
         self.file().and_then(Path::parent).unwrap_or(Path::new(""))
@@ -39,43 +47,50 @@ impl OutputArguments {
         Ok(self.file().map_or(Ok(()), |path| check_writable(path, self.force))?)
     }
 
-    /// The chosen format, else that of the ending of FILE, else the usual one. `endings` are those of the formats;
-    /// under the ending of a picture nothing but that picture is written, and a picture under no other ending.
-    pub(super) fn format<F: Copy + PartialEq>(
+    /// The chosen format, else that of the extension of FILE, else the usual one. Under the extension of a picture
+    /// nothing but that picture is written, and a picture under no other extension. A terminal gets no bytes that are
+    /// no text.
+    pub(super) fn format(
         &self,
-        chosen: Option<F>,
-        endings: &[(&str, F)],
-        usual: F,
-    ) -> Result<F, CliError> {
+        chosen: Option<Format>,
+        formats: &[Format],
+        usual: Format,
+    ) -> Result<Format, CliError> {
         let path = self.file();
         let ending = path.and_then(Path::extension).map(|ending| ending.to_string_lossy().to_lowercase());
-        let of = |ending: &str| endings.iter().find(|(one, _)| *one == ending).map(|(_, format)| *format);
-        let by_ending = ending.as_deref().and_then(of);
+        let has_ending = |format: &Format| ending.as_deref() == Some(format.extension());
+        let by_ending = formats.iter().copied().find(has_ending);
         let format = chosen.or(by_ending).unwrap_or(usual);
-        let is_picture = PICTURES.contains(&ending.as_deref().unwrap_or_default());
-        let is_drawn = ending.is_some() && PICTURES.iter().any(|picture| of(picture) == Some(format));
-        let (true, Some(path)) = (is_picture || is_drawn, path) else {
-            return Ok(format);
+        let is_binary = matches!(format, Format::Npy | Format::Png);
+        let Some(path) = path else {
+            return if is_binary && io::stdout().is_terminal() {
+                Err(CliError::BinaryInTerminal { format: format.name() })
+            } else {
+                Ok(format)
+            };
         };
-        if by_ending == Some(format) {
+        let is_picture = ENDINGS_OF_PICTURES.contains(&ending.as_deref().unwrap_or_default());
+        let is_drawn = ending.is_some() && format.picture().is_some();
+        if by_ending == Some(format) || !(is_picture || is_drawn) {
             return Ok(format);
         }
-        let allowed = |(ending, one): &(&str, F)| {
-            chosen.is_none_or(|chosen| chosen == *one).then_some(format!(".{ending}"))
-        };
-        let mut allowed: Vec<String> = endings.iter().filter_map(allowed).collect();
-        if allowed.is_empty() {
-            allowed.push(".txt".to_owned());
-        }
+        let allowed = chosen.as_ref().map_or(formats, std::slice::from_ref);
+        let allowed: Vec<String> = allowed.iter().map(|format| format!(".{}", format.extension())).collect();
         Err(CliError::Ending { path: path_name(path), allowed: allowed.join(", ") })
     }
 
-    /// Refuses to write what is no text to a terminal.
-    pub(super) fn check_binary(&self, is_binary: bool) -> Result<(), CliError> {
-        match self.file() {
-            None if is_binary && io::stdout().is_terminal() => Err(CliError::BinaryInTerminal),
-            _ => Ok(()),
-        }
+    /// Writes a figure, as a picture or as text, to where results go.
+    pub(super) fn write_figure(
+        &self,
+        stdout: &mut dyn Write,
+        figure: &Figure,
+        format: Format,
+    ) -> Result<(), CliError> {
+        let drawn = match format.picture() {
+            Some(picture) => figure.picture(picture)?,
+            None => text_for_reader(figure, self.file().is_none()).into_bytes(),
+        };
+        self.write(stdout, |out| out.write_all(&drawn))
     }
 
     /// Provenance of a table of a scene that goes where results go.
@@ -123,23 +138,24 @@ fn colours() -> Colours {
 mod tests {
     use super::*;
 
-    const ENDINGS: [(&str, char); 2] = [("json", 'j'), ("svg", 's')];
+    const FORMATS: [Format; 3] = [Format::Text, Format::Json, Format::Svg];
 
-    fn format(path: &str, chosen: Option<char>) -> Result<char, String> {
+    fn format(path: &str, chosen: Option<Format>) -> Result<Format, String> {
         let output = OutputArguments { output: Some(path.into()), force: false };
-        output.format(chosen, &ENDINGS, 't').map_err(|error| error.to_string())
+        output.format(chosen, &FORMATS, Format::Text).map_err(|error| error.to_string())
     }
 
     #[test]
     fn formats_follow_the_ending() {
         for (path, chosen, expected) in [
-            ("a.json", None, 'j'),
-            ("a.SVG", None, 's'),
-            ("a.txt", None, 't'),
-            ("svg", None, 't'),
-            ("-", Some('s'), 's'),
-            ("a", Some('s'), 's'),
-            ("a.json", Some('t'), 't'),
+            ("a.json", None, Format::Json),
+            ("a.SVG", None, Format::Svg),
+            ("a.txt", None, Format::Text),
+            ("a.dat", None, Format::Text),
+            ("svg", None, Format::Text),
+            ("-", Some(Format::Svg), Format::Svg),
+            ("a", Some(Format::Svg), Format::Svg),
+            ("a.json", Some(Format::Text), Format::Text),
         ] {
             assert_eq!(format(path, chosen), Ok(expected), "{path}");
         }
@@ -148,16 +164,16 @@ mod tests {
     #[test]
     fn a_picture_is_written_under_its_ending_and_nothing_else() {
         for (path, chosen, allowed) in [
-            ("a.svg", Some('j'), ".json"),
-            ("a.svg", Some('t'), ".txt"),
-            ("a.png", None, ".json, .svg"),
-            ("a.PDF", Some('s'), ".svg"),
-            ("a.json", Some('s'), ".svg"),
+            ("a.svg", Some(Format::Json), ".json"),
+            ("a.svg", Some(Format::Text), ".txt"),
+            ("a.png", None, ".txt, .json, .svg"),
+            ("a.PDF", Some(Format::Svg), ".svg"),
+            ("a.json", Some(Format::Svg), ".svg"),
         ] {
             let error = format(path, chosen).unwrap_err();
             assert_eq!(error, format!("{path}: not an ending of what is written; allowed: {allowed}"));
         }
         let output = OutputArguments { output: Some("a.svg".into()), force: false };
-        assert!(output.format(None, &[("csv", 'c')], 'c').is_err());
+        assert!(output.format(None, &[Format::Csv], Format::Csv).is_err());
     }
 }

@@ -1,11 +1,11 @@
 //! `asperity plan`: which stages a scene runs, and what they cost.
 
-use super::{CliError, SceneArguments};
+use super::{CliError, Format, SceneArguments};
 use crate::export::sheet::Sheet;
 use crate::io::write_json_value;
 use crate::simulation::{Plan, PlannedStage};
-use crate::text::grouped;
-use clap::{Args, ValueEnum};
+use crate::text::{grouped, memory_size};
+use clap::Args;
 use std::io::Write;
 
 const EXAMPLES: &str = "\
@@ -17,6 +17,9 @@ A stage that a scene does not call for does not run. Passes are given where the 
 number beforehand, springs touched are those of all passes at the most, and memory is what a stage
 adds while it runs.";
 
+/// Formats of a plan: a table, or one object.
+const FORMATS: &[Format] = &[Format::Text, Format::Json];
+
 /// Arguments of `plan`.
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES)]
@@ -25,17 +28,8 @@ pub struct PlanArguments {
     #[command(flatten)]
     pub scene: SceneArguments,
     /// Output format
-    #[arg(long, value_enum, default_value_t = PlanFormat::Text)]
-    pub format: PlanFormat,
-}
-
-/// Formats of a plan.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum PlanFormat {
-    /// A table.
-    Text,
-    /// One object.
-    Json,
+    #[arg(long, value_parser = Format::parser(FORMATS), default_value = "text")]
+    pub format: Format,
 }
 
 /// Writes the plan of a scene.
@@ -43,8 +37,8 @@ pub(super) fn plan(arguments: &PlanArguments, stdout: &mut dyn Write) -> Result<
     let document = arguments.scene.open()?;
     let plan = Plan::of(document.scene());
     match arguments.format {
-        PlanFormat::Text => stdout.write_all(text(&plan).as_bytes())?,
-        PlanFormat::Json => write_json_value(stdout, &plan)?,
+        Format::Json => write_json_value(stdout, &plan)?,
+        _ => stdout.write_all(text(&plan).as_bytes())?,
     }
     Ok(())
 }
@@ -57,7 +51,7 @@ fn text(plan: &Plan) -> String {
         Some(count) => grouped(count),
     };
     for PlannedStage { stage, runs, because, cost } in &plan.stages {
-        let memory = if cost.bytes > 0 { memory(cost.bytes) } else { String::new() };
+        let memory = if cost.bytes > 0 { memory_size(cost.bytes) } else { String::new() };
         let passes = match count(cost.passes) {
             _ if !runs => "skipped".to_owned(),
             passes if passes.is_empty() => "runs".to_owned(),
@@ -68,22 +62,10 @@ fn text(plan: &Plan) -> String {
     }
     let mut sheet = Sheet::default();
     sheet.table(&rows);
-    let (springs, peak) = (grouped(plan.springs), memory(plan.resident_bytes));
-    let program = memory(plan.resident_bytes - plan.peak_bytes);
+    let (springs, peak) = (grouped(plan.springs), memory_size(plan.resident_bytes));
+    let program = memory_size(plan.resident_bytes - plan.peak_bytes);
     sheet.heading(&format!(
         "{springs} springs under the body; about {peak} of memory at any one time, {program} of them the program"
     ));
     sheet.into_text()
-}
-
-fn memory(bytes: u64) -> String {
-    let units = ["B", "KiB", "MiB", "GiB"];
-    let mut size = bytes as f64;
-    let mut unit = 0;
-    while size >= 1024.0 && unit + 1 < units.len() {
-        size /= 1024.0;
-        unit += 1;
-    }
-    let decimals = usize::from(unit > 0 && size < 10.0);
-    format!("{size:.decimals$} {}", units[unit])
 }

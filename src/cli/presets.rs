@@ -1,13 +1,13 @@
 //! `asperity presets`: the built-in scenes and the user's own, and checking scene files.
 
-use super::CliError;
+use super::{CliError, Format};
 use crate::export::sheet::Sheet;
 use crate::io::write_json_value;
 use crate::scene::{self, Document, Entry, Library, Text, line_column};
 use crate::simulation::measured_options;
 use crate::surface::MeasuredRoughness;
 use crate::text::printable;
-use clap::{Subcommand, ValueEnum};
+use clap::Subcommand;
 use serde::Serialize;
 use std::io::{self, Write};
 use std::path::Path;
@@ -29,8 +29,8 @@ pub enum PresetsCommand {
     /// List the built-in scenes, one's own and those of the working folder
     List {
         /// Format of the list
-        #[arg(long, value_enum, default_value_t = ListFormat::Text)]
-        format: ListFormat,
+        #[arg(long, value_parser = Format::parser(FORMATS), default_value = "text")]
+        format: Format,
     },
     /// Print the text of a listed scene, to start one's own from
     #[command(after_help = SHOW_EXAMPLES)]
@@ -47,14 +47,9 @@ pub enum PresetsCommand {
     },
 }
 
-/// Formats of the list of scenes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum ListFormat {
-    /// Name and title in columns.
-    Text,
-    /// Objects with name, title and notice; scenes of files with path, and error if wrong.
-    Json,
-}
+/// Formats of the list: name and title in columns, or objects with name, title and notice, and of scenes of files path
+/// and error.
+const FORMATS: &[Format] = &[Format::Text, Format::Json];
 
 /// A scene in the list.
 #[derive(Serialize)]
@@ -77,15 +72,15 @@ pub(super) fn presets(command: &PresetsCommand, stdout: &mut dyn Write) -> Resul
     }
 }
 
-fn list(format: ListFormat, stdout: &mut dyn Write) -> Result<(), CliError> {
+fn list(format: Format, stdout: &mut dyn Write) -> Result<(), CliError> {
     let library = Library::of_environment();
     let entries = library.list();
     match format {
-        ListFormat::Json => {
+        Format::Json => {
             let listed: Vec<_> = entries.into_iter().map(Listed::from).collect();
             write_json_value(stdout, &listed)?;
         }
-        ListFormat::Text => {
+        _ => {
             let row = |entry: Entry| [entry.name, entry.error.unwrap_or(entry.title)];
             let rows: Vec<_> = entries.into_iter().map(row).collect();
             let mut sheet = Sheet::default();
@@ -112,7 +107,7 @@ fn show(name: &str, stdout: &mut dyn Write) -> Result<(), CliError> {
         return Ok(stdout.write_all(entry.document()?.text().as_bytes())?);
     }
     let names: Vec<_> = scene::presets().iter().map(|preset| preset.name).collect();
-    Err(CliError::NoPreset { name: name.into(), allowed: names.join(", ") })
+    Err(CliError::named(name, format!("there is no such built-in scene; allowed: {}", names.join(", "))))
 }
 
 fn check(files: &[String], stdout: &mut dyn Write) -> Result<(), CliError> {

@@ -2,8 +2,7 @@
 
 use super::preloads::parse_preloads;
 use super::scene::simulation_of;
-use super::{CliError, OutputArguments, SceneArguments};
-use crate::draw::figure_svg;
+use super::{CliError, Format, OutputArguments, SceneArguments};
 use crate::export::{
     ReversalReport, reversals_figure, reversals_text, write_reversal_map_csv, write_reversals_csv,
     write_reversals_json,
@@ -11,7 +10,7 @@ use crate::export::{
 use crate::scene::Preloads;
 use crate::simulation::{RunError, TURNING_POINTS, TurningPoints};
 use crate::study::solve_preloads;
-use clap::{Args, ValueEnum};
+use clap::Args;
 use std::io::Write;
 
 const EXAMPLES: &str = "\
@@ -52,30 +51,17 @@ pub struct ReversalsArguments {
     /// CSV with a row for each point of the map, not each turning point
     #[arg(long)]
     pub map: bool,
-    /// text, json, csv or svg; default: by the extension of FILE, else text
-    #[arg(long, value_enum, hide_possible_values = true)]
-    pub format: Option<ReversalsFormat>,
+    /// text, json, csv, svg or png; default: by the extension of FILE, else text
+    #[arg(long, value_parser = Format::parser(FORMATS), hide_possible_values = true)]
+    pub format: Option<Format>,
     /// Destination.
     #[command(flatten)]
     pub output: OutputArguments,
 }
 
-/// Formats of reversals.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum ReversalsFormat {
-    /// A table.
-    Text,
-    /// One object.
-    Json,
-    /// One row for each turning point, or for each point of the map.
-    Csv,
-    /// A picture of the adhesion force over the preload and of both maps.
-    Svg,
-}
-
-/// Endings of files in each format.
-const ENDINGS: [(&str, ReversalsFormat); 3] =
-    [("json", ReversalsFormat::Json), ("csv", ReversalsFormat::Csv), ("svg", ReversalsFormat::Svg)];
+/// Formats of reversals: a table, one object, a row for each turning point or point of the map, and a picture of the
+/// adhesion force over the preload and of both maps.
+const FORMATS: &[Format] = &[Format::Text, Format::Json, Format::Csv, Format::Svg, Format::Png];
 
 fn forces(text: &str) -> Result<(f64, f64), String> {
     if text.contains(':') {
@@ -86,15 +72,16 @@ fn forces(text: &str) -> Result<(f64, f64), String> {
 
 /// Unloads a scene from many turning points and writes the result.
 pub(super) fn reversals(arguments: &ReversalsArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
-    let usual = if arguments.map { ReversalsFormat::Csv } else { ReversalsFormat::Text };
-    let format = arguments.output.format(arguments.format, &ENDINGS, usual)?;
-    if arguments.map && format != ReversalsFormat::Csv {
+    let usual = if arguments.map { Format::Csv } else { Format::Text };
+    let formats = if arguments.map { &[Format::Csv] } else { FORMATS };
+    let format = arguments.output.format(arguments.format, formats, usual)?;
+    if arguments.map && format != Format::Csv {
         return Err(CliError::OnlyInTable { what: "--map" });
     }
     let document = arguments.scene.open()?;
     arguments.output.check()?;
     let scene = document.scene();
-    let failed = |error: RunError| CliError::Run { scene: document.name().into(), error };
+    let failed = |error: RunError| CliError::named(document.name(), error);
     let mut simulation = simulation_of(&document);
     let turning =
         arguments.preloads.map_or(TurningPoints::OfScene, |(from, to)| TurningPoints::Preloads(from, to));
@@ -102,7 +89,7 @@ pub(super) fn reversals(arguments: &ReversalsArguments, stdout: &mut dyn Write) 
     let map =
         simulation.reversal_map(scene, turning, usize::from(arguments.count), &never).map_err(failed)?;
     let smoothing = usize::from(arguments.smoothing);
-    let levels = if format == ReversalsFormat::Csv { 0 } else { usize::from(arguments.loops) };
+    let levels = if format == Format::Csv { 0 } else { usize::from(arguments.loops) };
     let loops = match levels {
         0 => None,
         _ => Some(simulation.minor_loops(scene, &map, levels, &never).map_err(failed)?),
@@ -111,17 +98,19 @@ pub(super) fn reversals(arguments: &ReversalsArguments, stdout: &mut dyn Write) 
     let (from, to) = arguments.preloads.unwrap_or((0.0, largest));
     let mut preloads = Vec::new();
     let asked = Preloads::new(from, to, usize::from(arguments.count));
-    if let Some(asked) = asked.filter(|_| format != ReversalsFormat::Csv) {
+    if let Some(asked) = asked.filter(|_| format != Format::Csv) {
         solve_preloads(&mut simulation, scene, &asked.forces(), &never, &mut |one| preloads.push(one))
             .map_err(failed)?;
     }
     let report = ReversalReport { scene, map: &map, preloads: &preloads, loops, smoothing };
-    let title = if scene.title.is_empty() { document.name() } else { &scene.title };
+    if format.picture().is_some() {
+        let figure = reversals_figure(&report, document.title());
+        return arguments.output.write_figure(stdout, &figure, format);
+    }
     arguments.output.write(stdout, |out| match format {
-        ReversalsFormat::Text => out.write_all(reversals_text(&report).as_bytes()),
-        ReversalsFormat::Json => write_reversals_json(out, &report),
-        ReversalsFormat::Csv if arguments.map => write_reversal_map_csv(out, &map, smoothing),
-        ReversalsFormat::Csv => write_reversals_csv(out, &map),
-        ReversalsFormat::Svg => out.write_all(figure_svg(&reversals_figure(&report, title)).as_bytes()),
+        Format::Json => write_reversals_json(out, &report),
+        Format::Csv if arguments.map => write_reversal_map_csv(out, &map, smoothing),
+        Format::Csv => write_reversals_csv(out, &map),
+        _ => out.write_all(reversals_text(&report).as_bytes()),
     })
 }

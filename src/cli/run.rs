@@ -1,22 +1,22 @@
 //! `asperity run`: computes a scene without a terminal.
 
 use super::preloads::parse_preloads;
-use super::scene::simulation_of;
+use super::scene::{compute, simulation_of};
 use super::{
-    Arguments, CliError, Command, OutputArguments, SceneArguments, SurfaceArguments, SurfaceFormat, surface,
+    Arguments, CliError, Command, Format, OutputArguments, SceneArguments, SurfaceArguments, surface,
 };
-use crate::accuracy::{Choice, Estimate, choose, estimate, parse_tolerance};
+use crate::accuracy::{Choice, choose, estimate, parse_tolerance};
 use crate::contact::{LegRecord, Solver};
-use crate::draw::{Figure, figure_png, figure_svg};
+use crate::draw::Figure;
 use crate::export::{
-    ContactSets, PreloadReport, TableFormat, ensemble_text, force_figure, summary, write_approximate_jkr,
-    write_curve, write_ensemble_json, write_ensemble_table, write_json, write_line,
+    ContactSets, PreloadReport, ensemble_text, force_figure, summary, write_approximate_jkr, write_curve,
+    write_ensemble_json, write_ensemble_table, write_json, write_line,
 };
 use crate::scene::{Document, Preloads, Scene, TableContent, arguments_of_spectra, open_argument};
-use crate::simulation::{Outcome, Simulation};
+use crate::simulation::Outcome;
 use crate::study;
 use crate::text::path_name;
-use clap::{Args, Parser, ValueEnum};
+use clap::{Args, Parser};
 use std::io::{self, Write};
 use std::path::Path;
 use std::thread::available_parallelism;
@@ -47,13 +47,13 @@ pub struct RunArguments {
     /// More scenes, whose force curves are drawn into the same picture
     #[arg(value_name = "SCENE")]
     pub more: Vec<String>,
-    /// summary, json, csv, npy, svg or png; default: by the extension of FILE
+    /// text, json, csv, npy, svg or png; default: by the extension of FILE
     ///
-    /// A summary is text for a person. JSON is one object with scene, profile, figures, curve,
+    /// Text is a summary for a person. JSON is one object with scene, profile, figures, curve,
     /// contacts and work. CSV is the curve: leg,indentation,force,contact_length,fragments.
     /// npy is the same as a structured array of NumPy. SVG and PNG are pictures of the curve.
-    #[arg(long, value_enum, hide_possible_values = true, verbatim_doc_comment)]
-    pub format: Option<RunFormat>,
+    #[arg(long, value_parser = Format::parser(FORMATS), hide_possible_values = true, verbatim_doc_comment)]
+    pub format: Option<Format>,
     /// Draw the profile and its contact at the largest force instead of the curve
     #[arg(long, conflicts_with_all = ["fragments", "more", "lines"])]
     pub profile: bool,
@@ -97,46 +97,9 @@ pub struct RunArguments {
 /// Most random lines.
 const MOST_LINES: i64 = 1_000_000;
 
-/// Formats of a run.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum RunFormat {
-    /// Text for a person: line, regime and why, forces, work and time.
-    Summary,
-    /// One object with everything: scene, line, figures, curve, contacts, work.
-    Json,
-    /// The force curve.
-    Csv,
-    /// The force curve as an array of NumPy.
-    Npy,
-    /// A picture of the force curve, the profile or the contact patches, as lines.
-    Svg,
-    /// The same picture as pixels.
-    Png,
-}
-
-/// Endings of files in each format.
-const ENDINGS: [(&str, RunFormat); 5] = [
-    ("json", RunFormat::Json),
-    ("csv", RunFormat::Csv),
-    ("npy", RunFormat::Npy),
-    ("svg", RunFormat::Svg),
-    ("png", RunFormat::Png),
-];
-
-impl RunFormat {
-    fn is_picture(self) -> bool {
-        matches!(self, RunFormat::Svg | RunFormat::Png)
-    }
-
-    /// Format of a table.
-    fn of_table(self) -> Option<TableFormat> {
-        match self {
-            RunFormat::Csv => Some(TableFormat::Csv),
-            RunFormat::Npy => Some(TableFormat::Npy),
-            RunFormat::Summary | RunFormat::Json | RunFormat::Svg | RunFormat::Png => None,
-        }
-    }
-}
+/// Formats of a run: text, one object with everything, the force curve, and pictures of the force curve, the profile or
+/// the contact patches.
+const FORMATS: &[Format] = &[Format::Text, Format::Json, Format::Csv, Format::Npy, Format::Svg, Format::Png];
 
 impl RunArguments {
     /// Threads that share the profiles.
@@ -156,26 +119,46 @@ impl RunArguments {
         }
     }
 
-    fn chosen_format(&self) -> Result<RunFormat, CliError> {
+    fn chosen_format(&self) -> Result<Format, CliError> {
         let needs_picture = [
             (!self.more.is_empty(), "several scenes"),
             (self.profile, "--profile"),
             (self.fragments, "--fragments"),
         ];
         let needs_picture = needs_picture.into_iter().find(|(is_asked, _)| *is_asked);
-        self.output.check_binary(self.format == Some(RunFormat::Png))?;
-        let usual = if needs_picture.is_some() { RunFormat::Svg } else { RunFormat::Summary };
-        let format = self.output.format(self.format, &ENDINGS, usual)?;
-        match needs_picture {
-            Some((_, what)) if !format.is_picture() => Err(CliError::OnlyInPicture { what }),
-            _ if format.is_picture() && self.lines.is_some() && self.preloads.is_none() => {
-                Err(CliError::NoPicture {
-                    what: "--lines",
-                    allowed: "a picture shows one profile; allowed: summary, json, csv and npy",
-                })
+        let usual = if needs_picture.is_some() { Format::Svg } else { Format::Text };
+        let format = self.output.format(self.format, FORMATS, usual)?;
+        let (what, allowed) = match needs_picture {
+            Some((_, what)) if format.picture().is_none() => return Err(CliError::OnlyInPicture { what }),
+            _ if format.picture().is_some() && self.lines.is_some() && self.preloads.is_none() => {
+                ("--lines", "a picture shows one profile; allowed: text, json, csv and npy")
             }
-            _ => Ok(format),
-        }
+            _ => return Ok(format),
+        };
+        Err(CliError::NotInFormat { what, allowed })
+    }
+
+    /// The scene of a document, with springs and edges for the tolerance where there is one, which are reported on
+    /// standard error.
+    fn scene_of(&self, document: &Document) -> Result<(Scene, Option<Choice>), CliError> {
+        let Some(tolerance) = self.tolerance else { return Ok((document.scene().clone(), None)) };
+        let choice = choose(document.scene(), &document.resolve(""), tolerance, &|| false, &mut |_| ())
+            .map_err(|error| CliError::named(document.name(), error))?;
+        let _ = writeln!(io::stderr(), "{}", choice.sentence());
+        Ok((choice.apply(document.scene()), Some(choice)))
+    }
+
+    /// Writes text, with the choice of springs below it where there is one.
+    fn write_text(
+        &self,
+        stdout: &mut dyn Write,
+        text: &str,
+        choice: Option<&Choice>,
+    ) -> Result<(), CliError> {
+        self.output.write(stdout, |out| {
+            out.write_all(text.as_bytes())?;
+            choice.map_or(Ok(()), |choice| writeln!(out, "\n{}", choice.sentence()))
+        })
     }
 }
 
@@ -190,49 +173,45 @@ pub(super) fn run(arguments: &RunArguments, stdout: &mut dyn Write) -> Result<()
     if let Some(asked) = arguments.asked_preloads(&document) {
         return over_preloads(arguments, &document, format, asked, stdout);
     }
-    if format.is_picture() {
-        let figure = figure(arguments, document)?;
-        let picture = match format {
-            RunFormat::Png => figure_png(&figure)?,
-            _ => figure_svg(&figure).into_bytes(),
-        };
-        return arguments.output.write(stdout, |out| out.write_all(&picture));
+    if format.picture().is_some() {
+        return arguments.output.write_figure(stdout, &figure(arguments, document)?, format);
     }
-    let choice = arguments.tolerance.map(|tolerance| choice(&document, tolerance)).transpose()?;
-    let chosen = choice.as_ref().map(|choice| choice.apply(document.scene()));
-    let scene = chosen.as_ref().unwrap_or(document.scene());
+    let (scene, choice) = arguments.scene_of(&document)?;
     let of_table = match document.table_content() {
         Some(TableContent::RandomProfiles(count)) => Some(count),
         _ => None,
     };
     if let Some(lines) = arguments.lines.or(of_table) {
-        return on_lines(arguments, &document, scene, (format, choice.as_ref()), lines, stdout);
+        return on_lines(arguments, &document, (scene, choice.as_ref()), (format, lines), stdout);
     }
-    let failed = |error| CliError::Run { scene: document.name().into(), error };
-    if let (Some(format), Some(TableContent::Profile)) = (format.of_table(), document.table_content()) {
+    if let (Some(format), Some(TableContent::Profile)) = (format.table(), document.table_content()) {
         let mut simulation = simulation_of(&document);
-        let (line, ..) = simulation.make_line(scene).map_err(failed)?;
-        let provenance = arguments.output.provenance(&document, scene, TableContent::Profile);
+        let line = simulation.make_line(&scene);
+        let (line, ..) = line.map_err(|error| CliError::named(document.name(), error))?;
+        let provenance = arguments.output.provenance(&document, &scene, TableContent::Profile);
         return arguments.output.write(stdout, |out| write_line(out, format, &provenance, line));
     }
-    let mut simulation = simulation_of(&document);
-    let outcome = run_with_approximate(arguments, &document, scene, &mut simulation)?;
-    let choice = choice.as_ref();
-    let estimate = estimate_for(format, &document, scene, &outcome, choice)?;
-    let provenance = |content| arguments.output.provenance(&document, scene, content);
-    arguments.output.write(stdout, |out| match (format, format.of_table()) {
-        (_, Some(format)) => match &outcome.approximate_jkr {
+    let outcome = run_with_approximate(arguments, &document, &scene)?;
+    if let Some(format) = format.table() {
+        let provenance = |content| arguments.output.provenance(&document, &scene, content);
+        return arguments.output.write(stdout, |out| match &outcome.approximate_jkr {
             Some(curve) => {
                 write_approximate_jkr(out, format, &provenance(TableContent::ApproximateJkr), curve)
             }
             None => write_curve(out, format, &provenance(TableContent::ForceCurve), &outcome),
-        },
-        (RunFormat::Json, _) => write_json(out, scene, &outcome, choice, estimate.as_ref()),
-        _ => {
-            out.write_all(summary(scene, &outcome, estimate.as_ref()).as_bytes())?;
-            choice.map_or(Ok(()), |choice| writeln!(out, "\n{}", choice.sentence()))
-        }
-    })
+        });
+    }
+    let choice = choice.as_ref();
+    let estimate = match choice {
+        Some(choice) => Some(choice.estimate()),
+        None => estimate(&scene, &document.resolve(""), &outcome, &|| false)
+            .map_err(|error| CliError::named(document.name(), error))?,
+    };
+    if format == Format::Json {
+        let write = |out: &mut dyn Write| write_json(out, &scene, &outcome, choice, estimate.as_ref());
+        return arguments.output.write(stdout, write);
+    }
+    arguments.write_text(stdout, &summary(&scene, &outcome, estimate.as_ref()), choice)
 }
 
 /// Computes a scene, and its approximate JKR curve where that is asked for, or the scene is a table of one.
@@ -240,22 +219,23 @@ fn run_with_approximate(
     arguments: &RunArguments,
     document: &Document,
     scene: &Scene,
-    simulation: &mut Simulation,
 ) -> Result<Outcome, CliError> {
-    let failed = |error| CliError::Run { scene: document.name().into(), error };
-    let mut outcome = simulation.run(scene, &|| false, &mut |_, _, _| Ok(())).map_err(failed)?;
-    if arguments.approximate_jkr || document.table_content() == Some(TableContent::ApproximateJkr) {
-        let curve = simulation.approximate_jkr(scene, &outcome.history, &|| false).map_err(failed)?;
-        outcome.approximate_jkr = Some(curve);
+    if !(arguments.approximate_jkr || document.table_content() == Some(TableContent::ApproximateJkr)) {
+        return compute(document, scene);
     }
+    let failed = |error| CliError::named(document.name(), error);
+    let mut simulation = simulation_of(document);
+    let mut outcome = simulation.run(scene, &|| false, &mut |_, _, _| Ok(())).map_err(failed)?;
+    let curve = simulation.approximate_jkr(scene, &outcome.history, &|| false).map_err(failed)?;
+    outcome.approximate_jkr = Some(curve);
     Ok(outcome)
 }
 
 /// Arguments of `surface` where the scene is a table of spectra.
-fn surface_again(arguments: &RunArguments, format: RunFormat) -> Result<Option<SurfaceArguments>, CliError> {
+fn surface_again(arguments: &RunArguments, format: Format) -> Result<Option<SurfaceArguments>, CliError> {
     let path = Path::new(&arguments.scene.scene);
     let Some(deciding) = arguments_of_spectra(path) else { return Ok(None) };
-    let refused = |reason: String| CliError::Spectra { file: path_name(path), reason };
+    let refused = |reason: String| CliError::named(path_name(path), reason);
     let named = ["asperity", "surface"].map(str::to_owned).into_iter().chain(deciding);
     let parsed = Arguments::try_parse_from(named).map_err(|error| refused(error.kind().to_string()))?;
     let Some(Command::Surface(surface)) = parsed.command else { return Ok(None) };
@@ -271,18 +251,6 @@ fn surface_again(arguments: &RunArguments, format: RunFormat) -> Result<Option<S
     if let Some((_, what)) = others.into_iter().find(|(is_given, _)| *is_given) {
         return Err(refused(format!("spectra have no {what}; allowed: --format and -o")));
     }
-    let format = match format {
-        RunFormat::Summary => SurfaceFormat::Summary,
-        RunFormat::Json => SurfaceFormat::Json,
-        RunFormat::Csv => SurfaceFormat::Csv,
-        RunFormat::Npy => SurfaceFormat::Npy,
-        RunFormat::Svg => SurfaceFormat::Svg,
-        RunFormat::Png => {
-            return Err(refused(
-                "spectra are not drawn as PNG; allowed: summary, json, csv, npy and svg".to_owned(),
-            ));
-        }
-    };
     let folder = path.parent().unwrap_or(Path::new("")).to_path_buf();
     Ok(Some(SurfaceArguments { format: Some(format), output: arguments.output.clone(), folder, ..surface }))
 }
@@ -293,117 +261,81 @@ fn figure(arguments: &RunArguments, document: Document) -> Result<Figure, CliErr
     let documents = std::iter::once(Ok(document)).chain(more).collect::<Result<Vec<_>, CliError>>()?;
     let mut computed = Vec::new();
     for document in &documents {
-        let choice = arguments.tolerance.map(|tolerance| choice(document, tolerance)).transpose()?;
-        let chosen = choice.as_ref().map(|choice| choice.apply(document.scene()));
-        let scene = chosen.as_ref().unwrap_or(document.scene());
-        let failed = |error| CliError::Run { scene: document.name().into(), error };
-        let title = if scene.title.is_empty() { document.name() } else { scene.title.as_str() }.to_owned();
-        let mut simulation = simulation_of(document);
+        let (scene, _) = arguments.scene_of(document)?;
         if !(arguments.profile || arguments.fragments) {
-            let outcome = run_with_approximate(arguments, document, scene, &mut simulation)?;
-            computed.push((title, outcome));
+            computed.push((document.title(), run_with_approximate(arguments, document, &scene)?));
             continue;
         }
+        let failed = |error| CliError::named(document.name(), error);
+        let mut simulation = simulation_of(document);
         let mut sets = ContactSets::new(arguments.fragments);
         let mut observe = |_, record: &LegRecord, solver: &dyn Solver| sets.observe(record, solver);
-        let outcome = simulation.run(scene, &|| false, &mut observe).map_err(failed)?;
+        let outcome = simulation.run(&scene, &|| false, &mut observe).map_err(failed)?;
         if arguments.fragments {
-            return Ok(sets.patches_figure(&title, &outcome));
+            return Ok(sets.patches_figure(document.title(), &outcome));
         }
-        let (line, ..) = simulation.make_line(scene).map_err(failed)?;
-        return Ok(sets.profile_figure(&title, &outcome, line));
+        let (line, ..) = simulation.make_line(&scene).map_err(failed)?;
+        return Ok(sets.profile_figure(document.title(), &outcome, line));
     }
-    let scenes: Vec<_> = computed.iter().map(|(title, outcome)| (title.as_str(), outcome)).collect();
+    let scenes: Vec<_> = computed.iter().map(|(title, outcome)| (*title, outcome)).collect();
     Ok(force_figure(&scenes))
-}
-
-/// The estimated error of an outcome, for a format that states it: that of the choice where springs were chosen.
-fn estimate_for(
-    format: RunFormat,
-    document: &Document,
-    scene: &Scene,
-    outcome: &Outcome,
-    choice: Option<&Choice>,
-) -> Result<Option<Estimate>, CliError> {
-    match (format, choice) {
-        (RunFormat::Csv | RunFormat::Npy | RunFormat::Svg | RunFormat::Png, _) => Ok(None),
-        (_, Some(choice)) => Ok(Some(choice.estimate())),
-        (_, None) => estimate(scene, &document.resolve(""), outcome, &|| false)
-            .map_err(|error| CliError::Run { scene: document.name().into(), error }),
-    }
-}
-
-/// The springs and edges for a tolerance, told on standard error.
-fn choice(document: &Document, tolerance: f64) -> Result<Choice, CliError> {
-    let choice = choose(document.scene(), &document.resolve(""), tolerance, &|| false, &mut |_| ())
-        .map_err(|error| CliError::Choice { scene: document.name().into(), error })?;
-    // Who cannot be told does without.
-    let _ = writeln!(io::stderr(), "{}", choice.sentence());
-    Ok(choice)
 }
 
 /// Computes a scene for many preloads, on one or several profiles, and writes the adhesion forces.
 fn over_preloads(
     arguments: &RunArguments,
     document: &Document,
-    format: RunFormat,
+    format: Format,
     (preloads, lines): (Preloads, Option<u32>),
     stdout: &mut dyn Write,
 ) -> Result<(), CliError> {
-    let choice = arguments.tolerance.map(|tolerance| choice(document, tolerance)).transpose()?;
-    let chosen = choice.as_ref().map(|choice| choice.apply(document.scene()));
-    let scene = chosen.as_ref().unwrap_or(document.scene());
-    let (forces, name) = (preloads.forces(), || document.name().into());
+    let (scene, choice) = arguments.scene_of(document)?;
+    let forces = preloads.forces();
     let results = match lines {
         Some(lines) => {
             let (folder, lines) = (document.resolve(""), lines as usize);
-            let solved = study::solve_preloads_on_lines(scene, &folder, &forces, lines, arguments.threads());
-            let solved = solved.map_err(|error| CliError::Lines { scene: name(), error })?;
+            let solved = study::solve_preloads_on_lines(&scene, &folder, &forces, lines, arguments.threads());
+            let solved = solved.map_err(|error| CliError::named(document.name(), error))?;
             solved.into_iter().map(|(seed, line)| (Some(seed), line)).collect()
         }
         None => {
             let mut line = Vec::with_capacity(forces.len());
             let mut simulation = simulation_of(document);
-            study::solve_preloads(&mut simulation, scene, &forces, &|| false, &mut |one| line.push(one))
-                .map_err(|error| CliError::Run { scene: name(), error })?;
+            study::solve_preloads(&mut simulation, &scene, &forces, &|| false, &mut |one| line.push(one))
+                .map_err(|error| CliError::named(document.name(), error))?;
             vec![(scene.seed(), line)]
         }
     };
-    let report = PreloadReport::new(scene, results);
-    let provenance = arguments.output.provenance(document, scene, TableContent::Preloads(preloads, lines));
-    let title = if scene.title.is_empty() { document.name() } else { &scene.title };
-    arguments.output.write(stdout, |out| match (format, format.of_table()) {
-        (_, Some(format)) => report.write_table(out, format, &provenance),
-        (RunFormat::Summary | RunFormat::Csv | RunFormat::Npy, None) => {
-            out.write_all(report.text().as_bytes())?;
-            choice.as_ref().map_or(Ok(()), |choice| writeln!(out, "\n{}", choice.sentence()))
-        }
-        (RunFormat::Json, None) => report.write_json(out),
-        (RunFormat::Svg, None) => out.write_all(figure_svg(&report.figure(title)).as_bytes()),
-        (RunFormat::Png, None) => {
-            out.write_all(&figure_png(&report.figure(title)).map_err(io::Error::other)?)
-        }
-    })
+    let report = PreloadReport::new(&scene, results);
+    let provenance = arguments.output.provenance(document, &scene, TableContent::Preloads(preloads, lines));
+    if let Some(format) = format.table() {
+        return arguments.output.write(stdout, |out| report.write_table(out, format, &provenance));
+    }
+    match format {
+        Format::Text => arguments.write_text(stdout, &report.text(), choice.as_ref()),
+        Format::Json => arguments.output.write(stdout, |out| report.write_json(out)),
+        _ => arguments.output.write_figure(stdout, &report.figure(document.title()), format),
+    }
 }
 
 /// Computes a scene on several lines and writes what they gave.
 fn on_lines(
     arguments: &RunArguments,
     document: &Document,
-    scene: &Scene,
-    (format, choice): (RunFormat, Option<&Choice>),
-    lines: u32,
+    (scene, choice): (Scene, Option<&Choice>),
+    (format, lines): (Format, u32),
     stdout: &mut dyn Write,
 ) -> Result<(), CliError> {
-    let results = study::solve_lines(scene, &document.resolve(""), lines as usize, arguments.threads())
-        .map_err(|error| CliError::Lines { scene: document.name().into(), error })?;
-    let provenance = arguments.output.provenance(document, scene, TableContent::RandomProfiles(lines));
-    arguments.output.write(stdout, |out| match (format, format.of_table()) {
-        (_, Some(format)) => write_ensemble_table(out, format, &provenance, &results),
-        (RunFormat::Json, _) => write_ensemble_json(out, scene, choice, &results),
-        _ => {
-            out.write_all(ensemble_text(scene, &results).as_bytes())?;
-            choice.map_or(Ok(()), |choice| writeln!(out, "\n{}", choice.sentence()))
+    let results = study::solve_lines(&scene, &document.resolve(""), lines as usize, arguments.threads())
+        .map_err(|error| CliError::named(document.name(), error))?;
+    let provenance = arguments.output.provenance(document, &scene, TableContent::RandomProfiles(lines));
+    match (format, format.table()) {
+        (_, Some(format)) => {
+            arguments.output.write(stdout, |out| write_ensemble_table(out, format, &provenance, &results))
         }
-    })
+        (Format::Json, _) => {
+            arguments.output.write(stdout, |out| write_ensemble_json(out, &scene, choice, &results))
+        }
+        _ => arguments.write_text(stdout, &ensemble_text(&scene, &results), choice),
+    }
 }

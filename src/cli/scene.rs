@@ -1,8 +1,8 @@
 //! Scene of a command, and its overrides.
 
 use super::CliError;
-use crate::scene::{Document, open_argument};
-use crate::simulation::Simulation;
+use crate::scene::{Document, Scene, open_argument};
+use crate::simulation::{Outcome, Simulation};
 use clap::Args;
 
 /// A scene, with overrides.
@@ -47,6 +47,13 @@ impl Overrides {
 /// A simulation of one scene that finds the files it names, which are relative to its own.
 pub(super) fn simulation_of(document: &Document) -> Simulation {
     Simulation::new(document.resolve("")).for_one_scene()
+}
+
+/// Computes a scene of a document.
+pub(super) fn compute(document: &Document, scene: &Scene) -> Result<Outcome, CliError> {
+    simulation_of(document)
+        .run(scene, &|| false, &mut |_, _, _| Ok(()))
+        .map_err(|error| CliError::named(document.name(), error))
 }
 
 fn path_and_value(text: &str) -> Result<(String, String), String> {

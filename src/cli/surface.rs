@@ -1,9 +1,8 @@
 //! `asperity surface`: measured surfaces, their statistics and spectrum, and the equivalent line.
 
-use super::{CliError, OutputArguments};
-use crate::draw::figure_svg;
+use super::{CliError, Format, OutputArguments};
 use crate::export::{
-    Spectra, SurfaceContact, SurfaceFile, TableFormat, surface_text, write_surface_json, write_surface_table,
+    Spectra, SurfaceContact, SurfaceFile, surface_text, write_surface_json, write_surface_table,
 };
 use crate::io::{check_writable, write_new};
 use crate::scene::{
@@ -46,13 +45,13 @@ pub struct SurfaceArguments {
     /// Options of the analysis.
     #[command(flatten)]
     pub analysis: AnalysisArguments,
-    /// summary, json, csv, npy or svg; default: by the extension of FILE
+    /// text, json, csv, npy, svg or png; default: by the extension of FILE
     ///
-    /// A summary is text for a person. JSON is one object with statistics, fit, spectra and
+    /// Text is a summary for a person. JSON is one object with statistics, fit, spectra and
     /// warnings. CSV holds the spectra: spectrum,wave_number,power,waves. npy is the same as a
-    /// structured array of NumPy. SVG is a picture of the spectra.
-    #[arg(long, value_enum, hide_possible_values = true, verbatim_doc_comment)]
-    pub format: Option<SurfaceFormat>,
+    /// structured array of NumPy. SVG and PNG are pictures of the spectra.
+    #[arg(long, value_parser = Format::parser(FORMATS), hide_possible_values = true, verbatim_doc_comment)]
+    pub format: Option<Format>,
     /// Write a scene with the equivalent line to FILE; needs --modulus
     ///
     /// The scene names the surface and holds --unit, --detrend, --periodic and --continue-to.
@@ -130,20 +129,8 @@ pub enum DetrendArgument {
     Curvature,
 }
 
-/// Form of the results.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum SurfaceFormat {
-    /// Text for a person.
-    Summary,
-    /// One object with everything.
-    Json,
-    /// The spectra.
-    Csv,
-    /// The spectra as an array of NumPy.
-    Npy,
-    /// A picture of the spectra.
-    Svg,
-}
+/// Formats of the results: text, one object with everything, and the spectra.
+const FORMATS: &[Format] = &[Format::Text, Format::Json, Format::Csv, Format::Npy, Format::Svg, Format::Png];
 
 impl ReadingArguments {
     fn options(&self) -> ReadOptions {
@@ -158,7 +145,7 @@ impl ReadingArguments {
     }
 
     fn read(&self, file: &Path) -> Result<Topography, CliError> {
-        let refused = |error| CliError::Surface { file: path_name(file), error };
+        let refused = |error| CliError::named(path_name(file), error);
         let surface = read(file, &self.options()).map_err(refused)?;
         if self.resample { surface.resampled().map_err(refused) } else { Ok(surface) }
     }
@@ -179,14 +166,6 @@ impl AnalysisArguments {
         }
     }
 }
-
-/// Endings of files in each format.
-const ENDINGS: [(&str, SurfaceFormat); 4] = [
-    ("json", SurfaceFormat::Json),
-    ("csv", SurfaceFormat::Csv),
-    ("npy", SurfaceFormat::Npy),
-    ("svg", SurfaceFormat::Svg),
-];
 
 impl SurfaceArguments {
     /// Arguments that decide the spectra, for their table.
@@ -224,7 +203,7 @@ impl SurfaceArguments {
 
 /// Reads and analyses the files and writes the results.
 pub(super) fn surface(arguments: &SurfaceArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
-    let format = arguments.output.format(arguments.format, &ENDINGS, SurfaceFormat::Summary)?;
+    let format = arguments.output.format(arguments.format, FORMATS, Format::Text)?;
     arguments.output.check()?;
     if let Some(scene) = &arguments.scene {
         check_scene(arguments)?;
@@ -243,19 +222,17 @@ pub(super) fn surface(arguments: &SurfaceArguments, stdout: &mut dyn Write) -> R
         let text = scene_text(arguments, path, &analysis, modulus)?;
         write_new(path, arguments.force_scene, |out| out.write_all(text.as_bytes()))?;
     }
-    let table = |out: &mut dyn Write, format| {
-        write_surface_table(out, format, &Provenance::of_spectra(&arguments.deciding()), &analysis)
-    };
-    arguments.output.write(stdout, |out| match format {
-        SurfaceFormat::Summary => out.write_all(surface_text(&files, &analysis, contact).as_bytes()),
-        SurfaceFormat::Json => write_surface_json(out, &files, &analysis, contact),
-        SurfaceFormat::Csv => table(out, TableFormat::Csv),
-        SurfaceFormat::Npy => table(out, TableFormat::Npy),
-        SurfaceFormat::Svg => {
-            let names: Vec<String> = files.iter().map(|file| path_name(&file.path)).collect();
-            let figure = Spectra::of_analysis(&analysis).figure(&names.join(", "));
-            out.write_all(figure_svg(&figure).as_bytes())
+    if format.picture().is_some() {
+        let names: Vec<String> = files.iter().map(|file| path_name(&file.path)).collect();
+        let figure = Spectra::of_analysis(&analysis).figure(&names.join(", "));
+        return arguments.output.write_figure(stdout, &figure, format);
+    }
+    arguments.output.write(stdout, |out| match (format, format.table()) {
+        (_, Some(format)) => {
+            write_surface_table(out, format, &Provenance::of_spectra(&arguments.deciding()), &analysis)
         }
+        (Format::Json, _) => write_surface_json(out, &files, &analysis, contact),
+        _ => out.write_all(surface_text(&files, &analysis, contact).as_bytes()),
     })
 }
 
@@ -266,7 +243,7 @@ fn analysed(arguments: &SurfaceArguments, surfaces: &[Topography]) -> Result<Ana
             _ => 0,
         };
         let file = arguments.paths().nth(index).map_or_else(String::new, |file| path_name(&file));
-        CliError::Spectrum { file, error }
+        CliError::named(file, error)
     })
 }
 

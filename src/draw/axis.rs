@@ -21,9 +21,7 @@ impl Axis {
     /// An axis with a name, a symbol such as `F_n`, and a unit, each of which may be empty.
     #[must_use]
     pub fn new(scale: AxisScale, span: Span, name: &str, symbol: &str, unit: &str) -> Axis {
-        let space = if name.is_empty() || symbol.is_empty() { "" } else { " " };
-        let label = Label::plain(name).then(space).join(&Label::symbol(symbol));
-        Axis { scale, span, label, unit: unit.to_owned() }
+        Axis { scale, span, label: Label::quantity(name, symbol), unit: unit.to_owned() }
     }
 
     /// Position of a number from 0 at the lower to 1 at the upper end; not finite where the scale has no

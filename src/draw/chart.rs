@@ -23,13 +23,25 @@ impl Figure {
     pub const SMALL: (f64, f64) = (330.0, 270.0);
     /// Frame of a chart with the figure to itself, px.
     pub const WIDE: (f64, f64) = (480.0, 300.0);
+
+    /// A figure of one chart.
+    #[must_use]
+    pub fn of_chart(title: &str, chart: Chart) -> Figure {
+        Figure { title: title.to_owned(), notes: Vec::new(), charts: vec![chart], size: Figure::WIDE }
+    }
+
+    /// Entries of the legend.
+    #[must_use]
+    pub fn legend(&self) -> Vec<Entry> {
+        Entry::of_charts(&self.charts)
+    }
 }
 
 /// Data over two axes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Chart {
-    /// Heading, shown where a figure has several charts.
-    pub heading: String,
+    /// Heading, shown where a figure has several charts; may be empty.
+    pub heading: Label,
     /// Horizontal axis.
     pub x: Axis,
     /// Vertical axis.
@@ -41,6 +53,12 @@ pub struct Chart {
 }
 
 impl Chart {
+    /// A chart without heading and inset.
+    #[must_use]
+    pub fn new(x: Axis, y: Axis, layers: Vec<Layer>) -> Chart {
+        Chart { heading: Label::default(), x, y, layers, inset: None }
+    }
+
     /// The heat map of a map.
     #[must_use]
     pub fn map(&self) -> Option<&HeatMap> {
@@ -68,6 +86,20 @@ pub struct Layer {
     pub ink: Ink,
     /// Data.
     pub shape: Shape,
+}
+
+impl Shape {
+    /// A line through points.
+    #[must_use]
+    pub fn line(points: Vec<(f64, f64)>, stroke: Stroke) -> Shape {
+        Shape::Curve { points, stroke: Some(stroke), sign: None }
+    }
+
+    /// Signs at points.
+    #[must_use]
+    pub fn signs(points: Vec<(f64, f64)>, sign: Sign) -> Shape {
+        Shape::Curve { points, stroke: None, sign: Some(sign) }
+    }
 }
 
 impl Layer {
@@ -241,14 +273,6 @@ pub enum Sample {
     Contour,
     /// A cell without a value.
     Empty,
-}
-
-impl Figure {
-    /// Entries of the legend.
-    #[must_use]
-    pub fn legend(&self) -> Vec<Entry> {
-        Entry::of_charts(&self.charts)
-    }
 }
 
 impl Entry {

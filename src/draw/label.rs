@@ -48,6 +48,19 @@ impl Label {
         label
     }
 
+    /// Name and symbol of a quantity, each of which may be empty.
+    #[must_use]
+    pub fn quantity(name: &str, symbol: &str) -> Label {
+        let space = if name.is_empty() || symbol.is_empty() { "" } else { " " };
+        Label::plain(name).then(space).join(&Label::symbol(symbol))
+    }
+
+    /// Symbol of a quantity, or the name of a quantity without one.
+    #[must_use]
+    pub fn symbol_or_name(symbol: &str, name: &str) -> Label {
+        if symbol.is_empty() { Label::plain(name) } else { Label::symbol(symbol) }
+    }
+
     /// A statement such as `H = 0.3`: a symbol before ` = `, upright text after it.
     #[must_use]
     pub fn statement(text: &str) -> Label {

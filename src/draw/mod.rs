@@ -20,9 +20,9 @@ pub use cells::{CellPlot, CellStyle, Colours, SHADES, dry, figure_text, glyph, k
 pub use chart::{Chart, Class, Contour, Entry, Figure, HeatMap, Layer, Sample, Shape, Sign, Stroke};
 pub use colour::{Ink, Palette, Rgb, hex, ink_on, shade};
 pub use label::{Label, prefixed, short, value_label};
-pub use picture::{Document, escaped, figure_svg};
+pub use picture::{Document, escaped};
 #[cfg(feature = "tui")]
-pub use picture::{PngError, figure_png};
+pub use picture::{PictureFormat, PngError};
 pub use scale::{AxisScale, Span};
 pub use ticks::Tick;
 

@@ -4,6 +4,7 @@ use super::opening::Opening;
 use super::panes::Pane;
 use super::snapshot::Report;
 use super::study::Found;
+use crate::draw::PictureFormat;
 use crate::export::TableFormat;
 use crate::scene::Entry;
 use std::path::PathBuf;
@@ -86,8 +87,8 @@ pub enum Content {
     Text,
     /// The cells of the map, or of its sections, as comma-separated values.
     MapCells,
-    /// The map or its sections as a figure, in SVG.
-    MapFigure,
+    /// The map or its sections as a figure.
+    MapFigure(PictureFormat),
 }
 
 impl Content {
@@ -101,8 +102,12 @@ impl Content {
     ];
 
     /// Exports of the map, while its pane is selected.
-    pub const MAP_EXPORTS: [(&'static str, Content); 3] =
-        [("csv", Content::MapCells), ("svg", Content::MapFigure), ("txt", Content::Text)];
+    pub const MAP_EXPORTS: [(&'static str, Content); 4] = [
+        ("csv", Content::MapCells),
+        ("svg", Content::MapFigure(PictureFormat::Svg)),
+        ("png", Content::MapFigure(PictureFormat::Png)),
+        ("txt", Content::Text),
+    ];
 
     /// Content for a file of this name, of these; `None` for another extension.
     #[must_use]

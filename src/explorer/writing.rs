@@ -6,7 +6,7 @@ use super::panes;
 use super::picture::{svg, text};
 use super::theme::Theme;
 use super::view;
-use crate::draw::{Palette, figure_svg};
+use crate::draw::Palette;
 use crate::export::{write_curve, write_json, write_map};
 use crate::io::{WriteError, check_file_name, write_new_file};
 use crate::scene::{Provenance, TableContent};
@@ -71,9 +71,10 @@ fn write_content(file: &mut dyn Write, model: &Model, path: &Path, content: Cont
             let map_model = model.chart.map_model().ok_or_else(no_map)?;
             write_map(file, map_model, model.chart.sections.then(|| panes::section_cell(model, map_model)))
         }
-        Content::MapFigure => {
+        Content::MapFigure(format) => {
             let map_model = model.chart.map_model().ok_or_else(no_map)?;
-            file.write_all(figure_svg(&panes::map_figure(model, map_model)).as_bytes())
+            let picture = panes::map_figure(model, map_model).picture(format).map_err(io::Error::other)?;
+            file.write_all(&picture)
         }
         Content::Text => file.write_all(text(&picture_of(model)).as_bytes()),
     }

@@ -1,10 +1,9 @@
 //! The table of hard cases.
 
 use super::sheet::Sheet;
-use crate::check::{Case, Check, Evidence, Verdict, catalogue};
-use crate::io::write_json_value;
+use crate::check::{Case, Check, Verdict, catalogue};
+use crate::io::{object, write_json_value};
 use crate::scene::Edges;
-use serde::Serialize;
 use std::io::{self, Write};
 
 /// Writes the verdicts for a person: a row for each check, then the sentences of the cases, then what failed.
@@ -17,7 +16,7 @@ pub fn check_text(verdicts: &[Verdict]) -> String {
         let Check { case, edges, bound } = verdict.check;
         [
             case.name.to_owned(),
-            edges_name(edges).to_owned(),
+            edges.map_or("", Edges::name).to_owned(),
             verdict.error.as_ref().map_or_else(|_| "–".to_owned(), |&error| figure(error)),
             figure(bound),
             if verdict.passes() { "pass" } else { "FAIL" }.to_owned(),
@@ -39,7 +38,7 @@ pub fn check_text(verdicts: &[Verdict]) -> String {
         sheet.heading("What fails");
         let why = |verdict: &&Verdict| {
             let Check { case, edges, bound } = verdict.check;
-            let name = format!("{} {}", case.name, edges_name(edges)).trim_end().to_owned();
+            let name = format!("{} {}", case.name, edges.map_or("", Edges::name)).trim_end().to_owned();
             let why = match (&verdict.error, case.known_failure) {
                 (Ok(error), None) => format!("error {} above the bound {}", figure(*error), figure(bound)),
                 (Ok(error), Some(reason)) => format!("known, by {}: {reason}", figure(*error)),
@@ -71,7 +70,7 @@ pub fn check_markdown(checks: &[Check]) -> String {
             .iter()
             .filter(|check| check.case.name == case.name)
             .map(|check| {
-                let edges = check.edges.map_or_else(String::new, |edges| format!("{}: ", name_of(edges)));
+                let edges = check.edges.map_or_else(String::new, |edges| format!("{}: ", edges.name()));
                 format!("{edges}{}", figure(check.bound))
             })
             .collect();
@@ -93,45 +92,26 @@ pub fn check_markdown(checks: &[Check]) -> String {
 /// # Errors
 /// Those of `out`.
 pub fn write_check_json(out: &mut (impl Write + ?Sized), verdicts: &[Verdict]) -> io::Result<()> {
-    #[derive(Serialize)]
-    struct Report<'a> {
-        passes: bool,
-        checks: Vec<Row<'a>>,
-    }
-    #[derive(Serialize)]
-    struct Row<'a> {
-        case: &'a str,
-        family: crate::check::Family,
-        edges: Option<Edges>,
-        holds: &'a str,
-        evidence: &'a [Evidence],
-        known_failure: Option<&'a str>,
-        error_of: &'a str,
-        error: Option<f64>,
-        bound: f64,
-        passes: bool,
-        fault: Option<String>,
-        seconds: f64,
-    }
     let row = |verdict: &Verdict| {
         let Check { case, edges, bound } = verdict.check;
-        Row {
-            case: case.name,
-            family: case.family,
-            edges,
-            holds: case.holds,
-            evidence: case.evidence,
-            known_failure: case.known_failure,
-            error_of: case.error_of,
-            error: verdict.error.as_ref().ok().copied().filter(|error| error.is_finite()),
-            bound,
-            passes: verdict.passes(),
-            fault: verdict.error.as_ref().err().map(ToString::to_string),
-            seconds: verdict.seconds,
+        object! {
+            "case": case.name,
+            "family": case.family,
+            "edges": edges,
+            "holds": case.holds,
+            "evidence": case.evidence,
+            "known_failure": case.known_failure,
+            "error_of": case.error_of,
+            "error": verdict.error.as_ref().ok().copied().filter(|error| error.is_finite()),
+            "bound": bound,
+            "passes": verdict.passes(),
+            "fault": verdict.error.as_ref().err().map(ToString::to_string),
+            "seconds": verdict.seconds,
         }
     };
-    let checks = verdicts.iter().map(row).collect();
-    write_json_value(out, &Report { passes: verdicts.iter().all(Verdict::is_expected), checks })
+    let checks: Vec<_> = verdicts.iter().map(row).collect();
+    let passes = verdicts.iter().all(Verdict::is_expected);
+    write_json_value(out, &object! { "passes": passes, "checks": checks })
 }
 
 /// Kinds of evidence of a case in words.
@@ -142,17 +122,6 @@ fn evidence(case: &Case) -> String {
 /// A bound or an error: two digits are enough to compare, zero is exact.
 fn figure(value: f64) -> String {
     if value == 0.0 { "0".to_owned() } else { format!("{value:.1e}") }
-}
-
-fn edges_name(edges: Option<Edges>) -> &'static str {
-    edges.map_or("", name_of)
-}
-
-fn name_of(edges: Edges) -> &'static str {
-    match edges {
-        Edges::Grid => "Grid",
-        Edges::SubCell => "SubCell",
-    }
 }
 
 #[cfg(test)]

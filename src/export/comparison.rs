@@ -11,10 +11,6 @@ pub type Pair<'a> = [(&'a Document, &'a Outcome); 2];
 /// Titles of two scenes, what differs from the first to the second, both adhesion forces with their ratio.
 #[must_use]
 pub fn comparison_text([first, second]: Pair<'_>) -> String {
-    let title = |document: &Document| {
-        let title = &document.scene().title;
-        if title.is_empty() { document.name().to_owned() } else { title.clone() }
-    };
     let changes = first.0.changes_to(second.0);
     let changes: Vec<String> =
         changes.iter().map(|change| format!("{} {} → {}", change.name, change.from, change.to)).collect();
@@ -22,8 +18,8 @@ pub fn comparison_text([first, second]: Pair<'_>) -> String {
     let forces = [first, second].map(|(_, outcome)| outcome.figures.adhesion_force);
     format!(
         "A  {}\nB  {}\ndifferent from A to B: {changes}\nadhesion force F_a: {}\n",
-        title(first.0),
-        title(second.0),
+        first.0.title(),
+        second.0.title(),
         adhesion_forces(forces)
     )
 }

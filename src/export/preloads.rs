@@ -161,8 +161,7 @@ impl<'a> PreloadReport<'a> {
     /// The adhesion force over the preload: of the first profile, and the mean with its 95 % confidence.
     #[must_use]
     pub fn figure(&self, title: &str) -> Figure {
-        let chart = preload_axes("", preload_layers(self.first(), &self.statistics));
-        Figure { title: title.to_owned(), notes: Vec::new(), charts: vec![chart], size: Figure::WIDE }
+        Figure::of_chart(title, preload_axes(preload_layers(self.first(), &self.statistics)))
     }
 }
 
@@ -183,18 +182,16 @@ pub fn preload_layers(one: &[Preloaded], statistics: &[Option<Statistics>]) -> V
         let name = Label::plain(&format!("mean of {count} profiles, 95 % confidence"));
         layers.push(Layer::new(name.clone(), Ink::Kept, Shape::Band(mean.iter().map(band).collect())));
         let points = mean.iter().map(|&(preload, of)| (preload, of.mean)).collect();
-        let shape = Shape::Curve { points, stroke: Some(Stroke::Dashed), sign: None };
-        layers.push(Layer::new(name, Ink::Kept, shape));
+        layers.push(Layer::new(name, Ink::Kept, Shape::line(points, Stroke::Dashed)));
     }
     let points = one.iter().map(|one| (one.preload, one.adhesion_force.unwrap_or(0.0))).collect();
-    let shape = Shape::Curve { points, stroke: Some(Stroke::Solid), sign: None };
-    layers.push(Layer::new(Label::plain("this profile"), Ink::Unloading, shape));
+    layers.push(Layer::new("this profile".into(), Ink::Unloading, Shape::line(points, Stroke::Solid)));
     layers
 }
 
 /// A chart of the adhesion force over the preload with these layers.
 #[must_use]
-pub fn preload_axes(heading: &str, layers: Vec<Layer>) -> Chart {
+pub fn preload_axes(layers: Vec<Layer>) -> Chart {
     let mut all = vec![(0.0, 0.0)];
     for layer in &layers {
         match &layer.shape {
@@ -207,13 +204,8 @@ pub fn preload_axes(heading: &str, layers: Vec<Layer>) -> Chart {
     }
     let x = Span::around(all.iter().map(|point| point.0), 0.03);
     let y = Span::around(all.iter().map(|point| point.1), 0.05);
-    Chart {
-        heading: heading.to_owned(),
-        x: Axis::new(AxisScale::Linear, x, "preload", "F_n", "N"),
-        y: Axis::new(AxisScale::Linear, y, "adhesion force", "F_a", "N"),
-        layers,
-        inset: None,
-    }
+    let x = Axis::new(AxisScale::Linear, x, "preload", "F_n", "N");
+    Chart::new(x, Axis::new(AxisScale::Linear, y, "adhesion force", "F_a", "N"), layers)
 }
 
 /// The object; its keys stand in the order of these fields.

@@ -3,12 +3,12 @@
 use super::preloads::{preload_axes, preload_layers};
 use super::sheet::Sheet;
 use crate::analysis::{MinorLoops, ReversalMap};
+use crate::contact::Reversal;
 use crate::draw::{Axis, AxisScale, Chart, Figure, HeatMap, Ink, Label, Layer, Shape, Span};
-use crate::io::write_json_value;
+use crate::io::{object, write_json_value};
 use crate::scene::{Scene, format_quantity};
 use crate::study::Preloaded;
 use crate::text::grouped;
-use serde::Serialize;
 use std::io::{self, Write};
 
 /// Most rows of the table.
@@ -85,75 +85,41 @@ pub fn reversals_text(report: &ReversalReport<'_>) -> String {
     sheet.into_text().trim_start_matches('\n').to_string()
 }
 
-/// The object; its keys have the order of these fields.
-#[derive(Serialize)]
-struct Report<'a> {
-    scene: &'a Scene,
-    preloads: &'a [Preloaded],
-    reversals: Vec<Row>,
-    /// Indentations of the columns of the maps, m.
-    indentations: &'a [f64],
-    step: f64,
-    smoothing: usize,
-    /// For each turning point the forces at the indentations up to there, N.
-    forces: Vec<&'a [f64]>,
-    everett: Vec<Vec<Option<f64>>>,
-    density: Vec<Vec<Option<f64>>>,
-    minor_loops: Option<LoopsReport>,
-}
-
-#[derive(Serialize)]
-struct Row {
-    turning_indentation: f64,
-    turning_force: f64,
-    adhesion_force: Option<f64>,
-    pull_off_indentation: f64,
-    separation: f64,
-    dissipated_energy: f64,
-}
-
-#[derive(Serialize)]
-struct LoopsReport {
-    with_loss: usize,
-    incongruent: usize,
-    incongruent_share: Option<f64>,
-}
-
-/// Writes all of a map as one JSON object in SI units.
+/// Writes all of a map as one JSON object in SI units: for each turning point the forces at the indentations of the
+/// columns up to there, the Everett function and the density.
 ///
 /// # Errors
 /// Those of `out`.
 pub fn write_reversals_json(out: &mut (impl Write + ?Sized), report: &ReversalReport<'_>) -> io::Result<()> {
     let ReversalReport { scene, map, preloads, loops, smoothing } = *report;
-    let rows = |value: &dyn Fn(usize, usize) -> Option<f64>| {
+    let rows = |value: &dyn Fn(usize, usize) -> Option<f64>| -> Vec<Vec<Option<f64>>> {
         let row = |turn: usize| (0..=map.below + turn).map(|point| value(turn, point)).collect();
         (0..map.reversals.len()).map(row).collect()
     };
-    let json = Report {
-        scene,
-        preloads,
-        reversals: map
-            .reversals
-            .iter()
-            .map(|reversal| Row {
-                turning_indentation: reversal.turn.indentation,
-                turning_force: reversal.turn.force,
-                adhesion_force: reversal.adhesion_force(),
-                pull_off_indentation: reversal.smallest.indentation,
-                separation: reversal.separation,
-                dissipated_energy: reversal.dissipated_energy,
-            })
-            .collect(),
-        indentations: &map.points,
-        step: map.step(),
-        smoothing,
-        forces: map.reversals.iter().map(|reversal| reversal.forces.as_slice()).collect(),
-        everett: rows(&|turn, point| map.everett(turn, point)),
-        density: rows(&|turn, point| map.density(turn, point, smoothing)),
-        minor_loops: loops.map(|loops| LoopsReport {
-            with_loss: loops.with_loss,
-            incongruent: loops.incongruent,
-            incongruent_share: loops.incongruent_share(),
+    let reversal = |reversal: &Reversal| {
+        object! {
+            "turning_indentation": reversal.turn.indentation,
+            "turning_force": reversal.turn.force,
+            "adhesion_force": reversal.adhesion_force(),
+            "pull_off_indentation": reversal.smallest.indentation,
+            "separation": reversal.separation,
+            "dissipated_energy": reversal.dissipated_energy,
+        }
+    };
+    let json = object! {
+        "scene": scene,
+        "preloads": preloads,
+        "reversals": map.reversals.iter().map(reversal).collect::<Vec<_>>(),
+        "indentations": &map.points,
+        "step": map.step(),
+        "smoothing": smoothing,
+        "forces": map.reversals.iter().map(|reversal| reversal.forces.as_slice()).collect::<Vec<_>>(),
+        "everett": rows(&|turn, point| map.everett(turn, point)),
+        "density": rows(&|turn, point| map.density(turn, point, smoothing)),
+        "minor_loops": loops.map(|loops| object! {
+            "with_loss": loops.with_loss,
+            "incongruent": loops.incongruent,
+            "incongruent_share": loops.incongruent_share(),
         }),
     };
     write_json_value(out, &json)
@@ -220,7 +186,10 @@ pub fn reversals_figure(report: &ReversalReport<'_>, title: &str) -> Figure {
         title: title.to_owned(),
         notes,
         charts: vec![
-            preload_axes("adhesion against preload", preload_layers(preloads, &[])),
+            Chart {
+                heading: Label::quantity("adhesion force", "F_a"),
+                ..preload_axes(preload_layers(preloads, &[]))
+            },
             map_chart(map, "Everett function", ("E", "N"), &everett),
             map_chart(map, "FORC density", ("ρ", "N/m²"), &density),
         ],
@@ -230,7 +199,7 @@ pub fn reversals_figure(report: &ReversalReport<'_>, title: &str) -> Figure {
 
 fn map_chart(
     map: &ReversalMap,
-    heading: &str,
+    name: &str,
     (symbol, unit): (&str, &str),
     value: &dyn Fn(usize, usize) -> Option<f64>,
 ) -> Chart {
@@ -247,22 +216,16 @@ fn map_chart(
     let scale = AxisScale::Linear;
     let axis =
         |values: &[f64], name, symbol| Axis::new(scale, HeatMap::span(scale, values), name, symbol, "m");
-    Chart {
-        heading: heading.to_owned(),
-        x: axis(&columns, "indentation", "d"),
-        y: axis(&rows, "turning point", "d_r"),
-        layers: vec![Layer::unnamed(
-            Ink::Text,
-            Shape::Map(Box::new(HeatMap {
-                columns,
-                rows,
-                values,
-                key: Axis::new(scale, key, "", symbol, unit),
-                classes: Vec::new(),
-                class_names: Vec::new(),
-                contour: None,
-            })),
-        )],
-        inset: None,
-    }
+    let (x, y) = (axis(&columns, "indentation", "d"), axis(&rows, "turning point", "d_r"));
+    let map = HeatMap {
+        columns,
+        rows,
+        values,
+        key: Axis::new(scale, key, "", symbol, unit),
+        classes: Vec::new(),
+        class_names: Vec::new(),
+        contour: None,
+    };
+    let layers = vec![Layer::unnamed(Ink::Text, Shape::Map(Box::new(map)))];
+    Chart { heading: Label::quantity(name, symbol), ..Chart::new(x, y, layers) }
 }

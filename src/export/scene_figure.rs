@@ -41,8 +41,7 @@ pub fn force_figure(scenes: &[(&str, &Outcome)]) -> Figure {
             };
             for leg in legs.iter().filter(|leg| leg.direction == direction) {
                 let points = leg.curve.iter().map(|point| (point.indentation, point.force)).collect();
-                let shape = Shape::Curve { points, stroke: Some(stroke), sign: None };
-                layers.push(Layer::new(name.clone(), ink, shape));
+                layers.push(Layer::new(name.clone(), ink, Shape::line(points, stroke)));
             }
         }
         // A scene that is only pressed has no curve with its title.
@@ -60,8 +59,8 @@ pub fn force_figure(scenes: &[(&str, &Outcome)]) -> Figure {
         for (mark, point) in marks(legs) {
             let name = if alone { mark_name(mark, point.force) } else { Label::default() };
             let ink = if alone { Ink::Text } else { Ink::Series(number) };
-            let points = vec![(point.indentation, point.force)];
-            layers.push(Layer::new(name, ink, Shape::Curve { points, stroke: None, sign: Some(sign(mark)) }));
+            let place = vec![(point.indentation, point.force)];
+            layers.push(Layer::new(name, ink, Shape::signs(place, sign(mark))));
         }
     }
     let points = || scenes.iter().flat_map(|(_, outcome)| &outcome.history.legs).flat_map(|leg| &leg.curve);
@@ -75,18 +74,13 @@ pub fn force_figure(scenes: &[(&str, &Outcome)]) -> Figure {
     let (title, notes) = match scenes {
         [(title, outcome)] => {
             let notes = outcome.approximate_jkr.iter().map(|_| Label::plain(&assumed)).collect();
-            ((*title).to_owned(), notes)
+            (*title, notes)
         }
-        _ => (String::new(), vec![Label::plain("dashed: loading, solid: unloading")]),
+        _ => ("", vec![Label::plain("dashed: loading, solid: unloading")]),
     };
-    let chart = Chart {
-        heading: String::new(),
-        x: Axis::new(AxisScale::Linear, x, "indentation", "d", "m"),
-        y: Axis::new(AxisScale::Linear, y, "force", "F", "N"),
-        layers,
-        inset: None,
-    };
-    Figure { title, notes, charts: vec![chart], size: Figure::WIDE }
+    let x = Axis::new(AxisScale::Linear, x, "indentation", "d", "m");
+    let y = Axis::new(AxisScale::Linear, y, "force", "F", "N");
+    Figure { notes, ..Figure::of_chart(title, Chart::new(x, y, layers)) }
 }
 
 /// Layer of an approximate JKR curve, the force over the indentation.
@@ -196,16 +190,11 @@ impl ContactSets {
         ];
         let (low, high) = section.heights;
         let z = Span::around([low, high, section.level.min(high + 0.5 * (high - low))].into_iter(), 0.05);
-        let chart = Chart {
-            heading: String::new(),
-            x: position(outcome),
-            y: Axis::new(AxisScale::Linear, z, "height", "z", "m"),
-            layers,
-            inset: None,
-        };
+        let z = Axis::new(AxisScale::Linear, z, "height", "z", "m");
+        let chart = Chart::new(position(outcome), z, layers);
         let at = Label::plain("largest force: ").join(&value_label("", "F", "N", force)).then(", ");
         let notes = vec![at.join(&value_label("", "d", "m", indentation))];
-        Figure { title: title.to_owned(), notes, charts: vec![chart], size: PROFILE }
+        Figure { notes, size: PROFILE, ..Figure::of_chart(title, chart) }
     }
 
     /// Contact patches over position and indentation, one chart for each loading stage with contact.
@@ -232,13 +221,8 @@ impl ContactSets {
             }
             let boxes = boxes.into_iter().map(|(x, d)| (x, (d - half, d + half))).collect();
             let heading = if *direction == Direction::Loading { "loading" } else { "unloading" };
-            Chart {
-                heading: heading.to_owned(),
-                x: position(outcome),
-                y: d.clone(),
-                layers: vec![Layer::new("contact".into(), Ink::Contact, Shape::Boxes(boxes))],
-                inset: None,
-            }
+            let layers = vec![Layer::new("contact".into(), Ink::Contact, Shape::Boxes(boxes))];
+            Chart { heading: heading.into(), ..Chart::new(position(outcome), d.clone(), layers) }
         };
         let mut charts: Vec<Chart> = self.stages.iter().map(chart).collect();
         if charts.is_empty() {
@@ -263,7 +247,6 @@ fn position(outcome: &Outcome) -> Axis {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::draw::figure_svg;
     use crate::draw::svg_tests::parsed;
     use crate::scene::Document;
     use crate::simulation::Simulation;
@@ -319,7 +302,7 @@ mod tests {
             point(Mark::PullOff),
             (figures.pull_off_indentation.unwrap(), -figures.adhesion_force.unwrap())
         );
-        let text = parsed(&figure_svg(&figure)).1;
+        let text = parsed(&figure.svg()).1;
         assert!(text.contains("Rough <&>") && text.contains("indentation d (nm)"), "{text}");
     }
 
@@ -328,7 +311,7 @@ mod tests {
         let ((one, ..), (other, ..)) = (computed(&[]), computed(&[("loading", "[ToForce(2e-5)]")]));
         let figure = force_figure(&[("one", &one), ("<other>", &other)]);
         assert_eq!(names(&figure), ["one", "<other>"]);
-        parsed(&figure_svg(&figure));
+        parsed(&figure.svg());
     }
 
     #[test]
@@ -349,7 +332,7 @@ mod tests {
     fn patches_cover_the_contact_length() {
         let (outcome, sets, _) = computed(&[]);
         let figure = sets.patches_figure("", &outcome);
-        let headings: Vec<&str> = figure.charts.iter().map(|chart| chart.heading.as_str()).collect();
+        let headings: Vec<String> = figure.charts.iter().map(|chart| chart.heading.to_string()).collect();
         assert_eq!(headings, ["loading", "unloading"]);
         for (chart, (_, rows)) in figure.charts.iter().zip(&sets.stages) {
             let Shape::Boxes(boxes) = &chart.layers[0].shape else { panic!() };

@@ -104,19 +104,14 @@ impl Spectra {
         let powers: Vec<f64> = shown.points().map(|(_, power)| power).collect();
         let x = Span::around(self.points().map(|(q, _)| q.log10()), 0.03);
         let y = Span::of_values(AxisScale::Logarithmic, powers.into_iter(), MOST_DECADES).widened(0.04);
-        Chart {
-            heading: String::new(),
-            x: Axis::new(AxisScale::Logarithmic, x, "wave number", "q", "rad/m"),
-            y: Axis::new(AxisScale::Logarithmic, y, "power spectral density", "C", "m³"),
-            layers,
-            inset: None,
-        }
+        let axis = |span, name, symbol, unit| Axis::new(AxisScale::Logarithmic, span, name, symbol, unit);
+        Chart::new(axis(x, "wave number", "q", "rad/m"), axis(y, "power spectral density", "C", "m³"), layers)
     }
 
     /// Figure of the chart.
     #[must_use]
     pub fn figure(&self, title: &str) -> Figure {
-        Figure { title: title.to_owned(), notes: Vec::new(), charts: vec![self.chart()], size: Figure::WIDE }
+        Figure::of_chart(title, self.chart())
     }
 
     /// Points of all spectra.
@@ -129,7 +124,6 @@ impl Spectra {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::draw::figure_svg;
     use crate::spectrum::{Options, analyse};
     use crate::topography::{ReadOptions, parse};
 
@@ -153,9 +147,9 @@ mod tests {
             assert!(legend.iter().any(|entry| entry == name), "{name}: {legend:?}");
         }
         assert_eq!(legend.contains(&"reliability cut-off".to_owned()), analysis.reliability_cutoff.is_some());
-        let svg = figure_svg(&figure);
+        let svg = figure.svg();
         assert!(svg.contains("a &amp; b") && !svg.contains("NaN") && !svg.contains("inf"), "{svg}");
-        let empty = figure_svg(&Spectra::default().figure(""));
+        let empty = Spectra::default().figure("").svg();
         assert!(!empty.contains("NaN") && !empty.contains("inf"), "{empty}");
     }
 

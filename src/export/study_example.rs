@@ -48,7 +48,7 @@ pub(super) fn phase_map() -> Figure {
             .collect(),
         scale: AxisScale::Linear,
         range: None,
-        vanishes: name == "zero load adhesion share",
+        vanishes: name == "zero-load adhesion share",
     };
     let regime = |(kappa, hurst): (f64, f64)| {
         Some(match (share(kappa, hurst), coefficient(kappa, hurst)) {
@@ -64,7 +64,7 @@ pub(super) fn phase_map() -> Figure {
         up: Some(axis("governing parameter", "κ", AxisScale::Logarithmic, kappas())),
         series: None,
         panels: vec![
-            panel("zero load adhesion share", "F_a(0)/F_a,max", share),
+            panel("zero-load adhesion share", "F_a(0)/F_a,max", share),
             panel("adhesion coefficient", "F_a/F_n", coefficient),
         ],
         boundary: Some(Boundary {
@@ -87,7 +87,7 @@ pub(super) fn sections() -> Figure {
             .collect(),
         scale: AxisScale::Linear,
         range: None,
-        vanishes: name == "zero load adhesion share",
+        vanishes: name == "zero-load adhesion share",
     };
     Figure {
         title: "Sections at H = 0.3".into(),
@@ -96,7 +96,7 @@ pub(super) fn sections() -> Figure {
         up: None,
         series: None,
         panels: vec![
-            panel("zero load adhesion share", "F_a(0)/F_a,max", share),
+            panel("zero-load adhesion share", "F_a(0)/F_a,max", share),
             panel("adhesion coefficient", "F_a/F_n", coefficient),
         ],
         boundary: Some(Boundary {

@@ -41,6 +41,11 @@ fn axis_over(axis: &FigureAxis, span: Span) -> Axis {
     Axis::new(axis.scale, span, &axis.name, &axis.symbol, &axis.unit)
 }
 
+/// Name and symbol of the quantity of a panel.
+fn heading(panel: &Panel) -> Label {
+    Label::quantity(&panel.quantity.name, &panel.quantity.symbol)
+}
+
 /// Axis of a quantity: its symbol, or its name where it has none.
 fn axis_of(panel: &Panel, scale: AxisScale, span: Span) -> Axis {
     let quantity = &panel.quantity;
@@ -77,7 +82,7 @@ fn map(study: &Study, up: &FigureAxis, panel: &Panel) -> Chart {
         }),
     };
     Chart {
-        heading: panel.quantity.name.clone(),
+        heading: heading(panel),
         x: axis_over(across, HeatMap::span(across.scale, &across.values)),
         y: axis_over(up, HeatMap::span(up.scale, &up.values)),
         layers: vec![Layer::unnamed(Ink::Text, Shape::Map(Box::new(map)))],
@@ -95,10 +100,10 @@ fn sections(study: &Study, panel: &Panel) -> Chart {
     let inset = (panel.scale == AxisScale::Linear && spans_decades(panel)).then(|| {
         let (x, y) = axes(AxisScale::Logarithmic);
         let layers = layers.iter().filter(|layer| !matches!(layer.shape, Shape::Upright(_))).cloned();
-        Box::new(Chart { heading: String::new(), x, y, layers: layers.collect(), inset: None })
+        Box::new(Chart::new(x, y, layers.collect()))
     });
     let (x, y) = axes(panel.scale);
-    Chart { heading: panel.quantity.name.clone(), x, y, layers, inset }
+    Chart { heading: heading(panel), x, y, layers, inset }
 }
 
 /// Range of the vertical axis of sections.
@@ -153,11 +158,7 @@ fn layers(study: &Study, panel: &Panel) -> Vec<Layer> {
     match (&study.series, curves.first()) {
         // Curves that are the same to the last bit do not depend on the axis of the series.
         (Some(series), Some(first)) if curves.iter().all(|curve| curve == first) => {
-            let symbol = if series.symbol.is_empty() {
-                Label::plain(&series.name)
-            } else {
-                Label::symbol(&series.symbol)
-            };
+            let symbol = Label::symbol_or_name(&series.symbol, &series.name);
             add(Label::plain("any ").join(&symbol), Ink::Quiet, Sign::Dot, first);
         }
         (Some(FigureAxis { name, symbol, unit, values, .. }), _) => {
@@ -182,12 +183,11 @@ fn layers(study: &Study, panel: &Panel) -> Vec<Layer> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::draw::figure_svg;
     use crate::draw::svg_tests::{attribute, elements, parsed};
     use crate::export::study_example::{phase_map, sections};
 
     fn drawn(study: &Study) -> String {
-        figure_svg(&study_figure(study))
+        study_figure(study).svg()
     }
 
     #[test]

@@ -16,17 +16,11 @@ pub fn work_precision(title: &str, table: &CostTable) -> Figure {
             points.iter().filter(move |point| point.resolved == resolved).map(|point| point.at)
         };
         let (ink, sign) = (Ink::Series(number), Sign::of_series(number));
-        let line = Shape::Curve {
-            points: points.iter().map(|point| point.at).collect(),
-            stroke: Some(if number < 5 { Stroke::Solid } else { Stroke::Dashed }),
-            sign: None,
-        };
-        layers.push(Layer::unnamed(ink, line));
-        let stroke = None;
-        let signs = Shape::Curve { points: of(true).collect(), stroke, sign: Some(sign) };
-        layers.push(Layer::new(Label::plain(knob.name()), ink, signs));
+        let stroke = if number < 5 { Stroke::Solid } else { Stroke::Dashed };
+        layers.push(Layer::unnamed(ink, Shape::line(points.iter().map(|point| point.at).collect(), stroke)));
+        layers.push(Layer::new(Label::plain(knob.name()), ink, Shape::signs(of(true).collect(), sign)));
         if of(false).next().is_some() {
-            let rings = Shape::Curve { points: of(false).collect(), stroke, sign: Some(Sign::Ring) };
+            let rings = Shape::signs(of(false).collect(), Sign::Ring);
             layers.push(Layer::new("error not resolved".into(), ink, rings));
         }
     }
@@ -39,18 +33,8 @@ pub fn work_precision(title: &str, table: &CostTable) -> Figure {
     let of_force = table.rows.iter().any(|row| row.errors.adhesion_force.is_some());
     let (name, symbol) =
         if of_force { ("relative error of", "F_a") } else { ("relative error of the curve", "") };
-    Figure {
-        title: title.to_owned(),
-        notes: Vec::new(),
-        charts: vec![Chart {
-            heading: String::new(),
-            x: axis(times, "time of a run", "t", "s"),
-            y: axis(errors, name, symbol, "1"),
-            layers,
-            inset: None,
-        }],
-        size: Figure::WIDE,
-    }
+    let x = axis(times, "time of a run", "t", "s");
+    Figure::of_chart(title, Chart::new(x, axis(errors, name, symbol, "1"), layers))
 }
 
 struct Point {
@@ -68,7 +52,6 @@ fn point(row: &Row) -> Option<Point> {
 mod tests {
     use super::*;
     use crate::accuracy::{Measures, Reference, Timing};
-    use crate::draw::figure_svg;
 
     #[test]
     fn points_lie_at_time_and_error() {
@@ -97,8 +80,8 @@ mod tests {
         assert_eq!(chart.y.label.to_string(), "relative error of the curve");
         let legend: Vec<String> = figure.legend().iter().map(|entry| entry.name.to_string()).collect();
         assert_eq!(legend, [Knob::SubCellSprings.name(), "error not resolved"]);
-        assert!(figure_svg(&figure).contains("a &lt; b"));
-        let empty = figure_svg(&work_precision("", &CostTable { rows: Vec::new(), ..table }));
+        assert!(figure.svg().contains("a &lt; b"));
+        let empty = work_precision("", &CostTable { rows: Vec::new(), ..table }).svg();
         assert!(!empty.contains("NaN") && !empty.contains("inf") && !empty.contains("<circle"), "{empty}");
     }
 }

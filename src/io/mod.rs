@@ -1,7 +1,9 @@
-//! Files: reading within limits, writing whole or not at all, JSON text and arrays of NumPy.
+//! Files: reading within limits, writing whole or not at all on a disk, JSON text and arrays of NumPy.
 
+mod disk;
 mod json;
 pub(crate) mod npy;
+mod object;
 mod read;
 mod unfinished;
 mod write;
@@ -9,7 +11,10 @@ mod write;
 /// First characters of CSV that begins with the scene behind it.
 pub(crate) const PROVENANCE: &str = "# asperity ";
 
+pub use disk::{Disk, DiskFile, SystemDisk};
+pub(crate) use disk::{folder_of, make_folders};
 pub use json::write_json_value;
+pub(crate) use object::{Entry, Object, Optional, object};
 pub(crate) use read::*;
 #[cfg(feature = "tui")]
 pub(crate) use unfinished::{is_gone, machine};

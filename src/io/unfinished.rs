@@ -4,7 +4,7 @@
 //! the file with the process, however that ends. Elsewhere it has a temporary name with the number of its process.
 
 use super::WriteError;
-use crate::disk::{Disk, DiskFile, folder_of};
+use super::disk::{Disk, DiskFile, folder_of};
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -156,7 +156,7 @@ pub fn is_gone(_: u32) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::disk::SystemDisk;
+    use crate::io::SystemDisk;
 
     fn names(folder: &Path) -> Vec<String> {
         let entries = fs::read_dir(folder).unwrap();

@@ -1,7 +1,7 @@
 //! Writing a file whole or not at all, and never over another one unasked.
 
+use super::disk::{Disk, SystemDisk, folder_of};
 use super::unfinished::Unfinished;
-use crate::disk::{Disk, SystemDisk, folder_of};
 use crate::text::path_name;
 use std::fs::{self, OpenOptions, Permissions};
 use std::io::{self, BufWriter, Write};

@@ -283,6 +283,12 @@ impl Document {
         &self.name
     }
 
+    /// Title of the scene, or the name where there is none.
+    #[must_use]
+    pub fn title(&self) -> &str {
+        if self.scene.title.is_empty() { self.name() } else { &self.scene.title }
+    }
+
     /// The overrides since the text was opened that still matter, in the order given: applied to
     /// the opened text they give this document's scene.
     pub fn overrides(&self) -> &[(String, String)] {

@@ -352,6 +352,17 @@ pub enum Edges {
     SubCell,
 }
 
+impl Edges {
+    /// Name as scene files have it.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Edges::Grid => "Grid",
+            Edges::SubCell => "SubCell",
+        }
+    }
+}
+
 /// Something observed beside the force curve.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Observer {

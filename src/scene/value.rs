@@ -260,9 +260,6 @@ impl Choice for Solver {
 
 impl Choice for Edges {
     fn variant(&self) -> &'static str {
-        match self {
-            Edges::Grid => "Grid",
-            Edges::SubCell => "SubCell",
-        }
+        self.name()
     }
 }

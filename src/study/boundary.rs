@@ -26,8 +26,6 @@ pub const USUAL_LEVELS: [f64; 4] = [0.5, 0.1, 0.05, 0.01];
 const RESAMPLES: usize = 1000;
 /// Seed of these choices: the same table each time.
 const RESAMPLING_SEED: u64 = 2012;
-/// Protocols whose shares of F_a,max a study may record.
-const PROTOCOLS: [Quantity; 2] = [Quantity::ZeroLoadAdhesionShare, Quantity::ZeroForceAdhesionShare];
 
 /// The boundary at one place on the other axes, by one protocol, at one share.
 #[derive(Clone, Debug, PartialEq)]
@@ -105,7 +103,7 @@ pub fn boundaries(path: &Path, over: RoughnessParameter, levels: &[f64]) -> Resu
     let (along, given) = axes().enumerate().find_map(is_along).ok_or_else(|| {
         refuse("this study has no axis `kappa` or `elastic_energy_ratio`, along which a boundary lies")
     })?;
-    let protocols: Vec<(usize, Quantity)> = PROTOCOLS
+    let protocols: Vec<(usize, Quantity)> = Quantity::ADHESION_SHARES
         .into_iter()
         .filter_map(|protocol| Some((plan.record.iter().position(|one| *one == protocol)?, protocol)))
         .collect();
@@ -173,8 +171,23 @@ pub struct BoundarySpread {
     pub outside: usize,
 }
 
+/// Name of the protocol of a recorded share of F_a(0).
+#[must_use]
+pub fn protocol_name(share: Quantity) -> &'static str {
+    if share == Quantity::ZeroLoadAdhesionShare { "touch" } else { "zero force" }
+}
+
 impl Boundaries {
-    /// BoundarySpread of the boundaries of each protocol and share, in their order.
+    /// Symbol of the boundary.
+    #[must_use]
+    pub fn symbol(&self) -> &'static str {
+        match self.over {
+            RoughnessParameter::Kappa => "κ*",
+            RoughnessParameter::ElasticEnergyRatio => "(e_el/γ)*",
+        }
+    }
+
+    /// Spread of the boundaries of each protocol and share, in their order.
     #[must_use]
     pub fn spreads(&self) -> Vec<BoundarySpread> {
         let mut kinds: Vec<(Quantity, f64)> = Vec::new();

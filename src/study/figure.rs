@@ -50,12 +50,18 @@ pub struct FigureQuantity {
 impl From<Quantity> for FigureQuantity {
     fn from(quantity: Quantity) -> Self {
         FigureQuantity {
-            name: quantity.name().replace('_', " "),
+            name: in_words(quantity.name()),
             symbol: quantity.symbol().into(),
             unit: quantity.unit().into(),
             signed: quantity.is_signed(),
         }
     }
+}
+
+/// Name of a column as people write it.
+fn in_words(column: &str) -> String {
+    let hyphenated = [("zero load", "zero-load"), ("zero force", "zero-force"), ("pull off", "pull-off")];
+    hyphenated.iter().fold(column.replace('_', " "), |name, (words, word)| name.replace(words, word))
 }
 
 /// A mean over random lines with its confidence.

@@ -2,17 +2,15 @@
 
 use super::StudyError;
 use super::cell_summary::CellSummary;
+use super::merged::{Merged, sidecar};
 use super::plan::Plan;
 use super::plan_check::MOST_RECORDS;
 use super::publish::publish;
 use super::record::{Key, key_of, values_into};
 use super::statistics::StudentT;
 use super::store::{Folder, Lines, ShardFile};
-use super::tables::{
-    RESULTS, SIDECAR, SUMMARY, Sidecar, header, number, regime_name, row_start, summary_row,
-};
+use super::tables::{RESULTS, SIDECAR, SUMMARY, header, number, regime_name, row_start, summary_row};
 use crate::io::{WriteError, write_json_value, write_new_on};
-use serde::Serialize;
 use std::collections::BTreeSet;
 use std::io::{self, Write};
 use std::path::Path;
@@ -22,27 +20,6 @@ const MOST_NAMED: usize = 8;
 /// Bits of a place that tell the file; the others tell where in it.
 const FILE_BITS: u32 = 24;
 const NOWHERE: u64 = u64::MAX;
-
-/// Contents found by a merge.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-pub struct Merged {
-    /// Records there are, each counted once.
-    pub records: u64,
-    /// Records there are to be.
-    pub total: u64,
-    /// Records that were there more than once, bit for bit the same.
-    pub duplicates: u64,
-    /// Lines of shard files that were torn or damaged, and left out.
-    pub damaged: u64,
-    /// Cells of which lines are missing.
-    pub missing_cells: u64,
-    /// The first of them.
-    pub first_missing: Vec<u64>,
-    /// Files that hold records.
-    pub files: usize,
-    /// Versions of the program that wrote them.
-    pub programs: Vec<String>,
-}
 
 /// Place of every record.
 struct Index {
@@ -165,7 +142,7 @@ impl Index {
                 return Err(error);
             }
             written?;
-            let sidecar = Sidecar::of(folder.plan(), &self.merged);
+            let sidecar = sidecar(folder.plan(), &self.merged);
             Ok(write_new_on(folder.disk(), &place.join(SIDECAR), false, |out| {
                 write_json_value(out, &sidecar)
             })?)

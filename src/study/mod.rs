@@ -47,6 +47,7 @@ mod lines;
 pub mod map;
 mod measured;
 mod merge;
+mod merged;
 mod numbering;
 mod other_plan;
 #[cfg(feature = "parquet")]
@@ -72,7 +73,9 @@ mod tables;
 mod target;
 
 pub use axis::{Axis, MOST_VALUES};
-pub use boundary::{Boundaries, Boundary, BoundarySpread, Crossing, DEFINITIONS, USUAL_LEVELS, boundaries};
+pub use boundary::{
+    Boundaries, Boundary, BoundarySpread, Crossing, DEFINITIONS, USUAL_LEVELS, boundaries, protocol_name,
+};
 pub use builtin::{BuiltInPlan, find, plans};
 pub use cell_summary::{CellSummary, Spread};
 pub use error::StudyError;
@@ -80,7 +83,8 @@ pub use finished::{Finished, Row};
 pub use height_shape::HeightShape;
 pub(crate) use lines::solve_in_turn;
 pub use lines::{LineResult, LinesError, LinesSummary, RegimeCounts, solve_lines};
-pub use merge::{Merged, merge};
+pub use merge::merge;
+pub use merged::Merged;
 #[cfg(feature = "parquet")]
 pub use parquet::write_parquet;
 pub use plan::{Plan, StiffnessRange};

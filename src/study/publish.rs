@@ -15,9 +15,7 @@
 //! fewer files, never new ones beside old.
 
 use super::StudyError;
-use crate::disk::{Disk, make_folders};
-use crate::io::WriteError;
-use crate::io::without_waiting;
+use crate::io::{Disk, WriteError, make_folders, without_waiting};
 use std::ffi::OsString;
 use std::fs::{self, File};
 use std::io;

@@ -8,10 +8,9 @@ use super::record::{Key, encode};
 use super::recorder::{Recorder, Records};
 use super::shard::Shard;
 use super::solve::{Case, Next, SharedWork, Sink};
-use super::status::count;
+use super::status::{count, rate};
 use super::store::Folder;
-use crate::disk::DiskFile;
-use crate::io::WriteError;
+use crate::io::{DiskFile, WriteError};
 use crate::parallel::begin_threads;
 use crate::simulation::{RunError, Simulation};
 use std::ops::ControlFlow;
@@ -51,21 +50,21 @@ pub struct Progress {
     pub before: u64,
     /// Those there are to be.
     pub total: u64,
-    /// Time since the run began.
+    /// Time from the beginning of the file of this run to the last records in it.
     pub elapsed: Duration,
 }
 
 impl Progress {
-    /// Records each second.
+    /// Records each second, as [`super::Attempt::rate`]; `None` before the first record.
     #[must_use]
-    pub fn rate(&self) -> f64 {
-        (self.done - self.before) as f64 / self.elapsed.as_secs_f64().max(1e-9)
+    pub fn rate(&self) -> Option<f64> {
+        rate(self.done - self.before, self.elapsed.as_secs_f64())
     }
 
     /// Time left, by the rate so far; `None` before the first record.
     #[must_use]
     pub fn left(&self) -> Option<Duration> {
-        let seconds = (self.total - self.done) as f64 / self.rate();
+        let seconds = (self.total - self.done) as f64 / self.rate()?;
         Duration::try_from_secs_f64(seconds).ok()
     }
 }
@@ -84,8 +83,9 @@ struct Shared<'a> {
     folder: &'a Folder,
     cells: &'a Cells,
     done: Done,
-    /// Records that have reached the disk so far.
+    /// Records that have reached the disk so far, and the time they took since the file was made, ns.
     written: AtomicU64,
+    elapsed: AtomicU64,
     failed: AtomicBool,
     error: Mutex<Option<StudyError>>,
     stop: &'a (dyn Fn() -> bool + Sync),
@@ -102,23 +102,29 @@ pub fn run(
     stop: &(dyn Fn() -> bool + Sync),
     tell: &mut dyn FnMut(&Progress),
 ) -> Result<Ended, StudyError> {
-    let clock = Instant::now();
     let cells = Cells::of(folder.plan());
     let done = folder.done()?;
     let (total, before) = count(folder.plan(), &cells, &done, options.shard);
-    let progress =
-        |written: u64| Progress { done: before + written, before, total, elapsed: clock.elapsed() };
-    tell(&progress(0));
+    let progress = |written: u64, elapsed: u64| Progress {
+        done: before + written,
+        before,
+        total,
+        elapsed: Duration::from_nanos(elapsed),
+    };
+    tell(&progress(0, 0));
     if before == total {
-        return Ok(Ended { progress: progress(0), complete: true });
+        return Ok(Ended { progress: progress(0, 0), complete: true });
     }
     // Read once, so that all threads compute from the same bytes, whatever becomes of the file meanwhile.
     let profile = profile(folder.plan(), folder.path())?;
+    let clock = Instant::now();
     let (path, file) = folder.new_file(options.shard)?;
     let units = options.shard.units(cells.units()).map(|unit| cells.unit(unit));
     let work = &SharedWork::new(folder.plan(), &cells, units);
-    let (written, failed, error) = (AtomicU64::new(0), AtomicBool::new(false), Mutex::new(None));
-    let shared = &Shared { folder, cells: &cells, done, written, failed, error, stop };
+    let (written, elapsed) = (AtomicU64::new(0), AtomicU64::new(0));
+    let (failed, error) = (AtomicBool::new(false), Mutex::new(None));
+    let shared = &Shared { folder, cells: &cells, done, written, elapsed, failed, error, stop };
+    let now = || progress(shared.written.load(Ordering::SeqCst), shared.elapsed.load(Ordering::SeqCst));
     std::thread::scope(|scope| {
         let (sender, receiver) = sync_channel(WAITING);
         let begun = begin_threads(scope, options.jobs.max(1), move || {
@@ -134,13 +140,13 @@ pub fn run(
         if begun == 0 {
             shared.fail(StudyError::NoThread);
         }
-        shared.write(&path, file, receiver, &mut |written| tell(&progress(written)));
+        shared.write((path.as_path(), file), clock, receiver, &mut || tell(&now()));
     });
     let error = shared.error.lock().unwrap_or_else(PoisonError::into_inner).take();
     if let Some(error) = error {
         return Err(error);
     }
-    let progress = progress(shared.written.load(Ordering::SeqCst));
+    let progress = now();
     tell(&progress);
     Ok(Ended { progress, complete: progress.done == total })
 }
@@ -159,14 +165,14 @@ impl Shared<'_> {
     /// Only what has reached the disk is counted.
     fn write(
         &self,
-        path: &Path,
-        mut file: Box<dyn DiskFile>,
+        (path, mut file): (&Path, Box<dyn DiskFile>),
+        clock: Instant,
         receiver: Receiver<String>,
-        tell: &mut dyn FnMut(u64),
+        tell: &mut dyn FnMut(),
     ) {
         let mut synced = Instant::now();
         let mut told = Instant::now();
-        let mut pending = 0;
+        let (mut pending, mut elapsed) = (0, Duration::ZERO);
         let mut text = String::with_capacity(BUFFER);
         let failed = |reason| StudyError::Write(WriteError::Failed { path: PathBuf::from(path), reason });
         loop {
@@ -184,6 +190,7 @@ impl Shared<'_> {
                 if let Err(reason) = file.write_all(text.as_bytes()) {
                     return self.fail(failed(reason));
                 }
+                elapsed = clock.elapsed();
                 pending += text.bytes().filter(|&byte| byte == b'\n').count() as u64;
             }
             if pending > 0 && (ended || synced.elapsed() >= SYNC) {
@@ -191,10 +198,11 @@ impl Shared<'_> {
                     return self.fail(failed(reason));
                 }
                 self.written.fetch_add(pending, Ordering::SeqCst);
+                self.elapsed.store(elapsed.as_nanos() as u64, Ordering::SeqCst);
                 (synced, pending) = (Instant::now(), 0);
             }
             if told.elapsed() >= TICK {
-                tell(self.written.load(Ordering::SeqCst));
+                tell();
                 told = Instant::now();
             }
             if ended {

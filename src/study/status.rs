@@ -78,7 +78,7 @@ impl Status {
                 Ok(())
             })?;
             let Some(header) = file.header else { continue };
-            let seconds = file.written - header.started as f64;
+            let seconds = file.written - header.begun.unwrap_or(header.started as f64);
             attempts.entry(header.shard).or_default().push(Attempt {
                 file: file.path.file_name().map_or_else(String::new, |name| path_name(Path::new(name))),
                 host: printable(&header.host).into_owned(),
@@ -86,7 +86,7 @@ impl Status {
                 started: header.started,
                 written: file.written,
                 records,
-                rate: (seconds > 0.0).then(|| records as f64 / seconds),
+                rate: rate(records, seconds),
             });
         }
         let cells = Cells::of(plan);
@@ -98,6 +98,11 @@ impl Status {
         let (total, found) = (plan.records_in_all(), done.count());
         Ok(Status { done: found, total, missing: total - found, damaged, shards })
     }
+}
+
+/// Records each second, of a process that began this time, s, before it last wrote; `None` for no time.
+pub(super) fn rate(records: u64, seconds: f64) -> Option<f64> {
+    (seconds > 0.0).then(|| records as f64 / seconds)
 }
 
 /// The records of a part of a plan, and those of them that are there. All parts of a division together take as

@@ -12,9 +12,9 @@ use super::plan::{PLAN_FILE, Plan};
 use super::plan_text::Changes;
 use super::record::{Key, key_of, seal, unseal, values_into};
 use super::shard::Shard;
-use crate::disk::{Disk, DiskFile, SystemDisk, folder_of, make_folders};
-use crate::io::open_regular;
-use crate::io::{WriteError, write_new_on};
+use crate::io::{
+    Disk, DiskFile, SystemDisk, WriteError, folder_of, make_folders, open_regular, write_new_on,
+};
 use crate::scene::read_file;
 use serde::{Deserialize, Serialize};
 use std::fs::File;
@@ -56,6 +56,9 @@ pub struct Header {
     pub process: u32,
     /// When it began, s since 1970.
     pub started: u64,
+    /// The same with fractions of a second; files of earlier versions do not have it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub begun: Option<f64>,
     /// Version of the program.
     pub program: String,
     /// SHA-256 of the content of the study's measured file, where it has one.
@@ -185,7 +188,8 @@ impl Folder {
 
     /// A new shard file for this process, with its header.
     pub(super) fn new_file(&self, shard: Shard) -> Result<(PathBuf, Box<dyn DiskFile>), WriteError> {
-        let started = SystemTime::now().duration_since(UNIX_EPOCH).unwrap_or_default().as_secs();
+        let begun = SystemTime::now().duration_since(UNIX_EPOCH).unwrap_or_default();
+        let started = begun.as_secs();
         let (host, process) = (host(), std::process::id());
         let header = Header {
             format: STORE_VERSION,
@@ -194,6 +198,7 @@ impl Folder {
             host: host.clone(),
             process,
             started,
+            begun: Some(begun.as_secs_f64()),
             program: env!("CARGO_PKG_VERSION").into(),
             measured_sha256: self.plan.measured_sha256.clone(),
         };

@@ -1,13 +1,10 @@
-//! Columns and rows of the tables of a study, and the sidecar with their meanings.
+//! Columns and rows of the tables of a study.
 
-use super::axis::Axis;
 use super::cell_summary::CellSummary;
 use super::plan::Plan;
 use super::quantity::Quantity;
-use super::statistics::CONFIDENCE;
-use super::target::{Target, symbol_and_unit};
+use super::target::Target;
 use crate::analysis::Regime;
-use serde::Serialize;
 
 /// Version of the merged files.
 pub const RESULTS_VERSION: u32 = 1;
@@ -95,87 +92,6 @@ pub(super) fn summary_row(plan: &Plan, summary: &CellSummary) -> String {
         add(interval.map(|(_, high)| high));
     }
     row
-}
-
-/// The sidecar; its keys stand in the order of these fields.
-#[derive(Serialize)]
-pub(super) struct Sidecar<'a, M> {
-    format: u32,
-    program: String,
-    plan: PlanReport<'a>,
-    axes: Vec<AxisReport<'a>>,
-    preloads: Option<Vec<f64>>,
-    quantities: Vec<QuantityReport>,
-    cells: u64,
-    lines: u64,
-    first_seed: u64,
-    confidence: f64,
-    #[serde(flatten)]
-    merged: &'a M,
-}
-
-#[derive(Serialize)]
-struct PlanReport<'a> {
-    title: &'a str,
-    notice: &'a str,
-    scene: &'a crate::scene::Scene,
-    text: String,
-}
-
-#[derive(Serialize)]
-struct AxisReport<'a> {
-    path: &'a str,
-    symbol: &'static str,
-    unit: &'static str,
-    scale: &'static str,
-    values: Vec<f64>,
-}
-
-#[derive(Serialize)]
-struct QuantityReport {
-    name: &'static str,
-    symbol: &'static str,
-    unit: &'static str,
-    meaning: &'static str,
-}
-
-impl<'a, M> Sidecar<'a, M> {
-    /// The sidecar of a plan with the contents found by a merge.
-    pub fn of(plan: &'a Plan, merged: &'a M) -> Self {
-        let axis = |axis: &'a Axis| {
-            let (symbol, unit) = symbol_and_unit(axis.path());
-            let scale = match axis {
-                Axis::Linear { .. } => "linear",
-                Axis::Logarithmic { .. } => "logarithmic",
-                Axis::List { .. } => "list",
-            };
-            AxisReport { path: axis.path(), symbol, unit, scale, values: axis.values() }
-        };
-        let quantity = |quantity: &Quantity| QuantityReport {
-            name: quantity.name(),
-            symbol: quantity.symbol(),
-            unit: quantity.unit(),
-            meaning: quantity.meaning(),
-        };
-        Sidecar {
-            format: RESULTS_VERSION,
-            program: format!("{} {}", env!("CARGO_PKG_NAME"), env!("CARGO_PKG_VERSION")),
-            plan: PlanReport {
-                title: &plan.title,
-                notice: &plan.notice,
-                scene: &plan.scene,
-                text: plan.to_ron(),
-            },
-            axes: plan.axes.iter().map(axis).collect(),
-            preloads: plan.preloads.as_ref().map(Axis::values),
-            quantities: plan.record.iter().map(quantity).collect(),
-            cells: plan.cells(),
-            lines: plan.lines,
-            first_seed: plan.seed,
-            confidence: CONFIDENCE,
-            merged,
-        }
-    }
 }
 
 #[cfg(test)]

@@ -2,8 +2,7 @@
 //! or the machine ends: what was reported as done is there, and going on gives the bytes of an undisturbed study.
 mod disk;
 
-use asperity::disk::Disk;
-use asperity::io::write_new_on;
+use asperity::io::{Disk, write_new_on};
 use asperity::study::{
     Changes, Folder, Options, Plan, RESULTS, SIDECAR, SUMMARY, Shard, Status, StudyError, merge, run,
 };

@@ -1031,15 +1031,23 @@ fn scenes_are_drawn_and_pictures_hold_nothing_else() {
             run(&["jkr-sphere"], &["--format", "json", "-o", &picture]),
             "not an ending of what is written; allowed: .json",
         ),
-        (run(&["jkr-sphere"], &["-o", &path("a.gif")]), "allowed: .json, .csv, .npy, .svg, .png"),
+        (run(&["jkr-sphere"], &["-o", &path("a.gif")]), "allowed: .txt, .json, .csv, .npy, .svg, .png"),
         (run(&["jkr-sphere"], &["--profile", "-o", &other]), "only a picture shows --profile"),
         (run(&["jkr-sphere", "kendall-punch"], &["-o", &other]), "only a picture shows several scenes"),
         (run(&["jkr-sphere"], &["--lines", "2", "-o", &picture]), "--lines: a picture shows one profile"),
         (["line", "jkr-sphere", "-o", &picture].join("\0"), "allowed: .csv, .npy"),
-        (["check", "--quick", "-o", &picture].join("\0"), "allowed: .json"),
-        (["cost", "jkr-sphere", "-o", &path("a.png")].join("\0"), "allowed: .json, .csv, .svg"),
-        (["cost", "jkr-sphere", "--svg", &other].join("\0"), "allowed: .svg"),
-        (["surface", "missing.csv", "-o", &path("a.png")].join("\0"), "allowed: .json, .csv, .npy, .svg"),
+        (["check", "--quick", "-o", &picture].join("\0"), "allowed: .txt, .json"),
+        (["cost", "jkr-sphere", "-o", &path("a.gif")].join("\0"), "allowed: .txt, .json, .csv, .svg, .png"),
+        (["cost", "jkr-sphere", "--picture", &other].join("\0"), "allowed: .svg, .png"),
+        (["compare", "jkr-sphere", "cone", "-o", &path("a.pdf")].join("\0"), "allowed: .txt, .svg, .png"),
+        (
+            ["reversals", "jkr-sphere", "-o", &path("a.gif")].join("\0"),
+            "allowed: .txt, .json, .csv, .svg, .png",
+        ),
+        (
+            ["surface", "missing.csv", "-o", &path("a.gif")].join("\0"),
+            "allowed: .txt, .json, .csv, .npy, .svg",
+        ),
     ] {
         with(&command, &|arguments| {
             let told = failed(1, arguments);
@@ -1047,6 +1055,40 @@ fn scenes_are_drawn_and_pictures_hold_nothing_else() {
         });
     }
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), before, "nothing is written");
+}
+
+#[test]
+fn every_figure_is_written_as_svg_and_as_png_by_its_extension() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+    let heights: String = (0..256).map(|x| format!("{x},{}\n", (0.3 * f64::from(x)).sin())).collect();
+    fs::write(path("profile.csv"), heights).unwrap();
+    let profile = path("profile.csv");
+    let quick = ["--set", "numerics.points=256", "--set", "numerics.samples=16"];
+    let commands: [(&[&str], &[&str], &str); 5] = [
+        (&["run", "jkr-sphere"], &quick, "indentation"),
+        (&["compare", "jkr-sphere", "kendall-punch"], &quick, ">A<"),
+        (&["reversals", "jkr-sphere", "--count", "8", "--loops", "0"], &quick, "Everett function"),
+        (&["cost", "kendall-punch", "--budget", "1s"], &[], "time of a run"),
+        (&["surface", &profile, "--unit", "um"], &[], "wave number"),
+    ];
+    for (command, more, said) in commands {
+        for ending in ["svg", "png"] {
+            let file = path(&format!("{}.{ending}", command[0]));
+            assert_eq!(done(&[command, more, &["-o", &file]].concat()), "", "{command:?}");
+            let bytes = fs::read(&file).unwrap();
+            if ending == "png" {
+                assert!(bytes.starts_with(b"\x89PNG") && bytes.ends_with(b"IEND\xaeB`\x82"), "{command:?}");
+            } else {
+                let svg = String::from_utf8(bytes).unwrap();
+                assert!(svg.starts_with("<svg ") && svg.contains(said), "{command:?}: {svg}");
+            }
+        }
+    }
+    let beside = [path("cost.json"), path("beside.png")];
+    let command = ["cost", "kendall-punch", "--budget", "1s", "-o", &beside[0], "--picture", &beside[1]];
+    done(&command);
+    assert!(fs::read(&beside[1]).unwrap().starts_with(b"\x89PNG") && fs::exists(&beside[0]).unwrap());
 }
 
 /// Few springs, for a profile that is only looked at.

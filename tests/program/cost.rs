@@ -143,7 +143,7 @@ fn costs_go_to_files_that_are_not_overwritten() {
     let folder = tempfile::tempdir().unwrap();
     let path = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
     let (csv, svg) = (path("cost.csv"), path("cost.svg"));
-    let command = ["cost", "kendall-punch", "--budget", "1s", "-o", &csv, "--svg", &svg];
+    let command = ["cost", "kendall-punch", "--budget", "1s", "-o", &csv, "--picture", &svg];
     assert_eq!(done(&command), "");
     let rows = fs::read_to_string(&csv).unwrap();
     let columns = |row: &str| row.split(',').count();

@@ -62,6 +62,20 @@ fn compute(folder: &Folder, jobs: usize, shard: Shard) {
     assert!(ended.complete);
 }
 
+#[test]
+fn progress_and_status_state_the_same_rate() {
+    let plan = plan(SMALL);
+    let (_place, folder) = study(&plan);
+    let mut last = None;
+    let options = Options { jobs: 1, shard: Shard::WHOLE };
+    run(&folder, options, &|| false, &mut |progress| last = progress.rate()).unwrap();
+    let told = last.unwrap();
+    let there = Status::of(&folder).unwrap().shards[0].attempts[0].rate.unwrap();
+    // Times of files are those of the system's ticks.
+    let seconds = plan.records_in_all() as f64 / told;
+    assert!((told / there - 1.0).abs() <= 0.02 + 0.02 / seconds, "{told} and {there} per second");
+}
+
 fn tables(folder: &Folder) -> [String; 2] {
     [RESULTS, SUMMARY].map(|name| fs::read_to_string(folder.path().join(name)).unwrap())
 }

@@ -112,8 +112,10 @@ fn curves_lie_along_the_longer_axis_and_protocols_stand_side_by_side() {
     assert_eq!(text.matches("⠒●⠒ H = 0.1  ⠒■⠒ H = 0.5  ⠒▲⠒ H = 0.9").count(), 2, "{text}");
     assert!(text.contains("governing parameter κ") && !text.contains('↑'), "{text}");
     let picture = plot(&["-o", "-"]);
-    assert!(picture.contains("(a) zero load adhesion share"), "{picture}");
-    assert!(picture.contains("(b) zero force adhesion share"), "{picture}");
+    // Quantities with their symbols, which are typeset.
+    let symbol = r#"<tspan font-style="italic">F</tspan>"#;
+    assert!(picture.contains(&format!("(a) zero-load adhesion share {symbol}")), "{picture}");
+    assert!(picture.contains(&format!("(b) zero-force adhesion share {symbol}")), "{picture}");
     // Asked for, the short axis goes across, and it is a map.
     let map = plot(&["--x", "roughness.hurst"]);
     assert!(map.contains("↑ governing parameter κ"), "{map}");

@@ -1,71 +1,64 @@
 //! From no adhesion to adhesion that holds everything, and where forces or decisions hang by a hair.
 
 use super::{WORK, ensure, rough};
-use crate::check::case::{Case, Evidence, Family, Scope};
+use crate::check::case::{self, Case, Evidence, Family, Scope};
 use crate::check::{Body, Extended, Fault, end, follow, force_error};
 use crate::contact::Solver;
 use crate::scene::{Edges, Leg};
 use std::f64::consts::PI;
 
+/// Shared fields of the cases of this family.
+const CASE: Case = Case { family: Family::Adhesion, ..case::CASE };
+
 pub const CASES: &[Case] = &[
     Case {
         name: "no-adhesion",
-        family: Family::Adhesion,
         holds: "At γ = 0 unloading retraces loading bit for bit, and no energy is dissipated.",
         evidence: &[Evidence::SelfConsistency],
-        known_failure: None,
         error_of: "force, over the largest",
         scope: Scope::BothEdges(0.0, 0.0),
-        large: false,
         measure: no_adhesion,
+        ..CASE
     },
     Case {
         name: "vanishing-adhesion",
-        family: Family::Adhesion,
         holds: "For γ from 1e−280 to 1e−3 J/m² contact and forces follow the rules, and F(γ) goes to \
                 F(0) no slower than the longest stretch.",
         evidence: &[Evidence::IndependentComputation],
-        known_failure: None,
         error_of: "force and energy",
         scope: Scope::BothEdges(1e-15, 1e-15),
-        large: false,
         measure: vanishing_adhesion,
+        ..CASE
     },
     Case {
         name: "everything-sticks",
-        family: Family::Adhesion,
         holds: "Adhesion far beyond the roughness closes the whole profile at first touch and opens it at once, at \
                 the threshold of the deepest spring.",
         evidence: &[Evidence::ClosedForm],
-        known_failure: None,
         error_of: "force and place of pull-off",
         scope: Scope::BothEdges(2e-15, 2e-15),
-        large: false,
         measure: everything_sticks,
+        ..CASE
     },
     Case {
         name: "balance-at-full-contact",
-        family: Family::Adhesion,
         holds: "With all in contact and F = 0 a difference of sums, each F is right to the bound its \
                 documentation gives.",
         evidence: &[Evidence::IndependentComputation],
-        known_failure: None,
         error_of: "force, in documented units",
         scope: Scope::BothEdges(4e-16, 1e-15),
-        large: false,
         measure: balance,
+        ..CASE
     },
     Case {
         name: "preload-at-an-event",
-        family: Family::Adhesion,
         holds: "Loaded exactly to an attachment, or to a neighbouring number, the contact is that of the whole \
                 loading stage, and the force there is reached at that indentation.",
         evidence: &[Evidence::IndependentComputation],
-        known_failure: None,
         error_of: "force, in documented units",
         scope: Scope::BothEdges(4e-16, 1e-15),
-        large: false,
         measure: preload_at_an_event,
+        ..CASE
     },
 ];
 

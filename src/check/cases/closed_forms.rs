@@ -1,85 +1,75 @@
 //! Bodies whose loop is known in closed form.
 
 use super::ensure;
-use crate::check::case::{Case, Evidence, Family, Scope};
+use crate::check::case::{self, Case, Evidence, Family, Scope};
 use crate::check::{Body, Fault, end};
 use crate::contact::Foundation;
 use crate::reference::{PowerLaw, WavyLoop, WavySphere};
 use crate::scene::{Edges, Form, Leg};
 use crate::surface::Line;
 
+/// Shared fields of the cases of this family.
+const CASE: Case = Case { family: Family::ClosedForms, ..case::CASE };
+
 pub const CASES: &[Case] = &[
     Case {
         name: "hertz-sphere",
-        family: Family::ClosedForms,
         holds: "Without adhesion 4001 springs press a sphere by Hertz.",
         evidence: &[Evidence::ClosedForm],
-        known_failure: None,
         error_of: "force, over the largest",
         scope: Scope::BothEdges(2e-6, 2e-6),
-        large: false,
         measure: hertz,
+        ..CASE
     },
     Case {
         name: "jkr-sphere",
-        family: Family::ClosedForms,
         holds: "4001 springs pull a sphere off at (3/2)πγR and detach at the indentation of Johnson, Kendall and Roberts.",
         evidence: &[Evidence::ClosedForm],
-        known_failure: None,
         error_of: "force and place of pull-off",
         scope: Scope::BothEdges(1e-2, 1e-5),
-        large: false,
         measure: |edges| power_law(edges, Form::Paraboloid { radius: 1.0 }, 12.0, 1.5),
+        ..CASE
     },
     Case {
         name: "cone",
-        family: Family::ClosedForms,
         holds: "4001 springs pull a cone off at the force and the indentation of the closed form.",
         evidence: &[Evidence::ClosedForm],
-        known_failure: None,
         error_of: "force and place of pull-off",
         scope: Scope::BothEdges(1e-2, 1e-5),
-        large: false,
         measure: |edges| power_law(edges, Form::Cone { angle: 1.0 }, 16.0, 4.0),
+        ..CASE
     },
     Case {
         name: "seventh-power",
-        family: Family::ClosedForms,
         holds: "4001 springs pull a body r⁷, nearly flat with steep flanks, off at the force \
                 and the indentation of the closed form.",
         evidence: &[Evidence::ClosedForm],
-        known_failure: None,
         error_of: "force and place of pull-off",
         scope: Scope::BothEdges(1e-2, 1e-5),
-        large: false,
         measure: |edges| power_law(edges, Form::Power { coefficient: 0.3, exponent: 7.0 }, 8.0, 1.0),
+        ..CASE
     },
     Case {
         name: "wavy-sphere",
-        family: Family::ClosedForms,
         holds: "4001 springs load and unload a sphere with concentric waves by the jumps of the closed form.",
         evidence: &[Evidence::ClosedForm],
-        known_failure: None,
         error_of: "force and place of pull-off, dissipated energy",
         scope: Scope::BothEdges(1e-2, 1e-5),
-        large: false,
         measure: |edges| wavy_sphere(edges, GENTLE_WAVES, WavySphere::cycle),
+        ..CASE
     },
     Case {
         name: "wavy-sphere-steep",
-        family: Family::ClosedForms,
         holds: "4001 springs load and unload a sphere with waves so steep that inner springs detach first, by the closed \
                 form of the rule of Hess.",
         evidence: &[Evidence::ClosedForm],
-        known_failure: None,
         error_of: "force and place of pull-off, dissipated energy",
         scope: Scope::BothEdges(1e-2, 1e-4),
-        large: false,
         measure: |edges| wavy_sphere(edges, STEEP_WAVES, WavySphere::cycle_by_rule),
+        ..CASE
     },
     Case {
         name: "wavy-sphere-steep-jkr",
-        family: Family::ClosedForms,
         holds: "4001 springs load and unload the same sphere as the theory of Johnson, Kendall and Roberts does.",
         evidence: &[Evidence::ClosedForm],
         known_failure: Some(
@@ -88,8 +78,8 @@ pub const CASES: &[Case] = &[
         ),
         error_of: "force and place of pull-off, dissipated energy",
         scope: Scope::BothEdges(1e-2, 1e-4),
-        large: false,
         measure: |edges| wavy_sphere(edges, STEEP_WAVES, WavySphere::cycle),
+        ..CASE
     },
 ];
 

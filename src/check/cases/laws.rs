@@ -1,7 +1,7 @@
 //! Laws that hold for every body: mirrors, finer grids, memory, order, energy, and any number of threads.
 
 use super::{WORK, ensure, indices, points, rough};
-use crate::check::case::{Case, Evidence, Family, Scope};
+use crate::check::case::{self, Case, Evidence, Family, Scope};
 use crate::check::{Body, Fault, end, follow};
 use crate::contact::{CurvePoint, Foundation};
 use crate::scene::{Document, Edges, Leg};
@@ -14,107 +14,92 @@ use std::path::Path;
 /// Bodies on which a law is tried.
 const BODIES: u64 = 48;
 
+/// Shared fields of the cases of this family.
+const CASE: Case = Case { family: Family::Laws, ..case::CASE };
+
 pub const CASES: &[Case] = &[
     Case {
         name: "random-bodies",
-        family: Family::Laws,
         holds: "On 48 random bodies, self-affine, noise, few levels, random walks, contact and forces follow \
                 the rules.",
         evidence: &[Evidence::IndependentComputation],
-        known_failure: None,
         error_of: "force and energy",
         scope: Scope::BothEdges(1e-15, 1e-15),
-        large: false,
         measure: random_bodies,
+        ..CASE
     },
     Case {
         name: "thousand-legs",
-        family: Family::Laws,
         holds: "After each of a thousand random loading stages contact and forces follow the rules.",
         evidence: &[Evidence::IndependentComputation],
-        known_failure: None,
         error_of: "force and energy",
         scope: Scope::BothEdges(1e-15, 1e-15),
-        large: false,
         measure: thousand_legs,
+        ..CASE
     },
     Case {
         name: "return-point-memory",
-        family: Family::Laws,
         holds: "A minor loop closes to the last bit, and a deeper load erases the memory of earlier turning points.",
         evidence: &[Evidence::SelfConsistency],
-        known_failure: None,
         error_of: "force, over the scale",
         scope: Scope::BothEdges(0.0, 0.0),
-        large: false,
         measure: memory,
+        ..CASE
     },
     Case {
         name: "ordered-contact",
-        family: Family::Laws,
         holds: "At the same d more springs are in contact after a deeper load and on unloading than on loading, \
                 and pull-off is no weaker.",
         evidence: &[Evidence::SelfConsistency],
-        known_failure: None,
         error_of: "pull-off force, over the scale",
         scope: Scope::BothEdges(1e-15, 1e-15),
-        large: false,
         measure: order,
+        ..CASE
     },
     Case {
         name: "no-energy-for-nothing",
-        family: Family::Laws,
         holds: "No closed loop gains energy, and the energy dissipated from separation to separation is ∮F dd.",
         evidence: &[Evidence::SelfConsistency],
-        known_failure: None,
         error_of: "energy, over the scale",
         scope: Scope::BothEdges(1e-4, 1e-4),
-        large: false,
         measure: energy,
+        ..CASE
     },
     Case {
         name: "mirror",
-        family: Family::Laws,
         holds: "A mirrored profile has the mirrored contact and the same forces.",
         evidence: &[Evidence::SelfConsistency],
-        known_failure: None,
         error_of: "force, over the scale",
         scope: Scope::BothEdges(0.0, 1e-15),
-        large: false,
         measure: mirror,
+        ..CASE
     },
     Case {
         name: "refined-line",
-        family: Family::Laws,
         holds: "3, 5 and 9 times as many springs lie on the same profile.",
         evidence: &[Evidence::SelfConsistency],
-        known_failure: None,
         error_of: "height over rms height",
         scope: Scope::Line(2e-14),
-        large: false,
         measure: |_| refined_line(),
+        ..CASE
     },
     Case {
         name: "refined-cells",
-        family: Family::Laws,
         holds: "More springs on the same straight pieces change nothing but rounding.",
         evidence: &[Evidence::SelfConsistency],
-        known_failure: None,
         error_of: "force, over the scale",
         scope: Scope::OneKind(Edges::SubCell, 1e-14),
-        large: false,
         measure: |edges| refined_cells(edges),
+        ..CASE
     },
     Case {
         name: "any-number-of-threads",
-        family: Family::Laws,
         holds: "16 random profiles give the same bits with 1, 2, 3 and 8 threads.",
         evidence: &[Evidence::SelfConsistency],
-        known_failure: None,
         error_of: "figures with other bits",
         scope: Scope::BothEdges(0.0, 0.0),
-        large: false,
         measure: threads,
+        ..CASE
     },
 ];
 

@@ -1,7 +1,7 @@
 //! Lines: spectra at their ends, few springs and many, ties, chains, and heights on a large offset.
 
 use super::{SPECTRUM, WORK, ensure, rough};
-use crate::check::case::{Case, Evidence, Family, Scope};
+use crate::check::case::{self, Case, Evidence, Family, Scope};
 use crate::check::{Body, Extended, Fault, LENGTH, MODULUS, RMS_HEIGHT, end, follow, force_error};
 use crate::scene::{Edges, Form, Leg};
 use crate::surface::{Line, MeasuredProfile, SelfAffine, UnitRoughness, phases};
@@ -11,99 +11,86 @@ use std::fmt::Write;
 /// Offset of the heights, in units of their rms height.
 const OFFSET: f64 = 1e9;
 
+/// Shared fields of the cases of this family.
+const CASE: Case = Case { family: Family::Lines, ..case::CASE };
+
 pub const CASES: &[Case] = &[
     Case {
         name: "hurst-to-0",
-        family: Family::Lines,
         holds: "As H → 0, down to 1e−300, heights are the sum of their cosines, and the rms gradient goes to its \
                 limit.",
         evidence: &[Evidence::IndependentComputation],
-        known_failure: None,
         error_of: "height over rms height",
         scope: Scope::Line(2e-14),
-        large: false,
         measure: |_| hurst_to(0.0, &[1e-3, 1e-9, 1e-16, 1e-300]),
+        ..CASE
     },
     Case {
         name: "hurst-to-1",
-        family: Family::Lines,
         holds: "As H → 1, up to the last number before, heights are the sum of their cosines, and the rms \
                 gradient, also by eq. (13), goes to its limit.",
         evidence: &[Evidence::IndependentComputation],
-        known_failure: None,
         error_of: "height over rms height",
         scope: Scope::Line(2e-14),
-        large: false,
         measure: |_| hurst_to(1.0, &[0.999, 1.0 - 1e-9, 1.0_f64.next_down()]),
+        ..CASE
     },
     Case {
         name: "one-mode",
-        family: Family::Lines,
         holds: "A profile of one mode (first, inner, Nyquist) is one cosine, and contact and \
                 forces on it are those of the rules.",
         evidence: &[Evidence::ClosedForm, Evidence::IndependentComputation],
-        known_failure: None,
         error_of: "height, force and energy",
         scope: Scope::BothEdges(2e-14, 2e-14),
-        large: false,
         measure: one_mode,
+        ..CASE
     },
     Case {
         name: "modes-to-nyquist",
-        family: Family::Lines,
         holds: "With as many modes as springs allow, N even, odd, prime and a power of two, heights are the sum \
                 of their cosines.",
         evidence: &[Evidence::IndependentComputation],
-        known_failure: None,
         error_of: "height over rms height",
         scope: Scope::Line(2e-14),
-        large: false,
         measure: |_| modes_to_nyquist(),
+        ..CASE
     },
     Case {
         name: "springs-1-2-3-prime",
-        family: Family::Lines,
         holds: "With 1, 2, 3, 5, 17, 127 and 4099 springs contact and forces follow the rules.",
         evidence: &[Evidence::IndependentComputation],
-        known_failure: None,
         error_of: "force and energy",
         scope: Scope::BothEdges(1e-15, 1e-15),
-        large: false,
         measure: few_springs,
+        ..CASE
     },
     Case {
         name: "springs-2^24",
-        family: Family::Lines,
         holds: "With 2^24 springs and half as many modes, forces at the preload and at pull-off are the sums \
                 over the contact, and all springs that attach detach again.",
         evidence: &[Evidence::IndependentComputation],
-        known_failure: None,
         error_of: "force, in documented units",
         scope: Scope::BothEdges(4e-16, 1e-15),
         large: true,
         measure: many_springs,
+        ..CASE
     },
     Case {
         name: "flat-line",
-        family: Family::Lines,
         holds: "On a flat profile with equal gaps all springs attach and detach at once, at Kendall's force.",
         evidence: &[Evidence::ClosedForm],
-        known_failure: None,
         error_of: "force, indentation, energy",
         scope: Scope::BothEdges(2e-15, 2e-15),
-        large: false,
         measure: flat,
+        ..CASE
     },
     Case {
         name: "staircase",
-        family: Family::Lines,
         holds: "On 32 treads of 32 springs each, up, down, and up and down, contact and forces are those of the \
                 rules.",
         evidence: &[Evidence::IndependentComputation],
-        known_failure: None,
         error_of: "force and energy",
         scope: Scope::BothEdges(1e-15, 1e-15),
-        large: false,
         measure: |edges| {
             shapes(
                 edges,
@@ -117,17 +104,15 @@ pub const CASES: &[Case] = &[
                 ],
             )
         },
+        ..CASE
     },
     Case {
         name: "monotone-line",
-        family: Family::Lines,
         holds: "On straight and curved slopes, where the tree is one chain, contact and forces are those of the \
                 rules.",
         evidence: &[Evidence::IndependentComputation],
-        known_failure: None,
         error_of: "force and energy",
         scope: Scope::BothEdges(1e-15, 1e-15),
-        large: false,
         measure: |edges| {
             shapes(
                 edges,
@@ -139,17 +124,15 @@ pub const CASES: &[Case] = &[
                 ],
             )
         },
+        ..CASE
     },
     Case {
         name: "sawtooth",
-        family: Family::Lines,
         holds: "On equal teeth of 2, 3 and 64 springs, leaning left or right, contact and forces are those of \
                 the rules.",
         evidence: &[Evidence::IndependentComputation],
-        known_failure: None,
         error_of: "force and energy",
         scope: Scope::BothEdges(1e-15, 1e-15),
-        large: false,
         measure: |edges| {
             shapes(
                 edges,
@@ -161,43 +144,38 @@ pub const CASES: &[Case] = &[
                 ],
             )
         },
+        ..CASE
     },
     Case {
         name: "near-ties",
-        family: Family::Lines,
         holds: "On tents and plateaus whose gaps differ by roundings, without adhesion and with, pressed up to a \
                 hundred times their depth, contact and forces follow the rules.",
         evidence: &[Evidence::IndependentComputation],
-        known_failure: None,
         error_of: "force and energy",
         scope: Scope::BothEdges(1e-15, 1e-15),
-        large: false,
         measure: near_ties,
+        ..CASE
     },
     Case {
         name: "load-far-beyond-roughness",
-        family: Family::Lines,
         holds: "Pressed by 1 to 1e30 times their depth, to an indentation or to a force, without adhesion and with, \
                 rough and smooth bodies are in contact over a length that only grows, up to the whole profile, and \
                 carry the force of all springs.",
         evidence: &[Evidence::IndependentComputation],
-        known_failure: None,
         error_of: "force, over the effect of a rounding of the indentation",
         scope: Scope::BothEdges(4.0, 4.0),
-        large: false,
         measure: far_beyond_roughness,
+        ..CASE
     },
     Case {
         name: "height-offset-1e9",
-        family: Family::Lines,
         holds: "A measured profile with an offset of 1e9 rms heights has the rms height, rms gradient and gaps of \
                 its own roughness.",
         evidence: &[Evidence::IndependentComputation],
-        known_failure: None,
         error_of: "statistics and gaps",
         scope: Scope::Line(1e-13),
-        large: false,
         measure: |_| offset(),
+        ..CASE
     },
 ];
 

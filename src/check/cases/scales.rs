@@ -1,71 +1,64 @@
 //! Units and sizes: results scale with their units, up to the ends of the range of numbers.
 
 use super::{Body, WORK, ensure, points, rough, same_bits};
-use crate::check::case::{Case, Evidence, Family, Scope};
+use crate::check::case::{self, Case, Evidence, Family, Scope};
 use crate::check::{Fault, LENGTH, RMS_HEIGHT, end, follow};
 use crate::contact::{Foundation, History};
 use crate::scene::{Adhesion, Document, Edges, Leg, Roughness, Scene};
 use crate::simulation::Simulation;
 
+/// Shared fields of the cases of this family.
+const CASE: Case = Case { family: Family::Scales, ..case::CASE };
+
 pub const CASES: &[Case] = &[
     Case {
         name: "modulus-1-pa-to-10-tpa",
-        family: Family::Scales,
         holds: "E* and γ scaled alike, from 1 Pa to 8.8 TPa, change no bit of contact and forces; at 1 Pa and \
                 10 TPa with the same γ both follow the rules.",
         evidence: &[Evidence::IndependentComputation, Evidence::SelfConsistency],
-        known_failure: None,
         error_of: "force and energy",
         scope: Scope::BothEdges(1e-15, 1e-15),
-        large: false,
         measure: modulus,
+        ..CASE
     },
     Case {
         name: "lengths-nm-to-m",
-        family: Family::Scales,
         holds: "A scene from 1 nm to 8.6 m long, all lengths scaled, gives one result bit for bit; made anew at \
                 1 nm, 1 µm, 1 mm and 10 m, contact and forces follow the rules.",
         evidence: &[Evidence::IndependentComputation, Evidence::SelfConsistency],
-        known_failure: None,
         error_of: "force and energy",
         scope: Scope::BothEdges(1e-15, 1e-15),
-        large: false,
         measure: lengths,
+        ..CASE
     },
     Case {
         name: "heights-1e-15-to-10-lengths",
-        family: Family::Scales,
         holds: "A scene with an rms height from 1e−15 to 8 lengths, γ with its square, is one scene to the last \
                 bit; at one γ contact and forces follow the rules for all of them.",
         evidence: &[Evidence::IndependentComputation, Evidence::SelfConsistency],
-        known_failure: None,
         error_of: "force and energy",
         scope: Scope::BothEdges(1e-15, 1e-15),
-        large: false,
         measure: heights,
+        ..CASE
     },
     Case {
         name: "subnormal-gaps",
-        family: Family::Scales,
         holds: "Heights down to subnormal numbers give finite, ordered curves, forces within 2⁻¹⁰⁰⁰ m for each \
                 spring, and to 2⁻⁴⁰⁰ the same bits.",
         evidence: &[Evidence::SelfConsistency],
-        known_failure: None,
         error_of: "force, over n Δk 2⁻¹⁰⁰⁰ m",
         scope: Scope::BothEdges(1.0, 1.0),
-        large: false,
         measure: subnormal,
+        ..CASE
     },
     Case {
         name: "near-overflow",
-        family: Family::Scales,
         holds: "Heights up to 1e294 m only scale, to the last bit; with adhesion up to 1e128 m.",
         evidence: &[Evidence::SelfConsistency],
-        known_failure: None,
         error_of: "force",
         scope: Scope::BothEdges(0.0, 0.0),
-        large: false,
         measure: near_overflow,
+        ..CASE
     },
 ];
 

@@ -1,12 +1,13 @@
 //! `asperity sweep boundary`: where adhesion without a preload vanishes.
 
-use super::boundary_terms::{BoundaryFormat, protocol, symbol};
 use super::spread;
-use crate::cli::CliError;
+use crate::cli::{CliError, Format};
 use crate::export::sheet::Sheet;
 use crate::io::write_json_value;
 use crate::scene::RoughnessParameter;
-use crate::study::{Boundaries, Boundary, Crossing, DEFINITIONS, Quantity, USUAL_LEVELS, boundaries};
+use crate::study::{
+    Boundaries, Boundary, Crossing, DEFINITIONS, Quantity, USUAL_LEVELS, boundaries, protocol_name,
+};
 use clap::Args;
 use serde_json::{Map, Value, json};
 use std::io::Write;
@@ -43,9 +44,12 @@ pub struct BoundaryArguments {
     #[arg(long, conflicts_with = "over")]
     pub spread: bool,
     /// text, json, csv or markdown
-    #[arg(long, value_enum, hide_possible_values = true, default_value_t = BoundaryFormat::Text)]
-    pub format: BoundaryFormat,
+    #[arg(long, value_parser = Format::parser(FORMATS), hide_possible_values = true, default_value = "text")]
+    pub format: Format,
 }
+
+/// Formats of boundaries: a table, one object, a row for each boundary, tables for a document.
+const FORMATS: &[Format] = &[Format::Text, Format::Json, Format::Csv, Format::Markdown];
 
 fn level(text: &str) -> Result<f64, String> {
     let level = text.trim().parse::<f64>().ok().filter(|level| *level > 0.0 && *level < 1.0);
@@ -70,10 +74,10 @@ pub(super) fn boundary(arguments: &BoundaryArguments, stdout: &mut dyn Write) ->
     }
     let boundaries = boundaries(&arguments.folder, arguments.over, &levels)?;
     match arguments.format {
-        BoundaryFormat::Text => stdout.write_all(text(&boundaries).as_bytes())?,
-        BoundaryFormat::Json => write_json_value(stdout, &object(&boundaries))?,
-        BoundaryFormat::Csv => stdout.write_all(csv(&boundaries).as_bytes())?,
-        BoundaryFormat::Markdown => stdout.write_all(markdown(&boundaries, &levels).as_bytes())?,
+        Format::Text => stdout.write_all(text(&boundaries).as_bytes())?,
+        Format::Json => write_json_value(stdout, &object(&boundaries))?,
+        Format::Csv => stdout.write_all(csv(&boundaries).as_bytes())?,
+        _ => stdout.write_all(markdown(&boundaries, &levels).as_bytes())?,
     }
     Ok(())
 }
@@ -101,7 +105,7 @@ fn shown(crossing: Crossing) -> (String, String) {
 fn text(boundaries: &Boundaries) -> String {
     let is_kappa = boundaries.over == RoughnessParameter::Kappa;
     let mut heading = boundaries.others.clone();
-    heading.extend(["protocol", "level", symbol(boundaries.over), "95 %"].map(String::from));
+    heading.extend(["protocol", "level", boundaries.symbol(), "95 %"].map(String::from));
     heading.extend(is_kappa.then(|| "q in 1/m".into()));
     let mut rows = vec![heading];
     for Boundary { others, protocol: quantity, level, crossing } in &boundaries.found {
@@ -111,14 +115,14 @@ fn text(boundaries: &Boundaries) -> String {
             Crossing::At(kappa, _) => format!("{:.2}", DEFINITIONS[1].1 * kappa),
             _ => String::new(),
         };
-        row.extend([protocol(*quantity).to_string(), level.to_string(), value, interval]);
+        row.extend([protocol_name(*quantity).to_string(), level.to_string(), value, interval]);
         row.extend(is_kappa.then_some(cycles));
         rows.push(row);
     }
     let mut sheet = Sheet::default();
     sheet.table(&rows);
     let paper = if is_kappa { "; the paper gives 0.6" } else { "" };
-    sheet.paragraph(&format!("{} over {} random lines{paper}.", symbol(boundaries.over), boundaries.lines));
+    sheet.paragraph(&format!("{} over {} random lines{paper}.", boundaries.symbol(), boundaries.lines));
     sheet.into_text()
 }
 
@@ -128,7 +132,7 @@ fn object(boundaries: &Boundaries) -> Value {
         for (name, value) in boundaries.others.iter().zip(&boundary.others) {
             object.insert(name.clone(), json!(value));
         }
-        object.insert("protocol".into(), json!(protocol(boundary.protocol)));
+        object.insert("protocol".into(), json!(protocol_name(boundary.protocol)));
         object.insert("level".into(), json!(boundary.level));
         match boundary.crossing {
             Crossing::At(value, interval) => {
@@ -155,7 +159,7 @@ fn markdown(boundaries: &Boundaries, levels: &[f64]) -> String {
     let Boundaries { others, found, .. } = boundaries;
     let down = |boundary: &Boundary| boundary.others.first().copied();
     let (mut rows, mut columns) = (Vec::new(), Vec::new());
-    for protocol in [Quantity::ZeroLoadAdhesionShare, Quantity::ZeroForceAdhesionShare] {
+    for protocol in Quantity::ADHESION_SHARES {
         for boundary in found.iter().filter(|boundary| boundary.protocol == protocol) {
             let column = (protocol, boundary.others.get(1..).unwrap_or_default());
             if !columns.contains(&column) {
@@ -168,11 +172,11 @@ fn markdown(boundaries: &Boundaries, levels: &[f64]) -> String {
     }
     let heading = |(one, values): &(Quantity, &[f64])| {
         let values = others.iter().skip(1).zip(*values).map(|(name, value)| format!(", {name} = {value}"));
-        format!(" {}{} |", protocol(*one), values.collect::<String>().replace('*', "\\*"))
+        format!(" {}{} |", protocol_name(*one), values.collect::<String>().replace('*', "\\*"))
     };
     let mut tables = Vec::new();
     for level in levels {
-        let boundary = symbol(boundaries.over).replace('*', "\\*");
+        let boundary = boundaries.symbol().replace('*', "\\*");
         let mut table = format!("{boundary} at which F_a(0) falls below {level} F_a,max:\n\n");
         let name = others.first().map_or("", String::as_str).replace('*', "\\*");
         table += &format!("| {name} |{}\n", columns.iter().map(heading).collect::<String>());
@@ -208,7 +212,7 @@ fn csv(boundaries: &Boundaries) -> String {
     let mut text = heading.join(",") + "\n";
     for Boundary { others, protocol: quantity, level, crossing } in &boundaries.found {
         let mut row: Vec<String> = others.iter().map(ToString::to_string).collect();
-        row.extend([protocol(*quantity).to_string(), level.to_string()]);
+        row.extend([protocol_name(*quantity).to_string(), level.to_string()]);
         let (at, interval, below, above) = match *crossing {
             Crossing::At(value, interval) => (Some(value), interval, None, None),
             Crossing::Below(smallest) => (None, None, Some(smallest), None),

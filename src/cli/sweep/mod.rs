@@ -1,7 +1,6 @@
 //! `asperity sweep`: parameter studies.
 
 mod boundary;
-mod boundary_terms;
 mod merge;
 mod plans;
 mod plot;

@@ -1,10 +1,10 @@
 //! `asperity sweep plans`: what comes with the program.
 
-use crate::cli::CliError;
+use crate::cli::{CliError, Format};
 use crate::export::sheet::Sheet;
 use crate::io::write_json_value;
 use crate::study::{Changes, Plan, PlanErrors, StudyError, find, plans as built_in};
-use clap::{Args, ValueEnum};
+use clap::Args;
 use serde::Serialize;
 use std::io::Write;
 
@@ -20,18 +20,12 @@ pub struct PlansArguments {
     /// Print the text of this plan, to start one's own from
     pub name: Option<String>,
     /// Format of the list
-    #[arg(long, value_enum, default_value_t = PlansFormat::Text, conflicts_with = "name")]
-    pub format: PlansFormat,
+    #[arg(long, value_parser = Format::parser(FORMATS), default_value = "text", conflicts_with = "name")]
+    pub format: Format,
 }
 
-/// Formats of the list of plans.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum PlansFormat {
-    /// Name, size and title in columns.
-    Text,
-    /// Objects with name, title, notice, cells and lines.
-    Json,
-}
+/// Formats of the list: name, size and title in columns, or objects.
+const FORMATS: &[Format] = &[Format::Text, Format::Json];
 
 /// A plan in the list.
 #[derive(Serialize)]
@@ -60,8 +54,8 @@ pub(super) fn plans(arguments: &PlansArguments, stdout: &mut dyn Write) -> Resul
         listed.push(Listed { name: one.name, title: plan.title, notice: plan.notice, cells, lines });
     }
     match arguments.format {
-        PlansFormat::Json => write_json_value(stdout, &listed)?,
-        PlansFormat::Text => {
+        Format::Json => write_json_value(stdout, &listed)?,
+        _ => {
             let row = |plan: Listed| {
                 [plan.name.into(), format!("{} cells × {} lines", plan.cells, plan.lines), plan.title]
             };

@@ -1,8 +1,6 @@
 //! `asperity sweep plot`: figures of a merged study.
 
-use crate::cli::output::text_for_reader;
-use crate::cli::{CliError, OutputArguments};
-use crate::draw::{figure_png, figure_svg};
+use crate::cli::{CliError, Format, OutputArguments};
 use crate::export::study_figure;
 use crate::study::figure::AxisScale;
 use crate::study::{Finished, Selection};
@@ -65,16 +63,8 @@ pub enum PlotScale {
     Logarithmic,
 }
 
-/// Format of a figure.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Picture {
-    Text,
-    Svg,
-    Png,
-}
-
-/// Endings of files in each format.
-const ENDINGS: [(&str, Picture); 3] = [("svg", Picture::Svg), ("png", Picture::Png), ("txt", Picture::Text)];
+/// Formats of a figure.
+const FORMATS: &[Format] = &[Format::Svg, Format::Png, Format::Text];
 
 fn fixed(text: &str) -> Result<(String, String), String> {
     let parts = text.split_once('=').map(|(axis, value)| (axis.trim(), value.trim()));
@@ -87,8 +77,8 @@ fn fixed(text: &str) -> Result<(String, String), String> {
 pub(super) fn plot(arguments: &PlotArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
     // `-o -` is an SVG into a pipe.
     let is_text = arguments.text || arguments.output.output.is_none();
-    let usual = if is_text { Picture::Text } else { Picture::Svg };
-    let format = arguments.output.format(arguments.text.then_some(Picture::Text), &ENDINGS, usual)?;
+    let usual = if is_text { Format::Text } else { Format::Svg };
+    let format = arguments.output.format(arguments.text.then_some(Format::Text), FORMATS, usual)?;
     let study = Finished::open(&arguments.folder)?;
     let selection = Selection {
         quantities: arguments.quantities.clone(),
@@ -100,12 +90,5 @@ pub(super) fn plot(arguments: &PlotArguments, stdout: &mut dyn Write) -> Result<
             PlotScale::Logarithmic => AxisScale::Logarithmic,
         }),
     };
-    let figure = study_figure(&selection.figure(&study)?);
-    let to_file = arguments.output.file().is_some();
-    let picture = match format {
-        Picture::Text => text_for_reader(&figure, !to_file).into_bytes(),
-        Picture::Svg => figure_svg(&figure).into_bytes(),
-        Picture::Png => figure_png(&figure)?,
-    };
-    arguments.output.write(stdout, |out| out.write_all(&picture))
+    arguments.output.write_figure(stdout, &study_figure(&selection.figure(&study)?), format)
 }

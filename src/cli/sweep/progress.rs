@@ -1,39 +1,32 @@
-//! Progress of a study on standard error: on a terminal one line that changes, elsewhere a line now and then.
+//! Progress of a study: a line of text, printed now and then where there is no terminal.
 
+use crate::cli::progress::ProgressLine;
 use crate::study::Progress;
-use std::io::{self, IsTerminal, Write};
 use std::time::{Duration, Instant};
 
 /// Time between two lines where there is no terminal.
 const BETWEEN: Duration = Duration::from_secs(10);
 
-/// Tells progress.
+/// Progress of a study on standard error.
 #[derive(Default)]
-pub(super) struct Teller {
+pub(super) struct StudyProgress {
+    line: ProgressLine,
     last: Option<Instant>,
-    drawn: bool,
 }
 
-impl Teller {
-    pub fn tell(&mut self, progress: &Progress) {
-        let mut stderr = io::stderr();
+impl StudyProgress {
+    pub fn show(&mut self, progress: &Progress) {
         let text = text(progress);
-        // Who cannot be told does without.
-        let _ = if stderr.is_terminal() {
-            self.drawn = true;
-            write!(stderr, "\r\x1b[K{text}").and_then(|()| stderr.flush())
-        } else if progress.done == progress.total || self.last.is_none_or(|last| last.elapsed() >= BETWEEN) {
+        let is_due =
+            progress.done == progress.total || self.last.is_none_or(|last| last.elapsed() >= BETWEEN);
+        if is_due {
             self.last = Some(Instant::now());
-            writeln!(stderr, "{text}")
-        } else {
-            Ok(())
-        };
+        }
+        self.line.show(&text, is_due.then_some(&text));
     }
 
     pub fn end(&self) {
-        if self.drawn {
-            let _ = writeln!(io::stderr());
-        }
+        self.line.keep();
     }
 }
 
@@ -41,8 +34,9 @@ fn text(progress: &Progress) -> String {
     let Progress { done, before, total, elapsed: _ } = *progress;
     let share = if total == 0 { 100.0 } else { 100.0 * done as f64 / total as f64 };
     let mut text = format!("{done} of {total} records, {share:.1} %");
-    if done > before {
-        text.push_str(&format!(", {} per second", Rounded(progress.rate())));
+    if let Some(rate) = progress.rate().filter(|_| done > before) {
+        let decimals = if rate >= 100.0 { 0 } else { 2 };
+        text.push_str(&format!(", {rate:.decimals$} per second"));
         if let Some(left) = progress.left().filter(|_| done < total) {
             text.push_str(&format!(", {} left", duration(left)));
         }
@@ -50,16 +44,6 @@ fn text(progress: &Progress) -> String {
         text.push_str(" were there before");
     }
     text
-}
-
-/// A rate with few digits.
-struct Rounded(f64);
-
-impl std::fmt::Display for Rounded {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let decimals = if self.0 >= 100.0 { 0 } else { 2 };
-        write!(f, "{:.decimals$}", self.0)
-    }
 }
 
 fn duration(time: Duration) -> String {

@@ -1,11 +1,12 @@
 //! `asperity sweep PLAN`: computes a study, or what is missing of it.
 
 use super::merge::tell_merged;
-use super::progress::Teller;
+use super::progress::StudyProgress;
 use crate::cli::{CliError, Overrides};
 use crate::scene::Scene;
 use crate::simulation;
 use crate::study::{Changes, Folder, Options, Plan, Shard, StudyError, merge, run as compute};
+use crate::text::memory_size;
 use clap::Args;
 use std::io::{self, Write};
 use std::path::PathBuf;
@@ -111,7 +112,10 @@ pub(super) fn run(arguments: &SweepRunArguments, stdout: &mut dyn Write) -> Resu
     let mut jobs = wanted;
     if let Some(most) = arguments.memory {
         if memory.of_jobs(1) > most {
-            return Err(CliError::TooLittleMemory { most: bytes(most), least: bytes(memory.of_jobs(1)) });
+            return Err(CliError::TooLittleMemory {
+                most: memory_size(most),
+                least: memory_size(memory.of_jobs(1)),
+            });
         }
         jobs = jobs.min((most - memory.shared) / memory.job.max(1)).max(1);
     }
@@ -125,7 +129,7 @@ pub(super) fn run(arguments: &SweepRunArguments, stdout: &mut dyn Write) -> Resu
         plan.lines,
         if plan.lines == 1 { "line" } else { "lines" },
         plan.records_in_all(),
-        bytes(memory.of_jobs(jobs))
+        memory_size(memory.of_jobs(jobs))
     );
     if arguments.check {
         writeln!(stdout, "{told}")?;
@@ -135,13 +139,13 @@ pub(super) fn run(arguments: &SweepRunArguments, stdout: &mut dyn Write) -> Resu
     let Some(output) = &arguments.output else { return Ok(()) };
     let folder = Folder::create(output, &plan)?;
     let stop = stop_by_signal()?;
-    let mut teller = Teller::default();
+    let mut shown = StudyProgress::default();
     let options = Options { jobs: jobs as usize, shard: arguments.shard.unwrap_or(Shard::WHOLE) };
     let signal = || stop.load(Ordering::SeqCst);
     let ended = compute(&folder, options, &|| signal() != 0, &mut |progress| {
-        teller.tell(progress);
+        shown.show(progress);
     });
-    teller.end();
+    shown.end();
     let ended = ended?;
     if !ended.complete {
         let (done, total) = (ended.progress.done, ended.progress.total);
@@ -168,19 +172,6 @@ fn stop_by_signal() -> Result<Arc<AtomicUsize>, CliError> {
         }
     }
     Ok(first)
-}
-
-/// Bytes as people read them.
-fn bytes(count: u64) -> String {
-    let units = ["B", "KiB", "MiB", "GiB", "TiB"];
-    let mut size = count as f64;
-    let mut unit = 0;
-    while size >= 1024.0 && unit + 1 < units.len() {
-        size /= 1024.0;
-        unit += 1;
-    }
-    let decimals = usize::from(unit > 0 && size < 10.0);
-    format!("{size:.decimals$} {}", units[unit])
 }
 
 #[cfg(test)]

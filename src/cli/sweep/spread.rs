@@ -1,22 +1,17 @@
 //! `asperity sweep boundary --spread`: how far the boundaries of a study lie apart.
 
-use super::boundary_terms::{BoundaryFormat, protocol, symbol};
-use crate::cli::CliError;
+use crate::cli::{CliError, Format};
 use crate::export::sheet::Sheet;
 use crate::io::write_json_value;
-use crate::study::{Boundaries, BoundarySpread};
+use crate::study::{Boundaries, BoundarySpread, protocol_name};
 use serde_json::{Map, Value, json};
 use std::io::Write;
 
 /// Writes the spread of the same boundaries in several parameters.
-pub(super) fn write(
-    stdout: &mut dyn Write,
-    found: &[Boundaries],
-    format: BoundaryFormat,
-) -> Result<(), CliError> {
+pub(super) fn write(stdout: &mut dyn Write, found: &[Boundaries], format: Format) -> Result<(), CliError> {
     let lines = found.first().map_or(0, |boundaries| boundaries.lines);
     match format {
-        BoundaryFormat::Text => {
+        Format::Text => {
             let mut sheet = Sheet::default();
             sheet.table(&table(found));
             sheet.paragraph(&format!(
@@ -25,12 +20,12 @@ pub(super) fn write(
             ));
             stdout.write_all(sheet.into_text().as_bytes())?;
         }
-        BoundaryFormat::Json => write_json_value(stdout, &objects(found))?,
-        BoundaryFormat::Csv => {
+        Format::Json => write_json_value(stdout, &objects(found))?,
+        Format::Csv => {
             let rows: Vec<_> = table(found).iter().map(|row| row.join(",") + "\n").collect();
             stdout.write_all(rows.concat().as_bytes())?;
         }
-        BoundaryFormat::Markdown => {
+        _ => {
             let mut rows: Vec<_> =
                 table(found).iter().map(|row| format!("| {} |\n", row.join(" | "))).collect();
             let columns = 6 + found.first().map_or(0, |boundaries| boundaries.others.len());
@@ -53,9 +48,9 @@ fn table(found: &[Boundaries]) -> Vec<Vec<String>> {
         for (boundaries, spreads) in found.iter().zip(&spreads) {
             let Some(spread) = spreads.get(place) else { continue };
             let mut row = vec![
-                protocol(spread.protocol).to_string(),
+                protocol_name(spread.protocol).to_string(),
                 spread.level.to_string(),
-                symbol(boundaries.over).to_string(),
+                boundaries.symbol().to_string(),
             ];
             row.extend(numbers(spread));
             rows.push(row);
@@ -90,7 +85,7 @@ fn objects(found: &[Boundaries]) -> Value {
                 .zip(spread.along.iter().map(|ratio| json!(ratio)))
                 .collect();
             json!({
-                "protocol": protocol(spread.protocol),
+                "protocol": protocol_name(spread.protocol),
                 "level": spread.level,
                 "over": boundaries.over.name(),
                 "range": spread.range.map(|(smallest, largest)| [smallest, largest]),

@@ -1,11 +1,11 @@
 //! `asperity sweep status`: how far a study is.
 
-use crate::cli::CliError;
+use crate::cli::{CliError, Format};
 use crate::export::sheet::Sheet;
 use crate::io::write_json_value;
 use crate::study::{Folder, Status};
 use crate::text::grouped;
-use clap::{Args, ValueEnum};
+use clap::Args;
 use std::io::Write;
 use std::path::PathBuf;
 
@@ -22,26 +22,20 @@ pub struct StatusArguments {
     #[arg(value_name = "DIR")]
     pub folder: PathBuf,
     /// Output format
-    #[arg(long, value_enum, default_value_t = StatusFormat::Text)]
-    pub format: StatusFormat,
+    #[arg(long, value_parser = Format::parser(FORMATS), default_value = "text")]
+    pub format: Format,
 }
 
-/// Formats of a status.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum StatusFormat {
-    /// A table.
-    Text,
-    /// One object.
-    Json,
-}
+/// Formats of a status: a table, or one object.
+const FORMATS: &[Format] = &[Format::Text, Format::Json];
 
-/// Tells how far a study is.
+/// Shows the progress of a study.
 pub(super) fn status(arguments: &StatusArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
     let folder = Folder::open(&arguments.folder)?;
     let status = Status::of(&folder)?;
     match arguments.format {
-        StatusFormat::Json => write_json_value(stdout, &status)?,
-        StatusFormat::Text => stdout.write_all(text(&folder, &status).as_bytes())?,
+        Format::Json => write_json_value(stdout, &status)?,
+        _ => stdout.write_all(text(&folder, &status).as_bytes())?,
     }
     Ok(())
 }

@@ -317,7 +317,7 @@ mod tests {
 
     fn chart(layers: Vec<Layer>) -> Chart {
         let (x, y) = (axis(-1.3e-7, 6.4e-7, "d", "m"), axis(-2.1e-5, 1.2e-5, "F", "N"));
-        Chart { heading: String::new(), x, y, layers, inset: None }
+        Chart::new(x, y, layers)
     }
 
     fn drawn(chart: &Chart, (width, height): (u16, u16), marker: Marker) -> (CellPlot, Buffer) {
@@ -368,13 +368,11 @@ mod tests {
             columns: columns.clone(),
             rows: rows.clone(),
         };
-        let chart = Chart {
-            heading: String::new(),
-            x: Axis::new(AxisScale::Linear, span(AxisScale::Linear, &columns), "", "H", "1"),
-            y: Axis::new(AxisScale::Logarithmic, span(AxisScale::Logarithmic, &rows), "", "κ", "1"),
-            layers: vec![Layer::unnamed(Ink::Text, Shape::Map(Box::new(map.clone())))],
-            inset: None,
-        };
+        let chart = Chart::new(
+            Axis::new(AxisScale::Linear, span(AxisScale::Linear, &columns), "", "H", "1"),
+            Axis::new(AxisScale::Logarithmic, span(AxisScale::Logarithmic, &rows), "", "κ", "1"),
+            vec![Layer::unnamed(Ink::Text, Shape::Map(Box::new(map.clone())))],
+        );
         for (width, height) in [(20, 5), (66, 30), (118, 37), (200, 90)] {
             let place = CellPlot::within(Rect::new(3, 2, width, height), &chart);
             for (x, y) in columns.iter().flat_map(|x| rows.iter().map(move |y| (*x, *y))) {
@@ -397,7 +395,7 @@ mod tests {
     #[test]
     fn two_numbers_give_each_axis_a_scale() {
         let [x, y] = [axis(-5.26e-8, 6.71e-7, "d", "m"), axis(-1.93e-5, 1.22e-5, "F", "N")];
-        let chart = Chart { heading: String::new(), x, y, layers: Vec::new(), inset: None };
+        let chart = Chart::new(x, y, Vec::new());
         for (width, height) in [(28, 7), (30, 9), (40, 12), (100, 30)] {
             let (numbers, label) = scale_below(&chart, width, Marker::Braille);
             let end = usize::from(width) - label.chars().count() - 1;

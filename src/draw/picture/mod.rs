@@ -42,27 +42,42 @@ const MARGIN: f64 = 6.0;
 /// Size of the title, px.
 const TITLE: f64 = 14.5;
 
-/// A figure as SVG.
-#[must_use]
-pub fn figure_svg(figure: &Figure) -> String {
-    let page = Page::new(figure);
-    let mut document = Document::new(page.width, page.height, &Label::plain(&figure.title).to_string());
-    document.begin_text();
-    page.draw(&mut document);
-    document.end_text();
-    document.finish()
+/// Format of a picture.
+#[cfg(feature = "tui")]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PictureFormat {
+    /// Lines, in SVG.
+    Svg,
+    /// Pixels, two for each px of the SVG.
+    Png,
 }
 
-/// A figure as PNG, two pixels for each px of the SVG.
-///
-/// # Errors
-/// For a picture of more pixels than are allowed.
-#[cfg(feature = "tui")]
-pub fn figure_png(figure: &Figure) -> Result<Vec<u8>, PngError> {
-    let page = Page::new(figure);
-    let mut raster = Raster::new(page.width, page.height)?;
-    page.draw(&mut raster);
-    raster.finish()
+impl Figure {
+    /// The figure as SVG.
+    #[must_use]
+    pub fn svg(&self) -> String {
+        let page = Page::new(self);
+        let mut document = Document::new(page.width, page.height, &Label::plain(&self.title).to_string());
+        document.begin_text();
+        page.draw(&mut document);
+        document.end_text();
+        document.finish()
+    }
+
+    /// The figure as the file of a picture.
+    ///
+    /// # Errors
+    /// For a picture of more pixels than are allowed.
+    #[cfg(feature = "tui")]
+    pub fn picture(&self, format: PictureFormat) -> Result<Vec<u8>, PngError> {
+        if format == PictureFormat::Svg {
+            return Ok(self.svg().into_bytes());
+        }
+        let page = Page::new(self);
+        let mut raster = Raster::new(page.width, page.height)?;
+        page.draw(&mut raster);
+        raster.finish()
+    }
 }
 
 /// A figure with the places of its parts, px.
@@ -116,7 +131,7 @@ impl<'a> Page<'a> {
             let from: Place = (left + index as f64 * wide, self.top);
             if figure.charts.len() > 1 {
                 let letter = char::from(b'a' + (index % 26) as u8);
-                let heading = Label::plain(&format!("({letter}) {}", chart.heading));
+                let heading = Label::plain(&format!("({letter}) ")).join(&chart.heading);
                 canvas.label(&heading, (from.0, from.1 - 12.0), LABEL, Anchor::Left, TEXT);
             }
             draw_chart(canvas, chart, from, figure.size);
@@ -245,19 +260,12 @@ pub(crate) mod tests {
 
     /// A chart over d from 0 to 10 nm and F from 1 µN to 1 mN.
     pub(crate) fn small(layers: Vec<Layer>) -> Figure {
-        let chart = Chart {
-            heading: String::new(),
-            x: axis(AxisScale::Linear, 0.0, 1e-8, "d", "m"),
-            y: axis(AxisScale::Logarithmic, -6.0, -3.0, "F_n", "N"),
-            layers,
-            inset: None,
-        };
-        Figure {
-            title: "a < b & \u{1b}".into(),
-            notes: Vec::new(),
-            charts: vec![chart],
-            size: (400.0, 300.0),
-        }
+        let (d, force) = (
+            axis(AxisScale::Linear, 0.0, 1e-8, "d", "m"),
+            axis(AxisScale::Logarithmic, -6.0, -3.0, "F_n", "N"),
+        );
+        let chart = Chart::new(d, force, layers);
+        Figure { size: (400.0, 300.0), ..Figure::of_chart("a < b & \u{1b}", chart) }
     }
 
     fn curve(points: &[(f64, f64)], ink: Ink, name: &str) -> Layer {
@@ -268,7 +276,7 @@ pub(crate) mod tests {
     #[test]
     fn points_and_ticks_lie_where_the_axes_say() {
         let points = [(0.0, 1e-6), (2.5e-9, 1e-5), (5e-9, f64::NAN), (1e-8, 1e-3), (7.5e-9, 0.0)];
-        let svg = figure_svg(&small(vec![curve(&points, Ink::Series(0), "F_n")]));
+        let svg = small(vec![curve(&points, Ink::Series(0), "F_n")]).svg();
         let frame = elements(&svg, "rect").into_iter().find(|rect| rect.contains("fill=\"none\"")).unwrap();
         let corner = (attribute(&frame, "x"), attribute(&frame, "y"));
         assert_eq!((attribute(&frame, "width"), attribute(&frame, "height")), (400.0, 300.0));
@@ -293,7 +301,7 @@ pub(crate) mod tests {
         let words = parsed(&svg).1;
         assert!(words.contains("d (nm)") && words.contains("Fn (mN)"), "{words}");
         assert!(words.contains("a < b & \\u{1b}"), "{words}");
-        assert_eq!(svg, figure_svg(&small(vec![curve(&points, Ink::Series(0), "F_n")])));
+        assert_eq!(svg, small(vec![curve(&points, Ink::Series(0), "F_n")]).svg());
     }
 
     #[test]
@@ -313,7 +321,7 @@ pub(crate) mod tests {
         ]);
         let names: Vec<String> = figure.legend().iter().map(|entry| entry.name.to_string()).collect();
         assert_eq!(names, ["F_n", "G", "confidence"]);
-        let svg = figure_svg(&figure);
+        let svg = figure.svg();
         let looks = |element: &String| element.split_once("fill=").unwrap().1.to_owned();
         let areas: Vec<String> = elements(&svg, "polygon").iter().map(looks).collect();
         // Both bands, and a sample of each in the legend, which looks the same.
@@ -327,7 +335,7 @@ pub(crate) mod tests {
         }
         // The end that has no logarithm is at the bottom.
         assert!(!svg.contains("NaN") && !svg.contains("inf"));
-        assert!(figure_svg(&small(Vec::new())).len() < svg.len());
+        assert!(small(Vec::new()).svg().len() < svg.len());
     }
 
     #[test]
@@ -349,6 +357,6 @@ pub(crate) mod tests {
             ),
             curve(&[(1e-9, 1e-5), (2e-9, 1e-4)], Ink::Loading, "F_n"),
         ]);
-        insta::assert_snapshot!(figure_svg(&figure));
+        insta::assert_snapshot!(figure.svg());
     }
 }

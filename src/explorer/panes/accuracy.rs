@@ -117,7 +117,7 @@ fn with_scene(mut chart: Chart, model: &Model, table: &CostTable) -> Chart {
     chart.layers.splice(0..0, targets);
     if let Some((seconds, error)) = present(&model.document.scene().numerics, table) {
         let points = vec![(seconds, error.max(lowest))];
-        let shape = Shape::Curve { points, stroke: None, sign: Some(Sign::Diamond) };
+        let shape = Shape::signs(points, Sign::Diamond);
         chart.layers.push(Layer::unnamed(Ink::Cursor, shape));
     }
     chart

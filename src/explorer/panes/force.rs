@@ -214,7 +214,7 @@ pub fn indentation_at(model: &Model, area: Rect, column: u16) -> Option<f64> {
     let units = Units::of(model, computed);
     let (x, y) = spans(model, units);
     let (x, y) = units.axes(x, y);
-    let chart = plot::chart(x, y, Vec::new());
+    let chart = Chart::new(x, y, Vec::new());
     let at = CellPlot::within(below(area, rows_above(model, area)), &chart).number_at(&chart.x, column);
     Some(at * units.indentation.unwrap_or(1.0))
 }
@@ -225,7 +225,7 @@ pub fn stage_at(model: &Model, area: Rect, here: Position) -> Option<(usize, f64
     let units = Units::of(model, computed);
     let (x, y) = spans(model, units);
     let (x, y) = units.axes(x, y);
-    let chart = plot::chart(x, y, Vec::new());
+    let chart = Chart::new(x, y, Vec::new());
     let place = CellPlot::within(below(area, rows_above(model, area)), &chart);
     let distance = |point: &CurvePoint| {
         let (column, row) = place.cell(&chart, model.appearance.marker.symbols(), units.place(point))?;
@@ -324,8 +324,8 @@ fn chart(model: &Model, units: Units) -> Chart {
     let legs = model.legs();
     let along =
         |points: &[CurvePoint]| -> Vec<(f64, f64)> { points.iter().map(|p| units.place(p)).collect() };
-    let line = |points, stroke| Shape::Curve { points, stroke: Some(stroke), sign: None };
-    let point = |at, sign| Shape::Curve { points: vec![at], stroke: None, sign: Some(sign) };
+    let line = Shape::line;
+    let point = |at, sign| Shape::signs(vec![at], sign);
     let mut layers = vec![Layer::unnamed(Ink::Quiet, Shape::Level(0.0))];
     // On logarithmic axes areas are no energies.
     let is_linear = units.scale == AxisScale::Linear;
@@ -381,7 +381,7 @@ fn chart(model: &Model, units: Units) -> Chart {
         layers.push(Layer::new(Label::plain(name), Ink::Cursor, point(at, Sign::Diamond)));
     }
     let (x, y) = units.axes(x, y);
-    plot::chart(x, y, layers)
+    Chart::new(x, y, layers)
 }
 
 /// The marked forces with their values, in words where there is room. Where there is none for all, the

@@ -1,7 +1,7 @@
 //! Lengths of the contact fragments: their number over their length, both logarithmic.
 
 use super::{PaneRow, Place};
-use crate::draw::{Axis, AxisScale, Ink, Layer, Shape, Sign, Span, Stroke};
+use crate::draw::{Axis, AxisScale, Chart, Ink, Layer, Shape, Sign, Span, Stroke};
 use crate::explorer::layout::inside;
 use crate::explorer::model::Model;
 use crate::explorer::snapshot::LengthBin;
@@ -44,7 +44,7 @@ fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
     let y = axis(&mut points.iter().map(|point| point.1), "n", "1");
     let text_rows = u16::from(area.height >= 6);
     let shape = Shape::Curve { points, stroke: Some(Stroke::Dotted), sign: Some(Sign::Ring) };
-    let chart = plot::chart(x, y, vec![Layer::unnamed(Ink::Contact, shape)]);
+    let chart = Chart::new(x, y, vec![Layer::unnamed(Ink::Contact, shape)]);
     let plot = Rect { height: area.height - text_rows, ..area };
     plot::draw_chart(frame, plot, &chart, model.appearance);
     if text_rows > 0 {

@@ -52,7 +52,7 @@ fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
         return draw_reason(frame, area, &why, model.appearance.theme);
     };
     let chart = chart(model, curve);
-    let heading = format!("{}  {}", chart.y.label_with_unit(), told(curve)).trim_end().to_owned();
+    let heading = chart.y.label_with_unit().then(format!("  {}", told(curve)).trim_end());
     section(frame, area, model, &Chart { heading, ..chart });
 }
 
@@ -75,10 +75,10 @@ fn chart(model: &Model, curve: &PreloadCurve) -> Chart {
     let present = figures.and_then(|figures| figures.preload.zip(figures.adhesion_force));
     if let Some((preload, force)) = present {
         layers.push(Layer::unnamed(Ink::Cursor, Shape::Upright(preload)));
-        let shape = Shape::Curve { points: vec![(preload, force)], stroke: None, sign: Some(Sign::Diamond) };
+        let shape = Shape::signs(vec![(preload, force)], Sign::Diamond);
         layers.push(Layer::new("present preload".into(), Ink::Cursor, shape));
     }
-    let chart = preload_axes("", layers);
+    let chart = preload_axes(layers);
     // The title of the pane has the names of both axes.
     let axis = |axis: &Axis, symbol| Axis::new(AxisScale::Linear, axis.span, "", symbol, "N");
     let (x, y) = (axis(&chart.x, "F_n"), axis(&chart.y, "F_a"));

@@ -22,7 +22,7 @@ pub fn chart(section: &Section, line: LineFacts, z: Span) -> Chart {
         layer("contact", Ink::Contact, &|column| column.contact),
     ];
     let axis = |span, symbol, unit| Axis::new(AxisScale::Linear, span, "", symbol, unit);
-    plot::chart(axis(Span { low, high }, "x", "m"), axis(z, "z", "m"), layers)
+    Chart::new(axis(Span { low, high }, "x", "m"), axis(z, "z", "m"), layers)
 }
 
 /// Position of the left edge of a spring, m.

@@ -51,12 +51,12 @@ fn along(
         let points: Vec<_> = values.iter().map(|(x, one)| (*x, one.mean)).collect();
         if !points.is_empty() {
             let name = Label::symbol(&name_of(map, layer.quantity));
-            layers.push(Drawn::new(name, ink, Shape::Curve { points, stroke: Some(stroke), sign: None }));
+            layers.push(Drawn::new(name, ink, Shape::line(points, stroke)));
         }
     }
     if let Some(mark) = mark {
         let points = vec![(mark, scale.number(y.high))];
-        let shape = Shape::Curve { points, stroke: None, sign: Some(Sign::Diamond) };
+        let shape = Shape::signs(points, Sign::Diamond);
         layers.push(Drawn::unnamed(Ink::Cursor, shape));
     }
     let symbol = match values {
@@ -66,7 +66,7 @@ fn along(
     };
     let name = if axis.symbol.is_empty() { &axis.name } else { "" };
     let x = Axis::new(axis.scale, x, name, &axis.symbol, &axis.unit);
-    Some(plot::chart(x, Axis::new(scale, y, "", symbol, unit), layers))
+    Some(Chart::new(x, Axis::new(scale, y, "", symbol, unit), layers))
 }
 
 /// Range of the values in coordinates; `None` without any.
@@ -101,7 +101,10 @@ pub fn charts(model: &Model) -> Vec<Chart> {
     let headed = |axis: &MapAxis, kept: Option<(&MapAxis, usize)>, chart: Option<Chart>| {
         let kept = kept.and_then(|(axis, index)| Some(on_axis(axis, *axis.figure.values.get(index)?)));
         let at = kept.map_or_else(String::new, |kept| format!(" at {kept}"));
-        chart.map(|chart| Chart { heading: format!("over {}{at}", axis.symbol()), ..chart })
+        let heading = Label::plain("over ")
+            .join(&Label::symbol_or_name(&axis.figure.symbol, &axis.figure.name))
+            .then(&at);
+        chart.map(|chart| Chart { heading, ..chart })
     };
     let (across, up) = (map_model.across(), map_model.up());
     let values: Vec<_> = layers.iter().map(|layer| (*layer, map_model.along_row(layer, row))).collect();
@@ -132,7 +135,7 @@ pub fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
 
 /// Draws a chart with its legend, which begins with the heading of the chart.
 pub(super) fn section(frame: &mut Frame<'_>, area: Rect, model: &Model, chart: &Chart) {
-    let heading = vec![Text::styled(chart.heading.clone(), model.appearance.theme.style(Meaning::Title))];
+    let heading = vec![Text::styled(chart.heading.to_string(), model.appearance.theme.style(Meaning::Title))];
     let entries = plot::in_theme(model.appearance, |style| legend(std::slice::from_ref(chart), style));
     let parts =
         std::iter::once(heading).filter(|heading| !heading[0].content.is_empty()).chain(entries).collect();

@@ -6,7 +6,7 @@ use crate::explorer::mode::Mode;
 use crate::explorer::model::{Estimated, Model, Notice};
 use crate::explorer::study::{Finding, Found, Task};
 use crate::explorer::text_line::TextLine;
-use crate::scene::{Edges, format_quantity};
+use crate::scene::format_quantity;
 use crate::text::grouped;
 
 /// Studies of the present scene that are still to be done, in this order.
@@ -111,7 +111,7 @@ fn take_over(model: &mut Model, choice: &Choice) -> Vec<Effect> {
     let short = format!(
         "{} springs, edges {}: {} within {}",
         grouped(choice.points),
-        edges_name(choice.edges),
+        choice.edges.name(),
         if choice.target == Target::Curve { "curve" } else { "F_a" },
         per_cent(choice.tolerance),
     );
@@ -119,7 +119,7 @@ fn take_over(model: &mut Model, choice: &Choice) -> Vec<Effect> {
     let is_so = (numerics.points, numerics.edges) == (choice.points, choice.edges);
     if !is_so {
         let points = choice.points.to_string();
-        let fields = [("numerics.points", points.as_str()), ("numerics.edges", edges_name(choice.edges))];
+        let fields = [("numerics.points", points.as_str()), ("numerics.edges", choice.edges.name())];
         let fields = fields.map(|(path, value)| (path.to_owned(), value.to_owned()));
         effects = edit::take_over(model, model.document.set_all(&fields));
         if let Some((_, why)) = &model.refused {
@@ -148,7 +148,7 @@ fn refuse(model: &mut Model, tolerance: f64, error: &ChoiceError) {
             "{asked} is out of reach: {:.1e} with {} springs, edges {}",
             best.error,
             grouped(best.points),
-            edges_name(best.edges)
+            best.edges.name()
         ),
         ChoiceError::Unreached { best: None, .. } => format!("{asked} cannot be checked: too few springs"),
         ChoiceError::Stepwise => "a tolerance goes with numerics.solver: Exact".to_owned(),
@@ -161,13 +161,6 @@ fn refuse(model: &mut Model, tolerance: f64, error: &ChoiceError) {
 /// The long text where the status line has room for it, else the short one.
 fn fitting(model: &Model, long: String, short: String) -> String {
     if long.chars().count() + 2 <= usize::from(model.size.0) { long } else { short }
-}
-
-fn edges_name(edges: Edges) -> &'static str {
-    match edges {
-        Edges::Grid => "Grid",
-        Edges::SubCell => "SubCell",
-    }
 }
 
 /// A share in per cent.

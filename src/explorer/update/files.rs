@@ -90,7 +90,7 @@ pub fn export(model: &mut Model, path: PathBuf) -> Vec<Effect> {
         model.mode = Mode::Explore;
         return Vec::new();
     };
-    if matches!(content, Content::MapCells | Content::MapFigure) && model.chart.map_model().is_none() {
+    if matches!(content, Content::MapCells | Content::MapFigure(_)) && model.chart.map_model().is_none() {
         model.notice = Some(Notice::Error("there is no map yet to export".to_owned()));
         model.mode = Mode::Explore;
         return Vec::new();

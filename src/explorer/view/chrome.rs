@@ -44,8 +44,8 @@ pub fn status(frame: &mut Frame<'_>, area: Rect, model: &Model) {
         if line.width() > usize::from(area.width) { clipped(line, area.width) } else { line }
     };
     let error = |text: String| stated(Line::styled(text, theme.style(Meaning::Error)));
-    let prompted = |prompt: &'static str, line: &TextLine| {
-        let prompt = Span::raw(prompt);
+    let prompted = |prompt: &str, line: &TextLine| {
+        let prompt = Span::raw(prompt.to_owned());
         let room = usize::from(area.width).saturating_sub(prompt.width());
         Line::from_iter([prompt].into_iter().chain(typed(line, room, theme)))
     };
@@ -60,10 +60,12 @@ pub fn status(frame: &mut Frame<'_>, area: Rect, model: &Model) {
         }
         // What is typed is to be seen in the smallest window too.
         (Mode::Export(line), _) if area.width < 60 => prompted("Export to: ", line),
-        (Mode::Export(line), _) if model.exports() == Content::MAP_EXPORTS => {
-            prompted("Export the map to (.csv .svg .txt): ", line)
+        (Mode::Export(line), _) => {
+            let exports = model.exports();
+            let what = if exports == Content::MAP_EXPORTS { "Export the map" } else { "Export" };
+            let endings: Vec<String> = exports.iter().map(|(ending, _)| format!(".{ending}")).collect();
+            prompted(&format!("{what} to ({}): ", endings.join(" ")), line)
         }
-        (Mode::Export(line), _) => prompted("Export to (.csv .npy .json .svg .txt): ", line),
         (Mode::Force(line), _) => prompted("Go to the force: ", line),
         (Mode::Tolerance(line), _) if area.width < 60 => prompted("Tolerance: ", line),
         (Mode::Tolerance(line), _) => prompted("Relative error allowed (0.1 % or 1e-3): ", line),

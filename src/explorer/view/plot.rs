@@ -1,7 +1,7 @@
 //! Charts in panes, in the colours of a theme.
 
 use super::wrap::fitting;
-use crate::draw::{Axis, CellPlot, CellStyle, Chart, Colours, Ink, Layer};
+use crate::draw::{CellPlot, CellStyle, Chart, Colours, Ink};
 use crate::explorer::theme::{Appearance, Meaning};
 use ratatui::Frame;
 use ratatui::layout::Rect;
@@ -49,11 +49,6 @@ pub fn draw_chart(frame: &mut Frame<'_>, area: Rect, chart: &Chart, appearance: 
     let place = CellPlot::within(area, chart);
     in_theme(appearance, |style| place.draw(frame.buffer_mut(), chart, style));
     place
-}
-
-/// A chart of a pane, whose title names what is shown.
-pub fn chart(x: Axis, y: Axis, layers: Vec<Layer>) -> Chart {
-    Chart { heading: String::new(), x, y, layers, inset: None }
 }
 
 /// As many parts as fit on the lower edge of a frame of this width, apart from its corners.

@@ -5,7 +5,7 @@
 //! what was synchronised, and of the rest whatever is asked for. No order is assumed between two changes of which
 //! none was synchronised.
 
-use asperity::disk::{Disk, DiskFile};
+use asperity::io::{Disk, DiskFile};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use std::collections::BTreeMap;

@@ -256,12 +256,15 @@ fn the_map_is_exported_as_it_is_seen() {
         for said in ["Hurst exponent", "pressure-sensitive", "adhesion coefficient"] {
             assert!(figure.starts_with("<svg") && figure.contains(said), "{said}");
         }
+        let (_, said) = export("", "map.png");
+        assert!(said.starts_with("exported to"), "{said}");
+        assert!(std::fs::read(folder.path().join("map.png")).unwrap().starts_with(b"\x89PNG\r\n\x1a\n"));
         let (figure, _) = export("X", "sections.svg");
         assert!(figure.starts_with("<svg") && figure.contains("at κ 8"), "{figure}");
         let (cells, _) = export("", "sections.csv");
         assert_eq!(cells.lines().count(), 1 + COLUMNS + HURSTS - 1);
         let (nothing, said) = export("", "map.json");
-        assert!(nothing.is_empty() && said.contains("the name must end in .csv, .svg, .txt"), "{said}");
+        assert!(nothing.is_empty() && said.contains("the name must end in .csv, .svg, .png, .txt"), "{said}");
         // The curve, while another pane is selected.
         driver.press("Tab Tab E");
         assert!(driver.status().contains("Export to"), "{}", driver.status());

@@ -4,7 +4,6 @@ use super::common::deadline::within;
 use super::common::driver::Driver;
 use super::common::scenes::{rough, smooth, without_adhesion};
 use super::{default_scene, mid_retraction};
-use asperity::draw::figure_svg;
 use asperity::explorer::layout::{Layout, inside};
 use asperity::explorer::model::Pane;
 use asperity::explorer::panes::indentation_at;
@@ -112,7 +111,7 @@ fn the_pane_and_the_figure_have_the_same_marks_at_the_same_values() {
             let mut driver: Driver = mid_retraction(document);
             driver.press("z");
             let outcome = driver.model.computed.as_ref().unwrap().outcome.clone();
-            let svg = figure_svg(&force_figure(&[("", &outcome)]));
+            let svg = force_figure(&[("", &outcome)]).svg();
             let figure = marks_of_figure(&svg);
             let legend: Vec<String> = elements(&svg, "text").into_iter().map(|text| text.text).collect();
             for size in [(120, 40), (80, 24)] {

@@ -1,0 +1,91 @@
+//! Formats of results: names, extensions of files, and the formats of a command.
+
+use crate::draw::PictureFormat;
+use crate::export::TableFormat;
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+
+/// Format of results.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Format {
+    /// Text for a person.
+    Text,
+    /// One object.
+    Json,
+    /// Comma-separated values.
+    Csv,
+    /// Array of NumPy.
+    Npy,
+    /// Tables for a document.
+    Markdown,
+    /// Picture of lines.
+    Svg,
+    /// Picture of pixels.
+    Png,
+}
+
+/// Formats with their names and the extensions of their files.
+const FORMATS: [(Format, &str, &str); 7] = [
+    (Format::Text, "text", "txt"),
+    (Format::Json, "json", "json"),
+    (Format::Csv, "csv", "csv"),
+    (Format::Npy, "npy", "npy"),
+    (Format::Markdown, "markdown", "md"),
+    (Format::Svg, "svg", "svg"),
+    (Format::Png, "png", "png"),
+];
+
+/// Former name of the text format.
+const SUMMARY: &str = "summary";
+
+impl Format {
+    /// Parser of the names of these formats.
+    pub(super) fn parser(formats: &'static [Format]) -> impl TypedValueParser<Value = Format> {
+        let value = |format: &Format| match format {
+            Format::Text => PossibleValue::new(format.name()).alias(SUMMARY),
+            format => PossibleValue::new(format.name()),
+        };
+        let named =
+            |name: String| FORMATS.into_iter().find(|row| row.1 == name).map_or(Format::Text, |row| row.0);
+        PossibleValuesParser::new(formats.iter().map(value)).map(named)
+    }
+
+    /// Name as it is typed.
+    pub(super) fn name(self) -> &'static str {
+        FORMATS[self as usize].1
+    }
+
+    /// Extension of files.
+    pub(super) fn extension(self) -> &'static str {
+        FORMATS[self as usize].2
+    }
+
+    /// Format of a table.
+    pub(super) fn table(self) -> Option<TableFormat> {
+        match self {
+            Format::Csv => Some(TableFormat::Csv),
+            Format::Npy => Some(TableFormat::Npy),
+            _ => None,
+        }
+    }
+
+    /// Format of a picture.
+    pub(super) fn picture(self) -> Option<PictureFormat> {
+        match self {
+            Format::Svg => Some(PictureFormat::Svg),
+            Format::Png => Some(PictureFormat::Png),
+            _ => None,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rows_are_in_the_order_of_the_formats() {
+        for (index, (format, name, _)) in FORMATS.into_iter().enumerate() {
+            assert_eq!((format as usize, format.name()), (index, name));
+        }
+    }
+}
