@@ -121,12 +121,9 @@ fn e_maps_over_the_elastic_energy() {
         // The mark goes to values of the map, and the scene with it.
         driver.press("k");
         let (moved, _) = place(&driver);
-        let values =
+        let mut values =
             (0..COLUMNS).map(|column| parameter_value(RoughnessParameter::ElasticEnergyRatio, column));
-        assert!(
-            moved > ratio && values.into_iter().any(|value| (moved / value - 1.0).abs() < 1e-9),
-            "{moved}"
-        );
+        assert!(moved > ratio && values.any(|value| (moved / value - 1.0).abs() < 1e-9), "{moved}");
         let kappa = driver.model.governing().unwrap().kappa.unwrap();
         assert!((kappa / over_kappa.0 - (moved / ratio).sqrt()).abs() < 1e-9, "{kappa}");
         driver.press("e");
