@@ -276,8 +276,11 @@ mod tests {
     use super::*;
     use crate::topography::{Grid, ReadOptions, parse};
 
+    /// Name, numbers of the dimensions, unit and values of a variable.
+    type Variable<'a> = (&'a str, &'a [u32], &'a str, &'a [f64]);
+
     /// A file with these dimensions and variables of doubles.
-    fn file(dimensions: &[(&str, u32)], variables: &[(&str, &[u32], &str, &[f64])]) -> Vec<u8> {
+    fn file(dimensions: &[(&str, u32)], variables: &[Variable<'_>]) -> Vec<u8> {
         let text = |text: &str| {
             let mut bytes = (text.len() as u32).to_be_bytes().to_vec();
             bytes.extend(text.as_bytes());
@@ -291,7 +294,7 @@ mod tests {
         }
         bytes.extend(words(&[0, 0, VARIABLES, variables.len() as u32]));
         let header = |begin: &dyn Fn(usize) -> u32| {
-            let of = |(index, (name, dimensions, unit, values)): (usize, &(&str, &[u32], &str, &[f64]))| {
+            let of = |(index, (name, dimensions, unit, values)): (usize, &Variable<'_>)| {
                 let fill = [text("_FillValue"), words(&[4, 1, 999_999])].concat();
                 let unit = [text("unit"), words(&[CHARACTERS]), text(unit)].concat();
                 let head = [text(name), words(&[dimensions.len() as u32]), words(dimensions)].concat();
@@ -318,9 +321,8 @@ mod tests {
         let surface = parse(&profile, &none).unwrap();
         assert_eq!((surface.format(), surface.heights()), (Format::NetCdf, &[1e-9, 5e-9, 2e-9][..]));
         assert_eq!(surface.grid(), &Grid::Positions(vec![0.0, 1e-6, 4e-6]));
-        let axes: [(&str, &[u32], &str, &[f64]); 2] =
-            [("x", &[0], "m", &[0.0, 2.0]), ("y", &[1], "m", &[0.0, 1.0, 2.0])];
-        let heights: (&str, &[u32], &str, &[f64]) = ("heights", &[0, 1], "", &[1.0, 2.0, 3.0, 4.0, 5.0, 6.0]);
+        let axes: [Variable<'_>; 2] = [("x", &[0], "m", &[0.0, 2.0]), ("y", &[1], "m", &[0.0, 1.0, 2.0])];
+        let heights: Variable<'_> = ("heights", &[0, 1], "", &[1.0, 2.0, 3.0, 4.0, 5.0, 6.0]);
         let map = parse(&file(&[("x", 2), ("y", 3)], &[heights, axes[0], axes[1]]), &none).unwrap();
         // Two points along x in each of three rows.
         assert_eq!(map.heights(), [1.0, 4.0, 2.0, 5.0, 3.0, 6.0]);
@@ -332,7 +334,7 @@ mod tests {
 
     #[test]
     fn wrong_files_are_refused() {
-        let heights: (&str, &[u32], &str, &[f64]) = ("heights", &[0], "m", &[1.0, 2.0]);
+        let heights: Variable<'_> = ("heights", &[0], "m", &[1.0, 2.0]);
         let whole = file(&[("n", 2)], &[heights]);
         let error = |bytes: &[u8]| read(bytes).map(drop).unwrap_err().to_string();
         for end in 4..whole.len() {
