@@ -18,7 +18,7 @@ use ratatui::widgets::Paragraph;
 
 /// Row of the pane.
 pub static ROW: PaneRow =
-    PaneRow { title: |_| " Spectrum: C over q, log–log ".to_owned(), draw: draw, ..PaneRow::EMPTY };
+    PaneRow { title: |_| " Spectrum: C over q, log–log ".to_owned(), draw, ..PaneRow::EMPTY };
 
 /// Rows of plot that make it worth drawing.
 const FEWEST_PLOT_ROWS: u16 = 5;
