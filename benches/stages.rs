@@ -420,15 +420,15 @@ impl Timed {
             work.tree_nodes,
             work.hess_evaluations,
             work.events_sorted,
-            work.joins,
-            work.leaves,
+            work.attached,
+            work.detached,
             self.memory.bytes() as f64 / rough.points as f64
         );
         let [loading, unloading] = &self.records[..] else { return };
         let ideal = ideal_adhesion_force(rough.work_of_adhesion(kappa), EFFECTIVE_MODULUS, LENGTH);
         println!(
             "    under load {:.1} % in contact; adhesion force {:.2e} of the load, {:.2e} of the ideal",
-            1e2 * loading.joins as f64 / rough.points as f64,
+            1e2 * loading.attached as f64 / rough.points as f64,
             -unloading.smallest.force / loading.largest.force,
             -unloading.smallest.force / ideal
         );

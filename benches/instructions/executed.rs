@@ -48,7 +48,7 @@ pub const EFFECTS: &[Effect] = &[
             ("src/contact/adhesive/unloading.rs", "pub fn list<"),
         ]),
         called_for: Case::goes_back,
-        counted: |work| work.leaves,
+        counted: |work| work.detached,
     },
     Effect {
         name: "histogram",

@@ -1,7 +1,7 @@
 //! The answer in a sentence or two: how many springs, and how long.
 
 use super::{CostTable, Knob, Row};
-use crate::scene::format_quantity;
+use crate::scene::format_rounded;
 use crate::text::grouped;
 
 /// Relative errors that are answered for.
@@ -15,9 +15,9 @@ impl CostTable {
         let what =
             if self.reference.adhesion_force.is_some() { "the adhesion force" } else { "the force curve" };
         let needs = |row: &Row| {
-            let time = row.seconds.map_or_else(String::new, |time| {
-                format!(", {}", format_quantity(three_digits(time.minimum), "s"))
-            });
+            let time = row
+                .seconds
+                .map_or_else(String::new, |time| format!(", {}", format_rounded(time.minimum, 3, "s")));
             format!("{} springs{time}", grouped(row.springs))
         };
         let sentence = |&(bound, percent): &(f64, &str)| {
@@ -34,11 +34,6 @@ impl CostTable {
         };
         TARGETS.iter().map(sentence).collect()
     }
-}
-
-/// Times are not known to more digits than these.
-fn three_digits(value: f64) -> f64 {
-    format!("{value:.2e}").parse().unwrap_or(value)
 }
 
 #[cfg(test)]

@@ -98,8 +98,8 @@ mod tests {
             curve,
             largest: extreme,
             smallest: extreme,
-            joins: 0,
-            leaves: 0,
+            attached: 0,
+            detached: 0,
             dissipated_energy: 0.25,
         }
     }

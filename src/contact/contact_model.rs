@@ -1,6 +1,7 @@
 //! Interface between the exact solver and a contact model: thresholds, forces and extrema along one leg.
 
 use super::grid::Grid;
+use super::totals::ContactTotals;
 use super::{ContactError, CurvePoint, Foundation, LegContact, Work};
 
 /// Contact state at one indentation.
@@ -36,13 +37,63 @@ impl ContactState {
     }
 }
 
+/// Contact at each point of a grid, at least one.
+pub struct Sampled {
+    pub grid: Grid,
+    /// Totals of the full springs or cells at each point.
+    pub totals: Vec<ContactTotals>,
+    pub states: Vec<ContactState>,
+}
+
+impl Sampled {
+    /// The points of both grids, which have none in common.
+    pub fn merged(self, other: Sampled) -> Sampled {
+        let [mut here, mut there] = [self, other].map(|Sampled { grid, totals, states }| {
+            let points = grid.points().to_vec().into_iter();
+            points.zip(totals.into_iter().zip(states)).peekable()
+        });
+        let (mut points, mut totals, mut states) = (Vec::new(), Vec::new(), Vec::new());
+        loop {
+            let is_first = match (here.peek(), there.peek()) {
+                (Some(one), Some(other)) => one.0 <= other.0,
+                (None, None) => break,
+                (one, _) => one.is_some(),
+            };
+            if let Some((point, (total, state))) = if is_first { here.next() } else { there.next() } {
+                points.push(point);
+                totals.push(total);
+                states.push(state);
+            }
+        }
+        Sampled { grid: Grid::at(points), totals, states }
+    }
+
+    /// State at the lowest indentation.
+    pub fn first(&self) -> ContactState {
+        self.states[0]
+    }
+
+    /// State at the highest indentation.
+    pub fn last(&self) -> ContactState {
+        self.states[self.states.len() - 1]
+    }
+
+    /// The intervals of the grid for which the contact at their ends allows it.
+    pub fn choose(&self, may_lie: impl Fn(&ContactState, &ContactState) -> bool) -> Vec<usize> {
+        let ends = self.states.windows(2).enumerate();
+        ends.filter(|(_, ends)| may_lie(&ends[0], &ends[1])).map(|(index, _)| index).collect()
+    }
+
+    /// Contact at the ends of an interval of the grid.
+    pub fn ends(&self, interval: usize) -> (&ContactState, &ContactState) {
+        (&self.states[interval], &self.states[interval + 1])
+    }
+}
+
 /// Springs loaded and unloaded leg by leg under one rule of contact.
 ///
 /// A leg begins with [`ContactModel::load`] or [`ContactModel::unload`]; all other functions refer to this leg.
 pub trait ContactModel {
-    /// Contact states along an even grid of indentations.
-    type Leg;
-
     /// Intervals in which extremes are searched when the curve has fewer samples.
     const SEARCH_INTERVALS: usize;
 
@@ -80,7 +131,7 @@ pub trait ContactModel {
     ///
     /// # Errors
     /// [`ContactError::OutOfMemory`].
-    fn sample_reversal(&self, grid: Grid) -> Result<Self::Leg, ContactError>;
+    fn sample_reversal(&self, grid: Grid) -> Result<Sampled, ContactError>;
 
     /// The smallest force on the range of a grid of this unloading.
     ///
@@ -96,43 +147,29 @@ pub trait ContactModel {
     ///
     /// # Errors
     /// [`ContactError::OutOfMemory`].
-    fn sample(&self, grid: Grid) -> Result<Self::Leg, ContactError>;
+    fn sample(&self, grid: Grid) -> Result<Sampled, ContactError>;
 
-    /// Contact states along a grid of a loading leg, and Σ e² over the springs that attach there with a stretch e, m²;
-    /// those that attach at its lowest point count only for a body that was `separated`.
+    /// Contact states along a grid, and Σ e² over the springs that attach or detach there with a stretch e, m²; those that
+    /// do so at its lowest point count only for a body that is `separated` beyond.
     ///
     /// # Errors
     /// [`ContactError::OutOfMemory`].
-    fn sample_attaching(&self, grid: Grid, separated: bool) -> Result<(Self::Leg, f64), ContactError>;
-
-    /// Contact states along a grid of an unloading leg, and Σ e² over the springs that detach there, m²; those that
-    /// detach at its lowest point count only for a body that `separates`.
-    ///
-    /// # Errors
-    /// [`ContactError::OutOfMemory`].
-    fn sample_detaching(&self, grid: Grid, separates: bool) -> Result<(Self::Leg, f64), ContactError>;
-
-    /// The grid of a leg.
-    fn grid<'l>(&self, leg: &'l Self::Leg) -> &'l Grid;
-
-    /// Contact state at a point of the grid.
-    fn at(&self, leg: &Self::Leg, index: usize) -> ContactState;
+    fn sample_changes(&self, grid: Grid, separated: bool) -> Result<(Sampled, f64), ContactError>;
 
     /// The smallest force on the grid's range; `sorted` counts the events it took to find it.
-    fn smallest(&self, leg: &Self::Leg, sorted: &mut u64) -> ContactState;
+    fn smallest(&self, leg: &Sampled, sorted: &mut u64) -> ContactState;
 
     /// The largest force on the grid's range.
-    fn largest(&self, leg: &Self::Leg, sorted: &mut u64) -> ContactState;
+    fn largest(&self, leg: &Sampled, sorted: &mut u64) -> ContactState;
 
     /// The smallest indentation of the range at which the compression is at least `wanted`.
-    fn first_at_least(&self, leg: &Self::Leg, wanted: f64, sorted: &mut u64) -> Option<f64>;
+    fn first_at_least(&self, leg: &Sampled, wanted: f64, sorted: &mut u64) -> Option<f64>;
 
     /// The largest indentation of the range at which the compression is at most `wanted`.
-    fn last_at_most(&self, leg: &Self::Leg, wanted: f64, sorted: &mut u64) -> Option<f64>;
+    fn last_at_most(&self, leg: &Sampled, wanted: f64, sorted: &mut u64) -> Option<f64>;
 
-    /// The indentation at which the compression is `wanted`, beyond the end of the grid, where everything is in
-    /// contact.
-    fn beyond(&self, leg: &Self::Leg, wanted: f64) -> Option<f64>;
+    /// Indentation at which the totals alone carry a compression, where nothing else does, m.
+    fn straight(&self, totals: ContactTotals, compression: f64) -> Option<f64>;
 
     /// See [`super::Solver::thresholds_along_line`].
     fn thresholds_along_line(&self, out: &mut Vec<f64>);

@@ -4,7 +4,7 @@
 //! thresholds.
 
 use super::adhesive::{Adhesive, AdhesiveMemory, ContactTree, EdgeModel};
-use super::contact_model::{ContactModel, ContactState};
+use super::contact_model::{ContactModel, ContactState, Sampled};
 use super::grid::Grid;
 use super::leg_plan::{Target, plan};
 use super::{ContactError, CurvePoint, Direction, Foundation, LegContact, LegRecord, Nonadhesive, Work};
@@ -18,7 +18,7 @@ pub struct Exact<C: ContactModel> {
     samples: usize,
     state: ContactState,
     /// Contact states of the loading from separation, once a force has been sought there: the same each time.
-    first: Option<C::Leg>,
+    first: Option<Sampled>,
     /// True if the body touches on the present leg, so that the thresholds are those of this leg.
     touching: bool,
     legs: usize,
@@ -115,7 +115,7 @@ impl<C: ContactModel> Exact<C> {
     }
 
     /// Contact states along the grid of a search.
-    fn sample(&mut self, low: f64, high: f64) -> Result<C::Leg, ContactError> {
+    fn sample(&mut self, low: f64, high: f64) -> Result<Sampled, ContactError> {
         self.work.springs_tallied += self.work.springs;
         self.contact.sample(Grid::new(low, high, C::SEARCH_INTERVALS))
     }
@@ -125,12 +125,11 @@ impl<C: ContactModel> Exact<C> {
     }
 
     /// The samples of a leg in ascending order of indentation.
-    fn samples(&self, sampled: &C::Leg, stride: usize) -> Vec<CurvePoint> {
-        let last = self.contact.grid(sampled).points().len() - 1;
-        (0..=last)
-            .filter(|index| index % stride == 0 || *index == last)
-            .map(|index| self.curve_point(self.contact.at(sampled, index)))
-            .collect()
+    fn samples(&self, sampled: &Sampled, stride: usize) -> Vec<CurvePoint> {
+        let last = sampled.states.len() - 1;
+        let states = sampled.states.iter().enumerate();
+        let chosen = states.filter(|(index, _)| index % stride == 0 || *index == last);
+        chosen.map(|(_, &state)| self.curve_point(state)).collect()
     }
 
     /// Energy of springs that attach or detach with this sum of squared stretches (m²), J.
@@ -168,7 +167,7 @@ impl<C: ContactModel> Exact<C> {
             _ => self.grid(low, high),
         };
         self.work.springs_tallied += self.work.springs;
-        let (sampled, joined) = self.contact.sample_attaching(grid, separated)?;
+        let (sampled, attaching) = self.contact.sample_changes(grid, separated)?;
         let mut curve = self.samples(&sampled, stride);
         if separated {
             curve.insert(0, self.curve_point(ContactState::free(low)));
@@ -176,7 +175,7 @@ impl<C: ContactModel> Exact<C> {
                 curve.insert(0, self.curve_point(before));
             }
         }
-        let end = self.contact.at(&sampled, self.contact.grid(&sampled).points().len() - 1);
+        let end = sampled.last();
         let largest = match target {
             // The force is below its target until then.
             Target::Force(_) => end,
@@ -184,8 +183,8 @@ impl<C: ContactModel> Exact<C> {
         };
         let at_end = self.curve_point(end);
         let smallest = curve.iter().copied().min_by(|a, b| a.force.total_cmp(&b.force)).unwrap_or(at_end);
-        let joins = (end.springs - before.springs).unsigned_abs();
-        self.work.joins += joins;
+        let attached = (end.springs - before.springs).unsigned_abs();
+        self.work.attached += attached;
         self.state = end;
         Ok(LegRecord {
             leg,
@@ -193,10 +192,10 @@ impl<C: ContactModel> Exact<C> {
             curve,
             largest: self.curve_point(largest),
             smallest,
-            joins,
-            leaves: 0,
+            attached,
+            detached: 0,
             // Not −0 where nothing attached with a stretch.
-            dissipated_energy: 0.0 - self.energy(joined),
+            dissipated_energy: 0.0 - self.energy(attaching),
         })
     }
 
@@ -219,8 +218,11 @@ impl<C: ContactModel> Exact<C> {
         let sorted = &mut self.work.events_sorted;
         // Beyond, everything is in contact and the force rises with all springs.
         let beyond = || {
-            let indentation = self.contact.beyond(&sampled, wanted).filter(|found| found.is_finite());
-            indentation.map(|indentation| indentation.max(complete))
+            let end = sampled.last();
+            let straight = self.contact.straight(*sampled.totals.last()?, wanted);
+            let sliding = || end.indentation + (wanted - end.compression) / end.length;
+            let found = straight.unwrap_or_else(sliding);
+            found.is_finite().then(|| found.max(complete))
         };
         let found = self.contact.first_at_least(&sampled, wanted, sorted).or_else(beyond);
         if forms {
@@ -243,7 +245,7 @@ impl<C: ContactModel> Exact<C> {
         let (grid, stride) = self.grid(low, high);
         let separates = matches!(target, Target::Separation);
         self.work.springs_tallied += self.work.springs;
-        let (sampled, left) = self.contact.sample_detaching(grid, separates)?;
+        let (sampled, detaching) = self.contact.sample_changes(grid, separates)?;
         let smallest = self.contact.smallest(&sampled, &mut self.work.events_sorted);
         let smallest = self.curve_point(smallest);
         let mut curve = self.samples(&sampled, stride);
@@ -256,11 +258,11 @@ impl<C: ContactModel> Exact<C> {
             curve.push(self.curve_point(ContactState::free(low)));
             ContactState::free(low)
         } else {
-            self.contact.at(&sampled, 0)
+            sampled.first()
         };
         let largest = curve.first().copied().unwrap_or(smallest);
-        let leaves = (before.springs - end.springs).unsigned_abs();
-        self.work.leaves += leaves;
+        let detached = (before.springs - end.springs).unsigned_abs();
+        self.work.detached += detached;
         self.state = end;
         Ok(LegRecord {
             leg,
@@ -268,9 +270,9 @@ impl<C: ContactModel> Exact<C> {
             curve,
             largest,
             smallest,
-            joins: 0,
-            leaves,
-            dissipated_energy: self.energy(left),
+            attached: 0,
+            detached,
+            dissipated_energy: self.energy(detaching),
         })
     }
 

@@ -43,9 +43,9 @@ pub struct LegRecord {
     /// Smallest force on the leg, exact to rounding (unloading legs).
     pub smallest: CurvePoint,
     /// Springs that attached.
-    pub joins: u64,
+    pub attached: u64,
     /// Springs that detached.
-    pub leaves: u64,
+    pub detached: u64,
     /// Dissipated energy, J: ½ Δk Σ e² over the springs that detached with a stretch e, less the same over those
     /// that attached. The work done on the springs over a closed loop is the sum of these energies over its legs.
     pub dissipated_energy: f64,
@@ -60,8 +60,8 @@ impl LegRecord {
             curve: vec![here],
             largest: here,
             smallest: here,
-            joins: 0,
-            leaves: 0,
+            attached: 0,
+            detached: 0,
             dissipated_energy: 0.0,
         }
     }
@@ -120,10 +120,12 @@ pub struct Work {
     pub springs_tallied: u64,
     /// Springs sorted by threshold in the intervals that may hold an extreme of the force.
     pub events_sorted: u64,
-    /// Springs attached on the legs of the loading.
-    pub joins: u64,
-    /// Springs detached on the legs of the loading.
-    pub leaves: u64,
+    /// Springs attached on the legs of the loading; `joins` in files.
+    #[serde(rename = "joins")]
+    pub attached: u64,
+    /// Springs detached on the legs of the loading; `leaves` in files.
+    #[serde(rename = "leaves")]
+    pub detached: u64,
     /// Steps of the stepwise solver.
     pub steps: u64,
     /// Sweeps over the line that relaxed it.
@@ -149,8 +151,8 @@ impl Work {
             hess_evaluations,
             springs_tallied,
             events_sorted,
-            joins: _,
-            leaves: _,
+            attached: _,
+            detached: _,
             steps,
             relaxation_sweeps,
             spring_updates,
@@ -186,8 +188,8 @@ mod tests {
             hess_evaluations: 128,
             springs_tallied: 256,
             events_sorted: 512,
-            joins: 1024,
-            leaves: 2048,
+            attached: 1024,
+            detached: 2048,
             steps: 4096,
             relaxation_sweeps: 8192,
             spring_updates: 16384,
@@ -204,8 +206,8 @@ mod tests {
             tree_nodes: 0,
             loading_passes: 0,
             unloading_passes: 0,
-            joins: 0,
-            leaves: 0,
+            attached: 0,
+            detached: 0,
             ..counted()
         };
         assert_eq!(added, once);

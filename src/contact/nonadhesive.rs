@@ -10,7 +10,7 @@
 
 use super::HessRule;
 use super::adhesive::GridEdges;
-use super::contact_model::{ContactModel, ContactState};
+use super::contact_model::{ContactModel, ContactState, Sampled};
 use super::crossing::bisect;
 use super::fragments::runs;
 use super::grid::{CompensatedSum, Grid};
@@ -33,12 +33,6 @@ pub struct Nonadhesive<'a> {
     deepest: f64,
     edges: Edges,
     scale: GapScale,
-}
-
-/// Contact states at the points of a grid.
-pub struct Sampled {
-    grid: Grid,
-    states: Vec<ContactState>,
 }
 
 /// Sum over partly filled cells.
@@ -184,7 +178,7 @@ impl<'a> Nonadhesive<'a> {
     }
 
     /// The contact along a grid, by one pass along the line.
-    fn along(&self, grid: &Grid) -> Result<Vec<ContactState>, ContactError> {
+    fn along(&self, grid: Grid) -> Result<Sampled, ContactError> {
         let points = grid.points();
         let count = points.len();
         // Points that were asked for one by one have the same contact as each of them alone.
@@ -212,10 +206,11 @@ impl<'a> Nonadhesive<'a> {
             }
             place_before = here;
         });
-        Ok(self.sum(points, changes))
+        let (totals, states) = self.sum(points, changes);
+        Ok(Sampled { grid, totals, states })
     }
 
-    fn sum(&self, points: &[f64], changes: Changes) -> Vec<ContactState> {
+    fn sum(&self, points: &[f64], changes: Changes) -> (Vec<ContactTotals>, Vec<ContactState>) {
         let (mut full, mut sum) = (ContactTotals::default(), Quadratic::default());
         let mut from = points[0];
         let changes = changes.whole.into_iter().zip(changes.partial).zip(changes.quadratic);
@@ -238,9 +233,9 @@ impl<'a> Nonadhesive<'a> {
                 // Rounding must not make the contact shrink.
                 longest = state.length.max(longest);
                 state.length = longest;
-                state
+                (full, state)
             })
-            .collect()
+            .unzip()
     }
 
     /// Contact at any indentation in `low..=high` (m), from the totals at `low` and the changes in the interval.
@@ -338,8 +333,6 @@ impl Changes {
 }
 
 impl ContactModel for Nonadhesive<'_> {
-    type Leg = Sampled;
-
     const SEARCH_INTERVALS: usize = 256;
 
     fn count(&self) -> u64 {
@@ -377,32 +370,20 @@ impl ContactModel for Nonadhesive<'_> {
     }
 
     fn sample(&self, grid: Grid) -> Result<Sampled, ContactError> {
-        Ok(Sampled { states: self.along(&grid)?, grid })
+        self.along(grid)
     }
 
     /// Nothing is stretched, so that nothing dissipates.
-    fn sample_attaching(&self, grid: Grid, _: bool) -> Result<(Sampled, f64), ContactError> {
+    fn sample_changes(&self, grid: Grid, _: bool) -> Result<(Sampled, f64), ContactError> {
         Ok((self.sample(grid)?, 0.0))
-    }
-
-    fn sample_detaching(&self, grid: Grid, _: bool) -> Result<(Sampled, f64), ContactError> {
-        Ok((self.sample(grid)?, 0.0))
-    }
-
-    fn grid<'l>(&self, leg: &'l Sampled) -> &'l Grid {
-        &leg.grid
-    }
-
-    fn at(&self, leg: &Sampled, index: usize) -> ContactState {
-        leg.states[index]
     }
 
     fn smallest(&self, leg: &Sampled, _: &mut u64) -> ContactState {
-        leg.states[0]
+        leg.first()
     }
 
     fn largest(&self, leg: &Sampled, _: &mut u64) -> ContactState {
-        leg.states[leg.states.len() - 1]
+        leg.last()
     }
 
     fn first_at_least(&self, leg: &Sampled, wanted: f64, _: &mut u64) -> Option<f64> {
@@ -433,16 +414,8 @@ impl ContactModel for Nonadhesive<'_> {
         }
     }
 
-    fn beyond(&self, leg: &Sampled, wanted: f64) -> Option<f64> {
-        let end = leg.states.last()?;
-        match self.edges {
-            Edges::Grid => self
-                .between(end.indentation, end.indentation)
-                .full
-                .totals(end.indentation)
-                .indentation(wanted, &self.scale),
-            Edges::SubCell => Some(end.indentation + (wanted - end.compression) / end.length),
-        }
+    fn straight(&self, totals: ContactTotals, compression: f64) -> Option<f64> {
+        if self.edges == Edges::Grid { totals.indentation(compression, &self.scale) } else { None }
     }
 
     fn thresholds_along_line(&self, out: &mut Vec<f64>) {

@@ -73,9 +73,8 @@ impl<C: ContactModel> Reversals<C> {
         let mut turns = Vec::with_capacity(order.len());
         if !points.is_empty() {
             let states = body.contact().sample(Grid::at(points))?;
-            let grid = body.contact().grid(&states);
             turns.extend(
-                order.iter().map(|&(index, at)| (index, body.contact().at(&states, grid.first_at_least(at)))),
+                order.iter().map(|&(index, at)| (index, states.states[states.grid.first_at_least(at)])),
             );
         }
         Ok(Reversals { body, turns })
@@ -142,8 +141,7 @@ fn reverse<C: ContactModel>(
     let mut forces = vec![0.0; apart];
     if apart < below.len() {
         let leg = body.contact().sample_reversal(Grid::at(below[apart..].to_vec()))?;
-        let states = (0..below.len() - apart).map(|index| body.contact().at(&leg, index));
-        forces.extend(states.map(|state| body.curve_point(state).force));
+        forces.extend(leg.states.into_iter().map(|state| body.curve_point(state).force));
     }
     Ok(Reversal {
         turn: body.curve_point(turn),

@@ -311,20 +311,20 @@ impl<'a> Stepwise<'a> {
                 return Err(ContactError::DetachesBefore { index, leg, smallest: smallest.force });
             }
         }
-        let (joins, leaves) = match direction {
+        let (attached, detached) = match direction {
             Direction::Loading => ((self.totals.springs - before).unsigned_abs(), 0),
             Direction::Unloading => (0, (before - self.totals.springs).unsigned_abs()),
         };
-        self.work.joins += joins;
-        self.work.leaves += leaves;
+        self.work.attached += attached;
+        self.work.detached += detached;
         Ok(LegRecord {
             leg,
             direction,
             curve: curve.finish(smallest, direction),
             largest,
             smallest,
-            joins,
-            leaves,
+            attached,
+            detached,
             dissipated_energy: 0.5 * self.foundation.spring_stiffness() * self.squared_stretch,
         })
     }

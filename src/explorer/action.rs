@@ -2,12 +2,11 @@
 
 use super::opening::Opening;
 use super::panes::Pane;
-use super::snapshot::{ContactSnapshot, Preview, SolvedScene};
+use super::snapshot::Report;
 use super::study::Found;
 use crate::export::TableFormat;
 use crate::scene::Entry;
 use std::path::PathBuf;
-use std::sync::Arc;
 use std::time::Duration;
 
 /// Something that happens: a command of the user, a report of the worker, or time going by.
@@ -25,24 +24,8 @@ pub enum Action {
     Elapse(Duration),
     /// The seed is to be this one.
     SetSeed(u64),
-    /// A scene has been computed.
-    Computed(Arc<SolvedScene>),
-    /// A moment of the animation is ready.
-    Shown(Arc<ContactSnapshot>),
-    /// Some legs of a scene are done.
-    Progress {
-        /// Generation of the scene.
-        generation: u64,
-        /// Legs done.
-        legs: usize,
-    },
-    /// A scene could not be computed.
-    Failed {
-        /// Generation of the scene.
-        generation: u64,
-        /// Reason, in one line.
-        error: String,
-    },
+    /// A report of the worker.
+    Report(Report),
     /// Something was found out about accuracy.
     Found(Found),
     /// A file has been written, or not.
@@ -58,8 +41,6 @@ pub enum Action {
     },
     /// A scene or a study has been opened by its path, or not, and why.
     Opened(Result<Box<Opening>, String>),
-    /// The curve of a scene to look at.
-    Previewed(Arc<Preview>),
     /// Colours and markers are in the configuration file, or not, and why.
     Remembered(Result<PathBuf, String>),
     /// Unsaved changes of a session that was interrupted are kept: the names of their scenes.

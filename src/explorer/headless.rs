@@ -3,7 +3,7 @@
 
 use super::action::{Action, Command};
 use super::model::Model;
-use super::session::{action_of, scene_beside, scene_of};
+use super::session::{scene_beside, scene_of};
 use super::study::{Accuracy, Found, PaneData, Task, perform};
 use super::theme::Appearance;
 use super::update::{Effect, moment_request, study_tasks, update};
@@ -104,7 +104,7 @@ impl Headless {
             reports.borrow_mut().push(report);
             true
         });
-        reports.into_inner().into_iter().map(action_of).collect()
+        reports.into_inner().into_iter().map(Action::Report).collect()
     }
 
     /// Findings on accuracy without its cost: times differ from run to run.
@@ -113,7 +113,7 @@ impl Headless {
         let mut found = Vec::new();
         for task in study_tasks(&self.model) {
             match &task {
-                Task::Measure(_) => continue,
+                Task::Extend { data: PaneData::Costs(..), .. } => continue,
                 Task::Extend { data: PaneData::Map(map), .. } if map.template().springs() > MOST_CHARTED => {
                     continue;
                 }

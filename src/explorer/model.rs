@@ -1,15 +1,17 @@
 //! The state of the explorer: changed by `update` alone, drawn by the views.
 
-use super::action::{Content, Traffic};
-pub use super::appraisal::{Appraisal, Costs, Estimated};
+use super::action::Traffic;
+pub use super::appraisal::{Appraisal, Estimated};
 pub use super::chart::{Chart, OpenStudy};
 use super::completion::Completion;
 use super::config::{Animation, Config};
 use super::keys::Bindings;
 pub use super::mode::{Library, Mode, ModeKind};
 pub use super::panes::Pane;
-use super::panes::{Place as PanePlace, PreloadCurve};
+use super::panes::PreloadCurve;
 use super::parameters::{Parameter, Setting, parameters};
+pub use super::player::Player;
+use super::player::{indentations, start_of};
 use super::request::{Focus, LineView};
 use super::snapshot::{ContactSnapshot, Drive, Preview, SolvedScene};
 use super::theme::Appearance;
@@ -19,20 +21,9 @@ use crate::draw::AxisScale;
 use crate::scene::{Document, Observer, Scene, ron_float};
 use crate::simulation::Outcome;
 pub use crate::study::map::Charted;
-use crate::study::map::{MapAxis, Place, StudyMap, Template};
+use crate::study::map::{MapAxis, Place, Template};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
-
-/// State of the animation.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Player {
-    /// Index of the leg.
-    pub leg: usize,
-    /// Share that is played, 0 to 1.
-    pub done: f64,
-    /// True if time moves it on.
-    pub playing: bool,
-}
 
 /// Target of the close-up.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -250,9 +241,6 @@ pub struct Model {
     pub finished: bool,
 }
 
-/// Share of the whole range of indentations by which the body is lifted before it first touches.
-const LIFT: f64 = 0.12;
-
 impl Model {
     /// The explorer as it opens on a scene.
     #[must_use]
@@ -312,54 +300,10 @@ impl Model {
         }
     }
 
-    /// Returns true if the scene differs from what is saved.
-    #[must_use]
-    pub fn is_unsaved(&self) -> bool {
-        self.is_changed(&self.document)
-    }
-
-    /// Returns true if a document differs from what is saved by a value or a comment; another way to write a number is no change.
-    #[must_use]
-    pub fn is_changed(&self, document: &Document) -> bool {
-        let is_same = |saved: &Document| {
-            saved.text() == document.text()
-                || saved.scene() == document.scene() && saved.comments() == document.comments()
-        };
-        !self.saved.get(document.name()).is_some_and(is_same)
-    }
-
-    /// All scenes with unsaved changes, the one that is explored first.
-    #[must_use]
-    pub fn unsaved(&self) -> Vec<&Document> {
-        let present = Some(&self.document).filter(|document| self.is_changed(document));
-        present.into_iter().chain(self.left.values().filter(|left| self.is_changed(left))).collect()
-    }
-
     /// Takes over keys and animation of a configuration; colours and markers depend on options as well.
     pub fn configure(&mut self, config: Config) {
         self.bindings = Arc::new(config.bindings);
         (self.animation, self.config_path) = (config.animation, config.path);
-    }
-
-    /// Takes scenes for unsaved changes of another session, the first of them for that of the explored scene.
-    pub fn restore(&mut self, documents: &[Document]) {
-        for (number, document) in documents.iter().enumerate() {
-            match Document::parse(document.opened(), document.name()) {
-                Ok(opened) => drop(self.saved.insert(document.name().to_owned(), opened)),
-                Err(_) => drop(self.saved.remove(document.name())),
-            }
-            if number > 0 {
-                self.left.insert(document.name().to_owned(), document.clone());
-            }
-        }
-    }
-
-    /// Takes the scene as it stands for saved to a file, and goes on with that file.
-    pub fn set_saved_as(&mut self, path: &std::path::Path) {
-        if let Ok(document) = Document::parse(self.document.text(), &path.to_string_lossy()) {
-            self.document = document;
-        }
-        self.set_saved();
     }
 
     /// Governing parameters of the present scene, as far as the newest computation gives them: its line must be that
@@ -386,31 +330,22 @@ impl Model {
         Some(computed.outcome.governing.with_adhesion(now.adhesion))
     }
 
-    /// Takes the scene as it stands for saved.
-    pub fn set_saved(&mut self) {
-        self.saves += 1;
-        self.saved.insert(self.document.name().to_owned(), self.document.clone());
-    }
-
     /// Returns true if what has been computed is the scene as it stands: neither computing nor failed.
     #[must_use]
     pub fn is_current(&self) -> bool {
-        self.computed.as_ref().is_some_and(|computed| computed.generation == self.generation)
+        self.current().is_some()
+    }
+
+    /// The computed scene, where that is the scene as it stands.
+    #[must_use]
+    pub fn current(&self) -> Option<&Arc<SolvedScene>> {
+        self.computed.as_ref().filter(|computed| computed.generation == self.generation)
     }
 
     /// Returns true if a newer scene than the one shown is being computed.
     #[must_use]
     pub fn is_computing(&self) -> bool {
         self.progress.is_some()
-    }
-
-    /// The panes there are to choose from, the most important first.
-    #[must_use]
-    pub fn panes(&self) -> Vec<Pane> {
-        match self.large {
-            Some(large) => vec![Pane::Force, large, Pane::Parameters],
-            None => vec![Pane::Force, Pane::Profile, Pane::Parameters, self.lower],
-        }
     }
 
     /// Outcome for the value that is being typed, or for the one typed before until that is there; after a value was accepted,
@@ -430,70 +365,6 @@ impl Model {
     #[must_use]
     pub fn is_tried(&self) -> bool {
         self.preview.as_ref().is_some_and(|preview| self.tried.as_ref() == Some(&preview.text))
-    }
-
-    /// Returns true if a pane is in its place, as far as the window has room for it.
-    #[must_use]
-    pub fn is_shown(&self, pane: Pane) -> bool {
-        self.panes().contains(&pane)
-    }
-
-    /// Shows a pane in its place. A pane in the place of the close-up is selected where that was, any other always.
-    pub fn show(&mut self, pane: Pane) {
-        let is_same_place = self.pane == self.lower;
-        match pane.row().place {
-            PanePlace::Own => {}
-            PanePlace::CloseUp => (self.large, self.lower) = (None, pane),
-            PanePlace::Large => (self.large, self.edited) = (Some(pane), false),
-        }
-        if pane.row().place != PanePlace::CloseUp || is_same_place {
-            self.pane = pane;
-        }
-        self.keep_selection();
-    }
-
-    /// Shows the panes again in whose place a pane is.
-    pub fn hide(&mut self, pane: Pane) {
-        if self.large == Some(pane) {
-            self.large = None;
-        } else if self.lower == pane {
-            self.lower = Pane::CloseUp;
-            self.pane = if self.pane == pane { Pane::CloseUp } else { self.pane };
-        }
-        self.keep_selection();
-    }
-
-    /// Selects the force curve where the selected pane is no longer shown.
-    fn keep_selection(&mut self) {
-        if !self.is_shown(self.pane) {
-            self.pane = Pane::Force;
-        }
-    }
-
-    /// Valid keys: in the map the arrows move its mark, in panes with a crosshair the crosshair; in the list of
-    /// parameters digits begin a value.
-    #[must_use]
-    pub fn keys(&self) -> ModeKind {
-        match self.mode.kind() {
-            ModeKind::Explore => match self.pane.row().keys {
-                Some(ModeKind::Crosshair) if self.crosshair.is_none() => ModeKind::Explore,
-                keys => keys.unwrap_or(ModeKind::Explore),
-            },
-            kind => kind,
-        }
-    }
-
-    /// Contents that can be exported, by the extension of the file; those of the map while its pane is selected.
-    #[must_use]
-    pub fn exports(&self) -> &'static [(&'static str, Content)] {
-        if self.pane == Pane::Chart { &Content::MAP_EXPORTS } else { &Content::EXPORTS }
-    }
-
-    /// Shows the map of a study, the first of them.
-    pub fn show_study(&mut self, study_map: Arc<StudyMap>) {
-        self.chart.open_study(study_map, 0);
-        self.chart.of_study = true;
-        self.show(Pane::Chart);
     }
 
     /// Values of the scene on the axes of the map: its mark. `None` where the scene has no such quantity, or none that is
@@ -585,33 +456,4 @@ impl Model {
         let done = (indentation - start) / (end - start);
         if done.is_finite() { done.clamp(0.0, 1.0) } else { 0.0 }
     }
-}
-
-impl Player {
-    /// The indentation at which the animation of these loading stages stands, m.
-    #[must_use]
-    pub fn indentation(&self, legs: &[LegRecord]) -> f64 {
-        let Some(leg) = legs.get(self.leg) else { return 0.0 };
-        let start = start_of(legs, self.leg);
-        match leg.curve.last() {
-            // There the contact is still held, and below it gone.
-            Some(end) if self.done >= 1.0 && end.springs == 0 => end.indentation.next_down(),
-            _ if self.done >= 1.0 => leg.end(),
-            _ => start + (leg.end() - start) * self.done,
-        }
-    }
-}
-
-fn indentations(legs: &[LegRecord]) -> Option<(f64, f64)> {
-    let points = legs.iter().flat_map(|leg| &leg.curve).map(|point| point.indentation);
-    points.fold(None, |range: Option<(f64, f64)>, d| {
-        Some(range.map_or((d, d), |(low, high)| (low.min(d), high.max(d))))
-    })
-}
-
-/// Indentation at which the animation begins a loading stage, m. The first begins a little above the foundation.
-fn start_of(legs: &[LegRecord], leg: usize) -> f64 {
-    let (low, high) = indentations(legs).unwrap_or((0.0, 0.0));
-    let lift = if leg == 0 { LIFT * (high - low) } else { 0.0 };
-    legs.get(leg).map_or(0.0, LegRecord::start) - lift
 }

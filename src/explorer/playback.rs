@@ -3,10 +3,9 @@
 use super::close_up::close_up;
 use super::engine::Engine;
 use super::manual_body::ManualBody;
-use super::panes::Pane;
+use super::panes::{Pane, SceneSpectra};
 use super::request::{Drive, LineView, ManualMove, Newest, SnapshotRequest};
 use super::snapshot::{ContactSnapshot, Probe, Report, SolvedScene};
-use super::spectrum::SceneSpectra;
 use crate::analysis::section::{self, Contact, LineColumns, Part};
 use crate::contact::{ContactError, LegContact, LegRecord, Snapshot, Solver};
 use crate::scene::{Observer, Scene};

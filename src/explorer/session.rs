@@ -195,7 +195,7 @@ pub fn open_with(
     let signal = session.run()?;
     session.leave_drafts();
     let model = session.model;
-    let computed = model.computed.clone().filter(|_| model.is_current());
+    let computed = model.current().cloned();
     Ok(SessionEnd { document: model.document, computed, signal })
 }
 
@@ -301,7 +301,7 @@ impl<W: Write> Session<'_, W> {
                     Message::Input(event) => {
                         input::action_of(&event, &self.model.bindings, self.model.keys())
                     }
-                    Message::Report(report) => Some(action_of(report)),
+                    Message::Report(report) => Some(Action::Report(report)),
                     Message::Found(found) => Some(Action::Found(found)),
                     Message::Done(number, action) => Some(self.late(number, *action)),
                     Message::Drafts(drafts::Report::Offered(names)) => Some(Action::Offered(names)),
@@ -462,16 +462,5 @@ impl<W: Write> Session<'_, W> {
             }
         }
         Ok(())
-    }
-}
-
-/// Action of a report.
-pub(super) fn action_of(report: Report) -> Action {
-    match report {
-        Report::Computed(computed) => Action::Computed(computed),
-        Report::Shown(moment) => Action::Shown(moment),
-        Report::Progress { generation, legs } => Action::Progress { generation, legs },
-        Report::Failed { generation, error } => Action::Failed { generation, error },
-        Report::Previewed(preview) => Action::Previewed(preview),
     }
 }

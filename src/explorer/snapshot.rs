@@ -1,9 +1,9 @@
 //! Results of the worker: immutable, stamped with the generation of their scene, and
 //! already reduced to the resolution of a pane.
 
+use super::panes::SceneSpectra;
 pub use super::request::Drive;
 use super::request::Focus;
-use super::spectrum::SceneSpectra;
 pub use crate::analysis::{Column, LengthBin, Section, Share};
 use crate::contact::{CurvePoint, ManualError};
 use crate::scene::Scene;

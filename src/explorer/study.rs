@@ -1,11 +1,9 @@
 //! Accuracy of the scene, its cost, and the map over κ and H: computed beside the worker, on a thread of its own, so
 //! that no edit waits for it. Whatever is asked for next ends what is under way.
 
-use super::panes::{Pane, PreloadCurve};
+use super::panes::{Costs, Pane, PreloadCurve};
 use super::snapshot::SolvedScene;
-use crate::accuracy::{
-    Choice, ChoiceError, CostError, CostTable, Estimate, Knob, Progress, choose, estimate, measure,
-};
+use crate::accuracy::{Choice, ChoiceError, Estimate, choose, estimate};
 use crate::scene::Scene;
 use crate::simulation::RunError;
 use crate::study::map::{LiveMap, compute};
@@ -16,19 +14,19 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender};
 use std::time::Duration;
 
-/// Time for a whole measurement: that of `asperity cost`.
-pub const BUDGET: Duration = Duration::from_secs(10);
 /// Nothing is begun before it has been as quiet as that: somebody who holds a key down wants the machine.
 const QUIET: Duration = Duration::from_millis(300);
 
 /// Data of a pane, computed in parts: each part is shown as soon as it is there, and an interrupted computation continues
-/// where it ended.
+/// where it ended, but for costs, whose times are measured together.
 #[derive(Clone, Debug, PartialEq)]
 pub enum PaneData {
     /// The map over κ and H.
     Map(Arc<LiveMap>),
     /// Adhesion against preload.
     Preloads(Arc<PreloadCurve>),
+    /// Cost of accuracy of a scene.
+    Costs(Arc<Scene>, Costs),
 }
 
 impl PaneData {
@@ -38,14 +36,15 @@ impl PaneData {
         match self {
             PaneData::Map(_) => Pane::Chart,
             PaneData::Preloads(_) => Pane::Preloads,
+            PaneData::Costs(..) => Pane::Accuracy,
         }
     }
 
     /// Computes the missing part; `tell` receives the data after each addition.
     ///
     /// # Errors
-    /// When a solution fails, or `stop` says so before the end.
-    pub fn extended(self, stop: &dyn Fn() -> bool, tell: &mut dyn FnMut(PaneData)) -> Result<Self, RunError> {
+    /// The reason for which there is nothing more, also when `stop` says so before the end.
+    pub fn extended(self, stop: &dyn Fn() -> bool, tell: &mut dyn FnMut(PaneData)) -> Result<Self, String> {
         let folder = Path::new(FOLDER);
         Ok(match self {
             PaneData::Map(mut map) => {
@@ -55,8 +54,16 @@ impl PaneData {
             }
             PaneData::Preloads(mut curve) => {
                 let whole = Arc::make_mut(&mut curve);
-                whole.compute(folder, stop, &mut |one| tell(PaneData::Preloads(Arc::new(one.clone()))))?;
+                let done =
+                    whole.compute(folder, stop, &mut |one| tell(PaneData::Preloads(Arc::new(one.clone()))));
+                done.map_err(|error| error.to_string())?;
                 PaneData::Preloads(curve)
+            }
+            PaneData::Costs(scene, _) => {
+                let mut tell = |costs: &Costs| tell(PaneData::Costs(Arc::clone(&scene), costs.clone()));
+                let costs = Costs::measure(&scene, folder, stop, &mut tell);
+                let costs = costs.map_err(|error| error.to_string())?;
+                PaneData::Costs(scene, costs)
             }
         })
     }
@@ -67,8 +74,6 @@ impl PaneData {
 pub enum Task {
     /// Estimated error of the outcome.
     Estimate(Arc<SolvedScene>),
-    /// Cost of accuracy.
-    Measure(Arc<Scene>),
     /// Springs and edges for a tolerance.
     Choose(Arc<Scene>, f64),
     /// Missing part of the data of a pane.
@@ -92,14 +97,6 @@ impl Task {
 pub enum Finding {
     /// The error of the outcome, where it can be told.
     Estimated(Option<Estimate>),
-    /// Next measurement.
-    Trying(Knob, String),
-    /// The table so far.
-    Costs(Arc<CostTable>),
-    /// The whole table.
-    Measured(Arc<CostTable>),
-    /// There is no table, and why.
-    NotMeasured(String),
     /// With how many springs a tolerance is tried next.
     Choosing(u64),
     /// Choice for a tolerance, or the reason for none.
@@ -127,17 +124,6 @@ pub trait Appraiser: Send {
     /// When a solution that is needed fails.
     fn estimate(&mut self, of: &SolvedScene, stop: &dyn Fn() -> bool) -> Result<Option<Estimate>, RunError>;
 
-    /// See [`measure()`].
-    ///
-    /// # Errors
-    /// When nothing can be compared.
-    fn measure(
-        &mut self,
-        scene: &Scene,
-        stop: &dyn Fn() -> bool,
-        watch: &mut dyn FnMut(Progress<'_>),
-    ) -> Result<CostTable, CostError>;
-
     /// See [`choose`].
     ///
     /// # Errors
@@ -153,13 +139,13 @@ pub trait Appraiser: Send {
     /// See [`PaneData::extended`].
     ///
     /// # Errors
-    /// When a solution fails, or `stop` says so before the end.
+    /// The reason for which there is nothing more, also when `stop` says so before the end.
     fn extend(
         &mut self,
         data: PaneData,
         stop: &dyn Fn() -> bool,
         tell: &mut dyn FnMut(PaneData),
-    ) -> Result<PaneData, RunError> {
+    ) -> Result<PaneData, String> {
         data.extended(stop, tell)
     }
 }
@@ -176,15 +162,6 @@ impl Appraiser for Accuracy {
         estimate(&of.scene, Path::new(FOLDER), &of.outcome, stop)
     }
 
-    fn measure(
-        &mut self,
-        scene: &Scene,
-        stop: &dyn Fn() -> bool,
-        watch: &mut dyn FnMut(Progress<'_>),
-    ) -> Result<CostTable, CostError> {
-        measure(scene, Path::new(FOLDER), BUDGET, stop, watch)
-    }
-
     fn choose(
         &mut self,
         scene: &Scene,
@@ -195,9 +172,6 @@ impl Appraiser for Accuracy {
         choose(scene, Path::new(FOLDER), tolerance, stop, trying)
     }
 }
-
-/// Reason after a panic.
-const INTERNAL: &str = "internal error, please report it";
 
 /// Does a task. What is told after `stop` has said to give up is of no use to anyone and is not told.
 pub fn perform(
@@ -213,20 +187,6 @@ pub fn perform(
     };
     let done = catch_unwind(AssertUnwindSafe(|| match task {
         Task::Estimate(of) => Finding::Estimated(appraiser.estimate(of, stop).unwrap_or(None)),
-        Task::Measure(scene) => {
-            let measured = appraiser.measure(scene, stop, &mut |progress| match progress {
-                Progress::Trying(knob, setting) => tell(Finding::Trying(knob, setting.to_owned())),
-                Progress::Rows(table) => {
-                    if let Some(table) = table() {
-                        tell(Finding::Costs(Arc::new(table)));
-                    }
-                }
-            });
-            match measured {
-                Ok(table) => Finding::Measured(Arc::new(table)),
-                Err(error) => Finding::NotMeasured(error.to_string()),
-            }
-        }
         Task::Choose(scene, tolerance) => {
             let choice =
                 appraiser.choose(scene, *tolerance, stop, &mut |points| tell(Finding::Choosing(points)));
@@ -236,15 +196,16 @@ pub fn perform(
             let mut tell = |data| tell(Finding::Extended(data));
             match appraiser.extend(data.clone(), stop, &mut tell) {
                 Ok(data) => Finding::Extended(data),
-                Err(error) => Finding::NotExtended(data.pane(), error.to_string()),
+                Err(why) => Finding::NotExtended(data.pane(), why),
             }
         }
     }));
     tell(done.unwrap_or_else(|_| match task {
         Task::Estimate(_) => Finding::Estimated(None),
-        Task::Measure(_) => Finding::NotMeasured(INTERNAL.to_owned()),
         Task::Choose(_, tolerance) => Finding::Chosen(*tolerance, Err(ChoiceError::Stopped)),
-        Task::Extend { data, .. } => Finding::NotExtended(data.pane(), INTERNAL.to_owned()),
+        Task::Extend { data, .. } => {
+            Finding::NotExtended(data.pane(), "internal error, please report it".to_owned())
+        }
     }));
 }
 

@@ -53,7 +53,7 @@ pub fn scene_file(mut path: PathBuf) -> Result<PathBuf, WriteError> {
 fn write_content(file: &mut dyn Write, model: &Model, path: &Path, content: Content) -> io::Result<()> {
     let no_map = || io::Error::other("there is no map yet");
     let no_curve = || io::Error::other("the scene has no curve yet");
-    let computed = || model.computed.as_ref().filter(|_| model.is_current()).ok_or_else(no_curve);
+    let computed = || model.current().ok_or_else(no_curve);
     match content {
         Content::Scene => file.write_all(model.document.text().as_bytes()),
         Content::Curve(format) => {

@@ -40,10 +40,7 @@ pub fn adhesion_forces(forces: [Option<f64>; 2]) -> String {
     let [before, now] =
         forces.map(|force| force.map_or_else(|| "none".to_owned(), |force| format_quantity(force, "N")));
     let ratio = forces[0].zip(forces[1]).map(|(before, now)| now / before).filter(|ratio| ratio.is_finite());
-    let ratio = ratio.map_or_else(String::new, |ratio| {
-        let ratio = format!("{ratio:.3e}").parse().unwrap_or(ratio);
-        format!(", ratio {}", format_quantity(ratio, "1"))
-    });
+    let ratio = ratio.map_or_else(String::new, |ratio| format!(", ratio {}", format_quantity(ratio, "1")));
     format!("{before} → {now}{ratio}")
 }
 

@@ -3,7 +3,7 @@
 use super::sheet::Sheet;
 use crate::accuracy::{CostTable, ErrorFigure, Knob, Row};
 use crate::io::write_json_value;
-use crate::scene::{Scene, format_quantity};
+use crate::scene::{Scene, format_quantity, format_rounded};
 use crate::text::grouped;
 use serde::Serialize;
 use std::io::{self, Write};
@@ -36,9 +36,9 @@ pub fn cost_text(table: &CostTable) -> String {
     sheet.paragraph(&format!(
         "Whole runs with everything made anew, of which the least and the median; one FFT is a real \
          one of 2^20 points, {}.",
-        seconds(table.transform_seconds)
+        format_rounded(table.transform_seconds, 3, "s")
     ));
-    let (spent, budget) = (seconds(table.spent), seconds(table.budget));
+    let (spent, budget) = (format_rounded(table.spent, 3, "s"), format_rounded(table.budget, 3, "s"));
     sheet.paragraph(&format!("Taken {spent} of {budget}."));
     if table.left_out.is_empty() {
         sheet.paragraph("Everything was affordable.");
@@ -108,7 +108,9 @@ fn cells(row: &Row) -> [String; 8] {
     };
     let [force, curve, energy, contact] =
         row.errors.each().map(|error| error.map_or_else(String::new, error_cell));
-    let time = |of: fn(crate::accuracy::Timing) -> f64| row.seconds.map(of).map_or_else(String::new, seconds);
+    let time = |of: fn(crate::accuracy::Timing) -> f64| {
+        row.seconds.map(of).map_or_else(String::new, |time| format_rounded(time, 3, "s"))
+    };
     let transforms = row.transforms.filter(|count| count.is_finite());
     let transforms = transforms.map_or_else(String::new, |count| match count {
         count if count < 0.1 => format!("{count:.3}"),
@@ -124,11 +126,6 @@ fn error_cell(figure: ErrorFigure) -> String {
         (true, None) => format!("{:.1e}", figure.error),
         (true, Some(order)) => format!("{:.1e} ({order:.1})", figure.error),
     }
-}
-
-/// Times are not known to more than three digits.
-fn seconds(value: f64) -> String {
-    format_quantity(format!("{value:.2e}").parse().unwrap_or(value), "s")
 }
 
 /// The object; its keys have the order of these fields.

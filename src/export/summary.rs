@@ -175,8 +175,8 @@ fn cost(sheet: &mut Sheet, work: &Work, timings: &Timings) {
         hess_evaluations,
         springs_tallied,
         events_sorted,
-        joins,
-        leaves,
+        attached,
+        detached,
         steps,
         relaxation_sweeps,
         spring_updates,
@@ -194,8 +194,8 @@ fn cost(sheet: &mut Sheet, work: &Work, timings: &Timings) {
         ("rule of Hess applied", hess_evaluations),
         ("springs in totals", springs_tallied),
         ("events sorted", events_sorted),
-        ("springs attached", joins),
-        ("springs detached", leaves),
+        ("springs attached", attached),
+        ("springs detached", detached),
         ("steps", steps),
         ("relaxation sweeps", relaxation_sweeps),
         ("spring updates", spring_updates),
@@ -245,7 +245,7 @@ mod tests {
         // Neither times nor what the solver happens to need.
         outcome.timings = Timings { line: 1.5e-3, ..Timings::default() };
         let springs = outcome.history.work.springs;
-        outcome.history.work = Work { springs, tree_nodes: springs, joins: 1_234_567, ..Work::default() };
+        outcome.history.work = Work { springs, tree_nodes: springs, attached: 1_234_567, ..Work::default() };
         summary(scene, &outcome, None)
     }
 

@@ -70,6 +70,7 @@ pub use overrides::command_line;
 pub(crate) use overrides::quoted;
 pub use presets::{DEFAULT, Preset, find, presets};
 pub use provenance::{Provenance, arguments_of_spectra, named_from};
+pub(crate) use quantity::format_rounded;
 pub use quantity::{QuantityError, exact_quantity, format_quantity, parse_quantity, quantity_as_typed};
 pub use range::{End, Range};
 pub(crate) use read::describe_error;

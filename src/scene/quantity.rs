@@ -194,6 +194,11 @@ pub fn format_quantity(value: f64, unit: &str) -> String {
     with_unit(value, &format!("{value:.*e}", DIGITS - 1), unit)
 }
 
+/// The same to fewer digits: for a value that is known less well, or has little room.
+pub(crate) fn format_rounded(value: f64, digits: usize, unit: &str) -> String {
+    with_unit(value, &format!("{value:.*e}", digits.clamp(1, DIGITS) - 1), unit)
+}
+
 /// A value to four digits in the unit of a typed text: as `-2 µN` is typed, −1.5e-7 N is `-0.15 µN`. Where the text is no
 /// quantity, as [`format_quantity`].
 pub fn quantity_as_typed(value: f64, typed: &str, unit: &str) -> String {

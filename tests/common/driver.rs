@@ -174,18 +174,15 @@ impl Driver {
     }
 }
 
-/// What a report does. Times are taken out of it: they differ from run to run.
+/// Action of a report. Times are taken out of it: they differ from run to run.
 fn action_of(report: Report) -> Action {
-    match report {
+    Action::Report(match report {
         Report::Computed(computed) => {
             let mut outcome = computed.outcome.clone();
             outcome.timings = Timings::default();
             let scene = Arc::clone(&computed.scene);
-            Action::Computed(Arc::new(SolvedScene { generation: computed.generation, scene, outcome }))
+            Report::Computed(Arc::new(SolvedScene { generation: computed.generation, scene, outcome }))
         }
-        Report::Previewed(preview) => Action::Previewed(preview),
-        Report::Shown(moment) => Action::Shown(moment),
-        Report::Progress { generation, legs } => Action::Progress { generation, legs },
-        Report::Failed { generation, error } => Action::Failed { generation, error },
-    }
+        other => other,
+    })
 }

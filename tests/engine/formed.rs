@@ -43,10 +43,10 @@ pub fn as_if_new<S: Solver>(new: impl Fn() -> S, legs: &[Leg], force: f64) -> Re
                 };
                 prop_assert_eq!(touching(&one), touching(&other));
                 let figures = |record: &asperity::contact::LegRecord| {
-                    (record.largest, record.joins, record.leaves, record.dissipated_energy)
+                    (record.largest, record.attached, record.detached, record.dissipated_energy)
                 };
-                prop_assert_eq!(one.joins, other.joins);
-                if !free || one.joins > 0 {
+                prop_assert_eq!(one.attached, other.attached);
+                if !free || one.attached > 0 {
                     prop_assert_eq!(figures(&one), figures(&other));
                 }
                 if !free {

@@ -222,7 +222,7 @@ proptest! {
                     prop_assert_eq!(bits(&manual.point()), bits(end), "{} {:?}: {:?} against {:?}",
                         index, leg, manual.point(), end);
                     prop_assert_eq!(fragments(&manual), fragments_after(&*solver, &record));
-                    prop_assert_eq!((found.attaches, found.detaches), (record.joins, record.leaves));
+                    prop_assert_eq!((found.attaches, found.detaches), (record.attached, record.detached));
                     check_energy(found.dissipated_energy, record.dissipated_energy)?;
                 }
                 (Err(found), Err(expected)) => {

@@ -20,7 +20,7 @@ fn legs(gaps: &[f64], foundation: Foundation, work: f64, deepest: f64) -> ([LegR
     let loading = solver.advance(Leg::ToIndentation(deepest)).unwrap();
     let fragments = solver.fragments(deepest).len();
     let unloading = solver.advance(Leg::ToSeparation).unwrap();
-    assert_eq!((loading.joins, unloading.joins), (unloading.leaves, 0));
+    assert_eq!((loading.attached, unloading.attached), (unloading.detached, 0));
     ([loading, unloading], fragments)
 }
 
@@ -33,7 +33,7 @@ fn a_flat_line_is_kendalls_punch() {
     let work = 0.3;
     let ([loading, unloading], fragments) = legs(&vec![0.0; SPRINGS], foundation(SPRINGS), work, 0.1);
     let stretch = (PI * work).sqrt();
-    assert_eq!((loading.joins, fragments), (SPRINGS as u64, 1));
+    assert_eq!((loading.attached, fragments), (SPRINGS as u64, 1));
     near(loading.largest.force, 0.1, 1e-15);
     near(unloading.smallest.force, -stretch, 1e-14);
     near(unloading.end(), -stretch, 1e-14);
@@ -100,7 +100,7 @@ fn a_staircase_goes_down_step_by_step() {
         expect(point, joins_at.partition_point(|&at| at <= point.indentation));
     }
     // On the way back the count falls while the outermost tread of what is left is not held.
-    let mut count = (loading.joins as usize) / (SPRINGS / treads);
+    let mut count = (loading.attached as usize) / (SPRINGS / treads);
     for point in unloading.curve.iter().filter(|point| point.springs > 0) {
         while held_to(count) > point.indentation + 1e-12 && gap(count - 1) > point.indentation {
             count -= 1;
@@ -121,7 +121,7 @@ fn teeth_that_do_not_know_of_each_other_add_up() {
     let deepest = 1000.0 * rise;
     let (whole, fragments) = legs(&comb, foundation(SPRINGS), work, deepest);
     let (single, _) = legs(&tooth, foundation(SPRINGS), work, deepest);
-    assert!(single[0].joins < springs_each as u64 - 1, "a tooth touches the next");
+    assert!(single[0].attached < springs_each as u64 - 1, "a tooth touches the next");
     assert_eq!(fragments, teeth);
     // A power of two of equal sums: bit for bit.
     let times = |point: &CurvePoint| CurvePoint {
@@ -135,7 +135,7 @@ fn teeth_that_do_not_know_of_each_other_add_up() {
         let expected: Vec<CurvePoint> = single.curve.iter().map(times).collect();
         assert_eq!(whole.curve, expected);
         assert_eq!(whole.smallest, times(&single.smallest));
-        assert_eq!(whole.joins, teeth as u64 * single.joins);
+        assert_eq!(whole.attached, teeth as u64 * single.attached);
         near(whole.dissipated_energy, teeth as f64 * single.dissipated_energy, 1e-12);
     }
     assert!(whole[1].smallest.force < 0.0);
@@ -148,7 +148,7 @@ fn teeth_pressed_together_are_one_fragment() {
     let deepest = 64.0 * 64.0 * rise;
     let work = 0.5;
     let ([loading, unloading], fragments) = legs(&comb, foundation(SPRINGS), work, deepest);
-    assert_eq!((loading.joins, fragments), (SPRINGS as u64, 1));
+    assert_eq!((loading.attached, fragments), (SPRINGS as u64, 1));
     // It holds as one face until its deepest springs leave, all at once and everything with them.
     let lets_go = 63.0 * 64.0 * rise - (PI * work).sqrt();
     near(unloading.end(), lets_go, 1e-14);

@@ -133,9 +133,9 @@ proptest! {
             let (one, other) = (stepwise.advance(leg).unwrap(), exact.advance(leg).unwrap());
             // Where a leg ends, the step is forgotten: the same springs and, bit for bit, the same force.
             prop_assert_eq!(one.curve.last(), other.curve.last());
-            prop_assert_eq!((one.joins, one.leaves), (other.joins, other.leaves));
+            prop_assert_eq!((one.attached, one.detached), (other.attached, other.detached));
             prop_assert_eq!(one.direction, other.direction);
-            if other.curve.last().unwrap().springs == 0 && other.leaves == 0 {
+            if other.curve.last().unwrap().springs == 0 && other.detached == 0 {
                 continue;
             }
             stepwise.thresholds_along_line(&mut found);
@@ -216,7 +216,7 @@ fn one_spring_has_a_closed_form() {
             assert!((0.0..=allowed).contains(&late), "step {step}: detached {late} early");
             let smallest = FOUNDATION.spring_stiffness() * records[1].smallest.indentation;
             assert!((records[1].smallest.force - smallest).abs() < 1e-17);
-            assert_eq!(records.iter().map(|leg| leg.joins + leg.leaves).sum::<u64>(), 2);
+            assert_eq!(records.iter().map(|leg| leg.attached + leg.detached).sum::<u64>(), 2);
             let lost = 0.5 * FOUNDATION.spring_stiffness() * stretch * stretch;
             let slack = FOUNDATION.spring_stiffness() * (stretch + allowed) * allowed;
             assert!((records[1].dissipated_energy - lost).abs() <= slack, "step {step}");
@@ -269,7 +269,7 @@ fn legs_without_an_end_are_refused_before_their_first_step() {
         let far = solver.advance(Leg::ToForce(1e9));
         assert!(far == too_many(0), "{far:?}");
         if step < 1e-3 {
-            assert_eq!(solver.advance(Leg::ToTouch).unwrap().joins, 1);
+            assert_eq!(solver.advance(Leg::ToTouch).unwrap().attached, 1);
             assert_eq!(
                 (solver.advance(Leg::ToSeparation), solver.advance(Leg::ToForce(1e-3))),
                 (too_many(1), too_many(1))
@@ -353,8 +353,8 @@ fn nothing_is_done_that_a_scene_does_not_call_for() {
 
         let loading =
             work(&[solver, ("loading", "[ToForce(1.0e-5), ToForce(2.0e-5), ToIndentation(1.0e-6)]")]);
-        assert_eq!((loading.unloading_passes, loading.leaves), (0, 0));
-        assert!(loading.joins > 0);
+        assert_eq!((loading.unloading_passes, loading.detached), (0, 0));
+        assert!(loading.attached > 0);
 
         let smooth = [solver, ("roughness", "None"), ("adhesion", "(work: 0.05)")];
         let smooth = work(&smooth);

@@ -10,6 +10,7 @@ use asperity::explorer::action::{Action, Command};
 use asperity::explorer::keys::BINDINGS;
 use asperity::explorer::parameters::parameters;
 use asperity::explorer::update::{Effect, update};
+use asperity::explorer::worker::Report;
 use asperity::explorer::{Opening, view};
 use asperity::scene::{Document, Solver, check};
 use asperity::study::map::Charted;
@@ -246,7 +247,10 @@ impl Explorer {
         let actions = match &effect {
             Effect::Compute if !is_cheap(&self.driver.model.document) => {
                 let generation = self.driver.model.generation;
-                vec![Action::Failed { generation, error: "too large for a test\nin two lines".to_owned() }]
+                vec![Action::Report(Report::Failed {
+                    generation,
+                    error: "too large for a test\nin two lines".to_owned(),
+                })]
             }
             Effect::Preview(document) if !is_cheap(document) => Vec::new(),
             _ => self.driver.answer(effect),

@@ -6,6 +6,8 @@ mod common {
 }
 mod cli;
 mod cost;
+#[cfg(feature = "parquet")]
+mod parquet;
 mod readme;
 mod rounding;
 #[cfg(target_os = "linux")]

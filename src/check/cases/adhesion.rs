@@ -194,7 +194,7 @@ fn press_exactly_to(body: &Body, edges: Edges, at: f64, whole: &dyn Solver) -> R
         ensure(solver.fragments(at) == whole.fragments(at), || format!("at {at:e} m another contact"))?;
         let error = force_error(body, edges, solver, &point)?;
         let back = solver.advance(Leg::ToSeparation)?;
-        ensure(end(&back).springs == 0 && back.leaves == point.springs, || {
+        ensure(end(&back).springs == 0 && back.detached == point.springs, || {
             format!("at {at:e} m some springs stay attached")
         })?;
         // Nothing separated can be pulled. And just before a jump the force is as large as it gets for a

@@ -292,8 +292,8 @@ fn many_springs(edges: Edges) -> Result<f64, Fault> {
         let unloading = solver.advance(Leg::ToSeparation)?;
         ensure(unloading.smallest.force < 0.0, || "it does not stick".into())?;
         worst = worst.max(force_error(&body, edges, solver, &unloading.smallest)?);
-        ensure(unloading.leaves == loading.joins && end(&unloading).springs == 0, || {
-            format!("{} springs joined, {} left", loading.joins, unloading.leaves)
+        ensure(unloading.detached == loading.attached && end(&unloading).springs == 0, || {
+            format!("{} springs joined, {} left", loading.attached, unloading.detached)
         })?;
         Ok(worst)
     })
@@ -306,7 +306,7 @@ fn flat(edges: Edges) -> Result<f64, Fault> {
         let history = body.history(edges, &[Leg::ToIndentation(RMS_HEIGHT), Leg::ToSeparation], 9)?;
         let last = history.legs[1].smallest;
         let all = points as u64;
-        ensure((last.springs, last.fragments, history.legs[1].leaves) == (all, 1, all), || {
+        ensure((last.springs, last.fragments, history.legs[1].detached) == (all, 1, all), || {
             format!("{last:?}")
         })?;
         let [length, modulus, work] = [LENGTH, MODULUS, WORK].map(Extended::from);

@@ -115,7 +115,7 @@ fn run(scene: &Scene) -> Result<History, Fault> {
 fn only_scales(edges: Edges, scales: impl Iterator<Item = (f64, f64, f64)>) -> Result<(), Fault> {
     let scene = scene(edges)?;
     let one = run(&scene)?;
-    ensure(one.legs[0].joins > 50 && one.legs[4].smallest.force < 0.0, || "nothing sticks".into())?;
+    ensure(one.legs[0].attached > 50 && one.legs[4].smallest.force < 0.0, || "nothing sticks".into())?;
     for (length, height, stress) in scales {
         let other = run(&scaled(&scene, length, height, stress))?;
         same_bits(&one, &other, height, stress * length * height)?;

@@ -2,18 +2,10 @@
 
 use super::edge_model::{EdgeCells, EdgeModel};
 use super::run::{Ground, Run};
-use crate::contact::contact_model::ContactState;
+use crate::contact::contact_model::{ContactState, Sampled};
 use crate::contact::grid::Grid;
 use crate::contact::totals::ContactTotals;
 use crate::contact::{ContactError, resized};
-
-/// The contact at each point of a grid.
-pub struct Sampled {
-    pub grid: Grid,
-    /// Totals of the full springs or cells at each point.
-    pub totals: Vec<ContactTotals>,
-    pub states: Vec<ContactState>,
-}
 
 /// Edge cells of many fragments: length, its rounding errors, compression, and theirs.
 type Sums = [f64; 4];
@@ -66,30 +58,6 @@ impl<E: EdgeModel> Ground<'_, E> {
             *state = self.edges.state(point, total, cells, &scale);
         }
         Ok(Sampled { grid, totals, states })
-    }
-}
-
-impl Sampled {
-    /// The points of both grids, which have none in common.
-    pub fn merged(self, other: Sampled) -> Sampled {
-        let [mut here, mut there] = [self, other].map(|Sampled { grid, totals, states }| {
-            let points = grid.points().to_vec().into_iter();
-            points.zip(totals.into_iter().zip(states)).peekable()
-        });
-        let (mut points, mut totals, mut states) = (Vec::new(), Vec::new(), Vec::new());
-        loop {
-            let is_first = match (here.peek(), there.peek()) {
-                (Some(one), Some(other)) => one.0 <= other.0,
-                (None, None) => break,
-                (one, _) => one.is_some(),
-            };
-            if let Some((point, (total, state))) = if is_first { here.next() } else { there.next() } {
-                points.push(point);
-                totals.push(total);
-                states.push(state);
-            }
-        }
-        Sampled { grid: Grid::at(points), totals, states }
     }
 }
 

@@ -29,11 +29,10 @@ pub use tree::ContactTree;
 use tree::TWO_THREADS;
 pub(in crate::contact) use tree::{Branch, Node};
 
-use super::contact_model::{ContactModel, ContactState};
+use super::contact_model::{ContactModel, ContactState, Sampled};
 use super::grid::Grid;
-use super::{ContactError, Direction, LegContact, Work};
+use super::{ContactError, ContactTotals, Direction, LegContact, Work};
 use crate::parallel::in_parallel;
-use curve::Sampled;
 use dissipation::Range;
 use loading::Closing;
 use reversing::Reversing;
@@ -98,18 +97,6 @@ impl<'a, E: EdgeModel> Adhesive<'a, E> {
         Search { ground: self.on_leg(), runs: &self.memory.runs, unloading: self.unloading }
     }
 
-    fn sample_from(&self, grid: Grid, low: f64) -> Result<(Sampled, f64), ContactError> {
-        let range = Range { low, high: grid.high(), unloading: self.unloading };
-        let (ground, runs) = (self.on_leg(), &self.memory.runs);
-        let is_long = ground.gaps.len() >= TWO_THREADS;
-        let (sampled, squared) = in_parallel(
-            is_long,
-            || ground.sample(runs, self.unloading, grid),
-            || ground.squared_stretch(runs, range),
-        );
-        Ok((sampled?, squared))
-    }
-
     /// Memory of the contact, for the next one.
     pub(super) fn into_memory(self) -> AdhesiveMemory {
         self.memory
@@ -157,8 +144,6 @@ impl<'a, E: EdgeModel> Adhesive<'a, E> {
 }
 
 impl<E: EdgeModel> ContactModel for Adhesive<'_, E> {
-    type Leg = Sampled;
-
     // Each fragment is evaluated at each of their ends.
     const SEARCH_INTERVALS: usize = 256;
 
@@ -237,23 +222,18 @@ impl<E: EdgeModel> ContactModel for Adhesive<'_, E> {
         self.on_leg().sample(&self.memory.runs, self.unloading, grid)
     }
 
-    fn sample_attaching(&self, grid: Grid, separated: bool) -> Result<(Sampled, f64), ContactError> {
-        // The springs that touch first attach at the first point itself.
+    fn sample_changes(&self, grid: Grid, separated: bool) -> Result<(Sampled, f64), ContactError> {
+        // The springs that touch first attach at the first point itself; those held to it detach just below.
         let low = if separated { f64::NEG_INFINITY } else { grid.points()[0] };
-        self.sample_from(grid, low)
-    }
-
-    fn sample_detaching(&self, grid: Grid, separates: bool) -> Result<(Sampled, f64), ContactError> {
-        // The springs held to the last point detach just below it.
-        self.sample_attaching(grid, separates)
-    }
-
-    fn grid<'l>(&self, leg: &'l Sampled) -> &'l Grid {
-        &leg.grid
-    }
-
-    fn at(&self, leg: &Sampled, index: usize) -> ContactState {
-        leg.states[index]
+        let range = Range { low, high: grid.high(), unloading: self.unloading };
+        let (ground, runs) = (self.on_leg(), &self.memory.runs);
+        let is_long = ground.gaps.len() >= TWO_THREADS;
+        let (sampled, squared) = in_parallel(
+            is_long,
+            || ground.sample(runs, self.unloading, grid),
+            || ground.squared_stretch(runs, range),
+        );
+        Ok((sampled?, squared))
     }
 
     fn smallest(&self, leg: &Sampled, sorted: &mut u64) -> ContactState {
@@ -272,10 +252,8 @@ impl<E: EdgeModel> ContactModel for Adhesive<'_, E> {
         self.search().last_at_most(leg, wanted, sorted)
     }
 
-    fn beyond(&self, leg: &Sampled, wanted: f64) -> Option<f64> {
-        let (end, totals) = (leg.states.last()?, *leg.totals.last()?);
-        let straight = self.ground.edges.indentation_of(totals, wanted, &self.ground.tree.scale());
-        straight.or_else(|| Some(end.indentation + (wanted - end.compression) / end.length))
+    fn straight(&self, totals: ContactTotals, compression: f64) -> Option<f64> {
+        self.ground.edges.indentation_of(totals, compression, &self.ground.tree.scale())
     }
 
     fn thresholds_along_line(&self, out: &mut Vec<f64>) {

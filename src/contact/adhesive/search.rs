@@ -4,13 +4,12 @@
 //! indentations follow bounds of the force between them: what attaches there is stretched, or just touches and is then
 //! compressed by no more than the interval is wide. Only intervals of a grid whose bounds allow it are looked into.
 
-use super::curve::Sampled;
 use super::edge_model::EdgeModel;
 use super::run::{Ground, Run};
 use crate::contact::ContactError;
-use crate::contact::contact_model::ContactState;
+use crate::contact::contact_model::{ContactState, Sampled};
 use crate::contact::grid::Grid;
-use crate::contact::interval::{Ends, Interval, Piece, lower_bound, upper_bound};
+use crate::contact::interval::{Interval, Piece, lower_bound, upper_bound};
 
 /// Points of a grid from one to the next of those that are looked at first.
 const STRIDE: usize = 16;
@@ -149,17 +148,5 @@ impl<E: EdgeModel> Search<'_, E> {
         }
         intervals.iter_mut().for_each(Interval::sort);
         intervals
-    }
-}
-
-impl Sampled {
-    /// The intervals of the grid for which the contact at their ends allows it.
-    fn choose(&self, may_lie: impl Fn(&ContactState, &ContactState) -> bool) -> Vec<usize> {
-        let ends = self.states.windows(2).enumerate();
-        ends.filter(|(_, ends)| may_lie(&ends[0], &ends[1])).map(|(index, _)| index).collect()
-    }
-
-    fn ends(&self, interval: usize) -> Ends<'_> {
-        (&self.states[interval], &self.states[interval + 1])
     }
 }

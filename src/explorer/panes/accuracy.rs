@@ -1,22 +1,22 @@
 //! Cost of accuracy: errors over times, both logarithmic, requirements of a good accuracy, and the stages of the run.
 
-use super::PaneRow;
+use super::{Pane, PaneRow};
 use crate::accuracy::{CostTable, ErrorFigure, Estimate, Evidence, Knob, Row};
 use crate::draw::{Chart, Figure, Ink, Layer, Shape, Sign, Span, legend};
 use crate::explorer::layout::inside;
 use crate::explorer::model::{Estimated, Model};
-use crate::explorer::study::Task;
+use crate::explorer::study::{PaneData, Task};
 use crate::explorer::theme::{Appearance, Meaning};
+use crate::explorer::view::lines::{draw_around, draw_reason};
 use crate::explorer::view::plot;
 use crate::explorer::view::stages;
 use crate::explorer::view::wrap::{filled, wrapped};
 use crate::export::work_precision;
-use crate::scene::{Edges, Numerics, Solver, format_quantity};
+use crate::scene::{Edges, Numerics, Solver, format_quantity, format_rounded};
 use crate::text::grouped;
 use ratatui::Frame;
 use ratatui::layout::Rect;
 use ratatui::text::{Line, Span as Text};
-use ratatui::widgets::Paragraph;
 use std::sync::Arc;
 
 /// Row of the pane.
@@ -24,7 +24,14 @@ pub static ROW: PaneRow = PaneRow {
     title: |_| " Accuracy: error over time, log–log ".to_owned(),
     draw,
     task: |model, computed| {
-        model.appraisal.costs.ended.is_none().then(|| Task::Measure(Arc::clone(&computed.scene)))
+        let costs = Some(model.appraisal.costs.clone()).filter(|costs| !costs.is_whole)?;
+        let data = PaneData::Costs(Arc::clone(&computed.scene), costs);
+        Some(Task::Extend { data, waits: true })
+    },
+    take_in: |model, data| {
+        if let PaneData::Costs(_, costs) = data {
+            model.appraisal.costs = costs;
+        }
     },
     help: &[(
         "Accuracy",
@@ -63,17 +70,8 @@ fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
     let legend =
         shown.map(|(table, figure)| entries(table, figure, area.width, model.appearance)).unwrap_or_default();
     let below = texts(model, shown.map(|(table, _)| table), area);
-    let room = area.height.saturating_sub(if shown.is_none() { 1 } else { FEWEST_PLOT_ROWS + 1 });
-    let above = (legend.len() as u16).min(room);
-    let text_rows = (below.len() as u16).min(room - above);
-    let lines = |frame: &mut Frame<'_>, y: u16, rows: u16, lines: Vec<Line<'static>>| {
-        for (y, line) in (y..y + rows).zip(lines) {
-            frame.render_widget(Paragraph::new(line), Rect { y, height: 1, ..area });
-        }
-    };
-    let plot = Rect { y: area.y + above, height: area.height - above - text_rows, ..area };
-    lines(frame, area.y, above, legend);
-    lines(frame, plot.bottom(), text_rows, below);
+    let plot_rows = if shown.is_none() { 1 } else { FEWEST_PLOT_ROWS + 1 };
+    let plot = draw_around(frame, area, (legend, below), plot_rows);
     match shown {
         Some((table, figure)) => {
             for chart in &figure.charts {
@@ -81,13 +79,7 @@ fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
                 plot::draw_chart(frame, plot, &chart, model.appearance);
             }
         }
-        None => {
-            let text = wrapped(
-                &Line::styled(nothing_yet(model), model.appearance.theme.style(Meaning::Quiet)),
-                area.width,
-            );
-            lines(frame, plot.y, plot.height, text);
-        }
+        None => draw_reason(frame, plot, &nothing_yet(model), model.appearance.theme),
     }
 }
 
@@ -97,10 +89,10 @@ fn nothing_yet(model: &Model) -> String {
     if model.is_computing() {
         return "first the scene itself…".to_owned();
     }
-    match (&costs.ended, model.is_current()) {
-        (_, false) => "the scene has no curve to estimate an error of".to_owned(),
-        (Some(Err(why)), _) => format!("nothing is measured: {why}"),
-        (Some(Ok(())), _) => {
+    match (model.failures.get(&Pane::Accuracy), costs.is_whole) {
+        _ if !model.is_current() => "the scene has no curve to estimate an error of".to_owned(),
+        (Some(why), _) => format!("nothing is measured: {why}"),
+        (None, true) => {
             "nothing to show: no force in this scene whose error depends on springs, steps, samples or lines"
                 .to_owned()
         }
@@ -193,7 +185,7 @@ fn texts(model: &Model, table: Option<&CostTable>, area: Rect) -> Vec<Line<'stat
     if let Some(table) = table {
         for bound in TARGETS {
             let percent = format!("{} %", 100.0 * bound);
-            if let Some(answer) = answer(table, bound, model.appraisal.costs.ended.is_some()) {
+            if let Some(answer) = answer(table, bound, model.appraisal.costs.is_whole) {
                 let percent = Text::styled(format!("{percent}: "), theme.style(Meaning::Title));
                 say(Line::from(vec![percent, Text::raw(answer)]));
             }
@@ -252,7 +244,7 @@ fn now(model: &Model, table: Option<&CostTable>) -> Line<'static> {
         Estimated::Unknown => ", error unknown".to_owned(),
     };
     let absent = table.is_some_and(|table| {
-        model.appraisal.costs.ended.is_some() && !table.rows.is_empty() && present(&numerics, table).is_none()
+        model.appraisal.costs.is_whole && !table.rows.is_empty() && present(&numerics, table).is_none()
     });
     let absent = if absent { "; not among those tried" } else { "" };
     Line::from(vec![
@@ -269,8 +261,7 @@ fn answer(table: &CostTable, bound: f64, finished: bool) -> Option<String> {
             match (table.first_row_within(knob, bound), finest) {
                 (Some(row), _) => {
                     let time = row.seconds.map_or_else(String::new, |time| {
-                        let minimum = format!("{:.1e}", time.minimum).parse().unwrap_or(time.minimum);
-                        format!(", {}", format_quantity(minimum, "s"))
+                        format!(", {}", format_rounded(time.minimum, 2, "s"))
                     });
                     Some(format!("{edges} {}{time}", grouped(row.springs)))
                 }

@@ -6,14 +6,13 @@ use crate::explorer::layout::inside;
 use crate::explorer::mode::ModeKind;
 use crate::explorer::model::{Ghost, Model};
 use crate::explorer::snapshot::SolvedScene;
-use crate::explorer::theme::Meaning;
+use crate::explorer::view::lines::{draw_lines, draw_reason};
 use crate::explorer::view::wrap::clipped;
 use crate::export::adhesion_forces;
 use crate::scene::format_quantity;
 use ratatui::Frame;
 use ratatui::layout::Rect;
 use ratatui::text::Line;
-use ratatui::widgets::Paragraph;
 
 /// Row of the pane.
 pub static ROW: PaneRow =
@@ -39,22 +38,20 @@ fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
         let histogram = ghost.computed.outcome.histogram.as_ref();
         profile::draw_scene(frame, above, (beside, histogram), profile::heights(moment), model.appearance);
     } else {
-        let quiet = model.appearance.theme.style(Meaning::Quiet);
-        frame.render_widget(Paragraph::new("computing…").style(quiet), above);
+        draw_reason(frame, above, "computing…", model.appearance.theme);
     }
     let changes = Line::raw(format!("{} → this scene: {}", force::newest_letter(model), ghost.changes));
     let lines = [forces(model, ghost), changes];
-    for (row, line) in (area.bottom() - text_rows..area.bottom()).zip(lines) {
-        let line = if line.width() > usize::from(area.width) { clipped(line, area.width) } else { line };
-        frame.render_widget(Paragraph::new(line), Rect { y: row, height: 1, ..area });
-    }
+    let lines = lines
+        .map(|line| if line.width() > usize::from(area.width) { clipped(line, area.width) } else { line });
+    draw_lines(frame, Rect { y: above.bottom(), height: text_rows, ..area }, lines);
 }
 
 /// Adhesion forces of the ghost and of the scene, and their ratio.
 fn forces(model: &Model, ghost: &Ghost) -> Line<'static> {
     let force = |computed: &SolvedScene| computed.outcome.figures.adhesion_force;
     let before = force(&ghost.computed);
-    Line::raw(match model.computed.as_deref().filter(|_| model.is_current()) {
+    Line::raw(match model.current() {
         Some(now) => format!("F_a {}", adhesion_forces([before, force(now)])),
         None => "computing…".to_owned(),
     })

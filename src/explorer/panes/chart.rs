@@ -1,6 +1,6 @@
 //! The map in its pane: shades in the colours of the regimes, and the mark of the scene. Beside the map are its [words].
 
-use super::{Pane, PaneRow, chart_words as words, sections};
+use super::{PaneRow, chart_words as words, sections};
 use crate::draw::{CellPlot, Chart, Figure, Label};
 use crate::explorer::layout::inside;
 use crate::explorer::mode::ModeKind;
@@ -9,8 +9,8 @@ use crate::explorer::session::scene_of;
 use crate::explorer::study::{PaneData, Task};
 use crate::explorer::theme::{Meaning, Theme};
 use crate::explorer::update::{self, Effect};
+use crate::explorer::view::lines::{draw_around, draw_reason};
 use crate::explorer::view::plot;
-use crate::explorer::view::wrap::wrapped;
 use crate::export::study_figure;
 use crate::study::map::{Charted, MapModel, Place};
 use ratatui::Frame;
@@ -30,7 +30,7 @@ pub static ROW: PaneRow = PaneRow {
     drag: |model, area, here| if model.chart.moving { put(model, area, here) } else { Vec::new() },
     task: |model, computed| {
         let map = model.chart.wanted(&computed.scene).ok().flatten();
-        let is_live = model.chart.shown_study().is_none() && !model.failures.contains_key(&Pane::Chart);
+        let is_live = model.chart.shown_study().is_none();
         map.filter(|_| is_live).map(|map| Task::Extend { data: PaneData::Map(map), waits: model.edited })
     },
     take_in: |model, data| {
@@ -141,32 +141,21 @@ fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
     let area = inside(area);
     let theme = model.appearance.theme;
     let Some(map_model) = model.chart.map_model() else {
-        let text = wrapped(&Line::styled(words::nothing_yet(model), theme.style(Meaning::Quiet)), area.width);
-        return write(frame, area, text);
+        return draw_reason(frame, area, &words::nothing_yet(model), theme);
     };
     if model.chart.sections || map_model.up().is_none() {
         let below = words::below(model, area);
-        let rows = (below.len() as u16).min(area.height.saturating_sub(FEWEST_ROWS));
-        let plots = Rect { height: area.height - rows, ..area };
-        sections::draw(frame, plots, model);
-        return write(frame, Rect { y: plots.bottom(), height: rows, ..area }, below);
+        let plots = draw_around(frame, area, (Vec::new(), below), FEWEST_ROWS);
+        return sections::draw(frame, plots, model);
     }
     let Some(Parts { chart, legend, plot, below }) = parts(model, map_model, area) else { return };
-    write(frame, Rect { height: legend.len() as u16, ..area }, legend);
-    let rows = (below.len() as u16).min(area.height);
-    write(frame, Rect { y: area.bottom() - rows, height: rows, ..area }, below);
+    draw_around(frame, area, (legend, below), 0);
     plot::in_theme(model.appearance, |style| plot.draw(frame.buffer_mut(), &chart, style));
     if let Some((across, Some(up))) = model.place() {
         let marker = model.appearance.marker.symbols();
         if let Some(cell) = plot.cell(&chart, marker, (across, up)) {
             mark(frame, area, plot.plot, cell, theme);
         }
-    }
-}
-
-fn write(frame: &mut Frame<'_>, area: Rect, lines: Vec<Line<'static>>) {
-    for (y, line) in (area.y..area.bottom()).zip(lines) {
-        frame.render_widget(Paragraph::new(line), Rect { y, height: 1, ..area });
     }
 }
 

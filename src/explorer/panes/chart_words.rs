@@ -7,7 +7,7 @@ use crate::explorer::model::{Model, OpenStudy};
 use crate::explorer::theme::Meaning;
 use crate::explorer::view::plot;
 use crate::explorer::view::wrap::{filled, wrapped};
-use crate::scene::format_quantity;
+use crate::scene::format_rounded;
 use crate::study::Quantity;
 use crate::study::figure::Estimate;
 use crate::study::map::{Charted, Layer, Level, LiveMap, MapAxis, MapModel, Place, ShownCell, Template};
@@ -130,15 +130,9 @@ fn slice(model: &Model, study: &OpenStudy, width: usize) -> Vec<Line<'static>> {
     filled(at.chain([vec![which]]).collect(), "  ", width)
 }
 
-/// A number to two digits.
-fn short(value: f64, unit: &str) -> String {
-    format_quantity(format!("{value:.1e}").parse().unwrap_or(value), unit)
-}
-
 /// A value of an axis with its symbol.
 pub fn on_axis(axis: &MapAxis, value: f64) -> String {
-    let rounded = format!("{value:.2e}").parse().unwrap_or(value);
-    format!("{} {}", axis.symbol(), format_quantity(rounded, &axis.figure.unit))
+    format!("{} {}", axis.symbol(), format_rounded(value, 3, &axis.figure.unit))
 }
 
 /// A place with the symbols of the axes.
@@ -238,7 +232,7 @@ fn note_of_study(study: &OpenStudy, map_model: &MapModel) -> String {
 /// The scene itself.
 fn here(model: &Model, map_model: &MapModel, place: Place) -> Line<'static> {
     let outside = if map_model.contains(place) { "" } else { ", outside the map" };
-    let regime = model.computed.as_ref().filter(|_| model.is_current());
+    let regime = model.current();
     let regime = regime.and_then(|computed| computed.outcome.regime);
     let regime = regime.map_or_else(String::new, |regime| format!(": {}", regime.name()));
     Line::from(vec![
@@ -295,7 +289,7 @@ fn there(model: &Model, map_model: &MapModel, mark: Place, place: &ShownCell<'_>
 /// A mean, and its confidence where that is known.
 fn value(Estimate { mean, low, high }: Estimate, unit: &str) -> String {
     if low == high {
-        return short(mean, unit);
+        return format_rounded(mean, 2, unit);
     }
-    format!("{} ± {}", short(mean, unit), short((high - low) / 2.0, unit))
+    format!("{} ± {}", format_rounded(mean, 2, unit), format_rounded((high - low) / 2.0, 2, unit))
 }

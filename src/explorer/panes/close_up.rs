@@ -2,7 +2,6 @@
 //! of the whole contact.
 
 use super::position::zoom_at;
-use super::section::short;
 use super::{PaneRow, Place, section};
 use crate::draw::{CellPlot, Chart, Span};
 use crate::explorer::layout::inside;
@@ -10,6 +9,7 @@ use crate::explorer::mode::ModeKind;
 use crate::explorer::model::Model;
 use crate::explorer::snapshot::{ContactSnapshot, FragmentFacts, Section, Share};
 use crate::explorer::theme::{Meaning, Theme};
+use crate::explorer::view::lines::draw_lines;
 use crate::explorer::view::plot;
 use crate::scene::format_quantity;
 use ratatui::Frame;
@@ -39,7 +39,7 @@ fn title(model: &Model) -> String {
     let shown = &moment.close_up.section;
     let from = (moment.line.first + shown.first) as f64 * moment.line.spacing;
     let width = shown.springs as f64 * moment.line.spacing;
-    let [width, from] = [width, from].map(|x| format_quantity(short(x), "m"));
+    let [width, from] = [width, from].map(|x| format_quantity(x, "m"));
     format!(" Fragments, {width} from x = {from} ")
 }
 
@@ -85,9 +85,7 @@ fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
         );
     }
     let lines = describe(close_up.fragment, moment.point.fragments, area.width);
-    for (row, line) in (area.bottom() - text_rows..area.bottom()).zip(lines) {
-        frame.render_widget(Paragraph::new(line), Rect { y: row, height: 1, ..area });
-    }
+    draw_lines(frame, Rect { y: area.bottom() - text_rows, height: text_rows, ..area }, lines);
 }
 
 /// Rows below the plot: those of the whole contact and those of the text.
@@ -141,12 +139,12 @@ const ROUNDING: f64 = 1e-13;
 /// letting go.
 fn describe(fragment: Option<FragmentFacts>, fragments: u64, width: u16) -> [Line<'static>; 2] {
     let Some(facts) = fragment else { return [Line::raw("○ nothing is in contact"), Line::default()] };
-    let length = format_quantity(short(facts.length), "m");
+    let length = format_quantity(facts.length, "m");
     let springs = facts.springs.1 + 1 - facts.springs.0;
     let plural = if springs == 1 { "" } else { "s" };
     let mut first =
         format!("○ fragment {} of {fragments}: {springs} spring{plural}, δx {length}", facts.number + 1);
-    let force = format!(", F {}", format_quantity(short(facts.force), "N"));
+    let force = format!(", F {}", format_quantity(facts.force, "N"));
     if first.chars().count() + force.chars().count() <= usize::from(width) {
         first += &force;
     }
@@ -154,7 +152,7 @@ fn describe(fragment: Option<FragmentFacts>, fragments: u64, width: u16) -> [Lin
     // At the very edge of letting go what is left of it is rounding.
     let margin = if margin.abs() <= ROUNDING * facts.largest_stretch { 0.0 } else { margin };
     let [bears, stretched, margin] =
-        [facts.largest_stretch, facts.most_stretched, margin].map(|value| format_quantity(short(value), "m"));
+        [facts.largest_stretch, facts.most_stretched, margin].map(|value| format_quantity(value, "m"));
     let second = if width >= 60 {
         format!("  Δl_max {bears} · most stretched {stretched} · margin {margin}")
     } else {

@@ -15,14 +15,14 @@ use crate::explorer::request::ManualMove;
 use crate::explorer::snapshot::SolvedScene;
 use crate::explorer::theme::{Meaning, Theme};
 use crate::explorer::update::{Effect, movement};
+use crate::explorer::view::lines::{draw_lines, draw_reason};
 use crate::explorer::view::plot;
 use crate::explorer::view::wrap::fitting;
 use crate::export::sign;
-use crate::scene::format_quantity;
+use crate::scene::format_rounded;
 use ratatui::Frame;
 use ratatui::layout::{Position, Rect};
 use ratatui::text::{Line, Span as Text};
-use ratatui::widgets::Paragraph;
 
 /// Row of the pane.
 pub static ROW: PaneRow = PaneRow {
@@ -63,9 +63,9 @@ fn title(model: &Model) -> String {
                     } else {
                         String::new()
                     };
-                    format!(", μ {}{low}", format_quantity(short(number), "1"))
+                    format!(", μ {}{low}", format_rounded(number, 3, "1"))
                 });
-                format!(" · loss {}{number}", format_quantity(short(energy), "J"))
+                format!(" · loss {}{number}", format_rounded(energy, 3, "J"))
             }
             None => " · loss open".to_owned(),
         }
@@ -243,11 +243,10 @@ fn drag(model: &mut Model, area: Rect, here: Position) -> Vec<Effect> {
 fn reading(model: &Model, area: Rect) -> Option<Line<'static>> {
     model.crosshair?;
     let point = model.present()?.point;
-    let [d, length] =
-        [point.indentation, point.contact_length].map(|value| format_quantity(short(value), "m"));
+    let [d, length] = [point.indentation, point.contact_length].map(|value| format_rounded(value, 3, "m"));
     let mut parts = vec![
         format!("d {d}"),
-        format!("F {}", format_quantity(short(point.force), "N")),
+        format!("F {}", format_rounded(point.force, 3, "N")),
         format!("l {length}"),
         format!("n {}", point.fragments),
     ];
@@ -271,8 +270,7 @@ fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
     let shown = model.computed.as_ref().filter(|_| model.indentations().is_some());
     let Some(computed) = shown else {
         let text = if model.is_computing() { "computing…" } else { "no curve" };
-        frame.render_widget(Paragraph::new(text).style(theme.style(Meaning::Quiet)), area);
-        return;
+        return draw_reason(frame, area, text, theme);
     };
     let above = rows_above(model, area);
     let units = Units::of(model, computed);
@@ -295,9 +293,8 @@ fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
         let style = theme.style(plot::meaning(Ink::Compared(number)));
         Line::styled(format!("{}{force} {}", letter(number), ghost.differs), style)
     });
-    for (y, line) in (area.y..area.y + above).zip(rows.into_iter().chain(values).chain(ghosts)) {
-        frame.render_widget(Paragraph::new(line), Rect { y, height: 1, ..area });
-    }
+    let above = Rect { height: above.min(area.height), ..area };
+    draw_lines(frame, above, rows.into_iter().chain(values).chain(ghosts));
 }
 
 /// The curve, what is compared with it, the way of manual loading, and marks.
@@ -370,7 +367,7 @@ fn values(legs: &[LegRecord], width: u16, theme: Theme) -> Line<'static> {
     let marks = marks(legs);
     let parts = |words: bool, from: usize| -> Vec<Vec<Text<'static>>> {
         let text = |&(mark, point): &(Mark, CurvePoint)| {
-            let force = format_quantity(short(point.force), "N");
+            let force = format_rounded(point.force, 3, "N");
             let name = if words { format!(" {}", mark.name()) } else { String::new() };
             vec![
                 Text::styled(glyph(sign(mark)), theme.style(Meaning::Title)),
@@ -398,12 +395,12 @@ fn marked(ghost: &Ghost) -> Option<CurvePoint> {
 fn adhesion(model: &Model, ghost: &Ghost) -> Option<String> {
     let of = |computed: &SolvedScene| computed.outcome.figures.adhesion_force;
     let force = of(&ghost.computed)?;
-    let present = model.computed.as_deref().filter(|_| model.is_current()).and_then(of);
+    let present = model.current().and_then(|one| of(one));
     let difference = present.map_or_else(String::new, |present| {
         let sign = if force > present { "+" } else { "" };
-        format!(" ({sign}{})", format_quantity(short(force - present), "N"))
+        format!(" ({sign}{})", format_rounded(force - present, 3, "N"))
     });
-    Some(format!("F_a {}{difference}", format_quantity(short(force), "N")))
+    Some(format!("F_a {}{difference}", format_rounded(force, 3, "N")))
 }
 
 /// Draws the letters of ghosts, each in the nearest cell of its row without a sign.
@@ -435,9 +432,4 @@ pub fn newest_letter(model: &Model) -> &'static str {
 fn letter(number: usize) -> &'static str {
     const LETTERS: [&str; 8] = ["A", "B", "C", "D", "E", "F", "G", "H"];
     LETTERS[number % LETTERS.len()]
-}
-
-/// The value to three digits.
-fn short(value: f64) -> f64 {
-    format!("{value:.2e}").parse().unwrap_or(value)
 }

@@ -2,7 +2,7 @@
 
 use crate::draw::Span;
 use crate::explorer::theme::{Meaning, Theme};
-use crate::scene::format_quantity;
+use crate::scene::format_rounded;
 use crate::surface::Histogram;
 use ratatui::Frame;
 use ratatui::layout::Rect;
@@ -43,17 +43,12 @@ pub fn draw(
         frame.render_widget(Paragraph::new(Line::from(spans)), Rect { y: row, height: 1, ..inner });
     }
     let all: u64 = histogram.counts.iter().sum();
-    let longest = format_quantity(short(100.0 * most / all as f64), "1");
+    let longest = format_rounded(100.0 * most / all as f64, 2, "1");
     if let Some(y) = numbers {
         let (row, quiet) = (Rect { y, height: 1, ..inner }, theme.style(Meaning::Quiet));
         frame.render_widget(Paragraph::new(Line::styled("0", quiet)), row);
         frame.render_widget(Paragraph::new(Line::styled(format!("{longest} %"), quiet).right_aligned()), row);
     }
-}
-
-/// The value to two digits.
-fn short(value: f64) -> f64 {
-    format!("{value:.1e}").parse().unwrap_or(value)
 }
 
 /// The heights that would fall into each row, top row first, were they normally distributed with the mean

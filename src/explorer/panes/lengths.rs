@@ -6,6 +6,7 @@ use crate::explorer::layout::inside;
 use crate::explorer::model::Model;
 use crate::explorer::snapshot::LengthBin;
 use crate::explorer::theme::Meaning;
+use crate::explorer::view::lines::draw_reason;
 use crate::explorer::view::plot;
 use ratatui::Frame;
 use ratatui::layout::Rect;
@@ -28,8 +29,7 @@ fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
     let spacing = computed.outcome.line.spacing;
     let filled: Vec<&LengthBin> = bins.iter().filter(|bin| bin.fragments > 0).collect();
     if filled.is_empty() {
-        frame.render_widget(Paragraph::new("nothing is in contact").style(theme.style(Meaning::Quiet)), area);
-        return;
+        return draw_reason(frame, area, "nothing is in contact", theme);
     }
     let points: Vec<(f64, f64)> = filled
         .iter()

@@ -5,6 +5,7 @@ mod beside;
 mod chart;
 mod chart_words;
 mod close_up;
+mod costs;
 mod force;
 mod histogram;
 mod lengths;
@@ -14,16 +15,19 @@ mod preload_curve;
 mod preloads;
 mod profile;
 mod row;
+mod scene_spectra;
 mod section;
 mod sections;
 mod spectrum;
 
 pub use chart::map_figure;
+pub use costs::Costs;
 pub use force::{indentation_at, stage_at};
 pub use parameters::first_listed;
 pub use position::{position_at, share_at};
 pub use preload_curve::{PROFILES, PreloadCurve};
 pub use row::{PaneRow, Place};
+pub use scene_spectra::SceneSpectra;
 pub use sections::section_cell;
 
 /// The panes.

@@ -263,15 +263,11 @@ fn value(model: &Model, parameter: &Parameter) -> String {
     }
     let written = model.written(parameter).and_then(|written| written.parse::<f64>().ok());
     match written {
-        Some(value) => format!("= {}", quantity(value, parameter.field.unit)),
+        Some(value) => format!("= {}", format_quantity(value, parameter.field.unit)),
         // A smooth body has no κ; of a scene that is not computed yet it is not known.
         None if model.governing().is_some() => "none".to_owned(),
         None => "= …".to_owned(),
     }
-}
-
-fn quantity(value: f64, unit: &str) -> String {
-    format_quantity(format!("{value:.3e}").parse().unwrap_or(value), unit)
 }
 
 /// Derived values, in as many lines as needed.
@@ -285,17 +281,17 @@ fn derived_values(model: &Model) -> Vec<(&'static str, String)> {
     let Some(computed) = &model.computed else { return Vec::new() };
     let outcome = &computed.outcome;
     let governing = model.governing().unwrap_or(outcome.governing);
-    let mut values = vec![("E*", quantity(governing.effective_modulus, "Pa"))];
+    let mut values = vec![("E*", format_quantity(governing.effective_modulus, "Pa"))];
     if let Some(amplitude) = governing.amplitude {
-        values.push(("h", quantity(amplitude.rms_height, "m")));
-        values.push(("⟨∇z⟩", quantity(amplitude.rms_gradient, "1")));
+        values.push(("h", format_quantity(amplitude.rms_height, "m")));
+        values.push(("⟨∇z⟩", format_quantity(amplitude.rms_gradient, "1")));
     }
     // Of a scene that failed nothing more is known.
     if !model.is_current() && !model.is_computing() {
         return values;
     }
     if let Some(force) = outcome.ideal_adhesion_force {
-        values.push(("F_a,max", quantity(force, "N")));
+        values.push(("F_a,max", format_quantity(force, "N")));
     }
     if let Some(regime) = outcome.regime {
         values.push(("regime", regime.name().to_owned()));

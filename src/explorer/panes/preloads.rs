@@ -7,13 +7,10 @@ use crate::draw::{Axis, AxisScale, Chart, Ink, Layer, Shape, Sign};
 use crate::explorer::layout::inside;
 use crate::explorer::model::Model;
 use crate::explorer::study::{PaneData, Task};
-use crate::explorer::theme::Meaning;
-use crate::explorer::view::wrap::wrapped;
+use crate::explorer::view::lines::draw_reason;
 use crate::export::{preload_axes, preload_layers};
 use ratatui::Frame;
 use ratatui::layout::Rect;
-use ratatui::text::Line;
-use ratatui::widgets::Paragraph;
 use std::sync::Arc;
 
 /// Row of the pane.
@@ -23,7 +20,7 @@ pub static ROW: PaneRow = PaneRow {
     task: |model, computed| {
         let begun = model.preloads.clone();
         let curve = begun.or_else(|| PreloadCurve::new(computed).ok().map(Arc::new));
-        let curve = curve.filter(|one| !one.is_whole() && !model.failures.contains_key(&Pane::Preloads));
+        let curve = curve.filter(|one| !one.is_whole());
         curve.map(|curve| Task::Extend { data: PaneData::Preloads(curve), waits: model.edited })
     },
     take_in: |model, data| {
@@ -45,19 +42,14 @@ fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
     let area = inside(area);
     let curve = model.preloads.as_deref().filter(|curve| !curve.own.is_empty());
     let Some(curve) = curve else {
-        let why = match (
-            model.failures.get(&Pane::Preloads),
-            model.computed.as_ref().filter(|_| model.is_current()),
-        ) {
+        let why = match (model.failures.get(&Pane::Preloads), model.current()) {
             (Some(why), _) => why.clone(),
             (None, Some(computed)) => {
                 PreloadCurve::new(computed).map_or_else(str::to_owned, |_| "computing …".to_owned())
             }
             (None, None) => "computing …".to_owned(),
         };
-        let lines = wrapped(&Line::styled(why, model.appearance.theme.style(Meaning::Quiet)), area.width);
-        frame.render_widget(Paragraph::new(lines), area);
-        return;
+        return draw_reason(frame, area, &why, model.appearance.theme);
     };
     let chart = chart(model, curve);
     let heading = format!("{}  {}", chart.y.label_with_unit(), told(curve)).trim_end().to_owned();
@@ -79,7 +71,7 @@ fn chart(model: &Model, curve: &PreloadCurve) -> Chart {
         layers.pop();
         layers.push(own);
     }
-    let figures = model.computed.as_ref().filter(|_| model.is_current()).map(|one| one.outcome.figures);
+    let figures = model.current().map(|one| one.outcome.figures);
     let present = figures.and_then(|figures| figures.preload.zip(figures.adhesion_force));
     if let Some((preload, force)) = present {
         layers.push(Layer::unnamed(Ink::Cursor, Shape::Upright(preload)));

@@ -8,6 +8,7 @@ use crate::explorer::mode::ModeKind;
 use crate::explorer::model::Model;
 use crate::explorer::snapshot::{ContactSnapshot, Section};
 use crate::explorer::theme::{Appearance, Meaning, Theme};
+use crate::explorer::view::lines::draw_reason;
 use crate::explorer::view::plot;
 use crate::scene::format_quantity;
 use crate::surface::Histogram;
@@ -47,7 +48,7 @@ fn title(model: &Model) -> String {
     }
     let from = (moment.line.first + shown.first) as f64 * moment.line.spacing;
     let to = from + shown.springs as f64 * moment.line.spacing;
-    let [from, to] = [from, to].map(|x| format_quantity(section::short(x), "m"));
+    let [from, to] = [from, to].map(|x| format_quantity(x, "m"));
     format!(" Profile z(x), x from {from} to {to} of {length}{follows} ")
 }
 
@@ -72,9 +73,7 @@ fn section_at(model: &Model, area: Rect) -> Option<(&Section, Chart, CellPlot)> 
 fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
     let area = inside(area);
     let Some(moment) = model.moment.as_ref() else {
-        let quiet = model.appearance.theme.style(Meaning::Quiet);
-        frame.render_widget(Paragraph::new("…").style(quiet), area);
-        return;
+        return draw_reason(frame, area, "…", model.appearance.theme);
     };
     let histogram = model.computed.as_ref().and_then(|computed| computed.outcome.histogram.as_ref());
     draw_scene(frame, area, (moment, histogram), heights(moment), model.appearance);

@@ -46,7 +46,7 @@ pub fn add_crosshair(chart: &mut Chart, moment: &ContactSnapshot) {
 /// Readings of the crosshair: position, height, and the gap or the stretch of the spring.
 fn reading(moment: &ContactSnapshot, theme: Theme) -> Vec<Vec<Text<'static>>> {
     let Some(probe) = moment.probe else { return Vec::new() };
-    let length = |value: f64| format_quantity(short(value), "m");
+    let length = |value: f64| format_quantity(value, "m");
     let part = |text: String| vec![Text::styled(text, theme.style(Meaning::Cursor))];
     let distance = probe.level - probe.height;
     let state = match probe.patch {
@@ -77,9 +77,4 @@ pub fn names(
         parts.extend(more);
     }
     plot::on_frame(parts, width)
-}
-
-/// To four digits: enough to find the place again.
-pub fn short(value: f64) -> f64 {
-    format!("{value:.3e}").parse().unwrap_or(value)
 }

@@ -4,6 +4,7 @@ use super::chart_words::{name_of, on_axis, told};
 use crate::draw::{Axis, AxisScale, Chart, Ink, Label, Layer as Drawn, Shape, Sign, Span, Stroke, legend};
 use crate::explorer::model::Model;
 use crate::explorer::theme::Meaning;
+use crate::explorer::view::lines::draw_around;
 use crate::explorer::view::plot;
 use crate::explorer::view::wrap::filled;
 use crate::study::figure::Estimate;
@@ -11,7 +12,6 @@ use crate::study::map::{Layer, MapAxis, MapModel};
 use ratatui::Frame;
 use ratatui::layout::Rect;
 use ratatui::text::Span as Text;
-use ratatui::widgets::Paragraph;
 
 /// Lowest decade that is shown of numbers without a unit, and most decades of others: what is smaller lies
 /// below the plot.
@@ -137,10 +137,6 @@ pub(super) fn section(frame: &mut Frame<'_>, area: Rect, model: &Model, chart: &
     let parts =
         std::iter::once(heading).filter(|heading| !heading[0].content.is_empty()).chain(entries).collect();
     let legend = filled(parts, "  ", usize::from(area.width));
-    let rows = (legend.len() as u16).min(area.height.saturating_sub(FEWEST_ROWS));
-    for (y, line) in (area.y..area.y + rows).zip(legend) {
-        frame.render_widget(Paragraph::new(line), Rect { y, height: 1, ..area });
-    }
-    let plot = Rect { y: area.y + rows, height: area.height - rows, ..area };
+    let plot = draw_around(frame, area, (legend, Vec::new()), FEWEST_ROWS);
     plot::draw_chart(frame, plot, chart, model.appearance);
 }

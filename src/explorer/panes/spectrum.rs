@@ -1,11 +1,11 @@
 //! Spectra over the wave number, both logarithmic: as measured, fitted, and of the line.
 
-use super::PaneRow;
+use super::{PaneRow, SceneSpectra};
 use crate::draw::legend;
 use crate::explorer::layout::inside;
 use crate::explorer::model::Model;
-use crate::explorer::spectrum::SceneSpectra;
 use crate::explorer::theme::Meaning;
+use crate::explorer::view::lines::draw_around;
 use crate::explorer::view::plot;
 use crate::explorer::view::wrap::{filled, wrapped};
 use crate::scene::format_quantity;
@@ -14,7 +14,6 @@ use crate::text::per_cent;
 use ratatui::Frame;
 use ratatui::layout::Rect;
 use ratatui::text::Line;
-use ratatui::widgets::Paragraph;
 
 /// Row of the pane.
 pub static ROW: PaneRow =
@@ -29,20 +28,16 @@ fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
     let shown = model.present().and_then(|moment| moment.spectra.as_deref());
     let quiet = model.appearance.theme.style(Meaning::Quiet);
     let chart = shown.map(|shown| shown.spectra.chart()).filter(|chart| !chart.layers.is_empty());
-    let above = chart.as_ref().map_or_else(Vec::new, |chart| {
-        let parts = plot::in_theme(model.appearance, |style| legend(std::slice::from_ref(chart), style));
-        filled(parts, "  ", usize::from(area.width))
-    });
     let below = words(model, shown);
     let below = below.iter().flat_map(|text| wrapped(&Line::styled(text.clone(), quiet), area.width));
     let below: Vec<Line<'static>> = below.collect();
-    let room = area.height.saturating_sub(if chart.is_some() { FEWEST_PLOT_ROWS } else { 0 });
-    let text_rows = (below.len() as u16).min(room);
-    let legend_rows = (above.len() as u16).min(room - text_rows);
-    let plot = Rect { y: area.y + legend_rows, height: area.height - legend_rows - text_rows, ..area };
-    for (y, line) in (area.y..plot.y).zip(above).chain((plot.bottom()..area.bottom()).zip(below)) {
-        frame.render_widget(Paragraph::new(line), Rect { y, height: 1, ..area });
-    }
+    let plot_rows = if chart.is_some() { FEWEST_PLOT_ROWS } else { 0 };
+    let mut above = chart.as_ref().map_or_else(Vec::new, |chart| {
+        let parts = plot::in_theme(model.appearance, |style| legend(std::slice::from_ref(chart), style));
+        filled(parts, "  ", usize::from(area.width))
+    });
+    above.truncate(usize::from(area.height.saturating_sub(plot_rows)).saturating_sub(below.len()));
+    let plot = draw_around(frame, area, (above, below), plot_rows);
     if let Some(chart) = chart {
         plot::draw_chart(frame, plot, &chart, model.appearance);
     }

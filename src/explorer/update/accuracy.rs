@@ -12,14 +12,15 @@ use crate::text::grouped;
 /// Studies of the present scene that are still to be done, in this order.
 #[must_use]
 pub fn study_tasks(model: &Model) -> Vec<Task> {
-    let Some(computed) = model.computed.as_ref().filter(|_| model.is_current()) else { return Vec::new() };
+    let Some(computed) = model.current() else { return Vec::new() };
     let appraisal = &model.appraisal;
     if let Some((tolerance, _)) = appraisal.choosing {
         return vec![Task::Choose(computed.scene.clone(), tolerance)];
     }
     let estimate =
         (appraisal.estimated == Estimated::Waiting).then(|| Task::Estimate(std::sync::Arc::clone(computed)));
-    let shown = model.large.and_then(|pane| (pane.row().task)(model, computed));
+    let shown = model.large.filter(|pane| !model.failures.contains_key(pane));
+    let shown = shown.and_then(|pane| (pane.row().task)(model, computed));
     estimate.into_iter().chain(shown).collect()
 }
 
@@ -82,8 +83,14 @@ pub fn found(model: &mut Model, found: Found) -> Vec<Effect> {
             model.failures.insert(pane, why);
             Vec::new()
         }
-        finding => {
-            model.appraisal.take_in(finding);
+        Finding::Estimated(estimate) => {
+            model.appraisal.estimated = estimate.map_or(Estimated::Unknown, Estimated::Known);
+            Vec::new()
+        }
+        Finding::Choosing(points) => {
+            if let Some((_, trying)) = &mut model.appraisal.choosing {
+                *trying = Some(points);
+            }
             Vec::new()
         }
     }

@@ -56,7 +56,7 @@ pub fn open_beside(model: &mut Model, document: Document) -> Vec<Effect> {
 }
 
 fn ghost(model: &Model) -> Option<Ghost> {
-    let computed = model.computed.as_ref().filter(|_| model.is_current())?;
+    let computed = model.current()?;
     Some(Ghost {
         document: model.document.clone(),
         computed: Arc::clone(computed),

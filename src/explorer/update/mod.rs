@@ -25,6 +25,7 @@ use super::layout::Layout;
 use super::mode::Mode;
 use super::model::{Model, Notice, Pane, Player};
 use super::request::{ManualMove, SnapshotRequest};
+use super::snapshot::Report;
 use super::theme::Appearance;
 use super::view::help_end;
 use crate::scene::{Document, typed_path};
@@ -95,39 +96,13 @@ pub fn update(model: &mut Model, action: Action) -> Vec<Effect> {
             }
             _ => model.notice = Some(Notice::Error("the scene has no random line to draw anew".to_owned())),
         },
-        Action::Computed(computed) if computed.generation == model.generation => {
-            model.progress = None;
-            let last = computed.outcome.history.legs.len().saturating_sub(1);
-            model.computed = Some(computed);
-            movement::stay_on_legs(model, last);
-            if matches!(model.notice, Some(Notice::Error(_))) {
-                model.notice = None;
-            }
-            if let Some(document) = model.opens_beside.take() {
-                return compare::open_beside(model, document);
-            }
-            return vec![Effect::Show, Effect::Study];
-        }
-        Action::Shown(moment) if moment.generation == model.generation => movement::shown(model, moment),
-        Action::Progress { generation, legs } if generation == model.generation => {
-            model.progress = model.progress.map(|_| legs);
-        }
-        Action::Failed { generation, error } if generation == model.generation => {
-            model.progress = None;
-            model.notice = Some(Notice::Error(error));
-        }
-        // Stale: of a scene that has been changed since.
-        Action::Computed(_) | Action::Shown(_) | Action::Progress { .. } | Action::Failed { .. } => {}
+        Action::Report(report) => return reported(model, report),
         Action::Found(found) => return accuracy::found(model, found),
         Action::Written(result) => files::written(model, result),
         Action::Listed(entries) => return library::listed(model, entries),
         Action::Completed { typed, paths } => return complete::completed(model, &typed, paths),
         Action::Opened(Ok(opening)) => return chart::open(model, *opening),
         Action::Opened(Err(why)) => model.notice = Some(Notice::Error(why)),
-        // Of a text that has been typed over since.
-        Action::Previewed(preview)
-            if matches!(model.mode, Mode::Edit(_)) && model.tried.as_ref() != Some(&preview.text) => {}
-        Action::Previewed(preview) => model.preview = Some(preview),
         Action::Remembered(Ok(path)) => {
             model.notice = Some(Notice::Done(format!("colours and markers are kept in {}", path.display())));
         }
@@ -146,6 +121,38 @@ pub fn update(model: &mut Model, action: Action) -> Vec<Effect> {
         }
         Action::Traffic(traffic) => model.traffic = Some(traffic),
         Action::Mouse(mouse) => return mouse::act(model, mouse),
+    }
+    Vec::new()
+}
+
+/// Takes in a report of the worker, unless the scene or the text has been changed since.
+fn reported(model: &mut Model, report: Report) -> Vec<Effect> {
+    match report {
+        Report::Computed(computed) if computed.generation == model.generation => {
+            model.progress = None;
+            let last = computed.outcome.history.legs.len().saturating_sub(1);
+            model.computed = Some(computed);
+            movement::stay_on_legs(model, last);
+            if matches!(model.notice, Some(Notice::Error(_))) {
+                model.notice = None;
+            }
+            if let Some(document) = model.opens_beside.take() {
+                return compare::open_beside(model, document);
+            }
+            return vec![Effect::Show, Effect::Study];
+        }
+        Report::Shown(moment) if moment.generation == model.generation => movement::shown(model, moment),
+        Report::Progress { generation, legs } if generation == model.generation => {
+            model.progress = model.progress.map(|_| legs);
+        }
+        Report::Failed { generation, error } if generation == model.generation => {
+            model.progress = None;
+            model.notice = Some(Notice::Error(error));
+        }
+        Report::Computed(_) | Report::Shown(_) | Report::Progress { .. } | Report::Failed { .. } => {}
+        Report::Previewed(preview)
+            if matches!(model.mode, Mode::Edit(_)) && model.tried.as_ref() != Some(&preview.text) => {}
+        Report::Previewed(preview) => model.preview = Some(preview),
     }
     Vec::new()
 }

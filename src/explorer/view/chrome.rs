@@ -15,7 +15,7 @@ use crate::explorer::snapshot::ContactSnapshot;
 use crate::explorer::text_line::TextLine;
 use crate::explorer::theme::Meaning;
 use crate::explorer::update::can_complete;
-use crate::scene::format_quantity;
+use crate::scene::{format_quantity, format_rounded};
 use crate::text::grouped;
 use ratatui::Frame;
 use ratatui::layout::Rect;
@@ -89,11 +89,6 @@ pub fn status(frame: &mut Frame<'_>, area: Rect, model: &Model) {
     frame.render_widget(Paragraph::new(line), area);
 }
 
-/// A time to two digits.
-fn short(seconds: f64) -> f64 {
-    format!("{seconds:.1e}").parse().unwrap_or(seconds)
-}
-
 /// F_a, regime, the moment shown and what it cost, the most important first, as far as there is room.
 fn headline(model: &Model, width: u16) -> Line<'static> {
     let Some(computed) = &model.computed else { return Line::raw("computing…") };
@@ -145,7 +140,7 @@ type Part = (&'static str, String, Meaning);
 
 /// The state under manual loading: what the move changed comes before what it led to.
 fn manual(model: &Model, moment: &ContactSnapshot, hand: &ManualState) -> Vec<Part> {
-    let dissipated = format!("ΔW {}", format_quantity(short(hand.dissipated_energy), "J"));
+    let dissipated = format!("ΔW {}", format_rounded(hand.dissipated_energy, 2, "J"));
     let mut parts = vec![
         ("  ", format!("manual: {}", place(moment.point)), Meaning::Text),
         (" · ", format!("{} changed", counted(hand.changed, "spring")), Meaning::Text),
@@ -164,7 +159,7 @@ fn mechanics(model: &Model, moment: Option<&ContactSnapshot>) -> Vec<Part> {
     if let Some(moment) = moment {
         parts.push(("  ", place(moment.point), Meaning::Text));
         let share = 100.0 * moment.point.contact_length / outcome.line.length;
-        parts.push((" · ", format!("contact {} %", format_quantity(short(share), "1")), Meaning::Text));
+        parts.push((" · ", format!("contact {} %", format_rounded(share, 2, "1")), Meaning::Text));
     }
     if let Some(regime) = outcome.regime {
         parts.push((" · ", regime.name().to_owned(), Meaning::Title));
@@ -176,7 +171,7 @@ fn mechanics(model: &Model, moment: Option<&ContactSnapshot>) -> Vec<Part> {
         parts.extend(response(model, moment));
     }
     if let Some(energy) = outcome.figures.dissipated_energy {
-        parts.push((" · ", format!("ΔW {}", format_quantity(short(energy), "J")), Meaning::Text));
+        parts.push((" · ", format!("ΔW {}", format_rounded(energy, 2, "J")), Meaning::Text));
     }
     if let Some(moment) = moment {
         parts.push((" · ", contact(moment.point), Meaning::Text));
@@ -188,11 +183,10 @@ fn mechanics(model: &Model, moment: Option<&ContactSnapshot>) -> Vec<Part> {
 fn response(model: &Model, moment: &ContactSnapshot) -> Vec<Part> {
     let Some(computed) = &model.computed else { return Vec::new() };
     let stiffness = computed.outcome.governing.effective_modulus * moment.point.contact_length;
-    let mut parts =
-        vec![(" · ", format!("dF/dd {}", format_quantity(short(stiffness), "N/m")), Meaning::Text)];
+    let mut parts = vec![(" · ", format!("dF/dd {}", format_rounded(stiffness, 2, "N/m")), Meaning::Text)];
     if moment.contact_radius > 0.0 {
         let pressure = moment.point.force / (PI * moment.contact_radius * moment.contact_radius);
-        parts.push((" · ", format!("p_m {}", format_quantity(short(pressure), "Pa")), Meaning::Text));
+        parts.push((" · ", format!("p_m {}", format_rounded(pressure, 2, "Pa")), Meaning::Text));
     }
     parts
 }
@@ -261,7 +255,7 @@ const TRAFFIC_WITH_FRAMES: u16 = 100;
 /// The keys that are valid now, and what the connection carries: the line above is full.
 pub fn footer(frame: &mut Frame<'_>, area: Rect, model: &Model) {
     let traffic = model.traffic.filter(|_| area.width >= TRAFFIC_FROM).map(|Traffic { frames, bytes }| {
-        let bytes = format_quantity(short(bytes as f64), "B/s");
+        let bytes = format_rounded(bytes as f64, 2, "B/s");
         let most =
             if area.width < TRAFFIC_WITH_FRAMES { "" } else { &format!(", at most {frames} frames/s") };
         let text = format!("{bytes}{most}");

@@ -1,6 +1,7 @@
 //! The library: scenes to choose from on the left, the selected one on the right.
 
 use super::found::found;
+use super::lines::draw_reason;
 use super::plot::draw_chart;
 use super::wrap::wrapped;
 use crate::explorer::mode::Library;
@@ -35,12 +36,11 @@ pub fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model, library: &Library)
 fn draw_list(frame: &mut Frame<'_>, area: Rect, model: &Model, library: &Library) {
     let theme = model.appearance.theme;
     let Some(entries) = &library.entries else {
-        return frame.render_widget(Paragraph::new("reading…").style(theme.style(Meaning::Quiet)), area);
+        return draw_reason(frame, area, "reading…", theme);
     };
     if library.finder.found.is_empty() {
         let told = "no scene fits; Enter tries it as a path, such as ./scene.ron or that of a study's folder";
-        let told = wrapped(&Line::styled(told, theme.style(Meaning::Quiet)), area.width);
-        return frame.render_widget(Paragraph::new(told), area);
+        return draw_reason(frame, area, told, theme);
     }
     let first = (library.finder.selected + 1).saturating_sub(usize::from(area.height));
     for (row, place) in (area.y..area.bottom()).zip(first..library.finder.found.len()) {

@@ -4,6 +4,7 @@ mod chrome;
 pub mod found;
 mod help;
 mod library;
+pub mod lines;
 mod palette;
 pub mod plot;
 pub mod stages;

@@ -3,7 +3,7 @@
 use super::wrap::filled;
 use crate::explorer::model::Model;
 use crate::explorer::theme::Meaning;
-use crate::scene::format_quantity;
+use crate::scene::format_rounded;
 use crate::simulation::{Plan, Stage, Timings};
 use ratatui::text::{Line, Span};
 
@@ -29,7 +29,7 @@ const PARTS: [Part; 5] = [
 
 /// Names and times of the parts that ran.
 pub fn times(model: &Model) -> Vec<(&'static str, String)> {
-    let Some(computed) = model.computed.as_ref().filter(|_| model.is_current()) else { return Vec::new() };
+    let Some(computed) = model.current() else { return Vec::new() };
     let plan = Plan::of(&computed.scene);
     let ran = PARTS.iter().filter(|part| part.runs(&plan));
     ran.map(|part| (part.name(&plan), part.time(&computed.outcome.timings))).collect()
@@ -45,14 +45,13 @@ impl Part {
     }
 
     fn time(&self, timings: &Timings) -> String {
-        let seconds = (self.seconds)(timings);
-        format_quantity(format!("{seconds:.1e}").parse().unwrap_or(seconds), "s")
+        format_rounded((self.seconds)(timings), 2, "s")
     }
 }
 
 /// The stages in as many lines as there is room for and it takes.
 pub fn strip(model: &Model, width: u16, rows: usize) -> Vec<Line<'static>> {
-    let Some(computed) = model.computed.as_ref().filter(|_| model.is_current()) else { return Vec::new() };
+    let Some(computed) = model.current() else { return Vec::new() };
     let theme = model.appearance.theme;
     let plan = Plan::of(&computed.scene);
     let timings = &computed.outcome.timings;

@@ -19,8 +19,8 @@ pub struct Events<'a> {
 /// Outcome of a move.
 #[derive(Default)]
 pub struct Moved {
-    pub joins: u64,
-    pub leaves: u64,
+    pub attached: u64,
+    pub detached: u64,
     /// Σ (c − θ)² of what left less that of what joined, m².
     pub squares: Wide,
     /// Σ (c − θ)(c + |θ|): what roundings of θ do to it, m².
@@ -111,10 +111,10 @@ impl<'a> Events<'a> {
                 if joins { moved.squares.clone() - square } else { moved.squares.clone() + square };
         }
         if joins {
-            (self.springs, moved.joins) = (self.springs + 1, moved.joins + 1);
+            (self.springs, moved.attached) = (self.springs + 1, moved.attached + 1);
             self.gaps = self.gaps.clone() + wide(gap);
         } else {
-            (self.springs, moved.leaves) = (self.springs - 1, moved.leaves + 1);
+            (self.springs, moved.detached) = (self.springs - 1, moved.detached + 1);
             self.gaps = self.gaps.clone() - wide(gap);
         }
     }

@@ -22,7 +22,7 @@ fn compare(body: &Body) -> ([f64; 3], usize) {
                 _ => events.separate(),
             };
             let last = end(&record);
-            assert_eq!((record.joins, record.leaves), (moved.joins, moved.leaves), "{leg:?}");
+            assert_eq!((record.attached, record.detached), (moved.attached, moved.detached), "{leg:?}");
             assert_eq!(last.springs as usize, events.springs(), "{leg:?}");
             let size = body.deepest() + last.indentation.abs() + body.largest_stretch();
             if last.springs > 0 {

@@ -51,7 +51,7 @@ fn check_leg(record: &LegRecord, before: u64, springs: u64) -> Result<(), TestCa
         prop_assert!(ordered, "{} before {}", before, after);
     }
     let after = record.curve.last().unwrap().springs;
-    prop_assert_eq!(before + record.joins - record.leaves, after);
+    prop_assert_eq!(before + record.attached - record.detached, after);
     if record.direction == Direction::Unloading {
         let least = record.curve.iter().map(|point| point.force).fold(f64::INFINITY, f64::min);
         prop_assert!(

@@ -59,7 +59,7 @@ proptest! {
             let direction = if -height > below { Direction::Loading } else { Direction::Unloading };
             prop_assert_eq!(record.direction, direction);
             prop_assert_eq!((record.start(), record.end()), (below, -height));
-            prop_assert_eq!((record.joins, record.leaves, record.dissipated_energy), (0, 0, 0.0));
+            prop_assert_eq!((record.attached, record.detached, record.dissipated_energy), (0, 0, 0.0));
             prop_assert!(record.curve.iter().all(|point| point.springs == 0 && point.force == 0.0));
             prop_assert!(flown.fragments(-height).is_empty() && flown.fragments(1.0).is_empty());
             below = -height;
@@ -67,11 +67,11 @@ proptest! {
         // Separation is where it is already.
         let record = flown.advance(Leg::ToSeparation).unwrap();
         prop_assert_eq!(record.curve.len(), 1);
-        prop_assert_eq!((record.start(), record.leaves, record.dissipated_energy), (below, 0, 0.0));
+        prop_assert_eq!((record.start(), record.detached, record.dissipated_energy), (below, 0, 0.0));
         // From up there the first touch is the first touch; the way there is one more point.
         let (touch, expected) = (flown.advance(Leg::ToTouch).unwrap(), fresh.advance(Leg::ToTouch).unwrap());
         prop_assert_eq!(&curve_bits(&touch)[1..], &curve_bits(&expected)[..]);
-        prop_assert_eq!((touch.start(), touch.joins), (below, expected.joins));
+        prop_assert_eq!((touch.start(), touch.attached), (below, expected.attached));
         let [one, other] = [&mut flown, &mut fresh].map(|solver| solver.advance(Leg::ToSeparation).unwrap());
         prop_assert_eq!(one, other);
     }
@@ -101,7 +101,7 @@ proptest! {
         for leg in [Leg::ToIndentation(to), Leg::ToForce(there.force)] {
             let record = solver.advance(leg).unwrap();
             prop_assert_eq!(record.curve.iter().map(bits).collect::<Vec<_>>(), [bits(&there)], "{:?}", leg);
-            prop_assert_eq!((record.joins, record.leaves, record.dissipated_energy), (0, 0, 0.0));
+            prop_assert_eq!((record.attached, record.detached, record.dissipated_energy), (0, 0, 0.0));
         }
         prop_assert_eq!(solver.work(), before);
     }

@@ -152,7 +152,7 @@ proptest! {
                 let stretch = body.deepest() + exact.0.indentation.abs();
                 prop_assert!((exact.0.indentation - exact.1.indentation).abs() <= 4.0 * f64::EPSILON * stretch,
                     "{:?} on {:?}", exact, leg);
-                prop_assert_eq!((one.joins, one.leaves), (other.joins, other.leaves));
+                prop_assert_eq!((one.attached, one.detached), (other.attached, other.detached));
                 let scale = body.force_scale() * (body.deepest() + body.largest_stretch());
                 prop_assert!((one.dissipated_energy - other.dissipated_energy).abs() <= 1e-14 * scale);
             }

@@ -6,11 +6,12 @@ use super::common::driver::Driver;
 use super::common::scenes::{changed, rough, without_adhesion};
 use super::{is_up_to_date, keep};
 use asperity::accuracy::{
-    Choice, ChoiceError, CostError, CostTable, ErrorFigure, Estimate, Evidence, Knob, Measures, Progress,
-    Reference, Row, Target, Timing,
+    Choice, ChoiceError, CostError, CostTable, ErrorFigure, Estimate, Evidence, Knob, Measures, Reference,
+    Row, Target, Timing,
 };
 use asperity::explorer::action::Action;
-use asperity::explorer::model::{Costs, Estimated, Notice, Pane};
+use asperity::explorer::model::{Estimated, Notice, Pane};
+use asperity::explorer::panes::Costs;
 use asperity::explorer::snapshot::SolvedScene;
 use asperity::explorer::study::{Appraiser, Finding, Found, PaneData, Study, Task};
 use asperity::explorer::update::Effect;
@@ -29,17 +30,6 @@ struct Scripted {
 impl Appraiser for Scripted {
     fn estimate(&mut self, _: &SolvedScene, _: &dyn Fn() -> bool) -> Result<Option<Estimate>, RunError> {
         Ok(self.estimate.clone())
-    }
-
-    fn measure(
-        &mut self,
-        _: &Scene,
-        _: &dyn Fn() -> bool,
-        watch: &mut dyn FnMut(Progress<'_>),
-    ) -> Result<CostTable, CostError> {
-        watch(Progress::Trying(Knob::SubCellSprings, "32 springs"));
-        watch(Progress::Rows(&|| self.table.clone().ok()));
-        self.table.clone()
     }
 
     fn choose(
@@ -69,10 +59,20 @@ impl Appraiser for Scripted {
         &mut self,
         data: PaneData,
         _: &dyn Fn() -> bool,
-        _: &mut dyn FnMut(PaneData),
-    ) -> Result<PaneData, RunError> {
-        Ok(data)
+        tell: &mut dyn FnMut(PaneData),
+    ) -> Result<PaneData, String> {
+        let PaneData::Costs(scene, mut costs) = data else { return Ok(data) };
+        costs.trying = Some("sub-cell springs: 32 springs".to_owned());
+        tell(PaneData::Costs(Arc::clone(&scene), costs.clone()));
+        costs.table = self.table.clone().ok().map(Arc::new);
+        tell(PaneData::Costs(Arc::clone(&scene), costs.clone()));
+        let table = self.table.clone().map_err(|error| error.to_string())?;
+        Ok(PaneData::Costs(scene, measured_costs(table)))
     }
+}
+
+fn measured_costs(table: CostTable) -> Costs {
+    Costs { table: Some(Arc::new(table)), trying: None, is_whole: true }
 }
 
 /// A row whose error falls with a power of its setting, and whose time grows with it.
@@ -145,7 +145,7 @@ fn what_accuracy_costs_is_shown_beside_what_can_be_changed() {
         assert_eq!((driver.model.large, driver.model.pane), (None, Pane::Force));
         assert!(driver.text().contains("Profile"), "{}", driver.text());
         // It is not measured twice.
-        assert!(driver.model.appraisal.costs.ended.is_some());
+        assert!(driver.model.appraisal.costs.is_whole);
         assert_eq!(driver.press("A"), [Effect::Study, Effect::Show]);
         assert!(driver.text().contains("order 2.0"));
     });
@@ -186,11 +186,12 @@ fn an_edit_forgets_what_was_found_out() {
         assert!(driver.text().contains("measuring"), "{}", driver.text());
         // What comes late changes nothing.
         let screen = driver.screen();
+        let scene = Arc::new(rough().scene().clone());
         for finding in [
             Finding::Estimated(estimate(0.5)),
-            Finding::Trying(Knob::Lines, "4".to_owned()),
-            Finding::Measured(Arc::new(table())),
-            Finding::NotMeasured("late".to_owned()),
+            Finding::Extended(trying(&scene, "lines: 4")),
+            Finding::Extended(PaneData::Costs(Arc::clone(&scene), measured_costs(table()))),
+            Finding::NotExtended(Pane::Accuracy, "late".to_owned()),
         ] {
             assert!(driver.act(Action::Found(Found { generation: before, finding })).is_empty());
             assert_eq!(driver.screen(), screen);
@@ -289,28 +290,17 @@ fn a_tolerance_out_of_reach_changes_nothing() {
 
 const PATIENCE: Duration = Duration::from_secs(20);
 
+fn trying(scene: &Arc<Scene>, setting: &str) -> PaneData {
+    let costs = Costs { trying: Some(setting.to_owned()), ..Costs::default() };
+    PaneData::Costs(Arc::clone(scene), costs)
+}
+
 /// Measures until it is told to stop, and says when it begins and when it has stopped.
 struct Endless(Sender<&'static str>);
 
 impl Appraiser for Endless {
     fn estimate(&mut self, _: &SolvedScene, _: &dyn Fn() -> bool) -> Result<Option<Estimate>, RunError> {
         panic!("no estimate")
-    }
-
-    fn measure(
-        &mut self,
-        _: &Scene,
-        stop: &dyn Fn() -> bool,
-        watch: &mut dyn FnMut(Progress<'_>),
-    ) -> Result<CostTable, CostError> {
-        watch(Progress::Trying(Knob::Samples, "8"));
-        self.0.send("begun").unwrap();
-        while !stop() {
-            std::thread::yield_now();
-        }
-        watch(Progress::Trying(Knob::Samples, "too late"));
-        self.0.send("stopped").unwrap();
-        Err(CostError::Stopped)
     }
 
     fn choose(
@@ -326,11 +316,23 @@ impl Appraiser for Endless {
     fn extend(
         &mut self,
         data: PaneData,
-        _: &dyn Fn() -> bool,
-        _: &mut dyn FnMut(PaneData),
-    ) -> Result<PaneData, RunError> {
-        Ok(data)
+        stop: &dyn Fn() -> bool,
+        tell: &mut dyn FnMut(PaneData),
+    ) -> Result<PaneData, String> {
+        let PaneData::Costs(scene, _) = data else { return Ok(data) };
+        tell(trying(&scene, "samples: 8"));
+        self.0.send("begun").unwrap();
+        while !stop() {
+            std::thread::yield_now();
+        }
+        tell(trying(&scene, "too late"));
+        self.0.send("stopped").unwrap();
+        Err("stopped".to_owned())
     }
+}
+
+fn measure(scene: &Arc<Scene>) -> Task {
+    Task::Extend { data: PaneData::Costs(Arc::clone(scene), Costs::default()), waits: true }
 }
 
 fn endless() -> (Study, Receiver<Found>, Receiver<&'static str>) {
@@ -347,9 +349,9 @@ fn what_is_measured_ends_as_soon_as_something_else_is_asked_for() {
         let scene = Arc::new(rough().scene().clone());
         let next = || reports.recv_timeout(PATIENCE).expect("a finding");
         for round in 1..=2 {
-            study.ask(round, vec![Task::Measure(Arc::clone(&scene))]);
+            study.ask(round, vec![measure(&scene)]);
             assert_eq!(said.recv_timeout(PATIENCE), Ok("begun"));
-            assert_eq!(next().finding, Finding::Trying(Knob::Samples, "8".to_owned()));
+            assert_eq!(next().finding, Finding::Extended(trying(&scene, "samples: 8")));
             // An edit stops it, a tolerance takes its place.
             if round == 1 {
                 study.stop();
@@ -373,7 +375,7 @@ fn a_key_held_down_begins_nothing() {
         let (study, reports, said) = endless();
         let scene = Arc::new(rough().scene().clone());
         for generation in 1..=50 {
-            study.ask(generation, vec![Task::Measure(Arc::clone(&scene))]);
+            study.ask(generation, vec![measure(&scene)]);
         }
         assert_eq!(said.recv_timeout(PATIENCE), Ok("begun"));
         assert_eq!(reports.recv_timeout(PATIENCE).map(|found| found.generation), Ok(50));

@@ -5,7 +5,7 @@ use super::common::deadline::within;
 use super::common::driver::Driver;
 use super::common::scenes::{changed, rough, smooth, without_adhesion};
 use super::{is_up_to_date, keep};
-use asperity::accuracy::{Choice, ChoiceError, CostError, CostTable, Estimate, Progress};
+use asperity::accuracy::{Choice, ChoiceError, Estimate};
 use asperity::analysis::Regime;
 use asperity::explorer::action::{Action, Gesture, Mouse};
 use asperity::explorer::layout::{Layout, inside};
@@ -50,15 +50,6 @@ impl Appraiser for Mapper {
         Ok(None)
     }
 
-    fn measure(
-        &mut self,
-        _: &Scene,
-        _: &dyn Fn() -> bool,
-        _: &mut dyn FnMut(Progress<'_>),
-    ) -> Result<CostTable, CostError> {
-        Err(CostError::Stopped)
-    }
-
     fn choose(
         &mut self,
         _: &Scene,
@@ -74,7 +65,7 @@ impl Appraiser for Mapper {
         data: PaneData,
         _: &dyn Fn() -> bool,
         tell: &mut dyn FnMut(PaneData),
-    ) -> Result<PaneData, RunError> {
+    ) -> Result<PaneData, String> {
         let PaneData::Map(mut map) = data else { return Ok(data) };
         let whole = Arc::make_mut(&mut map);
         for level in &self.0 {
@@ -402,15 +393,6 @@ impl Appraiser for Endless {
         self.1.estimate(of, stop)
     }
 
-    fn measure(
-        &mut self,
-        scene: &Scene,
-        stop: &dyn Fn() -> bool,
-        watch: &mut dyn FnMut(Progress<'_>),
-    ) -> Result<CostTable, CostError> {
-        self.1.measure(scene, stop, watch)
-    }
-
     fn choose(
         &mut self,
         scene: &Scene,
@@ -426,7 +408,7 @@ impl Appraiser for Endless {
         data: PaneData,
         stop: &dyn Fn() -> bool,
         tell: &mut dyn FnMut(PaneData),
-    ) -> Result<PaneData, RunError> {
+    ) -> Result<PaneData, String> {
         let data = self.1.extend(data, stop, tell)?;
         self.0.send("begun").unwrap();
         while !stop() {

@@ -145,7 +145,7 @@ fn what_cannot_be_kept_or_exchanged_says_why() {
 
 /// The rows of the pane that has the close-up or the scene beside in it.
 fn lower_pane(driver: &Driver) -> Vec<String> {
-    rows_of(driver, Pane::Beside)
+    rows_of(driver, driver.model.lower)
 }
 
 fn rows_of(driver: &Driver, pane: Pane) -> Vec<String> {

@@ -8,6 +8,7 @@ use asperity::contact::{ContactError, ContactTree};
 use asperity::explorer::action::Action;
 use asperity::explorer::update::Effect;
 use asperity::explorer::worker::Engine;
+use asperity::explorer::worker::Report;
 use asperity::scene::Scene;
 use asperity::simulation::{AfterLeg, Outcome, RunError, Simulation};
 use asperity::surface::Line;
@@ -24,10 +25,10 @@ fn reports_of_another_scene_change_nothing() {
         let screen = driver.screen();
         let generation = computed.generation;
         for action in [
-            Action::Computed(computed),
-            Action::Shown(moment),
-            Action::Progress { generation, legs: 1 },
-            Action::Failed { generation, error: "old".to_owned() },
+            Action::Report(Report::Computed(computed)),
+            Action::Report(Report::Shown(moment)),
+            Action::Report(Report::Progress { generation, legs: 1 }),
+            Action::Report(Report::Failed { generation, error: "old".to_owned() }),
         ] {
             assert!(driver.act(action).is_empty());
             assert_eq!(driver.screen(), screen);

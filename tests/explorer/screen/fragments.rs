@@ -8,6 +8,7 @@ use asperity::explorer::action::{Action, Command, Jump};
 use asperity::explorer::model::Pane;
 use asperity::explorer::snapshot::FragmentFacts;
 use asperity::explorer::update::{Effect, update};
+use asperity::explorer::worker::Report;
 
 #[test]
 fn the_close_up_goes_round_all_fragments() {
@@ -49,7 +50,7 @@ fn a_moment_on_its_way_does_not_take_the_chosen_fragment_away() {
         // The fragment is asked for while the animation has asked for a moment just before.
         let effects = update(&mut driver.model, Action::Command(Command::Fragment(Jump::Next)));
         assert_eq!(effects, [Effect::Show]);
-        driver.act(Action::Shown(before));
+        driver.act(Action::Report(Report::Shown(before)));
         driver.perform(effects);
         assert_eq!(number(&driver), first + 1);
         driver.press(". ,");

@@ -4,7 +4,7 @@ use super::common::deadline::within;
 use super::common::driver::Driver;
 use super::common::scenes::{rough, without_adhesion};
 use super::keep;
-use asperity::accuracy::{Choice, ChoiceError, CostError, CostTable, Estimate, Progress};
+use asperity::accuracy::{Choice, ChoiceError, Estimate};
 use asperity::explorer::model::Pane;
 use asperity::explorer::panes::PROFILES;
 use asperity::explorer::snapshot::SolvedScene;
@@ -22,15 +22,6 @@ impl Appraiser for Profiles {
         Ok(None)
     }
 
-    fn measure(
-        &mut self,
-        _: &Scene,
-        _: &dyn Fn() -> bool,
-        _: &mut dyn FnMut(Progress<'_>),
-    ) -> Result<CostTable, CostError> {
-        Err(CostError::Stopped)
-    }
-
     fn choose(
         &mut self,
         _: &Scene,
@@ -46,7 +37,7 @@ impl Appraiser for Profiles {
         data: PaneData,
         _: &dyn Fn() -> bool,
         tell: &mut dyn FnMut(PaneData),
-    ) -> Result<PaneData, RunError> {
+    ) -> Result<PaneData, String> {
         let last = RefCell::new(data.clone());
         let is_enough = || matches!(&*last.borrow(), PaneData::Preloads(curve) if curve.profiles() >= self.0);
         let done = data.extended(&is_enough, &mut |data| {
@@ -55,7 +46,7 @@ impl Appraiser for Profiles {
         });
         match done {
             // The data so far are enough.
-            Err(error) if error.is_interruption() => Ok(last.into_inner()),
+            Err(_) if is_enough() => Ok(last.into_inner()),
             done => done,
         }
     }

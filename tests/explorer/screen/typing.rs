@@ -10,6 +10,7 @@ use asperity::explorer::model::ModeKind;
 use asperity::explorer::snapshot::Preview;
 use asperity::explorer::theme::Theme;
 use asperity::explorer::update::{Effect, update};
+use asperity::explorer::worker::Report;
 use asperity::scene::Leg;
 use ratatui::buffer::Cell;
 use std::sync::Arc;
@@ -297,7 +298,7 @@ fn no_older_curve_is_shown_between_a_preview_and_the_next_one() {
         let seen = force(&driver);
         // A curve that comes late, of a value that was typed over, is not shown.
         let late = Preview { text: older.text.clone() + " ", outcome: older.outcome.clone() };
-        driver.act(Action::Previewed(Arc::new(late)));
+        driver.act(Action::Report(Report::Previewed(Arc::new(late))));
         assert_eq!(force(&driver), seen);
         driver.perform(waiting);
         let second = force(&driver).expect("a preview");

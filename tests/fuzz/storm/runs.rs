@@ -50,8 +50,8 @@ fn assert_numbers(outcome: &Outcome) -> Result<(), TestCaseError> {
         prop_assert!(!all.contains(word), "{all}");
     }
     prop_assert_eq!(
-        outcome.history.legs.iter().map(|leg| leg.joins).sum::<u64>(),
-        outcome.history.work.joins
+        outcome.history.legs.iter().map(|leg| leg.attached).sum::<u64>(),
+        outcome.history.work.attached
     );
     let springs = outcome.history.work.springs;
     prop_assert!(springs >= 1 && springs <= outcome.line.points as u64);
@@ -113,7 +113,7 @@ fn assert_leg(leg: &LegRecord, before: &CurvePoint, outcome: &Outcome) -> Result
         }
     }
     let Some(end) = leg.curve.last() else { return Err(TestCaseError::fail("a leg without points")) };
-    prop_assert_eq!(before.springs + leg.joins - leg.leaves, end.springs);
+    prop_assert_eq!(before.springs + leg.attached - leg.detached, end.springs);
     assert_target(leg, end, rounding)
 }
 

@@ -176,6 +176,26 @@ fn files_of_the_contact_are_in_no_circle() {
     assert!(count > 20 && left.is_empty(), "in circles: {:?}", left.keys());
 }
 
+#[test]
+fn few_files_name_a_pane() {
+    // The file of the pane, the table of panes, that of keys, and the data or the demo.
+    const MOST: usize = 4;
+    let modules = modules();
+    for pane in ["Accuracy", "Spectrum", "Preloads", "Lengths"] {
+        let name = format!("Pane::{pane}");
+        let names = |code: &str| {
+            code.match_indices(&name)
+                .any(|(at, _)| !code[at + name.len()..].starts_with(char::is_alphanumeric))
+        };
+        let files: Vec<String> =
+            modules.iter().filter(|(_, code)| names(code)).map(|(module, _)| module.join("::")).collect();
+        for table in ["explorer::panes", "explorer::keys"] {
+            assert!(files.iter().any(|file| file == table), "{table} does not name {pane}: {files:?}");
+        }
+        assert!(files.len() <= MOST, "{pane}: {files:?}");
+    }
+}
+
 /// First words that make a sentence of a comment an indirect question.
 const QUESTIONS: [&str; 6] = ["What ", "Whether ", "How ", "Why ", "Who ", "See the module"];
 

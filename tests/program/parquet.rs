@@ -1,7 +1,5 @@
 //! The results of a study as Parquet, read back by the library's own reader: the rows of the CSV, bit for bit.
 
-#![cfg(feature = "parquet")]
-
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::record::Field;
 use std::fs::{self, File};

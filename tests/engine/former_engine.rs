@@ -1,8 +1,6 @@
 //! Random loops under adhesion against the results of the former engine, which used a tree of all springs.
 
-#[path = "former_engine/loops.rs"]
 mod loops;
-#[path = "former_engine/trace.rs"]
 mod trace;
 
 use asperity::contact::{
@@ -52,7 +50,7 @@ fn trace<E: EdgeModel>(case: &Loop, edges: E, foundation: Foundation) -> Trace {
         ContactError::OutOfReach { .. } => [3.0, 0.0],
         other => panic!("{other}"),
     };
-    let changes = |record: &LegRecord| [record.joins, record.leaves];
+    let changes = |record: &LegRecord| [record.attached, record.detached];
     let tree = ContactTree::build(&case.gaps, E::EDGES).unwrap();
     let mut body = exact::adhesive(&case.gaps, &tree, edges, foundation, case.samples);
     let advance = |body: &mut exact::Exact<_>, leg: Leg| body.advance(leg);
@@ -101,7 +99,7 @@ struct Deviations {
 }
 
 #[test]
-#[ignore = "needs the whole results that tests/former_engine/record.sh writes"]
+#[ignore = "needs the whole results that tests/engine/former_engine/record.sh writes"]
 fn deviations_from_the_former_engine() {
     let path = std::env::var_os("FORMER_ENGINE").expect("FORMER_ENGINE: file of results");
     let recorded = std::fs::read(path).unwrap();

@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
-# Records results of the former engine, the last one over a tree of all springs, for tests/former_engine.rs.
+# Records results of the former engine, the last one over a tree of all springs, for tests/engine/former_engine.rs.
 #
-#   tests/former_engine/record.sh [WHOLE]
+#   tests/engine/former_engine/record.sh [WHOLE]
 #
 # Builds the former source, runs its engine on the random loops of loops.rs, and writes checksums and energies to
 # recorded.bin and whole results to the file WHOLE. Then
 #
-#   FORMER_ENGINE=WHOLE cargo test --test former_engine -- --ignored --nocapture
+#   FORMER_ENGINE=WHOLE cargo test --test engine deviations -- --ignored --nocapture
 #
 # prints the table of docs/accuracy.md.
 set -euo pipefail

@@ -1,0 +1,45 @@
+//! Cost of accuracy, as far as it is measured.
+
+use crate::accuracy::{CostError, CostTable, Progress, measure};
+use crate::scene::Scene;
+use std::path::Path;
+use std::sync::Arc;
+use std::time::Duration;
+
+/// Time for a whole measurement: that of `asperity cost`.
+const BUDGET: Duration = Duration::from_secs(10);
+
+/// The table of costs so far.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Costs {
+    /// The rows so far.
+    pub table: Option<Arc<CostTable>>,
+    /// Setting that is tried at present.
+    pub trying: Option<String>,
+    /// True once all is measured.
+    pub is_whole: bool,
+}
+
+impl Costs {
+    /// Measures the costs of a scene; `tell` receives the costs so far.
+    ///
+    /// # Errors
+    /// When nothing can be compared.
+    pub fn measure(
+        scene: &Scene,
+        folder: &Path,
+        stop: &dyn Fn() -> bool,
+        tell: &mut dyn FnMut(&Costs),
+    ) -> Result<Costs, CostError> {
+        let mut costs = Costs::default();
+        let table = measure(scene, folder, BUDGET, stop, &mut |progress| {
+            match progress {
+                Progress::Trying(knob, "") => costs.trying = Some(knob.name().to_owned()),
+                Progress::Trying(knob, setting) => costs.trying = Some(format!("{}: {setting}", knob.name())),
+                Progress::Rows(table) => costs.table = table().map(Arc::new).or(costs.table.take()),
+            }
+            tell(&costs);
+        })?;
+        Ok(Costs { table: Some(Arc::new(table)), trying: None, is_whole: true })
+    }
+}

@@ -1,0 +1,47 @@
+//! State of the animation, and the indentation that belongs to the state.
+
+use crate::contact::LegRecord;
+
+/// Share of the whole range of indentations by which the body is lifted before it first touches.
+const LIFT: f64 = 0.12;
+
+/// State of the animation.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Player {
+    /// Index of the leg.
+    pub leg: usize,
+    /// Share that is played, 0 to 1.
+    pub done: f64,
+    /// True if time moves it on.
+    pub playing: bool,
+}
+
+impl Player {
+    /// The indentation at which the animation of these loading stages stands, m.
+    #[must_use]
+    pub fn indentation(&self, legs: &[LegRecord]) -> f64 {
+        let Some(leg) = legs.get(self.leg) else { return 0.0 };
+        let start = start_of(legs, self.leg);
+        match leg.curve.last() {
+            // There the contact is still held, and below it gone.
+            Some(end) if self.done >= 1.0 && end.springs == 0 => end.indentation.next_down(),
+            _ if self.done >= 1.0 => leg.end(),
+            _ => start + (leg.end() - start) * self.done,
+        }
+    }
+}
+
+/// Lowest and highest indentation of the curves of loading stages, m.
+pub fn indentations(legs: &[LegRecord]) -> Option<(f64, f64)> {
+    let points = legs.iter().flat_map(|leg| &leg.curve).map(|point| point.indentation);
+    points.fold(None, |range: Option<(f64, f64)>, d| {
+        Some(range.map_or((d, d), |(low, high)| (low.min(d), high.max(d))))
+    })
+}
+
+/// Indentation at which the animation begins a loading stage, m. The first begins a little above the foundation.
+pub fn start_of(legs: &[LegRecord], leg: usize) -> f64 {
+    let (low, high) = indentations(legs).unwrap_or((0.0, 0.0));
+    let lift = if leg == 0 { LIFT * (high - low) } else { 0.0 };
+    legs.get(leg).map_or(0.0, LegRecord::start) - lift
+}

@@ -1,0 +1,83 @@
+//! Panes that are shown, the selected one of them, and the keys and exports that are valid there.
+
+use super::action::Content;
+use super::mode::ModeKind;
+use super::model::Model;
+use super::panes::{Pane, Place};
+use crate::study::map::StudyMap;
+use std::sync::Arc;
+
+impl Model {
+    /// The panes there are to choose from, the most important first.
+    #[must_use]
+    pub fn panes(&self) -> Vec<Pane> {
+        match self.large {
+            Some(large) => vec![Pane::Force, large, Pane::Parameters],
+            None => vec![Pane::Force, Pane::Profile, Pane::Parameters, self.lower],
+        }
+    }
+
+    /// Returns true if a pane is in its place, as far as the window has room for it.
+    #[must_use]
+    pub fn is_shown(&self, pane: Pane) -> bool {
+        self.panes().contains(&pane)
+    }
+
+    /// Shows a pane in its place. A pane in the place of the close-up is selected where that was, any other always.
+    pub fn show(&mut self, pane: Pane) {
+        let is_same_place = self.pane == self.lower;
+        match pane.row().place {
+            Place::Own => {}
+            Place::CloseUp => (self.large, self.lower) = (None, pane),
+            Place::Large => (self.large, self.edited) = (Some(pane), false),
+        }
+        if pane.row().place != Place::CloseUp || is_same_place {
+            self.pane = pane;
+        }
+        self.keep_selection();
+    }
+
+    /// Shows the panes again in whose place a pane is.
+    pub fn hide(&mut self, pane: Pane) {
+        if self.large == Some(pane) {
+            self.large = None;
+        } else if self.lower == pane {
+            self.lower = Pane::CloseUp;
+            self.pane = if self.pane == pane { Pane::CloseUp } else { self.pane };
+        }
+        self.keep_selection();
+    }
+
+    /// Selects the force curve where the selected pane is no longer shown.
+    fn keep_selection(&mut self) {
+        if !self.is_shown(self.pane) {
+            self.pane = Pane::Force;
+        }
+    }
+
+    /// Valid keys: in the map the arrows move its mark, in panes with a crosshair the crosshair; in the list of
+    /// parameters digits begin a value.
+    #[must_use]
+    pub fn keys(&self) -> ModeKind {
+        match self.mode.kind() {
+            ModeKind::Explore => match self.pane.row().keys {
+                Some(ModeKind::Crosshair) if self.crosshair.is_none() => ModeKind::Explore,
+                keys => keys.unwrap_or(ModeKind::Explore),
+            },
+            kind => kind,
+        }
+    }
+
+    /// Contents that can be exported, by the extension of the file; those of the map while its pane is selected.
+    #[must_use]
+    pub fn exports(&self) -> &'static [(&'static str, Content)] {
+        if self.pane == Pane::Chart { &Content::MAP_EXPORTS } else { &Content::EXPORTS }
+    }
+
+    /// Shows the map of a study, the first of them.
+    pub fn show_study(&mut self, study_map: Arc<StudyMap>) {
+        self.chart.open_study(study_map, 0);
+        self.chart.of_study = true;
+        self.show(Pane::Chart);
+    }
+}

@@ -1,0 +1,56 @@
+//! Scenes with unsaved changes: the one that is explored, and those in whose place it was opened.
+
+use super::model::Model;
+use crate::scene::Document;
+
+impl Model {
+    /// Returns true if the scene differs from what is saved.
+    #[must_use]
+    pub fn is_unsaved(&self) -> bool {
+        self.is_changed(&self.document)
+    }
+
+    /// Returns true if a document differs from what is saved by a value or a comment; another way to write a number is no change.
+    #[must_use]
+    pub fn is_changed(&self, document: &Document) -> bool {
+        let is_same = |saved: &Document| {
+            saved.text() == document.text()
+                || saved.scene() == document.scene() && saved.comments() == document.comments()
+        };
+        !self.saved.get(document.name()).is_some_and(is_same)
+    }
+
+    /// All scenes with unsaved changes, the one that is explored first.
+    #[must_use]
+    pub fn unsaved(&self) -> Vec<&Document> {
+        let present = Some(&self.document).filter(|document| self.is_changed(document));
+        present.into_iter().chain(self.left.values().filter(|left| self.is_changed(left))).collect()
+    }
+
+    /// Takes scenes for unsaved changes of another session, the first of them for that of the explored scene.
+    pub fn restore(&mut self, documents: &[Document]) {
+        for (number, document) in documents.iter().enumerate() {
+            match Document::parse(document.opened(), document.name()) {
+                Ok(opened) => drop(self.saved.insert(document.name().to_owned(), opened)),
+                Err(_) => drop(self.saved.remove(document.name())),
+            }
+            if number > 0 {
+                self.left.insert(document.name().to_owned(), document.clone());
+            }
+        }
+    }
+
+    /// Takes the scene as it stands for saved to a file, and goes on with that file.
+    pub fn set_saved_as(&mut self, path: &std::path::Path) {
+        if let Ok(document) = Document::parse(self.document.text(), &path.to_string_lossy()) {
+            self.document = document;
+        }
+        self.set_saved();
+    }
+
+    /// Takes the scene as it stands for saved.
+    pub fn set_saved(&mut self) {
+        self.saves += 1;
+        self.saved.insert(self.document.name().to_owned(), self.document.clone());
+    }
+}

@@ -1,0 +1,41 @@
+//! Lines of text in panes: as they are, around a plot, and in place of a plot that is not there yet.
+
+use super::wrap::wrapped;
+use crate::explorer::theme::{Meaning, Theme};
+use ratatui::Frame;
+use ratatui::layout::Rect;
+use ratatui::text::Line;
+use ratatui::widgets::Paragraph;
+
+/// Draws lines from the top of an area on, as far as there is room.
+pub fn draw_lines(frame: &mut Frame<'_>, area: Rect, lines: impl IntoIterator<Item = Line<'static>>) {
+    for (y, line) in (area.y..area.bottom()).zip(lines) {
+        frame.render_widget(Paragraph::new(line), Rect { y, height: 1, ..area });
+    }
+}
+
+/// Draws lines above and below a plot, the upper ones first where there is no room for all, and returns the area of the
+/// plot: at least so many rows, as far as there are any.
+pub fn draw_around(
+    frame: &mut Frame<'_>,
+    area: Rect,
+    (above, below): (Vec<Line<'static>>, Vec<Line<'static>>),
+    plot_rows: u16,
+) -> Rect {
+    let room = area.height.saturating_sub(plot_rows);
+    let rows_above = (above.len() as u16).min(room);
+    let rows_below = (below.len() as u16).min(room - rows_above);
+    let plot = Rect { y: area.y + rows_above, height: area.height - rows_above - rows_below, ..area };
+    draw_lines(frame, Rect { height: rows_above, ..area }, above);
+    draw_lines(frame, Rect { y: plot.bottom(), height: rows_below, ..area }, below);
+    plot
+}
+
+/// Draws the reason for which there is nothing else to be drawn.
+pub fn draw_reason(frame: &mut Frame<'_>, area: Rect, reason: &str, theme: Theme) {
+    draw_lines(
+        frame,
+        area,
+        wrapped(&Line::styled(reason.to_owned(), theme.style(Meaning::Quiet)), area.width),
+    );
+}
