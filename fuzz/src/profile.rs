@@ -66,9 +66,10 @@ fn assert_samples(profile: &MeasuredProfile) {
             }
         }
     }
-    // More memory than there is, and a longer line than the profile, are refused and not tried.
+    // More memory than there is, and a longer line than the profile, are refused and not tried. Two points at even
+    // distances cover twice their distance.
     let refused =
-        [profile.sample(length, usize::MAX / 4, 0.0), profile.sample(1.01 * length + 1e-300, 2, 0.0)];
+        [profile.sample(length, usize::MAX / 4, 0.0), profile.sample(2.01 * length + 1e-300, 2, 0.0)];
     for message in refused.map(|sampled| sampled.map(|_| ()).unwrap_err()) {
         assert_message(&message);
     }

@@ -155,11 +155,11 @@ fn unreached(tolerance: &f64, best: &Option<Box<Choice>>) -> String {
 /// most `tolerance` of its adhesion force, or of its force curve where nothing pulls.
 ///
 /// Springs are doubled until the estimate of the error, that of the finest solution included, has come below
-/// the tolerance, and once more, since a finer solution tells better how good the others are; then the fewest
+/// the tolerance, and once more, since a finer solution is a better reference for the others; then the fewest
 /// are taken from which on it stays there. With as many springs either kind of edges takes about as long, and
 /// edges between springs are taken, whose error falls faster where the estimate was too good.
 /// The choice depends on the scene alone, not on the time anything takes. `stop` is asked now and then whether
-/// to give up; `trying` is told the springs that are tried next.
+/// to give up; `trying` receives the number of springs that is tried next.
 ///
 /// # Errors
 /// [`ChoiceError`].
@@ -219,7 +219,7 @@ pub fn choose(
 const EDGES: [Edges; 2] = [Edges::SubCell, Edges::Grid];
 
 /// The choice among solutions with edges at and between springs, of as many springs each; if none is good
-/// enough, the best of them. `None` where too few are there to tell.
+/// enough, the best of them. `None` where they are too few.
 fn judge([sub_cell, grid]: &[Vec<Solution>; 2], closed_form: Option<f64>, tolerance: f64) -> Option<Choice> {
     let finest = sub_cell.last()?;
     let target = if finest.adhesion_force.is_some() { Target::AdhesionForce } else { Target::Curve };

@@ -49,8 +49,8 @@ impl<'a> Budget<'a> {
         self.left_of(1.0) <= 0.0
     }
 
-    /// Runs something a few times, at least once, and tells how long it took each time; `None` where it
-    /// does not come to its end.
+    /// Runs something a few times, at least once, and returns the time of each run; `None` where it does not
+    /// end.
     pub(super) fn time(&self, mut run: impl FnMut() -> bool) -> Option<Timing> {
         let (began, mut seconds) = (Instant::now(), Vec::new());
         while seconds.len() < MOST_RUNS

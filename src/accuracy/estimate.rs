@@ -13,7 +13,7 @@ use std::path::Path;
 /// Most springs of a finer solution that is made for an estimate only, and of a coarser one.
 const MOST_FINER: u64 = 1 << 20;
 const MOST_COARSER: u64 = 1 << 22;
-/// Fewest springs that tell anything of more.
+/// Fewest springs from which the error with more springs can be estimated.
 const FEWEST_SPRINGS: u64 = 16;
 /// Solutions that an estimate would have, the outcome included: one difference may be small by chance, three
 /// in a row seldom are.
@@ -64,7 +64,7 @@ pub enum Evidence {
 /// whose modes need too many springs for that is solved with twice and four times as many instead.
 /// The error of the step of the stepwise solver is its distance from the exact solver on the same springs.
 ///
-/// `None` where nothing can be told: there is no figure to be wrong, no other number of springs is allowed,
+/// `None` where nothing is known: there is no figure to be wrong, no other number of springs is allowed,
 /// too many would be needed, or `stop` said to give up.
 ///
 /// # Errors

@@ -42,7 +42,7 @@ impl Rung {
 }
 
 /// Measures the table of a checked scene whose files lie in `folder`, within a budget of time. `stop` is asked
-/// now and then whether to give up; `watch` is told what is tried and what came of it.
+/// now and then whether to give up; `watch` receives each setting and its result.
 ///
 /// # Errors
 /// [`CostError`].

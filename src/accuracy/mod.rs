@@ -2,7 +2,7 @@
 //!
 //! [`measure()`] tries everything that buys accuracy, from coarse to fine, and sets errors against times. Errors
 //! are relative and counted from a [`Reference`]: the adhesion force in closed form where the scene has one,
-//! otherwise the finest solution with edges between springs, of which the last refinements tell how good it
+//! otherwise the finest solution with edges between springs, of which the last refinements show how good it
 //! is itself. Runs that are timed are others than those that are compared.
 
 mod answer;

@@ -141,7 +141,7 @@ pub(super) fn solve(
 pub(super) enum Solved {
     /// A solution.
     Outcome(Box<Outcome>),
-    /// No spring stands under the body.
+    /// No spring is under the body.
     TooCoarse,
     /// There is no time or memory for it.
     TooMuch,
@@ -157,7 +157,7 @@ fn is_out_of_memory(error: &RunError) -> bool {
 }
 
 /// The adhesion force of a scene in closed form, N, where it has one: a smooth body that is pulled over the
-/// indentation of its smallest force, on a line longer than its contact. `outcome` tells whether it is.
+/// indentation of its smallest force, on a line longer than its contact. `outcome` has the answer.
 #[must_use]
 pub fn closed_form_adhesion(scene: &Scene, outcome: &Outcome) -> Option<f64> {
     let work = outcome.governing.adhesive_work()?;
@@ -174,7 +174,7 @@ pub fn closed_form_adhesion(scene: &Scene, outcome: &Outcome) -> Option<f64> {
         Some(form) => {
             let body = PowerLaw::of(form, modulus, work)?;
             let (radius, _) = body.force_controlled_pull_off();
-            // An edge of the contact that has come to the edge of the line is no longer the body's own.
+            // An edge of the contact that has reached the edge of the line is no longer the body's own.
             (body.indentation(radius), length - 2.0 * outcome.line.spacing)
         }
     };

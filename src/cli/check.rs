@@ -119,8 +119,8 @@ mod tests {
         };
         assert!(conclude(&verdicts(&[0.0, 1e-16])).is_ok());
         for error in [1.0, f64::NAN, f64::INFINITY] {
-            let told = conclude(&verdicts(&[0.0, error])).unwrap_err().to_string();
-            assert_eq!(told, "1 of 2 checks fail");
+            let message = conclude(&verdicts(&[0.0, error])).unwrap_err().to_string();
+            assert_eq!(message, "1 of 2 checks fail");
         }
     }
 }

@@ -13,7 +13,7 @@ Examples:
   asperity plan pressure-sensitive
   asperity plan million-springs --set adhesion=None --format json
 
-A stage that a scene does not call for does not run. Passes are given where the scene tells their
+A stage that a scene does not call for does not run. Passes are given where the scene determines their
 number beforehand, springs touched are those of all passes at the most, and memory is what a stage
 adds while it runs.";
 

@@ -17,7 +17,7 @@ Examples:
   asperity presets check my-scene.ron other-scene.ron
   asperity presets show jkr-sphere | asperity presets check -
 
-Every error of every file is told with its line and column. The exit code is 1 if there is any.";
+Every error of every file is printed with its line and column. The exit code is 1 if there is any.";
 
 const SHOW_EXAMPLES: &str = "\
 Example:

@@ -60,7 +60,7 @@ pub struct RunArguments {
     /// Draw the contact patches over the indentation instead of the curve
     #[arg(long, conflicts_with_all = ["more", "lines"])]
     pub fragments: bool,
-    /// Add the approximate JKR curve: an estimate from the contact without adhesion
+    /// Add the approximate JKR curve, from the contact without adhesion
     ///
     /// Ciavarella, J. Mech. Phys. Solids 114 (2018) 209: contact areas as without adhesion,
     /// patches as circles that never merge, lifted as flat punches. Exact for one patch, a mean

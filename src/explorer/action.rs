@@ -218,7 +218,7 @@ pub enum Command {
     Save,
     /// Export curve or panes to a file.
     Export,
-    /// Copy the command that opens the scene as it stands.
+    /// Copy the command that opens the present scene.
     CopyCommand,
     /// Choose a scene from the library.
     OpenLibrary,
@@ -250,7 +250,7 @@ pub enum Command {
     ToggleApproximate,
     /// Show sections through the mark in place of the map, or the other way round.
     ToggleSections,
-    /// Let the glyphs of the map tell another quantity.
+    /// Show another quantity by the glyphs of the map.
     NextCharted,
     /// Show the map of the study, or the one that is computed here.
     ToggleStudy,

@@ -36,7 +36,7 @@ impl AdhesionSpread {
         self.found.profiles.len() >= PROFILES
     }
 
-    /// Computes the missing profiles. `tell` receives them after each; they are kept where `stop` interrupts.
+    /// Computes the missing profiles. `report` receives them after each; they are kept where `stop` interrupts.
     ///
     /// # Errors
     /// When the surface cannot be read, or a profile or its contact fails, or `stop` says so.
@@ -44,7 +44,7 @@ impl AdhesionSpread {
         &mut self,
         folder: &Path,
         stop: &dyn Fn() -> bool,
-        tell: &mut dyn FnMut(&AdhesionSpread),
+        report: &mut dyn FnMut(&AdhesionSpread),
     ) -> Result<(), RunError> {
         let scene = Arc::clone(&self.scene);
         let files: Vec<_> = scene.measured_files().into_iter().map(|file| folder.join(file)).collect();
@@ -53,7 +53,7 @@ impl AdhesionSpread {
         while !self.is_whole() {
             let seed = first.wrapping_add(self.found.profiles.len() as u64);
             self.found.profiles.push(ProfileAdhesion::solve(&scene, &line, seed, stop)?);
-            tell(self);
+            report(self);
         }
         Ok(())
     }

@@ -11,7 +11,7 @@ use std::sync::Arc;
 pub struct Chart {
     /// Quantity of the glyphs, where the map has it.
     pub quantity: Charted,
-    /// True if the sections through the mark stand in place of the map.
+    /// True if the sections through the mark replace the map.
     pub sections: bool,
     /// True if columns and rows are exchanged: κ or e_el/γ across.
     transposed: bool,

@@ -5,7 +5,7 @@
 pub struct Candidate {
     /// Names and symbols: letters of a word may be scattered over them.
     pub names: Vec<String>,
-    /// Sentences, which have the letters of any word: a word counts only where it stands whole.
+    /// Sentences, which have the letters of any word: a word counts only as a whole.
     pub prose: Vec<String>,
 }
 

@@ -341,13 +341,13 @@ impl Model {
         Some(computed.outcome.governing.with_adhesion(now.adhesion))
     }
 
-    /// Returns true if what has been computed is the scene as it stands: neither computing nor failed.
+    /// Returns true if the present scene has been computed.
     #[must_use]
     pub fn is_current(&self) -> bool {
         self.current().is_some()
     }
 
-    /// The computed scene, where that is the scene as it stands.
+    /// The computed scene, where that is the present scene.
     #[must_use]
     pub fn current(&self) -> Option<&Arc<SolvedScene>> {
         self.computed.as_ref().filter(|computed| computed.generation == self.generation)
@@ -406,7 +406,7 @@ impl Model {
         if self.hand.is_some() { Drive::Manual } else { Drive::Leg(self.player.leg) }
     }
 
-    /// The newest moment, where it belongs to the scene as it stands and to what moves the body.
+    /// The newest moment, where it belongs to the present scene and kind of loading.
     #[must_use]
     pub fn present(&self) -> Option<&ContactSnapshot> {
         let moment = self.moment.as_deref()?;
@@ -453,7 +453,7 @@ impl Model {
         indentations(self.legs())
     }
 
-    /// The indentation at which the animation stands, m.
+    /// The indentation of the animation, m.
     #[must_use]
     pub fn indentation(&self) -> f64 {
         self.player.indentation(self.legs())

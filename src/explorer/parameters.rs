@@ -1,4 +1,4 @@
-//! The list of parameters: the fields of the scene that can be changed as it stands, in groups, by use.
+//! The list of parameters: the fields of the present scene that can be changed, in groups, by use.
 
 use super::fuzzy::Candidate;
 use crate::scene::{
@@ -250,7 +250,7 @@ fn shown(field: &Field, written: &str) -> String {
     match (field.range, written.parse::<f64>()) {
         (Range::Real { .. }, Ok(value)) => format_quantity(value, field.unit),
         (Range::Choice(_), _) => {
-            // The parts of a choice stand in rows of their own.
+            // The parts of a choice have rows of their own.
             let name = written.split('(').next().unwrap_or(written).trim();
             match (name, field.path) {
                 ("", "material" | "adhesion") => first_name(written).to_owned(),

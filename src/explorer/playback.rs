@@ -11,7 +11,7 @@ use crate::contact::{ContactError, LegContact, LegRecord, Snapshot, Solver};
 use crate::scene::{Observer, Scene};
 use std::sync::Arc;
 
-/// Bytes of legs that are kept: beyond them, legs are computed again when the animation comes to them.
+/// Bytes of legs that are kept: beyond them, legs are computed again when the animation reaches them.
 const BYTES_KEPT: usize = 1 << 29;
 
 /// Memory of a leg is used again while it holds no more than so many times what a leg takes, and that of few
@@ -37,7 +37,7 @@ pub struct Playback {
     /// Memory for the legs of the next scene.
     spare: Vec<LegContact>,
     held: Option<ManualBody>,
-    /// The contact at the moment shown last, to tell how many springs changed.
+    /// The contact at the moment shown last, to count the springs that changed.
     last: Option<(Drive, Fragments)>,
     /// Spectra of the scene, once they have been asked for.
     spectra: Option<Arc<SceneSpectra>>,

@@ -17,7 +17,7 @@ pub struct Player {
 }
 
 impl Player {
-    /// The indentation at which the animation of these loading stages stands, m.
+    /// The indentation of the animation of these loading stages, m.
     #[must_use]
     pub fn indentation(&self, legs: &[LegRecord]) -> f64 {
         let Some(leg) = legs.get(self.leg) else { return 0.0 };

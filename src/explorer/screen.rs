@@ -1,4 +1,4 @@
-//! A screen without a terminal behind it: it tells the bytes a terminal would be sent.
+//! A screen without a terminal: returns the bytes for a terminal.
 
 use super::model::Model;
 use super::terminal::FrameWriter;

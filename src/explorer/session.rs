@@ -7,7 +7,7 @@ use super::file_job::FileJob;
 use super::input;
 use super::model::{Model, Notice};
 use super::opening::Opening;
-use super::signals::{Told, watch_for_signals};
+use super::signals::{SystemSignal, watch_for_signals};
 use super::snapshot::SolvedScene;
 use super::study::{Accuracy, Found, Study};
 use super::terminal::{self, FrameWriter, TerminalGuard};
@@ -133,10 +133,10 @@ pub fn open_with(
     })?;
     watch_for_signals({
         let messages = messages.clone();
-        move |told| {
-            let message = match told {
-                Told::End(signal) => Message::Ended(signal),
-                Told::Continue => Message::Continued,
+        move |signal| {
+            let message = match signal {
+                SystemSignal::End(signal) => Message::Ended(signal),
+                SystemSignal::Continue => Message::Continued,
             };
             messages.send(message).is_ok()
         }
@@ -225,13 +225,13 @@ struct Session<'a, W: Write> {
     remote: bool,
     /// Frames per second of the animation.
     frame_rate: u32,
-    /// True if nothing that stands on the screen can be relied on.
+    /// True if the content of the screen is unknown.
     redraw: bool,
-    /// Times it has stopped itself and has not been told yet that it goes on.
+    /// Stops of its own that no signal of continuation has followed yet.
     own_stops: u32,
     /// Bytes written so far.
     written: Rc<Cell<u64>>,
-    /// When the traffic was last told, and how many bytes had been written by then.
+    /// Time of the last report of the traffic, and the bytes written by then.
     traffic: (Instant, u64),
     inbox: Receiver<Message>,
     messages: Sender<Message>,
@@ -309,7 +309,7 @@ impl<W: Write> Session<'_, W> {
                 };
                 if let Some(action) = action {
                     changed = true;
-                    // A window that shrank and grew back between two frames has lost what stood there,
+                    // A window that shrank and grew back between two frames has lost its content,
                     // though its size is that of the last frame.
                     self.redraw |= matches!(action, Action::Resize(..));
                     self.act(action)?;
@@ -394,7 +394,7 @@ impl<W: Write> Session<'_, W> {
         self.perform(effects)
     }
 
-    /// Tells once in a second of drawing how much was written.
+    /// Reports once in a second of drawing the number of bytes written.
     fn measure_traffic(&mut self, frames: u32) {
         let (since, before) = self.traffic;
         let elapsed = since.elapsed();

@@ -4,14 +4,14 @@ use std::io;
 
 /// A signal that the explorer answers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Told {
+pub enum SystemSignal {
     /// Request to end, by the signal of this number.
     End(i32),
     /// Continuation after a stop.
     Continue,
 }
 
-/// Calls `told` when the system tells the process to end or to go on; it says whether anyone still listens.
+/// Calls `report` when a signal ends or continues the process; `report` returns false once nobody receives.
 ///
 /// If the explorer has not ended some time later, as while the terminal accepts no output,
 /// the process ends by the signal, and [`super::rescue::Rescue`] restores the terminal.
@@ -19,7 +19,7 @@ pub enum Told {
 /// # Errors
 /// When the system refuses.
 #[cfg(unix)]
-pub fn watch_for_signals(told: impl Fn(Told) -> bool + Send + 'static) -> io::Result<()> {
+pub fn watch_for_signals(report: impl Fn(SystemSignal) -> bool + Send + 'static) -> io::Result<()> {
     use signal_hook::consts::{SIGCONT, SIGHUP, SIGINT, SIGQUIT, SIGTERM};
     /// Time to end in an orderly way.
     const PATIENCE: std::time::Duration = std::time::Duration::from_millis(800);
@@ -29,12 +29,12 @@ pub fn watch_for_signals(told: impl Fn(Told) -> bool + Send + 'static) -> io::Re
         .spawn(move || {
             for signal in signals.forever() {
                 if signal == SIGCONT {
-                    told(Told::Continue);
+                    report(SystemSignal::Continue);
                     continue;
                 }
-                if told(Told::End(signal)) {
+                if report(SystemSignal::End(signal)) {
                     std::thread::sleep(PATIENCE);
-                    if !told(Told::End(signal)) {
+                    if !report(SystemSignal::End(signal)) {
                         // The explorer has ended, and who opened it goes on or ends by itself.
                         continue;
                     }
@@ -51,7 +51,7 @@ pub fn watch_for_signals(told: impl Fn(Told) -> bool + Send + 'static) -> io::Re
 /// # Errors
 /// None.
 #[cfg(not(unix))]
-pub fn watch_for_signals(_: impl Fn(Told) -> bool + Send + 'static) -> io::Result<()> {
+pub fn watch_for_signals(_: impl Fn(SystemSignal) -> bool + Send + 'static) -> io::Result<()> {
     Ok(())
 }
 

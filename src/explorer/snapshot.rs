@@ -152,7 +152,7 @@ impl FragmentFacts {
 /// The curve of a scene to look at.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Preview {
-    /// The scene's text, which tells it from all others.
+    /// The text of the scene, different for different scenes.
     pub text: String,
     /// Outcome, or the reason for none.
     pub outcome: Result<Outcome, String>,

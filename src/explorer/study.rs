@@ -45,35 +45,35 @@ impl PaneData {
         }
     }
 
-    /// Computes the missing part; `tell` receives the data after each addition.
+    /// Computes the missing part; `report` receives the data after each addition.
     ///
     /// # Errors
     /// The reason for which there is nothing more, also when `stop` says so before the end.
-    pub fn extended(self, stop: &dyn Fn() -> bool, tell: &mut dyn FnMut(PaneData)) -> Result<Self, String> {
+    pub fn extended(self, stop: &dyn Fn() -> bool, report: &mut dyn FnMut(PaneData)) -> Result<Self, String> {
         let folder = Path::new(FOLDER);
         Ok(match self {
             PaneData::Map(mut map) => {
                 let whole = Arc::make_mut(&mut map);
-                compute(whole, folder, stop, &mut |map| tell(PaneData::Map(Arc::new(map.clone()))));
+                compute(whole, folder, stop, &mut |map| report(PaneData::Map(Arc::new(map.clone()))));
                 PaneData::Map(map)
             }
             PaneData::Preloads(mut curve) => {
                 let whole = Arc::make_mut(&mut curve);
                 let done =
-                    whole.compute(folder, stop, &mut |one| tell(PaneData::Preloads(Arc::new(one.clone()))));
+                    whole.compute(folder, stop, &mut |one| report(PaneData::Preloads(Arc::new(one.clone()))));
                 done.map_err(|error| error.to_string())?;
                 PaneData::Preloads(curve)
             }
             PaneData::Adhesion(mut spread) => {
                 let whole = Arc::make_mut(&mut spread);
                 let done =
-                    whole.compute(folder, stop, &mut |one| tell(PaneData::Adhesion(Arc::new(one.clone()))));
+                    whole.compute(folder, stop, &mut |one| report(PaneData::Adhesion(Arc::new(one.clone()))));
                 done.map_err(|error| error.to_string())?;
                 PaneData::Adhesion(spread)
             }
             PaneData::Costs(scene, _) => {
-                let mut tell = |costs: &Costs| tell(PaneData::Costs(Arc::clone(&scene), costs.clone()));
-                let costs = Costs::measure(&scene, folder, stop, &mut tell);
+                let mut report = |costs: &Costs| report(PaneData::Costs(Arc::clone(&scene), costs.clone()));
+                let costs = Costs::measure(&scene, folder, stop, &mut report);
                 let costs = costs.map_err(|error| error.to_string())?;
                 PaneData::Costs(scene, costs)
             }
@@ -109,7 +109,7 @@ impl Task {
 /// Findings.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Finding {
-    /// The error of the outcome, where it can be told.
+    /// The error of the outcome, where it is known.
     Estimated(Option<Estimate>),
     /// The approximate JKR curve, or the reason for none.
     Approximated(Result<Arc<ApproximateJkr>, String>),
@@ -172,9 +172,9 @@ pub trait Appraiser: Send {
         &mut self,
         data: PaneData,
         stop: &dyn Fn() -> bool,
-        tell: &mut dyn FnMut(PaneData),
+        report: &mut dyn FnMut(PaneData),
     ) -> Result<PaneData, String> {
-        data.extended(stop, tell)
+        data.extended(stop, report)
     }
 }
 
@@ -204,16 +204,16 @@ impl Appraiser for Accuracy {
 /// Reason for no result after a panic.
 const INTERNAL: &str = "internal error, please report it";
 
-/// Does a task. What is told after `stop` has said to give up is of no use to anyone and is not told.
+/// Does a task. Findings after `stop` has returned true are dropped.
 pub fn perform(
     appraiser: &mut dyn Appraiser,
     task: &Task,
     stop: &dyn Fn() -> bool,
-    tell: &mut dyn FnMut(Finding),
+    report: &mut dyn FnMut(Finding),
 ) {
-    let mut tell = |finding: Finding| {
+    let mut report = |finding: Finding| {
         if !stop() {
-            tell(finding);
+            report(finding);
         }
     };
     let done = catch_unwind(AssertUnwindSafe(|| match task {
@@ -224,18 +224,18 @@ pub fn perform(
         }
         Task::Choose(scene, tolerance) => {
             let choice =
-                appraiser.choose(scene, *tolerance, stop, &mut |points| tell(Finding::Choosing(points)));
+                appraiser.choose(scene, *tolerance, stop, &mut |points| report(Finding::Choosing(points)));
             Finding::Chosen(*tolerance, choice)
         }
         Task::Extend { data, .. } => {
-            let mut tell = |data| tell(Finding::Extended(data));
-            match appraiser.extend(data.clone(), stop, &mut tell) {
+            let mut report = |data| report(Finding::Extended(data));
+            match appraiser.extend(data.clone(), stop, &mut report) {
                 Ok(data) => Finding::Extended(data),
                 Err(why) => Finding::NotExtended(data.pane(), why),
             }
         }
     }));
-    tell(done.unwrap_or_else(|_| match task {
+    report(done.unwrap_or_else(|_| match task {
         Task::Estimate(_) => Finding::Estimated(None),
         Task::ApproximateJkr(_) => Finding::Approximated(Err(INTERNAL.to_owned())),
         Task::Choose(_, tolerance) => Finding::Chosen(*tolerance, Err(ChoiceError::Stopped)),

@@ -119,7 +119,7 @@ fn stop_until_continued() {}
 
 /// Calls `gone` when the terminal hangs up.
 ///
-/// The signal that tells of it may be ignored (`nohup`), and crossterm then reads the end of its input
+/// The signal of a hang-up may be ignored (`nohup`), and crossterm then reads the end of its input
 /// for ever, at full speed. A thread that waits for nothing but the hang-up costs nothing.
 ///
 /// # Errors

@@ -61,7 +61,7 @@ pub enum Meaning {
     Ghost,
     /// The moment shown.
     Cursor,
-    /// Frames, axes, what stands back.
+    /// Frames, axes, parts of less weight.
     Quiet,
     /// Titles.
     Title,

@@ -40,7 +40,7 @@ impl Model {
         }
     }
 
-    /// Takes the scene as it stands for saved to a file, and goes on with that file.
+    /// Marks the present scene as saved to a file, which becomes the file of the scene.
     pub fn set_saved_as(&mut self, path: &std::path::Path) {
         if let Ok(document) = Document::parse(self.document.text(), &path.to_string_lossy()) {
             self.document = document;
@@ -48,7 +48,7 @@ impl Model {
         self.set_saved();
     }
 
-    /// Takes the scene as it stands for saved.
+    /// Marks the present scene as saved.
     pub fn set_saved(&mut self) {
         self.saves += 1;
         self.saved.insert(self.document.name().to_owned(), self.document.clone());

@@ -208,7 +208,7 @@ pub fn preload_axes(layers: Vec<Layer>) -> Chart {
     Chart::new(x, Axis::new(AxisScale::Linear, y, "adhesion force", "F_a", "N"), layers)
 }
 
-/// The object; its keys stand in the order of these fields.
+/// The object; its keys have the order of these fields.
 #[derive(Serialize)]
 struct Json<'a> {
     scene: &'a Scene,

@@ -238,7 +238,7 @@ impl Sections {
         let counts: Vec<u64> = plan.all_axes().into_iter().map(Axis::count).collect();
         let faster: u64 = counts[along + 1..].iter().product();
         let place = cell / faster % counts[along];
-        // The cell of the same place with the smallest κ stands for the section.
+        // The cell of the same place with the smallest κ represents the section.
         let section = self.0.entry((cell - place * faster, protocol)).or_default();
         let values = plan.values(cell);
         if section.others.is_empty() {

@@ -124,7 +124,7 @@ impl Cells {
         run * self.preloads..(run + 1) * self.preloads
     }
 
-    /// Makes `scene` that of a run: the base with its values, the loading as it stands there.
+    /// Makes `scene` that of a run: the base with its values, with the loading it has there.
     ///
     /// # Errors
     /// The index of an axis whose number the scene does not have, and why.

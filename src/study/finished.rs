@@ -58,7 +58,7 @@ impl Finished {
     }
 
     /// Summary of a cell; `None` where the tables were published without it. Cells are counted with the last
-    /// axis fastest, and the preload faster than that; [`Plan::values`] tells their coordinates.
+    /// axis fastest, and the preload faster than that; [`Plan::values`] has their coordinates.
     #[must_use]
     pub fn cell(&self, cell: u64) -> Option<&CellSummary> {
         self.cells.get(cell as usize)?.as_ref()

@@ -40,7 +40,7 @@ mod tests {
         let sine = (0..1000).map(|k| 3e-9 * (std::f64::consts::TAU * f64::from(k) / 1000.0).sin() + 1e-9);
         let shape = HeightShape::of(sine).unwrap();
         assert!(shape.skewness.abs() < 1e-12 && (shape.excess_kurtosis + 1.5).abs() < 1e-12, "{shape:?}");
-        // One of four stands out: deviations −1, −1, −1, 3 from the mean.
+        // One of four is far off: deviations −1, −1, −1, 3 from the mean.
         let shape = HeightShape::of([0.0, 0.0, 0.0, 4.0].into_iter()).unwrap();
         assert!((shape.skewness - 6.0 / 3.0_f64.powf(1.5)).abs() < 1e-12);
         assert!((shape.excess_kurtosis - (21.0 / 9.0 - 3.0)).abs() < 1e-12);

@@ -17,7 +17,7 @@ use std::path::Path;
 
 /// Missing cells that are named.
 const MOST_NAMED: usize = 8;
-/// Bits of a place that tell the file; the others tell where in it.
+/// Bits of a place with the number of the file; the others are the place in that file.
 const FILE_BITS: u32 = 24;
 const NOWHERE: u64 = u64::MAX;
 

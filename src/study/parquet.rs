@@ -1,7 +1,7 @@
 //! The results of a study as Parquet: the rows of `results.csv` with types, in about a quarter of the room.
 //!
 //! Numbers without a value are null. Cells, seeds and whole axes are unsigned integers, all else has the bits of
-//! the CSV. The plan stands in the metadata of the file.
+//! the CSV. The plan is in the metadata of the file.
 
 use super::StudyError;
 use super::finished::{Finished, Row};

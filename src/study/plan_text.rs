@@ -102,9 +102,9 @@ impl Plan {
     /// As [`Plan::open`].
     pub fn parse(text: &str, name: &str, changes: &Changes) -> Result<Plan, PlanErrors> {
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-        let told = |what: String| PlanErrors(vec![format!("{name}: {what}")]);
+        let refused = |what: String| PlanErrors(vec![format!("{name}: {what}")]);
         if text.len() > LONGEST_TEXT {
-            return Err(told(format!("the plan is too long: at most {LONGEST_TEXT} bytes are read")));
+            return Err(refused(format!("the plan is too long: at most {LONGEST_TEXT} bytes are read")));
         }
         let options = ron::Options::default().with_default_extension(Extensions::IMPLICIT_SOME);
         let read: PlanText = options.from_str(text).map_err(|error| {
@@ -113,7 +113,7 @@ impl Plan {
             PlanErrors(vec![format!("{name}:{line}:{column}: {what}")])
         })?;
         if read.version != PLAN_VERSION {
-            return Err(told(format!(
+            return Err(refused(format!(
                 "version = {}: allowed: {PLAN_VERSION} (version of the plan file)",
                 read.version
             )));

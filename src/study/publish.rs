@@ -1,6 +1,6 @@
 //! Publishing several files as one.
 //!
-//! Tables stand in a folder of their own. `tables` is a link that leads there, and the names that users know are
+//! Tables are in a folder of their own. `tables` is a link that leads there, and the names that users know are
 //! links through it, so one renaming of one link changes all of them at once:
 //!
 //! ```text

@@ -30,7 +30,7 @@ pub(super) fn unseal(line: &[u8]) -> Option<&str> {
     is_ours.then_some(payload)
 }
 
-/// Appends a record. NaN, which stands for what there is not, is nothing at all.
+/// Appends a record. NaN, a missing value, is written as nothing.
 pub(super) fn encode(key: Key, values: &[f64], into: &mut String) {
     let mut payload = format!("{},{}", key.cell, key.seed);
     for value in values {

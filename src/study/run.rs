@@ -92,7 +92,7 @@ struct Shared<'a> {
 }
 
 /// Computes the records of a part of the plan that are not in the folder yet. `stop` is asked after each run;
-/// `tell` is called now and then and at the end.
+/// `report` is called now and then and at the end.
 ///
 /// # Errors
 /// When a record cannot be computed or written. What was written before stays.
@@ -100,7 +100,7 @@ pub fn run(
     folder: &Folder,
     options: Options,
     stop: &(dyn Fn() -> bool + Sync),
-    tell: &mut dyn FnMut(&Progress),
+    report: &mut dyn FnMut(&Progress),
 ) -> Result<Ended, StudyError> {
     let cells = Cells::of(folder.plan());
     let done = folder.done()?;
@@ -111,7 +111,7 @@ pub fn run(
         total,
         elapsed: Duration::from_nanos(elapsed),
     };
-    tell(&progress(0, 0));
+    report(&progress(0, 0));
     if before == total {
         return Ok(Ended { progress: progress(0, 0), complete: true });
     }
@@ -140,14 +140,14 @@ pub fn run(
         if begun == 0 {
             shared.fail(StudyError::NoThread);
         }
-        shared.write((path.as_path(), file), clock, receiver, &mut || tell(&now()));
+        shared.write((path.as_path(), file), clock, receiver, &mut || report(&now()));
     });
     let error = shared.error.lock().unwrap_or_else(PoisonError::into_inner).take();
     if let Some(error) = error {
         return Err(error);
     }
     let progress = now();
-    tell(&progress);
+    report(&progress);
     Ok(Ended { progress, complete: progress.done == total })
 }
 
@@ -168,10 +168,10 @@ impl Shared<'_> {
         (path, mut file): (&Path, Box<dyn DiskFile>),
         clock: Instant,
         receiver: Receiver<String>,
-        tell: &mut dyn FnMut(),
+        report: &mut dyn FnMut(),
     ) {
         let mut synced = Instant::now();
-        let mut told = Instant::now();
+        let mut reported = Instant::now();
         let (mut pending, mut elapsed) = (0, Duration::ZERO);
         let mut text = String::with_capacity(BUFFER);
         let failed = |reason| StudyError::Write(WriteError::Failed { path: PathBuf::from(path), reason });
@@ -201,9 +201,9 @@ impl Shared<'_> {
                 self.elapsed.store(elapsed.as_nanos() as u64, Ordering::SeqCst);
                 (synced, pending) = (Instant::now(), 0);
             }
-            if told.elapsed() >= TICK {
-                tell();
-                told = Instant::now();
+            if reported.elapsed() >= TICK {
+                report();
+                reported = Instant::now();
             }
             if ended {
                 return;

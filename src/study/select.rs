@@ -169,7 +169,7 @@ impl Selection {
         if self.quantities.is_empty() {
             let paper = [Quantity::ZeroLoadAdhesionShare, Quantity::AdhesionCoefficient];
             let recorded = |one: &Quantity| plan.record.contains(one);
-            // Without a preload there is no coefficient, and the two protocols stand side by side.
+            // Without a preload there is no coefficient, and the two protocols are side by side.
             let usual = if recorded(&paper[1]) { paper } else { SHARES };
             let mut all: Vec<_> = usual.into_iter().filter(recorded).collect();
             if all.is_empty() {

@@ -59,7 +59,7 @@ pub struct Attempt {
 }
 
 impl Status {
-    /// Of what stands in the folder now.
+    /// Of the present content of the folder.
     ///
     /// # Errors
     /// A folder that cannot be read.

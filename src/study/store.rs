@@ -354,7 +354,7 @@ impl Folder {
     }
 }
 
-/// Reads single lines of a file from wherever they stand, cheaply where they follow each other.
+/// Reads single lines of a file from any place, cheaply where they follow each other.
 pub(super) struct Lines {
     reader: BufReader<File>,
     here: u64,

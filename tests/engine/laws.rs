@@ -28,6 +28,8 @@ struct Body {
     foundation: Foundation,
     /// γ, J/m².
     work: f64,
+    /// γ₁/γ on closing.
+    closing: f64,
 }
 
 impl Body {
@@ -37,7 +39,7 @@ impl Body {
 
     /// The exact solver over its tree.
     fn on<'a>(&'a self, tree: &'a ContactTree, samples: usize) -> Exact<Adhesive<'a, GridEdges>> {
-        let rule = GridEdges::new(HessRule::new(self.foundation, self.work));
+        let rule = GridEdges::new(HessRule::from_works(self.foundation, self.closing * self.work, self.work));
         exact::adhesive(&self.gaps, tree, rule, self.foundation, samples)
     }
 
@@ -89,8 +91,15 @@ fn body() -> impl Strategy<Value = Body> {
             gaps,
             foundation: Foundation::endless(spacing, effective_modulus),
             work: effective_modulus * 10_f64.powf(range),
+            closing: 1.0,
         },
     )
+}
+
+/// Bodies with one work of adhesion, or with a smaller one on closing: none, or any.
+fn body_of_two_works() -> impl Strategy<Value = Body> {
+    let closing = prop_oneof![2 => Just(1.0), 1 => Just(0.0), 2 => 0.0..1.0_f64];
+    (body(), closing).prop_map(|(body, closing)| Body { closing, ..body })
 }
 
 /// Bodies without adhesion.

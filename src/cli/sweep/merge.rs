@@ -31,7 +31,7 @@ pub struct MergeArguments {
     pub parquet: bool,
 }
 
-/// Merges and tells what came of it.
+/// Merges and prints the outcome.
 pub(super) fn merge(arguments: &MergeArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
     if arguments.parquet && cfg!(not(feature = "parquet")) {
         return Err(CliError::NoParquet);

@@ -123,7 +123,7 @@ pub(super) fn run(arguments: &SweepRunArguments, stdout: &mut dyn Write) -> Resu
     let threads = if jobs == 1 { "1 thread".into() } else { format!("{jobs} threads") };
     let fewer =
         if jobs < wanted { format!(", fewer than {wanted} for want of memory") } else { String::new() };
-    let told = format!(
+    let text = format!(
         "{} cells on {} {}: {} records; {threads}{fewer}, at most {} of memory",
         plan.cells(),
         plan.lines,
@@ -132,10 +132,10 @@ pub(super) fn run(arguments: &SweepRunArguments, stdout: &mut dyn Write) -> Resu
         memory_size(memory.of_jobs(jobs))
     );
     if arguments.check {
-        writeln!(stdout, "{told}")?;
+        writeln!(stdout, "{text}")?;
         return Ok(());
     }
-    let _ = writeln!(stderr, "{told}");
+    let _ = writeln!(stderr, "{text}");
     let Some(output) = &arguments.output else { return Ok(()) };
     let folder = Folder::create(output, &plan)?;
     let stop = stop_by_signal()?;

@@ -66,7 +66,7 @@ pub struct SubmitArguments {
     pub options: Vec<OsString>,
 }
 
-/// Submits a study, or tells how that would be done.
+/// Submits a study, or prints the commands that would do so.
 pub(super) fn submit(arguments: &SubmitArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
     let changes = Changes { set: arguments.overrides.set.clone(), lines: arguments.lines };
     let plan = Plan::open(&arguments.plan, &changes).map_err(StudyError::from)?;
@@ -87,12 +87,12 @@ pub(super) fn submit(arguments: &SubmitArguments, stdout: &mut dyn Write) -> Res
         let names = ignored.join(", ");
         let _ = writeln!(
             io::stderr(),
-            "not passed on to sbatch: {}; options for both jobs stand after --",
+            "not passed on to sbatch: {}; options for both jobs follow after --",
             printable(&names)
         );
     }
     if arguments.dry_run {
-        return Ok(tell(&submission, stdout)?);
+        return Ok(print_submission(&submission, stdout)?);
     }
     let folder = Folder::create(&arguments.output, &plan)?;
     let own = submission.own_folder();
@@ -116,7 +116,7 @@ pub(super) fn submit(arguments: &SubmitArguments, stdout: &mut dyn Write) -> Res
 }
 
 /// Prints what would be written and run.
-fn tell(submission: &Submission, stdout: &mut dyn Write) -> io::Result<()> {
+fn print_submission(submission: &Submission, stdout: &mut dyn Write) -> io::Result<()> {
     for (path, script) in [
         (submission.shard_path(), submission.shard_script()),
         (submission.merge_path(), submission.merge_script()),

@@ -81,7 +81,7 @@ impl Demo {
         Some(now)
     }
 
-    /// The explorer as it stands.
+    /// The explorer.
     #[must_use]
     pub fn model(&self) -> &Model {
         &self.explorer.model

@@ -160,7 +160,7 @@ pub const BINDINGS: &[Binding] = &[
     row(&[char('c')], EXPLORE, Command::Pin, "compare", "keep this loop as a ghost for comparison", COMPARE),
     row(&[char('x')], EXPLORE, Command::Swap, "", "swap the scene with the newest ghost", COMPARE),
     row(&[char('&')], EXPLORE, Command::ToggleSideBySide, "", "show the newest ghost beside the scene: profiles above each other, differences, F_a of both", COMPARE),
-    row(&[char('|')], EXPLORE, Command::PinOtherUse, "", "keep the measured profile itself as a ghost beside its equivalent line, or the line beside the profile", COMPARE),
+    row(&[char('|')], EXPLORE, Command::PinOtherUse, "", "keep the loop of the measured profile itself, or of its equivalent line, as a ghost", COMPARE),
     row(&[char('C')], EXPLORE, Command::ClearGhosts, "", "remove all ghosts", COMPARE),
 
     row(&[char('v')], EXPLORE, Command::NextCurve, "", "plot force, contact length or number of contact patches", LOOK),

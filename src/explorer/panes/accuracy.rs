@@ -44,7 +44,7 @@ pub static ROW: PaneRow = PaneRow {
 /// Relative errors that are answered for, and looked for in the plot.
 const TARGETS: [f64; 2] = [0.01, 0.001];
 
-/// Errors below this stand in the lowest row.
+/// Errors below this are in the lowest row.
 const LOWEST: f64 = 1e-8;
 
 /// Rows of plot that make it worth drawing.
@@ -255,7 +255,7 @@ fn now(model: &Model, table: Option<&CostTable>) -> Line<'static> {
 
 /// Requirements of a bound; `None` while they are unknown.
 fn answer(table: &CostTable, bound: f64, finished: bool) -> Option<String> {
-    let told = [(Knob::SubCellSprings, "SubCell"), (Knob::GridSprings, "Grid")].into_iter().filter_map(
+    let rows = [(Knob::SubCellSprings, "SubCell"), (Knob::GridSprings, "Grid")].into_iter().filter_map(
         |(knob, edges)| {
             let finest = table.rows_of(knob).next_back();
             match (table.first_row_within(knob, bound), finest) {
@@ -272,6 +272,6 @@ fn answer(table: &CostTable, bound: f64, finished: bool) -> Option<String> {
             }
         },
     );
-    let told: Vec<_> = told.collect();
-    (!told.is_empty()).then(|| told.join("; "))
+    let rows: Vec<_> = rows.collect();
+    (!rows.is_empty()).then(|| rows.join("; "))
 }

@@ -82,7 +82,7 @@ pub fn map_figure(model: &Model, map_model: &MapModel) -> Figure {
             size: Figure::SMALL,
         }
     } else {
-        let layers = words::told(model.chart.charted(), map_model);
+        let layers = words::shown_layers(model.chart.charted(), map_model);
         let mut charted: Vec<_> = layers.into_iter().map(|layer| Charted::Quantity(layer.quantity)).collect();
         if charted.is_empty() {
             charted.push(Charted::Regime);

@@ -253,9 +253,9 @@ fn here(model: &Model, map_model: &MapModel, place: Place) -> Line<'static> {
 /// Quantities that go with the regime.
 const WITH_REGIME: [Quantity; 2] = [Quantity::ZeroLoadAdhesionShare, Quantity::AdhesionCoefficient];
 
-/// The layers that are told together: with the regime those it follows from, as far as there are any, else the
-/// one that the glyphs tell.
-pub fn told(charted: Charted, map_model: &MapModel) -> Vec<&Layer> {
+/// Layers shown together: with the regime those that decide it, where there are any, else the layer of the
+/// glyphs.
+pub fn shown_layers(charted: Charted, map_model: &MapModel) -> Vec<&Layer> {
     match charted {
         Charted::Quantity(quantity) => map_model.layer(quantity).into_iter().collect(),
         Charted::Regime => {
@@ -282,12 +282,12 @@ fn there(model: &Model, map_model: &MapModel, mark: Place, place: &ShownCell<'_>
         format!(" ({} of {} profiles)", grouped(map_cell.agreeing), grouped(map_cell.lines))
     };
     let regime = map_cell.regime.map(|regime| format!("{}{agree}", regime.name()));
-    // What goes with the regime is told together, so that the map keeps its place.
+    // Quantities of the regime are shown together, so that the map keeps its place.
     let charted = match model.chart.charted() {
         Charted::Quantity(one) if WITH_REGIME.contains(&one) => Charted::Regime,
         other => other,
     };
-    let values = told(charted, map_model).into_iter().filter_map(|layer| {
+    let values = shown_layers(charted, map_model).into_iter().filter_map(|layer| {
         let estimate = map_model.estimate(layer, place.column, place.row)?;
         let value = value(estimate, layer.quantity.unit());
         Some(format!("{} {value}", name_of(map_model, layer.quantity)))

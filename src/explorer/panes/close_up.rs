@@ -135,7 +135,7 @@ fn strip(strip: &[Share], section: &Section, springs: usize, theme: Theme) -> Li
 /// Share of a stretch below which it is rounding.
 const ROUNDING: f64 = 1e-13;
 
-/// The fragment in words: where it stands, what it carries, and how near its most stretched spring is to
+/// The fragment in words: its place, its force, and how near its most stretched spring is to
 /// letting go.
 fn describe(fragment: Option<FragmentFacts>, fragments: u64, width: u16) -> [Line<'static>; 2] {
     let Some(facts) = fragment else { return [Line::raw("○ nothing is in contact"), Line::default()] };

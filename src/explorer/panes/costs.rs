@@ -21,7 +21,7 @@ pub struct Costs {
 }
 
 impl Costs {
-    /// Measures the costs of a scene; `tell` receives the costs so far.
+    /// Measures the costs of a scene; `report` receives the costs so far.
     ///
     /// # Errors
     /// When nothing can be compared.
@@ -29,7 +29,7 @@ impl Costs {
         scene: &Scene,
         folder: &Path,
         stop: &dyn Fn() -> bool,
-        tell: &mut dyn FnMut(&Costs),
+        report: &mut dyn FnMut(&Costs),
     ) -> Result<Costs, CostError> {
         let mut costs = Costs::default();
         let table = measure(scene, folder, BUDGET, stop, &mut |progress| {
@@ -38,7 +38,7 @@ impl Costs {
                 Progress::Trying(knob, setting) => costs.trying = Some(format!("{}: {setting}", knob.name())),
                 Progress::Rows(table) => costs.table = table().map(Arc::new).or(costs.table.take()),
             }
-            tell(&costs);
+            report(&costs);
         })?;
         Ok(Costs { table: Some(Arc::new(table)), trying: None, is_whole: true })
     }

@@ -74,7 +74,7 @@ impl PreloadCurve {
         self.profiles.first().map_or(&[], Vec::as_slice)
     }
 
-    /// Computes the missing part, the profile of the scene first. `tell` receives the curve after each addition; a curve
+    /// Computes the missing part, the profile of the scene first. `report` receives the curve after each addition; a curve
     /// interrupted by `stop` is kept.
     ///
     /// # Errors
@@ -83,7 +83,7 @@ impl PreloadCurve {
         &mut self,
         folder: &Path,
         stop: &dyn Fn() -> bool,
-        tell: &mut dyn FnMut(&PreloadCurve),
+        report: &mut dyn FnMut(&PreloadCurve),
     ) -> Result<(), RunError> {
         let mut simulation = Simulation::new(folder.to_path_buf());
         if self.own.len() < self.forces.len() {
@@ -92,7 +92,7 @@ impl PreloadCurve {
             solve_preloads(&mut simulation, &scene, &forces, stop, &mut |one| {
                 self.own.push(one);
                 if self.own.len().is_multiple_of(SHOWN_EVERY) {
-                    tell(self);
+                    report(self);
                 }
             })?;
         }
@@ -109,7 +109,7 @@ impl PreloadCurve {
             }
             self.profiles.push(found);
             self.statistics = preload_statistics(&self.profiles);
-            tell(self);
+            report(self);
         }
         Ok(())
     }
@@ -132,11 +132,11 @@ mod tests {
     fn the_curve_grows_and_goes_on_where_it_was_stopped() {
         let computed = computed("pressure-sensitive");
         let mut curve = PreloadCurve::new(&computed).unwrap();
-        let told = Cell::new(0);
-        let stop = || told.get() >= 12;
+        let reported = Cell::new(0);
+        let stop = || reported.get() >= 12;
         let mut sizes = Vec::new();
         let done = curve.compute(Path::new(""), &stop, &mut |curve| {
-            told.set(told.get() + 1);
+            reported.set(reported.get() + 1);
             sizes.push((curve.own.len(), curve.profiles()));
         });
         assert!(done.unwrap_err().is_interruption());

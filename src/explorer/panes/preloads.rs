@@ -52,12 +52,12 @@ fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
         return draw_reason(frame, area, &why, model.appearance.theme);
     };
     let chart = chart(model, curve);
-    let heading = chart.y.label_with_unit().then(format!("  {}", told(curve)).trim_end());
+    let heading = chart.y.label_with_unit().then(format!("  {}", progress(curve)).trim_end());
     section(frame, area, model, &Chart { heading, ..chart });
 }
 
 /// Progress, in words.
-fn told(curve: &PreloadCurve) -> String {
+fn progress(curve: &PreloadCurve) -> String {
     if curve.is_whole() || curve.profiles() < 2 {
         return String::new();
     }

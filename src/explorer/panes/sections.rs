@@ -1,6 +1,6 @@
 //! Sections through the mark of the map: means along its axes, with their confidence where it is known.
 
-use super::chart_words::{name_of, on_axis, told};
+use super::chart_words::{name_of, on_axis, shown_layers};
 use crate::draw::{Axis, AxisScale, Chart, Ink, Label, Layer as Drawn, Shape, Sign, Span, Stroke, legend};
 use crate::explorer::model::Model;
 use crate::explorer::theme::Meaning;
@@ -97,7 +97,7 @@ pub fn charts(model: &Model) -> Vec<Chart> {
     let Some(map_model) = model.chart.map_model() else { return Vec::new() };
     let mark = model.place();
     let (column, row) = section_cell(model, map_model);
-    let layers = told(model.chart.charted(), map_model);
+    let layers = shown_layers(model.chart.charted(), map_model);
     let headed = |axis: &MapAxis, kept: Option<(&MapAxis, usize)>, chart: Option<Chart>| {
         let kept = kept.and_then(|(axis, index)| Some(on_axis(axis, *axis.figure.values.get(index)?)));
         let at = kept.map_or_else(String::new, |kept| format!(" at {kept}"));

@@ -8,7 +8,7 @@ use std::sync::LazyLock;
 
 /// ASCII characters and the dots they look like: one letter for each of four rows, from above: `L` left,
 /// `R` right, `B` both, `0` none. Of two that are as near, the first is taken: those that draw lines
-/// stand before those that fill. The marks on a curve, `^`, `v`, `*`, `o` and `@`, are not among them.
+/// precede those that fill. The marks on a curve, `^`, `v`, `*`, `o` and `@`, are not among them.
 const SHAPES: [(char, &[&str]); 15] = [
     ('-', &["0B00", "00B0", "0RL0", "0LR0"]),
     ('|', &["LLLL", "RRRR"]),
@@ -50,7 +50,7 @@ fn bits(shape: &str) -> u8 {
     rows.rev().fold(0, |bits, row| bits << 2 | row)
 }
 
-/// Characters and what stands for them. Greek letters are those that look or sound like them.
+/// Characters and their replacements. Greek letters are those that look or sound like them.
 const ALIKE: [(char, &str); 61] = [
     (' ', "\u{a0}\u{2007}\u{2009}\u{202f}"),
     ('^', "▲△↑⌃"),
@@ -121,8 +121,8 @@ const MARKED: [(&str, &str); 2] = [
     ("àáâãäåçèéêëìíîïñòóôõöøùúûüýÿ", "aaaaaaceeeeiiiinoooooouuuuyy"),
 ];
 
-/// Puts printable ASCII in place of all symbols. Every cell stays where it is: behind what stands for a
-/// wide character comes a blank. Curves of dots become the characters whose shapes are nearest, and no
+/// Puts printable ASCII in place of all symbols. Every cell stays where it is: behind the replacement of a
+/// wide character is a blank. Curves of dots become the characters whose shapes are nearest, and no
 /// dot is lost altogether. What has no likeness becomes `?`.
 pub fn to_ascii(buffer: &mut Buffer) {
     let changes: Vec<(u16, u16, u16, char)> = glyphs(buffer)

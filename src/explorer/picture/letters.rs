@@ -7,7 +7,7 @@ use ratatui::style::Modifier;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
-/// Height of the line that letters stand on, in its cell.
+/// Height of the base line of letters in a cell.
 const BASE: u32 = 12;
 /// Fonts of one width that come with the common systems.
 pub const FONTS: &str =

@@ -1,4 +1,4 @@
-//! The shapes of characters that stand for dots or for parts of a cell.
+//! The shapes of characters that represent dots or parts of a cell.
 
 use ratatui::symbols::pixel::{OCTANTS, QUADRANTS, SEXTANTS};
 
@@ -38,7 +38,7 @@ impl Raster {
         Raster(self.0.map(|row| !row))
     }
 
-    /// The dots, as [`dots`] gives them, that stand for it: those half covered or more; where there are
+    /// The dots, as [`dots`] gives them, that represent it: those half covered or more; where there are
     /// none, those covered most.
     pub fn dots(self) -> u8 {
         let covered: [u32; 8] = std::array::from_fn(|dot| {

@@ -139,7 +139,7 @@ fn take_over(model: &mut Model, choice: &Choice) -> Vec<Effect> {
     effects
 }
 
-/// Tells what can be reached instead.
+/// States the accuracy that can be reached instead.
 fn refuse(model: &mut Model, tolerance: f64, error: &ChoiceError) {
     let sentence = error.to_string();
     let asked = per_cent(tolerance);

@@ -293,7 +293,7 @@ pub fn change(model: &mut Model, path: &str, value: &str) -> Vec<Effect> {
     take_over(model, changed)
 }
 
-/// Makes a changed document the one that is explored, or tells why it is not allowed.
+/// Makes a changed document the explored one, or states the reason why it is not allowed.
 pub fn take_over(model: &mut Model, changed: Result<Document, SceneErrors>) -> Vec<Effect> {
     match changed {
         Ok(document) => {
@@ -301,8 +301,8 @@ pub fn take_over(model: &mut Model, changed: Result<Document, SceneErrors>) -> V
             let effects = adopt(model, document);
             if lost > 0 {
                 let gone = if lost == 1 { "a comment is" } else { "comments are" };
-                let told = format!("{gone} gone with what was replaced: undo brings it all back");
-                model.notice = Some(Notice::Done(told));
+                let text = format!("{gone} gone with what was replaced: undo brings it all back");
+                model.notice = Some(Notice::Done(text));
             }
             effects
         }
@@ -321,7 +321,7 @@ pub fn adopt(model: &mut Model, document: Document) -> Vec<Effect> {
     renew(model)
 }
 
-/// Goes on with the last edit: what it comes to takes its place.
+/// Continues the last edit: its new result replaces the former one.
 pub fn replace(model: &mut Model, document: Document) -> Vec<Effect> {
     model.document = document;
     model.redo.clear();

@@ -75,7 +75,7 @@ pub fn ask_export(model: &mut Model) {
     model.mode = Mode::Export(TextLine::new(&format!("{stem}.csv")));
 }
 
-/// Exports to a file; the ending of its name tells what.
+/// Exports to a file; the ending of its name selects the content.
 pub fn export(model: &mut Model, path: PathBuf) -> Vec<Effect> {
     if path.as_os_str().is_empty() {
         return Vec::new();
@@ -169,17 +169,17 @@ pub fn quit(model: &mut Model) {
         Some(writing) if !writing.then_quit => {
             writing.then_quit = true;
             let path = writing.path.display();
-            let told = format!("leaving as soon as {path} is written; once more leaves without");
-            model.notice = Some(Notice::Done(told));
+            let text = format!("leaving as soon as {path} is written; once more leaves without");
+            model.notice = Some(Notice::Done(text));
         }
         _ => model.finished = true,
     }
 }
 
-/// Copies the command that opens the scene as it stands.
+/// Copies the command that opens the present scene.
 pub fn copy_command(model: &mut Model) -> Vec<Effect> {
     let command = command_line(model.document.name(), model.document.overrides());
-    // Whether the terminal does as it is asked cannot be known, so the command stands here as well.
+    // The terminal does not confirm a copy, so the notice has the command too.
     model.notice = Some(Notice::Done(format!("copy: {command}")));
     vec![Effect::Copy(command)]
 }

@@ -58,11 +58,11 @@ pub fn obey(model: &mut Model, command: Command) -> Vec<Effect> {
         Command::ToggleWork => model.shows_work = !model.shows_work,
         Command::NextTheme => {
             model.appearance.theme = model.appearance.theme.next();
-            tell(model, format!("colours: {}", model.appearance.theme.name()));
+            notify(model, format!("colours: {}", model.appearance.theme.name()));
         }
         Command::NextMarker => {
             model.appearance.marker = model.appearance.marker.next();
-            tell(model, format!("markers: {}", model.appearance.marker.name()));
+            notify(model, format!("markers: {}", model.appearance.marker.name()));
         }
         Command::RememberAppearance => {
             let Some(path) = model.config_path.clone() else {
@@ -77,7 +77,7 @@ pub fn obey(model: &mut Model, command: Command) -> Vec<Effect> {
     vec![Effect::Show]
 }
 
-fn tell(model: &mut Model, text: String) {
+fn notify(model: &mut Model, text: String) {
     model.notice = Some(Notice::Done(text));
 }
 

@@ -36,7 +36,7 @@ use std::path::PathBuf;
 pub enum Effect {
     /// Compute the scene.
     Compute,
-    /// Show the moment at which the body stands.
+    /// Show the present moment of the body.
     Show,
     /// Compute the scene that is shown beside, or forget the last one.
     Beside,
@@ -78,7 +78,7 @@ pub enum Effect {
     Suspend,
 }
 
-/// Applies an action and tells what is to be done outside.
+/// Applies an action and returns the effects to perform outside.
 pub fn update(model: &mut Model, action: Action) -> Vec<Effect> {
     match action {
         Action::Command(Command::Suspend) => return vec![Effect::Suspend],
@@ -109,10 +109,10 @@ pub fn update(model: &mut Model, action: Action) -> Vec<Effect> {
         Action::Remembered(Err(why)) => model.notice = Some(Notice::Error(why)),
         Action::Offered(names) if model.mode == Mode::Explore && model.notice.is_none() => {
             let of = names.join(", ");
-            let told = format!(
+            let text = format!(
                 "unsaved changes of {of} are kept from another session: asperity --restore opens them"
             );
-            model.notice = Some(Notice::Done(told));
+            model.notice = Some(Notice::Done(text));
         }
         Action::Offered(_) => {}
         Action::NotKept(why) => {

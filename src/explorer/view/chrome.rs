@@ -138,7 +138,7 @@ fn headline(model: &Model, width: u16) -> Line<'static> {
     fitting(parts, "", usize::from(width))
 }
 
-/// A part of the status line, after what stands between it and the part before.
+/// A part of the status line, after the text between it and the part before.
 type Part = (&'static str, String, Meaning);
 
 /// The state under manual loading: what the move changed comes before what it led to.

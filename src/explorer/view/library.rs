@@ -39,8 +39,9 @@ fn draw_list(frame: &mut Frame<'_>, area: Rect, model: &Model, library: &Library
         return draw_reason(frame, area, "reading…", theme);
     };
     if library.finder.found.is_empty() {
-        let told = "no scene fits; Enter tries it as a path, such as ./scene.ron or that of a study's folder";
-        return draw_reason(frame, area, told, theme);
+        let reason =
+            "no scene fits; Enter tries it as a path, such as ./scene.ron or that of a study's folder";
+        return draw_reason(frame, area, reason, theme);
     }
     let first = (library.finder.selected + 1).saturating_sub(usize::from(area.height));
     for (row, place) in (area.y..area.bottom()).zip(first..library.finder.found.len()) {

@@ -25,7 +25,7 @@ use ratatui::widgets::Block;
 
 /// Draws the whole screen.
 pub fn draw(frame: &mut Frame<'_>, model: &Model) {
-    // The window may have another size by now than the model has been told.
+    // The window may have another size by now than that of the model.
     let area = frame.area();
     let layout = Layout::within(model, (area.width, area.height));
     if let Some(area) = layout.title {

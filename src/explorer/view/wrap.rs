@@ -37,7 +37,7 @@ pub fn wrapped_within(line: &Line<'_>, area: Rect) -> Vec<Line<'static>> {
     lines
 }
 
-/// As many parts, from the first one on, as fit whole into so many columns, and what stands between them.
+/// As many parts, from the first one on, as fit whole into so many columns, and the text between them.
 pub fn fitting(parts: Vec<Vec<Span<'static>>>, between: &'static str, columns: usize) -> Line<'static> {
     let mut line = Line::default();
     for part in parts {
@@ -85,7 +85,7 @@ fn unicode_width(c: char) -> usize {
     Span::raw(c.to_string()).width()
 }
 
-/// Parts in as many lines as they take, with what stands between them on a line; a part wider than the columns
+/// Parts in as many lines as they take, with the text between them on a line; a part wider than the columns
 /// is left out.
 pub fn filled(parts: Vec<Vec<Span<'static>>>, between: &'static str, columns: usize) -> Vec<Line<'static>> {
     let mut lines: Vec<Line<'static>> = Vec::new();
@@ -179,14 +179,14 @@ mod tests {
 
     #[test]
     fn parts_fill_lines() {
-        let told = |columns| {
+        let filled_lines = |columns| {
             let parts = ["one", "two", "three"].map(|text| vec![Span::raw(text)]).to_vec();
             filled(parts, ", ", columns).iter().map(ToString::to_string).collect::<Vec<_>>()
         };
-        assert_eq!(told(20), ["one, two, three"]);
-        assert_eq!(told(8), ["one, two", "three"]);
-        assert_eq!(told(7), ["one", "two", "three"]);
-        assert_eq!(told(3), ["one", "two"]);
+        assert_eq!(filled_lines(20), ["one, two, three"]);
+        assert_eq!(filled_lines(8), ["one, two", "three"]);
+        assert_eq!(filled_lines(7), ["one", "two", "three"]);
+        assert_eq!(filled_lines(3), ["one", "two"]);
     }
 
     #[test]

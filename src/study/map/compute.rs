@@ -14,11 +14,11 @@ use std::path::Path;
 use std::sync::Arc;
 
 /// Computes the cells that a map lacks, from coarse to fine and row by row: all κ of a row are on the same profiles.
-/// `tell` sees the map after each row. Files that the scene names are looked for in `folder`. Gives up as soon as `stop`
+/// `report` sees the map after each row. Files that the scene names are looked for in `folder`. Gives up as soon as `stop`
 /// returns true; the row under way is then lost.
 ///
 /// A cell that cannot be computed has the reason in its place.
-pub fn compute(map: &mut LiveMap, folder: &Path, stop: &dyn Fn() -> bool, tell: &mut dyn FnMut(&LiveMap)) {
+pub fn compute(map: &mut LiveMap, folder: &Path, stop: &dyn Fn() -> bool, report: &mut dyn FnMut(&LiveMap)) {
     let template = Arc::clone(map.template());
     let plan = template.plan();
     let cells = Cells::of(&plan);
@@ -48,7 +48,7 @@ pub fn compute(map: &mut LiveMap, folder: &Path, stop: &dyn Fn() -> bool, tell: 
                 });
                 map.set(column, row, cell.map_err(|error: RunError| error.to_string()));
             }
-            tell(map);
+            report(map);
         }
     }
 }
@@ -229,11 +229,11 @@ mod tests {
         assert_eq!(map.model().shown(3, 3), None);
         compute(&mut map, Path::new(""), &|| rows.get() == 5, &mut |_| rows.set(rows.get() + 1));
         let shown = map.model().transposed();
-        for (asked, stands) in [((0, 0), (0, 0)), ((3, 1), (0, 0)), ((5, 3), (8, 4)), ((32, 18), (32, 18))] {
+        for (asked, expected) in [((0, 0), (0, 0)), ((3, 1), (0, 0)), ((5, 3), (8, 4)), ((32, 18), (32, 18))] {
             let place = shown.shown(asked.0, asked.1).unwrap();
-            assert_eq!((place.column, place.row), stands, "{asked:?}");
+            assert_eq!((place.column, place.row), expected, "{asked:?}");
         }
-        // A section has what was computed, and nothing that only stands for it.
+        // A section has what was computed, and no cell in place of another.
         assert_eq!(shown.along_row(&shown.layers()[0], 0).len(), 5);
         assert_eq!((shown.shown(COLUMNS, 0), shown.shown(0, 19)), (None, None));
     }
@@ -243,8 +243,8 @@ mod tests {
         let document = open("pressure-sensitive").unwrap();
         let never = document.set("loading", "[ToForce(1.0e-5), ToForce(-1.0)]").unwrap();
         let mut map = LiveMap::new(Arc::new(Template::of(never.scene()).unwrap()));
-        let told = std::cell::Cell::new(false);
-        compute(&mut map, Path::new(""), &|| told.get(), &mut |_| told.set(true));
+        let reported = std::cell::Cell::new(false);
+        compute(&mut map, Path::new(""), &|| reported.get(), &mut |_| reported.set(true));
         assert!(map.cell(0, 0).is_some_and(|cell| cell.as_ref().is_err_and(|why| !why.is_empty())));
     }
 }

@@ -77,7 +77,7 @@ impl LiveMap {
         self.has(self.template.finest())
     }
 
-    /// The computed cell that stands for one: itself or, while it has not been computed, one of a coarser
+    /// The computed cell shown for one: itself or, while it has not been computed, one of a coarser
     /// level.
     fn stand_in(&self, column: usize, row: usize) -> Option<usize> {
         let near = |all: &mut dyn Iterator<Item = usize>, wanted: usize| {

@@ -16,7 +16,7 @@ pub struct MapModel {
     layers: Vec<Layer>,
     /// Row by row, the row of the lowest value first.
     cells: Vec<Option<Result<MapCell, String>>>,
-    /// The cell that stands for each: itself, or one of a coarser map.
+    /// The cell shown for each: itself, or one of a coarser map.
     stand_ins: Vec<Option<usize>>,
     /// True where the regime of any cell is known; true where profiles of any cell are divided between regimes.
     has_regimes: bool,
@@ -93,7 +93,7 @@ impl MapCell {
 /// Values of a place on the axes of a map: across and, where the map has two axes, up.
 pub type Place = (f64, Option<f64>);
 
-/// A cell that is shown, and where it stands on the map.
+/// A cell that is shown, and its place on the map.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ShownCell<'p> {
     /// Column of the cell.
@@ -116,7 +116,7 @@ pub enum Charted {
 
 impl MapModel {
     /// A map from the summaries of its cells, row by row, or the reasons why they could not be computed, and the cell
-    /// that stands for each. `scales` are the quantities beside the regime, each with its place among the recorded.
+    /// shown for each. `scales` are the quantities beside the regime, each with its place among the recorded.
     pub(super) fn new(
         (across, up): (MapAxis, Option<MapAxis>),
         scales: &[(usize, MapScale)],
@@ -209,7 +209,7 @@ impl MapModel {
         self.is_split
     }
 
-    /// The cell that is shown at a column and a row: itself or, while it has not been computed, one that stands
+    /// The cell that is shown at a column and a row: itself or, while it has not been computed, one shown
     /// for it.
     #[must_use]
     pub fn shown(&self, column: usize, row: usize) -> Option<ShownCell<'_>> {
@@ -268,13 +268,13 @@ impl MapModel {
         values.filter_map(|(row, value)| Some((*value, self.estimate(layer, column, row)?))).collect()
     }
 
-    /// A cell that has been computed, or why it could not be; not one that stands for it.
+    /// A cell that has been computed, or why it could not be; not one shown in its place.
     #[must_use]
     pub fn computed(&self, column: usize, row: usize) -> Option<&Result<MapCell, String>> {
         self.cells.get(row * self.across.figure.values.len() + column)?.as_ref()
     }
 
-    /// The figure of what is charted: a map, or a section along the only axis. `whole` has the cells that stand for those
+    /// The figure of what is charted: a map, or a section along the only axis. `whole` has the cells shown for those
     /// that have not been computed yet.
     #[must_use]
     pub fn figure(&self, charted: &[Charted], whole: bool) -> Figure {

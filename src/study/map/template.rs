@@ -21,7 +21,7 @@ const SPRINGS_PER_WAVE: u64 = 4;
 /// With more springs than these a map gets fewer cells, and with more than those fewer still.
 const MANY: u64 = 1 << 14;
 const VERY_MANY: u64 = 1 << 17;
-/// Stand for all κ or e_el/γ and all H.
+/// Representatives of all κ or e_el/γ and all H.
 const ANY: (f64, f64) = (1.0, 0.5);
 
 /// Reason why a scene has no map.

@@ -77,7 +77,7 @@ proptest! {
         samples in 2_usize..300,
     ) {
         let work = range * effective_modulus;
-        let body = Body { gaps, foundation: Foundation::endless(spacing, effective_modulus), work };
+        let body = Body { gaps, foundation: Foundation::endless(spacing, effective_modulus), work, closing: 1.0 };
         let springs = body.gaps.len() as u64;
         let tree = body.tree();
         let adhesive: Box<dyn Solver> = Box::new(body.on(&tree, samples));

@@ -6,7 +6,7 @@ use asperity::contact::{AdhesiveMemory, LegContact, Stepwise};
 /// As many flat punches of so many springs at one height, far apart, above springs that are never reached.
 fn punches(count: usize, springs: usize) -> Body {
     let punch = [vec![0.0; springs], vec![100.0; 3 * springs]].concat();
-    Body { gaps: punch.repeat(count), foundation: Foundation::endless(0.01, 1.0), work: 1e-4 }
+    Body { gaps: punch.repeat(count), foundation: Foundation::endless(0.01, 1.0), work: 1e-4, closing: 1.0 }
 }
 
 proptest! {
@@ -122,7 +122,7 @@ fn curves_take_some_of_the_time_and_not_more() {
     let gaps: Vec<_> = (0..4000).map(|k| (f64::from(k) * 0.05).sin() + 1.0).collect();
     let lowest = gaps.iter().copied().fold(f64::INFINITY, f64::min);
     let gaps = gaps.iter().map(|gap| gap - lowest).collect();
-    let body = Body { gaps, foundation: Foundation::endless(0.01, 1.0), work: 1e-3 };
+    let body = Body { gaps, foundation: Foundation::endless(0.01, 1.0), work: 1e-3, closing: 1.0 };
     let tree = body.tree();
     let rule = HessRule::new(body.foundation, body.work);
     let clock = std::time::Instant::now();
