@@ -33,7 +33,7 @@ pub struct CostArguments {
     /// Time limit of the whole measurement: 500ms, 30s, 2min
     #[arg(long, value_name = "TIME", default_value = "10s", value_parser = budget)]
     pub budget: Duration,
-    /// text, json, csv, svg or png; default: by the extension of FILE, else text
+    /// text, json, csv, svg or png; default: by the extension of FILE
     #[arg(long, value_parser = Format::parser(FORMATS), hide_possible_values = true)]
     pub format: Option<Format>,
     /// Draw errors over times to FILE as well, .svg or .png

@@ -13,9 +13,9 @@ Examples:
   asperity plan pressure-sensitive
   asperity plan million-springs --set adhesion=None --format json
 
-A stage that a scene does not call for does not run. Passes are given where the scene determines their
-number beforehand, springs touched are those of all passes at the most, and memory is what a stage
-adds while it runs.";
+A stage that a scene does not call for does not run. Passes are given where the scene determines
+their number, springs touched are those of all passes at the most, and memory is the addition of a
+stage while it runs.";
 
 /// Formats of a plan: a table, or one object.
 const FORMATS: &[Format] = &[Format::Text, Format::Json];

@@ -51,7 +51,7 @@ pub struct ReversalsArguments {
     /// CSV with a row for each point of the map, not each turning point
     #[arg(long)]
     pub map: bool,
-    /// text, json, csv, svg or png; default: by the extension of FILE, else text
+    /// text, json, csv, svg or png; default: by the extension of FILE
     #[arg(long, value_parser = Format::parser(FORMATS), hide_possible_values = true)]
     pub format: Option<Format>,
     /// Destination.

@@ -34,8 +34,8 @@ Examples:
   asperity surface profile.csv --unit um --modulus 2.7MPa --work 50mJ/m^2 --scene rough.ron
 
 Files are profiles or maps: text in columns or as a matrix, SDF, GSF, NumPy, X3P, GWY, SUR,
-NetCDF, and these in gzip. Several files are samples of the same roughness. A profile is a cut through the
-surface; the equivalent line is what the contact computation needs.";
+NetCDF, and these in gzip. Several files are samples of the same roughness. A profile is a cut
+through the surface; the contact computation needs the equivalent line.";
 
 /// Springs of a scene for each of its shortest waves.
 const SPRINGS_PER_WAVE: f64 = 8.0;
@@ -69,7 +69,7 @@ pub struct SurfaceArguments {
     /// The scene names the surface and holds --unit, --detrend, --periodic and --continue-to.
     #[arg(long, value_name = "FILE", requires = "modulus", verbatim_doc_comment)]
     pub scene: Option<PathBuf>,
-    /// Work of adhesion, as 50mJ/m^2: gives κ, e_el/γ, F_a and regime; needs --modulus
+    /// Work of adhesion, as 50mJ/m^2: gives κ, e_el/γ, F_a; needs --modulus
     #[arg(long, value_name = "ENERGY", requires = "modulus", value_parser = energy)]
     pub work: Option<f64>,
     /// Force that presses before the pull, as 1mN; default: touch alone

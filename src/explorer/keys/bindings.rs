@@ -165,7 +165,9 @@ pub fn markdown() -> String {
     for row in BINDINGS.iter().filter(|row| !row.help.is_empty()) {
         let shown = if row.section == section { "" } else { row.section };
         section = row.section;
-        let keys: Vec<String> = names(&row.keys).iter().map(|name| format!("`{name}`")).collect();
+        // A bar would end the cell.
+        let names = names(&row.keys).into_iter().map(|name| name.replace('|', "\\|"));
+        let keys: Vec<String> = names.map(|name| format!("`{name}`")).collect();
         let action =
             if row.is_rebindable() { format!("`{}`", action_name(row.command)) } else { String::new() };
         text += &format!("| {shown} | {} | {} | {action} |\n", keys.join(" "), row.help);

@@ -229,7 +229,8 @@ mod tests {
         assert_eq!(map.model().shown(3, 3), None);
         compute(&mut map, Path::new(""), &|| rows.get() == 5, &mut |_| rows.set(rows.get() + 1));
         let shown = map.model().transposed();
-        for (asked, expected) in [((0, 0), (0, 0)), ((3, 1), (0, 0)), ((5, 3), (8, 4)), ((32, 18), (32, 18))] {
+        for (asked, expected) in [((0, 0), (0, 0)), ((3, 1), (0, 0)), ((5, 3), (8, 4)), ((32, 18), (32, 18))]
+        {
             let place = shown.shown(asked.0, asked.1).unwrap();
             assert_eq!((place.column, place.row), expected, "{asked:?}");
         }
