@@ -166,10 +166,13 @@ for file in "${files[@]}"; do
 done
 
 all="$(cargo mutants --list --colors never "${file_options[@]}" "$@" | wc -l)"
+if [ "$all" = 0 ]; then
+    echo "== $room: no mutants"
+    exit 0
+fi
 if [[ "$part" == "~"* ]]; then
     most="${part#"~"}"
     part="0/$(((all + most - 1) / most))"
-    if [ "$all" = 0 ]; then part=0/1; fi
 fi
 
 tree="$folder/tree"
