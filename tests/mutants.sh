@@ -36,26 +36,26 @@ files=("src/$room")
 own="$room" below="" above="" beside="" slow="" unfit=""
 case "$room" in
 scene)
-    below="disk io memory parallel spectrum text topography" above="analysis contact reference simulation surface"
+    below="io memory parallel spectrum text topography" above="analysis contact reference simulation surface"
     beside="engine/scene fuzz/corpus program/readme/scenes" slow="nesting_does_not_overflow" unfit="every_target_has"
     ;;
 surface)
-    below="contact disk io memory parallel scene spectrum text topography" above="analysis reference simulation"
+    below="contact io memory parallel scene spectrum text topography" above="analysis reference simulation"
     beside="engine/closed_forms engine/subcell fuzz/corpus" unfit="every_target_has"
     slow="a_sphere_in_other_units heights_are_those hertz_without power_laws_converge rough_bodies rough_lines
         what_is_kept what_is_lost"
     ;;
-analysis) below="contact disk io memory parallel scene spectrum surface text topography" ;;
+analysis) below="contact io memory parallel scene spectrum surface text topography" ;;
 store)
     own="study" files=(src/study/{store,done,other_plan,record,merge,tables,shard}.rs)
-    below="analysis contact disk draw io memory parallel reference scene simulation spectrum surface text topography"
+    below="analysis contact draw io memory parallel reference scene simulation spectrum surface text topography"
     above="accuracy check export" beside="engine/simulated_disk program/sweep"
     # The unfit ones start the program, which is not there, or do not always pass.
     export CARGO_BIN_EXE_asperity=""
     unfit="a_disk_that_does foreign:: killed_ processes:: two_thousand" slow="a_study_outlives a_saved_scene every_prefix"
     ;;
 contact)
-    below="disk io memory parallel scene spectrum surface text topography" above="analysis reference simulation"
+    below="io memory parallel scene spectrum surface text topography" above="analysis reference simulation"
     beside="engine/closed_forms engine/incremental engine/laws engine/reversals engine/stepwise engine/subcell
         engine/sums"
     slow="a_million_terms a_sphere_in_other_units a_step_costs contact_sets_on_the_way forces_at_full_contact
@@ -122,6 +122,7 @@ assemble() {
     for file in tests/engine/snapshots/*.snap; do cp "$file" "$tree/tests/engine/snapshots/asperity__${file##*/}"; done
     # Items that a crate keeps to itself are shared by two of them.
     find "$tree/below" -name '*.rs' -exec sed -i 's/pub(crate)/pub/' {} +
+    sed -i 's/^macro_rules! object/#[macro_export]\n&/' "$tree/below/src/io/object.rs"
     {
         echo '#![allow(unused)]'
         for name in $below; do echo "pub mod $name;"; done
