@@ -66,10 +66,12 @@ fn assert_samples(profile: &MeasuredProfile) {
             }
         }
     }
-    // More memory than there is, and a longer line than the profile, are refused and not tried. Two points at even
-    // distances cover twice their distance.
+    // More memory than there is, and a longer line than the profile, are refused and not tried. Points at even distances
+    // cover half a distance more at each end.
+    let points = profile.heights().len() as f64;
+    let covered = length * (points / (points - 1.0));
     let refused =
-        [profile.sample(length, usize::MAX / 4, 0.0), profile.sample(2.01 * length + 1e-300, 2, 0.0)];
+        [profile.sample(length, usize::MAX / 4, 0.0), profile.sample(1.01 * covered + 1e-300, 2, 0.0)];
     for message in refused.map(|sampled| sampled.map(|_| ()).unwrap_err()) {
         assert_message(&message);
     }

@@ -174,7 +174,7 @@ impl Playback {
         let close_up = close_up((&contact, &rises), request, foundation, &snapshot, &mut self.close_up);
         let middle = close_up.section.first + close_up.section.springs / 2;
         let profile = profile_part(request, line.gaps.len(), middle);
-        let shows_spectra = request.large == Some(Pane::Spectrum);
+        let shows_spectra = request.large.is_some_and(|pane| pane.row().needs_spectra);
         if shows_spectra && self.spectra.is_none() {
             self.spectra = Some(Arc::new(SceneSpectra::new(scene, outcome, line)));
         }

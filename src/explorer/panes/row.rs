@@ -49,6 +49,8 @@ pub struct PaneRow {
     pub drag: Reply,
     /// Reply to turns of the wheel, up positive.
     pub wheel: fn(&mut Model, Rect, Position, i32) -> Vec<Effect>,
+    /// True if the pane draws spectra of the scene, which are computed only then.
+    pub needs_spectra: bool,
     /// Computation that the pane waits for while it is shown.
     pub task: fn(&Model, &Arc<SolvedScene>) -> Option<Task>,
     /// Takes in an addition to the data of the pane.
@@ -71,6 +73,7 @@ impl PaneRow {
         press: |_, _, _| vec![Effect::Show],
         drag: |_, _, _| Vec::new(),
         wheel: |_, _, _, _| Vec::new(),
+        needs_spectra: false,
         task: |_, _| None,
         take_in: |_, _| (),
         renew: |_| (),

@@ -23,6 +23,7 @@ use std::sync::Arc;
 pub static ROW: PaneRow = PaneRow {
     title: |_| " Spectrum: C over q, log–log ".to_owned(),
     draw,
+    needs_spectra: true,
     task: |model, computed| {
         let begun = model.adhesion_spread.clone();
         let spread = begun.or_else(|| AdhesionSpread::new(computed).map(Arc::new));
