@@ -76,7 +76,7 @@ impl<'a> Stepwise<'a> {
         self.hess.map_or(0.0, |hess| hess.on(direction).largest_stretch(springs as u32))
     }
 
-    fn join(&mut self, index: usize) {
+    fn attach(&mut self, index: usize) {
         self.contact[index] = true;
         self.thresholds[index] = self.indentation;
         self.totals.springs += 1;
@@ -98,18 +98,18 @@ impl<'a> Stepwise<'a> {
     /// Sweeps until no spring touches and no fragment grows.
     fn relax_loading(&mut self) {
         loop {
-            let joined = self.totals.springs;
+            let before = self.totals.springs;
             self.work.relaxation_sweeps += 1;
             self.work.spring_updates += self.gaps.len() as u64;
             for index in 0..self.gaps.len() {
                 if !self.contact[index] && self.gaps[index] <= self.indentation {
-                    self.join(index);
+                    self.attach(index);
                 }
             }
             if self.hess.is_some() {
                 self.grow_fragments();
             }
-            if self.totals.springs == joined {
+            if self.totals.springs == before {
                 return;
             }
         }
@@ -137,9 +137,9 @@ impl<'a> Stepwise<'a> {
                 self.work.spring_updates += 2;
                 let takes = |index: usize| self.gaps[index] - stretch <= self.indentation;
                 if end < count && takes(end) {
-                    self.join(end);
+                    self.attach(end);
                 } else if start > 0 && takes(start - 1) {
-                    self.join(start - 1);
+                    self.attach(start - 1);
                 } else {
                     break;
                 }

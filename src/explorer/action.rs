@@ -159,9 +159,9 @@ pub enum Command {
     Restart,
     /// Go to the next or previous leg.
     Leg(i32),
-    /// Take the body in hand, or give it back to the scene's loading.
-    ToggleHand,
-    /// Press (positive) or pull the body by so many steps of the hand.
+    /// Begin manual loading, or return to the loading of the scene.
+    ToggleManual,
+    /// Press (positive) or pull the body by so many steps of manual loading.
     Push {
         /// Number of steps; the sign is the direction.
         steps: i32,

@@ -11,10 +11,10 @@ const NEAR: f64 = 0.01;
 /// Event at the state that is shown, short enough for the title of a pane of 34 columns; `None` before the first result and where the body rests.
 #[must_use]
 pub fn caption(model: &Model) -> Option<&'static str> {
-    let moment = model.present()?;
-    match moment.drive {
+    let snapshot = model.present()?;
+    match snapshot.drive {
         Drive::Manual => Some("manual loading"),
-        Drive::Leg(index) => event(model.legs().get(index)?, moment.point),
+        Drive::Leg(index) => event(model.legs().get(index)?, snapshot.point),
     }
 }
 

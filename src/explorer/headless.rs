@@ -23,14 +23,14 @@ const MOST_CHARTED: u64 = 1 << 12;
 pub struct Headless {
     /// The model.
     pub model: Model,
-    desk: WorkerState,
+    worker: WorkerState,
     newest: Newest,
     /// Seeds drawn so far: chance would not be the same twice.
     seeds: u64,
 }
 
 impl Headless {
-    /// An explorer on a scene, computed and with its first moment shown.
+    /// An explorer on a scene, computed and with its first snapshot shown.
     #[must_use]
     pub fn open(
         document: Document,
@@ -42,7 +42,7 @@ impl Headless {
         // Times differ from run to run.
         model.shows_times = false;
         let mut headless =
-            Headless { model, desk: WorkerState::new(engine), newest: Newest::default(), seeds: 0 };
+            Headless { model, worker: WorkerState::new(engine), newest: Newest::default(), seeds: 0 };
         headless.perform(vec![Effect::Compute]);
         headless
     }
@@ -100,7 +100,7 @@ impl Headless {
             self.newest.set_preview(Some(Arc::clone(scene)));
         }
         let reports: RefCell<Vec<Report>> = RefCell::default();
-        self.desk.serve(std::iter::once(request), &self.newest, &|report| {
+        self.worker.serve(std::iter::once(request), &self.newest, &|report| {
             reports.borrow_mut().push(report);
             true
         });

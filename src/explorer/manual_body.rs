@@ -1,4 +1,4 @@
-//! The body in the user's hand: moved by small steps, each of which costs what it changes.
+//! The body under manual loading: moved by small steps at the cost of the springs that change.
 
 use super::request::ManualMove;
 use super::snapshot::{ManualPath, Refusal};

@@ -47,12 +47,12 @@ impl CloseUpTarget {
     }
 }
 
-/// The body in the user's hand.
+/// State of manual loading.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ManualState {
     /// Path so far, the newest point last.
     pub path: Vec<CurvePoint>,
-    /// Springs that joined or left on the last move.
+    /// Springs attached or detached on the last move.
     pub changed: u64,
     /// Entries looked at for it.
     pub touched: u64,
@@ -168,14 +168,14 @@ pub struct Model {
     pub mode: Mode,
     /// The newest scene that has been computed.
     pub computed: Option<Arc<SolvedScene>>,
-    /// The newest moment of its animation.
-    pub moment: Option<Arc<ContactSnapshot>>,
+    /// The newest snapshot of its animation.
+    pub snapshot: Option<Arc<ContactSnapshot>>,
     /// Legs done of the scene that is being computed.
     pub progress: Option<usize>,
     /// State of the animation.
     pub player: Player,
-    /// The body, while it is in hand.
-    pub hand: Option<ManualState>,
+    /// Manual loading, while it lasts.
+    pub manual: Option<ManualState>,
     /// The force to go to, as it was typed last.
     pub typed_force: String,
     /// The status line has springs and times of the computation in place of mechanical quantities.
@@ -269,10 +269,10 @@ impl Model {
             refused: None,
             mode: Mode::Explore,
             computed: None,
-            moment: None,
+            snapshot: None,
             progress: Some(0),
             player: Player { leg: 0, done: 0.0, playing: true },
-            hand: None,
+            manual: None,
             typed_force: String::new(),
             shows_work: false,
             completion: None,
@@ -403,14 +403,14 @@ impl Model {
     /// Drive of the body.
     #[must_use]
     pub fn drive(&self) -> Drive {
-        if self.hand.is_some() { Drive::Manual } else { Drive::Leg(self.player.leg) }
+        if self.manual.is_some() { Drive::Manual } else { Drive::Leg(self.player.leg) }
     }
 
-    /// The newest moment, where it belongs to the present scene and kind of loading.
+    /// The newest snapshot, where it belongs to the present scene and kind of loading.
     #[must_use]
     pub fn present(&self) -> Option<&ContactSnapshot> {
-        let moment = self.moment.as_deref()?;
-        (moment.generation == self.generation && moment.drive == self.drive()).then_some(moment)
+        let snapshot = self.snapshot.as_deref()?;
+        (snapshot.generation == self.generation && snapshot.drive == self.drive()).then_some(snapshot)
     }
 
     /// The legs of the scene that is shown.

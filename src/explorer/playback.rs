@@ -1,4 +1,4 @@
-//! The scene that was computed last, ready to be played leg by leg or moved by hand.
+//! The scene that was computed last, ready to be played leg by leg or loaded manually.
 
 use super::close_up::close_up;
 use super::engine::Engine;
@@ -20,7 +20,7 @@ const MOST_SPARE: usize = 4;
 const FEW_SPRINGS: usize = 1 << 16;
 const BYTES_PER_SPRING: usize = size_of::<f64>();
 
-/// Points of the curve over the range of indentations, when the body is pulled off by hand.
+/// Points of the curve over the range of indentations, when the body is pulled off manually.
 const STEPS_OF_A_PULL: f64 = 200.0;
 
 /// First and last spring of each fragment, in ascending order.
@@ -37,7 +37,7 @@ pub struct Playback {
     /// Memory for the legs of the next scene.
     spare: Vec<LegContact>,
     held: Option<ManualBody>,
-    /// The contact at the moment shown last, to count the springs that changed.
+    /// The contact of the last snapshot, to count the springs that changed.
     last: Option<(Drive, Fragments)>,
     /// Spectra of the scene, once they have been asked for.
     spectra: Option<Arc<SceneSpectra>>,
@@ -107,7 +107,7 @@ impl Playback {
         }
     }
 
-    /// Moves the body by hand.
+    /// Moves the body manually.
     pub fn obey(&mut self, engine: &mut dyn Engine, order: ManualMove) {
         match order {
             ManualMove::Take { leg, indentation } => {
@@ -140,7 +140,7 @@ impl Playback {
         }
     }
 
-    /// The moment asked for; `None` where there is no such leg, or nothing in hand.
+    /// The requested snapshot; `None` where the leg does not exist or manual loading has not begun.
     pub fn show(&mut self, engine: &mut dyn Engine, request: &SnapshotRequest) -> Option<ContactSnapshot> {
         let ((fragments, rises), at) = match request.drive {
             Drive::Leg(leg) => (self.contact_on_leg(engine, leg, request.indentation)?, None),
@@ -178,7 +178,7 @@ impl Playback {
         if shows_spectra && self.spectra.is_none() {
             self.spectra = Some(Arc::new(SceneSpectra::new(scene, outcome, line)));
         }
-        let moment = ContactSnapshot {
+        let snapshot = ContactSnapshot {
             generation: request.generation,
             drive: request.drive,
             line: outcome.line,
@@ -192,14 +192,14 @@ impl Playback {
             probe: request.crosshair.and_then(|position| probe(&contact, position)),
             lengths: (request.lower == Pane::Lengths).then(|| section::lengths(&fragments)),
             spectra: self.spectra.clone().filter(|_| shows_spectra),
-            hand: match request.drive {
+            manual: match request.drive {
                 Drive::Leg(_) => None,
                 Drive::Manual => self.held.as_mut().map(ManualBody::travel),
             },
             beside: None,
         };
         self.last = Some((request.drive, fragments));
-        Some(moment)
+        Some(snapshot)
     }
 
     /// The fragments in contact on a leg, and the rises of their edges.

@@ -15,14 +15,14 @@ pub enum Request {
         /// The scene.
         scene: Arc<Scene>,
     },
-    /// Move the body by hand, in the scene that was computed last.
+    /// Move the body manually, in the scene that was computed last.
     Manual {
         /// Generation of the scene it belongs to.
         generation: u64,
         /// Move.
         order: ManualMove,
     },
-    /// Show a moment of the scene that was computed last.
+    /// Show a snapshot of the scene that was computed last.
     Show(SnapshotRequest),
     /// Compute a scene to be shown beside, or none.
     Beside(Option<Arc<Scene>>),
@@ -64,7 +64,7 @@ pub struct SnapshotRequest {
     pub generation: u64,
     /// Drive of the body.
     pub drive: Drive,
-    /// Indentation, m; the hand knows its own.
+    /// Indentation, m; manual loading has its own.
     pub indentation: f64,
     /// Columns of dots of the profile pane.
     pub profile_columns: usize,
@@ -134,7 +134,7 @@ impl Focus {
 pub enum Drive {
     /// A leg of the scene's loading, by its index.
     Leg(usize),
-    /// The user's hand.
+    /// Manual loading.
     Manual,
 }
 

@@ -275,7 +275,7 @@ impl<W: Write> Session<'_, W> {
                 changed = false;
             }
             self.keep_drafts();
-            let playing = self.model.player.playing && self.model.is_current() && self.model.hand.is_none();
+            let playing = self.model.player.playing && self.model.is_current() && self.model.manual.is_none();
             if !playing {
                 moved = Instant::now();
             }
@@ -317,7 +317,7 @@ impl<W: Write> Session<'_, W> {
                 next = self.wait_for_message(Some(Duration::ZERO));
             }
             if playing && moved.elapsed() >= frame_time {
-                // Time by itself shows nothing: the moment it asks for does.
+                // Time alone shows nothing: the requested snapshot does.
                 let elapsed = moved.elapsed().min(4 * frame_time);
                 moved = Instant::now();
                 self.act(Action::Elapse(elapsed))?;

@@ -21,7 +21,7 @@ pub struct SolvedScene {
     pub outcome: Outcome,
 }
 
-/// The contact at one moment.
+/// State of the contact at one indentation.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ContactSnapshot {
     /// Generation of the scene.
@@ -34,7 +34,7 @@ pub struct ContactSnapshot {
     pub focus: Focus,
     /// Indentation, force, springs in contact and fragments.
     pub point: CurvePoint,
-    /// Springs that changed state since the moment before.
+    /// Springs that changed state since the snapshot before.
     pub changed: u64,
     /// Half the distance between the outermost edges of the contact, m; zero in separation.
     pub contact_radius: f64,
@@ -51,7 +51,7 @@ pub struct ContactSnapshot {
     /// Spectra of the scene, where they were asked for.
     pub spectra: Option<Arc<SceneSpectra>>,
     /// Path of manual loading to this state.
-    pub hand: Option<ManualPath>,
+    pub manual: Option<ManualPath>,
     /// The scene beside, at the same part of its loading.
     pub beside: Option<Box<ContactSnapshot>>,
 }
@@ -69,22 +69,22 @@ pub struct Probe {
     pub patch: Option<usize>,
 }
 
-/// The way of the hand since the moment before.
+/// Path of manual loading since the snapshot before.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ManualPath {
     /// Points of the curve on the way, the one it began at left out.
     pub path: Vec<CurvePoint>,
-    /// Springs that joined or left.
+    /// Springs attached or detached.
     pub changed: u64,
     /// Entries of lists and trees that had to be looked at for it.
     pub touched: u64,
-    /// Energy lost since the body was taken in hand, J.
+    /// Energy dissipated since manual loading began, J.
     pub dissipated_energy: f64,
     /// Reason why the body was not moved.
     pub refused: Option<Refusal>,
 }
 
-/// Reason why the body was not moved by hand.
+/// Reason why the body was not moved manually.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Refusal {
     /// The contact detaches at a larger force.
@@ -163,7 +163,7 @@ pub struct Preview {
 pub enum Report {
     /// A scene has been computed.
     Computed(Arc<SolvedScene>),
-    /// A moment is ready.
+    /// A snapshot is ready.
     Shown(Arc<ContactSnapshot>),
     /// Part of a scene is done.
     Progress {

@@ -59,7 +59,7 @@ pub enum Meaning {
     Manual,
     /// Loops kept for comparison.
     Ghost,
-    /// The moment shown.
+    /// The snapshot shown.
     Cursor,
     /// Frames, axes, parts of less weight.
     Quiet,

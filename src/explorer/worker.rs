@@ -30,7 +30,7 @@ struct Beside {
     solved: Option<(Simulation, Playback)>,
 }
 
-/// Requests that wait together: of each kind the newest counts, but each order of the hand.
+/// Requests that wait together: the newest of each kind counts, but every manual move.
 #[derive(Default)]
 struct Batch {
     compute: Option<(u64, Arc<Scene>)>,
@@ -47,7 +47,7 @@ impl Batch {
             match request {
                 Request::Compute { generation, scene } => batch.compute = Some((generation, scene)),
                 Request::Manual { generation, order } => batch.orders.push((generation, order)),
-                Request::Show(moment) => batch.show = Some(moment),
+                Request::Show(snapshot) => batch.show = Some(snapshot),
                 Request::Beside(scene) => batch.beside = Some(scene),
                 Request::Preview { text, scene } => batch.preview = Some((text, scene)),
             }
@@ -104,15 +104,15 @@ impl WorkerState {
             self.beside = scene.map(|scene| Beside { waiting: Some(scene), solved: None });
         }
         if let Some(request) = batch.show.filter(|request| request.generation == playback.generation())
-            && let Some(mut moment) = playback.show(engine.as_mut(), &request)
+            && let Some(mut snapshot) = playback.show(engine.as_mut(), &request)
         {
             if let (Some((leg, indentation)), Some(beside)) = (request.beside, &mut self.beside)
                 && let Some((engine, playback)) = beside.solve(request.generation, newest)
             {
                 let request = SnapshotRequest { drive: Drive::Leg(leg), indentation, ..request };
-                moment.beside = playback.show(engine, &request).map(Box::new);
+                snapshot.beside = playback.show(engine, &request).map(Box::new);
             }
-            report(Report::Shown(Arc::new(moment)));
+            report(Report::Shown(Arc::new(snapshot)));
         }
         if let Some((text, scene)) = batch.preview {
             let is_stale = || !newest.is_preview(&scene);

@@ -187,7 +187,7 @@ impl Explorer {
 
     fn act(&mut self, action: Action) {
         for effect in update(&mut self.driver.model, action) {
-            // The hand waits for no answer: its orders are on their way at once.
+            // Manual moves wait for no answer: they are sent at once.
             match effect {
                 Effect::Manual(_) => drop(self.driver.answer(effect)),
                 // Of all scenes that wait, only the newest is computed.
@@ -310,7 +310,7 @@ impl Explorer {
         assert!(!model.is_computing());
         let current = |generation: u64| generation == model.generation;
         if model.computed.as_ref().is_some_and(|computed| current(computed.generation)) {
-            assert!(model.moment.as_ref().is_some_and(|moment| current(moment.generation)));
+            assert!(model.snapshot.as_ref().is_some_and(|snapshot| current(snapshot.generation)));
         } else {
             assert!(
                 model.notice.is_some() || model.mode.kind() != asperity::explorer::model::ModeKind::Explore

@@ -13,10 +13,10 @@ mod failures;
 mod figures;
 mod files;
 mod fragments;
-mod hand;
 mod library;
 mod look;
 mod looks;
+mod manual;
 mod mouse;
 mod palette;
 mod panes;
@@ -143,7 +143,7 @@ fn generation(driver: &Driver) -> u64 {
 /// Whether what is shown belongs to the scene as it stands.
 fn is_up_to_date(model: &Model) -> bool {
     model.computed.as_ref().is_some_and(|computed| computed.generation == model.generation)
-        && model.moment.as_ref().is_some_and(|moment| moment.generation == model.generation)
+        && model.snapshot.as_ref().is_some_and(|snapshot| snapshot.generation == model.generation)
         && !model.is_computing()
 }
 

@@ -1,5 +1,5 @@
 //! The worker of the explorer, spoken to through its channels: the newest request wins, what fails
-//! is told, and a moment of the animation is a point of the computed curve.
+//! is told, and a snapshot of the animation is a point of the computed curve.
 
 use super::common::deadline::within;
 use super::common::scenes::{changed, one_spring, punch, rough, smooth, without_adhesion};
@@ -57,7 +57,7 @@ impl Served {
 
     fn computed(&self, generation: u64, document: &Document) -> Arc<SolvedScene> {
         self.compute(generation, document);
-        // The moment of a scene before may have been asked for.
+        // The snapshot of a scene before may have been asked for.
         let of_before = |report: &Report| matches!(report, Report::Shown(one) if one.generation < generation);
         match std::iter::repeat_with(|| self.answer()).find(|report| !of_before(report)).unwrap() {
             Report::Computed(computed) => computed,
@@ -68,14 +68,14 @@ impl Served {
     fn shown(&self, request: SnapshotRequest) -> Arc<ContactSnapshot> {
         self.worker.ask(Request::Show(request));
         match self.answer() {
-            Report::Shown(moment) => moment,
+            Report::Shown(snapshot) => snapshot,
             other => panic!("not shown: {other:?}"),
         }
     }
 }
 
-/// A request for a moment of the first generation.
-fn moment(leg: usize, indentation: f64) -> SnapshotRequest {
+/// A request for a snapshot of the first generation.
+fn snapshot(leg: usize, indentation: f64) -> SnapshotRequest {
     SnapshotRequest {
         generation: 1,
         drive: Drive::Leg(leg),
@@ -188,7 +188,7 @@ fn a_scene_is_computed_leg_by_leg_and_then_whole() {
 #[test]
 fn of_all_that_wait_only_the_newest_is_done() {
     within(30, || {
-        let show = |leg| Request::Show(SnapshotRequest { generation: 5, ..moment(leg, 0.0) });
+        let show = |leg| Request::Show(SnapshotRequest { generation: 5, ..snapshot(leg, 0.0) });
         let mut requests: Vec<_> = (1..=5).map(|number| compute(number, &seed(&rough(), number))).collect();
         requests.extend([show(0), show(0), show(1)]);
         let reports = serve_all(Simulation::default(), 5, requests);
@@ -203,14 +203,14 @@ fn of_all_that_wait_only_the_newest_is_done() {
 #[test]
 fn moments_of_another_scene_are_not_shown() {
     within(30, || {
-        let show = |generation| Request::Show(SnapshotRequest { generation, ..moment(0, 0.0) });
+        let show = |generation| Request::Show(SnapshotRequest { generation, ..snapshot(0, 0.0) });
         for generation in [1, 3] {
             let requests = vec![compute(2, &rough()), show(generation)];
             assert_eq!(generations(&serve_all(Simulation::default(), 2, requests)), (vec![2], vec![]));
         }
         // Before any scene there is nothing to show.
         assert!(serve_all(Simulation::default(), 0, vec![show(0)]).is_empty());
-        let past_the_end = Request::Show(SnapshotRequest { generation: 2, ..moment(2, 0.0) });
+        let past_the_end = Request::Show(SnapshotRequest { generation: 2, ..snapshot(2, 0.0) });
         let requests = vec![compute(2, &rough()), past_the_end];
         assert_eq!(generations(&serve_all(Simulation::default(), 2, requests)), (vec![2], vec![]));
     });
@@ -219,7 +219,7 @@ fn moments_of_another_scene_are_not_shown() {
 #[test]
 fn a_scene_that_is_no_longer_wanted_is_not_computed() {
     within(30, || {
-        let show = Request::Show(moment(0, 0.0));
+        let show = Request::Show(snapshot(0, 0.0));
         let reports = serve_all(Simulation::default(), 2, vec![compute(1, &rough()), show]);
         assert!(reports.is_empty(), "{reports:?}");
     });
@@ -279,8 +279,8 @@ fn a_newer_scene_stops_the_one_that_is_being_computed() {
             .take_while(|report| !matches!(report, Report::Computed(_)))
             .collect();
         assert!(reports.iter().all(|report| matches!(report, Report::Progress { generation: 2, .. })));
-        served.worker.ask(Request::Show(SnapshotRequest { generation: 2, ..moment(0, 0.0) }));
-        assert!(matches!(served.report(), Report::Shown(moment) if moment.generation == 2));
+        served.worker.ask(Request::Show(SnapshotRequest { generation: 2, ..snapshot(0, 0.0) }));
+        assert!(matches!(served.report(), Report::Shown(snapshot) if snapshot.generation == 2));
     });
 }
 
@@ -297,8 +297,9 @@ fn a_scene_beside_is_computed_only_in_sight_and_gives_way_to_a_newer_scene() {
         ];
         let endless = Arc::new(changed(&rough(), &endless).scene().clone());
         served.worker.ask(Request::Beside(Some(Arc::clone(&endless))));
-        assert!(served.shown(moment(0, 0.0)).beside.is_none(), "out of sight it takes no time");
-        let in_sight = |generation| SnapshotRequest { generation, beside: Some((0, 0.0)), ..moment(0, 0.0) };
+        assert!(served.shown(snapshot(0, 0.0)).beside.is_none(), "out of sight it takes no time");
+        let in_sight =
+            |generation| SnapshotRequest { generation, beside: Some((0, 0.0)), ..snapshot(0, 0.0) };
         served.worker.ask(Request::Show(in_sight(1)));
         served.computed(2, &rough());
         let small = Arc::new(smooth().scene().clone());
@@ -355,7 +356,7 @@ fn a_panic_is_told_and_the_next_scene_is_computed() {
             assert_eq!(error.lines().count(), 1, "{error}");
             generation += 1;
             assert_eq!(served.computed(generation, &rough()).generation, generation);
-            served.shown(SnapshotRequest { generation, ..moment(1, 0.0) });
+            served.shown(SnapshotRequest { generation, ..snapshot(1, 0.0) });
         }
     });
 }
@@ -372,7 +373,7 @@ fn a_leg_that_cannot_be_gone_is_told_in_one_line() {
         let alone = Simulation::default().run(beyond.scene(), &|| false, &mut |_, _, _| Ok(()));
         assert_eq!(error, alone.unwrap_err().to_string());
         // Nothing of it can be shown, and the next scene is computed.
-        served.worker.ask(Request::Show(moment(0, 0.0)));
+        served.worker.ask(Request::Show(snapshot(0, 0.0)));
         served.computed(2, &rough());
     });
 }
@@ -425,7 +426,7 @@ fn a_moment_at_a_sample_is_the_sample() {
                         // Its curve begins before the touch, and may not keep the point after it.
                         continue;
                     }
-                    let shown = served.shown(moment(leg, sample.indentation)).point;
+                    let shown = served.shown(snapshot(leg, sample.indentation)).point;
                     // Where the contact forms or ends at once two samples stand at one place.
                     let same = record.curve.iter().filter(|one| one.indentation == sample.indentation);
                     assert!(
@@ -440,7 +441,7 @@ fn a_moment_at_a_sample_is_the_sample() {
 }
 
 /// Whether two points are the same but for the rounding of their sums: edges between springs are not summed up
-/// in the same order on a leg and at a moment.
+/// in the same order on a leg and at a snapshot.
 fn near(one: &CurvePoint, other: &CurvePoint) -> bool {
     let same = |a: f64, b: f64| (a - b).abs() <= 1e-13 * a.abs().max(b.abs()).max(1e-12);
     one.indentation == other.indentation
@@ -464,7 +465,7 @@ fn a_moment_between_samples_is_the_one_a_finer_curve_has() {
                 let known = &coarse.outcome.history.legs[leg].curve;
                 let new = |point: &&CurvePoint| known.iter().all(|one| one.indentation != point.indentation);
                 for point in record.curve.iter().filter(new) {
-                    let shown = served.shown(moment(leg, point.indentation)).point;
+                    let shown = served.shown(snapshot(leg, point.indentation)).point;
                     assert!(near(&shown, point), "{name}, leg {leg}: {shown:?}, not {point:?}");
                     between += 1;
                 }
@@ -479,7 +480,7 @@ fn above_the_foundation_nothing_touches() {
     within(30, || {
         let served = Served::by(Simulation::default());
         served.computed(1, &rough());
-        let shown = served.shown(SnapshotRequest { close_up_springs: 1024, ..moment(0, -1e-8) });
+        let shown = served.shown(SnapshotRequest { close_up_springs: 1024, ..snapshot(0, -1e-8) });
         assert_eq!((shown.point.springs, shown.point.fragments, shown.point.force), (0, 0, 0.0));
         assert!(shown.profile.columns.iter().all(|column| column.contact.is_none()));
         assert!(shown.close_up.boundaries.is_empty() && shown.close_up.fragment.is_none());
@@ -488,10 +489,10 @@ fn above_the_foundation_nothing_touches() {
 }
 
 /// First and last spring of each fragment, from one column for each spring.
-fn fragments(moment: &ContactSnapshot) -> Vec<(usize, usize)> {
+fn fragments(snapshot: &ContactSnapshot) -> Vec<(usize, usize)> {
     let mut fragments: Vec<(usize, usize)> = Vec::new();
     for (spring, _) in
-        moment.profile.columns.iter().enumerate().filter(|(_, column)| column.contact.is_some())
+        snapshot.profile.columns.iter().enumerate().filter(|(_, column)| column.contact.is_some())
     {
         match fragments.last_mut() {
             Some((_, last)) if *last + 1 == spring => *last = spring,
@@ -516,7 +517,7 @@ fn picture_counts_and_boundaries_say_the_same() {
                         profile_columns: under,
                         close_up_columns: under,
                         close_up_springs: springs,
-                        ..moment(leg, sample.indentation)
+                        ..snapshot(leg, sample.indentation)
                     };
                     let shown = served.shown(request);
                     let found = fragments(&shown);
@@ -562,7 +563,7 @@ fn at_the_end_of_a_leg_the_fragments_are_those_observed() {
         let document = changed(&rough(), &fields);
         let computed = served.computed(1, &document);
         for (leg, record) in computed.outcome.history.legs.iter().enumerate() {
-            let request = SnapshotRequest { profile_columns: 1024, ..moment(leg, record.end()) };
+            let request = SnapshotRequest { profile_columns: 1024, ..snapshot(leg, record.end()) };
             let found = fragments(&served.shown(request));
             assert!(found.len() > 1, "{found:?}");
             assert_eq!(found, computed.outcome.fragments[leg]);
@@ -577,9 +578,9 @@ fn springs_that_changed_since_the_moment_before_are_counted() {
         let computed = served.computed(1, &rough());
         let curve = &computed.outcome.history.legs[0].curve;
         let springs = |index: usize| curve[index].springs;
-        assert_eq!(served.shown(moment(0, curve[20].indentation)).changed, 0);
+        assert_eq!(served.shown(snapshot(0, curve[20].indentation)).changed, 0);
         for (from, to) in [(20, 40), (40, 30)] {
-            let shown = served.shown(moment(0, curve[to].indentation));
+            let shown = served.shown(snapshot(0, curve[to].indentation));
             assert!(springs(from) != springs(to), "nothing happens there");
             assert_eq!(shown.changed, springs(to).abs_diff(springs(from)));
         }
@@ -592,7 +593,7 @@ fn next_and_previous_fragment_go_round() {
         let served = Served::by(Simulation::default());
         let computed = served.computed(1, &rough());
         let leg = &computed.outcome.history.legs[0];
-        let request = SnapshotRequest { close_up_springs: 16, ..moment(0, leg.end()) };
+        let request = SnapshotRequest { close_up_springs: 16, ..snapshot(0, leg.end()) };
         let count = leg.curve.last().unwrap().fragments as usize;
         assert!(count > 3, "{count} fragments");
         let look = |focus| {
@@ -631,7 +632,7 @@ fn the_close_up_stays_on_the_line() {
             for close_up_springs in [0, 1, 2, 1023, 1024, usize::MAX] {
                 for close_up_columns in [0, 1, 3000] {
                     let request =
-                        SnapshotRequest { focus, close_up_springs, close_up_columns, ..moment(0, end) };
+                        SnapshotRequest { focus, close_up_springs, close_up_columns, ..snapshot(0, end) };
                     let close_up = &served.shown(request).close_up;
                     let section = &close_up.section;
                     assert_eq!(section.springs, close_up_springs.clamp(1, 1024));
@@ -650,9 +651,9 @@ fn a_section_knows_its_heights_without_a_column_to_show_them() {
     within(30, || {
         let served = Served::by(Simulation::default());
         served.computed(1, &rough());
-        let wide = served.shown(SnapshotRequest { profile_columns: 1024, ..moment(0, 0.0) });
+        let wide = served.shown(SnapshotRequest { profile_columns: 1024, ..snapshot(0, 0.0) });
         let none =
-            served.shown(SnapshotRequest { profile_columns: 0, close_up_columns: 0, ..moment(0, 0.0) });
+            served.shown(SnapshotRequest { profile_columns: 0, close_up_columns: 0, ..snapshot(0, 0.0) });
         for section in [&none.profile, &none.close_up.section] {
             let (low, high) = section.heights;
             assert!(low.is_finite() && high.is_finite() && low <= high, "{low} {high}");
@@ -670,7 +671,7 @@ fn a_fragment_bears_what_the_rule_of_hess_allows() {
         let governing = computed.outcome.governing;
         let range = governing.work_of_adhesion.unwrap() / governing.effective_modulus;
         for sample in some(&computed.outcome.history.legs[1].curve).filter(|sample| sample.springs > 0) {
-            let facts = served.shown(moment(1, sample.indentation)).close_up.fragment.unwrap();
+            let facts = served.shown(snapshot(1, sample.indentation)).close_up.fragment.unwrap();
             let springs = facts.springs.1 + 1 - facts.springs.0;
             // Its edges lie within a cell of its outermost springs.
             assert!((facts.length / spacing - springs as f64).abs() <= 1.0 + 1e-9, "{facts:?}");
@@ -682,7 +683,7 @@ fn a_fragment_bears_what_the_rule_of_hess_allows() {
         let served = Served::by(Simulation::default());
         let computed = served.computed(1, &without_adhesion());
         let end = computed.outcome.history.legs[0].end();
-        let facts = served.shown(moment(0, end)).close_up.fragment.unwrap();
+        let facts = served.shown(snapshot(0, end)).close_up.fragment.unwrap();
         assert_eq!(facts.largest_stretch, 0.0);
         assert!(facts.most_stretched <= 0.0);
     });

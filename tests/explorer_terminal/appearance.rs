@@ -124,7 +124,7 @@ fn ascii_is_ascii_to_the_last_cell() {
         }
         terminal.send("}");
         terminal.wait_for("manual");
-        check(&terminal, "hand");
+        check(&terminal, "manual loading");
         quit(&mut terminal);
     });
 }

@@ -42,7 +42,7 @@ fn nothing_happens_while_nothing_happens() {
         assert_idle(&mut terminal);
         terminal.send("?");
         terminal.wait_without("What you see");
-        // With the body in hand.
+        // With manual loading.
         terminal.send("}}}");
         terminal.wait_for("manual: d ");
         assert_idle(&mut terminal);
@@ -70,7 +70,7 @@ fn nothing_happens_while_nothing_happens() {
         terminal.settle();
         let before = terminal.text();
         terminal.send(" ");
-        terminal.wait("next moment", |rows| rows.join("\n") != before);
+        terminal.wait("next snapshot", |rows| rows.join("\n") != before);
         assert_idle(&mut terminal);
         quit(&mut terminal);
     });
@@ -84,7 +84,7 @@ fn the_animation_goes_on_while_it_plays() {
         terminal.wait_for("F_a ");
         for _ in 0..5 {
             let before = terminal.text();
-            terminal.wait("next moment", |rows| rows.join("\n") != before);
+            terminal.wait("next snapshot", |rows| rows.join("\n") != before);
         }
         terminal.send(" ");
         assert_idle(&mut terminal);

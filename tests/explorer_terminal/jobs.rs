@@ -150,7 +150,7 @@ fn it_is_suspended_while_something_is_typed_and_while_it_plays() {
             // It plays on.
             for _ in 0..3 {
                 let now = terminal.text();
-                terminal.wait("next moment", |rows| rows.join("\n") != now);
+                terminal.wait("next snapshot", |rows| rows.join("\n") != now);
             }
             terminal.send("q");
             wait_for_shell(&mut terminal);

@@ -31,8 +31,8 @@ fn place_of(terminal: &Terminal, text: &str) -> (usize, usize) {
     found.unwrap_or_else(|| panic!("no {text}:\n{}", terminal.text()))
 }
 
-/// Indentation of the body in hand, m.
-fn in_hand(rows: &[String]) -> Option<f64> {
+/// Indentation of manual loading, m.
+fn manual_indentation(rows: &[String]) -> Option<f64> {
     let row: Vec<String> = rows.iter().filter(|row| row.contains("manual: d ")).cloned().collect();
     quantity(&row, "d", "m")
 }
@@ -117,20 +117,20 @@ fn the_body_is_dragged_along_the_curve() {
         let (column, row) = place_of(&terminal, "Force F(d)");
         let (left, row) = (column + 20, row + 8);
         terminal.send(&report(LEFT, left, row));
-        terminal.wait("body in hand", |rows| in_hand(rows).is_some());
+        terminal.wait("manual loading", |rows| manual_indentation(rows).is_some());
         assert!(cursor(&terminal).abs_diff(left) <= 1, "{left}:\n{}", terminal.text());
-        let mut last = in_hand(&terminal.rows()).unwrap();
+        let mut last = manual_indentation(&terminal.rows()).unwrap();
         let start = last;
         for column in (left + 4..left + 20).step_by(4) {
             terminal.send(&report(DRAGGED, column, row));
-            terminal.wait("deeper body", |rows| in_hand(rows).is_some_and(|now| now > last));
-            last = in_hand(&terminal.rows()).unwrap();
+            terminal.wait("deeper body", |rows| manual_indentation(rows).is_some_and(|now| now > last));
+            last = manual_indentation(&terminal.rows()).unwrap();
             assert!(cursor(&terminal).abs_diff(column) <= 1, "{column}:\n{}", terminal.text());
         }
         // Back to where it began; every cell is as wide as every other.
         terminal.send(&report(DRAGGED, left, row));
-        terminal.wait("body back", |rows| in_hand(rows).is_some_and(|now| now < last));
-        let back = in_hand(&terminal.rows()).unwrap();
+        terminal.wait("body back", |rows| manual_indentation(rows).is_some_and(|now| now < last));
+        let back = manual_indentation(&terminal.rows()).unwrap();
         assert!((back - start).abs() < 0.02 * (last - start), "{start} {last} {back}");
         quit(&mut terminal);
     });

@@ -271,7 +271,7 @@ fn many_springs(edges: Edges) -> Result<f64, Fault> {
         ensure(unloading.smallest.force < 0.0, || "it does not stick".into())?;
         worst = worst.max(force_error(&body, edges, solver, &unloading.smallest)?);
         ensure(unloading.detached == loading.attached && end(&unloading).springs == 0, || {
-            format!("{} springs joined, {} left", loading.attached, unloading.detached)
+            format!("{} springs attached, {} detached", loading.attached, unloading.detached)
         })?;
         Ok(worst)
     })

@@ -49,8 +49,8 @@ struct Frame {
 #[derive(Clone, Copy, Debug)]
 struct Climb {
     branch: Branch,
-    /// Indentation at which all of it is part of a larger fragment, m.
-    joins: f64,
+    /// Indentation at which the branch merges into a larger fragment, m.
+    merges: f64,
     /// Spring of the node above it.
     parent: usize,
     held: [u32; 2],
@@ -203,24 +203,29 @@ impl Closing {
         branches.clear();
         let nowhere = usize::MAX;
         let all = [0, held.len() as u32];
-        branches.push(Climb { branch: ground.tree.root(), joins: f64::INFINITY, parent: nowhere, held: all });
+        branches.push(Climb {
+            branch: ground.tree.root(),
+            merges: f64::INFINITY,
+            parent: nowhere,
+            held: all,
+        });
         let mut complete = f64::NEG_INFINITY;
         while let Some(climb) = branches.pop() {
-            let Climb { branch, joins, .. } = climb;
+            let Climb { branch, merges, .. } = climb;
             let state = held_on(held, climb.held, branch);
             let start = self.start(ground, branch, state);
             let node = branch.origin().ok().map(|index| (index, ground.tree.nodes()[index]));
             let lowest = node.map_or(start.gap, |(_, node)| node.lowest);
             // What is in contact already stays so, however far it is stretched.
-            if lowest >= joins && climb.held[0] == climb.held[1] {
+            if lowest >= merges && climb.held[0] == climb.held[1] {
                 continue;
             }
-            if start.closes < joins {
+            if start.closes < merges {
                 let pin = state.and_then(|held| held.pin);
                 self.climb_and_list(ground, &climb, (start, pin), runs, &mut complete, evaluations)?;
             }
             if let (Some((index, node)), None) = (node, state) {
-                let joins = smaller(start.closes, joins);
+                let merges = smaller(start.closes, merges);
                 let parent = ground.tree.maximum(&node);
                 let [begin, end] = climb.held;
                 let inside = &held[begin as usize..end as usize];
@@ -229,7 +234,7 @@ impl Closing {
                 for (branch, held) in
                     ground.tree.parts(index).into_iter().zip([[begin, middle], [middle, end]])
                 {
-                    branches.push(Climb { branch, joins, parent, held });
+                    branches.push(Climb { branch, merges, parent, held });
                 }
             }
         }
@@ -258,9 +263,9 @@ impl Closing {
         loop {
             let Some(wall) = span.wall(gaps) else {
                 *complete = closes;
-                if closes < climb.joins {
+                if closes < climb.merges {
                     runs.try_reserve(1).map_err(|_| ground.out_of_memory())?;
-                    runs.push(Run::new(climb.branch, &span, closes, climb.joins));
+                    runs.push(Run::new(climb.branch, &span, closes, climb.merges));
                 }
                 break;
             };
@@ -270,7 +275,7 @@ impl Closing {
                 *evaluations += 1;
                 let length = edges.length(gaps, &span);
                 attaches = larger(closes, edges.attaches_at(&span, length, gaps[wall]));
-                let end = smaller(attaches, climb.joins);
+                let end = smaller(attaches, climb.merges);
                 if let Some(rise) = pin.take() {
                     let released = smaller(edges.release(&span, length, rise).0, end);
                     runs.try_reserve(1).map_err(|_| ground.out_of_memory())?;
@@ -296,7 +301,7 @@ impl Closing {
             } else {
                 below = None;
             }
-            if wall == climb.parent || attaches >= climb.joins {
+            if wall == climb.parent || attaches >= climb.merges {
                 break;
             }
             span = span.with(gaps, wall);

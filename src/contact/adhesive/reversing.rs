@@ -1,7 +1,7 @@
 //! Unloadings from ever deeper turning points of one loading, each made from the one before.
 //!
 //! Inside a fragment of the loading nothing depends on the turning point: a span parts at the smallest indentation that
-//! holds any of the spans around it in the fragment. A deeper turning point lengthens fragments and joins them, which
+//! holds any of the spans around it in the fragment. A deeper turning point lengthens fragments and merges them, which
 //! caps the indentations of all that lies inside. So the runs of the next unloading are those of the last one, less what
 //! the cap takes away, and the runs of the spans that are new; the line between is walked once for all reversals.
 

@@ -100,7 +100,7 @@ impl Demo {
     /// Lets time go by.
     fn play(&mut self, seconds: f64) {
         self.seconds += seconds;
-        if seconds > 0.0 && self.explorer.model.hand.is_none() {
+        if seconds > 0.0 && self.explorer.model.manual.is_none() {
             self.explorer.act(Action::Elapse(Duration::from_secs_f64(seconds)));
         }
     }

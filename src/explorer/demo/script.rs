@@ -20,10 +20,10 @@ pub enum Cue {
 
 use Cue::{Do, Enter, Repeat, Select, Wait};
 
-/// Seconds a loop of two legs takes, and a moment to look at it.
+/// Seconds a loop of two legs takes, and a pause to look at it.
 const LOOP: f64 = 12.5;
 
-/// The tour over the built-in scenes: the three regimes, pressing harder, the hand, fragments, a sphere
+/// The tour over the built-in scenes: the three regimes, pressing harder, manual loading, fragments, a sphere
 /// with and without its roughness.
 pub const TOUR: &[Cue] = &[
     Do(Command::Preset(0)),
@@ -41,7 +41,7 @@ pub const TOUR: &[Cue] = &[
     Do(Command::ClearGhosts),
     Do(Command::Leg(-1)),
     Wait(0.5),
-    Do(Command::ToggleHand),
+    Do(Command::ToggleManual),
     Repeat(12, 0.25, Command::Push { steps: -1, coarse: true }),
     Repeat(8, 0.25, Command::Push { steps: 1, coarse: true }),
     Repeat(8, 0.25, Command::Push { steps: -1, coarse: true }),

@@ -89,7 +89,7 @@ const VALUE_STARTS: [Key; 12] = {
 };
 
 const ANIMATION: &str = "Animation";
-const HAND: &str = "Manual loading";
+const MANUAL: &str = "Manual loading";
 const PARAMETERS: &str = "Parameters";
 const COMPARE: &str = "Comparison";
 const LOOK: &str = "View";
@@ -131,13 +131,13 @@ pub const BINDINGS: &[Binding] = &[
     row(&[char('>')], EXPLORE, Command::Leg(1), "", "jump to the start of the next loading stage", ANIMATION),
     row(&[char('<')], EXPLORE, Command::Leg(-1), "", "jump to the start of this loading stage or of the previous one", ANIMATION),
 
-    row(&[char('d')], EXPLORE, Command::ToggleHand, "manual", "begin manual loading at the present indentation, or end it", HAND),
-    row(&[char(']')], EXPLORE, push(1, false), "press/pull", "press by a small step", HAND),
-    row(&[char('[')], EXPLORE, push(-1, false), "press/pull", "pull by a small step", HAND),
-    row(&[char('}')], EXPLORE, push(1, true), "large step", "press by a large step", HAND),
-    row(&[char('{')], EXPLORE, push(-1, true), "large step", "pull by a large step", HAND),
-    row(&[char('F')], EXPLORE, Command::TypeForce, "force", "type a target force", HAND),
-    row(&[char('S')], EXPLORE, Command::Separate, "separate", "pull to separation", HAND),
+    row(&[char('d')], EXPLORE, Command::ToggleManual, "manual", "begin manual loading at the present indentation, or end it", MANUAL),
+    row(&[char(']')], EXPLORE, push(1, false), "press/pull", "press by a small step", MANUAL),
+    row(&[char('[')], EXPLORE, push(-1, false), "press/pull", "pull by a small step", MANUAL),
+    row(&[char('}')], EXPLORE, push(1, true), "large step", "press by a large step", MANUAL),
+    row(&[char('{')], EXPLORE, push(-1, true), "large step", "pull by a large step", MANUAL),
+    row(&[char('F')], EXPLORE, Command::TypeForce, "force", "type a target force", MANUAL),
+    row(&[char('S')], EXPLORE, Command::Separate, "separate", "pull to separation", MANUAL),
 
     row(&[key(KeyCode::Up), char('k')], LIST, Command::Select(-1), "", "select the parameter above", PARAMETERS),
     row(&[key(KeyCode::Down), char('j')], LIST, Command::Select(1), "select", "select the parameter below", PARAMETERS),
@@ -261,5 +261,5 @@ pub const BINDINGS: &[Binding] = &[
 /// A row of the keys of manual loading.
 #[must_use]
 pub fn is_manual(row: &Binding) -> bool {
-    row.section == HAND
+    row.section == MANUAL
 }

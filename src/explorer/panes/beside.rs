@@ -33,10 +33,10 @@ fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
     let Some(ghost) = model.beside() else { return };
     let text_rows = u16::from(area.height >= 4) + u16::from(area.height >= 6);
     let above = Rect { height: area.height - text_rows, ..area };
-    let shown = model.moment.as_deref().and_then(|moment| Some((moment, moment.beside.as_deref()?)));
-    if let Some((moment, beside)) = shown {
+    let shown = model.snapshot.as_deref().and_then(|snapshot| Some((snapshot, snapshot.beside.as_deref()?)));
+    if let Some((snapshot, beside)) = shown {
         let histogram = ghost.computed.outcome.histogram.as_ref();
-        profile::draw_scene(frame, above, (beside, histogram), profile::heights(moment), model.appearance);
+        profile::draw_scene(frame, above, (beside, histogram), profile::heights(snapshot), model.appearance);
     } else {
         draw_reason(frame, above, "computing…", model.appearance.theme);
     }

@@ -35,56 +35,56 @@ pub static ROW: PaneRow = PaneRow {
 
 /// Title of the pane.
 fn title(model: &Model) -> String {
-    let Some(moment) = model.moment.as_ref() else { return " Fragments ".to_owned() };
-    let shown = &moment.close_up.section;
-    let from = (moment.line.first + shown.first) as f64 * moment.line.spacing;
-    let width = shown.springs as f64 * moment.line.spacing;
+    let Some(snapshot) = model.snapshot.as_ref() else { return " Fragments ".to_owned() };
+    let shown = &snapshot.close_up.section;
+    let from = (snapshot.line.first + shown.first) as f64 * snapshot.line.spacing;
+    let width = shown.springs as f64 * snapshot.line.spacing;
     let [width, from] = [width, from].map(|x| format_quantity(x, "m"));
     format!(" Fragments, {width} from x = {from} ")
 }
 
 /// Names of what is drawn, for the lower edge of the frame.
 fn names(model: &Model, area: Rect) -> Option<Line<'static>> {
-    let moment = model.moment.as_ref()?;
-    let shown = &moment.close_up.section;
-    let chart = section::chart(shown, moment.line, heights(shown));
+    let snapshot = model.snapshot.as_ref()?;
+    let shown = &snapshot.close_up.section;
+    let chart = section::chart(shown, snapshot.line, heights(shown));
     let ring = Text::styled("○", model.appearance.theme.style(Meaning::Contact));
     let ring = vec![ring, Text::raw(" patch end")];
-    Some(section::names(moment, &chart, [ring], model.appearance, area.width))
+    Some(section::names(snapshot, &chart, [ring], model.appearance, area.width))
 }
 
 /// The section in the close-up, with its chart and place.
 fn section_at(model: &Model, area: Rect) -> Option<(&Section, Chart, CellPlot)> {
-    let moment = model.moment.as_deref()?;
-    let (chart, place) = placed(moment, area);
-    Some((&moment.close_up.section, chart, place))
+    let snapshot = model.snapshot.as_deref()?;
+    let (chart, place) = placed(snapshot, area);
+    Some((&snapshot.close_up.section, chart, place))
 }
 
 /// Draws the close-up and what is known of its fragment.
 fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
     let area = inside(area);
-    let Some(moment) = model.moment.as_ref() else { return };
+    let Some(snapshot) = model.snapshot.as_ref() else { return };
     let theme = model.appearance.theme;
-    let close_up = &moment.close_up;
+    let close_up = &snapshot.close_up;
     let section = &close_up.section;
     let (strip_rows, text_rows) = rows_below(area);
-    let (chart, place) = placed(moment, area);
+    let (chart, place) = placed(snapshot, area);
     plot::in_theme(model.appearance, |style| place.draw(frame.buffer_mut(), &chart, style));
     for &(spring, height) in &close_up.boundaries {
-        let at = (section::position(moment.line, spring), height);
+        let at = (section::position(snapshot.line, spring), height);
         if let Some(cell) = place.cell(&chart, model.appearance.marker.symbols(), at) {
             frame.buffer_mut()[cell].set_symbol("○").set_style(theme.style(Meaning::Contact));
         }
     }
     if strip_rows > 0 {
         let springs = model.computed.as_ref().map_or(1, |computed| computed.outcome.history.work.springs);
-        let line = strip(&moment.strip, section, springs as usize, theme);
+        let line = strip(&snapshot.strip, section, springs as usize, theme);
         frame.render_widget(
             Paragraph::new(line),
             Rect { y: area.bottom() - text_rows - strip_rows, height: 1, ..area },
         );
     }
-    let lines = describe(close_up.fragment, moment.point.fragments, area.width);
+    let lines = describe(close_up.fragment, snapshot.point.fragments, area.width);
     draw_lines(frame, Rect { y: area.bottom() - text_rows, height: text_rows, ..area }, lines);
 }
 
@@ -94,11 +94,11 @@ fn rows_below(area: Rect) -> (u16, u16) {
 }
 
 /// The chart of the close-up and its place in the pane.
-fn placed(moment: &ContactSnapshot, area: Rect) -> (Chart, CellPlot) {
+fn placed(snapshot: &ContactSnapshot, area: Rect) -> (Chart, CellPlot) {
     let (strip, text) = rows_below(area);
-    let shown = &moment.close_up.section;
-    let mut chart = section::chart(shown, moment.line, heights(shown));
-    section::add_crosshair(&mut chart, moment);
+    let shown = &snapshot.close_up.section;
+    let mut chart = section::chart(shown, snapshot.line, heights(shown));
+    section::add_crosshair(&mut chart, snapshot);
     let place = CellPlot::within(Rect { height: area.height - strip - text, ..area }, &chart);
     (chart, place)
 }

@@ -1,4 +1,4 @@
-//! The curve: the hysteresis loop with its two branches, what is compared with it, and the hand.
+//! The curve: the hysteresis loop with its two branches, what is compared with it, and manual loading.
 
 use super::{PaneRow, Place};
 use crate::analysis::{ApproximatePoint, LEAST_TABOR_NUMBER, Mark, marks};
@@ -36,7 +36,7 @@ pub static ROW: PaneRow = PaneRow {
         (
             "Curve",
             "F over indentation d: dotted while pressing, solid while pulling; ◇ jump-in, ▲ preload, ▼ pull-off, \
-             ◆ now; letters and colours are ghosts, dashes are where the hand has been",
+             ◆ now; letters and colours are ghosts, dashes are the path of manual loading",
         ),
         (
             "Estimate",
@@ -181,9 +181,9 @@ fn spans(model: &Model, units: Units) -> (Span, Span) {
     let ghosts = model.ghosts.iter().flat_map(|ghost| &ghost.computed.outcome.history.legs);
     let tried = model.tried_outcome().into_iter().flat_map(|outcome| &outcome.history.legs);
     let points = model.legs().iter().chain(ghosts).chain(tried).flat_map(|leg| &leg.curve);
-    let hand = model.hand.iter().flat_map(|hand| &hand.path);
+    let manual = model.manual.iter().flat_map(|manual| &manual.path);
     let coordinate = |number| units.scale.coordinate(number);
-    let mut places: Vec<(f64, f64)> = points.chain(hand).map(|point| units.place(point)).collect();
+    let mut places: Vec<(f64, f64)> = points.chain(manual).map(|point| units.place(point)).collect();
     places.extend(approximate(model, units));
     let x = Span::around(places.iter().map(|place| coordinate(place.0)), 0.06);
     let y = Span::around(places.iter().map(|place| place.1).chain([0.0]).map(coordinate), 0.08);
@@ -250,7 +250,7 @@ fn drag(model: &mut Model, area: Rect, here: Position) -> Vec<Effect> {
     }
     // Manual loading begins first: its axis may reach further than that of the loading, and the body is to be under the
     // mouse.
-    let mut effects = if model.hand.is_none() { movement::take(model, None) } else { Vec::new() };
+    let mut effects = if model.manual.is_none() { movement::take(model, None) } else { Vec::new() };
     effects.retain(|effect| *effect != Effect::Show);
     if let Some(indentation) = indentation_at(model, area, here.x) {
         effects.extend(movement::take(model, Some(ManualMove::To(indentation))));
@@ -269,7 +269,7 @@ fn reading(model: &Model, area: Rect) -> Option<Line<'static>> {
         format!("l {length}"),
         format!("n {}", point.fragments),
     ];
-    if model.hand.is_none() {
+    if model.manual.is_none() {
         parts.push(format!("stage {} of {}", model.player.leg + 1, model.legs().len()));
     }
     let style = model.appearance.theme.style(Meaning::Cursor);
@@ -360,14 +360,14 @@ fn chart(model: &Model, units: Units) -> Chart {
             layers.push(Layer::new(name.into(), ink(of), line(along(&leg.curve), stroke)));
         }
     }
-    if let Some(hand) = &model.hand {
-        layers.push(Layer::new("manual".into(), Ink::Manual, line(along(&hand.path), Stroke::Dashed)));
+    if let Some(manual) = &model.manual {
+        layers.push(Layer::new("manual".into(), Ink::Manual, line(along(&manual.path), Stroke::Dashed)));
     }
     let marks = marks(legs).into_iter().filter(|_| !stale);
     layers.extend(marks.map(|(mark, at)| Layer::unnamed(Ink::Text, point(units.place(&at), sign(mark)))));
     let (x, y) = spans(model, units);
-    if let Some(moment) = model.present() {
-        let (at, value) = units.place(&moment.point);
+    if let Some(snapshot) = model.present() {
+        let (at, value) = units.place(&snapshot.point);
         let within = |number, span: Span| {
             units.scale.number(units.scale.coordinate(number).clamp(span.low, span.high))
         };
@@ -377,7 +377,7 @@ fn chart(model: &Model, units: Units) -> Chart {
             // Below the curves, which stay whole.
             layers.splice(0..0, lines.map(|line| Layer::unnamed(Ink::Cursor, line)));
         }
-        let name = if model.hand.is_some() { "manual" } else { "now" };
+        let name = if model.manual.is_some() { "manual" } else { "now" };
         layers.push(Layer::new(Label::plain(name), Ink::Cursor, point(at, Sign::Diamond)));
     }
     let (x, y) = units.axes(x, y);

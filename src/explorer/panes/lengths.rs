@@ -24,7 +24,8 @@ pub static ROW: PaneRow = PaneRow {
 fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
     let area = inside(area);
     let theme = model.appearance.theme;
-    let shown = model.moment.as_ref().and_then(|moment| moment.lengths.as_ref()).zip(model.computed.as_ref());
+    let shown =
+        model.snapshot.as_ref().and_then(|snapshot| snapshot.lengths.as_ref()).zip(model.computed.as_ref());
     let Some((bins, computed)) = shown else { return };
     let spacing = computed.outcome.line.spacing;
     let filled: Vec<&LengthBin> = bins.iter().filter(|bin| bin.fragments > 0).collect();

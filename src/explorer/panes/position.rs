@@ -7,7 +7,7 @@ use ratatui::layout::{Position, Rect};
 
 /// Spring under a column of the screen, in a pane with a section of the profile.
 pub fn position_at(model: &Model, pane: Pane, area: Rect, column: u16) -> Option<usize> {
-    let line = model.moment.as_deref()?.line;
+    let line = model.snapshot.as_deref()?.line;
     let (section, chart, place) = (pane.row().section?)(model, area)?;
     let spring = (place.number_at(&chart.x, column) / line.spacing) as usize;
     let spring = spring.saturating_sub(line.first);

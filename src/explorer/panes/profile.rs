@@ -41,59 +41,59 @@ fn title(model: &Model) -> String {
         return format!(" Profile z(x) of this scene, x to {length} ");
     }
     let follows = if model.profile.follow { " · follows" } else { "" };
-    let Some(moment) = model.moment.as_ref() else { return format!(" Profile z(x), x to {length} ") };
-    let shown = &moment.profile;
+    let Some(snapshot) = model.snapshot.as_ref() else { return format!(" Profile z(x), x to {length} ") };
+    let shown = &snapshot.profile;
     if model.profile.share >= 1.0 {
         return format!(" Profile z(x), x to {length}{follows} ");
     }
-    let from = (moment.line.first + shown.first) as f64 * moment.line.spacing;
-    let to = from + shown.springs as f64 * moment.line.spacing;
+    let from = (snapshot.line.first + shown.first) as f64 * snapshot.line.spacing;
+    let to = from + shown.springs as f64 * snapshot.line.spacing;
     let [from, to] = [from, to].map(|x| format_quantity(x, "m"));
     format!(" Profile z(x), x from {from} to {to} of {length}{follows} ")
 }
 
 /// Names of what is drawn, for the lower edge of the frame.
 fn names(model: &Model, area: Rect) -> Option<Line<'static>> {
-    let moment = model.moment.as_ref()?;
-    let chart = section::chart(&moment.profile, moment.line, heights(moment));
+    let snapshot = model.snapshot.as_ref()?;
+    let chart = section::chart(&snapshot.profile, snapshot.line, heights(snapshot));
     let theme = model.appearance.theme;
     let bell = || vec![Text::styled("¦", theme.style(Meaning::Surface)), Text::raw(" normal")];
     let beside = split_profile(inside(area)).1.map(|_| bell());
-    Some(section::names(moment, &chart, beside, model.appearance, area.width))
+    Some(section::names(snapshot, &chart, beside, model.appearance, area.width))
 }
 
 /// The part of the profile that is shown, with its chart and place.
 fn section_at(model: &Model, area: Rect) -> Option<(&Section, Chart, CellPlot)> {
-    let moment = model.moment.as_deref()?;
-    let (chart, place) = placed(moment, area, heights(moment));
-    Some((&moment.profile, chart, place))
+    let snapshot = model.snapshot.as_deref()?;
+    let (chart, place) = placed(snapshot, area, heights(snapshot));
+    Some((&snapshot.profile, chart, place))
 }
 
 /// Draws the profile with the histogram of its heights on the same axis.
 fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
     let area = inside(area);
-    let Some(moment) = model.moment.as_ref() else {
+    let Some(snapshot) = model.snapshot.as_ref() else {
         return draw_reason(frame, area, "…", model.appearance.theme);
     };
     let histogram = model.computed.as_ref().and_then(|computed| computed.outcome.histogram.as_ref());
-    draw_scene(frame, area, (moment, histogram), heights(moment), model.appearance);
+    draw_scene(frame, area, (snapshot, histogram), heights(snapshot), model.appearance);
 }
 
-/// Draws the profile of a scene at one moment with its histogram, heights within `z`.
+/// Draws the profile of a scene at one snapshot with its histogram, heights within `z`.
 pub fn draw_scene(
     frame: &mut Frame<'_>,
     area: Rect,
-    (moment, histogram): (&ContactSnapshot, Option<&Histogram>),
+    (snapshot, histogram): (&ContactSnapshot, Option<&Histogram>),
     z: Span,
     appearance: Appearance,
 ) {
-    let (chart, place) = placed(moment, area, z);
+    let (chart, place) = placed(snapshot, area, z);
     plot::in_theme(appearance, |style| place.draw(frame.buffer_mut(), &chart, style));
     let (area, beside) = split_profile(area);
     let plot = place.plot;
     if strip_rows(area) > 0 {
         let row = Rect { x: plot.x, width: plot.width, y: area.bottom() - 1, height: 1 };
-        contact_strip(frame, row, &moment.profile, appearance.theme);
+        contact_strip(frame, row, &snapshot.profile, appearance.theme);
     }
     if let Some(beside) = beside {
         let beside = Rect { y: plot.y, height: plot.height, ..beside };
@@ -107,24 +107,24 @@ fn strip_rows(area: Rect) -> u16 {
 }
 
 /// The chart of the profile, heights within `z`, and its place in the pane.
-fn placed(moment: &ContactSnapshot, area: Rect, z: Span) -> (Chart, CellPlot) {
+fn placed(snapshot: &ContactSnapshot, area: Rect, z: Span) -> (Chart, CellPlot) {
     let (area, _) = split_profile(area);
-    let mut chart = section::chart(&moment.profile, moment.line, z);
-    section::add_crosshair(&mut chart, moment);
+    let mut chart = section::chart(&snapshot.profile, snapshot.line, z);
+    section::add_crosshair(&mut chart, snapshot);
     let place = CellPlot::within(Rect { height: area.height - strip_rows(area), ..area }, &chart);
     (chart, place)
 }
 
 /// The axis of heights: the whole line and the surface, though not where it is far away. Two scenes side by side
 /// share the axis.
-pub fn heights(moment: &ContactSnapshot) -> Span {
+pub fn heights(snapshot: &ContactSnapshot) -> Span {
     let ends = |section: &Section| {
         let (low, high) = section.heights;
         let far = high + 0.5 * (high - low);
         [low, high, section.level.min(far)]
     };
-    let beside = moment.beside.iter().flat_map(|beside| ends(&beside.profile));
-    Span::around(ends(&moment.profile).into_iter().chain(beside), 0.05)
+    let beside = snapshot.beside.iter().flat_map(|beside| ends(&beside.profile));
+    Span::around(ends(&snapshot.profile).into_iter().chain(beside), 0.05)
 }
 
 /// One row that shows by its glyphs where along the section there is contact.

@@ -36,16 +36,16 @@ pub fn position(line: LineFacts, spring: usize) -> f64 {
 }
 
 /// Adds the crosshair to the chart of a section.
-pub fn add_crosshair(chart: &mut Chart, moment: &ContactSnapshot) {
-    let Some(probe) = moment.probe else { return };
-    let lines = [Shape::Upright(position(moment.line, probe.spring)), Shape::Level(probe.height)];
+pub fn add_crosshair(chart: &mut Chart, snapshot: &ContactSnapshot) {
+    let Some(probe) = snapshot.probe else { return };
+    let lines = [Shape::Upright(position(snapshot.line, probe.spring)), Shape::Level(probe.height)];
     // Below the curves, which stay whole.
     chart.layers.splice(0..0, lines.map(|line| Layer::unnamed(Ink::Cursor, line)));
 }
 
 /// Readings of the crosshair: position, height, and the gap or the stretch of the spring.
-fn reading(moment: &ContactSnapshot, theme: Theme) -> Vec<Vec<Text<'static>>> {
-    let Some(probe) = moment.probe else { return Vec::new() };
+fn reading(snapshot: &ContactSnapshot, theme: Theme) -> Vec<Vec<Text<'static>>> {
+    let Some(probe) = snapshot.probe else { return Vec::new() };
     let length = |value: f64| format_quantity(value, "m");
     let part = |text: String| vec![Text::styled(text, theme.style(Meaning::Cursor))];
     let distance = probe.level - probe.height;
@@ -54,22 +54,24 @@ fn reading(moment: &ContactSnapshot, theme: Theme) -> Vec<Vec<Text<'static>>> {
         Some(_) if distance > 0.0 => format!("stretched {}", length(distance)),
         Some(_) => format!("compressed {}", length(-distance)),
     };
-    let patch = probe.patch.map(|number| format!("patch {} of {}", number + 1, moment.point.fragments));
-    let at =
-        [format!("x {}", length(position(moment.line, probe.spring))), format!("z {}", length(probe.height))];
+    let patch = probe.patch.map(|number| format!("patch {} of {}", number + 1, snapshot.point.fragments));
+    let at = [
+        format!("x {}", length(position(snapshot.line, probe.spring))),
+        format!("z {}", length(probe.height)),
+    ];
     at.into_iter().chain([state]).chain(patch).map(part).collect()
 }
 
 /// Readings of the crosshair, or label of the heights, names of the lines and further signs, as far as there is room on
 /// the frame.
 pub fn names(
-    moment: &ContactSnapshot,
+    snapshot: &ContactSnapshot,
     chart: &Chart,
     more: impl IntoIterator<Item = Vec<Text<'static>>>,
     appearance: Appearance,
     width: u16,
 ) -> Line<'static> {
-    let mut parts = reading(moment, appearance.theme);
+    let mut parts = reading(snapshot, appearance.theme);
     if parts.is_empty() {
         let quiet = appearance.theme.style(Meaning::Quiet);
         parts.push(vec![Text::styled(chart.y.label_with_unit().to_string(), quiet)]);

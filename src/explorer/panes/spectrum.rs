@@ -45,7 +45,7 @@ const FEWEST_PLOT_ROWS: u16 = 5;
 /// Draws legend, chart and how well the moments are known, as far as there is room.
 fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
     let area = inside(area);
-    let shown = model.present().and_then(|moment| moment.spectra.as_deref());
+    let shown = model.present().and_then(|snapshot| snapshot.spectra.as_deref());
     let quiet = model.appearance.theme.style(Meaning::Quiet);
     let chart = shown.map(|shown| shown.spectra.chart()).filter(|chart| !chart.layers.is_empty());
     let below = words(model, shown);

@@ -20,7 +20,7 @@ pub fn obey(model: &mut Model, command: Command) -> Vec<Effect> {
     match command {
         Command::ToggleCrosshair => toggle(model),
         Command::CrosshairStage(stages) => go_to_stage(model, stages),
-        Command::MoveCrosshair { steps, coarse } if model.pane == Pane::Force && model.hand.is_some() => {
+        Command::MoveCrosshair { steps, coarse } if model.pane == Pane::Force && model.manual.is_some() => {
             return movement::obey(model, Command::Push { steps, coarse });
         }
         Command::MoveCrosshair { steps, coarse } if model.pane == Pane::Force => {
@@ -43,11 +43,11 @@ pub fn obey(model: &mut Model, command: Command) -> Vec<Effect> {
     vec![Effect::Show]
 }
 
-/// Moves the crosshair to the mouse; `None` where the pane has none, or where the mouse moves the body by hand.
+/// Moves the crosshair to the mouse; `None` where the pane has none, or where the mouse moves the body manually.
 pub fn point_at(model: &mut Model, pane: Pane, area: Rect, here: Position) -> Option<Vec<Effect>> {
     model.crosshair?;
     match pane {
-        Pane::Force if model.hand.is_none() => {
+        Pane::Force if model.manual.is_none() => {
             let (leg, indentation) = stage_at(model, inside(area), here)?;
             put(model, leg, model.done_at(leg, indentation));
         }
@@ -66,7 +66,7 @@ fn toggle(model: &mut Model) {
         return;
     }
     model.crosshair = Some(Crosshair { position: 0.5 });
-    if let Some(close_up) = model.moment.as_ref().map(|moment| moment.close_up.clone()) {
+    if let Some(close_up) = model.snapshot.as_ref().map(|snapshot| snapshot.close_up.clone()) {
         let middle = close_up.section.first + close_up.section.springs / 2;
         look_at(model, close_up.fragment.map_or(middle, |patch| patch.middle()));
     }
@@ -83,7 +83,7 @@ fn direction(model: &Model) -> f64 {
 
 /// Pauses the animation at a part of a loading stage.
 fn put(model: &mut Model, leg: usize, done: f64) {
-    if model.hand.is_none() {
+    if model.manual.is_none() {
         model.player.playing = false;
         (model.player.leg, model.player.done) = (leg, done.clamp(0.0, 1.0));
     }
@@ -101,8 +101,8 @@ fn go_to_stage(model: &mut Model, stages: i32) {
 
 /// The section of the chosen pane with its columns of dots.
 fn section(model: &Model) -> Option<(&Section, usize)> {
-    let moment = model.moment.as_ref()?;
-    let section = if model.pane == Pane::CloseUp { &moment.close_up.section } else { &moment.profile };
+    let snapshot = model.snapshot.as_ref()?;
+    let section = if model.pane == Pane::CloseUp { &snapshot.close_up.section } else { &snapshot.profile };
     Some((section, section.columns.len().max(1)))
 }
 

@@ -73,7 +73,7 @@ pub fn open(model: &mut Model, document: Document) -> Vec<Effect> {
     model.player = Player { leg: 0, done: 0.0, playing: true };
     model.look = CloseUpTarget { focus: Focus::Summit, springs: CloseUpTarget::springs_shown(&document) };
     model.profile = LineView::WHOLE;
-    // The map that is shown is that of the scene; a study stays at hand.
+    // The map that is shown is that of the scene; a study stays loaded.
     model.chart.of_study = false;
     let effects = adopt(model, document);
     model.set_saved();
@@ -366,8 +366,8 @@ fn renew(model: &mut Model) -> Vec<Effect> {
         (pane.row().renew)(model);
     }
     model.approximate.renew();
-    // What was in hand was pressed on another line, or under another force.
-    if model.hand.take().is_some() {
+    // Manual loading belongs to the former profile and contact.
+    if model.manual.take().is_some() {
         let back = "the body is back on the scene's loading".to_owned();
         model.notice = Some(Notice::Done(back));
     }

@@ -13,7 +13,7 @@ const FEWEST_SPRINGS: usize = 8;
 pub fn obey(model: &mut Model, command: Command) -> Vec<Effect> {
     match command {
         Command::Fragment(jump) => {
-            let fragment = model.moment.as_ref().and_then(|moment| moment.close_up.fragment);
+            let fragment = model.snapshot.as_ref().and_then(|snapshot| snapshot.close_up.fragment);
             let middle = fragment.map(|fragment| fragment.middle());
             model.look.focus = match jump {
                 Jump::Next => Focus::After(middle),
@@ -113,8 +113,8 @@ pub fn zoom_at(model: &mut Model, steps: i32, pointer: Option<f64>) {
         let centre = profile.centre + away * (profile.share - share);
         let centre = centre.clamp(share / 2.0, 1.0 - share / 2.0);
         model.profile = LineView { centre, share, follow: false };
-    } else if let Some(moment) = &model.moment {
-        let section = &moment.close_up.section;
+    } else if let Some(snapshot) = &model.snapshot {
+        let section = &snapshot.close_up.section;
         let middle = section.first as f64 + section.springs as f64 / 2.0;
         let to = middle + away * (springs_before - model.look.springs as f64);
         model.look.focus = Focus::Spring(to.clamp(0.0, (springs(model) - 1) as f64) as usize);
@@ -129,8 +129,8 @@ fn pan(model: &mut Model, quarters: i32) {
         let centre = model.profile.centre + quarters * model.profile.share;
         model.profile.centre = centre.clamp(half, 1.0 - half);
         model.profile.follow = false;
-    } else if let Some(moment) = &model.moment {
-        let section = &moment.close_up.section;
+    } else if let Some(snapshot) = &model.snapshot {
+        let section = &snapshot.close_up.section;
         let middle = section.first + section.springs / 2;
         let to = middle as f64 + quarters * section.springs as f64;
         model.look.focus = Focus::Spring(to.clamp(0.0, (springs(model) - 1) as f64) as usize);

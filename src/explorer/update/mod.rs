@@ -36,13 +36,13 @@ use std::path::PathBuf;
 pub enum Effect {
     /// Compute the scene.
     Compute,
-    /// Show the present moment of the body.
+    /// Show the present snapshot of the contact.
     Show,
     /// Compute the scene that is shown beside, or forget the last one.
     Beside,
     /// Work out what is not known yet of the scene's accuracy, see [`study_tasks`], and nothing else.
     Study,
-    /// Move the body by hand.
+    /// Move the body manually.
     Manual(ManualMove),
     /// Draw a random seed and give it back as an action.
     DrawSeed,
@@ -141,7 +141,9 @@ fn reported(model: &mut Model, report: Report) -> Vec<Effect> {
             }
             return vec![Effect::Show, Effect::Study];
         }
-        Report::Shown(moment) if moment.generation == model.generation => movement::shown(model, moment),
+        Report::Shown(snapshot) if snapshot.generation == model.generation => {
+            movement::shown(model, snapshot)
+        }
         Report::Progress { generation, legs } if generation == model.generation => {
             model.progress = model.progress.map(|_| legs);
         }
@@ -324,7 +326,7 @@ pub(super) fn explore(model: &mut Model, command: Command) -> Vec<Effect> {
         | Command::Step(_)
         | Command::Restart
         | Command::Leg(_)
-        | Command::ToggleHand
+        | Command::ToggleManual
         | Command::Push { .. }
         | Command::TypeForce
         | Command::Separate => return movement::obey(model, command),

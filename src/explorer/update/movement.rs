@@ -16,16 +16,16 @@ use std::time::Duration;
 const LEG_TIME: Duration = Duration::from_secs(6);
 /// Steps of the animation in one leg.
 const STEPS: f64 = 120.0;
-/// Small and large steps of the hand in the whole range of indentations.
+/// Small and large steps of manual loading in the whole range of indentations.
 const HAND_STEPS: (f64, f64) = (400.0, 40.0);
-/// Points that are kept of the way of the hand.
+/// Points that are kept of the path of manual loading.
 const PATH_KEPT: usize = 20_000;
 
 /// Obeys a command that moves the body.
 pub fn obey(model: &mut Model, command: Command) -> Vec<Effect> {
     match command {
-        Command::ToggleHand if model.hand.is_some() => return give_back(model),
-        Command::ToggleHand => return take(model, None),
+        Command::ToggleManual if model.manual.is_some() => return give_back(model),
+        Command::ToggleManual => return take(model, None),
         Command::Push { steps, coarse } => {
             let (low, high) = model.indentations().unwrap_or_default();
             let step = (high - low) / if coarse { HAND_STEPS.1 } else { HAND_STEPS.0 };
@@ -40,7 +40,7 @@ pub fn obey(model: &mut Model, command: Command) -> Vec<Effect> {
     }
     // What plays is the scene's loading.
     let mut effects = Vec::new();
-    if model.hand.take().is_some() {
+    if model.manual.take().is_some() {
         effects.push(Effect::Manual(ManualMove::Give));
     }
     match command {
@@ -115,26 +115,26 @@ pub fn stay_on_legs(model: &mut Model, last: usize) {
     }
 }
 
-/// Takes a moment in.
-pub fn shown(model: &mut Model, moment: Arc<ContactSnapshot>) {
-    // Another moment may have been on its way when the fragment was asked for.
-    if moment.focus == model.look.focus && model.look.focus.is_question() {
-        let middle = moment.close_up.fragment.map(|fragment| fragment.middle());
+/// Takes over a snapshot from the worker.
+pub fn shown(model: &mut Model, snapshot: Arc<ContactSnapshot>) {
+    // Another snapshot may have been on its way when the fragment was asked for.
+    if snapshot.focus == model.look.focus && model.look.focus.is_question() {
+        let middle = snapshot.close_up.fragment.map(|fragment| fragment.middle());
         model.look.focus = middle.map_or(Focus::Summit, Focus::Spring);
     }
-    if let Some((hand, travel)) = model.hand.as_mut().zip(moment.hand.as_ref()) {
-        hand.path.extend(&travel.path);
-        let old = hand.path.len().saturating_sub(PATH_KEPT);
-        hand.path.drain(..old);
+    if let Some((manual, travel)) = model.manual.as_mut().zip(snapshot.manual.as_ref()) {
+        manual.path.extend(&travel.path);
+        let old = manual.path.len().saturating_sub(PATH_KEPT);
+        manual.path.drain(..old);
         if !travel.path.is_empty() {
-            (hand.changed, hand.touched) = (travel.changed, travel.touched);
+            (manual.changed, manual.touched) = (travel.changed, travel.touched);
         }
-        hand.dissipated_energy = travel.dissipated_energy;
+        manual.dissipated_energy = travel.dissipated_energy;
         if let Some(error) = &travel.refused {
             model.notice = Some(Notice::Error(refusal(error, &model.typed_force)));
         }
     }
-    model.moment = Some(moment);
+    model.snapshot = Some(snapshot);
 }
 
 /// Reason why the body was not moved, with forces in the unit of the typed one, rounded into the range that is allowed.
@@ -161,17 +161,17 @@ fn rounded_up(value: f64) -> f64 {
     if nearest >= value { nearest } else { rounded(value + last_digit) }
 }
 
-/// Takes the body in hand, unless it is already, and moves it.
+/// Begins manual loading where it has not begun, and moves the body.
 pub fn take(model: &mut Model, order: Option<ManualMove>) -> Vec<Effect> {
     if !model.is_current() || model.legs().is_empty() {
         return Vec::new();
     }
     let mut effects = Vec::new();
-    if model.hand.is_none() {
+    if model.manual.is_none() {
         let (leg, indentation) = (model.player.leg, model.indentation());
-        let start = model.present().map(|moment| moment.point);
+        let start = model.present().map(|snapshot| snapshot.point);
         model.player.playing = false;
-        model.hand = Some(ManualState { path: start.into_iter().collect(), ..ManualState::default() });
+        model.manual = Some(ManualState { path: start.into_iter().collect(), ..ManualState::default() });
         effects.push(Effect::Manual(ManualMove::Take { leg, indentation }));
     }
     effects.extend(order.map(Effect::Manual));
@@ -180,7 +180,7 @@ pub fn take(model: &mut Model, order: Option<ManualMove>) -> Vec<Effect> {
 }
 
 fn give_back(model: &mut Model) -> Vec<Effect> {
-    model.hand = None;
+    model.manual = None;
     vec![Effect::Manual(ManualMove::Give), Effect::Show]
 }
 

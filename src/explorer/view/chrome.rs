@@ -92,7 +92,7 @@ pub fn status(frame: &mut Frame<'_>, area: Rect, model: &Model) {
     frame.render_widget(Paragraph::new(line), area);
 }
 
-/// F_a, regime, the moment shown and what it cost, the most important first, as far as there is room.
+/// F_a, regime, the state of the contact and its cost, the most important first, as far as there is room.
 fn headline(model: &Model, width: u16) -> Line<'static> {
     let Some(computed) = &model.computed else { return Line::raw("computing…") };
     let theme = model.appearance.theme;
@@ -109,7 +109,7 @@ fn headline(model: &Model, width: u16) -> Line<'static> {
         part("", format!("preview: {shown}"), Meaning::Title);
         part(" · ", "Enter accepts".to_owned(), Meaning::Quiet);
     }
-    let in_hand = model.present().is_some() && model.hand.is_some();
+    let is_manual = model.present().is_some() && model.manual.is_some();
     let adhesion = outcome.figures.adhesion_force.filter(|force| *force != 0.0);
     if let Some(adhesion) = adhesion {
         part("  ", format!("F_a {}", format_quantity(adhesion, "N")), Meaning::Title);
@@ -118,17 +118,17 @@ fn headline(model: &Model, width: u16) -> Line<'static> {
         part("  ", format!("F_max {}", format_quantity(largest, "N")), Meaning::Title);
     }
     let error = error(model);
-    if let Some(error) = error.as_ref().filter(|_| !in_hand) {
+    if let Some(error) = error.as_ref().filter(|_| !is_manual) {
         part(" ", error.clone(), Meaning::Title);
     }
-    let state = match (model.present(), &model.hand) {
+    let state = match (model.present(), &model.manual) {
         _ if model.shows_work => work(model),
-        (Some(moment), Some(hand)) => {
+        (Some(snapshot), Some(state)) => {
             let of = if adhesion.is_some() { "F_a " } else { "" };
             let error = error.map(|error| (" · ", format!("{of}{error}"), Meaning::Text));
-            manual(model, moment, hand).into_iter().chain(error).collect()
+            manual(model, snapshot, state).into_iter().chain(error).collect()
         }
-        (moment, _) => mechanics(model, moment),
+        (snapshot, _) => mechanics(model, snapshot),
     };
     state.into_iter().for_each(|(apart, text, meaning)| part(apart, text, meaning));
     if model.is_computing() {
@@ -142,26 +142,26 @@ fn headline(model: &Model, width: u16) -> Line<'static> {
 type Part = (&'static str, String, Meaning);
 
 /// The state under manual loading: what the move changed comes before what it led to.
-fn manual(model: &Model, moment: &ContactSnapshot, hand: &ManualState) -> Vec<Part> {
-    let dissipated = format!("ΔW {}", format_rounded(hand.dissipated_energy, 2, "J"));
+fn manual(model: &Model, snapshot: &ContactSnapshot, state: &ManualState) -> Vec<Part> {
+    let dissipated = format!("ΔW {}", format_rounded(state.dissipated_energy, 2, "J"));
     let mut parts = vec![
-        ("  ", format!("manual: {}", place(moment.point)), Meaning::Text),
-        (" · ", format!("{} changed", counted(hand.changed, "spring")), Meaning::Text),
-        (" · ", contact(moment.point), Meaning::Text),
+        ("  ", format!("manual: {}", place(snapshot.point)), Meaning::Text),
+        (" · ", format!("{} changed", counted(state.changed, "spring")), Meaning::Text),
+        (" · ", contact(snapshot.point), Meaning::Text),
         (" · ", dissipated, Meaning::Text),
     ];
-    parts.extend(response(model, moment));
+    parts.extend(response(model, snapshot));
     parts
 }
 
 /// The present state in mechanical quantities, and those of the whole loop.
-fn mechanics(model: &Model, moment: Option<&ContactSnapshot>) -> Vec<Part> {
+fn mechanics(model: &Model, snapshot: Option<&ContactSnapshot>) -> Vec<Part> {
     let Some(computed) = &model.computed else { return Vec::new() };
     let outcome = &computed.outcome;
     let mut parts = Vec::new();
-    if let Some(moment) = moment {
-        parts.push(("  ", place(moment.point), Meaning::Text));
-        let share = 100.0 * moment.point.contact_length / outcome.line.length;
+    if let Some(snapshot) = snapshot {
+        parts.push(("  ", place(snapshot.point), Meaning::Text));
+        let share = 100.0 * snapshot.point.contact_length / outcome.line.length;
         parts.push((" · ", format!("contact {} %", format_rounded(share, 2, "1")), Meaning::Text));
     }
     if let Some(regime) = outcome.regime {
@@ -170,43 +170,43 @@ fn mechanics(model: &Model, moment: Option<&ContactSnapshot>) -> Vec<Part> {
     if let Some(coefficient) = outcome.figures.adhesion_coefficient {
         parts.push((" · ", format!("F_a/F_n {}", format_quantity(coefficient, "1")), Meaning::Title));
     }
-    if let Some(moment) = moment {
-        parts.extend(response(model, moment));
+    if let Some(snapshot) = snapshot {
+        parts.extend(response(model, snapshot));
     }
     if let Some(energy) = outcome.figures.dissipated_energy {
         parts.push((" · ", format!("ΔW {}", format_rounded(energy, 2, "J")), Meaning::Text));
     }
-    if let Some(moment) = moment {
-        parts.push((" · ", contact(moment.point), Meaning::Text));
+    if let Some(snapshot) = snapshot {
+        parts.push((" · ", contact(snapshot.point), Meaning::Text));
     }
     parts
 }
 
 /// Stiffness and mean pressure of the present contact.
-fn response(model: &Model, moment: &ContactSnapshot) -> Vec<Part> {
+fn response(model: &Model, snapshot: &ContactSnapshot) -> Vec<Part> {
     let Some(computed) = &model.computed else { return Vec::new() };
     let stiffness =
-        contact_stiffness(computed.outcome.governing.effective_modulus, moment.point.contact_length);
+        contact_stiffness(computed.outcome.governing.effective_modulus, snapshot.point.contact_length);
     let mut parts = vec![(" · ", format!("dF/dd {}", format_rounded(stiffness, 2, "N/m")), Meaning::Text)];
-    if moment.contact_radius > 0.0 {
-        let pressure = moment.point.force / (PI * moment.contact_radius * moment.contact_radius);
+    if snapshot.contact_radius > 0.0 {
+        let pressure = snapshot.point.force / (PI * snapshot.contact_radius * snapshot.contact_radius);
         parts.push((" · ", format!("p_m {}", format_rounded(pressure, 2, "Pa")), Meaning::Text));
     }
     parts
 }
 
-/// Springs in contact, what the last move by hand took, and the times of the computing stages.
+/// Springs in contact, the cost of the last manual move, and the times of the computing stages.
 fn work(model: &Model) -> Vec<Part> {
     let mut parts = Vec::new();
-    if let Some(moment) = model.present() {
-        parts.push(("  ", contact(moment.point), Meaning::Text));
+    if let Some(snapshot) = model.present() {
+        parts.push(("  ", contact(snapshot.point), Meaning::Text));
     }
     if let Some(computed) = &model.computed {
         parts.push((" of ", grouped(computed.outcome.line.points as u64), Meaning::Text));
     }
-    if let Some(hand) = &model.hand {
-        parts.push((" · ", format!("{} changed", counted(hand.changed, "spring")), Meaning::Text));
-        parts.push((" · ", format!("{} looked at", hand.touched), Meaning::Text));
+    if let Some(state) = &model.manual {
+        parts.push((" · ", format!("{} changed", counted(state.changed, "spring")), Meaning::Text));
+        parts.push((" · ", format!("{} looked at", state.touched), Meaning::Text));
     }
     // Times of the last run only: a kept profile and tree take none.
     if model.shows_times && !model.is_computing() {
@@ -311,9 +311,9 @@ fn candidates(completion: &Completion, width: u16, model: &Model) -> Line<'stati
 /// one item.
 fn footer_items(model: &Model) -> Vec<(String, &'static str)> {
     let is_shown = |row: &&Binding| match row.command {
-        Command::ToggleHand => true,
+        Command::ToggleManual => true,
         Command::Complete => can_complete(model),
-        _ => !row.label.is_empty() && (model.hand.is_some() || !keys::is_manual(row)),
+        _ => !row.label.is_empty() && (model.manual.is_some() || !keys::is_manual(row)),
     };
     let mut rows: Vec<&Binding> = model.bindings.valid_in(model.keys()).filter(is_shown).collect();
     rows.sort_by_key(|row| rank(row, model));
@@ -331,7 +331,7 @@ fn footer_items(model: &Model) -> Vec<(String, &'static str)> {
 fn rank(row: &Binding, model: &Model) -> u8 {
     match row.command {
         Command::Help | Command::Quit => 0,
-        _ if model.hand.is_some() && keys::is_manual(row) => 1,
+        _ if model.manual.is_some() && keys::is_manual(row) => 1,
         _ if !row.modes.contains(&ModeKind::Explore) => 1,
         Command::NextPane
         | Command::Toggle(Pane::Chart)

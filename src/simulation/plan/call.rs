@@ -7,7 +7,7 @@ use serde::Serialize;
 
 /// Bytes for each spring: a height of the roughness, or a gap of the line.
 pub const HEIGHT: u64 = 8;
-/// Bytes for each spring: the indentation at which it joins or leaves.
+/// Bytes for each spring: its indentation of attachment or detachment.
 const THRESHOLD: u64 = 8;
 /// Bytes for each spring of the passes: thresholds of a quarter of the springs, and runs of the present leg and of the
 /// one before. Runs are few but where hardly anything sticks.

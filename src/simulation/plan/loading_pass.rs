@@ -1,4 +1,4 @@
-//! When each spring joins, on legs that press.
+//! Attachment of each spring on loading legs.
 
 use super::Stage;
 use super::call::{Called, NO_ADHESION, PASSED, Row, STEPWISE};

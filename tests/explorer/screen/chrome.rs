@@ -39,7 +39,7 @@ fn the_headline_is_that_of_the_computed_curve() {
                 driver.resize(*size);
                 assert!(driver.text().contains(&format!("F_a {force}")), "{size:?}: {}", driver.text());
             }
-            let point = driver.model.moment.as_ref().unwrap().point;
+            let point = driver.model.snapshot.as_ref().unwrap().point;
             let present = format!(
                 "d {} F {}",
                 format_quantity(point.indentation, "m"),
@@ -125,11 +125,15 @@ fn the_status_line_has_mechanics_or_the_work_of_the_computation() {
         let mut driver = mid_retraction(smooth());
         driver.resize((160, 40));
         let computed = driver.model.computed.clone().unwrap();
-        let moment = driver.model.moment.clone().unwrap();
+        let snapshot = driver.model.snapshot.clone().unwrap();
         // A circle of the contact's radius: that of one patch, and of no more than half the diameter.
-        let radius = 0.5 * moment.point.contact_length;
-        assert!((moment.contact_radius / radius - 1.0).abs() < 1e-12, "{} {radius}", moment.contact_radius);
-        let pressure = moment.point.force / (std::f64::consts::PI * radius * radius);
+        let radius = 0.5 * snapshot.point.contact_length;
+        assert!(
+            (snapshot.contact_radius / radius - 1.0).abs() < 1e-12,
+            "{} {radius}",
+            snapshot.contact_radius
+        );
+        let pressure = snapshot.point.force / (std::f64::consts::PI * radius * radius);
         let rounded = |value: f64| -> f64 { format!("{value:.1e}").parse().unwrap() };
         let energy = computed.outcome.figures.dissipated_energy.unwrap();
         for text in [
@@ -140,7 +144,7 @@ fn the_status_line_has_mechanics_or_the_work_of_the_computation() {
             assert!(driver.status().contains(&text), "{text}: {}", driver.status());
         }
         driver.press("I");
-        let springs = format!("{} springs in 1 fragment of ", moment.point.springs);
+        let springs = format!("{} springs in 1 fragment of ", snapshot.point.springs);
         for text in [springs.as_str(), "line ", "tree ", "passes ", "curve "] {
             assert!(driver.status().contains(text), "{text}: {}", driver.status());
         }

@@ -170,7 +170,7 @@ fn two_scenes_are_shown_side_by_side() {
             let said = lower_pane(&driver).join("\n");
             assert!(said.contains("A → this scene: the same scene") && said.contains("ratio 1 "), "{said}");
             driver.press("L");
-            let now = driver.model.moment.clone().unwrap();
+            let now = driver.model.snapshot.clone().unwrap();
             let before = now.beside.clone().unwrap();
             let ghost = driver.model.ghosts[0].computed.outcome.clone();
             assert_eq!(before.line, ghost.line);
@@ -199,7 +199,7 @@ fn two_scenes_are_shown_side_by_side() {
                 assert_eq!(upper.first(), lower.first(), "{}", driver.text());
             }
             driver.press("&");
-            assert!(driver.model.moment.as_ref().unwrap().beside.is_none());
+            assert!(driver.model.snapshot.as_ref().unwrap().beside.is_none());
             assert!(rows_of(&driver, Pane::CloseUp)[0].contains("Fragments"));
         }
     });
@@ -225,7 +225,7 @@ fn the_scene_beside_is_asked_for_only_where_it_is_in_sight() {
             assert!(!is_asked_for(&driver), "{size:?}");
         }
         driver.resize((80, 24));
-        assert!(is_asked_for(&driver) && driver.model.moment.as_ref().unwrap().beside.is_some());
+        assert!(is_asked_for(&driver) && driver.model.snapshot.as_ref().unwrap().beside.is_some());
     });
 }
 
@@ -255,7 +255,7 @@ fn two_scenes_that_are_opened_are_shown_side_by_side() {
         assert!(driver.model.is_shown(Pane::Beside));
         driver.press("C");
         assert!(
-            !driver.model.is_shown(Pane::Beside) && driver.model.moment.as_ref().unwrap().beside.is_none()
+            !driver.model.is_shown(Pane::Beside) && driver.model.snapshot.as_ref().unwrap().beside.is_none()
         );
     });
 }

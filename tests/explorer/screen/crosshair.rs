@@ -11,12 +11,12 @@ use asperity::explorer::snapshot::{ContactSnapshot, Probe};
 use asperity::scene::format_quantity;
 use ratatui::layout::Rect;
 
-fn moment(driver: &Driver) -> &ContactSnapshot {
-    driver.model.moment.as_deref().unwrap()
+fn snapshot(driver: &Driver) -> &ContactSnapshot {
+    driver.model.snapshot.as_deref().unwrap()
 }
 
 fn probe(driver: &Driver) -> Probe {
-    moment(driver).probe.unwrap()
+    snapshot(driver).probe.unwrap()
 }
 
 /// The lower edge of the frame of a pane.
@@ -51,14 +51,14 @@ fn the_crosshair_reads_the_state_that_all_panes_show() {
             assert!(driver.rows().last().unwrap().contains("hide"), "{}", driver.text());
             for keys in ["", "Right", "Shift+Left", "Up", "Left Left", "Down", "Home", "End"] {
                 driver.press(keys);
-                let point = moment(&driver).point;
+                let point = snapshot(&driver).point;
                 let text = edge(&driver, Pane::Force);
                 let [d, force] = [read(point.indentation, 2, "m"), read(point.force, 2, "N")];
                 assert!(text.contains(&format!("d {d}")), "{keys}: {d}\n{text}");
                 assert!(text.contains(&format!("F {force}")), "{keys}: {force}\n{text}");
                 // The body of profile and close-up is at the same indentation.
                 let level = driver.model.computed.as_ref().unwrap().outcome.line.summit - point.indentation;
-                let shown = moment(&driver);
+                let shown = snapshot(&driver);
                 assert!((shown.profile.level - level).abs() < 1e-18);
                 assert!((shown.close_up.section.level - level).abs() < 1e-18);
                 assert!(!driver.model.player.playing);
@@ -75,7 +75,7 @@ fn the_crosshair_moves_along_a_stage_and_to_the_other_one_at_the_same_indentatio
     within(30, || {
         let mut driver = mid_retraction(rough());
         driver.press("*");
-        let at = |driver: &Driver| (driver.model.player.leg, moment(driver).point);
+        let at = |driver: &Driver| (driver.model.player.leg, snapshot(driver).point);
         let (leg, before) = at(&driver);
         driver.press("Right");
         let (_, right) = at(&driver);
@@ -104,7 +104,7 @@ fn the_crosshair_moves_along_a_stage_and_to_the_other_one_at_the_same_indentatio
         assert!(at(&driver).1.indentation <= ends(&driver).0);
         // In manual loading it moves the body.
         driver.press("End d Left");
-        assert!(driver.model.hand.is_some() && moment(&driver).point.indentation < ends(&driver).1);
+        assert!(driver.model.manual.is_some() && snapshot(&driver).point.indentation < ends(&driver).1);
         assert!(!edge(&driver, Pane::Force).contains("stage"));
     });
 }
@@ -121,7 +121,7 @@ fn on_the_profile_the_crosshair_reads_position_height_and_state() {
             let first = probe(&driver).spring;
             assert_eq!(first, 0);
             for _ in 0..40 {
-                let shown = moment(&driver);
+                let shown = snapshot(&driver);
                 let Probe { spring, height, level, patch } = probe(&driver);
                 // One column for each dot: the height is within its column.
                 let columns = shown.profile.columns.len();
@@ -150,9 +150,9 @@ fn on_the_profile_the_crosshair_reads_position_height_and_state() {
             }
             assert!(states.contains(&true), "{states:?}");
             driver.press("End");
-            assert_eq!(probe(&driver).spring, moment(&driver).profile.springs - 1);
+            assert_eq!(probe(&driver).spring, snapshot(&driver).profile.springs - 1);
             driver.press("Right");
-            assert_eq!(probe(&driver).spring, moment(&driver).profile.springs - 1);
+            assert_eq!(probe(&driver).spring, snapshot(&driver).profile.springs - 1);
         }
     });
 }
@@ -176,7 +176,7 @@ fn the_mouse_moves_the_crosshair_of_the_pane_it_is_in() {
                 mouse(&mut driver, (area.x + 9, area.y + 2), Gesture::Drag);
                 assert!(probe(&driver).spring < springs[1]);
             }
-            // On the force curve the nearest branch is taken, and nothing is loaded by hand.
+            // On the force curve the nearest branch is taken, and manual loading does not begin.
             let area = place(&driver, Pane::Force);
             let sign = |driver: &Driver, glyph: &str| {
                 let screen = driver.screen();
@@ -186,12 +186,12 @@ fn the_mouse_moves_the_crosshair_of_the_pane_it_is_in() {
             };
             let pull_off = sign(&driver, "▼");
             mouse(&mut driver, pull_off, Gesture::Press);
-            assert!(driver.model.hand.is_none() && driver.model.player.leg == 1);
+            assert!(driver.model.manual.is_none() && driver.model.player.leg == 1);
             let force = driver.model.legs()[1].smallest.force;
-            assert!(moment(&driver).point.force < 0.8 * force, "{} {force}", moment(&driver).point.force);
+            assert!(snapshot(&driver).point.force < 0.8 * force, "{} {force}", snapshot(&driver).point.force);
             let preload = sign(&driver, "▲");
             mouse(&mut driver, preload, Gesture::Press);
-            assert!(moment(&driver).point.force > 0.8 * driver.model.legs()[0].largest.force);
+            assert!(snapshot(&driver).point.force > 0.8 * driver.model.legs()[0].largest.force);
         }
     });
 }
@@ -200,7 +200,7 @@ fn the_mouse_moves_the_crosshair_of_the_pane_it_is_in() {
 fn crosshairs_of_profile_and_close_up_are_at_one_position() {
     within(30, || {
         let mut driver = pressed("b *");
-        let patch = moment(&driver).close_up.fragment.unwrap();
+        let patch = snapshot(&driver).close_up.fragment.unwrap();
         assert_eq!(probe(&driver).spring, patch.middle(), "it begins in the middle of the patch");
         assert_eq!(probe(&driver).patch, Some(patch.number));
         let [profile, close_up] = [Pane::Profile, Pane::CloseUp].map(|pane| edge(&driver, pane));

@@ -87,7 +87,7 @@ fn the_tour_shows_what_it_is_to_show() {
                 scenes.push(name);
             }
             let shown = [
-                model.hand.as_ref().is_some_and(|hand| hand.path.len() > 100),
+                model.manual.as_ref().is_some_and(|manual| manual.path.len() > 100),
                 !model.ghosts.is_empty(),
                 model.curve.loss,
                 model.lower == Pane::Lengths,

@@ -18,15 +18,15 @@ use std::sync::Arc;
 fn reports_of_another_scene_change_nothing() {
     within(30, || {
         let mut driver = pressed("");
-        let (computed, moment) =
-            (driver.model.computed.clone().unwrap(), driver.model.moment.clone().unwrap());
+        let (computed, snapshot) =
+            (driver.model.computed.clone().unwrap(), driver.model.snapshot.clone().unwrap());
         driver.select("roughness.hurst");
         driver.press("l");
         let screen = driver.screen();
         let generation = computed.generation;
         for action in [
             Action::Report(Report::Computed(computed)),
-            Action::Report(Report::Shown(moment)),
+            Action::Report(Report::Shown(snapshot)),
             Action::Report(Report::Progress { generation, legs: 1 }),
             Action::Report(Report::Failed { generation, error: "old".to_owned() }),
         ] {

@@ -15,14 +15,15 @@ fn the_close_up_goes_round_all_fragments() {
     within(60, || {
         let mut driver = Driver::start(rough());
         driver.press("> f");
-        let count = driver.model.moment.as_ref().unwrap().point.fragments as usize;
+        let count = driver.model.snapshot.as_ref().unwrap().point.fragments as usize;
         assert!(count > 3, "{count} fragments");
         for closer in ["", "+ +", "- - - -"] {
             driver.press(closer);
             for key in ["n", "p"] {
                 driver.press("f");
-                let number =
-                    |driver: &Driver| driver.model.moment.as_ref().unwrap().close_up.fragment.unwrap().number;
+                let number = |driver: &Driver| {
+                    driver.model.snapshot.as_ref().unwrap().close_up.fragment.unwrap().number
+                };
                 let start = number(&driver);
                 let mut seen = Vec::new();
                 for _ in 0..count {
@@ -44,10 +45,10 @@ fn a_moment_on_its_way_does_not_take_the_chosen_fragment_away() {
     within(30, || {
         let mut driver = pressed("f");
         let number =
-            |driver: &Driver| driver.model.moment.as_ref().unwrap().close_up.fragment.unwrap().number;
-        let before = driver.model.moment.clone().unwrap();
+            |driver: &Driver| driver.model.snapshot.as_ref().unwrap().close_up.fragment.unwrap().number;
+        let before = driver.model.snapshot.clone().unwrap();
         let first = number(&driver);
-        // The fragment is asked for while the animation has asked for a moment just before.
+        // The fragment is asked for while the animation has asked for a snapshot just before.
         let effects = update(&mut driver.model, Action::Command(Command::Fragment(Jump::Next)));
         assert_eq!(effects, [Effect::Show]);
         driver.act(Action::Report(Report::Shown(before)));
@@ -62,7 +63,7 @@ fn a_moment_on_its_way_does_not_take_the_chosen_fragment_away() {
 fn the_close_up_is_looked_at_from_near_and_from_far() {
     within(30, || {
         let mut driver = pressed("");
-        let springs = |driver: &Driver| driver.model.moment.as_ref().unwrap().close_up.section.springs;
+        let springs = |driver: &Driver| driver.model.snapshot.as_ref().unwrap().close_up.section.springs;
         let before = springs(&driver);
         driver.press("+");
         assert_eq!(springs(&driver), before / 2);
@@ -82,7 +83,7 @@ fn fragments(driver: &mut Driver) -> Vec<(usize, usize)> {
     driver.press("z");
     // So wide that every spring has columns of its own.
     driver.resize((1100, 40));
-    let section = driver.model.moment.as_ref().unwrap().profile.clone();
+    let section = driver.model.snapshot.as_ref().unwrap().profile.clone();
     driver.press("z");
     driver.model.pane = pane;
     driver.resize(size);
@@ -103,7 +104,7 @@ fn fragments(driver: &mut Driver) -> Vec<(usize, usize)> {
 }
 
 fn facts(driver: &Driver) -> FragmentFacts {
-    driver.model.moment.as_ref().unwrap().close_up.fragment.unwrap()
+    driver.model.snapshot.as_ref().unwrap().close_up.fragment.unwrap()
 }
 
 #[test]
@@ -125,15 +126,15 @@ fn the_close_up_goes_to_the_longest_and_the_most_loaded() {
                 forces.push(facts(&driver).force);
             }
             let total: f64 = forces.iter().sum();
-            let force = driver.model.moment.as_ref().unwrap().point.force;
+            let force = driver.model.snapshot.as_ref().unwrap().point.force;
             assert!((total / force - 1.0).abs() < 1e-9, "together they carry all: {total} {force}");
             let most = forces.iter().map(|force| force.abs()).fold(0.0, f64::max);
             driver.press("B");
             assert_eq!(facts(&driver).force.abs(), most);
             driver.press("f");
-            let summit = driver.model.moment.as_ref().unwrap().close_up.section.clone();
+            let summit = driver.model.snapshot.as_ref().unwrap().close_up.section.clone();
             let highest = summit.columns.iter().map(|column| column.line.1).fold(f64::MIN, f64::max);
-            assert_eq!(highest, driver.model.moment.as_ref().unwrap().profile.heights.1);
+            assert_eq!(highest, driver.model.snapshot.as_ref().unwrap().profile.heights.1);
         }
     });
 }
@@ -142,15 +143,15 @@ fn the_close_up_goes_to_the_longest_and_the_most_loaded() {
 fn the_distribution_of_lengths_counts_every_fragment() {
     within(30, || {
         let mut driver = pressed("");
-        assert!(driver.model.moment.as_ref().unwrap().lengths.is_none(), "it is not made unseen");
+        assert!(driver.model.snapshot.as_ref().unwrap().lengths.is_none(), "it is not made unseen");
         driver.press("D");
         for keys in ["", ". . . .", "d { {", "Space"] {
             driver.press(keys);
             let all = fragments(&mut driver);
-            let moment = driver.model.moment.clone().unwrap();
-            let bins = moment.lengths.clone().unwrap();
+            let snapshot = driver.model.snapshot.clone().unwrap();
+            let bins = snapshot.lengths.clone().unwrap();
             let counted: u64 = bins.iter().map(|bin| bin.fragments).sum();
-            assert_eq!((counted, all.len() as u64), (moment.point.fragments, moment.point.fragments));
+            assert_eq!((counted, all.len() as u64), (snapshot.point.fragments, snapshot.point.fragments));
             for bin in &bins {
                 let inside = |&(first, last): &(usize, usize)| {
                     (bin.from..bin.to).contains(&((last + 1 - first) as u64))

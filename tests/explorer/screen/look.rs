@@ -12,7 +12,7 @@ use asperity::explorer::snapshot::Section;
 use asperity::scene::format_quantity;
 
 fn profile(driver: &Driver) -> Section {
-    driver.model.moment.as_ref().unwrap().profile.clone()
+    driver.model.snapshot.as_ref().unwrap().profile.clone()
 }
 
 fn seen(driver: &Driver) -> (usize, usize) {
@@ -88,7 +88,7 @@ fn the_profile_follows_the_close_up() {
         let mut firsts = Vec::new();
         for _ in 0..6 {
             driver.press("n");
-            let close_up = driver.model.moment.as_ref().unwrap().close_up.section.clone();
+            let close_up = driver.model.snapshot.as_ref().unwrap().close_up.section.clone();
             let (first, springs) = seen(&driver);
             let middle = close_up.first + close_up.springs / 2;
             assert!((first..first + springs).contains(&middle), "{middle} not in {first} + {springs}");
@@ -97,7 +97,7 @@ fn the_profile_follows_the_close_up() {
         }
         firsts.dedup();
         assert!(firsts.len() > 1, "it never moves: {firsts:?}");
-        // Moved by hand it stays where it is put.
+        // Moved manually, the body stays in its place.
         driver.press("Tab (");
         let put = seen(&driver);
         driver.press("n n n");
@@ -113,7 +113,7 @@ fn the_profile_follows_the_close_up() {
 fn the_close_up_is_moved_along_where_the_profile_is_not_chosen() {
     within(30, || {
         let mut driver = pressed("f");
-        let first = |driver: &Driver| driver.model.moment.as_ref().unwrap().close_up.section.first;
+        let first = |driver: &Driver| driver.model.snapshot.as_ref().unwrap().close_up.section.first;
         let before = first(&driver);
         let springs = driver.model.look.springs;
         driver.press(")");
@@ -352,7 +352,7 @@ fn profile_and_close_up_have_scales_of_position_and_height() {
             driver.resize(size);
             for (pane, section) in [
                 (Pane::Profile, profile(&driver)),
-                (Pane::CloseUp, driver.model.moment.as_ref().unwrap().close_up.section.clone()),
+                (Pane::CloseUp, driver.model.snapshot.as_ref().unwrap().close_up.section.clone()),
             ] {
                 // In nm, as the frame says.
                 let numbers = scale(&driver, pane);
@@ -372,7 +372,7 @@ fn profile_and_close_up_have_scales_of_position_and_height() {
                 let below = below.unwrap_or_else(|| panic!("{pane:?}\n{}", driver.text()));
                 let marked = |word: &str| word.parse::<f64>().ok().map(|x| 1e-6 * x);
                 let positions: Vec<f64> = below.split_whitespace().filter_map(marked).collect();
-                let spacing = driver.model.moment.as_ref().unwrap().line.spacing;
+                let spacing = driver.model.snapshot.as_ref().unwrap().line.spacing;
                 let ends = [section.first, section.first + section.springs].map(|at| at as f64 * spacing);
                 let within = |x: &&f64| (ends[0] - 1e-12..=ends[1] + 1e-12).contains(*x);
                 // The last ones are those of the histogram.

@@ -157,7 +157,7 @@ fn what_has_a_meaning_has_a_glyph() {
         for (glyph, meaning) in [
             ("▸", "the chosen pane"),
             ("›", "the selected row"),
-            ("◆", "the moment shown"),
+            ("◆", "the snapshot shown"),
             ("▲", "the preload"),
             ("▼", "the pull-off"),
             ("■", "contact along the line"),
@@ -172,7 +172,7 @@ fn what_has_a_meaning_has_a_glyph() {
         let mut driver = pressed("d");
         driver.enter("2");
         let text = driver.text();
-        for (glyph, meaning) in [("◆ manual", "the hand"), ("! ", "what is wrong")] {
+        for (glyph, meaning) in [("◆ manual", "manual loading"), ("! ", "what is wrong")] {
             assert!(text.contains(glyph), "{meaning}\n{text}");
         }
     });
@@ -193,7 +193,7 @@ fn keys_change_colours_and_markers_and_say_so() {
             assert!(driver.status().contains(&marker.name()), "{}", driver.status());
             // The worker was asked for as many columns as there are now.
             let cells = Layout::of(&driver.model).profile_cells();
-            let columns = driver.model.moment.as_ref().unwrap().profile.columns.len();
+            let columns = driver.model.snapshot.as_ref().unwrap().profile.columns.len();
             assert_eq!(columns, cells * marker.columns());
         }
     });

@@ -86,9 +86,9 @@ fn a_drag_takes_the_body_to_where_the_mouse_is() {
                 mouse(&mut driver, column, area.y + 5, gesture);
                 let wanted = indentation_at(&driver.model, area, column).unwrap();
                 let next = indentation_at(&driver.model, area, column + 1).unwrap();
-                let stands = driver.model.moment.as_ref().unwrap().point.indentation;
-                assert!(driver.model.hand.is_some());
-                // What is seen may change a little as the way of the hand grows.
+                let stands = driver.model.snapshot.as_ref().unwrap().point.indentation;
+                assert!(driver.model.manual.is_some());
+                // What is seen may change a little as the path of manual loading grows.
                 assert!((stands - wanted).abs() <= next - wanted, "{stands}, not {wanted}");
                 let screen = driver.screen();
                 let seen: Vec<u16> = (0..driver.model.size.1)
@@ -108,7 +108,7 @@ fn a_drag_takes_the_body_to_where_the_mouse_is() {
         let mut driver = pressed("v");
         let area = place(&driver, Pane::Force);
         mouse(&mut driver, area.x + 20, area.y + 5, Gesture::Press);
-        assert!(driver.model.hand.is_none() && driver.model.pane == Pane::Force);
+        assert!(driver.model.manual.is_none() && driver.model.pane == Pane::Force);
     });
 }
 

@@ -71,7 +71,7 @@ screens!(screen_of_a_scene_that_failed, {
     driver.enter("[ToForce(2.0e-5), ToForce(-1.0)]");
     driver
 });
-screens!(screen_of_the_body_in_hand, pressed("d [ [ [ { { { } [ ]"));
+screens!(screen_of_manual_loading, pressed("d [ [ [ { { { } [ ]"));
 screens!(screen_of_ghosts, {
     let mut driver = pressed("c L L c");
     driver.select("adhesion.kappa");
@@ -108,7 +108,7 @@ screens!(screen_in_octants, marked(Marker::Octant));
 screens!(screen_in_half_blocks, marked(Marker::HalfBlock));
 screens!(screen_in_ascii, marked(Marker::Ascii));
 
-/// The screen with other markers, a ghost in it and the body in hand.
+/// The screen with other markers, a ghost in it and manual loading.
 fn marked(marker: Marker) -> Driver {
     let mut driver = pressed("c L L d { ] ] ]");
     while driver.model.appearance.marker != marker {

@@ -21,7 +21,7 @@ fn the_animation_plays_to_its_end_and_stops() {
             if driver.model.player.leg != leg {
                 last = ends[0];
             }
-            let d = driver.model.moment.as_ref().unwrap().point.indentation;
+            let d = driver.model.snapshot.as_ref().unwrap().point.indentation;
             // It turns where the first leg ends.
             let forwards = if driver.model.player.leg == 0 { last <= d && d <= ends[0] } else { d <= last };
             assert!(forwards, "{last} to {d}");
@@ -50,7 +50,7 @@ fn a_scene_that_ends_in_separation_is_shown_separated() {
         while driver.model.player.done < 1.0 {
             driver.press(".");
         }
-        let point = driver.model.moment.as_ref().unwrap().point;
+        let point = driver.model.snapshot.as_ref().unwrap().point;
         assert_eq!((point.springs, point.force), (0, 0.0), "{}", driver.text());
     });
 }
@@ -80,7 +80,7 @@ fn the_animation_is_paused_stepped_and_begun_again() {
         driver.press("Space");
         assert!(driver.elapse(1.0).is_empty(), "nothing moves while it is paused");
         assert_eq!(driver.model.player.done, before.done);
-        let force = |driver: &Driver| driver.model.moment.as_ref().unwrap().point;
+        let force = |driver: &Driver| driver.model.snapshot.as_ref().unwrap().point;
         let here = force(&driver);
         driver.press(".");
         assert!(force(&driver).indentation > here.indentation);
@@ -134,7 +134,7 @@ fn the_animation_is_as_far_however_often_it_is_drawn() {
         let place = |steps: u32, seconds: f64| {
             let mut driver = Driver::start(rough().set("loading", three).unwrap());
             (0..steps).for_each(|_| drop(driver.elapse(seconds / f64::from(steps))));
-            (driver.model.player, driver.model.moment.clone().unwrap().point)
+            (driver.model.player, driver.model.snapshot.clone().unwrap().point)
         };
         for seconds in [1.0, 5.9, 6.3, 11.0, 13.0, 17.9, 18.1, 100.0] {
             let (player, point) = place(1, seconds);

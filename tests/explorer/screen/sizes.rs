@@ -147,7 +147,7 @@ fn ends_of_contact_patches_are_seen_where_a_scene_observes_them() {
             driver.model.pane = Pane::CloseUp;
             driver.resize(size);
             driver.elapse(30.0);
-            let close_up = &driver.model.moment.as_ref().unwrap().close_up;
+            let close_up = &driver.model.snapshot.as_ref().unwrap().close_up;
             assert!(close_up.boundaries.len() >= 2, "{size:?}: {:?}", close_up.boundaries);
             let area = Layout::of(&driver.model).pane(Pane::CloseUp).unwrap();
             let inside = |row: &String| -> String {

@@ -192,7 +192,7 @@ fn the_computed_map_can_be_had_instead() {
         // It is hidden and shown again with the pane.
         driver.press("m m");
         assert!(driver.text().contains("Study small"), "{}", driver.text());
-        // Another scene has a map of its own, and the study stays at hand.
+        // Another scene has a map of its own, and the study stays loaded.
         driver.press("1 W");
         assert!(driver.text().contains("no longer that of the study"), "{}", driver.text());
         driver.press("W");

@@ -48,7 +48,7 @@ fn a_screen_grows_back_to_what_it_was() {
         let before = driver.screen();
         for size in [(40, 12), (20, 5), (1, 1), (0, 0), (300, 100), (120, 40)] {
             driver.resize(size);
-            // The moment that fits comes after the first drawing.
+            // The snapshot that fits comes after the first drawing.
             driver.screen();
         }
         assert_eq!(driver.screen(), before);
@@ -149,7 +149,7 @@ fn the_smallest_window_says_what_is_true() {
         driver.press("Tab");
         said(&driver, "›");
         driver.press("Tab");
-        let facts = driver.model.moment.as_ref().unwrap().close_up.fragment.unwrap();
+        let facts = driver.model.snapshot.as_ref().unwrap().close_up.fragment.unwrap();
         said(&driver, &format!("fragment {}", facts.number + 1));
     });
 }

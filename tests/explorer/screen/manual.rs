@@ -1,4 +1,4 @@
-//! The body in hand: taken where it stands, pressed and pulled by keys, given back.
+//! Manual loading: begun at the present indentation, pressed and pulled by keys, ended.
 
 use super::common::deadline::within;
 use super::common::driver::Driver;
@@ -11,11 +11,11 @@ use asperity::explorer::update::Effect;
 use asperity::explorer::worker::ManualMove;
 
 fn point(driver: &Driver) -> CurvePoint {
-    driver.model.moment.as_ref().unwrap().point
+    driver.model.snapshot.as_ref().unwrap().point
 }
 
-fn hand(driver: &Driver) -> &ManualState {
-    driver.model.hand.as_ref().expect("the body is in hand")
+fn manual(driver: &Driver) -> &ManualState {
+    driver.model.manual.as_ref().expect("manual loading")
 }
 
 /// Types a force to go to.
@@ -34,11 +34,11 @@ fn the_body_is_taken_where_it_stands() {
                 driver.press(keys);
                 let stood = point(&driver);
                 driver.press("d");
-                assert_eq!(driver.model.moment.as_ref().unwrap().drive, Drive::Manual);
+                assert_eq!(driver.model.snapshot.as_ref().unwrap().drive, Drive::Manual);
                 assert_eq!(point(&driver), stood, "{}", driver.model.document.name());
-                assert_eq!(hand(&driver).path, [stood]);
+                assert_eq!(manual(&driver).path, [stood]);
                 driver.press("d");
-                assert!(driver.model.hand.is_none());
+                assert!(driver.model.manual.is_none());
                 assert_eq!(point(&driver), stood, "and given back there");
             }
         }
@@ -56,14 +56,14 @@ fn small_and_large_steps_press_and_pull() {
             driver.press(keys);
             let way = (point(&driver).indentation - before) / (high - low);
             assert!((way - share).abs() < 1e-9, "{keys}: {way}");
-            assert_eq!(hand(&driver).path.last(), Some(&point(&driver)), "{keys}: the way ends there");
+            assert_eq!(manual(&driver).path.last(), Some(&point(&driver)), "{keys}: the way ends there");
         }
-        // They take the body in hand where it is not yet.
+        // They begin manual loading where it has not begun.
         for keys in ["]", "[", "}", "{", "S"] {
             let mut driver = pressed(keys);
-            assert!(driver.model.hand.is_some(), "{keys}");
+            assert!(driver.model.manual.is_some(), "{keys}");
             driver.press("d");
-            assert!(driver.model.hand.is_none(), "{keys}");
+            assert!(driver.model.manual.is_none(), "{keys}");
         }
     });
 }
@@ -76,7 +76,7 @@ fn a_minor_loop_closes_on_itself() {
             driver.press("d } }");
             // Once around, so that the steps are rounded as they are from then on.
             driver.press("[ [ [ ] ] ]");
-            let (turn, energy) = (point(&driver), hand(&driver).dissipated_energy);
+            let (turn, energy) = (point(&driver), manual(&driver).dissipated_energy);
             assert!(turn.springs > 0);
             for _ in 0..3 {
                 driver.press("[ [ [");
@@ -84,7 +84,7 @@ fn a_minor_loop_closes_on_itself() {
                 driver.press("] ] ]");
                 assert_eq!(point(&driver), turn, "{}", driver.model.document.name());
             }
-            assert!(hand(&driver).dissipated_energy >= energy, "no loop gives energy back");
+            assert!(manual(&driver).dissipated_energy >= energy, "no loop gives energy back");
         }
     });
 }
@@ -95,16 +95,16 @@ fn the_status_tells_what_a_move_changed() {
         let mut driver = pressed("d");
         let before = point(&driver).springs;
         driver.press("{");
-        let (changed, now) = (hand(&driver).changed, point(&driver).springs);
+        let (changed, now) = (manual(&driver).changed, point(&driver).springs);
         assert!(changed > 0 && changed == before - now, "{changed}: {before} to {now}");
         assert!(driver.status().contains(&format!("{changed} springs changed")), "{}", driver.status());
         driver.resize((80, 24));
         assert!(driver.status().contains("springs changed"), "in a common window too: {}", driver.status());
-        assert!(hand(&driver).touched > 0);
+        assert!(manual(&driver).touched > 0);
         assert!(driver.text().contains("manual"), "{}", driver.text());
         // A look around is no move: what the last one changed is still told.
         driver.press("n + z z");
-        assert_eq!(hand(&driver).changed, changed);
+        assert_eq!(manual(&driver).changed, changed);
     });
 }
 
@@ -114,11 +114,11 @@ fn pulled_off_by_hand_it_loses_what_the_leg_loses() {
         let mut driver = mid_retraction(rough());
         driver.press("< d S");
         let leg = &driver.model.legs()[1];
-        let (lost, expected) = (hand(&driver).dissipated_energy, leg.dissipated_energy);
+        let (lost, expected) = (manual(&driver).dissipated_energy, leg.dissipated_energy);
         assert!(expected > 0.0 && (lost / expected - 1.0).abs() < 1e-9, "{lost}, not {expected}");
         assert_eq!((point(&driver).springs, point(&driver).force), (0, 0.0));
         let smallest = leg.smallest.force;
-        let path = &hand(&driver).path;
+        let path = &manual(&driver).path;
         assert!(path.len() > 20, "the way down is seen");
         let pulled = path.iter().map(|point| point.force).fold(f64::INFINITY, f64::min);
         assert!(pulled >= smallest && pulled < 0.5 * smallest, "{pulled} {smallest}");
@@ -175,7 +175,7 @@ fn a_force_out_of_reach_is_told_and_nothing_is_lost() {
         go(&mut driver, &format!("{least} mN"));
         assert!(driver.model.notice.is_none(), "{:?}", driver.model.notice);
         let after = point(&driver);
-        assert!(driver.model.hand.is_some() && after.springs > 0, "{after:?}");
+        assert!(driver.model.manual.is_some() && after.springs > 0, "{after:?}");
         assert!(after.force <= 1e-3 * least * (1.0 - 1e-9), "{} {least}", after.force);
         driver.press("d d");
         // It can be moved as before.
@@ -225,7 +225,7 @@ fn an_edit_puts_the_body_back_and_says_so() {
         for keys in ["l", "u", "R"] {
             let mut driver = pressed("l d { [");
             driver.press(keys);
-            assert!(driver.model.hand.is_none(), "{keys}");
+            assert!(driver.model.manual.is_none(), "{keys}");
             assert!(is_up_to_date(&driver.model));
             assert_eq!(driver.model.drive(), Drive::Leg(1), "{keys}");
             assert!(driver.status().contains("the body is back"), "{keys}: {}", driver.status());
@@ -234,7 +234,7 @@ fn an_edit_puts_the_body_back_and_says_so() {
         let mut driver = pressed("d {");
         let stood = point(&driver);
         driver.press("j n v N a D T M z Tab + 0");
-        assert!(driver.model.hand.is_some());
+        assert!(driver.model.manual.is_some());
         assert_eq!(point(&driver), stood);
     });
 }
@@ -248,8 +248,8 @@ fn playing_gives_it_back() {
             driver.press("d { [");
             let effects = driver.press(keys);
             assert_eq!(effects, [Effect::Manual(ManualMove::Give), Effect::Show], "{keys}");
-            assert!(driver.model.hand.is_none(), "{keys}");
-            assert!(matches!(driver.model.moment.as_ref().unwrap().drive, Drive::Leg(_)), "{keys}");
+            assert!(driver.model.manual.is_none(), "{keys}");
+            assert!(matches!(driver.model.snapshot.as_ref().unwrap().drive, Drive::Leg(_)), "{keys}");
             if keys == "Space" {
                 assert!(driver.model.player.playing && driver.model.player.leg == leg);
                 assert!(!driver.elapse(0.1).is_empty());
@@ -264,18 +264,18 @@ fn without_a_curve_there_is_nothing_to_take() {
         let mut driver = Driver::open(rough());
         for keys in ["d", "]", "{", "S"] {
             assert!(driver.press(keys).is_empty(), "{keys}");
-            assert!(driver.model.hand.is_none(), "{keys}");
+            assert!(driver.model.manual.is_none(), "{keys}");
         }
         let mut driver = pressed("");
         driver.select("loading");
         driver.enter("[ToForce(2.0e-5), ToForce(-1.0)]");
         driver.press("d ]");
-        assert!(driver.model.hand.is_none());
+        assert!(driver.model.manual.is_none());
     });
 }
 
 #[test]
-fn time_does_not_move_what_is_in_hand() {
+fn time_does_not_move_manual_loading() {
     within(30, || {
         let mut driver = Driver::start(changed(&rough(), &[("loading", "[ToForce(1.0e-5)]")]));
         driver.elapse(2.0);

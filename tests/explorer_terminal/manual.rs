@@ -1,10 +1,10 @@
-//! The body is moved by hand.
+//! The body is loaded manually.
 
 use crate::common::deadline::within;
 use crate::common::terminal::Terminal;
 use crate::driving::{CLEAR_LINE, ENTER, ESCAPE, answer, explorer, paused, quantity, quit, select};
 
-/// Indentation and force of the body in hand, m and N.
+/// Indentation and force of manual loading, m and N.
 fn stands(rows: &[String]) -> Option<(f64, f64)> {
     let row: Vec<String> = rows.iter().filter(|row| row.contains("manual: d ")).cloned().collect();
     Some((quantity(&row, "d", "m")?, quantity(&row, "F", "N")?))
@@ -40,7 +40,7 @@ fn the_body_is_pressed_and_pulled_by_keys() {
         let mut terminal = paused(program);
         assert_eq!(stands(&terminal.rows()), None);
         terminal.send("d");
-        terminal.wait("body in hand", |rows| stands(rows).is_some());
+        terminal.wait("manual loading", |rows| stands(rows).is_some());
         let (start, _) = stands(&terminal.rows()).unwrap();
         let (coarse, _) = push(&mut terminal, "}");
         let (fine, _) = push(&mut terminal, "]");
@@ -89,9 +89,9 @@ fn a_force_that_is_none_or_out_of_reach_is_told() {
         terminal.send("F");
         answer(&mut terminal, "Go to the force: ", "-1");
         terminal.wait_for("the contact detaches before");
-        // A key takes the line away, and the body is still in hand where it stood.
+        // A key takes the line away, and manual loading goes on at the same place.
         terminal.send("k");
-        terminal.wait("body in hand", |rows| stands(rows).is_some());
+        terminal.wait("manual loading", |rows| stands(rows).is_some());
         let (_, force) = stands(&terminal.rows()).unwrap();
         assert!((force / 5e-6 - 1.0).abs() < 1e-3, "{force} N");
         terminal.send("F");
