@@ -19,6 +19,13 @@ pub(crate) struct Sheet {
 }
 
 impl Sheet {
+    /// A table alone as text.
+    pub(crate) fn of_table<R: AsRef<[String]>>(rows: &[R]) -> String {
+        let mut sheet = Sheet::default();
+        sheet.table(rows);
+        sheet.into_text()
+    }
+
     /// The text so far.
     pub(crate) fn into_text(self) -> String {
         self.text
@@ -80,6 +87,25 @@ impl Sheet {
         self.text.push_str(&printable(line.trim_end()));
         self.text.push('\n');
     }
+}
+
+/// Rows as comma-separated values.
+pub(crate) fn csv<R: AsRef<[String]>>(rows: &[R]) -> String {
+    rows.iter().map(|row| row.as_ref().join(",") + "\n").collect()
+}
+
+/// Rows as a table of Markdown, the first one as its heading.
+pub(crate) fn markdown<R: AsRef<[String]>>(rows: &[R]) -> String {
+    let mut lines: Vec<_> = rows.iter().map(|row| format!("| {} |\n", row.as_ref().join(" | "))).collect();
+    let columns = rows.first().map_or(0, |row| row.as_ref().len());
+    lines.insert(lines.len().min(1), format!("|{}\n", " --- |".repeat(columns)));
+    lines.concat()
+}
+
+/// At most so many of the rows of a table, at equal distances, with the last one.
+pub(super) fn thinned<I: ExactSizeIterator>(rows: I, most: usize) -> impl Iterator<Item = I::Item> {
+    let (last, stride) = (rows.len().saturating_sub(1), rows.len().div_ceil(most).max(1));
+    rows.skip(last % stride).step_by(stride)
 }
 
 fn padded(text: &str, width: usize) -> String {
