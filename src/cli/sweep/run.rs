@@ -2,6 +2,7 @@
 
 use super::merge::tell_merged;
 use super::progress::StudyProgress;
+use crate::cli::scene::threads;
 use crate::cli::{CliError, Overrides};
 use crate::scene::Scene;
 use crate::simulation;
@@ -12,7 +13,6 @@ use std::io::{self, Write};
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
-use std::thread::available_parallelism;
 
 /// Arguments of a run.
 #[derive(Args, Debug)]
@@ -106,9 +106,7 @@ pub(super) fn run(arguments: &SweepRunArguments, stdout: &mut dyn Write) -> Resu
     let plan =
         Plan::open(arguments.plan.as_deref().unwrap_or_default(), &changes).map_err(StudyError::from)?;
     let memory = Memory::of(&plan);
-    let wanted = arguments
-        .jobs
-        .map_or_else(|| available_parallelism().map_or(1, std::num::NonZero::get) as u64, u64::from);
+    let wanted = threads(arguments.jobs) as u64;
     let mut jobs = wanted;
     if let Some(most) = arguments.memory {
         if memory.of_jobs(1) > most {
