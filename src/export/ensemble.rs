@@ -17,9 +17,7 @@ use std::io::{self, Write};
 pub fn ensemble_text(scene: &Scene, lines: &[LineResult]) -> String {
     let summary = LinesSummary::of(lines);
     let mut sheet = Sheet::default();
-    if !scene.title.is_empty() {
-        sheet.paragraph(&scene.title);
-    }
+    sheet.paragraph(&scene.title);
     let seeds = lines.first().zip(lines.last());
     let seeds =
         seeds.map_or_else(String::new, |(first, last)| format!(", seeds {} to {}", first.seed, last.seed));
@@ -49,7 +47,7 @@ pub fn ensemble_text(scene: &Scene, lines: &[LineResult]) -> String {
     let number = |value: Option<f64>| value.map(|value| format_quantity(value, "1"));
     sheet.row_of("rms skewness", number(summary.rms_skewness));
     sheet.row_of("rms excess kurtosis", number(summary.rms_excess_kurtosis));
-    sheet.into_text().trim_start_matches('\n').to_string()
+    sheet.into_text()
 }
 
 fn cells(name: &str, unit: &str, statistics: &Statistics) -> [String; 6] {

@@ -14,8 +14,6 @@ mod scene_figure;
 mod scene_tables;
 pub(crate) mod sheet;
 mod spectrum_figure;
-#[cfg(test)]
-mod study_example;
 mod study_figure;
 mod summary;
 mod surface;

@@ -51,9 +51,7 @@ impl<'a> PreloadReport<'a> {
     #[must_use]
     pub fn text(&self) -> String {
         let mut sheet = Sheet::default();
-        if !self.scene.title.is_empty() {
-            sheet.paragraph(&self.scene.title);
-        }
+        sheet.paragraph(&self.scene.title);
         let profiles = match self.lines.len() {
             1 => "one profile".to_owned(),
             count => format!("{} random profiles", grouped(count as u64)),
@@ -74,7 +72,7 @@ impl<'a> PreloadReport<'a> {
         } else {
             unloadings(&mut sheet, ["preload F_n", "indentation"], shown.map(|(one, _)| *one));
         }
-        sheet.into_text().trim_start_matches('\n').to_string()
+        sheet.into_text()
     }
 
     /// Writes one JSON object in SI units.

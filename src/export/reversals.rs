@@ -51,9 +51,7 @@ fn congruency(loops: MinorLoops) -> String {
 pub fn reversals_text(report: &ReversalReport<'_>) -> String {
     let ReversalReport { scene, map, loops, smoothing, .. } = *report;
     let mut sheet = Sheet::default();
-    if !scene.title.is_empty() {
-        sheet.paragraph(&scene.title);
-    }
+    sheet.paragraph(&scene.title);
     let reversals = &map.reversals;
     let (count, springs) = (grouped(reversals.len() as u64), grouped(scene.numerics.points));
     sheet.heading(&format!("{count} reversals of one loading, {springs} springs"));
@@ -70,7 +68,7 @@ pub fn reversals_text(report: &ReversalReport<'_>) -> String {
     sheet.row_of("largest Everett value", everett.map(|force| format_quantity(force, "N")));
     sheet.row("density", format!("quadratic fit, {smoothing} steps on either side"));
     sheet.row_of("incongruent", loops.map(congruency));
-    sheet.into_text().trim_start_matches('\n').to_string()
+    sheet.into_text()
 }
 
 /// Writes all of a map as one JSON object in SI units: for each turning point the forces at the indentations of the

@@ -209,7 +209,7 @@ pub fn surface_text(
         sheet.heading("Warnings");
         warnings.iter().for_each(|warning| sheet.row("", warning));
     }
-    sheet.into_text().trim_start_matches('\n').to_owned()
+    sheet.into_text()
 }
 
 fn describe(file: &SurfaceFile) -> String {

@@ -34,10 +34,7 @@ pub(super) fn status(arguments: &StatusArguments, stdout: &mut dyn Write) -> Res
 
 fn text(folder: &Folder, status: &Status) -> String {
     let mut sheet = Sheet::default();
-    let title = &folder.plan().title;
-    if !title.is_empty() {
-        sheet.paragraph(title);
-    }
+    sheet.paragraph(&folder.plan().title);
     let share = 100.0 * status.done as f64 / status.total.max(1) as f64;
     sheet.heading(&format!(
         "{} of {} records are there, {share:.1} %; {} are missing",
