@@ -56,7 +56,7 @@ impl CheckArguments {
     }
 }
 
-/// Runs the cases and writes what came of them.
+/// Runs the cases and writes their verdicts.
 pub(super) fn check(arguments: &CheckArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
     let chosen = arguments.chosen()?;
     let format = arguments.output.format(arguments.format, TEXT_OR_JSON, Format::Text)?;
@@ -109,7 +109,7 @@ mod tests {
     }
 
     #[test]
-    fn a_case_that_fails_is_told() {
+    fn a_failing_case_is_an_error() {
         let verdicts = |errors: &[f64]| -> Vec<Verdict> {
             let checks = checks(|case| case.name == "flat-line");
             let verdict = |(check, &error)| Verdict { check, error: Ok(error), seconds: 0.0 };

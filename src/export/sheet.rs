@@ -20,6 +20,7 @@ pub(crate) struct Sheet {
 
 impl Sheet {
     /// A table alone as text.
+    #[cfg(feature = "tui")]
     pub(crate) fn of_table<R: AsRef<[String]>>(rows: &[R]) -> String {
         let mut sheet = Sheet::default();
         sheet.table(rows);
@@ -90,6 +91,7 @@ impl Sheet {
 }
 
 /// Rows as comma-separated values.
+#[cfg(feature = "tui")]
 pub(crate) fn csv<R: AsRef<[String]>>(rows: &[R]) -> String {
     rows.iter().map(|row| row.as_ref().join(",") + "\n").collect()
 }

@@ -289,7 +289,10 @@ pub fn write_surface_json(
         })
     };
     let bin = |bin: &Bin| json!({"wave_number": bin.wave_number, "power": bin.power, "waves": bin.waves});
-    let spectrum = |(direction, bins): &(Direction, Vec<Bin>)| json!({"name": direction.name(), "bins": bins.iter().map(bin).collect::<Vec<_>>()});
+    let spectrum = |(direction, bins): &(Direction, Vec<Bin>)| {
+        let bins: Vec<_> = bins.iter().map(bin).collect();
+        json!({"name": direction.name(), "bins": bins})
+    };
     let report = object! {
         "version": env!("CARGO_PKG_VERSION"),
         "files": files.iter().map(file).collect::<Vec<_>>(),

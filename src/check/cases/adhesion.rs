@@ -114,14 +114,14 @@ fn everything_sticks(edges: Edges) -> Result<f64, Fault> {
             let (cells, deepest) = (Extended::from(points as f64), Extended::from(body.deepest()));
             let area = Extended::PI * cells * Extended::from(body.foundation.spacing);
             let range = Extended::from(work) / Extended::from(body.foundation.effective_modulus);
-            let lets_go = deepest - (area * range).sqrt();
+            let detachment = deepest - (area * range).sqrt();
             let stiffness =
                 Extended::from(body.foundation.effective_modulus) * Extended::from(body.foundation.spacing);
-            let force = stiffness * (cells * lets_go - Extended::sum(body.gaps.iter().copied()));
+            let force = stiffness * (cells * detachment - Extended::sum(body.gaps.iter().copied()));
             for (found, expected) in [
                 (last.force, force),
-                (last.indentation, lets_go),
-                (end(&history.legs[1]).indentation, lets_go),
+                (last.indentation, detachment),
+                (end(&history.legs[1]).indentation, detachment),
             ] {
                 worst = worst.max(relative_error(found, expected));
             }

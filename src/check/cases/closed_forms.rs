@@ -131,9 +131,9 @@ fn power_law(edges: Edges, form: Form, length: f64, deepest: f64) -> Result<f64,
     let history = body.history(edges, &press_and_pull(deepest), 257)?;
     let [loading, unloading] = two_legs(&history)?;
     ensure(loading.largest.springs < POINTS as u64, || "the line is too short".into())?;
-    let (pull_off, lets_go) =
+    let (pull_off, detachment) =
         (closed.force_controlled_pull_off().1, closed.displacement_controlled_pull_off());
-    let lets_go = closed.indentation(lets_go.0);
+    let detachment = closed.indentation(detachment.0);
     let error = |found: f64, expected: f64| (found / expected - 1.0).abs();
-    Ok(error(unloading.smallest.force, pull_off).max(error(end(unloading).indentation, lets_go)))
+    Ok(error(unloading.smallest.force, pull_off).max(error(end(unloading).indentation, detachment)))
 }

@@ -267,12 +267,12 @@ fn flat(edges: Edges) -> Result<f64, Fault> {
         let all = points as u64;
         ensure((last.springs, last.fragments, unloading.detached) == (all, 1, all), || format!("{last:?}"))?;
         let [length, modulus, work] = [LENGTH, MODULUS, WORK].map(Extended::from);
-        let lets_go = -(Extended::PI * length * work / modulus).sqrt();
-        let lost = Extended::from(0.5) * modulus * length * lets_go * lets_go;
+        let detachment = -(Extended::PI * length * work / modulus).sqrt();
+        let lost = Extended::from(0.5) * modulus * length * detachment * detachment;
         for (found, expected) in [
-            (last.force, modulus * length * lets_go),
-            (last.indentation, lets_go),
-            (end(unloading).indentation, lets_go),
+            (last.force, modulus * length * detachment),
+            (last.indentation, detachment),
+            (end(unloading).indentation, detachment),
             (unloading.dissipated_energy, lost),
             (end(loading).force, modulus * length * Extended::from(RMS_HEIGHT)),
         ] {

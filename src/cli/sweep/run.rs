@@ -1,6 +1,6 @@
 //! `asperity sweep PLAN`: computes a study, or what is missing of it.
 
-use super::merge::tell_merged;
+use super::merge::write_merged;
 use super::progress::StudyProgress;
 use crate::cli::scene::threads;
 use crate::cli::{CliError, Overrides};
@@ -150,7 +150,7 @@ pub(super) fn run(arguments: &SweepRunArguments, stdout: &mut dyn Write) -> Resu
         return Err(CliError::Stopped { signal: signal(), done, total });
     }
     if arguments.shard.is_none() {
-        tell_merged(&folder, &merge(&folder, false)?, stdout)?;
+        write_merged(&folder, &merge(&folder, false)?, stdout)?;
     } else {
         let _ = writeln!(stderr, "{} records of shard {} are there", ended.progress.total, options.shard);
     }

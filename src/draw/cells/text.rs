@@ -13,6 +13,7 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::style::{Color, Style};
 use ratatui::symbols::Marker;
+use ratatui::text::Line;
 
 /// Narrowest and widest text, columns.
 const COLUMNS: (usize, usize) = (40, 160);
@@ -97,23 +98,20 @@ fn push_chart(text: &mut String, chart: &Chart, columns: u16, style: &CellStyle<
 }
 
 fn push_legend(text: &mut String, chart: &Chart, columns: usize, style: &CellStyle<'_>) {
-    let mut lines: Vec<Vec<(String, Style)>> = Vec::new();
-    let mut width = 0;
+    let mut lines: Vec<Line<'static>> = Vec::new();
     for part in legend(std::slice::from_ref(chart), style) {
-        let own: usize = part.iter().map(|span| span.content.chars().count()).sum();
-        if lines.is_empty() || width + 2 + own > columns {
-            lines.push(Vec::new());
-            width = 0;
-        } else if let Some(line) = lines.last_mut() {
-            line.push(("  ".to_owned(), Style::new()));
-            width += 2;
-        }
-        width += own;
-        if let Some(line) = lines.last_mut() {
-            line.extend(part.into_iter().map(|span| (span.content.into_owned(), span.style)));
+        let part = Line::from(part);
+        match lines.last_mut().filter(|line| line.width() + 2 + part.width() <= columns) {
+            Some(line) => {
+                line.push_span("  ");
+                line.spans.extend(part.spans);
+            }
+            None => lines.push(part),
         }
     }
-    lines.iter().for_each(|line| push_line(text, line));
+    for line in lines {
+        push_line(text, &line.spans.iter().map(|span| (&span.content, span.style)).collect::<Vec<_>>());
+    }
 }
 
 /// Adds a line without the blanks at its end, with what a terminal takes for its colours.
