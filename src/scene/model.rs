@@ -4,6 +4,7 @@
 
 use crate::spectrum::Detrend;
 use serde::{Deserialize, Serialize};
+use strum::IntoStaticStr;
 
 /// Versions of the scene file that are read. In the first one a measured profile is the line itself unless
 /// `roughness.as_line` says otherwise, in the second one its equivalent line is.
@@ -61,7 +62,7 @@ pub struct Material {
 }
 
 /// Macroscopic form of the rigid body; its axis is on the spring ⌊N/2⌋ ([`Form::spring_on_axis`]).
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, IntoStaticStr)]
 #[serde(deny_unknown_fields)]
 pub enum Form {
     /// Paraboloid r²/2R, the sphere of Hertz and JKR.
@@ -98,7 +99,7 @@ pub enum Form {
 }
 
 /// Roughness of the rigid line.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, IntoStaticStr)]
 #[serde(deny_unknown_fields)]
 pub enum Roughness {
     /// Random-phase self-affine line, eqs. (4)–(9). Its amplitude is set by `rms_height`, by
@@ -320,7 +321,7 @@ impl From<NumericsText> for Numerics {
 }
 
 /// Solver of equilibrium.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, IntoStaticStr)]
 #[serde(deny_unknown_fields)]
 pub enum Solver {
     /// All thresholds at once, no step error.
@@ -343,7 +344,7 @@ impl Solver {
 }
 
 /// Edge model of a contact fragment.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, IntoStaticStr)]
 pub enum Edges {
     /// The paper's rule: a fragment of n springs is n Δx long.
     Grid,
@@ -356,10 +357,7 @@ impl Edges {
     /// Name as scene files have it.
     #[must_use]
     pub fn name(self) -> &'static str {
-        match self {
-            Edges::Grid => "Grid",
-            Edges::SubCell => "SubCell",
-        }
+        self.into()
     }
 }
 
