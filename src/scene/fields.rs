@@ -6,7 +6,8 @@
 use std::f64::consts::FRAC_PI_2;
 
 use super::field::{Field, Step};
-use super::model::{Edges, Form, Leg, Roughness, SCENE_VERSIONS, Scene, Solver};
+use super::form::Form;
+use super::model::{Edges, Leg, Roughness, SCENE_VERSIONS, Scene, Solver};
 use super::range::Range;
 use super::value::{Access, Part, at};
 

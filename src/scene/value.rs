@@ -1,6 +1,7 @@
 //! Values of a scene's fields, read and written one by one.
 
-use super::model::{Adhesion, Edges, Form, Leg, Material, Numerics, Observer, Roughness, Scene, Solver};
+use super::form::Form;
+use super::model::{Adhesion, Edges, Leg, Material, Numerics, Observer, Roughness, Scene, Solver};
 use crate::spectrum::Detrend;
 
 /// Value of a field.
