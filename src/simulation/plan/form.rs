@@ -2,14 +2,13 @@
 
 use super::Stage;
 use super::call::{Called, Row};
-use crate::scene::Form;
 
 pub const ROW: Row = Row {
     stage: Stage::Form,
     name: "form",
     called: |call| match call.scene.form {
         None => Called::Not("no form: nominally flat"),
-        Some(Form::Punch { .. }) => Called::For("form: the springs under the punch"),
+        Some(form) if form.flat_end().is_some() => Called::For("form: the springs under the punch"),
         Some(_) => Called::For("form"),
     },
     cost: |call| call.passes(Some(1), 0),
