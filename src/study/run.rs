@@ -133,8 +133,8 @@ pub fn run(
                 Some(profile) => simulation.with_measured(profile),
                 None => simulation,
             };
-            let recorder = Recorder::new(folder.plan(), simulation, &|| false);
-            work.solve(recorder, &mut FolderSink { shared, sender });
+            let mut recorder = Recorder::new(folder.plan(), simulation, &|| false);
+            work.solve(|scene, seed| recorder.record(scene, seed), &mut FolderSink { shared, sender });
         });
         // A system that gives fewer threads than asked for has those do all.
         if begun == 0 {
