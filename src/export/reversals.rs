@@ -1,12 +1,13 @@
-//! First-order reversal curves of a scene as text, JSON, CSV and a figure.
+//! First-order reversal curves of a scene as text, JSON, tables and a figure.
 
 use super::preloads::{preload_axes, preload_layers};
 use super::sheet::Sheet;
+use super::table::{Cell, Column, TableFormat, write_table};
 use crate::analysis::{MinorLoops, ReversalMap};
 use crate::contact::Reversal;
 use crate::draw::{Axis, AxisScale, Chart, Figure, HeatMap, Ink, Label, Layer, Shape, Span};
 use crate::io::{object, write_json_value};
-use crate::scene::{Scene, format_quantity};
+use crate::scene::{Provenance, Scene, format_quantity};
 use crate::study::Preloaded;
 use crate::text::grouped;
 use std::io::{self, Write};
@@ -125,53 +126,63 @@ pub fn write_reversals_json(out: &mut (impl Write + ?Sized), report: &ReversalRe
     write_json_value(out, &json)
 }
 
-fn number(value: Option<f64>) -> String {
-    value.map_or_else(String::new, |value| format!("{value:?}"))
-}
-
-/// Writes one row for each turning point, in SI units.
+/// Writes a table with one row for each turning point, in SI units.
 ///
 /// # Errors
 /// Those of `out`.
-pub fn write_reversals_csv(out: &mut (impl Write + ?Sized), map: &ReversalMap) -> io::Result<()> {
-    writeln!(
-        out,
-        "turning_indentation,turning_force,adhesion_force,pull_off_indentation,separation,dissipated_energy"
-    )?;
-    for reversal in &map.reversals {
-        writeln!(
-            out,
-            "{:?},{:?},{},{:?},{:?},{:?}",
-            reversal.turn.indentation,
-            reversal.turn.force,
-            number(reversal.adhesion_force()),
-            reversal.smallest.indentation,
-            reversal.separation,
-            reversal.dissipated_energy
-        )?;
-    }
-    Ok(())
-}
-
-/// Writes one row for each turning point and each indentation up to there, in SI units.
-///
-/// # Errors
-/// Those of `out`.
-pub fn write_reversal_map_csv(
+pub fn write_reversals_table(
     out: &mut (impl Write + ?Sized),
+    format: TableFormat,
+    provenance: &Provenance,
+    map: &ReversalMap,
+) -> io::Result<()> {
+    let names = [
+        "turning_indentation",
+        "turning_force",
+        "adhesion_force",
+        "pull_off_indentation",
+        "separation",
+        "dissipated_energy",
+    ];
+    let rows = map.reversals.iter().map(|reversal| {
+        [
+            Cell::Real(reversal.turn.indentation),
+            Cell::Real(reversal.turn.force),
+            reversal.adhesion_force().into(),
+            Cell::Real(reversal.smallest.indentation),
+            Cell::Real(reversal.separation),
+            Cell::Real(reversal.dissipated_energy),
+        ]
+    });
+    write_table(out, format, provenance, names.map(|name| (name, Column::Real)), map.reversals.len(), rows)
+}
+
+/// Writes a table with one row for each turning point and each indentation up to there, in SI units.
+///
+/// # Errors
+/// Those of `out`.
+pub fn write_reversal_map_table(
+    out: &mut (impl Write + ?Sized),
+    format: TableFormat,
+    provenance: &Provenance,
     map: &ReversalMap,
     smoothing: usize,
 ) -> io::Result<()> {
-    writeln!(out, "turning_indentation,indentation,force,everett,density")?;
-    for (turn, at) in map.turns().iter().enumerate() {
-        for (point, indentation) in map.points[..=map.below + turn].iter().enumerate() {
-            let values =
-                [map.force(turn, point), map.everett(turn, point), map.density(turn, point, smoothing)];
-            let [force, everett, density] = values.map(number);
-            writeln!(out, "{at:?},{indentation:?},{force},{everett},{density}")?;
-        }
-    }
-    Ok(())
+    let names = ["turning_indentation", "indentation", "force", "everett", "density"];
+    let points = |turn: usize| &map.points[..=map.below + turn];
+    let rows = map.turns().iter().enumerate().flat_map(|(turn, at)| {
+        points(turn).iter().enumerate().map(move |(point, indentation)| {
+            [
+                Cell::Real(*at),
+                Cell::Real(*indentation),
+                map.force(turn, point).into(),
+                map.everett(turn, point).into(),
+                map.density(turn, point, smoothing).into(),
+            ]
+        })
+    });
+    let count = (0..map.turns().len()).map(|turn| points(turn).len()).sum();
+    write_table(out, format, provenance, names.map(|name| (name, Column::Real)), count, rows)
 }
 
 /// The adhesion force over the preload, the Everett function and the density.
