@@ -148,7 +148,7 @@ pub const BINDINGS: &[Binding] = &[
     row(&[shift(KeyCode::Left), char('H')], LIST, step(-1, true), "", "decrease the value by a large step", PARAMETERS),
     row(&[shift(KeyCode::Right), char('L')], LIST, step(1, true), "", "increase the value by a large step", PARAMETERS),
     row(&[key(KeyCode::Enter), char('e')], LIST, Command::EditValue, "type", "type a value, with an optional prefix and unit: 2.5 MPa, 10 µm, 50m", PARAMETERS),
-    row(&VALUE_STARTS, VALUES, Command::StartValue('0'), "type", "type a value, while the pane of parameters is selected", PARAMETERS),
+    row(&VALUE_STARTS, VALUES, Command::StartValue('0'), "type", "type a number, while the pane of parameters is selected; not for a choice, a switch or a group", PARAMETERS),
     row(&[char('/')], EXPLORE, Command::FindParameter, "find", "find a parameter by letters of its name or symbol", PARAMETERS),
     row(&[char('Z')], LIST, Command::ToggleFold, "", "fold the group of the selected parameter, or unfold it", PARAMETERS),
     row(&[char('t')], LIST, Command::ToggleEffect, "on/off", "switch the effect of the selected row on or off", PARAMETERS),

@@ -15,8 +15,18 @@ use ratatui::layout::Rect;
 use ratatui::text::Line;
 
 /// Row of the pane.
-pub static ROW: PaneRow =
-    PaneRow { place: Place::CloseUp, title, draw, keys: Some(ModeKind::Crosshair), ..PaneRow::EMPTY };
+pub static ROW: PaneRow = PaneRow {
+    place: Place::CloseUp,
+    title,
+    draw,
+    keys: Some(ModeKind::Crosshair),
+    help: &[(
+        "Beside",
+        "&: profile and contact of the newest ghost at the same part of its loading, heights z on the axis of the profile \
+         above; below them both adhesion forces F_a with their ratio, and the changed parameters",
+    )],
+    ..PaneRow::EMPTY
+};
 
 /// Title of the pane.
 fn title(model: &Model) -> String {

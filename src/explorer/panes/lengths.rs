@@ -17,6 +17,11 @@ pub static ROW: PaneRow = PaneRow {
     place: Place::CloseUp,
     title: |_| " Fragments by length, log–log ".to_owned(),
     draw,
+    help: &[(
+        "Lengths",
+        "D: number n of contact patches over their length δx, both logarithmic; ○ is the patches in a step of length by √2 \
+         at the indentation shown, steps without patches are left out",
+    )],
     ..PaneRow::EMPTY
 };
 

@@ -36,6 +36,11 @@ pub static ROW: PaneRow = PaneRow {
         }
     },
     renew: |model| model.adhesion_spread = None,
+    help: &[(
+        "Spectrum",
+        "Q: power spectrum C over the wave number q, both logarithmic; below it, for a measured surface, rms height h, rms \
+         slope ⟨∇z⟩ and κ or e_el/γ with their standard errors, and the adhesion force F_a over random profiles",
+    )],
     ..PaneRow::EMPTY
 };
 

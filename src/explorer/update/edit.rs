@@ -107,9 +107,15 @@ fn fold(model: &mut Model, folds: bool) {
 /// Opens the editor on the selected value, which the first character typed replaces.
 fn edit_value(model: &mut Model, first: Option<char>) -> Vec<Effect> {
     if let Some(parameter) = model.parameter() {
+        let is_choice = matches!(parameter.field.range, Range::Choice(_));
         match parameter.setting {
-            // A number says nothing of a switch or a group.
-            Setting::Switch(_) | Setting::Heading if first.is_some() => {}
+            // A number is no value of these.
+            Setting::Switch(_) | Setting::Heading if first.is_some() => {
+                model.notice = Some(Notice::Done(way_of_changing(parameter)));
+            }
+            Setting::Field if first.is_some() && is_choice => {
+                model.notice = Some(Notice::Done(way_of_changing(parameter)));
+            }
             Setting::Switch(_) => return toggle(model),
             Setting::Heading => return obey(model, Command::ToggleFold),
             Setting::Field | Setting::RoughnessParameter(_) | Setting::WorkOfAdhesion => {
@@ -125,6 +131,17 @@ fn edit_value(model: &mut Model, first: Option<char>) -> Vec<Effect> {
     let mut effects = show_parameters(model);
     effects.extend(preview(model));
     effects
+}
+
+/// The way to change a parameter that has no number.
+fn way_of_changing(parameter: &Parameter) -> String {
+    let way = match (parameter.setting, parameter.field.step) {
+        (Setting::Switch(_), _) => "a switch: t changes it",
+        (Setting::Heading, _) => "a group: Enter folds it",
+        (_, Step::Choice) => "a choice: ← → change it",
+        _ => "a choice: Enter types it",
+    };
+    format!("{} is {way}", parameter.name())
 }
 
 /// Chooses the list of parameters where a small window does not show it: nothing is changed unseen.

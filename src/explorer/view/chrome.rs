@@ -5,7 +5,7 @@ use super::stages;
 use super::typed::typed;
 use super::wrap::{clipped, fitting, wrapped_within};
 use crate::accuracy::Target;
-use crate::analysis::contact_stiffness;
+use crate::analysis::{contact_stiffness, mean_pressure};
 use crate::contact::CurvePoint;
 use crate::explorer::action::{Command, Content, Traffic};
 use crate::explorer::completion::Completion;
@@ -22,7 +22,6 @@ use ratatui::Frame;
 use ratatui::layout::Rect;
 use ratatui::text::{Line, Span};
 use ratatui::widgets::Paragraph;
-use std::f64::consts::PI;
 
 /// Name of the scene, whether it has changed, and what to look at.
 pub fn title(frame: &mut Frame<'_>, area: Rect, model: &Model) {
@@ -188,8 +187,7 @@ fn response(model: &Model, snapshot: &ContactSnapshot) -> Vec<Part> {
     let stiffness =
         contact_stiffness(computed.outcome.governing.effective_modulus, snapshot.point.contact_length);
     let mut parts = vec![(" · ", format!("dF/dd {}", format_rounded(stiffness, 2, "N/m")), Meaning::Text)];
-    if snapshot.contact_radius > 0.0 {
-        let pressure = snapshot.point.force / (PI * snapshot.contact_radius * snapshot.contact_radius);
+    if let Some(pressure) = mean_pressure(snapshot.point.force, snapshot.contact_radius) {
         parts.push((" · ", format!("p_m {}", format_rounded(pressure, 2, "Pa")), Meaning::Text));
     }
     parts
