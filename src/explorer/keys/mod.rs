@@ -221,7 +221,7 @@ pub const BINDINGS: &[Binding] = &[
     row(&[char('o')], EXPLORE, Command::OpenLibrary, "open", "open a scene: built-in, your own, or by path; or the folder of a study", SCENE),
     row(DIGITS.split_at(1).1, OTHER_PANES, Command::Preset(0), "", "open a built-in scene by its number, unless the pane of parameters is selected", SCENE),
     row(&[char('s')], EXPLORE, Command::Save, "save", "save the scene to a file", SCENE),
-    row(&[char('E')], EXPLORE, Command::Export, "export", "export curve (.csv, .npy), figures (.json), panes (.svg, .txt) or the selected map", SCENE),
+    row(&[char('E')], EXPLORE, Command::Export, "export", "export curve (.csv, .npy), figures (.json), panes (.svg, .png, .txt) or the selected map", SCENE),
     row(&[char('y')], EXPLORE, Command::CopyCommand, "copy", "copy the command that opens the present scene", SCENE),
     row(&[char(':'), control('p')], EXPLORE, Command::OpenPalette, "commands", "find a command by letters of its description, and run it", SCENE),
     row(&[char('?'), key(KeyCode::F(1))], EXPLORE, Command::Help, "help", "show this help", SCENE),

@@ -8,7 +8,8 @@ use asperity::explorer::action::Content;
 use asperity::explorer::model::Mode;
 use asperity::explorer::theme::{Marker, Theme};
 use asperity::explorer::update::Effect;
-use asperity::explorer::{picture, svg_of};
+use asperity::draw::PictureFormat;
+use asperity::explorer::{picture, screenshot};
 use asperity::export::{TableFormat, write_curve, write_json};
 use asperity::scene::{Document, Provenance, TableContent, open, presets};
 use std::fs;
@@ -37,7 +38,8 @@ fn the_ending_of_a_name_tells_what_is_exported() {
             ("a.csv", Content::Curve(TableFormat::Csv)),
             ("a.npy", Content::Curve(TableFormat::Npy)),
             ("folder/b.JSON", Content::Outcome),
-            ("c.d.svg", Content::Picture),
+            ("c.d.svg", Content::Picture(PictureFormat::Svg)),
+            ("c.png", Content::Picture(PictureFormat::Png)),
             ("e.txt", Content::Text),
         ] {
             let mut driver = pressed("");
@@ -47,12 +49,12 @@ fn the_ending_of_a_name_tells_what_is_exported() {
             assert!(driver.status().contains(&format!("exported to {name}")), "{}", driver.status());
             assert!(!driver.model.is_unsaved() && !driver.model.finished);
         }
-        for name in ["a", "a.ron", "csv", "a.csv.gz", "a.png"] {
+        for name in ["a", "a.ron", "csv", "a.csv.gz", "a.gif"] {
             let mut driver = pressed("");
             assert!(export(&mut driver, Path::new(name)).is_empty(), "{name}");
             assert!(driver.files.is_empty());
             let said =
-                format!("{name}: the name must end in .csv, .npy, .json, .svg, .txt, to export the curve");
+                format!("{name}: the name must end in .csv, .npy, .json, .svg, .png, .txt, to export the curve");
             assert!(driver.status().contains(&said), "{}", driver.status());
         }
         // The name that is proposed is that of the scene.
@@ -180,7 +182,8 @@ fn the_picture_is_sound_and_shows_the_panes_without_the_prompt() {
             }
             assert!(!text.contains("Export to") && !text.contains("cancel"), "{marker:?}");
             driver.press("j k");
-            assert_eq!(written, svg_of(&driver.model), "the same screen gives the same file");
+            let again = screenshot(&driver.model, PictureFormat::Svg).unwrap();
+            assert_eq!(written.as_bytes(), again, "the same screen gives the same file");
         }
     });
 }
