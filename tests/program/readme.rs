@@ -8,6 +8,7 @@ mod public_items;
 pub mod scenes;
 
 use asperity::check::checks;
+use asperity::draw::PictureFormat;
 use asperity::explorer::demo::{Demo, ONE_SCENE};
 use asperity::explorer::theme::{Appearance, Marker, Theme};
 use asperity::explorer::{keys, screenshot};

@@ -115,7 +115,8 @@ mod tests {
     #[test]
     fn the_font_has_the_characters_of_figures() {
         let needed = "Az09 µγκδπ−·×±≤∇√°⁻¹²³…–“”éßЖ";
-        for (font, further) in [(Font::sans(), ""), (Font::mono(), "⟨⟩◇○◆▸▾›↑→⁰₀●")] {
+        for (font, further) in [(Font::sans(), ""), (Font::mono(), "⟨⟩◇○◆▸▾›↑→⁰₀●")]
+        {
             let font = font.unwrap();
             let missing: String =
                 needed.chars().chain(further.chars()).filter(|character| !font.has(*character)).collect();

@@ -383,8 +383,7 @@ fn chart(model: &Model, units: Units) -> Chart {
     let mut approximate = approximate(model, units);
     if !approximate.is_empty() {
         // Beyond the axes the estimate is left out: at the edge it would pass for a value.
-        let is_within =
-            |number, span: Span| (span.low..=span.high).contains(&units.scale.coordinate(number));
+        let is_within = |number, span: Span| (span.low..=span.high).contains(&units.scale.coordinate(number));
         for point in approximate.iter_mut().filter(|at| !(is_within(at.0, x) && is_within(at.1, y))) {
             *point = (f64::NAN, f64::NAN);
         }

@@ -95,7 +95,8 @@ impl<'a> Sheet<'a> {
         let lines = self.lines.into_iter().map(|((pen, colour), lines)| (lines.path(), colour, pen));
         let dots = self.dots.into_iter().map(|(colour, dots)| (dots.path(), colour, Pen::Dot));
         let drawn = |(path, colour, pen)| Part { path, colour, pen: Some(pen) };
-        let parts = areas.map(filled).chain(lines.chain(dots).map(drawn)).chain(self.marks.into_iter().map(filled));
+        let parts =
+            areas.map(filled).chain(lines.chain(dots).map(drawn)).chain(self.marks.into_iter().map(filled));
         (parts.filter(|part| !part.path.is_empty()).collect(), self.letters)
     }
 

@@ -51,6 +51,7 @@ mod tests {
     use ratatui::symbols::Marker;
     use ratatui::widgets::Block;
     use ratatui::widgets::canvas::{Canvas, Line};
+    use std::collections::BTreeMap;
 
     /// The elements between the background and the end, of a screen of one row.
     fn drawn(buffer: &Buffer) -> Vec<String> {

@@ -107,13 +107,8 @@ fn fold(model: &mut Model, folds: bool) {
 /// Opens the editor on the selected value, which the first character typed replaces.
 fn edit_value(model: &mut Model, first: Option<char>) -> Vec<Effect> {
     if let Some(parameter) = model.parameter() {
-        let is_choice = matches!(parameter.field.range, Range::Choice(_));
         match parameter.setting {
-            // A number is no value of these.
-            Setting::Switch(_) | Setting::Heading if first.is_some() => {
-                model.notice = Some(Notice::Done(way_of_changing(parameter)));
-            }
-            Setting::Field if first.is_some() && is_choice => {
+            _ if first.is_some() && !parameter.takes_number() => {
                 model.notice = Some(Notice::Done(way_of_changing(parameter)));
             }
             Setting::Switch(_) => return toggle(model),
@@ -139,7 +134,7 @@ fn way_of_changing(parameter: &Parameter) -> String {
         (Setting::Switch(_), _) => "a switch: t changes it",
         (Setting::Heading, _) => "a group: Enter folds it",
         (_, Step::Choice) => "a choice: ← → change it",
-        _ => "a choice: Enter types it",
+        _ => "no number: Enter types it",
     };
     format!("{} is {way}", parameter.name())
 }

@@ -3,7 +3,7 @@
 use super::found::marked;
 use super::stages;
 use super::typed::typed;
-use super::wrap::{clipped, fitting, wrapped_within};
+use super::wrap::{fitted, fitting, wrapped_within};
 use crate::accuracy::Target;
 use crate::analysis::{contact_stiffness, mean_pressure};
 use crate::contact::CurvePoint;
@@ -12,6 +12,7 @@ use crate::explorer::completion::Completion;
 use crate::explorer::keys::{self, Binding};
 use crate::explorer::mode::SaveForm;
 use crate::explorer::model::{Estimated, ManualState, Mode, ModeKind, Model, Notice, Pane};
+use crate::explorer::parameters::Parameter;
 use crate::explorer::snapshot::ContactSnapshot;
 use crate::explorer::text_line::TextLine;
 use crate::explorer::theme::Meaning;
@@ -39,9 +40,7 @@ pub fn title(frame: &mut Frame<'_>, area: Rect, model: &Model) {
 /// The headline figures, or a question, an error, or what is being typed.
 pub fn status(frame: &mut Frame<'_>, area: Rect, model: &Model) {
     let theme = model.appearance.theme;
-    let stated = |line: Line<'static>| {
-        if line.width() > usize::from(area.width) { clipped(line, area.width) } else { line }
-    };
+    let stated = |line: Line<'static>| fitted(line, area.width);
     let error = |text: String| stated(Line::styled(text, theme.style(Meaning::Error)));
     let prompted = |prompt: &str, line: &TextLine| {
         let prompt = Span::raw(prompt.to_owned());
@@ -91,6 +90,9 @@ pub fn status(frame: &mut Frame<'_>, area: Rect, model: &Model) {
     frame.render_widget(Paragraph::new(line), area);
 }
 
+/// Least columns of a status line with the error of F_a, beside which d and F have room.
+const WITH_ERROR: u16 = 48;
+
 /// F_a, regime, the state of the contact and its cost, the most important first, as far as there is room.
 fn headline(model: &Model, width: u16) -> Line<'static> {
     let Some(computed) = &model.computed else { return Line::raw("computing…") };
@@ -116,7 +118,9 @@ fn headline(model: &Model, width: u16) -> Line<'static> {
         // Where nothing pulls.
         part("  ", format!("F_max {}", format_quantity(largest, "N")), Meaning::Title);
     }
-    let error = error(model);
+    // In a narrow window the state of the contact comes first.
+    let is_narrow = width < WITH_ERROR;
+    let error = error(model).filter(|_| !is_narrow);
     if let Some(error) = error.as_ref().filter(|_| !is_manual) {
         part(" ", error.clone(), Meaning::Title);
     }
@@ -125,7 +129,8 @@ fn headline(model: &Model, width: u16) -> Line<'static> {
         (Some(snapshot), Some(state)) => {
             let of = if adhesion.is_some() { "F_a " } else { "" };
             let error = error.map(|error| (" · ", format!("{of}{error}"), Meaning::Text));
-            manual(model, snapshot, state).into_iter().chain(error).collect()
+            let title = if is_narrow { "" } else { "manual: " };
+            manual(model, snapshot, state, title).into_iter().chain(error).collect()
         }
         (snapshot, _) => mechanics(model, snapshot),
     };
@@ -141,10 +146,10 @@ fn headline(model: &Model, width: u16) -> Line<'static> {
 type Part = (&'static str, String, Meaning);
 
 /// The state under manual loading: what the move changed comes before what it led to.
-fn manual(model: &Model, snapshot: &ContactSnapshot, state: &ManualState) -> Vec<Part> {
+fn manual(model: &Model, snapshot: &ContactSnapshot, state: &ManualState, title: &str) -> Vec<Part> {
     let dissipated = format!("ΔW {}", format_rounded(state.dissipated_energy, 2, "J"));
     let mut parts = vec![
-        ("  ", format!("manual: {}", place(snapshot.point)), Meaning::Text),
+        ("  ", format!("{title}{}", place(snapshot.point)), Meaning::Text),
         (" · ", format!("{} changed", counted(state.changed, "spring")), Meaning::Text),
         (" · ", contact(snapshot.point), Meaning::Text),
         (" · ", dissipated, Meaning::Text),
@@ -311,6 +316,7 @@ fn footer_items(model: &Model) -> Vec<(String, &'static str)> {
     let is_shown = |row: &&Binding| match row.command {
         Command::ToggleManual => true,
         Command::Complete => can_complete(model),
+        Command::StartValue(_) => model.parameter().is_some_and(Parameter::takes_number),
         _ => !row.label.is_empty() && (model.manual.is_some() || !keys::is_manual(row)),
     };
     let mut rows: Vec<&Binding> = model.bindings.valid_in(model.keys()).filter(is_shown).collect();
