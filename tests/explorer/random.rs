@@ -3,6 +3,7 @@
 
 use super::common::deadline::within;
 use super::common::driver::{Driver, REFUSED};
+use super::common::effort::cases;
 use super::common::scenes::{changed, one_spring, punch, rough, smooth, without_adhesion};
 use super::common::study::PLAN;
 use super::common::study::merged;
@@ -22,7 +23,8 @@ use std::collections::VecDeque;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-const CASES: u32 = 1200;
+/// Sequences of events in a quick run.
+const CASES: u32 = 150;
 const LONGEST: usize = 60;
 
 /// Scenes with more springs or samples are not computed, but reported as failed.
@@ -321,7 +323,7 @@ impl Explorer {
 
 #[test]
 fn whatever_happens_it_draws_and_its_scene_is_sound() {
-    within(60, || {
+    within(400, || {
         let folder = tempfile::tempdir().unwrap();
         // Few values: the edges of the map are near.
         let plan = PLAN
@@ -330,13 +332,13 @@ fn whatever_happens_it_draws_and_its_scene_is_sound() {
             .replace("lines: 12", "lines: 2");
         merged(folder.path(), &plan);
         let scenes = scenes(folder.path());
-        let cases = (0..scenes.len(), size(), prop::collection::vec(event(), 1..=LONGEST));
+        let drawn = (0..scenes.len(), size(), prop::collection::vec(event(), 1..=LONGEST));
         let mut runner = TestRunner::new(Config {
             failure_persistence: None,
             max_shrink_time: 20_000,
-            ..Config::with_cases(CASES)
+            ..Config::with_cases(cases(CASES))
         });
-        let outcome = runner.run(&cases, |(scene, (columns, rows), events)| {
+        let outcome = runner.run(&drawn, |(scene, (columns, rows), events)| {
             let mut explorer = Explorer::new(scenes[scene].clone(), folder.path());
             explorer.act(Action::Resize(columns, rows));
             for event in &events {

@@ -254,6 +254,7 @@ fn the_figure_of_the_regimes_shows_them() {
 }
 
 #[test]
+#[ignore = "takes ten seconds or more; .ci/run runs it"]
 fn boundaries_are_those_of_the_program() {
     let folder = tempfile::tempdir().unwrap();
     let study = folder.path().join("edge");
@@ -264,6 +265,7 @@ fn boundaries_are_those_of_the_program() {
 }
 
 #[test]
+#[ignore = "takes ten seconds or more; .ci/run runs it"]
 fn spreads_of_boundaries_are_those_of_the_program() {
     let folder = tempfile::tempdir().unwrap();
     let study = folder.path().join("energy");
