@@ -200,10 +200,10 @@ pub fn closed_form_adhesion(scene: &Scene, outcome: &Outcome) -> Option<f64> {
     let (length, modulus) = (scene.length, outcome.governing.effective_modulus);
     let flat_pull_off = |width: f64| -(PI * width * work / modulus).sqrt();
     let form = scene.form.as_ref();
-    let (pull_off, widest) = match form {
-        None => (flat_pull_off(length), length),
-        Some(Form::Punch { radius }) if 2.0 * radius <= length => (flat_pull_off(2.0 * radius), length),
-        Some(form) => {
+    let (pull_off, widest) = match (form, form.and_then(Form::flat_end)) {
+        (None, _) => (flat_pull_off(length), length),
+        (_, Some(radius)) if 2.0 * radius <= length => (flat_pull_off(2.0 * radius), length),
+        (Some(form), _) => {
             let body = PowerLaw::of(form, modulus, work)?;
             let (radius, _) = body.force_controlled_pull_off();
             // An edge of the contact that has reached the edge of the line is no longer the body's own.

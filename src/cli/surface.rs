@@ -1,6 +1,6 @@
 //! `asperity surface`: measured surfaces, their statistics and spectrum, and the equivalent line.
 
-use super::scene::MOST_LINES;
+use super::scene::{MOST_LINES, threads};
 use super::{CliError, Format, OutputArguments};
 use crate::export::{
     Spectra, SurfaceAdhesion, SurfaceContact, SurfaceFile, surface_text, write_surface_json,
@@ -19,9 +19,7 @@ use crate::topography::{Missing, ReadOptions, Topography, Unit, read};
 use clap::{Args, ValueEnum};
 use std::error::Error;
 use std::io::Write;
-use std::num::NonZero;
 use std::path::{Path, PathBuf};
-use std::thread::available_parallelism;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -315,8 +313,7 @@ fn adhesion(
     };
     let solve = |lines: u32| {
         let line = EquivalentLine::from_spectra(vec![analysis.isotropic.clone()])?;
-        let threads = available_parallelism().map_or(1, NonZero::get);
-        Ok(MeasuredAdhesion::solve(&scene, &line, lines, threads)?)
+        Ok(MeasuredAdhesion::solve(&scene, &line, lines, threads(None))?)
     };
     let computed = arguments.lines.or(unasked).map(solve).transpose().map_err(failed)?;
     Ok(SurfaceAdhesion { scene, computed })

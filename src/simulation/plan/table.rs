@@ -2,7 +2,7 @@
 
 use super::call::{Call, Called, HEIGHT, StageCost};
 use crate::analysis::Figures;
-use crate::scene::{Effect, Form};
+use crate::scene::Effect;
 use serde::Serialize;
 
 /// Bytes for each spring: its indentation of attachment or detachment.
@@ -72,7 +72,7 @@ pub(super) const TABLE: [Row; 11] = [
         name: "form",
         called: |call| match call.scene.form {
             None => Called::Not("no form: nominally flat"),
-            Some(Form::Punch { .. }) => Called::For("form: the springs under the punch"),
+            Some(form) if form.flat_end().is_some() => Called::For("form: the springs under the punch"),
             Some(_) => Called::For("form"),
         },
         cost: |call| call.passes(Some(1), 0),
