@@ -3,12 +3,11 @@
 use super::AfterLeg;
 use crate::analysis::Figures;
 use crate::contact::{
-    AdhesiveMemory, ContactError, ContactTree, EdgeModel, Foundation, GridEdges, HessRule, History,
-    LegRecord, Solver, Stepwise, SubCellEdges, exact, run,
+    AdhesiveMemory, ContactError, ContactTree, Exact, Foundation, HessRule, History, LegRecord, Solver,
+    Stepwise, run,
 };
-use crate::scene::{Edges, Leg, Scene, Solver as SolverChoice};
+use crate::scene::{Leg, Scene, Solver as SolverChoice};
 use crate::surface::Line;
-use std::mem::take;
 use std::time::Instant;
 
 /// Parameters of the contact of one run.
@@ -58,43 +57,25 @@ impl ContactStage<'_> {
                 }
                 Ok(contacted)
             }
-            (SolverChoice::Exact, Some(hess), Some(tree)) => match self.scene.numerics.edges {
-                Edges::Grid => self.load_over(tree, GridEdges::new(hess), zero_load, memory, after),
-                Edges::SubCell => self.load_over(tree, SubCellEdges::new(hess), zero_load, memory, after),
-            },
-            (SolverChoice::Exact, _, _) => {
+            (SolverChoice::Exact, hess, tree) => {
                 let edges = self.scene.numerics.edges;
-                self.load(&mut exact::nonadhesive(gaps, edges, self.foundation, samples), after)
+                let mut body = Exact::new(memory, gaps, hess.zip(tree), edges, self.foundation, samples);
+                let contacted = self.load(&mut body, after).and_then(|mut contacted| {
+                    if zero_load && hess.is_some() {
+                        let clock = Instant::now();
+                        let (force, work) = body.pull_off_at_touch()?;
+                        contacted.history.work.add_effort(&work);
+                        // Not −F: that would make a force of zero negative.
+                        contacted.zero_load_adhesion_force =
+                            Some(force).filter(|&force| force <= 0.0).map(|force| 0.0 - force);
+                        contacted.zero_load_seconds = clock.elapsed().as_secs_f64();
+                    }
+                    Ok(contacted)
+                });
+                body.give_back(memory);
+                contacted
             }
         }
-    }
-
-    /// Runs the loading of an adhesive body and, if F_a(0) is asked for, pulls off the contact of its first touch.
-    fn load_over<E: EdgeModel>(
-        &self,
-        tree: &ContactTree,
-        edges: E,
-        zero_load: bool,
-        memory: &mut ContactMemory,
-        after: &mut AfterLeg<'_>,
-    ) -> Result<Contacted, ContactError> {
-        let samples = self.scene.numerics.samples as usize;
-        let mut body =
-            exact::adhesive_in(take(memory), &self.line.gaps, tree, edges, self.foundation, samples);
-        let contacted = self.load(&mut body, after).and_then(|mut contacted| {
-            if zero_load {
-                let clock = Instant::now();
-                let (force, work) = body.pull_off_at_touch()?;
-                contacted.history.work.add_effort(&work);
-                // Not −F: that would make a force of zero negative.
-                contacted.zero_load_adhesion_force =
-                    Some(force).filter(|&force| force <= 0.0).map(|force| 0.0 - force);
-                contacted.zero_load_seconds = clock.elapsed().as_secs_f64();
-            }
-            Ok(contacted)
-        });
-        *memory = body.into_memory();
-        contacted
     }
 
     /// Runs the loading of the scene.

@@ -3,11 +3,8 @@
 use super::stages::Prepared;
 use super::{Plan, RunError, Simulation};
 use crate::analysis::{MinorLoops, ReversalMap};
-use crate::contact::{
-    ContactError, ContactTree, EdgeModel, GridEdges, LegRecord, Reversal, Reversals, SubCellEdges, exact,
-};
-use crate::scene::{Edges, Leg, Scene, Solver as SolverChoice};
-use std::mem::take;
+use crate::contact::{ContactError, Exact, LegRecord, Reversal, Reversals};
+use crate::scene::{Leg, Scene, Solver as SolverChoice};
 use std::ops::RangeInclusive;
 
 /// Turning points of a map.
@@ -47,25 +44,18 @@ impl Simulation {
         let deepest = ends.last().copied().unwrap_or(Leg::ToTouch);
         let plan = Plan::of(&Scene { loading: vec![deepest, Leg::ToSeparation], ..scene.clone() });
         let interrupted = || if stop() { Err(ContactError::Interrupted) } else { Ok(()) };
-        let contact = self.prepare(&plan, scene, stop)?;
-        let (gaps, foundation) = (contact.line.gaps.as_slice(), contact.foundation);
+        let Prepared { line, tree, foundation, hess, memory } = self.prepare(&plan, scene, stop)?;
         let samples = scene.numerics.samples as usize;
         let mut see = |index, reversal| {
             see(index, reversal)?;
             interrupted()
         };
         let edges = scene.numerics.edges;
-        let Some((hess, tree)) = contact.hess.zip(contact.tree) else {
-            let body = exact::nonadhesive(gaps, edges, foundation, samples);
-            return Ok(Reversals::new(body, ends)?.each(points, &mut see)?);
-        };
-        match edges {
-            Edges::Grid => contact.reverse(tree, GridEdges::new(hess), samples, (ends, points), &mut see)?,
-            Edges::SubCell => {
-                contact.reverse(tree, SubCellEdges::new(hess), samples, (ends, points), &mut see)?
-            }
-        }
-        Ok(())
+        let body = Exact::new(memory, &line.gaps, hess.zip(tree), edges, foundation, samples);
+        let mut reversals = Reversals::new(body, ends)?;
+        let done = reversals.each(points, &mut see);
+        reversals.into_body().give_back(memory);
+        Ok(done?)
     }
 
     /// First-order reversal curves of a checked scene from so many turning points at equal distances, at indentations of
@@ -177,23 +167,4 @@ impl Simulation {
 /// Refuses a scene that asks for the stepwise solver.
 fn needs_exact_solver(scene: &Scene) -> Result<(), RunError> {
     if scene.numerics.solver == SolverChoice::Exact { Ok(()) } else { Err(RunError::NeedsExactSolver) }
-}
-
-impl Prepared<'_> {
-    /// Unloads an adhesive body from the ends of legs.
-    fn reverse<E: EdgeModel>(
-        self,
-        tree: &ContactTree,
-        edges: E,
-        samples: usize,
-        (ends, points): (&[Leg], &[f64]),
-        see: &mut SeeReversal<'_>,
-    ) -> Result<(), ContactError> {
-        let gaps = self.line.gaps.as_slice();
-        let body = exact::adhesive_in(take(self.memory), gaps, tree, edges, self.foundation, samples);
-        let mut reversals = Reversals::new(body, ends)?;
-        let done = reversals.each(points, see);
-        *self.memory = reversals.into_body().into_memory();
-        done
-    }
 }
