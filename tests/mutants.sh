@@ -47,7 +47,7 @@ surface)
     ;;
 analysis) below="contact io memory parallel scene spectrum surface text topography" ;;
 store)
-    own="study" files=(src/study/{store,done,other_plan,record,merge,tables,shard}.rs)
+    own="study" files=(src/study/{store,done,record,merge,tables,shard}.rs)
     below="analysis contact draw io memory parallel reference scene simulation spectrum surface text topography"
     above="accuracy check export" beside="engine/simulated_disk program/sweep"
     # The unfit ones start the program, which is not there, or do not always pass.
@@ -152,7 +152,7 @@ assemble() {
     cp Cargo.lock "$tree/"
 }
 
-export PROPTEST_RNG_SEED="${PROPTEST_RNG_SEED:-2012}" FUZZ_MUTATIONS="${FUZZ_MUTATIONS:-300}"
+export PROPTEST_RNG_SEED="${PROPTEST_RNG_SEED:-2012}" TEST_EFFORT="${TEST_EFFORT:-0.1}"
 # Where next to no draw is allowed any more, that shows soon; a case that fails need not be the smallest, and is not
 # tried on the next mutant.
 export PROPTEST_CASES="${PROPTEST_CASES:-24}" PROPTEST_MAX_LOCAL_REJECTS="${PROPTEST_MAX_LOCAL_REJECTS:-8000}"

@@ -1,8 +1,7 @@
 //! Interface between the exact solver and a contact model: thresholds, forces and extrema along one leg.
 
-use super::contact_state::{ContactState, Sampled};
+use super::contact_state::{ContactState, Extreme, Sampled};
 use super::grid::Grid;
-use super::interval::Extreme;
 use super::totals::ContactTotals;
 use super::{AdhesiveMemory, ContactError, LegView, Work};
 

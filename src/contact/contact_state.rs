@@ -1,4 +1,4 @@
-//! Contact at one indentation and along a grid of indentations.
+//! Contact at one indentation and along a grid of indentations, and bounds of the force between two of them.
 
 use super::grid::Grid;
 use super::totals::ContactTotals;
@@ -76,4 +76,46 @@ impl Sampled {
     pub fn ends(&self, interval: usize) -> (&ContactState, &ContactState) {
         (&self.states[interval], &self.states[interval + 1])
     }
+}
+
+/// The smallest or the largest force.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Extreme {
+    Smallest,
+    Largest,
+}
+
+impl Extreme {
+    /// Returns true for a contact with a smaller or a larger force than another one.
+    pub fn is_beyond(self, state: &ContactState, best: &ContactState) -> bool {
+        match self {
+            Extreme::Smallest => state.compression < best.compression,
+            Extreme::Largest => state.compression > best.compression,
+        }
+    }
+
+    /// Returns true where the bounds of the force between two indentations allow one beyond the best.
+    pub fn may_lie(self, low: &ContactState, high: &ContactState, best: &ContactState) -> bool {
+        match self {
+            Extreme::Smallest => lower_bound(low, high) < best.compression,
+            Extreme::Largest => upper_bound(low, high) > best.compression,
+        }
+    }
+}
+
+/// A bound below any force between two indentations.
+pub fn lower_bound(low: &ContactState, high: &ContactState) -> f64 {
+    let rise = (high.indentation - low.indentation) * high.length;
+    high.compression - rise - slack(low, high, rise)
+}
+
+/// A bound above.
+pub fn upper_bound(low: &ContactState, high: &ContactState) -> f64 {
+    let rise = (high.indentation - low.indentation) * high.length;
+    low.compression + rise + slack(low, high, rise)
+}
+
+/// Bound of the rounding of a bound.
+fn slack(low: &ContactState, high: &ContactState, rise: f64) -> f64 {
+    8.0 * f64::EPSILON * (low.compression.abs() + high.compression.abs() + rise)
 }

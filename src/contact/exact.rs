@@ -5,9 +5,8 @@
 
 use super::adhesive::{Adhesive, AdhesiveMemory, ContactTree, EdgeModel, GridEdges, SubCellEdges};
 use super::contact_model::{ContactModel, SEARCH_INTERVALS};
-use super::contact_state::{ContactState, Sampled};
+use super::contact_state::{ContactState, Extreme, Sampled};
 use super::grid::Grid;
-use super::interval::Extreme;
 use super::leg_plan::{Target, plan};
 use super::{
     ContactError, CurvePoint, Direction, Foundation, HessRule, LegRecord, LegView, Nonadhesive, Work,

@@ -3,7 +3,7 @@
 //! The interval is parted at its middle event until bounds exclude a part or nothing happens inside.
 
 use super::adhesive::{EdgeModel, Slider};
-use super::contact_state::ContactState;
+use super::contact_state::{ContactState, Extreme, lower_bound, upper_bound};
 use super::steady::{SteadyContact, state};
 use super::totals::{ContactTotals, GapScale};
 
@@ -33,48 +33,6 @@ pub struct Interval<E: EdgeModel> {
 
 /// Contact at the lowest and at the highest indentation of a part.
 pub type Ends<'s> = (&'s ContactState, &'s ContactState);
-
-/// The smallest or the largest force.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Extreme {
-    Smallest,
-    Largest,
-}
-
-impl Extreme {
-    /// Returns true for a contact with a smaller or a larger force than another one.
-    pub fn is_beyond(self, state: &ContactState, best: &ContactState) -> bool {
-        match self {
-            Extreme::Smallest => state.compression < best.compression,
-            Extreme::Largest => state.compression > best.compression,
-        }
-    }
-
-    /// Returns true where the bounds of the force between two indentations allow one beyond the best.
-    pub fn may_lie(self, low: &ContactState, high: &ContactState, best: &ContactState) -> bool {
-        match self {
-            Extreme::Smallest => lower_bound(low, high) < best.compression,
-            Extreme::Largest => upper_bound(low, high) > best.compression,
-        }
-    }
-}
-
-/// A bound below any force between two indentations.
-pub fn lower_bound(low: &ContactState, high: &ContactState) -> f64 {
-    let rise = (high.indentation - low.indentation) * high.length;
-    high.compression - rise - slack(low, high, rise)
-}
-
-/// A bound above.
-pub fn upper_bound(low: &ContactState, high: &ContactState) -> f64 {
-    let rise = (high.indentation - low.indentation) * high.length;
-    low.compression + rise + slack(low, high, rise)
-}
-
-/// Bound of the rounding of a bound.
-fn slack(low: &ContactState, high: &ContactState, rise: f64) -> f64 {
-    8.0 * f64::EPSILON * (low.compression.abs() + high.compression.abs() + rise)
-}
 
 impl<E: EdgeModel> Interval<E> {
     /// An interval with this contact at its lowest indentation, m.

@@ -11,10 +11,10 @@
 use super::HessRule;
 use super::adhesive::{EdgeCells, EdgeModel, EdgeSum, GridEdges, SubCellEdges};
 use super::contact_model::{ContactModel, Reversed};
-use super::contact_state::{ContactState, Sampled};
+use super::contact_state::{ContactState, Extreme, Sampled};
 use super::crossing::bisect;
 use super::grid::{CompensatedSum, Grid};
-use super::interval::{Extreme, Interval};
+use super::interval::Interval;
 use super::totals::{ContactTotals, GapScale};
 use super::{AdhesiveMemory, ContactError, LegView, Work, resized};
 use crate::scene::Edges;

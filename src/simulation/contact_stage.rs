@@ -44,9 +44,10 @@ impl ContactStage<'_> {
     ) -> Result<Contacted, ContactError> {
         let gaps = self.line.gaps.as_slice();
         let samples = self.scene.numerics.samples as usize;
-        match (self.scene.numerics.solver, self.hess, self.tree) {
-            (SolverChoice::Stepwise { step }, hess, _) => {
-                let body = |samples| Stepwise::new(gaps, hess, self.foundation, step, samples, self.stop);
+        match self.scene.numerics.solver {
+            SolverChoice::Stepwise { step } => {
+                let body =
+                    |samples| Stepwise::new(gaps, self.hess, self.foundation, step, samples, self.stop);
                 let mut contacted = self.load(&mut body(samples)?, after)?;
                 if zero_load {
                     let clock = Instant::now();
@@ -57,11 +58,10 @@ impl ContactStage<'_> {
                 }
                 Ok(contacted)
             }
-            (SolverChoice::Exact, hess, tree) => {
-                let edges = self.scene.numerics.edges;
-                let mut body = Exact::new(memory, gaps, hess.zip(tree), edges, self.foundation, samples);
+            SolverChoice::Exact => {
+                let mut body = self.body(memory);
                 let contacted = self.load(&mut body, after).and_then(|mut contacted| {
-                    if zero_load && hess.is_some() {
+                    if zero_load && self.hess.is_some() {
                         let clock = Instant::now();
                         let (force, work) = body.pull_off_at_touch()?;
                         contacted.history.work.add_effort(&work);
@@ -76,6 +76,14 @@ impl ContactStage<'_> {
                 contacted
             }
         }
+    }
+
+    /// The separated body of the exact solver; under adhesion it works in this memory.
+    pub fn body(&self, memory: &mut ContactMemory) -> Exact<'_> {
+        let numerics = &self.scene.numerics;
+        let adhesion = self.hess.zip(self.tree);
+        let samples = numerics.samples as usize;
+        Exact::new(memory, &self.line.gaps, adhesion, numerics.edges, self.foundation, samples)
     }
 
     /// Runs the loading of the scene.

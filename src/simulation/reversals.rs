@@ -3,7 +3,7 @@
 use super::stages::Prepared;
 use super::{Plan, RunError, Simulation};
 use crate::analysis::{MinorLoops, ReversalMap};
-use crate::contact::{ContactError, Exact, LegRecord, Reversal, Reversals};
+use crate::contact::{ContactError, LegRecord, Reversal, Reversals};
 use crate::scene::{Leg, Scene, Solver as SolverChoice};
 use std::ops::RangeInclusive;
 
@@ -44,15 +44,12 @@ impl Simulation {
         let deepest = ends.last().copied().unwrap_or(Leg::ToTouch);
         let plan = Plan::of(&Scene { loading: vec![deepest, Leg::ToSeparation], ..scene.clone() });
         let interrupted = || if stop() { Err(ContactError::Interrupted) } else { Ok(()) };
-        let Prepared { line, tree, foundation, hess, memory } = self.prepare(&plan, scene, stop)?;
-        let samples = scene.numerics.samples as usize;
+        let Prepared { contact, memory, .. } = self.prepare(&plan, scene, stop)?;
         let mut see = |index, reversal| {
             see(index, reversal)?;
             interrupted()
         };
-        let edges = scene.numerics.edges;
-        let body = Exact::new(memory, &line.gaps, hess.zip(tree), edges, foundation, samples);
-        let mut reversals = Reversals::new(body, ends)?;
+        let mut reversals = Reversals::new(contact.body(memory), ends)?;
         let done = reversals.each(points, &mut see);
         reversals.into_body().give_back(memory);
         Ok(done?)

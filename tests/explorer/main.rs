@@ -4,6 +4,7 @@
 mod common {
     pub mod deadline;
     pub mod driver;
+    pub mod effort;
     pub mod scenes;
     pub mod script;
     pub mod study;

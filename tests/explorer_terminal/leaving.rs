@@ -148,6 +148,7 @@ fn a_terminal_that_reads_nothing_keeps_no_signal_from_ending_it() {
 }
 
 #[test]
+#[ignore = "takes ten seconds or more; .ci/run runs it"]
 fn with_whatever_memory_there_is_the_terminal_is_given_back() {
     within(300, || {
         let (_, folder) = explorer();

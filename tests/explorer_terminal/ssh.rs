@@ -192,6 +192,7 @@ fn headline(rows: &[String]) -> Option<String> {
 }
 
 #[test]
+#[ignore = "takes ten seconds or more; .ci/run runs it"]
 fn a_whole_loop_is_edited_and_played_over_a_slow_line() {
     within(120, || {
         let Some(server) = Server::start() else { return };

@@ -1,17 +1,17 @@
 //! The properties of the fuzz targets on a plain toolchain: for all seeds, for all that fuzzing has found,
-//! and for some seconds' worth of mutations of both, the same ones each time.
+//! and for some thousand mutations of both, the same ones each time.
 //!
-//! `FUZZ_MUTATIONS=100000 cargo test --test fuzz corpus` tries so many for each target, and `FUZZ_SEED=7`
-//! others.
+//! `TEST_EFFORT=40 cargo test --test fuzz corpus` tries 100 000 mutations of each target, `FUZZ_SEED=7` others.
 
 use super::allocations;
+use super::effort::cases;
 use super::mutator::Mutator;
 use super::properties::{Property, TARGETS};
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::path::{Path, PathBuf};
 
-/// Mutations of each target where the environment does not say how many.
-const MUTATIONS: usize = 20_000;
+/// Mutations of each target in a quick run.
+const MUTATIONS: u32 = 2500;
 
 /// Longest input that is made up, bytes.
 const LONGEST: usize = 4_096;
@@ -80,9 +80,8 @@ fn replay_and_mutate(target: &str) {
         check(*property, name, input);
     }
     let inputs: Vec<Vec<u8>> = inputs.into_iter().map(|(_, input)| input).collect();
-    let mutations = from_environment("FUZZ_MUTATIONS").map_or(MUTATIONS, |number| number as usize);
     let mut mutator = Mutator::new(from_environment("FUZZ_SEED").unwrap_or(2012), &inputs, LONGEST);
-    for number in 0..mutations {
+    for number in 0..cases(MUTATIONS) {
         let input = mutator.next_input();
         check(*property, &format!("{target}, mutation {number}"), &input);
     }

@@ -3,6 +3,8 @@
 #[path = "../common/allocations.rs"]
 mod allocations;
 mod corpus;
+#[path = "../common/effort.rs"]
+mod effort;
 mod mutator;
 #[path = "../../fuzz/src/lib.rs"]
 mod properties;

@@ -1,17 +1,17 @@
 //! Storms of random input, drawn from the table of fields: texts of scenes, overrides, profiles, plans, and the
 //! runs of those that are allowed.
 //!
-//! `STORM_TIMES=100 cargo test --test fuzz storm` draws a hundred times as many; `PROPTEST_RNG_SEED=7` draws others.
+//! `TEST_EFFORT=800 cargo test --test fuzz storm` draws 800 times as many; `PROPTEST_RNG_SEED=7` draws others.
 
 mod plans;
 mod profiles;
 mod runs;
 #[allow(dead_code, reason = "unit tests of the scene use the rest")]
-#[path = "../../src/scene/strategies.rs"]
+#[path = "../common/strategies.rs"]
 mod strategies;
 mod texts;
 
-use super::properties;
+use super::{effort::cases, properties};
 // For the strategies, which name them as the room of the scene does.
 use asperity::scene::{
     DEFAULT, Document, End, FIELDS, Field, LEG_FORCE, LEG_INDENTATION, Range, Scene, find, is_control,
@@ -23,14 +23,10 @@ use strategies::Drawn;
 /// Most springs of a line that is computed.
 const MOST_POINTS: u64 = 2000;
 
-/// So many draws, times what the environment says.
-fn draws(draws: u32) -> ProptestConfig {
-    let times = std::env::var("STORM_TIMES").map_or(1, |times| match times.parse() {
-        Ok(times) => times,
-        Err(_) => panic!("STORM_TIMES = {times:?}: allowed: a whole number"),
-    });
+/// Draws of a quick run, times the effort.
+fn draws(quick: u32) -> ProptestConfig {
     ProptestConfig {
-        cases: draws.saturating_mul(times),
+        cases: cases(quick),
         failure_persistence: None,
         max_local_rejects: u32::MAX,
         max_global_rejects: u32::MAX,

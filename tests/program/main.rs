@@ -3,6 +3,7 @@
 #[path = "../common"]
 mod common {
     pub mod deadline;
+    pub mod effort;
 }
 mod cli;
 mod cost;

@@ -220,6 +220,7 @@ fn kill(signal: &str, processes: &[u32]) {
 }
 
 #[test]
+#[ignore = "takes ten seconds or more; .ci/run runs it"]
 fn a_cluster_gives_the_bytes_of_one_machine_even_when_programs_are_killed() {
     within(100, || {
         let Some(cluster) = Cluster::start() else { return };

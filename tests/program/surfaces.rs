@@ -84,6 +84,7 @@ fn assert_fit(fit: PowerLaw, spectrum: &Spectrum, has_roll_off: bool) {
 }
 
 #[test]
+#[ignore = "takes ten seconds or more; .ci/run runs it"]
 fn the_equivalent_line_of_generated_surfaces_is_theirs() {
     let mut table = String::from(
         "| roll-off | H | measured | h, % | ⟨∇z⟩, % | e_el, % |\n| --- | --- | --- | --- | --- | --- |\n",
@@ -117,6 +118,7 @@ fn the_equivalent_line_of_generated_surfaces_is_theirs() {
 
 /// Waves of a rough surface beyond the distance between points.
 #[test]
+#[ignore = "takes ten seconds or more; .ci/run runs it"]
 fn a_spectrum_that_continues_keeps_the_gradient_of_point_samples() {
     let mut table = String::from("| H | `Ends`, % | continued, % |\n| --- | --- | --- |\n");
     for hurst in [0.3, 0.5, 0.8] {

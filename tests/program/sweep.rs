@@ -1,5 +1,6 @@
 //! Parameter studies: what they give is what single runs give, whoever computes it and however it is ended.
 
+use super::common::effort::cases;
 use asperity::analysis::Regime;
 use asperity::scene::{Adhesion, Leg, Roughness, Scene};
 use asperity::simulation::{Outcome, Simulation};
@@ -299,6 +300,7 @@ fn cut(folder: &Folder, from: &Path, end: usize, into: &Path) -> Folder {
 }
 
 #[test]
+#[ignore = "takes ten seconds or more; .ci/run runs it"]
 fn every_prefix_of_a_file_is_a_subset_and_can_be_gone_on_from() {
     let text = SMALL.replace("lines: 3", "lines: 1").replace("count: 4", "count: 2");
     let plan = plan(&text);
@@ -326,7 +328,7 @@ fn every_prefix_of_a_file_is_a_subset_and_can_be_gone_on_from() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(64))]
+    #![proptest_config(ProptestConfig::with_cases(cases(8)))]
 
     #[test]
     fn damage_anywhere_never_makes_a_wrong_number(place in any::<prop::sample::Index>(), bit in 0..8_u8) {

@@ -33,9 +33,8 @@ use tree::TWO_THREADS;
 pub(in crate::contact) use tree::{Branch, Node};
 
 use super::contact_model::{ContactModel, Reversed, SEARCH_INTERVALS};
-use super::contact_state::{ContactState, Sampled};
+use super::contact_state::{ContactState, Extreme, Sampled};
 use super::grid::Grid;
-use super::interval::Extreme;
 use super::{ContactError, ContactTotals, Direction, LegView, Work};
 use crate::parallel::in_parallel;
 use dissipation::Range;

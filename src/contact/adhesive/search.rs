@@ -7,9 +7,9 @@
 use super::edge_model::EdgeModel;
 use super::run::{Ground, Run};
 use crate::contact::ContactError;
-use crate::contact::contact_state::{ContactState, Sampled};
+use crate::contact::contact_state::{ContactState, Extreme, Sampled, lower_bound, upper_bound};
 use crate::contact::grid::Grid;
-use crate::contact::interval::{Extreme, Interval, Piece, lower_bound, upper_bound};
+use crate::contact::interval::{Interval, Piece};
 
 /// Points of a grid from one to the next of those that are looked at first.
 const STRIDE: usize = 16;

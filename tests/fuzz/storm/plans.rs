@@ -8,10 +8,10 @@ use asperity::study::{
 };
 
 /// Plans that are read.
-const PLANS: u32 = 8000;
+const PLANS: u32 = 1000;
 
 /// Plans that are computed.
-const STUDIES: u32 = 200;
+const STUDIES: u32 = 25;
 
 /// Most records of a study that is computed, and most samples of a curve in it.
 const MOST_RECORDS: u64 = 60;

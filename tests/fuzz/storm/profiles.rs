@@ -7,7 +7,7 @@ use super::*;
 pub const FILE: &str = "profile.csv";
 
 /// Profiles.
-const PROFILES: u32 = 20_000;
+const PROFILES: u32 = 2500;
 
 /// Most rows of a profile that is drawn.
 const MOST_ROWS: usize = 40;

@@ -11,7 +11,7 @@ use std::path::Path;
 use std::time::{Duration, Instant};
 
 /// Scenes that are computed.
-const RUNS: u32 = 3000;
+const RUNS: u32 = 375;
 
 /// No scene of so few springs takes so long.
 const PATIENCE: Duration = Duration::from_secs(60);

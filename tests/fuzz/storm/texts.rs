@@ -4,9 +4,9 @@ use super::properties::{overrides, scene};
 use super::*;
 
 /// Texts of scenes.
-const SCENES: u32 = 4000;
+const SCENES: u32 = 500;
 /// Scenes with overrides.
-const OVERRIDES: u32 = 10_000;
+const OVERRIDES: u32 = 1250;
 /// Overrides of one scene.
 const MOST_OVERRIDES: usize = 3;
 

@@ -108,6 +108,7 @@ fn generation(folder: &Path, names: &[(String, [String; 3])]) -> Option<String> 
 }
 
 #[test]
+#[ignore = "takes ten seconds or more; .ci/run runs it"]
 fn killed_merges_leave_the_tables_of_one_merge() {
     // Large enough to be killed while it writes.
     let plan = plan(&SMALL.replace("lines: 3", "lines: 200").replace("count: 4", "count: 8"));
