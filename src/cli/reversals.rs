@@ -31,7 +31,6 @@ const MOST_LEVELS: i64 = 64;
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES)]
 pub struct ReversalsArguments {
-    /// The scene.
     #[command(flatten)]
     pub scene: SceneArguments,
     /// Turning points
@@ -54,7 +53,6 @@ pub struct ReversalsArguments {
     /// text, json, csv, svg or png; default: by the extension of FILE
     #[arg(long, value_parser = Format::parser(FORMATS), hide_possible_values = true)]
     pub format: Option<Format>,
-    /// Destination.
     #[command(flatten)]
     pub output: OutputArguments,
 }
