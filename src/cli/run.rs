@@ -1,6 +1,7 @@
 //! `asperity run`: computes a scene without a terminal.
 
 use super::preloads::parse_preloads;
+use super::reversals::{ReversalOptions, write_reversals};
 use super::scene::{MOST_LINES, compute, simulation_of, threads};
 use super::{
     Arguments, CliError, Command, Format, OutputArguments, SceneArguments, SurfaceArguments, line, surface,
@@ -12,7 +13,7 @@ use crate::export::{
     ContactSets, PreloadReport, ensemble_text, force_figure, summary, write_approximate_jkr, write_curve,
     write_ensemble_json, write_ensemble_table, write_json,
 };
-use crate::scene::{Document, Preloads, Scene, SpectraTable, TableContent, open_argument};
+use crate::scene::{Document, Preloads, ReversalContent, Scene, SpectraTable, TableContent, open_argument};
 use crate::simulation::Outcome;
 use crate::study;
 use crate::text::path_name;
@@ -96,13 +97,31 @@ pub struct RunArguments {
 const FORMATS: &[Format] = &[Format::Text, Format::Json, Format::Csv, Format::Npy, Format::Svg, Format::Png];
 
 impl RunArguments {
+    /// Returns true for results that have no table of preloads or reversals.
+    fn asks_for_more(&self) -> bool {
+        self.profile || self.fragments || self.approximate_jkr || !self.more.is_empty()
+    }
+
     /// Preloads and number of random profiles that are asked for, or those of a scene from a table of preloads.
     fn asked_preloads(&self, document: &Document) -> Option<(Preloads, Option<u32>)> {
-        let asks_for_more = self.profile || self.fragments || self.approximate_jkr || !self.more.is_empty();
         match (self.preloads, document.table_content()) {
             (Some(preloads), _) => Some((preloads, self.lines)),
-            (None, Some(TableContent::Preloads(preloads, lines))) if !asks_for_more => {
+            (None, Some(TableContent::Preloads(preloads, lines))) if !self.asks_for_more() => {
                 Some((preloads, self.lines.or(lines)))
+            }
+            _ => None,
+        }
+    }
+
+    /// Reversals of a scene from a table of them.
+    fn asked_reversals(&self, document: &Document, format: Format) -> Option<ReversalOptions> {
+        match document.table_content() {
+            Some(TableContent::Reversals(content))
+                if !self.asks_for_more() && self.lines.is_none() && self.tolerance.is_none() =>
+            {
+                // Only a table holds each point of the map.
+                let map_smoothing = content.map_smoothing.filter(|_| format.table().is_some());
+                Some(ReversalOptions::of_table(ReversalContent { map_smoothing, ..content }))
             }
             _ => None,
         }
@@ -162,6 +181,9 @@ pub(super) fn run(arguments: &RunArguments, stdout: &mut dyn Write) -> Result<()
     arguments.output.check()?;
     if let Some(asked) = arguments.asked_preloads(&document) {
         return over_preloads(arguments, &document, format, asked, stdout);
+    }
+    if let Some(options) = arguments.asked_reversals(&document, format) {
+        return write_reversals(&document, &options, format, &arguments.output, stdout);
     }
     if format.picture().is_some() {
         return arguments.output.write_figure(stdout, &figure(arguments, document)?, format);

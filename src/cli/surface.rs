@@ -11,13 +11,13 @@ use crate::scene::{
     Adhesion, Document, Leg, MOST_POINTS, Material, MeasuredHash, MeasuredHashError, Numerics, Provenance,
     Roughness, SCENE_VERSIONS, Scene, exact_quantity, named_from, parse_quantity,
 };
-use crate::simulation::RunError;
 use crate::spectrum::{Analysis, Detrend, End, Options, SpectrumError, analyse};
 use crate::study::MeasuredAdhesion;
 use crate::surface::EquivalentLine;
 use crate::text::path_name;
 use crate::topography::{Missing, ReadOptions, Topography, Unit, read};
 use clap::{Args, ValueEnum};
+use std::error::Error;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
@@ -307,14 +307,13 @@ fn adhesion(
     let scene = scene(arguments, Path::new(""), analysis, modulus)?;
     scene.check()?;
     let unasked = (scene.numerics.points <= MOST_SPRINGS).then_some(LINES);
-    let failed = |error| {
+    let failed = |error: Box<dyn Error + Send + Sync>| {
         let file = arguments.paths().next();
         CliError::named(file.map_or_else(String::new, |file| path_name(&file)), error)
     };
     let solve = |lines: u32| {
-        let line = EquivalentLine::from_spectra(vec![analysis.isotropic.clone()]).map_err(RunError::from)?;
-        let threads = threads(None);
-        MeasuredAdhesion::solve(&scene, &line, lines, threads)
+        let line = EquivalentLine::from_spectra(vec![analysis.isotropic.clone()])?;
+        Ok(MeasuredAdhesion::solve(&scene, &line, lines, threads(None))?)
     };
     let computed = arguments.lines.or(unasked).map(solve).transpose().map_err(failed)?;
     Ok(SurfaceAdhesion { scene, computed })

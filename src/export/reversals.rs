@@ -1,13 +1,13 @@
-//! First-order reversal curves of a scene as text, JSON, CSV and a figure.
+//! First-order reversal curves of a scene as text, JSON, tables and a figure.
 
 use super::preloads::{preload_axes, preload_layers, unloadings};
 use super::sheet::{Sheet, thinned};
-use super::table::{Column, Record, Value, write_csv};
+use super::table::{Column, Record, TableFormat, Value, write_table};
 use crate::analysis::{MinorLoops, ReversalMap};
 use crate::contact::Reversal;
 use crate::draw::{Axis, AxisScale, Chart, Figure, HeatMap, Ink, Label, Layer, Shape, Span};
 use crate::io::{object, write_json_value};
-use crate::scene::{Scene, format_quantity};
+use crate::scene::{Provenance, Scene, format_quantity};
 use crate::study::Preloaded;
 use crate::text::grouped;
 use std::io::{self, Write};
@@ -110,12 +110,17 @@ const COLUMNS: &[Column<Reversal>] = &[
     Column("dissipated_energy", Value::Real(|reversal| reversal.dissipated_energy)),
 ];
 
-/// Writes one row for each turning point, in SI units.
+/// Writes a table with one row for each turning point, in SI units.
 ///
 /// # Errors
 /// Those of `out`.
-pub fn write_reversals_csv(out: &mut (impl Write + ?Sized), map: &ReversalMap) -> io::Result<()> {
-    write_csv(out, COLUMNS, map.reversals.iter())
+pub fn write_reversals_table(
+    out: &mut (impl Write + ?Sized),
+    format: TableFormat,
+    provenance: &Provenance,
+    map: &ReversalMap,
+) -> io::Result<()> {
+    write_table(out, format, provenance, COLUMNS, map.reversals.len(), map.reversals.iter())
 }
 
 /// A turning point and an indentation, m; the values of the map there.
@@ -129,22 +134,26 @@ const MAP_COLUMNS: &[Column<MapPoint>] = &[
     Column("density", Value::Optional(|(_, values)| values[2])),
 ];
 
-/// Writes one row for each turning point and each indentation up to there, in SI units.
+/// Writes a table with one row for each turning point and each indentation up to there, in SI units.
 ///
 /// # Errors
 /// Those of `out`.
-pub fn write_reversal_map_csv(
+pub fn write_reversal_map_table(
     out: &mut (impl Write + ?Sized),
+    format: TableFormat,
+    provenance: &Provenance,
     map: &ReversalMap,
     smoothing: usize,
 ) -> io::Result<()> {
+    let points = |turn: usize| &map.points[..=map.below + turn];
     let rows = map.turns().iter().enumerate().flat_map(|(turn, &at)| {
-        map.points[..=map.below + turn].iter().enumerate().map(move |(point, &indentation)| {
+        points(turn).iter().enumerate().map(move |(point, &indentation)| {
             let density = map.density(turn, point, smoothing);
             ([at, indentation], [map.force(turn, point), map.everett(turn, point), density])
         })
     });
-    write_csv(out, MAP_COLUMNS, rows)
+    let count = (0..map.turns().len()).map(|turn| points(turn).len()).sum();
+    write_table(out, format, provenance, MAP_COLUMNS, count, rows)
 }
 
 /// The adhesion force over the preload, the Everett function and the density.
