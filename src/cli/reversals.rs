@@ -124,8 +124,8 @@ pub(super) fn write_reversals(
     let map = simulation.reversal_map(scene, turning, usize::from(options.count), &never).map_err(failed)?;
     let smoothing = usize::from(options.smoothing);
     if let Some(format) = format.table() {
-        let table = (document, scene, TableContent::Reversals(options.table_content()));
-        return output.write_table(stdout, table, |out, provenance| match options.map {
+        let content = TableContent::Reversals(options.table_content());
+        return output.write_table(stdout, (document, scene, content), |out, provenance| match options.map {
             true => write_reversal_map_table(out, format, provenance, &map, smoothing),
             false => write_reversals_table(out, format, provenance, &map),
         });
