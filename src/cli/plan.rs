@@ -20,7 +20,6 @@ stage while it runs.";
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES)]
 pub struct PlanArguments {
-    /// The scene.
     #[command(flatten)]
     pub scene: SceneArguments,
     /// A table, or one object.
