@@ -100,6 +100,38 @@ impl Solution {
     }
 }
 
+/// Quantity of a tolerance.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Target {
+    /// The adhesion force.
+    AdhesionForce,
+    /// The force curve, where nothing pulls; see [`ForceCurve::distance`].
+    Curve,
+}
+
+impl Target {
+    /// Name in words.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Target::AdhesionForce => "adhesion force",
+            Target::Curve => "force curve",
+        }
+    }
+
+    /// The quantity of a solution.
+    pub(super) fn of(solution: &Solution) -> Self {
+        if solution.adhesion_force.is_some() { Target::AdhesionForce } else { Target::Curve }
+    }
+
+    /// Relative difference of the quantity from a reference.
+    pub(super) fn difference(self, solution: &Solution, reference: &Solution) -> Option<f64> {
+        let errors = solution.errors(reference);
+        if self == Target::Curve { errors.curve } else { errors.adhesion_force }
+    }
+}
+
 /// |value − reference|/|reference|.
 pub(super) fn relative_error(value: f64, reference: f64) -> f64 {
     ((value - reference) / reference).abs()

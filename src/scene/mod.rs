@@ -81,7 +81,7 @@ pub use range::{End, Range};
 pub(crate) use read::describe_error;
 pub use roughness_parameter::RoughnessParameter;
 pub(crate) use suggest::nearest;
-pub use table_content::TableContent;
+pub use table_content::{ReversalContent, TableContent};
 pub use text::{Span, Text, Unreadable, line_column, ron_float, ron_string};
 pub use value::Value;
 pub use write::to_ron;
