@@ -99,7 +99,7 @@ fn is_unit(word: &str) -> bool {
 }
 
 /// Returns true where no line may end between two words: within a number with its thousands apart, and before its unit.
-fn belong_together(word: &str, next: &str) -> bool {
+pub(crate) fn belong_together(word: &str, next: &str) -> bool {
     let digits = next.trim_end_matches([',', ';', ':', '.', ')']);
     let is_group = digits.len() == 3 && digits.bytes().all(|byte| byte.is_ascii_digit());
     word.ends_with(|c: char| c.is_ascii_digit()) && (is_group || is_unit(next))

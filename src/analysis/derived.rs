@@ -52,6 +52,12 @@ pub fn contact_stiffness(effective_modulus: f64, contact_length: f64) -> f64 {
     effective_modulus * contact_length
 }
 
+/// Mean pressure F/(πa²), Pa, of a force F, N, on a circle of radius a, m; `None` without contact.
+#[must_use]
+pub fn mean_pressure(force: f64, contact_radius: f64) -> Option<f64> {
+    (contact_radius > 0.0).then(|| force / (PI * contact_radius * contact_radius))
+}
+
 /// Unit of forces E* h L, N, of a body of an rms height h, m, and a length L, m, under an effective modulus E*, Pa. Pohrt,
 /// Popov and Filippov (2012).
 #[must_use]
@@ -101,5 +107,6 @@ mod tests {
         let number = tabor_number(6.0, 3.0, 0.5, 2.0);
         assert!((number - 3.0).abs() < 1e-14, "{number}");
         assert_eq!((contact_stiffness(3.0, 2.0), force_unit(2.0, 3.0, 4.0)), (6.0, 24.0));
+        assert_eq!((mean_pressure(-PI, 0.5), mean_pressure(1.0, 0.0)), (Some(-4.0), None));
     }
 }

@@ -13,8 +13,8 @@ mod tabor;
 
 pub use approximate_jkr::{APPROXIMATE_JKR_ASSUMPTIONS, ApproximateJkr, ApproximatePoint};
 pub use derived::{
-    contact_stiffness, elastic_energy_ratio, force_unit, ideal_adhesion_force, roughness_adhesion_parameter,
-    tabor_number,
+    contact_stiffness, elastic_energy_ratio, force_unit, ideal_adhesion_force, mean_pressure,
+    roughness_adhesion_parameter, tabor_number,
 };
 pub use figures::Figures;
 pub use governing::Governing;

@@ -1,10 +1,13 @@
 //! `asperity demo`: the explorer plays by itself.
 
+use super::format::Format;
+use super::output::{OutputArguments, PICTURES};
 use super::{CliError, Overrides};
+use crate::draw::PictureFormat;
 use crate::explorer::demo::{Demo, ONE_SCENE, TOUR, play};
 use crate::explorer::picture::{Cast, text};
 use crate::explorer::theme::{Appearance, Marker, Theme};
-use crate::explorer::{FrameBytes, Screen, picture_of, svg_of};
+use crate::explorer::{FrameBytes, Screen, picture_of, screenshot};
 use crate::io::{check_writable, write_new};
 use crate::scene::{open_argument, presets};
 use clap::Args;
@@ -17,7 +20,7 @@ Examples:
   asperity demo rough-sphere                Watch one scene, pressed and pulled off
   asperity demo --frames --ascii | less     Read it, frame by frame
   asperity demo --cast tour.cast            Record it; asciinema play tour.cast plays it
-  asperity demo my-scene.ron --at 8 --svg screen.svg
+  asperity demo my-scene.ron --at 8 --picture screen.svg
                                             Take a picture of the screen after 8 seconds
 
 The same command gives the same frames, whenever and wherever it runs.";
@@ -63,9 +66,9 @@ pub struct DemoArguments {
     /// Print only the frame at so many seconds
     #[arg(long, value_name = "SECONDS", value_parser = seconds)]
     pub at: Option<f64>,
-    /// Write a picture to FILE, as SVG
-    #[arg(long, value_name = "FILE", requires = "at")]
-    pub svg: Option<PathBuf>,
+    /// Write a picture of the screen to FILE, .svg or .png
+    #[arg(long, alias = "svg", value_name = "FILE", requires = "at")]
+    pub picture: Option<PathBuf>,
     /// Overwrite FILE if it exists
     #[arg(long)]
     pub force: bool,
@@ -92,13 +95,22 @@ fn size(text: &str) -> Result<(u16, u16), String> {
     Ok((side(columns)?, side(rows)?))
 }
 
+/// Format and file of a picture, by its name.
+fn picture_file(path: PathBuf, force: bool) -> Result<(PictureFormat, OutputArguments), CliError> {
+    let output = OutputArguments { output: Some(path), force };
+    let format = output.format(None, PICTURES, Format::Svg)?;
+    output.check()?;
+    Ok((format.picture().unwrap_or(PictureFormat::Svg), output))
+}
+
 /// Plays the demo to where it is to go.
 pub(super) fn demo(arguments: &DemoArguments, stdout_: &mut dyn Write) -> Result<(), CliError> {
     let first = presets().first().map_or("", |preset| preset.name);
     let document = arguments.overrides.apply(open_argument(arguments.scene.as_deref().unwrap_or(first))?)?;
-    for file in arguments.cast.iter().chain(&arguments.svg) {
+    if let Some(file) = &arguments.cast {
         check_writable(file, arguments.force)?;
     }
+    let picture = arguments.picture.clone().map(|path| picture_file(path, arguments.force)).transpose()?;
     let name = arguments.scene.clone().unwrap_or_else(|| "tour".to_owned());
     let script = if arguments.scene.is_some() { ONE_SCENE } else { TOUR };
     let watched = !arguments.frames
@@ -106,7 +118,7 @@ pub(super) fn demo(arguments: &DemoArguments, stdout_: &mut dyn Write) -> Result
         && arguments.cast.is_none()
         && stdout().is_terminal()
         && io::stdin().is_terminal();
-    let recorded = arguments.cast.is_some() || arguments.svg.is_some();
+    let recorded = arguments.cast.is_some() || arguments.picture.is_some();
     let environment = Appearance::of_environment();
     let appearance = Appearance {
         // A file does not depend on where it was made.
@@ -124,9 +136,10 @@ pub(super) fn demo(arguments: &DemoArguments, stdout_: &mut dyn Write) -> Result
     if let Some(at) = arguments.at {
         while demo.advance().is_some_and(|seconds| seconds + 1e-9 < at) {}
         let model = demo.model();
-        return match &arguments.svg {
-            Some(file) => {
-                Ok(write_new(file, arguments.force, |out| out.write_all(svg_of(model).as_bytes()))?)
+        return match picture {
+            Some((format, output)) => {
+                let picture = screenshot(model, format)?;
+                output.write(stdout_, |out| out.write_all(&picture))
             }
             None => Ok(stdout_.write_all(text(&picture_of(model)).as_bytes())?),
         };

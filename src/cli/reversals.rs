@@ -128,10 +128,9 @@ pub(super) fn write_reversals(
     let smoothing = usize::from(options.smoothing);
     if let Some(format) = format.table() {
         let content = TableContent::Reversals(options.table_content());
-        let provenance = output.provenance(document, scene, content)?;
-        return output.write(stdout, |out| match options.map {
-            true => write_reversal_map_table(out, format, &provenance, &map, smoothing),
-            false => write_reversals_table(out, format, &provenance, &map),
+        return output.write_table(stdout, (document, scene, content), |out, provenance| match options.map {
+            true => write_reversal_map_table(out, format, provenance, &map, smoothing),
+            false => write_reversals_table(out, format, provenance, &map),
         });
     }
     let loops = match usize::from(options.loops) {

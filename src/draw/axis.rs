@@ -41,9 +41,19 @@ impl Axis {
     /// Label with the prefixed unit in brackets.
     #[must_use]
     pub fn label_with_unit(&self) -> Label {
+        self.with_unit(self.label.clone())
+    }
+
+    /// Symbol with the prefixed unit in brackets; the label where the axis has no symbol.
+    #[must_use]
+    pub fn symbol_with_unit(&self) -> Label {
+        self.with_unit(self.label.without_name())
+    }
+
+    fn with_unit(&self, label: Label) -> Label {
         match self.prefix().1 {
-            unit if unit.is_empty() => self.label.clone(),
-            unit => self.label.clone().then(&format!(" ({unit})")),
+            unit if unit.is_empty() => label,
+            unit => label.then(&format!(" ({unit})")),
         }
     }
 
@@ -65,6 +75,9 @@ mod tests {
         assert_eq!(axis.share(0.1), 0.5);
         assert!(!axis.share(0.0).is_finite() && !axis.share(-1.0).is_finite());
         assert_eq!(axis.label_with_unit().to_string(), "preload F_n (N)");
+        assert_eq!(axis.symbol_with_unit().to_string(), "F_n (N)");
+        let unnamed = Axis::new(AxisScale::Linear, span, "relative error", "", "1");
+        assert_eq!(unnamed.symbol_with_unit(), unnamed.label_with_unit());
         let axis = Axis::new(AxisScale::Linear, Span { low: -3e-6, high: 1e-6 }, "", "F", "N");
         assert_eq!(axis.label_with_unit().to_string(), "F (µN)");
         let labels: Vec<_> = axis.ticks(5).into_iter().filter_map(|tick| tick.label).collect();

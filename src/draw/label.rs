@@ -61,6 +61,17 @@ impl Label {
         if symbol.is_empty() { Label::plain(name) } else { Label::symbol(symbol) }
     }
 
+    /// The symbol of a quantity that has a name and a symbol; else the whole label.
+    #[must_use]
+    pub fn without_name(&self) -> Label {
+        match self.runs.split_first() {
+            Some(((Face::Upright, name), rest)) if name.ends_with(' ') && !rest.is_empty() => {
+                Label { runs: rest.to_vec() }
+            }
+            _ => self.clone(),
+        }
+    }
+
     /// A statement such as `H = 0.3`: a symbol before ` = `, upright text after it.
     #[must_use]
     pub fn statement(text: &str) -> Label {

@@ -22,6 +22,8 @@ pub use colour::{Ink, Palette, Rgb, hex, ink_on, shade};
 pub use label::{Label, prefixed, short, value_label};
 pub use picture::{Document, escaped};
 #[cfg(feature = "tui")]
+pub(crate) use picture::{Font, Pixels};
+#[cfg(feature = "tui")]
 pub use picture::{PictureFormat, PngError};
 pub use scale::{AxisScale, Span};
 pub use ticks::Tick;

@@ -81,8 +81,8 @@ pub enum Content {
     Curve(TableFormat),
     /// Everything that was computed, in JSON.
     Outcome,
-    /// The panes as a picture, in SVG.
-    Picture,
+    /// The panes as a picture.
+    Picture(PictureFormat),
     /// The panes as plain text.
     Text,
     /// The cells of the map, or of its sections, as comma-separated values.
@@ -93,11 +93,12 @@ pub enum Content {
 
 impl Content {
     /// Contents that can be exported, by the extension of the file.
-    pub const EXPORTS: [(&'static str, Content); 5] = [
+    pub const EXPORTS: [(&'static str, Content); 6] = [
         ("csv", Content::Curve(TableFormat::Csv)),
         ("npy", Content::Curve(TableFormat::Npy)),
         ("json", Content::Outcome),
-        ("svg", Content::Picture),
+        ("svg", Content::Picture(PictureFormat::Svg)),
+        ("png", Content::Picture(PictureFormat::Png)),
         ("txt", Content::Text),
     ];
 

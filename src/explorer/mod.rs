@@ -55,4 +55,4 @@ pub use opening::{Opening, OpeningError};
 pub use screen::{FrameBytes, Screen};
 pub use session::{Draw, FRAME_RATE, Options, SessionEnd, open, open_with};
 pub use signals::end_by;
-pub use writing::{picture_of, scene_file, svg_of, write};
+pub use writing::{picture_of, scene_file, screenshot, write};

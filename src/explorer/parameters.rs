@@ -64,6 +64,13 @@ impl Parameter {
         }
     }
 
+    /// True if its value is typed as a number.
+    #[must_use]
+    pub fn takes_number(&self) -> bool {
+        let has_value = !matches!(self.setting, Setting::Switch(_) | Setting::Heading);
+        has_value && !matches!(self.field.range, Range::Choice(_) | Range::List { .. })
+    }
+
     /// The first row of its group.
     #[must_use]
     pub fn is_head(&self) -> bool {

@@ -1,6 +1,7 @@
 //! Panes that are shown, the selected one of them, and the keys and exports that are valid there.
 
 use super::action::Content;
+use super::layout::Layout;
 use super::mode::ModeKind;
 use super::model::Model;
 use super::panes::{Pane, Place};
@@ -23,7 +24,8 @@ impl Model {
         self.panes().contains(&pane)
     }
 
-    /// Shows a pane in its place. A pane in the place of the close-up is selected where that was, any other always.
+    /// Shows a pane in its place. A pane in the place of the close-up is selected where that was or where it would be out of
+    /// sight, any other always.
     pub fn show(&mut self, pane: Pane) {
         let is_same_place = self.pane == self.lower;
         match pane.row().place {
@@ -31,7 +33,9 @@ impl Model {
             Place::CloseUp => (self.large, self.lower) = (None, pane),
             Place::Large => (self.large, self.edited) = (Some(pane), false),
         }
-        if pane.row().place != Place::CloseUp || is_same_place {
+        // A small window has room for the selected pane alone.
+        let has_room = Layout::of(self).pane(pane).is_some();
+        if pane.row().place != Place::CloseUp || is_same_place || !has_room {
             self.pane = pane;
         }
         self.keep_selection();

@@ -3,10 +3,10 @@
 use super::action::{Content, WriteFailure, Written};
 use super::model::{Mode, Model, Notice};
 use super::panes;
-use super::picture::{svg, text};
+use super::picture::{png, svg, text};
 use super::theme::Theme;
 use super::view;
-use crate::draw::Palette;
+use crate::draw::{Palette, PictureFormat, PngError};
 use crate::export::{write_curve, write_json, write_map};
 use crate::io::{WriteError, check_file_name, write_new_file};
 use crate::scene::{MeasuredHash, Provenance, TableContent};
@@ -68,7 +68,7 @@ fn write_content(file: &mut dyn Write, model: &Model, path: &Path, content: Cont
             let estimate = model.appraisal.estimate();
             write_json(file, model.document.scene(), &computed()?.outcome, None, estimate)
         }
-        Content::Picture => file.write_all(svg_of(model).as_bytes()),
+        Content::Picture(format) => file.write_all(&screenshot(model, format).map_err(io::Error::other)?),
         Content::MapCells => {
             let map_model = model.chart.map_model().ok_or_else(no_map)?;
             write_map(file, map_model, model.chart.sections.then(|| panes::section_cell(model, map_model)))
@@ -82,13 +82,21 @@ fn write_content(file: &mut dyn Write, model: &Model, path: &Path, content: Cont
     }
 }
 
-/// The screen as a picture in SVG, on a background that suits its colours.
-#[must_use]
-pub fn svg_of(model: &Model) -> String {
-    let name = Path::new(model.document.name()).file_stem().unwrap_or_default();
-    let title = format!("Asperity: {}", name.to_string_lossy());
+/// The screen as the file of a picture, on a background that suits its colours.
+///
+/// # Errors
+/// For a picture of more pixels than are allowed.
+pub fn screenshot(model: &Model, format: PictureFormat) -> Result<Vec<u8>, PngError> {
     let palette = if model.appearance.theme == Theme::Light { Palette::LIGHT } else { Palette::DARK };
-    svg(&picture_of(model), &palette, &title)
+    let screen = picture_of(model);
+    match format {
+        PictureFormat::Svg => {
+            let name = Path::new(model.document.name()).file_stem().unwrap_or_default();
+            let title = format!("Asperity: {}", name.to_string_lossy());
+            Ok(svg(&screen, &palette, &title).into_bytes())
+        }
+        PictureFormat::Png => png(&screen, &palette),
+    }
 }
 
 /// The screen as it is without any question or line of text.

@@ -26,6 +26,7 @@ mod preloads;
 mod saving;
 mod sizes;
 mod spectrum;
+mod stand_in;
 mod study;
 mod typing;
 mod windows;

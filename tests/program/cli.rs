@@ -844,6 +844,12 @@ fn one_moment_of_a_demo_is_printed_or_drawn() {
         assert!(told.contains("--force overwrites it"), "{told}");
         done(&["demo", "jkr-sphere", "--at", "9", "--svg", path, "--force"]);
         assert_ne!(fs::read_to_string(&file).unwrap(), first);
+        let pixels = folder.path().join("screen.png");
+        done(&["demo", "jkr-sphere", "--at", "3", "--picture", pixels.to_str().unwrap()]);
+        assert!(fs::read(&pixels).unwrap().starts_with(b"\x89PNG"));
+        let other = folder.path().join("screen.gif");
+        let told = failed(1, &["demo", "jkr-sphere", "--at", "3", "--picture", other.to_str().unwrap()]);
+        assert!(told.contains(".svg, .png") && !other.exists(), "{told}");
     });
 }
 

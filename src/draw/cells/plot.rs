@@ -15,7 +15,7 @@ use ratatui::widgets::canvas::Canvas;
 use std::ops::RangeInclusive;
 
 /// Least size of an area whose plot has a scale on the left: columns and rows.
-pub(super) const WITH_LEFT_SCALE: (u16, u16) = (30, 6);
+pub(super) const WITH_LEFT_SCALE: (u16, u16) = (26, 6);
 /// Least rows of an area whose plot has a scale below, and those of one with a line between plot and scale.
 const WITH_SCALE_BELOW: u16 = 5;
 const WITH_LINE_BELOW: u16 = 12;
@@ -277,7 +277,11 @@ fn numbers_at(
 
 /// Columns of a plot of this width with their numbers, and the label of the axis.
 fn scale_below(chart: &Chart, width: u16, marker: Marker) -> (Vec<(u16, String)>, String) {
-    let label = chart.x.label_with_unit().to_string();
+    let mut label = chart.x.label_with_unit().to_string();
+    // Numbers say more than a name.
+    if 2 * label.chars().count() > usize::from(width) {
+        label = chart.x.symbol_with_unit().to_string();
+    }
     if let Some(map) = chart.map() {
         return (map::column_labels(&chart.x, map, width), label);
     }
@@ -289,7 +293,7 @@ fn scale_below(chart: &Chart, width: u16, marker: Marker) -> (Vec<(u16, String)>
     let end = usize::from(width).saturating_sub(label.chars().count() + 1);
     let is_seen =
         |(column, text): &(u16, String)| usize::from(*column) + text.chars().count().div_ceil(2) <= end;
-    let mut numbers = numbers_at(&chart.x, fewest..=fewest.max(usize::from(width / 6)), place, is_seen);
+    let mut numbers = numbers_at(&chart.x, fewest..=fewest.max(usize::from(width / 4)), place, is_seen);
     numbers.retain(|(column, _)| *column < width);
     (numbers, label)
 }

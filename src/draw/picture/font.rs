@@ -1,29 +1,48 @@
-//! Letters of pictures that are made of pixels: outlines of one sans-serif font, the same on every machine.
+//! Letters of pictures that are made of pixels: outlines of two fonts, the same on every machine.
 
 use super::canvas::set;
+use super::png::PngError;
 use crate::draw::label::{Face as Set, Label};
 use tiny_skia::{Path, PathBuilder, Transform};
 use ttf_parser::{Face, OutlineBuilder};
 
-/// Latin, Greek, Cyrillic and mathematical characters; see LICENSE beside the file.
-const FONT: &[u8] = include_bytes!("font/sans.ttf");
+/// Latin, Greek, Cyrillic and mathematical characters; see LICENSE beside the files.
+const SANS: &[u8] = include_bytes!("font/sans.ttf");
+/// Characters of one width, with arrows and geometric shapes.
+const MONO: &[u8] = include_bytes!("font/mono.ttf");
 /// Slope of italics.
 const SLANT: f32 = 0.2;
 
-/// The font.
-pub(super) struct Font {
+/// A font.
+pub(crate) struct Font {
     face: Face<'static>,
 }
 
 impl Font {
-    /// Reads the font; `None` where the outlines cannot be read.
-    pub(super) fn new() -> Option<Font> {
-        Face::parse(FONT, 0).ok().map(|face| Font { face })
+    /// The sans-serif font of figures.
+    ///
+    /// # Errors
+    /// Where the outlines cannot be read.
+    pub(super) fn sans() -> Result<Font, PngError> {
+        Font::read(SANS)
+    }
+
+    /// The font of one width of screens.
+    ///
+    /// # Errors
+    /// Where the outlines cannot be read.
+    pub(crate) fn mono() -> Result<Font, PngError> {
+        Font::read(MONO)
+    }
+
+    fn read(file: &'static [u8]) -> Result<Font, PngError> {
+        let failed = |error: ttf_parser::FaceParsingError| PngError::Encoding(error.to_string());
+        Ok(Font { face: Face::parse(file, 0).map_err(failed)? })
     }
 
     /// Outlines of a label, the base line at y = 0 from x = 0 on, with their width. A character that the font does not
     /// have is a box.
-    pub(super) fn outlines(&self, label: &Label, size: f64) -> (Option<Path>, f64) {
+    pub(crate) fn outlines(&self, label: &Label, size: f64) -> (Option<Path>, f64) {
         let mut outlines = Outlines { path: PathBuilder::new(), place: Transform::identity() };
         let mut x = 0.0;
         for (face, text) in label.runs() {
@@ -95,16 +114,20 @@ mod tests {
 
     #[test]
     fn the_font_has_the_characters_of_figures() {
-        let font = Font::new().unwrap();
         let needed = "Az09 µγκδπ−·×±≤∇√°⁻¹²³…–“”éßЖ";
-        let missing: String = needed.chars().filter(|character| !font.has(*character)).collect();
-        assert_eq!(missing, "");
-        assert!(!font.has('汉'));
+        for (font, further) in [(Font::sans(), ""), (Font::mono(), "⟨⟩◇○◆▸▾›↑→⁰₀●")]
+        {
+            let font = font.unwrap();
+            let missing: String =
+                needed.chars().chain(further.chars()).filter(|character| !font.has(*character)).collect();
+            assert_eq!(missing, "");
+            assert!(!font.has('汉'));
+        }
     }
 
     #[test]
     fn labels_are_about_as_wide_as_the_layout_expects() {
-        let font = Font::new().unwrap();
+        let font = Font::sans().unwrap();
         for label in [Label::plain("adhesion force"), Label::symbol("F_a,max"), Label::power_of_ten(-12)] {
             let (path, width) = font.outlines(&label, 10.0);
             assert!((0.75..1.3).contains(&(width / (10.0 * label.width()))), "{label}: {width}");

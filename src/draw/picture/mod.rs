@@ -12,6 +12,10 @@ mod png;
 mod svg;
 
 #[cfg(feature = "tui")]
+pub(crate) use font::Font;
+#[cfg(feature = "tui")]
+pub(crate) use png::Pixels;
+#[cfg(feature = "tui")]
 pub use png::PngError;
 pub use svg::{Document, escaped};
 

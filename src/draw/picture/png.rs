@@ -38,32 +38,46 @@ pub enum PngError {
     Encoding(String),
 }
 
-/// A picture as pixels.
-pub(super) struct Raster {
-    pixels: Pixmap,
-    font: Font,
-}
+/// A picture as pixels, drawn in px.
+pub(crate) struct Pixels(Pixmap);
 
-impl Raster {
+impl Pixels {
     /// An empty picture of the size in px.
-    pub(super) fn new(width: f64, height: f64) -> Result<Raster, PngError> {
+    ///
+    /// # Errors
+    /// For more pixels than are allowed, before they are stored.
+    pub(crate) fn new(width: f64, height: f64) -> Result<Pixels, PngError> {
         let [width, height] = [width, height].map(|side| (SCALE * side).ceil());
         let too_large = PngError::TooLarge { width, height };
         // Not a number is no size either.
         if (width * height).is_nan() || width * height > MOST_PIXELS {
             return Err(too_large);
         }
-        let font = Font::new().ok_or_else(|| PngError::Encoding("the font cannot be read".to_owned()))?;
-        let pixels = Pixmap::new(width as u32, height as u32).ok_or(too_large)?;
-        Ok(Raster { pixels, font })
+        Ok(Pixels(Pixmap::new(width as u32, height as u32).ok_or(too_large)?))
+    }
+
+    /// Fills a path, `smooth` with borders between pixels.
+    pub(crate) fn fill(&mut self, path: Option<Path>, colour: Rgb, opacity: f64, smooth: bool) {
+        let Some(path) = path else { return };
+        let paint = Paint { anti_alias: smooth, ..paint(colour, opacity) };
+        self.0.fill_path(&path, &paint, FillRule::Winding, scale(), None);
+    }
+
+    /// Draws a path with a pen.
+    pub(crate) fn stroke(&mut self, path: Option<Path>, colour: Rgb, stroke: &Stroke) {
+        let Some(path) = path else { return };
+        self.0.stroke_path(&path, &paint(colour, 1.0), stroke, scale(), None);
     }
 
     /// The picture as a file.
-    pub(super) fn finish(self) -> Result<Vec<u8>, PngError> {
-        let (width, height) = (self.pixels.width(), self.pixels.height());
+    ///
+    /// # Errors
+    /// When the data cannot be packed.
+    pub(crate) fn finish(self) -> Result<Vec<u8>, PngError> {
+        let (width, height) = (self.0.width(), self.0.height());
         let mut rows = ZlibEncoder::new(Vec::new(), Compression::default());
         let mut encode = || -> std::io::Result<()> {
-            for row in self.pixels.data().chunks_exact(4 * width as usize) {
+            for row in self.0.data().chunks_exact(4 * width as usize) {
                 // No filter: large areas of one colour are packed as they are.
                 let mut line = vec![0];
                 line.extend(row.chunks_exact(4).flat_map(|pixel| [pixel[0], pixel[1], pixel[2]]));
@@ -83,20 +97,6 @@ impl Raster {
         chunk(&mut file, *b"IDAT", &packed);
         chunk(&mut file, *b"IEND", &[]);
         Ok(file)
-    }
-
-    fn fill(&mut self, path: Option<Path>, colour: Rgb, opacity: f64, smooth: bool) {
-        let Some(path) = path else { return };
-        let paint = Paint { anti_alias: smooth, ..paint(colour, opacity) };
-        self.pixels.fill_path(&path, &paint, FillRule::Winding, scale(), None);
-    }
-
-    fn stroke(&mut self, path: Option<Path>, pen: Pen, join: LineJoin) {
-        let Some(path) = path else { return };
-        let dash = pen.dashes().and_then(|(dash, gap)| StrokeDash::new(vec![dash as f32, gap as f32], 0.0));
-        let width = pen.width as f32;
-        let stroke = Stroke { width, dash, line_cap: LineCap::Butt, line_join: join, ..Stroke::default() };
-        self.pixels.stroke_path(&path, &paint(pen.colour, 1.0), &stroke, scale(), None);
     }
 }
 
@@ -136,21 +136,46 @@ fn through(places: &[Place], closed: bool) -> Option<Path> {
     path.finish()
 }
 
+/// A figure as pixels.
+pub(super) struct Raster {
+    pixels: Pixels,
+    font: Font,
+}
+
+impl Raster {
+    /// An empty picture of the size in px.
+    pub(super) fn new(width: f64, height: f64) -> Result<Raster, PngError> {
+        Ok(Raster { pixels: Pixels::new(width, height)?, font: Font::sans()? })
+    }
+
+    /// The picture as a file.
+    pub(super) fn finish(self) -> Result<Vec<u8>, PngError> {
+        self.pixels.finish()
+    }
+
+    fn draw(&mut self, path: Option<Path>, pen: Pen, join: LineJoin) {
+        let dash = pen.dashes().and_then(|(dash, gap)| StrokeDash::new(vec![dash as f32, gap as f32], 0.0));
+        let width = pen.width as f32;
+        let stroke = Stroke { width, dash, line_cap: LineCap::Butt, line_join: join, ..Stroke::default() };
+        self.pixels.stroke(path, pen.colour, &stroke);
+    }
+}
+
 impl Canvas for Raster {
     fn rectangle(&mut self, from: Place, to: Place, fill: Rgb) {
-        self.fill(box_between(from, to).map(PathBuilder::from_rect), fill, 1.0, true);
+        self.pixels.fill(box_between(from, to).map(PathBuilder::from_rect), fill, 1.0, true);
     }
 
     fn frame(&mut self, from: Place, to: Place, pen: Pen) {
-        self.stroke(box_between(from, to).map(PathBuilder::from_rect), pen, LineJoin::Miter);
+        self.draw(box_between(from, to).map(PathBuilder::from_rect), pen, LineJoin::Miter);
     }
 
     fn line(&mut self, places: &[Place], pen: Pen) {
-        self.stroke(through(places, false), pen, LineJoin::Round);
+        self.draw(through(places, false), pen, LineJoin::Round);
     }
 
     fn area(&mut self, places: &[Place], fill: Rgb, opacity: f64) {
-        self.fill(through(places, true), fill, opacity, true);
+        self.pixels.fill(through(places, true), fill, opacity, true);
     }
 
     fn boxes(&mut self, boxes: &[(Place, Place)], fill: Rgb) {
@@ -161,14 +186,14 @@ impl Canvas for Raster {
                 path.push_rect(one);
             }
         }
-        self.fill(path.finish(), fill, 1.0, false);
+        self.pixels.fill(path.finish(), fill, 1.0, false);
     }
 
     fn circle(&mut self, at: Place, radius: f64, fill: Rgb, pen: Option<Pen>) {
         let path = PathBuilder::from_circle(at.0 as f32, at.1 as f32, radius as f32);
-        self.fill(path.clone(), fill, 1.0, true);
+        self.pixels.fill(path.clone(), fill, 1.0, true);
         if let Some(pen) = pen {
-            self.stroke(path, pen, LineJoin::Miter);
+            self.draw(path, pen, LineJoin::Miter);
         }
     }
 
@@ -182,7 +207,7 @@ impl Canvas for Raster {
         let upright = Transform::from_translate(left as f32, below_middle(size) as f32);
         let turned = if anchor == Anchor::Upwards { upright.post_rotate(-90.0) } else { upright };
         let path = path.and_then(|path| path.transform(turned.post_translate(at.0 as f32, at.1 as f32)));
-        self.fill(path, colour, 1.0, true);
+        self.pixels.fill(path, colour, 1.0, true);
     }
 }
 

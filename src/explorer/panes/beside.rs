@@ -7,7 +7,6 @@ use crate::explorer::mode::ModeKind;
 use crate::explorer::model::{Ghost, Model};
 use crate::explorer::snapshot::SolvedScene;
 use crate::explorer::view::lines::{draw_lines, draw_reason};
-use crate::explorer::view::wrap::clipped;
 use crate::export::adhesion_forces;
 use crate::scene::format_quantity;
 use ratatui::Frame;
@@ -15,8 +14,18 @@ use ratatui::layout::Rect;
 use ratatui::text::Line;
 
 /// Row of the pane.
-pub static ROW: PaneRow =
-    PaneRow { place: Place::CloseUp, title, draw, keys: Some(ModeKind::Crosshair), ..PaneRow::EMPTY };
+pub static ROW: PaneRow = PaneRow {
+    place: Place::CloseUp,
+    title,
+    draw,
+    keys: Some(ModeKind::Crosshair),
+    help: &[(
+        "Beside",
+        "&: profile and contact of the newest ghost at the same part of its loading, heights z on the axis of the profile \
+         above; below them both adhesion forces F_a with their ratio, and the changed parameters",
+    )],
+    ..PaneRow::EMPTY
+};
 
 /// Title of the pane.
 fn title(model: &Model) -> String {
@@ -42,8 +51,6 @@ fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
     }
     let changes = Line::raw(format!("{} → this scene: {}", force::newest_letter(model), ghost.changes));
     let lines = [forces(model, ghost), changes];
-    let lines = lines
-        .map(|line| if line.width() > usize::from(area.width) { clipped(line, area.width) } else { line });
     draw_lines(frame, Rect { y: above.bottom(), height: text_rows, ..area }, lines);
 }
 

@@ -27,7 +27,7 @@ use ratatui::text::{Line, Span as Text};
 pub static ROW: PaneRow = PaneRow {
     title,
     draw,
-    edge: reading,
+    edge,
     place: Place::Own,
     keys: Some(ModeKind::Crosshair),
     press: drag,
@@ -41,7 +41,8 @@ pub static ROW: PaneRow = PaneRow {
         (
             "Estimate",
             "~: approximate JKR curve under the loop, from the contact without adhesion (Ciavarella 2018): contact areas \
-             as there, patches as circles that never merge, no hysteresis of single patches; exact for one patch",
+             as there, patches as circles that never merge, no hysteresis of single patches; exact for one patch; cut \
+             where it would take more than half of an axis",
         ),
     ],
     ..PaneRow::EMPTY
@@ -164,6 +165,10 @@ impl Units {
 /// Decades of a logarithmic axis: a force near its change of sign would take all room.
 const MOST_DECADES: f64 = 3.0;
 
+/// Most that the approximate JKR curve adds to an axis at each end, in ranges of the other curves, which keep half of the
+/// axis at least. The estimate may be far from them, and they are the result.
+const APPROXIMATE_ROOM: f64 = 0.5;
+
 /// Points of the approximate JKR curve on the axes of the force over the indentation.
 fn approximate(model: &Model, units: Units) -> Vec<(f64, f64)> {
     let is_force = units.quantities == Quantities::ForceIndentation && model.is_current();
@@ -184,9 +189,18 @@ fn spans(model: &Model, units: Units) -> (Span, Span) {
     let manual = model.manual.iter().flat_map(|manual| &manual.path);
     let coordinate = |number| units.scale.coordinate(number);
     let mut places: Vec<(f64, f64)> = points.chain(manual).map(|point| units.place(point)).collect();
+    let around = |places: &[(f64, f64)]| {
+        let x = Span::around(places.iter().map(|place| coordinate(place.0)), 0.06);
+        (x, Span::around(places.iter().map(|place| place.1).chain([0.0]).map(coordinate), 0.08))
+    };
+    let own = around(&places);
     places.extend(approximate(model, units));
-    let x = Span::around(places.iter().map(|place| coordinate(place.0)), 0.06);
-    let y = Span::around(places.iter().map(|place| place.1).chain([0.0]).map(coordinate), 0.08);
+    let limited = |own: Span, all: Span| {
+        let Span { low, high } = own.widened(APPROXIMATE_ROOM);
+        Span { low: all.low.max(low), high: all.high.min(high) }
+    };
+    let all = around(&places);
+    let (x, y) = (limited(own.0, all.0), limited(own.1, all.1));
     let decades = |span: Span| Span { low: span.low.max(span.high - MOST_DECADES), ..span };
     match (units.scale, units.quantities) {
         (AxisScale::Logarithmic, _) => (decades(x), decades(y)),
@@ -258,9 +272,27 @@ fn drag(model: &mut Model, area: Rect, here: Position) -> Vec<Effect> {
     effects
 }
 
-/// Readings of the crosshair, for the lower edge of the frame.
-fn reading(model: &Model, area: Rect) -> Option<Line<'static>> {
-    model.crosshair?;
+/// Readings of the crosshair, or the label of the force axis where no row above the plot has it, for the lower edge of the
+/// frame.
+fn edge(model: &Model, area: Rect) -> Option<Line<'static>> {
+    let is_read = model.crosshair.is_some() && model.present().is_some();
+    let line = if is_read { reading(model)? } else { label(model, inside(area))? };
+    Some(plot::on_frame(line, area.width))
+}
+
+/// Label of the vertical axis with its unit, in a pane without rows of text.
+fn label(model: &Model, area: Rect) -> Option<Vec<Vec<Text<'static>>>> {
+    let computed = model.computed.as_ref().filter(|_| rows_above(model, area) == 0)?;
+    model.indentations()?;
+    let units = Units::of(model, computed);
+    let (x, y) = spans(model, units);
+    let (_, y) = units.axes(x, y);
+    let style = model.appearance.theme.style(Meaning::Quiet);
+    Some(vec![vec![Text::styled(y.label_with_unit().to_string(), style)]])
+}
+
+/// Readings of the crosshair.
+fn reading(model: &Model) -> Option<Vec<Vec<Text<'static>>>> {
     let point = model.present()?.point;
     let [d, length] = [point.indentation, point.contact_length].map(|value| format_rounded(value, 3, "m"));
     let mut parts = vec![
@@ -273,8 +305,7 @@ fn reading(model: &Model, area: Rect) -> Option<Line<'static>> {
         parts.push(format!("stage {} of {}", model.player.leg + 1, model.legs().len()));
     }
     let style = model.appearance.theme.style(Meaning::Cursor);
-    let parts = parts.into_iter().map(|text| vec![Text::styled(text, style)]).collect();
-    Some(plot::on_frame(parts, area.width))
+    Some(parts.into_iter().map(|text| vec![Text::styled(text, style)]).collect())
 }
 
 fn below(area: Rect, rows: u16) -> Rect {
@@ -348,8 +379,14 @@ fn chart(model: &Model, units: Units) -> Chart {
     for leg in model.tried_outcome().into_iter().flat_map(|outcome| &outcome.history.legs) {
         layers.push(Layer::new("preview".into(), Ink::Kept, line(along(&leg.curve), Stroke::Dashed)));
     }
-    let approximate = approximate(model, units);
+    let (x, y) = spans(model, units);
+    let mut approximate = approximate(model, units);
     if !approximate.is_empty() {
+        // Beyond the axes the estimate is left out: at the edge it would pass for a value.
+        let is_within = |number, span: Span| (span.low..=span.high).contains(&units.scale.coordinate(number));
+        for point in approximate.iter_mut().filter(|at| !(is_within(at.0, x) && is_within(at.1, y))) {
+            *point = (f64::NAN, f64::NAN);
+        }
         layers.push(approximate_jkr_layer(approximate));
     }
     for (direction, name, of, stroke) in [
@@ -365,7 +402,6 @@ fn chart(model: &Model, units: Units) -> Chart {
     }
     let marks = marks(legs).into_iter().filter(|_| !stale);
     layers.extend(marks.map(|(mark, at)| Layer::unnamed(Ink::Text, point(units.place(&at), sign(mark)))));
-    let (x, y) = spans(model, units);
     if let Some(snapshot) = model.present() {
         let (at, value) = units.place(&snapshot.point);
         let within = |number, span: Span| {

@@ -6,17 +6,22 @@ use crate::explorer::layout::inside;
 use crate::explorer::model::Model;
 use crate::explorer::snapshot::LengthBin;
 use crate::explorer::theme::Meaning;
-use crate::explorer::view::lines::draw_reason;
+use crate::explorer::view::lines::{draw_lines, draw_reason};
 use crate::explorer::view::plot;
 use ratatui::Frame;
 use ratatui::layout::Rect;
-use ratatui::widgets::Paragraph;
+use ratatui::text::Line;
 
 /// Row of the pane.
 pub static ROW: PaneRow = PaneRow {
     place: Place::CloseUp,
     title: |_| " Fragments by length, log–log ".to_owned(),
     draw,
+    help: &[(
+        "Lengths",
+        "D: number n of contact patches over their length δx, both logarithmic; ○ is the patches in a step of length by √2 \
+         at the indentation shown, steps without patches are left out",
+    )],
     ..PaneRow::EMPTY
 };
 
@@ -50,8 +55,8 @@ fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
     plot::draw_chart(frame, plot, &chart, model.appearance);
     if text_rows > 0 {
         let count: u64 = bins.iter().map(|bin| bin.fragments).sum();
-        let text = format!("○ number of fragments in each step of length by √2; {count} in all");
+        let text = format!("○ number n of {count} fragments in steps of δx by √2");
         let row = Rect { y: area.bottom() - 1, height: 1, ..area };
-        frame.render_widget(Paragraph::new(text).style(theme.style(Meaning::Quiet)), row);
+        draw_lines(frame, row, [Line::styled(text, theme.style(Meaning::Quiet))]);
     }
 }

@@ -19,7 +19,7 @@ const LOWEST: f64 = -4.0;
 const DECADES: f64 = 8.0;
 
 /// Rows that make a plot worth drawing.
-const FEWEST_ROWS: u16 = 4;
+const FEWEST_ROWS: u16 = 6;
 
 /// Lines of curves; there are at most two.
 const CURVES: [(Ink, Stroke); 2] = [(Ink::Unloading, Stroke::Solid), (Ink::Loading, Stroke::Dotted)];
@@ -140,6 +140,6 @@ pub(super) fn section(frame: &mut Frame<'_>, area: Rect, model: &Model, chart: &
     let parts =
         std::iter::once(heading).filter(|heading| !heading[0].content.is_empty()).chain(entries).collect();
     let legend = filled(parts, "  ", usize::from(area.width));
-    let plot = draw_around(frame, area, (legend, Vec::new()), FEWEST_ROWS);
+    let plot = draw_around(frame, area, (legend, Vec::new()), FEWEST_ROWS - 1);
     plot::draw_chart(frame, plot, chart, model.appearance);
 }

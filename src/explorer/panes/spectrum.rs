@@ -7,7 +7,7 @@ use crate::explorer::layout::inside;
 use crate::explorer::model::Model;
 use crate::explorer::study::{PaneData, Task};
 use crate::explorer::theme::Meaning;
-use crate::explorer::view::lines::draw_around;
+use crate::explorer::view::lines::{draw_around, draw_lines};
 use crate::explorer::view::plot;
 use crate::explorer::view::wrap::{filled, wrapped};
 use crate::export::measured_adhesion_text;
@@ -16,7 +16,7 @@ use crate::spectrum::Estimate;
 use crate::text::per_cent;
 use ratatui::Frame;
 use ratatui::layout::Rect;
-use ratatui::text::Line;
+use ratatui::text::{Line, Span};
 use std::sync::Arc;
 
 /// Row of the pane.
@@ -36,6 +36,11 @@ pub static ROW: PaneRow = PaneRow {
         }
     },
     renew: |model| model.adhesion_spread = None,
+    help: &[(
+        "Spectrum",
+        "Q: power spectrum C over the wave number q, both logarithmic; below it, for a measured surface, rms height h, rms \
+         slope ⟨∇z⟩ and κ or e_el/γ with their standard errors, and the adhesion force F_a over random profiles",
+    )],
     ..PaneRow::EMPTY
 };
 
@@ -51,16 +56,15 @@ fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
     let below = words(model, shown);
     let below = below.iter().flat_map(|text| wrapped(&Line::styled(text.clone(), quiet), area.width));
     let below: Vec<Line<'static>> = below.collect();
-    let plot_rows = if chart.is_some() { FEWEST_PLOT_ROWS } else { 0 };
-    let mut above = chart.as_ref().map_or_else(Vec::new, |chart| {
-        let parts = plot::in_theme(model.appearance, |style| legend(std::slice::from_ref(chart), style));
-        filled(parts, "  ", usize::from(area.width))
-    });
-    above.truncate(usize::from(area.height.saturating_sub(plot_rows)).saturating_sub(below.len()));
-    let plot = draw_around(frame, area, (above, below), plot_rows);
-    if let Some(chart) = chart {
-        plot::draw_chart(frame, plot, &chart, model.appearance);
-    }
+    let Some(chart) = chart else { return draw_lines(frame, area, below) };
+    let mut parts = vec![vec![Span::styled(chart.y.symbol_with_unit().to_string(), quiet)]];
+    parts.extend(plot::in_theme(model.appearance, |style| legend(std::slice::from_ref(&chart), style)));
+    let mut above = filled(parts, "  ", usize::from(area.width));
+    above.truncate(
+        usize::from(area.height.saturating_sub(FEWEST_PLOT_ROWS)).saturating_sub(below.len()).max(1),
+    );
+    let plot = draw_around(frame, area, (above, below), FEWEST_PLOT_ROWS);
+    plot::draw_chart(frame, plot, &chart, model.appearance);
 }
 
 /// Text below the chart: moments with their errors, else the reason for which there is no chart.

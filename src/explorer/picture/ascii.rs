@@ -3,7 +3,7 @@
 use super::raster::{blocks, dots};
 use super::strokes::strokes;
 use super::{Glyph, glyphs};
-use ratatui::buffer::{Buffer, CellDiffOption};
+use ratatui::buffer::{Buffer, Cell, CellDiffOption};
 use std::sync::LazyLock;
 
 /// ASCII characters and the dots they look like: one letter for each of four rows, from above: `L` left,
@@ -61,12 +61,12 @@ const ALIKE: [(char, &str); 61] = [
     ('o', "○◇◌◦°οθ"),
     ('@', "●◉◎"),
     ('#', "■▓"),
-    ('+', "▪▫□"),
+    ('+', "▪▫□±"),
     ('.', "·…⋅∙"),
-    (':', "░"),
+    (':', "░¦"),
     ('%', "▒"),
     ('-', "−–—‐‑‒―⁻₋"),
-    ('~', "±∓≈≃∼∝≅"),
+    ('~', "∓≈≃∼∝≅"),
     ('=', "≡≠₌⁼"),
     ('/', "╱÷⁄∕"),
     ('\\', "╲"),
@@ -123,8 +123,16 @@ const MARKED: [(&str, &str); 2] = [
 
 /// Puts printable ASCII in place of all symbols. Every cell stays where it is: behind the replacement of a
 /// wide character is a blank. Curves of dots become the characters whose shapes are nearest, and no
-/// dot is lost altogether. What has no likeness becomes `?`.
+/// dot is lost altogether. `±` before a blank becomes `+-`; what has no likeness becomes `?`.
 pub fn to_ascii(buffer: &mut Buffer) {
+    let of_two = |(sign, next): (&Cell, &Cell)| sign.symbol() == "±" && next.symbol() == " ";
+    let width = usize::from(buffer.area.width);
+    let pairs = buffer.content.iter().zip(buffer.content.iter().skip(1)).enumerate();
+    let on_one_row = pairs.filter(|(index, pair)| (index + 1) % width.max(1) != 0 && of_two(*pair));
+    let behind: Vec<usize> = on_one_row.map(|(index, _)| index + 1).collect();
+    behind.into_iter().for_each(|index| {
+        buffer.content[index].set_char('-');
+    });
     let changes: Vec<(u16, u16, u16, char)> = glyphs(buffer)
         .filter(|glyph| glyph.cell.symbol().as_bytes() != [b' '] && needs_change(glyph))
         .map(|glyph| (buffer.area.x + glyph.column, buffer.area.y + glyph.row, glyph.width, of_glyph(&glyph)))

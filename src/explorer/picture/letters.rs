@@ -7,29 +7,29 @@ use ratatui::style::Modifier;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
-/// Height of the base line of letters in a cell.
-const BASE: u32 = 12;
+/// Height of the base line of letters in a cell, px.
+pub const BASE: u32 = 12;
 /// Fonts of one width that come with the common systems.
 pub const FONTS: &str =
     "ui-monospace,SFMono-Regular,Menlo,Consolas,'DejaVu Sans Mono','Liberation Mono',monospace";
 /// Letters of these fonts are about 0.6 times as wide.
-const FONT_SIZE: &str = "13.3";
+pub const FONT_SIZE: f64 = 13.3;
 
 /// Typefaces.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-struct Face {
-    colour: Rgb,
-    bold: bool,
-    italic: bool,
+pub struct Face {
+    pub colour: Rgb,
+    pub bold: bool,
+    pub italic: bool,
 }
 
 /// Letters on one row that are set as one.
-struct Run {
-    column: u16,
-    row: u16,
+pub struct Run {
+    pub column: u16,
+    pub row: u16,
     face: Face,
-    text: String,
-    columns: u16,
+    pub text: String,
+    pub columns: u16,
     /// Cells since its last letter.
     blanks: u16,
     /// True if it may go on.
@@ -39,7 +39,7 @@ struct Run {
 /// All letters, by their look.
 #[derive(Default)]
 pub struct Letters {
-    texts: BTreeMap<Face, String>,
+    runs: BTreeMap<Face, Vec<Run>>,
     run: Option<Run>,
 }
 
@@ -85,24 +85,32 @@ impl Letters {
 
     /// Ends the run: what comes next does not belong to it.
     pub fn end(&mut self) {
-        let Some(run) = self.run.take() else { return };
-        let x = u32::from(run.column) * WIDTH;
-        let y = u32::from(run.row) * HEIGHT + BASE;
-        let length = u32::from(run.columns) * WIDTH;
-        let text = escaped(&run.text);
-        let texts = self.texts.entry(run.face).or_default();
-        let _ = writeln!(texts, "<text x=\"{x}\" y=\"{y}\" textLength=\"{length}\">{text}</text>");
+        if let Some(run) = self.run.take() {
+            self.runs.entry(run.face).or_default().push(run);
+        }
+    }
+
+    /// The runs, by their look.
+    pub fn runs(mut self) -> BTreeMap<Face, Vec<Run>> {
+        self.end();
+        self.runs
     }
 
     /// The elements that set them.
-    pub fn elements(mut self) -> String {
-        self.end();
+    pub fn elements(self) -> String {
         let mut elements =
             format!("<g font-family=\"{FONTS}\" font-size=\"{FONT_SIZE}\" xml:space=\"preserve\">\n");
-        for (face, texts) in self.texts {
+        for (face, runs) in self.runs() {
             let bold = if face.bold { " font-weight=\"bold\"" } else { "" };
             let italic = if face.italic { " font-style=\"italic\"" } else { "" };
-            let _ = writeln!(elements, "<g fill=\"{}\"{bold}{italic}>\n{texts}</g>", hex(face.colour));
+            // Writing to a string does not fail.
+            let _ = writeln!(elements, "<g fill=\"{}\"{bold}{italic}>", hex(face.colour));
+            for run in runs {
+                let (x, y) = (u32::from(run.column) * WIDTH, u32::from(run.row) * HEIGHT + BASE);
+                let (length, text) = (u32::from(run.columns) * WIDTH, escaped(&run.text));
+                let _ = writeln!(elements, "<text x=\"{x}\" y=\"{y}\" textLength=\"{length}\">{text}</text>");
+            }
+            elements.push_str("</g>\n");
         }
         elements + "</g>\n"
     }

@@ -6,13 +6,16 @@ mod cast;
 mod letters;
 mod outline;
 mod palette;
+mod png;
 mod raster;
+mod sheet;
 mod strokes;
 mod svg;
 mod text;
 
 pub use ascii::to_ascii;
 pub use cast::Cast;
+pub use png::png;
 pub use svg::svg;
 pub use text::text;
 

@@ -1,205 +1,42 @@
 //! The screen as a picture that can be scaled, for slides and for pages on the web.
-//!
-//! Only letters need a font. Dots, blocks, lines and marks are drawn, so that they meet from cell to
-//! cell whatever the font, and text is stretched to the grid of cells.
 
-use super::letters::Letters;
-use super::outline::{Area, Dots, HEIGHT, Lines, WIDTH};
-use super::palette::{mixed, rgb};
-use super::raster::{Raster, blocks, dots, shade};
-use super::strokes::{Weight, strokes};
-use super::{Glyph, glyphs};
-use crate::draw::{Document, Palette, Rgb, hex};
+use super::sheet::{MARGIN, Part, Pen, Sheet, size};
+use crate::draw::{Document, Palette, hex};
 use ratatui::buffer::Buffer;
-use ratatui::style::Modifier;
-use std::collections::BTreeMap;
 use std::fmt::Write as _;
-
-/// Room around the screen.
-const MARGIN: u32 = 8;
-/// Height of a line under letters, in its cell.
-const UNDER: i32 = 14;
-/// Share of a colour that stays when it is dimmed, percent.
-const DIMMED: u8 = 60;
 
 /// A picture of the screen: a document of SVG 1.1 that needs nothing else. The same screen gives the same
 /// bytes.
 #[must_use]
 pub fn svg(buffer: &Buffer, palette: &Palette, title: &str) -> String {
-    let mut sheet = Sheet::new(palette);
-    for glyph in glyphs(buffer) {
-        sheet.draw(&glyph);
-    }
-    let width = u32::from(buffer.area.width) * WIDTH + 2 * MARGIN;
-    let height = u32::from(buffer.area.height) * HEIGHT + 2 * MARGIN;
-    sheet.write(width, height, title)
-}
-
-/// Lines of one kind are drawn with one pen.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-enum Pen {
-    /// For whole lines, whose ends meet in corners.
-    Whole(Weight),
-    /// For dashes, whose ends must not.
-    Dashed(Weight),
-    /// For lines under and through letters.
-    Rule,
-}
-
-impl Pen {
-    fn width(self) -> &'static str {
-        match self {
-            Pen::Whole(Weight::Light) | Pen::Dashed(Weight::Light) => "1.2",
-            Pen::Whole(Weight::Heavy) | Pen::Dashed(Weight::Heavy) => "2.6",
-            _ => "1",
-        }
-    }
-
-    fn end(self) -> &'static str {
-        if matches!(self, Pen::Whole(_)) { "square" } else { "butt" }
-    }
-}
-
-/// All that is on the screen, by what it is drawn with.
-struct Sheet<'a> {
-    palette: &'a Palette,
-    grounds: BTreeMap<Rgb, Area>,
-    blocks: BTreeMap<Rgb, Area>,
-    marks: BTreeMap<Rgb, String>,
-    lines: BTreeMap<(Pen, Rgb), Lines>,
-    dots: BTreeMap<Rgb, Dots>,
-    letters: Letters,
-}
-
-impl<'a> Sheet<'a> {
-    fn new(palette: &'a Palette) -> Self {
-        Sheet {
-            palette,
-            grounds: BTreeMap::new(),
-            blocks: BTreeMap::new(),
-            marks: BTreeMap::new(),
-            lines: BTreeMap::new(),
-            dots: BTreeMap::new(),
-            letters: Letters::default(),
-        }
-    }
-
-    fn draw(&mut self, glyph: &Glyph<'_>) {
-        let Glyph { column, row, width, cell } = *glyph;
-        let (ink, ground) = self.colours(glyph);
-        if ground != self.palette.background {
-            let grounds = self.grounds.entry(ground).or_default();
-            (column..column + width).for_each(|column| grounds.fill(column, row, Raster::FULL));
-        }
-        if cell.modifier.contains(Modifier::UNDERLINED) {
-            let colour = rgb(self.palette, cell.underline_color, ink);
-            self.lines.entry((Pen::Rule, colour)).or_default().across(column, row, width, UNDER);
-        }
-        if cell.modifier.contains(Modifier::CROSSED_OUT) {
-            self.lines.entry((Pen::Rule, ink)).or_default().across(column, row, width, HEIGHT as i32 / 2);
-        }
-        if glyph.symbol().trim().is_empty() || cell.modifier.contains(Modifier::HIDDEN) {
-            return self.letters.leave_blank(width);
-        }
-        let shape = glyph.character().filter(|_| width == 1);
-        if !shape.is_some_and(|character| self.draw_shape(glyph, character, ink, ground)) {
-            return self.letters.set(glyph, ink);
-        }
-        self.letters.end();
-    }
-
-    /// Colours of a symbol and of what is behind it.
-    fn colours(&self, glyph: &Glyph<'_>) -> (Rgb, Rgb) {
-        let (cell, modifier) = (glyph.cell, glyph.cell.modifier);
-        let mut ink = rgb(self.palette, cell.fg, self.palette.foreground);
-        let mut ground = rgb(self.palette, cell.bg, self.palette.background);
-        if modifier.contains(Modifier::DIM) {
-            ink = mixed(ink, ground, DIMMED);
-        }
-        if modifier.contains(Modifier::REVERSED) {
-            std::mem::swap(&mut ink, &mut ground);
-        }
-        (ink, ground)
-    }
-
-    /// Draws a character that is no letter; `false` for a letter.
-    fn draw_shape(&mut self, glyph: &Glyph<'_>, character: char, ink: Rgb, ground: Rgb) -> bool {
-        let (column, row) = (glyph.column, glyph.row);
-        if let Some(dots) = dots(character) {
-            self.dots.entry(ink).or_default().add(column, row, dots);
-        } else if let Some(raster) = blocks(character) {
-            self.blocks.entry(ink).or_default().fill(column, row, raster);
-        } else if let Some(quarters) = shade(character) {
-            let colour = mixed(ink, ground, 25 * quarters);
-            self.blocks.entry(colour).or_default().fill(column, row, Raster::FULL);
-        } else if let Some(strokes) = strokes(character) {
-            for weight in [Weight::Light, Weight::Heavy, Weight::Double] {
-                if strokes.arms.contains(&Some(weight)) {
-                    let pen = if strokes.pieces > 1 { Pen::Dashed } else { Pen::Whole };
-                    let lines = self.lines.entry((pen(weight), ink)).or_default();
-                    lines.add(column, row, &strokes, weight);
-                }
-            }
-        } else if let Some(mark) = mark(character) {
-            let (x, y) = (u32::from(column) * WIDTH, u32::from(row) * HEIGHT);
-            let _ = write!(self.marks.entry(ink).or_default(), "M{x} {y}{mark}");
-        } else {
-            return false;
-        }
-        true
-    }
-
-    fn write(self, width: u32, height: u32, title: &str) -> String {
-        let ground = hex(self.palette.background);
-        let mut document = Document::new(f64::from(width), f64::from(height), title);
-        let mut svg = format!(
-            "<rect width=\"{width}\" height=\"{height}\" rx=\"6\" fill=\"{ground}\"/>\n\
-             <g transform=\"translate({MARGIN} {MARGIN})\">\n"
-        );
-        for (colour, area) in self.grounds.into_iter().chain(self.blocks) {
-            let _ = writeln!(svg, "<path fill=\"{}\" d=\"{}\"/>", hex(colour), area.path());
-        }
-        for ((pen, colour), lines) in self.lines {
-            let (colour, width, end, path) = (hex(colour), pen.width(), pen.end(), lines.path());
-            let _ = writeln!(
-                svg,
-                "<path fill=\"none\" stroke=\"{colour}\" stroke-width=\"{width}\" stroke-linecap=\"{end}\" \
-                 d=\"{path}\"/>"
-            );
-        }
-        for (colour, dots) in self.dots {
-            let (colour, path) = (hex(colour), dots.path());
-            if !path.is_empty() {
-                let _ = writeln!(
+    let ((width, height), ground) = (size(buffer), hex(palette.background));
+    let (parts, letters) = Sheet::new(buffer, palette).parts();
+    let mut document = Document::new(f64::from(width), f64::from(height), title);
+    let mut svg = format!(
+        "<rect width=\"{width}\" height=\"{height}\" rx=\"6\" fill=\"{ground}\"/>\n\
+         <g transform=\"translate({MARGIN} {MARGIN})\">\n"
+    );
+    for Part { path, colour, pen } in parts {
+        let colour = hex(colour);
+        // Writing to a string does not fail.
+        let _ = match pen {
+            None => writeln!(svg, "<path fill=\"{colour}\" d=\"{path}\"/>"),
+            Some(pen) => {
+                let width = pen.width();
+                let ends = match pen {
+                    Pen::Whole(_) => "stroke-linecap=\"square\"",
+                    Pen::Dot => "stroke-linecap=\"round\" stroke-linejoin=\"round\"",
+                    _ => "stroke-linecap=\"butt\"",
+                };
+                writeln!(
                     svg,
-                    "<path fill=\"none\" stroke=\"{colour}\" stroke-width=\"2.8\" stroke-linecap=\"round\" \
-                     stroke-linejoin=\"round\" d=\"{path}\"/>"
-                );
+                    "<path fill=\"none\" stroke=\"{colour}\" stroke-width=\"{width}\" {ends} d=\"{path}\"/>"
+                )
             }
-        }
-        for (colour, path) in self.marks {
-            let _ = writeln!(svg, "<path fill=\"{}\" d=\"{path}\"/>", hex(colour));
-        }
-        document.push(&(svg + &self.letters.elements() + "</g>\n"));
-        document.finish()
+        };
     }
-}
-
-/// The outline of a mark, from the upper left corner of its cell.
-fn mark(character: char) -> Option<&'static str> {
-    Some(match character {
-        '▲' => "m4 4.4l3.6 7.2h-7.2z",
-        '▼' => "m4 11.6l3.6-7.2h-7.2z",
-        '◆' => "m4 3.8l3.8 4.2-3.8 4.2-3.8-4.2z",
-        '■' => "m.5 4.5h7v7h-7z",
-        '▪' => "m2 6h4v4h-4z",
-        '▸' => "m1.8 4.5l5 3.5-5 3.5z",
-        '•' => "m1.8 8a2.2 2.2 0 1 0 4.4 0a2.2 2.2 0 1 0-4.4 0z",
-        '●' => "m.5 8a3.5 3.5 0 1 0 7 0a3.5 3.5 0 1 0-7 0z",
-        // The inner circle goes round the other way and so is left out.
-        '○' => "m.5 8a3.5 3.5 0 1 0 7 0a3.5 3.5 0 1 0-7 0zm1.2 0a2.3 2.3 0 1 1 4.6 0a2.3 2.3 0 1 1-4.6 0z",
-        _ => return None,
-    })
+    document.push(&(svg + &letters.elements() + "</g>\n"));
+    document.finish()
 }
 
 #[cfg(test)]
@@ -214,6 +51,7 @@ mod tests {
     use ratatui::symbols::Marker;
     use ratatui::widgets::Block;
     use ratatui::widgets::canvas::{Canvas, Line};
+    use std::collections::BTreeMap;
 
     /// The elements between the background and the end, of a screen of one row.
     fn drawn(buffer: &Buffer) -> Vec<String> {

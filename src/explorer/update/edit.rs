@@ -102,8 +102,9 @@ fn fold(model: &mut Model, folds: bool) {
 pub fn edit_value(model: &mut Model, first: Option<char>) -> Vec<Effect> {
     if let Some(parameter) = model.parameter() {
         match parameter.setting {
-            // A number says nothing of a switch or a group.
-            Setting::Switch(_) | Setting::Heading if first.is_some() => {}
+            _ if first.is_some() && !parameter.takes_number() => {
+                model.notice = Some(Notice::Done(way_of_changing(parameter)));
+            }
             Setting::Switch(_) => return switch(model),
             Setting::Heading => return toggle_fold(model),
             Setting::Field | Setting::RoughnessParameter(_) | Setting::WorkOfAdhesion => {
@@ -119,6 +120,17 @@ pub fn edit_value(model: &mut Model, first: Option<char>) -> Vec<Effect> {
     let mut effects = show_parameters(model);
     effects.extend(preview(model));
     effects
+}
+
+/// The way to change a parameter that has no number.
+fn way_of_changing(parameter: &Parameter) -> String {
+    let way = match (parameter.setting, parameter.field.step) {
+        (Setting::Switch(_), _) => "a switch: t changes it",
+        (Setting::Heading, _) => "a group: Enter folds it",
+        (_, Step::Choice) => "a choice: ← → change it",
+        _ => "no number: Enter types it",
+    };
+    format!("{} is {way}", parameter.name())
 }
 
 /// Chooses the list of parameters where a small window does not show it: nothing is changed unseen.

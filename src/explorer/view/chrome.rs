@@ -3,15 +3,16 @@
 use super::found::marked;
 use super::stages;
 use super::typed::typed;
-use super::wrap::{clipped, fitting, wrapped_within};
+use super::wrap::{fitted, fitting, wrapped_within};
 use crate::accuracy::Target;
-use crate::analysis::contact_stiffness;
+use crate::analysis::{contact_stiffness, mean_pressure};
 use crate::contact::CurvePoint;
 use crate::explorer::action::{Content, Traffic};
 use crate::explorer::completion::Completion;
 use crate::explorer::keys::{self, Binding};
 use crate::explorer::mode::SaveForm;
 use crate::explorer::model::{Estimated, ManualState, Mode, ModeKind, Model, Notice};
+use crate::explorer::parameters::Parameter;
 use crate::explorer::snapshot::ContactSnapshot;
 use crate::explorer::text_line::TextLine;
 use crate::explorer::theme::Meaning;
@@ -22,7 +23,6 @@ use ratatui::Frame;
 use ratatui::layout::Rect;
 use ratatui::text::{Line, Span};
 use ratatui::widgets::Paragraph;
-use std::f64::consts::PI;
 
 /// Name of the scene, whether it has changed, and what to look at.
 pub fn title(frame: &mut Frame<'_>, area: Rect, model: &Model) {
@@ -40,9 +40,7 @@ pub fn title(frame: &mut Frame<'_>, area: Rect, model: &Model) {
 /// The headline figures, or a question, an error, or what is being typed.
 pub fn status(frame: &mut Frame<'_>, area: Rect, model: &Model) {
     let theme = model.appearance.theme;
-    let stated = |line: Line<'static>| {
-        if line.width() > usize::from(area.width) { clipped(line, area.width) } else { line }
-    };
+    let stated = |line: Line<'static>| fitted(line, area.width);
     let error = |text: String| stated(Line::styled(text, theme.style(Meaning::Error)));
     let prompted = |prompt: &str, line: &TextLine| {
         let prompt = Span::raw(prompt.to_owned());
@@ -92,6 +90,9 @@ pub fn status(frame: &mut Frame<'_>, area: Rect, model: &Model) {
     frame.render_widget(Paragraph::new(line), area);
 }
 
+/// Least columns of a status line with the error of F_a, beside which d and F have room.
+const WITH_ERROR: u16 = 48;
+
 /// F_a, regime, the state of the contact and its cost, the most important first, as far as there is room.
 fn headline(model: &Model, width: u16) -> Line<'static> {
     let Some(computed) = &model.computed else { return Line::raw("computing…") };
@@ -117,7 +118,9 @@ fn headline(model: &Model, width: u16) -> Line<'static> {
         // Where nothing pulls.
         part("  ", format!("F_max {}", format_quantity(largest, "N")), Meaning::Title);
     }
-    let error = error(model);
+    // In a narrow window the state of the contact comes first.
+    let is_narrow = width < WITH_ERROR;
+    let error = error(model).filter(|_| !is_narrow);
     if let Some(error) = error.as_ref().filter(|_| !is_manual) {
         part(" ", error.clone(), Meaning::Title);
     }
@@ -126,7 +129,8 @@ fn headline(model: &Model, width: u16) -> Line<'static> {
         (Some(snapshot), Some(state)) => {
             let of = if adhesion.is_some() { "F_a " } else { "" };
             let error = error.map(|error| (" · ", format!("{of}{error}"), Meaning::Text));
-            manual(model, snapshot, state).into_iter().chain(error).collect()
+            let title = if is_narrow { "" } else { "manual: " };
+            manual(model, snapshot, state, title).into_iter().chain(error).collect()
         }
         (snapshot, _) => mechanics(model, snapshot),
     };
@@ -142,10 +146,10 @@ fn headline(model: &Model, width: u16) -> Line<'static> {
 type Part = (&'static str, String, Meaning);
 
 /// The state under manual loading: what the move changed comes before what it led to.
-fn manual(model: &Model, snapshot: &ContactSnapshot, state: &ManualState) -> Vec<Part> {
+fn manual(model: &Model, snapshot: &ContactSnapshot, state: &ManualState, title: &str) -> Vec<Part> {
     let dissipated = format!("ΔW {}", format_rounded(state.dissipated_energy, 2, "J"));
     let mut parts = vec![
-        ("  ", format!("manual: {}", place(snapshot.point)), Meaning::Text),
+        ("  ", format!("{title}{}", place(snapshot.point)), Meaning::Text),
         (" · ", format!("{} changed", counted(state.changed, "spring")), Meaning::Text),
         (" · ", contact(snapshot.point), Meaning::Text),
         (" · ", dissipated, Meaning::Text),
@@ -188,8 +192,7 @@ fn response(model: &Model, snapshot: &ContactSnapshot) -> Vec<Part> {
     let stiffness =
         contact_stiffness(computed.outcome.governing.effective_modulus, snapshot.point.contact_length);
     let mut parts = vec![(" · ", format!("dF/dd {}", format_rounded(stiffness, 2, "N/m")), Meaning::Text)];
-    if snapshot.contact_radius > 0.0 {
-        let pressure = snapshot.point.force / (PI * snapshot.contact_radius * snapshot.contact_radius);
+    if let Some(pressure) = mean_pressure(snapshot.point.force, snapshot.contact_radius) {
         parts.push((" · ", format!("p_m {}", format_rounded(pressure, 2, "Pa")), Meaning::Text));
     }
     parts
@@ -313,6 +316,7 @@ fn footer_items(model: &Model) -> Vec<(String, &'static str)> {
     let is_shown = |row: &&Binding| match row.command.name {
         "toggle-manual" => true,
         "complete" => can_complete(model),
+        "start-value" => model.parameter().is_some_and(Parameter::takes_number),
         _ => !row.label.is_empty() && (model.manual.is_some() || !keys::is_manual(row)),
     };
     let mut rows: Vec<&Binding> = model.bindings.valid_in(model.keys()).filter(is_shown).collect();

@@ -9,8 +9,11 @@ use ratatui::layout::{Margin, Rect};
 use ratatui::text::{Line, Span};
 use ratatui::widgets::{Block, Paragraph};
 
-/// Columns for the keys.
+/// Columns for the keys beside their help, in windows from this width on; in narrower ones they are above it.
 const KEYS: usize = 18;
+const BESIDE_FROM: u16 = 56;
+/// Columns before the help that is below its keys.
+const INDENT: usize = 4;
 
 /// Draws the help.
 pub fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model, scroll: u16) {
@@ -60,7 +63,13 @@ fn lines(width: u16, model: &Model) -> Vec<Line<'static>> {
 
 /// Adds keys and what they do, in as many lines as it takes.
 fn entry(lines: &mut Vec<Line<'static>>, keys: &str, help: &str, width: u16, theme: Theme) {
-    let room = usize::from(width).saturating_sub(KEYS + 2);
+    let is_beside = width >= BESIDE_FROM;
+    let indent = if is_beside { KEYS + 2 } else { INDENT };
+    let room = usize::from(width).saturating_sub(indent);
+    let key_style = theme.style(Meaning::Key);
+    if !is_beside {
+        lines.push(Line::styled(format!("  {keys}"), key_style));
+    }
     let mut texts = vec![String::new()];
     for word in help.split(' ') {
         let text = texts.last_mut().filter(|text| text.chars().count() + 1 + word.chars().count() <= room);
@@ -71,8 +80,7 @@ fn entry(lines: &mut Vec<Line<'static>>, keys: &str, help: &str, width: u16, the
         }
     }
     for (number, text) in texts.into_iter().enumerate() {
-        let keys = if number == 0 { keys } else { "" };
-        let keys = Span::styled(format!("  {keys:<KEYS$}"), theme.style(Meaning::Key));
-        lines.push(Line::from(vec![keys, Span::raw(text)]));
+        let keys = if number == 0 && is_beside { format!("  {keys}") } else { String::new() };
+        lines.push(Line::from(vec![Span::styled(format!("{keys:<indent$}"), key_style), Span::raw(text)]));
     }
 }

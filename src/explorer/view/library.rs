@@ -1,7 +1,7 @@
 //! The library: scenes to choose from on the left, the selected one on the right.
 
 use super::found::found;
-use super::lines::draw_reason;
+use super::lines::{draw_lines, draw_reason};
 use super::plot::draw_chart;
 use super::wrap::wrapped;
 use crate::explorer::mode::Library;
@@ -65,7 +65,7 @@ fn draw_list(frame: &mut Frame<'_>, area: Rect, model: &Model, library: &Library
             theme,
         ));
         line.push_span(Text::styled(format!("  {}", place_of(entry.origin)), theme.style(Meaning::Quiet)));
-        frame.render_widget(Paragraph::new(line), Rect { y: row, height: 1, ..area });
+        draw_lines(frame, Rect { y: row, height: 1, ..area }, [line]);
     }
 }
 
@@ -97,8 +97,8 @@ fn draw_entry(frame: &mut Frame<'_>, area: Rect, model: &Model, entry: &Entry, q
         draw_curve(frame, Rect { height: curve_rows, ..rest }, model, entry);
         rest = Rect { y: rest.y + curve_rows, height: rest.height - curve_rows, ..rest };
     }
-    let text: Vec<Line<'_>> = entry.text.lines().map(Line::raw).collect();
-    frame.render_widget(Paragraph::new(text).style(theme.style(Meaning::Quiet)), rest);
+    let text = entry.text.lines().map(|line| Line::styled(line.to_owned(), theme.style(Meaning::Quiet)));
+    draw_lines(frame, rest, text);
 }
 
 fn draw_curve(frame: &mut Frame<'_>, area: Rect, model: &Model, entry: &Entry) {
@@ -111,9 +111,11 @@ fn draw_curve(frame: &mut Frame<'_>, area: Rect, model: &Model, entry: &Entry) {
             return frame.render_widget(Paragraph::new(lines), area);
         }
     };
-    let plot = Rect { height: area.height - 1, ..area };
+    let plot = Rect { y: area.y + 1, height: area.height - 2, ..area };
     let figure = force_figure(&[("", outcome)]);
     for chart in &figure.charts {
+        let label = chart.y.label_with_unit().to_string();
+        draw_lines(frame, area, [Line::styled(label, theme.style(Meaning::Quiet))]);
         draw_chart(frame, plot, chart, model.appearance);
     }
     let mut text = Vec::new();

@@ -1,16 +1,16 @@
 //! Lines of text in panes: as they are, around a plot, and in place of a plot that is not there yet.
 
-use super::wrap::wrapped;
+use super::wrap::{fitted, wrapped};
 use crate::explorer::theme::{Meaning, Theme};
 use ratatui::Frame;
 use ratatui::layout::Rect;
 use ratatui::text::Line;
 use ratatui::widgets::Paragraph;
 
-/// Draws lines from the top of an area on, as far as there is room.
+/// Draws lines from the top of an area on, as far as there is room; one that is too wide ends in `…`.
 pub fn draw_lines(frame: &mut Frame<'_>, area: Rect, lines: impl IntoIterator<Item = Line<'static>>) {
     for (y, line) in (area.y..area.bottom()).zip(lines) {
-        frame.render_widget(Paragraph::new(line), Rect { y, height: 1, ..area });
+        frame.render_widget(Paragraph::new(fitted(line, area.width)), Rect { y, height: 1, ..area });
     }
 }
 

@@ -11,7 +11,7 @@ pub mod stages;
 pub mod typed;
 pub mod wrap;
 
-use self::wrap::clipped;
+use self::wrap::fitted;
 use super::layout::{Layout, is_framed};
 use super::model::{Mode, Model};
 use super::panes::Pane;
@@ -79,8 +79,7 @@ fn draw_pane(frame: &mut Frame<'_>, area: Rect, model: &Model, pane: Pane) {
         if name.chars().count() > usize::from(room) {
             name.truncate(name.trim_end().len());
         }
-        let title = Line::styled(name, style);
-        let title = if title.width() > usize::from(room) { clipped(title, room) } else { title };
+        let title = fitted(Line::styled(name, style), room);
         let block = Block::bordered().border_style(model.appearance.theme.style(Meaning::Quiet)).title(title);
         let names = (row.edge)(model, area);
         frame.render_widget(names.into_iter().fold(block, Block::title_bottom), area);

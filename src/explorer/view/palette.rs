@@ -1,7 +1,7 @@
 //! The list of all commands, over the panes.
 
 use super::found::found;
-use super::wrap::clipped;
+use super::lines::draw_lines;
 use crate::explorer::finder::Finder;
 use crate::explorer::keys::Bindings;
 use crate::explorer::palette::entries;
@@ -41,13 +41,10 @@ pub fn draw(frame: &mut Frame<'_>, area: Rect, theme: Theme, bindings: &Bindings
         let mark = if selected { "›" } else { " " };
         let style = theme.style(if selected { Meaning::Selected } else { Meaning::Text });
         let help = found(&candidate, &entry.help, &query, style, theme);
-        let mut line: Line<'_> = [Span::styled(format!("{mark} "), style)].into_iter().chain(help).collect();
+        let line: Line<'_> = [Span::styled(format!("{mark} "), style)].into_iter().chain(help).collect();
         let room = inner.width.saturating_sub(keys.width() as u16 + 1);
-        if line.width() > usize::from(room) {
-            line = clipped(line, room);
-        }
         let row = Rect { y, height: 1, ..inner };
-        frame.render_widget(Paragraph::new(line), row);
+        draw_lines(frame, Rect { width: room, ..row }, [line]);
         frame.render_widget(keys, row);
     }
 }

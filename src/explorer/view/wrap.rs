@@ -3,22 +3,29 @@
 //! ratatui does so as well, but overruns its area, and panics, where a word has wide characters or
 //! begins with a combining mark; titles and typed values may.
 
+use crate::text::belong_together;
 use ratatui::layout::Rect;
 use ratatui::style::Style;
-use ratatui::text::{Line, Span};
+use ratatui::text::{Line, Span, StyledGrapheme};
 
 /// A line in as many lines as it takes, none of them wider than so many columns. A word wider than that
-/// is broken anywhere.
+/// is broken anywhere, a number neither at its thousands nor before its unit.
 pub fn wrapped(line: &Line<'_>, columns: u16) -> Vec<Line<'static>> {
     let mut page = Page { lines: Vec::new(), line: Line::default(), left: columns, columns };
     let graphemes: Vec<_> = line.styled_graphemes(Style::default()).collect();
-    for word in graphemes.split_inclusive(|grapheme| grapheme.symbol.trim().is_empty()) {
-        let letters = word.iter().filter(|grapheme| !grapheme.symbol.trim().is_empty());
-        let width: usize = letters.map(|grapheme| Span::raw(grapheme.symbol).width()).sum();
-        if width > usize::from(page.left) {
+    let is_blank = |grapheme: &StyledGrapheme<'_>| grapheme.symbol.trim().is_empty();
+    let words: Vec<_> = graphemes.split_inclusive(is_blank).collect();
+    let text = |word: &[StyledGrapheme<'_>]| -> String {
+        word.iter().filter(|grapheme| !is_blank(grapheme)).map(|grapheme| grapheme.symbol).collect()
+    };
+    for together in words.chunk_by(|word, next| belong_together(&text(word), &text(next))) {
+        let symbols = together.concat();
+        let blank_end = usize::from(symbols.last().is_some_and(is_blank));
+        let width: usize = symbols.iter().map(|grapheme| Span::raw(grapheme.symbol).width()).sum();
+        if width.saturating_sub(blank_end) > usize::from(page.left) {
             page.turn();
         }
-        for grapheme in word {
+        for grapheme in symbols {
             page.push(grapheme.symbol, grapheme.style);
         }
     }
@@ -50,6 +57,11 @@ pub fn fitting(parts: Vec<Vec<Span<'static>>>, between: &'static str, columns: u
         line.spans.extend(part);
     }
     line
+}
+
+/// A line that is at most `columns` wide: whole, or cut with an `…`.
+pub fn fitted(line: Line<'static>, columns: u16) -> Line<'static> {
+    if line.width() > usize::from(columns) { clipped(line, columns) } else { line }
 }
 
 /// A line that ends in `…` where its text goes on: at most `columns` wide.
@@ -152,6 +164,8 @@ mod tests {
         assert_eq!(texts("one two  three", 7), ["one two", "three"]);
         assert_eq!(texts("one two three", 8), ["one two ", "three"]);
         assert_eq!(texts("unbreakable", 4), ["unbr", "eaka", "ble"]);
+        assert_eq!(texts("by 2 048 springs, 940 µs", 8), ["by 2 048 ", "springs, ", "940 µs"]);
+        assert_eq!(texts("1 234 567 springs", 6), ["1 234 ", "567 ", "spring", "s"]);
         assert_eq!(texts("", 4), Vec::<String>::new());
         assert_eq!(texts("a b", 0), Vec::<String>::new());
     }

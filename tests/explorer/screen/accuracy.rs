@@ -1,9 +1,9 @@
-//! What accuracy costs, the error in the status line, springs for a tolerance: told by a scripted appraiser, so
-//! that nothing depends on time.
+//! What accuracy costs, the error in the status line, springs for a tolerance.
 
 use super::common::deadline::within;
 use super::common::driver::Driver;
 use super::common::scenes::{changed, rough, without_adhesion};
+use super::stand_in::StandIn;
 use super::{is_up_to_date, keep};
 use asperity::accuracy::{
     Choice, ChoiceError, CostError, CostTable, ErrorFigure, Estimate, Evidence, Knob, Measures, Reference,
@@ -12,63 +12,42 @@ use asperity::accuracy::{
 use asperity::explorer::action::Action;
 use asperity::explorer::model::{Estimated, Notice, Pane};
 use asperity::explorer::panes::Costs;
-use asperity::explorer::snapshot::SolvedScene;
-use asperity::explorer::study::{Appraiser, Finding, Found, PaneData, Study, Task};
+use asperity::explorer::study::{Finding, Found, PaneData, Study, Task};
 use asperity::explorer::update::Effect;
 use asperity::scene::{Document, Edges, Scene};
-use asperity::simulation::RunError;
 use std::sync::Arc;
-use std::sync::mpsc::{Receiver, Sender, channel};
+use std::sync::mpsc::{Receiver, channel};
 use std::time::Duration;
 
-/// Finds out what it is told to.
-struct Scripted {
-    estimate: Option<Estimate>,
-    table: Result<CostTable, CostError>,
+/// Springs of 4e-4 at best.
+fn choose(tolerance: f64, trying: &mut dyn FnMut(u64)) -> Result<Choice, ChoiceError> {
+    trying(2048);
+    let choice = Choice {
+        tolerance,
+        target: Target::AdhesionForce,
+        points: 2048,
+        edges: Edges::SubCell,
+        error: 4e-4,
+        closed_form: false,
+        finest: 8192,
+    };
+    if tolerance >= choice.error {
+        return Ok(choice);
+    }
+    Err(ChoiceError::Unreached { tolerance, best: Some(Box::new(choice)) })
 }
 
-impl Appraiser for Scripted {
-    fn estimate(&mut self, _: &SolvedScene, _: &dyn Fn() -> bool) -> Result<Option<Estimate>, RunError> {
-        Ok(self.estimate.clone())
-    }
-
-    fn choose(
-        &mut self,
-        _: &Scene,
-        tolerance: f64,
-        _: &dyn Fn() -> bool,
-        trying: &mut dyn FnMut(u64),
-    ) -> Result<Choice, ChoiceError> {
-        trying(2048);
-        let choice = Choice {
-            tolerance,
-            target: Target::AdhesionForce,
-            points: 2048,
-            edges: Edges::SubCell,
-            error: 4e-4,
-            closed_form: false,
-            finest: 8192,
-        };
-        if tolerance >= choice.error {
-            return Ok(choice);
-        }
-        Err(ChoiceError::Unreached { tolerance, best: Some(Box::new(choice)) })
-    }
-
-    fn extend(
-        &mut self,
-        data: PaneData,
-        _: &dyn Fn() -> bool,
-        tell: &mut dyn FnMut(PaneData),
-    ) -> Result<PaneData, String> {
+/// Measures a table of costs in steps.
+fn measuring(measured: Result<CostTable, CostError>) -> StandIn {
+    StandIn::new(move |data, _, report| {
         let PaneData::Costs(scene, mut costs) = data else { return Ok(data) };
         costs.trying = Some("sub-cell springs: 32 springs".to_owned());
-        tell(PaneData::Costs(Arc::clone(&scene), costs.clone()));
-        costs.table = self.table.clone().ok().map(Arc::new);
-        tell(PaneData::Costs(Arc::clone(&scene), costs.clone()));
-        let table = self.table.clone().map_err(|error| error.to_string())?;
+        report(PaneData::Costs(Arc::clone(&scene), costs.clone()));
+        costs.table = measured.clone().ok().map(Arc::new);
+        report(PaneData::Costs(Arc::clone(&scene), costs.clone()));
+        let table = measured.clone().map_err(|error| error.to_string())?;
         Ok(PaneData::Costs(scene, measured_costs(table)))
-    }
+    })
 }
 
 fn measured_costs(table: CostTable) -> Costs {
@@ -113,7 +92,7 @@ fn driver_with(
     table: Result<CostTable, CostError>,
 ) -> Driver {
     let mut driver = Driver::open(document);
-    driver.appraiser = Some(Box::new(Scripted { estimate, table }));
+    driver.appraiser = Some(Box::new(StandIn { estimate, choose, ..measuring(table) }));
     driver.perform(vec![Effect::Compute]);
     driver.press("Space");
     driver
@@ -295,42 +274,6 @@ fn trying(scene: &Arc<Scene>, setting: &str) -> PaneData {
     PaneData::Costs(Arc::clone(scene), costs)
 }
 
-/// Measures until it is told to stop, and says when it begins and when it has stopped.
-struct Endless(Sender<&'static str>);
-
-impl Appraiser for Endless {
-    fn estimate(&mut self, _: &SolvedScene, _: &dyn Fn() -> bool) -> Result<Option<Estimate>, RunError> {
-        panic!("no estimate")
-    }
-
-    fn choose(
-        &mut self,
-        _: &Scene,
-        _: f64,
-        _: &dyn Fn() -> bool,
-        _: &mut dyn FnMut(u64),
-    ) -> Result<Choice, ChoiceError> {
-        Err(ChoiceError::Stepwise)
-    }
-
-    fn extend(
-        &mut self,
-        data: PaneData,
-        stop: &dyn Fn() -> bool,
-        tell: &mut dyn FnMut(PaneData),
-    ) -> Result<PaneData, String> {
-        let PaneData::Costs(scene, _) = data else { return Ok(data) };
-        tell(trying(&scene, "samples: 8"));
-        self.0.send("begun").unwrap();
-        while !stop() {
-            std::thread::yield_now();
-        }
-        tell(trying(&scene, "too late"));
-        self.0.send("stopped").unwrap();
-        Err("stopped".to_owned())
-    }
-}
-
 fn measure(scene: &Arc<Scene>) -> Task {
     Task::Extend { data: PaneData::Costs(Arc::clone(scene), Costs::default()), waits: true }
 }
@@ -338,7 +281,12 @@ fn measure(scene: &Arc<Scene>) -> Task {
 fn endless() -> (Study, Receiver<Found>, Receiver<&'static str>) {
     let (says, said) = channel();
     let (report, reports) = channel();
-    let study = Study::start(Box::new(Endless(says)), move |found| report.send(found).is_ok()).unwrap();
+    let endless = StandIn::endless(says, |data, report| {
+        let PaneData::Costs(scene, _) = data else { return data };
+        report(trying(&scene, "samples: 8"));
+        trying(&scene, "too late")
+    });
+    let study = Study::start(Box::new(endless), move |found| report.send(found).is_ok()).unwrap();
     (study, reports, said)
 }
 

@@ -1,31 +1,25 @@
-//! The map over H and κ: what it shows, its mark, which is the scene, and what is computed of it when. Told by a
-//! scripted appraiser.
+//! The map over H and κ: what it shows, its mark, which is the scene, and what is computed of it when.
 
 use super::common::deadline::within;
 use super::common::driver::Driver;
 use super::common::scenes::{changed, rough, smooth, without_adhesion};
+use super::stand_in::{Reported, StandIn};
 use super::{is_up_to_date, keep};
-use asperity::accuracy::{Choice, ChoiceError, Estimate};
 use asperity::analysis::Regime;
 use asperity::explorer::action::{Action, Gesture, Mouse};
 use asperity::explorer::layout::{Layout, inside};
 use asperity::explorer::model::{ModeKind, Pane};
-use asperity::explorer::snapshot::SolvedScene;
-use asperity::explorer::study::{Appraiser, Finding, Found, PaneData, Study, Task};
+use asperity::explorer::study::{Finding, Found, PaneData, Study, Task};
 use asperity::explorer::theme::Marker;
 use asperity::explorer::update::{Effect, study_tasks};
-use asperity::scene::{Document, RoughnessParameter, Scene};
-use asperity::simulation::RunError;
+use asperity::scene::{Document, RoughnessParameter};
 use asperity::study::map::{
     COLUMNS, Charted, HURSTS, Level, LiveMap, RECORD, Template, hurst, parameter_value,
 };
 use asperity::study::{CellSummary, Quantity, Spread};
 use std::sync::Arc;
-use std::sync::mpsc::{Sender, channel};
+use std::sync::mpsc::channel;
 use std::time::Duration;
-
-/// Fills the levels of a map that it is told to; nothing else is known to it.
-struct Mapper(Vec<Level>);
 
 fn kappa(column: usize) -> f64 {
     parameter_value(RoughnessParameter::Kappa, column)
@@ -51,44 +45,23 @@ fn cell(kappa: f64, hurst: f64) -> CellSummary {
     CellSummary { cell: 0, lines: 4, quantities: values.to_vec(), regimes: Some(regimes) }
 }
 
-impl Appraiser for Mapper {
-    fn estimate(&mut self, _: &SolvedScene, _: &dyn Fn() -> bool) -> Result<Option<Estimate>, RunError> {
-        Ok(None)
-    }
-
-    fn choose(
-        &mut self,
-        _: &Scene,
-        _: f64,
-        _: &dyn Fn() -> bool,
-        _: &mut dyn FnMut(u64),
-    ) -> Result<Choice, ChoiceError> {
-        Err(ChoiceError::Stopped)
-    }
-
-    fn extend(
-        &mut self,
-        data: PaneData,
-        _: &dyn Fn() -> bool,
-        tell: &mut dyn FnMut(PaneData),
-    ) -> Result<PaneData, String> {
-        let PaneData::Map(mut map) = data else { return Ok(data) };
-        let whole = Arc::make_mut(&mut map);
-        for level in &self.0 {
-            for &row in whole.rows_of(*level) {
-                level
-                    .columns()
-                    .for_each(|column| whole.set(column, row, Ok(cell(kappa(column), hurst(row)))));
-                tell(PaneData::Map(Arc::new(whole.clone())));
-            }
+/// Fills levels of a map.
+fn fill(levels: &[Level], data: PaneData, report: Reported<'_>) -> PaneData {
+    let PaneData::Map(mut map) = data else { return data };
+    let whole = Arc::make_mut(&mut map);
+    for level in levels {
+        for &row in whole.rows_of(*level) {
+            level.columns().for_each(|column| whole.set(column, row, Ok(cell(kappa(column), hurst(row)))));
+            report(PaneData::Map(Arc::new(whole.clone())));
         }
-        Ok(PaneData::Map(map))
     }
+    PaneData::Map(map)
 }
 
 fn driver_with(document: Document, levels: &[Level]) -> Driver {
     let mut driver = Driver::open(document);
-    driver.appraiser = Some(Box::new(Mapper(levels.to_vec())));
+    let levels = levels.to_vec();
+    driver.appraiser = Some(Box::new(StandIn::new(move |data, _, report| Ok(fill(&levels, data, report)))));
     driver.perform(vec![Effect::Compute]);
     driver.press("Space m");
     driver
@@ -421,47 +394,12 @@ fn a_scene_without_a_map_says_why() {
 
 const PATIENCE: Duration = Duration::from_secs(20);
 
-/// Draws a map until it is told to stop, and says when it begins and when it has stopped.
-struct Endless(Sender<&'static str>, Mapper);
-
-impl Appraiser for Endless {
-    fn estimate(&mut self, of: &SolvedScene, stop: &dyn Fn() -> bool) -> Result<Option<Estimate>, RunError> {
-        self.1.estimate(of, stop)
-    }
-
-    fn choose(
-        &mut self,
-        scene: &Scene,
-        tolerance: f64,
-        stop: &dyn Fn() -> bool,
-        trying: &mut dyn FnMut(u64),
-    ) -> Result<Choice, ChoiceError> {
-        self.1.choose(scene, tolerance, stop, trying)
-    }
-
-    fn extend(
-        &mut self,
-        data: PaneData,
-        stop: &dyn Fn() -> bool,
-        tell: &mut dyn FnMut(PaneData),
-    ) -> Result<PaneData, String> {
-        let data = self.1.extend(data, stop, tell)?;
-        self.0.send("begun").unwrap();
-        while !stop() {
-            std::thread::yield_now();
-        }
-        tell(data.clone());
-        self.0.send("stopped").unwrap();
-        Ok(data)
-    }
-}
-
 #[test]
 fn an_edit_ends_the_computing_of_the_map() {
     within(60, || {
         let (says, said) = channel();
         let (report, reports) = channel();
-        let endless = Endless(says, Mapper(vec![Level::Coarse]));
+        let endless = StandIn::endless(says, |data, report| fill(&[Level::Coarse], data, report));
         let study = Study::start(Box::new(endless), move |found| report.send(found).is_ok()).unwrap();
         let map = Arc::new(LiveMap::new(Arc::new(Template::of(rough().scene()).unwrap())));
         study.ask(1, vec![Task::Extend { data: PaneData::Map(map), waits: false }]);

@@ -35,7 +35,7 @@ fn mouse(driver: &mut Driver, (column, row): (u16, u16), gesture: Gesture) {
 }
 
 /// Three digits of a force, four of a length, as the panes read them.
-fn read(value: f64, digits: usize, unit: &str) -> String {
+pub fn read(value: f64, digits: usize, unit: &str) -> String {
     format_quantity(format!("{value:.digits$e}").parse().unwrap(), unit)
 }
 

@@ -3,15 +3,17 @@
 use super::common::deadline::within;
 use super::common::driver::Driver;
 use super::common::scenes::rough;
-use super::pressed;
+use super::{SIZES, pressed};
+use asperity::draw::PictureFormat;
 use asperity::explorer::action::Content;
 use asperity::explorer::model::Mode;
 use asperity::explorer::theme::{Marker, Theme};
 use asperity::explorer::update::Effect;
-use asperity::explorer::{picture, svg_of};
+use asperity::explorer::{picture, picture_of, screenshot};
 use asperity::export::{TableFormat, write_curve, write_json};
 use asperity::scene::{Document, Provenance, TableContent, open, presets};
 use std::fs;
+use std::io::Read;
 use std::path::{Path, PathBuf};
 
 /// Exports to a file and gives what was asked for.
@@ -37,7 +39,8 @@ fn the_ending_of_a_name_tells_what_is_exported() {
             ("a.csv", Content::Curve(TableFormat::Csv)),
             ("a.npy", Content::Curve(TableFormat::Npy)),
             ("folder/b.JSON", Content::Outcome),
-            ("c.d.svg", Content::Picture),
+            ("c.d.svg", Content::Picture(PictureFormat::Svg)),
+            ("c.png", Content::Picture(PictureFormat::Png)),
             ("e.txt", Content::Text),
         ] {
             let mut driver = pressed("");
@@ -47,12 +50,13 @@ fn the_ending_of_a_name_tells_what_is_exported() {
             assert!(driver.status().contains(&format!("exported to {name}")), "{}", driver.status());
             assert!(!driver.model.is_unsaved() && !driver.model.finished);
         }
-        for name in ["a", "a.ron", "csv", "a.csv.gz", "a.png"] {
+        for name in ["a", "a.ron", "csv", "a.csv.gz", "a.gif"] {
             let mut driver = pressed("");
             assert!(export(&mut driver, Path::new(name)).is_empty(), "{name}");
             assert!(driver.files.is_empty());
-            let said =
-                format!("{name}: the name must end in .csv, .npy, .json, .svg, .txt, to export the curve");
+            let said = format!(
+                "{name}: the name must end in .csv, .npy, .json, .svg, .png, .txt, to export the curve"
+            );
             assert!(driver.status().contains(&said), "{}", driver.status());
         }
         // The name that is proposed is that of the scene.
@@ -180,7 +184,58 @@ fn the_picture_is_sound_and_shows_the_panes_without_the_prompt() {
             }
             assert!(!text.contains("Export to") && !text.contains("cancel"), "{marker:?}");
             driver.press("j k");
-            assert_eq!(written, svg_of(&driver.model), "the same screen gives the same file");
+            let again = screenshot(&driver.model, PictureFormat::Svg).unwrap();
+            assert_eq!(written.as_bytes(), again, "the same screen gives the same file");
+        }
+    });
+}
+
+/// Width in pixels, and red, green and blue of all pixels of a file in PNG that has no filters.
+fn decoded(file: &[u8]) -> (usize, Vec<[u8; 3]>) {
+    let number = |at: usize| u32::from_be_bytes(file[at..at + 4].try_into().unwrap()) as usize;
+    let (mut at, mut packed) = (8, Vec::new());
+    while at < file.len() {
+        let (length, kind) = (number(at), &file[at + 4..at + 8]);
+        if kind == b"IDAT" {
+            packed.extend(&file[at + 8..at + 8 + length]);
+        }
+        at += 12 + length;
+    }
+    let mut rows = Vec::new();
+    flate2::read::ZlibDecoder::new(&packed[..]).read_to_end(&mut rows).unwrap();
+    let width = number(16);
+    let pixels = rows.chunks(1 + 3 * width).flat_map(|row| row[1..].chunks(3).map(|c| [c[0], c[1], c[2]]));
+    (width, pixels.collect())
+}
+
+#[test]
+fn a_picture_of_pixels_has_the_size_and_the_colours_of_the_screen() {
+    within(60, || {
+        for size in SIZES {
+            let mut driver = pressed("c L");
+            driver.model.appearance.theme = Theme::Dark;
+            driver.resize(size);
+            let folder = tempfile::tempdir().unwrap();
+            let path = folder.path().join("a.png");
+            export(&mut driver, &path);
+            let (width, pixels) = decoded(&fs::read(&path).unwrap());
+            // Two pixels for each px; cells of 8 × 16 px, and a margin of 8 px.
+            let side = |cells: u16, cell: usize| 2 * (usize::from(cells) * cell + 16);
+            assert_eq!((width, pixels.len() / width), (side(size.0, 8), side(size.1, 16)));
+            let at = |x: usize, y: usize| pixels[y * width + x];
+            let ground = at(0, 0);
+            let screen = picture_of(&driver.model);
+            // Cells with a sign have other colours than the background, blank ones have not.
+            let mut signs = 0;
+            for (column, row) in (0..size.0).flat_map(|column| (0..size.1).map(move |row| (column, row))) {
+                let (x, y) = (16 * (usize::from(column) + 1), 32 * usize::from(row) + 16);
+                let is_drawn = (x + 1..x + 15).any(|x| (y + 1..y + 31).any(|y| at(x, y) != ground));
+                let cell = &screen[(column, row)];
+                let is_blank = matches!(cell.symbol(), " " | "\u{2800}") && cell.modifier.is_empty();
+                assert!(is_drawn != is_blank, "{size:?} {column} {row} {:?}", cell.symbol());
+                signs += usize::from(is_drawn);
+            }
+            assert!(signs > 20, "{signs}");
         }
     });
 }

@@ -4,57 +4,41 @@ use super::common::deadline::within;
 use super::common::driver::Driver;
 use super::common::scenes::{rough, without_adhesion};
 use super::keep;
-use asperity::accuracy::{Choice, ChoiceError, Estimate};
+use super::stand_in::StandIn;
 use asperity::explorer::model::Pane;
 use asperity::explorer::panes::PROFILES;
-use asperity::explorer::snapshot::SolvedScene;
-use asperity::explorer::study::{Appraiser, PaneData, Task};
+use asperity::explorer::study::{PaneData, Task};
 use asperity::explorer::update::{Effect, study_tasks};
-use asperity::scene::{Document, Scene};
-use asperity::simulation::{RunError, Simulation};
+use asperity::scene::Document;
+use asperity::simulation::Simulation;
 use std::cell::RefCell;
 
-/// Computes the curve and nothing else, until it has so many profiles.
-struct Profiles(usize);
-
-impl Appraiser for Profiles {
-    fn estimate(&mut self, _: &SolvedScene, _: &dyn Fn() -> bool) -> Result<Option<Estimate>, RunError> {
-        Ok(None)
-    }
-
-    fn choose(
-        &mut self,
-        _: &Scene,
-        _: f64,
-        _: &dyn Fn() -> bool,
-        _: &mut dyn FnMut(u64),
-    ) -> Result<Choice, ChoiceError> {
-        Err(ChoiceError::Stopped)
-    }
-
-    fn extend(
-        &mut self,
-        data: PaneData,
-        _: &dyn Fn() -> bool,
-        tell: &mut dyn FnMut(PaneData),
-    ) -> Result<PaneData, String> {
+/// Computes the curve until it has so many profiles.
+fn computing(profiles: usize) -> StandIn {
+    StandIn::new(move |data, _, report| {
         let last = RefCell::new(data.clone());
-        let is_enough = || matches!(&*last.borrow(), PaneData::Preloads(curve) if curve.profiles() >= self.0);
+        let is_enough =
+            || matches!(&*last.borrow(), PaneData::Preloads(curve) if curve.profiles() >= profiles);
         let done = data.extended(&is_enough, &mut |data| {
             last.replace(data.clone());
-            tell(data);
+            report(data);
         });
         match done {
             // The data so far are enough.
             Err(_) if is_enough() => Ok(last.into_inner()),
             done => done,
         }
-    }
+    })
+}
+
+/// The explorer with the curve of few profiles computed, and shown.
+pub fn computed_preloads(document: Document) -> Driver {
+    shown(document, 3)
 }
 
 fn shown(document: Document, profiles: usize) -> Driver {
     let mut driver = Driver::open(document);
-    driver.appraiser = Some(Box::new(Profiles(profiles)));
+    driver.appraiser = Some(Box::new(computing(profiles)));
     driver.perform(vec![Effect::Compute]);
     driver.press("Space i");
     driver
@@ -127,7 +111,7 @@ fn a_tilde_draws_the_approximate_curve_under_the_loop() {
     within(60, || {
         let opened = |document| {
             let mut driver = Driver::open(document);
-            driver.appraiser = Some(Box::new(Profiles(0)));
+            driver.appraiser = Some(Box::new(computing(0)));
             driver.perform(vec![Effect::Compute]);
             driver.press("Space");
             driver

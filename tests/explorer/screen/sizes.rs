@@ -1,12 +1,21 @@
 //! The same statements in windows of five sizes: nothing is cut without a sign, and what is asked for is in sight.
 
+use super::accuracy::measured;
+use super::chart::charted;
 use super::common::deadline::within;
 use super::common::driver::Driver;
 use super::common::scenes::rough;
-use super::{SIZES, default_scene, mid_retraction, pressed};
-use asperity::explorer::layout::Layout;
-use asperity::explorer::model::Pane;
-use asperity::scene::{Effect, open};
+use super::crosshair::read;
+use super::preloads::computed_preloads;
+use super::{SIZES, default_scene, is_up_to_date, mid_retraction, pressed};
+use asperity::explorer::action::{Action, Gesture, Mouse};
+use asperity::explorer::layout::{Layout, inside, is_framed};
+use asperity::explorer::model::{Mode, Pane};
+use asperity::explorer::panes::indentation_at;
+use asperity::explorer::theme::{Marker, Theme};
+use asperity::scene::{Effect, format_quantity, open};
+use std::collections::BTreeSet;
+use std::path::Path;
 
 /// A window in which every message has room.
 const WIDE: (u16, u16) = (400, 40);
@@ -215,6 +224,381 @@ fn completion_is_offered_only_where_a_path_is_typed() {
                 let offers = footer.contains("Tab complete");
                 assert!(offers == is_path || is_path && size.0 < 60, "{size:?} {keys}: {footer}");
             }
+        }
+    });
+}
+
+#[test]
+fn another_way_to_give_the_adhesion_and_another_roughness_can_be_computed() {
+    within(60, || {
+        for size in SIZES {
+            let mut driver = pressed("");
+            driver.resize(size);
+            let work = |driver: &Driver| driver.model.governing().unwrap().work_of_adhesion.unwrap();
+            let (before, ways) = (work(&driver), driver.model.document.scene().adhesion);
+            driver.select("adhesion");
+            driver.press("Right");
+            assert_ne!(driver.model.document.scene().adhesion, ways, "{size:?}");
+            assert!((work(&driver) / before - 1.0).abs() < 1e-9, "{size:?}: {before} {}", work(&driver));
+            driver.select("roughness");
+            for _ in 0..3 {
+                let before = driver.model.document.scene().roughness.clone();
+                driver.press("Right");
+                let is_changed = driver.model.document.scene().roughness != before;
+                let said = driver.status();
+                assert!(
+                    is_up_to_date(&driver.model) && (is_changed || said.starts_with('!')),
+                    "{size:?} {said}"
+                );
+            }
+        }
+    });
+}
+
+/// The pane alone in the window, with a whole profile behind it.
+fn zoomed(pane: Pane, size: (u16, u16)) -> Driver {
+    let mut driver = match pane {
+        Pane::Chart => charted(rough()),
+        Pane::Accuracy => measured(rough()),
+        Pane::Preloads => computed_preloads(rough()),
+        Pane::Lengths => pressed("D"),
+        Pane::Spectrum => pressed("Q"),
+        Pane::Beside => pressed("c & Tab Tab"),
+        _ => pressed(""),
+    };
+    driver.model.pane = pane;
+    driver.model.zoomed = true;
+    driver.resize(size);
+    driver.press(".");
+    driver
+}
+
+#[test]
+fn axes_have_numbers_quantities_and_units_in_every_pane() {
+    within(120, || {
+        for size in SIZES {
+            for (pane, across, up) in [
+                (Pane::Force, "d (", "F ("),
+                (Pane::Profile, "x (", "z ("),
+                (Pane::CloseUp, "x (", "z ("),
+                (Pane::Beside, "x (", "z ("),
+                (Pane::Lengths, "δx (", "number n"),
+                (Pane::Spectrum, "q (", "C ("),
+                (Pane::Preloads, "F_n (", "F_a ("),
+                (Pane::Accuracy, "t (", "error"),
+                (Pane::Chart, " H", "κ"),
+            ] {
+                let driver = zoomed(pane, size);
+                let area = Layout::of(&driver.model).pane(pane).unwrap();
+                if !is_framed(area) {
+                    continue;
+                }
+                let rows = driver.rows()[usize::from(area.y)..usize::from(area.bottom())].join("\n");
+                assert!(rows.contains(across) && rows.contains(up), "{size:?} {pane:?}\n{rows}");
+                let has_numbers = rows.lines().filter(|row| row.contains('┤')).count() >= 2;
+                assert!(has_numbers || area.height < 8, "{size:?} {pane:?}\n{rows}");
+            }
+        }
+    });
+}
+
+#[test]
+fn the_force_axis_has_its_unit_wherever_it_is_drawn() {
+    within(60, || {
+        for size in SIZES {
+            for keys in ["", "z", "N", "v", "v v", "O"] {
+                let mut driver = pressed(keys);
+                driver.model.pane = Pane::Force;
+                driver.resize(size);
+                let area = Layout::of(&driver.model).pane(Pane::Force).unwrap();
+                let rows: Vec<String> = driver.rows()[usize::from(area.y)..usize::from(area.bottom())]
+                    .iter()
+                    .map(|row| row.chars().skip(area.x.into()).take(area.width.into()).collect())
+                    .collect();
+                let text = rows.join("\n");
+                let label = match keys {
+                    "N" => "F/F_a,max",
+                    "v" => "l (",
+                    "v v" => "n",
+                    _ => "F (µN)",
+                };
+                assert!(text.contains(label) || !is_framed(area), "{size:?} {keys}\n{text}");
+            }
+        }
+    });
+}
+
+#[test]
+fn the_crosshair_reads_the_curve() {
+    within(60, || {
+        for size in SIZES {
+            let mut driver = pressed("*");
+            driver.model.pane = Pane::Force;
+            driver.resize(size);
+            let point = |driver: &Driver| driver.model.snapshot.as_ref().unwrap().point;
+            let before = point(&driver);
+            driver.press("Right Right");
+            assert_ne!(point(&driver).indentation, before.indentation, "{size:?}");
+            let read = format!("d {}", read(point(&driver).indentation, 2, "m"));
+            assert!(driver.text().contains(&read), "{size:?} {read}\n{}", driver.text());
+        }
+    });
+}
+
+#[test]
+fn scenes_are_saved_under_an_extension_and_kept_when_others_are_opened() {
+    within(60, || {
+        for size in SIZES {
+            let mut driver = pressed("");
+            driver.resize(size);
+            driver.press("q");
+            assert!(driver.model.finished, "{size:?}: nothing has changed");
+            let mut driver = pressed("");
+            driver.resize(size);
+            driver.select("roughness.hurst");
+            driver.press("l q");
+            assert!(!driver.model.finished && driver.status().starts_with("The scene has"), "{size:?}");
+            driver.press("Esc s Ctrl+u");
+            driver.type_text("mine");
+            assert!(driver.status().contains("mine"), "{size:?}: {}", driver.status());
+            driver.press("Enter");
+            assert!(driver.files.contains_key(Path::new("mine.ron")), "{size:?}: {:?}", driver.files.keys());
+            driver.select("roughness.hurst");
+            driver.press("l");
+            let changed = driver.model.document.text().to_owned();
+            driver.model.pane = Pane::Force;
+            driver.press("1");
+            assert_ne!(driver.model.document.text(), changed, "{size:?}");
+            assert!(driver.status().starts_with("the changed scene"), "{size:?}: {}", driver.status());
+            driver.press("u");
+            assert_eq!(driver.model.document.text(), changed, "{size:?}");
+        }
+    });
+}
+
+#[test]
+fn the_map_has_hurst_exponents_across_and_is_transposed_and_exported() {
+    within(120, || {
+        for size in SIZES {
+            let mut driver = charted(rough());
+            driver.resize(size);
+            let scene = |driver: &Driver| {
+                let hurst = driver.model.document.value("roughness.hurst").unwrap().parse::<f64>().unwrap();
+                let kappa = driver.model.governing().unwrap().kappa.unwrap();
+                (hurst, Some(kappa))
+            };
+            let near = |one: f64, other: f64| (one / other - 1.0).abs() < 1e-9;
+            let (hurst, kappa) = driver.model.place().unwrap();
+            assert!(near(hurst, scene(&driver).0) && near(kappa.unwrap(), scene(&driver).1.unwrap()));
+            driver.press("Right");
+            assert!(scene(&driver).0 > hurst && near(scene(&driver).1.unwrap(), kappa.unwrap()), "{size:?}");
+            driver.press("t");
+            let (across, up) = driver.model.place().unwrap();
+            assert!(
+                near(up.unwrap(), scene(&driver).0) && near(across, scene(&driver).1.unwrap()),
+                "{size:?}"
+            );
+            let marks = driver.rows().iter().filter(|row| row.contains('◆')).count();
+            assert!(marks >= 1, "{size:?}\n{}", driver.text());
+            driver.press("E");
+            let prompt = driver.status();
+            assert!(prompt.starts_with("Export"), "{size:?}: {prompt}");
+            driver.press("Ctrl+u");
+            driver.type_text("map.csv");
+            driver.press("Enter");
+            assert_eq!(driver.files[Path::new("map.csv")], "MapCells", "{size:?}");
+        }
+    });
+}
+
+#[test]
+fn ghosts_have_letters_and_forces_and_titles_name_quantities() {
+    within(60, || {
+        for size in SIZES {
+            let mut driver = pressed("c");
+            driver.select("adhesion.work");
+            driver.press("L");
+            driver.model.pane = Pane::Force;
+            driver.resize(size);
+            let area = Layout::of(&driver.model).pane(Pane::Force).unwrap();
+            let rows = &driver.rows()[usize::from(area.y)..usize::from(area.bottom())];
+            let cell =
+                |row: &str| -> String { row.chars().skip(area.x.into()).take(area.width.into()).collect() };
+            let rows: Vec<String> = rows.iter().map(|row| cell(row)).collect();
+            let is_framed = is_framed(area);
+            assert!(!is_framed || rows[0].contains("Force F"), "{size:?}: {}", rows[0]);
+            let inner = &rows[usize::from(is_framed)..];
+            assert!(inner.iter().any(|row| row.contains('A')), "{size:?}\n{}", driver.text());
+            if area.height >= 14 {
+                assert!(inner.iter().any(|row| row.contains("A F_a ") && row.contains('(')), "{inner:?}");
+            }
+        }
+    });
+}
+
+#[test]
+fn the_wheel_zooms_at_the_pointer_and_strong_contrast_keeps_profile_and_surface_apart() {
+    within(60, || {
+        for size in SIZES {
+            let mut driver = pressed("");
+            driver.model.pane = Pane::Profile;
+            driver.model.appearance.theme = Theme::HighContrast;
+            driver.resize(size);
+            let area = inside(Layout::of(&driver.model).pane(Pane::Profile).unwrap());
+            let screen = driver.screen();
+            let inks: BTreeSet<String> = (area.y..area.bottom())
+                .flat_map(|row| (area.x..area.right()).map(move |column| (column, row)))
+                .filter(|cell| screen[*cell].symbol().chars().all(has_dots))
+                .map(|cell| format!("{:?}", screen[cell].fg))
+                .collect();
+            assert!(inks.len() >= 2, "{size:?}: {inks:?}\n{}", driver.text());
+            let shown = |driver: &Driver| {
+                let section = &driver.model.snapshot.as_ref().unwrap().profile;
+                (section.first, section.springs)
+            };
+            let (first, all) = shown(&driver);
+            let column = area.x + area.width / 4;
+            driver.act(Action::Mouse(Mouse { column, row: area.y + 1, gesture: Gesture::Wheel(2) }));
+            let (from, springs) = shown(&driver);
+            assert!(springs < all, "{size:?}: {springs} of {all}");
+            // The spring under the pointer stays there: nearer to the left end than to the right one.
+            assert!(from - first < first + all - (from + springs), "{size:?}: {from} {springs} of {all}");
+        }
+    });
+}
+
+#[test]
+fn the_approximate_curve_leaves_half_of_each_axis_to_the_loop() {
+    within(60, || {
+        for size in SIZES {
+            for document in [default_scene(), rough()] {
+                let mut driver = mid_retraction(document);
+                driver.model.zoomed = true;
+                driver.resize(size);
+                let dots = |driver: &Driver| {
+                    let area = Layout::of(&driver.model).pane(Pane::Force).unwrap();
+                    let legs = driver.model.legs();
+                    let ends = legs.iter().flat_map(|leg| &leg.curve).map(|point| point.indentation);
+                    let (low, high) =
+                        ends.fold((f64::MAX, f64::MIN), |(low, high), at| (low.min(at), high.max(at)));
+                    let columns = area.x..area.right();
+                    let here = |column: &u16| {
+                        let at = indentation_at(&driver.model, inside(area), *column).unwrap();
+                        (low..=high).contains(&at)
+                    };
+                    columns.filter(here).count()
+                };
+                let before = dots(&driver);
+                driver.press("~");
+                let after = dots(&driver);
+                assert!(driver.model.approximate.curve().is_some());
+                assert!(2 * after + 2 >= before, "{size:?}: {after} of {before} columns");
+            }
+        }
+    });
+}
+
+#[test]
+fn a_digit_on_a_choice_says_how_choices_are_changed() {
+    within(60, || {
+        for size in SIZES {
+            for (path, says) in [
+                ("adhesion", "adhesion is a choice: ← → change it"),
+                ("numerics.edges", "edges is a choice: ← → change it"),
+                ("material", "material is no number: Enter types it"),
+                ("loading", "loading is no number: Enter types it"),
+                ("numerics", "numerics is a group: Enter folds it"),
+                ("observe.fragments", "fragments is a switch: t changes it"),
+            ] {
+                let mut driver = pressed("");
+                driver.select(path);
+                driver.model.pane = Pane::Parameters;
+                driver.resize(size);
+                let before = driver.model.document.text().to_owned();
+                driver.press("2");
+                let status = driver.status();
+                let start = status.strip_suffix('…').unwrap_or(&status);
+                assert!(says.starts_with(start) && start.len() > 8, "{size:?} {path}: {status}");
+                assert_eq!(
+                    (driver.model.mode == Mode::Explore, driver.model.document.text()),
+                    (true, &*before)
+                );
+            }
+        }
+    });
+}
+
+#[test]
+fn every_pane_has_its_paragraph_in_the_help() {
+    for pane in Pane::ALL {
+        let help = pane.row().help;
+        assert!(
+            !help.is_empty() && help.iter().all(|(name, text)| !name.is_empty() && text.len() > 40),
+            "{pane:?}"
+        );
+    }
+}
+
+#[test]
+fn indentation_and_force_are_in_the_status_line() {
+    within(60, || {
+        for size in &SIZES[..4] {
+            for keys in ["", "d ]"] {
+                let mut driver = pressed(keys);
+                driver.resize(*size);
+                let point = driver.model.snapshot.as_ref().unwrap().point;
+                let [d, force] = [(point.indentation, "m"), (point.force, "N")]
+                    .map(|(value, unit)| format_quantity(value, unit));
+                assert!(
+                    driver.status().contains(&format!("d {d} F {force}")),
+                    "{size:?} {keys}: {}",
+                    driver.status()
+                );
+            }
+        }
+    });
+}
+
+#[test]
+fn a_key_of_a_pane_shows_the_pane() {
+    within(60, || {
+        for size in SIZES {
+            for (keys, pane) in [
+                ("D", Pane::Lengths),
+                ("&", Pane::Beside),
+                ("Q", Pane::Spectrum),
+                ("i", Pane::Preloads),
+                ("A", Pane::Accuracy),
+                ("m", Pane::Chart),
+            ] {
+                let mut driver = pressed("");
+                driver.model.pane = Pane::Force;
+                driver.resize(size);
+                let is_shown = |driver: &Driver| Layout::of(&driver.model).pane(pane).is_some();
+                assert!(!is_shown(&driver));
+                driver.press(keys);
+                assert!(is_shown(&driver), "{size:?} {keys}\n{}", driver.text());
+                driver.press(keys);
+                assert!(!is_shown(&driver), "{size:?} {keys}\n{}", driver.text());
+            }
+        }
+    });
+}
+
+#[test]
+fn ascii_has_a_sign_for_plus_or_minus_and_for_the_normal_distribution() {
+    within(60, || {
+        for size in SIZES {
+            let mut driver = measured(rough());
+            driver.press("A");
+            driver.resize(size);
+            let (has_error, has_normal) = (driver.text().contains("± "), driver.text().contains('¦'));
+            driver.model.appearance.marker = Marker::Ascii;
+            let text = driver.text();
+            assert!(text.is_ascii() && !text.replace("? help", "").contains('?'), "{size:?}\n{text}");
+            assert_eq!(text.contains("+-"), has_error, "{size:?}\n{text}");
+            assert!(!has_normal || text.contains(':'), "{size:?}\n{text}");
+            assert!(has_error || size.0 < 48, "{size:?}\n{text}");
         }
     });
 }

@@ -1,0 +1,74 @@
+//! Stand-in for the studies beside the worker: gives the answers of a test, so that nothing depends on time.
+
+use asperity::accuracy::{Choice, ChoiceError, Estimate};
+use asperity::explorer::snapshot::SolvedScene;
+use asperity::explorer::study::{Appraiser, PaneData};
+use asperity::scene::Scene;
+use asperity::simulation::RunError;
+use std::sync::mpsc::Sender;
+
+/// Receiver of data of a pane.
+pub type Reported<'a> = &'a mut dyn FnMut(PaneData);
+/// Extension of data of a pane, with a question for the end.
+type Extension = dyn FnMut(PaneData, &dyn Fn() -> bool, Reported<'_>) -> Result<PaneData, String> + Send;
+/// Choice of the number of springs for a tolerance.
+type Chosen = fn(f64, &mut dyn FnMut(u64)) -> Result<Choice, ChoiceError>;
+
+/// A stand-in; without other answers nothing is estimated and no number of springs chosen.
+pub struct StandIn {
+    pub estimate: Option<Estimate>,
+    pub choose: Chosen,
+    pub extend: Box<Extension>,
+}
+
+impl StandIn {
+    pub fn new(
+        extend: impl FnMut(PaneData, &dyn Fn() -> bool, Reported<'_>) -> Result<PaneData, String> + Send + 'static,
+    ) -> Self {
+        let choose: Chosen = |_, _| Err(ChoiceError::Stepwise);
+        StandIn { estimate: None, choose, extend: Box::new(extend) }
+    }
+
+    /// Extends data, goes on until it is stopped, and reports too late; says when it begins to wait and when it has
+    /// stopped.
+    pub fn endless(
+        says: Sender<&'static str>,
+        mut extend: impl FnMut(PaneData, Reported<'_>) -> PaneData + Send + 'static,
+    ) -> Self {
+        StandIn::new(move |data, stop, report| {
+            let data = extend(data, report);
+            says.send("begun").unwrap();
+            while !stop() {
+                std::thread::yield_now();
+            }
+            report(data.clone());
+            says.send("stopped").unwrap();
+            Ok(data)
+        })
+    }
+}
+
+impl Appraiser for StandIn {
+    fn estimate(&mut self, _: &SolvedScene, _: &dyn Fn() -> bool) -> Result<Option<Estimate>, RunError> {
+        Ok(self.estimate.clone())
+    }
+
+    fn choose(
+        &mut self,
+        _: &Scene,
+        tolerance: f64,
+        _: &dyn Fn() -> bool,
+        trying: &mut dyn FnMut(u64),
+    ) -> Result<Choice, ChoiceError> {
+        (self.choose)(tolerance, trying)
+    }
+
+    fn extend(
+        &mut self,
+        data: PaneData,
+        stop: &dyn Fn() -> bool,
+        report: &mut dyn FnMut(PaneData),
+    ) -> Result<PaneData, String> {
+        (self.extend)(data, stop, report)
+    }
+}
