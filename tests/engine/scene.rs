@@ -144,8 +144,9 @@ fn the_table_names_every_field_of_the_model_and_no_other() {
     for (form, rough, solver) in [
         (
             "Paraboloid(radius: 1.0)",
-            "Measured(file: \"x\", opposite: \"y\", row: 1, as_line: false, detrend: Tilt, periodic: true, \
-             unit: \"mm\", continue_to: 1.0e-9, seed: 2)",
+            "Measured(file: \"x\", further_files: [\"z\"], opposite: \"y\", row: 1, as_line: false, detrend: Tilt, \
+             periodic: true, unit: \"mm\", height_unit: \"nm\", spacing: 1.0e-6, interpolate: true, resample: true, \
+             channel: 1, continue_to: 1.0e-9, seed: 2)",
             "Stepwise(step: 1.0)",
         ),
         ("Cone(angle: 0.1)", "SelfAffine(hurst: 0.5, modes: (1, 2), seed: 1, rms_height: 1.0e-9)", "Exact"),
