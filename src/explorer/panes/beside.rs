@@ -18,6 +18,11 @@ pub static ROW: PaneRow = PaneRow {
     place: Place::CloseUp,
     title,
     draw,
+    edge: |model, area| {
+        let snapshot = model.snapshot.as_deref()?;
+        let beside = snapshot.beside.as_deref()?;
+        Some(profile::scene_names(beside, profile::heights(snapshot), area, model.appearance))
+    },
     keys: Some(ModeKind::Crosshair),
     help: &[(
         "Beside",
