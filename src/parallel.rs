@@ -1,9 +1,8 @@
-//! Two computations side by side. Neither sees the other, so what they give does not depend on whether they
-//! run at the same time.
+//! Computations side by side. None sees another, so their results do not depend on the threads that they run on.
 
 use std::cell::Cell;
 use std::panic::resume_unwind;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Mutex, PoisonError};
 use std::thread::{Builder, Scope, ScopedJoinHandle, scope};
 
 thread_local! {
@@ -11,7 +10,7 @@ thread_local! {
     static ONE_OF_MANY: Cell<bool> = const { Cell::new(false) };
 }
 
-/// Does `work` on this thread alone, one thing after the other: for one of many threads that keep all cores busy.
+/// Does `work` on this thread alone, as one of many threads that keep all cores busy.
 pub(crate) fn on_this_thread<A>(work: impl FnOnce() -> A) -> A {
     let before = ONE_OF_MANY.replace(true);
     let result = work();
@@ -33,7 +32,7 @@ pub(crate) fn begin_threads<'scope>(
     (0..count).filter(|_| begin()).count()
 }
 
-/// Does both, the first on a thread of its own if that is `worth` it and the system gives one.
+/// Does both, the first on a thread of its own if that is `worth` it, the system gives one and the thread begins first.
 pub(crate) fn in_parallel<A: Send, B>(
     worth: bool,
     one: impl FnOnce() -> A + Send,
@@ -42,50 +41,21 @@ pub(crate) fn in_parallel<A: Send, B>(
     if !worth || ONE_OF_MANY.get() {
         return (one(), other());
     }
+    let task = Mutex::new(Some(one));
+    let take = || task.lock().unwrap_or_else(PoisonError::into_inner).take();
     scope(|scope| {
-        let one = Beside::begin(scope, true, one);
+        let thread = Builder::new().spawn_scoped(scope, || take().map(|task| task())).ok();
         let other = other();
-        (one.finish(), other)
-    })
-}
-
-/// A computation that another thread may do until its result is asked for.
-pub(crate) struct Beside<'scope, A, F> {
-    /// Task, until one of the threads takes it.
-    task: Task<F>,
-    thread: Option<ScopedJoinHandle<'scope, Option<A>>>,
-}
-
-/// Whichever thread takes it does it.
-struct Task<F>(Arc<Mutex<Option<F>>>);
-
-impl<F> Task<F> {
-    fn take(&self) -> Option<F> {
-        self.0.lock().unwrap_or_else(PoisonError::into_inner).take()
-    }
-}
-
-impl<'scope, A: Send + 'scope, F: FnOnce() -> A + Send + 'scope> Beside<'scope, A, F> {
-    /// Begins `task` on a thread of its own if that is `worth` it and the system gives one.
-    pub fn begin(scope: &'scope Scope<'scope, '_>, worth: bool, task: F) -> Self {
-        let task = Arc::new(Mutex::new(Some(task)));
-        let aside = Task(Arc::clone(&task));
-        let begin = || Builder::new().spawn_scoped(scope, move || aside.take().map(|task| task())).ok();
-        let worth = worth && !ONE_OF_MANY.get();
-        Beside { thread: worth.then(begin).flatten(), task: Task(task) }
-    }
-
-    /// Its result; does here what no other thread has begun.
-    pub fn finish(self) -> A {
-        if let Some(task) = self.task.take() {
-            return task();
+        // Done here where no other thread has begun it.
+        if let Some(task) = take() {
+            return (task(), other);
         }
-        match self.thread.map(ScopedJoinHandle::join) {
-            Some(Ok(Some(result))) => result,
+        match thread.map(ScopedJoinHandle::join) {
+            Some(Ok(Some(one))) => (one, other),
             Some(Err(panic)) => resume_unwind(panic),
             Some(Ok(None)) | None => unreachable!("a task that is gone has been taken by its thread"),
         }
-    }
+    })
 }
 
 #[cfg(test)]

@@ -87,6 +87,62 @@ pub(crate) fn per_cent(error: f64) -> String {
     format!("{} %", if leads_with_one { two } else { one })
 }
 
+/// Symbols of units after a number, without prefixes.
+const UNITS: [&str; 9] = ["m", "N", "J", "J/m²", "Pa", "s", "B", "N/m", "%"];
+
+/// Returns true for a unit, with or without a prefix.
+fn is_unit(word: &str) -> bool {
+    let word = word.trim_end_matches([',', ';', ':', '.', ')']);
+    let without_prefix =
+        word.strip_prefix(['q', 'r', 'y', 'z', 'a', 'f', 'p', 'n', 'µ', 'm', 'k', 'M', 'G', 'T', 'P', 'E']);
+    UNITS.contains(&word) || without_prefix.is_some_and(|word| UNITS.contains(&word.trim_start_matches('i')))
+}
+
+/// Returns true where no line may end between two words: within a number with its thousands apart, and before its unit.
+pub(crate) fn belong_together(word: &str, next: &str) -> bool {
+    let digits = next.trim_end_matches([',', ';', ':', '.', ')']);
+    let is_group = digits.len() == 3 && digits.bytes().all(|byte| byte.is_ascii_digit());
+    word.ends_with(|c: char| c.is_ascii_digit()) && (is_group || is_unit(next))
+}
+
+/// Words of a text, with numbers and their units in one.
+fn words(text: &str) -> Vec<String> {
+    let mut words: Vec<String> = Vec::new();
+    for next in text.split_whitespace() {
+        match words.last_mut().filter(|word| belong_together(word, next)) {
+            Some(word) => *word = format!("{word} {next}"),
+            None => words.push(next.to_owned()),
+        }
+    }
+    words
+}
+
+/// Lines of at most `width` characters, broken between words and within those that are longer.
+pub(crate) fn wrap(text: &str, width: usize) -> Vec<String> {
+    let mut lines = vec![String::new()];
+    let mut room = width;
+    for word in words(text) {
+        let length = word.chars().count();
+        let blank = usize::from(room < width);
+        if length + blank > room && room < width {
+            lines.push(String::new());
+            room = width;
+        }
+        let blank = usize::from(room < width);
+        for (index, character) in " ".repeat(blank).chars().chain(word.chars()).enumerate() {
+            if index > 0 && room == 0 {
+                lines.push(String::new());
+                room = width;
+            }
+            if let Some(line) = lines.last_mut() {
+                line.push(character);
+            }
+            room -= 1;
+        }
+    }
+    lines
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -127,5 +183,18 @@ mod tests {
     fn thousands_are_apart() {
         let counts = [0, 999, 1000, 16_384, 1_048_576];
         assert_eq!(counts.map(grouped), ["0", "999", "1 000", "16 384", "1 048 576"]);
+    }
+
+    #[test]
+    fn lines_break_between_words() {
+        assert_eq!(wrap("one two three", 7), ["one two", "three"]);
+        assert_eq!(wrap("one two three", 5), ["one", "two", "three"]);
+        assert_eq!(wrap("a  longword b", 4), ["a", "long", "word", "b"]);
+        assert_eq!(wrap("µµµµ µµµµ", 4), ["µµµµ", "µµµµ"]);
+        assert_eq!(wrap("", 4), [""]);
+        assert_eq!(wrap("line 800.6 µs, tree 80.75 µs", 16), ["line 800.6 µs,", "tree 80.75 µs"]);
+        assert_eq!(wrap("with 16 384 springs", 7), ["with", "16 384", "springs"]);
+        assert_eq!(wrap("about 3 MiB of memory", 9), ["about", "3 MiB of", "memory"]);
+        assert_eq!(wrap("1 of 3 legs m", 6), ["1 of 3", "legs m"]);
     }
 }

@@ -47,7 +47,7 @@ surface)
     ;;
 analysis) below="contact io memory parallel scene spectrum surface text topography" ;;
 store)
-    own="study" files=(src/study/{store,done,other_plan,record,merge,tables,shard}.rs)
+    own="study" files=(src/study/{store,done,record,merge,tables,shard}.rs)
     below="analysis contact draw io memory parallel reference scene simulation spectrum surface text topography"
     above="accuracy check export" beside="engine/simulated_disk program/sweep"
     # The unfit ones start the program, which is not there, or do not always pass.

@@ -54,7 +54,7 @@ fn assert_errors(errors: &SceneErrors, assert_origin: impl Fn(&Origin)) {
     let lines = errors.to_string().lines().count();
     assert_eq!(lines, count, "an error is one line: {errors}");
     for error in errors.iter() {
-        let SceneError { origin, field: _, value: _, allowed, message } = error;
+        let SceneError { origin, allowed, message, .. } = error;
         assert!(!(allowed.is_empty() && message.is_empty()), "{error:?}");
         assert_message(&error.to_string());
         assert_message(&error.what().to_string());

@@ -2,7 +2,7 @@
 
 use super::clock::Budget;
 use super::convergence::observed_order;
-use super::solution::{Solved, solve};
+use super::solution::{Solution, Solved, solve};
 use super::{CostTable, ErrorFigure, Knob, Measures, Reference, Row, Timing};
 use crate::scene::Scene;
 use crate::simulation::{RunError, Simulation};
@@ -103,13 +103,30 @@ impl Bench<'_> {
         }
     }
 
-    pub(super) fn not_affordable(&mut self, knob: Knob, points: u64) {
-        self.left_out.push(format!("{}: {points} springs and more", knob.name()));
+    /// Notes settings of a knob that were not tried or not reached.
+    pub(super) fn leave_out(&mut self, knob: Knob, settings: &str) {
+        self.left_out.push(format!("{}: {settings}", knob.name()));
     }
 
     /// Runs a scene with everything made anew, at most until the budget is over.
     pub fn solve(&self, scene: &Scene) -> Result<Solved, RunError> {
         solve(&mut Simulation::new(self.folder.to_path_buf()), scene, &|| self.budget.is_over())
+    }
+
+    /// Solves the scene from which settings of a knob differ; without a solution the settings are left out.
+    pub fn reference(
+        &mut self,
+        scene: &Scene,
+        knob: Knob,
+        settings: &str,
+    ) -> Result<Option<Solution>, RunError> {
+        if !self.budget.is_over()
+            && let Solved::Outcome(outcome) = self.solve(scene)?
+        {
+            return Ok(Some(Solution::of(&outcome)));
+        }
+        self.leave_out(knob, settings);
+        Ok(None)
     }
 
     /// Times whole runs of a scene.

@@ -3,7 +3,7 @@
 use super::convergence::{error_of_finest, first_within};
 use super::estimate::{Estimate, Evidence};
 use super::solution::{
-    Solution, Solved, allowed_points, closed_form_adhesion, refined, relative_error, solve,
+    Solution, Solved, Target, allowed_points, closed_form_adhesion, refined, relative_error, solve,
 };
 use crate::scene::{Edges, Scene, Solver};
 use crate::simulation::{RunError, Simulation};
@@ -33,27 +33,6 @@ pub fn parse_tolerance(text: &str) -> Result<f64, String> {
     let number: f64 = number.parse().map_err(|_| allowed())?;
     let tolerance = if hundredths { number / 100.0 } else { number };
     if tolerance > 0.0 && tolerance < 1.0 { Ok(tolerance) } else { Err(allowed()) }
-}
-
-/// Quantity of a tolerance.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Target {
-    /// The adhesion force.
-    AdhesionForce,
-    /// The force curve, where nothing pulls; see [`super::ForceCurve::distance`].
-    Curve,
-}
-
-impl Target {
-    /// Its name in words.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Target::AdhesionForce => "adhesion force",
-            Target::Curve => "force curve",
-        }
-    }
 }
 
 /// Springs and edges that reach a tolerance.
@@ -222,16 +201,13 @@ const EDGES: [Edges; 2] = [Edges::SubCell, Edges::Grid];
 /// enough, the best of them. `None` where they are too few.
 fn judge([sub_cell, grid]: &[Vec<Solution>; 2], closed_form: Option<f64>, tolerance: f64) -> Option<Choice> {
     let finest = sub_cell.last()?;
-    let target = if finest.adhesion_force.is_some() { Target::AdhesionForce } else { Target::Curve };
-    let differ = |one: &Solution, other: &Solution| {
-        let errors = one.errors(other);
-        if target == Target::Curve { errors.curve } else { errors.adhesion_force }
-    };
+    let target = Target::of(finest);
     let of_finest = match (closed_form, sub_cell.as_slice()) {
         (Some(_), _) => 0.0,
         (None, solutions) if solutions.len() >= FEWEST_SOLUTIONS => {
             let last = solutions.windows(2).rev().take(LAST_DIFFERENCES);
-            let mut differences: Vec<f64> = last.map_while(|pair| differ(&pair[0], &pair[1])).collect();
+            let mut differences: Vec<f64> =
+                last.map_while(|pair| target.difference(&pair[0], &pair[1])).collect();
             differences.reverse();
             if differences.is_empty() {
                 return None;
@@ -242,7 +218,7 @@ fn judge([sub_cell, grid]: &[Vec<Solution>; 2], closed_form: Option<f64>, tolera
     };
     let error = |solution: &Solution| match closed_form {
         Some(force) => Some(relative_error(solution.adhesion_force.unwrap_or(0.0), force)),
-        None => Some(differ(solution, finest)? + of_finest),
+        None => Some(target.difference(solution, finest)? + of_finest),
     };
     let candidates = EDGES.into_iter().zip([sub_cell, grid]).filter_map(|(edges, solutions)| {
         let errors: Vec<_> = solutions.iter().map(error).collect();

@@ -1,8 +1,7 @@
 //! Estimated error of one outcome, from a few more solutions.
 
-use super::Target;
 use super::convergence::error_of_finest;
-use super::solution::{Solution, Solved, closed_form_adhesion, refined, relative_error, solve};
+use super::solution::{Solution, Solved, Target, closed_form_adhesion, refined, relative_error, solve};
 use crate::scene::{Edges, Scene, Solver, check};
 use crate::simulation::{Outcome, RunError, Simulation};
 use crate::text::per_cent;
@@ -76,15 +75,11 @@ pub fn estimate(
     stop: &dyn Fn() -> bool,
 ) -> Result<Option<Estimate>, RunError> {
     let own = Solution::of(outcome);
-    let target = if own.adhesion_force.is_some() { Target::AdhesionForce } else { Target::Curve };
+    let target = Target::of(&own);
     if let (Some(exact), Some(force)) = (closed_form_adhesion(scene, outcome), own.adhesion_force) {
         let error = relative_error(force, exact);
         return Ok(Some(Estimate { target, error, evidence: Evidence::ClosedForm }));
     }
-    let differ = |one: &Solution, other: &Solution| {
-        let errors = one.errors(other);
-        if target == Target::Curve { errors.curve } else { errors.adhesion_force }
-    };
     let points = scene.numerics.points;
     let mut simulation = Simulation::new(folder.to_path_buf());
     let mut solved = |points: u64, most: u64| -> Result<Option<Solution>, RunError> {
@@ -103,7 +98,7 @@ pub fn estimate(
         (own, 0.0)
     } else {
         let Some(exact) = solved(points, MOST_FINER)? else { return Ok(None) };
-        let Some(of_step) = differ(&own, &exact) else { return Ok(None) };
+        let Some(of_step) = target.difference(&own, &exact) else { return Ok(None) };
         (exact, of_step)
     };
     // From coarse to fine, the exact solution on the scene's own springs among them.
@@ -125,7 +120,7 @@ pub fn estimate(
         return Ok(None);
     }
     let pairs = solutions.iter().zip(solutions.iter().skip(1));
-    let differences: Option<Vec<f64>> = pairs.map(|(coarse, fine)| differ(coarse, fine)).collect();
+    let differences: Option<Vec<f64>> = pairs.map(|(coarse, fine)| target.difference(coarse, fine)).collect();
     let Some(differences) = differences.filter(|differences| !differences.is_empty()) else {
         return Ok(None);
     };

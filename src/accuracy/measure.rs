@@ -107,7 +107,7 @@ impl Bench<'_> {
             // The first two of a ladder may take what they need, so that there is something to compare.
             let may_take = if rungs.len() < 2 { 1.0 } else { share };
             if self.budget.left_of(may_take) <= guess {
-                self.not_affordable(knob, points);
+                self.leave_out(knob, &format!("{points} springs and more"));
                 break;
             }
             watch(Progress::Trying(knob, &format!("{points} springs")));
@@ -116,7 +116,7 @@ impl Bench<'_> {
             let outcome = match self.solve(&self.compared(&scene))? {
                 Solved::TooCoarse => continue,
                 Solved::TooMuch => {
-                    self.not_affordable(knob, points);
+                    self.leave_out(knob, &format!("{points} springs and more"));
                     break;
                 }
                 Solved::Outcome(outcome) => outcome,

@@ -14,15 +14,14 @@ mod distance;
 mod estimate;
 mod measure;
 mod others;
-mod single;
 mod solution;
 mod table;
 
 pub use bench::{CostError, Progress};
-pub use choose::{Choice, ChoiceError, Target, choose, parse_tolerance};
+pub use choose::{Choice, ChoiceError, choose, parse_tolerance};
 pub use convergence::{error_of_finest, first_within, observed_order};
 pub use distance::ForceCurve;
 pub use estimate::{Estimate, Evidence, estimate};
 pub use measure::measure;
-pub use solution::{Measures, Solution, closed_form_adhesion};
+pub use solution::{Measures, Solution, Target, closed_form_adhesion};
 pub use table::{CostTable, ErrorFigure, Knob, Reference, Row, Timing};

@@ -1,13 +1,14 @@
 //! The knobs beside the number of springs: steps, samples, precision, lines.
 
 use super::bench::{Bench, CostError, Rows, Tried};
-use super::single::errors_of_single_precision;
 use super::solution::{Solution, Solved, allowed_points, refined};
 use super::{Knob, Measures, Timing};
-use crate::scene::{Edges, Solver, check, format_quantity};
+use crate::contact::{ContactError, ContactTree, SubCellEdges, exact, run};
+use crate::scene::{Edges, Scene, Solver, check, format_quantity};
 use crate::simulation::{RunError, Simulation};
 use crate::study::{Case, Next, Quantity, Records, Sink, Statistics, solve_in_turn};
 use std::ops::ControlFlow;
+use std::path::Path;
 use std::time::Instant;
 
 /// Shares of the budget by the end of which each has ended.
@@ -44,10 +45,6 @@ pub(super) fn measure(bench: &mut Bench<'_>, points: u64, rows: &mut Rows<'_, '_
     lines(bench, points, rows)
 }
 
-fn left_out(bench: &mut Bench<'_>, knob: Knob, what: &str) {
-    bench.left_out.push(format!("{}: {what}", knob.name()));
-}
-
 /// The step of the stepwise solver, against the exact solver on as many springs.
 fn steps(bench: &mut Bench<'_>, rows: &mut Rows<'_, '_>) -> Result<(), CostError> {
     let knob = Knob::Step;
@@ -61,15 +58,7 @@ fn steps(bench: &mut Bench<'_>, rows: &mut Rows<'_, '_>) -> Result<(), CostError
     scene.numerics.samples *= BLURRED;
     let floors =
         Measures { curve: Some((1 + BLURRED) as f64 / scene.numerics.samples as f64), ..Measures::default() };
-    if bench.budget.is_over() {
-        left_out(bench, knob, "all steps");
-        return Ok(());
-    }
-    let Solved::Outcome(outcome) = bench.solve(&scene)? else {
-        left_out(bench, knob, "all steps");
-        return Ok(());
-    };
-    let exact = Solution::of(&outcome);
+    let Some(exact) = bench.reference(&scene, knob, "all steps")? else { return Ok(()) };
     let Some((low, high)) = exact.curve.indentations().filter(|(low, high)| low < high) else {
         return Ok(());
     };
@@ -90,7 +79,7 @@ fn steps(bench: &mut Bench<'_>, rows: &mut Rows<'_, '_>) -> Result<(), CostError
         let clock = Instant::now();
         let solved = if out_of_time { Solved::TooMuch } else { bench.solve(&scene)? };
         let Solved::Outcome(outcome) = solved else {
-            left_out(bench, knob, &format!("{named} and less, on {points} springs"));
+            bench.leave_out(knob, &format!("{named} and less, on {points} springs"));
             break;
         };
         let took = clock.elapsed().as_secs_f64();
@@ -114,15 +103,11 @@ fn samples(bench: &mut Bench<'_>, points: u64, rows: &mut Rows<'_, '_>) -> Resul
     let most = REFERENCE_SAMPLES / legs;
     let mut scene = refined(bench.scene, points, Edges::SubCell);
     scene.numerics.samples = most.max(2);
-    if bench.budget.is_over() || most < 8 * FEWEST_SAMPLES {
-        left_out(bench, knob, "all numbers");
+    if most < 8 * FEWEST_SAMPLES {
+        bench.leave_out(knob, "all numbers");
         return Ok(());
     }
-    let Solved::Outcome(outcome) = bench.solve(&scene)? else {
-        left_out(bench, knob, "all numbers");
-        return Ok(());
-    };
-    let finest = Solution::of(&outcome);
+    let Some(finest) = bench.reference(&scene, knob, "all numbers")? else { return Ok(()) };
     for (index, samples) in
         std::iter::successors(Some(FEWEST_SAMPLES), |samples| Some(4 * samples)).enumerate()
     {
@@ -131,7 +116,7 @@ fn samples(bench: &mut Bench<'_>, points: u64, rows: &mut Rows<'_, '_>) -> Resul
         }
         let share = if index < COARSE { 1.0 } else { SAMPLES_BY };
         if bench.budget.left_of(share) <= 0.0 {
-            left_out(bench, knob, &format!("{samples} and more"));
+            bench.leave_out(knob, &format!("{samples} and more"));
             break;
         }
         rows.trying(knob, &samples.to_string());
@@ -150,7 +135,7 @@ fn samples(bench: &mut Bench<'_>, points: u64, rows: &mut Rows<'_, '_>) -> Resul
 fn single_precision(bench: &mut Bench<'_>, points: u64, rows: &mut Rows<'_, '_>) -> Result<(), CostError> {
     let knob = Knob::SinglePrecision;
     if bench.budget.is_over() {
-        left_out(bench, knob, "not tried");
+        bench.leave_out(knob, "not tried");
         return Ok(());
     }
     rows.trying(knob, "");
@@ -163,6 +148,36 @@ fn single_precision(bench: &mut Bench<'_>, points: u64, rows: &mut Rows<'_, '_>)
     let tried = Tried { knob, setting: 32.0, springs: points, seconds: None, errors };
     rows.add(bench, tried, &Measures::default());
     Ok(())
+}
+
+/// Relative errors of a scene whose gaps are rounded to single precision and then solved in double, against
+/// the same with gaps in double precision. `stop` is asked between legs whether to give up.
+fn errors_of_single_precision(
+    scene: &Scene,
+    folder: &Path,
+    stop: &dyn Fn() -> bool,
+) -> Result<Measures<Option<f64>>, RunError> {
+    let mut simulation = Simulation::new(folder.to_path_buf());
+    let (line, _, governing) = simulation.make_line(scene)?;
+    let foundation = governing.foundation(line);
+    let hess = governing.hess_rule(foundation);
+    let solve = |gaps: &[f64]| -> Result<Solution, RunError> {
+        let goes_on = || if stop() { Err(ContactError::Interrupted) } else { Ok(()) };
+        goes_on()?;
+        let samples = scene.numerics.samples as usize;
+        let history = if let Some(hess) = hess {
+            let tree = ContactTree::build(gaps, Edges::SubCell)?;
+            let mut body = exact::adhesive(gaps, &tree, SubCellEdges::new(hess), foundation, samples);
+            run(&mut body, &scene.loading, |_, _| goes_on())?
+        } else {
+            let mut body = exact::nonadhesive(gaps, Edges::SubCell, foundation, samples);
+            run(&mut body, &scene.loading, |_, _| goes_on())?
+        };
+        Ok(Solution::of_history(&history, scene.numerics.points))
+    };
+    let double = solve(&line.gaps)?;
+    let rounded: Vec<f64> = line.gaps.iter().map(|&gap| f64::from(gap as f32)).collect();
+    Ok(solve(&rounded)?.errors(&double))
 }
 
 /// Random profiles: standard error of the mean of their adhesion forces, and the time they take one after the other.
@@ -200,7 +215,7 @@ struct MeanOfProfiles<'m, 'b, 'r, 'w> {
 impl Sink for MeanOfProfiles<'_, '_, '_, '_> {
     fn next(&mut self, _: Case) -> Next {
         if self.bench.budget.left_of(LINES_BY) <= 0.0 {
-            left_out(self.bench, Knob::Lines, &format!("{} and more", self.next));
+            self.bench.leave_out(Knob::Lines, &format!("{} and more", self.next));
             return Next::End;
         }
         self.clock = Instant::now();

@@ -100,6 +100,38 @@ impl Solution {
     }
 }
 
+/// Quantity of a tolerance.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Target {
+    /// The adhesion force.
+    AdhesionForce,
+    /// The force curve, where nothing pulls; see [`ForceCurve::distance`].
+    Curve,
+}
+
+impl Target {
+    /// Name in words.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Target::AdhesionForce => "adhesion force",
+            Target::Curve => "force curve",
+        }
+    }
+
+    /// The quantity of a solution.
+    pub(super) fn of(solution: &Solution) -> Self {
+        if solution.adhesion_force.is_some() { Target::AdhesionForce } else { Target::Curve }
+    }
+
+    /// Relative difference of the quantity from a reference.
+    pub(super) fn difference(self, solution: &Solution, reference: &Solution) -> Option<f64> {
+        let errors = solution.errors(reference);
+        if self == Target::Curve { errors.curve } else { errors.adhesion_force }
+    }
+}
+
 /// |value − reference|/|reference|.
 pub(super) fn relative_error(value: f64, reference: f64) -> f64 {
     ((value - reference) / reference).abs()
@@ -168,10 +200,10 @@ pub fn closed_form_adhesion(scene: &Scene, outcome: &Outcome) -> Option<f64> {
     let (length, modulus) = (scene.length, outcome.governing.effective_modulus);
     let flat_pull_off = |width: f64| -(PI * width * work / modulus).sqrt();
     let form = scene.form.as_ref();
-    let (pull_off, widest) = match form {
-        None => (flat_pull_off(length), length),
-        Some(Form::Punch { radius }) if 2.0 * radius <= length => (flat_pull_off(2.0 * radius), length),
-        Some(form) => {
+    let (pull_off, widest) = match (form, form.and_then(Form::flat_end)) {
+        (None, _) => (flat_pull_off(length), length),
+        (_, Some(radius)) if 2.0 * radius <= length => (flat_pull_off(2.0 * radius), length),
+        (Some(form), _) => {
             let body = PowerLaw::of(form, modulus, work)?;
             let (radius, _) = body.force_controlled_pull_off();
             // An edge of the contact that has reached the edge of the line is no longer the body's own.

@@ -5,7 +5,6 @@
 
 use super::{Governing, tabor_number};
 use crate::scene::{Form, Scene};
-use std::f64::consts::TAU;
 
 /// Range of attraction z₀, m, of a scene that does not state one: a distance between atoms.
 pub const DEFAULT_RANGE: f64 = 0.3e-9;
@@ -29,16 +28,8 @@ pub fn scene_tabor_number(scene: &Scene, governing: &Governing) -> Option<f64> {
 /// form the squares of both curvatures add.
 #[must_use]
 pub fn curvature_radius(form: Option<&Form>, governing: &Governing) -> Option<f64> {
-    let of_form = match form {
-        None => 0.0,
-        Some(Form::Paraboloid { radius }) => 1.0 / radius,
-        Some(Form::WavySphere { radius, amplitude, wavelength }) => {
-            1.0 / radius + amplitude * (TAU / wavelength).powi(2)
-        }
-        // The flat face of a punch is as rough as a flat line.
-        Some(Form::Punch { .. }) => 0.0,
-        Some(Form::Cone { .. } | Form::Power { .. }) => return None,
-    };
+    // A flat face is as rough as the flat end of a punch.
+    let of_form = form.map_or(Some(0.0), Form::summit_curvature)?;
     let of_roughness = governing.amplitude.map_or(0.0, |amplitude| 0.5 * amplitude.rms_curvature);
     Some(of_form.hypot(of_roughness).recip()).filter(|radius| radius.is_finite())
 }
@@ -49,6 +40,7 @@ mod tests {
     use crate::scene::{Document, open};
     use crate::simulation::Simulation;
     use crate::surface::SelfAffine;
+    use std::f64::consts::TAU;
 
     fn of(document: &Document) -> Option<f64> {
         let mut simulation = Simulation::default();

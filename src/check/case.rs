@@ -60,7 +60,7 @@ pub enum Scope {
 pub struct Case {
     /// Its name: words with hyphens.
     pub name: &'static str,
-    /// Family.
+    /// Family: that of the list which holds the case.
     pub family: Family,
     /// Claim, in one sentence.
     pub holds: &'static str,

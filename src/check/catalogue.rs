@@ -1,7 +1,7 @@
 //! The list of cases, and the verdict on one.
 
 use super::Fault;
-use super::case::{Case, Scope};
+use super::case::{Case, Family, Scope};
 use super::cases::{adhesion, closed_forms, laws, lines, scales};
 use crate::scene::Edges;
 use std::time::Instant;
@@ -10,7 +10,7 @@ use std::time::Instant;
 #[derive(Clone, Copy, Debug)]
 pub struct Check {
     /// The case.
-    pub case: &'static Case,
+    pub case: Case,
     /// With which edges, where it matters.
     pub edges: Option<Edges>,
     /// Largest error allowed.
@@ -48,17 +48,24 @@ impl Verdict {
 
 /// All cases, in the order in which they are shown.
 #[must_use]
-pub fn catalogue() -> Vec<&'static Case> {
-    [adhesion::CASES, scales::CASES, lines::CASES, closed_forms::CASES, laws::CASES]
-        .into_iter()
-        .flatten()
-        .collect()
+pub fn catalogue() -> Vec<Case> {
+    let families = [
+        (Family::Adhesion, adhesion::CASES),
+        (Family::Scales, scales::CASES),
+        (Family::Lines, lines::CASES),
+        (Family::ClosedForms, closed_forms::CASES),
+        (Family::Laws, laws::CASES),
+    ];
+    let of = |(family, cases): (Family, &[Case])| -> Vec<Case> {
+        cases.iter().map(|case| Case { family, ..*case }).collect()
+    };
+    families.into_iter().flat_map(of).collect()
 }
 
 /// All checks of the cases that `choose` chooses.
 #[must_use]
 pub fn checks(choose: impl Fn(&Case) -> bool) -> Vec<Check> {
-    let of = |case: &'static Case| -> Vec<Check> {
+    let of = |case: Case| -> Vec<Check> {
         let check = |edges, bound| Check { case, edges, bound };
         match case.scope {
             Scope::BothEdges(grid, sub_cell) => {

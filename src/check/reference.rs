@@ -28,14 +28,6 @@ impl Agreement {
     pub fn error(&self) -> f64 {
         self.force.max(self.loss)
     }
-
-    fn take(&mut self, other: &Agreement) {
-        self.force = self.force.max(other.force);
-        self.loss = self.loss.max(other.loss);
-        self.states += other.states;
-        self.partial += other.partial;
-        self.undecided += other.undecided;
-    }
 }
 
 /// Moves a body along legs, by the solver and by the rules.
@@ -65,9 +57,10 @@ pub fn follow(body: &Body, edges: Edges, legs: &[Leg]) -> Result<Agreement, Faul
             }
             let smallest = (record.direction == Direction::Unloading).then_some(record.smallest);
             for point in [end(&record)].into_iter().chain(smallest).filter(|point| point.springs > 0) {
-                let error = force_error(body, edges, solver, &point)?;
-                let partial = usize::from(point.springs < body.gaps.len() as u64 && point.fragments > 1);
-                agreement.take(&Agreement { force: error, states: 1, partial, ..Agreement::default() });
+                agreement.force = agreement.force.max(force_error(body, edges, solver, &point)?);
+                agreement.states += 1;
+                agreement.partial +=
+                    usize::from(point.springs < body.gaps.len() as u64 && point.fragments > 1);
             }
             let last = end(&record);
             held = if last.springs > 0 { solver.fragments(last.indentation) } else { Vec::new() };

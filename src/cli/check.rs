@@ -1,5 +1,6 @@
 //! `asperity check`: the catalogue of hard cases, on this machine.
 
+use super::format::TEXT_OR_JSON;
 use super::progress::ProgressLine;
 use super::{CliError, Format, OutputArguments};
 use crate::check::{Case, Check, Verdict, catalogue, checks, judge};
@@ -28,22 +29,19 @@ pub struct CheckArguments {
     #[arg(long)]
     pub quick: bool,
     /// text or json; default: by the extension of FILE, else text
-    #[arg(long, value_parser = Format::parser(FORMATS), hide_possible_values = true)]
+    #[arg(long, value_parser = Format::parser(TEXT_OR_JSON), hide_possible_values = true)]
     pub format: Option<Format>,
     /// Destination.
     #[command(flatten)]
     pub output: OutputArguments,
 }
 
-/// Formats of the verdicts: a table, or one object.
-const FORMATS: &[Format] = &[Format::Text, Format::Json];
-
 impl CheckArguments {
     /// The cases that are meant; an error for a word that is in no name.
     fn chosen(&self) -> Result<Vec<Check>, CliError> {
         let has = |case: &Case, word: &String| case.name.contains(word.as_str());
         for word in &self.words {
-            if !catalogue().into_iter().any(|case| has(case, word)) {
+            if !catalogue().iter().any(|case| has(case, word)) {
                 let allowed: Vec<&str> = catalogue().into_iter().map(|case| case.name).collect();
                 let none = format!("no case has this in its name; allowed: parts of {}", allowed.join(", "));
                 return Err(CliError::named(word, none));
@@ -58,10 +56,10 @@ impl CheckArguments {
     }
 }
 
-/// Runs the cases and writes what came of them.
+/// Runs the cases and writes their verdicts.
 pub(super) fn check(arguments: &CheckArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
     let chosen = arguments.chosen()?;
-    let format = arguments.output.format(arguments.format, FORMATS, Format::Text)?;
+    let format = arguments.output.format(arguments.format, TEXT_OR_JSON, Format::Text)?;
     arguments.output.check()?;
     let (mut progress, count) = (ProgressLine::default(), chosen.len());
     let run = |(index, check): (usize, Check)| {
@@ -111,7 +109,7 @@ mod tests {
     }
 
     #[test]
-    fn a_case_that_fails_is_told() {
+    fn a_failing_case_is_an_error() {
         let verdicts = |errors: &[f64]| -> Vec<Verdict> {
             let checks = checks(|case| case.name == "flat-line");
             let verdict = |(check, &error)| Verdict { check, error: Ok(error), seconds: 0.0 };

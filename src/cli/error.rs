@@ -32,8 +32,8 @@ pub enum CliError {
     BinaryInTerminal { format: &'static str },
     #[error(transparent)]
     Picture(#[from] PngError),
-    /// The points of a map in a format that cannot hold them, or that holds them anyway.
-    #[error("{what}: only a table of the map; allowed: --format csv")]
+    /// The points of a map in a format that cannot hold them.
+    #[error("{what}: only a table of the map; allowed: --format csv or npy")]
     OnlyInTable { what: &'static str },
     /// An option with a format that cannot hold what the option asks for.
     #[error("{what}: {allowed}")]

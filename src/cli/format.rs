@@ -1,8 +1,13 @@
 //! Formats of results: names, extensions of files, and the formats of a command.
 
+use super::CliError;
 use crate::draw::PictureFormat;
 use crate::export::TableFormat;
+use crate::io::write_json_value;
+use clap::Args;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use serde::Serialize;
+use std::io::Write;
 
 /// Format of results.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -75,6 +80,33 @@ impl Format {
             Format::Png => Some(PictureFormat::Png),
             _ => None,
         }
+    }
+}
+
+/// Formats of short answers and of tables without a picture: text for a person, or one object.
+pub(super) const TEXT_OR_JSON: &[Format] = &[Format::Text, Format::Json];
+
+/// Format of a short answer on standard output.
+#[derive(Args, Clone, Copy, Debug)]
+pub struct AnswerFormat {
+    /// Output format
+    #[arg(long, value_parser = Format::parser(TEXT_OR_JSON), default_value = "text")]
+    format: Format,
+}
+
+impl AnswerFormat {
+    /// Writes an answer as text or as JSON.
+    pub(super) fn write(
+        self,
+        stdout: &mut dyn Write,
+        text: impl FnOnce() -> String,
+        answer: &impl Serialize,
+    ) -> Result<(), CliError> {
+        match self.format {
+            Format::Json => write_json_value(stdout, answer)?,
+            _ => stdout.write_all(text().as_bytes())?,
+        }
+        Ok(())
     }
 }
 

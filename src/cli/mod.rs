@@ -36,7 +36,7 @@ use cost::CostArguments;
 use demo::DemoArguments;
 use error::CliError;
 use explore::ExploreArguments;
-use format::Format;
+use format::{AnswerFormat, Format};
 use line::LineArguments;
 use output::OutputArguments;
 use plan::PlanArguments;

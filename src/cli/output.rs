@@ -93,16 +93,17 @@ impl OutputArguments {
         self.write(stdout, |out| out.write_all(&drawn))
     }
 
-    /// Provenance of a table of a scene that goes where results go.
-    pub(super) fn provenance(
+    /// Writes a table of a scene with its provenance to where results go.
+    pub(super) fn write_table(
         &self,
-        document: &Document,
-        scene: &Scene,
-        content: TableContent,
-    ) -> Result<Provenance, CliError> {
+        stdout: &mut dyn Write,
+        (document, scene, content): (&Document, &Scene, TableContent),
+        write: impl FnOnce(&mut dyn Write, &Provenance) -> io::Result<()>,
+    ) -> Result<(), CliError> {
         let (folder, destination) = (document.resolve(""), self.folder());
         let hashes = MeasuredHash::of_files(scene.measured_files(), &folder, destination)?;
-        Ok(Provenance::new(content, scene, &folder, destination).with_hashes(&hashes))
+        let provenance = Provenance::new(content, scene, &folder, destination).with_hashes(&hashes);
+        self.write(stdout, |out| write(out, &provenance))
     }
 
     /// Writes results to where they go.

@@ -1,8 +1,7 @@
 //! `asperity plan`: which stages a scene runs, and what they cost.
 
-use super::{CliError, Format, SceneArguments};
+use super::{AnswerFormat, CliError, SceneArguments};
 use crate::export::sheet::Sheet;
-use crate::io::write_json_value;
 use crate::simulation::{Plan, PlannedStage};
 use crate::text::{grouped, memory_size};
 use clap::Args;
@@ -17,9 +16,6 @@ A stage that a scene does not call for does not run. Passes are given where the 
 their number, springs touched are those of all passes at the most, and memory is the addition of a
 stage while it runs.";
 
-/// Formats of a plan: a table, or one object.
-const FORMATS: &[Format] = &[Format::Text, Format::Json];
-
 /// Arguments of `plan`.
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES)]
@@ -27,20 +23,16 @@ pub struct PlanArguments {
     /// The scene.
     #[command(flatten)]
     pub scene: SceneArguments,
-    /// Output format
-    #[arg(long, value_parser = Format::parser(FORMATS), default_value = "text")]
-    pub format: Format,
+    /// A table, or one object.
+    #[command(flatten)]
+    pub format: AnswerFormat,
 }
 
 /// Writes the plan of a scene.
 pub(super) fn plan(arguments: &PlanArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
     let document = arguments.scene.open()?;
     let plan = Plan::of(document.scene());
-    match arguments.format {
-        Format::Json => write_json_value(stdout, &plan)?,
-        _ => stdout.write_all(text(&plan).as_bytes())?,
-    }
-    Ok(())
+    arguments.format.write(stdout, || text(&plan), &plan)
 }
 
 fn text(plan: &Plan) -> String {

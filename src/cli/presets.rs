@@ -1,14 +1,13 @@
 //! `asperity presets`: the built-in scenes and the user's own, and checking scene files.
 
-use super::{CliError, Format};
+use super::{AnswerFormat, CliError};
 use crate::export::sheet::Sheet;
-use crate::io::write_json_value;
+use crate::io::object;
 use crate::scene::{self, Document, Entry, Library, Text, line_column};
 use crate::simulation::measured_options;
 use crate::surface::MeasuredRoughness;
 use crate::text::printable;
 use clap::Subcommand;
-use serde::Serialize;
 use std::io::{self, Write};
 use std::path::Path;
 
@@ -28,9 +27,9 @@ Example:
 pub enum PresetsCommand {
     /// List the built-in scenes, one's own and those of the working folder
     List {
-        /// Format of the list
-        #[arg(long, value_parser = Format::parser(FORMATS), default_value = "text")]
-        format: Format,
+        /// Name and title in columns, or objects with name, title and notice, and of scenes of files path and error.
+        #[command(flatten)]
+        format: AnswerFormat,
     },
     /// Print the text of a listed scene, to start one's own from
     #[command(after_help = SHOW_EXAMPLES)]
@@ -47,22 +46,6 @@ pub enum PresetsCommand {
     },
 }
 
-/// Formats of the list: name and title in columns, or objects with name, title and notice, and of scenes of files path
-/// and error.
-const FORMATS: &[Format] = &[Format::Text, Format::Json];
-
-/// A scene in the list.
-#[derive(Serialize)]
-struct Listed {
-    name: String,
-    title: String,
-    notice: String,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    path: Option<String>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    error: Option<String>,
-}
-
 /// Does one of the commands.
 pub(super) fn presets(command: &PresetsCommand, stdout: &mut dyn Write) -> Result<(), CliError> {
     match command {
@@ -72,31 +55,20 @@ pub(super) fn presets(command: &PresetsCommand, stdout: &mut dyn Write) -> Resul
     }
 }
 
-fn list(format: Format, stdout: &mut dyn Write) -> Result<(), CliError> {
-    let library = Library::of_environment();
-    let entries = library.list();
-    match format {
-        Format::Json => {
-            let listed: Vec<_> = entries.into_iter().map(Listed::from).collect();
-            write_json_value(stdout, &listed)?;
+fn list(format: AnswerFormat, stdout: &mut dyn Write) -> Result<(), CliError> {
+    let entries = Library::of_environment().list();
+    let row = |entry: &Entry| [&entry.name, entry.error.as_ref().unwrap_or(&entry.title)].map(Clone::clone);
+    let text = || Sheet::of_table(&entries.iter().map(row).collect::<Vec<_>>());
+    let objects = entries.iter().map(|entry| {
+        object! {
+            "name": &entry.name,
+            "title": &entry.title,
+            "notice": &entry.notice,
+            "path"?: entry.path.as_ref().map(|path| path.display().to_string()),
+            "error"?: entry.error.as_ref(),
         }
-        _ => {
-            let row = |entry: Entry| [entry.name, entry.error.unwrap_or(entry.title)];
-            let rows: Vec<_> = entries.into_iter().map(row).collect();
-            let mut sheet = Sheet::default();
-            sheet.table(&rows);
-            stdout.write_all(sheet.into_text().as_bytes())?;
-        }
-    }
-    Ok(())
-}
-
-impl From<Entry> for Listed {
-    fn from(entry: Entry) -> Listed {
-        let path = entry.path.map(|path| path.display().to_string());
-        let Entry { name, title, notice, error, .. } = entry;
-        Listed { name, title, notice, path, error }
-    }
+    });
+    format.write(stdout, text, &objects.collect::<Vec<_>>())
 }
 
 fn show(name: &str, stdout: &mut dyn Write) -> Result<(), CliError> {

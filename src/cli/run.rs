@@ -1,25 +1,25 @@
 //! `asperity run`: computes a scene without a terminal.
 
 use super::preloads::parse_preloads;
-use super::scene::{MOST_LINES, compute, simulation_of};
+use super::reversals::{ReversalOptions, write_reversals};
+use super::scene::{MOST_LINES, compute, simulation_of, threads};
 use super::{
-    Arguments, CliError, Command, Format, OutputArguments, SceneArguments, SurfaceArguments, surface,
+    Arguments, CliError, Command, Format, OutputArguments, SceneArguments, SurfaceArguments, line, surface,
 };
 use crate::accuracy::{Choice, choose, estimate, parse_tolerance};
 use crate::contact::{LegRecord, Solver};
 use crate::draw::Figure;
 use crate::export::{
     ContactSets, PreloadReport, ensemble_text, force_figure, summary, write_approximate_jkr, write_curve,
-    write_ensemble_json, write_ensemble_table, write_json, write_line,
+    write_ensemble_json, write_ensemble_table, write_json,
 };
-use crate::scene::{Document, Preloads, Scene, SpectraTable, TableContent, open_argument};
+use crate::scene::{Document, Preloads, ReversalContent, Scene, SpectraTable, TableContent, open_argument};
 use crate::simulation::Outcome;
 use crate::study;
 use crate::text::path_name;
 use clap::{Args, Parser};
 use std::io::{self, Write};
 use std::path::Path;
-use std::thread::available_parallelism;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -99,18 +99,31 @@ pub struct RunArguments {
 const FORMATS: &[Format] = &[Format::Text, Format::Json, Format::Csv, Format::Npy, Format::Svg, Format::Png];
 
 impl RunArguments {
-    /// Threads that share the profiles.
-    fn threads(&self) -> usize {
-        self.jobs.map_or_else(|| available_parallelism().map_or(1, std::num::NonZero::get), usize::from)
+    /// Returns true for results that have no table of preloads or reversals.
+    fn asks_for_more(&self) -> bool {
+        self.profile || self.fragments || self.approximate_jkr || !self.more.is_empty()
     }
 
     /// Preloads and number of random profiles that are asked for, or those of a scene from a table of preloads.
     fn asked_preloads(&self, document: &Document) -> Option<(Preloads, Option<u32>)> {
-        let asks_for_more = self.profile || self.fragments || self.approximate_jkr || !self.more.is_empty();
         match (self.preloads, document.table_content()) {
             (Some(preloads), _) => Some((preloads, self.lines)),
-            (None, Some(TableContent::Preloads(preloads, lines))) if !asks_for_more => {
+            (None, Some(TableContent::Preloads(preloads, lines))) if !self.asks_for_more() => {
                 Some((preloads, self.lines.or(lines)))
+            }
+            _ => None,
+        }
+    }
+
+    /// Reversals of a scene from a table of them.
+    fn asked_reversals(&self, document: &Document, format: Format) -> Option<ReversalOptions> {
+        match document.table_content() {
+            Some(TableContent::Reversals(content))
+                if !self.asks_for_more() && self.lines.is_none() && self.tolerance.is_none() =>
+            {
+                // Only a table holds each point of the map.
+                let map_smoothing = content.map_smoothing.filter(|_| format.table().is_some());
+                Some(ReversalOptions::of_table(ReversalContent { map_smoothing, ..content }))
             }
             _ => None,
         }
@@ -171,6 +184,9 @@ pub(super) fn run(arguments: &RunArguments, stdout: &mut dyn Write) -> Result<()
     if let Some(asked) = arguments.asked_preloads(&document) {
         return over_preloads(arguments, &document, format, asked, stdout);
     }
+    if let Some(options) = arguments.asked_reversals(&document, format) {
+        return write_reversals(&document, &options, format, &arguments.output, stdout);
+    }
     if format.picture().is_some() {
         return arguments.output.write_figure(stdout, &figure(arguments, document)?, format);
     }
@@ -183,11 +199,7 @@ pub(super) fn run(arguments: &RunArguments, stdout: &mut dyn Write) -> Result<()
         return on_lines(arguments, &document, (scene, choice.as_ref()), (format, lines), stdout);
     }
     if let (Some(format), Some(TableContent::Profile)) = (format.table(), document.table_content()) {
-        let mut simulation = simulation_of(&document);
-        let line = simulation.make_line(&scene);
-        let (line, ..) = line.map_err(|error| CliError::named(document.name(), error))?;
-        let provenance = arguments.output.provenance(&document, &scene, TableContent::Profile)?;
-        return arguments.output.write(stdout, |out| write_line(out, format, &provenance, line));
+        return line::write(&arguments.output, stdout, (&document, &scene), format);
     }
     let outcome = run_with_approximate(arguments, &document, &scene)?;
     if let Some(format) = format.table() {
@@ -195,10 +207,12 @@ pub(super) fn run(arguments: &RunArguments, stdout: &mut dyn Write) -> Result<()
             Some(_) => TableContent::ApproximateJkr,
             None => TableContent::ForceCurve,
         };
-        let provenance = arguments.output.provenance(&document, &scene, content)?;
-        return arguments.output.write(stdout, |out| match &outcome.approximate_jkr {
-            Some(curve) => write_approximate_jkr(out, format, &provenance, curve),
-            None => write_curve(out, format, &provenance, &outcome),
+        let table = (&document, &scene, content);
+        return arguments.output.write_table(stdout, table, |out, provenance| {
+            match &outcome.approximate_jkr {
+                Some(curve) => write_approximate_jkr(out, format, provenance, curve),
+                None => write_curve(out, format, provenance, &outcome),
+            }
         });
     }
     let choice = choice.as_ref();
@@ -297,7 +311,8 @@ fn over_preloads(
     let results = match lines {
         Some(lines) => {
             let (folder, lines) = (document.resolve(""), lines as usize);
-            let solved = study::solve_preloads_on_lines(&scene, &folder, &forces, lines, arguments.threads());
+            let solved =
+                study::solve_preloads_on_lines(&scene, &folder, &forces, lines, threads(arguments.jobs));
             let solved = solved.map_err(|error| CliError::named(document.name(), error))?;
             solved.into_iter().map(|(seed, line)| (Some(seed), line)).collect()
         }
@@ -311,9 +326,9 @@ fn over_preloads(
     };
     let report = PreloadReport::new(&scene, results);
     if let Some(format) = format.table() {
-        let content = TableContent::Preloads(preloads, lines);
-        let provenance = arguments.output.provenance(document, &scene, content)?;
-        return arguments.output.write(stdout, |out| report.write_table(out, format, &provenance));
+        let table = (document, &scene, TableContent::Preloads(preloads, lines));
+        let write = |out: &mut dyn Write, provenance: &_| report.write_table(out, format, provenance);
+        return arguments.output.write_table(stdout, table, write);
     }
     match format {
         Format::Text => arguments.write_text(stdout, &report.text(), choice.as_ref()),
@@ -330,13 +345,13 @@ fn on_lines(
     (format, lines): (Format, u32),
     stdout: &mut dyn Write,
 ) -> Result<(), CliError> {
-    let results = study::solve_lines(&scene, &document.resolve(""), lines as usize, arguments.threads())
+    let results = study::solve_lines(&scene, &document.resolve(""), lines as usize, threads(arguments.jobs))
         .map_err(|error| CliError::named(document.name(), error))?;
     if let Some(format) = format.table() {
-        let provenance =
-            arguments.output.provenance(document, &scene, TableContent::RandomProfiles(lines))?;
-        let write = |out: &mut dyn Write| write_ensemble_table(out, format, &provenance, &results);
-        return arguments.output.write(stdout, write);
+        let table = (document, &scene, TableContent::RandomProfiles(lines));
+        return arguments.output.write_table(stdout, table, |out, provenance| {
+            write_ensemble_table(out, format, provenance, &results)
+        });
     }
     if format == Format::Json {
         let write = |out: &mut dyn Write| write_ensemble_json(out, &scene, choice, &results);

@@ -4,6 +4,8 @@ use super::CliError;
 use crate::scene::{Document, Scene, open_argument};
 use crate::simulation::{Outcome, Simulation};
 use clap::Args;
+use std::num::NonZero;
+use std::thread::available_parallelism;
 
 /// Most random profiles of a scene.
 pub(super) const MOST_LINES: i64 = 1_000_000;
@@ -57,6 +59,11 @@ pub(super) fn compute(document: &Document, scene: &Scene) -> Result<Outcome, Cli
     simulation_of(document)
         .run(scene, &|| false, &mut |_, _, _| Ok(()))
         .map_err(|error| CliError::named(document.name(), error))
+}
+
+/// Threads that share many lines: as many as are asked for, or one for each core.
+pub(super) fn threads(asked: Option<u16>) -> usize {
+    asked.map_or_else(|| available_parallelism().map_or(1, NonZero::get), usize::from)
 }
 
 fn path_and_value(text: &str) -> Result<(String, String), String> {

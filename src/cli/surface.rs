@@ -1,6 +1,6 @@
 //! `asperity surface`: measured surfaces, their statistics and spectrum, and the equivalent line.
 
-use super::scene::MOST_LINES;
+use super::scene::{MOST_LINES, threads};
 use super::{CliError, Format, OutputArguments};
 use crate::export::{
     Spectra, SurfaceAdhesion, SurfaceContact, SurfaceFile, surface_text, write_surface_json,
@@ -11,17 +11,15 @@ use crate::scene::{
     Adhesion, Document, Leg, MOST_POINTS, Material, MeasuredHash, MeasuredHashError, Numerics, Provenance,
     Roughness, SCENE_VERSIONS, Scene, exact_quantity, named_from, parse_quantity,
 };
-use crate::simulation::RunError;
 use crate::spectrum::{Analysis, Detrend, End, Options, SpectrumError, analyse};
 use crate::study::MeasuredAdhesion;
 use crate::surface::EquivalentLine;
 use crate::text::path_name;
 use crate::topography::{Missing, ReadOptions, Topography, Unit, read};
 use clap::{Args, ValueEnum};
+use std::error::Error;
 use std::io::Write;
-use std::num::NonZero;
 use std::path::{Path, PathBuf};
-use std::thread::available_parallelism;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -309,14 +307,13 @@ fn adhesion(
     let scene = scene(arguments, Path::new(""), analysis, modulus)?;
     scene.check()?;
     let unasked = (scene.numerics.points <= MOST_SPRINGS).then_some(LINES);
-    let failed = |error| {
+    let failed = |error: Box<dyn Error + Send + Sync>| {
         let file = arguments.paths().next();
         CliError::named(file.map_or_else(String::new, |file| path_name(&file)), error)
     };
     let solve = |lines: u32| {
-        let line = EquivalentLine::from_spectra(vec![analysis.isotropic.clone()]).map_err(RunError::from)?;
-        let threads = available_parallelism().map_or(1, NonZero::get);
-        MeasuredAdhesion::solve(&scene, &line, lines, threads)
+        let line = EquivalentLine::from_spectra(vec![analysis.isotropic.clone()])?;
+        Ok(MeasuredAdhesion::solve(&scene, &line, lines, threads(None))?)
     };
     let computed = arguments.lines.or(unasked).map(solve).transpose().map_err(failed)?;
     Ok(SurfaceAdhesion { scene, computed })

@@ -30,6 +30,13 @@ impl Figure {
         Figure { title: title.to_owned(), notes: Vec::new(), charts: vec![chart], size: Figure::WIDE }
     }
 
+    /// Heading of a chart with its letter; none in a figure of one chart.
+    pub(super) fn heading(&self, index: usize) -> Option<Label> {
+        let chart = self.charts.get(index).filter(|_| self.charts.len() > 1)?;
+        let letter = char::from(b'a' + (index % 26) as u8);
+        Some(Label::plain(&format!("({letter}) ")).join(&chart.heading))
+    }
+
     /// Entries of the legend.
     #[must_use]
     pub fn legend(&self) -> Vec<Entry> {

@@ -1,7 +1,6 @@
 //! Configuration file of the explorer: appearance, animation, default scene and keys. The file is read where it exists, and
 //! written only when asked.
 
-use super::action::Command;
 use super::keys::Bindings;
 use super::theme::{Appearance, Marker, Theme};
 use crate::io::{WriteError, read_regular_text, write_new};
@@ -269,9 +268,9 @@ pub fn text_of(config: &Config, appearance: Appearance, frame_rate: u32) -> Stri
         format!("repeat: {}", animation.repeats),
         format!("scene: {}", ron_string(scene.as_deref().unwrap_or(crate::scene::DEFAULT))),
     ];
-    let changed = bindings.changed().into_iter().map(|(action, keys): (Command, Vec<String>)| {
+    let changed = bindings.changed().into_iter().map(|(action, keys)| {
         let keys: Vec<String> = keys.iter().map(|key| ron_string(key)).collect();
-        format!("(action: {}, keys: [{}])", ron_string(&super::keys::action_name(action)), keys.join(", "))
+        format!("(action: {}, keys: [{}])", ron_string(action), keys.join(", "))
     });
     lines.push(format!("keys: [{}]", changed.collect::<Vec<_>>().join(", ")));
     format!(
@@ -305,7 +304,7 @@ mod tests {
         assert_eq!((config.frame_rate, config.scene.as_deref()), (Some(30), Some("rough-sphere")));
         assert_eq!(config.animation, Animation::default());
         let changed = config.bindings.changed();
-        assert_eq!(changed, [(Command::TogglePlay, vec!["F5".to_owned(), "F6".to_owned()])]);
+        assert_eq!(changed, [("toggle-play", vec!["F5".to_owned(), "F6".to_owned()])]);
         for field in ORDER {
             assert!(full().contains(&format!("    {field}: ")), "{field}");
         }
@@ -358,7 +357,7 @@ mod tests {
         let swapped = keys(r#"(action: "restart", keys: ["R"]), (action: "reseed", keys: ["r"])"#).unwrap();
         assert_eq!(swapped.bindings.changed().len(), 2);
         let config = keys(r#"(action: "quit", keys: ["_"])"#).unwrap();
-        assert_eq!(config.bindings.changed(), [(Command::Quit, vec!["_".to_owned(), "Ctrl+c".to_owned()])]);
+        assert_eq!(config.bindings.changed(), [("quit", vec!["_".to_owned(), "Ctrl+c".to_owned()])]);
         assert!(keys(r#"(action: "restart", keys: [])"#).is_ok(), "a key may be taken away");
         let why = keys(r#"(action: "accept", keys: ["y"])"#).unwrap_err();
         assert!(why.contains("accept: there is no such action"), "{why}");

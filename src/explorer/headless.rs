@@ -1,7 +1,8 @@
 //! An explorer without terminal and threads: each thing that happens is done, and all that follows from
 //! it, before the next. The same actions give the same screens.
 
-use super::action::{Action, Command};
+use super::action::Action;
+use super::mode::ModeKind;
 use super::model::Model;
 use super::session::{scene_beside, scene_of};
 use super::study::{Accuracy, Found, PaneData, Task, perform};
@@ -47,9 +48,13 @@ impl Headless {
         headless
     }
 
-    /// Obeys a command.
-    pub fn command(&mut self, command: Command) {
-        self.act(Action::Command(command));
+    /// Runs a command by its name, where the present mode has the command, or while exploring any pane has.
+    pub fn command(&mut self, name: &str) {
+        let (bindings, here) = (&self.model.bindings, self.model.keys());
+        let elsewhere = || bindings.named(name, ModeKind::Explore).filter(|_| here.is_exploring());
+        if let Some(command) = bindings.named(name, here).or_else(elsewhere) {
+            self.act(Action::Command(command));
+        }
     }
 
     /// Lets something happen.

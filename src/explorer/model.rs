@@ -271,7 +271,7 @@ impl Model {
             computed: None,
             snapshot: None,
             progress: Some(0),
-            player: Player { leg: 0, done: 0.0, playing: true },
+            player: Player::START,
             manual: None,
             typed_force: String::new(),
             shows_work: false,
@@ -309,6 +309,16 @@ impl Model {
             demo: None,
             finished: false,
         }
+    }
+
+    /// Shows that something went as wanted.
+    pub(super) fn set_done(&mut self, text: impl Into<String>) {
+        self.notice = Some(Notice::Done(text.into()));
+    }
+
+    /// Shows that something did not, and why.
+    pub(super) fn set_error(&mut self, why: impl Into<String>) {
+        self.notice = Some(Notice::Error(why.into()));
     }
 
     /// Takes over keys and animation of a configuration; colours and markers depend on options as well.

@@ -1,10 +1,10 @@
 //! The list of all commands, each with its key: the table of keys, by description.
 
-use super::action::Command;
+use super::command::Command;
 use super::fuzzy::Candidate;
 use super::keys::{self, Binding, Bindings};
 use super::mode::ModeKind;
-use crate::scene::presets;
+use crate::scene::{Preset, presets};
 
 /// A command of the list.
 #[derive(Clone, Debug, PartialEq)]
@@ -27,7 +27,7 @@ pub fn entries(bindings: &Bindings) -> Vec<Entry> {
     let is_listed = |row: &&Binding| {
         row.modes.iter().any(|mode| mode.is_exploring() && *mode != ModeKind::Crosshair)
             // The value begins with the key itself, and the list is open.
-            && !matches!(row.command, Command::StartValue(_) | Command::OpenPalette)
+            && !["start-value", "open-palette"].contains(&row.command.name)
     };
     bindings.rows().filter(is_listed).flat_map(of_row).collect()
 }
@@ -35,19 +35,15 @@ pub fn entries(bindings: &Bindings) -> Vec<Entry> {
 /// The command of a row; of the keys of built-in scenes one for each scene.
 fn of_row(row: &Binding) -> Vec<Entry> {
     let entry = |keys, help, command| Entry { keys, help, section: row.section, command, modes: row.modes };
-    let Command::Preset(_) = row.command else {
+    if !row.command.takes_character() {
         return vec![entry(keys::names(&row.keys), row.help.to_owned(), row.command)];
+    }
+    let scenes = ('1'..='9').zip(presets());
+    let scene = |(digit, preset): (char, &Preset)| {
+        let help = format!("open the built-in scene {}", preset.name);
+        entry(vec![digit.to_string()], help, row.command.with(digit))
     };
-    let scenes = row.keys.iter().zip(presets()).enumerate();
-    scenes
-        .map(|(number, (key, preset))| {
-            entry(
-                vec![key.name()],
-                format!("open the built-in scene {}", preset.name),
-                Command::Preset(number),
-            )
-        })
-        .collect()
+    scenes.map(scene).collect()
 }
 
 impl Entry {

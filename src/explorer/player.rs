@@ -17,6 +17,9 @@ pub struct Player {
 }
 
 impl Player {
+    /// The animation as it begins.
+    pub const START: Player = Player { leg: 0, done: 0.0, playing: true };
+
     /// The indentation of the animation of these loading stages, m.
     #[must_use]
     pub fn indentation(&self, legs: &[LegRecord]) -> f64 {

@@ -1,10 +1,22 @@
 //! A line of text that is being typed.
 
-use super::action::Motion;
 use crate::text::is_control;
 
 /// Longest line, characters.
 const LONGEST: usize = 4096;
+
+/// A motion in a line of text.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Motion {
+    /// One character to the left.
+    Left,
+    /// One character to the right.
+    Right,
+    /// To the start.
+    Start,
+    /// To the end.
+    End,
+}
 
 /// A line of text with a cursor.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]

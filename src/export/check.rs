@@ -1,6 +1,6 @@
 //! The table of hard cases.
 
-use super::sheet::Sheet;
+use super::sheet::{Sheet, markdown};
 use crate::check::{Case, Check, Verdict, catalogue};
 use crate::io::{object, write_json_value};
 use crate::scene::Edges;
@@ -21,7 +21,7 @@ pub fn check_text(verdicts: &[Verdict]) -> String {
             figure(bound),
             if verdict.passes() { "pass" } else { "FAIL" }.to_owned(),
             format!("{:.2} s", verdict.seconds),
-            format!("{}: {}", evidence(case), case.error_of),
+            format!("{}: {}", evidence(&case), case.error_of),
         ]
     }));
     sheet.table(&rows);
@@ -62,9 +62,7 @@ pub fn check_text(verdicts: &[Verdict]) -> String {
 /// The cases as a Markdown table: what must hold, and within which bounds.
 #[must_use]
 pub fn check_markdown(checks: &[Check]) -> String {
-    let mut text = String::from(
-        "| case | what must hold | evidence | error of | bound |\n| --- | --- | --- | --- | --- |\n",
-    );
+    let mut rows = vec![["case", "what must hold", "evidence", "error of", "bound"].map(String::from)];
     for case in catalogue() {
         let bounds: Vec<String> = checks
             .iter()
@@ -75,16 +73,15 @@ pub fn check_markdown(checks: &[Check]) -> String {
             })
             .collect();
         let fails = case.known_failure.map_or_else(String::new, |reason| format!(" **Fails**: {reason}."));
-        text += &format!(
-            "| `{}` | {}{fails} | {} | {} | {} |\n",
-            case.name,
-            case.holds,
-            evidence(case),
-            case.error_of,
-            bounds.join(", ")
-        );
+        rows.push([
+            format!("`{}`", case.name),
+            format!("{}{fails}", case.holds),
+            evidence(&case),
+            case.error_of.to_owned(),
+            bounds.join(", "),
+        ]);
     }
-    text
+    markdown(&rows)
 }
 
 /// Writes the verdicts as one object.

@@ -24,9 +24,10 @@ pub fn cost_text(table: &CostTable) -> String {
             continue;
         }
         sheet.heading(&heading(knob, &rows));
-        sheet.paragraph(note(knob));
+        let (setting, note) = words(knob);
+        sheet.paragraph(note);
         let mut lines = vec![
-            [setting_name(knob), "least", "median", "FFTs", ERRORS[0], ERRORS[1], ERRORS[2], ERRORS[3]]
+            [setting, "least", "median", "FFTs", ERRORS[0], ERRORS[1], ERRORS[2], ERRORS[3]]
                 .map(String::from),
         ];
         lines.extend(rows.iter().map(|row| cells(row)));
@@ -78,26 +79,20 @@ fn heading(knob: Knob, rows: &[&Row]) -> String {
     }
 }
 
-fn note(knob: Knob) -> &'static str {
+/// Name of the setting of a knob, and a note on its table.
+fn words(knob: Knob) -> (&'static str, &'static str) {
     match knob {
-        Knob::SubCellSprings | Knob::GridSprings => "",
-        Knob::Step => "Counted from the exact solver on as many springs, edges Grid.",
-        Knob::Samples => "The curve between its samples; no figure depends on their number.",
-        Knob::SinglePrecision => {
+        Knob::SubCellSprings | Knob::GridSprings => ("springs", ""),
+        Knob::Step => ("step", "Counted from the exact solver on as many springs, edges Grid."),
+        Knob::Samples => ("samples", "The curve between its samples; no figure depends on their number."),
+        Knob::SinglePrecision => (
+            "bits",
             "Gaps rounded to single precision, solved in double, counted from gaps in double. Storage of the \
-             line would be halved; no gain of time is claimed, for everything is still computed in double."
+             line would be halved; no gain of time is claimed, for everything is still computed in double.",
+        ),
+        Knob::Lines => {
+            ("lines", "Standard error of the mean of F_a over so many seeds, one line after the other.")
         }
-        Knob::Lines => "Standard error of the mean of F_a over so many seeds, one line after the other.",
-    }
-}
-
-fn setting_name(knob: Knob) -> &'static str {
-    match knob {
-        Knob::SubCellSprings | Knob::GridSprings => "springs",
-        Knob::Step => "step",
-        Knob::Samples => "samples",
-        Knob::SinglePrecision => "bits",
-        Knob::Lines => "lines",
     }
 }
 

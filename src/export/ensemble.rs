@@ -2,12 +2,12 @@
 
 use super::sheet::Sheet;
 use super::summary::tabor_number;
-use super::table::{Cell, Column, TableFormat, write_table};
+use super::table::{Column, TableFormat, Value, write_table};
 use crate::accuracy::Choice;
 use crate::analysis::Regime;
 use crate::io::write_json_value;
 use crate::scene::{Provenance, Scene, format_quantity};
-use crate::study::{HeightShape, LineResult, LinesSummary, Statistics};
+use crate::study::{LineResult, LinesSummary, Statistics};
 use crate::text::grouped;
 use serde::Serialize;
 use std::io::{self, Write};
@@ -17,9 +17,7 @@ use std::io::{self, Write};
 pub fn ensemble_text(scene: &Scene, lines: &[LineResult]) -> String {
     let summary = LinesSummary::of(lines);
     let mut sheet = Sheet::default();
-    if !scene.title.is_empty() {
-        sheet.paragraph(&scene.title);
-    }
+    sheet.paragraph(&scene.title);
     let seeds = lines.first().zip(lines.last());
     let seeds =
         seeds.map_or_else(String::new, |(first, last)| format!(", seeds {} to {}", first.seed, last.seed));
@@ -49,7 +47,7 @@ pub fn ensemble_text(scene: &Scene, lines: &[LineResult]) -> String {
     let number = |value: Option<f64>| value.map(|value| format_quantity(value, "1"));
     sheet.row_of("rms skewness", number(summary.rms_skewness));
     sheet.row_of("rms excess kurtosis", number(summary.rms_excess_kurtosis));
-    sheet.into_text().trim_start_matches('\n').to_string()
+    sheet.into_text()
 }
 
 fn cells(name: &str, unit: &str, statistics: &Statistics) -> [String; 6] {
@@ -101,31 +99,20 @@ pub fn write_ensemble_table(
     provenance: &Provenance,
     lines: &[LineResult],
 ) -> io::Result<()> {
-    let longest = Regime::ALL.map(|regime| regime.name().len()).into_iter().max().unwrap_or_default();
-    let columns = [
-        ("seed", Column::Whole),
-        ("adhesion_force", Column::Real),
-        ("preload_indentation", Column::Real),
-        ("dissipated_energy", Column::Real),
-        ("contact_fraction", Column::Real),
-        ("regime", Column::Word(longest)),
-        ("skewness", Column::Real),
-        ("excess_kurtosis", Column::Real),
-        ("tabor_number", Column::Real),
-    ];
-    let rows = lines.iter().map(|line| {
-        let shape = |figure: fn(HeightShape) -> f64| Cell::from(line.heights.map(figure));
-        [
-            Cell::Whole(line.seed),
-            line.adhesion_force.into(),
-            line.preload_indentation.into(),
-            line.dissipated_energy.into(),
-            Cell::Real(line.contact_fraction),
-            Cell::Word(line.regime.map_or("", Regime::name)),
-            shape(|shape| shape.skewness),
-            shape(|shape| shape.excess_kurtosis),
-            line.tabor_number.into(),
-        ]
-    });
-    write_table(out, format, provenance, columns, lines.len(), rows)
+    write_table(out, format, provenance, COLUMNS, lines.len(), lines.iter())
 }
+
+/// Characters of the longest name of a regime.
+const LONGEST_REGIME: usize = "pressure-insensitive".len();
+
+const COLUMNS: &[Column<LineResult>] = &[
+    Column("seed", Value::Whole(|line| line.seed)),
+    Column("adhesion_force", Value::Optional(|line| line.adhesion_force)),
+    Column("preload_indentation", Value::Optional(|line| line.preload_indentation)),
+    Column("dissipated_energy", Value::Optional(|line| line.dissipated_energy)),
+    Column("contact_fraction", Value::Real(|line| line.contact_fraction)),
+    Column("regime", Value::Word(LONGEST_REGIME, |line| line.regime.map_or("", Regime::name))),
+    Column("skewness", Value::Optional(|line| line.heights.map(|shape| shape.skewness))),
+    Column("excess_kurtosis", Value::Optional(|line| line.heights.map(|shape| shape.excess_kurtosis))),
+    Column("tabor_number", Value::Optional(|line| line.tabor_number)),
+];

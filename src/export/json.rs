@@ -1,7 +1,9 @@
 //! A computed scene as one JSON object: SI units, numbers that are finite or null.
 
+use super::scene_tables::{APPROXIMATE_JKR, CURVE, curve};
+use super::table::Record;
 use crate::accuracy::{Choice, Estimate};
-use crate::analysis::{ApproximateJkr, ApproximatePoint};
+use crate::analysis::ApproximateJkr;
 use crate::io::{object, write_json_value};
 use crate::scene::{Observer, Scene};
 use crate::simulation::Outcome;
@@ -68,20 +70,10 @@ pub fn write_json(
 
 /// An approximate JKR curve: its adhesion force, and its points.
 fn approximate_jkr(of: &ApproximateJkr) -> impl Serialize {
-    let row = |point: &ApproximatePoint| {
-        object! {
-            "indentation": point.indentation,
-            "force": point.force,
-            "nonadhesive_indentation": point.nonadhesive.indentation,
-            "nonadhesive_force": point.nonadhesive.force,
-            "contact_length": point.nonadhesive.contact_length,
-            "growing_length": point.nonadhesive.growing_length,
-        }
-    };
     object! {
         "adhesion_force": of.adhesion_force(),
         "pull_off_indentation": of.pull_off().map(|point| point.indentation),
-        "curve": of.points.iter().map(row).collect::<Vec<_>>(),
+        "curve": of.points.iter().map(|point| Record(APPROXIMATE_JKR, point)).collect::<Vec<_>>(),
     }
 }
 
@@ -90,17 +82,6 @@ struct Curve<'a>(&'a Outcome);
 
 impl Serialize for Curve<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let legs = self.0.history.legs.iter().enumerate();
-        serializer.collect_seq(legs.flat_map(|(leg, record)| {
-            record.curve.iter().map(move |point| {
-                object! {
-                    "leg": leg,
-                    "indentation": point.indentation,
-                    "force": point.force,
-                    "contact_length": point.contact_length,
-                    "fragments": point.fragments,
-                }
-            })
-        }))
+        serializer.collect_seq(curve(self.0).map(|point| Record(CURVE, point)))
     }
 }

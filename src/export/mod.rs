@@ -14,8 +14,6 @@ mod scene_figure;
 mod scene_tables;
 pub(crate) mod sheet;
 mod spectrum_figure;
-#[cfg(test)]
-mod study_example;
 mod study_figure;
 mod summary;
 mod surface;
@@ -31,8 +29,8 @@ pub use json::write_json;
 pub use map::write_map;
 pub use preloads::{PreloadReport, preload_axes, preload_layers};
 pub use reversals::{
-    ReversalReport, reversals_figure, reversals_text, write_reversal_map_csv, write_reversals_csv,
-    write_reversals_json,
+    ReversalReport, reversals_figure, reversals_text, write_reversal_map_table, write_reversals_json,
+    write_reversals_table,
 };
 pub use scene_figure::{ContactSets, approximate_jkr_layer, force_figure, sign};
 pub use scene_tables::{write_approximate_jkr, write_curve, write_line};

@@ -1,13 +1,12 @@
 //! Adhesion against preload as text, JSON, tables and a figure.
 
-use super::sheet::Sheet;
-use super::table::{Cell, Column, TableFormat, write_table};
+use super::sheet::{Sheet, thinned};
+use super::table::{Column, TableFormat, Value, write_table};
 use crate::draw::{Axis, AxisScale, Chart, Figure, Ink, Label, Layer, Shape, Span, Stroke};
-use crate::io::write_json_value;
+use crate::io::{object, write_json_value};
 use crate::scene::{Provenance, Scene, format_quantity};
 use crate::study::{Preloaded, Statistics, preload_statistics};
 use crate::text::grouped;
-use serde::Serialize;
 use std::io::{self, Write};
 
 /// Most rows of the table.
@@ -21,6 +20,16 @@ pub struct PreloadReport<'a> {
     lines: Vec<Vec<Preloaded>>,
     statistics: Vec<Option<Statistics>>,
 }
+
+/// A seed, and the unloading from one preload.
+const COLUMNS: &[Column<(u64, Preloaded)>] = &[
+    Column("seed", Value::Whole(|(seed, _)| *seed)),
+    Column("preload", Value::Real(|(_, one)| one.preload)),
+    Column("preload_indentation", Value::Real(|(_, one)| one.preload_indentation)),
+    Column("adhesion_force", Value::Optional(|(_, one)| one.adhesion_force)),
+    Column("pull_off_indentation", Value::Real(|(_, one)| one.pull_off_indentation)),
+    Column("dissipated_energy", Value::Real(|(_, one)| one.dissipated_energy)),
+];
 
 impl<'a> PreloadReport<'a> {
     /// The results of profiles, each with its seed where it has one.
@@ -42,49 +51,28 @@ impl<'a> PreloadReport<'a> {
     #[must_use]
     pub fn text(&self) -> String {
         let mut sheet = Sheet::default();
-        if !self.scene.title.is_empty() {
-            sheet.paragraph(&self.scene.title);
-        }
+        sheet.paragraph(&self.scene.title);
         let profiles = match self.lines.len() {
             1 => "one profile".to_owned(),
             count => format!("{} random profiles", grouped(count as u64)),
         };
         let springs = grouped(self.scene.numerics.points);
         sheet.heading(&format!("Adhesion against preload, {profiles} of {springs} springs"));
-        let first = self.first();
-        let stride = first.len().div_ceil(MOST_ROWS).max(1);
-        let last = first.len().saturating_sub(1);
-        let shown = first.iter().zip(&self.statistics).enumerate();
-        let shown = shown.filter(|(index, _)| (last - index).is_multiple_of(stride)).map(|(_, row)| row);
+        let shown = thinned(self.first().iter().zip(&self.statistics), MOST_ROWS);
         if self.is_mean() {
             let header = ["preload F_n", "mean F_a", "standard error", "95 % confidence of the mean"];
-            let mut rows = vec![header.map(String::from)];
-            for (preloaded, statistics) in shown {
-                let Some(Statistics { mean, standard_error, confidence_interval: (low, high), .. }) =
-                    *statistics
-                else {
-                    continue;
-                };
-                let force = |value: f64| format_quantity(value, "N");
+            let force = |value: f64| format_quantity(value, "N");
+            let rows = shown.filter_map(|(one, statistics)| {
+                let Statistics { mean, standard_error, confidence_interval: (low, high), .. } =
+                    (*statistics)?;
                 let band = format!("{} to {}", force(low), force(high));
-                rows.push([force(preloaded.preload), force(mean), force(standard_error), band]);
-            }
-            sheet.table(&rows);
+                Some([force(one.preload), force(mean), force(standard_error), band])
+            });
+            sheet.table(&std::iter::once(header.map(String::from)).chain(rows).collect::<Vec<_>>());
         } else {
-            let header = ["preload F_n", "indentation", "adhesion force F_a", "pull-off at", "dissipated"];
-            let mut rows = vec![header.map(String::from)];
-            for (one, _) in shown {
-                rows.push([
-                    format_quantity(one.preload, "N"),
-                    format_quantity(one.preload_indentation, "m"),
-                    one.adhesion_force.map_or("-".to_owned(), |force| format_quantity(force, "N")),
-                    format_quantity(one.pull_off_indentation, "m"),
-                    format_quantity(one.dissipated_energy, "J"),
-                ]);
-            }
-            sheet.table(&rows);
+            unloadings(&mut sheet, ["preload F_n", "indentation"], shown.map(|(one, _)| *one));
         }
-        sheet.into_text().trim_start_matches('\n').to_string()
+        sheet.into_text()
     }
 
     /// Writes one JSON object in SI units.
@@ -92,18 +80,16 @@ impl<'a> PreloadReport<'a> {
     /// # Errors
     /// Those of `out`.
     pub fn write_json(&self, out: &mut (impl Write + ?Sized)) -> io::Result<()> {
-        let line = |(seed, preloads): (&Option<u64>, &'_ Vec<Preloaded>)| Line {
-            seed: *seed,
-            preloads: preloads.clone(),
-        };
-        let mean = |(one, statistics): (&Preloaded, &Option<Statistics>)| Mean {
-            preload: one.preload,
-            adhesion_force: *statistics,
-        };
-        let json = Json {
-            scene: self.scene,
-            mean: self.is_mean().then(|| self.first().iter().zip(&self.statistics).map(mean).collect()),
-            lines: self.seeds.iter().zip(&self.lines).map(line).collect(),
+        let means = self.first().iter().zip(&self.statistics).map(|(one, statistics)| {
+            object! { "preload": one.preload, "adhesion_force": statistics }
+        });
+        let lines = self.seeds.iter().zip(&self.lines).map(|(seed, preloads)| {
+            object! { "seed": seed, "preloads": preloads }
+        });
+        let json = object! {
+            "scene": self.scene,
+            "mean": self.is_mean().then(|| means.collect::<Vec<_>>()),
+            "lines": lines.collect::<Vec<_>>(),
         };
         write_json_value(out, &json)
     }
@@ -118,43 +104,10 @@ impl<'a> PreloadReport<'a> {
         format: TableFormat,
         provenance: &Provenance,
     ) -> io::Result<()> {
-        let columns = [
-            ("preload", Column::Real),
-            ("preload_indentation", Column::Real),
-            ("adhesion_force", Column::Real),
-            ("pull_off_indentation", Column::Real),
-            ("dissipated_energy", Column::Real),
-        ];
-        let cells = |one: &Preloaded| {
-            [
-                Cell::Real(one.preload),
-                Cell::Real(one.preload_indentation),
-                one.adhesion_force.into(),
-                Cell::Real(one.pull_off_indentation),
-                Cell::Real(one.dissipated_energy),
-            ]
-        };
         let count = self.lines.iter().map(Vec::len).sum();
-        let seeds: Option<Vec<u64>> = self.seeds.iter().copied().collect();
-        let Some(seeds) = seeds else {
-            return write_table(
-                out,
-                format,
-                provenance,
-                columns,
-                count,
-                self.lines.iter().flatten().map(cells),
-            );
-        };
-        let [a, b, c, d, e] = columns;
-        let columns = [("seed", Column::Whole), a, b, c, d, e];
-        let lines = seeds.into_iter().zip(&self.lines);
-        let rows = lines.flat_map(|(seed, line)| {
-            line.iter().map(move |one| {
-                let [a, b, c, d, e] = cells(one);
-                [Cell::Whole(seed), a, b, c, d, e]
-            })
-        });
+        let columns = if self.seeds.contains(&None) { &COLUMNS[1..] } else { COLUMNS };
+        let lines = self.seeds.iter().zip(&self.lines);
+        let rows = lines.flat_map(|(seed, line)| line.iter().map(|one| (seed.unwrap_or(0), *one)));
         write_table(out, format, provenance, columns, count, rows)
     }
 
@@ -163,6 +116,21 @@ impl<'a> PreloadReport<'a> {
     pub fn figure(&self, title: &str) -> Figure {
         Figure::of_chart(title, preload_axes(preload_layers(self.first(), &self.statistics)))
     }
+}
+
+/// Writes a table of unloadings, the turning point under these headings.
+pub(super) fn unloadings(sheet: &mut Sheet, [force, at]: [&str; 2], rows: impl Iterator<Item = Preloaded>) {
+    let header = [force, at, "adhesion force F_a", "pull-off at", "dissipated"].map(String::from);
+    let row = |one: Preloaded| {
+        [
+            format_quantity(one.preload, "N"),
+            format_quantity(one.preload_indentation, "m"),
+            one.adhesion_force.map_or("-".to_owned(), |force| format_quantity(force, "N")),
+            format_quantity(one.pull_off_indentation, "m"),
+            format_quantity(one.dissipated_energy, "J"),
+        ]
+    };
+    sheet.table(&std::iter::once(header).chain(rows.map(row)).collect::<Vec<_>>());
 }
 
 /// Layers of the adhesion force over the preload: one profile, and the mean of several with the 95 % confidence of the mean.
@@ -206,24 +174,4 @@ pub fn preload_axes(layers: Vec<Layer>) -> Chart {
     let y = Span::around(all.iter().map(|point| point.1), 0.05);
     let x = Axis::new(AxisScale::Linear, x, "preload", "F_n", "N");
     Chart::new(x, Axis::new(AxisScale::Linear, y, "adhesion force", "F_a", "N"), layers)
-}
-
-/// The object; its keys have the order of these fields.
-#[derive(Serialize)]
-struct Json<'a> {
-    scene: &'a Scene,
-    mean: Option<Vec<Mean>>,
-    lines: Vec<Line>,
-}
-
-#[derive(Serialize)]
-struct Mean {
-    preload: f64,
-    adhesion_force: Option<Statistics>,
-}
-
-#[derive(Serialize)]
-struct Line {
-    seed: Option<u64>,
-    preloads: Vec<Preloaded>,
 }

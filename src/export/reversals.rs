@@ -1,12 +1,13 @@
-//! First-order reversal curves of a scene as text, JSON, CSV and a figure.
+//! First-order reversal curves of a scene as text, JSON, tables and a figure.
 
-use super::preloads::{preload_axes, preload_layers};
-use super::sheet::Sheet;
+use super::preloads::{preload_axes, preload_layers, unloadings};
+use super::sheet::{Sheet, thinned};
+use super::table::{Column, Record, TableFormat, Value, write_table};
 use crate::analysis::{MinorLoops, ReversalMap};
 use crate::contact::Reversal;
 use crate::draw::{Axis, AxisScale, Chart, Figure, HeatMap, Ink, Label, Layer, Shape, Span};
 use crate::io::{object, write_json_value};
-use crate::scene::{Scene, format_quantity};
+use crate::scene::{Provenance, Scene, format_quantity};
 use crate::study::Preloaded;
 use crate::text::grouped;
 use std::io::{self, Write};
@@ -50,28 +51,13 @@ fn congruency(loops: MinorLoops) -> String {
 pub fn reversals_text(report: &ReversalReport<'_>) -> String {
     let ReversalReport { scene, map, loops, smoothing, .. } = *report;
     let mut sheet = Sheet::default();
-    if !scene.title.is_empty() {
-        sheet.paragraph(&scene.title);
-    }
+    sheet.paragraph(&scene.title);
     let reversals = &map.reversals;
     let (count, springs) = (grouped(reversals.len() as u64), grouped(scene.numerics.points));
     sheet.heading(&format!("{count} reversals of one loading, {springs} springs"));
-    let header = ["force at turn", "turning at", "adhesion force F_a", "pull-off at", "dissipated"];
-    let mut rows = vec![header.map(String::from)];
-    let stride = reversals.len().div_ceil(MOST_ROWS).max(1);
-    let last = reversals.len().saturating_sub(1);
-    for (_, reversal) in
-        reversals.iter().enumerate().filter(|(index, _)| (last - index).is_multiple_of(stride))
-    {
-        rows.push([
-            format_quantity(reversal.turn.force, "N"),
-            format_quantity(reversal.turn.indentation, "m"),
-            reversal.adhesion_force().map_or("-".to_owned(), |force| format_quantity(force, "N")),
-            format_quantity(reversal.smallest.indentation, "m"),
-            format_quantity(reversal.dissipated_energy, "J"),
-        ]);
-    }
-    sheet.table(&rows);
+    let shown = thinned(reversals.iter(), MOST_ROWS);
+    let shown = shown.map(|reversal| Preloaded::new(reversal.turn.force, reversal));
+    unloadings(&mut sheet, ["force at turn", "turning at"], shown);
     sheet.heading("Map");
     sheet.row("step of indentations", format_quantity(map.step(), "m"));
     let largest = |value: fn(&ReversalMap, usize, usize) -> Option<f64>| {
@@ -82,7 +68,7 @@ pub fn reversals_text(report: &ReversalReport<'_>) -> String {
     sheet.row_of("largest Everett value", everett.map(|force| format_quantity(force, "N")));
     sheet.row("density", format!("quadratic fit, {smoothing} steps on either side"));
     sheet.row_of("incongruent", loops.map(congruency));
-    sheet.into_text().trim_start_matches('\n').to_string()
+    sheet.into_text()
 }
 
 /// Writes all of a map as one JSON object in SI units: for each turning point the forces at the indentations of the
@@ -96,20 +82,10 @@ pub fn write_reversals_json(out: &mut (impl Write + ?Sized), report: &ReversalRe
         let row = |turn: usize| (0..=map.below + turn).map(|point| value(turn, point)).collect();
         (0..map.reversals.len()).map(row).collect()
     };
-    let reversal = |reversal: &Reversal| {
-        object! {
-            "turning_indentation": reversal.turn.indentation,
-            "turning_force": reversal.turn.force,
-            "adhesion_force": reversal.adhesion_force(),
-            "pull_off_indentation": reversal.smallest.indentation,
-            "separation": reversal.separation,
-            "dissipated_energy": reversal.dissipated_energy,
-        }
-    };
     let json = object! {
         "scene": scene,
         "preloads": preloads,
-        "reversals": map.reversals.iter().map(reversal).collect::<Vec<_>>(),
+        "reversals": map.reversals.iter().map(|reversal| Record(COLUMNS, reversal)).collect::<Vec<_>>(),
         "indentations": &map.points,
         "step": map.step(),
         "smoothing": smoothing,
@@ -125,53 +101,59 @@ pub fn write_reversals_json(out: &mut (impl Write + ?Sized), report: &ReversalRe
     write_json_value(out, &json)
 }
 
-fn number(value: Option<f64>) -> String {
-    value.map_or_else(String::new, |value| format!("{value:?}"))
-}
+const COLUMNS: &[Column<Reversal>] = &[
+    Column("turning_indentation", Value::Real(|reversal| reversal.turn.indentation)),
+    Column("turning_force", Value::Real(|reversal| reversal.turn.force)),
+    Column("adhesion_force", Value::Optional(Reversal::adhesion_force)),
+    Column("pull_off_indentation", Value::Real(|reversal| reversal.smallest.indentation)),
+    Column("separation", Value::Real(|reversal| reversal.separation)),
+    Column("dissipated_energy", Value::Real(|reversal| reversal.dissipated_energy)),
+];
 
-/// Writes one row for each turning point, in SI units.
+/// Writes a table with one row for each turning point, in SI units.
 ///
 /// # Errors
 /// Those of `out`.
-pub fn write_reversals_csv(out: &mut (impl Write + ?Sized), map: &ReversalMap) -> io::Result<()> {
-    writeln!(
-        out,
-        "turning_indentation,turning_force,adhesion_force,pull_off_indentation,separation,dissipated_energy"
-    )?;
-    for reversal in &map.reversals {
-        writeln!(
-            out,
-            "{:?},{:?},{},{:?},{:?},{:?}",
-            reversal.turn.indentation,
-            reversal.turn.force,
-            number(reversal.adhesion_force()),
-            reversal.smallest.indentation,
-            reversal.separation,
-            reversal.dissipated_energy
-        )?;
-    }
-    Ok(())
-}
-
-/// Writes one row for each turning point and each indentation up to there, in SI units.
-///
-/// # Errors
-/// Those of `out`.
-pub fn write_reversal_map_csv(
+pub fn write_reversals_table(
     out: &mut (impl Write + ?Sized),
+    format: TableFormat,
+    provenance: &Provenance,
+    map: &ReversalMap,
+) -> io::Result<()> {
+    write_table(out, format, provenance, COLUMNS, map.reversals.len(), map.reversals.iter())
+}
+
+/// A turning point and an indentation, m; the values of the map there.
+type MapPoint = ([f64; 2], [Option<f64>; 3]);
+
+const MAP_COLUMNS: &[Column<MapPoint>] = &[
+    Column("turning_indentation", Value::Real(|(at, _)| at[0])),
+    Column("indentation", Value::Real(|(at, _)| at[1])),
+    Column("force", Value::Optional(|(_, values)| values[0])),
+    Column("everett", Value::Optional(|(_, values)| values[1])),
+    Column("density", Value::Optional(|(_, values)| values[2])),
+];
+
+/// Writes a table with one row for each turning point and each indentation up to there, in SI units.
+///
+/// # Errors
+/// Those of `out`.
+pub fn write_reversal_map_table(
+    out: &mut (impl Write + ?Sized),
+    format: TableFormat,
+    provenance: &Provenance,
     map: &ReversalMap,
     smoothing: usize,
 ) -> io::Result<()> {
-    writeln!(out, "turning_indentation,indentation,force,everett,density")?;
-    for (turn, at) in map.turns().iter().enumerate() {
-        for (point, indentation) in map.points[..=map.below + turn].iter().enumerate() {
-            let values =
-                [map.force(turn, point), map.everett(turn, point), map.density(turn, point, smoothing)];
-            let [force, everett, density] = values.map(number);
-            writeln!(out, "{at:?},{indentation:?},{force},{everett},{density}")?;
-        }
-    }
-    Ok(())
+    let points = |turn: usize| &map.points[..=map.below + turn];
+    let rows = map.turns().iter().enumerate().flat_map(|(turn, &at)| {
+        points(turn).iter().enumerate().map(move |(point, &indentation)| {
+            let density = map.density(turn, point, smoothing);
+            ([at, indentation], [map.force(turn, point), map.everett(turn, point), density])
+        })
+    });
+    let count = (0..map.turns().len()).map(|turn| points(turn).len()).sum();
+    write_table(out, format, provenance, MAP_COLUMNS, count, rows)
 }
 
 /// The adhesion force over the preload, the Everett function and the density.

@@ -1,6 +1,6 @@
 //! Figures of computed scenes: force curves, the profile with its contact, contact patches over the indentation.
 
-use crate::analysis::section::{Contact, LineColumns, Part};
+use crate::analysis::section::{Column, Contact, LineColumns, Part};
 use crate::analysis::{APPROXIMATE_JKR_ASSUMPTIONS, ApproximatePoint, Mark, marks};
 use crate::contact::{ContactError, Direction, LegRecord, Solver};
 use crate::draw::{
@@ -173,20 +173,14 @@ impl ContactSets {
         let section = contact.section(part, &mut LineColumns::default());
         let facts = outcome.line;
         let x = [facts.first, facts.first + springs].map(|spring| spring as f64 * facts.spacing);
-        let envelope = |columns| Shape::Envelope { x: (x[0], x[1]), columns };
-        let columns = || section.columns.iter();
+        let layer = |name: &str, ink, ends: fn(&Column) -> Option<(f64, f64)>| {
+            let columns = section.columns.iter().map(ends).collect();
+            Layer::new(name.into(), ink, Shape::Envelope { x: (x[0], x[1]), columns })
+        };
         let layers = vec![
-            Layer::new(
-                "elastic surface".into(),
-                Ink::Surface,
-                envelope(columns().map(|one| Some(one.surface)).collect()),
-            ),
-            Layer::new(
-                "rigid profile".into(),
-                Ink::Profile,
-                envelope(columns().map(|one| Some(one.line)).collect()),
-            ),
-            Layer::new("contact".into(), Ink::Contact, envelope(columns().map(|one| one.contact).collect())),
+            layer("elastic surface", Ink::Surface, |one| Some(one.surface)),
+            layer("rigid profile", Ink::Profile, |one| Some(one.line)),
+            layer("contact", Ink::Contact, |one| one.contact),
         ];
         let (low, high) = section.heights;
         let z = Span::around([low, high, section.level.min(high + 0.5 * (high - low))].into_iter(), 0.05);

@@ -1,12 +1,41 @@
 //! Tables of a scene: its force curve, the approximate one beside it, and its profile.
 
-use super::table::{Cell, Column, TableFormat, write_table};
-use crate::analysis::ApproximateJkr;
-use crate::contact::NonadhesivePoint;
+use super::table::{Column, TableFormat, Value, write_table};
+use crate::analysis::{ApproximateJkr, ApproximatePoint};
+use crate::contact::CurvePoint;
 use crate::scene::Provenance;
 use crate::simulation::Outcome;
 use crate::surface::Line;
 use std::io::{self, Write};
+
+/// Columns of [`write_curve`].
+pub(super) const CURVE: &[Column<(usize, CurvePoint)>] = &[
+    Column("leg", Value::Whole(|(leg, _)| *leg as u64)),
+    Column("indentation", Value::Real(|(_, point)| point.indentation)),
+    Column("force", Value::Real(|(_, point)| point.force)),
+    Column("contact_length", Value::Real(|(_, point)| point.contact_length)),
+    Column("fragments", Value::Whole(|(_, point)| point.fragments)),
+];
+
+/// Columns of [`write_approximate_jkr`].
+pub(super) const APPROXIMATE_JKR: &[Column<ApproximatePoint>] = &[
+    Column("indentation", Value::Real(|point| point.indentation)),
+    Column("force", Value::Real(|point| point.force)),
+    Column("nonadhesive_indentation", Value::Real(|point| point.nonadhesive.indentation)),
+    Column("nonadhesive_force", Value::Real(|point| point.nonadhesive.force)),
+    Column("contact_length", Value::Real(|point| point.nonadhesive.contact_length)),
+    Column("growing_length", Value::Optional(|point| point.nonadhesive.growing_length)),
+];
+
+/// Columns of [`write_line`].
+const PROFILE: &[Column<(f64, f64)>] =
+    &[Column("x", Value::Real(|point| point.0)), Column("z", Value::Real(|point| point.1))];
+
+/// Points of all legs, one leg after the other.
+pub(super) fn curve(outcome: &Outcome) -> impl Iterator<Item = (usize, CurvePoint)> {
+    let legs = outcome.history.legs.iter().enumerate();
+    legs.flat_map(|(leg, record)| record.curve.iter().map(move |point| (leg, *point)))
+}
 
 /// Writes the force curve: the leg counted from 0, indentation in m, force in N, contact length in m
 /// and the number of contact fragments.
@@ -19,27 +48,8 @@ pub fn write_curve(
     provenance: &Provenance,
     outcome: &Outcome,
 ) -> io::Result<()> {
-    let columns = [
-        ("leg", Column::Whole),
-        ("indentation", Column::Real),
-        ("force", Column::Real),
-        ("contact_length", Column::Real),
-        ("fragments", Column::Whole),
-    ];
-    let legs = &outcome.history.legs;
-    let points = legs.iter().map(|leg| leg.curve.len()).sum();
-    let rows = legs.iter().enumerate().flat_map(|(leg, record)| {
-        record.curve.iter().map(move |point| {
-            [
-                Cell::Whole(leg as u64),
-                Cell::Real(point.indentation),
-                Cell::Real(point.force),
-                Cell::Real(point.contact_length),
-                Cell::Whole(point.fragments),
-            ]
-        })
-    });
-    write_table(out, format, provenance, columns, points, rows)
+    let points = outcome.history.legs.iter().map(|leg| leg.curve.len()).sum();
+    write_table(out, format, provenance, CURVE, points, curve(outcome))
 }
 
 /// Writes the approximate JKR curve: indentation in m and force in N, and of the contact without adhesion of the same area
@@ -53,22 +63,7 @@ pub fn write_approximate_jkr(
     provenance: &Provenance,
     curve: &ApproximateJkr,
 ) -> io::Result<()> {
-    let columns = [
-        ("indentation", Column::Real),
-        ("force", Column::Real),
-        ("nonadhesive_indentation", Column::Real),
-        ("nonadhesive_force", Column::Real),
-        ("contact_length", Column::Real),
-        ("growing_length", Column::Real),
-    ];
-    let rows = curve.points.iter().map(|point| {
-        let NonadhesivePoint { indentation, force, contact_length, growing_length } = point.nonadhesive;
-        let [adhesive, nonadhesive] =
-            [[point.indentation, point.force], [indentation, force]].map(|point| point.map(Cell::Real));
-        let lengths = [Cell::Real(contact_length), growing_length.into()];
-        [adhesive[0], adhesive[1], nonadhesive[0], nonadhesive[1], lengths[0], lengths[1]]
-    });
-    write_table(out, format, provenance, columns, curve.points.len(), rows)
+    write_table(out, format, provenance, APPROXIMATE_JKR, curve.points.len(), curve.points.iter())
 }
 
 /// Writes the line: position x and height z in m of every spring under the body.
@@ -81,8 +76,6 @@ pub fn write_line(
     provenance: &Provenance,
     line: &Line,
 ) -> io::Result<()> {
-    let columns = [("x", Column::Real), ("z", Column::Real)];
-    let heights = line.heights().enumerate();
-    let rows = heights.map(|(index, height)| [Cell::Real(line.position(index)), Cell::Real(height)]);
-    write_table(out, format, provenance, columns, line.gaps.len(), rows)
+    let points = line.heights().enumerate().map(|(index, height)| (line.position(index), height));
+    write_table(out, format, provenance, PROFILE, line.gaps.len(), points)
 }

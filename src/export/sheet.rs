@@ -1,6 +1,6 @@
 //! Plain text in aligned columns that fits a terminal of 80 columns.
 
-use crate::text::printable;
+use crate::text::{printable, wrap};
 
 /// Characters on a line: those of the smallest usual terminal.
 pub(crate) const WIDTH: usize = 80;
@@ -19,18 +19,26 @@ pub(crate) struct Sheet {
 }
 
 impl Sheet {
+    /// A table alone as text.
+    #[cfg(feature = "tui")]
+    pub(crate) fn of_table<R: AsRef<[String]>>(rows: &[R]) -> String {
+        let mut sheet = Sheet::default();
+        sheet.table(rows);
+        sheet.into_text()
+    }
+
     /// The text so far.
     pub(crate) fn into_text(self) -> String {
         self.text
     }
 
-    /// A heading, with an empty line before it.
+    /// A heading, with an empty line between it and the text so far.
     pub(crate) fn heading(&mut self, heading: &str) {
-        self.text.push('\n');
+        self.text.push_str(if self.text.is_empty() { "" } else { "\n" });
         self.paragraph(heading);
     }
 
-    /// Text as long as it may be.
+    /// Text on as many lines as it takes; none for an empty text.
     pub(crate) fn paragraph(&mut self, text: &str) {
         for line in text.lines().flat_map(|line| wrap(line, WIDTH)) {
             self.line(&line);
@@ -82,83 +90,34 @@ impl Sheet {
     }
 }
 
+/// Rows as comma-separated values.
+#[cfg(feature = "tui")]
+pub(crate) fn csv<R: AsRef<[String]>>(rows: &[R]) -> String {
+    rows.iter().map(|row| row.as_ref().join(",") + "\n").collect()
+}
+
+/// Rows as a table of Markdown, the first one as its heading.
+pub(crate) fn markdown<R: AsRef<[String]>>(rows: &[R]) -> String {
+    let mut lines: Vec<_> = rows.iter().map(|row| format!("| {} |\n", row.as_ref().join(" | "))).collect();
+    let columns = rows.first().map_or(0, |row| row.as_ref().len());
+    lines.insert(lines.len().min(1), format!("|{}\n", " --- |".repeat(columns)));
+    lines.concat()
+}
+
+/// At most so many of the rows of a table, at equal distances, with the last one.
+pub(super) fn thinned<I: ExactSizeIterator>(rows: I, most: usize) -> impl Iterator<Item = I::Item> {
+    let (last, stride) = (rows.len().saturating_sub(1), rows.len().div_ceil(most).max(1));
+    rows.skip(last % stride).step_by(stride)
+}
+
 fn padded(text: &str, width: usize) -> String {
     let blanks = width.saturating_sub(text.chars().count());
     format!("{text}{}", " ".repeat(blanks))
 }
 
-/// Symbols of units after a number, without prefixes.
-const UNITS: [&str; 9] = ["m", "N", "J", "J/m²", "Pa", "s", "B", "N/m", "%"];
-
-/// Returns true for a unit, with or without a prefix.
-fn is_unit(word: &str) -> bool {
-    let word = word.trim_end_matches([',', ';', ':', '.', ')']);
-    let without_prefix =
-        word.strip_prefix(['q', 'r', 'y', 'z', 'a', 'f', 'p', 'n', 'µ', 'm', 'k', 'M', 'G', 'T', 'P', 'E']);
-    UNITS.contains(&word) || without_prefix.is_some_and(|word| UNITS.contains(&word.trim_start_matches('i')))
-}
-
-/// Returns true where no line may end between two words: within a number with its thousands apart, and before its unit.
-pub(crate) fn belong_together(word: &str, next: &str) -> bool {
-    let digits = next.trim_end_matches([',', ';', ':', '.', ')']);
-    let is_group = digits.len() == 3 && digits.bytes().all(|byte| byte.is_ascii_digit());
-    word.ends_with(|c: char| c.is_ascii_digit()) && (is_group || is_unit(next))
-}
-
-/// Words of a text, with numbers and their units in one.
-fn words(text: &str) -> Vec<String> {
-    let mut words: Vec<String> = Vec::new();
-    for next in text.split_whitespace() {
-        match words.last_mut().filter(|word| belong_together(word, next)) {
-            Some(word) => *word = format!("{word} {next}"),
-            None => words.push(next.to_owned()),
-        }
-    }
-    words
-}
-
-/// Lines of at most `width` characters, broken between words and within those that are longer.
-fn wrap(text: &str, width: usize) -> Vec<String> {
-    let mut lines = vec![String::new()];
-    let mut room = width;
-    for word in words(text) {
-        let length = word.chars().count();
-        let blank = usize::from(room < width);
-        if length + blank > room && room < width {
-            lines.push(String::new());
-            room = width;
-        }
-        let blank = usize::from(room < width);
-        for (index, character) in " ".repeat(blank).chars().chain(word.chars()).enumerate() {
-            if index > 0 && room == 0 {
-                lines.push(String::new());
-                room = width;
-            }
-            if let Some(line) = lines.last_mut() {
-                line.push(character);
-            }
-            room -= 1;
-        }
-    }
-    lines
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn lines_break_between_words() {
-        assert_eq!(wrap("one two three", 7), ["one two", "three"]);
-        assert_eq!(wrap("one two three", 5), ["one", "two", "three"]);
-        assert_eq!(wrap("a  longword b", 4), ["a", "long", "word", "b"]);
-        assert_eq!(wrap("µµµµ µµµµ", 4), ["µµµµ", "µµµµ"]);
-        assert_eq!(wrap("", 4), [""]);
-        assert_eq!(wrap("line 800.6 µs, tree 80.75 µs", 16), ["line 800.6 µs,", "tree 80.75 µs"]);
-        assert_eq!(wrap("with 16 384 springs", 7), ["with", "16 384", "springs"]);
-        assert_eq!(wrap("about 3 MiB of memory", 9), ["about", "3 MiB of", "memory"]);
-        assert_eq!(wrap("1 of 3 legs m", 6), ["1 of 3", "legs m"]);
-    }
 
     #[test]
     fn columns_are_as_wide_as_their_cells() {

@@ -34,9 +34,9 @@ pub struct Spectra {
     pub reliability_cutoff: Option<f64>,
 }
 
-/// Wave numbers at even distances of their logarithm.
-fn wave_numbers([low, high]: [f64; 2]) -> impl Iterator<Item = f64> {
-    let pieces = (PER_DECADE * (high / low).log10()).ceil().max(1.0);
+/// Wave numbers at even distances of their logarithm, about so many in each decade.
+pub(super) fn wave_numbers([low, high]: [f64; 2], per_decade: f64) -> impl Iterator<Item = f64> {
+    let pieces = (per_decade * (high / low).log10()).ceil().max(1.0);
     (0..=pieces as u32).map(move |piece| (low * (high / low).powf(f64::from(piece) / pieces)).min(high))
 }
 
@@ -49,7 +49,9 @@ impl Spectra {
         let measured = analysis.spectra.iter().map(|(direction, bins)| {
             (direction.name(), bins.iter().map(|bin| (bin.wave_number, bin.power)).collect())
         });
-        let over = |spectrum: &dyn Fn(f64) -> f64| wave_numbers(range).map(|q| (q, spectrum(q))).collect();
+        let over = |spectrum: &dyn Fn(f64) -> f64| {
+            wave_numbers(range, PER_DECADE).map(|q| (q, spectrum(q))).collect()
+        };
         let fit = analysis.power_law;
         Spectra {
             measured: measured.collect(),

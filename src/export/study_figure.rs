@@ -184,7 +184,97 @@ fn layers(study: &Study, panel: &Panel) -> Vec<Layer> {
 mod tests {
     use super::*;
     use crate::draw::svg_tests::{attribute, elements, parsed};
-    use crate::export::study_example::{phase_map, sections};
+    use crate::study::figure::{Boundary, FigureQuantity};
+
+    fn axis(name: &str, symbol: &str, scale: AxisScale, values: Vec<f64>) -> FigureAxis {
+        FigureAxis { name: name.into(), symbol: symbol.into(), unit: "1".into(), scale, values }
+    }
+
+    /// An axis of preloads without values.
+    fn preloads() -> FigureAxis {
+        FigureAxis { unit: "N".into(), ..axis("preload", "F_n", AxisScale::Logarithmic, Vec::new()) }
+    }
+
+    fn quantity(name: &str, symbol: &str) -> FigureQuantity {
+        FigureQuantity { name: name.into(), symbol: symbol.into(), unit: "1".into(), signed: false }
+    }
+
+    fn kappas() -> Vec<f64> {
+        (0..17).map(|index| 0.25 * 10_f64.powf(f64::from(index) / 10.0)).collect()
+    }
+
+    fn share(kappa: f64, hurst: f64) -> f64 {
+        1.0 / (1.0 + (kappa / (1.6 + 0.8 * hurst)).powi(5))
+    }
+
+    fn coefficient(kappa: f64, hurst: f64) -> f64 {
+        let held = 1.0 - share(kappa, hurst);
+        0.9 * held * (-(kappa - 2.0) / 1.1).exp()
+    }
+
+    fn estimate(mean: f64) -> Option<Estimate> {
+        Some(Estimate { mean, low: mean * 0.85 - 0.004, high: mean * 1.15 + 0.004 })
+    }
+
+    /// Two quantities in cells (κ, H) with their boundary, without axes; some cells have no value.
+    fn study(title: &str, fixed: &[&str], cells: &[(f64, f64)], missing: &[usize]) -> Study {
+        let panel = |name: &str, symbol: &str, value: fn(f64, f64) -> f64| {
+            let of = |(index, (kappa, hurst)): (usize, &(f64, f64))| {
+                estimate(value(*kappa, *hurst)).filter(|_| !missing.contains(&index))
+            };
+            Panel {
+                quantity: quantity(name, symbol),
+                estimates: cells.iter().enumerate().map(of).collect(),
+                scale: AxisScale::Linear,
+                range: None,
+                vanishes: name == "zero-load adhesion share",
+            }
+        };
+        Study {
+            title: title.into(),
+            fixed: fixed.iter().map(ToString::to_string).collect(),
+            across: axis("governing parameter", "κ", AxisScale::Logarithmic, kappas()),
+            up: None,
+            series: None,
+            panels: vec![
+                panel("zero-load adhesion share", "F_a(0)/F_a,max", share),
+                panel("adhesion coefficient", "F_a/F_n", coefficient),
+            ],
+            boundary: Some(Boundary {
+                values: cells.iter().map(|(kappa, hurst)| Some(share(*kappa, *hurst))).collect(),
+                level: 0.05,
+                label: "F_a(0) = 0.05 F_a,max".into(),
+            }),
+            regimes: Vec::new(),
+        }
+    }
+
+    /// A map of two quantities over H and κ, with gaps.
+    fn phase_map() -> Study {
+        let hursts: Vec<f64> = (0..9).map(|index| f64::from(index + 1) / 10.0).collect();
+        let cells: Vec<(f64, f64)> =
+            kappas().into_iter().flat_map(|kappa| hursts.iter().map(move |hurst| (kappa, *hurst))).collect();
+        let regime = |&(kappa, hurst): &(f64, f64)| {
+            Some(match (share(kappa, hurst), coefficient(kappa, hurst)) {
+                (share, _) if share > 0.5 => Regime::PressureInsensitive,
+                (_, coefficient) if coefficient > 0.01 => Regime::PressureSensitive,
+                _ => Regime::NonAdhesive,
+            })
+        };
+        let study = study("Phase diagram of adhesion", &["F_n/(E* h L) = 0.5"], &cells, &[3, 40, 41]);
+        Study {
+            regimes: cells.iter().map(regime).collect(),
+            up: Some(study.across.clone()),
+            across: axis("Hurst exponent", "H", AxisScale::Linear, hursts),
+            ..study
+        }
+    }
+
+    /// Sections of both at H = 0.3, with a gap.
+    fn sections() -> Study {
+        let cells: Vec<(f64, f64)> = kappas().into_iter().map(|kappa| (kappa, 0.3)).collect();
+        study("Sections at H = 0.3", &["H = 0.3", "F_n/(E* h L) = 0.5"], &cells, &[4])
+    }
 
     fn drawn(study: &Study) -> String {
         study_figure(study).svg()
@@ -300,8 +390,7 @@ mod tests {
     fn curves_that_are_the_same_are_drawn_once() {
         let mut study = sections();
         study.boundary = None;
-        study.series =
-            Some(FigureAxis { values: vec![1e-3, 2e-3], ..crate::export::study_example::preloads() });
+        study.series = Some(FigureAxis { values: vec![1e-3, 2e-3], ..preloads() });
         let [share, coefficient] = &mut study.panels[..] else { panic!() };
         let same = share.estimates.clone();
         share.estimates.extend(same);

@@ -20,9 +20,8 @@ const NO_PULL: &str = "none: no stage unloads";
 #[must_use]
 pub fn summary(scene: &Scene, outcome: &Outcome, estimate: Option<&Estimate>) -> String {
     let mut sheet = Sheet::default();
-    for text in [&scene.title, &scene.notice].into_iter().filter(|text| !text.is_empty()) {
-        sheet.paragraph(text);
-    }
+    sheet.paragraph(&scene.title);
+    sheet.paragraph(&scene.notice);
     line(&mut sheet, outcome);
     bodies(&mut sheet, outcome);
     adhesion(&mut sheet, scene, outcome, estimate);
@@ -31,7 +30,7 @@ pub fn summary(scene: &Scene, outcome: &Outcome, estimate: Option<&Estimate>) ->
     }
     contact(&mut sheet, outcome);
     cost(&mut sheet, &outcome.history.work, &outcome.timings);
-    sheet.into_text().trim_start_matches('\n').to_string()
+    sheet.into_text()
 }
 
 /// The result of a scene in a few rows: title, κ, regime, forces and dissipated energy, as in [`summary`].
@@ -176,44 +175,8 @@ fn contact(sheet: &mut Sheet, outcome: &Outcome) {
 }
 
 fn cost(sheet: &mut Sheet, work: &Work, timings: &Timings) {
-    // All fields by name: a new one cannot be forgotten here.
-    let Work {
-        springs,
-        random_phases,
-        transforms,
-        tree_nodes,
-        loading_passes,
-        unloading_passes,
-        zero_load_passes,
-        hess_evaluations,
-        springs_tallied,
-        events_sorted,
-        attached,
-        detached,
-        steps,
-        relaxation_sweeps,
-        spring_updates,
-        heights_binned,
-    } = *work;
     sheet.heading("Work");
-    for (label, count) in [
-        ("springs", springs),
-        ("random phases", random_phases),
-        ("Fourier transforms", transforms),
-        ("tree nodes", tree_nodes),
-        ("loading passes", loading_passes),
-        ("unloading passes", unloading_passes),
-        ("passes for F_a(0)", zero_load_passes),
-        ("rule of Hess applied", hess_evaluations),
-        ("springs in totals", springs_tallied),
-        ("events sorted", events_sorted),
-        ("springs attached", attached),
-        ("springs detached", detached),
-        ("steps", steps),
-        ("relaxation sweeps", relaxation_sweeps),
-        ("spring updates", spring_updates),
-        ("heights binned", heights_binned),
-    ] {
+    for (label, count) in counts(work) {
         sheet.row_of(label, (count > 0).then(|| grouped(count)));
     }
     let Timings { line, tree, passes, curve, zero_load } = *timings;
@@ -221,6 +184,28 @@ fn cost(sheet: &mut Sheet, work: &Work, timings: &Timings) {
     let stages = stages.map(|(stage, seconds)| format!("{stage} {}", format_quantity(seconds, "s")));
     let total = format_quantity(timings.total(), "s");
     sheet.row("time", format!("{total}: {}", stages.join(", ")));
+}
+
+/// All counts with their labels.
+fn counts(work: &Work) -> [(&'static str, u64); 16] {
+    [
+        ("springs", work.springs),
+        ("random phases", work.random_phases),
+        ("Fourier transforms", work.transforms),
+        ("tree nodes", work.tree_nodes),
+        ("loading passes", work.loading_passes),
+        ("unloading passes", work.unloading_passes),
+        ("passes for F_a(0)", work.zero_load_passes),
+        ("rule of Hess applied", work.hess_evaluations),
+        ("springs in totals", work.springs_tallied),
+        ("events sorted", work.events_sorted),
+        ("springs attached", work.attached),
+        ("springs detached", work.detached),
+        ("steps", work.steps),
+        ("relaxation sweeps", work.relaxation_sweeps),
+        ("spring updates", work.spring_updates),
+        ("heights binned", work.heights_binned),
+    ]
 }
 
 #[cfg(test)]
@@ -268,6 +253,12 @@ mod tests {
         insta::assert_snapshot!("smooth_punch", summary_of(PUNCH, &[]));
         let held = [("loading", "[ToForce(1e-5)]"), ("adhesion", "None")];
         insta::assert_snapshot!("pressed_and_held_without_adhesion", summary_of(ROUGH, &held));
+    }
+
+    #[test]
+    fn all_counts_have_a_row() {
+        let fields = serde_json::to_value(Work::default()).unwrap();
+        assert_eq!(counts(&Work::default()).len(), fields.as_object().unwrap().len());
     }
 
     #[test]

@@ -1,23 +1,20 @@
 //! Analysed surfaces: text for people, JSON and CSV for programs.
 
 use super::sheet::Sheet;
-use super::table::{Cell, Column, TableFormat, write_table};
-use crate::io::write_json_value;
+use super::spectrum_figure::{SpectrumPoint, wave_numbers};
+use super::table::{Column, TableFormat, Value, write_table};
+use crate::io::{object, write_json_value};
 use crate::scene::{Leg, Provenance, Scene, format_quantity};
-use crate::spectrum::{Analysis, Bin, End, Estimate, LineMoments};
+use crate::spectrum::{Analysis, Bin, Direction, End, Estimate, LineMoments};
 use crate::study::MeasuredAdhesion;
 use crate::text::{grouped, path_name, per_cent};
 use crate::topography::Topography;
-use serde::Serialize;
-use serde_json::{Value, json};
+use serde_json::json;
 use std::io::{self, Write};
 use std::path::PathBuf;
 
 /// Points of the equivalent line's spectrum in CSV, for each decade.
 const LINE_PER_DECADE: f64 = 10.0;
-
-/// Characters of the longest name of a spectrum.
-const LONGEST_NAME: usize = "equivalent line".len();
 
 /// A surface and the file it came from.
 #[derive(Clone, Debug, PartialEq)]
@@ -48,9 +45,7 @@ impl SurfaceFile {
             interpolated: surface.interpolated(),
         }
     }
-}
 
-impl SurfaceFile {
     /// One axis of a profile, two of a map.
     fn axes(&self) -> usize {
         if self.points[1] > 1 { 2 } else { 1 }
@@ -152,13 +147,13 @@ impl SurfaceAdhesion {
     }
 
     /// Object of JSON.
-    fn json(&self) -> Value {
-        let Some(computed) = &self.computed else { return Value::Null };
-        json!({
+    fn json(&self) -> Option<serde_json::Value> {
+        let computed = self.computed.as_ref()?;
+        Some(json!({
             "length": self.scene.length, "springs": self.scene.numerics.points, "preload": self.preload(),
             "adhesion_force": computed.adhesion_force(), "fit_deviation": computed.fit_deviation(),
             "regimes": computed.regimes(), "lines": computed.profiles,
-        })
+        }))
     }
 }
 
@@ -214,7 +209,7 @@ pub fn surface_text(
         sheet.heading("Warnings");
         warnings.iter().for_each(|warning| sheet.row("", warning));
     }
-    sheet.into_text().trim_start_matches('\n').to_owned()
+    sheet.into_text()
 }
 
 fn describe(file: &SurfaceFile) -> String {
@@ -269,7 +264,7 @@ fn with_error(estimate: Estimate, unit: &str) -> String {
     format!("{} ± {error}", format_quantity(estimate.value, unit))
 }
 
-/// Writes analysed surfaces as one JSON object.
+/// Writes analysed surfaces as one JSON object in SI units.
 ///
 /// # Errors
 /// Those of `out`.
@@ -280,89 +275,55 @@ pub fn write_surface_json(
     contact: Option<SurfaceContact>,
     adhesion: Option<&SurfaceAdhesion>,
 ) -> io::Result<()> {
-    write_json_value(out, &Report::new(files, analysis, contact, adhesion))
+    let (statistics, fit, moments) = (&analysis.statistics, analysis.power_law, &analysis.line);
+    let file = |file: &SurfaceFile| {
+        json!({
+            "file": file.path.to_string_lossy(), "format": file.format, "points": &file.points[..file.axes()],
+            "lengths": &file.lengths[..file.axes()], "interpolated": file.interpolated,
+        })
+    };
+    let node = |(wave_number, c2d, error)| {
+        json!({
+            "wave_number": wave_number, "c2d": c2d, "relative_error": error,
+            "line": analysis.isotropic.line(wave_number),
+        })
+    };
+    let bin = |bin: &Bin| json!({"wave_number": bin.wave_number, "power": bin.power, "waves": bin.waves});
+    let spectrum = |(direction, bins): &(Direction, Vec<Bin>)| {
+        let bins: Vec<_> = bins.iter().map(bin).collect();
+        json!({"name": direction.name(), "bins": bins})
+    };
+    let report = object! {
+        "version": env!("CARGO_PKG_VERSION"),
+        "files": files.iter().map(file).collect::<Vec<_>>(),
+        "points": statistics.points,
+        "rms_height": statistics.rms_height,
+        "rms_slope": statistics.rms_slope,
+        "rms_gradient": statistics.rms_gradient,
+        "skewness": statistics.skewness,
+        "kurtosis": statistics.kurtosis,
+        "reliability_cutoff": analysis.reliability_cutoff,
+        "hurst_exponent": estimate(fit.map(|fit| fit.hurst)),
+        "roll_off_wave_number": estimate(fit.and_then(|fit| fit.roll_off)),
+        "equivalent_line": json!({
+            "rms_height": estimate(Some(moments.rms_height)),
+            "rms_gradient": estimate(Some(moments.rms_gradient)),
+            "energy_per_modulus": estimate(Some(moments.energy_per_modulus)),
+            "elastic_energy": estimate(contact.map(|contact| contact.elastic_energy(moments))),
+            "kappa": estimate(contact.and_then(|contact| contact.kappa(moments))),
+            "elastic_energy_ratio": estimate(contact.and_then(|contact| contact.energy_ratio(moments))),
+        }),
+        "adhesion": adhesion.and_then(SurfaceAdhesion::json),
+        "spectrum": analysis.isotropic.nodes().map(node).collect::<Vec<_>>(),
+        "profile_spectra": analysis.spectra.iter().map(spectrum).collect::<Vec<_>>(),
+        "accuracy": analysis.promise(),
+        "warnings": analysis.warnings(),
+    };
+    write_json_value(out, &report)
 }
 
-/// The object; its keys are in the order of these fields. SI units.
-#[derive(Serialize)]
-struct Report {
-    version: &'static str,
-    files: Vec<Value>,
-    points: usize,
-    rms_height: f64,
-    rms_slope: f64,
-    rms_gradient: Option<f64>,
-    skewness: f64,
-    kurtosis: f64,
-    reliability_cutoff: Option<f64>,
-    hurst_exponent: Value,
-    roll_off_wave_number: Value,
-    equivalent_line: Value,
-    adhesion: Value,
-    spectrum: Vec<Value>,
-    profile_spectra: Vec<Value>,
-    accuracy: &'static str,
-    warnings: Vec<String>,
-}
-
-impl Report {
-    fn new(
-        files: &[SurfaceFile],
-        analysis: &Analysis,
-        contact: Option<SurfaceContact>,
-        adhesion: Option<&SurfaceAdhesion>,
-    ) -> Self {
-        let statistics = &analysis.statistics;
-        let fit = analysis.power_law;
-        let moments = &analysis.line;
-        let file = |file: &SurfaceFile| {
-            json!({
-                "file": file.path.to_string_lossy(), "format": file.format, "points": &file.points[..file.axes()],
-                "lengths": &file.lengths[..file.axes()], "interpolated": file.interpolated,
-            })
-        };
-        let nodes = analysis.isotropic.nodes().map(|(wave_number, c2d, error)| {
-            json!({
-                "wave_number": wave_number, "c2d": c2d, "relative_error": error,
-                "line": analysis.isotropic.line(wave_number),
-            })
-        });
-        let spectra = analysis.spectra.iter().map(|(direction, bins)| {
-            let bin =
-                |bin: &Bin| json!({"wave_number": bin.wave_number, "power": bin.power, "waves": bin.waves});
-            json!({"name": direction.name(), "bins": bins.iter().map(bin).collect::<Vec<_>>()})
-        });
-        Report {
-            version: env!("CARGO_PKG_VERSION"),
-            files: files.iter().map(file).collect(),
-            points: statistics.points,
-            rms_height: statistics.rms_height,
-            rms_slope: statistics.rms_slope,
-            rms_gradient: statistics.rms_gradient,
-            skewness: statistics.skewness,
-            kurtosis: statistics.kurtosis,
-            reliability_cutoff: analysis.reliability_cutoff,
-            hurst_exponent: estimate(fit.map(|fit| fit.hurst)),
-            roll_off_wave_number: estimate(fit.and_then(|fit| fit.roll_off)),
-            equivalent_line: json!({
-                "rms_height": estimate(Some(moments.rms_height)),
-                "rms_gradient": estimate(Some(moments.rms_gradient)),
-                "energy_per_modulus": estimate(Some(moments.energy_per_modulus)),
-                "elastic_energy": estimate(contact.map(|contact| contact.elastic_energy(moments))),
-                "kappa": estimate(contact.and_then(|contact| contact.kappa(moments))),
-                "elastic_energy_ratio": estimate(contact.and_then(|contact| contact.energy_ratio(moments))),
-            }),
-            adhesion: adhesion.map_or(Value::Null, SurfaceAdhesion::json),
-            spectrum: nodes.collect(),
-            profile_spectra: spectra.collect(),
-            accuracy: analysis.promise(),
-            warnings: analysis.warnings(),
-        }
-    }
-}
-
-fn estimate(estimate: Option<Estimate>) -> Value {
-    estimate.map_or(Value::Null, |estimate| json!({"value": estimate.value, "error": estimate.error}))
+fn estimate(estimate: Option<Estimate>) -> Option<serde_json::Value> {
+    estimate.map(|estimate| json!({"value": estimate.value, "error": estimate.error}))
 }
 
 /// Writes spectra as a table: kind, wave number in rad/m, power in m³, waves averaged (none for the equivalent line).
@@ -375,25 +336,21 @@ pub fn write_surface_table(
     provenance: &Provenance,
     analysis: &Analysis,
 ) -> io::Result<()> {
-    let mut rows = Vec::new();
-    for (direction, bins) in &analysis.spectra {
-        for Bin { wave_number, power, waves } in bins {
-            let name = Cell::Word(direction.name());
-            rows.push([name, Cell::Real(*wave_number), Cell::Real(*power), Cell::Whole(*waves)]);
-        }
-    }
-    let [low, high] = analysis.isotropic.range();
-    let pieces = (LINE_PER_DECADE * (high / low).log10()).ceil().max(1.0) as i32;
-    for piece in 0..=pieces {
-        let wave_number = (low * (high / low).powf(f64::from(piece) / f64::from(pieces))).min(high);
-        let power = Cell::Real(analysis.isotropic.line(wave_number));
-        rows.push([Cell::Word("equivalent line"), Cell::Real(wave_number), power, Cell::Missing]);
-    }
-    let columns = [
-        ("spectrum", Column::Word(LONGEST_NAME)),
-        ("wave_number", Column::Real),
-        ("power", Column::Real),
-        ("waves", Column::Real),
-    ];
-    write_table(out, format, provenance, columns, rows.len(), rows.into_iter())
+    let measured = analysis.spectra.iter().flat_map(|(direction, bins)| {
+        bins.iter().map(|bin| (direction.name(), (bin.wave_number, bin.power), Some(bin.waves)))
+    });
+    let line = wave_numbers(analysis.isotropic.range(), LINE_PER_DECADE);
+    let line = line.map(|q| ("equivalent line", (q, analysis.isotropic.line(q)), None));
+    let rows: Vec<_> = measured.chain(line).collect();
+    write_table(out, format, provenance, COLUMNS, rows.len(), rows.iter())
 }
+
+/// Name of a spectrum, point, waves averaged.
+type SpectrumRow = (&'static str, SpectrumPoint, Option<u64>);
+
+const COLUMNS: &[Column<SpectrumRow>] = &[
+    Column("spectrum", Value::Word("equivalent line".len(), |(name, ..)| name)),
+    Column("wave_number", Value::Real(|(_, point, _)| point.0)),
+    Column("power", Value::Real(|(_, point, _)| point.1)),
+    Column("waves", Value::Count(|(.., waves)| *waves)),
+];

@@ -5,6 +5,8 @@
 
 use crate::io::npy;
 use crate::scene::Provenance;
+use serde::ser::{Serialize, SerializeMap, Serializer};
+use std::borrow::Borrow;
 use std::io::{self, Write};
 
 /// Format of a table.
@@ -16,102 +18,125 @@ pub enum TableFormat {
     Npy,
 }
 
-/// Numbers or words of a column.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Column {
-    /// Double precision; not a number where there is no value.
-    Real,
-    /// Whole numbers from 0 on.
-    Whole,
-    /// Words of at most so many characters.
-    Word(usize),
-}
+/// A column of a table and an entry of the objects of JSON that hold the same rows: name and value.
+pub(super) struct Column<T>(pub &'static str, pub Value<T>);
 
 /// Value of a row in a column.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Cell<'a> {
-    Real(f64),
-    Whole(u64),
-    Word(&'a str),
-    /// No value, of a column of real numbers.
-    Missing,
-}
-
-impl From<Option<f64>> for Cell<'_> {
-    fn from(value: Option<f64>) -> Self {
-        value.map_or(Cell::Missing, Cell::Real)
-    }
+pub(super) enum Value<T> {
+    /// Double precision.
+    Real(fn(&T) -> f64),
+    /// Double precision; empty where there is no value, in an array not a number.
+    Optional(fn(&T) -> Option<f64>),
+    /// Whole numbers from 0 on.
+    Whole(fn(&T) -> u64),
+    /// Whole numbers that some rows do not have: double precision in an array.
+    Count(fn(&T) -> Option<u64>),
+    /// Words of at most so many characters.
+    Word(usize, fn(&T) -> &'static str),
 }
 
 /// Writes a table of so many rows.
 ///
 /// # Errors
 /// Those of `out`.
-pub(super) fn write_table<'a, const N: usize>(
+pub(super) fn write_table<T>(
     out: &mut (impl Write + ?Sized),
     format: TableFormat,
     provenance: &Provenance,
-    columns: [(&str, Column); N],
+    columns: &[Column<T>],
     count: usize,
-    rows: impl Iterator<Item = [Cell<'a>; N]>,
+    rows: impl Iterator<Item = impl Borrow<T>>,
 ) -> io::Result<()> {
-    match format {
-        TableFormat::Csv => {
-            out.write_all(provenance.comments().as_bytes())?;
-            writeln!(out, "{}", columns.map(|(name, _)| name).join(","))?;
-            for row in rows {
-                for (index, cell) in row.into_iter().enumerate() {
-                    out.write_all(if index > 0 { b"," } else { b"" })?;
-                    write_value(out, cell)?;
-                }
-                out.write_all(b"\n")?;
-            }
-            Ok(())
-        }
-        TableFormat::Npy => {
-            let fields = columns.map(|(name, column)| format!("('{name}', '{}')", column.descr()));
-            npy::write_header(out, &format!("[{}]", fields.join(", ")), &format!("{count},"))?;
-            for row in rows {
-                for ((_, column), cell) in columns.into_iter().zip(row) {
-                    write_bytes(out, column, cell)?;
-                }
-            }
-            npy::write_text(out, provenance.text())
-        }
+    if format == TableFormat::Csv {
+        out.write_all(provenance.comments().as_bytes())?;
+        return write_csv(out, columns, rows);
     }
+    let fields: Vec<_> =
+        columns.iter().map(|Column(name, value)| format!("('{name}', '{}')", value.descr())).collect();
+    npy::write_header(out, &format!("[{}]", fields.join(", ")), &format!("{count},"))?;
+    for row in rows {
+        columns.iter().try_for_each(|Column(_, value)| value.write_bytes(out, row.borrow()))?;
+    }
+    npy::write_text(out, provenance.text())
 }
 
-impl Column {
+/// Writes comma-separated values without provenance.
+///
+/// # Errors
+/// Those of `out`.
+pub(super) fn write_csv<T>(
+    out: &mut (impl Write + ?Sized),
+    columns: &[Column<T>],
+    rows: impl Iterator<Item = impl Borrow<T>>,
+) -> io::Result<()> {
+    let names: Vec<_> = columns.iter().map(|column| column.0).collect();
+    writeln!(out, "{}", names.join(","))?;
+    for row in rows {
+        for (index, Column(_, value)) in columns.iter().enumerate() {
+            out.write_all(if index > 0 { b"," } else { b"" })?;
+            value.write_text(out, row.borrow())?;
+        }
+        out.write_all(b"\n")?;
+    }
+    Ok(())
+}
+
+impl<T> Value<T> {
     /// Type in NumPy's notation.
-    fn descr(self) -> String {
+    fn descr(&self) -> String {
         match self {
-            Column::Real => "<f8".to_owned(),
-            Column::Whole => "<u8".to_owned(),
-            Column::Word(characters) => format!("<U{characters}"),
+            Value::Real(_) | Value::Optional(_) | Value::Count(_) => "<f8".to_owned(),
+            Value::Whole(_) => "<u8".to_owned(),
+            Value::Word(characters, _) => format!("<U{characters}"),
         }
+    }
+
+    fn write_text(&self, out: &mut (impl Write + ?Sized), row: &T) -> io::Result<()> {
+        match self {
+            Value::Real(of) => write!(out, "{:?}", of(row)),
+            Value::Optional(of) => of(row).map_or(Ok(()), |value| write!(out, "{value:?}")),
+            Value::Whole(of) => write!(out, "{}", of(row)),
+            Value::Count(of) => of(row).map_or(Ok(()), |count| write!(out, "{count}")),
+            Value::Word(_, of) => out.write_all(of(row).as_bytes()),
+        }
+    }
+
+    fn write_bytes(&self, out: &mut (impl Write + ?Sized), row: &T) -> io::Result<()> {
+        let real = match *self {
+            Value::Real(of) => of(row),
+            Value::Optional(of) => of(row).unwrap_or(f64::NAN),
+            Value::Count(of) => of(row).map_or(f64::NAN, |count| count as f64),
+            Value::Whole(of) => return out.write_all(&of(row).to_le_bytes()),
+            Value::Word(characters, of) => {
+                let word = of(row);
+                if word.chars().count() > characters {
+                    return Err(io::Error::other(format!("{word} in a column of {}", self.descr())));
+                }
+                let codes = word.chars().map(u32::from).chain(std::iter::repeat(0));
+                return codes.take(characters).try_for_each(|code| out.write_all(&code.to_le_bytes()));
+            }
+        };
+        out.write_all(&real.to_le_bytes())
     }
 }
 
-fn write_value(out: &mut (impl Write + ?Sized), cell: Cell<'_>) -> io::Result<()> {
-    match cell {
-        Cell::Real(value) => write!(out, "{value:?}"),
-        Cell::Whole(value) => write!(out, "{value}"),
-        Cell::Word(word) => out.write_all(word.as_bytes()),
-        Cell::Missing => Ok(()),
-    }
-}
+/// A row as an object of JSON with an entry for each column.
+pub(super) struct Record<'a, T, R>(pub &'a [Column<T>], pub R);
 
-fn write_bytes(out: &mut (impl Write + ?Sized), column: Column, cell: Cell<'_>) -> io::Result<()> {
-    match (column, cell) {
-        (Column::Real, Cell::Real(value)) => out.write_all(&value.to_le_bytes()),
-        (Column::Real, Cell::Whole(value)) => out.write_all(&(value as f64).to_le_bytes()),
-        (Column::Real, Cell::Missing) => out.write_all(&f64::NAN.to_le_bytes()),
-        (Column::Whole, Cell::Whole(value)) => out.write_all(&value.to_le_bytes()),
-        (Column::Word(characters), Cell::Word(word)) if word.chars().count() <= characters => {
-            let codes = word.chars().map(u32::from).chain(std::iter::repeat(0));
-            codes.take(characters).try_for_each(|code| out.write_all(&code.to_le_bytes()))
+impl<T, R: Borrow<T>> Serialize for Record<'_, T, R> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let (columns, row) = (self.0, self.1.borrow());
+        let mut map = serializer.serialize_map(Some(columns.len()))?;
+        for Column(name, value) in columns {
+            match value {
+                Value::Real(of) => map.serialize_entry(name, &of(row))?,
+                Value::Optional(of) => map.serialize_entry(name, &of(row))?,
+                Value::Whole(of) => map.serialize_entry(name, &of(row))?,
+                Value::Count(of) => map.serialize_entry(name, &of(row))?,
+                Value::Word(_, of) => map.serialize_entry(name, of(row))?,
+            }
         }
-        (column, cell) => Err(io::Error::other(format!("{cell:?} in a column of {}", column.descr()))),
+        map.end()
     }
 }
 
@@ -121,26 +146,29 @@ mod tests {
     use crate::scene::TableContent;
     use std::path::Path;
 
+    type Row = (Option<f64>, u64, &'static str);
+
     #[test]
     fn columns_have_their_types_in_either_format() {
         let document = crate::scene::open("jkr-sphere").unwrap();
         let here = Path::new("");
         let provenance = Provenance::new(TableContent::ForceCurve, document.scene(), here, here);
+        let columns = [
+            Column("a", Value::Optional(|row: &Row| row.0)),
+            Column("b", Value::Whole(|row| row.1)),
+            Column("c", Value::Word(2, |row| row.2)),
+        ];
+        let rows = [(Some(0.1), 7, "é"), (None, 8, "yz")];
         let table = |format| {
-            let columns = [("a", Column::Real), ("b", Column::Whole), ("c", Column::Word(2))];
-            let rows = [
-                [Cell::Real(0.1), Cell::Whole(7), Cell::Word("é")],
-                [Cell::Missing, Cell::Whole(8), Cell::Word("yz")],
-            ];
             let mut out = Vec::new();
-            write_table(&mut out, format, &provenance, columns, 2, rows.into_iter()).unwrap();
+            write_table(&mut out, format, &provenance, &columns, 2, rows.iter()).unwrap();
             out
         };
-        for wrong in [Cell::Word("xyz"), Cell::Missing] {
-            let rows = [[wrong]].into_iter();
-            let columns = [("a", Column::Word(2))];
-            assert!(write_table(&mut Vec::new(), TableFormat::Npy, &provenance, columns, 1, rows).is_err());
-        }
+        let too_long = [(None, 9, "xyz")].into_iter();
+        let refused = write_table(&mut Vec::new(), TableFormat::Npy, &provenance, &columns, 1, too_long);
+        assert_eq!(refused.unwrap_err().to_string(), "xyz in a column of <U2");
+        let objects = serde_json::to_string(&rows.map(|row| Record(&columns, row))).unwrap();
+        assert_eq!(objects, r#"[{"a":0.1,"b":7,"c":"é"},{"a":null,"b":8,"c":"yz"}]"#);
         let csv = String::from_utf8(table(TableFormat::Csv)).unwrap();
         assert_eq!(csv.strip_prefix(&provenance.comments()), Some("a,b,c\n0.1,7,é\n,8,yz\n"));
         let array = table(TableFormat::Npy);

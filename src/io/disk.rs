@@ -11,17 +11,16 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// Changes of files: [`SystemDisk`], or a simulated disk in tests. Files are read without a disk.
+///
+/// # Errors
+/// Every function gives on the error of the operating system. Where a name is taken, those that make something under a
+/// new name fail with [`io::ErrorKind::AlreadyExists`]; only [`Disk::rename`] replaces a file or a link.
+/// [`Disk::symbolic_link`] fails with [`io::ErrorKind::Unsupported`] on systems without such links.
 pub trait Disk: Debug + Send + Sync {
     /// Makes a folder within one that is there.
-    ///
-    /// # Errors
-    /// [`io::ErrorKind::AlreadyExists`] where the name is taken, and what the system says.
     fn make_folder(&self, path: &Path) -> io::Result<()>;
 
     /// Makes a file to write to.
-    ///
-    /// # Errors
-    /// [`io::ErrorKind::AlreadyExists`] where the name is taken, and what the system says.
     fn make_file(&self, path: &Path) -> io::Result<Box<dyn DiskFile>>;
 
     /// Makes a file in a folder that has no name yet, and goes with the process unless it is given one; `None`
@@ -29,73 +28,39 @@ pub trait Disk: Debug + Send + Sync {
     fn make_nameless_file(&self, folder: &Path) -> Option<Box<dyn DiskFile>>;
 
     /// Gives a file a second name.
-    ///
-    /// # Errors
-    /// [`io::ErrorKind::AlreadyExists`] where the name is taken, and what the system says.
     fn link(&self, file: &Path, name: &Path) -> io::Result<()>;
 
     /// Makes a symbolic link that leads to `target`.
-    ///
-    /// # Errors
-    /// [`io::ErrorKind::AlreadyExists`] where the name is taken, [`io::ErrorKind::Unsupported`] on systems
-    /// without, and what the system says.
     fn symbolic_link(&self, target: &Path, name: &Path) -> io::Result<()>;
 
     /// Renames a file, a link or a folder. A file or link of the new name is replaced.
-    ///
-    /// # Errors
-    /// Error of the operating system.
     fn rename(&self, from: &Path, to: &Path) -> io::Result<()>;
 
     /// Removes a file or a link.
-    ///
-    /// # Errors
-    /// Error of the operating system.
     fn remove_file(&self, path: &Path) -> io::Result<()>;
 
     /// Removes an empty folder.
-    ///
-    /// # Errors
-    /// Error of the operating system.
     fn remove_folder(&self, path: &Path) -> io::Result<()>;
 
     /// Paths of all that is in a folder, in no order.
-    ///
-    /// # Errors
-    /// Error of the operating system.
     fn list(&self, folder: &Path) -> io::Result<Vec<PathBuf>>;
 
     /// Waits until the content of a file that is there has reached the disk, whoever wrote it.
-    ///
-    /// # Errors
-    /// Error of the operating system.
     fn sync_file(&self, path: &Path) -> io::Result<()>;
 
     /// Waits until the names in a folder have reached the disk.
-    ///
-    /// # Errors
-    /// Error of the operating system.
     fn sync_folder(&self, path: &Path) -> io::Result<()>;
 }
 
-/// A file of a [`Disk`] while it is written.
+/// A file of a [`Disk`] while it is written, with the errors of a [`Disk`].
 pub trait DiskFile: Write + Send {
     /// Waits until all that was written has reached the disk.
-    ///
-    /// # Errors
-    /// Error of the operating system.
     fn sync(&mut self) -> io::Result<()>;
 
     /// Sets the permissions.
-    ///
-    /// # Errors
-    /// Error of the operating system.
     fn set_permissions(&mut self, permissions: Permissions) -> io::Result<()>;
 
     /// Gives a file without a name one that no other has.
-    ///
-    /// # Errors
-    /// [`io::ErrorKind::AlreadyExists`] where the name is taken, and what the system says.
     fn give_name(&self, path: &Path) -> io::Result<()>;
 }
 

@@ -257,7 +257,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_file_name_is_told() {
+    fn a_path_without_a_file_name_is_refused() {
         let folder = tempfile::tempdir().unwrap();
         for (path, expected) in [
             (folder.path().to_path_buf(), "not the name of a file"),

@@ -3,7 +3,7 @@
 
 use crate::analysis::ideal_adhesion_force;
 use crate::scene::Form;
-use crate::surface::power_law_factor;
+use crate::surface::line_power_law;
 use std::f64::consts::PI;
 
 /// A body whose equivalent line is g(x) = c |x|ⁿ, on a half-space under adhesion.
@@ -23,12 +23,7 @@ impl PowerLaw {
     /// The closed form of a body, where it is a power law: not the punch, nor a sphere with waves.
     #[must_use]
     pub fn of(form: &Form, effective_modulus: f64, work_of_adhesion: f64) -> Option<Self> {
-        let (line_coefficient, exponent) = match *form {
-            Form::Paraboloid { radius } => (radius.recip(), 2.0),
-            Form::Cone { angle } => (std::f64::consts::FRAC_PI_2 * angle.tan(), 1.0),
-            Form::Power { coefficient, exponent } => (power_law_factor(exponent) * coefficient, exponent),
-            Form::WavySphere { .. } | Form::Punch { .. } => return None,
-        };
+        let (line_coefficient, exponent) = line_power_law(form)?;
         Some(PowerLaw { line_coefficient, exponent, effective_modulus, work_of_adhesion })
     }
 
@@ -92,17 +87,13 @@ pub fn flat_punch(radius: f64, effective_modulus: f64, work_of_adhesion: f64) ->
 #[must_use]
 pub fn smooth_adhesion_force(form: Option<&Form>, length: f64, effective_modulus: f64, work: f64) -> f64 {
     let flat = ideal_adhesion_force(work, effective_modulus, length);
-    match form {
-        None => flat,
-        // Waves make it depend on the preload: that of the sphere without them.
-        Some(&Form::WavySphere { radius, .. }) => {
-            smooth_adhesion_force(Some(&Form::Paraboloid { radius }), length, effective_modulus, work)
-        }
-        Some(Form::Punch { radius }) => flat_punch(*radius, effective_modulus, work).min(flat),
-        Some(form) => PowerLaw::of(form, effective_modulus, work)
-            .map_or(flat, |body| -body.force_controlled_pull_off().1)
-            .min(flat),
-    }
+    // Waves make the adhesion force depend on the preload: that of the form without them.
+    let Some(form) = form.map(|form| form.without_waves()) else { return flat };
+    let of_shape = match form.flat_end() {
+        Some(radius) => Some(flat_punch(radius, effective_modulus, work)),
+        None => PowerLaw::of(&form, effective_modulus, work).map(|body| -body.force_controlled_pull_off().1),
+    };
+    of_shape.map_or(flat, |force| force.min(flat))
 }
 
 #[cfg(test)]

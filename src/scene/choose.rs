@@ -112,7 +112,8 @@ impl Document {
 #[cfg(test)]
 mod tests {
     use super::super::fields::field;
-    use super::super::model::{Adhesion, Form, Roughness};
+    use super::super::form::Form;
+    use super::super::model::{Adhesion, Roughness};
     use super::*;
 
     const SCENE: &str = "(

@@ -6,8 +6,7 @@ use super::check::check;
 use super::computed::Computed;
 use super::edit;
 use super::effects::Effect;
-use super::error_source::{all_errors, errors_of, nearest_byte, origin_at, overrides_behind};
-use super::errors::{Origin, SceneError, SceneErrors};
+use super::errors::{Origin, SceneError, SceneErrors, nearest_byte, origin_at, overrides_behind};
 use super::field::Field;
 use super::fields::{FIELDS, field};
 use super::measured_hash::{MeasuredHash, MeasuredHashError};
@@ -46,8 +45,7 @@ impl Scene {
     ///
     /// All values that are not allowed, each with its field and its allowed range.
     pub fn check(&self) -> Result<(), SceneErrors> {
-        let violations = check(self);
-        if violations.is_empty() { Ok(()) } else { Err(errors_of(violations, |_| Origin::Scene)) }
+        SceneErrors::result(check(self), |_| Origin::Scene)
     }
 }
 
@@ -61,38 +59,31 @@ impl Document {
     pub fn parse(text: &str, name: &str) -> Result<Document, SceneErrors> {
         // Some editors put a byte order mark before the text.
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-        check_length(text).map_err(|message| {
-            SceneErrors::from(SceneError::whole(Origin::File { name: name.into() }, message))
-        })?;
+        check_length(text)
+            .map_err(|message| SceneError::whole(Origin::File { name: name.into() }, message))?;
+        let place = |offset| origin_at(text, name, offset);
         let scene = read(text).map_err(|unread| {
-            let error = |unread: Unread| {
-                let origin = origin_at(text, name, unread.offset);
-                unread.into_error(origin)
-            };
-            let mut errors: Vec<_> = wrong_version(text).into_iter().chain([unread]).map(error).collect();
-            errors.dedup_by(|second, first| second.field == "version" && first.field == "version");
-            all_errors(errors)
+            let located = |unread: Unread| unread.error.at(place(unread.offset));
+            match wrong_version(text) {
+                Some(version) if unread.error.field == version.error.field => located(version).into(),
+                Some(version) => SceneErrors::from(located(version)).and(located(unread)),
+                None => located(unread).into(),
+            }
         })?;
-        let violations = check(&scene);
-        if violations.is_empty() {
-            let (name, text) = (name.to_string(), text.to_string());
-            return Ok(Document {
-                name,
-                opened: text.clone(),
-                text,
-                scene,
-                overrides: Vec::new(),
-                content: None,
-                measured: Vec::new(),
-                switched_off: Vec::new(),
-            });
-        }
         let outline = Text::new(text).ok();
-        let locate = |field: &str| {
-            let offset = outline.as_ref().map_or(0, |outline| nearest_byte(outline, field));
-            origin_at(text, name, offset)
-        };
-        Err(errors_of(violations, |violation| locate(&violation.field)))
+        SceneErrors::result(check(&scene), |error| {
+            place(outline.as_ref().map_or(0, |outline| nearest_byte(outline, &error.field)))
+        })?;
+        Ok(Document {
+            name: name.to_string(),
+            opened: text.to_string(),
+            text: text.to_string(),
+            scene,
+            overrides: Vec::new(),
+            content: None,
+            measured: Vec::new(),
+            switched_off: Vec::new(),
+        })
     }
 
     /// A document for a scene that was made in the program, written in canonical form.
@@ -135,13 +126,9 @@ impl Document {
         if let Some(errors) = SceneErrors::new(errors) {
             return Err(errors);
         }
-        let violations = check(&new.scene);
-        if violations.is_empty() {
-            new.record_switches(self);
-            Ok(new)
-        } else {
-            Err(errors_of(violations, |violation| overrides_behind(violation, overrides)))
-        }
+        SceneErrors::result(check(&new.scene), |error| overrides_behind(error, overrides))?;
+        new.record_switches(self);
+        Ok(new)
     }
 
     /// As [`Document::set_all`], for overrides that switch an effect off: all of them are undone where the effect is
@@ -241,18 +228,17 @@ impl Document {
         let origin = Origin::Overrides(vec![format!("{path}={value}")]);
         let value = match edit::field_at(&self.text, path) {
             Some(field) => field.read_typed(value).map_err(|error| SceneError {
-                origin: origin.clone(),
                 field: path.to_string(),
                 value: value.to_string(),
                 allowed: field.allowed(),
-                message: error.to_string(),
+                ..SceneError::whole(origin.clone(), error.to_string())
             })?,
             None => value.to_string(),
         };
         let text = edit::set(&self.text, path, &value)
             .and_then(|text| check_length(&text).map(|()| text))
             .map_err(|message| SceneError::whole(origin.clone(), message))?;
-        self.scene = read(&text).map_err(|unread| unread.into_error(origin))?;
+        self.scene = read(&text).map_err(|unread| unread.error.at(origin))?;
         self.text = text;
         Ok(())
     }
@@ -370,13 +356,6 @@ impl Document {
     }
 }
 
-impl Unread {
-    fn into_error(self, origin: Origin) -> SceneError {
-        let Unread { field, value, allowed, message, .. } = self;
-        SceneError { origin, field, value, allowed, message }
-    }
-}
-
 fn fields_of(outline: &Text) -> impl Iterator<Item = &'static Field> {
     FIELDS.iter().filter(|field| field.variant.is_none() || field.variant == outline.variant(field.parent()))
 }
@@ -396,7 +375,8 @@ fn check_length(text: &str) -> Result<(), String> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::model::{Adhesion, Form, Leg, Roughness, Solver};
+    use super::super::form::Form;
+    use super::super::model::{Adhesion, Leg, Roughness, Solver};
     use super::super::strategies::sound;
     use super::*;
 

@@ -2,14 +2,17 @@
 
 use std::fmt;
 
-use super::violation::Violation;
+use super::text::{Text, is_within, line_column};
 use crate::text::is_control;
+
+/// Most errors that are listed; further ones are only counted.
+const MOST_LISTED: usize = 100;
 
 /// Values and names longer than this are shortened in messages.
 const MOST_SHOWN: usize = 80;
 
 /// Origin of an error.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub enum Origin {
     /// A place in a scene file.
     Place {
@@ -28,6 +31,7 @@ pub enum Origin {
     /// One or more overrides, as `path=value`.
     Overrides(Vec<String>),
     /// A scene that was not read from text.
+    #[default]
     Scene,
 }
 
@@ -46,11 +50,11 @@ impl fmt::Display for Origin {
 }
 
 /// One thing that is wrong with a scene.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct SceneError {
     /// Origin.
     pub origin: Origin,
-    /// Path of the field; empty where no field is meant.
+    /// Path of the field, `loading.0` for a loading stage; empty where no field is meant.
     pub field: String,
     /// The value as written; empty where there is none.
     pub value: String,
@@ -58,19 +62,19 @@ pub struct SceneError {
     pub allowed: String,
     /// Reason, or the name of the field.
     pub message: String,
+    /// Other fields that take part, by path: changing one of them may mend the error as well.
+    pub involves: &'static [&'static str],
 }
 
 impl SceneError {
     /// An error about a file or scene as a whole.
     pub(super) fn whole(origin: Origin, message: impl Into<String>) -> SceneError {
-        let message = message.into();
-        SceneError { origin, field: String::new(), value: String::new(), allowed: String::new(), message }
+        SceneError { origin, message: message.into(), ..SceneError::default() }
     }
 
-    /// The error of a violation.
-    pub(super) fn new(origin: Origin, violation: Violation) -> SceneError {
-        let Violation { field, value, allowed, reason, .. } = violation;
-        SceneError { origin, field, value, allowed, message: reason }
+    /// The same error of another origin.
+    pub(super) fn at(self, origin: Origin) -> SceneError {
+        SceneError { origin, ..self }
     }
 
     /// The error without its origin: `roughness.hurst = 1.4: allowed: above 0 and below 1 (Hurst
@@ -119,6 +123,26 @@ impl SceneErrors {
         Some(SceneErrors { first: Box::new(errors.next()?), rest: errors.collect() })
     }
 
+    /// Returns an error for a list of errors that is not empty: the errors with their origins, a long list shortened.
+    pub(super) fn result(
+        mut errors: Vec<SceneError>,
+        origin: impl Fn(&SceneError) -> Origin,
+    ) -> Result<(), SceneErrors> {
+        let count = errors.len();
+        errors.truncate(MOST_LISTED);
+        errors.iter_mut().for_each(|error| error.origin = origin(error));
+        if count > MOST_LISTED {
+            errors.push(SceneError::whole(Origin::Scene, format!("and {} more errors", count - MOST_LISTED)));
+        }
+        SceneErrors::new(errors).map_or(Ok(()), Err)
+    }
+
+    /// These errors and a further one.
+    pub(super) fn and(mut self, error: SceneError) -> SceneErrors {
+        self.rest.push(error);
+        self
+    }
+
     /// The first error.
     pub fn first(&self) -> &SceneError {
         &self.first
@@ -144,6 +168,44 @@ impl fmt::Display for SceneErrors {
 }
 
 impl std::error::Error for SceneErrors {}
+
+/// Line and column of a byte in a scene of this name.
+pub(super) fn origin_at(text: &str, name: &str, offset: usize) -> Origin {
+    let (line, column) = line_column(text, offset);
+    Origin::Place { name: name.into(), line, column }
+}
+
+/// First byte of a field's value, or of the nearest group around it.
+pub(super) fn nearest_byte(text: &Text, field: &str) -> usize {
+    let mut path = field;
+    loop {
+        if let Some(place) = text.span(path) {
+            return place.value.start;
+        }
+        match path.rsplit_once('.') {
+            Some((parent, _)) => path = parent,
+            None => return text.opening("").unwrap_or(0),
+        }
+    }
+}
+
+/// Overrides that cause an error: those of its field, else those of the fields that take part, else all of them.
+pub(super) fn overrides_behind(error: &SceneError, overrides: &[(String, String)]) -> Origin {
+    let naming = |touches: &dyn Fn(&str) -> bool| {
+        let touching = overrides.iter().filter(|(path, _)| touches(path));
+        touching.map(|(path, value)| format!("{path}={value}")).collect::<Vec<_>>()
+    };
+    let mut source = naming(&|path| is_within(&error.field, path));
+    if source.is_empty() {
+        source = naming(&|path| {
+            error.involves.iter().any(|field| is_within(field, path) || is_within(path, field))
+        });
+    }
+    if source.is_empty() {
+        source = naming(&|_| true);
+    }
+    Origin::Overrides(source)
+}
 
 /// Foreign text for a message: one line, without control characters, not too long.
 pub(super) fn shown(text: &str) -> String {
@@ -173,6 +235,7 @@ mod tests {
             value: "1.4".into(),
             allowed: "above 0 and below 1".into(),
             message: "Hurst exponent".into(),
+            involves: &[],
         }
     }
 
@@ -201,5 +264,31 @@ mod tests {
         assert_eq!(shown("a\u{1b}[2J\nb"), "a\\u{1b}[2J b");
         assert_eq!(shown("a\u{202e}b"), "a\\u{202e}b");
         assert_eq!(shown(&"x".repeat(1000)).chars().count(), MOST_SHOWN + 1);
+    }
+
+    fn pairs(overrides: &[(&str, &str)]) -> Vec<(String, String)> {
+        overrides.iter().map(|(path, value)| (path.to_string(), value.to_string())).collect()
+    }
+
+    fn source(field: &str, involves: &'static [&'static str], overrides: &[(&str, &str)]) -> Vec<String> {
+        let error = SceneError { field: field.into(), involves, ..SceneError::default() };
+        match overrides_behind(&error, &pairs(overrides)) {
+            Origin::Overrides(overrides) => overrides,
+            other => panic!("{other:?}"),
+        }
+    }
+
+    #[test]
+    fn the_nearest_overrides_are_the_source() {
+        let overrides = [("roughness", "…"), ("numerics.points", "1"), ("length", "2")];
+        for (field, involves, expected) in [
+            ("length", &[][..], &["length=2"][..]),
+            ("roughness.hurst", &[], &["roughness=…"]),
+            ("form.radius", &["length", "numerics"], &["numerics.points=1", "length=2"]),
+            ("form", &[], &["roughness=…", "numerics.points=1", "length=2"]),
+            ("lengths", &["length"], &["length=2"]),
+        ] {
+            assert_eq!(source(field, involves, &overrides), expected, "{field}");
+        }
     }
 }

@@ -60,6 +60,55 @@ pub enum Step {
     Typed,
 }
 
+/// The row of a field; see `at!` for the path, the variant and the access, which belong together.
+impl Field {
+    /// Required group of fields, named as its path.
+    pub(super) const fn new(path: &'static str, variant: Option<&'static str>, access: Access) -> Field {
+        let (symbol, unit, default, meaning) = ("", "", "", "");
+        let (name, range, step) = (path, Range::Group, Step::Typed);
+        Field { path, variant, name, symbol, unit, range, step, default, meaning, access }
+    }
+
+    pub(super) const fn name(self, name: &'static str) -> Field {
+        Field { name, ..self }
+    }
+
+    /// Name, symbol and unit.
+    pub(super) const fn quantity(
+        self,
+        name: &'static str,
+        symbol: &'static str,
+        unit: &'static str,
+    ) -> Field {
+        Field { name, symbol, unit, ..self }
+    }
+
+    /// Range, with the usual step of its kind; a number without a unit has the unit 1.
+    pub(super) const fn range(self, range: Range) -> Field {
+        let (step, is_number) = match range {
+            Range::Real { .. } => (Step::Logarithmic, true),
+            Range::Whole { .. } => (Step::Typed, true),
+            Range::Band { .. } => (Step::Band, true),
+            Range::Choice(_) => (Step::Choice, false),
+            Range::Text { .. } | Range::List { .. } | Range::Group => (Step::Typed, false),
+        };
+        let unit = if is_number && self.unit.is_empty() { "1" } else { self.unit };
+        Field { range, step, unit, ..self }
+    }
+
+    pub(super) const fn step(self, step: Step) -> Field {
+        Field { step, ..self }
+    }
+
+    pub(super) const fn default(self, default: &'static str) -> Field {
+        Field { default, ..self }
+    }
+
+    pub(super) const fn meaning(self, meaning: &'static str) -> Field {
+        Field { meaning, ..self }
+    }
+}
+
 impl Field {
     /// Value in a scene; `None` where the field belongs to a choice that the scene does not make.
     pub fn get<'s>(&self, scene: &'s Scene) -> Option<Value<'s>> {

@@ -19,15 +19,14 @@ mod changes;
 mod check;
 mod choose;
 mod computed;
-mod consistency;
-mod derived;
 mod document;
 mod edit;
 mod effects;
-mod error_source;
 mod errors;
 mod field;
 mod fields;
+mod form;
+mod found;
 mod library;
 mod measured_hash;
 mod model;
@@ -43,8 +42,8 @@ mod read;
 mod roughness_parameter;
 mod step;
 #[cfg(test)]
-// Integration tests include the file and use the rest.
-#[allow(dead_code)]
+#[allow(dead_code, reason = "integration tests use the rest")]
+#[path = "../../tests/common/strategies.rs"]
 mod strategies;
 mod suggest;
 mod switch;
@@ -53,7 +52,6 @@ mod text;
 mod typed;
 mod undo;
 mod value;
-mod violation;
 mod write;
 
 pub use crate::text::is_control;
@@ -65,6 +63,7 @@ pub use effects::Effect;
 pub use errors::{Origin, SceneError, SceneErrors};
 pub use field::{Field, Step};
 pub use fields::{FIELDS, LEG_FORCE, LEG_INDENTATION, MOST_POINTS, field};
+pub use form::Form;
 pub use library::{Entry, Library, MOST_BYTES, MOST_FILES, Source, typed_path};
 pub use measured_hash::{MeasuredHash, MeasuredHashError};
 pub use model::*;
@@ -82,8 +81,7 @@ pub use range::{End, Range};
 pub(crate) use read::describe_error;
 pub use roughness_parameter::RoughnessParameter;
 pub(crate) use suggest::nearest;
-pub use table_content::TableContent;
+pub use table_content::{ReversalContent, TableContent};
 pub use text::{Span, Text, Unreadable, line_column, ron_float, ron_string};
 pub use value::Value;
-pub use violation::Violation;
 pub use write::to_ron;

@@ -1,9 +1,12 @@
-//! The types of a scene: what its author may choose, in SI units.
+//! The types of a scene: what its author may choose, in SI units, and what follows from it by one formula.
 //!
 //! These types hold values as written; [`super::check()`] finds those that are not allowed.
 
+use super::form::Form;
 use crate::spectrum::Detrend;
 use serde::{Deserialize, Serialize};
+use std::ops::Range;
+use strum::IntoStaticStr;
 
 /// Versions of the scene file that are read. In the first one a measured profile is the line itself unless
 /// `roughness.as_line` says otherwise, in the second one its equivalent line is.
@@ -60,45 +63,37 @@ pub struct Material {
     pub effective_modulus: Option<f64>,
 }
 
-/// Macroscopic form of the rigid body; its axis is on the spring ⌊N/2⌋ ([`Form::spring_on_axis`]).
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub enum Form {
-    /// Paraboloid r²/2R, the sphere of Hertz and JKR.
-    Paraboloid {
-        /// Radius of curvature R, m.
-        radius: f64,
-    },
-    /// Cone r tan θ.
-    Cone {
-        /// Angle θ between flank and surface plane, rad.
-        angle: f64,
-    },
-    /// Power law b rⁿ.
-    Power {
-        /// Coefficient b, m^(1−n).
-        coefficient: f64,
-        /// Exponent n.
-        exponent: f64,
-    },
-    /// Sphere r²/2R with concentric waves A (1 − cos 2πr/λ).
-    WavySphere {
-        /// Radius of curvature R, m.
-        radius: f64,
-        /// Amplitude A of the waves, m; their height is twice that.
-        amplitude: f64,
-        /// Wavelength λ, m.
-        wavelength: f64,
-    },
-    /// Flat-ended cylinder; nothing outside its radius touches.
-    Punch {
-        /// Radius a, m.
-        radius: f64,
-    },
+impl Material {
+    /// Material given by its effective modulus E*, Pa.
+    #[must_use]
+    pub fn effective(modulus: f64) -> Self {
+        Material { youngs_modulus: None, poisson_ratio: None, effective_modulus: Some(modulus) }
+    }
+
+    /// Isotropic material under a rigid body, given by Young's modulus E (Pa) and Poisson's ratio ν: E* = E/(1 − ν²).
+    #[must_use]
+    pub fn isotropic(youngs_modulus: f64, poisson_ratio: f64) -> Self {
+        Material {
+            youngs_modulus: Some(youngs_modulus),
+            poisson_ratio: Some(poisson_ratio),
+            effective_modulus: None,
+        }
+    }
+
+    /// Effective modulus E* of eq. (2), Pa. NaN where the material is not determined, which
+    /// [`check`](super::check()) refuses.
+    pub fn effective_modulus(&self) -> f64 {
+        match (self.effective_modulus, self.youngs_modulus, self.poisson_ratio) {
+            (Some(modulus), None, None) => modulus,
+            // (1 − ν)(1 + ν) keeps its digits where ν is close to −1; 1 − ν² does not.
+            (None, Some(modulus), Some(ratio)) => modulus / ((1.0 - ratio) * (1.0 + ratio)),
+            _ => f64::NAN,
+        }
+    }
 }
 
 /// Roughness of the rigid line.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, IntoStaticStr)]
 #[serde(deny_unknown_fields)]
 pub enum Roughness {
     /// Random-phase self-affine line, eqs. (4)–(9). Its amplitude is set by `rms_height`, by
@@ -199,6 +194,17 @@ impl Roughness {
 }
 
 impl Scene {
+    /// Distance Δx = L/N of the springs, m.
+    pub fn spacing(&self) -> f64 {
+        self.length / self.numerics.points as f64
+    }
+
+    /// Indices of the springs under the body: all of them but those beside a punch.
+    pub fn springs_under_body(&self) -> Range<u64> {
+        let points = self.numerics.points;
+        self.form.map_or(0..points, |form| form.springs_under(self.length, points))
+    }
+
     /// Returns true if a measured profile is the line itself.
     pub fn measured_as_line(&self) -> bool {
         let Some(Roughness::Measured { as_line, .. }) = &self.roughness else { return false };
@@ -262,6 +268,15 @@ pub struct Adhesion {
     pub range: Option<f64>,
 }
 
+impl Adhesion {
+    /// The same adhesion with this work of adhesion γ, J/m², in place of κ or e_el/γ.
+    #[must_use]
+    pub fn with_work(mut self, work: f64) -> Self {
+        (self.work, self.kappa, self.elastic_energy_ratio) = (Some(work), None, None);
+        self
+    }
+}
+
 /// One leg of the loading history.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Leg {
@@ -320,7 +335,7 @@ impl From<NumericsText> for Numerics {
 }
 
 /// Solver of equilibrium.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, IntoStaticStr)]
 #[serde(deny_unknown_fields)]
 pub enum Solver {
     /// All thresholds at once, no step error.
@@ -343,7 +358,7 @@ impl Solver {
 }
 
 /// Edge model of a contact fragment.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, IntoStaticStr)]
 pub enum Edges {
     /// The paper's rule: a fragment of n springs is n Δx long.
     Grid,
@@ -356,10 +371,7 @@ impl Edges {
     /// Name as scene files have it.
     #[must_use]
     pub fn name(self) -> &'static str {
-        match self {
-            Edges::Grid => "Grid",
-            Edges::SubCell => "SubCell",
-        }
+        self.into()
     }
 }
 
@@ -374,4 +386,33 @@ pub enum Observer {
 
 pub(super) fn default_loading() -> Vec<Leg> {
     vec![Leg::ToZeroForce, Leg::ToSeparation]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::strategies::sound;
+    use super::*;
+
+    #[test]
+    fn the_effective_modulus_is_that_of_equation_2() {
+        let modulus = |youngs_modulus, poisson_ratio, effective_modulus| {
+            Material { youngs_modulus, poisson_ratio, effective_modulus }.effective_modulus()
+        };
+        assert_eq!(modulus(Some(3e6), Some(0.5), None), 4e6);
+        assert_eq!(modulus(Some(3e6), Some(0.0), None), 3e6);
+        assert_eq!(modulus(None, None, Some(2.5e6)), 2.5e6);
+        for undetermined in [
+            modulus(None, None, None),
+            modulus(Some(3e6), None, None),
+            modulus(None, Some(0.5), None),
+            modulus(Some(3e6), Some(0.5), Some(4e6)),
+        ] {
+            assert!(undetermined.is_nan());
+        }
+    }
+
+    #[test]
+    fn springs_share_the_length() {
+        assert_eq!(sound().spacing(), 1e-4 / 4096.0);
+    }
 }

@@ -38,13 +38,27 @@ impl Preloads {
 
     /// Name in a table of results.
     pub(super) fn name(&self) -> String {
-        format!("{} preloads from {:?} to {:?} N", self.count, self.from, self.to)
+        format!("{}{PRELOADS_OF}{}", self.count, force_range(self.ends()))
     }
 
     /// Preloads of this name.
     pub(super) fn from_name(name: &str) -> Option<Self> {
-        let (count, range) = name.strip_suffix(" N")?.split_once(" preloads from ")?;
-        let (from, to) = range.split_once(" to ")?;
-        Preloads::new(from.parse().ok()?, to.parse().ok()?, count.parse().ok()?)
+        let (count, range) = name.split_once(PRELOADS_OF)?;
+        let (from, to) = parse_force_range(range)?;
+        Preloads::new(from, to, count.parse().ok()?)
     }
+}
+
+/// Words behind a number of preloads.
+const PRELOADS_OF: &str = " preloads";
+
+/// Range of forces, N, in the name of a table's content.
+pub(super) fn force_range((from, to): (f64, f64)) -> String {
+    format!(" from {from:?} to {to:?} N")
+}
+
+/// Forces, N, of such a range.
+pub(super) fn parse_force_range(text: &str) -> Option<(f64, f64)> {
+    let (from, to) = text.strip_prefix(" from ")?.strip_suffix(" N")?.split_once(" to ")?;
+    Some((from.parse().ok()?, to.parse().ok()?))
 }

@@ -196,7 +196,7 @@ impl Source {
         let content = head.lines().find_map(|line| TableContent::from_name(line.strip_prefix("content: ")?));
         let content = content.ok_or(SourceError::NoProvenance(
             "a table without its content; allowed: `content: force curve`, `approximate JKR curve`, `profile`, \
-             `COUNT random profiles` or `COUNT preloads from FORCE to FORCE N`",
+             `COUNT random profiles`, `COUNT preloads from FORCE to FORCE N` or `COUNT reversals`",
         ))?;
         let measured = MeasuredHash::of_lines(head);
         Ok(Source { text: scene.to_owned(), content: Some(content), measured })
@@ -209,6 +209,7 @@ mod tests {
     use super::super::model::Roughness;
     use super::super::preloads::Preloads;
     use super::super::strategies::sound_scenes;
+    use super::super::table_content::ReversalContent;
     use super::*;
     use proptest::prelude::*;
 
@@ -231,6 +232,12 @@ mod tests {
                 TableContent::RandomProfiles(count),
                 TableContent::Preloads(preloads, None),
                 TableContent::Preloads(preloads, Some(count)),
+                TableContent::Reversals(ReversalContent { count: 64, forces: None, map_smoothing: None }),
+                TableContent::Reversals(ReversalContent {
+                    count: 8,
+                    forces: Some(preloads.ends()),
+                    map_smoothing: Some(3),
+                }),
             ] {
                 let hash = MeasuredHash { file: "a\nb.txt".into(), sha256: "0".repeat(64) };
                 let provenance =

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-/// SI prefixes that are read, with their powers of ten.
+/// SI prefixes that are read, with their powers of ten. Every third power is written, with the first of its prefixes.
 const PREFIXES: &[(&str, i32)] = &[
     ("y", -24),
     ("z", -21),
@@ -15,6 +15,7 @@ const PREFIXES: &[(&str, i32)] = &[
     ("u", -6),
     ("m", -3),
     ("c", -2),
+    ("", 0),
     ("k", 3),
     ("M", 6),
     ("G", 9),
@@ -22,12 +23,6 @@ const PREFIXES: &[(&str, i32)] = &[
     ("P", 15),
     ("E", 18),
 ];
-
-/// Prefixes that are written, one for every third power of ten.
-const WRITTEN: &[&str] = &["y", "z", "a", "f", "p", "n", "µ", "m", "", "k", "M", "G", "T", "P", "E"];
-
-/// Power of ten of the first of [`WRITTEN`].
-const SMALLEST: i32 = -24;
 
 /// Digits that are written.
 const DIGITS: usize = 4;
@@ -214,11 +209,8 @@ pub fn quantity_as_typed(value: f64, typed: &str, unit: &str) -> String {
     let scientific = format!("{:.*e}", DIGITS - 1, value / factor);
     let (mantissa, exponent) = scientific.split_once('e').unwrap_or((&scientific, "0"));
     let exponent = exponent.parse::<i32>().unwrap_or(0).saturating_sub(power);
-    let number = match exponent {
-        _ if value == 0.0 || !value.is_finite() => format!("{value}"),
-        -3..6 => shifted(mantissa, exponent),
-        _ => format!("{}e{exponent}", trimmed(mantissa)),
-    };
+    let is_plain = value == 0.0 || !value.is_finite();
+    let number = if is_plain { value.to_string() } else { decimal(mantissa, exponent) };
     format!("{number} {shown}")
 }
 
@@ -236,15 +228,20 @@ fn with_unit(value: f64, scientific: &str, unit: &str) -> String {
     }
     let (mantissa, exponent) = scientific.split_once('e').unwrap_or((scientific, "0"));
     let exponent: i32 = exponent.parse().unwrap_or(0);
-    let index = (exponent - SMALLEST).div_euclid(3);
-    let prefix = usize::try_from(index).ok().and_then(|index| WRITTEN.get(index));
-    match prefix {
-        Some(prefix) if !plain && has_prefixes(unit) => {
-            let shift = exponent - (SMALLEST + 3 * index);
-            format!("{} {prefix}{unit}", shifted(mantissa, shift))
+    let power = 3 * exponent.div_euclid(3);
+    match PREFIXES.iter().find(|(_, of)| *of == power) {
+        Some((prefix, _)) if !plain && has_prefixes(unit) => {
+            format!("{} {prefix}{unit}", shifted(mantissa, exponent - power))
         }
-        _ if (-3..6).contains(&exponent) => format!("{}{unit_after}", shifted(mantissa, exponent)),
-        _ => format!("{}e{exponent}{unit_after}", trimmed(mantissa)),
+        _ => format!("{}{unit_after}", decimal(mantissa, exponent)),
+    }
+}
+
+/// A decimal mantissa times a power of ten, with an exponent where the number is much smaller or larger than one.
+fn decimal(mantissa: &str, exponent: i32) -> String {
+    match exponent {
+        -3..6 => shifted(mantissa, exponent),
+        _ => format!("{}e{exponent}", trimmed(mantissa)),
     }
 }
 

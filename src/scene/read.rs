@@ -3,6 +3,7 @@
 use ron::extensions::Extensions;
 
 use super::edit::known_field;
+use super::errors::{Origin, SceneError};
 use super::field::Field;
 use super::model::{SCENE_VERSIONS, Scene};
 use super::range::Range;
@@ -12,14 +13,13 @@ use super::text::{Text, offset_of};
 /// Longer values than this are not repeated in messages.
 const MOST_REPEATED: usize = 60;
 
-/// Reason for which text is no scene: byte, field and fault.
+/// Reason for which text is no scene.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Unread {
+    /// Byte of the text.
     pub(super) offset: usize,
-    pub(super) field: String,
-    pub(super) value: String,
-    pub(super) allowed: String,
-    pub(super) message: String,
+    /// The error, with no origin yet.
+    pub(super) error: SceneError,
 }
 
 /// Reads a scene; its values are not checked.
@@ -43,8 +43,8 @@ pub(super) fn wrong_version(text: &str) -> Option<Unread> {
         None => (opening, String::new(), "version of the scene file, which is missing"),
     };
     let allowed = format!("{} or {}", SCENE_VERSIONS.start(), SCENE_VERSIONS.end());
-    let (field, message) = ("version".into(), message.into());
-    Some(Unread { offset, field, value, allowed, message })
+    let error = SceneError::whole(Origin::Scene, message);
+    Some(Unread { offset, error: SceneError { field: "version".into(), value, allowed, ..error } })
 }
 
 /// Place and reason of the error in text that has the form of a scene.
@@ -76,13 +76,14 @@ fn place_of(text: &str, error: &ron::error::SpannedError) -> (usize, usize) {
 
 fn explain(text: &str, error: &ron::error::SpannedError) -> Unread {
     let (offset, end) = place_of(text, error);
+    let whole = |offset, message: String| Unread { offset, error: SceneError::whole(Origin::Scene, message) };
     match Text::new(text) {
         Ok(outline) => explain_at(text, &outline, offset, &error.code),
         // Where the reader only found the end of the text, the bracket that stays open says more.
         Err(unreadable) if end >= text.trim_end().len() || is_lost(&error.code) => {
-            Unread { offset: unreadable.offset, message: unreadable.reason.into(), ..Unread::nowhere() }
+            whole(unreadable.offset, unreadable.reason.into())
         }
-        Err(_) => Unread { offset, message: plain(&error.code), ..Unread::nowhere() },
+        Err(_) => whole(offset, plain(&error.code)),
     }
 }
 
@@ -95,55 +96,44 @@ fn is_lost(error: &ron::Error) -> bool {
 fn explain_at(text: &str, outline: &Text, offset: usize, error: &ron::Error) -> Unread {
     use ron::Error;
 
-    let field = outline.path_at(offset);
-    let at = Unread { offset, field, ..Unread::nowhere() };
-    match error {
+    let at = SceneError { field: outline.path_at(offset), ..SceneError::default() };
+    let error = match error {
         Error::MissingStructField { field: name, .. } => {
             let field =
                 if at.field.is_empty() { (*name).to_string() } else { format!("{}.{name}", at.field) };
             let allowed = known_field(outline, &field)
                 .map_or_else(String::new, |field| format!("; allowed: {}", field.allowed()));
-            Unread { field, message: format!("missing{allowed}"), ..at }
+            SceneError { field, message: format!("missing{allowed}"), ..at }
         }
         Error::NoSuchStructField { .. } | Error::DuplicateStructField { .. } => {
-            Unread { message: plain(error), ..at }
+            SceneError { message: plain(error), ..at }
         }
         Error::NoSuchEnumVariant { expected, found, .. } => {
             let near = nearest(found, expected.iter().copied());
             let message = near.map_or_else(String::new, |near| format!("did you mean {near}?"));
-            Unread { value: found.clone(), allowed: expected.join(", "), message, ..at }
+            SceneError { value: found.clone(), allowed: expected.join(", "), message, ..at }
         }
-        error => explain_value(text, outline, at, error),
-    }
+        error => return explain_value(text, outline, Unread { offset, error: at }, error),
+    };
+    Unread { offset, error }
 }
 
 /// A single value is marked as a whole and repeated, with the values allowed there.
 fn explain_value(text: &str, outline: &Text, at: Unread, error: &ron::Error) -> Unread {
-    let scalar = outline.span(&at.field).filter(|place| {
-        let value = &text[place.value.clone()];
-        value.len() <= MOST_REPEATED && !value.contains(['(', '[', '{'])
-    });
-    let Some(place) = scalar else {
-        return Unread { message: plain(error), ..at };
+    let field = &at.error.field;
+    let scalar = outline
+        .span(field)
+        .map(|place| (place.value.start, &text[place.value]))
+        .filter(|(_, value)| value.len() <= MOST_REPEATED && !value.contains(['(', '[', '{']));
+    let Some((offset, value)) = scalar else {
+        return Unread { error: SceneError { message: plain(error), ..at.error }, ..at };
     };
-    let (allowed, message) = match known_field(outline, &at.field) {
+    let (allowed, message) = match known_field(outline, field) {
         // What text may hold is not the point where the quotes are missing.
         Some(Field { range: Range::Text { .. }, .. }) | None => (String::new(), plain(error)),
         Some(field) => (field.allowed(), field.name.to_string()),
     };
-    Unread { offset: place.value.start, value: text[place.value].to_string(), allowed, message, ..at }
-}
-
-impl Unread {
-    fn nowhere() -> Unread {
-        Unread {
-            offset: 0,
-            field: String::new(),
-            value: String::new(),
-            allowed: String::new(),
-            message: String::new(),
-        }
-    }
+    Unread { offset, error: SceneError { value: value.to_string(), allowed, message, ..at.error } }
 }
 
 /// Message of the reader in plain words.
@@ -186,7 +176,8 @@ mod tests {
     use super::*;
 
     fn unread(text: &str) -> ((usize, usize), String, String, String, String) {
-        let Unread { offset, field, value, allowed, message } = read(text).unwrap_err();
+        let Unread { offset, error } = read(text).unwrap_err();
+        let SceneError { field, value, allowed, message, .. } = error;
         (line_column(text, offset), field, value, allowed, message)
     }
 
@@ -270,8 +261,8 @@ mod tests {
     #[test]
     fn the_version_is_told_whatever_else_is_wrong() {
         assert_eq!(wrong_version("(version: 1, nonsense)"), None);
-        assert_eq!(wrong_version("(version: 3, nonsense)").unwrap().value, "3");
-        assert!(wrong_version("(length: 1)").unwrap().message.contains("missing"));
+        assert_eq!(wrong_version("(version: 3, nonsense)").unwrap().error.value, "3");
+        assert!(wrong_version("(length: 1)").unwrap().error.message.contains("missing"));
         assert_eq!(wrong_version("(version: 3, nonsense"), None);
     }
 

@@ -140,8 +140,8 @@ impl Document {
 
     pub(super) fn unknown(&self, field: &str, message: &str) -> SceneErrors {
         let value = self.value(field).unwrap_or_default().to_string();
-        let (field, message) = (field.to_string(), format!("{message}: compute the scene first"));
-        SceneError { origin: Origin::Scene, field, value, allowed: String::new(), message }.into()
+        let error = SceneError::whole(Origin::Scene, format!("{message}: compute the scene first"));
+        SceneError { field: field.to_string(), value, ..error }.into()
     }
 
     /// Value of an effect's field that suits the scene.
@@ -208,7 +208,7 @@ pub(super) fn pair(path: &str, value: impl Into<String>) -> (String, String) {
 mod tests {
     use proptest::prelude::*;
 
-    use super::super::model::Form;
+    use super::super::form::Form;
     use super::super::strategies::{Drawn, sound_scenes};
     use super::super::text::is_within;
     use super::*;

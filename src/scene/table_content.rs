@@ -1,6 +1,6 @@
 //! Content of a table of results: the part of a computation that the table holds.
 
-use super::preloads::Preloads;
+use super::preloads::{PRELOADS, Preloads, force_range, parse_force_range};
 
 /// Content of a table of results.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -15,6 +15,45 @@ pub enum TableContent {
     RandomProfiles(u32),
     /// Adhesion forces for preloads, on the profile of the scene or on so many random profiles.
     Preloads(Preloads, Option<u32>),
+    /// Reversals of one loading.
+    Reversals(ReversalContent),
+}
+
+/// Reversals in a table: a row for each turning point, or for each point of their map.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ReversalContent {
+    /// Number of turning points.
+    pub count: u16,
+    /// Forces at the first and the last turning point, N; `None`: from first touch to the preload of the scene.
+    pub forces: Option<(f64, f64)>,
+    /// Steps on either side over which the density of a map is fitted; `None`: a row for each turning point.
+    pub map_smoothing: Option<u8>,
+}
+
+/// Words behind a number of reversals, before the smoothing of their map, and behind that.
+const REVERSALS: &str = " reversals";
+const MAP: &str = ", map of densities over ";
+const STEPS: &str = " steps";
+
+impl ReversalContent {
+    fn name(self) -> String {
+        let forces = self.forces.map_or_else(String::new, force_range);
+        let map = self.map_smoothing.map_or_else(String::new, |steps| format!("{MAP}{steps}{STEPS}"));
+        format!("{}{REVERSALS}{forces}{map}", self.count)
+    }
+
+    fn from_name(name: &str) -> Option<Self> {
+        let (name, map_smoothing) = match name.split_once(MAP) {
+            Some((name, map)) => (name, Some(map.strip_suffix(STEPS)?.parse().ok()?)),
+            None => (name, None),
+        };
+        let (count, forces) = name.split_once(REVERSALS)?;
+        let forces = if forces.is_empty() { None } else { Some(parse_force_range(forces)?) };
+        if forces.is_some_and(|(from, to)| Preloads::new(from, to, *PRELOADS.start()).is_none()) {
+            return None;
+        }
+        Some(ReversalContent { count: count.parse().ok()?, forces, map_smoothing })
+    }
 }
 
 /// Words behind a number of random profiles, and before that number behind preloads.
@@ -30,6 +69,7 @@ impl TableContent {
             TableContent::Profile => "profile".to_owned(),
             TableContent::RandomProfiles(count) => format!("{count}{RANDOM_PROFILES}"),
             TableContent::Preloads(preloads, None) => preloads.name(),
+            TableContent::Reversals(reversals) => reversals.name(),
             TableContent::Preloads(preloads, Some(profiles)) => {
                 format!("{}{ON}{profiles}{RANDOM_PROFILES}", preloads.name())
             }
@@ -43,7 +83,8 @@ impl TableContent {
             return Some(content);
         }
         let Some(counted) = name.strip_suffix(RANDOM_PROFILES) else {
-            return Preloads::from_name(name).map(|preloads| TableContent::Preloads(preloads, None));
+            let preloads = Preloads::from_name(name).map(|preloads| TableContent::Preloads(preloads, None));
+            return preloads.or_else(|| ReversalContent::from_name(name).map(TableContent::Reversals));
         };
         match counted.split_once(ON) {
             Some((preloads, profiles)) => {

@@ -1,5 +1,6 @@
 //! Reversals of a scene: the unloadings from many turning points of one loading, and the minor loops beside them.
 
+use super::contact_stage::{ContactMemory, ContactStage};
 use super::stages::Prepared;
 use super::{Plan, RunError, Simulation};
 use crate::analysis::{MinorLoops, ReversalMap};
@@ -47,7 +48,7 @@ impl Simulation {
         let deepest = ends.last().copied().unwrap_or(Leg::ToTouch);
         let plan = Plan::of(&Scene { loading: vec![deepest, Leg::ToSeparation], ..scene.clone() });
         let interrupted = || if stop() { Err(ContactError::Interrupted) } else { Ok(()) };
-        let contact = self.prepare(&plan, scene, stop)?;
+        let Prepared { contact, memory, .. } = self.prepare(&plan, scene, stop)?;
         let (gaps, foundation) = (contact.line.gaps.as_slice(), contact.foundation);
         let samples = scene.numerics.samples as usize;
         let mut see = |index, reversal| {
@@ -60,9 +61,9 @@ impl Simulation {
             return Ok(Reversals::new(body, ends)?.each(points, &mut see)?);
         };
         match edges {
-            Edges::Grid => contact.reverse(tree, GridEdges::new(hess), samples, (ends, points), &mut see)?,
+            Edges::Grid => contact.reverse(memory, tree, GridEdges::new(hess), (ends, points), &mut see)?,
             Edges::SubCell => {
-                contact.reverse(tree, SubCellEdges::new(hess), samples, (ends, points), &mut see)?
+                contact.reverse(memory, tree, SubCellEdges::new(hess), (ends, points), &mut see)?
             }
         }
         Ok(())
@@ -179,21 +180,21 @@ fn needs_exact_solver(scene: &Scene) -> Result<(), RunError> {
     if scene.numerics.solver == SolverChoice::Exact { Ok(()) } else { Err(RunError::NeedsExactSolver) }
 }
 
-impl Prepared<'_> {
+impl ContactStage<'_> {
     /// Unloads an adhesive body from the ends of legs.
     fn reverse<E: EdgeModel>(
-        self,
+        &self,
+        memory: &mut ContactMemory,
         tree: &ContactTree,
         edges: E,
-        samples: usize,
         (ends, points): (&[Leg], &[f64]),
         see: &mut SeeReversal<'_>,
     ) -> Result<(), ContactError> {
-        let gaps = self.line.gaps.as_slice();
-        let body = exact::adhesive_in(take(self.memory), gaps, tree, edges, self.foundation, samples);
+        let (gaps, samples) = (self.line.gaps.as_slice(), self.scene.numerics.samples as usize);
+        let body = exact::adhesive_in(take(memory), gaps, tree, edges, self.foundation, samples);
         let mut reversals = Reversals::new(body, ends)?;
         let done = reversals.each(points, see);
-        *self.memory = reversals.into_body().into_memory();
+        *memory = reversals.into_body().into_memory();
         done
     }
 }

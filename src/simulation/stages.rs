@@ -3,7 +3,7 @@
 use super::contact_stage::{ContactMemory, ContactStage};
 use super::{LineFacts, Outcome, Plan, RunError, Stage, Timings};
 use crate::analysis::{Figures, Governing, Regime, ideal_adhesion_force, scene_tabor_number};
-use crate::contact::{ContactError, ContactTree, Foundation, HessRule, LegRecord, Solver};
+use crate::contact::{ContactError, ContactTree, LegRecord, Solver};
 use crate::memory::check_room;
 use crate::parallel::in_parallel;
 use crate::reference::smooth_adhesion_force;
@@ -105,13 +105,16 @@ struct LineKey {
     form: Option<Form>,
 }
 
-/// Profile, tree and rule of a scene, before its contact is solved.
+/// Contact of a scene before its stage, and the making of its profile and tree.
 pub(super) struct Prepared<'a> {
-    pub line: &'a Line,
-    pub tree: Option<&'a ContactTree>,
-    pub foundation: Foundation,
-    pub hess: Option<HessRule>,
+    pub contact: ContactStage<'a>,
     pub memory: &'a mut ContactMemory,
+    facts: LineFacts,
+    governing: Governing,
+    random_phases: u64,
+    heights_binned: u64,
+    /// Times of profile and tree, s.
+    timings: Timings,
 }
 
 /// Called after each leg with its index, its record and the solver at the end of the leg; an error stops
@@ -278,22 +281,35 @@ impl Simulation {
     }
 
     /// Makes profile and tree of a checked scene for a contact by this plan.
-    pub(super) fn prepare(
-        &mut self,
+    pub(super) fn prepare<'a>(
+        &'a mut self,
         plan: &Plan,
-        scene: &Scene,
-        stop: &dyn Fn() -> bool,
-    ) -> Result<Prepared<'_>, RunError> {
+        scene: &'a Scene,
+        stop: &'a dyn Fn() -> bool,
+    ) -> Result<Prepared<'a>, RunError> {
         let interrupted = || if stop() { Err(ContactError::Interrupted) } else { Ok(()) };
+        let mut timings = Timings::default();
         self.make_room(plan, scene.numerics.points as usize)?;
-        let (_, _, governing) = self.make_line(scene)?;
+
+        let had_roughness = self.roughness.as_ref().map(|(key, _)| key.clone());
+        let clock = Instant::now();
+        let (_, facts, governing) = self.make_line(scene)?;
+        timings.line = clock.elapsed().as_secs_f64();
         interrupted()?;
-        self.look_at_line(plan, scene.numerics.edges)?;
+        let made_roughness = self.roughness.as_ref().filter(|(key, _)| Some(key) != had_roughness.as_ref());
+        let random_phases = made_roughness.map_or(0, |(_, rough)| rough.random_phases);
+
+        let clock = Instant::now();
+        let heights_binned = self.look_at_line(plan, scene.numerics.edges)?;
+        timings.tree = clock.elapsed().as_secs_f64();
         interrupted()?;
+
         let Some((_, line)) = &self.line else { return Err(ContactError::Interrupted.into()) };
         let foundation = governing.foundation(line);
         let hess = governing.hess_rule(foundation).filter(|_| plan.runs(Stage::RuleOfHess));
-        Ok(Prepared { line, tree: self.tree.as_deref(), foundation, hess, memory: &mut self.memory })
+        let contact = ContactStage { line, tree: self.tree.as_deref(), foundation, hess, scene, stop };
+        let memory = &mut self.memory;
+        Ok(Prepared { contact, memory, facts, governing, random_phases, heights_binned, timings })
     }
 
     /// Runs a checked scene by its plan. `stop` is asked now and then whether to give up; `after` sees
@@ -308,28 +324,9 @@ impl Simulation {
         after: &mut AfterLeg<'_>,
     ) -> Result<Outcome, RunError> {
         let plan = Plan::of(scene);
-        let mut timings = Timings::default();
-        let interrupted = || if stop() { Err(ContactError::Interrupted) } else { Ok(()) };
-        self.make_room(&plan, scene.numerics.points as usize)?;
-
-        let had_roughness = self.roughness.as_ref().map(|(key, _)| key.clone());
-        let clock = Instant::now();
-        let (_, facts, governing) = self.make_line(scene)?;
-        timings.line = clock.elapsed().as_secs_f64();
-        interrupted()?;
-        let made_roughness = self.roughness.as_ref().filter(|(key, _)| Some(key) != had_roughness.as_ref());
-        let random_phases = made_roughness.map_or(0, |(_, rough)| rough.random_phases);
-
-        let clock = Instant::now();
-        let heights_binned = self.look_at_line(&plan, scene.numerics.edges)?;
-        timings.tree = clock.elapsed().as_secs_f64();
-        interrupted()?;
-
-        let Some((_, line)) = &self.line else { return Err(ContactError::Interrupted.into()) };
-        let foundation = governing.foundation(line);
-        let hess = governing.hess_rule(foundation).filter(|_| plan.runs(Stage::RuleOfHess));
-        let tree = self.tree.as_deref();
-        let contact = ContactStage { line, tree, foundation, hess, scene, stop };
+        let made = self.prepare(&plan, scene, stop)?;
+        let Prepared { contact, memory, facts, governing, random_phases, heights_binned, mut timings } = made;
+        let hess = contact.hess;
 
         let clock = Instant::now();
         let mut fragments = Vec::new();
@@ -339,7 +336,7 @@ impl Simulation {
             }
             after(leg, record, solver)
         };
-        let contacted = contact.run(plan.runs(Stage::ZeroLoadAdhesion), &mut self.memory, &mut observe)?;
+        let contacted = contact.run(plan.runs(Stage::ZeroLoadAdhesion), memory, &mut observe)?;
         timings.curve = contacted.curve_seconds;
         timings.zero_load = contacted.zero_load_seconds;
         timings.passes = (clock.elapsed().as_secs_f64() - timings.curve - timings.zero_load).max(0.0);
@@ -360,7 +357,6 @@ impl Simulation {
         let work = governing.adhesive_work();
         let smooth = work.map(|work| smooth_adhesion_force(form, scene.length, modulus, work));
         let regime = Regime::of_loading(&figures, zero_load_adhesion_force, smooth);
-        let histogram = self.histogram.as_ref().filter(|_| plan.runs(Stage::HeightHistogram)).cloned();
         Ok(Outcome {
             line: facts,
             governing,
@@ -372,7 +368,7 @@ impl Simulation {
             figures,
             history,
             fragments,
-            histogram,
+            histogram: self.histogram.as_ref().filter(|_| plan.runs(Stage::HeightHistogram)).cloned(),
             approximate_jkr: None,
             timings,
         })

@@ -2,12 +2,14 @@
 
 use super::linear::Cholesky;
 use serde::{Deserialize, Serialize};
+use strum::IntoStaticStr;
 
 /// Part of a surface that is removed before analysis.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, IntoStaticStr)]
 pub enum Detrend {
     /// None; in scenes `Nothing`, since `None` leaves a field out.
     #[serde(rename = "Nothing")]
+    #[strum(serialize = "Nothing")]
     None,
     /// Mean height.
     Mean,

@@ -8,10 +8,9 @@
 
 use super::axis::Axis;
 use super::finished::Finished;
-use super::governing::governing;
 use super::plan::{Plan, targets};
 use super::quantity::Quantity;
-use super::target::Target;
+use super::target::{Target, governing};
 use super::{StudyError, symbol_and_unit};
 use crate::scene::RoughnessParameter;
 use rand::RngExt;
@@ -94,7 +93,7 @@ pub const DEFINITIONS: [(&str, f64); 3] = [
 pub fn boundaries(path: &Path, over: RoughnessParameter, levels: &[f64]) -> Result<Boundaries, StudyError> {
     let finished = Finished::open(path)?;
     let plan = finished.plan();
-    let refuse = |reason: &str| StudyError::Folder { path: path.to_path_buf(), reason: reason.to_string() };
+    let refuse = |reason: &str| StudyError::folder(path, reason);
     let axes = || plan.all_axes().into_iter();
     let is_along = |(place, axis): (usize, &Axis)| match Target::of(axis.path()) {
         Ok(Target::RoughnessParameter(parameter)) => Some((place, parameter)),

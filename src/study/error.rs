@@ -6,7 +6,8 @@ use crate::io::WriteError;
 use crate::simulation::RunError;
 use crate::surface::SurfaceError;
 use crate::text::path_name;
-use std::path::PathBuf;
+use std::io;
+use std::path::{Path, PathBuf};
 use thiserror::Error;
 
 /// Error that ends work on a study; records that were written before are kept.
@@ -68,7 +69,7 @@ pub enum StudyError {
     },
     /// A file could not be written.
     #[error(transparent)]
-    Write(#[from] WriteError),
+    Write(WriteError),
     /// A cell could not be computed.
     #[error("cell {cell} ({coordinates}), seed {seed}: {error}")]
     Run {
@@ -123,4 +124,39 @@ pub enum StudyError {
     /// The system gives no thread.
     #[error("the system gives no thread to compute on")]
     NoThread,
+}
+
+impl StudyError {
+    /// Error of a folder or file that cannot be used, with the reason.
+    pub(super) fn folder(path: &Path, reason: impl ToString) -> StudyError {
+        StudyError::Folder { path: path.to_path_buf(), reason: reason.to_string() }
+    }
+
+    /// Errors of reading a folder or file.
+    pub(super) fn unreadable(path: &Path) -> impl Fn(io::Error) -> StudyError + '_ {
+        move |error| StudyError::folder(path, format!("cannot be read: {error}"))
+    }
+
+    /// Errors of writing a folder or file.
+    pub(super) fn unwritable(path: &Path) -> impl Fn(io::Error) -> StudyError + '_ {
+        move |reason| WriteError::Failed { path: path.to_path_buf(), reason }.into()
+    }
+}
+
+impl From<WriteError> for StudyError {
+    /// The error of the study itself, where that ended the writing of a file.
+    fn from(error: WriteError) -> StudyError {
+        match error {
+            WriteError::Failed { path, reason } => reason
+                .downcast()
+                .unwrap_or_else(|reason| StudyError::Write(WriteError::Failed { path, reason })),
+            error => StudyError::Write(error),
+        }
+    }
+}
+
+impl From<StudyError> for io::Error {
+    fn from(error: StudyError) -> io::Error {
+        io::Error::other(error)
+    }
 }

@@ -1,8 +1,15 @@
 //! Figure of a study: a map over two axes or a section along one, as numbers and their names, without any drawing.
 
+use super::axis::Axis;
+use super::plan::Plan;
 use super::quantity::Quantity;
+use super::target::symbol_and_unit;
 use crate::analysis::{Regime, VANISHING_SHARE};
 pub use crate::draw::AxisScale;
+use crate::scene::{Leg, field, format_quantity};
+
+/// Ratio of values from which on a scale is logarithmic.
+const LOGARITHMIC_RATIO: f64 = 50.0;
 
 /// An axis of a figure.
 #[derive(Clone, Debug, PartialEq)]
@@ -20,6 +27,36 @@ pub struct FigureAxis {
 }
 
 impl FigureAxis {
+    /// An axis of a plan with its values in ascending order.
+    pub(super) fn new(plan: &Plan, axis: &Axis) -> FigureAxis {
+        let path = axis.path();
+        let values: Vec<f64> = axis.ascending().into_iter().map(|place| axis.value(place)).collect();
+        let ends = values.first().copied().zip(values.last().copied());
+        let wide = ends.is_some_and(|(low, high)| low > 0.0 && high >= LOGARITHMIC_RATIO * low);
+        let list = matches!(axis, Axis::List { .. });
+        let logarithmic = axis.is_logarithmic() || list && wide;
+        let (symbol, unit) = symbol_and_unit(path);
+        let leg =
+            path.strip_prefix("loading.").and_then(|rest| rest.strip_suffix(".0")?.parse::<usize>().ok());
+        let (name, unit) = match (path, leg.and_then(|leg| plan.scene.loading.get(leg).zip(Some(leg + 1)))) {
+            (_, Some((Leg::ToIndentation(_), leg))) => (format!("indentation of leg {leg}"), "m"),
+            (_, Some((_, leg))) => (format!("force of leg {leg}"), "N"),
+            ("kappa" | "adhesion.kappa", _) => ("governing parameter".into(), unit),
+            ("elastic_energy_ratio", _) => ("elastic energy ratio".into(), unit),
+            ("springs_per_wave", _) => ("springs per wave".into(), unit),
+            ("roughness.modes.0", _) => ("first mode".into(), unit),
+            ("roughness.modes.1", _) => ("last mode".into(), unit),
+            _ => (field(path, None).map_or(path, |field| field.name).to_owned(), unit),
+        };
+        FigureAxis {
+            name,
+            symbol: symbol.into(),
+            unit: unit.into(),
+            scale: if logarithmic { AxisScale::Logarithmic } else { AxisScale::Linear },
+            values,
+        }
+    }
+
     /// Coordinates of the values.
     #[must_use]
     pub fn coordinates(&self) -> Vec<f64> {
@@ -114,6 +151,14 @@ impl Boundary {
     }
 }
 
+impl Panel {
+    /// A quantity in all cells.
+    pub(super) fn new(quantity: Quantity, estimates: Vec<Option<Estimate>>, scale: AxisScale) -> Self {
+        let vanishes = Quantity::ADHESION_SHARES.contains(&quantity);
+        Panel { quantity: quantity.into(), estimates, scale, range: None, vanishes }
+    }
+}
+
 /// A figure.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Figure {
@@ -166,6 +211,22 @@ impl Figure {
         })
         .collect()
     }
+}
+
+/// An axis at one of its values, as people read it: `H = 0.3`.
+pub(super) fn fixed(plan: &Plan, axis: &Axis, place: u64) -> String {
+    let FigureAxis { name, symbol, unit, .. } = FigureAxis::new(plan, axis);
+    let value = format_quantity(axis.value(place), &unit);
+    if symbol.is_empty() { format!("{name} {value}") } else { format!("{symbol} = {value}") }
+}
+
+/// Logarithmic where all means are above zero and half of them below a fiftieth of the largest.
+pub(super) fn scale_of(estimates: &[Option<Estimate>]) -> AxisScale {
+    let means: Vec<f64> = estimates.iter().flatten().map(|estimate| estimate.mean).collect();
+    let largest = means.iter().copied().fold(0.0, f64::max);
+    let small = means.iter().filter(|mean| **mean < largest / LOGARITHMIC_RATIO).count();
+    let wide = means.iter().all(|mean| *mean > 0.0) && 2 * small >= means.len().max(1);
+    if wide { AxisScale::Logarithmic } else { AxisScale::Linear }
 }
 
 #[cfg(test)]

@@ -119,7 +119,7 @@ impl Finished {
 
 /// Calls `each` with the columns of every row but the first, which is checked to have as many.
 fn each_row(path: &Path, plan: &Plan, mut each: impl FnMut(&[&str]) -> Option<()>) -> Result<(), StudyError> {
-    let wrong = |reason: String| StudyError::Folder { path: path.to_path_buf(), reason };
+    let wrong = |reason: String| StudyError::folder(path, reason);
     let file = open_regular(path).map_err(|error| match error {
         ReadError::Failed(error) if error.kind() == io::ErrorKind::NotFound => {
             not_merged(path.parent().unwrap_or(path))
@@ -131,7 +131,7 @@ fn each_row(path: &Path, plan: &Plan, mut each: impl FnMut(&[&str]) -> Option<()
     for number in 0.. {
         line.clear();
         let read = reader.by_ref().take(LONGEST_LINE).read_until(b'\n', &mut line);
-        if read.map_err(|error| wrong(format!("cannot be read: {error}")))? == 0 {
+        if read.map_err(StudyError::unreadable(path))? == 0 {
             break;
         }
         // A line that is too long, torn or no text has no columns that would be accepted.
@@ -157,7 +157,7 @@ fn each_row(path: &Path, plan: &Plan, mut each: impl FnMut(&[&str]) -> Option<()
 fn not_merged(folder: &Path) -> StudyError {
     let merge = crate::scene::quoted(&folder.display().to_string());
     let reason = format!("the study has not been merged yet; asperity sweep merge {merge} does it");
-    StudyError::Folder { path: folder.to_path_buf(), reason }
+    StudyError::folder(folder, reason)
 }
 
 fn value(text: &str) -> Option<Option<f64>> {

@@ -8,7 +8,7 @@ use super::height_shape::HeightShape;
 use super::plan::Plan;
 use super::quantity::Quantity;
 use super::recorder::Recorder;
-use super::solve::{Case, CaseSolver, Next, SharedWork, Sink, Solver};
+use super::solve::{Case, Next, SharedWork, Sink, Solver};
 use super::statistics::Statistics;
 use crate::analysis::Regime;
 use crate::parallel::{begin_threads, on_this_thread};
@@ -83,8 +83,10 @@ pub fn solve_lines(
     jobs: usize,
 ) -> Result<Vec<LineResult>, LinesError> {
     let plan = Plan::of_scene(scene, lines as u64, &RECORD);
-    let recorder = || Recorder::new(&plan, Simulation::new(folder.to_path_buf()), &|| false);
-    let solved = solve_profiles(&plan, jobs, recorder)?;
+    let solved = solve_profiles(&plan, jobs, || {
+        let mut recorder = Recorder::new(&plan, Simulation::new(folder.to_path_buf()), &|| false);
+        move |scene: &mut Scene, seed| recorder.record(scene, seed)
+    })?;
     Ok(solved.into_iter().map(|(seed, records)| LineResult::new(seed, &records.concat())).collect())
 }
 
@@ -93,20 +95,21 @@ pub fn solve_lines(
 ///
 /// # Errors
 /// [`LinesError`]; of several profiles that fail, the first.
-pub(super) fn solve_profiles<C: CaseSolver>(
+pub(super) fn solve_profiles<R, C>(
     plan: &Plan,
     jobs: usize,
     of_case: impl Fn() -> C + Sync,
-) -> Result<Vec<(u64, C::Record)>, LinesError>
+) -> Result<Vec<(u64, R)>, LinesError>
 where
-    C::Record: Send,
+    R: Send,
+    C: FnMut(&mut Scene, u64) -> Result<R, RunError>,
 {
     if plan.scene.seed().is_none() {
         return Err(LinesError::OneLine);
     }
     let cells = Cells::of(plan);
     let work = &SharedWork::new(plan, &cells, (0..cells.units()).map(|unit| cells.unit(unit)));
-    let solved: &Solved<C::Record> = &Mutex::new(Vec::new());
+    let solved: &Solved<R> = &Mutex::new(Vec::new());
     let solve = || work.solve(of_case(), &mut &*solved);
     let solve = &solve;
     let threads = usize::try_from(plan.lines).map_or(jobs, |lines| jobs.min(lines));
@@ -116,7 +119,7 @@ where
     });
     let mut solved = std::mem::take(&mut *solved.lock().unwrap_or_else(PoisonError::into_inner));
     solved.sort_by_key(|&(line, _)| line);
-    let result = |(line, record): (u64, Result<C::Record, RunError>)| {
+    let result = |(line, record): (u64, Result<R, RunError>)| {
         let seed = plan.seed_of(line);
         record.map(|record| (seed, record)).map_err(|error| LinesError::Run { seed, error })
     };
@@ -135,7 +138,8 @@ pub(crate) fn solve_in_turn(
 ) {
     let plan = Plan::of_scene(scene, lines, record);
     let cells = Cells::of(&plan);
-    let mut solver = Solver::new(&plan, &cells, Recorder::new(&plan, simulation, stop));
+    let mut recorder = Recorder::new(&plan, simulation, stop);
+    let mut solver = Solver::new(&plan, &cells, |scene, seed| recorder.record(scene, seed));
     let mut units = (0..cells.units()).map(|unit| cells.unit(unit));
     let _ = units.try_for_each(|unit| solver.solve(&unit, sink));
 }

@@ -5,16 +5,15 @@
 //! direction drawn from the uncertainty of the fit. Forces on the fitted spectrum differ from profile to profile; the two
 //! forces of a profile differ by the spectrum alone.
 
-use super::lines::RegimeCounts;
+use super::lines::{LinesError, RegimeCounts, solve_profiles};
+use super::plan::Plan;
 use super::statistics::Statistics;
 use crate::analysis::Regime;
-use crate::parallel::{begin_threads, on_this_thread};
 use crate::scene::Scene;
 use crate::simulation::{RunError, Simulation};
 use crate::surface::{EquivalentLine, MeasuredRoughness};
 use serde::Serialize;
-use std::sync::atomic::{AtomicU64, Ordering};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::Arc;
 
 /// Curve samples on a leg: the figures are exact extremes.
 const SAMPLES: u64 = 2;
@@ -83,32 +82,13 @@ impl MeasuredAdhesion {
     /// a result depends on their number.
     ///
     /// # Errors
-    /// Of several profiles that fail, the first.
-    pub fn solve(scene: &Scene, line: &EquivalentLine, count: u32, jobs: usize) -> Result<Self, RunError> {
-        let first = scene.seed().unwrap_or(0);
-        let (next, solved) = (AtomicU64::new(0), Mutex::new(Vec::new()));
-        let work = || {
-            loop {
-                let number = next.fetch_add(1, Ordering::Relaxed);
-                if number >= u64::from(count) {
-                    return;
-                }
-                let one = ProfileAdhesion::solve(scene, line, first.wrapping_add(number), &|| false);
-                if one.is_err() {
-                    // Those before are under way.
-                    next.store(u64::from(count), Ordering::Relaxed);
-                }
-                solved.lock().unwrap_or_else(PoisonError::into_inner).push((number, one));
-            }
-        };
-        std::thread::scope(|scope| {
-            begin_threads(scope, jobs.min(count as usize).saturating_sub(1), work);
-            on_this_thread(work);
-        });
-        let mut solved = solved.into_inner().unwrap_or_else(PoisonError::into_inner);
-        solved.sort_by_key(|(number, _)| *number);
-        let profiles = solved.into_iter().map(|(_, one)| one).collect::<Result<_, _>>()?;
-        Ok(MeasuredAdhesion { profiles })
+    /// [`LinesError`]; of several profiles that fail, the first.
+    pub fn solve(scene: &Scene, line: &EquivalentLine, count: u32, jobs: usize) -> Result<Self, LinesError> {
+        let plan = Plan::of_scene(scene, u64::from(count), &[]);
+        let solved = solve_profiles(&plan, jobs, || {
+            |scene: &mut Scene, seed| ProfileAdhesion::solve(scene, line, seed, &|| false)
+        })?;
+        Ok(MeasuredAdhesion { profiles: solved.into_iter().map(|(_, one)| one).collect() })
     }
 
     /// Statistics of the adhesion force over the profiles of the fitted spectrum, N.

@@ -2,15 +2,16 @@
 
 use super::StudyError;
 use super::cell_summary::CellSummary;
-use super::merged::{Merged, sidecar};
 use super::plan::Plan;
 use super::plan_check::MOST_RECORDS;
 use super::publish::publish;
 use super::record::{Key, key_of, values_into};
 use super::statistics::StudentT;
 use super::store::{Folder, Lines, ShardFile};
-use super::tables::{RESULTS, SIDECAR, SUMMARY, header, number, regime_name, row_start, summary_row};
-use crate::io::{WriteError, write_json_value, write_new_on};
+use super::tables::{
+    Merged, RESULTS, SIDECAR, SUMMARY, header, number, regime_name, row_start, sidecar, summary_row,
+};
+use crate::io::{WriteError, open_regular, write_json_value, write_new_on};
 use std::collections::BTreeSet;
 use std::io::{self, Write};
 use std::path::Path;
@@ -120,28 +121,17 @@ impl Index {
         // A study that has a summary counts as merged: where files are published one by one, that is the last.
         publish(folder.disk(), folder.path(), &[RESULTS, SIDECAR, SUMMARY], &mut |place| {
             let [results, summary] = [RESULTS, SUMMARY].map(|name| place.join(name));
-            let mut unreadable = None;
-            let written = write_new_on(folder.disk(), &results, false, |results| {
+            write_new_on(folder.disk(), &results, false, |results| {
                 let written = write_new_on(folder.disk(), &summary, false, |summary| {
                     let plan = folder.plan();
                     let cells = cells_at_once(plan.lines as usize, plan.record.len());
-                    self.write_tables(plan, cells, results, summary).map_err(|error| match error {
-                        TableError::Writing(error) => error,
-                        TableError::Reading(error) => {
-                            unreadable = Some(error);
-                            io::Error::other("a shard file cannot be read")
-                        }
-                    })
+                    self.write_tables(plan, cells, results, summary)
                 });
                 written.map_err(|error| match error {
                     WriteError::Failed { reason, .. } => reason,
                     other => io::Error::other(other.to_string()),
                 })
-            });
-            if let Some(error) = unreadable {
-                return Err(error);
-            }
-            written?;
+            })?;
             let sidecar = sidecar(folder.plan(), &self.merged);
             Ok(write_new_on(folder.disk(), &place.join(SIDECAR), false, |out| {
                 write_json_value(out, &sidecar)
@@ -158,7 +148,7 @@ impl Index {
         cells: usize,
         results: &mut dyn Write,
         summary: &mut dyn Write,
-    ) -> Result<(), TableError> {
+    ) -> io::Result<()> {
         writeln!(results, "{}", header(plan, true))?;
         writeln!(summary, "{}", header(plan, false))?;
         let (lines, columns) = (plan.lines as usize, plan.record.len());
@@ -212,24 +202,6 @@ fn cells_at_once(lines: usize, columns: usize) -> usize {
     (HELD / (row * lines)).max(1)
 }
 
-/// Reason why tables were not written.
-enum TableError {
-    Reading(StudyError),
-    Writing(io::Error),
-}
-
-impl From<StudyError> for TableError {
-    fn from(error: StudyError) -> TableError {
-        TableError::Reading(error)
-    }
-}
-
-impl From<io::Error> for TableError {
-    fn from(error: io::Error) -> TableError {
-        TableError::Writing(error)
-    }
-}
-
 /// Reads records from any of many files, of which the last one read is open and no other.
 struct OneOpen<'f> {
     files: &'f [ShardFile],
@@ -247,19 +219,19 @@ impl<'f> OneOpen<'f> {
     fn values(&mut self, place: u64) -> Result<&[f64], StudyError> {
         let number = file_of(place);
         let file = &self.files[number];
-        let unreadable = |error: io::Error| StudyError::Folder {
-            path: file.path.clone(),
-            reason: format!("cannot be read: {error}"),
-        };
+        let unreadable = StudyError::unreadable(&file.path);
         if self.open.as_ref().is_none_or(|(open, _)| *open != number) {
             // The one before is closed first.
             self.open = None;
         }
         let (_, lines) = match &mut self.open {
             Some(open) => open,
-            None => self.open.insert((number, Lines::open(&file.path).map_err(unreadable)?)),
+            None => {
+                let opened = open_regular(&file.path).map_err(|error| unreadable(io::Error::other(error)))?;
+                self.open.insert((number, Lines::new(opened, 1 << 14)))
+            }
         };
-        let payload = lines.at(offset_of(place)).map_err(unreadable)?;
+        let payload = lines.at(offset_of(place)).map_err(&unreadable)?;
         let sound =
             key_of(payload).is_some_and(|(_, text)| values_into(text, self.columns, &mut self.values));
         if sound { Ok(&self.values) } else { Err(unreadable(changed())) }
@@ -290,7 +262,7 @@ fn too_large(path: &Path) -> StudyError {
         (1_u64 << FILE_BITS) - 1,
         1_u64 << (u64::BITS - FILE_BITS)
     );
-    StudyError::Folder { path: path.to_path_buf(), reason }
+    StudyError::folder(path, reason)
 }
 
 fn same(one: &[f64], other: &[f64]) -> bool {

@@ -9,7 +9,7 @@ use super::plan::Plan;
 use super::publish::{place_of, show};
 use super::quantity::Quantity;
 use super::store::Folder;
-use super::tables::{PARQUET, RESULTS};
+use super::tables::PARQUET;
 use super::target::Target;
 use crate::io::write_new;
 use parquet::basic::{Compression, LogicalType, Repetition, Type as Physical};
@@ -32,30 +32,19 @@ const PLAN: &str = "asperity.plan";
 /// # Errors
 /// A study that is not merged, or a file that cannot be written.
 pub fn write_parquet(folder: &Folder) -> Result<(), StudyError> {
-    let mut unreadable = None;
     // In the folder of the tables it belongs to, which it goes with.
     let place = place_of(folder.path());
-    let written = write_new(&place.join(PARQUET), true, |out| {
+    write_new(&place.join(PARQUET), true, |out| {
         let mut table = Table::new(out, folder.plan()).map_err(io::Error::other)?;
         let mut failure = None;
-        let read = Finished::rows(folder.path(), |row| {
+        Finished::rows(folder.path(), |row| {
             if failure.is_none() {
                 failure = table.add(row).err();
             }
-        });
-        if let Err(error) = read {
-            unreadable = Some(error);
-            return Err(io::Error::other(format!("{RESULTS} cannot be read")));
-        }
+        })?;
         failure.map_or(Ok(()), Err).and_then(|()| table.end()).map_err(io::Error::other)
-    });
-    match unreadable {
-        Some(error) => Err(error),
-        None => {
-            written?;
-            show(folder.disk(), folder.path(), PARQUET)
-        }
-    }
+    })?;
+    show(folder.disk(), folder.path(), PARQUET)
 }
 
 /// The values of a column, as far as they have been gathered.

@@ -5,7 +5,7 @@ use super::cells::Cells;
 use super::measured::is_hash;
 use super::plan::{Plan, StiffnessRange};
 use super::quantity::Needs;
-use crate::scene::{Roughness, Scene, Violation, check, ron_string};
+use crate::scene::{Roughness, Scene, SceneError, check, ron_string};
 
 /// Most cells of a plan.
 pub const MOST_CELLS: u64 = 10_000_000;
@@ -114,8 +114,9 @@ impl Plan {
     fn check_texts(&self) -> Vec<String> {
         let (title, notice) = (self.title.clone(), self.notice.clone());
         let texts = Scene { title, notice, ..self.scene.clone() };
-        let is_text = |violation: &&Violation| ["title", "notice"].contains(&violation.field.as_str());
-        let mut wrong: Vec<String> = check(&texts).iter().filter(is_text).map(worded).collect();
+        let is_text = |error: &&SceneError| ["title", "notice"].contains(&error.field.as_str());
+        let mut wrong: Vec<String> =
+            check(&texts).iter().filter(is_text).map(SceneError::to_string).collect();
         if let Some(hash) = &self.measured_sha256 {
             if !is_hash(hash) {
                 wrong.push(format!(
@@ -140,7 +141,7 @@ impl Plan {
         for run in 0..cells.runs() {
             let reason = match cells.shape(run, &self.scene, &mut scene) {
                 Err((axis, reason)) => Some(format!("axis {axis}: {reason}")),
-                Ok(()) => check(&scene).first().map(worded),
+                Ok(()) => check(&scene).first().map(SceneError::to_string),
             };
             let Some(reason) = reason else { continue };
             count += 1;
@@ -166,13 +167,6 @@ impl Plan {
             }
         }
     }
-}
-
-/// A value that is not allowed, and what is.
-fn worded(violation: &Violation) -> String {
-    let Violation { field, value, allowed, reason, .. } = violation;
-    let allowed = if allowed.is_empty() { reason.clone() } else { format!("allowed: {allowed} ({reason})") };
-    format!("{field} = {value}: {allowed}")
 }
 
 fn least(axis: &Axis) -> Option<f64> {

@@ -2,7 +2,6 @@
 
 use super::lines::{LinesError, solve_profiles};
 use super::plan::Plan;
-use super::solve::CaseSolver;
 use super::statistics::{Statistics, StudentT};
 use crate::contact::Reversal;
 use crate::scene::{Leg, Scene};
@@ -71,28 +70,15 @@ pub fn solve_preloads_on_lines(
     jobs: usize,
 ) -> Result<Vec<(u64, Vec<Preloaded>)>, LinesError> {
     let plan = Plan::of_scene(scene, lines as u64, &[]);
-    solve_profiles(&plan, jobs, || PreloadSolver {
-        simulation: Simulation::new(folder.to_path_buf()),
-        forces,
+    solve_profiles(&plan, jobs, || {
+        let mut simulation = Simulation::new(folder.to_path_buf());
+        move |scene: &mut Scene, seed| {
+            scene.set_seed(seed);
+            let mut found = Vec::with_capacity(forces.len());
+            solve_preloads(&mut simulation, scene, forces, &|| false, &mut |one| found.push(one))?;
+            Ok(found)
+        }
     })
-}
-
-/// Solver of many preloads on one profile after the other.
-struct PreloadSolver<'f> {
-    simulation: Simulation,
-    /// N.
-    forces: &'f [f64],
-}
-
-impl CaseSolver for PreloadSolver<'_> {
-    type Record = Vec<Preloaded>;
-
-    fn solve(&mut self, scene: &mut Scene, seed: u64) -> Result<Vec<Preloaded>, RunError> {
-        scene.set_seed(seed);
-        let mut found = Vec::with_capacity(self.forces.len());
-        solve_preloads(&mut self.simulation, scene, self.forces, &|| false, &mut |one| found.push(one))?;
-        Ok(found)
-    }
 }
 
 /// Statistics of the adhesion force over profiles for each preload; a profile that does not pull counts with 0 N, since

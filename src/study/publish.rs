@@ -15,7 +15,7 @@
 //! fewer files, never new ones beside old.
 
 use super::StudyError;
-use crate::io::{Disk, WriteError, make_folders, without_waiting};
+use crate::io::{Disk, make_folders, without_waiting};
 use std::ffi::OsString;
 use std::fs::{self, File};
 use std::io;
@@ -39,9 +39,9 @@ pub(super) fn publish(
 ) -> Result<(), StudyError> {
     let _lock = lock(study);
     let publication = Publication { disk, study, names };
-    let place = publication.new_place().map_err(|reason| failed(study, reason))?;
-    let put = |reason| failed(study, reason);
-    write(&place).and_then(|()| publication.put_in_place(&place).map_err(put)).inspect_err(|_| {
+    let failed = StudyError::unwritable(study);
+    let place = publication.new_place().map_err(&failed)?;
+    write(&place).and_then(|()| publication.put_in_place(&place).map_err(&failed)).inspect_err(|_| {
         // What was written, or a part of it, is of no use where it was not published.
         if publication.current().as_deref() != place.file_name() {
             let _ = remove(disk, &place);
@@ -57,7 +57,7 @@ pub(super) fn show(disk: &dyn Disk, study: &Path, name: &str) -> Result<(), Stud
     }
     let shown =
         Publication { disk, study, names: &[name] }.link_names().and_then(|()| disk.sync_folder(study));
-    shown.map_err(|reason| failed(study, reason))
+    shown.map_err(StudyError::unwritable(study))
 }
 
 /// The folder in which published files are.
@@ -65,10 +65,6 @@ pub(super) fn show(disk: &dyn Disk, study: &Path, name: &str) -> Result<(), Stud
 pub(super) fn place_of(study: &Path) -> PathBuf {
     let tables = study.join(TABLES);
     if is_link(&tables) { tables } else { study.to_path_buf() }
-}
-
-fn failed(path: &Path, reason: io::Error) -> StudyError {
-    WriteError::Failed { path: path.to_path_buf(), reason }.into()
 }
 
 struct Publication<'a> {

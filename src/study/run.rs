@@ -10,7 +10,7 @@ use super::shard::Shard;
 use super::solve::{Case, Next, SharedWork, Sink};
 use super::status::{count, rate};
 use super::store::Folder;
-use crate::io::{DiskFile, WriteError};
+use crate::io::DiskFile;
 use crate::parallel::begin_threads;
 use crate::simulation::{RunError, Simulation};
 use std::ops::ControlFlow;
@@ -133,8 +133,8 @@ pub fn run(
                 Some(profile) => simulation.with_measured(profile),
                 None => simulation,
             };
-            let recorder = Recorder::new(folder.plan(), simulation, &|| false);
-            work.solve(recorder, &mut FolderSink { shared, sender });
+            let mut recorder = Recorder::new(folder.plan(), simulation, &|| false);
+            work.solve(|scene, seed| recorder.record(scene, seed), &mut FolderSink { shared, sender });
         });
         // A system that gives fewer threads than asked for has those do all.
         if begun == 0 {
@@ -174,7 +174,7 @@ impl Shared<'_> {
         let mut reported = Instant::now();
         let (mut pending, mut elapsed) = (0, Duration::ZERO);
         let mut text = String::with_capacity(BUFFER);
-        let failed = |reason| StudyError::Write(WriteError::Failed { path: PathBuf::from(path), reason });
+        let failed = StudyError::unwritable(path);
         loop {
             let wait = if pending > 0 { SYNC.saturating_sub(synced.elapsed()) } else { TICK };
             let first = receiver.recv_timeout(wait.min(TICK));

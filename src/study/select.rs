@@ -1,8 +1,7 @@
 //! Selection of a figure from a merged study: quantities, axes across and up, values of the other axes.
 
 use super::axis::Axis;
-use super::figure::{AxisScale, Boundary, Estimate, Figure, Panel};
-use super::figure_axis::{figure_axis, fixed, scale_of};
+use super::figure::{AxisScale, Boundary, Estimate, Figure, FigureAxis, Panel, fixed, scale_of};
 use super::finished::Finished;
 use super::plan::Plan;
 use super::quantity::Quantity;
@@ -124,7 +123,7 @@ impl Selection {
             let column = study.column(quantity);
             cells.iter().map(|cell| cell.as_ref()?.estimate(column?)).collect()
         };
-        let axis = |index: usize| figure_axis(plan, chosen[index].axis);
+        let axis = |index: usize| FigureAxis::new(plan, chosen[index].axis);
         let fixed = chosen.iter().filter_map(|one| Some(fixed(plan, one.axis, one.at?)));
         let panel = |&quantity: &Quantity| {
             let estimates = estimates(quantity);
@@ -134,8 +133,7 @@ impl Selection {
             let several = curves.any(|curve| Some(curve) != first);
             let by_itself = || if several { scale_of(&estimates) } else { AxisScale::Linear };
             let scale = self.scale.unwrap_or_else(by_itself);
-            let vanishes = SHARES.contains(&quantity);
-            Panel { quantity: quantity.into(), estimates, scale, range: None, vanishes }
+            Panel::new(quantity, estimates, scale)
         };
         let mut panels: Vec<Panel> = quantities.iter().map(panel).collect();
         // The same quantity by two protocols has one scale.
@@ -201,7 +199,7 @@ impl Selection {
             }
             named.push(path);
             let axis = chosen[index].axis;
-            let unit = figure_axis(plan, axis).unit;
+            let unit = FigureAxis::new(plan, axis).unit;
             let wanted = parse_quantity(value, &unit).ok();
             // Values are written with 12 digits, and 0.3 is what people type for them.
             let same = |there: f64| wanted.is_some_and(|wanted| (there - wanted).abs() <= 1e-9 * there.abs());

@@ -135,9 +135,14 @@ impl Submission {
         Ok(())
     }
 
-    /// The script of a task of the array.
+    /// Paths and contents of both scripts.
     #[must_use]
-    pub fn shard_script(&self) -> String {
+    pub fn scripts(&self) -> [(PathBuf, String); 2] {
+        [(self.shard_path(), self.shard_script()), (self.merge_path(), self.merge_script())]
+    }
+
+    /// The script of a task of the array.
+    fn shard_script(&self) -> String {
         let arguments: String =
             self.arguments.iter().map(|argument| format!(" {}", word(argument))).collect();
         format!(
@@ -169,9 +174,7 @@ done
         )
     }
 
-    /// The script of the merge.
-    #[must_use]
-    pub fn merge_script(&self) -> String {
+    fn merge_script(&self) -> String {
         let head = self.head("The merge of a sweep, once all its shards are done.");
         format!("{head}\nexec \"$program\" sweep merge \"$folder\"\n")
     }
@@ -187,15 +190,11 @@ done
         self.folder.join("slurm")
     }
 
-    /// Path of the script of a task.
-    #[must_use]
-    pub fn shard_path(&self) -> PathBuf {
+    fn shard_path(&self) -> PathBuf {
         self.own_folder().join("shard.sh")
     }
 
-    /// Path of the script of the merge.
-    #[must_use]
-    pub fn merge_path(&self) -> PathBuf {
+    fn merge_path(&self) -> PathBuf {
         self.own_folder().join("merge.sh")
     }
 

@@ -5,7 +5,7 @@
 
 use super::cells::{Cells, Unit};
 use super::plan::Plan;
-use super::recorder::{Recorder, Records};
+use super::recorder::Records;
 use crate::scene::Scene;
 use crate::simulation::RunError;
 use std::ops::ControlFlow;
@@ -31,26 +31,6 @@ pub(crate) enum Next {
     End,
 }
 
-/// Solver of one case.
-pub(super) trait CaseSolver {
-    /// Result on one profile.
-    type Record;
-
-    /// Solves a scene on the profile of a seed.
-    ///
-    /// # Errors
-    /// When the profile or the contact fails, or when stopped.
-    fn solve(&mut self, scene: &mut Scene, seed: u64) -> Result<Self::Record, RunError>;
-}
-
-impl CaseSolver for Recorder<'_> {
-    type Record = Records;
-
-    fn solve(&mut self, scene: &mut Scene, seed: u64) -> Result<Records, RunError> {
-        self.record(scene, seed)
-    }
-}
-
 /// Receiver of records.
 pub(crate) trait Sink<R = Records> {
     /// Next step before a case.
@@ -64,18 +44,25 @@ pub(crate) trait Sink<R = Records> {
 pub(super) struct Solver<'p, C> {
     plan: &'p Plan,
     cells: &'p Cells,
+    /// Solves a scene on the profile of a seed.
     of_case: C,
     scene: Scene,
 }
 
-impl<'p, C: CaseSolver> Solver<'p, C> {
-    /// A runner of a plan, each case by a solver.
-    pub fn new(plan: &'p Plan, cells: &'p Cells, of_case: C) -> Self {
+impl<'p, C> Solver<'p, C> {
+    /// A runner of a plan; `of_case` solves a scene on the profile of a seed.
+    pub fn new<R>(plan: &'p Plan, cells: &'p Cells, of_case: C) -> Self
+    where
+        C: FnMut(&mut Scene, u64) -> Result<R, RunError>,
+    {
         Solver { plan, cells, of_case, scene: plan.prototype() }
     }
 
     /// Solves the cases of a unit that the sink wants; `Break` where the sink ends the work.
-    pub fn solve(&mut self, unit: &Unit, sink: &mut dyn Sink<C::Record>) -> ControlFlow<()> {
+    pub fn solve<R>(&mut self, unit: &Unit, sink: &mut dyn Sink<R>) -> ControlFlow<()>
+    where
+        C: FnMut(&mut Scene, u64) -> Result<R, RunError>,
+    {
         let seed = self.plan.seed_of(unit.line);
         for run in self.cells.runs_of(unit) {
             let case = Case { run, line: unit.line };
@@ -86,7 +73,7 @@ impl<'p, C: CaseSolver> Solver<'p, C> {
             }
             // The scene of every cell has been checked.
             if self.cells.shape(run, &self.plan.scene, &mut self.scene).is_ok() {
-                sink.take(case, self.of_case.solve(&mut self.scene, seed))?;
+                sink.take(case, (self.of_case)(&mut self.scene, seed))?;
             }
         }
         ControlFlow::Continue(())
@@ -108,17 +95,18 @@ impl<'p, I: Iterator<Item = Unit>> SharedWork<'p, I> {
     }
 
     /// Solves one unit after the other until none is left or a sink ends the work of all threads.
-    pub fn solve<C: CaseSolver>(&self, of_case: C, sink: &mut dyn Sink<C::Record>) {
+    pub fn solve<R>(
+        &self,
+        of_case: impl FnMut(&mut Scene, u64) -> Result<R, RunError>,
+        sink: &mut dyn Sink<R>,
+    ) {
         let mut solver = Solver::new(self.plan, self.cells, of_case);
-        while let Some(unit) = self.next_unit() {
+        let next = || self.units().as_mut()?.next();
+        while let Some(unit) = next() {
             if solver.solve(&unit, sink).is_break() {
                 *self.units() = None;
             }
         }
-    }
-
-    fn next_unit(&self) -> Option<Unit> {
-        self.units().as_mut()?.next()
     }
 
     fn units(&self) -> MutexGuard<'_, Option<I>> {
@@ -132,6 +120,7 @@ mod tests {
     use crate::scene::{Roughness, open};
     use crate::simulation::Simulation;
     use crate::study::Quantity;
+    use crate::study::recorder::Recorder;
     use std::sync::atomic::{AtomicUsize, Ordering};
     use std::time::{Duration, Instant};
 
@@ -181,7 +170,8 @@ mod tests {
                     let mut sink = Meeting { met: &met, threads, taken: &taken, most, first: true };
                     let (work, plan) = (&work, &plan);
                     scope.spawn(move || {
-                        work.solve(Recorder::new(plan, Simulation::default(), &|| false), &mut sink);
+                        let mut recorder = Recorder::new(plan, Simulation::default(), &|| false);
+                        work.solve(|scene, seed| recorder.record(scene, seed), &mut sink);
                     });
                 }
             });

@@ -6,8 +6,7 @@
 
 use super::StudyError;
 use super::done::Done;
-use super::measured::with_hash;
-use super::other_plan::refusal;
+use super::measured::{file_of, with_hash};
 use super::plan::{PLAN_FILE, Plan};
 use super::plan_text::Changes;
 use super::record::{Key, key_of, seal, unseal, values_into};
@@ -16,6 +15,7 @@ use crate::io::{
     Disk, DiskFile, SystemDisk, WriteError, folder_of, make_folders, open_regular, write_new_on,
 };
 use crate::scene::read_file;
+use crate::text::{path_name, printable};
 use serde::{Deserialize, Serialize};
 use std::fs::File;
 use std::hash::{BuildHasher, RandomState};
@@ -107,12 +107,8 @@ impl Folder {
     /// # Errors
     /// As [`Folder::create`].
     pub fn create_on(disk: Arc<dyn Disk>, path: &Path, plan: &Plan) -> Result<Folder, StudyError> {
-        let failed = |path: &Path| {
-            let path = path.to_path_buf();
-            move |reason| StudyError::Write(WriteError::Failed { path, reason })
-        };
         let plan = with_hash(plan)?;
-        make_folders(&*disk, path).map_err(failed(path))?;
+        make_folders(&*disk, path).map_err(StudyError::unwritable(path))?;
         let shards = path.join(SHARDS);
         let file = path.join(PLAN_FILE);
         let text = plan.to_ron();
@@ -123,14 +119,14 @@ impl Folder {
                 Err(error) => return Err(error.into()),
             }
         }
-        let there = read_file(&file).map_err(|reason| StudyError::Folder { path: file.clone(), reason })?;
+        let there = read_file(&file).map_err(|reason| StudyError::folder(&file, reason))?;
         if there != text {
             return Err(refusal(path, &there, &plan));
         }
-        make_folders(&*disk, &shards).map_err(failed(&shards))?;
+        make_folders(&*disk, &shards).map_err(StudyError::unwritable(&shards))?;
         // A process that was killed may have made them without waiting for the disk.
         for folder in [folder_of(path), path] {
-            disk.sync_folder(folder).map_err(failed(folder))?;
+            disk.sync_folder(folder).map_err(StudyError::unwritable(folder))?;
         }
         Ok(Folder { path: path.to_path_buf(), plan, disk })
     }
@@ -157,9 +153,9 @@ impl Folder {
         let file = path.join(PLAN_FILE);
         if !file.is_file() {
             let reason = format!("this is not the folder of a study: there is no {PLAN_FILE} in it");
-            return Err(StudyError::Folder { path: path.to_path_buf(), reason });
+            return Err(StudyError::folder(path, reason));
         }
-        let text = read_file(&file).map_err(|reason| StudyError::Folder { path: file.clone(), reason })?;
+        let text = read_file(&file).map_err(|reason| StudyError::folder(&file, reason))?;
         let plan = Plan::parse(&text, &file.display().to_string(), &Changes::default())?;
         Ok(Folder { path: path.to_path_buf(), plan, disk })
     }
@@ -187,7 +183,7 @@ impl Folder {
     }
 
     /// A new shard file for this process, with its header.
-    pub(super) fn new_file(&self, shard: Shard) -> Result<(PathBuf, Box<dyn DiskFile>), WriteError> {
+    pub(super) fn new_file(&self, shard: Shard) -> Result<(PathBuf, Box<dyn DiskFile>), StudyError> {
         let begun = SystemTime::now().duration_since(UNIX_EPOCH).unwrap_or_default();
         let started = begun.as_secs();
         let (host, process) = (host(), std::process::id());
@@ -206,13 +202,17 @@ impl Folder {
         let Shard { number, count } = shard;
         let name = format!("{number}-of-{count}-{host}-{process}-{started}-{random:08x}.{ENDING}");
         let path = self.path.join(SHARDS).join(name);
-        let failed = |reason| WriteError::Failed { path: path.clone(), reason };
-        let mut text = String::new();
-        seal(&serde_json::to_string(&header).map_err(io::Error::from).map_err(failed)?, &mut text);
-        let mut file = self.disk.make_file(&path).map_err(failed)?;
-        file.write_all(text.as_bytes()).and_then(|()| file.sync()).map_err(failed)?;
-        // The name in the folder has to last as well.
-        self.disk.sync_folder(&self.path.join(SHARDS)).map_err(failed)?;
+        let write = || -> io::Result<Box<dyn DiskFile>> {
+            let mut text = String::new();
+            seal(&serde_json::to_string(&header)?, &mut text);
+            let mut file = self.disk.make_file(&path)?;
+            file.write_all(text.as_bytes())?;
+            file.sync()?;
+            // The name in the folder has to last as well.
+            self.disk.sync_folder(&self.path.join(SHARDS))?;
+            Ok(file)
+        };
+        let file = write().map_err(StudyError::unwritable(&path))?;
         Ok((path, file))
     }
 
@@ -224,30 +224,24 @@ impl Folder {
         let shards = self.path.join(SHARDS);
         let mut paths = match self.disk.list(&shards) {
             Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(Vec::new()),
-            listed => listed.map_err(|error| StudyError::Folder {
-                path: shards,
-                reason: format!("cannot be read: {error}"),
-            })?,
+            listed => listed.map_err(StudyError::unreadable(&shards))?,
         };
         paths.retain(|path| path.extension().is_some_and(|ending| ending == ENDING));
         paths.sort();
         let checksum = self.checksum();
-        let file =
-            |path: PathBuf| self.file(&path, &checksum).map_err(|reason| StudyError::Folder { path, reason });
-        paths.into_iter().map(file).collect()
+        paths.iter().map(|path| self.file(path, &checksum)).collect()
     }
 
-    fn file(&self, path: &Path, checksum: &str) -> Result<ShardFile, String> {
-        let failed = |error: io::Error| format!("cannot be read: {error}");
-        let file = open_regular(path).map_err(|error| error.to_string())?;
-        let written = file.metadata().and_then(|found| found.modified()).map_err(failed)?;
+    fn file(&self, path: &Path, checksum: &str) -> Result<ShardFile, StudyError> {
+        let failed = StudyError::unreadable(path);
+        let file = open_regular(path).map_err(|error| StudyError::folder(path, error))?;
+        let written = file.metadata().and_then(|found| found.modified()).map_err(&failed)?;
         let written = written.duration_since(UNIX_EPOCH).unwrap_or_default().as_secs_f64();
-        let mut line = Vec::new();
         // Of thousands of files, only the first lines are read here.
-        let mut reader = BufReader::with_capacity(1 << 10, file);
-        reader.by_ref().take(LONGEST_LINE).read_until(b'\n', &mut line).map_err(failed)?;
-        let header = line.strip_suffix(b"\n").and_then(unseal);
-        let header = header.map(|payload| self.header(payload, checksum)).transpose()?;
+        let mut lines = Lines::new(file, 1 << 10);
+        let first = lines.next().map_err(&failed)?.and_then(|(_, payload)| payload);
+        let header = first.map(|payload| self.header(payload, checksum)).transpose();
+        let header = header.map_err(|reason| StudyError::folder(path, reason))?;
         Ok(ShardFile { path: path.to_path_buf(), header, written })
     }
 
@@ -286,26 +280,14 @@ impl Folder {
         if file.header.is_none() {
             return Ok(0);
         }
-        let failed = |error: io::Error| StudyError::Folder {
-            path: file.path.clone(),
-            reason: format!("cannot be read: {error}"),
-        };
-        let opened = open_regular(&file.path)
-            .map_err(|error| StudyError::Folder { path: file.path.clone(), reason: error.to_string() })?;
+        let failed = StudyError::unreadable(&file.path);
+        let opened = open_regular(&file.path).map_err(|error| StudyError::folder(&file.path, error))?;
         // Most of many files are small.
-        let size = opened.metadata().map_err(failed)?.len().clamp(1 << 10, 1 << 18) as usize;
-        let mut reader = BufReader::with_capacity(size, opened);
-        let (mut line, mut offset, mut damaged) = (Vec::new(), 0, 0);
-        let mut values = Vec::new();
+        let size = opened.metadata().map_err(&failed)?.len().clamp(1 << 10, 1 << 18) as usize;
+        let (mut lines, mut values, mut damaged) = (Lines::new(opened, size), Vec::new(), 0);
         let (cells, count) = (self.plan.cells(), self.plan.record.len());
-        loop {
-            line.clear();
-            let read =
-                reader.by_ref().take(LONGEST_LINE).read_until(b'\n', &mut line).map_err(failed)? as u64;
-            if read == 0 {
-                return Ok(damaged);
-            }
-            let key = line.strip_suffix(b"\n").and_then(unseal).and_then(|payload| {
+        while let Some((offset, payload)) = lines.next().map_err(&failed)? {
+            let key = payload.and_then(|payload| {
                 let (key, text) = key_of(payload)?;
                 values_into(text, count, &mut values).then_some(key)
             });
@@ -317,8 +299,8 @@ impl Folder {
                 _ if offset == 0 => {}
                 _ => damaged += 1,
             }
-            offset += read;
         }
+        Ok(damaged)
     }
 
     /// Index of the line with a seed.
@@ -343,18 +325,44 @@ impl Folder {
                 }
                 Ok(())
             })?;
-            self.disk
-                .sync_file(&file.path)
-                .map_err(|reason| WriteError::Failed { path: file.path.clone(), reason })?;
+            self.disk.sync_file(&file.path).map_err(StudyError::unwritable(&file.path))?;
         }
-        self.disk
-            .sync_folder(&self.path.join(SHARDS))
-            .map_err(|reason| WriteError::Failed { path: self.path.join(SHARDS), reason })?;
+        let shards = self.path.join(SHARDS);
+        self.disk.sync_folder(&shards).map_err(StudyError::unwritable(&shards))?;
         Ok(done)
     }
 }
 
-/// Reads single lines of a file from any place, cheaply where they follow each other.
+/// Error for a folder that holds the text `there` of another plan than `plan`.
+fn refusal(path: &Path, there: &str, plan: &Plan) -> StudyError {
+    let file = path.join(PLAN_FILE);
+    // Where nothing but the content of the measured file is another, that is said.
+    if let (Ok(of_folder), Some(measured)) =
+        (Plan::parse(there, PLAN_FILE, &Changes::default()), file_of(plan))
+        && (Plan { measured_sha256: plan.measured_sha256.clone(), ..of_folder.clone() }) == *plan
+    {
+        return match (of_folder.measured_sha256, plan.measured_sha256.clone()) {
+            (Some(expected), Some(found)) => {
+                StudyError::MeasuredChanged { file: measured, found, plan: path_name(&file), expected }
+            }
+            _ => StudyError::MeasuredUnknown { folder: path.to_path_buf(), file: measured },
+        };
+    }
+    StudyError::OtherPlan { path: path.to_path_buf(), difference: difference(there, &plan.to_ron()) }
+}
+
+/// The first lines in which two plans differ.
+fn difference(there: &str, asked: &str) -> String {
+    let pairs = there.lines().map(Some).chain(std::iter::repeat(None));
+    let asked = asked.lines().map(Some).chain(std::iter::repeat(None));
+    let first = pairs.zip(asked).take_while(|pair| *pair != (None, None)).find(|(a, b)| a != b);
+    let shown = |line: Option<&str>| {
+        line.map_or_else(|| "nothing".into(), |line| printable(line.trim()).into_owned())
+    };
+    first.map_or_else(String::new, |(a, b)| format!("there: {}\nhere:  {}", shown(a), shown(b)))
+}
+
+/// Sealed lines of a shard file, one after the other or from any place, cheaply where they follow each other.
 pub(super) struct Lines {
     reader: BufReader<File>,
     here: u64,
@@ -362,9 +370,18 @@ pub(super) struct Lines {
 }
 
 impl Lines {
-    pub fn open(path: &Path) -> io::Result<Lines> {
-        let file = open_regular(path).map_err(|error| io::Error::other(error.to_string()))?;
-        Ok(Lines { reader: BufReader::with_capacity(1 << 14, file), here: 0, line: Vec::new() })
+    /// Lines of a file that is read by so many bytes at a time.
+    pub fn new(file: File, bytes: usize) -> Lines {
+        Lines { reader: BufReader::with_capacity(bytes, file), here: 0, line: Vec::new() }
+    }
+
+    /// The next line: its offset and, where it is whole, its payload; `None` at the end.
+    pub fn next(&mut self) -> io::Result<Option<(u64, Option<&str>)>> {
+        let offset = self.here;
+        self.line.clear();
+        self.here += self.reader.by_ref().take(LONGEST_LINE).read_until(b'\n', &mut self.line)? as u64;
+        let payload = self.line.strip_suffix(b"\n").and_then(unseal);
+        Ok((self.here > offset).then_some((offset, payload)))
     }
 
     /// The payload of the line at an offset.
@@ -372,10 +389,8 @@ impl Lines {
         // Within what has been read this moves nothing.
         let by = offset as i64 - self.here as i64;
         self.reader.seek_relative(by).or_else(|_| self.reader.seek(SeekFrom::Start(offset)).map(drop))?;
-        self.line.clear();
-        let read = self.reader.by_ref().take(LONGEST_LINE).read_until(b'\n', &mut self.line)?;
-        self.here = offset + read as u64;
-        let payload = self.line.strip_suffix(b"\n").and_then(unseal);
+        self.here = offset;
+        let payload = self.next()?.and_then(|(_, payload)| payload);
         payload.ok_or_else(|| io::Error::new(io::ErrorKind::InvalidData, "a record has changed"))
     }
 }

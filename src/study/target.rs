@@ -1,6 +1,8 @@
 //! Quantities that an axis may vary: the numbers of a scene by their paths, and others that are derived from several.
 
-use crate::scene::{FIELDS, Field, Leg, Range, RoughnessParameter, Scene, Value, field, nearest};
+use crate::analysis::Governing;
+use crate::scene::{FIELDS, Field, Leg, Range, Roughness, RoughnessParameter, Scene, Value, field, nearest};
+use crate::surface::SelfAffine;
 
 /// Quantities that are no fields of a scene.
 pub const DERIVED: &[&str] = &["kappa", "elastic_energy_ratio", "preload", "springs_per_wave"];
@@ -195,6 +197,15 @@ fn set(scene: &mut Scene, path: &str, part: Part, number: f64) -> Result<(), Str
         field.set(scene, value)
     });
     if done { Ok(()) } else { Err(format!("the scene has no {path}")) }
+}
+
+/// Governing parameters of a scene with a self-affine profile.
+pub(super) fn governing(scene: &Scene) -> Option<Governing> {
+    let Some(Roughness::SelfAffine { hurst, modes: (first, last), .. }) = scene.roughness else {
+        return None;
+    };
+    let wave_numbers = SelfAffine { hurst, first, last }.wave_numbers(scene.length);
+    Some(Governing::of(scene, Some(wave_numbers), None))
 }
 
 /// Symbol and SI unit of the quantity at a path; `1` for numbers without a unit, empty where there is no symbol.

@@ -24,6 +24,17 @@ pub fn mdr_profile(form: &Form, distance: f64) -> f64 {
     }
 }
 
+/// Coefficient c, m^(1−n), and exponent n of a form whose line is g(x) = c |x|ⁿ; `None` for a punch and for waves.
+#[must_use]
+pub fn line_power_law(form: &Form) -> Option<(f64, f64)> {
+    match *form {
+        Form::Paraboloid { radius } => Some((radius.recip(), 2.0)),
+        Form::Cone { angle } => Some((std::f64::consts::FRAC_PI_2 * angle.tan(), 1.0)),
+        Form::Power { coefficient, exponent } => Some((power_law_factor(exponent) * coefficient, exponent)),
+        Form::WavySphere { .. } | Form::Punch { .. } => None,
+    }
+}
+
 /// κₙ = (√π/2) n Γ(n/2)/Γ((n+1)/2), the factor by which a power law rⁿ grows on the line.
 #[must_use]
 pub fn power_law_factor(exponent: f64) -> f64 {

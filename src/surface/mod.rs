@@ -16,7 +16,7 @@ mod struve;
 pub use amplitude::{Amplitude, WaveNumbers};
 pub use equivalent::{EquivalentLine, MeasuredOptions, MeasuredRoughness};
 pub use error::SurfaceError;
-pub use form::{mdr_profile, power_law_factor};
+pub use form::{line_power_law, mdr_profile, power_law_factor};
 pub use histogram::Histogram;
 pub use line::Line;
 pub use measured::MeasuredProfile;

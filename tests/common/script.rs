@@ -28,6 +28,12 @@ impl Driver {
         effects
     }
 
+    /// Runs a command of this name, and gives its effects undone.
+    pub fn update(&mut self, name: &str) -> Vec<Effect> {
+        let command = self.model.bindings.named(name, self.model.keys()).expect("a valid command");
+        update(&mut self.model, Action::Command(command))
+    }
+
     /// Does what an action asks for.
     pub fn perform(&mut self, effects: Vec<Effect>) {
         for effect in effects {

@@ -12,12 +12,14 @@ const ROUNDING: f64 = 1e-9;
 
 /// A foundation that knows only the rules: it looks at any spring in any order until nothing applies.
 #[derive(Clone)]
-struct Blind {
-    gaps: Vec<f64>,
+struct Blind<'a> {
+    gaps: &'a [f64],
     /// γ/E* on closing and on opening, m.
     ranges: [f64; 2],
     contact: Vec<bool>,
     order: Order,
+    /// The springs in the order of a round; shuffled anew for each round where the order says so.
+    springs: Vec<usize>,
 }
 
 /// The order in which blind looks at the springs.
@@ -34,29 +36,34 @@ enum Order {
 }
 
 impl Order {
-    /// The springs of one round, each of them once.
-    fn round(&mut self, count: usize) -> Vec<usize> {
+    /// The springs of a round, each of them once, before they are shuffled.
+    fn springs(self, count: usize) -> Vec<usize> {
         let mut springs: Vec<usize> = (0..count).collect();
         match self {
-            Order::LeftToRight => {}
+            Order::LeftToRight | Order::Shuffled(_) => {}
             Order::RightToLeft => springs.reverse(),
             Order::Inwards => springs.sort_by_key(|index| (*index).min(count - 1 - index)),
-            Order::Stride(stride) => {
-                let stride = *stride;
-                springs.sort_by_key(|index| (index % stride, *index));
-            }
-            Order::Shuffled(state) => {
-                for last in (1..count).rev() {
-                    *state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
-                    springs.swap(last, (*state >> 33) as usize % (last + 1));
-                }
-            }
+            Order::Stride(stride) => springs.sort_by_key(|index| (index % stride, *index)),
         }
         springs
     }
+
+    /// Shuffles the springs for a round, where that is the order.
+    fn shuffle(&mut self, springs: &mut [usize]) {
+        let Order::Shuffled(state) = self else { return };
+        for last in (1..springs.len()).rev() {
+            *state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+            springs.swap(last, (*state >> 33) as usize % (last + 1));
+        }
+    }
 }
 
-impl Blind {
+impl<'a> Blind<'a> {
+    /// Separated springs.
+    fn new(gaps: &'a [f64], ranges: [f64; 2], order: Order) -> Self {
+        Blind { gaps, ranges, contact: vec![false; gaps.len()], order, springs: order.springs(gaps.len()) }
+    }
+
     fn stretch(springs: usize, range: f64) -> f64 {
         (std::f64::consts::PI * springs as f64 * SPACING * range).sqrt()
     }
@@ -68,40 +75,45 @@ impl Blind {
         (left, right)
     }
 
-    /// Whether a rule applies to this spring; if so it is applied.
+    /// Applies a rule to this spring; false where none applies.
     fn apply(&mut self, index: usize, d: f64) -> bool {
         let gap = self.gaps[index];
         let [closing, opening] = self.ranges;
-        let (left, right) = self.beside(index);
-        if self.contact[index] {
-            let n = left + 1 + right;
-            let run = &self.gaps[index - left..=index + right];
-            let most = run.iter().copied().fold(f64::MIN, f64::max);
-            if gap == most && gap > d && gap - d >= Self::stretch(n, opening) {
-                self.contact[index] = false;
-                return true;
+        let applies = if self.contact[index] {
+            gap > d && {
+                let (left, right) = self.beside(index);
+                let run = &self.gaps[index - left..=index + right];
+                gap - d >= Self::stretch(run.len(), opening) && run.iter().all(|other| *other <= gap)
             }
         } else {
-            let grows = |n: usize| n > 0 && gap - d <= Self::stretch(n, closing);
-            if gap <= d || grows(left) || grows(right) {
-                self.contact[index] = true;
-                return true;
+            gap <= d || {
+                let (left, right) = self.beside(index);
+                let grows = |n: usize| n > 0 && gap - d <= Self::stretch(n, closing);
+                grows(left) || grows(right)
             }
-        }
-        false
+        };
+        self.contact[index] ^= applies;
+        applies
     }
 
     /// Relaxes at indentation d.
     fn relax(&mut self, d: f64) {
+        let mut springs = std::mem::take(&mut self.springs);
+        let unshuffled = matches!(self.order, Order::Shuffled(_)).then(|| springs.clone());
         loop {
             let mut quiet = true;
-            for index in self.order.round(self.gaps.len()) {
+            if let Some(unshuffled) = &unshuffled {
+                springs.clone_from(unshuffled);
+                self.order.shuffle(&mut springs);
+            }
+            for &index in &springs {
                 quiet &= !self.apply(index, d);
             }
             if quiet {
-                return;
+                break;
             }
         }
+        self.springs = unshuffled.unwrap_or(springs);
     }
 
     fn relaxed(&self, d: f64) -> Self {
@@ -242,14 +254,12 @@ impl Compared {
         }
     }
 
-    fn one_of(&self, blind: &Blind) {
+    fn one_of(&self, blind: &Blind, alike: bool) {
         self.states.fetch_add(1, Ordering::Relaxed);
         self.springs.fetch_add(blind.gaps.len() as u64, Ordering::Relaxed);
-        let mut sorted = blind.gaps.clone();
-        sorted.sort_by(f64::total_cmp);
         let [closing, opening] = blind.ranges;
         let kinds = [
-            sorted.windows(2).any(|pair| pair[0] == pair[1]),
+            alike,
             closing == 0.0 && opening > 0.0,
             closing > 0.0 && closing < opening,
             closing == opening && opening > 0.0,
@@ -277,8 +287,10 @@ fn compare(
     let tree = ContactTree::build(gaps, Edges::Grid).unwrap();
     let rule = GridEdges::new(HessRule::from_works(foundation, ranges[0], ranges[1]));
     let mut solver = exact::adhesive(gaps, &tree, rule, foundation, 2);
-    let count = gaps.len();
-    let mut blind = Blind { gaps: gaps.to_vec(), ranges, contact: vec![false; count], order };
+    let mut blind = Blind::new(gaps, ranges, order);
+    let mut sorted = gaps.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    let alike = sorted.windows(2).any(|pair| pair[0] == pair[1]);
     let (mut present, mut force) = (0.0, 0.0);
     for &(step, ref probes) in legs {
         let leg = match step {
@@ -296,7 +308,7 @@ fn compare(
                 if blind.contact.contains(&true) {
                     let found = solver.fragments(present);
                     prop_assert_eq!(found, blind.fragments(), "after {:?} failed", leg);
-                    compared.one_of(&blind);
+                    compared.one_of(&blind, alike);
                 }
                 compared.refused.fetch_add(1, Ordering::Relaxed);
                 continue;
@@ -314,7 +326,7 @@ fn compare(
             let d = present + probe * (to - present);
             let there = blind.relaxed(d);
             prop_assert_eq!(solver.fragments(d), there.fragments(), "at {} of {:?}", d, leg);
-            compared.one_of(&blind);
+            compared.one_of(&blind, alike);
         }
         if separates {
             if to < present {
@@ -329,7 +341,7 @@ fn compare(
         }
         prop_assert_eq!(end.springs as usize, blind.contact.iter().filter(|&&c| c).count());
         prop_assert_eq!(end.fragments as usize, blind.fragments().len());
-        compared.one_of(&blind);
+        compared.one_of(&blind, alike);
         (present, force) = (end.indentation, end.force);
     }
     Ok(())

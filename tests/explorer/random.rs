@@ -7,8 +7,8 @@ use super::common::effort::cases;
 use super::common::scenes::{changed, one_spring, punch, rough, smooth, without_adhesion};
 use super::common::study::PLAN;
 use super::common::study::merged;
-use asperity::explorer::action::{Action, Command};
-use asperity::explorer::keys::BINDINGS;
+use asperity::explorer::action::Action;
+use asperity::explorer::keys::Binding;
 use asperity::explorer::parameters::parameters;
 use asperity::explorer::update::{Effect, update};
 use asperity::explorer::worker::Report;
@@ -21,6 +21,7 @@ use ratatui::Terminal;
 use ratatui::backend::TestBackend;
 use std::collections::VecDeque;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::time::Duration;
 
 /// Sequences of events in a quick run.
@@ -33,7 +34,8 @@ const MOST: u64 = 2048;
 /// Something that happens.
 #[derive(Clone, Debug)]
 enum Event {
-    Command(Command),
+    /// A key that is valid in the present mode, pressed so many times.
+    Keys(usize, usize),
     Type(char),
     Paste(String),
     /// A value typed for the selected parameter.
@@ -102,40 +104,11 @@ fn value() -> impl Strategy<Value = String> {
     prop_oneof![4 => prop::sample::select(values.to_vec()).prop_map(str::to_owned), 1 => ".{0,12}"]
 }
 
-fn command() -> impl Strategy<Value = Command> {
-    let bound: Vec<Command> = BINDINGS.iter().map(|row| row.command).collect();
-    let extreme = vec![
-        Command::Step(i32::MAX),
-        Command::Step(i32::MIN),
-        Command::Leg(i32::MAX),
-        Command::Leg(i32::MIN),
-        Command::Select(i32::MAX),
-        Command::Select(i32::MIN),
-        Command::StepValue { steps: 1000, coarse: true },
-        Command::StepValue { steps: -1000, coarse: false },
-        Command::StepValue { steps: 0, coarse: false },
-        Command::Zoom(i32::MIN),
-        Command::Pan(i32::MAX),
-        Command::Push { steps: i32::MIN, coarse: true },
-        Command::Push { steps: i32::MAX, coarse: true },
-        Command::Preset(usize::MAX),
-        Command::NextSlice(i32::MIN),
-        Command::NextSlice(i32::MAX),
-        Command::MoveAcross(i32::MIN),
-        Command::MoveUp(i32::MAX),
-        Command::TransposeMap,
-    ];
-    prop_oneof![8 => prop::sample::select(bound), 1 => prop::sample::select(extreme)]
-}
-
 fn event() -> impl Strategy<Value = Event> {
-    let stepped =
-        (-3..=3_i32, any::<bool>()).prop_map(|(steps, coarse)| Command::StepValue { steps, coarse });
     let names = prop_oneof![Just("a.ron".to_owned()), Just(REFUSED.to_owned()), Just("b/c.ron".to_owned())];
     prop_oneof![
-        12 => command().prop_map(Event::Command),
-        3 => stepped.prop_map(Event::Command),
-        3 => (-30..30_i32).prop_map(|rows| Event::Command(Command::Select(rows))),
+        15 => any::<usize>().prop_map(|key| Event::Keys(key, 1)),
+        3 => (any::<usize>(), 2..30_usize).prop_map(|(key, times)| Event::Keys(key, times)),
         2 => any::<char>().prop_map(Event::Type),
         1 => ".{0,80}".prop_map(Event::Paste),
         4 => value().prop_map(Event::Enter),
@@ -205,26 +178,26 @@ impl Explorer {
 
     fn happen(&mut self, event: &Event) {
         match event {
-            Event::Command(command) => self.act(Action::Command(*command)),
+            Event::Keys(key, times) => self.press(*key, *times),
             Event::Type(character) => self.act(Action::Type(*character)),
             Event::Paste(text) => self.act(Action::Paste(text.clone())),
             Event::Enter(value) => {
-                self.act(Action::Command(Command::EditValue));
-                self.act(Action::Command(Command::Clear));
+                self.command("edit-value");
+                self.command("clear");
                 self.act(Action::Paste(value.clone()));
-                self.act(Action::Command(Command::Accept));
+                self.command("accept");
             }
             Event::Save(name) => {
-                self.act(Action::Command(Command::Save));
-                self.act(Action::Command(Command::Clear));
+                self.command("save");
+                self.command("clear");
                 self.act(Action::Paste(name.clone()));
-                self.act(Action::Command(Command::Accept));
+                self.command("accept");
             }
             Event::Open(sound) => {
-                self.act(Action::Command(Command::OpenLibrary));
+                self.command("open-library");
                 let folder = if *sound { self.study.clone() } else { self.study.join("shards") };
                 self.act(Action::Paste(folder.to_str().unwrap().to_owned()));
-                self.act(Action::Command(Command::Accept));
+                self.command("accept");
             }
             Event::Resize(columns, rows) => self.act(Action::Resize(*columns, *rows)),
             Event::Shrunk(columns, rows) => self.draw((*columns, *rows)),
@@ -235,6 +208,24 @@ impl Explorer {
                     self.act(self.reports[which % self.reports.len()].clone());
                 }
             }
+        }
+    }
+
+    /// Presses a key that is valid in the present mode, by its number among them.
+    fn press(&mut self, number: usize, times: usize) {
+        let bindings = Arc::clone(&self.driver.model.bindings);
+        let row_keys = |row: &Binding| row.keys.iter().map(|key| row.command_of(key)).collect::<Vec<_>>();
+        let commands: Vec<_> = bindings.valid_in(self.driver.model.keys()).flat_map(row_keys).collect();
+        for _ in 0..times {
+            self.act(Action::Command(commands[number % commands.len()]));
+        }
+    }
+
+    /// Runs a command, where it is valid in the present mode.
+    fn command(&mut self, name: &str) {
+        let model = &self.driver.model;
+        if let Some(command) = model.bindings.named(name, model.keys()) {
+            self.act(Action::Command(command));
         }
     }
 

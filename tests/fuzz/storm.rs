@@ -7,7 +7,7 @@ mod plans;
 mod profiles;
 mod runs;
 #[allow(dead_code, reason = "unit tests of the scene use the rest")]
-#[path = "../../src/scene/strategies.rs"]
+#[path = "../common/strategies.rs"]
 mod strategies;
 mod texts;
 

@@ -1046,7 +1046,7 @@ fn scenes_are_drawn_and_pictures_hold_nothing_else() {
         (["compare", "jkr-sphere", "cone", "-o", &path("a.pdf")].join("\0"), "allowed: .txt, .svg, .png"),
         (
             ["reversals", "jkr-sphere", "-o", &path("a.gif")].join("\0"),
-            "allowed: .txt, .json, .csv, .svg, .png",
+            "allowed: .txt, .json, .csv, .npy, .svg, .png",
         ),
         (
             ["surface", "missing.csv", "-o", &path("a.gif")].join("\0"),
@@ -1184,11 +1184,11 @@ fn reversals_are_printed_in_all_formats() {
         assert_eq!(indentations[forces.len() - 1], reversal["turning_indentation"]);
     }
     let csv = run(&["--format", "csv"]);
-    assert_eq!(csv.lines().count(), 13);
+    assert_eq!(rows(&csv).count(), 13);
     let map = run(&["--map"]);
-    assert_eq!(map.lines().next(), Some("turning_indentation,indentation,force,everett,density"));
+    assert_eq!(rows(&map).next(), Some("turning_indentation,indentation,force,everett,density"));
     let points: usize = forces.iter().map(|forces| forces.as_array().unwrap().len()).sum();
-    assert_eq!(map.lines().count(), 1 + points);
+    assert_eq!(rows(&map).count(), 1 + points);
     let svg = run(&["--format", "svg"]);
     for words in ["FORC density", "Everett function", "adhesion force ", "this profile"] {
         assert!(svg.contains(words), "{words}");
@@ -1207,4 +1207,43 @@ fn reversals_are_printed_in_all_formats() {
             failed(code, &[&["reversals", "pressure-sensitive"], &FEW_SPRINGS[..], arguments].concat());
         assert!(error.contains(words), "{arguments:?}: {error}");
     }
+}
+
+#[test]
+fn tables_of_reversals_are_computed_again_from_themselves() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+    let options: [(&[&str], &str); 4] = [
+        (&["--count", "8"], "8 reversals"),
+        (&["--count", "9", "--preloads", "1uN..20uN"], "9 reversals from 1e-6 to 2e-5 N"),
+        (&["--count", "8", "--map", "--smoothing", "2"], "8 reversals, map of densities over 2 steps"),
+        (
+            &["--count", "8", "--preloads", "1uN..20uN", "--map"],
+            "8 reversals from 1e-6 to 2e-5 N, map of densities over 3 steps",
+        ),
+    ];
+    for (number, (options, content)) in options.into_iter().enumerate() {
+        for ending in ["csv", "npy"] {
+            let [first, again] = ["first", "again"].map(|name| path(&format!("{name}{number}.{ending}")));
+            let scene = ["reversals", "pressure-sensitive", "--set", "roughness.seed=7"];
+            done(&[&scene[..], &FEW_SPRINGS, options, &["-o", &first]].concat());
+            done(&["run", &first, "-o", &again]);
+            let [one, other] = [&first, &again].map(|file| fs::read(file).unwrap());
+            assert!(one == other, "{content}, {ending}");
+            let text = String::from_utf8_lossy(&one);
+            for line in [format!("asperity {}", env!("CARGO_PKG_VERSION")), format!("content: {content}")] {
+                assert!(text.lines().any(|found| found.ends_with(&line)), "{line}: {text}");
+            }
+            assert!(text.contains("seed: 7\n") && text.contains("points: 1024"), "{text}");
+        }
+    }
+    // Other formats state the same reversals, other results the scene.
+    let summary = done(&["run", &path("first3.csv")]);
+    assert!(summary.contains("8 reversals of one loading, 1 024 springs"), "{summary}");
+    let other = done(&["run", &path("first0.csv"), "--set", "roughness.seed=8", "--format", "csv"]);
+    let first = fs::read_to_string(path("first0.csv")).unwrap();
+    assert!(other.contains("# content: 8 reversals\n") && rows(&other).ne(rows(&first)), "{other}");
+    let wrong = first.replace("content: 8 reversals", "content: 8 reversals from 2.0 to 1.0 N");
+    fs::write(path("wrong.csv"), wrong).unwrap();
+    assert!(failed(1, &["run", &path("wrong.csv")]).contains("a table without its content; allowed: "));
 }

@@ -1,14 +1,11 @@
 //! From no adhesion to adhesion that holds everything, and where forces or decisions hang by a hair.
 
-use super::{WORK, ensure, rough};
-use crate::check::case::{self, Case, Evidence, Family, Scope};
-use crate::check::{Body, Extended, Fault, end, follow, force_error};
+use super::{RULES, WORK, ensure, on_tour, press_and_pull, relative_error, rough, two_legs};
+use crate::check::case::{CASE, Case, Evidence, Scope};
+use crate::check::{Body, Extended, Fault, end, force_error};
 use crate::contact::Solver;
 use crate::scene::{Edges, Leg};
 use std::f64::consts::PI;
-
-/// Shared fields of the cases of this family.
-const CASE: Case = Case { family: Family::Adhesion, ..case::CASE };
 
 pub const CASES: &[Case] = &[
     Case {
@@ -24,11 +21,8 @@ pub const CASES: &[Case] = &[
         name: "vanishing-adhesion",
         holds: "For γ from 1e−280 to 1e−3 J/m² contact and forces follow the rules, and F(γ) goes to \
                 F(0) no slower than the longest stretch.",
-        evidence: &[Evidence::IndependentComputation],
-        error_of: "force and energy",
-        scope: Scope::BothEdges(1e-15, 1e-15),
         measure: vanishing_adhesion,
-        ..CASE
+        ..RULES
     },
     Case {
         name: "everything-sticks",
@@ -64,8 +58,8 @@ pub const CASES: &[Case] = &[
 
 fn no_adhesion(edges: Edges) -> Result<f64, Fault> {
     let body = rough(4096, 0.0)?;
-    let history = body.history(edges, &[Leg::ToIndentation(0.8 * body.deepest()), Leg::ToSeparation], 301)?;
-    let [loading, unloading] = &history.legs[..] else { return Err(Fault::Wrong("not two legs".into())) };
+    let history = body.history(edges, &press_and_pull(0.8 * body.deepest()), 301)?;
+    let [loading, unloading] = two_legs(&history)?;
     let lost = (loading.dissipated_energy, unloading.dissipated_energy);
     ensure(lost == (0.0, 0.0), || format!("lost {lost:?} J"))?;
     ensure(loading.curve.len() == unloading.curve.len(), || "other points on the way back".into())?;
@@ -87,7 +81,7 @@ fn vanishing_adhesion(edges: Edges) -> Result<f64, Fault> {
     let mut worst = 0.0_f64;
     for power in [-280, -200, -100, -50, -30, -20, -12, -9, -7, -6, -5, -4, -3] {
         let body = Body { work: 10.0_f64.powi(power), ..bare.clone() };
-        worst = worst.max(follow(&body, edges, &body.tour())?.error());
+        worst = worst.max(on_tour(&body, edges)?);
         let with = body.history(edges, &[deepest], 2)?;
         let pulls = end(&without.legs[0]).force - end(&with.legs[0]).force;
         // Nothing that adhesion adds is stretched further than a fragment as long as the line can be.
@@ -120,17 +114,16 @@ fn everything_sticks(edges: Edges) -> Result<f64, Fault> {
             let (cells, deepest) = (Extended::from(points as f64), Extended::from(body.deepest()));
             let area = Extended::PI * cells * Extended::from(body.foundation.spacing);
             let range = Extended::from(work) / Extended::from(body.foundation.effective_modulus);
-            let lets_go = deepest - (area * range).sqrt();
+            let detachment = deepest - (area * range).sqrt();
             let stiffness =
                 Extended::from(body.foundation.effective_modulus) * Extended::from(body.foundation.spacing);
-            let force = stiffness * (cells * lets_go - Extended::sum(body.gaps.iter().copied()));
+            let force = stiffness * (cells * detachment - Extended::sum(body.gaps.iter().copied()));
             for (found, expected) in [
                 (last.force, force),
-                (last.indentation, lets_go),
-                (end(&history.legs[1]).indentation, lets_go),
+                (last.indentation, detachment),
+                (end(&history.legs[1]).indentation, detachment),
             ] {
-                let error = (Extended::from(found) - expected).abs().rounded();
-                worst = worst.max(error / expected.abs().rounded());
+                worst = worst.max(relative_error(found, expected));
             }
         }
     }

@@ -1,15 +1,20 @@
 //! Bodies whose loop is known in closed form.
 
-use super::ensure;
-use crate::check::case::{self, Case, Evidence, Family, Scope};
+use super::{ensure, press_and_pull, two_legs};
+use crate::check::case::{CASE, Case, Evidence, Scope};
 use crate::check::{Body, Fault, end};
 use crate::contact::Foundation;
 use crate::reference::{PowerLaw, WavyLoop, WavySphere};
 use crate::scene::{Edges, Form, Leg};
 use crate::surface::Line;
 
-/// Shared fields of the cases of this family.
-const CASE: Case = Case { family: Family::ClosedForms, ..case::CASE };
+/// Shared fields of the cases whose pull-off is compared with a closed form.
+const PULL_OFF: Case = Case {
+    evidence: &[Evidence::ClosedForm],
+    error_of: "force and place of pull-off",
+    scope: Scope::BothEdges(1e-2, 1e-5),
+    ..CASE
+};
 
 pub const CASES: &[Case] = &[
     Case {
@@ -24,30 +29,21 @@ pub const CASES: &[Case] = &[
     Case {
         name: "jkr-sphere",
         holds: "4001 springs pull a sphere off at (3/2)πγR and detach at the indentation of Johnson, Kendall and Roberts.",
-        evidence: &[Evidence::ClosedForm],
-        error_of: "force and place of pull-off",
-        scope: Scope::BothEdges(1e-2, 1e-5),
         measure: |edges| power_law(edges, Form::Paraboloid { radius: 1.0 }, 12.0, 1.5),
-        ..CASE
+        ..PULL_OFF
     },
     Case {
         name: "cone",
         holds: "4001 springs pull a cone off at the force and the indentation of the closed form.",
-        evidence: &[Evidence::ClosedForm],
-        error_of: "force and place of pull-off",
-        scope: Scope::BothEdges(1e-2, 1e-5),
         measure: |edges| power_law(edges, Form::Cone { angle: 1.0 }, 16.0, 4.0),
-        ..CASE
+        ..PULL_OFF
     },
     Case {
         name: "seventh-power",
         holds: "4001 springs pull a body r⁷, nearly flat with steep flanks, off at the force \
                 and the indentation of the closed form.",
-        evidence: &[Evidence::ClosedForm],
-        error_of: "force and place of pull-off",
-        scope: Scope::BothEdges(1e-2, 1e-5),
         measure: |edges| power_law(edges, Form::Power { coefficient: 0.3, exponent: 7.0 }, 8.0, 1.0),
-        ..CASE
+        ..PULL_OFF
     },
     Case {
         name: "wavy-sphere",
@@ -116,8 +112,8 @@ fn wavy_sphere(edges: Edges, amplitude: f64, cycle: Cycle) -> Result<f64, Fault>
         return Err(Fault::Wrong("the closed form is wider than the line".into()));
     };
     let body = smooth(Form::WavySphere { radius, amplitude, wavelength }, 1.0, work)?;
-    let history = body.history(edges, &[Leg::ToIndentation(deepest), Leg::ToSeparation], 2)?;
-    let [loading, unloading] = &history.legs[..] else { return Err(Fault::Wrong("not two legs".into())) };
+    let history = body.history(edges, &press_and_pull(deepest), 2)?;
+    let [loading, unloading] = two_legs(&history)?;
     let energy = loading.dissipated_energy + unloading.dissipated_energy;
     let errors = [
         unloading.smallest.force / cycle.smallest_force - 1.0,
@@ -132,12 +128,12 @@ fn power_law(edges: Edges, form: Form, length: f64, deepest: f64) -> Result<f64,
         return Err(Fault::Wrong("no closed form".into()));
     };
     let body = smooth(form, length, 1.0)?;
-    let history = body.history(edges, &[Leg::ToIndentation(deepest), Leg::ToSeparation], 257)?;
-    let [loading, unloading] = &history.legs[..] else { return Err(Fault::Wrong("not two legs".into())) };
+    let history = body.history(edges, &press_and_pull(deepest), 257)?;
+    let [loading, unloading] = two_legs(&history)?;
     ensure(loading.largest.springs < POINTS as u64, || "the line is too short".into())?;
-    let (pull_off, lets_go) =
+    let (pull_off, detachment) =
         (closed.force_controlled_pull_off().1, closed.displacement_controlled_pull_off());
-    let lets_go = closed.indentation(lets_go.0);
+    let detachment = closed.indentation(detachment.0);
     let error = |found: f64, expected: f64| (found / expected - 1.0).abs();
-    Ok(error(unloading.smallest.force, pull_off).max(error(end(unloading).indentation, lets_go)))
+    Ok(error(unloading.smallest.force, pull_off).max(error(end(unloading).indentation, detachment)))
 }

@@ -1,7 +1,7 @@
 //! Laws that hold for every body: mirrors, finer grids, memory, order, energy, and any number of threads.
 
-use super::{WORK, ensure, indices, points, rough};
-use crate::check::case::{self, Case, Evidence, Family, Scope};
+use super::{RULES, WORK, ensure, indices, largest, points, press_and_pull, rough};
+use crate::check::case::{CASE, Case, Evidence, Scope};
 use crate::check::{Body, Fault, end, follow};
 use crate::contact::{CurvePoint, Foundation};
 use crate::scene::{Document, Edges, Leg};
@@ -14,28 +14,19 @@ use std::path::Path;
 /// Bodies on which a law is tried.
 const BODIES: u64 = 48;
 
-/// Shared fields of the cases of this family.
-const CASE: Case = Case { family: Family::Laws, ..case::CASE };
-
 pub const CASES: &[Case] = &[
     Case {
         name: "random-bodies",
         holds: "On 48 random bodies, self-affine, noise, few levels, random walks, contact and forces follow \
                 the rules.",
-        evidence: &[Evidence::IndependentComputation],
-        error_of: "force and energy",
-        scope: Scope::BothEdges(1e-15, 1e-15),
         measure: random_bodies,
-        ..CASE
+        ..RULES
     },
     Case {
         name: "thousand-legs",
         holds: "After each of a thousand random loading stages contact and forces follow the rules.",
-        evidence: &[Evidence::IndependentComputation],
-        error_of: "force and energy",
-        scope: Scope::BothEdges(1e-15, 1e-15),
         measure: thousand_legs,
-        ..CASE
+        ..RULES
     },
     Case {
         name: "return-point-memory",
@@ -105,14 +96,12 @@ pub const CASES: &[Case] = &[
 
 /// The worst of all bodies.
 fn worst(measure: impl Fn(&Body) -> Result<f64, Fault>) -> Result<f64, Fault> {
-    let mut worst = 0.0_f64;
-    for seed in 0..BODIES {
-        let body = Body::random(seed)?;
-        let error = measure(&body).map_err(|fault| Fault::Wrong(format!("body {seed}: {fault}")))?;
+    largest((0..BODIES).map(|seed| {
+        let error = measure(&Body::random(seed)?);
+        let error = error.map_err(|fault| Fault::Wrong(format!("body {seed}: {fault}")))?;
         ensure(!error.is_nan(), || format!("body {seed}: not a number"))?;
-        worst = worst.max(error);
-    }
-    Ok(worst)
+        Ok(error)
+    }))
 }
 
 fn random_bodies(edges: Edges) -> Result<f64, Fault> {
@@ -130,6 +119,17 @@ fn random_bodies(edges: Edges) -> Result<f64, Fault> {
 fn turns(body: &Body, seed: u64) -> impl Iterator<Item = f64> + use<> {
     let (low, high) = (-0.9 * body.largest_stretch(), 1.1 * body.deepest() + 1e-3 * body.largest_stretch());
     phases(seed, 1).map(move |phase| low + (high - low) * phase / TAU)
+}
+
+/// Four times three indentations, each in ascending order.
+fn ordered_threes(body: &Body, seed: u64) -> Vec<[f64; 3]> {
+    let turns: Vec<f64> = turns(body, seed).take(12).collect();
+    let ordered = |three: &[f64]| {
+        let mut three = [three[0], three[1], three[2]];
+        three.sort_by(f64::total_cmp);
+        three
+    };
+    turns.chunks_exact(3).map(ordered).collect()
 }
 
 fn to(turns: &[f64]) -> Vec<Leg> {
@@ -155,13 +155,8 @@ fn state(body: &Body, edges: Edges, legs: &[Leg]) -> Result<(Vec<(usize, usize)>
 
 fn memory(edges: Edges) -> Result<f64, Fault> {
     worst(|body| {
-        let mut turns = turns(body, 10);
-        let mut next = || turns.next().unwrap_or(0.0);
         let mut error = 0.0_f64;
-        for _ in 0..4 {
-            let mut three = [next(), next(), next()];
-            three.sort_by(f64::total_cmp);
-            let [low, middle, high] = three;
+        for [low, middle, high] in ordered_threes(body, 10) {
             for (short, long) in [
                 (vec![high], vec![middle, low, middle, high]),
                 (vec![high, low], vec![high, low, middle, low]),
@@ -178,13 +173,8 @@ fn memory(edges: Edges) -> Result<f64, Fault> {
 
 fn order(edges: Edges) -> Result<f64, Fault> {
     worst(|body| {
-        let mut turns = turns(body, 11);
-        let mut next = || turns.next().unwrap_or(0.0);
         let mut error = 0.0_f64;
-        for _ in 0..4 {
-            let mut three = [next(), next(), next()];
-            three.sort_by(f64::total_cmp);
-            let [probe, less, more] = three;
+        for [probe, less, more] in ordered_threes(body, 11) {
             let contact = |legs: &[f64]| Ok::<_, Fault>(indices(&state(body, edges, &to(legs))?.0));
             let (on_the_way, after_less, after_more) =
                 (contact(&[probe])?, contact(&[less, probe])?, contact(&[more, probe])?);
@@ -193,8 +183,7 @@ fn order(edges: Edges) -> Result<f64, Fault> {
                 format!("at {probe:e} m fewer springs after a deeper load: {less:e}, {more:e} m")
             })?;
             let pull_off = |turn: f64| {
-                let history =
-                    body.history(edges, &[Leg::ToIndentation(turn.max(0.0)), Leg::ToSeparation], 2)?;
+                let history = body.history(edges, &press_and_pull(turn.max(0.0)), 2)?;
                 Ok::<_, Fault>(history.legs[1].smallest.force)
             };
             error = error.max((pull_off(more)? - pull_off(less)?) / body.force_scale());
@@ -253,15 +242,12 @@ fn refined_line() -> Result<f64, Fault> {
     let points = 1000;
     let spectrum = SelfAffine { hurst: 0.4, first: 1, last: points as u64 / 2 };
     let coarse = UnitRoughness::synthesize(spectrum, 13, points)?;
-    let mut worst = 0.0_f64;
-    for factor in [3, 5, 9] {
+    largest([3, 5, 9].map(|factor| {
         // Every spring is at the place of one of the finer line, in the middle of a cell.
         let fine = UnitRoughness::synthesize(spectrum, 13, factor * points)?;
-        for (index, height) in coarse.heights.iter().enumerate() {
-            worst = worst.max((fine.heights[factor * index + factor / 2] - height).abs());
-        }
-    }
-    Ok(worst)
+        let fine = fine.heights.iter().skip(factor / 2).step_by(factor);
+        largest(coarse.heights.iter().zip(fine).map(|(height, finer)| Ok((finer - height).abs())))
+    }))
 }
 
 /// The same straight pieces with `factor`, odd, times as many springs.

@@ -1,7 +1,9 @@
 //! Lines: spectra at their ends, few springs and many, ties, chains, and heights on a large offset.
 
-use super::{SPECTRUM, WORK, ensure, rough};
-use crate::check::case::{self, Case, Evidence, Family, Scope};
+use super::{
+    RULES, SPECTRUM, WORK, ensure, largest, on_tour, press_and_pull, relative_error, rough, two_legs,
+};
+use crate::check::case::{CASE, Case, Evidence, Scope};
 use crate::check::{Body, Extended, Fault, LENGTH, MODULUS, RMS_HEIGHT, end, follow, force_error};
 use crate::scene::{Edges, Form, Leg};
 use crate::surface::{Line, MeasuredProfile, SelfAffine, UnitRoughness, phases};
@@ -10,9 +12,6 @@ use std::fmt::Write;
 
 /// Offset of the heights, in units of their rms height.
 const OFFSET: f64 = 1e9;
-
-/// Shared fields of the cases of this family.
-const CASE: Case = Case { family: Family::Lines, ..case::CASE };
 
 pub const CASES: &[Case] = &[
     Case {
@@ -58,11 +57,8 @@ pub const CASES: &[Case] = &[
     Case {
         name: "springs-1-2-3-prime",
         holds: "With 1, 2, 3, 5, 17, 127 and 4099 springs contact and forces follow the rules.",
-        evidence: &[Evidence::IndependentComputation],
-        error_of: "force and energy",
-        scope: Scope::BothEdges(1e-15, 1e-15),
         measure: few_springs,
-        ..CASE
+        ..RULES
     },
     Case {
         name: "springs-2^24",
@@ -88,9 +84,6 @@ pub const CASES: &[Case] = &[
         name: "staircase",
         holds: "On 32 treads of 32 springs each, up, down, and up and down, contact and forces are those of the \
                 rules.",
-        evidence: &[Evidence::IndependentComputation],
-        error_of: "force and energy",
-        scope: Scope::BothEdges(1e-15, 1e-15),
         measure: |edges| {
             shapes(
                 edges,
@@ -104,15 +97,12 @@ pub const CASES: &[Case] = &[
                 ],
             )
         },
-        ..CASE
+        ..RULES
     },
     Case {
         name: "monotone-line",
         holds: "On straight and curved slopes, where the tree is one chain, contact and forces are those of the \
                 rules.",
-        evidence: &[Evidence::IndependentComputation],
-        error_of: "force and energy",
-        scope: Scope::BothEdges(1e-15, 1e-15),
         measure: |edges| {
             shapes(
                 edges,
@@ -124,15 +114,12 @@ pub const CASES: &[Case] = &[
                 ],
             )
         },
-        ..CASE
+        ..RULES
     },
     Case {
         name: "sawtooth",
         holds: "On equal teeth of 2, 3 and 64 springs, leaning left or right, contact and forces are those of \
                 the rules.",
-        evidence: &[Evidence::IndependentComputation],
-        error_of: "force and energy",
-        scope: Scope::BothEdges(1e-15, 1e-15),
         measure: |edges| {
             shapes(
                 edges,
@@ -144,17 +131,14 @@ pub const CASES: &[Case] = &[
                 ],
             )
         },
-        ..CASE
+        ..RULES
     },
     Case {
         name: "near-ties",
         holds: "On tents and plateaus whose gaps differ by roundings, without adhesion and with, pressed up to a \
                 hundred times their depth, contact and forces follow the rules.",
-        evidence: &[Evidence::IndependentComputation],
-        error_of: "force and energy",
-        scope: Scope::BothEdges(1e-15, 1e-15),
         measure: near_ties,
-        ..CASE
+        ..RULES
     },
     Case {
         name: "load-far-beyond-roughness",
@@ -201,8 +185,7 @@ fn cosines(spectrum: SelfAffine, seed: u64, points: usize) -> Vec<f64> {
 fn height_error(spectrum: SelfAffine, seed: u64, points: usize) -> Result<f64, Fault> {
     let line = UnitRoughness::synthesize(spectrum, seed, points)?;
     let expected = cosines(spectrum, seed, points);
-    let errors = line.heights.iter().zip(&expected).map(|(a, b)| (a - b).abs());
-    Ok(errors.fold(0.0, |worst, error| if error <= worst { worst } else { error }))
+    largest(line.heights.iter().zip(&expected).map(|(a, b)| Ok((a - b).abs())))
 }
 
 fn hurst_to(limit: f64, exponents: &[f64]) -> Result<f64, Fault> {
@@ -227,23 +210,20 @@ fn hurst_to(limit: f64, exponents: &[f64]) -> Result<f64, Fault> {
 }
 
 fn one_mode(edges: Edges) -> Result<f64, Fault> {
-    let mut worst = 0.0_f64;
-    for (points, mode) in [(2, 1), (64, 1), (1000, 1), (1000, 7), (1001, 500), (1000, 500)] {
+    let profiles = [(2, 1), (64, 1), (1000, 1), (1000, 7), (1001, 500), (1000, 500)];
+    largest(profiles.map(|(points, mode)| {
         let spectrum = SelfAffine { hurst: 0.5, first: mode, last: mode };
-        worst = worst.max(height_error(spectrum, 5, points)?);
-        let body = Body::rough(spectrum, 5, points, WORK)?;
-        worst = worst.max(follow(&body, edges, &body.tour())?.error());
-    }
-    Ok(worst)
+        let on_tour = on_tour(&Body::rough(spectrum, 5, points, WORK)?, edges);
+        largest([height_error(spectrum, 5, points), on_tour])
+    }))
 }
 
 fn modes_to_nyquist() -> Result<f64, Fault> {
-    let mut worst = 0.0_f64;
-    for points in [2, 3, 4, 1000, 1024, 1025, 1009, 2999] {
-        let spectrum = SelfAffine { hurst: 0.3, first: 1, last: points as u64 / 2 };
-        worst = worst.max(height_error(spectrum, 6, points)?);
-    }
-    Ok(worst)
+    largest(
+        [2, 3, 4, 1000, 1024, 1025, 1009, 2999].map(|points| {
+            height_error(SelfAffine { hurst: 0.3, first: 1, last: points as u64 / 2 }, 6, points)
+        }),
+    )
 }
 
 fn few_springs(edges: Edges) -> Result<f64, Fault> {
@@ -255,7 +235,7 @@ fn few_springs(edges: Edges) -> Result<f64, Fault> {
             } else {
                 rough(points, work)?
             };
-            worst = worst.max(follow(&body, edges, &body.tour())?.error());
+            worst = worst.max(on_tour(&body, edges)?);
         }
     }
     Ok(worst)
@@ -281,43 +261,42 @@ fn flat(edges: Edges) -> Result<f64, Fault> {
     let mut worst = 0.0_f64;
     for points in [1, 2, 3, 1000, 65_537] {
         let body = Body::below(vec![0.0; points], LENGTH, MODULUS, WORK);
-        let history = body.history(edges, &[Leg::ToIndentation(RMS_HEIGHT), Leg::ToSeparation], 9)?;
-        let last = history.legs[1].smallest;
+        let history = body.history(edges, &press_and_pull(RMS_HEIGHT), 9)?;
+        let [loading, unloading] = two_legs(&history)?;
+        let last = unloading.smallest;
         let all = points as u64;
-        ensure((last.springs, last.fragments, history.legs[1].detached) == (all, 1, all), || {
-            format!("{last:?}")
-        })?;
+        ensure((last.springs, last.fragments, unloading.detached) == (all, 1, all), || format!("{last:?}"))?;
         let [length, modulus, work] = [LENGTH, MODULUS, WORK].map(Extended::from);
-        let lets_go = -(Extended::PI * length * work / modulus).sqrt();
-        let lost = Extended::from(0.5) * modulus * length * lets_go * lets_go;
+        let detachment = -(Extended::PI * length * work / modulus).sqrt();
+        let lost = Extended::from(0.5) * modulus * length * detachment * detachment;
         for (found, expected) in [
-            (last.force, modulus * length * lets_go),
-            (last.indentation, lets_go),
-            (end(&history.legs[1]).indentation, lets_go),
-            (history.legs[1].dissipated_energy, lost),
-            (end(&history.legs[0]).force, modulus * length * Extended::from(RMS_HEIGHT)),
+            (last.force, modulus * length * detachment),
+            (last.indentation, detachment),
+            (end(unloading).indentation, detachment),
+            (unloading.dissipated_energy, lost),
+            (end(loading).force, modulus * length * Extended::from(RMS_HEIGHT)),
         ] {
-            let error = (Extended::from(found) - expected).abs().rounded();
-            worst = worst.max(error / expected.abs().rounded());
+            worst = worst.max(relative_error(found, expected));
         }
     }
     Ok(worst)
 }
 
+/// Heights of a shape, of which the largest magnitude is [`RMS_HEIGHT`].
+fn heights_of(points: usize, shape: impl Fn(usize) -> f64) -> Vec<f64> {
+    let heights: Vec<f64> = (0..points).map(shape).collect();
+    let largest = heights.iter().fold(0.0, |most: f64, height| most.max(height.abs()));
+    heights.iter().map(|height| height * (RMS_HEIGHT / largest)).collect()
+}
+
 /// Follows bodies of these shapes, from hardly any adhesion to much.
 fn shapes(edges: Edges, shapes: &[fn(usize, usize) -> f64]) -> Result<f64, Fault> {
     let points = 1024;
-    let mut worst = 0.0_f64;
-    for shape in shapes {
-        let heights: Vec<f64> = (0..points).map(|index| -shape(index, points)).collect();
-        let largest = heights.iter().fold(0.0, |most: f64, height| most.max(height.abs()));
-        let heights: Vec<f64> = heights.iter().map(|height| height * (RMS_HEIGHT / largest)).collect();
-        for work in [0.0, 0.01 * WORK, 0.1 * WORK, WORK, 10.0 * WORK] {
-            let body = Body::below(heights.clone(), LENGTH, MODULUS, work);
-            worst = worst.max(follow(&body, edges, &body.tour())?.error());
-        }
-    }
-    Ok(worst)
+    largest(shapes.iter().flat_map(|shape| {
+        let heights = heights_of(points, |index| -shape(index, points));
+        [0.0, 0.01 * WORK, 0.1 * WORK, WORK, 10.0 * WORK]
+            .map(|work| on_tour(&Body::below(heights.clone(), LENGTH, MODULUS, work), edges))
+    }))
 }
 
 fn near_ties(edges: Edges) -> Result<f64, Fault> {
@@ -327,14 +306,11 @@ fn near_ties(edges: Edges) -> Result<f64, Fault> {
         let tent = |index: usize| -(index as f64 + 0.5 - points as f64 / 2.0).abs();
         let plateau = |index: usize| (index * 8 / points % 2) as f64;
         for shape in [&tent as &dyn Fn(usize) -> f64, &plateau] {
-            let heights: Vec<f64> = (0..points).map(shape).collect();
-            let largest = heights.iter().fold(0.0, |most: f64, height| most.max(height.abs()));
             // A few units in the last place of the largest height, and far less for those near zero.
             let mut jitter = |height: f64| {
-                let height = height * (RMS_HEIGHT / largest);
                 height + (height + 1e-6 * RMS_HEIGHT) * f64::EPSILON * 4.0 * noise.next().unwrap_or(0.0)
             };
-            let heights: Vec<f64> = heights.iter().map(|&height| jitter(height)).collect();
+            let heights: Vec<f64> = heights_of(points, shape).into_iter().map(&mut jitter).collect();
             for work in [0.0, 0.01 * WORK, WORK] {
                 let body = Body::below(heights.clone(), LENGTH, MODULUS, work);
                 let pressed = [1.0, 2.0, 10.0, 100.0].map(|share| Leg::ToIndentation(share * body.deepest()));

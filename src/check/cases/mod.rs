@@ -6,8 +6,10 @@ pub mod laws;
 pub mod lines;
 pub mod scales;
 
-use super::{Body, Fault, ensure};
+use super::case::{CASE, Case, Evidence, Scope};
+use super::{Body, Extended, Fault, ensure, follow};
 use crate::contact::{CurvePoint, History, LegRecord};
+use crate::scene::{Edges, Leg};
 use crate::surface::SelfAffine;
 
 /// The spectrum of lines for which another would show nothing else.
@@ -19,6 +21,45 @@ const WORK: f64 = 2.0e-5;
 /// A line of [`SPECTRUM`].
 fn rough(points: usize, work: f64) -> Result<Body, Fault> {
     Body::rough(SelfAffine { last: (points as u64 / 2).min(SPECTRUM.last), ..SPECTRUM }, 1, points, work)
+}
+
+/// Shared fields of the cases whose contact and forces are compared with the rules.
+const RULES: Case = Case {
+    evidence: &[Evidence::IndependentComputation],
+    error_of: "force and energy",
+    scope: Scope::BothEdges(1e-15, 1e-15),
+    ..CASE
+};
+
+/// The largest of errors; not a number if one of them is not.
+fn largest(errors: impl IntoIterator<Item = Result<f64, Fault>>) -> Result<f64, Fault> {
+    errors.into_iter().try_fold(0.0, |worst: f64, error| {
+        let error = error?;
+        Ok(if worst.is_nan() || error <= worst { worst } else { error })
+    })
+}
+
+/// Largest difference of a body from the rules on its tour.
+fn on_tour(body: &Body, edges: Edges) -> Result<f64, Fault> {
+    Ok(follow(body, edges, &body.tour())?.error())
+}
+
+/// Difference of a number from the expected one, over the expected one.
+fn relative_error(found: f64, expected: Extended) -> f64 {
+    (Extended::from(found) - expected).abs().rounded() / expected.abs().rounded()
+}
+
+/// Two legs of a history.
+fn two_legs(history: &History) -> Result<[&LegRecord; 2], Fault> {
+    match &history.legs[..] {
+        [loading, unloading] => Ok([loading, unloading]),
+        legs => Err(Fault::Wrong(format!("{} legs in place of two", legs.len()))),
+    }
+}
+
+/// Loading to an indentation, and unloading.
+fn press_and_pull(indentation: f64) -> [Leg; 2] {
+    [Leg::ToIndentation(indentation), Leg::ToSeparation]
 }
 
 /// All numbers of a leg.

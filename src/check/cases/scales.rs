@@ -1,14 +1,11 @@
 //! Units and sizes: results scale with their units, up to the ends of the range of numbers.
 
-use super::{Body, WORK, ensure, points, rough, same_bits};
-use crate::check::case::{self, Case, Evidence, Family, Scope};
-use crate::check::{Fault, LENGTH, RMS_HEIGHT, end, follow};
+use super::{Body, RULES, WORK, ensure, largest, on_tour, points, press_and_pull, rough, same_bits};
+use crate::check::case::{CASE, Case, Evidence, Scope};
+use crate::check::{Fault, LENGTH, RMS_HEIGHT, end};
 use crate::contact::{Foundation, History};
 use crate::scene::{Adhesion, Document, Edges, Leg, Roughness, Scene};
 use crate::simulation::Simulation;
-
-/// Shared fields of the cases of this family.
-const CASE: Case = Case { family: Family::Scales, ..case::CASE };
 
 pub const CASES: &[Case] = &[
     Case {
@@ -16,30 +13,24 @@ pub const CASES: &[Case] = &[
         holds: "E* and γ scaled alike, from 1 Pa to 8.8 TPa, change no bit of contact and forces; at 1 Pa and \
                 10 TPa with the same γ both follow the rules.",
         evidence: &[Evidence::IndependentComputation, Evidence::SelfConsistency],
-        error_of: "force and energy",
-        scope: Scope::BothEdges(1e-15, 1e-15),
         measure: modulus,
-        ..CASE
+        ..RULES
     },
     Case {
         name: "lengths-nm-to-m",
         holds: "A scene from 1 nm to 8.6 m long, all lengths scaled, gives one result bit for bit; made anew at \
                 1 nm, 1 µm, 1 mm and 10 m, contact and forces follow the rules.",
         evidence: &[Evidence::IndependentComputation, Evidence::SelfConsistency],
-        error_of: "force and energy",
-        scope: Scope::BothEdges(1e-15, 1e-15),
         measure: lengths,
-        ..CASE
+        ..RULES
     },
     Case {
         name: "heights-1e-15-to-10-lengths",
         holds: "A scene with an rms height from 1e−15 to 8 lengths, γ with its square, is one scene to the last \
                 bit; at one γ contact and forces follow the rules for all of them.",
         evidence: &[Evidence::IndependentComputation, Evidence::SelfConsistency],
-        error_of: "force and energy",
-        scope: Scope::BothEdges(1e-15, 1e-15),
         measure: heights,
-        ..CASE
+        ..RULES
     },
     Case {
         name: "subnormal-gaps",
@@ -118,28 +109,22 @@ fn only_scales(edges: Edges, scales: impl Iterator<Item = (f64, f64, f64)>) -> R
 
 fn modulus(edges: Edges) -> Result<f64, Fault> {
     only_scales(edges, (1..=43).map(|k| (1.0, 1.0, 2.0_f64.powi(k))))?;
-    let mut worst = 0.0_f64;
-    for effective_modulus in [1.0, 1e3, 1e8, 1e13] {
+    largest([1.0, 1e3, 1e8, 1e13].map(|effective_modulus| {
         let body = rough(512, WORK)?;
         let foundation = Foundation { effective_modulus, ..body.foundation };
-        let body = Body { foundation, ..body };
-        worst = worst.max(follow(&body, edges, &body.tour())?.error());
-    }
-    Ok(worst)
+        on_tour(&Body { foundation, ..body }, edges)
+    }))
 }
 
 fn lengths(edges: Edges) -> Result<f64, Fault> {
     only_scales(edges, (1..=33).map(|k| (2.0_f64.powi(k), 2.0_f64.powi(k), 1.0)))?;
-    let mut worst = 0.0_f64;
-    for length in [1e-9, 1e-6, 1e-3, 10.0] {
+    largest([1e-9, 1e-6, 1e-3, 10.0].map(|length| {
         let body = rough(512, 0.0)?;
         let share = length / LENGTH;
         let gaps = body.gaps.iter().map(|gap| share * gap).collect();
         let foundation = Foundation { spacing: share * body.foundation.spacing, ..body.foundation };
-        let body = Body { gaps, foundation, work: share * WORK };
-        worst = worst.max(follow(&body, edges, &body.tour())?.error());
-    }
-    Ok(worst)
+        on_tour(&Body { gaps, foundation, work: share * WORK }, edges)
+    }))
 }
 
 fn heights(edges: Edges) -> Result<f64, Fault> {
@@ -156,31 +141,30 @@ fn heights(edges: Edges) -> Result<f64, Fault> {
         let lambda = 2.0_f64.powi(k);
         same_bits(&one, &run(&scaled(&low, 1.0, lambda, 1.0))?, lambda, lambda)?;
     }
-    let mut worst = 0.0_f64;
-    for share in [1e-15, 1e-12, 1e-9, 1e-6, 1e-3, 0.1, 1.0, 10.0] {
+    largest([1e-15, 1e-12, 1e-9, 1e-6, 1e-3, 0.1, 1.0, 10.0].map(|share| {
         let body = rough(512, WORK)?;
         let height = share * LENGTH / RMS_HEIGHT;
-        let body = Body { gaps: body.gaps.iter().map(|gap| height * gap).collect(), ..body };
-        worst = worst.max(follow(&body, edges, &body.tour())?.error());
-    }
-    Ok(worst)
+        on_tour(&Body { gaps: body.gaps.iter().map(|gap| height * gap).collect(), ..body }, edges)
+    }))
 }
 
-/// The body with heights multiplied, and γ so that it only scales.
-fn higher(body: &Body, lambda: f64) -> Body {
-    let gaps = body.gaps.iter().map(|gap| lambda * gap).collect();
-    // One factor after the other: their product alone may be no number.
-    Body { gaps, work: lambda * (lambda * body.work), ..body.clone() }
+/// Compares the tour of a body with those of the body whose heights are multiplied by powers of two.
+fn only_heights_scale(body: &Body, edges: Edges, powers: &[i32]) -> Result<(), Fault> {
+    let tour = |body: &Body| body.history(edges, &body.tour(), 33);
+    let one = tour(body)?;
+    for &power in powers {
+        let lambda = 2.0_f64.powi(power);
+        let gaps = body.gaps.iter().map(|gap| lambda * gap).collect();
+        // One factor after the other: their product alone may be no number.
+        let other = Body { gaps, work: lambda * (lambda * body.work), ..body.clone() };
+        same_bits(&one, &tour(&other)?, lambda, lambda)?;
+    }
+    Ok(())
 }
 
 fn subnormal(edges: Edges) -> Result<f64, Fault> {
     let body = rough(500, WORK)?;
-    let tour = |body: &Body| body.history(edges, &body.tour(), 33);
-    let one = tour(&body)?;
-    for k in [100, 200, 300, 400] {
-        let lambda = 2.0_f64.powi(-k);
-        same_bits(&one, &tour(&higher(&body, lambda))?, lambda, lambda)?;
-    }
+    only_heights_scale(&body, edges, &[-100, -200, -300, -400])?;
     // Beyond, γ is no number any more. Gaps lose digits, so the reference is their own exact multiple.
     let mut worst = 0.0_f64;
     for k in [850, 900, 950, 980, 1000, 1020, 1040] {
@@ -192,7 +176,7 @@ fn subnormal(edges: Edges) -> Result<f64, Fault> {
         let large = Body { gaps: small.gaps.iter().map(|&gap| up(gap)).collect(), ..small.clone() };
         for share in [0.25, 0.5, 0.75, 1.0, 2.0] {
             let to = small.deepest() * share;
-            let found = small.history(edges, &[Leg::ToIndentation(to), Leg::ToSeparation], 33)?;
+            let found = small.history(edges, &press_and_pull(to), 33)?;
             for record in &found.legs {
                 ensure(points(record).all(|p| p.force.is_finite() && p.indentation.is_finite()), || {
                     format!("heights times 2^−{k}: not finite")
@@ -216,17 +200,7 @@ fn subnormal(edges: Edges) -> Result<f64, Fault> {
 
 fn near_overflow(edges: Edges) -> Result<f64, Fault> {
     let body = rough(500, WORK)?;
-    let tour = |body: &Body| body.history(edges, &body.tour(), 33);
-    let one = tour(&body)?;
-    for k in [100, 200, 300, 400, 450] {
-        let lambda = 2.0_f64.powi(k);
-        same_bits(&one, &tour(&higher(&body, lambda))?, lambda, lambda)?;
-    }
-    let bare = Body { work: 0.0, ..body };
-    let one = tour(&bare)?;
-    for k in [500, 700, 900, 1000] {
-        let lambda = 2.0_f64.powi(k);
-        same_bits(&one, &tour(&higher(&bare, lambda))?, lambda, lambda)?;
-    }
+    only_heights_scale(&body, edges, &[100, 200, 300, 400, 450])?;
+    only_heights_scale(&Body { work: 0.0, ..body }, edges, &[500, 700, 900, 1000])?;
     Ok(0.0)
 }

@@ -2,7 +2,7 @@
 
 use super::spread;
 use crate::cli::{CliError, Format};
-use crate::export::sheet::Sheet;
+use crate::export::sheet::{self, Sheet};
 use crate::io::write_json_value;
 use crate::scene::RoughnessParameter;
 use crate::study::{
@@ -172,17 +172,16 @@ fn markdown(boundaries: &Boundaries, levels: &[f64]) -> String {
     }
     let heading = |(one, values): &(Quantity, &[f64])| {
         let values = others.iter().skip(1).zip(*values).map(|(name, value)| format!(", {name} = {value}"));
-        format!(" {}{} |", protocol_name(*one), values.collect::<String>().replace('*', "\\*"))
+        format!("{}{}", protocol_name(*one), values.collect::<String>())
     };
+    let name = others.first().cloned().unwrap_or_default();
+    let headings: Vec<String> = std::iter::once(name).chain(columns.iter().map(heading)).collect();
     let mut tables = Vec::new();
     for level in levels {
-        let boundary = boundaries.symbol().replace('*', "\\*");
-        let mut table = format!("{boundary} at which F_a(0) falls below {level} F_a,max:\n\n");
-        let name = others.first().map_or("", String::as_str).replace('*', "\\*");
-        table += &format!("| {name} |{}\n", columns.iter().map(heading).collect::<String>());
-        table += &format!("| --- |{}\n", " --- |".repeat(columns.len()));
+        let boundary = boundaries.symbol();
+        let mut table = vec![headings.clone()];
         for row in &rows {
-            table += &format!("| {} |", row.map_or_else(|| boundary.clone(), |value| value.to_string()));
+            let mut cells = vec![row.map_or_else(|| boundary.to_string(), |value| value.to_string())];
             for (protocol, values) in &columns {
                 let here = found.iter().find(|boundary| {
                     let place = (down(boundary), boundary.others.get(1..).unwrap_or_default());
@@ -190,17 +189,14 @@ fn markdown(boundaries: &Boundaries, levels: &[f64]) -> String {
                 });
                 let (value, interval) = here.map(|boundary| shown(boundary.crossing)).unwrap_or_default();
                 let interval = interval.replace(" to ", "–");
-                table += &if interval.is_empty() {
-                    format!(" {value} |")
-                } else {
-                    format!(" {value} ({interval}) |")
-                };
+                cells.push(if interval.is_empty() { value } else { format!("{value} ({interval})") });
             }
-            table.push('\n');
+            table.push(cells);
         }
-        tables.push(table);
+        let table = sheet::markdown(&table);
+        tables.push(format!("{boundary} at which F_a(0) falls below {level} F_a,max:\n\n{table}"));
     }
-    tables.join("\n")
+    tables.join("\n").replace('*', "\\*")
 }
 
 fn csv(boundaries: &Boundaries) -> String {
@@ -209,7 +205,7 @@ fn csv(boundaries: &Boundaries) -> String {
     heading.extend(["protocol", "level"].map(String::from));
     heading.extend(of_parameter.iter().map(|(name, _)| (*name).to_string()));
     heading.extend(["low", "high", "below", "above"].map(String::from));
-    let mut text = heading.join(",") + "\n";
+    let mut rows = vec![heading];
     for Boundary { others, protocol: quantity, level, crossing } in &boundaries.found {
         let mut row: Vec<String> = others.iter().map(ToString::to_string).collect();
         row.extend([protocol_name(*quantity).to_string(), level.to_string()]);
@@ -222,7 +218,7 @@ fn csv(boundaries: &Boundaries) -> String {
             of_parameter.iter().map(|(_, factor)| at.map(|value| factor * value)).collect();
         numbers.extend([interval.map(|(low, _)| low), interval.map(|(_, high)| high), below, above]);
         row.extend(numbers.into_iter().map(|number| number.map_or_else(String::new, |n| n.to_string())));
-        text += &(row.join(",") + "\n");
+        rows.push(row);
     }
-    text
+    sheet::csv(&rows)
 }

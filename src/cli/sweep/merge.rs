@@ -42,14 +42,14 @@ pub(super) fn merge(arguments: &MergeArguments, stdout: &mut dyn Write) -> Resul
     if arguments.parquet {
         crate::study::write_parquet(&folder)?;
     }
-    tell_merged(&folder, &merged, stdout)?;
+    write_merged(&folder, &merged, stdout)?;
     if arguments.parquet {
         writeln!(stdout, "{PARQUET} has the rows of {RESULTS}")?;
     }
     Ok(())
 }
 
-pub(super) fn tell_merged(folder: &Folder, merged: &Merged, stdout: &mut dyn Write) -> Result<(), CliError> {
+pub(super) fn write_merged(folder: &Folder, merged: &Merged, stdout: &mut dyn Write) -> Result<(), CliError> {
     let Merged { records, total, duplicates, damaged, missing_cells, .. } = merged;
     let path = path_name(folder.path());
     writeln!(stdout, "{records} of {total} records in {path}: {RESULTS}, {SUMMARY}, {SIDECAR}")?;

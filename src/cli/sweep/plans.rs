@@ -1,11 +1,10 @@
 //! `asperity sweep plans`: what comes with the program.
 
-use crate::cli::{CliError, Format};
+use crate::cli::{AnswerFormat, CliError};
 use crate::export::sheet::Sheet;
-use crate::io::write_json_value;
+use crate::io::object;
 use crate::study::{Changes, Plan, PlanErrors, StudyError, find, plans as built_in};
 use clap::Args;
-use serde::Serialize;
 use std::io::Write;
 
 const EXAMPLES: &str = "\
@@ -15,26 +14,13 @@ Examples:
 
 /// Arguments of `sweep plans`.
 #[derive(Args, Debug)]
-#[command(after_help = EXAMPLES)]
+#[command(after_help = EXAMPLES, mut_arg("format", |format| format.conflicts_with("name")))]
 pub struct PlansArguments {
     /// Print the text of this plan, to start one's own from
     pub name: Option<String>,
-    /// Format of the list
-    #[arg(long, value_parser = Format::parser(FORMATS), default_value = "text", conflicts_with = "name")]
-    pub format: Format,
-}
-
-/// Formats of the list: name, size and title in columns, or objects.
-const FORMATS: &[Format] = &[Format::Text, Format::Json];
-
-/// A plan in the list.
-#[derive(Serialize)]
-struct Listed {
-    name: &'static str,
-    title: String,
-    notice: String,
-    cells: u64,
-    lines: u64,
+    /// Name, size and title in columns, or objects.
+    #[command(flatten)]
+    pub format: AnswerFormat,
 }
 
 /// Lists the built-in plans, or prints one.
@@ -47,22 +33,23 @@ pub(super) fn plans(arguments: &PlansArguments, stdout: &mut dyn Write) -> Resul
         };
         return Ok(stdout.write_all(plan.text.as_bytes())?);
     }
-    let mut listed = Vec::new();
-    for one in built_in() {
-        let plan = Plan::open(one.name, &Changes::default()).map_err(StudyError::from)?;
-        let (cells, lines) = (plan.cells(), plan.lines);
-        listed.push(Listed { name: one.name, title: plan.title, notice: plan.notice, cells, lines });
-    }
-    match arguments.format {
-        Format::Json => write_json_value(stdout, &listed)?,
-        _ => {
-            let row = |plan: Listed| {
-                [plan.name.into(), format!("{} cells × {} lines", plan.cells, plan.lines), plan.title]
-            };
-            let mut sheet = Sheet::default();
-            sheet.table(&listed.into_iter().map(row).collect::<Vec<_>>());
-            stdout.write_all(sheet.into_text().as_bytes())?;
+    let open = |name| -> Result<_, CliError> {
+        Ok((name, Plan::open(name, &Changes::default()).map_err(StudyError::from)?))
+    };
+    let plans = built_in().iter().map(|plan| open(plan.name)).collect::<Result<Vec<_>, _>>()?;
+    let row = |(name, plan): &(&str, Plan)| {
+        let size = format!("{} cells × {} lines", plan.cells(), plan.lines);
+        [(*name).to_owned(), size, plan.title.clone()]
+    };
+    let text = || Sheet::of_table(&plans.iter().map(row).collect::<Vec<_>>());
+    let objects = plans.iter().map(|(name, plan)| {
+        object! {
+            "name": name,
+            "title": &plan.title,
+            "notice": &plan.notice,
+            "cells": plan.cells(),
+            "lines": plan.lines,
         }
-    }
-    Ok(())
+    });
+    arguments.format.write(stdout, text, &objects.collect::<Vec<_>>())
 }

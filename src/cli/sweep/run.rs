@@ -1,7 +1,8 @@
 //! `asperity sweep PLAN`: computes a study, or what is missing of it.
 
-use super::merge::tell_merged;
+use super::merge::write_merged;
 use super::progress::StudyProgress;
+use crate::cli::scene::threads;
 use crate::cli::{CliError, Overrides};
 use crate::scene::Scene;
 use crate::simulation;
@@ -12,7 +13,6 @@ use std::io::{self, Write};
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
-use std::thread::available_parallelism;
 
 /// Arguments of a run.
 #[derive(Args, Debug)]
@@ -106,9 +106,7 @@ pub(super) fn run(arguments: &SweepRunArguments, stdout: &mut dyn Write) -> Resu
     let plan =
         Plan::open(arguments.plan.as_deref().unwrap_or_default(), &changes).map_err(StudyError::from)?;
     let memory = Memory::of(&plan);
-    let wanted = arguments
-        .jobs
-        .map_or_else(|| available_parallelism().map_or(1, std::num::NonZero::get) as u64, u64::from);
+    let wanted = threads(arguments.jobs) as u64;
     let mut jobs = wanted;
     if let Some(most) = arguments.memory {
         if memory.of_jobs(1) > most {
@@ -152,7 +150,7 @@ pub(super) fn run(arguments: &SweepRunArguments, stdout: &mut dyn Write) -> Resu
         return Err(CliError::Stopped { signal: signal(), done, total });
     }
     if arguments.shard.is_none() {
-        tell_merged(&folder, &merge(&folder, false)?, stdout)?;
+        write_merged(&folder, &merge(&folder, false)?, stdout)?;
     } else {
         let _ = writeln!(stderr, "{} records of shard {} are there", ended.progress.total, options.shard);
     }

@@ -1,7 +1,7 @@
 //! `asperity sweep boundary --spread`: how far the boundaries of a study lie apart.
 
 use crate::cli::{CliError, Format};
-use crate::export::sheet::Sheet;
+use crate::export::sheet::{Sheet, csv, markdown};
 use crate::io::write_json_value;
 use crate::study::{Boundaries, BoundarySpread, protocol_name};
 use serde_json::{Map, Value, json};
@@ -21,17 +21,8 @@ pub(super) fn write(stdout: &mut dyn Write, found: &[Boundaries], format: Format
             stdout.write_all(sheet.into_text().as_bytes())?;
         }
         Format::Json => write_json_value(stdout, &objects(found))?,
-        Format::Csv => {
-            let rows: Vec<_> = table(found).iter().map(|row| row.join(",") + "\n").collect();
-            stdout.write_all(rows.concat().as_bytes())?;
-        }
-        _ => {
-            let mut rows: Vec<_> =
-                table(found).iter().map(|row| format!("| {} |\n", row.join(" | "))).collect();
-            let columns = 6 + found.first().map_or(0, |boundaries| boundaries.others.len());
-            rows.insert(1, format!("|{}\n", " --- |".repeat(columns)));
-            stdout.write_all(rows.concat().replace('*', "\\*").as_bytes())?;
-        }
+        Format::Csv => stdout.write_all(csv(&table(found)).as_bytes())?,
+        _ => stdout.write_all(markdown(&table(found)).replace('*', "\\*").as_bytes())?,
     }
     Ok(())
 }

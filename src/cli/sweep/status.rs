@@ -1,8 +1,7 @@
 //! `asperity sweep status`: how far a study is.
 
-use crate::cli::{CliError, Format};
+use crate::cli::{AnswerFormat, CliError};
 use crate::export::sheet::Sheet;
-use crate::io::write_json_value;
 use crate::study::{Folder, Status};
 use crate::text::grouped;
 use clap::Args;
@@ -21,31 +20,21 @@ pub struct StatusArguments {
     /// Folder of the study
     #[arg(value_name = "DIR")]
     pub folder: PathBuf,
-    /// Output format
-    #[arg(long, value_parser = Format::parser(FORMATS), default_value = "text")]
-    pub format: Format,
+    /// A table, or one object.
+    #[command(flatten)]
+    pub format: AnswerFormat,
 }
-
-/// Formats of a status: a table, or one object.
-const FORMATS: &[Format] = &[Format::Text, Format::Json];
 
 /// Shows the progress of a study.
 pub(super) fn status(arguments: &StatusArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
     let folder = Folder::open(&arguments.folder)?;
     let status = Status::of(&folder)?;
-    match arguments.format {
-        Format::Json => write_json_value(stdout, &status)?,
-        _ => stdout.write_all(text(&folder, &status).as_bytes())?,
-    }
-    Ok(())
+    arguments.format.write(stdout, || text(&folder, &status), &status)
 }
 
 fn text(folder: &Folder, status: &Status) -> String {
     let mut sheet = Sheet::default();
-    let title = &folder.plan().title;
-    if !title.is_empty() {
-        sheet.paragraph(title);
-    }
+    sheet.paragraph(&folder.plan().title);
     let share = 100.0 * status.done as f64 / status.total.max(1) as f64;
     sheet.heading(&format!(
         "{} of {} records are there, {share:.1} %; {} are missing",

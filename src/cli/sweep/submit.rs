@@ -98,10 +98,7 @@ pub(super) fn submit(arguments: &SubmitArguments, stdout: &mut dyn Write) -> Res
     let own = submission.own_folder();
     fs::create_dir_all(&own)
         .map_err(|error| StudyError::Folder { path: own, reason: format!("cannot be made: {error}") })?;
-    for (path, script) in [
-        (submission.shard_path(), submission.shard_script()),
-        (submission.merge_path(), submission.merge_script()),
-    ] {
+    for (path, script) in submission.scripts() {
         write_new(&path, true, |out| out.write_all(script.as_bytes()))?;
     }
     let jobs = submission.submit()?;
@@ -117,10 +114,7 @@ pub(super) fn submit(arguments: &SubmitArguments, stdout: &mut dyn Write) -> Res
 
 /// Prints what would be written and run.
 fn print_submission(submission: &Submission, stdout: &mut dyn Write) -> io::Result<()> {
-    for (path, script) in [
-        (submission.shard_path(), submission.shard_script()),
-        (submission.merge_path(), submission.merge_script()),
-    ] {
+    for (path, script) in submission.scripts() {
         writeln!(stdout, "==> {} <==\n{script}", path.display())?;
     }
     let command = |arguments: Vec<OsString>| {

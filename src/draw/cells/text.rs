@@ -8,10 +8,12 @@ use super::style::{CellStyle, Colours};
 use crate::draw::chart::{Chart, Figure};
 use crate::draw::colour::Ink;
 use crate::draw::label::Label;
+use crate::text::wrap;
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::style::{Color, Style};
 use ratatui::symbols::Marker;
+use ratatui::text::Line;
 
 /// Narrowest and widest text, columns.
 const COLUMNS: (usize, usize) = (40, 160);
@@ -40,8 +42,8 @@ pub fn figure_text(figure: &Figure, columns: usize, colours: Colours) -> String 
         if !text.is_empty() {
             text.push('\n');
         }
-        if figure.charts.len() > 1 {
-            push_words(&mut text, &format!("({}) {}", letter(index), chart.heading), columns);
+        if let Some(heading) = figure.heading(index) {
+            push_words(&mut text, &heading.to_string(), columns);
         }
         push_words(&mut text, &heading(chart).to_string(), columns);
         push_chart(&mut text, chart, columns as u16, &style);
@@ -53,10 +55,6 @@ pub fn figure_text(figure: &Figure, columns: usize, colours: Colours) -> String 
 /// Label of the vertical axis with its unit, or of the values of a map.
 fn heading(chart: &Chart) -> Label {
     chart.map().map_or_else(|| chart.y.label_with_unit(), |map| map.key.label_with_unit())
-}
-
-fn letter(index: usize) -> char {
-    char::from(b'a' + (index % 26) as u8)
 }
 
 fn push_chart(text: &mut String, chart: &Chart, columns: u16, style: &CellStyle<'_>) {
@@ -87,8 +85,7 @@ fn push_chart(text: &mut String, chart: &Chart, columns: u16, style: &CellStyle<
     if let Some(map) = chart.map() {
         text.push('\n');
         let parts = map::key(map, usize::from(columns), style.colours);
-        let runs: Vec<(&str, Style)> = parts.iter().map(|(text, style)| (text.as_str(), *style)).collect();
-        push_line(text, &runs);
+        push_line(text, &parts);
         for (axis, values, cells) in
             [("across", &map.columns, place.plot.width), ("up", &map.rows, place.plot.height)]
         {
@@ -101,31 +98,26 @@ fn push_chart(text: &mut String, chart: &Chart, columns: u16, style: &CellStyle<
 }
 
 fn push_legend(text: &mut String, chart: &Chart, columns: usize, style: &CellStyle<'_>) {
-    let mut lines: Vec<Vec<(String, Style)>> = Vec::new();
-    let mut width = 0;
+    let mut lines: Vec<Line<'static>> = Vec::new();
     for part in legend(std::slice::from_ref(chart), style) {
-        let own: usize = part.iter().map(|span| span.content.chars().count()).sum();
-        if lines.is_empty() || width + 2 + own > columns {
-            lines.push(Vec::new());
-            width = 0;
-        } else if let Some(line) = lines.last_mut() {
-            line.push(("  ".to_owned(), Style::new()));
-            width += 2;
-        }
-        width += own;
-        if let Some(line) = lines.last_mut() {
-            line.extend(part.into_iter().map(|span| (span.content.into_owned(), span.style)));
+        let part = Line::from(part);
+        match lines.last_mut().filter(|line| line.width() + 2 + part.width() <= columns) {
+            Some(line) => {
+                line.push_span("  ");
+                line.spans.extend(part.spans);
+            }
+            None => lines.push(part),
         }
     }
     for line in lines {
-        push_line(text, &line.iter().map(|(text, style)| (text.as_str(), *style)).collect::<Vec<_>>());
+        push_line(text, &line.spans.iter().map(|span| (&span.content, span.style)).collect::<Vec<_>>());
     }
 }
 
 /// Adds a line without the blanks at its end, with what a terminal takes for its colours.
-fn push_line(text: &mut String, runs: &[(&str, Style)]) {
-    let is_blank = |(text, style): &&(&str, Style)| {
-        text.trim_matches([' ', '\u{2800}']).is_empty() && code(style).is_empty()
+fn push_line<S: AsRef<str>>(text: &mut String, runs: &[(S, Style)]) {
+    let is_blank = |(text, style): &&(S, Style)| {
+        text.as_ref().trim_matches([' ', '\u{2800}']).is_empty() && code(style).is_empty()
     };
     let end = runs.len() - runs.iter().rev().take_while(is_blank).count();
     let mut last = String::new();
@@ -136,7 +128,7 @@ fn push_line(text: &mut String, runs: &[(&str, Style)]) {
             text.push_str(&code);
             last = code;
         }
-        text.push_str(run);
+        text.push_str(run.as_ref());
     }
     text.push_str(if last.is_empty() { "" } else { "\x1b[0m" });
     text.push('\n');
@@ -155,20 +147,8 @@ fn code(style: &Style) -> String {
 
 /// Adds words, on as many lines as they take.
 fn push_words(text: &mut String, words: &str, columns: usize) {
-    let mut line = String::new();
-    for word in words.split_whitespace() {
-        if !line.is_empty() && line.chars().count() + 1 + word.chars().count() > columns {
-            text.push_str(&line);
-            text.push('\n');
-            line.clear();
-        }
-        if !line.is_empty() {
-            line.push(' ');
-        }
-        line.push_str(word);
-    }
-    if !line.is_empty() {
-        text.push_str(&line);
+    for line in wrap(words, columns).iter().filter(|line| !line.is_empty()) {
+        text.push_str(line);
         text.push('\n');
     }
 }

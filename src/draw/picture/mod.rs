@@ -133,9 +133,7 @@ impl<'a> Page<'a> {
         let left = (width - figure.charts.len().max(1) as f64 * wide) / 2.0 + self.before;
         for (index, chart) in figure.charts.iter().enumerate() {
             let from: Place = (left + index as f64 * wide, self.top);
-            if figure.charts.len() > 1 {
-                let letter = char::from(b'a' + (index % 26) as u8);
-                let heading = Label::plain(&format!("({letter}) ")).join(&chart.heading);
+            if let Some(heading) = figure.heading(index) {
                 canvas.label(&heading, (from.0, from.1 - 12.0), LABEL, Anchor::Left, TEXT);
             }
             draw_chart(canvas, chart, from, figure.size);

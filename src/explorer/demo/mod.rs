@@ -6,7 +6,7 @@ mod watch;
 pub use script::{Cue, ONE_SCENE, TOUR};
 pub use watch::play;
 
-use super::action::{Action, Command};
+use super::action::Action;
 use super::headless::Headless;
 use super::mode::Mode;
 use super::model::Model;
@@ -69,7 +69,7 @@ impl Demo {
             } else if matches!(self.explorer.model.mode, Mode::Edit(_)) {
                 // A value that is refused stays in the editor.
                 let is_refused = self.explorer.model.refused.is_some();
-                self.explorer.command(if is_refused { Command::Cancel } else { Command::Accept });
+                self.explorer.command(if is_refused { "cancel" } else { "accept" });
             } else {
                 let cue = self.cues.pop_front()?;
                 self.follow(cue);
@@ -116,13 +116,13 @@ impl Demo {
                 self.cues.push_front(Cue::Repeat(times - 1, seconds, command));
             }
             Cue::Select(path) => {
-                self.explorer.command(Command::SelectEnd(false));
+                self.explorer.command("select-end false");
                 let place = self.explorer.model.parameters.iter().position(|one| one.path == path);
-                self.explorer.command(Command::Select(place.unwrap_or(0) as i32));
+                (0..place.unwrap_or(0)).for_each(|_| self.explorer.command("select 1"));
             }
             Cue::Enter(value) => {
-                self.explorer.command(Command::EditValue);
-                self.explorer.command(Command::Clear);
+                self.explorer.command("edit-value");
+                self.explorer.command("clear");
                 self.typing = value.chars().collect();
                 self.pause = TYPING;
             }

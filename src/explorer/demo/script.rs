@@ -1,17 +1,14 @@
 //! Script of the demo.
 
-use crate::explorer::action::{Command, Jump};
-use crate::explorer::panes::Pane;
-
 /// Something the demo does.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Cue {
     /// Lets the explorer play for so many seconds.
     Wait(f64),
-    /// Obeys a command.
-    Do(Command),
-    /// Obeys a command so many times, so many seconds apart.
-    Repeat(u32, f64, Command),
+    /// Runs a command of the table of keys, by its name.
+    Do(&'static str),
+    /// Runs a command so many times, so many seconds apart.
+    Repeat(u32, f64, &'static str),
     /// Selects the parameter of a field.
     Select(&'static str),
     /// Types a value for the selected parameter, as people type.
@@ -26,46 +23,64 @@ const LOOP: f64 = 12.5;
 /// The tour over the built-in scenes: the three regimes, pressing harder, manual loading, fragments, a sphere
 /// with and without its roughness.
 pub const TOUR: &[Cue] = &[
-    Do(Command::Preset(0)),
+    Do("preset 1"),
     Wait(LOOP),
-    Do(Command::Preset(1)),
+    Do("preset 2"),
     Wait(LOOP),
-    Do(Command::Pin),
+    Do("pin"),
     Select("loading.0.0"),
     Enter("20 µN"),
-    Do(Command::Restart),
+    Do("restart"),
     Wait(LOOP),
-    Do(Command::ToggleLoss),
+    Do("toggle-loss"),
     Wait(2.0),
-    Do(Command::ToggleLoss),
-    Do(Command::ClearGhosts),
-    Do(Command::Leg(-1)),
+    Do("toggle-loss"),
+    Do("clear-ghosts"),
+    Do("leg -1"),
     Wait(0.5),
-    Do(Command::ToggleManual),
-    Repeat(12, 0.25, Command::Push { steps: -1, coarse: true }),
-    Repeat(8, 0.25, Command::Push { steps: 1, coarse: true }),
-    Repeat(8, 0.25, Command::Push { steps: -1, coarse: true }),
+    Do("toggle-manual"),
+    Repeat(12, 0.25, "push -1 coarse"),
+    Repeat(8, 0.25, "push 1 coarse"),
+    Repeat(8, 0.25, "push -1 coarse"),
     Wait(1.0),
-    Do(Command::Separate),
+    Do("separate"),
     Wait(2.0),
-    Do(Command::Preset(2)),
+    Do("preset 3"),
     Wait(LOOP),
-    Do(Command::Preset(5)),
+    Do("preset 6"),
     Wait(6.0),
-    Do(Command::TogglePlay),
-    Repeat(4, 1.0, Command::Fragment(Jump::Next)),
-    Do(Command::Toggle(Pane::Lengths)),
+    Do("toggle-play"),
+    Repeat(4, 1.0, "fragment next"),
+    Do("toggle-lengths"),
     Wait(3.0),
-    Do(Command::Toggle(Pane::Lengths)),
-    Do(Command::Preset(8)),
+    Do("toggle-lengths"),
+    Do("preset 9"),
     Wait(LOOP),
-    Do(Command::Pin),
+    Do("pin"),
     Select("roughness"),
     Wait(1.0),
-    Do(Command::ToggleEffect),
-    Do(Command::Restart),
+    Do("toggle-effect"),
+    Do("restart"),
     Wait(LOOP),
 ];
 
 /// One scene, pressed and pulled off, with its fragments.
 pub const ONE_SCENE: &[Cue] = &[Wait(LOOP)];
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::explorer::keys::Bindings;
+    use crate::explorer::mode::ModeKind;
+
+    #[test]
+    fn every_command_of_the_scripts_is_in_the_table_of_keys() {
+        let bindings = Bindings::default();
+        let names = TOUR.iter().chain(ONE_SCENE).filter_map(|cue| match cue {
+            Do(name) | Repeat(_, _, name) => Some(*name),
+            Wait(_) | Select(_) | Enter(_) => None,
+        });
+        let names: Vec<&str> = names.collect();
+        assert!(names.len() > 20 && names.iter().all(|name| bindings.named(name, ModeKind::Explore).is_some()), "{names:?}");
+    }
+}

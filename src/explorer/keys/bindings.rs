@@ -2,59 +2,25 @@
 
 use super::key::control;
 use super::{BINDINGS, Binding, Key, names};
-use crate::explorer::action::Command;
+use crate::explorer::command::Command;
 use crate::explorer::mode::ModeKind;
 use crate::scene::nearest;
-use crossterm::event::{KeyCode, KeyEvent};
+use crossterm::event::KeyEvent;
 use std::borrow::Cow;
 
 impl Binding {
+    /// The command of one of the keys.
+    #[must_use]
+    pub fn command_of(&self, key: &Key) -> Command {
+        key.character().map_or(self.command, |character| self.command.with(character))
+    }
+
     /// Returns true if the configuration may give the row other keys: keys for typing, lists and questions are the same for all,
     /// and digits mean what they are.
     #[must_use]
     pub fn is_rebindable(&self) -> bool {
-        let has_digits = matches!(self.command, Command::StartValue(_) | Command::Preset(_));
-        !has_digits && self.modes.iter().all(|mode| mode.is_exploring())
+        !self.command.takes_character() && self.modes.iter().all(|mode| mode.is_exploring())
     }
-}
-
-/// Name of an action in the configuration, from its command: `step -1`, `push 1 coarse`.
-#[must_use]
-pub fn action_name(command: Command) -> String {
-    let text = match command {
-        Command::Toggle(pane) => format!("Toggle{pane:?}"),
-        command => format!("{command:?}"),
-    };
-    let has_names = text.contains('{');
-    let words = text.split(|c: char| !(c.is_alphanumeric() || c == '-')).filter(|word| !word.is_empty());
-    let (mut name, mut member) = (String::new(), None);
-    for (number, word) in words.enumerate() {
-        let word = match (word, number, has_names) {
-            (member_name, 1.., true) if member.is_none() => {
-                member = Some(member_name);
-                continue;
-            }
-            ("false", ..) if has_names => {
-                member = None;
-                continue;
-            }
-            ("true", ..) if has_names => member.take().unwrap_or(word),
-            _ => {
-                member = None;
-                word
-            }
-        };
-        if !name.is_empty() {
-            name.push(' ');
-        }
-        for (place, character) in word.char_indices() {
-            if character.is_uppercase() && place > 0 {
-                name.push('-');
-            }
-            name.extend(character.to_lowercase());
-        }
-    }
-    name
 }
 
 /// Reason why keys are refused.
@@ -86,15 +52,22 @@ impl Bindings {
         self.rows().filter(move |row| row.modes.contains(&mode))
     }
 
-    /// The command of a key in a mode. Where a row has a key for each digit, the command has that digit.
+    /// The command of a key in a mode.
     #[must_use]
     pub fn command(&self, event: &KeyEvent, mode: ModeKind) -> Option<Command> {
-        let row = self.valid_in(mode).find(|row| row.keys.iter().any(|key| key.matches(event)))?;
-        let KeyCode::Char(character) = event.code else { return Some(row.command) };
-        Some(match row.command {
-            Command::StartValue(_) => Command::StartValue(character),
-            Command::Preset(_) => Command::Preset(character.to_digit(10)?.checked_sub(1)? as usize),
-            command => command,
+        self.valid_in(mode)
+            .find_map(|row| Some(row.command_of(row.keys.iter().find(|key| key.matches(event))?)))
+    }
+
+    /// The command of a name in a mode, for a row whose keys differ in meaning with the character: `preset 3`.
+    #[must_use]
+    pub fn named(&self, name: &str, mode: ModeKind) -> Option<Command> {
+        self.valid_in(mode).find_map(|row| match name.strip_prefix(row.command.name)?.strip_prefix(' ') {
+            None => (name == row.command.name).then_some(row.command),
+            Some(character) if row.command.takes_character() => {
+                character.parse().ok().map(|character| row.command.with(character))
+            }
+            Some(_) => None,
         })
     }
 
@@ -103,7 +76,7 @@ impl Bindings {
     /// # Errors
     /// An action or a key that does not exist.
     pub fn rebind(&mut self, action: &str, keys: &[String]) -> Result<(), RebindError> {
-        let is_action = |row: &&mut Binding| row.is_rebindable() && action_name(row.command) == action;
+        let is_action = |row: &&mut Binding| row.is_rebindable() && row.command.name == action;
         let parsed = keys.iter().map(|name| {
             Key::named(name).ok_or_else(|| RebindError {
                 message: format!("{name}: there is no such key; allowed: one character, Ctrl+c, Shift+Left, F5, PageUp and the like"),
@@ -113,18 +86,14 @@ impl Bindings {
         let mut parsed = parsed.collect::<Result<Vec<Key>, _>>()?;
         let rows: Vec<&mut Binding> = self.0.iter_mut().filter(is_action).collect();
         if rows.is_empty() {
-            let names: Vec<String> = BINDINGS
-                .iter()
-                .filter(|row| row.is_rebindable())
-                .map(|row| action_name(row.command))
-                .collect();
-            let near = nearest(action, names.iter().map(String::as_str));
+            let names = BINDINGS.iter().filter(|row| row.is_rebindable()).map(|row| row.command.name);
+            let near = nearest(action, names);
             let near = near.map_or_else(String::new, |near| format!(" did you mean {near}?"));
             let message = format!("{action}: there is no such action;{near} allowed: docs/keys.md lists all");
             return Err(RebindError { message, is_about_keys: false });
         }
         for row in rows {
-            if row.command == Command::Quit && !parsed.contains(&control('c')) {
+            if row.command.name == "quit" && !parsed.contains(&control('c')) {
                 parsed.push(control('c'));
             }
             row.keys = Cow::Owned(parsed.clone());
@@ -134,26 +103,26 @@ impl Bindings {
 
     /// A key with two actions in one mode, and their names.
     #[must_use]
-    pub fn conflict(&self) -> Option<(String, String, String)> {
+    pub fn conflict(&self) -> Option<(String, &'static str, &'static str)> {
         ModeKind::ALL.into_iter().find_map(|mode| {
-            let mut seen: Vec<(&Key, Command)> = Vec::new();
+            let mut seen: Vec<(&Key, &'static str)> = Vec::new();
             for row in self.valid_in(mode) {
                 for key in row.keys.iter() {
                     if let Some((_, other)) = seen.iter().find(|(seen, _)| *seen == key) {
-                        return Some((key.name(), action_name(*other), action_name(row.command)));
+                        return Some((key.name(), *other, row.command.name));
                     }
-                    seen.push((key, row.command));
+                    seen.push((key, row.command.name));
                 }
             }
             None
         })
     }
 
-    /// Actions with other keys than those of the table, and the names of these keys.
+    /// Names of the actions with other keys than those of the table, and the names of these keys.
     #[must_use]
-    pub fn changed(&self) -> Vec<(Command, Vec<String>)> {
+    pub fn changed(&self) -> Vec<(&'static str, Vec<String>)> {
         let pairs = self.0.iter().zip(BINDINGS).filter(|(row, usual)| row.keys != usual.keys);
-        pairs.map(|(row, _)| (row.command, row.keys.iter().map(Key::name).collect())).collect()
+        pairs.map(|(row, _)| (row.command.name, row.keys.iter().map(Key::name).collect())).collect()
     }
 }
 
@@ -169,7 +138,7 @@ pub fn markdown() -> String {
         let names = names(&row.keys).into_iter().map(|name| name.replace('|', "\\|"));
         let keys: Vec<String> = names.map(|name| format!("`{name}`")).collect();
         let action =
-            if row.is_rebindable() { format!("`{}`", action_name(row.command)) } else { String::new() };
+            if row.is_rebindable() { format!("`{}`", row.command.name) } else { String::new() };
         text += &format!("| {shown} | {} | {} | {action} |\n", keys.join(" "), row.help);
     }
     text
@@ -178,8 +147,7 @@ pub fn markdown() -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::explorer::action::Jump;
-    use crossterm::event::KeyModifiers;
+    use crossterm::event::{KeyCode, KeyModifiers};
 
     #[test]
     fn no_mode_gives_a_key_two_meanings() {
@@ -196,31 +164,34 @@ mod tests {
         for name in ["", "ab", "Shift+a", "F0", "F13", "Ctrl+", "\u{1b}", "Alt+x"] {
             assert_eq!(Key::named(name), None, "{name}");
         }
-        for (command, name) in [
-            (Command::TogglePlay, "toggle-play"),
-            (Command::Step(-1), "step -1"),
-            (Command::Push { steps: -1, coarse: false }, "push -1"),
-            (Command::Push { steps: 1, coarse: true }, "push 1 coarse"),
-            (Command::SelectEnd(true), "select-end true"),
-            (Command::Fragment(Jump::MostLoaded), "fragment most-loaded"),
-            (Command::Delete { backwards: true }, "delete backwards"),
-        ] {
-            assert_eq!(action_name(command), name);
-        }
-        let all: Vec<Command> =
-            BINDINGS.iter().filter(|row| row.is_rebindable()).map(|row| row.command).collect();
-        for (place, command) in all.iter().enumerate() {
-            let same = all[..place].iter().find(|other| action_name(**other) == action_name(*command));
-            assert!(same.is_none_or(|same| same == command), "{command:?} {same:?}");
-        }
+        let mut names: Vec<&str> =
+            BINDINGS.iter().filter(|row| row.is_rebindable()).map(|row| row.command.name).collect();
+        names.sort_unstable();
+        let twice: Vec<&str> = names.windows(2).filter(|pair| pair[0] == pair[1]).map(|pair| pair[0]).collect();
+        assert_eq!(twice, ["toggle-crosshair"], "one more key hides the crosshair while the arrows move it");
+        let is_plain = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-' || c == ' ';
+        assert!(names.iter().all(|name| !name.is_empty() && name.chars().all(is_plain)), "{names:?}");
+    }
+
+    #[test]
+    fn a_command_is_found_by_its_name_where_it_is_valid() {
+        let bindings = Bindings::default();
+        let name = |command: Option<Command>| command.map(|command| command.name);
+        assert_eq!(name(bindings.named("push -1 coarse", ModeKind::Explore)), Some("push -1 coarse"));
+        assert_eq!(bindings.named("accept", ModeKind::Explore), None);
+        assert_eq!(bindings.named("no such command", ModeKind::Explore), None);
+        let three = KeyEvent::new(KeyCode::Char('3'), KeyModifiers::NONE);
+        let preset = bindings.named("preset 3", ModeKind::Explore);
+        assert!(preset.is_some() && bindings.command(&three, ModeKind::Explore) == preset);
+        assert_eq!(format!("{:?}", bindings.command(&three, ModeKind::Explore)), "Some(preset 3)");
+        assert_eq!(name(bindings.command(&three, ModeKind::Parameters)), Some("start-value"));
     }
 
     #[test]
     fn every_mode_can_be_left() {
         for mode in ModeKind::ALL {
-            let leaves = |command| {
-                matches!(command, Command::Quit | Command::QuitAnyway | Command::Help | Command::Cancel)
-            };
+            let leaves =
+                |command: Command| ["quit", "quit-anyway", "close-help", "cancel"].contains(&command.name);
             let interrupt = KeyEvent::new(KeyCode::Char('c'), KeyModifiers::CONTROL);
             assert!(Bindings::default().command(&interrupt, mode).is_some_and(leaves), "Ctrl+C in {mode:?}");
         }

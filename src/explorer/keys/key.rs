@@ -20,6 +20,12 @@ impl Key {
         self.code == event.code && self.modifiers == modifiers
     }
 
+    /// Character of the key.
+    #[must_use]
+    pub fn character(&self) -> Option<char> {
+        if let KeyCode::Char(character) = self.code { Some(character) } else { None }
+    }
+
     /// The key as it is written on a keyboard.
     #[must_use]
     pub fn name(&self) -> String {

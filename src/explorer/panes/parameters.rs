@@ -1,7 +1,6 @@
 //! The list of parameters and what the selected one means.
 
 use super::{PaneRow, Place};
-use crate::explorer::action::Command;
 use crate::explorer::fuzzy::letters_found;
 use crate::explorer::layout::{Layout, inside};
 use crate::explorer::mode::ModeKind;
@@ -9,7 +8,7 @@ use crate::explorer::model::{Mode, Model, Pane};
 use crate::explorer::parameters::{Parameter, Setting, spelled};
 use crate::explorer::text_line::TextLine;
 use crate::explorer::theme::Meaning;
-use crate::explorer::update::{Effect, edit, explore};
+use crate::explorer::update::{Effect, begin, edit};
 use crate::explorer::view::found::marked;
 use crate::explorer::view::typed::typed;
 use crate::explorer::view::wrap::{clipped, filled, wrapped_within};
@@ -26,7 +25,10 @@ pub static ROW: PaneRow = PaneRow {
     draw,
     keys: Some(ModeKind::Parameters),
     press,
-    wheel: |model, _, _, turns| explore(model, Command::Select(-turns)),
+    wheel: |model, _, _, turns| {
+        begin(model);
+        edit::move_selection(model, -turns)
+    },
     help: &[(
         "Parameters",
         "fields of the scene by use, in groups; ● marks an effect that is on, ▸ a folded group, = a derived value",
@@ -92,7 +94,7 @@ fn press(model: &mut Model, area: Rect, here: Position) -> Vec<Effect> {
         let again = row == model.selected && model.parameters[row].is_head();
         edit::select(model, row);
         if again {
-            return edit::obey(model, Command::ToggleFold);
+            return edit::toggle_fold(model);
         }
     }
     vec![Effect::Show]

@@ -25,14 +25,15 @@ pub fn study_tasks(model: &Model) -> Vec<Task> {
     estimate.into_iter().chain(approximate).chain(shown).collect()
 }
 
+const NOT_COMPUTED: &str = "not before the scene is computed";
+
 /// Asks for a tolerance.
-pub fn type_tolerance(model: &mut Model) -> Vec<Effect> {
+pub fn type_tolerance(model: &mut Model) {
     if model.is_current() {
         model.mode = Mode::Tolerance(TextLine::new(""));
     } else {
-        model.notice = Some(Notice::Error("not before the scene is computed".to_owned()));
+        model.set_error(NOT_COMPUTED);
     }
-    Vec::new()
 }
 
 /// Searches springs for a tolerance that was typed.
@@ -43,17 +44,12 @@ pub fn accept_tolerance(model: &mut Model, typed: &str) -> Vec<Effect> {
             model.appraisal.answer = None;
             // What was measured ends for it.
             model.appraisal.costs.trying = None;
-            vec![Effect::Study]
+            return vec![Effect::Study];
         }
-        Ok(_) => {
-            model.notice = Some(Notice::Error("not before the scene is computed".to_owned()));
-            Vec::new()
-        }
-        Err(error) => {
-            model.notice = Some(Notice::Error(error));
-            Vec::new()
-        }
+        Ok(_) => model.set_error(NOT_COMPUTED),
+        Err(error) => model.set_error(error),
     }
+    Vec::new()
 }
 
 /// Takes in what was found out.
@@ -69,39 +65,31 @@ pub fn found(model: &mut Model, found: Found) -> Vec<Effect> {
                 return Vec::new();
             }
             match result {
-                Ok(choice) => take_over(model, &choice),
+                Ok(choice) => return take_over(model, &choice),
                 Err(error) => {
                     refuse(model, tolerance, &error);
-                    vec![Effect::Study]
+                    return vec![Effect::Study];
                 }
             }
         }
         Finding::Approximated(found) => {
             if let Err(why) = &found {
-                model.notice = Some(Notice::Error(why.clone()));
+                model.set_error(why.clone());
             }
             model.approximate.found = Some(found);
-            Vec::new()
         }
-        Finding::Extended(data) => {
-            (data.pane().row().take_in)(model, data);
-            Vec::new()
-        }
-        Finding::NotExtended(pane, why) => {
-            model.failures.insert(pane, why);
-            Vec::new()
-        }
+        Finding::Extended(data) => (data.pane().row().take_in)(model, data),
+        Finding::NotExtended(pane, why) => drop(model.failures.insert(pane, why)),
         Finding::Estimated(estimate) => {
             model.appraisal.estimated = estimate.map_or(Estimated::Unknown, Estimated::Known);
-            Vec::new()
         }
         Finding::Choosing(points) => {
             if let Some((_, trying)) = &mut model.appraisal.choosing {
                 *trying = Some(points);
             }
-            Vec::new()
         }
     }
+    Vec::new()
 }
 
 /// Makes a choice an edit.

@@ -1,7 +1,7 @@
 //! The map: shown or not, and the mark on it, which is the scene.
 
 use super::{Effect, edit};
-use crate::explorer::action::Command;
+use crate::explorer::command::Command;
 use crate::explorer::model::{Model, Notice};
 use crate::explorer::opening::Opening;
 use crate::explorer::panes::Pane;
@@ -9,28 +9,9 @@ use crate::scene::{Document, SceneErrors};
 use crate::study::map::{MapAxis, Place, Template, moved, next_beyond};
 use std::sync::Arc;
 
-/// Obeys a command that has to do with the map.
-pub fn obey(model: &mut Model, command: Command) -> Vec<Effect> {
-    match command {
-        Command::ToggleSections => {
-            model.chart.sections = !model.chart.sections;
-            Vec::new()
-        }
-        Command::TransposeMap => {
-            model.chart.transpose();
-            Vec::new()
-        }
-        Command::NextMapParameter => next_parameter(model),
-        Command::NextCharted => {
-            model.chart.quantity = model.chart.next_charted();
-            Vec::new()
-        }
-        Command::ToggleStudy => toggle_study(model),
-        Command::NextSlice(steps) => step_slice(model, steps),
-        Command::MoveAcross(steps) => step(model, steps, 0),
-        Command::MoveUp(steps) => step(model, 0, steps),
-        _ => Vec::new(),
-    }
+/// Returns true for a move of the scene in the map: successive moves are one edit.
+pub fn is_move(command: Command) -> bool {
+    ["move-across", "move-up"].iter().any(|name| command.name.starts_with(name))
 }
 
 /// Explores what has been opened by its path.
@@ -47,7 +28,8 @@ pub fn open(model: &mut Model, opening: Opening) -> Vec<Effect> {
 /// Without a study there is nothing to be shown of it.
 const NO_STUDY: &str = "no study is open; o and the path of its folder open one";
 
-fn toggle_study(model: &mut Model) -> Vec<Effect> {
+/// Shows the map of the study, or the one that is computed here.
+pub fn toggle_study(model: &mut Model) -> Vec<Effect> {
     if model.chart.study.is_none() {
         model.notice = Some(Notice::Error(NO_STUDY.to_owned()));
         return Vec::new();
@@ -58,7 +40,7 @@ fn toggle_study(model: &mut Model) -> Vec<Effect> {
 }
 
 /// Maps over the other parameter of roughness.
-fn next_parameter(model: &mut Model) -> Vec<Effect> {
+pub fn next_parameter(model: &mut Model) -> Vec<Effect> {
     if model.chart.shown_study().is_some() {
         let why = "a study has its own axes; W shows the map that is computed here";
         model.notice = Some(Notice::Error(why.to_owned()));
@@ -71,7 +53,7 @@ fn next_parameter(model: &mut Model) -> Vec<Effect> {
 }
 
 /// Shows another map of the study. A scene that is of the map before goes with it.
-fn step_slice(model: &mut Model, steps: i32) -> Vec<Effect> {
+pub fn step_slice(model: &mut Model, steps: i32) -> Vec<Effect> {
     let Some(study) = model.chart.shown_study() else {
         let why = if model.chart.study.is_some() {
             "this is the map that is computed here; W shows the study's"
@@ -94,7 +76,7 @@ fn step_slice(model: &mut Model, steps: i32) -> Vec<Effect> {
 }
 
 /// Moves the mark by columns and rows of the map.
-fn step(model: &mut Model, columns: i32, rows: i32) -> Vec<Effect> {
+pub fn step(model: &mut Model, columns: i32, rows: i32) -> Vec<Effect> {
     let Some((at_across, at_up)) = model.place() else {
         let why = match Template::of(model.document.scene()) {
             Err(why) => why.to_string(),

@@ -2,7 +2,6 @@
 
 use super::ghosts::name_ghosts;
 use super::{Effect, edit, show};
-use crate::explorer::action::Command;
 use crate::explorer::model::{Ghost, Model, Notice, Pane};
 use crate::explorer::snapshot::{Preview, SolvedScene};
 use crate::scene::{Document, Roughness};
@@ -11,26 +10,23 @@ use std::sync::Arc;
 /// Most kept curves; more could not be distinguished.
 const MOST_GHOSTS: usize = 8;
 
-/// Obeys a command on ghosts.
-pub fn obey(model: &mut Model, command: Command) -> Vec<Effect> {
-    let mut effects = Vec::new();
-    let was_beside = model.beside().is_some();
-    match command {
-        Command::Pin => pin(model),
-        Command::PinOtherUse => effects = pin_other_use(model),
-        Command::Swap => effects = swap(model),
-        Command::ToggleSideBySide => return show::change(model, toggle),
-        _ => {
-            model.hide(Pane::Beside);
-            model.ghosts.clear();
-        }
-    }
-    // Another ghost may be the newest, or none.
-    if was_beside {
-        effects.insert(0, Effect::Beside);
-    }
-    effects.push(Effect::Show);
-    effects
+/// Changes the ghosts, of which another one may then be the newest, or none.
+pub fn change(model: &mut Model, change: fn(&mut Model) -> Vec<Effect>) -> Vec<Effect> {
+    let beside = model.beside().map(|_| Effect::Beside);
+    let effects = change(model);
+    beside.into_iter().chain(effects).chain([Effect::Show]).collect()
+}
+
+/// Removes all ghosts.
+pub fn clear(model: &mut Model) -> Vec<Effect> {
+    model.hide(Pane::Beside);
+    model.ghosts.clear();
+    Vec::new()
+}
+
+/// Shows the newest ghost beside the scene, or hides it.
+pub fn toggle_side_by_side(model: &mut Model) -> Vec<Effect> {
+    show::change(model, toggle)
 }
 
 /// Shows or hides the newest ghost beside the scene; without a ghost the present scene becomes one.
@@ -67,14 +63,16 @@ fn ghost(model: &Model) -> Option<Ghost> {
     })
 }
 
-fn pin(model: &mut Model) {
+/// Keeps the present loop as a ghost.
+pub fn pin(model: &mut Model) -> Vec<Effect> {
     let Some(ghost) = ghost(model) else {
-        model.notice = Some(Notice::Error("there is no curve yet to keep".to_owned()));
-        return;
+        model.set_error("there is no curve yet to keep");
+        return Vec::new();
     };
     if keep(model, ghost) {
-        model.notice = Some(Notice::Done("kept; now change something, x exchanges the two".to_owned()));
+        model.set_done("kept; now change something, x exchanges the two");
     }
+    Vec::new()
 }
 
 /// Adds a ghost; returns false where it is there already.
@@ -92,7 +90,7 @@ fn keep(model: &mut Model, ghost: Ghost) -> bool {
 }
 
 /// Asks for the other use of a measured profile, which becomes a ghost once it is computed.
-fn pin_other_use(model: &mut Model) -> Vec<Effect> {
+pub fn pin_other_use(model: &mut Model) -> Vec<Effect> {
     let scene = model.document.scene();
     if !matches!(scene.roughness, Some(Roughness::Measured { .. })) {
         model.notice = Some(Notice::Error("the roughness of this scene is not measured".to_owned()));
@@ -133,7 +131,7 @@ pub fn previewed(model: &mut Model, preview: Arc<Preview>) -> Vec<Effect> {
 }
 
 /// The scene and the newest ghost change places.
-fn swap(model: &mut Model) -> Vec<Effect> {
+pub fn swap(model: &mut Model) -> Vec<Effect> {
     let Some(present) = ghost(model) else { return Vec::new() };
     let Some(last) = model.ghosts.pop() else {
         model.notice = Some(Notice::Error("nothing to exchange with: c keeps a loop".to_owned()));

@@ -4,7 +4,7 @@ use super::{Effect, library};
 use crate::explorer::completion::Completion;
 use crate::explorer::mode::Mode;
 use crate::explorer::model::Model;
-use crate::explorer::text_line::TextLine;
+use crate::explorer::text_line::{Motion, TextLine};
 
 /// Path that is being typed.
 struct TypedPath {
@@ -57,7 +57,7 @@ pub fn can_complete(model: &Model) -> bool {
 }
 
 /// Takes the next candidate, or asks for candidates.
-pub fn obey(model: &mut Model) -> Vec<Effect> {
+pub fn next(model: &mut Model) -> Vec<Effect> {
     let Some(typed) = TypedPath::of(model) else { return Vec::new() };
     match model.completion.as_mut().and_then(Completion::take_next).map(str::to_owned) {
         Some(path) => put(model, &typed, &path),
@@ -70,7 +70,7 @@ pub fn obey(model: &mut Model) -> Vec<Effect> {
 pub fn completed(model: &mut Model, typed: &str, paths: Vec<String>) -> Vec<Effect> {
     let Some(now) = TypedPath::of(model).filter(|now| now.whole() == typed) else { return Vec::new() };
     if let Some(line) = model.mode.line_mut() {
-        line.go(crate::explorer::action::Motion::End);
+        line.go(Motion::End);
     }
     let completion = Completion::new(typed, paths);
     let (common, is_only) = (completion.common_start(), completion.only().is_some());

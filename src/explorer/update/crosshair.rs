@@ -2,7 +2,6 @@
 //! close-up it reads one position.
 
 use super::{Effect, movement};
-use crate::explorer::action::Command;
 use crate::explorer::layout::inside;
 use crate::explorer::mode::ModeKind;
 use crate::explorer::model::{Crosshair, Model, Pane};
@@ -15,32 +14,28 @@ const STEPS: (f64, f64) = (240.0, 24.0);
 /// Columns of dots in a large step along the profile.
 const COARSE: usize = 10;
 
-/// Obeys a command on the crosshair.
-pub fn obey(model: &mut Model, command: Command) -> Vec<Effect> {
-    match command {
-        Command::ToggleCrosshair => toggle(model),
-        Command::CrosshairStage(stages) => go_to_stage(model, stages),
-        Command::MoveCrosshair { steps, coarse } if model.pane == Pane::Force && model.manual.is_some() => {
-            return movement::obey(model, Command::Push { steps, coarse });
-        }
-        Command::MoveCrosshair { steps, coarse } if model.pane == Pane::Force => {
-            let share = f64::from(steps) / if coarse { STEPS.1 } else { STEPS.0 };
-            put(model, model.player.leg, model.player.done + direction(model) * share);
-        }
-        Command::CrosshairEnd(right) if model.pane == Pane::Force => {
-            let done = f64::from(u8::from(right == (direction(model) > 0.0)));
-            put(model, model.player.leg, done);
-        }
-        Command::MoveCrosshair { steps, coarse } => step(model, steps, coarse),
-        Command::CrosshairEnd(right) => {
-            if let Some((section, _)) = section(model) {
-                let end = section.first + if right { section.springs.saturating_sub(1) } else { 0 };
-                look_at(model, end);
-            }
-        }
-        _ => {}
+/// Moves the crosshair of the selected pane by steps, positive to the right; on the force curve the body moves with it.
+pub fn move_by(model: &mut Model, steps: i32, coarse: bool) -> Vec<Effect> {
+    if model.pane != Pane::Force {
+        step(model, steps, coarse);
+    } else if model.manual.is_some() {
+        return movement::push(model, steps, coarse);
+    } else {
+        let share = f64::from(steps) / if coarse { STEPS.1 } else { STEPS.0 };
+        put(model, model.player.leg, model.player.done + direction(model) * share);
     }
     vec![Effect::Show]
+}
+
+/// Moves the crosshair to the left or right end of the loading stage or of the section.
+pub fn go_to_end(model: &mut Model, right: bool) {
+    if model.pane == Pane::Force {
+        let done = f64::from(u8::from(right == (direction(model) > 0.0)));
+        put(model, model.player.leg, done);
+    } else if let Some((section, _)) = section(model) {
+        let end = section.first + if right { section.springs.saturating_sub(1) } else { 0 };
+        look_at(model, end);
+    }
 }
 
 /// Moves the crosshair to the mouse; `None` where the pane has none, or where the mouse moves the body manually.
@@ -60,8 +55,8 @@ pub fn point_at(model: &mut Model, pane: Pane, area: Rect, here: Position) -> Op
     Some(vec![Effect::Show])
 }
 
-/// The crosshair begins in the middle of the close-up.
-fn toggle(model: &mut Model) {
+/// Shows or hides the crosshair, which begins in the middle of the close-up.
+pub fn toggle(model: &mut Model) {
     if model.crosshair.take().is_some() {
         return;
     }
@@ -90,7 +85,7 @@ fn put(model: &mut Model, leg: usize, done: f64) {
 }
 
 /// Goes to another loading stage at the indentation shown, or at the end of the stage that is nearer.
-fn go_to_stage(model: &mut Model, stages: i32) {
+pub fn go_to_stage(model: &mut Model, stages: i32) {
     let last = model.legs().len().saturating_sub(1);
     let leg = model.player.leg.saturating_add_signed(stages as isize).min(last);
     let indentation = model.indentation();

@@ -2,7 +2,6 @@
 
 use super::ghosts::name_ghosts;
 use super::{Effect, show};
-use crate::explorer::action::Command;
 use crate::explorer::layout::Layout;
 use crate::explorer::mode::Mode;
 use crate::explorer::model::{Appraisal, CloseUpTarget, Model, Notice, Pane, Player};
@@ -15,51 +14,46 @@ use crate::scene::{Computed, Document, Range, SceneErrors, Solver, Step, exact_q
 /// Edits that can be taken back.
 const UNDO_DEPTH: usize = 1000;
 
-/// Obeys a command that has to do with the list of parameters or replaces the scene.
-pub fn obey(model: &mut Model, command: Command) -> Vec<Effect> {
-    match command {
-        Command::Select(rows) => {
-            let listed = model.listed();
-            let place = listed.iter().position(|index| *index == model.selected).unwrap_or(0);
-            let last = listed.len().saturating_sub(1);
-            let next = listed.get(place.saturating_add_signed(rows as isize).min(last));
-            select(model, next.copied().unwrap_or(0));
-            show_parameters(model)
+/// Moves the selection in the list of parameters.
+pub fn move_selection(model: &mut Model, rows: i32) -> Vec<Effect> {
+    let listed = model.listed();
+    let place = listed.iter().position(|index| *index == model.selected).unwrap_or(0);
+    let last = listed.len().saturating_sub(1);
+    let next = listed.get(place.saturating_add_signed(rows as isize).min(last));
+    select(model, next.copied().unwrap_or(0));
+    show_parameters(model)
+}
+
+/// Selects the first or last parameter.
+pub fn select_end(model: &mut Model, last: bool) -> Vec<Effect> {
+    let listed = model.listed();
+    let end = if last { listed.last() } else { listed.first() };
+    select(model, end.copied().unwrap_or(0));
+    show_parameters(model)
+}
+
+/// Folds the group of the selected parameter, or unfolds it.
+pub fn toggle_fold(model: &mut Model) -> Vec<Effect> {
+    let is_folded = model.parameter().is_some_and(|one| model.folded.contains(one.group));
+    fold(model, !is_folded);
+    show_parameters(model)
+}
+
+/// Opens the built-in scene of a digit.
+pub fn open_built_in(model: &mut Model, digit: char) -> Vec<Effect> {
+    let place = digit.to_digit(10).and_then(|digit| (digit as usize).checked_sub(1));
+    let Some(preset) = place.and_then(|place| presets().get(place)) else { return Vec::new() };
+    open_read(model, Document::parse(preset.text, preset.name))
+}
+
+/// Explores a scene that has been read, or states the reason why it is not allowed.
+pub fn open_read(model: &mut Model, read: Result<Document, SceneErrors>) -> Vec<Effect> {
+    match read {
+        Ok(document) => open(model, document),
+        Err(errors) => {
+            model.set_error(errors.to_string());
+            Vec::new()
         }
-        Command::SelectEnd(last) => {
-            let listed = model.listed();
-            let end = if last { listed.last() } else { listed.first() };
-            select(model, end.copied().unwrap_or(0));
-            show_parameters(model)
-        }
-        Command::ToggleFold => {
-            let is_folded = model.parameter().is_some_and(|one| model.folded.contains(one.group));
-            fold(model, !is_folded);
-            show_parameters(model)
-        }
-        Command::StepValue { steps, coarse } => {
-            let mut effects = show_parameters(model);
-            effects.extend(step_value(model, steps, coarse));
-            effects
-        }
-        Command::EditValue => edit_value(model, None),
-        Command::StartValue(character) => edit_value(model, Some(character)),
-        Command::ToggleEffect => {
-            let mut effects = show_parameters(model);
-            effects.extend(toggle(model));
-            effects
-        }
-        Command::Preset(index) => {
-            let Some(preset) = presets().get(index) else { return Vec::new() };
-            match Document::parse(preset.text, preset.name) {
-                Ok(document) => open(model, document),
-                Err(errors) => {
-                    model.notice = Some(Notice::Error(errors.to_string()));
-                    Vec::new()
-                }
-            }
-        }
-        _ => Vec::new(),
     }
 }
 
@@ -70,7 +64,7 @@ pub fn open(model: &mut Model, document: Document) -> Vec<Effect> {
         let kept = "the changed scene is kept: undo brings it back";
         model.notice = Some(Notice::Done(kept.to_owned()));
     }
-    model.player = Player { leg: 0, done: 0.0, playing: true };
+    model.player = Player::START;
     model.look = CloseUpTarget { focus: Focus::Summit, springs: CloseUpTarget::springs_shown(&document) };
     model.profile = LineView::WHOLE;
     // The map that is shown is that of the scene; a study stays loaded.
@@ -105,14 +99,14 @@ fn fold(model: &mut Model, folds: bool) {
 }
 
 /// Opens the editor on the selected value, which the first character typed replaces.
-fn edit_value(model: &mut Model, first: Option<char>) -> Vec<Effect> {
+pub fn edit_value(model: &mut Model, first: Option<char>) -> Vec<Effect> {
     if let Some(parameter) = model.parameter() {
         match parameter.setting {
             _ if first.is_some() && !parameter.takes_number() => {
                 model.notice = Some(Notice::Done(way_of_changing(parameter)));
             }
-            Setting::Switch(_) => return toggle(model),
-            Setting::Heading => return obey(model, Command::ToggleFold),
+            Setting::Switch(_) => return switch(model),
+            Setting::Heading => return toggle_fold(model),
             Setting::Field | Setting::RoughnessParameter(_) | Setting::WorkOfAdhesion => {
                 let mut line = TextLine::selected(&editable(model, parameter));
                 first.into_iter().for_each(|character| line.insert(character));
@@ -147,10 +141,15 @@ pub fn show_parameters(model: &mut Model) -> Vec<Effect> {
     show::choose(model, Pane::Parameters)
 }
 
-fn step_value(model: &mut Model, steps: i32, coarse: bool) -> Vec<Effect> {
+/// Steps the selected value.
+pub fn step_value(model: &mut Model, steps: i32, coarse: bool) -> Vec<Effect> {
+    [show_parameters(model), stepped(model, steps, coarse)].concat()
+}
+
+fn stepped(model: &mut Model, steps: i32, coarse: bool) -> Vec<Effect> {
     let Some(parameter) = model.parameter() else { return Vec::new() };
     match parameter.setting {
-        Setting::Switch(_) => return toggle(model),
+        Setting::Switch(_) => return switch(model),
         Setting::Heading => {
             fold(model, steps < 0);
             return Vec::new();
@@ -269,8 +268,12 @@ pub fn preview(model: &mut Model) -> Vec<Effect> {
     tried.map_or(vec![Effect::StopPreview], |tried| vec![Effect::Preview(Box::new(tried))])
 }
 
-/// Switches the effect of the selected row.
-fn toggle(model: &mut Model) -> Vec<Effect> {
+/// Switches the effect of the selected row on or off.
+pub fn toggle_effect(model: &mut Model) -> Vec<Effect> {
+    [show_parameters(model), switch(model)].concat()
+}
+
+fn switch(model: &mut Model) -> Vec<Effect> {
     let Some(effect) = model.parameter().and_then(|parameter| parameter.effect) else {
         return refuse(model, "no effect to switch; form, roughness, adhesion, loading have one".to_owned());
     };

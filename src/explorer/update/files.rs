@@ -6,16 +6,15 @@ use crate::explorer::mode::{Mode, SaveForm};
 use crate::explorer::model::{Model, Notice, Writing};
 use crate::explorer::text_line::TextLine;
 use crate::scene::{Document, command_line, ron_string, typed_path};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Asks for the file to save to, for title and notice.
-pub fn save_as(document: &Document, then_quit: bool) -> Mode {
-    let name = document.name();
-    let is_file = std::path::Path::new(name).extension().is_some_and(|extension| extension == "ron");
+pub fn ask_save(model: &mut Model, then_quit: bool) {
+    let (name, scene) = (model.document.name(), model.document.scene());
+    let is_file = Path::new(name).extension().is_some_and(|extension| extension == "ron");
     let file = if is_file { name.to_owned() } else { format!("{name}.ron") };
-    let scene = document.scene();
     let lines = [&file, &scene.title, &scene.notice].map(|text| TextLine::new(text));
-    Mode::SaveAs(SaveForm { lines, line: 0, then_quit })
+    model.mode = Mode::SaveAs(SaveForm { lines, line: 0, then_quit });
 }
 
 /// Saves the scene with the title and the notice that were typed, as an edit where they are others. Comments about changed
@@ -56,6 +55,12 @@ pub fn save_without_comments(model: &mut Model, path: PathBuf, then_quit: bool) 
     effects
 }
 
+/// Saves the scene with all comments.
+pub fn save_with_comments(model: &mut Model) -> Vec<Effect> {
+    let Mode::StaleComments { path, then_quit, .. } = model.mode.clone() else { return Vec::new() };
+    write(model, path, Content::Scene, then_quit)
+}
+
 /// Asks for the file of the scene or, where that is saved, of one that was left with unsaved changes.
 pub fn save_before_leaving(model: &mut Model) -> Vec<Effect> {
     let mut effects = Vec::new();
@@ -64,13 +69,13 @@ pub fn save_before_leaving(model: &mut Model) -> Vec<Effect> {
     {
         effects = edit::adopt(model, document);
     }
-    model.mode = save_as(&model.document, true);
+    ask_save(model, true);
     effects
 }
 
 /// Asks for the name of the file to export to.
 pub fn ask_export(model: &mut Model) {
-    let name = std::path::Path::new(model.document.name());
+    let name = Path::new(model.document.name());
     let stem = name.file_stem().map_or_else(|| "scene".into(), |stem| stem.to_string_lossy());
     model.mode = Mode::Export(TextLine::new(&format!("{stem}.csv")));
 }
@@ -80,27 +85,34 @@ pub fn export(model: &mut Model, path: PathBuf) -> Vec<Effect> {
     if path.as_os_str().is_empty() {
         return Vec::new();
     }
-    let Some(content) = Content::of_file(model.exports(), &path) else {
-        let is_map = model.exports() == Content::MAP_EXPORTS;
+    match content_for(model, &path) {
+        Ok(content) => write(model, path, content, false),
+        Err(why) => {
+            model.set_error(why);
+            model.mode = Mode::Explore;
+            Vec::new()
+        }
+    }
+}
+
+/// Content for an exported file; or why there is none.
+fn content_for(model: &Model, path: &Path) -> Result<Content, String> {
+    let (exports, is_map) = (model.exports(), model.exports() == Content::MAP_EXPORTS);
+    let Some(content) = Content::of_file(exports, path) else {
         let what = if is_map { "the map" } else { "the curve" };
-        let endings: Vec<String> = model.exports().iter().map(|(ending, _)| format!(".{ending}")).collect();
-        let why =
-            format!("{}: the name must end in {}, to export {what}", path.display(), endings.join(", "));
-        model.notice = Some(Notice::Error(why));
-        model.mode = Mode::Explore;
-        return Vec::new();
+        let endings: Vec<String> = exports.iter().map(|(ending, _)| format!(".{ending}")).collect();
+        let (path, endings) = (path.display(), endings.join(", "));
+        return Err(format!("{path}: the name must end in {endings}, to export {what}"));
     };
-    if matches!(content, Content::MapCells | Content::MapFigure(_)) && model.chart.map_model().is_none() {
-        model.notice = Some(Notice::Error("there is no map yet to export".to_owned()));
-        model.mode = Mode::Explore;
-        return Vec::new();
+    match content {
+        Content::MapCells | Content::MapFigure(_) if model.chart.map_model().is_none() => {
+            Err("there is no map yet to export".to_owned())
+        }
+        Content::Curve(_) | Content::Outcome if !model.is_current() => {
+            Err("the scene has no curve yet to export".to_owned())
+        }
+        content => Ok(content),
     }
-    if matches!(content, Content::Curve(_) | Content::Outcome) && !model.is_current() {
-        model.notice = Some(Notice::Error("the scene has no curve yet to export".to_owned()));
-        model.mode = Mode::Explore;
-        return Vec::new();
-    }
-    write(model, path, content, false)
 }
 
 /// Writes a file that is not there yet.
@@ -160,6 +172,15 @@ pub fn written(model: &mut Model, result: Result<Written, WriteFailure>) {
         Err(WriteFailure::Refused(error)) => {
             model.notice = Some(Notice::Error(format!("not written: {error}")));
         }
+    }
+}
+
+/// Leaves the explorer, or asks about unsaved changes first.
+pub fn ask_quit(model: &mut Model) {
+    if model.unsaved().is_empty() {
+        quit(model);
+    } else {
+        model.mode = Mode::Quit;
     }
 }
 

@@ -1,10 +1,9 @@
 //! Looking through the library.
 
-use super::{Effect, edit, edit_line};
-use crate::explorer::action::Command;
+use super::{Effect, edit};
 use crate::explorer::finder::Finder;
 use crate::explorer::mode::{Library, Mode};
-use crate::explorer::model::{Model, Notice};
+use crate::explorer::model::Model;
 use crate::scene::{Entry, typed_path};
 
 /// Most springs of a scene that is computed to be looked at in the list: its curve is there before the next row.
@@ -37,49 +36,23 @@ pub fn search(model: &mut Model) -> Vec<Effect> {
     preview(model)
 }
 
-/// Obeys a command while the library is open.
-pub fn obey(model: &mut Model, command: Command) -> Vec<Effect> {
-    let Mode::Library(library) = &mut model.mode else { return Vec::new() };
-    match command {
-        Command::Select(rows) => {
-            library.finder.select(rows);
-            preview(model)
+/// Opens the selected scene, or the typed path where no scene fits.
+pub fn accept(model: &mut Model, library: &Library) -> Vec<Effect> {
+    let Some(entry) = library.entry() else {
+        let typed = library.finder.query.text().trim().to_owned();
+        if typed.is_empty() {
+            return Vec::new();
         }
-        Command::Accept => {
-            let Some(entry) = library.entry() else {
-                let typed = library.finder.query.text().trim().to_owned();
-                if typed.is_empty() {
-                    return Vec::new();
-                }
-                model.mode = Mode::Explore;
-                let path = typed_path(&typed).into_os_string().into_string();
-                return vec![Effect::Open(path.unwrap_or(typed))];
-            };
-            match entry.document() {
-                Ok(document) => {
-                    model.mode = Mode::Explore;
-                    edit::open(model, document)
-                }
-                Err(errors) => {
-                    model.notice = Some(Notice::Error(errors.to_string()));
-                    model.mode = Mode::Explore;
-                    Vec::new()
-                }
-            }
-        }
-        Command::Delete { .. } | Command::Clear => {
-            edit_line(model, command);
-            search(model)
-        }
-        _ => {
-            edit_line(model, command);
-            Vec::new()
-        }
-    }
+        model.mode = Mode::Explore;
+        let path = typed_path(&typed).into_os_string().into_string();
+        return vec![Effect::Open(path.unwrap_or(typed))];
+    };
+    model.mode = Mode::Explore;
+    edit::open_read(model, entry.document())
 }
 
 /// Asks for the curve of the selected scene.
-fn preview(model: &mut Model) -> Vec<Effect> {
+pub fn preview(model: &mut Model) -> Vec<Effect> {
     let Mode::Library(library) = &model.mode else { return Vec::new() };
     let Some(entry) = library.entry() else { return Vec::new() };
     if model.preview.as_ref().is_some_and(|preview| preview.text == entry.text) {

@@ -2,83 +2,73 @@
 
 use super::Effect;
 use crate::draw::AxisScale;
-use crate::explorer::action::{Command, Jump};
-use crate::explorer::model::{CloseUpTarget, Model, Notice, Pane};
+use crate::explorer::model::{CloseUpTarget, Model, Pane};
 use crate::explorer::request::{Focus, LineView};
 
 /// Fewest springs that fill a pane.
 const FEWEST_SPRINGS: usize = 8;
 
-/// Obeys a command that changes only what is seen.
-pub fn obey(model: &mut Model, command: Command) -> Vec<Effect> {
-    match command {
-        Command::Fragment(jump) => {
-            let fragment = model.snapshot.as_ref().and_then(|snapshot| snapshot.close_up.fragment);
-            let middle = fragment.map(|fragment| fragment.middle());
-            model.look.focus = match jump {
-                Jump::Next => Focus::After(middle),
-                Jump::Previous => Focus::Before(middle),
-                Jump::Largest => Focus::Largest,
-                Jump::MostLoaded => Focus::MostLoaded,
-                Jump::Summit => Focus::Summit,
-            };
-        }
-        Command::Zoom(steps) => zoom(model, steps),
-        Command::Pan(quarters) => pan(model, quarters),
-        Command::ResetZoom => {
-            model.profile = LineView::WHOLE;
-            model.look.springs = CloseUpTarget::springs_shown(&model.document);
-        }
-        Command::ToggleFollow => {
-            model.profile.follow = !model.profile.follow;
-            // There is nothing to follow in the whole line.
-            if model.profile.follow && model.profile.share >= 1.0 {
-                model.profile.share = 0.25;
-            }
-        }
-        Command::NextCurve => model.curve.quantities = model.curve.quantities.next(),
-        Command::ToggleNormalised => model.curve.normalised = !model.curve.normalised,
-        Command::ToggleLogarithmic => {
-            model.curve.scale = match model.curve.scale {
-                AxisScale::Linear => AxisScale::Logarithmic,
-                AxisScale::Logarithmic => AxisScale::Linear,
-            };
-        }
-        Command::ToggleLoss => model.curve.loss = !model.curve.loss,
-        Command::ToggleApproximate => {
-            model.approximate.shown = !model.approximate.shown;
-            return vec![Effect::Study, Effect::Show];
-        }
-        Command::ZoomPane => model.zoomed = !model.zoomed,
-        Command::NextPane => {
-            let panes = model.panes();
-            let place = panes.iter().position(|pane| *pane == model.pane).unwrap_or(0);
-            model.pane = panes[(place + 1) % panes.len()];
-        }
-        Command::ToggleWork => model.shows_work = !model.shows_work,
-        Command::NextTheme => {
-            model.appearance.theme = model.appearance.theme.next();
-            notify(model, format!("colours: {}", model.appearance.theme.name()));
-        }
-        Command::NextMarker => {
-            model.appearance.marker = model.appearance.marker.next();
-            notify(model, format!("markers: {}", model.appearance.marker.name()));
-        }
-        Command::RememberAppearance => {
-            let Some(path) = model.config_path.clone() else {
-                let why = "there is no configuration file: asperity was started with --no-config";
-                model.notice = Some(Notice::Error(why.to_owned()));
-                return Vec::new();
-            };
-            return vec![Effect::Remember { path, appearance: model.appearance }];
-        }
-        _ => {}
-    }
-    vec![Effect::Show]
+/// Shows the fragment that a question asks for, starting from the one shown.
+pub fn go_to_fragment(model: &mut Model, question: fn(Option<usize>) -> Focus) {
+    let fragment = model.snapshot.as_ref().and_then(|snapshot| snapshot.close_up.fragment);
+    model.look.focus = question(fragment.map(|fragment| fragment.middle()));
 }
 
-fn notify(model: &mut Model, text: String) {
-    model.notice = Some(Notice::Done(text));
+/// Shows the whole profile, and the close-up as it was.
+pub fn reset_zoom(model: &mut Model) {
+    model.profile = LineView::WHOLE;
+    model.look.springs = CloseUpTarget::springs_shown(&model.document);
+}
+
+/// Keeps the profile centred on the close-up, or not.
+pub fn toggle_follow(model: &mut Model) {
+    model.profile.follow = !model.profile.follow;
+    // There is nothing to follow in the whole line.
+    if model.profile.follow && model.profile.share >= 1.0 {
+        model.profile.share = 0.25;
+    }
+}
+
+/// Gives the curve logarithmic or linear axes.
+pub fn toggle_logarithmic(model: &mut Model) {
+    model.curve.scale = match model.curve.scale {
+        AxisScale::Linear => AxisScale::Logarithmic,
+        AxisScale::Logarithmic => AxisScale::Linear,
+    };
+}
+
+/// Draws the approximate JKR curve, or leaves it out.
+pub fn toggle_approximate(model: &mut Model) -> Vec<Effect> {
+    model.approximate.shown = !model.approximate.shown;
+    vec![Effect::Study, Effect::Show]
+}
+
+/// Selects the next pane.
+pub fn next_pane(model: &mut Model) {
+    let panes = model.panes();
+    let place = panes.iter().position(|pane| *pane == model.pane).unwrap_or(0);
+    model.pane = panes[(place + 1) % panes.len()];
+}
+
+/// Changes the colours.
+pub fn next_theme(model: &mut Model) {
+    model.appearance.theme = model.appearance.theme.next();
+    model.set_done(format!("colours: {}", model.appearance.theme.name()));
+}
+
+/// Changes the markers of the plots.
+pub fn next_marker(model: &mut Model) {
+    model.appearance.marker = model.appearance.marker.next();
+    model.set_done(format!("markers: {}", model.appearance.marker.name()));
+}
+
+/// Keeps colours and markers in the configuration file.
+pub fn remember_appearance(model: &mut Model) -> Vec<Effect> {
+    let Some(path) = model.config_path.clone() else {
+        model.set_error("there is no configuration file: asperity was started with --no-config");
+        return Vec::new();
+    };
+    vec![Effect::Remember { path, appearance: model.appearance }]
 }
 
 fn springs(model: &Model) -> usize {
@@ -86,7 +76,7 @@ fn springs(model: &Model) -> usize {
 }
 
 /// Looks closer in the profile, where it is the chosen pane, or in the close-up.
-fn zoom(model: &mut Model, steps: i32) {
+pub fn zoom(model: &mut Model, steps: i32) {
     let most = springs(model);
     if model.pane == Pane::Profile {
         let least = (FEWEST_SPRINGS as f64 / most as f64).min(1.0);
@@ -122,7 +112,7 @@ pub fn zoom_at(model: &mut Model, steps: i32, pointer: Option<f64>) {
 }
 
 /// Moves along the line by quarters of what is seen.
-fn pan(model: &mut Model, quarters: i32) {
+pub fn pan(model: &mut Model, quarters: i32) {
     let quarters = f64::from(quarters) / 4.0;
     if model.pane == Pane::Profile {
         let half = model.profile.share / 2.0;

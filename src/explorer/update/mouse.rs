@@ -1,7 +1,7 @@
 //! The mouse: it chooses panes and rows, drags the load and scrolls. Everything it does a key does too.
 
-use super::{Effect, crosshair};
-use crate::explorer::action::{Command, Gesture, Mouse};
+use super::{Effect, crosshair, dialogue};
+use crate::explorer::action::{Gesture, Mouse};
 use crate::explorer::layout::{Layout, inside};
 use crate::explorer::mode::Mode;
 use crate::explorer::model::Model;
@@ -12,7 +12,8 @@ pub fn act(model: &mut Model, mouse: Mouse) -> Vec<Effect> {
     match (&model.mode, mouse.gesture) {
         (Mode::Explore, _) => {}
         (Mode::Help { .. } | Mode::Library(_) | Mode::Find(_) | Mode::Palette(_), Gesture::Wheel(turns)) => {
-            return super::obey(model, Command::Select(-turns));
+            model.completion = None;
+            return dialogue::select(model, -turns);
         }
         _ => return Vec::new(),
     }

@@ -1,10 +1,9 @@
 //! Movement of the body: animation of the scene's loading, or manual loading.
 
 use super::Effect;
-use crate::explorer::action::Command;
 use crate::explorer::config::Animation;
 use crate::explorer::mode::Mode;
-use crate::explorer::model::{ManualState, Model, Notice, Player};
+use crate::explorer::model::{ManualState, Model, Player};
 use crate::explorer::request::{Focus, ManualMove};
 use crate::explorer::snapshot::{ContactSnapshot, Refusal};
 use crate::explorer::text_line::TextLine;
@@ -21,54 +20,69 @@ const HAND_STEPS: (f64, f64) = (400.0, 40.0);
 /// Points that are kept of the path of manual loading.
 const PATH_KEPT: usize = 20_000;
 
-/// Obeys a command that moves the body.
-pub fn obey(model: &mut Model, command: Command) -> Vec<Effect> {
-    match command {
-        Command::ToggleManual if model.manual.is_some() => return give_back(model),
-        Command::ToggleManual => return take(model, None),
-        Command::Push { steps, coarse } => {
-            let (low, high) = model.indentations().unwrap_or_default();
-            let step = (high - low) / if coarse { HAND_STEPS.1 } else { HAND_STEPS.0 };
-            return take(model, Some(ManualMove::By(f64::from(steps) * step)));
+/// Begins manual loading, or returns to the loading of the scene.
+pub fn toggle_manual(model: &mut Model) -> Vec<Effect> {
+    if model.manual.is_some() { animate(model, |_| ()) } else { take(model, None) }
+}
+
+/// Presses (positive) or pulls the body by so many steps of manual loading.
+pub fn push(model: &mut Model, steps: i32, coarse: bool) -> Vec<Effect> {
+    let (low, high) = model.indentations().unwrap_or_default();
+    let step = (high - low) / if coarse { HAND_STEPS.1 } else { HAND_STEPS.0 };
+    take(model, Some(ManualMove::By(f64::from(steps) * step)))
+}
+
+/// Pulls the body until nothing touches.
+pub fn separate(model: &mut Model) -> Vec<Effect> {
+    take(model, Some(ManualMove::Separate))
+}
+
+/// Asks for a force to go to.
+pub fn type_force(model: &mut Model) {
+    model.mode = Mode::Force(TextLine::new(""));
+}
+
+/// Plays or pauses the animation; at its end it begins again.
+pub fn toggle_play(model: &mut Model) -> Vec<Effect> {
+    animate(model, |model| {
+        let at_end = model.player.done >= 1.0 && model.player.leg + 1 >= model.legs().len();
+        if at_end && !model.player.playing {
+            model.player = Player::START;
+        } else {
+            model.player.playing = !model.player.playing;
         }
-        Command::Separate => return take(model, Some(ManualMove::Separate)),
-        Command::TypeForce => {
-            model.mode = Mode::Force(TextLine::new(""));
-            return Vec::new();
-        }
-        _ => {}
-    }
-    // What plays is the scene's loading.
-    let mut effects = Vec::new();
-    if model.manual.take().is_some() {
-        effects.push(Effect::Manual(ManualMove::Give));
-    }
-    match command {
-        Command::TogglePlay => {
-            let at_end = model.player.done >= 1.0 && model.player.leg + 1 >= model.legs().len();
-            if at_end && !model.player.playing {
-                model.player = Player { leg: 0, done: 0.0, playing: true };
-            } else {
-                model.player.playing = !model.player.playing;
-            }
-        }
-        Command::Step(steps) => {
-            model.player.playing = false;
-            let legs = model.legs().len();
-            advance(&mut model.player, f64::from(steps) / STEPS, legs);
-        }
-        Command::Restart => model.player = Player { leg: 0, done: 0.0, playing: true },
-        Command::Leg(legs) => {
-            // Back from inside a leg goes to its start.
-            let back = legs < 0 && model.player.done > 0.0;
-            let leg = model.player.leg.saturating_add_signed(if back { 0 } else { legs as isize });
-            model.player.leg = leg.min(model.legs().len().saturating_sub(1));
-            model.player.done = 0.0;
-        }
-        _ => {}
-    }
-    effects.push(Effect::Show);
-    effects
+    })
+}
+
+/// Moves the paused animation by steps.
+pub fn step(model: &mut Model, steps: i32) -> Vec<Effect> {
+    animate(model, |model| {
+        model.player.playing = false;
+        let legs = model.legs().len();
+        advance(&mut model.player, f64::from(steps) / STEPS, legs);
+    })
+}
+
+/// Begins the animation again.
+pub fn restart(model: &mut Model) -> Vec<Effect> {
+    animate(model, |model| model.player = Player::START)
+}
+
+/// Goes to the start of a leg so many after this one; back from inside a leg, to its own start first.
+pub fn go_to_leg(model: &mut Model, legs: i32) -> Vec<Effect> {
+    animate(model, |model| {
+        let back = legs < 0 && model.player.done > 0.0;
+        let leg = model.player.leg.saturating_add_signed(if back { 0 } else { legs as isize });
+        model.player.leg = leg.min(model.legs().len().saturating_sub(1));
+        model.player.done = 0.0;
+    })
+}
+
+/// Changes the animation, which ends manual loading: the animation is the loading of the scene.
+fn animate(model: &mut Model, change: impl FnOnce(&mut Model)) -> Vec<Effect> {
+    let gives = model.manual.take().map(|_| Effect::Manual(ManualMove::Give));
+    change(model);
+    gives.into_iter().chain([Effect::Show]).collect()
 }
 
 /// Lets the animation go on by a time.
@@ -131,7 +145,7 @@ pub fn shown(model: &mut Model, snapshot: Arc<ContactSnapshot>) {
         }
         manual.dissipated_energy = travel.dissipated_energy;
         if let Some(error) = &travel.refused {
-            model.notice = Some(Notice::Error(refusal(error, &model.typed_force)));
+            model.set_error(refusal(error, &model.typed_force));
         }
     }
     model.snapshot = Some(snapshot);
@@ -179,11 +193,6 @@ pub fn take(model: &mut Model, order: Option<ManualMove>) -> Vec<Effect> {
     effects
 }
 
-fn give_back(model: &mut Model) -> Vec<Effect> {
-    model.manual = None;
-    vec![Effect::Manual(ManualMove::Give), Effect::Show]
-}
-
 /// Moves the body to a force that was typed.
 pub fn accept_force(model: &mut Model, typed: &str) -> Vec<Effect> {
     match parse_quantity(typed.trim(), "N") {
@@ -192,7 +201,7 @@ pub fn accept_force(model: &mut Model, typed: &str) -> Vec<Effect> {
             take(model, Some(ManualMove::ToForce(force)))
         }
         Err(error) => {
-            model.notice = Some(Notice::Error(format!("{error}; for example 10 µN, or -2e-6 to pull")));
+            model.set_error(format!("{error}; for example 10 µN, or -2e-6 to pull"));
             Vec::new()
         }
     }

@@ -7,11 +7,11 @@ use super::wrap::{fitted, fitting, wrapped_within};
 use crate::accuracy::Target;
 use crate::analysis::{contact_stiffness, mean_pressure};
 use crate::contact::CurvePoint;
-use crate::explorer::action::{Command, Content, Traffic};
+use crate::explorer::action::{Content, Traffic};
 use crate::explorer::completion::Completion;
 use crate::explorer::keys::{self, Binding};
 use crate::explorer::mode::SaveForm;
-use crate::explorer::model::{Estimated, ManualState, Mode, ModeKind, Model, Notice, Pane};
+use crate::explorer::model::{Estimated, ManualState, Mode, ModeKind, Model, Notice};
 use crate::explorer::parameters::Parameter;
 use crate::explorer::snapshot::ContactSnapshot;
 use crate::explorer::text_line::TextLine;
@@ -313,10 +313,10 @@ fn candidates(completion: &Completion, width: u16, model: &Model) -> Line<'stati
 /// Keys that are valid now with their labels, the most important first; rows beside each other with the same label are
 /// one item.
 fn footer_items(model: &Model) -> Vec<(String, &'static str)> {
-    let is_shown = |row: &&Binding| match row.command {
-        Command::ToggleManual => true,
-        Command::Complete => can_complete(model),
-        Command::StartValue(_) => model.parameter().is_some_and(Parameter::takes_number),
+    let is_shown = |row: &&Binding| match row.command.name {
+        "toggle-manual" => true,
+        "complete" => can_complete(model),
+        "start-value" => model.parameter().is_some_and(Parameter::takes_number),
         _ => !row.label.is_empty() && (model.manual.is_some() || !keys::is_manual(row)),
     };
     let mut rows: Vec<&Binding> = model.bindings.valid_in(model.keys()).filter(is_shown).collect();
@@ -333,16 +333,11 @@ fn footer_items(model: &Model) -> Vec<(String, &'static str)> {
 /// Place of a key in the footer: the way to all others and the way out, which show in the smallest window; what only
 /// the present mode has; what changes what is seen; the rest.
 fn rank(row: &Binding, model: &Model) -> u8 {
-    match row.command {
-        Command::Help | Command::Quit => 0,
+    match row.command.name {
+        "help" | "quit" => 0,
         _ if model.manual.is_some() && keys::is_manual(row) => 1,
         _ if !row.modes.contains(&ModeKind::Explore) => 1,
-        Command::NextPane
-        | Command::Toggle(Pane::Chart)
-        | Command::OpenLibrary
-        | Command::Save
-        | Command::Pin
-        | Command::OpenPalette => 2,
+        "next-pane" | "toggle-chart" | "open-library" | "save" | "pin" | "open-palette" => 2,
         _ => 3,
     }
 }

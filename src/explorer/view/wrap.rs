@@ -3,7 +3,7 @@
 //! ratatui does so as well, but overruns its area, and panics, where a word has wide characters or
 //! begins with a combining mark; titles and typed values may.
 
-use crate::export::sheet::belong_together;
+use crate::text::belong_together;
 use ratatui::layout::Rect;
 use ratatui::style::Style;
 use ratatui::text::{Line, Span, StyledGrapheme};

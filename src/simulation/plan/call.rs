@@ -1,38 +1,16 @@
 //! Questions of the stages to a scene, and their answers.
 
-use super::Stage;
 use super::legs::Legs;
 use crate::scene::{Edges, Effect, Roughness, Scene, Solver};
 use serde::Serialize;
 
 /// Bytes for each spring: a height of the roughness, or a gap of the line.
 pub const HEIGHT: u64 = 8;
-/// Bytes for each spring: its indentation of attachment or detachment.
-const THRESHOLD: u64 = 8;
-/// Bytes for each spring of the passes: thresholds of a quarter of the springs, and runs of the present leg and of the
-/// one before. Runs are few but where hardly anything sticks.
-pub const PASSED: u64 = 12;
-/// Bytes for each spring of the stepwise solver: its threshold and whether it touches.
-pub const RELAXED: u64 = THRESHOLD + 1;
 /// Bytes for each sample of the leg that is under way, beside its curve: grid of indentations, what is in contact at
 /// each, and where the force is looked for. As measured.
 const SAMPLED: u64 = 64;
 /// The same with edges between springs, which are summed for each sample as well.
 const SAMPLED_WITH_EDGES: u64 = 120;
-
-/// Reasons for which stages are skipped.
-pub const NO_ADHESION: &str = "no adhesion: each spring touches and leaves at its own gap";
-pub const STEPWISE: &str = "solver: Stepwise";
-pub const NEVER_BACK: &str = "loading never goes back";
-pub const NOT_OBSERVED: &str = "not in observe";
-
-/// A stage: what it is called, what calls for it, and what it costs if something does.
-pub struct Row {
-    pub stage: Stage,
-    pub name: &'static str,
-    pub called: fn(&Call<'_>) -> Called,
-    pub cost: fn(&Call<'_>) -> StageCost,
-}
 
 /// Decision on a stage of a scene.
 pub enum Called {

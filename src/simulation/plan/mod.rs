@@ -1,81 +1,20 @@
 //! Stages that a scene calls for, the fields that call for them, and their costs. The run follows this plan.
-//!
-//! Each stage is a file with its row, and has one entry in the table, the only list of all stages.
 
 mod call;
-mod form;
-mod fragments;
-mod height_histogram;
 mod legs;
-mod loading_pass;
-mod measured_profile;
-mod relaxation;
-mod rule_of_hess;
-mod synthesis;
-mod tree;
-mod unloading_pass;
-mod zero_load_adhesion;
+mod table;
 
 use crate::contact::CurvePoint;
 use crate::scene::Scene;
-use call::{Call, Called, HEIGHT, Row};
+use call::{Call, Called, HEIGHT};
 use serde::Serialize;
+use table::TABLE;
 
 pub use call::StageCost;
+pub use table::Stage;
 
 /// Resident bytes of the program that has computed a small scene: code, tables and stacks.
 const PROGRAM: u64 = 14 << 20;
-
-/// All stages, in the order in which they run.
-const TABLE: [Row; 11] = [
-    form::ROW,
-    synthesis::ROW,
-    measured_profile::ROW,
-    tree::ROW,
-    rule_of_hess::ROW,
-    loading_pass::ROW,
-    unloading_pass::ROW,
-    relaxation::ROW,
-    zero_load_adhesion::ROW,
-    fragments::ROW,
-    height_histogram::ROW,
-];
-
-/// A stage on the way from a scene to its curve.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Stage {
-    /// Adding the macroscopic form.
-    Form,
-    /// Drawing random phases and transforming them into a line.
-    Synthesis,
-    /// Reading a measured profile.
-    MeasuredProfile,
-    /// Building the tree of the gaps.
-    Tree,
-    /// Evaluating the rule of Hess.
-    RuleOfHess,
-    /// Runs of loading legs.
-    LoadingPass,
-    /// Runs of unloading legs.
-    UnloadingPass,
-    /// Steps and relaxation sweeps.
-    Relaxation,
-    /// The loop turned at first touch, for F_a(0) and the regime.
-    ZeroLoadAdhesion,
-    /// The list of contact fragments.
-    Fragments,
-    /// The histogram of heights.
-    HeightHistogram,
-}
-
-impl Stage {
-    /// The stage in words.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        TABLE.iter().find(|row| row.stage == self).map_or("", |row| row.name)
-    }
-}
 
 /// A stage, whether a scene calls for it, and what it then costs.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
@@ -154,18 +93,5 @@ impl Plan {
         let curves = call.curve_points * size_of::<CurvePoint>() as u64 + call.bytes_of_sampling();
         let contact = contact.map(|stage| self.bytes(stage)).iter().sum::<u64>();
         (kept + HEIGHT * call.springs + contact + curves).max(self.bytes(Stage::Synthesis))
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn each_stage_stands_once_in_the_table() {
-        for (index, row) in TABLE.iter().enumerate() {
-            assert_eq!(row.stage as usize, index, "{}", row.name);
-            assert_eq!(row.stage.name(), row.name);
-        }
     }
 }

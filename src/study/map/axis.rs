@@ -3,8 +3,7 @@
 use crate::analysis::Governing;
 use crate::scene::{Adhesion, Document, Leg, RoughnessParameter, Scene, SceneErrors, ron_float};
 use crate::study::figure::FigureAxis;
-use crate::study::governing::governing;
-use crate::study::target::Target;
+use crate::study::target::{Target, governing};
 
 /// Axis of a map.
 #[derive(Clone, Debug, PartialEq)]

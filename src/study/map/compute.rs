@@ -22,8 +22,8 @@ pub fn compute(map: &mut LiveMap, folder: &Path, stop: &dyn Fn() -> bool, report
     let template = Arc::clone(map.template());
     let plan = template.plan();
     let cells = Cells::of(&plan);
-    let recorder = Recorder::new(&plan, Simulation::new(folder.to_path_buf()), stop);
-    let mut solver = Solver::new(&plan, &cells, recorder);
+    let mut recorder = Recorder::new(&plan, Simulation::new(folder.to_path_buf()), stop);
+    let mut solver = Solver::new(&plan, &cells, |scene, seed| recorder.record(scene, seed));
     let mut quantiles = StudentT::default();
     for level in Level::ALL.into_iter().take_while(|level| *level <= template.finest()) {
         for &row in map.rows_of(level) {

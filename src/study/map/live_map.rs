@@ -1,7 +1,7 @@
 //! The live map over H and κ or e_el/γ, as far as it has been computed.
 
 use super::grid::{COLUMNS, HURSTS, Level, hursts, parameter_values};
-use super::model::{MapModel, MapScale};
+use super::model::{Layer, MapModel};
 use super::template::{RECORD, Template};
 use crate::study::cell_summary::CellSummary;
 use crate::study::quantity::Quantity;
@@ -94,15 +94,12 @@ impl LiveMap {
     #[must_use]
     pub fn model(&self) -> MapModel {
         let cells: Vec<_> = self.cells.iter().map(|cell| cell.as_ref().map(Result::as_ref)).collect();
+        let estimates = |column| cells.iter().map(|cell| (*cell)?.ok()?.estimate(column)).collect();
         let record = RECORD.into_iter().enumerate();
         let drawn = record.filter(|(_, quantity)| *quantity != Quantity::Regime);
-        let scale = |(column, quantity)| {
-            let estimates: Vec<_> = cells.iter().map(|cell| (*cell)?.ok()?.estimate(column)).collect();
-            (column, MapScale::new(quantity, &estimates))
-        };
         let map_model = MapModel::new(
             (parameter_values(self.template.parameter()), self.template.has_hurst().then(hursts)),
-            &drawn.map(scale).collect::<Vec<_>>(),
+            drawn.map(|(column, quantity)| Layer::new(quantity, estimates(column))).collect(),
             &cells,
             (0..cells.len()).map(|index| self.stand_in(index % COLUMNS, index / COLUMNS)).collect(),
         );

@@ -4,8 +4,7 @@
 use super::axis::MapAxis;
 use crate::analysis::Regime;
 use crate::study::cell_summary::CellSummary;
-use crate::study::figure::{AxisScale, Boundary, Estimate, Figure, Panel};
-use crate::study::figure_axis::scale_of;
+use crate::study::figure::{AxisScale, Boundary, Estimate, Figure, Panel, scale_of};
 use crate::study::quantity::Quantity;
 
 /// A map as it is shown.
@@ -36,20 +35,17 @@ pub struct Layer {
     pub estimates: Vec<Option<Estimate>>,
 }
 
-/// A quantity of a map with its scale.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct MapScale {
-    quantity: Quantity,
-    scale: AxisScale,
-    range: Option<(f64, f64)>,
-}
-
-impl MapScale {
-    /// The scale of a quantity by its estimates on all maps.
-    pub fn new(quantity: Quantity, estimates: &[Option<Estimate>]) -> Self {
+impl Layer {
+    /// A quantity in all cells of all maps that share the scale.
+    pub(super) fn new(quantity: Quantity, estimates: Vec<Option<Estimate>>) -> Self {
         let means = estimates.iter().flatten().map(|estimate| estimate.mean);
         let range = means.map(|mean| (mean, mean)).reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)));
-        MapScale { quantity, scale: scale_of(estimates), range }
+        Layer { quantity, scale: scale_of(&estimates), range, estimates }
+    }
+
+    /// The quantity in other cells, on the same scale.
+    pub(super) fn with(&self, estimates: Vec<Option<Estimate>>) -> Self {
+        Layer { estimates, ..*self }
     }
 }
 
@@ -116,10 +112,10 @@ pub enum Charted {
 
 impl MapModel {
     /// A map from the summaries of its cells, row by row, or the reasons why they could not be computed, and the cell
-    /// shown for each. `scales` are the quantities beside the regime, each with its place among the recorded.
+    /// shown for each. The layers are the quantities beside the regime.
     pub(super) fn new(
         (across, up): (MapAxis, Option<MapAxis>),
-        scales: &[(usize, MapScale)],
+        layers: Vec<Layer>,
         summaries: &[Option<Result<&CellSummary, &String>>],
         stand_ins: Vec<Option<usize>>,
     ) -> MapModel {
@@ -127,15 +123,11 @@ impl MapModel {
             .iter()
             .map(|cell| cell.map(|cell| cell.map(MapCell::new).map_err(String::clone)))
             .collect();
-        let layer = |&(column, MapScale { quantity, scale, range }): &(usize, MapScale)| {
-            let estimate = |cell: &Option<Result<&CellSummary, &String>>| (*cell)?.ok()?.estimate(column);
-            Layer { quantity, scale, range, estimates: summaries.iter().map(estimate).collect() }
-        };
         let known = || cells.iter().flatten().flatten();
         MapModel {
             has_regimes: known().any(|cell| cell.regime.is_some()),
             is_split: known().any(|cell| cell.split.is_some()),
-            layers: scales.iter().map(layer).collect(),
+            layers,
             across,
             up,
             cells,
@@ -151,10 +143,7 @@ impl MapModel {
         let place = |index: usize| index % columns * rows + index / columns;
         // The cells of the new order, by their numbers in the old one.
         let order = || (0..columns).flat_map(|column| (0..rows).map(move |row| row * columns + column));
-        let layer = |layer: &Layer| Layer {
-            estimates: order().map(|index| layer.estimates[index]).collect(),
-            ..layer.clone()
-        };
+        let layer = |layer: &Layer| layer.with(order().map(|index| layer.estimates[index]).collect());
         MapModel {
             layers: self.layers.iter().map(layer).collect(),
             cells: order().map(|index| self.cells[index].clone()).collect(),
@@ -284,19 +273,14 @@ impl MapModel {
         let known = |index: usize| self.cells[index].as_ref()?.as_ref().ok();
         let panel = |charted: &Charted| match *charted {
             Charted::Quantity(quantity) => self.layer(quantity).map(|layer| Panel {
-                quantity: quantity.into(),
-                estimates: estimates(layer),
-                scale: layer.scale,
                 range: layer.range,
-                vanishes: Quantity::ADHESION_SHARES.contains(&quantity),
+                ..Panel::new(quantity, estimates(layer), layer.scale)
             }),
-            Charted::Regime => Some(Panel {
-                quantity: Quantity::Regime.into(),
-                estimates: cells().map(|index| known(index?)?.rank()).collect(),
-                scale: AxisScale::Linear,
-                range: Some((0.0, 1.0)),
-                vanishes: false,
-            }),
+            Charted::Regime => {
+                let ranks = cells().map(|index| known(index?)?.rank()).collect();
+                let panel = Panel::new(Quantity::Regime, ranks, AxisScale::Linear);
+                Some(Panel { range: Some((0.0, 1.0)), ..panel })
+            }
         };
         let share = Quantity::ADHESION_SHARES.into_iter().find_map(|share| self.layer(share));
         let regime = |index: Option<usize>| known(index?)?.regime;

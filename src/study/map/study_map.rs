@@ -1,12 +1,12 @@
 //! The maps of a finished study: over H and κ, or over other axes; one map for each value of the axes that are left.
 
 use super::axis::{MapAxis, force_unit, moved};
-use super::model::{MapModel, MapScale};
+use super::model::{Layer, MapModel};
 use super::template::Template;
 use crate::scene::{Adhesion, Document, Leg, Numerics, Roughness, Scene, SceneErrors};
 use crate::study::axis::Axis;
 use crate::study::error::StudyError;
-use crate::study::figure_axis::{figure_axis, fixed};
+use crate::study::figure::{FigureAxis, fixed};
 use crate::study::finished::Finished;
 use crate::study::numbering::places_of;
 use crate::study::plan::Plan;
@@ -49,8 +49,8 @@ pub struct StudyMap {
     across: usize,
     up: Option<usize>,
     others: Vec<usize>,
-    /// Quantities beside the regime by their places among the recorded, with the scales of all maps.
-    scales: Vec<(usize, MapScale)>,
+    /// Quantities beside the regime in all cells of the study, each with its place among the recorded.
+    layers: Vec<(usize, Layer)>,
 }
 
 impl StudyMap {
@@ -92,14 +92,14 @@ impl StudyMap {
         let others = (0..axes.len()).filter(|axis| *axis != across && Some(*axis) != up).collect();
         let record = study.plan().record.iter().enumerate();
         let drawn = record.filter(|(_, quantity)| **quantity != Quantity::Regime);
-        let scales = drawn.map(|(column, quantity)| {
+        let layers = drawn.map(|(column, quantity)| {
             let cells = (0..study.plan().cells()).map(|cell| study.cell(cell)?.estimate(column));
-            (column, MapScale::new(*quantity, &cells.collect::<Vec<_>>()))
+            (column, Layer::new(*quantity, cells.collect()))
         });
-        let scales = scales.collect();
+        let layers = layers.collect();
         // Without a separator at its end.
         let folder = folder.components().collect();
-        Ok(StudyMap { folder, across, up, others, scales, study })
+        Ok(StudyMap { folder, across, up, others, layers, study })
     }
 
     /// The folder.
@@ -154,14 +154,16 @@ impl StudyMap {
             places[other] = place;
         }
         let cells = self.study.grid(self.across, self.up, places);
-        let cells: Vec<_> = cells.into_iter().map(|cell| cell.map(Ok)).collect();
+        let estimates = |column| cells.iter().map(|cell| (*cell)?.estimate(column)).collect();
+        let layers = self.layers.iter().map(|(column, layer)| layer.with(estimates(*column))).collect();
+        let cells: Vec<_> = cells.iter().map(|cell| cell.map(Ok)).collect();
         let axis = |place: usize| MapAxis {
             path: axes[place].path().to_owned(),
-            figure: figure_axis(plan, axes[place]),
+            figure: FigureAxis::new(plan, axes[place]),
         };
         MapModel::new(
             (axis(self.across), self.up.map(axis)),
-            &self.scales,
+            layers,
             &cells,
             cells.iter().enumerate().map(|(index, cell)| cell.map(|_| index)).collect(),
         )
@@ -217,7 +219,7 @@ impl StudyMap {
     pub fn is_of(&self, slice: u64, scene: &Scene) -> bool {
         let axes = self.over();
         let known = axes.into_iter().filter_map(|axis| {
-            let (path, figure) = (axis.path().to_owned(), figure_axis(self.plan(), axis));
+            let (path, figure) = (axis.path().to_owned(), FigureAxis::new(self.plan(), axis));
             Some((axis.path(), MapAxis { path, figure }.value(scene, None)?))
         });
         let of_map = self.scene(slice, &known.collect::<Vec<_>>());

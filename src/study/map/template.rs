@@ -4,9 +4,9 @@ use super::axis::MapAxis;
 use super::grid::{Level, hursts, parameter_values};
 use crate::scene::{Adhesion, Edges, Numerics, Roughness, RoughnessParameter, Scene, Solver};
 use crate::study::axis::Axis;
-use crate::study::governing::governing;
 use crate::study::plan::Plan;
 use crate::study::quantity::Quantity;
+use crate::study::target::governing;
 use thiserror::Error;
 
 /// Random lines of each cell.

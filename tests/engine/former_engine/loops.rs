@@ -117,7 +117,8 @@ fn gaps(dice: &mut Dice, springs: usize, spacing: f64) -> Vec<f64> {
         for height in &mut heights {
             let [real, imaginary] = roots[angle];
             *height += amplitude * (cosine * real - sine * imaginary);
-            angle = (angle + mode) % springs;
+            angle += mode;
+            angle -= if angle >= springs { springs } else { 0 };
         }
     }
     let scale = spacing * dice.of_magnitude(-8, 4);

@@ -96,8 +96,7 @@ impl Trace {
         let mut hasher = Hasher::new();
         for (quantity, bits) in &self.0 {
             if *quantity != Energy && (sub_cell || *quantity != Largest) {
-                hasher.update(&[*quantity as u8]);
-                hasher.update(&bits.to_le_bytes());
+                hasher.update(&bytes(*quantity, *bits));
             }
         }
         hasher.finalize()
@@ -111,10 +110,14 @@ impl Trace {
 
     /// Number of values and then, value by value, quantity and bits.
     pub fn to_bytes(&self) -> Vec<u8> {
-        let values = self
-            .0
-            .iter()
-            .flat_map(|(quantity, bits)| std::iter::once(*quantity as u8).chain(bits.to_le_bytes()));
+        let values = self.0.iter().flat_map(|(quantity, bits)| bytes(*quantity, *bits));
         (self.0.len() as u32).to_le_bytes().into_iter().chain(values).collect()
     }
+}
+
+/// The quantity and the bits of a value.
+fn bytes(quantity: Quantity, bits: u64) -> [u8; 9] {
+    let mut bytes = [quantity as u8; 9];
+    bytes[1..].copy_from_slice(&bits.to_le_bytes());
+    bytes
 }

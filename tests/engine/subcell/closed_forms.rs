@@ -2,7 +2,7 @@
 
 use super::numerics::{integral, invert, observed_order};
 use super::*;
-use asperity::reference::PowerLaw;
+use asperity::reference::{PowerLaw, WavySphere as WavyForm};
 use asperity::scene::Form;
 use asperity::surface::{Line, SelfAffine, Synthesizer};
 use std::f64::consts::PI;
@@ -227,26 +227,26 @@ fn wavy_spheres_converge_with_the_square_of_the_distance() {
     }
 }
 
-/// Pull-off, place of separation and energy of a sphere with waves, and the same by the closed form. The sphere has
-/// R = 1 m, E* = 1 MPa and γ/E* = 1 mm and is 1 m wide.
-fn waves(amplitude: f64, wavelength: f64, deepest: f64, points: usize) -> [[f64; 3]; 2] {
-    let (radius, modulus, work) = (1.0, 1e6, 1e3);
-    let body = smooth(Some(Form::WavySphere { radius, amplitude, wavelength }), 1.0, points, modulus, work);
+/// A sphere with waves, R = 1 m, E* = 1 MPa and γ/E* = 1 mm.
+fn wavy_sphere(amplitude: f64, wavelength: f64) -> WavyForm {
+    WavyForm { radius: 1.0, amplitude, wavelength, effective_modulus: 1e6, work_of_adhesion: 1e3 }
+}
+
+/// Pull-off, place of separation and energy of a sphere with waves on a line of 1 m.
+fn waves(sphere: &WavyForm, deepest: f64, points: usize) -> [f64; 3] {
+    let WavyForm { radius, amplitude, wavelength, .. } = *sphere;
+    let form = Form::WavySphere { radius, amplitude, wavelength };
+    let body = smooth(Some(form), 1.0, points, sphere.effective_modulus, sphere.work_of_adhesion);
     let history = body.history(&[Leg::ToIndentation(deepest), Leg::ToSeparation], 2);
     let [loading, unloading] = &history.legs[..] else { panic!() };
     let energy = loading.dissipated_energy + unloading.dissipated_energy;
-    let exact = asperity::reference::WavySphere {
-        radius,
-        amplitude,
-        wavelength,
-        effective_modulus: modulus,
-        work_of_adhesion: work,
-    };
-    let cycle = exact.cycle(deepest, 0.5).unwrap();
-    [
-        [unloading.smallest.force, unloading.end(), energy],
-        [cycle.smallest_force, cycle.separation, cycle.dissipated_energy],
-    ]
+    [unloading.smallest.force, unloading.end(), energy]
+}
+
+/// The same by the closed form.
+fn by_closed_form(sphere: &WavyForm, deepest: f64) -> [f64; 3] {
+    let cycle = sphere.cycle(deepest, 0.5).unwrap();
+    [cycle.smallest_force, cycle.separation, cycle.dissipated_energy]
 }
 
 #[test]
@@ -254,12 +254,14 @@ fn the_wavy_form_converges_with_the_square_of_the_distance_to_its_closed_form() 
     // λ²/(AR) = 20 and 13: the line rises everywhere.
     for (amplitude, wavelength) in [(5e-4, 0.1), (0.1_f64.powi(2) / 13.0, 0.1)] {
         let grids = grids(true);
+        let sphere = wavy_sphere(amplitude, wavelength);
+        let expected = by_closed_form(&sphere, 0.06);
         let errors: Vec<[f64; 3]> = grids
             .iter()
             .map(|&points| {
                 // One grid may meet a number by chance.
                 (0..8).map(|k| points + 2 * (k * points / 100)).fold([0.0_f64; 3], |worst, points| {
-                    let [found, expected] = waves(amplitude, wavelength, 0.06, points);
+                    let found = waves(&sphere, 0.06, points);
                     std::array::from_fn(|index| {
                         worst[index].max((found[index] / expected[index] - 1.0).abs())
                     })
@@ -275,7 +277,7 @@ fn the_wavy_form_converges_with_the_square_of_the_distance_to_its_closed_form() 
             );
             assert!(order >= 1.9, "A = {amplitude}: {what}: order {order}, errors {errors:?}");
         }
-        let [found, expected] = waves(amplitude, wavelength, 0.06, 1600);
+        let found = waves(&sphere, 0.06, 1600);
         assert!((found[0] / expected[0] - 1.0).abs() < 1e-4, "{found:?} {expected:?}");
     }
 }
@@ -283,7 +285,7 @@ fn the_wavy_form_converges_with_the_square_of_the_distance_to_its_closed_form() 
 /// Contact radius of a sphere with waves on its way up to an indentation, or back from a larger one, by δ(a) alone: the
 /// smallest radius at which δ reaches the indentation, or the largest one below which δ falls under it.
 struct Branch<'a> {
-    exact: &'a asperity::reference::WavySphere,
+    exact: &'a WavyForm,
     loading: bool,
     widest: f64,
     /// δ at radii of equal distances, from the first one on.
@@ -293,7 +295,7 @@ struct Branch<'a> {
 impl<'a> Branch<'a> {
     const STEPS: usize = 2000;
 
-    fn new(exact: &'a asperity::reference::WavySphere, loading: bool, widest: f64) -> Self {
+    fn new(exact: &'a WavyForm, loading: bool, widest: f64) -> Self {
         let radius = |step: usize| widest * step as f64 / Self::STEPS as f64;
         let levels = (0..=Self::STEPS).map(|step| exact.indentation(radius(step))).collect();
         Branch { exact, loading, widest, levels }
@@ -320,13 +322,7 @@ const BACK: f64 = -0.0385;
 #[test]
 fn the_wavy_form_follows_both_branches_and_jumps_of_its_closed_form() {
     let (amplitude, wavelength, deepest) = (0.1_f64.powi(2) / 13.0, 0.1, 0.06);
-    let exact = asperity::reference::WavySphere {
-        radius: 1.0,
-        amplitude,
-        wavelength,
-        effective_modulus: 1e6,
-        work_of_adhesion: 4e3,
-    };
+    let exact = WavyForm { work_of_adhesion: 4e3, ..wavy_sphere(amplitude, wavelength) };
     assert!(exact.is_monotone());
     let form = Form::WavySphere { radius: 1.0, amplitude, wavelength };
     let body = smooth(Some(form), 1.0, 1601, exact.effective_modulus, exact.work_of_adhesion);
@@ -369,7 +365,8 @@ fn the_wavy_form_follows_both_branches_and_jumps_of_its_closed_form() {
 #[test]
 fn below_the_monotone_limit_the_rule_detaches_before_jkr() {
     let smooth = 1.5 * PI * 1e3;
-    let [found, jkr] = waves(2e-3, 0.1, 0.06, 1600);
+    let sphere = wavy_sphere(2e-3, 0.1);
+    let (found, jkr) = (waves(&sphere, 0.06, 1600), by_closed_form(&sphere, 0.06));
     println!("rule {}, JKR {}", -found[0] / smooth, -jkr[0] / smooth);
     assert!((-found[0] / smooth / 1.511_869 - 1.0).abs() < 1e-4, "{}", -found[0] / smooth);
     assert!((-jkr[0] / smooth - 1.556_549).abs() < 2e-6, "{}", -jkr[0] / smooth);
@@ -378,16 +375,10 @@ fn below_the_monotone_limit_the_rule_detaches_before_jkr() {
 /// Waves of a sphere with λ²/(AR) = 5 by the closed form of the rule, at whatever resolution.
 #[test]
 fn steep_waves_follow_the_closed_form_of_the_rule() {
-    let exact = asperity::reference::WavySphere {
-        radius: 1.0,
-        amplitude: 2e-3,
-        wavelength: 0.1,
-        effective_modulus: 1e6,
-        work_of_adhesion: 1e3,
-    };
+    let sphere = wavy_sphere(2e-3, 0.1);
     for deepest in [0.02, 0.06, 0.1] {
-        let cycle = exact.cycle_by_rule(deepest, 0.5).unwrap();
-        let [found, _] = waves(2e-3, 0.1, deepest, 4001);
+        let cycle = sphere.cycle_by_rule(deepest, 0.5).unwrap();
+        let found = waves(&sphere, deepest, 4001);
         for (found, expected) in
             found.into_iter().zip([cycle.smallest_force, cycle.separation, cycle.dissipated_energy])
         {

@@ -4,10 +4,10 @@ use super::common::deadline::within;
 use super::common::driver::Driver;
 use super::common::scenes::rough;
 use super::pressed;
-use asperity::explorer::action::{Action, Command, Jump};
+use asperity::explorer::action::Action;
 use asperity::explorer::model::Pane;
 use asperity::explorer::snapshot::FragmentFacts;
-use asperity::explorer::update::{Effect, update};
+use asperity::explorer::update::Effect;
 use asperity::explorer::worker::Report;
 
 #[test]
@@ -49,7 +49,7 @@ fn a_moment_on_its_way_does_not_take_the_chosen_fragment_away() {
         let before = driver.model.snapshot.clone().unwrap();
         let first = number(&driver);
         // The fragment is asked for while the animation has asked for a snapshot just before.
-        let effects = update(&mut driver.model, Action::Command(Command::Fragment(Jump::Next)));
+        let effects = driver.update("fragment next");
         assert_eq!(effects, [Effect::Show]);
         driver.act(Action::Report(Report::Shown(before)));
         driver.perform(effects);

@@ -4,7 +4,7 @@ use super::common::deadline::within;
 use super::common::driver::Driver;
 use super::common::scenes::{changed, rough};
 use super::{SIZES, generation, is_up_to_date, mid_retraction, pressed, reversed, row_with};
-use asperity::explorer::action::{Action, Command};
+use asperity::explorer::action::Action;
 use asperity::explorer::layout::Layout;
 use asperity::explorer::model::ModeKind;
 use asperity::explorer::snapshot::Preview;
@@ -305,7 +305,7 @@ fn no_older_curve_is_shown_between_a_preview_and_the_next_one() {
         assert_ne!(first, second);
         assert!(!driver.status().contains("computing"), "{}", driver.status());
         // Accepted, the curve is there until the scene itself is computed.
-        let accepted = update(&mut driver.model, Action::Command(Command::Accept));
+        let accepted = driver.update("accept");
         assert_eq!(accepted, [Effect::Compute]);
         assert_eq!((driver.model.is_computing(), force(&driver)), (true, Some(second)));
         assert!(driver.text().contains("preview"), "{}", driver.text());

@@ -175,23 +175,33 @@ fn files_of_the_contact_are_in_no_circle() {
     assert!(count > 20 && left.is_empty(), "in circles: {:?}", left.keys());
 }
 
+/// Files with this name as a whole, in order.
+fn files_that_name(name: &str) -> Vec<String> {
+    let is_whole = |code: &str, at: usize| !code[at + name.len()..].starts_with(char::is_alphanumeric);
+    let names = |code: &str| code.match_indices(name).any(|(at, _)| is_whole(code, at));
+    modules().iter().filter(|(_, code)| names(code)).map(|(module, _)| module.join("::")).collect()
+}
+
 #[test]
 fn few_files_name_a_pane() {
     // The file of the pane, the table of panes, that of keys, and the data or the demo.
     const MOST: usize = 4;
-    let modules = modules();
     for pane in ["Accuracy", "Spectrum", "Preloads", "Lengths"] {
-        let name = format!("Pane::{pane}");
-        let names = |code: &str| {
-            code.match_indices(&name)
-                .any(|(at, _)| !code[at + name.len()..].starts_with(char::is_alphanumeric))
-        };
-        let files: Vec<String> =
-            modules.iter().filter(|(_, code)| names(code)).map(|(module, _)| module.join("::")).collect();
+        let files = files_that_name(&format!("Pane::{pane}"));
         for table in ["explorer::panes", "explorer::keys"] {
             assert!(files.iter().any(|file| file == table), "{table} does not name {pane}: {files:?}");
         }
         assert!(files.len() <= MOST, "{pane}: {files:?}");
+    }
+}
+
+#[test]
+fn three_files_name_a_form() {
+    // The catalogue of hard cases and the profile of a sphere are made of forms and know nothing else of them.
+    let is_example = |file: &String| file.starts_with("check::cases") || file == "profile";
+    for form in ["Form::Paraboloid", "Form::Cone", "Form::Power", "Form::Punch"] {
+        let files: Vec<String> = files_that_name(form).into_iter().filter(|file| !is_example(file)).collect();
+        assert_eq!(files, ["scene::fields", "scene::form", "surface::form"], "{form}");
     }
 }
 

@@ -1,5 +1,6 @@
 //! `asperity surface`, and scenes of measured surfaces.
 
+use asperity::scene::format_quantity;
 use std::path::Path;
 use std::process::{Command, Output};
 
@@ -303,6 +304,37 @@ fn older_scenes_keep_the_profile_as_the_line() {
     assert!(message.contains("roughness.file = \"plain.txt\": no unit of heights is stated"), "{message}");
     let message = refused(folder, &["run", "plain.ron", "--set", "roughness.unit=\"px\""]);
     assert!(message.contains("roughness.unit = \"px\": allowed: m, cm, mm"), "{message}");
+}
+
+#[test]
+fn a_comparison_states_the_forces_of_both_uses_of_a_measured_profile() {
+    let folder = folder();
+    let folder = folder.path();
+    let force = |as_line: bool| {
+        let roughness = format!("file: \"line.txt\", as_line: {as_line}");
+        run(folder, &roughness)["adhesion_force"].as_f64().unwrap()
+    };
+    let profile = force(true);
+    // The last run leaves the scene of the equivalent line.
+    let line = force(false);
+    let text = done(folder, &["compare", "scene.ron", "--as-line", "--format", "text"]);
+    assert_ne!(line, profile);
+    let [line, profile, ratio] = [(line, "N"), (profile, "N"), (profile / line, "1")]
+        .map(|(value, unit)| format_quantity(value, unit));
+    let forces = format!("adhesion force F_a: {line} → {profile}, ratio {ratio}\n");
+    assert!(text.contains(&forces), "{forces}: {text}");
+    assert!(text.contains("different from A to B: profile as line false → true\n"), "{text}");
+    // The second scene is the first with the profile as the line, overrides of both included.
+    std::fs::copy(folder.join("scene.ron"), folder.join("line.ron")).unwrap();
+    let other = std::fs::read_to_string(folder.join("scene.ron")).unwrap();
+    std::fs::write(folder.join("profile.ron"), other.replace("as_line: false", "as_line: true")).unwrap();
+    let change = ["--set", "adhesion.work=0.1"];
+    let one = done(folder, &[&["compare", "line.ron", "--as-line"], &change[..]].concat());
+    let two = done(folder, &[&["compare", "line.ron", "profile.ron"], &change[..]].concat());
+    let curves = |text: &str| text.lines().skip(2).map(str::to_owned).collect::<Vec<_>>();
+    assert_eq!(curves(&one), curves(&two));
+    let both = asperity(folder, &["compare", "line.ron", "profile.ron", "--as-line"]);
+    assert_eq!(both.status.code(), Some(2));
 }
 
 /// Result of a scene with this roughness, in JSON.

@@ -1,6 +1,6 @@
 //! Scenes for tests: a sound one, and strategies for random ones, which draw every field of the table of fields.
 //!
-//! The tests of this room use the file as a module; the integration tests include it.
+//! The unit tests of the scene and the integration tests include the file.
 
 use super::{
     DEFAULT, Document, End, FIELDS, Field, LEG_FORCE, LEG_INDENTATION, Range, Scene, find, is_control,

@@ -1,0 +1,76 @@
+//! Commands of the user: the functions of the keys, by their names.
+
+use super::effect::Effect;
+use super::model::Model;
+use std::fmt;
+
+/// A command of the user. Each is a row of the table in [`super::keys`].
+#[derive(Clone, Copy)]
+pub struct Command {
+    /// Name in the configuration and in scripts: `step -1`, `push 1 coarse`.
+    pub name: &'static str,
+    handler: Handler,
+    /// Character of the key, for a handler that needs it.
+    character: Option<char>,
+}
+
+/// Function of a command.
+#[derive(Clone, Copy)]
+pub enum Handler {
+    /// Changes the model; nothing is to be done outside.
+    Silent(fn(&mut Model)),
+    /// Changes the part or the state of the contact that is shown: a snapshot is requested.
+    View(fn(&mut Model)),
+    /// Changes the model and returns the effects.
+    Act(fn(&mut Model) -> Vec<Effect>),
+    /// As `Act`, for a row with several keys, each of which means its character.
+    Character(fn(&mut Model, char) -> Vec<Effect>),
+}
+
+impl Command {
+    /// A command without character.
+    #[must_use]
+    pub const fn new(name: &'static str, handler: Handler) -> Self {
+        Command { name, handler, character: None }
+    }
+
+    /// Returns true if the characters of the keys differ in meaning.
+    #[must_use]
+    pub const fn takes_character(&self) -> bool {
+        matches!(self.handler, Handler::Character(_))
+    }
+
+    /// The command of the key with this character.
+    #[must_use]
+    pub fn with(self, character: char) -> Self {
+        Command { character: self.takes_character().then_some(character), ..self }
+    }
+
+    /// Changes the model and returns the effects.
+    pub(super) fn run(self, model: &mut Model) -> Vec<Effect> {
+        match self.handler {
+            Handler::Silent(change) => change(model),
+            Handler::View(change) => {
+                change(model);
+                return vec![Effect::Show];
+            }
+            Handler::Act(act) => return act(model),
+            Handler::Character(act) => {
+                return self.character.map_or_else(Vec::new, |character| act(model, character));
+            }
+        }
+        Vec::new()
+    }
+}
+
+impl PartialEq for Command {
+    fn eq(&self, other: &Self) -> bool {
+        (self.name, self.character) == (other.name, other.character)
+    }
+}
+
+impl fmt::Debug for Command {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(out, "{}{}", self.name, self.character.map_or_else(String::new, |one| format!(" {one}")))
+    }
+}
