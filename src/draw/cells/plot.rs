@@ -271,7 +271,11 @@ fn numbers_at(
 ) -> Vec<(u16, String)> {
     let numbers = |most: usize| axis.ticks(most).into_iter().filter_map(&place).collect::<Vec<_>>();
     let fewest = *ticks.start();
-    let two = |numbers: &Vec<(u16, String)>| numbers.iter().filter(|number| is_seen(number)).count() >= 2;
+    // Those of one cell are one.
+    let two = |numbers: &Vec<(u16, String)>| {
+        let mut seen = numbers.iter().filter(|number| is_seen(number)).map(|number| number.0);
+        seen.next().is_some_and(|first| seen.any(|other| other != first))
+    };
     ticks.map(numbers).find(two).unwrap_or_else(|| numbers(fewest))
 }
 

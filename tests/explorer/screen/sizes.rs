@@ -519,7 +519,8 @@ fn a_digit_on_a_choice_says_how_choices_are_changed() {
                 (&switch, &says_of_switch),
             ] {
                 let mut driver = pressed("");
-                driver.select(path);
+                driver.model.selected =
+                    driver.model.parameters.iter().position(|one| one.path == path).unwrap();
                 driver.model.pane = Pane::Parameters;
                 driver.resize(size);
                 let before = driver.model.document.text().to_owned();
