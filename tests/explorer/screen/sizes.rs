@@ -297,7 +297,7 @@ fn axes_have_numbers_quantities_and_units_in_every_pane() {
                 let rows = driver.rows()[usize::from(area.y)..usize::from(area.bottom())].join("\n");
                 assert!(rows.contains(across) && rows.contains(up), "{size:?} {pane:?}\n{rows}");
                 let has_numbers = rows.lines().filter(|row| row.contains('┤')).count() >= 2;
-                assert!(has_numbers || area.height < 8, "{size:?} {pane:?}\n{rows}");
+                assert!(has_numbers || area.height < 12, "{size:?} {pane:?}\n{rows}");
             }
         }
     });
