@@ -10,8 +10,8 @@
 
 use asperity::analysis::ideal_adhesion_force;
 use asperity::contact::{
-    AdhesiveMemory, ContactTree, EdgeModel, Foundation, GridEdges, HessRule, LegContact, LegRecord,
-    Reversals, Solver, SubCellEdges, Work, exact,
+    AdhesiveMemory, ContactTree, EdgeModel, Exact, Foundation, GridEdges, HessRule, LegContact, LegRecord,
+    Reversals, Solver, SubCellEdges, Work,
 };
 use asperity::scene::{Adhesion, Document, Edges, Leg, Roughness, Scene};
 use asperity::simulation::Simulation;
@@ -312,8 +312,8 @@ impl Timed {
         let whole = Instant::now();
         let tree = tree.rebuild(gaps, E::EDGES).expect("memory for the tree");
         self.tree = self.tree.min(seconds_since(whole));
-        let memory = take(&mut self.memory);
-        let mut solver = exact::adhesive_in(memory, gaps, &tree, edges, rough.foundation, SAMPLES);
+        let adhesion = Some((edges.rule(), &tree));
+        let mut solver = Exact::new(&mut self.memory, gaps, adhesion, E::EDGES, rough.foundation, SAMPLES);
         let legs = [Leg::ToForce(LOAD * EFFECTIVE_MODULUS * LENGTH * RMS_HEIGHT), Leg::ToSeparation];
         let clock = Instant::now();
         self.records = legs.map(|leg| solver.advance(leg).expect("a reachable leg")).into();
@@ -322,7 +322,7 @@ impl Timed {
         self.curves = self.curves.min(solver.curve_seconds());
         self.passes = self.passes.min(legs_seconds - solver.curve_seconds());
         self.work = solver.work();
-        self.memory = solver.into_memory();
+        solver.give_back(&mut self.memory);
         self.measure_reversals(tree, edges, rough)
     }
 
@@ -333,8 +333,8 @@ impl Timed {
         let turns: Vec<Leg> = (1..=REVERSALS).map(|turn| Leg::ToForce(force * f64::from(turn))).collect();
         let clock = Instant::now();
         let tree = tree.rebuild(gaps, E::EDGES).expect("memory for the tree");
-        let memory = take(&mut self.memory);
-        let solver = exact::adhesive_in(memory, gaps, &tree, edges, rough.foundation, SAMPLES);
+        let adhesion = Some((edges.rule(), &tree));
+        let solver = Exact::new(&mut self.memory, gaps, adhesion, E::EDGES, rough.foundation, SAMPLES);
         let mut reversals = Reversals::new(solver, &turns).expect("reachable turning points");
         let mut see = |_, reversal| {
             black_box(reversal);
@@ -342,7 +342,7 @@ impl Timed {
         };
         reversals.each(&[], &mut see).expect("memory for the unloadings");
         self.reversals = self.reversals.min(seconds_since(clock));
-        self.memory = reversals.into_body().into_memory();
+        reversals.into_body().give_back(&mut self.memory);
         tree
     }
 }

@@ -2,13 +2,12 @@
 
 use crate::analysis::{Figures, Governing};
 use crate::contact::{
-    AdhesiveMemory, ContactError, ContactTree, CurvePoint, EdgeModel, Foundation, GridEdges, HessRule,
-    History, LegRecord, Reversal, Reversals, Solver, SubCellEdges, exact, run,
+    AdhesiveMemory, ContactTree, CurvePoint, Exact, Foundation, HessRule, History, LegRecord, Reversal,
+    Reversals, run,
 };
 use crate::scene::{Adhesion, Edges, Leg, Material, Numerics, SCENE_VERSIONS, Scene, Solver as SolverChoice};
 use crate::simulation::RunError;
 use crate::{Error, Profile};
-use std::mem::take;
 
 /// A rigid profile on an elastic half-space, with or without adhesion; the contact of a loading history is exact.
 ///
@@ -82,14 +81,10 @@ impl Contact {
     pub fn load(&mut self, legs: &[Leg]) -> Result<Cycle, Error> {
         self.scene.loading = legs.to_vec();
         self.scene.check()?;
-        let history = match (&self.adhesion, self.edges) {
-            (None, edges) => {
-                history(&mut exact::nonadhesive(&self.gaps, edges, self.foundation, self.samples), legs)
-            }
-            (Some((hess, _)), Edges::Grid) => self.load_over(GridEdges::new(*hess), legs),
-            (Some((hess, _)), Edges::SubCell) => self.load_over(SubCellEdges::new(*hess), legs),
-        }
-        .map_err(RunError::Contact)?;
+        let (memory, mut body) = self.body();
+        let history = run(&mut body, legs, |_, _| Ok(()));
+        body.give_back(memory);
+        let history = history.map_err(RunError::Contact)?;
         Ok(Cycle { figures: Figures::of(&history), history })
     }
 
@@ -104,39 +99,20 @@ impl Contact {
             self.scene.loading = vec![*leg, Leg::ToSeparation];
             self.scene.check()?;
         }
-        let found = match (&self.adhesion, self.edges) {
-            (None, edges) => {
-                let body = exact::nonadhesive(&self.gaps, edges, self.foundation, self.samples);
-                Reversals::new(body, ends).and_then(|mut reversals| reversals.all())
-            }
-            (Some((hess, _)), Edges::Grid) => self.reverse_over(GridEdges::new(*hess), ends),
-            (Some((hess, _)), Edges::SubCell) => self.reverse_over(SubCellEdges::new(*hess), ends),
-        };
+        let (memory, body) = self.body();
+        let mut reversals = Reversals::new(body, ends).map_err(RunError::Contact)?;
+        let found = reversals.all();
+        reversals.into_body().give_back(memory);
         Ok(found.map_err(RunError::Contact)?)
     }
 
-    fn reverse_over<E: EdgeModel>(&mut self, edges: E, ends: &[Leg]) -> Result<Vec<Reversal>, ContactError> {
-        let memory = take(&mut self.memory);
-        let Some((_, tree)) = &self.adhesion else { return Ok(Vec::new()) };
-        let body = exact::adhesive_in(memory, &self.gaps, tree, edges, self.foundation, self.samples);
-        let mut reversals = Reversals::new(body, ends)?;
-        let found = reversals.all();
-        self.memory = reversals.into_body().into_memory();
-        found
+    /// The separated body and the memory to which it gives back its own.
+    fn body(&mut self) -> (&mut AdhesiveMemory, Exact<'_>) {
+        let Contact { gaps, foundation, adhesion, edges, samples, memory, .. } = self;
+        let adhesion = adhesion.as_ref().map(|(hess, tree)| (*hess, tree));
+        let body = Exact::new(memory, gaps, adhesion, *edges, *foundation, *samples);
+        (memory, body)
     }
-
-    fn load_over<E: EdgeModel>(&mut self, edges: E, legs: &[Leg]) -> Result<History, ContactError> {
-        let memory = take(&mut self.memory);
-        let Some((_, tree)) = &self.adhesion else { return Ok(History::default()) };
-        let mut body = exact::adhesive_in(memory, &self.gaps, tree, edges, self.foundation, self.samples);
-        let history = history(&mut body, legs);
-        self.memory = body.into_memory();
-        history
-    }
-}
-
-fn history<S: Solver>(body: &mut S, legs: &[Leg]) -> Result<History, ContactError> {
-    run(body, legs, |_, _| Ok(()))
 }
 
 impl ContactBuilder<'_> {

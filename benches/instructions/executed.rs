@@ -35,7 +35,8 @@ pub const EFFECTS: &[Effect] = &[
         name: "Hess",
         lines: Lines::Of(&[
             ("src/contact/foundation.rs", "fn largest_stretch("),
-            ("src/contact/adhesive/sub_cell_edges.rs", "fn attaches_at("),
+            ("src/contact/adhesive/edge_model.rs", "fn attaches_at("),
+            ("src/contact/adhesive/grid_edges.rs", "fn holds_to("),
             ("src/contact/adhesive/sub_cell_edges.rs", "fn holds_to("),
         ]),
         called_for: Case::is_adhesive,

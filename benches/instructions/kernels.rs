@@ -7,8 +7,8 @@ use super::cases::{
 };
 use asperity::analysis::Figures;
 use asperity::contact::{
-    Adhesive, ContactTree, EdgeModel, Exact, Foundation, GridEdges, HessRule, History, LegRecord, Solver,
-    SubCellEdges, exact, run,
+    ContactTree, EdgeModel, Exact, Foundation, GridEdges, HessRule, History, LegRecord, Solver, SubCellEdges,
+    exact, run,
 };
 use asperity::scene::{Edges, Form, Leg};
 use asperity::surface::{Histogram, Line, SelfAffine, Synthesizer};
@@ -73,14 +73,14 @@ fn loaded(body: &mut impl Solver, legs: &[Leg]) -> History {
     run(body, legs, |_, _| Ok(())).expect("a loading within reach")
 }
 
-fn body<'a, E: EdgeModel>(line: &'a Line, tree: &'a ContactTree, edges: E) -> Exact<Adhesive<'a, E>> {
+fn body<'a, E: EdgeModel>(line: &'a Line, tree: &'a ContactTree, edges: E) -> Exact<'a> {
     exact::adhesive(&line.gaps, tree, edges, FOUNDATION, SAMPLES)
 }
 
 /// A loading under adhesion, with what its case asks for beside the curve.
-fn adhesive<E: EdgeModel>(case: &Case, mut body: Exact<Adhesive<'_, E>>, legs: &[Leg]) -> Given {
+fn adhesive(case: &Case, mut body: Exact<'_>, legs: &[Leg]) -> Given {
     let mut fragments = Vec::new();
-    let history = run(&mut body, legs, |record: &LegRecord, body: &Exact<Adhesive<'_, E>>| {
+    let history = run(&mut body, legs, |record: &LegRecord, body: &Exact<'_>| {
         if case.is_observed() {
             let end = record.curve.last().filter(|end| end.springs > 0);
             fragments.push(end.map_or_else(Vec::new, |end| body.fragments(end.indentation)));

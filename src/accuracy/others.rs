@@ -3,7 +3,7 @@
 use super::bench::{Bench, CostError, Rows, Tried};
 use super::solution::{Solution, Solved, allowed_points, refined};
 use super::{Knob, Measures, Timing};
-use crate::contact::{ContactError, ContactTree, SubCellEdges, exact, run};
+use crate::contact::{AdhesiveMemory, ContactError, ContactTree, Exact, run};
 use crate::scene::{Edges, Scene, Solver, check, format_quantity};
 use crate::simulation::{RunError, Simulation};
 use crate::study::{Case, Next, Quantity, Records, Sink, Statistics, solve_in_turn};
@@ -165,14 +165,10 @@ fn errors_of_single_precision(
         let goes_on = || if stop() { Err(ContactError::Interrupted) } else { Ok(()) };
         goes_on()?;
         let samples = scene.numerics.samples as usize;
-        let history = if let Some(hess) = hess {
-            let tree = ContactTree::build(gaps, Edges::SubCell)?;
-            let mut body = exact::adhesive(gaps, &tree, SubCellEdges::new(hess), foundation, samples);
-            run(&mut body, &scene.loading, |_, _| goes_on())?
-        } else {
-            let mut body = exact::nonadhesive(gaps, Edges::SubCell, foundation, samples);
-            run(&mut body, &scene.loading, |_, _| goes_on())?
-        };
+        let tree = hess.map(|_| ContactTree::build(gaps, Edges::SubCell)).transpose()?;
+        let (memory, adhesion) = (&mut AdhesiveMemory::default(), hess.zip(tree.as_ref()));
+        let mut body = Exact::new(memory, gaps, adhesion, Edges::SubCell, foundation, samples);
+        let history = run(&mut body, &scene.loading, |_, _| goes_on())?;
         Ok(Solution::of_history(&history, scene.numerics.points))
     };
     let double = solve(&line.gaps)?;

@@ -3,8 +3,7 @@
 
 use super::Fault;
 use crate::contact::{
-    ContactTree, CurvePoint, Foundation, GridEdges, HessRule, History, LegRecord, Solver, SubCellEdges,
-    exact, run,
+    AdhesiveMemory, ContactTree, CurvePoint, Exact, Foundation, HessRule, History, LegRecord, Solver, run,
 };
 use crate::scene::{Edges, Leg};
 use crate::surface::{Line, SelfAffine, UnitRoughness, phases};
@@ -119,20 +118,11 @@ impl Body {
         samples: usize,
         act: impl FnOnce(&mut dyn Solver) -> Result<T, Fault>,
     ) -> Result<T, Fault> {
-        if self.work == 0.0 {
-            return act(&mut exact::nonadhesive(&self.gaps, edges, self.foundation, samples));
-        }
         let (hess, gaps) = (HessRule::new(self.foundation, self.work), self.gaps.as_slice());
-        let tree = ContactTree::build(gaps, edges)?;
-        match edges {
-            Edges::Grid => {
-                let rule = GridEdges::new(hess);
-                act(&mut exact::adhesive(gaps, &tree, rule, self.foundation, samples))
-            }
-            Edges::SubCell => {
-                act(&mut exact::adhesive(gaps, &tree, SubCellEdges::new(hess), self.foundation, samples))
-            }
-        }
+        let tree = if self.work == 0.0 { None } else { Some(ContactTree::build(gaps, edges)?) };
+        let adhesion = tree.as_ref().map(|tree| (hess, tree));
+        let memory = &mut AdhesiveMemory::default();
+        act(&mut Exact::new(memory, gaps, adhesion, edges, self.foundation, samples))
     }
 
     /// A whole loading.

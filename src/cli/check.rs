@@ -31,7 +31,6 @@ pub struct CheckArguments {
     /// text or json; default: by the extension of FILE, else text
     #[arg(long, value_parser = Format::parser(TEXT_OR_JSON), hide_possible_values = true)]
     pub format: Option<Format>,
-    /// Destination.
     #[command(flatten)]
     pub output: OutputArguments,
 }

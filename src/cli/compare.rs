@@ -37,13 +37,11 @@ pub struct CompareArguments {
     /// Changes of both scenes.
     #[command(flatten)]
     pub overrides: Overrides,
-    /// Colours and markers of the explorer, and its mouse.
     #[command(flatten)]
     pub look: LookArguments,
     /// text, svg or png; default: by the extension of FILE, else text
     #[arg(long, value_parser = Format::parser(FORMATS), hide_possible_values = true)]
     pub format: Option<Format>,
-    /// Destination.
     #[command(flatten)]
     pub output: OutputArguments,
 }

@@ -27,7 +27,6 @@ const LONGEST: f64 = 86_400.0;
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES, mut_arg("force", |force| force.requires(clap::builder::Resettable::Reset)))]
 pub struct CostArguments {
-    /// The scene.
     #[command(flatten)]
     pub scene: SceneArguments,
     /// Time limit of the whole measurement: 500ms, 30s, 2min

@@ -35,7 +35,6 @@ const READ: f64 = 1.0;
 pub struct DemoArguments {
     /// Scene file or built-in scene; default: a tour of the built-in scenes
     pub scene: Option<String>,
-    /// Overrides of the scene.
     #[command(flatten)]
     pub overrides: Overrides,
     /// Print plain frames, as into a pipe, also where there is a terminal

@@ -20,10 +20,8 @@ pub struct ExploreArguments {
     /// Default: `scene` of the configuration file, else pressure-sensitive.
     #[arg(verbatim_doc_comment)]
     pub scene: Option<String>,
-    /// Overrides of the scene.
     #[command(flatten)]
     pub overrides: Overrides,
-    /// Colours and markers of the explorer, and its mouse.
     #[command(flatten)]
     pub look: LookArguments,
     /// Read this configuration file

@@ -19,10 +19,8 @@ The finer line is the same line: a wave of a seed keeps its phase on every grid.
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES)]
 pub struct LineArguments {
-    /// The scene.
     #[command(flatten)]
     pub scene: SceneArguments,
-    /// Destination.
     #[command(flatten)]
     pub output: OutputArguments,
 }

@@ -20,7 +20,6 @@ stage while it runs.";
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES)]
 pub struct PlanArguments {
-    /// The scene.
     #[command(flatten)]
     pub scene: SceneArguments,
     /// A table, or one object.
@@ -55,7 +54,7 @@ fn text(plan: &Plan) -> String {
     let mut sheet = Sheet::default();
     sheet.table(&rows);
     let (springs, peak) = (grouped(plan.springs), memory_size(plan.resident_bytes));
-    let program = memory_size(plan.resident_bytes - plan.peak_bytes);
+    let program = memory_size(Plan::PROGRAM);
     sheet.heading(&format!(
         "{springs} springs under the body; about {peak} of memory at any one time, {program} of them the program"
     ));

@@ -35,16 +35,13 @@ const LOOPS: u8 = 12;
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES)]
 pub struct ReversalsArguments {
-    /// The scene.
     #[command(flatten)]
     pub scene: SceneArguments,
-    /// The reversals.
     #[command(flatten)]
     pub options: ReversalOptions,
     /// text, json, csv, npy, svg or png; default: by the extension of FILE
     #[arg(long, value_parser = Format::parser(FORMATS), hide_possible_values = true)]
     pub format: Option<Format>,
-    /// Destination.
     #[command(flatten)]
     pub output: OutputArguments,
 }

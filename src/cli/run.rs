@@ -41,7 +41,6 @@ CSV and .npy hold version, scene and seed: such a file is a scene, and run compu
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES)]
 pub struct RunArguments {
-    /// The scene.
     #[command(flatten)]
     pub scene: SceneArguments,
     /// More scenes, whose force curves are drawn into the same picture
@@ -89,7 +88,6 @@ pub struct RunArguments {
     /// Threads that share the profiles; default: one for each core
     #[arg(long, value_name = "COUNT", requires = "lines", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub jobs: Option<u16>,
-    /// Destination.
     #[command(flatten)]
     pub output: OutputArguments,
 }

@@ -17,7 +17,6 @@ pub struct SceneArguments {
     ///
     /// `-` is standard input. A pipe is read up to its end.
     pub scene: String,
-    /// Overrides of the scene.
     #[command(flatten)]
     pub overrides: Overrides,
 }

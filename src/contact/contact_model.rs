@@ -1,102 +1,28 @@
 //! Interface between the exact solver and a contact model: thresholds, forces and extrema along one leg.
 
+use super::contact_state::{ContactState, Extreme, Sampled};
 use super::grid::Grid;
 use super::totals::ContactTotals;
-use super::{ContactError, CurvePoint, Foundation, LegContact, Work};
+use super::{AdhesiveMemory, ContactError, LegView, Work};
 
-/// Contact state at one indentation.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct ContactState {
-    /// d, m.
-    pub indentation: f64,
-    /// Springs in contact.
-    pub springs: i64,
-    /// Fragments they form.
-    pub fragments: i64,
-    /// Contact length in units of the distance between springs.
-    pub length: f64,
-    /// Compression ∫ (d − c) dx in units of that distance, m: the force in units of the stiffness of one spring.
-    pub compression: f64,
-}
+/// Intervals in which extremes are searched when the curve has fewer samples: each fragment is evaluated at each of
+/// their ends.
+pub const SEARCH_INTERVALS: usize = 256;
 
-impl ContactState {
-    /// Nothing in contact at this indentation, m.
-    pub fn free(indentation: f64) -> Self {
-        ContactState { indentation, ..ContactState::default() }
-    }
-
-    /// The point of the curve on this foundation.
-    pub fn point(&self, foundation: Foundation) -> CurvePoint {
-        CurvePoint {
-            indentation: self.indentation,
-            force: foundation.spring_stiffness() * self.compression,
-            contact_length: foundation.contact_length(self.length),
-            springs: self.springs.unsigned_abs(),
-            fragments: self.fragments.unsigned_abs(),
-        }
-    }
-}
-
-/// Contact at each point of a grid, at least one.
-pub struct Sampled {
-    pub grid: Grid,
-    /// Totals of the full springs or cells at each point.
-    pub totals: Vec<ContactTotals>,
-    pub states: Vec<ContactState>,
-}
-
-impl Sampled {
-    /// The points of both grids, which have none in common.
-    pub fn merged(self, other: Sampled) -> Sampled {
-        let [mut here, mut there] = [self, other].map(|Sampled { grid, totals, states }| {
-            let points = grid.points().to_vec().into_iter();
-            points.zip(totals.into_iter().zip(states)).peekable()
-        });
-        let (mut points, mut totals, mut states) = (Vec::new(), Vec::new(), Vec::new());
-        loop {
-            let is_first = match (here.peek(), there.peek()) {
-                (Some(one), Some(other)) => one.0 <= other.0,
-                (None, None) => break,
-                (one, _) => one.is_some(),
-            };
-            if let Some((point, (total, state))) = if is_first { here.next() } else { there.next() } {
-                points.push(point);
-                totals.push(total);
-                states.push(state);
-            }
-        }
-        Sampled { grid: Grid::at(points), totals, states }
-    }
-
-    /// State at the lowest indentation.
-    pub fn first(&self) -> ContactState {
-        self.states[0]
-    }
-
-    /// State at the highest indentation.
-    pub fn last(&self) -> ContactState {
-        self.states[self.states.len() - 1]
-    }
-
-    /// The intervals of the grid for which the contact at their ends allows it.
-    pub fn choose(&self, may_lie: impl Fn(&ContactState, &ContactState) -> bool) -> Vec<usize> {
-        let ends = self.states.windows(2).enumerate();
-        ends.filter(|(_, ends)| may_lie(&ends[0], &ends[1])).map(|(index, _)| index).collect()
-    }
-
-    /// Contact at the ends of an interval of the grid.
-    pub fn ends(&self, interval: usize) -> (&ContactState, &ContactState) {
-        (&self.states[interval], &self.states[interval + 1])
-    }
+/// An unloading from a turning point of a loading.
+#[derive(Clone, Copy, Debug)]
+pub struct Reversed {
+    /// Smallest indentation with contact, m.
+    pub separates: f64,
+    /// Σ e² over the springs that attach up to the turning point with a stretch e, and over those that detach from there
+    /// on, m².
+    pub squared_stretches: [f64; 2],
 }
 
 /// Springs loaded and unloaded leg by leg under one rule of contact.
 ///
 /// A leg begins with [`ContactModel::load`] or [`ContactModel::unload`]; all other functions refer to this leg.
 pub trait ContactModel {
-    /// Intervals in which extremes are searched when the curve has fewer samples.
-    const SEARCH_INTERVALS: usize;
-
     /// Springs, in contact or not.
     fn count(&self) -> u64;
 
@@ -120,12 +46,12 @@ pub trait ContactModel {
     /// [`ContactError::OutOfMemory`].
     fn begin_reversals(&mut self, turns: &[f64]) -> Result<(), ContactError>;
 
-    /// Unloads from the turning point of this number and indentation (m), all in ascending order. Returns the smallest
-    /// indentation with contact, m. The loading stays the present leg; the next functions refer to this unloading.
+    /// Unloads from the turning point of this number and indentation (m), all in ascending order. The loading stays the
+    /// present leg; the next functions refer to this unloading.
     ///
     /// # Errors
     /// [`ContactError::OutOfMemory`].
-    fn reverse(&mut self, turn: (usize, f64), work: &mut Work) -> Result<f64, ContactError>;
+    fn reverse(&mut self, turn: (usize, f64), work: &mut Work) -> Result<Reversed, ContactError>;
 
     /// Contact states along a grid of the unloading from a turning point.
     ///
@@ -145,10 +71,6 @@ pub trait ContactModel {
         sorted: &mut u64,
     ) -> Result<ContactState, ContactError>;
 
-    /// Σ e² over the springs that attach up to the turning point with a stretch e, and over those that detach from there
-    /// on, m².
-    fn squared_stretches(&self) -> [f64; 2];
-
     /// Contact states along a grid.
     ///
     /// # Errors
@@ -162,11 +84,8 @@ pub trait ContactModel {
     /// [`ContactError::OutOfMemory`].
     fn sample_changes(&self, grid: Grid, separated: bool) -> Result<(Sampled, f64), ContactError>;
 
-    /// The smallest force on the grid's range; `sorted` counts the events it took to find it.
-    fn smallest(&self, leg: &Sampled, sorted: &mut u64) -> ContactState;
-
-    /// The largest force on the grid's range.
-    fn largest(&self, leg: &Sampled, sorted: &mut u64) -> ContactState;
+    /// The extreme force on the grid's range; `sorted` counts the events it took to find it.
+    fn extreme(&self, extreme: Extreme, leg: &Sampled, sorted: &mut u64) -> ContactState;
 
     /// The smallest indentation of the range at which the compression is at least `wanted`.
     fn first_at_least(&self, leg: &Sampled, wanted: f64, sorted: &mut u64) -> Option<f64>;
@@ -177,18 +96,15 @@ pub trait ContactModel {
     /// Indentation at which the totals alone carry a compression, where nothing else does, m.
     fn straight(&self, totals: ContactTotals, compression: f64) -> Option<f64>;
 
-    /// See [`super::Solver::thresholds_along_line`].
-    fn thresholds_along_line(&self, out: &mut Vec<f64>);
+    /// Contact at all indentations of the leg.
+    fn leg(&self) -> LegView<'_>;
 
-    /// See [`super::Solver::copy_leg`].
+    /// Smallest compression of the unloading from first touch, m, and the work counts of the search.
     ///
     /// # Errors
     /// [`ContactError::OutOfMemory`].
-    fn copy_leg(&self, copy: &mut LegContact) -> Result<(), ContactError>;
+    fn pull_off_at_touch(&mut self) -> Result<(f64, Work), ContactError>;
 
-    /// See [`super::Solver::rises`].
-    fn rises(&self, indentation: f64) -> Vec<f64>;
-
-    /// See [`super::Solver::fragments`].
-    fn fragments(&self, indentation: f64) -> Vec<(usize, usize)>;
+    /// Leaves its memory to the next contact.
+    fn give_back(self: Box<Self>, memory: &mut AdhesiveMemory);
 }

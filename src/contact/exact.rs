@@ -3,17 +3,21 @@
 //! A leg proceeds in the same way for whole springs and for edges between them; the contact model gives forces and
 //! thresholds.
 
-use super::adhesive::{Adhesive, AdhesiveMemory, ContactTree, EdgeModel};
-use super::contact_model::{ContactModel, ContactState, Sampled};
+use super::adhesive::{Adhesive, AdhesiveMemory, ContactTree, EdgeModel, GridEdges, SubCellEdges};
+use super::contact_model::{ContactModel, SEARCH_INTERVALS};
+use super::contact_state::{ContactState, Extreme, Sampled};
 use super::grid::Grid;
 use super::leg_plan::{Target, plan};
-use super::{ContactError, CurvePoint, Direction, Foundation, LegContact, LegRecord, Nonadhesive, Work};
+use super::{
+    ContactError, CurvePoint, Direction, Foundation, HessRule, LegRecord, LegView, Nonadhesive, Work,
+};
 use crate::scene::{Edges, Leg};
+use std::mem::take;
 use std::time::{Duration, Instant};
 
 /// A body on its foundation, moved leg by leg.
-pub struct Exact<C: ContactModel> {
-    contact: C,
+pub struct Exact<'a> {
+    contact: Box<dyn ContactModel + 'a>,
     foundation: Foundation,
     samples: usize,
     state: ContactState,
@@ -28,18 +32,10 @@ pub struct Exact<C: ContactModel> {
     pass_time: Duration,
 }
 
-/// A body without adhesion; build one with [`nonadhesive`].
-pub type WithoutAdhesion<'a> = Exact<Nonadhesive<'a>>;
-
 /// A separated body without adhesion at d = 0 just before first touch, over springs of these gaps (m, the smallest 0).
 #[must_use]
-pub fn nonadhesive(
-    gaps: &[f64],
-    edges: Edges,
-    foundation: Foundation,
-    samples: usize,
-) -> WithoutAdhesion<'_> {
-    Exact::new(Nonadhesive::new(gaps, edges), foundation, samples)
+pub fn nonadhesive(gaps: &[f64], edges: Edges, foundation: Foundation, samples: usize) -> Exact<'_> {
+    Exact::over(Box::new(Nonadhesive::new(gaps, edges)), foundation, samples)
 }
 
 /// A separated body under adhesion at d = 0 just before first touch, over springs of these gaps (m, the smallest 0) and
@@ -51,28 +47,48 @@ pub fn adhesive<'a, E: EdgeModel>(
     edges: E,
     foundation: Foundation,
     samples: usize,
-) -> Exact<Adhesive<'a, E>> {
+) -> Exact<'a> {
     adhesive_in(AdhesiveMemory::default(), gaps, tree, edges, foundation, samples)
 }
 
-/// The same in the memory that [`Exact::into_memory`] gave back: fresh memory costs about as much as a pass.
-#[must_use]
-pub fn adhesive_in<'a, E: EdgeModel>(
+fn adhesive_in<'a, E: EdgeModel>(
     memory: AdhesiveMemory,
     gaps: &'a [f64],
     tree: &'a ContactTree,
     edges: E,
     foundation: Foundation,
     samples: usize,
-) -> Exact<Adhesive<'a, E>> {
-    let mut body = Exact::new(Adhesive::new(gaps, tree, edges, memory), foundation, samples);
+) -> Exact<'a> {
+    let mut body = Exact::over(Box::new(Adhesive::new(gaps, tree, edges, memory)), foundation, samples);
     body.work.tree_nodes = tree.len() as u64;
     body
 }
 
-impl<C: ContactModel> Exact<C> {
+impl<'a> Exact<'a> {
+    /// A separated body at d = 0 just before first touch over springs of these gaps (m, the smallest 0), under adhesion
+    /// by a rule of Hess and the tree of these gaps, if there is one; `samples` (at least 2) curve points are taken on
+    /// each leg.
+    ///
+    /// Under adhesion it takes this memory, until [`Exact::give_back`]: fresh memory costs about as much as a pass.
+    #[must_use]
+    pub fn new(
+        memory: &mut AdhesiveMemory,
+        gaps: &'a [f64],
+        adhesion: Option<(HessRule, &'a ContactTree)>,
+        edges: Edges,
+        foundation: Foundation,
+        samples: usize,
+    ) -> Self {
+        let Some((hess, tree)) = adhesion else { return nonadhesive(gaps, edges, foundation, samples) };
+        let memory = take(memory);
+        match edges {
+            Edges::Grid => adhesive_in(memory, gaps, tree, GridEdges::new(hess), foundation, samples),
+            Edges::SubCell => adhesive_in(memory, gaps, tree, SubCellEdges::new(hess), foundation, samples),
+        }
+    }
+
     /// A body over these springs, separated, at d = 0 just before first touch.
-    pub(super) fn new(contact: C, foundation: Foundation, samples: usize) -> Self {
+    fn over(contact: Box<dyn ContactModel + 'a>, foundation: Foundation, samples: usize) -> Self {
         let work = Work { springs: contact.count(), ..Work::default() };
         Exact {
             contact,
@@ -88,12 +104,27 @@ impl<C: ContactModel> Exact<C> {
         }
     }
 
-    pub(super) fn contact(&self) -> &C {
-        &self.contact
+    pub(super) fn contact(&self) -> &dyn ContactModel {
+        &*self.contact
     }
 
-    pub(super) fn work_mut(&mut self) -> (&mut C, &mut Work) {
-        (&mut self.contact, &mut self.work)
+    pub(super) fn work_mut(&mut self) -> (&mut (dyn ContactModel + 'a), &mut Work) {
+        (&mut *self.contact, &mut self.work)
+    }
+
+    /// Leaves its memory to the next body.
+    pub fn give_back(self, memory: &mut AdhesiveMemory) {
+        self.contact.give_back(memory);
+    }
+
+    /// Smallest force of the unloading from first touch, N, and the work counts of the search.
+    ///
+    /// # Errors
+    /// [`ContactError::OutOfMemory`].
+    pub fn pull_off_at_touch(&mut self) -> Result<(f64, Work), ContactError> {
+        let stiffness = self.foundation.spring_stiffness();
+        let (compression, work) = self.contact.pull_off_at_touch()?;
+        Ok((stiffness * compression, work))
     }
 
     fn is_separated(&self) -> bool {
@@ -110,14 +141,14 @@ impl<C: ContactModel> Exact<C> {
     /// Grid of a leg's curve: every `stride`-th point is a sample, those between sharpen the search.
     pub(super) fn grid(&self, low: f64, high: f64) -> (Grid, usize) {
         let intervals = self.samples - 1;
-        let stride = C::SEARCH_INTERVALS.div_ceil(intervals);
+        let stride = SEARCH_INTERVALS.div_ceil(intervals);
         (Grid::new(low, high, intervals * stride), stride)
     }
 
     /// Contact states along the grid of a search.
     fn sample(&mut self, low: f64, high: f64) -> Result<Sampled, ContactError> {
         self.work.springs_tallied += self.work.springs;
-        self.contact.sample(Grid::new(low, high, C::SEARCH_INTERVALS))
+        self.contact.sample(Grid::new(low, high, SEARCH_INTERVALS))
     }
 
     pub(super) fn curve_point(&self, state: ContactState) -> CurvePoint {
@@ -135,17 +166,6 @@ impl<C: ContactModel> Exact<C> {
     /// Energy of springs that attach or detach with this sum of squared stretches (m²), J.
     pub(super) fn energy(&self, squared_stretch: f64) -> f64 {
         0.5 * self.foundation.spring_stiffness() * squared_stretch
-    }
-
-    /// A leg of a separated body that does not touch.
-    fn fly(&mut self, leg: Leg, to: f64) -> LegRecord {
-        let from = self.state.indentation;
-        self.state = ContactState::free(to);
-        LegRecord::free(leg, from, to)
-    }
-
-    fn stay(&self, leg: Leg) -> LegRecord {
-        LegRecord::still(leg, self.curve_point(self.state))
     }
 
     fn load(&mut self, leg: Leg, target: Target) -> Result<LegRecord, ContactError> {
@@ -179,24 +199,12 @@ impl<C: ContactModel> Exact<C> {
         let largest = match target {
             // The force is below its target until then.
             Target::Force(_) => end,
-            _ => self.contact.largest(&sampled, &mut self.work.events_sorted),
+            _ => self.contact.extreme(Extreme::Largest, &sampled, &mut self.work.events_sorted),
         };
         let at_end = self.curve_point(end);
         let smallest = curve.iter().copied().min_by(|a, b| a.force.total_cmp(&b.force)).unwrap_or(at_end);
-        let attached = (end.springs - before.springs).unsigned_abs();
-        self.work.attached += attached;
-        self.state = end;
-        Ok(LegRecord {
-            leg,
-            direction: Direction::Loading,
-            curve,
-            largest: self.curve_point(largest),
-            smallest,
-            attached,
-            detached: 0,
-            // Not −0 where nothing attached with a stretch.
-            dissipated_energy: 0.0 - self.energy(attaching),
-        })
+        let extremes = [smallest, self.curve_point(largest)];
+        Ok(self.end((leg, Direction::Loading), curve, extremes, end, attaching))
     }
 
     /// Indentation of a loading leg, complete at another, at which a force is first reached, m.
@@ -246,7 +254,7 @@ impl<C: ContactModel> Exact<C> {
         let separates = matches!(target, Target::Separation);
         self.work.springs_tallied += self.work.springs;
         let (sampled, detaching) = self.contact.sample_changes(grid, separates)?;
-        let smallest = self.contact.smallest(&sampled, &mut self.work.events_sorted);
+        let smallest = self.contact.extreme(Extreme::Smallest, &sampled, &mut self.work.events_sorted);
         let smallest = self.curve_point(smallest);
         let mut curve = self.samples(&sampled, stride);
         let place = curve.partition_point(|point| point.indentation < smallest.indentation);
@@ -261,19 +269,23 @@ impl<C: ContactModel> Exact<C> {
             sampled.first()
         };
         let largest = curve.first().copied().unwrap_or(smallest);
-        let detached = (before.springs - end.springs).unsigned_abs();
-        self.work.detached += detached;
+        Ok(self.end((leg, Direction::Unloading), curve, [smallest, largest], end, detaching))
+    }
+
+    /// Ends a leg along this curve in a contact, with this sum of squared stretches (m²).
+    fn end(
+        &mut self,
+        leg: (Leg, Direction),
+        curve: Vec<CurvePoint>,
+        extremes: [CurvePoint; 2],
+        end: ContactState,
+        squared_stretch: f64,
+    ) -> LegRecord {
+        let changed = (end.springs - self.state.springs).unsigned_abs();
+        let record = LegRecord::moved(leg, curve, extremes, changed, self.energy(squared_stretch));
+        self.work.count(&record);
         self.state = end;
-        Ok(LegRecord {
-            leg,
-            direction: Direction::Unloading,
-            curve,
-            largest,
-            smallest,
-            attached: 0,
-            detached,
-            dissipated_energy: self.energy(detaching),
-        })
+        record
     }
 
     fn unload_to_force(&mut self, leg: Leg, force: f64, low: f64, high: f64) -> Result<f64, ContactError> {
@@ -284,20 +296,23 @@ impl<C: ContactModel> Exact<C> {
             return Ok(found);
         }
         // The thresholds of this leg are still true at the present indentation.
-        let smallest = self.contact.smallest(&sampled, sorted).compression;
+        let smallest = self.contact.extreme(Extreme::Smallest, &sampled, sorted).compression;
         let smallest = self.foundation.spring_stiffness() * smallest;
         Err(ContactError::DetachesBefore { index: self.legs, leg, smallest })
     }
 }
 
-impl<C: ContactModel> super::Solver for Exact<C> {
+impl super::Solver for Exact<'_> {
     fn advance(&mut self, leg: Leg) -> Result<LegRecord, ContactError> {
         let clock = Instant::now();
-        let plan = plan(leg, self.curve_point(self.state), self.legs)?;
+        let here = self.curve_point(self.state);
         let separated = self.is_separated();
-        let (touching, record) = match plan {
-            None => (!separated, self.stay(leg)),
-            Some((_, Target::Indentation(to))) if separated && to < 0.0 => (false, self.fly(leg, to)),
+        let (touching, record) = match plan(leg, here, self.legs)? {
+            None => (!separated, LegRecord::still(leg, here)),
+            Some((_, Target::Indentation(to))) if separated && to < 0.0 => {
+                self.state = ContactState::free(to);
+                (false, LegRecord::free(leg, here.indentation, to))
+            }
             Some((Direction::Loading, target)) => (true, self.load(leg, target)?),
             Some((Direction::Unloading, target)) => (true, self.unload(leg, target)?),
         };
@@ -307,28 +322,9 @@ impl<C: ContactModel> super::Solver for Exact<C> {
         Ok(record)
     }
 
-    fn fragments(&self, indentation: f64) -> Vec<(usize, usize)> {
-        if self.touching { self.contact.fragments(indentation) } else { Vec::new() }
-    }
-
-    fn rises(&self, indentation: f64) -> Vec<f64> {
-        if self.touching { self.contact.rises(indentation) } else { Vec::new() }
-    }
-
-    fn thresholds_along_line(&self, out: &mut Vec<f64>) {
-        self.contact.thresholds_along_line(out);
-        if !self.touching {
-            out.fill(f64::INFINITY);
-        }
-    }
-
-    fn copy_leg(&self, copy: &mut LegContact) -> Result<(), ContactError> {
-        if self.touching {
-            self.contact.copy_leg(copy)
-        } else {
-            copy.keep_nothing();
-            Ok(())
-        }
+    fn leg(&self) -> LegView<'_> {
+        let leg = self.contact.leg();
+        if self.touching { leg } else { leg.apart() }
     }
 
     fn work(&self) -> Work {
@@ -337,23 +333,5 @@ impl<C: ContactModel> super::Solver for Exact<C> {
 
     fn curve_seconds(&self) -> f64 {
         (self.leg_time - self.pass_time).as_secs_f64()
-    }
-}
-
-impl<'a, E: EdgeModel> Exact<Adhesive<'a, E>> {
-    /// The memory it worked in, for the next body.
-    #[must_use]
-    pub fn into_memory(self) -> AdhesiveMemory {
-        self.contact.into_memory()
-    }
-
-    /// Smallest force of the unloading from first touch, N, and the work counts of the search.
-    ///
-    /// # Errors
-    /// [`ContactError::OutOfMemory`].
-    pub fn pull_off_at_touch(&mut self) -> Result<(f64, Work), ContactError> {
-        let stiffness = self.foundation.spring_stiffness();
-        let (compression, work) = self.contact.pull_off_at_touch()?;
-        Ok((stiffness * compression, work))
     }
 }

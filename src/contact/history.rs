@@ -73,6 +73,23 @@ impl LegRecord {
         LegRecord { direction, curve: vec![start, end], ..LegRecord::still(leg, end) }
     }
 
+    /// A leg along this curve, on which so many springs attached, or detached where it unloads, with stretches of this
+    /// energy, J.
+    pub(crate) fn moved(
+        (leg, direction): (Leg, Direction),
+        curve: Vec<CurvePoint>,
+        [smallest, largest]: [CurvePoint; 2],
+        changed: u64,
+        energy: f64,
+    ) -> Self {
+        let (attached, detached, dissipated_energy) = match direction {
+            // Not −0 where nothing attached with a stretch.
+            Direction::Loading => (changed, 0, 0.0 - energy),
+            Direction::Unloading => (0, changed, energy),
+        };
+        LegRecord { leg, direction, curve, largest, smallest, attached, detached, dissipated_energy }
+    }
+
     /// Indentation at the beginning, m.
     #[must_use]
     pub fn start(&self) -> f64 {
@@ -137,6 +154,12 @@ pub struct Work {
 }
 
 impl Work {
+    /// Counts the springs of a leg of the loading.
+    pub(crate) fn count(&mut self, leg: &LegRecord) {
+        self.attached += leg.attached;
+        self.detached += leg.detached;
+    }
+
     /// Adds work done beside the legs of the loading, without the springs attached and detached there.
     pub(crate) fn add_effort(&mut self, beside: &Work) {
         // All fields by name: a new one cannot be forgotten here.

@@ -2,8 +2,8 @@
 //!
 //! The interval is parted at its middle event until bounds exclude a part or nothing happens inside.
 
-use super::adhesive::EdgeModel;
-use super::contact_model::ContactState;
+use super::adhesive::{EdgeModel, Slider};
+use super::contact_state::{ContactState, Extreme, lower_bound, upper_bound};
 use super::steady::{SteadyContact, state};
 use super::totals::{ContactTotals, GapScale};
 
@@ -16,8 +16,8 @@ struct Step {
 
 /// A fragment whose edges slide, while it fills one span.
 #[derive(Clone, Copy, Debug)]
-pub struct Piece<S> {
-    pub slider: S,
+pub struct Piece {
+    pub slider: Slider,
     pub from: f64,
     pub to: f64,
 }
@@ -28,28 +28,11 @@ pub struct Interval<E: EdgeModel> {
     scale: GapScale,
     /// The first one at its lowest indentation; then, once they are sorted, its events.
     steps: Vec<Step>,
-    pub pieces: Vec<Piece<E::Slider>>,
+    pub pieces: Vec<Piece>,
 }
 
 /// Contact at the lowest and at the highest indentation of a part.
 pub type Ends<'s> = (&'s ContactState, &'s ContactState);
-
-/// A bound below any force between two indentations.
-pub fn lower_bound(low: &ContactState, high: &ContactState) -> f64 {
-    let rise = (high.indentation - low.indentation) * high.length;
-    high.compression - rise - slack(low, high, rise)
-}
-
-/// A bound above.
-pub fn upper_bound(low: &ContactState, high: &ContactState) -> f64 {
-    let rise = (high.indentation - low.indentation) * high.length;
-    low.compression + rise + slack(low, high, rise)
-}
-
-/// Bound of the rounding of a bound.
-fn slack(low: &ContactState, high: &ContactState, rise: f64) -> f64 {
-    8.0 * f64::EPSILON * (low.compression.abs() + high.compression.abs() + rise)
-}
 
 impl<E: EdgeModel> Interval<E> {
     /// An interval with this contact at its lowest indentation, m.
@@ -86,13 +69,13 @@ impl<E: EdgeModel> Interval<E> {
     }
 
     /// The contact at an indentation.
-    fn at(&self, pieces: &[Piece<E::Slider>], indentation: f64) -> ContactState {
+    fn at(&self, pieces: &[Piece], indentation: f64) -> ContactState {
         let there = pieces.iter().filter(|piece| piece.is_at(indentation)).map(|piece| piece.slider);
         state(self.edges, &self.scale, self.totals(indentation), there, indentation)
     }
 
     /// The contact at an indentation, as it is up to the next event.
-    fn steady(&self, pieces: &[Piece<E::Slider>], indentation: f64) -> SteadyContact<E> {
+    fn steady(&self, pieces: &[Piece], indentation: f64) -> SteadyContact<E> {
         let there = pieces.iter().filter(|piece| piece.is_at(indentation));
         let (edges, scale, totals) = (self.edges, self.scale, self.totals(indentation));
         SteadyContact { edges, scale, totals, sliders: there.map(|piece| piece.slider).collect() }
@@ -106,65 +89,43 @@ impl<E: EdgeModel> Interval<E> {
     }
 
     /// The pieces that matter on a part.
-    fn part(pieces: &[Piece<E::Slider>], low: f64, high: f64) -> Vec<Piece<E::Slider>> {
+    fn part(pieces: &[Piece], low: f64, high: f64) -> Vec<Piece> {
         pieces.iter().copied().filter(|piece| piece.from <= high && piece.to > low).collect()
     }
 
-    /// Makes `best` the smallest force between two ends, both of which it knows already.
-    pub fn smallest(&self, pieces: &[Piece<E::Slider>], (low, high): Ends<'_>, best: &mut ContactState) {
+    /// Makes `best` the extreme force between two ends, both of which it knows already.
+    pub fn search(&self, extreme: Extreme, pieces: &[Piece], (low, high): Ends<'_>, best: &mut ContactState) {
         let (from, to) = (low.indentation, high.indentation);
-        if lower_bound(low, high) >= best.compression || from.next_up() >= to {
+        if !extreme.may_lie(low, high, best) || from.next_up() >= to {
             return;
         }
-        match self.middle_event(from, to) {
-            None => {
-                let at = self.steady(pieces, from).flattest(from, to).min(to.next_down());
-                self.take(pieces, at, best, |a, b| a < b);
+        let take = |at: f64, best: &mut ContactState| {
+            let state = self.at(pieces, at);
+            if extreme.is_beyond(&state, best) {
+                *best = state;
             }
-            Some(event) => {
-                let middle = self.take(pieces, event, best, |a, b| a < b);
-                self.smallest(&Self::part(pieces, event, to), (&middle, high), best);
-                self.smallest(&Self::part(pieces, from, event), (low, &middle), best);
-            }
-        }
-    }
-
-    /// Makes `best` the largest force between two ends, both of which it knows already. Where the force falls at once,
-    /// the largest number before counts.
-    pub fn largest(&self, pieces: &[Piece<E::Slider>], (low, high): Ends<'_>, best: &mut ContactState) {
-        let (from, to) = (low.indentation, high.indentation);
-        if upper_bound(low, high) <= best.compression || from.next_up() >= to {
+            state
+        };
+        let Some(event) = self.middle_event(from, to) else {
+            let before = to.next_down();
+            take(
+                match extreme {
+                    Extreme::Smallest => self.steady(pieces, from).flattest(from, to).min(before),
+                    // Where the force falls at once, the largest number before counts.
+                    Extreme::Largest => before,
+                },
+                best,
+            );
             return;
-        }
-        match self.middle_event(from, to) {
-            None => {
-                self.take(pieces, to.next_down(), best, |a, b| a > b);
-            }
-            Some(event) => {
-                let middle = self.take(pieces, event, best, |a, b| a > b);
-                self.largest(&Self::part(pieces, event, to), (&middle, high), best);
-                self.largest(&Self::part(pieces, from, event), (low, &middle), best);
-            }
-        }
-    }
-
-    fn take(
-        &self,
-        pieces: &[Piece<E::Slider>],
-        at: f64,
-        best: &mut ContactState,
-        is_better: impl Fn(f64, f64) -> bool,
-    ) -> ContactState {
-        let state = self.at(pieces, at);
-        if is_better(state.compression, best.compression) {
-            *best = state;
-        }
-        state
+        };
+        let middle = take(event, best);
+        self.search(extreme, &Self::part(pieces, event, to), (&middle, high), best);
+        self.search(extreme, &Self::part(pieces, from, event), (low, &middle), best);
     }
 
     /// The smallest indentation above the lower end, up to the higher one, with at least this compression; at the
     /// lower end it is smaller.
-    pub fn first_of(&self, pieces: &[Piece<E::Slider>], (low, high): Ends<'_>, wanted: f64) -> Option<f64> {
+    pub fn first_of(&self, pieces: &[Piece], (low, high): Ends<'_>, wanted: f64) -> Option<f64> {
         if upper_bound(low, high) < wanted {
             return None;
         }
@@ -186,7 +147,7 @@ impl<E: EdgeModel> Interval<E> {
 
     /// The largest indentation below the higher end, down to the lower one, with at most this compression; at the
     /// higher end it is larger.
-    pub fn last_of(&self, pieces: &[Piece<E::Slider>], (low, high): Ends<'_>, wanted: f64) -> Option<f64> {
+    pub fn last_of(&self, pieces: &[Piece], (low, high): Ends<'_>, wanted: f64) -> Option<f64> {
         let (from, to) = (low.indentation, high.indentation);
         if lower_bound(low, high) > wanted || from >= to {
             return None;
@@ -210,7 +171,7 @@ impl<E: EdgeModel> Interval<E> {
     }
 }
 
-impl<S> Piece<S> {
+impl Piece {
     fn is_at(&self, indentation: f64) -> bool {
         self.from <= indentation && indentation < self.to
     }

@@ -1,9 +1,134 @@
-//! Contact at all indentations of one leg, kept after the body has moved on.
+//! Contact at all indentations of one leg, seen in a solver or kept after the body has moved on.
 
 use super::adhesive::{ContactTree, EdgeModel, GridEdges, Ground, Held, Run, SubCellEdges};
 use super::fragments::runs;
-use super::{ContactError, resized};
+use super::{ContactError, HessRule, resized};
 use crate::scene::Edges;
+
+/// Contact at any indentation of one leg.
+#[derive(Clone, Copy, Debug)]
+pub struct LegView<'a> {
+    gaps: &'a [f64],
+    contact: Contact<'a>,
+}
+
+/// Data that define the contact.
+#[derive(Clone, Copy, Debug)]
+enum Contact<'a> {
+    /// Nothing touches on this leg.
+    Apart,
+    /// Each spring touches at its own gap.
+    Gaps,
+    /// A threshold for each spring along the line, m.
+    Line(&'a [f64]),
+    /// The runs of an adhesive contact.
+    Runs(&'a ContactTree, &'a [Run], RunsOf),
+}
+
+/// Leg and rule of some runs.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct RunsOf {
+    unloading: bool,
+    /// Rule of Hess on this leg.
+    rule: HessRule,
+    edges: Edges,
+    /// True if the edges are pinned where the next leg begins.
+    pins: bool,
+}
+
+impl<'a> LegView<'a> {
+    /// Nothing touches.
+    pub(super) fn apart(self) -> Self {
+        LegView { contact: Contact::Apart, ..self }
+    }
+
+    /// Each spring touches at its own gap, m.
+    pub(super) fn of_gaps(gaps: &'a [f64]) -> Self {
+        LegView { gaps, contact: Contact::Gaps }
+    }
+
+    /// Each spring, in its order along the line, touches at a threshold of this leg, m.
+    pub(super) fn of_thresholds(gaps: &'a [f64], thresholds: &'a [f64]) -> Self {
+        LegView { gaps, contact: Contact::Line(thresholds) }
+    }
+
+    /// The runs of a leg under its rule; `pins`: edges are pinned where the next leg begins.
+    pub(super) fn of_runs<E: EdgeModel>(
+        ground: Ground<'a, E>,
+        runs: &'a [Run],
+        unloading: bool,
+        pins: bool,
+    ) -> Self {
+        let of = RunsOf { unloading, rule: ground.edges.rule(), edges: E::EDGES, pins };
+        LegView { gaps: ground.gaps, contact: Contact::Runs(ground.tree, runs, of) }
+    }
+
+    /// First and last spring of each fragment in contact at `indentation` (m), in ascending order.
+    ///
+    /// Takes as long as there are runs of an adhesive contact, else as long as there are springs.
+    #[must_use]
+    pub fn fragments(&self, indentation: f64) -> Vec<(usize, usize)> {
+        let touching =
+            |thresholds: &[f64]| runs(thresholds.iter().map(|&threshold| threshold <= indentation));
+        match self.contact {
+            Contact::Apart => Vec::new(),
+            Contact::Gaps => touching(self.gaps),
+            Contact::Line(thresholds) => touching(thresholds),
+            Contact::Runs(tree, runs, of) => {
+                let held = self.held(tree, runs, RunsOf { pins: false, ..of }, indentation);
+                held.iter().map(|held| (held.first as usize, held.last as usize)).collect()
+            }
+        }
+    }
+
+    /// Height of the level of the edges above the largest gap of each of these fragments, m, in their order, where
+    /// edges can be pinned: between springs and under two works of adhesion. Empty elsewhere.
+    #[must_use]
+    pub fn rises(&self, indentation: f64) -> Vec<f64> {
+        match self.contact {
+            Contact::Runs(tree, runs, of) => {
+                self.held(tree, runs, of, indentation).iter().filter_map(|held| held.pin).collect()
+            }
+            _ => Vec::new(),
+        }
+    }
+
+    /// Writes, for each spring in its order along the line, the smallest indentation at which it is in
+    /// contact (−∞ always, +∞ never), m.
+    pub fn thresholds(&self, out: &mut Vec<f64>) {
+        out.clear();
+        let LegView { gaps, contact } = *self;
+        match contact {
+            Contact::Apart => out.resize(gaps.len(), f64::INFINITY),
+            Contact::Gaps => out.extend_from_slice(gaps),
+            Contact::Line(thresholds) => out.extend_from_slice(thresholds),
+            Contact::Runs(tree, runs, RunsOf { unloading, rule, edges, .. }) => match edges {
+                Edges::Grid => {
+                    Ground { gaps, tree, edges: GridEdges::new(rule) }.thresholds(runs, unloading, out);
+                }
+                Edges::SubCell => {
+                    Ground { gaps, tree, edges: SubCellEdges::new(rule) }.thresholds(runs, unloading, out);
+                }
+            },
+        }
+    }
+
+    /// The fragments of runs at an indentation, m.
+    fn held(&self, tree: &ContactTree, runs: &[Run], of: RunsOf, indentation: f64) -> Vec<Held> {
+        let RunsOf { unloading, rule, edges, pins } = of;
+        let gaps = self.gaps;
+        match edges {
+            Edges::Grid => {
+                let ground = Ground { gaps, tree, edges: GridEdges::new(rule) };
+                ground.held_at(runs, unloading, indentation, pins).collect()
+            }
+            Edges::SubCell => {
+                let ground = Ground { gaps, tree, edges: SubCellEdges::new(rule) };
+                ground.held_at(runs, unloading, indentation, pins).collect()
+            }
+        }
+    }
+}
 
 /// The contact at any indentation of one leg, copied from a [`Solver`](super::Solver) when the leg was done.
 ///
@@ -16,66 +141,28 @@ pub struct LegContact {
     thresholds: Vec<f64>,
 }
 
-/// Data that define the contact.
+/// Kind of a copied [`Contact`].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 enum Kind {
-    /// Nothing touches on this leg.
     #[default]
     Apart,
-    /// Each spring touches at its own gap.
     Gaps,
-    /// The runs of an adhesive contact; `stretch` is the largest one of a fragment of unit length on the leg, m.
-    Runs { unloading: bool, stretch: f64, edges: Edges, pins: bool },
-    /// A threshold for each spring along the line.
     Line,
+    Runs(RunsOf),
 }
 
 impl LegContact {
-    /// First and last spring of each fragment in contact at `indentation` (m), in ascending order.
-    ///
-    /// `gaps` and `tree` are those of the run from which this leg comes; a tree is asked for only where adhesion was
-    /// solved exactly, and without one nothing touches there. With a tree this takes as long as there are runs, else as
-    /// long as there are springs.
+    /// The contact of the leg. `gaps` and `tree` are those of the run from which it comes; a tree is asked for only
+    /// where adhesion was solved exactly, and without one nothing touches there.
     #[must_use]
-    pub fn fragments_at(
-        &self,
-        indentation: f64,
-        gaps: &[f64],
-        tree: Option<&ContactTree>,
-    ) -> Vec<(usize, usize)> {
-        let touching =
-            |thresholds: &[f64]| runs(thresholds.iter().map(|&threshold| threshold <= indentation));
-        match (self.kind, tree) {
-            (Kind::Apart, _) => Vec::new(),
-            (Kind::Gaps, _) => touching(gaps),
-            (Kind::Line, _) => touching(&self.thresholds),
-            (Kind::Runs { .. }, tree) => {
-                let held = tree.map_or_else(Vec::new, |tree| self.held_at(indentation, gaps, tree));
-                held.iter().map(|held| (held.first as usize, held.last as usize)).collect()
-            }
-        }
-    }
-
-    /// See [`Solver::rises`](super::Solver::rises); arguments as in [`LegContact::fragments_at`].
-    #[must_use]
-    pub fn rises_at(&self, indentation: f64, gaps: &[f64], tree: Option<&ContactTree>) -> Vec<f64> {
-        let held = tree.map_or_else(Vec::new, |tree| self.held_at(indentation, gaps, tree));
-        held.iter().filter_map(|held| held.pin).collect()
-    }
-
-    /// The fragments of the runs of an adhesive contact at an indentation, m; none of another contact.
-    fn held_at(&self, indentation: f64, gaps: &[f64], tree: &ContactTree) -> Vec<Held> {
-        let Kind::Runs { unloading, stretch, edges, pins } = self.kind else { return Vec::new() };
-        match edges {
-            Edges::Grid => {
-                let ground = Ground { gaps, tree, edges: GridEdges::with_stretch(stretch) };
-                ground.held_at(&self.runs, unloading, indentation, pins).collect()
-            }
-            Edges::SubCell => {
-                let ground = Ground { gaps, tree, edges: SubCellEdges::with_stretch(stretch) };
-                ground.held_at(&self.runs, unloading, indentation, pins).collect()
-            }
-        }
+    pub fn view<'a>(&'a self, gaps: &'a [f64], tree: Option<&'a ContactTree>) -> LegView<'a> {
+        let contact = match (self.kind, tree) {
+            (Kind::Gaps, _) => Contact::Gaps,
+            (Kind::Line, _) => Contact::Line(&self.thresholds),
+            (Kind::Runs(of), Some(tree)) => Contact::Runs(tree, &self.runs, of),
+            (Kind::Apart | Kind::Runs(_), _) => Contact::Apart,
+        };
+        LegView { gaps, contact }
     }
 
     /// Bytes this copy holds on to, for those who keep many.
@@ -84,39 +171,28 @@ impl LegContact {
         self.thresholds.capacity() * size_of::<f64>() + self.runs.capacity() * size_of::<Run>()
     }
 
-    /// Nothing touches on the leg.
-    pub(in crate::contact) fn keep_nothing(&mut self) {
+    /// Copies the contact of a leg.
+    ///
+    /// # Errors
+    /// [`ContactError::OutOfMemory`]; the copy then holds no contact.
+    pub(super) fn copy(&mut self, leg: LegView<'_>) -> Result<(), ContactError> {
         self.kind = Kind::Apart;
-    }
-
-    /// Each spring touches at its own gap.
-    pub(super) fn keep_gaps(&mut self) {
-        self.kind = Kind::Gaps;
-    }
-
-    /// The runs of an adhesive contact under these edges of the leg; `pins`: they are pinned where the next leg begins.
-    pub(super) fn keep_runs<E: EdgeModel>(
-        &mut self,
-        runs: &[Run],
-        unloading: bool,
-        edges: E,
-        pins: bool,
-    ) -> Result<(), ContactError> {
-        self.kind = Kind::Apart;
-        self.runs.clear();
-        let springs = runs.len();
-        self.runs.try_reserve_exact(springs).map_err(|_| ContactError::OutOfMemory { springs })?;
-        self.runs.extend_from_slice(runs);
-        self.kind = Kind::Runs { unloading, stretch: edges.stretch(), edges: E::EDGES, pins };
-        Ok(())
-    }
-
-    /// A threshold for each spring along the line, m.
-    pub(super) fn keep_line_order(&mut self, thresholds: &[f64]) -> Result<(), ContactError> {
-        self.kind = Kind::Apart;
-        self.thresholds = resized(std::mem::take(&mut self.thresholds), thresholds.len(), 0.0)?;
-        self.thresholds.copy_from_slice(thresholds);
-        self.kind = Kind::Line;
+        self.kind = match leg.contact {
+            Contact::Apart => Kind::Apart,
+            Contact::Gaps => Kind::Gaps,
+            Contact::Line(thresholds) => {
+                self.thresholds = resized(std::mem::take(&mut self.thresholds), thresholds.len(), 0.0)?;
+                self.thresholds.copy_from_slice(thresholds);
+                Kind::Line
+            }
+            Contact::Runs(_, runs, of) => {
+                self.runs.clear();
+                let springs = runs.len();
+                self.runs.try_reserve_exact(springs).map_err(|_| ContactError::OutOfMemory { springs })?;
+                self.runs.extend_from_slice(runs);
+                Kind::Runs(of)
+            }
+        };
         Ok(())
     }
 }

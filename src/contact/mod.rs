@@ -15,6 +15,7 @@
 
 pub mod adhesive;
 mod contact_model;
+mod contact_state;
 mod crossing;
 mod error;
 pub mod exact;
@@ -35,12 +36,12 @@ mod steady;
 pub mod stepwise;
 mod totals;
 
-pub use adhesive::{Adhesive, AdhesiveMemory, ContactTree, EdgeModel, GridEdges, SubCellEdges};
+pub use adhesive::{AdhesiveMemory, ContactTree, EdgeModel, GridEdges, SubCellEdges};
 pub use error::ContactError;
 pub use exact::Exact;
 pub use foundation::{Foundation, HessRule};
 pub use history::{CurvePoint, Direction, History, LegRecord, Work};
-pub use leg_contact::LegContact;
+pub use leg_contact::{LegContact, LegView};
 pub use leg_plan::Target;
 pub use manual::{Manual, ManualError, ManualLoading, Move};
 pub use nonadhesive::Nonadhesive;
@@ -54,6 +55,13 @@ pub use totals::{ContactTotals, GapScale};
 /// An empty vector with room for `count` values, or an error instead of an abort.
 pub(crate) fn reserve<T>(count: usize) -> Result<Vec<T>, ContactError> {
     crate::memory::emptied(Vec::new(), count).map_err(|_| ContactError::OutOfMemory { springs: count })
+}
+
+/// Adds a value of an array over so many springs, or gives an error instead of an abort.
+fn push<T>(values: &mut Vec<T>, value: T, springs: usize) -> Result<(), ContactError> {
+    values.try_reserve(1).map_err(|_| ContactError::OutOfMemory { springs })?;
+    values.push(value);
+    Ok(())
 }
 
 /// `count` values in this memory; see [`crate::memory::resized`].

@@ -9,14 +9,14 @@
 //! many points of a curve in a row add as quadratics, whose coefficients their height bounds there.
 
 use super::HessRule;
-use super::adhesive::GridEdges;
-use super::contact_model::{ContactModel, ContactState, Sampled};
+use super::adhesive::{EdgeCells, EdgeModel, EdgeSum, GridEdges, SubCellEdges};
+use super::contact_model::{ContactModel, Reversed};
+use super::contact_state::{ContactState, Extreme, Sampled};
 use super::crossing::bisect;
-use super::fragments::runs;
 use super::grid::{CompensatedSum, Grid};
 use super::interval::Interval;
 use super::totals::{ContactTotals, GapScale};
-use super::{ContactError, LegContact, Work, resized};
+use super::{AdhesiveMemory, ContactError, LegView, Work, resized};
 use crate::scene::Edges;
 use std::ops::Range;
 
@@ -35,30 +35,18 @@ pub struct Nonadhesive<'a> {
     scale: GapScale,
 }
 
-/// Sum over partly filled cells.
-#[derive(Clone, Copy, Debug, Default)]
-struct Partial {
-    /// In cells.
-    length: CompensatedSum,
-    /// ∫ (d − c) dx in cells times metres.
-    compression: CompensatedSum,
-}
-
-impl Partial {
-    /// Adds a cell from `low` to `high` (m), between which the indentation lies.
-    #[inline]
-    fn add(&mut self, low: f64, high: f64, indentation: f64) {
-        let above = indentation - low;
-        let share = above / (high - low);
-        self.length.add(share);
-        self.compression.add(0.5 * above * share);
-    }
+/// A cell from `low` to `high` (m), filled up to an indentation between them.
+#[inline]
+fn partly_filled(low: f64, high: f64, indentation: f64) -> EdgeCells {
+    let above = indentation - low;
+    let share = above / (high - low);
+    EdgeCells { length: share, compression: 0.5 * above * share }
 }
 
 /// Sum of cells as a quadratic in the way x from a point: `compression + length x + curvature x²`.
 #[derive(Clone, Copy, Debug, Default)]
 struct Quadratic {
-    partial: Partial,
+    partial: EdgeSum,
     curvature: CompensatedSum,
 }
 
@@ -92,7 +80,7 @@ struct Changes {
     /// Most points at which a partly filled cell is added by itself.
     few: usize,
     whole: Vec<ContactTotals>,
-    partial: Vec<Partial>,
+    partial: Vec<EdgeSum>,
     quadratic: Vec<Quadratic>,
 }
 
@@ -128,32 +116,21 @@ impl<'a> Nonadhesive<'a> {
     }
 
     /// Adds the half cells at an indentation, m.
-    fn add_half_cells(&self, partial: &mut Partial, indentation: f64) {
+    fn add_half_cells(&self, partial: &mut EdgeSum, indentation: f64) {
         for gap in self.half_cells().filter(|&gap| gap <= indentation) {
-            partial.length.add(0.5);
-            partial.compression.add(0.5 * (indentation - gap));
+            partial.add(EdgeCells { length: 0.5, compression: 0.5 * (indentation - gap) });
         }
     }
 
     /// Contact state of the full springs or cells and of the partly filled cells.
-    fn state(&self, indentation: f64, full: ContactTotals, partial: Partial) -> ContactState {
-        let (springs, fragments) = (full.springs, full.fragments);
+    fn state(&self, indentation: f64, full: ContactTotals, partial: EdgeSum) -> ContactState {
+        let (rule, cells) = (HessRule::NO_ADHESION, partial.total());
         match self.edges {
-            Edges::Grid => ContactState {
-                indentation,
-                springs,
-                fragments,
-                length: springs as f64,
-                compression: full.compression(indentation, &self.scale),
-            },
-            Edges::SubCell => ContactState {
-                indentation,
-                springs,
-                fragments,
-                length: (full.cells() as f64 + partial.length.total()).min(self.gaps.len() as f64),
-                compression: full.compression_of_cells(indentation, &self.scale)
-                    + partial.compression.total(),
-            },
+            Edges::Grid => GridEdges::new(rule).state(indentation, full, cells, &self.scale),
+            Edges::SubCell => {
+                let state = SubCellEdges::new(rule).state(indentation, full, cells, &self.scale);
+                ContactState { length: state.length.min(self.gaps.len() as f64), ..state }
+            }
         }
     }
 
@@ -186,7 +163,7 @@ impl<'a> Nonadhesive<'a> {
         let mut changes = Changes {
             few,
             whole: resized(Vec::new(), count, ContactTotals::default())?,
-            partial: resized(Vec::new(), count, Partial::default())?,
+            partial: resized(Vec::new(), count, EdgeSum::default())?,
             quadratic: resized(Vec::new(), count, Quadratic::default())?,
         };
         for (partial, &point) in changes.partial.iter_mut().zip(points) {
@@ -269,10 +246,10 @@ impl<'a> Nonadhesive<'a> {
 
 impl Between<'_> {
     fn at(&self, indentation: f64) -> ContactState {
-        let mut partial = Partial::default();
+        let mut partial = EdgeSum::default();
         self.contact.add_half_cells(&mut partial, indentation);
         let cells = self.cells.iter().filter(|&&[low, high]| low <= indentation && indentation < high);
-        cells.for_each(|&[low, high]| partial.add(low, high, indentation));
+        cells.for_each(|&[low, high]| partial.add(partly_filled(low, high, indentation)));
         self.contact.state(indentation, self.full.totals(indentation), partial)
     }
 
@@ -318,13 +295,13 @@ impl Changes {
         let Range { start, end } = at;
         if end - start <= self.few {
             for (partial, &point) in self.partial[start..end].iter_mut().zip(&points[start..end]) {
-                partial.add(low, high, point);
+                partial.add(partly_filled(low, high, point));
             }
             return;
         }
         // Both ends of the curve are ends of other legs as well, which must find the same there.
         for index in [0, last].into_iter().filter(|index| (start..end).contains(index)) {
-            self.partial[index].add(low, high, points[index]);
+            self.partial[index].add(partly_filled(low, high, points[index]));
         }
         let (start, end) = (start.max(1), end.min(last));
         self.quadratic[start].add(low, high, points[start], 1.0);
@@ -333,8 +310,6 @@ impl Changes {
 }
 
 impl ContactModel for Nonadhesive<'_> {
-    const SEARCH_INTERVALS: usize = 256;
-
     fn count(&self) -> u64 {
         self.gaps.len() as u64
     }
@@ -352,8 +327,8 @@ impl ContactModel for Nonadhesive<'_> {
         Ok(())
     }
 
-    fn reverse(&mut self, (_, from): (usize, f64), work: &mut Work) -> Result<f64, ContactError> {
-        self.unload(from, work)
+    fn reverse(&mut self, (_, from): (usize, f64), work: &mut Work) -> Result<Reversed, ContactError> {
+        Ok(Reversed { separates: self.unload(from, work)?, squared_stretches: [0.0; 2] })
     }
 
     fn sample_reversal(&self, grid: Grid) -> Result<Sampled, ContactError> {
@@ -370,10 +345,6 @@ impl ContactModel for Nonadhesive<'_> {
         Ok(leg.states[0])
     }
 
-    fn squared_stretches(&self) -> [f64; 2] {
-        [0.0; 2]
-    }
-
     fn sample(&self, grid: Grid) -> Result<Sampled, ContactError> {
         self.along(grid)
     }
@@ -383,12 +354,11 @@ impl ContactModel for Nonadhesive<'_> {
         Ok((self.sample(grid)?, 0.0))
     }
 
-    fn smallest(&self, leg: &Sampled, _: &mut u64) -> ContactState {
-        leg.first()
-    }
-
-    fn largest(&self, leg: &Sampled, _: &mut u64) -> ContactState {
-        leg.last()
+    fn extreme(&self, extreme: Extreme, leg: &Sampled, _: &mut u64) -> ContactState {
+        match extreme {
+            Extreme::Smallest => leg.first(),
+            Extreme::Largest => leg.last(),
+        }
     }
 
     fn first_at_least(&self, leg: &Sampled, wanted: f64, _: &mut u64) -> Option<f64> {
@@ -423,132 +393,13 @@ impl ContactModel for Nonadhesive<'_> {
         if self.edges == Edges::Grid { totals.indentation(compression, &self.scale) } else { None }
     }
 
-    fn thresholds_along_line(&self, out: &mut Vec<f64>) {
-        out.clear();
-        out.extend_from_slice(self.gaps);
+    fn leg(&self) -> LegView<'_> {
+        LegView::of_gaps(self.gaps)
     }
 
-    fn copy_leg(&self, copy: &mut LegContact) -> Result<(), ContactError> {
-        copy.keep_gaps();
-        Ok(())
+    fn pull_off_at_touch(&mut self) -> Result<(f64, Work), ContactError> {
+        Ok((0.0, Work::default()))
     }
 
-    fn rises(&self, _: f64) -> Vec<f64> {
-        Vec::new()
-    }
-
-    fn fragments(&self, indentation: f64) -> Vec<(usize, usize)> {
-        runs(self.gaps.iter().map(|&gap| gap <= indentation))
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::contact::{Foundation, Solver, exact};
-    use crate::scene::Leg;
-    use proptest::prelude::*;
-
-    const FOUNDATION: Foundation = Foundation::endless(0.25, 8.0);
-
-    /// Length and compression by definition, cell by cell.
-    fn by_definition(gaps: &[f64], edges: Edges, d: f64) -> (f64, f64) {
-        if edges == Edges::Grid {
-            let inside = gaps.iter().filter(|&&gap| gap <= d);
-            return inside.fold((0.0, 0.0), |(length, sum), gap| (length + 1.0, sum + (d - gap)));
-        }
-        let ends = [gaps[0], gaps[gaps.len() - 1]].into_iter().filter(|&gap| gap <= d);
-        let of_ends = ends.fold((0.0, 0.0), |(length, sum), gap| (length + 0.5, sum + 0.5 * (d - gap)));
-        gaps.windows(2).fold(of_ends, |(length, sum), cell| {
-            let (low, high) = (cell[0].min(cell[1]), cell[0].max(cell[1]));
-            if d < low {
-                (length, sum)
-            } else if d >= high {
-                (length + 1.0, sum + ((d - low) + (d - high)) / 2.0)
-            } else {
-                let share = (d - low) / (high - low);
-                (length + share, sum + 0.5 * (d - low) * share)
-            }
-        })
-    }
-
-    /// Lines with ties, near-ties down to one rounding, and steps of any height.
-    fn lines() -> impl Strategy<Value = Vec<f64>> {
-        let gap = prop_oneof![
-            3 => (0_u16..8).prop_map(|level| f64::from(level) * 0.125),
-            2 => (0_u16..8, -80_i32..-20).prop_map(|(level, power)| f64::from(level) * 0.125 + 2.0_f64.powi(power)),
-            2 => 0.0..1.0_f64,
-            1 => (-1000_i32..0).prop_map(|power| 2.0_f64.powi(power)),
-        ];
-        (prop::collection::vec(gap, 0..60), any::<prop::sample::Index>()).prop_map(|(mut gaps, place)| {
-            gaps.insert(place.index(gaps.len() + 1), 0.0);
-            gaps
-        })
-    }
-
-    fn edges() -> impl Strategy<Value = Edges> {
-        prop_oneof![Just(Edges::Grid), Just(Edges::SubCell)]
-    }
-
-    proptest! {
-        #[test]
-        fn curves_are_those_of_the_definition(
-            gaps in lines(), edges in edges(), power in -40..100_i32, samples in 2..600_usize,
-        ) {
-            let deepest = 2.0_f64.powi(power);
-            let mut body = exact::nonadhesive(&gaps, edges, FOUNDATION, samples);
-            let count = gaps.len() as f64;
-            let (mut length, mut force) = (0.0, 0.0);
-            let loading = body.advance(Leg::ToIndentation(deepest)).unwrap();
-            let unloading = body.advance(Leg::ToIndentation(0.3 * deepest)).unwrap();
-            for point in &loading.curve[1..] {
-                let (expected_length, expected) = by_definition(&gaps, edges, point.indentation);
-                let found = [point.contact_length / 0.25, point.force / 2.0];
-                prop_assert!((found[0] - expected_length).abs() <= 1e-13 * expected_length, "{point:?} {expected_length}");
-                let quanta = count * GapScale::for_gaps_up_to(1.0).quantum();
-                prop_assert!((found[1] - expected).abs() <= 1e-12 * expected + quanta, "{point:?} {expected}");
-                prop_assert!(found[0] <= count && found[0] >= length && point.force >= force);
-                (length, force) = (found[0], point.force);
-            }
-            prop_assert_eq!(length == count, gaps.iter().all(|gap| *gap <= deepest));
-            prop_assert_eq!(unloading.curve.first(), loading.curve.last());
-            prop_assert_eq!(loading.dissipated_energy + unloading.dissipated_energy, 0.0);
-        }
-
-        #[test]
-        fn forces_are_met_to_the_last_place_of_the_indentation(
-            gaps in lines(), edges in edges(), power in -60..200_i32, part in 0.0..1.0_f64,
-        ) {
-            let mut body = exact::nonadhesive(&gaps, edges, FOUNDATION, 3);
-            for wanted in [2.0_f64.powi(power), part * 2.0_f64.powi(power), 0.0] {
-                let record = body.advance(Leg::ToForce(wanted)).unwrap();
-                let end = record.curve.last().unwrap();
-                let place = end.indentation - end.indentation.next_down();
-                let quanta = end.contact_length / 0.25 * GapScale::for_gaps_up_to(1.0).quantum();
-                let bound = 2.0 * (end.contact_length / 0.25 * place + quanta) + 4.0 * f64::EPSILON * wanted;
-                prop_assert!((end.force - wanted).abs() <= bound, "{wanted} {end:?}");
-            }
-        }
-    }
-
-    /// A force between two points of a curve is met in far fewer looks than the fifty-odd that halving takes.
-    #[test]
-    fn a_force_is_met_in_few_looks() {
-        let gaps: Vec<_> = (0..101_u32).map(|k| f64::from(k * 37 % 101) / 101.0).collect();
-        let body = Nonadhesive::new(&gaps, Edges::SubCell);
-        let leg = body.sample(Grid::new(0.0, 1.5, 3)).unwrap();
-        let looks = std::cell::Cell::new(0);
-        for part in (1..100).map(|k| f64::from(k) / 100.0) {
-            let wanted = part * leg.states[3].compression;
-            let is_past = |compression| {
-                looks.set(looks.get() + 1);
-                compression >= wanted
-            };
-            let (Some(low), high) = Nonadhesive::ends(&leg, is_past).unwrap() else { panic!("{wanted}") };
-            let ends = (low.indentation, high.indentation);
-            let [low, high] = body.between(ends.0, ends.1).crossing(ends, wanted, is_past);
-            assert!(low <= high);
-        }
-        assert!(looks.get() <= 32 * 99, "{} looks", looks.get());
-    }
+    fn give_back(self: Box<Self>, _: &mut AdhesiveMemory) {}
 }

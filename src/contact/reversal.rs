@@ -4,7 +4,8 @@
 //! were closed there. So all reversals share the tree, the thresholds of attachment and the list of the loading, and
 //! each costs what its own contact holds.
 
-use super::contact_model::{ContactModel, ContactState};
+use super::contact_model::Reversed;
+use super::contact_state::ContactState;
 use super::exact::Exact;
 use super::grid::Grid;
 use super::leg_plan::{Target, plan};
@@ -27,8 +28,8 @@ pub struct Reversal {
 }
 
 /// The reversals of a body that is loaded from separation.
-pub struct Reversals<C: ContactModel> {
-    body: Exact<C>,
+pub struct Reversals<'a> {
+    body: Exact<'a>,
     /// Turning points in the order of their depth, and their numbers.
     turns: Vec<(usize, ContactState)>,
 }
@@ -42,13 +43,13 @@ impl Reversal {
     }
 }
 
-impl<C: ContactModel> Reversals<C> {
+impl<'a> Reversals<'a> {
     /// Loads a body from separation and finds the turning points: the ends of these legs, each of which begins separated
     /// at d = 0.
     ///
     /// # Errors
     /// For a leg whose end is out of reach, or without enough memory.
-    pub fn new(mut body: Exact<C>, ends: &[Leg]) -> Result<Self, ContactError> {
+    pub fn new(mut body: Exact<'a>, ends: &[Leg]) -> Result<Self, ContactError> {
         let complete = body.begin_loading()?.max(0.0);
         let apart = CurvePoint::default();
         let mut order = Vec::with_capacity(ends.len());
@@ -118,24 +119,25 @@ impl<C: ContactModel> Reversals<C> {
 
     /// The body, for its memory.
     #[must_use]
-    pub fn into_body(self) -> Exact<C> {
+    pub fn into_body(self) -> Exact<'a> {
         self.body
     }
 }
 
 /// Unloads from a turning point.
-fn reverse<C: ContactModel>(
-    body: &mut Exact<C>,
+fn reverse(
+    body: &mut Exact<'_>,
     (number, turn): (usize, ContactState),
     points: &[f64],
 ) -> Result<Reversal, ContactError> {
     let high = turn.indentation;
     let (contact, work) = body.work_mut();
-    let separation = contact.reverse((number, high), work)?.min(high);
+    let Reversed { separates, squared_stretches: [attached, detached] } =
+        contact.reverse((number, high), work)?;
+    let separation = separates.min(high);
     let (grid, _) = body.grid(separation, high);
     let (contact, work) = body.work_mut();
     let smallest = contact.smallest_of_reversal(&grid, turn, &mut work.events_sorted)?;
-    let [attached, detached] = contact.squared_stretches();
     let below = &points[..points.partition_point(|&point| point <= high)];
     let apart = below.partition_point(|&point| point < separation);
     let mut forces = vec![0.0; apart];

@@ -1,7 +1,7 @@
 //! Forces and lengths of given fragments at one indentation: for a view of a contact that is not solved again.
 
-use super::adhesive::{EdgeModel, GridEdges, Span, SubCellEdges};
-use super::contact_model::ContactState;
+use super::adhesive::{EdgeModel, GridEdges, Slider, Span, SubCellEdges};
+use super::contact_state::ContactState;
 use super::steady::state;
 use super::totals::{ContactTotals, GapScale};
 use super::{CurvePoint, Foundation, HessRule};
@@ -12,13 +12,8 @@ use crate::scene::Edges;
 pub struct Snapshot<'a> {
     gaps: &'a [f64],
     scale: GapScale,
-    model: Model,
-}
-
-#[derive(Clone, Copy, Debug)]
-enum Model {
-    Grid(GridEdges),
-    SubCell(SubCellEdges),
+    edges: Edges,
+    hess: HessRule,
 }
 
 /// Length, load and stretch of one fragment.
@@ -39,11 +34,7 @@ impl<'a> Snapshot<'a> {
     #[must_use]
     pub fn new(gaps: &'a [f64], deepest: f64, edges: Edges, hess: Option<HessRule>) -> Self {
         let hess = hess.unwrap_or(HessRule::NO_ADHESION);
-        let model = match edges {
-            Edges::Grid => Model::Grid(GridEdges::new(hess)),
-            Edges::SubCell => Model::SubCell(SubCellEdges::new(hess)),
-        };
-        Snapshot { gaps, scale: GapScale::for_gaps_up_to(deepest), model }
+        Snapshot { gaps, scale: GapScale::for_gaps_up_to(deepest), edges, hess }
     }
 
     /// The point of the curve at an indentation, m, at which these fragments, given by first and last spring, are in
@@ -57,9 +48,9 @@ impl<'a> Snapshot<'a> {
         fragments: &[(usize, usize)],
         rises: &[f64],
     ) -> CurvePoint {
-        let contact = match self.model {
-            Model::Grid(edges) => self.contact(edges, indentation, fragments, rises),
-            Model::SubCell(edges) => self.contact(edges, indentation, fragments, rises),
+        let contact = match self.edges {
+            Edges::Grid => self.contact(GridEdges::new(self.hess), indentation, fragments, rises),
+            Edges::SubCell => self.contact(SubCellEdges::new(self.hess), indentation, fragments, rises),
         };
         contact.point(foundation)
     }
@@ -67,9 +58,9 @@ impl<'a> Snapshot<'a> {
     /// The fragment with these first and last springs at an indentation, m, and where it has one its rise, m.
     #[must_use]
     pub fn fragment(&self, indentation: f64, ends: (usize, usize), rise: Option<f64>) -> FragmentState {
-        match self.model {
-            Model::Grid(edges) => self.fragment_under(edges, indentation, ends, rise),
-            Model::SubCell(edges) => self.fragment_under(edges, indentation, ends, rise),
+        match self.edges {
+            Edges::Grid => self.fragment_under(GridEdges::new(self.hess), indentation, ends, rise),
+            Edges::SubCell => self.fragment_under(SubCellEdges::new(self.hess), indentation, ends, rise),
         }
     }
 
@@ -83,8 +74,7 @@ impl<'a> Snapshot<'a> {
         let mut totals = ContactTotals::default();
         fragments.iter().for_each(|&ends| totals += self.totals(E::EDGES, ends));
         let sliders = fragments.iter().enumerate().map(|(index, &ends)| {
-            let slider = edges.slider(self.gaps, &self.span(ends));
-            rises.get(index).map_or(slider, |&rise| edges.pin(slider, rise))
+            Slider::new(self.gaps, &self.span(ends), edges.stretch(), rises.get(index).copied())
         });
         state(edges, &self.scale, totals, sliders, indentation)
     }
@@ -99,7 +89,7 @@ impl<'a> Snapshot<'a> {
         let ContactState { length, compression, .. } =
             self.contact(edges, indentation, &[ends], rise.as_slice());
         let span = self.span(ends);
-        let of_indentation = || edges.rise(&span, edges.length(self.gaps, &span), indentation);
+        let of_indentation = || edges.rise(&edges.levels(self.gaps, &span), indentation);
         let level = span.gap + rise.unwrap_or_else(of_indentation);
         FragmentState {
             length,

@@ -1,6 +1,6 @@
 //! Interface of the solvers: a body moved leg by leg.
 
-use super::{ContactError, History, LegContact, LegRecord, Work};
+use super::{ContactError, History, LegContact, LegRecord, LegView, Work};
 use crate::scene::Leg;
 
 /// A body on its foundation that can be moved leg by leg. It begins separated, at d = 0 just before
@@ -12,30 +12,38 @@ pub trait Solver {
     /// For a target out of reach; the body then stays at its indentation.
     fn advance(&mut self, leg: Leg) -> Result<LegRecord, ContactError>;
 
-    /// First and last spring of each contact fragment at `indentation` on the present leg, in
-    /// ascending order.
-    fn fragments(&self, indentation: f64) -> Vec<(usize, usize)>;
-
-    /// Height of the level of the edges above the largest gap of each of these fragments, m, in their order, where
-    /// edges can be pinned: between springs and under two works of adhesion. Empty elsewhere.
-    fn rises(&self, indentation: f64) -> Vec<f64>;
-
-    /// Writes, for each spring in its order along the line, the smallest indentation at which it is in
-    /// contact on the present leg (−∞ always, +∞ never).
-    fn thresholds_along_line(&self, out: &mut Vec<f64>);
-
-    /// Copies the contact at all indentations of the present leg into the memory of `copy`: far
-    /// cheaper than [`Solver::thresholds_along_line`] and enough to replay the leg.
-    ///
-    /// # Errors
-    /// [`ContactError::OutOfMemory`]; the copy then holds no contact.
-    fn copy_leg(&self, copy: &mut LegContact) -> Result<(), ContactError>;
+    /// Contact at all indentations of the present leg.
+    fn leg(&self) -> LegView<'_>;
 
     /// Work counts since the start.
     fn work(&self) -> Work;
 
     /// Seconds spent on curves and extremes since the start, without the thresholds.
     fn curve_seconds(&self) -> f64;
+
+    /// See [`LegView::fragments`].
+    fn fragments(&self, indentation: f64) -> Vec<(usize, usize)> {
+        self.leg().fragments(indentation)
+    }
+
+    /// See [`LegView::rises`].
+    fn rises(&self, indentation: f64) -> Vec<f64> {
+        self.leg().rises(indentation)
+    }
+
+    /// See [`LegView::thresholds`].
+    fn thresholds_along_line(&self, out: &mut Vec<f64>) {
+        self.leg().thresholds(out);
+    }
+
+    /// Copies the contact at all indentations of the present leg into the memory of `copy`: far
+    /// cheaper than [`Solver::thresholds_along_line`] and enough to replay the leg.
+    ///
+    /// # Errors
+    /// [`ContactError::OutOfMemory`]; the copy then holds no contact.
+    fn copy_leg(&self, copy: &mut LegContact) -> Result<(), ContactError> {
+        copy.copy(self.leg())
+    }
 }
 
 /// Runs a whole loading history. `after` receives each leg as soon as it is done, and the solver in its state then.

@@ -1,9 +1,8 @@
 //! A contact that stays the same over a range of indentations: its force, and where this passes a value.
 
-use super::adhesive::{EdgeCells, EdgeModel};
-use super::contact_model::ContactState;
+use super::adhesive::{EdgeModel, EdgeSum, Slider};
+use super::contact_state::ContactState;
 use super::crossing::{bisect, crossing, last_before};
-use super::grid::CompensatedSum;
 use super::totals::{ContactTotals, GapScale};
 
 /// Whole springs or cells and the edge cells of some fragments, none of which jumps, merges or parts.
@@ -13,7 +12,7 @@ pub struct SteadyContact<E: EdgeModel> {
     pub edges: E,
     pub scale: GapScale,
     pub totals: ContactTotals,
-    pub sliders: Vec<E::Slider>,
+    pub sliders: Vec<Slider>,
 }
 
 impl<E: EdgeModel> SteadyContact<E> {
@@ -29,8 +28,8 @@ impl<E: EdgeModel> SteadyContact<E> {
 
     /// Growth of the compression with the indentation, in cells.
     fn stiffness(&self, indentation: f64) -> f64 {
-        let of_edges = self.sliders.iter().map(|slider| self.edges.edge_stiffness(slider, indentation));
-        self.edges.stiffness(self.totals) + of_edges.sum::<f64>()
+        let of_edges = self.sliders.iter().map(|slider| slider.stiffness(indentation));
+        self.edges.whole(self.totals) as f64 + of_edges.sum::<f64>()
     }
 
     /// Indentation of a compression where the force is a straight line.
@@ -82,17 +81,12 @@ pub fn state<E: EdgeModel>(
     edges: E,
     scale: &GapScale,
     totals: ContactTotals,
-    sliders: impl Iterator<Item = E::Slider>,
+    sliders: impl Iterator<Item = Slider>,
     indentation: f64,
 ) -> ContactState {
-    let (mut length, mut compression) = (CompensatedSum::default(), CompensatedSum::default());
+    let mut cells = EdgeSum::default();
     if E::SLIDES {
-        for slider in sliders {
-            let cells = edges.edge_cells(&slider, indentation);
-            length.add(cells.length);
-            compression.add(cells.compression);
-        }
+        sliders.for_each(|slider| cells.add(slider.edge_cells(indentation)));
     }
-    let cells = EdgeCells { length: length.total(), compression: compression.total() };
-    edges.state(indentation, totals, cells, scale)
+    edges.state(indentation, totals, cells.total(), scale)
 }

@@ -7,8 +7,7 @@
 use super::leg_plan::{Target, plan};
 use super::{
     ContactError, ContactTotals, ContactTree, CurvePoint, Direction, Foundation, GapScale, GridEdges,
-    HessRule, LegContact, LegRecord, Manual, ManualError, ManualLoading, Solver, Work, exact, fragments,
-    reserve,
+    HessRule, LegRecord, LegView, Manual, ManualError, ManualLoading, Solver, Work, fragments, resized,
 };
 use crate::scene::{Edges, Leg};
 use std::sync::Arc;
@@ -49,10 +48,6 @@ impl<'a> Stepwise<'a> {
         samples: usize,
         stop: &'a dyn Fn() -> bool,
     ) -> Result<Self, ContactError> {
-        let mut contact = reserve(gaps.len())?;
-        contact.resize(gaps.len(), false);
-        let mut thresholds = reserve(gaps.len())?;
-        thresholds.resize(gaps.len(), f64::INFINITY);
         Ok(Stepwise {
             gaps,
             hess,
@@ -61,8 +56,8 @@ impl<'a> Stepwise<'a> {
             samples: samples.max(2),
             stop,
             scale: GapScale::for_gaps_up_to(gaps.iter().copied().fold(0.0, f64::max)),
-            contact,
-            thresholds,
+            contact: resized(Vec::new(), gaps.len(), false)?,
+            thresholds: resized(Vec::new(), gaps.len(), f64::INFINITY)?,
             indentation: 0.0,
             totals: ContactTotals::default(),
             squared_stretch: 0.0,
@@ -76,23 +71,16 @@ impl<'a> Stepwise<'a> {
         self.hess.map_or(0.0, |hess| hess.on(direction).largest_stretch(springs as u32))
     }
 
-    fn attach(&mut self, index: usize) {
-        self.contact[index] = true;
-        self.thresholds[index] = self.indentation;
-        self.totals.springs += 1;
-        self.totals.quanta += i128::from(self.scale.quanta(self.gaps[index]));
-        let stretch = (self.gaps[index] - self.indentation).max(0.0);
-        self.squared_stretch -= stretch * stretch;
-    }
-
-    fn leave(&mut self, index: usize, held_until: f64) {
-        self.contact[index] = false;
-        self.thresholds[index] = held_until;
-        self.totals.springs -= 1;
-        self.totals.quanta -= i128::from(self.scale.quanta(self.gaps[index]));
-        // As far as it was held: how far the step went beyond is no property of the contact.
-        let stretch = (self.gaps[index] - held_until).max(0.0);
-        self.squared_stretch += stretch * stretch;
+    /// Attaches a spring, or detaches it where it has been held to this indentation, m: how far a step goes beyond is
+    /// no property of the contact.
+    fn change(&mut self, index: usize, attaches: bool, at: f64) {
+        self.contact[index] = attaches;
+        self.thresholds[index] = at;
+        let sign = if attaches { 1 } else { -1 };
+        self.totals.springs += i64::from(sign);
+        self.totals.quanta += i128::from(sign) * i128::from(self.scale.quanta(self.gaps[index]));
+        let stretch = (self.gaps[index] - at).max(0.0);
+        self.squared_stretch -= f64::from(sign) * stretch * stretch;
     }
 
     /// Sweeps until no spring touches and no fragment grows.
@@ -103,7 +91,7 @@ impl<'a> Stepwise<'a> {
             self.work.spring_updates += self.gaps.len() as u64;
             for index in 0..self.gaps.len() {
                 if !self.contact[index] && self.gaps[index] <= self.indentation {
-                    self.attach(index);
+                    self.change(index, true, self.indentation);
                 }
             }
             if self.hess.is_some() {
@@ -137,9 +125,9 @@ impl<'a> Stepwise<'a> {
                 self.work.spring_updates += 2;
                 let takes = |index: usize| self.gaps[index] - stretch <= self.indentation;
                 if end < count && takes(end) {
-                    self.attach(end);
+                    self.change(end, true, self.indentation);
                 } else if start > 0 && takes(start - 1) {
-                    self.attach(start - 1);
+                    self.change(start - 1, true, self.indentation);
                 } else {
                     break;
                 }
@@ -165,7 +153,7 @@ impl<'a> Stepwise<'a> {
                     let gap = self.gaps[index];
                     // Whatever is stretched too far here is so in each part of the fragment as well.
                     if self.indentation <= gap - stretch && self.indentation < gap {
-                        self.leave(index, held_until);
+                        self.change(index, false, held_until);
                     }
                 }
                 first = end + 1;
@@ -206,10 +194,9 @@ impl<'a> Stepwise<'a> {
     /// # Errors
     /// [`ContactError::DetachesBefore`], [`ContactError::OutOfReach`], [`ContactError::TooManySteps`].
     fn check_reach(&self, leg: Leg, direction: Direction, target: Target) -> Result<(), ContactError> {
-        let end = match (target, direction) {
-            (Target::Indentation(end), _) => end,
-            (Target::Force(force), Direction::Loading) => self.least_indentation(force.max(0.0))?,
-            (Target::Force(_) | Target::Separation, _) => self.pulled(leg, target)?,
+        let end = match target {
+            Target::Indentation(end) => end,
+            Target::Force(_) | Target::Separation => self.reaches(leg, direction, target)?,
         };
         // From separation the first step is the touch.
         let start = if self.totals.springs == 0 { self.indentation.max(0.0) } else { self.indentation };
@@ -221,32 +208,33 @@ impl<'a> Stepwise<'a> {
         Ok(())
     }
 
-    /// Indentation, m, below which no contact carries a force (N, at least zero): adhesion only lessens it.
-    fn least_indentation(&self, force: f64) -> Result<f64, ContactError> {
-        let mut body = exact::nonadhesive(self.gaps, Edges::Grid, self.foundation, 2);
-        let leg = Leg::ToForce(force);
-        let reached = body.advance(leg).map_err(|error| match error {
-            ContactError::OutOfReach { .. } => ContactError::OutOfReach { index: self.legs, leg },
-            other => other,
-        })?;
-        Ok(reached.end())
-    }
-
-    /// Indentation, m, at which the present contact, pulled, reaches a target.
-    fn pulled(&self, leg: Leg, target: Target) -> Result<f64, ContactError> {
+    /// Indentation, m, at which the present contact, pulled, reaches a target, or below which no contact, pressed, carries
+    /// a force: adhesion only lessens it.
+    fn reaches(&self, leg: Leg, direction: Direction, target: Target) -> Result<f64, ContactError> {
         let tree = Arc::new(ContactTree::build(self.gaps, Edges::Grid)?);
-        let edges = GridEdges::new(self.hess.unwrap_or(HessRule::NO_ADHESION));
-        let contacts = fragments::runs(self.contact.iter().copied());
-        let body =
-            Manual::in_contact(self.gaps, tree, edges, self.foundation, self.indentation, &contacts, &[]);
-        let pulled = body.and_then(|mut body| {
+        let body = match direction {
+            Direction::Loading => {
+                Manual::new(self.gaps, tree, GridEdges::new(HessRule::NO_ADHESION), self.foundation)
+                    .map_err(ManualError::Contact)
+            }
+            Direction::Unloading => {
+                let edges = GridEdges::new(self.hess.unwrap_or(HessRule::NO_ADHESION));
+                let contacts = fragments::runs(self.contact.iter().copied());
+                let at = self.indentation;
+                Manual::in_contact(self.gaps, tree, edges, self.foundation, at, &contacts, &[])
+            }
+        };
+        let reached = body.and_then(|mut body| {
             match target {
+                Target::Force(force) if direction == Direction::Loading => {
+                    body.move_to_force(force.max(0.0))?
+                }
                 Target::Force(force) => body.move_to_force(force)?,
                 Target::Indentation(_) | Target::Separation => body.separate(),
             };
             Ok(body.point().indentation)
         });
-        pulled.map_err(|error| match error {
+        reached.map_err(|error| match error {
             ManualError::Contact(error) => error,
             ManualError::DetachesBefore { smallest, .. } => {
                 ContactError::DetachesBefore { index: self.legs, leg, smallest }
@@ -311,22 +299,15 @@ impl<'a> Stepwise<'a> {
                 return Err(ContactError::DetachesBefore { index, leg, smallest: smallest.force });
             }
         }
-        let (attached, detached) = match direction {
-            Direction::Loading => ((self.totals.springs - before).unsigned_abs(), 0),
-            Direction::Unloading => (0, (before - self.totals.springs).unsigned_abs()),
-        };
-        self.work.attached += attached;
-        self.work.detached += detached;
-        Ok(LegRecord {
-            leg,
-            direction,
-            curve: curve.finish(smallest, direction),
-            largest,
-            smallest,
-            attached,
-            detached,
-            dissipated_energy: 0.5 * self.foundation.spring_stiffness() * self.squared_stretch,
-        })
+        let changed = (self.totals.springs - before).unsigned_abs();
+        // The sum counts what detaches.
+        let squared =
+            if direction == Direction::Loading { -self.squared_stretch } else { self.squared_stretch };
+        let energy = 0.5 * self.foundation.spring_stiffness() * squared;
+        let curve = curve.finish(smallest, direction);
+        let record = LegRecord::moved((leg, direction), curve, [smallest, largest], changed, energy);
+        self.work.count(&record);
+        Ok(record)
     }
 }
 
@@ -364,18 +345,12 @@ impl Thinned {
     }
 
     fn push(&mut self, point: CurvePoint) {
+        if self.seen.is_multiple_of(self.stride) && self.points.len() >= 2 * self.wanted {
+            self.points = self.points.iter().copied().step_by(2).collect();
+            self.stride *= 2;
+        }
         if self.seen.is_multiple_of(self.stride) {
-            if self.points.len() >= 2 * self.wanted {
-                let mut index = 0;
-                self.points.retain(|_| {
-                    index += 1;
-                    index % 2 == 1
-                });
-                self.stride *= 2;
-            }
-            if self.seen.is_multiple_of(self.stride) {
-                self.points.push(point);
-            }
+            self.points.push(point);
         }
         self.seen += 1;
         self.last = Some(point);
@@ -417,21 +392,8 @@ impl Solver for Stepwise<'_> {
         Ok(record)
     }
 
-    fn fragments(&self, indentation: f64) -> Vec<(usize, usize)> {
-        super::fragments::runs(self.thresholds.iter().map(|&threshold| threshold <= indentation))
-    }
-
-    fn rises(&self, _: f64) -> Vec<f64> {
-        Vec::new()
-    }
-
-    fn thresholds_along_line(&self, out: &mut Vec<f64>) {
-        out.clear();
-        out.extend_from_slice(&self.thresholds);
-    }
-
-    fn copy_leg(&self, copy: &mut LegContact) -> Result<(), ContactError> {
-        copy.keep_line_order(&self.thresholds)
+    fn leg(&self) -> LegView<'_> {
+        LegView::of_thresholds(self.gaps, &self.thresholds)
     }
 
     fn work(&self) -> Work {

@@ -82,21 +82,16 @@ impl ContactTotals {
         self.compression_of(self.springs, indentation, scale)
     }
 
-    /// The same of the cells between the springs in contact, where the quanta are those of the mean gaps of
-    /// these cells: ∫ (d − c) dx over them, in cells times metres.
-    #[must_use]
-    pub fn compression_of_cells(&self, indentation: f64, scale: &GapScale) -> f64 {
-        self.compression_of(self.cells(), indentation, scale)
-    }
-
     /// Whole cells between the springs in contact: one less than its springs in each fragment.
     #[must_use]
     pub fn cells(&self) -> i64 {
         self.springs - self.fragments
     }
 
+    /// The same of so many springs, or of so many cells, where the quanta are those of their mean gaps: ∫ (d − c) dx
+    /// over them, in cells times metres.
     #[inline]
-    fn compression_of(&self, count: i64, indentation: f64, scale: &GapScale) -> f64 {
+    pub(super) fn compression_of(&self, count: i64, indentation: f64, scale: &GapScale) -> f64 {
         let springs = count as f64;
         let product = springs * indentation;
         let product_error = springs.mul_add(indentation, -product);

@@ -215,8 +215,8 @@ impl Playback {
         let contact = self.legs.get(leg)?.as_ref()?;
         let tree = engine.tree().map(AsRef::as_ref);
         let gaps = &engine.line()?.gaps;
-        let rises = contact.rises_at(indentation, gaps, tree);
-        Some((contact.fragments_at(indentation, gaps, tree), rises))
+        let leg = contact.view(gaps, tree);
+        Some((leg.fragments(indentation), leg.rises(indentation)))
     }
 
     /// Computes a leg that was not kept.

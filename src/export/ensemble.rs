@@ -44,9 +44,8 @@ pub fn ensemble_text(scene: &Scene, lines: &[LineResult]) -> String {
         sheet.row(name, grouped(count as u64));
     }
     sheet.heading("Heights of single lines; both would be 0 if they averaged themselves");
-    let number = |value: Option<f64>| value.map(|value| format_quantity(value, "1"));
-    sheet.row_of("rms skewness", number(summary.rms_skewness));
-    sheet.row_of("rms excess kurtosis", number(summary.rms_excess_kurtosis));
+    sheet.quantity("rms skewness", summary.rms_skewness, "1");
+    sheet.quantity("rms excess kurtosis", summary.rms_excess_kurtosis, "1");
     sheet.into_text()
 }
 

@@ -59,13 +59,13 @@ pub fn reversals_text(report: &ReversalReport<'_>) -> String {
     let shown = shown.map(|reversal| Preloaded::new(reversal.turn.force, reversal));
     unloadings(&mut sheet, ["force at turn", "turning at"], shown);
     sheet.heading("Map");
-    sheet.row("step of indentations", format_quantity(map.step(), "m"));
+    sheet.quantity("step of indentations", map.step(), "m");
     let largest = |value: fn(&ReversalMap, usize, usize) -> Option<f64>| {
         let all = (0..reversals.len()).flat_map(|turn| (0..map.points.len()).map(move |point| (turn, point)));
         all.filter_map(|(turn, point)| value(map, turn, point)).reduce(f64::max)
     };
     let everett = largest(|map, turn, point| map.everett(turn, point));
-    sheet.row_of("largest Everett value", everett.map(|force| format_quantity(force, "N")));
+    sheet.quantity("largest Everett value", everett, "N");
     sheet.row("density", format!("quadratic fit, {smoothing} steps on either side"));
     sheet.row_of("incongruent", loops.map(congruency));
     sheet.into_text()

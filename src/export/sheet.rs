@@ -1,5 +1,6 @@
 //! Plain text in aligned columns that fits a terminal of 80 columns.
 
+use crate::scene::format_quantity;
 use crate::text::{printable, wrap};
 
 /// Characters on a line: those of the smallest usual terminal.
@@ -52,6 +53,11 @@ impl Sheet {
             self.line(&format!("  {}{line}", padded(label, LABEL - 2)));
             label = "";
         }
+    }
+
+    /// A row with a number in this unit, where there is one.
+    pub(crate) fn quantity(&mut self, label: &str, value: impl Into<Option<f64>>, unit: &str) {
+        self.row_of(label, value.into().map(|value| format_quantity(value, unit)));
     }
 
     /// A row, where there is a value.

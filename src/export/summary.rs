@@ -39,12 +39,12 @@ pub fn brief_summary(scene: &Scene, outcome: &Outcome) -> String {
     let figures = &outcome.figures;
     let mut sheet = Sheet::default();
     sheet.paragraph(&scene.title);
-    sheet.row_of("κ = √(h⟨∇z⟩E*/γ)", quantity(outcome.governing.kappa, "1"));
-    sheet.row_of("e_el/γ", quantity(outcome.governing.elastic_energy_ratio, "1"));
+    sheet.quantity("κ = √(h⟨∇z⟩E*/γ)", outcome.governing.kappa, "1");
+    sheet.quantity("e_el/γ", outcome.governing.elastic_energy_ratio, "1");
     sheet.row("regime", verdict::sentence(outcome));
-    sheet.row_of("preload F_n", quantity(figures.preload, "N"));
+    sheet.quantity("preload F_n", figures.preload, "N");
     sheet.row("adhesion force F_a", adhesion_force(outcome, None));
-    sheet.row_of("at first touch F_a(0)", quantity(outcome.zero_load_adhesion_force, "N"));
+    sheet.quantity("at first touch F_a(0)", outcome.zero_load_adhesion_force, "N");
     dissipated_energy(&mut sheet, outcome);
     sheet.into_text()
 }
@@ -61,14 +61,14 @@ fn line(sheet: &mut Sheet, outcome: &Outcome) {
     if under_body != facts.points as u64 {
         sheet.row("below the form", grouped(under_body));
     }
-    sheet.row("length L", format_quantity(facts.length, "m"));
-    sheet.row("spacing Δx", format_quantity(facts.spacing, "m"));
+    sheet.quantity("length L", facts.length, "m");
+    sheet.quantity("spacing Δx", facts.spacing, "m");
     sheet.row_of("modes", facts.modes.map(|(first, last)| format!("{} to {}", first, grouped(last))));
     sheet.row_of("seed", facts.seed.map(|seed| seed.to_string()));
     match amplitude {
         None => sheet.row("roughness", "none"),
         Some(amplitude) => {
-            sheet.row("rms height h", format_quantity(amplitude.rms_height, "m"));
+            sheet.quantity("rms height h", amplitude.rms_height, "m");
             let dense = facts.continuum_rms_gradient.filter(|&gradient| gradient > 0.0);
             let dense = quantity(dense, "1")
                 .map_or_else(String::new, |gradient| format!(" (by the integrals of eq. 12: {gradient})"));
@@ -80,15 +80,13 @@ fn line(sheet: &mut Sheet, outcome: &Outcome) {
 fn bodies(sheet: &mut Sheet, outcome: &Outcome) {
     let governing = &outcome.governing;
     sheet.heading("Bodies");
-    sheet.row("effective modulus E*", format_quantity(governing.effective_modulus, "Pa"));
+    sheet.quantity("effective modulus E*", governing.effective_modulus, "Pa");
     let work = quantity(governing.work_of_adhesion, "J/m²");
     sheet.row("work of adhesion γ", work.unwrap_or_else(|| "none".into()));
-    if let Some(closing) = quantity(governing.closing_work, "J/m²") {
-        sheet.row("on closing γ₁", closing);
-    }
-    sheet.row_of("elastic energy e_el", quantity(governing.elastic_energy(), "J/m²"));
-    sheet.row_of("κ = √(h⟨∇z⟩E*/γ)", quantity(governing.kappa, "1"));
-    sheet.row_of("e_el/γ", quantity(governing.elastic_energy_ratio, "1"));
+    sheet.quantity("on closing γ₁", governing.closing_work, "J/m²");
+    sheet.quantity("elastic energy e_el", governing.elastic_energy(), "J/m²");
+    sheet.quantity("κ = √(h⟨∇z⟩E*/γ)", governing.kappa, "1");
+    sheet.quantity("e_el/γ", governing.elastic_energy_ratio, "1");
 }
 
 fn adhesion(sheet: &mut Sheet, scene: &Scene, outcome: &Outcome, estimate: Option<&Estimate>) {
@@ -96,14 +94,14 @@ fn adhesion(sheet: &mut Sheet, scene: &Scene, outcome: &Outcome, estimate: Optio
     sheet.heading("Adhesion");
     sheet.row("loading", loading(&scene.loading));
     verdict::rows(sheet, outcome);
-    sheet.row_of("preload F_n", quantity(figures.preload, "N"));
-    sheet.row_of("at indentation", quantity(figures.preload_indentation, "m"));
+    sheet.quantity("preload F_n", figures.preload, "N");
+    sheet.quantity("at indentation", figures.preload_indentation, "m");
     sheet.row("adhesion force F_a", adhesion_force(outcome, estimate));
-    sheet.row_of("pull-off indentation", quantity(figures.pull_off_indentation, "m"));
-    sheet.row_of("coefficient F_a/F_n", quantity(figures.adhesion_coefficient, "1"));
-    sheet.row_of("at first touch F_a(0)", quantity(outcome.zero_load_adhesion_force, "N"));
-    sheet.row_of("smooth body F_smooth", quantity(outcome.smooth_adhesion_force, "N"));
-    sheet.row_of("ideal F_a,max", quantity(outcome.ideal_adhesion_force, "N"));
+    sheet.quantity("pull-off indentation", figures.pull_off_indentation, "m");
+    sheet.quantity("coefficient F_a/F_n", figures.adhesion_coefficient, "1");
+    sheet.quantity("at first touch F_a(0)", outcome.zero_load_adhesion_force, "N");
+    sheet.quantity("smooth body F_smooth", outcome.smooth_adhesion_force, "N");
+    sheet.quantity("ideal F_a,max", outcome.ideal_adhesion_force, "N");
     dissipated_energy(sheet, outcome);
 }
 
@@ -113,15 +111,15 @@ fn approximate_jkr(sheet: &mut Sheet, curve: &ApproximateJkr) {
     let force = quantity(curve.adhesion_force(), "N");
     sheet.row("adhesion force F_a", force.unwrap_or_else(|| "none: the curve does not pull".into()));
     let indentation = curve.pull_off().map(|point| point.indentation);
-    sheet.row_of("pull-off indentation", quantity(indentation, "m"));
+    sheet.quantity("pull-off indentation", indentation, "m");
     sheet.row("assumptions", APPROXIMATE_JKR_ASSUMPTIONS);
 }
 
 /// Dissipated energy, and beside it the Tabor number that says how far to trust it.
 fn dissipated_energy(sheet: &mut Sheet, outcome: &Outcome) {
-    let energy = quantity(outcome.figures.dissipated_energy, "J");
+    let energy = outcome.figures.dissipated_energy;
+    sheet.quantity("dissipated energy", energy, "J");
     let number = outcome.tabor_number.filter(|_| energy.is_some());
-    sheet.row_of("dissipated energy", energy);
     sheet.row_of("Tabor number μ", number.map(tabor_number));
 }
 
@@ -163,11 +161,11 @@ fn loading(legs: &[Leg]) -> String {
 fn contact(sheet: &mut Sheet, outcome: &Outcome) {
     let Some(end) = outcome.history.legs.last().and_then(|leg| leg.curve.last()) else { return };
     sheet.heading("At the end");
-    sheet.row("indentation d", format_quantity(end.indentation, "m"));
+    sheet.quantity("indentation d", end.indentation, "m");
     if end.springs == 0 {
         return sheet.row("contact", "none: separated");
     }
-    sheet.row("force F", format_quantity(end.force, "N"));
+    sheet.quantity("force F", end.force, "N");
     let length = end.contact_length;
     let share = format_quantity(100.0 * length / outcome.line.length, "1");
     sheet.row("contact length", format!("{}, {share} % of L", format_quantity(length, "m")));

@@ -235,15 +235,12 @@ fn describe(file: &SurfaceFile) -> String {
 
 fn measured(sheet: &mut Sheet, analysis: &Analysis) {
     let statistics = &analysis.statistics;
-    sheet.row("rms height Rq, Sq", format_quantity(statistics.rms_height, "m"));
-    sheet.row("rms slope RΔq", format_quantity(statistics.rms_slope, "1"));
-    sheet.row_of("rms gradient Sdq", statistics.rms_gradient.map(|gradient| format_quantity(gradient, "1")));
-    sheet.row("skewness", format_quantity(statistics.skewness, "1"));
+    sheet.quantity("rms height Rq, Sq", statistics.rms_height, "m");
+    sheet.quantity("rms slope RΔq", statistics.rms_slope, "1");
+    sheet.quantity("rms gradient Sdq", statistics.rms_gradient, "1");
+    sheet.quantity("skewness", statistics.skewness, "1");
     sheet.row("kurtosis", format!("{} (3: normal)", format_quantity(statistics.kurtosis, "1")));
-    sheet.row_of(
-        "reliability cut-off",
-        analysis.reliability_cutoff.map(|length| format_quantity(length, "m")),
-    );
+    sheet.quantity("reliability cut-off", analysis.reliability_cutoff, "m");
 }
 
 fn line(sheet: &mut Sheet, moments: &LineMoments, contact: Option<SurfaceContact>) {

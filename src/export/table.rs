@@ -61,10 +61,7 @@ pub(super) fn write_table<T>(
 }
 
 /// Writes comma-separated values without provenance.
-///
-/// # Errors
-/// Those of `out`.
-pub(super) fn write_csv<T>(
+fn write_csv<T>(
     out: &mut (impl Write + ?Sized),
     columns: &[Column<T>],
     rows: impl Iterator<Item = impl Borrow<T>>,

@@ -21,14 +21,10 @@ impl Document {
     #[must_use]
     pub fn changes_to(&self, other: &Document) -> Vec<Change> {
         let [this, other] = [self, other].map(with_stated_use);
-        this.stated_changes_to(&other)
-    }
-
-    fn stated_changes_to(&self, other: &Document) -> Vec<Change> {
-        let theirs = other.overrides_from(self);
+        let theirs = other.overrides_from(&this);
         let is_text = |path: &str| ["title", "notice", "version"].contains(&path);
         let change = |(path, value): &(String, String)| {
-            let (name, known) = name_of(path, self);
+            let (name, known) = name_of(path, &this);
             let read = |value: &str| match (value.parse::<f64>(), known) {
                 (Ok(number), Some(field)) => format_quantity(number, field.unit),
                 _ => value.split_whitespace().collect::<Vec<_>>().join(" "),
@@ -40,7 +36,7 @@ impl Document {
                 to: to.map_or_else(|| "…".to_owned(), |(_, value)| read(value)),
             }
         };
-        let mine = self.overrides_from(other);
+        let mine = this.overrides_from(&other);
         mine.iter().filter(|(path, _)| !is_text(path)).map(change).collect()
     }
 }

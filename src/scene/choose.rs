@@ -1,13 +1,12 @@
 //! The next choice of a field, as a key selects it.
 
 use super::computed::Computed;
-use super::document::Document;
-use super::effects::Effect;
+use super::document::{Document, pair};
+use super::effects::{Effect, by_parameter, by_work};
 use super::errors::SceneErrors;
 use super::field::Field;
 use super::range::choice_key;
 use super::roughness_parameter::RoughnessParameter;
-use super::switch::{by_parameter, by_work, pair};
 
 /// Significant digits that survive the conversion of adhesion from one of its ways to another and back.
 const DIGITS: usize = 14;
@@ -72,7 +71,7 @@ impl Document {
         if is_next(&before) {
             return Ok(before);
         }
-        let suited = self.set(field.path, &self.suited(effect))?;
+        let suited = self.set(field.path, &effect.suited(self.scene()))?;
         if is_next(&suited) { Ok(suited) } else { self.set(field.path, next) }
     }
 

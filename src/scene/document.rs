@@ -6,7 +6,7 @@ use super::check::check;
 use super::computed::Computed;
 use super::edit;
 use super::effects::Effect;
-use super::errors::{Origin, SceneError, SceneErrors, nearest_byte, origin_at, overrides_behind};
+use super::errors::{Origin, SceneError, SceneErrors, origin_at, overrides_behind};
 use super::field::Field;
 use super::fields::{FIELDS, field};
 use super::measured_hash::{MeasuredHash, MeasuredHashError};
@@ -66,13 +66,13 @@ impl Document {
             let located = |unread: Unread| unread.error.at(place(unread.offset));
             match wrong_version(text) {
                 Some(version) if unread.error.field == version.error.field => located(version).into(),
-                Some(version) => SceneErrors::from(located(version)).and(located(unread)),
-                None => located(unread).into(),
+                Some(version) => SceneErrors::from(located(version)).and(located(*unread)),
+                None => located(*unread).into(),
             }
         })?;
         let outline = Text::new(text).ok();
         SceneErrors::result(check(&scene), |error| {
-            place(outline.as_ref().map_or(0, |outline| nearest_byte(outline, &error.field)))
+            place(outline.as_ref().and_then(|outline| outline.nearest_value(&error.field)).unwrap_or(0))
         })?;
         Ok(Document {
             name: name.to_string(),
@@ -102,7 +102,7 @@ impl Document {
     ///
     /// As [`Document::set_all`].
     pub fn set(&self, path: &str, value: &str) -> Result<Document, SceneErrors> {
-        self.set_all(&[(path.to_string(), value.to_string())])
+        self.set_all(&[pair(path, value)])
     }
 
     /// This document with fields overridden, one after the other. Values are written in RON; a number may have an SI
@@ -360,10 +360,15 @@ fn fields_of(outline: &Text) -> impl Iterator<Item = &'static Field> {
     FIELDS.iter().filter(|field| field.variant.is_none() || field.variant == outline.variant(field.parent()))
 }
 
+/// An override: a path and a value, written as RON.
+pub(super) fn pair(path: &str, value: impl Into<String>) -> (String, String) {
+    (path.to_string(), value.into())
+}
+
 /// Adds an override in place of earlier ones of the same field or of fields inside it.
 fn remember(overrides: &mut Vec<(String, String)>, path: &str, value: &str) {
     overrides.retain(|(earlier, _)| !is_within(earlier, path));
-    overrides.push((path.to_string(), value.to_string()));
+    overrides.push(pair(path, value));
 }
 
 fn check_length(text: &str) -> Result<(), String> {

@@ -1,6 +1,10 @@
 //! Effects of a scene beyond the nonadhesive contact of a flat body, and those that a scene has.
 
-use super::model::{Leg, Observer, Scene};
+use super::fields::field;
+use super::model::{Adhesion, Leg, Observer, Scene};
+use super::roughness_parameter::RoughnessParameter;
+use super::text::ron_float;
+use super::write::{legs, observers};
 
 /// An effect that a scene has or not; [`Document::with`](super::Document::with) and
 /// [`Document::without`](super::Document::without) switch it.
@@ -60,8 +64,42 @@ impl Effect {
             Effect::Roughness => scene.roughness.is_some(),
             Effect::Adhesion => scene.adhesion.is_some_and(|adhesion| adhesion.work != Some(0.0)),
             Effect::Unloading => may_pull(&scene.loading),
-            Effect::Fragments => scene.observe.contains(&Observer::Fragments),
-            Effect::HeightHistogram => scene.observe.contains(&Observer::HeightHistogram),
+            Effect::Fragments | Effect::HeightHistogram => {
+                self.observer().is_some_and(|observer| scene.observe.contains(&observer))
+            }
+        }
+    }
+
+    /// The observed quantity that the effect is.
+    pub(super) const fn observer(self) -> Option<Observer> {
+        match self {
+            Effect::Fragments => Some(Observer::Fragments),
+            Effect::HeightHistogram => Some(Observer::HeightHistogram),
+            _ => None,
+        }
+    }
+
+    /// Value of the field with the effect, as RON, that suits a scene without the effect.
+    pub(super) fn suited(self, scene: &Scene) -> String {
+        match self {
+            // At the ends of the line it is an eighth of its length high.
+            Effect::Form => format!("Paraboloid(radius: {})", ron_float(scene.length)),
+            Effect::Roughness => {
+                // Smooth on the scale of a spring and, under a form, on that of the contact.
+                let last = (scene.numerics.points / 8).clamp(1, 512);
+                let first = if scene.form.is_some() { last.min(4) } else { 1 };
+                let height = ron_float(suited_height(scene));
+                format!("SelfAffine(hurst: 0.7, rms_height: {height}, modes: ({first}, {last}), seed: 1)")
+            }
+            Effect::Adhesion if scene.roughness.is_some() => {
+                by_parameter(scene, RoughnessParameter::Kappa, 2.0)
+            }
+            Effect::Adhesion => by_work(scene, 0.05),
+            Effect::Unloading => legs(&[&scene.loading[..], &[Leg::ToSeparation]].concat()),
+            Effect::Fragments | Effect::HeightHistogram => {
+                let all = Effect::ALL.into_iter().filter(|effect| *effect == self || effect.is_on(scene));
+                observers(&all.filter_map(Effect::observer).collect::<Vec<_>>())
+            }
         }
     }
 }
@@ -126,12 +164,32 @@ fn passes(leg: Leg, other: Leg) -> bool {
     }
 }
 
+/// An rms height that suits the length of a scene, to two digits: a five-hundredth of it.
+fn suited_height(scene: &Scene) -> f64 {
+    let height = scene.length / 500.0;
+    format!("{height:.1e}").parse().unwrap_or(height)
+}
+
+/// Adhesion of a scene by this work, as RON.
+pub(super) fn by_work(scene: &Scene, work: f64) -> String {
+    adhesion_as(scene, |adhesion| adhesion.with_work(work))
+}
+
+/// Adhesion of a scene by this value of a parameter, as RON.
+pub(super) fn by_parameter(scene: &Scene, parameter: RoughnessParameter, value: f64) -> String {
+    adhesion_as(scene, |adhesion| adhesion.with_parameter(parameter, value))
+}
+
+/// Adhesion of a scene with a change, as RON.
+pub(super) fn adhesion_as(scene: &Scene, change: impl Fn(Adhesion) -> Adhesion) -> String {
+    let changed = Scene { adhesion: Some(change(scene.adhesion.unwrap_or_default())), ..scene.clone() };
+    field("adhesion", None).and_then(|field| field.written(&changed)).unwrap_or_default()
+}
+
 #[cfg(test)]
 mod tests {
     use proptest::prelude::*;
 
-    use super::super::fields::field;
-    use super::super::model::Adhesion;
     use super::super::strategies::{sound, sound_scenes};
     use super::*;
     use Leg::{ToForce, ToIndentation, ToSeparation, ToTouch, ToZeroForce};

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use super::text::{Text, is_within, line_column};
+use super::text::{is_within, line_column};
 use crate::text::is_control;
 
 /// Most errors that are listed; further ones are only counted.
@@ -173,20 +173,6 @@ impl std::error::Error for SceneErrors {}
 pub(super) fn origin_at(text: &str, name: &str, offset: usize) -> Origin {
     let (line, column) = line_column(text, offset);
     Origin::Place { name: name.into(), line, column }
-}
-
-/// First byte of a field's value, or of the nearest group around it.
-pub(super) fn nearest_byte(text: &Text, field: &str) -> usize {
-    let mut path = field;
-    loop {
-        if let Some(place) = text.span(path) {
-            return place.value.start;
-        }
-        match path.rsplit_once('.') {
-            Some((parent, _)) => path = parent,
-            None => return text.opening("").unwrap_or(0),
-        }
-    }
 }
 
 /// Overrides that cause an error: those of its field, else those of the fields that take part, else all of them.

@@ -251,13 +251,19 @@ fn entry_of(path: PathBuf, origin: Source, room: &mut usize) -> Entry {
 /// Text of a regular file, where there is room for its bytes.
 fn read_within(path: &Path, room: usize) -> Result<String, String> {
     match read_regular_text(path, room.min(LONGEST_TEXT)) {
-        Err(ReadError::TooLong { limit: LONGEST_TEXT }) => {
-            Err(format!("the scene is too long: at most {LONGEST_TEXT} bytes are read"))
-        }
-        Err(ReadError::TooLong { .. }) => {
+        Err(ReadError::TooLong { limit }) if limit < LONGEST_TEXT => {
             Err(format!("not read: the scene files of this folder are more than {MOST_BYTES} bytes long"))
         }
-        read => read.map_err(|error| error.to_string()),
+        read => read.map_err(describe),
+    }
+}
+
+/// Reason why the file of a scene was not read.
+pub(super) fn describe(error: ReadError) -> String {
+    match error {
+        ReadError::Folder => "this is a directory, not a scene file".into(),
+        ReadError::TooLong { limit } => format!("the scene is too long: at most {limit} bytes are read"),
+        other => other.to_string(),
     }
 }
 

@@ -6,11 +6,11 @@ use std::path::Path;
 
 use super::document::{Document, LONGEST_TEXT};
 use super::errors::{Origin, SceneError, SceneErrors};
-use super::library::{Library, printable};
+use super::library::{Library, describe, printable};
 use super::presets::{find, presets};
-use super::provenance::{Source, SourceError};
+use super::provenance::{SceneText, SceneTextError};
 use super::suggest::nearest;
-use crate::io::{ReadError, read_regular_text};
+use crate::io::read_regular_text;
 
 /// Opens a scene: a file, where one of that name exists or the name looks like one (it ends in
 /// `.ron` or has a path separator), else a built-in scene, else one of the user's own scenes, see
@@ -75,19 +75,19 @@ pub fn open_argument(argument: &str) -> Result<Document, SceneErrors> {
 }
 
 fn open_stream(stream: impl Read, name: &str) -> Result<Document, SceneErrors> {
-    open_source(Source::of_stream(stream), name)
+    open_source(SceneText::of_stream(stream), name)
 }
 
 fn open_file(path: &Path, name: &str) -> Result<Document, SceneErrors> {
-    open_source(Source::of_file(path), name)
+    open_source(SceneText::of_file(path), name)
 }
 
-fn open_source(source: Result<Source, SourceError>, name: &str) -> Result<Document, SceneErrors> {
+fn open_source(source: Result<SceneText, SceneTextError>, name: &str) -> Result<Document, SceneErrors> {
     let refused = |error| match error {
-        SourceError::Unread(error) => whole(name, describe(error)),
-        SourceError::NoProvenance(message) => whole(name, message.to_owned()),
+        SceneTextError::Unread(error) => whole(name, describe(error)),
+        SceneTextError::NoProvenance(message) => whole(name, message.to_owned()),
     };
-    let Source { text, content, measured } = source.map_err(refused)?;
+    let SceneText { text, content, measured } = source.map_err(refused)?;
     Ok(Document::parse(&text, name)?.with_table(content, measured))
 }
 
@@ -98,14 +98,6 @@ fn whole(name: &str, message: String) -> SceneErrors {
 /// Text of a regular file, of which no more than a scene can be long is read.
 pub(crate) fn read_file(path: &Path) -> Result<String, String> {
     read_regular_text(path, LONGEST_TEXT).map_err(describe)
-}
-
-fn describe(error: ReadError) -> String {
-    match error {
-        ReadError::Folder => "this is a directory, not a scene file".into(),
-        ReadError::TooLong { limit } => format!("the scene is too long: at most {limit} bytes are read"),
-        other => other.to_string(),
-    }
 }
 
 #[cfg(test)]

@@ -1,6 +1,6 @@
 //! Overrides that make one scene another, and the command that applies them.
 
-use super::document::Document;
+use super::document::{Document, pair};
 use super::edit;
 use super::field::Field;
 use super::fields::fields_inside;
@@ -50,10 +50,6 @@ impl Document {
 
 fn top_level() -> impl Iterator<Item = &'static Field> {
     fields_inside("", None)
-}
-
-fn pair(path: &str, value: impl Into<String>) -> (String, String) {
-    (path.to_string(), value.into())
 }
 
 /// A field's value as it is written.

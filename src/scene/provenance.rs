@@ -101,16 +101,16 @@ impl SpectraTable {
 
 /// Reason why no scene was read.
 #[derive(Debug)]
-pub(super) enum SourceError {
+pub(super) enum SceneTextError {
     /// The source cannot be read.
     Unread(ReadError),
     /// A table without a provenance that can be read.
     NoProvenance(&'static str),
 }
 
-impl<E: Into<ReadError>> From<E> for SourceError {
+impl<E: Into<ReadError>> From<E> for SceneTextError {
     fn from(error: E) -> Self {
-        SourceError::Unread(error.into())
+        SceneTextError::Unread(error.into())
     }
 }
 
@@ -121,7 +121,7 @@ enum Raw {
 }
 
 impl Raw {
-    fn of_file(path: &Path) -> Result<Self, SourceError> {
+    fn of_file(path: &Path) -> Result<Self, SceneTextError> {
         let mut file = open_regular(path)?;
         let mut start = Vec::new();
         file.by_ref().take(npy::SIGNATURE.len() as u64).read_to_end(&mut start)?;
@@ -132,7 +132,7 @@ impl Raw {
         }
     }
 
-    fn of_stream(mut stream: impl Read) -> Result<Self, SourceError> {
+    fn of_stream(mut stream: impl Read) -> Result<Self, SceneTextError> {
         let mut start = Vec::new();
         stream.by_ref().take(PROVENANCE.len() as u64).read_to_end(&mut start)?;
         let is_table = start == PROVENANCE.as_bytes();
@@ -153,12 +153,12 @@ impl Raw {
         Ok(Raw::Provenance(into_text(text)?.replace("\r\n", "\n")))
     }
 
-    fn of_array(mut file: File) -> Result<Self, SourceError> {
+    fn of_array(mut file: File) -> Result<Self, SceneTextError> {
         let most = npy::most_appended(LONGEST_TEXT) as u64;
         let length = file.metadata()?.len();
         file.seek(SeekFrom::Start(length.saturating_sub(most)))?;
         let tail = read_limited(file, most as usize)?;
-        let text = npy::appended_text(&tail).ok_or(SourceError::NoProvenance(
+        let text = npy::appended_text(&tail).ok_or(SceneTextError::NoProvenance(
             "an array without a scene; allowed: a scene, or an array that asperity has written",
         ))?;
         Ok(Raw::Provenance(text.to_owned()))
@@ -167,39 +167,39 @@ impl Raw {
 
 /// Text of a scene, and the content of the table it comes from.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Source {
+pub(super) struct SceneText {
     pub text: String,
     pub content: Option<TableContent>,
     pub measured: Vec<MeasuredHash>,
 }
 
-impl Source {
+impl SceneText {
     /// Reads a scene file or the provenance of a table.
-    pub fn of_file(path: &Path) -> Result<Self, SourceError> {
-        Source::of_raw(Raw::of_file(path)?)
+    pub fn of_file(path: &Path) -> Result<Self, SceneTextError> {
+        SceneText::of_raw(Raw::of_file(path)?)
     }
 
     /// Reads the text of a scene, or CSV with one.
-    pub fn of_stream(stream: impl Read) -> Result<Self, SourceError> {
-        Source::of_raw(Raw::of_stream(stream)?)
+    pub fn of_stream(stream: impl Read) -> Result<Self, SceneTextError> {
+        SceneText::of_raw(Raw::of_stream(stream)?)
     }
 
-    fn of_raw(raw: Raw) -> Result<Self, SourceError> {
+    fn of_raw(raw: Raw) -> Result<Self, SceneTextError> {
         let text = match raw {
-            Raw::Scene(text) => return Ok(Source { text, content: None, measured: Vec::new() }),
+            Raw::Scene(text) => return Ok(SceneText { text, content: None, measured: Vec::new() }),
             Raw::Provenance(text) => text,
         };
         let split = text.split_once(&format!("\n{SCENE}")).filter(|(head, _)| head.starts_with(PROGRAM));
-        let (head, scene) = split.ok_or(SourceError::NoProvenance(
+        let (head, scene) = split.ok_or(SceneTextError::NoProvenance(
             "a table whose first comments hold no scene; allowed: `asperity VERSION`, `content:` and `scene:`",
         ))?;
         let content = head.lines().find_map(|line| TableContent::from_name(line.strip_prefix("content: ")?));
-        let content = content.ok_or(SourceError::NoProvenance(
+        let content = content.ok_or(SceneTextError::NoProvenance(
             "a table without its content; allowed: `content: force curve`, `approximate JKR curve`, `profile`, \
              `COUNT random profiles`, `COUNT preloads from FORCE to FORCE N` or `COUNT reversals`",
         ))?;
         let measured = MeasuredHash::of_lines(head);
-        Ok(Source { text: scene.to_owned(), content: Some(content), measured })
+        Ok(SceneText { text: scene.to_owned(), content: Some(content), measured })
     }
 }
 
@@ -213,11 +213,11 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    fn read(bytes: &[u8]) -> Result<Source, SourceError> {
+    fn read(bytes: &[u8]) -> Result<SceneText, SceneTextError> {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("table");
         std::fs::write(&path, bytes).unwrap();
-        Source::of_file(&path)
+        SceneText::of_file(&path)
     }
 
     proptest! {
@@ -265,7 +265,7 @@ mod tests {
         let scene = Scene { roughness: Some(Roughness::measured("stylus.txt")), ..scene };
         let file = |destination: &Path| {
             let written = Provenance::new(TableContent::Profile, &scene, folder.path(), destination);
-            let scene = Source::of_raw(Raw::Provenance(written.text().to_owned())).unwrap().text;
+            let scene = SceneText::of_raw(Raw::Provenance(written.text().to_owned())).unwrap().text;
             let document = Document::parse(&scene, "table").unwrap();
             let Some(Roughness::Measured { file, .. }) = &document.scene().roughness else {
                 panic!("not measured")
@@ -287,7 +287,7 @@ mod tests {
         std::fs::write(&path, provenance.comments() + "spectrum\n").unwrap();
         let expected = SpectraTable { arguments: arguments.to_vec(), measured: vec![hash] };
         assert_eq!(SpectraTable::open(&path), Some(expected));
-        assert!(matches!(Source::of_file(&path), Err(SourceError::NoProvenance(_))));
+        assert!(matches!(SceneText::of_file(&path), Err(SceneTextError::NoProvenance(_))));
         std::fs::write(&path, "()").unwrap();
         assert_eq!(SpectraTable::open(&path), None);
         assert_eq!(SpectraTable::open(folder.path()), None);
@@ -311,7 +311,7 @@ mod tests {
             (&array, "an array without a scene"),
         ] {
             match read(file) {
-                Err(SourceError::NoProvenance(why)) => assert!(why.contains(expected), "{why}"),
+                Err(SceneTextError::NoProvenance(why)) => assert!(why.contains(expected), "{why}"),
                 other => panic!("{other:?}"),
             }
         }

@@ -23,9 +23,9 @@ pub(super) struct Unread {
 }
 
 /// Reads a scene; its values are not checked.
-pub(super) fn read(text: &str) -> Result<Scene, Unread> {
+pub(super) fn read(text: &str) -> Result<Scene, Box<Unread>> {
     let options = ron::Options::default().with_default_extension(Extensions::IMPLICIT_SOME);
-    options.from_str(text).map_err(|error| explain(text, &error))
+    options.from_str(text).map_err(|error| Box::new(explain(text, &error)))
 }
 
 /// Error of the version that a text gives, even where the rest of the text cannot be read.
@@ -176,7 +176,7 @@ mod tests {
     use super::*;
 
     fn unread(text: &str) -> ((usize, usize), String, String, String, String) {
-        let Unread { offset, error } = read(text).unwrap_err();
+        let Unread { offset, error } = *read(text).unwrap_err();
         let SceneError { field, value, allowed, message, .. } = error;
         (line_column(text, offset), field, value, allowed, message)
     }

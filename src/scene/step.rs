@@ -43,17 +43,17 @@ impl Field {
             Step::Integer { fine, coarse: large } => {
                 let size = if coarse { large } else { fine };
                 let distance = u64::from(steps.unsigned_abs()).saturating_mul(size);
-                let value = whole(value)?;
+                let value: u64 = ron::from_str(value).ok()?;
                 let next =
                     if steps < 0 { value.saturating_sub(distance) } else { value.saturating_add(distance) };
                 self.kept_whole(next)
             }
             Step::Doubling => {
                 let times = if coarse { steps.saturating_mul(4) } else { steps };
-                self.kept_whole(doubled(whole(value)?, times))
+                self.kept_whole(doubled(ron::from_str(value).ok()?, times))
             }
             Step::Band => {
-                let (first, last) = pair(value)?;
+                let (first, last) = ron::from_str(value).ok()?;
                 let (first, last) =
                     if coarse { (doubled(first, steps), last) } else { (first, doubled(last, steps)) };
                 (first <= last && self.range.contains_whole(first) && self.range.contains_whole(last))
@@ -99,17 +99,7 @@ impl Field {
 }
 
 fn number(text: &str) -> Option<f64> {
-    text.trim().replace('_', "").parse().ok().filter(|value: &f64| value.is_finite())
-}
-
-fn whole(text: &str) -> Option<u64> {
-    text.trim().replace('_', "").parse().ok()
-}
-
-fn pair(text: &str) -> Option<(u64, u64)> {
-    let inside = text.trim().strip_prefix('(')?.strip_suffix(')')?;
-    let (first, last) = inside.trim_end_matches([',', ' ']).split_once(',')?;
-    Some((whole(first)?, whole(last)?))
+    ron::from_str(text).ok().filter(|value: &f64| value.is_finite())
 }
 
 /// A multiple of `unit` without the dust of binary arithmetic: 0.71, not 0.7100000000000001.

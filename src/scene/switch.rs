@@ -5,14 +5,12 @@
 //! the computed scene. Switching on undoes the edits of switching off.
 
 use super::computed::Computed;
-use super::document::Document;
-use super::effects::{Effect, pressing};
+use super::document::{Document, pair};
+use super::effects::{Effect, adhesion_as, by_work, pressing};
 use super::errors::{Origin, SceneError, SceneErrors};
-use super::fields::field;
-use super::model::{Adhesion, Leg, Observer, Roughness, Scene};
+use super::model::{Adhesion, Observer, Roughness, Scene};
 use super::roughness_parameter::RoughnessParameter;
 use super::text::{Text, ron_float};
-use super::write::{legs, observers};
 
 impl Document {
     /// This document without an effect; the same where the effect is off.
@@ -30,12 +28,13 @@ impl Document {
             return Ok(self.clone());
         }
         let overrides = match effect {
-            Effect::Form => vec![pair("form", "None")],
             Effect::Roughness => self.without_roughness(computed)?,
             Effect::Adhesion => self.without_adhesion(computed)?,
             Effect::Unloading => vec![self.only("loading", &pressing(&scene.loading))],
-            Effect::Fragments => vec![self.only("observe", &others(scene, Observer::Fragments))],
-            Effect::HeightHistogram => vec![self.only("observe", &others(scene, Observer::HeightHistogram))],
+            _ => match effect.observer() {
+                Some(observer) => vec![self.only("observe", &others(scene, observer))],
+                None => vec![pair(effect.path(), "None")],
+            },
         };
         self.switch_off(effect, &overrides, computed)
     }
@@ -55,7 +54,7 @@ impl Document {
         }
         match self.restored(effect) {
             Some(document) => Ok(document),
-            None => self.set(effect.path(), &self.suited(effect)),
+            None => self.set(effect.path(), &effect.suited(self.scene())),
         }
     }
 
@@ -143,35 +142,6 @@ impl Document {
         let error = SceneError::whole(Origin::Scene, format!("{message}: compute the scene first"));
         SceneError { field: field.to_string(), value, ..error }.into()
     }
-
-    /// Value of an effect's field that suits the scene.
-    pub(super) fn suited(&self, effect: Effect) -> String {
-        let scene = self.scene();
-        match effect {
-            // At the ends of the line it is an eighth of its length high.
-            Effect::Form => format!("Paraboloid(radius: {})", ron_float(scene.length)),
-            Effect::Roughness => {
-                // Smooth on the scale of a spring and, under a form, on that of the contact.
-                let last = (scene.numerics.points / 8).clamp(1, 512);
-                let first = if scene.form.is_some() { last.min(4) } else { 1 };
-                let height = ron_float(suited_height(scene));
-                format!("SelfAffine(hurst: 0.7, rms_height: {height}, modes: ({first}, {last}), seed: 1)")
-            }
-            Effect::Adhesion if scene.roughness.is_some() => {
-                by_parameter(scene, RoughnessParameter::Kappa, 2.0)
-            }
-            Effect::Adhesion => by_work(scene, 0.05),
-            Effect::Unloading => legs(&[&scene.loading[..], &[Leg::ToSeparation]].concat()),
-            Effect::Fragments => observers(&observing(scene, Observer::Fragments)),
-            Effect::HeightHistogram => observers(&observing(scene, Observer::HeightHistogram)),
-        }
-    }
-}
-
-/// An rms height that suits the length of a scene, to two digits: a five-hundredth of it.
-fn suited_height(scene: &Scene) -> f64 {
-    let height = scene.length / 500.0;
-    format!("{height:.1e}").parse().unwrap_or(height)
 }
 
 /// Indices of the observers other than this one.
@@ -180,37 +150,15 @@ fn others(scene: &Scene, observer: Observer) -> Vec<usize> {
     observed.filter(|(_, other)| **other != observer).map(|(index, _)| index).collect()
 }
 
-fn observing(scene: &Scene, observer: Observer) -> Vec<Observer> {
-    let all = [Observer::Fragments, Observer::HeightHistogram];
-    all.into_iter().filter(|one| *one == observer || scene.observe.contains(one)).collect()
-}
-
-/// Adhesion of a scene by this work, as RON.
-pub(super) fn by_work(scene: &Scene, work: f64) -> String {
-    adhesion_as(scene, |adhesion| adhesion.with_work(work))
-}
-
-/// Adhesion of a scene by this value of a parameter, as RON.
-pub(super) fn by_parameter(scene: &Scene, parameter: RoughnessParameter, value: f64) -> String {
-    adhesion_as(scene, |adhesion| adhesion.with_parameter(parameter, value))
-}
-
-fn adhesion_as(scene: &Scene, change: impl Fn(Adhesion) -> Adhesion) -> String {
-    let changed = Scene { adhesion: Some(change(scene.adhesion.unwrap_or_default())), ..scene.clone() };
-    field("adhesion", None).and_then(|field| field.written(&changed)).unwrap_or_default()
-}
-
-pub(super) fn pair(path: &str, value: impl Into<String>) -> (String, String) {
-    (path.to_string(), value.into())
-}
-
 #[cfg(test)]
 mod tests {
     use proptest::prelude::*;
 
     use super::super::form::Form;
+    use super::super::model::Leg;
     use super::super::strategies::{Drawn, sound_scenes};
     use super::super::text::is_within;
+    use super::super::write::legs;
     use super::*;
 
     const SCENE: &str = "(

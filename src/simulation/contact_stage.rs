@@ -3,12 +3,11 @@
 use super::AfterLeg;
 use crate::analysis::Figures;
 use crate::contact::{
-    AdhesiveMemory, ContactError, ContactTree, EdgeModel, Foundation, GridEdges, HessRule, History,
-    LegRecord, Solver, Stepwise, SubCellEdges, exact, run,
+    AdhesiveMemory, ContactError, ContactTree, Exact, Foundation, HessRule, History, LegRecord, Solver,
+    Stepwise, run,
 };
-use crate::scene::{Edges, Leg, Scene, Solver as SolverChoice};
+use crate::scene::{Leg, Scene, Solver as SolverChoice};
 use crate::surface::Line;
-use std::mem::take;
 use std::time::Instant;
 
 /// Parameters of the contact of one run.
@@ -45,9 +44,10 @@ impl ContactStage<'_> {
     ) -> Result<Contacted, ContactError> {
         let gaps = self.line.gaps.as_slice();
         let samples = self.scene.numerics.samples as usize;
-        match (self.scene.numerics.solver, self.hess, self.tree) {
-            (SolverChoice::Stepwise { step }, hess, _) => {
-                let body = |samples| Stepwise::new(gaps, hess, self.foundation, step, samples, self.stop);
+        match self.scene.numerics.solver {
+            SolverChoice::Stepwise { step } => {
+                let body =
+                    |samples| Stepwise::new(gaps, self.hess, self.foundation, step, samples, self.stop);
                 let mut contacted = self.load(&mut body(samples)?, after)?;
                 if zero_load {
                     let clock = Instant::now();
@@ -58,43 +58,32 @@ impl ContactStage<'_> {
                 }
                 Ok(contacted)
             }
-            (SolverChoice::Exact, Some(hess), Some(tree)) => match self.scene.numerics.edges {
-                Edges::Grid => self.load_over(tree, GridEdges::new(hess), zero_load, memory, after),
-                Edges::SubCell => self.load_over(tree, SubCellEdges::new(hess), zero_load, memory, after),
-            },
-            (SolverChoice::Exact, _, _) => {
-                let edges = self.scene.numerics.edges;
-                self.load(&mut exact::nonadhesive(gaps, edges, self.foundation, samples), after)
+            SolverChoice::Exact => {
+                let mut body = self.body(memory);
+                let contacted = self.load(&mut body, after).and_then(|mut contacted| {
+                    if zero_load && self.hess.is_some() {
+                        let clock = Instant::now();
+                        let (force, work) = body.pull_off_at_touch()?;
+                        contacted.history.work.add_effort(&work);
+                        // Not −F: that would make a force of zero negative.
+                        contacted.zero_load_adhesion_force =
+                            Some(force).filter(|&force| force <= 0.0).map(|force| 0.0 - force);
+                        contacted.zero_load_seconds = clock.elapsed().as_secs_f64();
+                    }
+                    Ok(contacted)
+                });
+                body.give_back(memory);
+                contacted
             }
         }
     }
 
-    /// Runs the loading of an adhesive body and, if F_a(0) is asked for, pulls off the contact of its first touch.
-    fn load_over<E: EdgeModel>(
-        &self,
-        tree: &ContactTree,
-        edges: E,
-        zero_load: bool,
-        memory: &mut ContactMemory,
-        after: &mut AfterLeg<'_>,
-    ) -> Result<Contacted, ContactError> {
-        let samples = self.scene.numerics.samples as usize;
-        let mut body =
-            exact::adhesive_in(take(memory), &self.line.gaps, tree, edges, self.foundation, samples);
-        let contacted = self.load(&mut body, after).and_then(|mut contacted| {
-            if zero_load {
-                let clock = Instant::now();
-                let (force, work) = body.pull_off_at_touch()?;
-                contacted.history.work.add_effort(&work);
-                // Not −F: that would make a force of zero negative.
-                contacted.zero_load_adhesion_force =
-                    Some(force).filter(|&force| force <= 0.0).map(|force| 0.0 - force);
-                contacted.zero_load_seconds = clock.elapsed().as_secs_f64();
-            }
-            Ok(contacted)
-        });
-        *memory = body.into_memory();
-        contacted
+    /// The separated body of the exact solver; under adhesion it works in this memory.
+    pub fn body(&self, memory: &mut ContactMemory) -> Exact<'_> {
+        let numerics = &self.scene.numerics;
+        let adhesion = self.hess.zip(self.tree);
+        let samples = numerics.samples as usize;
+        Exact::new(memory, &self.line.gaps, adhesion, numerics.edges, self.foundation, samples)
     }
 
     /// Runs the loading of the scene.

@@ -1,14 +1,10 @@
 //! Reversals of a scene: the unloadings from many turning points of one loading, and the minor loops beside them.
 
-use super::contact_stage::{ContactMemory, ContactStage};
 use super::stages::Prepared;
 use super::{Plan, RunError, Simulation};
 use crate::analysis::{MinorLoops, ReversalMap};
-use crate::contact::{
-    ContactError, ContactTree, EdgeModel, GridEdges, LegRecord, Reversal, Reversals, SubCellEdges, exact,
-};
-use crate::scene::{Edges, Leg, Scene, Solver as SolverChoice};
-use std::mem::take;
+use crate::contact::{ContactError, LegRecord, Reversal, Reversals};
+use crate::scene::{Leg, Scene, Solver as SolverChoice};
 use std::ops::RangeInclusive;
 
 /// Turning points of a map.
@@ -49,24 +45,14 @@ impl Simulation {
         let plan = Plan::of(&Scene { loading: vec![deepest, Leg::ToSeparation], ..scene.clone() });
         let interrupted = || if stop() { Err(ContactError::Interrupted) } else { Ok(()) };
         let Prepared { contact, memory, .. } = self.prepare(&plan, scene, stop)?;
-        let (gaps, foundation) = (contact.line.gaps.as_slice(), contact.foundation);
-        let samples = scene.numerics.samples as usize;
         let mut see = |index, reversal| {
             see(index, reversal)?;
             interrupted()
         };
-        let edges = scene.numerics.edges;
-        let Some((hess, tree)) = contact.hess.zip(contact.tree) else {
-            let body = exact::nonadhesive(gaps, edges, foundation, samples);
-            return Ok(Reversals::new(body, ends)?.each(points, &mut see)?);
-        };
-        match edges {
-            Edges::Grid => contact.reverse(memory, tree, GridEdges::new(hess), (ends, points), &mut see)?,
-            Edges::SubCell => {
-                contact.reverse(memory, tree, SubCellEdges::new(hess), (ends, points), &mut see)?
-            }
-        }
-        Ok(())
+        let mut reversals = Reversals::new(contact.body(memory), ends)?;
+        let done = reversals.each(points, &mut see);
+        reversals.into_body().give_back(memory);
+        Ok(done?)
     }
 
     /// First-order reversal curves of a checked scene from so many turning points at equal distances, at indentations of
@@ -178,23 +164,4 @@ impl Simulation {
 /// Refuses a scene that asks for the stepwise solver.
 fn needs_exact_solver(scene: &Scene) -> Result<(), RunError> {
     if scene.numerics.solver == SolverChoice::Exact { Ok(()) } else { Err(RunError::NeedsExactSolver) }
-}
-
-impl ContactStage<'_> {
-    /// Unloads an adhesive body from the ends of legs.
-    fn reverse<E: EdgeModel>(
-        &self,
-        memory: &mut ContactMemory,
-        tree: &ContactTree,
-        edges: E,
-        (ends, points): (&[Leg], &[f64]),
-        see: &mut SeeReversal<'_>,
-    ) -> Result<(), ContactError> {
-        let (gaps, samples) = (self.line.gaps.as_slice(), self.scene.numerics.samples as usize);
-        let body = exact::adhesive_in(take(memory), gaps, tree, edges, self.foundation, samples);
-        let mut reversals = Reversals::new(body, ends)?;
-        let done = reversals.each(points, see);
-        *memory = reversals.into_body().into_memory();
-        done
-    }
 }

@@ -38,13 +38,15 @@ const SMALL: u64 = 32 << 20;
 #[derive(Default)]
 pub struct Simulation {
     folder: PathBuf,
-    /// True if only one line is synthesized.
+    /// True for a single scene: what only another one would use is given back at once.
     single: bool,
     /// A measured surface in place of the files that scenes name.
     measured: Option<Arc<MeasuredRoughness>>,
     /// The equivalent line of the file read last: it is small, and serves all seeds.
     equivalent: Option<(Vec<PathBuf>, MeasuredOptions, EquivalentLine)>,
     synthesizer: Synthesizer,
+    /// Random phases drawn so far.
+    phases_drawn: u64,
     roughness: Option<(RoughnessKey, Rough)>,
     line: Option<(LineKey, Line)>,
     /// That of the line's heights, once it has been observed.
@@ -85,8 +87,8 @@ enum RoughnessKey {
 
 /// Heights of the roughness, before they are scaled.
 struct Rough {
+    /// Empty once they have become the gaps of the line.
     heights: Vec<f64>,
-    random_phases: u64,
     /// Wave numbers of the self-affine line on a length of 1 m.
     wave_numbers: Option<WaveNumbers>,
     /// Amplitude of a measured surface.
@@ -128,8 +130,8 @@ impl Simulation {
         Simulation { folder, ..Simulation::default() }
     }
 
-    /// Frees the memory of the Fourier transform before the contact is solved: less memory for a single scene, more time
-    /// for each further line.
+    /// Frees the memory of the Fourier transform before the contact is solved, and makes the gaps of the line in the
+    /// memory of its heights: less memory for a single scene, more time for each further line.
     #[must_use]
     pub fn for_one_scene(self) -> Self {
         Simulation { single: true, ..self }
@@ -165,13 +167,7 @@ impl Simulation {
         if self.roughness.as_ref().map(|(key, _)| key) != key.as_ref() {
             let before = self.roughness.take().map(|(_, rough)| rough.heights);
             if let Some(key) = &key {
-                // The transform allocates what it needs by itself, and would end the process.
-                check_room(Plan::of(scene).line_bytes()).map_err(|_| SurfaceError::OutOfMemory { points })?;
-                let rough = self.make_roughness(key, before.unwrap_or_default())?;
-                self.roughness = Some((key.clone(), rough));
-                if self.single {
-                    self.synthesizer = Synthesizer::default();
-                }
+                self.roughen(scene, key, before.unwrap_or_default())?;
             }
         }
         let rough = self.roughness.as_ref().map(|(_, rough)| rough);
@@ -184,17 +180,11 @@ impl Simulation {
             _ => governing.amplitude.map_or(0.0, |amplitude| amplitude.rms_height),
         };
         let key = LineKey { roughness: key, scale, length: scene.length, points, form: scene.form };
-        let (key, line) = match self.line.take() {
-            Some(kept) if kept.0 == key => kept,
-            before => {
-                self.tree_is_current = false;
-                self.histogram = None;
-                let memory = before.map(|(_, line)| line.gaps).unwrap_or_default();
-                let heights = rough.map(|rough| rough.heights.as_slice());
-                let form = scene.form.as_ref();
-                (key, Line::new_in(memory, scene.length, points, form, heights, scale)?)
-            }
-        };
+        let modes = rough.and_then(|rough| rough.modes);
+        if self.line.as_ref().is_none_or(|(kept, _)| *kept != key) {
+            self.line = Some((key.clone(), self.lay_line(scene, &key)?));
+        }
+        let Some((_, line)) = &self.line else { return Err(ContactError::Interrupted.into()) };
         let facts = LineFacts {
             points,
             length: scene.length,
@@ -202,14 +192,49 @@ impl Simulation {
             first: line.first,
             summit: line.summit,
             deepest: line.deepest(),
-            modes: rough.and_then(|rough| rough.modes),
+            modes,
             seed: scene.seed(),
             continuum_rms_gradient: spectrum.zip(governing.amplitude).map(|((spectrum, _), amplitude)| {
                 amplitude.rms_height * spectrum.continuum_gradient_per_height(scene.length)
             }),
         };
-        let (_, line) = self.line.insert((key, line));
         Ok((line, facts, governing))
+    }
+
+    /// Makes a line of the heights of its roughness.
+    fn lay_line(&mut self, scene: &Scene, key: &LineKey) -> Result<Line, RunError> {
+        let LineKey { scale, length, points, .. } = *key;
+        self.tree_is_current = false;
+        self.histogram = None;
+        let mut memory = self.line.take().map(|(_, line)| line.gaps).unwrap_or_default();
+        if let (Some(of), Some((_, rough))) = (&key.roughness, &self.roughness)
+            && rough.heights.is_empty()
+        {
+            self.roughen(scene, of, take(&mut memory))?;
+        }
+        let form = scene.form.as_ref();
+        let line = match &mut self.roughness {
+            Some((_, rough)) if self.single => {
+                Line::from_roughness(take(&mut rough.heights), length, form, scale)
+            }
+            rough => {
+                let heights = rough.as_ref().map(|(_, rough)| rough.heights.as_slice());
+                Line::new_in(memory, length, points, form, heights, scale)
+            }
+        };
+        Ok(line?)
+    }
+
+    /// Makes the heights of a roughness; those that are synthesized, in this memory.
+    fn roughen(&mut self, scene: &Scene, key: &RoughnessKey, memory: Vec<f64>) -> Result<(), RunError> {
+        let points = scene.numerics.points as usize;
+        // The transform allocates what it needs by itself, and would end the process.
+        check_room(Plan::of(scene).line_bytes()).map_err(|_| SurfaceError::OutOfMemory { points })?;
+        self.roughness = Some((key.clone(), self.make_roughness(key, memory)?));
+        if self.single {
+            self.synthesizer = Synthesizer::default();
+        }
+        Ok(())
     }
 
     fn roughness_key(
@@ -291,13 +316,12 @@ impl Simulation {
         let mut timings = Timings::default();
         self.make_room(plan, scene.numerics.points as usize)?;
 
-        let had_roughness = self.roughness.as_ref().map(|(key, _)| key.clone());
+        let drawn_before = self.phases_drawn;
         let clock = Instant::now();
         let (_, facts, governing) = self.make_line(scene)?;
         timings.line = clock.elapsed().as_secs_f64();
         interrupted()?;
-        let made_roughness = self.roughness.as_ref().filter(|(key, _)| Some(key) != had_roughness.as_ref());
-        let random_phases = made_roughness.map_or(0, |(_, rough)| rough.random_phases);
+        let random_phases = self.phases_drawn - drawn_before;
 
         let clock = Instant::now();
         let heights_binned = self.look_at_line(plan, scene.numerics.edges)?;
@@ -417,14 +441,14 @@ pub fn measured_options(scene: &Scene) -> MeasuredOptions {
 }
 
 impl Simulation {
-    /// The heights of a roughness; those that are synthesized, in this memory.
+    /// Heights of a roughness and what is known of them.
     fn make_roughness(&mut self, key: &RoughnessKey, memory: Vec<f64>) -> Result<Rough, RunError> {
         match key {
             RoughnessKey::SelfAffine { spectrum, seed, points, shift } => {
                 let unit = self.synthesizer.synthesize(*spectrum, *seed, *points, *shift, memory)?;
+                self.phases_drawn += unit.random_phases;
                 Ok(Rough {
                     heights: unit.heights,
-                    random_phases: unit.random_phases,
                     wave_numbers: Some(unit.wave_numbers),
                     measured: None,
                     modes: Some((spectrum.first, spectrum.last)),
@@ -439,8 +463,8 @@ impl Simulation {
                 let heights =
                     self.synthesizer.synthesize_waves(&amplitude, modes, *seed, *points, *shift, memory)?;
                 let measured = Some(line.amplitude_of_modes(*length, modes));
-                let random_phases = modes.1 + 1 - modes.0;
-                Ok(Rough { heights, random_phases, wave_numbers: None, measured, modes: Some(modes) })
+                self.phases_drawn += modes.1 + 1 - modes.0;
+                Ok(Rough { heights, wave_numbers: None, measured, modes: Some(modes) })
             }
             RoughnessKey::Measured { files, options, seed: None, length, points, shift } => {
                 let read;
@@ -455,7 +479,7 @@ impl Simulation {
                     .sample(*length, *points, *shift)
                     .map_err(|reason| SurfaceError::measured(first(files), &reason))?;
                 let measured = Some(profile.amplitude()?);
-                Ok(Rough { heights, random_phases: 0, wave_numbers: None, measured, modes: None })
+                Ok(Rough { heights, wave_numbers: None, measured, modes: None })
             }
         }
     }

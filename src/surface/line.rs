@@ -52,31 +52,42 @@ impl Line {
         roughness: Option<&[f64]>,
         scale: f64,
     ) -> Result<Self, SurfaceError> {
-        let spacing = length / points as f64;
-        // Whole cells from the axis: exact, so that the line is as symmetric as its form.
-        let axis = Form::spring_on_axis(points as u64) as f64;
-        let distance = |index: usize| (index as f64 - axis) * spacing;
-        let springs = form.map_or(0..points as u64, |form| form.springs_under(length, points as u64));
-        let (first, end) = (springs.start as usize, springs.end as usize);
-        if first == end {
-            return Err(SurfaceError::NoSprings { least: spacing / 4.0 });
-        }
+        let springs = Springs::new(length, points, form)?;
+        let Springs { first, end, .. } = springs;
         let mut heights =
             memory::emptied(memory, end - first).map_err(|_| SurfaceError::OutOfMemory { points })?;
-        let depth = |index: usize| form.map_or(0.0, |form| mdr_profile(form, distance(index)));
         match (form, roughness) {
             (None, None) => heights.resize(points, 0.0),
             (None, Some(rough)) => heights.extend(rough.iter().map(|z| scale * z)),
-            (Some(_), None) => heights.extend((first..end).map(|i| 0.0 - depth(i))),
-            (Some(_), Some(rough)) => {
-                heights.extend((first..end).map(|i| scale * rough[i] - depth(i)));
+            (Some(form), None) => heights.extend((first..end).map(|i| 0.0 - springs.depth(form, i))),
+            (Some(form), Some(rough)) => {
+                heights.extend((first..end).map(|i| scale * rough[i] - springs.depth(form, i)));
             }
         }
-        let summit = largest(&heights).map_err(|index| SurfaceError::NotFinite { index: first + index })?;
-        let mut gaps = heights;
-        gaps.iter_mut().for_each(|height| *height = summit - *height);
-        let deepest = largest(&gaps).map_err(|index| SurfaceError::NotFinite { index: first + index })?;
-        Ok(Line { gaps, first, points, length, spacing, summit, deepest })
+        springs.line(heights)
+    }
+
+    /// The same of a form and roughness, the memory of which becomes that of the gaps.
+    ///
+    /// # Errors
+    /// [`SurfaceError::NotFinite`], [`SurfaceError::NoSprings`].
+    pub fn from_roughness(
+        mut heights: Vec<f64>,
+        length: f64,
+        form: Option<&Form>,
+        scale: f64,
+    ) -> Result<Self, SurfaceError> {
+        let springs = Springs::new(length, heights.len(), form)?;
+        heights.truncate(springs.end);
+        heights.drain(..springs.first);
+        match form {
+            None => heights.iter_mut().for_each(|z| *z *= scale),
+            Some(form) => {
+                let under = (springs.first..).zip(&mut heights);
+                under.for_each(|(index, z)| *z = scale * *z - springs.depth(form, index));
+            }
+        }
+        springs.line(heights)
     }
 
     /// Heights z, m, of the points under the body, such that summit − z is their gap, bit for bit.
@@ -111,7 +122,44 @@ impl Line {
     }
 }
 
-/// The largest of finite numbers, or the index of the first number that is not finite.
+/// Springs of a foundation, and those of them under a form.
+struct Springs {
+    length: f64,
+    points: usize,
+    spacing: f64,
+    first: usize,
+    end: usize,
+}
+
+impl Springs {
+    fn new(length: f64, points: usize, form: Option<&Form>) -> Result<Self, SurfaceError> {
+        let spacing = length / points as f64;
+        let under = form.map_or(0..points as u64, |form| form.springs_under(length, points as u64));
+        if under.is_empty() {
+            return Err(SurfaceError::NoSprings { least: spacing / 4.0 });
+        }
+        Ok(Springs { length, points, spacing, first: under.start as usize, end: under.end as usize })
+    }
+
+    /// Depth of a form below its apex at a spring, m.
+    fn depth(&self, form: &Form, index: usize) -> f64 {
+        // Whole cells from the axis: exact, so that the line is as symmetric as its form.
+        let axis = Form::spring_on_axis(self.points as u64) as f64;
+        mdr_profile(form, (index as f64 - axis) * self.spacing)
+    }
+
+    /// The line of these heights of the springs under the form, m, in their memory.
+    fn line(self, mut gaps: Vec<f64>) -> Result<Line, SurfaceError> {
+        let Springs { length, points, spacing, first, .. } = self;
+        let not_finite = |index| SurfaceError::NotFinite { index: first + index };
+        let summit = largest(&gaps).map_err(not_finite)?;
+        gaps.iter_mut().for_each(|height| *height = summit - *height);
+        let deepest = largest(&gaps).map_err(not_finite)?;
+        Ok(Line { gaps, first, points, length, spacing, summit, deepest })
+    }
+}
+
+/// Largest of finite numbers, or the index of the first number that is not finite as the error.
 fn largest(values: &[f64]) -> Result<f64, usize> {
     // Side by side: one after the other, each comparison would wait for the one before.
     let mut largest = [f64::NEG_INFINITY; 8];
@@ -192,6 +240,25 @@ mod tests {
         assert_eq!(line.summit, 5.0);
         assert_eq!(line.gaps, [9.0, 0.0, 7.0, 2.0]);
         assert_eq!(line.heights().collect::<Vec<_>>(), [-4.0, 5.0, -2.0, 3.0]);
+    }
+
+    #[test]
+    fn roughness_becomes_the_same_gaps_in_its_own_memory() {
+        let rough: Vec<f64> = phases(7, 1).take(40).collect();
+        let forms =
+            [Form::Paraboloid { radius: 3.0 }, Form::Cone { angle: 0.2 }, Form::Punch { radius: 0.2 }];
+        for form in forms.iter().map(Some).chain([None]) {
+            let expected = Line::new(1.0, 40, form, Some(&rough), 0.3).unwrap();
+            let own = rough.clone();
+            let memory = own.as_ptr();
+            let line = Line::from_roughness(own, 1.0, form, 0.3).unwrap();
+            assert_eq!((&line, line.gaps.as_ptr()), (&expected, memory));
+        }
+        let thin = Form::Punch { radius: 0.002 };
+        let error = Line::new(1.0, 40, Some(&thin), Some(&rough), 0.3);
+        assert_eq!(Line::from_roughness(rough, 1.0, Some(&thin), 0.3), error);
+        let not_finite = Line::from_roughness(vec![0.0, f64::INFINITY], 1.0, None, 1.0);
+        assert_eq!(not_finite, Err(SurfaceError::NotFinite { index: 1 }));
     }
 
     #[test]

@@ -53,7 +53,7 @@ fn trace<E: EdgeModel>(case: &Loop, edges: E, foundation: Foundation) -> Trace {
     let changes = |record: &LegRecord| [record.attached, record.detached];
     let tree = ContactTree::build(&case.gaps, E::EDGES).unwrap();
     let mut body = exact::adhesive(&case.gaps, &tree, edges, foundation, case.samples);
-    let advance = |body: &mut exact::Exact<_>, leg: Leg| body.advance(leg);
+    let advance = |body: &mut exact::Exact<'_>, leg: Leg| body.advance(leg);
     let mut trace = Trace::new(&mut body, &case.legs, advance, refusal, changes);
     trace.zero_load(body.pull_off_at_touch().unwrap().0);
     trace

@@ -14,8 +14,7 @@ mod work;
 
 use super::formed;
 use asperity::contact::{
-    Adhesive, ContactTree, CurvePoint, Exact, Foundation, GridEdges, HessRule, History, LegRecord, Solver,
-    exact, run,
+    ContactTree, CurvePoint, Exact, Foundation, GridEdges, HessRule, History, LegRecord, Solver, exact, run,
 };
 use asperity::scene::{Edges, Leg};
 use proptest::prelude::*;
@@ -38,7 +37,7 @@ impl Body {
     }
 
     /// The exact solver over its tree.
-    fn on<'a>(&'a self, tree: &'a ContactTree, samples: usize) -> Exact<Adhesive<'a, GridEdges>> {
+    fn on<'a>(&'a self, tree: &'a ContactTree, samples: usize) -> Exact<'a> {
         let rule = GridEdges::new(HessRule::from_works(self.foundation, self.closing * self.work, self.work));
         exact::adhesive(&self.gaps, tree, rule, self.foundation, samples)
     }

@@ -8,7 +8,7 @@ mod rule;
 
 use super::{formed, numerics};
 use asperity::contact::{
-    Adhesive, ContactError, ContactTree, CurvePoint, Exact, Foundation, HessRule, History, LegRecord, Solver,
+    ContactError, ContactTree, CurvePoint, Exact, Foundation, HessRule, History, LegRecord, Solver,
     SubCellEdges, exact, run,
 };
 use asperity::scene::{Edges, Leg};
@@ -36,7 +36,7 @@ impl Body {
         SubCellEdges::new(HessRule::from_works(self.foundation, self.closing_work, self.work))
     }
 
-    fn on<'a>(&'a self, tree: &'a ContactTree, samples: usize) -> Exact<Adhesive<'a, SubCellEdges>> {
+    fn on<'a>(&'a self, tree: &'a ContactTree, samples: usize) -> Exact<'a> {
         exact::adhesive(&self.gaps, tree, self.edges(), self.foundation, samples)
     }
 

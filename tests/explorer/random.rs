@@ -108,7 +108,7 @@ fn event() -> impl Strategy<Value = Event> {
     let names = prop_oneof![Just("a.ron".to_owned()), Just(REFUSED.to_owned()), Just("b/c.ron".to_owned())];
     prop_oneof![
         15 => any::<usize>().prop_map(|key| Event::Keys(key, 1)),
-        3 => (any::<usize>(), 2..30_usize).prop_map(|(key, times)| Event::Keys(key, times)),
+        3 => (any::<usize>(), 2..8_usize).prop_map(|(key, times)| Event::Keys(key, times)),
         2 => any::<char>().prop_map(Event::Type),
         1 => ".{0,80}".prop_map(Event::Paste),
         4 => value().prop_map(Event::Enter),

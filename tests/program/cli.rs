@@ -1,11 +1,12 @@
 //! The command line as its users have it: the program itself, what it prints and how it ends.
 
 use super::common::deadline::within;
+use super::program::{Finished, asperity, failed, json, program};
 use serde_json::Value;
 use std::fs;
 use std::io::{BufRead, BufReader, Read, Write};
 use std::path::Path;
-use std::process::{Command, Stdio};
+use std::process::Stdio;
 
 /// Keys of `run --format json`, in their order.
 const KEYS: &[&str] = &[
@@ -31,50 +32,24 @@ const KEYS: &[&str] = &[
 const LINE_KEYS: &[&str] = &["points", "length", "spacing", "rms_height", "rms_gradient", "modes", "seed"];
 const CURVE_KEYS: &[&str] = &["leg", "indentation", "force", "contact_length", "fragments"];
 
-struct Finished {
-    code: Option<i32>,
-    stdout: String,
-    stderr: String,
-}
-
-fn program() -> Command {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_asperity"));
-    // Whoever runs the tests may have scenes of their own.
-    command.stdin(Stdio::null()).env("XDG_CONFIG_HOME", concat!(env!("CARGO_TARGET_TMPDIR"), "/nothing"));
-    command
-}
-
-fn asperity(arguments: &[&str]) -> Finished {
-    let output = program().args(arguments).output().unwrap();
-    Finished {
-        code: output.status.code(),
-        stdout: String::from_utf8(output.stdout).unwrap(),
-        stderr: String::from_utf8(output.stderr).unwrap(),
-    }
-}
-
-/// Standard output of a command that does what it should.
+/// Standard output of a command that succeeds and has nothing to report.
 fn done(arguments: &[&str]) -> String {
     let Finished { code, stdout, stderr } = asperity(arguments);
     assert_eq!((code, stderr.as_str()), (Some(0), ""), "{arguments:?}");
     stdout
 }
 
+/// Standard output of a command that reads this text.
+fn with_input(arguments: &[&str], text: &str) -> String {
+    let mut command = program();
+    let mut child = command.args(arguments).stdin(Stdio::piped()).stdout(Stdio::piped()).spawn().unwrap();
+    child.stdin.take().unwrap().write_all(text.as_bytes()).unwrap();
+    String::from_utf8(child.wait_with_output().unwrap().stdout).unwrap()
+}
+
 /// Lines of a table without its provenance.
 fn rows(table: &str) -> impl Iterator<Item = &str> {
     table.lines().filter(|line| !line.starts_with('#'))
-}
-
-/// Standard error of a command that fails with this code and prints no results.
-fn failed(code: i32, arguments: &[&str]) -> String {
-    let finished = asperity(arguments);
-    assert_eq!((finished.code, finished.stdout.as_str()), (Some(code), ""), "{arguments:?}");
-    assert!(!finished.stderr.is_empty() && !finished.stderr.contains("panicked"), "{}", finished.stderr);
-    finished.stderr
-}
-
-fn json(arguments: &[&str]) -> Value {
-    serde_json::from_str(&done(arguments)).unwrap()
 }
 
 fn number(value: &Value) -> f64 {
@@ -245,11 +220,11 @@ fn overrides_reach_the_run() {
 }
 
 #[test]
-fn wrong_overrides_are_told_with_field_value_and_range() {
+fn errors_of_overrides_state_field_value_and_range() {
     let run = |set: &str| failed(1, &["run", "pressure-sensitive", "--set", set]);
-    let told = run("roughness.hurst=1.4");
+    let message = run("roughness.hurst=1.4");
     for said in ["roughness.hurst", "1.4", "above 0 and below 1"] {
-        assert!(told.contains(said), "{said}: {told}");
+        assert!(message.contains(said), "{said}: {message}");
     }
     assert!(run("numerics.pionts=64").contains("numerics.points"));
     assert!(run("numerics.points=many").contains("many"));
@@ -257,23 +232,24 @@ fn wrong_overrides_are_told_with_field_value_and_range() {
     assert!(run("length=10 kg").contains(wrong));
     // Several errors, each on a line of its own; the same on every command.
     for command in ["run", "plan", "line"] {
-        let told = failed(1, &[command, "jkr-sphere", "--set", "length=-1.0", "--set", "numerics.samples=1"]);
-        let lines: Vec<_> = told.lines().collect();
-        assert_eq!(lines.len(), 2, "{told}");
-        assert!(lines[0].contains("length") && lines[1].contains("numerics.samples"), "{told}");
+        let message =
+            failed(1, &[command, "jkr-sphere", "--set", "length=-1.0", "--set", "numerics.samples=1"]);
+        let lines: Vec<_> = message.lines().collect();
+        assert_eq!(lines.len(), 2, "{message}");
+        assert!(lines[0].contains("length") && lines[1].contains("numerics.samples"), "{message}");
     }
     // Also without a command, where there is no terminal to explore in.
     assert!(failed(1, &["--set", "roughness.hurst=1.4"]).contains("above 0 and below 1"));
 }
 
 #[test]
-fn what_cannot_be_computed_is_told() {
-    let told = failed(1, &["run", "jkr-sphere", "--set", "loading=[ToTouch, ToForce(-1.0)]"]);
-    assert!(told.starts_with("jkr-sphere: loading.1"), "{told}");
-    assert!(told.contains("allowed"), "{told}");
+fn a_scene_that_cannot_be_computed_is_an_error() {
+    let message = failed(1, &["run", "jkr-sphere", "--set", "loading=[ToTouch, ToForce(-1.0)]"]);
+    assert!(message.starts_with("jkr-sphere: loading.1"), "{message}");
+    assert!(message.contains("allowed"), "{message}");
     for command in ["run", "plan", "line"] {
-        let told = failed(1, &[command, "no-such-scene"]);
-        assert!(told.contains("no-such-scene") && told.contains("jkr-sphere"), "{told}");
+        let message = failed(1, &[command, "no-such-scene"]);
+        assert!(message.contains("no-such-scene") && message.contains("jkr-sphere"), "{message}");
         assert!(failed(1, &[command, "no/such/scene.ron"]).contains("no/such/scene.ron"));
     }
 }
@@ -297,14 +273,14 @@ fn errors_in_files_have_line_and_column() {
     let folder = tempfile::tempdir().unwrap();
     let unknown = write(folder.path(), "unknown.ron", &SMALL.replace("length:", "lenght:"));
     for command in [&["run"][..], &["plan"], &["line"], &["presets", "check"]] {
-        let told = failed(1, &[command, &[unknown.as_str()]].concat());
-        assert!(told.starts_with(&format!("{unknown}:4:5: lenght")), "{told}");
-        assert!(told.contains("did you mean length?"), "{told}");
+        let message = failed(1, &[command, &[unknown.as_str()]].concat());
+        assert!(message.starts_with(&format!("{unknown}:4:5: lenght")), "{message}");
+        assert!(message.contains("did you mean length?"), "{message}");
     }
 }
 
 #[test]
-fn checking_tells_every_error_of_every_file() {
+fn checking_prints_every_error_of_every_file() {
     let folder = tempfile::tempdir().unwrap();
     let good = write(folder.path(), "good.ron", SMALL);
     let wrong = write(
@@ -360,18 +336,11 @@ fn built_in_scenes_are_listed_shown_and_sound() {
     for name in names {
         assert!(list.lines().any(|line| line.starts_with(&name)), "{name}");
         let text = done(&["presets", "show", &name]);
-        let mut child = program()
-            .args(["presets", "check", "-"])
-            .stdin(Stdio::piped())
-            .stdout(Stdio::piped())
-            .spawn()
-            .unwrap();
-        child.stdin.take().unwrap().write_all(text.as_bytes()).unwrap();
-        let output = child.wait_with_output().unwrap();
-        assert_eq!(String::from_utf8(output.stdout).unwrap(), "standard input: ok\n", "{name}");
+        let stdout = with_input(&["presets", "check", "-"], &text);
+        assert_eq!(stdout, "standard input: ok\n", "{name}");
     }
-    let told = failed(1, &["presets", "show", "no-such-scene"]);
-    assert!(told.contains("no-such-scene") && told.contains("kendall-punch"), "{told}");
+    let message = failed(1, &["presets", "show", "no-such-scene"]);
+    assert!(message.contains("no-such-scene") && message.contains("kendall-punch"), "{message}");
 }
 
 /// Elsewhere the configuration folder is not named by a variable.
@@ -384,9 +353,9 @@ fn own_scenes_are_listed_and_opened() {
         let output = program().args(arguments).env("XDG_CONFIG_HOME", config.path()).output().unwrap();
         (output.status.code(), String::from_utf8([output.stdout, output.stderr].concat()).unwrap())
     };
-    let (code, told) = asperity(&["line", "my-tape"]);
+    let (code, message) = asperity(&["line", "my-tape"]);
     assert_eq!(code, Some(1));
-    assert!(told.starts_with("my-tape: ") && told.contains(folder.to_str().unwrap()), "{told}");
+    assert!(message.starts_with("my-tape: ") && message.contains(folder.to_str().unwrap()), "{message}");
     fs::create_dir_all(&folder).unwrap();
     let scene = SMALL.replace("version: 1,", "version: 1, title: \"My tape\",");
     let path = write(&folder, "my-tape.ron", &scene);
@@ -638,8 +607,8 @@ fn files_are_not_overwritten_unasked() {
         assert_eq!(done(&arguments), "");
         let written = fs::read_to_string(&path).unwrap();
         assert!(rows(&written).next().unwrap().starts_with(header), "the ending .csv says what to write");
-        let told = failed(1, &arguments);
-        assert!(told.contains(file) && told.contains("--force"), "{told}");
+        let message = failed(1, &arguments);
+        assert!(message.contains(file) && message.contains("--force"), "{message}");
         assert_eq!(fs::read_to_string(&path).unwrap(), written);
         fs::write(&path, "old").unwrap();
         assert_eq!(done(&[&arguments[..], &["--force"]].concat()), "");
@@ -694,15 +663,8 @@ fn a_scene_comes_from_a_stream_only_where_it_is_named_on_the_command_line() {
         let force = |json: &Value| number(&json["adhesion_force"]);
         let wanted = force(&json(&["run", "jkr-sphere", "--format", "json"]));
         for name in ["-", "/dev/stdin"] {
-            let mut child = program()
-                .args(["run", name, "--format", "json"])
-                .stdin(Stdio::piped())
-                .stdout(Stdio::piped())
-                .spawn()
-                .unwrap();
-            child.stdin.take().unwrap().write_all(text.as_bytes()).unwrap();
-            let output = child.wait_with_output().unwrap();
-            assert_eq!(force(&serde_json::from_slice(&output.stdout).unwrap()), wanted, "{name}");
+            let stdout = with_input(&["run", name, "--format", "json"], &text);
+            assert_eq!(force(&serde_json::from_str(&stdout).unwrap()), wanted, "{name}");
         }
         // Of what has no end no more is read than a scene can be long.
         assert!(failed(1, &["run", "/dev/zero"]).contains("too long"));
@@ -712,8 +674,8 @@ fn a_scene_comes_from_a_stream_only_where_it_is_named_on_the_command_line() {
         fs::write(&scene, measured).unwrap();
         let scene = scene.to_str().unwrap();
         for command in [&["run"][..], &["line"], &["cost"], &["presets", "check"]] {
-            let told = failed(1, &[command, &[scene]].concat());
-            assert!(told.contains("not a regular file"), "{command:?}: {told}");
+            let message = failed(1, &[command, &[scene]].concat());
+            assert!(message.contains("not a regular file"), "{command:?}: {message}");
         }
         // The frames of a demo show what is wrong.
         assert!(done(&["demo", "--frames", "--size", "120x40", scene]).contains("not a regular file"));
@@ -721,12 +683,12 @@ fn a_scene_comes_from_a_stream_only_where_it_is_named_on_the_command_line() {
 }
 
 #[test]
-fn a_file_that_cannot_be_written_is_told_before_anything_is_computed() {
+fn a_file_that_cannot_be_written_is_an_error_before_anything_is_computed() {
     // The run itself would fail as well, and later.
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().to_str().unwrap();
-    let told = failed(1, &["run", "jkr-sphere", "--set", "loading=[ToTouch, ToForce(-1.0)]", "-o", file]);
-    assert!(told.contains("not the name of a file") && !told.contains("loading"), "{told}");
+    let message = failed(1, &["run", "jkr-sphere", "--set", "loading=[ToTouch, ToForce(-1.0)]", "-o", file]);
+    assert!(message.contains("not the name of a file") && !message.contains("loading"), "{message}");
 }
 
 #[test]
@@ -747,26 +709,29 @@ fn wrong_usage_is_exit_code_two() {
     ] {
         failed(2, arguments);
     }
-    let told = failed(2, &["rnu", "jkr-sphere", "--format", "json"]);
+    let message = failed(2, &["rnu", "jkr-sphere", "--format", "json"]);
     assert!(
-        told.contains("'rnu' is not a command") && told.contains("run, compare, reversals, demo, plan"),
-        "{told}"
+        message.contains("'rnu' is not a command") && message.contains("run, compare, reversals, demo, plan"),
+        "{message}"
     );
     assert!(failed(2, &["--set", "length=1", "run", "jkr-sphere"]).contains("comes first"));
 }
 
 #[test]
 fn a_word_that_is_no_scene_may_be_meant_as_a_command() {
-    let told = failed(1, &["rnu"]);
+    let message = failed(1, &["rnu"]);
     for said in ["rnu", "pressure-sensitive", "presets", "asperity --help"] {
-        assert!(told.contains(said), "{said}: {told}");
+        assert!(message.contains(said), "{said}: {message}");
     }
 }
 
 #[test]
 fn the_explorer_asks_for_a_terminal() {
-    let told = failed(1, &["rough-sphere"]);
-    assert!(told.contains("needs a terminal") && told.contains("asperity run rough-sphere"), "{told}");
+    let message = failed(1, &["rough-sphere"]);
+    assert!(
+        message.contains("needs a terminal") && message.contains("asperity run rough-sphere"),
+        "{message}"
+    );
 }
 
 #[test]
@@ -840,8 +805,8 @@ fn one_moment_of_a_demo_is_printed_or_drawn() {
         let first = fs::read_to_string(&file).unwrap();
         assert!(first.contains("<svg") && first.trim_end().ends_with("</svg>"));
         assert!(first.contains("Force F(d)") && first.contains("Asperity: jkr-sphere"));
-        let told = failed(1, &["demo", "jkr-sphere", "--at", "3", "--svg", path]);
-        assert!(told.contains("--force overwrites it"), "{told}");
+        let message = failed(1, &["demo", "jkr-sphere", "--at", "3", "--svg", path]);
+        assert!(message.contains("--force overwrites it"), "{message}");
         done(&["demo", "jkr-sphere", "--at", "9", "--svg", path, "--force"]);
         assert_ne!(fs::read_to_string(&file).unwrap(), first);
         let pixels = folder.path().join("screen.png");
@@ -861,8 +826,8 @@ fn a_demo_is_recorded_the_same_every_time() {
             let file = folder.path().join(name);
             let path = file.to_str().unwrap();
             assert_eq!(done(&["demo", "jkr-sphere", "--size", "80x24", "--fps", "4", "--cast", path]), "");
-            let told = failed(1, &["demo", "jkr-sphere", "--cast", path]);
-            assert!(told.contains("--force overwrites it"), "{told}");
+            let message = failed(1, &["demo", "jkr-sphere", "--cast", path]);
+            assert!(message.contains("--force overwrites it"), "{message}");
             fs::read_to_string(file).unwrap()
         };
         let text = recorded("a.cast");
@@ -943,13 +908,13 @@ fn a_reader_may_leave_at_any_time() {
 
 #[cfg(target_os = "linux")]
 #[test]
-fn a_full_disk_is_told() {
+fn a_full_disk_is_an_error() {
     for arguments in [&["run", "jkr-sphere"][..], &["line", "jkr-sphere"], &["completions", "zsh"]] {
         let full = fs::OpenOptions::new().write(true).open("/dev/full").unwrap();
         let output = program().args(arguments).stdout(full).output().unwrap();
         assert_eq!(output.status.code(), Some(1), "{arguments:?}");
-        let told = String::from_utf8(output.stderr).unwrap();
-        assert!(told.starts_with("standard output: cannot be written"), "{told}");
+        let message = String::from_utf8(output.stderr).unwrap();
+        assert!(message.starts_with("standard output: cannot be written"), "{message}");
     }
 }
 
@@ -973,13 +938,13 @@ fn hard_cases_are_a_table_or_json() {
 
 #[test]
 fn words_that_are_in_no_case_are_refused() {
-    let told = failed(1, &["check", "sawtooth", "no-such-case"]);
+    let message = failed(1, &["check", "sawtooth", "no-such-case"]);
     assert!(
-        told.starts_with("no-such-case: ") && told.contains("allowed") && told.contains("sawtooth"),
-        "{told}"
+        message.starts_with("no-such-case: ") && message.contains("allowed") && message.contains("sawtooth"),
+        "{message}"
     );
-    let told = failed(1, &["check", "--quick", "2^24"]);
-    assert!(told.contains("--quick"), "{told}");
+    let message = failed(1, &["check", "--quick", "2^24"]);
+    assert!(message.contains("--quick"), "{message}");
 }
 
 #[test]
@@ -1054,8 +1019,8 @@ fn scenes_are_drawn_and_pictures_hold_nothing_else() {
         ),
     ] {
         with(&command, &|arguments| {
-            let told = failed(1, arguments);
-            assert!(told.contains(said), "{arguments:?}: {told}");
+            let message = failed(1, arguments);
+            assert!(message.contains(said), "{arguments:?}: {message}");
         });
     }
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), before, "nothing is written");

@@ -3,35 +3,12 @@
 
 mod estimates;
 
+use super::program::{Finished, asperity, failed, json};
 use serde_json::Value;
 use std::fs;
-use std::process::{Command, Stdio};
-
-/// Exit code, standard output and standard error.
-fn asperity(arguments: &[&str]) -> (Option<i32>, String, String) {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_asperity"));
-    command.stdin(Stdio::null()).env("XDG_CONFIG_HOME", concat!(env!("CARGO_TARGET_TMPDIR"), "/nothing"));
-    let output = command.args(arguments).output().unwrap();
-    let text = |bytes| String::from_utf8(bytes).unwrap();
-    (output.status.code(), text(output.stdout), text(output.stderr))
-}
 
 fn done(arguments: &[&str]) -> String {
-    let (code, stdout, stderr) = asperity(arguments);
-    assert_eq!(code, Some(0), "{arguments:?}: {stderr}");
-    stdout
-}
-
-/// Standard error of a command that fails with this code and prints no results.
-fn failed(code: i32, arguments: &[&str]) -> String {
-    let (found, stdout, stderr) = asperity(arguments);
-    assert_eq!((found, stdout.as_str()), (Some(code), ""), "{arguments:?}: {stderr}");
-    assert!(!stderr.contains("panicked"), "{stderr}");
-    stderr
-}
-
-fn json(arguments: &[&str]) -> Value {
-    serde_json::from_str(&done(arguments)).unwrap()
+    asperity(arguments).succeeded()
 }
 
 /// Springs and error of a figure in the rows of a knob, those that are resolved.
@@ -122,7 +99,8 @@ fn rough_scenes_are_counted_from_their_finest_solution() {
 
 #[test]
 fn the_text_begins_with_the_answer_and_ends_with_what_was_too_much() {
-    let (code, text, progress) = asperity(&["cost", "jkr-sphere", "--budget", "1s"]);
+    let Finished { code, stdout: text, stderr: progress } =
+        asperity(&["cost", "jkr-sphere", "--budget", "1s"]);
     assert_eq!(code, Some(0));
     assert!(text.starts_with("1 % of the adhesion force: "), "{text}");
     let (_, end) = text.rsplit_once("affordable").unwrap();
@@ -182,7 +160,8 @@ fn help_is_for_reading() {
 
 #[test]
 fn tolerances_are_kept() {
-    let (code, stdout, stderr) = asperity(&["run", "jkr-sphere", "--tolerance", "0.1%", "--format", "json"]);
+    let Finished { code, stdout, stderr } =
+        asperity(&["run", "jkr-sphere", "--tolerance", "0.1%", "--format", "json"]);
     let run: Value = serde_json::from_str(&stdout).unwrap();
     assert_eq!(code, Some(0));
     let exact = 1.5 * std::f64::consts::PI * 0.05 * 1e-4;

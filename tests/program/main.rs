@@ -9,6 +9,7 @@ mod cli;
 mod cost;
 #[cfg(feature = "parquet")]
 mod parquet;
+mod program;
 mod readme;
 mod rounding;
 #[cfg(target_os = "linux")]

@@ -1,10 +1,10 @@
 //! The results of a study as Parquet, read back by the library's own reader: the rows of the CSV, bit for bit.
 
+use super::program::asperity_in;
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::record::Field;
 use std::fs::{self, File};
 use std::path::Path;
-use std::process::{Command, Output};
 
 const PLAN: &str = r#"(
     version: 1,
@@ -26,14 +26,8 @@ const PLAN: &str = r#"(
     record: [adhesion_force, adhesion_coefficient, regime, stiffness_exponent, skewness],
 )"#;
 
-fn asperity(folder: &Path, arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_asperity")).current_dir(folder).args(arguments).output().unwrap()
-}
-
 fn merge(folder: &Path, arguments: &[&str]) -> String {
-    let output = asperity(folder, &[&["sweep", "merge", "study"], arguments].concat());
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    String::from_utf8(output.stdout).unwrap()
+    asperity_in(folder, &[&["sweep", "merge", "study"], arguments].concat()).succeeded()
 }
 
 /// Compares the file with the table, and gives the number of rows and of values that are null.
@@ -78,16 +72,14 @@ fn rows_are_those_of_the_csv_and_no_older_file_stays() {
     let folder = tempfile::tempdir().unwrap();
     let at = folder.path();
     fs::write(at.join("plan.ron"), PLAN).unwrap();
-    let output = asperity(at, &["sweep", "plan.ron", "-o", "study", "--shard", "1/3"]);
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    asperity_in(at, &["sweep", "plan.ron", "-o", "study", "--shard", "1/3"]).succeeded();
     let study = at.join("study");
     assert!(merge(at, &["--partial", "--parquet"]).contains("results.parquet has the rows of results.csv"));
     let (part, _) = compare(&study);
     assert!(part > 0 && part < 36, "{part}");
 
     // The whole study without it: the file of the part must not stand beside the new tables.
-    let output = asperity(at, &["sweep", "plan.ron", "-o", "study"]);
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    asperity_in(at, &["sweep", "plan.ron", "-o", "study"]).succeeded();
     assert!(!study.join("results.parquet").exists());
 
     merge(at, &["--parquet"]);
@@ -104,8 +96,7 @@ fn what_there_is_not_is_null() {
     let plan = PLAN.replace("preloads: [0.01, 0.3],", "");
     let plan = plan.replace("numerics: (", "loading: [ToForce(1.0e-5)],\n        numerics: (");
     fs::write(at.join("plan.ron"), plan).unwrap();
-    let output = asperity(at, &["sweep", "plan.ron", "-o", "study"]);
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    asperity_in(at, &["sweep", "plan.ron", "-o", "study"]).succeeded();
     merge(at, &["--parquet"]);
     assert_eq!(compare(&at.join("study")), (18, 4 * 18));
 }

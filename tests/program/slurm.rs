@@ -34,7 +34,7 @@ const PLAN: &str = r#"(
 )"#;
 
 /// Says what is left out, past the test runner, which keeps what passing tests print to itself.
-fn tell(note: &str) {
+fn report(note: &str) {
     let _ = writeln!(std::io::stderr(), "{note}");
 }
 
@@ -53,7 +53,7 @@ struct Cluster {
 
 impl Drop for Cluster {
     fn drop(&mut self) {
-        // It is told by the end of its input, and waited for.
+        // The end of its input ends the process, which is waited for.
         drop(self.keeper.stdin.take());
         let _ = self.keeper.wait();
     }
@@ -65,7 +65,7 @@ impl Cluster {
         let [munged, slurmctld, slurmd, _] = ["munged", "slurmctld", "slurmd", "sbatch"].map(|name| {
             let found = program(name);
             if found.is_none() {
-                tell(&format!(
+                report(&format!(
                     "skipped: there is no {name} (Debian: slurmctld, slurmd, slurm-client, munge)"
                 ));
             }
@@ -96,7 +96,7 @@ impl Cluster {
         }
         let mut rest = String::new();
         said.read_to_string(&mut rest).unwrap();
-        tell(&format!("skipped: no cluster can be started here:\n{line}{rest}"));
+        report(&format!("skipped: no cluster can be started here:\n{line}{rest}"));
         None
     }
 
@@ -385,9 +385,9 @@ fn arrays_are_no_larger_than_the_cluster_has_them() {
     assert_eq!(code, Some(1));
     assert!(said.contains("arrays of at most 4 tasks") && said.contains("allowed: 1 to 4"), "{said}");
     assert!(!small.path().join("study").exists());
-    let (code, told, said) = submit_to(small.path(), &["--shards", "4", "--at-once", "2", "--", "-p", "x"]);
+    let (code, stdout, said) = submit_to(small.path(), &["--shards", "4", "--at-once", "2", "--", "-p", "x"]);
     assert_eq!(code, Some(0), "{said}");
-    assert!(told.starts_with("job 21: 4 tasks; job 21: the merge after them\n"), "{told}");
+    assert!(stdout.starts_with("job 21: 4 tasks; job 21: the merge after them\n"), "{stdout}");
     let asked = fs::read_to_string(small.path().join("asked")).unwrap();
     let [array, merge] = asked.lines().collect::<Vec<_>>()[..] else { panic!("{asked}") };
     assert!(array.contains("--partition=x --array=1-4%2 --requeue "), "{array}");
@@ -404,7 +404,7 @@ fn arrays_are_no_larger_than_the_cluster_has_them() {
 
 #[test]
 fn only_known_options_and_no_variables_reach_sbatch() {
-    // Does what sbatch does with the words it is given, as far as it can be told apart.
+    // Does what sbatch does with the words it is given, as far as words can be distinguished.
     let sbatch = "printf '%s\\n' \"$@\" >>asked; /usr/bin/env >>variables; echo 17";
     let folder = stand_ins(&[("sbatch", sbatch)]);
     for words in [
@@ -419,8 +419,8 @@ fn only_known_options_and_no_variables_reach_sbatch() {
         &["--", "x.sh"],
     ] {
         let arguments = [&["--shards", "4", "--"], words].concat();
-        let (code, told, said) = submit_to(folder.path(), &arguments);
-        assert_eq!((code, told.as_str()), (Some(1), ""), "{words:?}: {said}");
+        let (code, stdout, said) = submit_to(folder.path(), &arguments);
+        assert_eq!((code, stdout.as_str()), (Some(1), ""), "{words:?}: {said}");
         assert!(
             said.contains("this is not for sbatch here; allowed: --account, --begin,"),
             "{words:?}: {said}"
@@ -449,8 +449,8 @@ fn an_answer_that_is_no_number_of_a_job_is_an_error() {
     for answer in ["", "Submitted batch job 17", "17;", "+17", "0", "17\\n18", "17 18"] {
         let sbatch = format!("printf '{answer}\\n'");
         let folder = stand_ins(&[("sbatch", &sbatch)]);
-        let (code, told, said) = submit_to(folder.path(), &["--shards", "4"]);
-        assert_eq!((code, told.as_str()), (Some(1), ""), "{answer:?}: {said}");
+        let (code, stdout, said) = submit_to(folder.path(), &["--shards", "4"]);
+        assert_eq!((code, stdout.as_str()), (Some(1), ""), "{answer:?}: {said}");
         assert!(
             said.contains("sbatch took the array and did not answer with the number"),
             "{answer:?}: {said}"
@@ -469,7 +469,7 @@ fn an_answer_that_is_no_number_of_a_job_is_an_error() {
 #[test]
 fn a_dry_run_tells_and_touches_nothing() {
     let folder = stand_ins(&[("sbatch", "touch submitted; echo 1")]);
-    let (code, told, said) = submit_to(folder.path(), &["--shards", "12", "--memory", "2G", "--dry-run"]);
+    let (code, stdout, said) = submit_to(folder.path(), &["--shards", "12", "--memory", "2G", "--dry-run"]);
     assert_eq!((code, said.as_str()), (Some(0), ""));
     for expected in [
         "--shard \"$SLURM_ARRAY_TASK_ID/12\"",
@@ -478,7 +478,7 @@ fn a_dry_run_tells_and_touches_nothing() {
         "--array=1-12 --requeue",
         "--dependency=afterok:ARRAY",
     ] {
-        assert!(told.contains(expected), "{expected}: {told}");
+        assert!(stdout.contains(expected), "{expected}: {stdout}");
     }
     let mut left: Vec<_> =
         fs::read_dir(folder.path()).unwrap().map(|entry| entry.unwrap().file_name()).collect();
@@ -490,8 +490,8 @@ fn a_dry_run_tells_and_touches_nothing() {
 fn a_task_starts_killed_programs_again_and_no_others() {
     // The script of a task, run by a shell, with a stand-in for the program.
     let folder = stand_ins(&[]);
-    let (_, told, _) = submit_to(folder.path(), &["--shards", "4", "--retries", "2", "--dry-run"]);
-    let script = told.split("==> ").nth(1).unwrap().split_once(" <==\n").unwrap().1;
+    let (_, stdout, _) = submit_to(folder.path(), &["--shards", "4", "--retries", "2", "--dry-run"]);
+    let script = stdout.split("==> ").nth(1).unwrap().split_once(" <==\n").unwrap().1;
     let script = script.replace(ASPERITY, "./program");
     for (program, code, runs) in [
         ("exit 0", 0, 1),

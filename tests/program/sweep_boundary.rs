@@ -1,17 +1,8 @@
 //! `asperity sweep boundary`: from a plan to a table, and what it says where there is no boundary to find.
 
+use super::program::{asperity, failed, json};
 use serde_json::Value;
 use std::path::Path;
-use std::process::{Command, Output};
-
-fn asperity(arguments: &[&str]) -> Output {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_asperity"));
-    command.args(arguments).output().unwrap()
-}
-
-fn told(output: &[u8]) -> String {
-    String::from_utf8(output.to_vec()).unwrap()
-}
 
 /// A study of few springs whose adhesion without a load falls below a tenth between κ = 0.5 and 6.
 fn study(folder: &Path, axis: &str) -> String {
@@ -24,8 +15,7 @@ fn study(folder: &Path, axis: &str) -> String {
     );
     std::fs::write(&plan, text).unwrap();
     let study = folder.join("study").to_str().unwrap().to_string();
-    let done = asperity(&["sweep", plan.to_str().unwrap(), "-o", &study]);
-    assert!(done.status.success(), "{}", told(&done.stderr));
+    asperity(&["sweep", plan.to_str().unwrap(), "-o", &study]).succeeded();
     study
 }
 
@@ -33,10 +23,7 @@ fn study(folder: &Path, axis: &str) -> String {
 fn a_boundary_is_found_for_each_place_protocol_and_level() {
     let place = tempfile::tempdir().unwrap();
     let study = study(place.path(), "Linear(path: \"kappa\", from: 0.5, to: 6.0, count: 12)");
-    let found =
-        asperity(&["sweep", "boundary", &study, "--level", "0.5", "--level", "0.1", "--format", "json"]);
-    assert!(found.status.success(), "{}", told(&found.stderr));
-    let object: Value = serde_json::from_slice(&found.stdout).unwrap();
+    let object = json(&["sweep", "boundary", &study, "--level", "0.5", "--level", "0.1", "--format", "json"]);
     assert_eq!(object["lines"], 8);
     let boundaries = object["boundaries"].as_array().unwrap();
     assert_eq!(boundaries.len(), 2 * 2 * 2);
@@ -53,9 +40,9 @@ fn a_boundary_is_found_for_each_place_protocol_and_level() {
     for pair in boundaries.chunks(2) {
         assert!(pair[0]["kappa"].as_f64() < pair[1]["kappa"].as_f64(), "{pair:?}");
     }
-    let text = asperity(&["sweep", "boundary", &study]);
-    assert!(told(&text.stdout).contains("zero force"), "{}", told(&text.stdout));
-    let csv = told(&asperity(&["sweep", "boundary", &study, "--format", "csv"]).stdout);
+    let text = asperity(&["sweep", "boundary", &study]).succeeded();
+    assert!(text.contains("zero force"), "{text}");
+    let csv = asperity(&["sweep", "boundary", &study, "--format", "csv"]).succeeded();
     let columns = csv.lines().next().unwrap().split(',').count();
     assert!(csv.lines().all(|line| line.split(',').count() == columns), "{csv}");
 }
@@ -69,11 +56,8 @@ fn moment(hurst: f64, j: i32) -> f64 {
 fn a_boundary_in_kappa_is_one_in_elastic_energy() {
     let place = tempfile::tempdir().unwrap();
     let study = study(place.path(), "Linear(path: \"kappa\", from: 0.5, to: 6.0, count: 12)");
-    let json = |arguments: &[&str]| -> Value {
-        let found = asperity(&[&["sweep", "boundary", &study, "--format", "json"], arguments].concat());
-        assert!(found.status.success(), "{}", told(&found.stderr));
-        serde_json::from_slice(&found.stdout).unwrap()
-    };
+    let json =
+        |arguments: &[&str]| json(&[&["sweep", "boundary", &study, "--format", "json"], arguments].concat());
     let of = |object: &Value, name: &str| -> Vec<(f64, f64)> {
         let number = |one: &Value, name: &str| one[name].as_f64().unwrap();
         let all = object["boundaries"].as_array().unwrap().iter();
@@ -100,9 +84,8 @@ fn a_boundary_in_kappa_is_one_in_elastic_energy() {
         assert_eq!(spread["ratio"], spread["ratio_over"]["H"], "{spread}");
     }
     assert_eq!(spreads.len(), 4);
-    let wrong = asperity(&["sweep", "boundary", &study, "--over", "work"]);
-    assert_eq!(wrong.status.code(), Some(2));
-    assert!(told(&wrong.stderr).contains("allowed: kappa, elastic_energy_ratio"));
+    let wrong = failed(2, &["sweep", "boundary", &study, "--over", "work"]);
+    assert!(wrong.contains("allowed: kappa, elastic_energy_ratio"));
 }
 
 #[test]
@@ -110,15 +93,13 @@ fn a_boundary_lies_along_an_axis_of_elastic_energy_as_well() {
     let place = tempfile::tempdir().unwrap();
     let axis = "Linear(path: \"elastic_energy_ratio\", from: 0.02, to: 6.0, count: 12)";
     let study = study(place.path(), axis);
-    let found =
-        asperity(&["sweep", "boundary", &study, "--over", "elastic_energy_ratio", "--format", "json"]);
-    let object: Value = serde_json::from_slice(&found.stdout).unwrap();
+    let object = json(&["sweep", "boundary", &study, "--over", "elastic_energy_ratio", "--format", "json"]);
     for boundary in object["boundaries"].as_array().unwrap() {
         let ratio = boundary["elastic_energy_ratio"].as_f64();
         assert!(ratio.is_none_or(|ratio| (0.02..6.0).contains(&ratio)), "{boundary}");
         assert!(ratio.is_some() || boundary["level"].as_f64() != Some(0.1), "{boundary}");
     }
-    let csv = told(&asperity(&["sweep", "boundary", &study, "--format", "csv"]).stdout);
+    let csv = asperity(&["sweep", "boundary", &study, "--format", "csv"]).succeeded();
     let columns = csv.lines().next().unwrap().split(',').count();
     assert!(csv.lines().all(|line| line.split(',').count() == columns), "{csv}");
 }
@@ -127,14 +108,8 @@ fn a_boundary_lies_along_an_axis_of_elastic_energy_as_well() {
 fn a_study_without_kappa_has_none_and_says_so() {
     let place = tempfile::tempdir().unwrap();
     let study = study(place.path(), "List(path: \"roughness.rms_height\", values: [1.0e-7])");
-    let refused = asperity(&["sweep", "boundary", &study]);
-    assert_eq!(refused.status.code(), Some(1));
-    assert!(
-        told(&refused.stderr).contains("no axis `kappa` or `elastic_energy_ratio`"),
-        "{}",
-        told(&refused.stderr)
-    );
-    let wrong = asperity(&["sweep", "boundary", &study, "--level", "1.5"]);
-    assert_eq!(wrong.status.code(), Some(2));
-    assert!(told(&wrong.stderr).contains("above 0 and below 1"), "{}", told(&wrong.stderr));
+    let refused = failed(1, &["sweep", "boundary", &study]);
+    assert!(refused.contains("no axis `kappa` or `elastic_energy_ratio`"), "{refused}");
+    let wrong = failed(2, &["sweep", "boundary", &study, "--level", "1.5"]);
+    assert!(wrong.contains("above 0 and below 1"), "{wrong}");
 }

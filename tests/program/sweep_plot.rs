@@ -1,8 +1,8 @@
 //! Figures of studies, drawn by the program.
 
+use super::program::{Finished, asperity_in};
 use std::fs;
 use std::path::Path;
-use std::process::Command;
 
 const PLAN: &str = r#"(
     version: 1,
@@ -26,10 +26,8 @@ const PLAN: &str = r#"(
 )"#;
 
 fn asperity(folder: &Path, arguments: &[&str]) -> Result<String, String> {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_asperity"));
-    let output = command.current_dir(folder).args(arguments).output().unwrap();
-    let text = |bytes| String::from_utf8(bytes).unwrap();
-    if output.status.success() { Ok(text(output.stdout)) } else { Err(text(output.stderr)) }
+    let Finished { code, stdout, stderr } = asperity_in(folder, arguments);
+    if code == Some(0) { Ok(stdout) } else { Err(stderr) }
 }
 
 #[test]

@@ -2,6 +2,7 @@
 //!
 //! `PYTHON` names another interpreter than `python3`; with `NUMPY=required` NumPy and pandas have to be there.
 
+use super::program::program;
 use std::path::Path;
 use std::process::{Command, Output};
 
@@ -25,8 +26,7 @@ fn passes(folder: &Path, code: &str) {
 }
 
 fn asperity(folder: &Path, arguments: &[&str]) -> Vec<u8> {
-    let output =
-        Command::new(env!("CARGO_BIN_EXE_asperity")).args(arguments).current_dir(folder).output().unwrap();
+    let output = program().args(arguments).current_dir(folder).output().unwrap();
     assert!(output.status.success(), "{arguments:?}: {}", String::from_utf8_lossy(&output.stderr));
     output.stdout
 }

@@ -49,7 +49,6 @@ pub struct PlotArguments {
     /// Text instead of SVG; the default without FILE
     #[arg(long)]
     pub text: bool,
-    /// The file that is written.
     #[command(flatten)]
     pub output: OutputArguments,
 }

@@ -40,7 +40,6 @@ pub struct SweepRunArguments {
     /// Check the plan and print its cost, without computing
     #[arg(long)]
     pub check: bool,
-    /// Overrides of the scene of the plan.
     #[command(flatten)]
     pub overrides: Overrides,
 }

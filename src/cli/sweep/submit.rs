@@ -56,7 +56,6 @@ pub struct SubmitArguments {
     /// Print the scripts and the commands; write and submit nothing
     #[arg(long)]
     pub dry_run: bool,
-    /// Overrides of the scene of the plan.
     #[command(flatten)]
     pub overrides: Overrides,
     /// Options of sbatch for both jobs, after --

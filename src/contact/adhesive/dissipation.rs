@@ -4,7 +4,7 @@
 //! (detaches) at once. In the order of the runs the fragments inside another one follow it from right
 //! to left, so one pass with a stack meets each place of the line once for each event there.
 
-use super::edge_model::{Boundary, Edge, EdgeModel};
+use super::edge_model::{AtOnce, Boundary, Edge, EdgeModel};
 use super::run::{Ground, Run};
 use super::span::Span;
 use crate::contact::grid::CompensatedSum;
@@ -12,14 +12,6 @@ use crate::contact::grid::CompensatedSum;
 /// Terms summed side by side, and such sums before one is compensated.
 const LANES: usize = 8;
 const LONG: usize = 256;
-
-/// A stretch of the line that attaches or detaches at once, from left to right.
-#[derive(Clone, Copy, Debug)]
-pub struct AtOnce {
-    /// Indentation, m.
-    pub at: f64,
-    pub between: (Boundary, Boundary),
-}
 
 /// A fragment whose parts may still follow.
 struct Open {
@@ -49,11 +41,9 @@ impl<E: EdgeModel> Ground<'_, E> {
     /// ∫ (c − θ)² dx over the parts of the line that attach or detach on a range of a leg, in cells times m².
     pub fn squared_stretch(&self, runs: &[Run], range: Range) -> f64 {
         let (mut thirds, mut sliding) = (CompensatedSum::default(), CompensatedSum::default());
-        let slide = |lower: (&Span, f64), upper: (&Span, f64)| {
-            sliding.add(self.edges.squared_stretch_sliding(self.gaps, lower, upper));
-        };
-        self.each_change(runs, range, slide, |AtOnce { at, between }| {
-            thirds.add(self.edges.squared_stretch(self.gaps, between, at));
+        let slide = |ends| sliding.add(self.edges.squared_stretch_sliding(self.gaps, ends));
+        self.each_change(runs, range, slide, |stretch| {
+            thirds.add(self.edges.squared_stretch(self.gaps, &stretch));
         });
         sliding.add(thirds.total() / 3.0);
         if !E::SLIDES {
@@ -91,13 +81,8 @@ impl<E: EdgeModel> Ground<'_, E> {
 
     /// Levels of these spans of a run at the ends of a range, m.
     pub fn levels_of(&self, run: &Run, bottom: Span, top: Span, range: Range) -> [(Span, f64); 2] {
-        let [lower, upper] = match run.pin() {
-            Some(rise) => [bottom.gap + rise, top.gap + rise],
-            None => [
-                self.edges.level(&bottom, self.edges.length(self.gaps, &bottom), run.from.max(range.low)),
-                self.level_up_to(&top, run.to.min(range.high), range.unloading),
-            ],
-        };
+        let lower = self.level(&bottom, run.pin(), run.from.max(range.low));
+        let upper = self.level_up_to(&top, run.pin(), run.to.min(range.high), range.unloading);
         [(bottom, lower), (top, upper)]
     }
 
@@ -107,7 +92,7 @@ impl<E: EdgeModel> Ground<'_, E> {
         &self,
         runs: &[Run],
         range: Range,
-        mut slide: impl FnMut((&Span, f64), (&Span, f64)),
+        mut slide: impl FnMut([(Span, f64); 2]),
         mut jump: impl FnMut(AtOnce),
     ) {
         let Range { low, high, .. } = range;
@@ -115,7 +100,7 @@ impl<E: EdgeModel> Ground<'_, E> {
         let mut jump = |_, at_once| jump(at_once);
         for (index, run) in runs.iter().enumerate().filter(|(_, run)| run.from <= high && run.to > low) {
             let [(bottom, lower), (top, upper)] = self.ends_of(run, range);
-            slide((&bottom, lower), (&top, upper));
+            slide([(bottom, lower), (top, upper)]);
             nesting.meet(top.ends(), || upper, &mut jump);
             // A range contains its upper end only.
             let counts = run.from > low || low == f64::NEG_INFINITY;
@@ -135,14 +120,11 @@ impl<E: EdgeModel> Ground<'_, E> {
     ) {
         let mut nesting = Nesting::default();
         for (index, run) in runs.iter().enumerate() {
-            let upper = || self.level_up_to(&self.top(run), run.to.min(high), true);
+            let upper = || self.level_up_to(&self.top(run), None, run.to.min(high), true);
             nesting.meet(run.top_ends(), upper, &mut jump);
             let counts = wanted(index);
-            let bottom = || {
-                let bottom = self.bottom(run);
-                self.edges.level(&bottom, self.edges.length(self.gaps, &bottom), run.from)
-            };
-            nesting.enter((index, run.from), run.bottom, if counts { bottom() } else { f64::NAN }, counts);
+            let level = if counts { self.level(&self.bottom(run), None, run.from) } else { f64::NAN };
+            nesting.enter((index, run.from), run.bottom, level, counts);
         }
         nesting.close(&mut jump);
     }
@@ -152,32 +134,19 @@ impl<E: EdgeModel> Ground<'_, E> {
         out.clear();
         out.resize(self.gaps.len(), f64::INFINITY);
         let range = Range { low: f64::NEG_INFINITY, high: f64::INFINITY, unloading };
-        self.each_change(
-            runs,
-            range,
-            |_, _| {},
-            |AtOnce { at, between: (from, to) }| {
-                let start = match from {
-                    Boundary::Outer(edge) => edge.spring,
-                    Boundary::Part(edge) => edge.spring + 1,
-                };
-                let end = match to {
-                    Boundary::Outer(edge) => edge.spring + 1,
-                    Boundary::Part(edge) => edge.spring,
-                };
-                out[start..end.max(start)].fill(at);
-            },
-        );
+        self.each_change(runs, range, |_| {}, |stretch| out[stretch.springs()].fill(stretch.at));
         self.each_spring_of_chains(runs, unloading, |spring, at| out[spring] = at);
     }
 
     /// Level of the edges of a span at the upper end of its run or below, m.
-    pub fn level_up_to(&self, span: &Span, indentation: f64, unloading: bool) -> f64 {
-        let length = self.edges.length(self.gaps, span);
+    pub fn level_up_to(&self, span: &Span, pin: Option<f64>, indentation: f64, unloading: bool) -> f64 {
+        if let Some(rise) = pin {
+            return span.gap + rise;
+        }
         match span.wall(self.gaps).map(|wall| self.gaps[wall]) {
             // At the attachment of the wall the level is that of the wall, also after rounding.
-            Some(wall) if !unloading && indentation >= self.edges.attaches_at(span, length, wall) => wall,
-            Some(_) => self.edges.level(span, length, indentation),
+            Some(wall) if !unloading && indentation >= self.attaches_at(span, wall) => wall,
+            Some(_) => self.level(span, None, indentation),
             None => span.gap,
         }
     }

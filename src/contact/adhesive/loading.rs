@@ -1,10 +1,11 @@
 //! Loading: the indentation at which each part of the line closes, and the fragments between.
 
 use super::edge_model::EdgeModel;
+use super::levels::Levels;
 use super::run::{Ground, Held, Run};
 use super::span::{Span, larger, smaller};
 use super::tree::{Branch, Node};
-use crate::contact::{ContactError, resized};
+use crate::contact::{ContactError, push, resized};
 
 /// Margin of the bounds for rounding.
 const BELOW: f64 = 1.0 - 1e-12;
@@ -230,11 +231,9 @@ impl Closing {
                 let [begin, end] = climb.held;
                 let inside = &held[begin as usize..end as usize];
                 let middle = begin + inside.partition_point(|held| (held.first as usize) < parent) as u32;
-                branches.try_reserve(2).map_err(|_| ground.out_of_memory())?;
-                for (branch, held) in
-                    ground.tree.parts(index).into_iter().zip([[begin, middle], [middle, end]])
-                {
-                    branches.push(Climb { branch, merges, parent, held });
+                let parts = ground.tree.parts(index).into_iter().zip([[begin, middle], [middle, end]]);
+                for (branch, held) in parts {
+                    push(&mut branches, Climb { branch, merges, parent, held }, ground.gaps.len())?;
                 }
             }
         }
@@ -258,14 +257,13 @@ impl Closing {
         let mut span = Span::around(gaps, known, start.gap);
         let mut closes = start.closes;
         let listed = runs.len();
-        // The span below and its length, while its run may go on.
-        let mut below: Option<(Span, E::Length)> = None;
+        // The levels of the span below, while its run may go on.
+        let mut below: Option<Levels> = None;
         loop {
             let Some(wall) = span.wall(gaps) else {
                 *complete = closes;
                 if closes < climb.merges {
-                    runs.try_reserve(1).map_err(|_| ground.out_of_memory())?;
-                    runs.push(Run::new(climb.branch, &span, closes, climb.merges));
+                    push(runs, Run::new(climb.branch, &span, closes, climb.merges), gaps.len())?;
                 }
                 break;
             };
@@ -273,28 +271,20 @@ impl Closing {
             let mut attaches = closes;
             if need * need > square * edges.least_length(span.first, span.last) {
                 *evaluations += 1;
-                let length = edges.length(gaps, &span);
-                attaches = larger(closes, edges.attaches_at(&span, length, gaps[wall]));
+                let levels = ground.levels(&span);
+                attaches = larger(closes, edges.attaches_at(&levels, gaps[wall]));
                 let end = smaller(attaches, climb.merges);
                 if let Some(rise) = pin.take() {
-                    let released = smaller(edges.release(&span, length, rise).0, end);
-                    runs.try_reserve(1).map_err(|_| ground.out_of_memory())?;
-                    runs.push(Run::pinned(climb.branch, &span, rise, closes, released));
+                    let released = smaller(levels.release(edges.stretch(), rise).0, end);
+                    push(runs, Run::pinned(climb.branch, &span, rise, closes, released), gaps.len())?;
                     closes = released;
                 }
                 if closes < end {
                     match (runs.last_mut(), below) {
-                        (Some(run), Some((lower, of_lower)))
-                            if edges.slides_on((&lower, of_lower), (&span, length)) =>
-                        {
-                            run.raise(&span, end);
-                        }
-                        _ => {
-                            runs.try_reserve(1).map_err(|_| ground.out_of_memory())?;
-                            runs.push(Run::new(climb.branch, &span, closes, end));
-                        }
+                        (Some(run), Some(lower)) if edges.slides_on(&lower, &levels) => run.raise(&span, end),
+                        _ => push(runs, Run::new(climb.branch, &span, closes, end), gaps.len())?,
                     }
-                    below = Some((span, length));
+                    below = Some(levels);
                 } else {
                     below = None;
                 }
@@ -318,10 +308,6 @@ fn held_on(held: &[Held], [begin, end]: [u32; 2], branch: Branch) -> Option<&Hel
 }
 
 impl<E: EdgeModel> Ground<'_, E> {
-    fn out_of_memory(&self) -> ContactError {
-        ContactError::OutOfMemory { springs: self.gaps.len() }
-    }
-
     /// Squared stretch of a fragment of unit length, m², rounded down.
     fn square(&self) -> f64 {
         let stretch = self.edges.stretch();
@@ -348,8 +334,7 @@ impl<E: EdgeModel> Ground<'_, E> {
         let top = self.below(&span, parent);
         if may_rise(closes, gaps[parent], &top) {
             *evaluations += 1;
-            let attaches = self.edges.attaches_at(&top, self.edges.length(gaps, &top), gaps[parent]);
-            closes = larger(closes, attaches);
+            closes = larger(closes, self.attaches_at(&top, gaps[parent]));
         }
         if !may_rise(closes, top.gap, &span) {
             return (closes, ends);
@@ -357,8 +342,7 @@ impl<E: EdgeModel> Ground<'_, E> {
         while let Some(wall) = span.wall(gaps).filter(|&wall| wall != parent) {
             if may_rise(closes, gaps[wall], &span) {
                 *evaluations += 1;
-                let attaches = self.edges.attaches_at(&span, self.edges.length(gaps, &span), gaps[wall]);
-                closes = larger(closes, attaches);
+                closes = larger(closes, self.attaches_at(&span, gaps[wall]));
             }
             span = span.with(gaps, wall);
         }

@@ -9,7 +9,9 @@ mod curve;
 mod dissipation;
 mod edge_model;
 mod grid_edges;
+mod levels;
 mod loading;
+mod memory;
 mod reversing;
 mod run;
 mod search;
@@ -18,10 +20,11 @@ mod sub_cell_edges;
 mod tree;
 mod unloading;
 
-pub(in crate::contact) use dissipation::AtOnce;
-pub(in crate::contact) use edge_model::{Boundary, Edge};
-pub use edge_model::{EdgeCells, EdgeModel};
+pub use edge_model::EdgeModel;
+pub(in crate::contact) use edge_model::{AtOnce, Boundary, Edge};
 pub use grid_edges::GridEdges;
+pub(in crate::contact) use levels::{EdgeCells, EdgeSum, Slider};
+pub use memory::AdhesiveMemory;
 pub(in crate::contact) use run::{Ground, Held, Run};
 pub(in crate::contact) use span::Span;
 pub use sub_cell_edges::SubCellEdges;
@@ -29,33 +32,14 @@ pub use tree::ContactTree;
 use tree::TWO_THREADS;
 pub(in crate::contact) use tree::{Branch, Node};
 
-use super::contact_model::{ContactModel, ContactState, Sampled};
+use super::contact_model::{ContactModel, Reversed, SEARCH_INTERVALS};
+use super::contact_state::{ContactState, Extreme, Sampled};
 use super::grid::Grid;
-use super::{ContactError, ContactTotals, Direction, LegContact, Work};
+use super::{ContactError, ContactTotals, Direction, LegView, Work};
 use crate::parallel::in_parallel;
 use dissipation::Range;
-use loading::Closing;
 use reversing::Reversing;
 use search::Search;
-use unloading::Opening;
-
-/// Memory reused from body to body: fresh memory costs about as much as a pass.
-#[derive(Clone, Debug, Default)]
-pub struct AdhesiveMemory {
-    closing: Closing,
-    opening: Opening,
-    runs: Vec<Run>,
-    spare: Vec<Run>,
-    held: Vec<Held>,
-}
-
-impl AdhesiveMemory {
-    /// Bytes it holds on to.
-    #[must_use]
-    pub fn bytes(&self) -> usize {
-        self.closing.bytes() + size_of::<Run>() * (self.runs.capacity() + self.spare.capacity())
-    }
-}
 
 /// Springs under adhesion, loaded and unloaded leg by leg.
 pub struct Adhesive<'a, E> {
@@ -65,8 +49,6 @@ pub struct Adhesive<'a, E> {
     /// True if the present leg forms the contact.
     forms: bool,
     reversing: Reversing,
-    /// Squares of stretches on the way to and from the present turning point, m².
-    squares: [f64; 2],
 }
 
 impl<'a, E: EdgeModel> Adhesive<'a, E> {
@@ -78,7 +60,7 @@ impl<'a, E: EdgeModel> Adhesive<'a, E> {
         memory.runs.clear();
         let ground = Ground { gaps, tree, edges };
         let reversing = Reversing::default();
-        Adhesive { ground, memory, unloading: false, forms: false, reversing, squares: [0.0; 2] }
+        Adhesive { ground, memory, unloading: false, forms: false, reversing }
     }
 
     /// The line under the rule of the present leg.
@@ -95,11 +77,6 @@ impl<'a, E: EdgeModel> Adhesive<'a, E> {
 
     fn search(&self) -> Search<'_, E> {
         Search { ground: self.on_leg(), runs: &self.memory.runs, unloading: self.unloading }
-    }
-
-    /// Memory of the contact, for the next one.
-    pub(super) fn into_memory(self) -> AdhesiveMemory {
-        self.memory
     }
 
     /// The runs `spare` hold as an unloading beside the present leg.
@@ -131,22 +108,9 @@ impl<'a, E: EdgeModel> Adhesive<'a, E> {
         work.springs_tallied += opened.springs;
         Ok(opened.separates)
     }
-
-    /// Smallest compression of the unloading from first touch, m, and the work counts of the search.
-    pub(super) fn pull_off_at_touch(&mut self) -> Result<(f64, Work), ContactError> {
-        let mut work = Work { zero_load_passes: 1, ..Work::default() };
-        let separates = self.unload_aside(0.0, &mut work)?;
-        let grid = Grid::new(separates.min(0.0), 0.0, Self::SEARCH_INTERVALS);
-        let search = self.spare();
-        let leg = search.ground.sample(search.runs, true, grid)?;
-        Ok((search.smallest(&leg, &mut work.events_sorted).compression, work))
-    }
 }
 
 impl<E: EdgeModel> ContactModel for Adhesive<'_, E> {
-    // Each fragment is evaluated at each of their ends.
-    const SEARCH_INTERVALS: usize = 256;
-
     fn count(&self) -> u64 {
         self.ground.gaps.len() as u64
     }
@@ -186,28 +150,25 @@ impl<E: EdgeModel> ContactModel for Adhesive<'_, E> {
         self.reversing.begin(&loading, &self.memory.runs, turns)
     }
 
-    fn reverse(&mut self, turn: (usize, f64), work: &mut Work) -> Result<f64, ContactError> {
+    fn reverse(&mut self, turn: (usize, f64), work: &mut Work) -> Result<Reversed, ContactError> {
         work.unloading_passes += 1;
         let [loading, unloading] = [Direction::Loading, Direction::Unloading].map(|leg| self.ground.on(leg));
         if !self.ground.edges.are_pinned() {
             let (runs, evaluations) = (&self.memory.runs, &mut work.hess_evaluations);
-            let separates = self.reversing.turn([&loading, &unloading], runs, turn, evaluations)?;
-            self.squares = self.reversing.squared_stretches();
-            return Ok(separates);
+            return self.reversing.turn([&loading, &unloading], runs, turn, evaluations);
         }
         // Edges that keep their place at first have another unloading from each turning point.
         let separates = self.unload_aside(turn.1, work)?;
         let range = |unloading| Range { low: f64::NEG_INFINITY, high: turn.1, unloading };
-        self.squares = [
+        let squared_stretches = [
             loading.squared_stretch(&self.memory.runs, range(false)),
             unloading.squared_stretch(&self.memory.spare, range(true)),
         ];
-        Ok(separates)
+        Ok(Reversed { separates, squared_stretches })
     }
 
     fn sample_reversal(&self, grid: Grid) -> Result<Sampled, ContactError> {
-        let Search { ground, runs, unloading } = self.reversal();
-        ground.sample(runs, unloading, grid)
+        self.reversal().sample(grid)
     }
 
     fn smallest_of_reversal(
@@ -219,34 +180,23 @@ impl<E: EdgeModel> ContactModel for Adhesive<'_, E> {
         self.reversal().smallest_below(turn, grid, sorted)
     }
 
-    fn squared_stretches(&self) -> [f64; 2] {
-        self.squares
-    }
-
     fn sample(&self, grid: Grid) -> Result<Sampled, ContactError> {
-        self.on_leg().sample(&self.memory.runs, self.unloading, grid)
+        self.search().sample(grid)
     }
 
     fn sample_changes(&self, grid: Grid, separated: bool) -> Result<(Sampled, f64), ContactError> {
         // The springs that touch first attach at the first point itself; those held to it detach just below.
         let low = if separated { f64::NEG_INFINITY } else { grid.points()[0] };
         let range = Range { low, high: grid.high(), unloading: self.unloading };
-        let (ground, runs) = (self.on_leg(), &self.memory.runs);
-        let is_long = ground.gaps.len() >= TWO_THREADS;
-        let (sampled, squared) = in_parallel(
-            is_long,
-            || ground.sample(runs, self.unloading, grid),
-            || ground.squared_stretch(runs, range),
-        );
+        let leg = self.search();
+        let is_long = leg.ground.gaps.len() >= TWO_THREADS;
+        let (sampled, squared) =
+            in_parallel(is_long, || leg.sample(grid), || leg.ground.squared_stretch(leg.runs, range));
         Ok((sampled?, squared))
     }
 
-    fn smallest(&self, leg: &Sampled, sorted: &mut u64) -> ContactState {
-        self.search().smallest(leg, sorted)
-    }
-
-    fn largest(&self, leg: &Sampled, sorted: &mut u64) -> ContactState {
-        self.search().largest(leg, sorted)
+    fn extreme(&self, extreme: Extreme, leg: &Sampled, sorted: &mut u64) -> ContactState {
+        self.search().extreme(extreme, leg, sorted)
     }
 
     fn first_at_least(&self, leg: &Sampled, wanted: f64, sorted: &mut u64) -> Option<f64> {
@@ -261,25 +211,20 @@ impl<E: EdgeModel> ContactModel for Adhesive<'_, E> {
         self.ground.edges.indentation_of(totals, compression, &self.ground.tree.scale())
     }
 
-    fn thresholds_along_line(&self, out: &mut Vec<f64>) {
-        self.on_leg().thresholds(&self.memory.runs, self.unloading, out);
+    fn leg(&self) -> LegView<'_> {
+        LegView::of_runs(self.on_leg(), &self.memory.runs, self.unloading, self.ground.edges.are_pinned())
     }
 
-    fn copy_leg(&self, copy: &mut LegContact) -> Result<(), ContactError> {
-        let pins = self.ground.edges.are_pinned();
-        copy.keep_runs(&self.memory.runs, self.unloading, self.on_leg().edges, pins)
+    fn pull_off_at_touch(&mut self) -> Result<(f64, Work), ContactError> {
+        let mut work = Work { zero_load_passes: 1, ..Work::default() };
+        let separates = self.unload_aside(0.0, &mut work)?;
+        let grid = Grid::new(separates.min(0.0), 0.0, SEARCH_INTERVALS);
+        let search = self.spare();
+        let leg = search.sample(grid)?;
+        Ok((search.extreme(Extreme::Smallest, &leg, &mut work.events_sorted).compression, work))
     }
 
-    fn rises(&self, indentation: f64) -> Vec<f64> {
-        let pins = self.ground.edges.are_pinned();
-        let ground = self.on_leg();
-        let held = ground.held_at(&self.memory.runs, self.unloading, indentation, pins);
-        held.filter_map(|held| held.pin).collect()
-    }
-
-    fn fragments(&self, indentation: f64) -> Vec<(usize, usize)> {
-        let ground = self.on_leg();
-        let held = ground.held_at(&self.memory.runs, self.unloading, indentation, false);
-        held.map(|held| (held.first as usize, held.last as usize)).collect()
+    fn give_back(self: Box<Self>, memory: &mut AdhesiveMemory) {
+        *memory = self.memory;
     }
 }

@@ -7,12 +7,14 @@
 
 use super::dissipation::Range;
 use super::edge_model::EdgeModel;
+use super::levels::Levels;
 use super::run::{Ground, Held, Run};
 use super::span::Span;
 use super::tree::Branch;
 use super::unloading::{Descent, Opened, Part};
+use crate::contact::contact_model::Reversed;
 use crate::contact::grid::CompensatedSum;
-use crate::contact::{ContactError, reserve, resized};
+use crate::contact::{ContactError, push, reserve, resized};
 use std::mem::take;
 use std::ops::Range as Indices;
 
@@ -56,8 +58,6 @@ pub struct Reversing {
     /// Squares of stretches of what attaches up to each turning point: three times those of what attaches at once, and
     /// those of the runs that have ended there.
     attached: Vec<[CompensatedSum; 2]>,
-    /// Squares of stretches up to the present turning point, and from there on, m².
-    squares: [f64; 2],
     parts: Vec<Part>,
 }
 
@@ -83,18 +83,15 @@ impl Reversing {
         loading.each_change(
             runs,
             range,
-            |_, _| {},
-            |at_once| {
-                let squares = loading.edges.squared_stretch(loading.gaps, at_once.between, at_once.at);
-                attached[place(at_once.at)][0].add(squares);
+            |_| {},
+            |stretch| {
+                attached[place(stretch.at)][0].add(loading.edges.squared_stretch(loading.gaps, &stretch))
             },
         );
         if E::SLIDES {
             for run in runs.iter().filter(|run| run.to <= high) {
-                let [(bottom, lower), (top, upper)] = loading.ends_of(run, range);
-                let squares =
-                    loading.edges.squared_stretch_sliding(loading.gaps, (&bottom, lower), (&top, upper));
-                attached[place(run.to)][1].add(squares);
+                let ends = loading.ends_of(run, range);
+                attached[place(run.to)][1].add(loading.edges.squared_stretch_sliding(loading.gaps, ends));
             }
         } else {
             loading.each_spring_of_chains(runs, false, |spring, at| {
@@ -111,8 +108,7 @@ impl Reversing {
         Ok(())
     }
 
-    /// Goes on to the turning point of this number and lists the unloading from there, m. Returns the smallest
-    /// indentation with contact, m.
+    /// Goes on to the turning point of this number and lists the unloading from there, m.
     ///
     /// # Errors
     /// [`ContactError::OutOfMemory`].
@@ -122,7 +118,7 @@ impl Reversing {
         runs: &[Run],
         (index, at): (usize, f64),
         evaluations: &mut u64,
-    ) -> Result<f64, ContactError> {
+    ) -> Result<Reversed, ContactError> {
         std::mem::swap(&mut self.present, &mut self.before);
         self.passed = 0;
         self.present.clear();
@@ -132,31 +128,21 @@ impl Reversing {
             let span = loading.climbed(run, self.spans[number], at);
             self.spans[number] = span.ends();
             if E::SLIDES {
-                let [(bottom, lower), (top, upper)] =
-                    loading.levels_of(run, loading.bottom(run), span, range);
-                attached.add(loading.edges.squared_stretch_sliding(
-                    loading.gaps,
-                    (&bottom, lower),
-                    (&top, upper),
-                ));
+                let ends = loading.levels_of(run, loading.bottom(run), span, range);
+                attached.add(loading.edges.squared_stretch_sliding(loading.gaps, ends));
             }
             let [first, last] = span.ends();
             *evaluations += self.list(unloading, Held { branch: run.branch, first, last, pin: None }, at)?;
         }
         attached.add(thirds.total() / 3.0);
-        self.squares = [attached.total(), self.present.squared_stretch(unloading, at)];
-        Ok(self.present.runs.iter().fold(f64::INFINITY, |least, run| least.min(run.from)))
+        let squared_stretches = [attached.total(), self.present.squared_stretch(unloading, at)];
+        let separates = self.present.runs.iter().fold(f64::INFINITY, |least, run| least.min(run.from));
+        Ok(Reversed { separates, squared_stretches })
     }
 
     /// Runs of the present unloading.
     pub fn runs(&self) -> &[Run] {
         &self.present.runs
-    }
-
-    /// Σ e² over the springs that attach up to the present turning point with a stretch e, and over those that detach
-    /// from there on, m².
-    pub fn squared_stretches(&self) -> [f64; 2] {
-        self.squares
     }
 
     /// Lists the runs of one fragment at the turning point; returns the evaluations of the rule.
@@ -197,16 +183,12 @@ impl Reversing {
         }
         let span = ground.span(held.branch, ends);
         // A fragment that the turning point itself caps by a rounding is listed anew the next time.
-        let is_whole = ground.edges.holds_to(&span, ground.edges.length(ground.gaps, &span)) <= at;
+        let is_whole = ground.holds_to(&span) <= at;
         let runs = [start, self.present.runs.len()];
-        self.present.fragments.try_reserve(1).map_err(|_| out_of_memory(ground))?;
-        self.present.fragments.push(Listed { branch: held.branch, ends, runs, is_whole });
+        let listed = Listed { branch: held.branch, ends, runs, is_whole };
+        push(&mut self.present.fragments, listed, ground.gaps.len())?;
         Ok(opened.evaluations)
     }
-}
-
-fn out_of_memory<E>(ground: &Ground<'_, E>) -> ContactError {
-    ContactError::OutOfMemory { springs: ground.gaps.len() }
 }
 
 impl Unloading {
@@ -249,17 +231,17 @@ impl Unloading {
     }
 
     /// Takes over the runs of a fragment that now lies inside another one, which parts at the indentation `opens`, m;
-    /// `above` are the span around the fragment and its length, where its run may go on.
+    /// `above` are the levels of the span around the fragment, where its run may go on.
     fn graft<E: EdgeModel>(
         &mut self,
         ground: &Ground<'_, E>,
         before: &Unloading,
         listed: Listed,
         opens: f64,
-        above: Option<(Span, E::Length)>,
+        above: Option<Levels>,
     ) -> Result<(), ContactError> {
         let [start, end] = listed.runs;
-        let out_of_memory = |_| out_of_memory(ground);
+        let out_of_memory = |_| ContactError::OutOfMemory { springs: ground.gaps.len() };
         self.runs.try_reserve(end - start).map_err(out_of_memory)?;
         self.detaching.try_reserve(end - start).map_err(out_of_memory)?;
         for index in start..end {
@@ -274,11 +256,9 @@ impl Unloading {
                     detaching.slide = None;
                 }
                 run.raise(&top, opens);
-                if let (true, false, Some((upper, of_upper)), Some(last)) =
+                if let (true, false, Some(upper), Some(last)) =
                     (index == start, is_cut, above, self.runs.last_mut())
-                    && ground
-                        .edges
-                        .slides_on((&top, ground.edges.length(ground.gaps, &top)), (&upper, of_upper))
+                    && ground.edges.slides_on(&ground.levels(&top), &upper)
                 {
                     last.lower(&ground.bottom(&run), run.from);
                     if let Some(of_last) = self.detaching.last_mut() {
@@ -304,8 +284,8 @@ impl Unloading {
                 runs,
                 high,
                 |index| next.next_if(|&&wanted| wanted == index).is_some(),
-                |index, at_once| {
-                    let squares = ground.edges.squared_stretch(ground.gaps, at_once.between, at_once.at);
+                |index, stretch| {
+                    let squares = ground.edges.squared_stretch(ground.gaps, &stretch);
                     detaching[index].jump.get_or_insert_default().add(squares);
                 },
             );
@@ -325,9 +305,7 @@ impl<E: EdgeModel> Ground<'_, E> {
     fn held_below(&self, run: &Run, opens: f64) -> Span {
         let mut span = self.top(run);
         let bottom = run.branch.origin().map_or(f64::NEG_INFINITY, |node| self.tree.nodes()[node].gap);
-        while span.ends() != run.bottom
-            && self.edges.holds_to(&span, self.edges.length(self.gaps, &span)) >= opens
-        {
+        while span.ends() != run.bottom && self.holds_to(&span) >= opens {
             span = span.shrunk(self.gaps, bottom);
         }
         span
@@ -341,14 +319,9 @@ impl<E: EdgeModel> Ground<'_, E> {
                 Some((sum, _)) => sum,
                 None => {
                     let range = Range { low: f64::NEG_INFINITY, high, unloading: true };
-                    let [(bottom, lower), (upper_span, upper)] =
-                        self.levels_of(run, self.bottom(run), self.top(run), range);
+                    let ends = self.levels_of(run, self.bottom(run), self.top(run), range);
                     let mut sum = CompensatedSum::default();
-                    sum.add(self.edges.squared_stretch_sliding(
-                        self.gaps,
-                        (&bottom, lower),
-                        (&upper_span, upper),
-                    ));
+                    sum.add(self.edges.squared_stretch_sliding(self.gaps, ends));
                     // Edges of a fragment at the turning point end where the turning point is.
                     *known = (run.to < f64::INFINITY).then_some((sum, top));
                     sum
@@ -359,7 +332,7 @@ impl<E: EdgeModel> Ground<'_, E> {
         let mut span = self.span(run.branch, *ends);
         while span.ends() != top {
             let above = span.grown(self.gaps);
-            let at = self.edges.holds_to(&above, self.edges.length(self.gaps, &above));
+            let at = self.holds_to(&above);
             let spring = if above.last > span.last { above.last } else { above.first };
             let stretch = self.gaps[spring] - at;
             sum.add(stretch * stretch);

@@ -1,6 +1,7 @@
 //! Runs: the fragments of a leg, each over the range of indentations in which its edges move without a jump.
 
 use super::edge_model::EdgeModel;
+use super::levels::{Levels, Slider};
 use super::span::{Span, larger};
 use super::tree::{Branch, ContactTree};
 use crate::contact::Direction;
@@ -110,12 +111,38 @@ impl<E: EdgeModel> Ground<'_, E> {
 
     /// The edge cells of a run on one of its spans.
     #[inline]
-    pub fn slider(&self, run: &Run, span: &Span) -> E::Slider {
-        let slider = self.edges.slider(self.gaps, span);
-        match run.pin() {
-            Some(rise) => self.edges.pin(slider, rise),
-            None => slider,
-        }
+    pub fn slider(&self, run: &Run, span: &Span) -> Slider {
+        Slider::new(self.gaps, span, self.edges.stretch(), run.pin())
+    }
+
+    /// Levels of a span.
+    #[inline]
+    pub fn levels(&self, span: &Span) -> Levels {
+        self.edges.levels(self.gaps, span)
+    }
+
+    /// Smallest indentation at which a span attaches its wall of this gap, m.
+    #[inline]
+    pub fn attaches_at(&self, span: &Span, wall: f64) -> f64 {
+        self.edges.attaches_at(&self.levels(span), wall)
+    }
+
+    /// Smallest indentation at which a span holds its most stretched spring, m.
+    #[inline]
+    pub fn holds_to(&self, span: &Span) -> f64 {
+        self.edges.holds_to(&self.levels(span))
+    }
+
+    /// Level of the edges of a span at an indentation, m, pinned at a rise, m, if there is one.
+    #[inline]
+    pub fn level(&self, span: &Span, pin: Option<f64>, indentation: f64) -> f64 {
+        span.gap + self.rise(span, pin, indentation)
+    }
+
+    /// Height of this level above the largest gap, m.
+    #[inline]
+    pub fn rise(&self, span: &Span, pin: Option<f64>, indentation: f64) -> f64 {
+        pin.unwrap_or_else(|| self.edges.rise(&self.levels(span), indentation))
     }
 
     /// The same line under the rule of one direction alone.
@@ -142,9 +169,9 @@ impl<E: EdgeModel> Ground<'_, E> {
             let above = span.grown(self.gaps);
             let to = if unloading {
                 // The span above parts where this one would go on.
-                self.edges.holds_to(&above, self.edges.length(self.gaps, &above))
+                self.holds_to(&above)
             } else {
-                self.edges.attaches_at(&span, self.edges.length(self.gaps, &span), above.gap)
+                self.attaches_at(&span, above.gap)
             };
             if see(&span, from, to) {
                 return;
@@ -159,7 +186,7 @@ impl<E: EdgeModel> Ground<'_, E> {
         let mut span = self.span(run.branch, from);
         while span.ends() != run.top_ends() {
             let above = span.grown(self.gaps);
-            if indentation < self.edges.attaches_at(&span, self.edges.length(self.gaps, &span), above.gap) {
+            if indentation < self.attaches_at(&span, above.gap) {
                 break;
             }
             span = above;
@@ -190,11 +217,8 @@ impl<E: EdgeModel> Ground<'_, E> {
         runs.iter().rev().filter(move |run| run.is_at(indentation)).map(move |run| {
             let span = self.span_at(run, unloading, indentation);
             let [first, last] = span.ends();
-            let rise = || {
-                let length = self.edges.length(self.gaps, &span);
-                run.pin().unwrap_or_else(|| self.edges.rise(&span, length, indentation))
-            };
-            Held { branch: run.branch, first, last, pin: pins.then(rise) }
+            let pin = pins.then(|| self.rise(&span, run.pin(), indentation));
+            Held { branch: run.branch, first, last, pin }
         })
     }
 }

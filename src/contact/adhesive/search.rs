@@ -7,9 +7,9 @@
 use super::edge_model::EdgeModel;
 use super::run::{Ground, Run};
 use crate::contact::ContactError;
-use crate::contact::contact_model::{ContactState, Sampled};
+use crate::contact::contact_state::{ContactState, Extreme, Sampled, lower_bound, upper_bound};
 use crate::contact::grid::Grid;
-use crate::contact::interval::{Interval, Piece, lower_bound, upper_bound};
+use crate::contact::interval::{Interval, Piece};
 
 /// Points of a grid from one to the next of those that are looked at first.
 const STRIDE: usize = 16;
@@ -28,15 +28,32 @@ pub struct Search<'a, E> {
 }
 
 impl<E: EdgeModel> Search<'_, E> {
-    /// The smallest force on the range of a grid.
-    pub fn smallest(&self, leg: &Sampled, sorted: &mut u64) -> ContactState {
-        let smaller = |best: ContactState, next: &ContactState| {
-            if next.compression < best.compression { *next } else { best }
+    /// Contact along a grid.
+    pub fn sample(&self, grid: Grid) -> Result<Sampled, ContactError> {
+        self.ground.sample(self.runs, self.unloading, grid)
+    }
+
+    /// The smallest or largest force on the range of a grid.
+    pub fn extreme(&self, extreme: Extreme, leg: &Sampled, sorted: &mut u64) -> ContactState {
+        let best_of = |best: ContactState, next: &ContactState| {
+            if extreme.is_beyond(next, &best) { *next } else { best }
         };
-        let mut best = leg.states.iter().fold(leg.states[0], smaller);
-        let chosen = leg.choose(|low, high| lower_bound(low, high) < best.compression);
-        for (&index, interval) in chosen.iter().zip(&self.intervals(leg, &chosen, sorted)) {
-            interval.smallest(&interval.pieces, leg.ends(index), &mut best);
+        let is_largest = extreme == Extreme::Largest;
+        // Of equals, the smallest force is taken at its first place, the largest one at its last.
+        let mut best = if is_largest {
+            leg.states.iter().rev().fold(leg.last(), best_of)
+        } else {
+            leg.states.iter().fold(leg.first(), best_of)
+        };
+        let chosen = leg.choose(|low, high| extreme.may_lie(low, high, &best));
+        let intervals = self.intervals(leg, &chosen, sorted);
+        let mut places: Vec<usize> = (0..chosen.len()).collect();
+        if is_largest {
+            places.reverse();
+        }
+        for place in places {
+            let interval = &intervals[place];
+            interval.search(extreme, &interval.pieces, leg.ends(chosen[place]), &mut best);
         }
         best
     }
@@ -53,16 +70,16 @@ impl<E: EdgeModel> Search<'_, E> {
         let points = self.pulling(grid.points(), turn)?;
         let last = points.len() - 1;
         let coarse = (0..last).step_by(STRIDE).chain([last]).map(|index| points[index]).collect();
-        let leg = self.ground.sample(self.runs, self.unloading, Grid::at(coarse))?;
+        let leg = self.sample(Grid::at(coarse))?;
         let smallest = leg.states.iter().map(|state| state.compression).fold(f64::INFINITY, f64::min);
         let chosen = leg.choose(|low, high| lower_bound(low, high) < smallest);
         let between = |&interval: &usize| STRIDE * interval + 1..(STRIDE * (interval + 1)).min(last);
         let fine: Vec<f64> = chosen.iter().flat_map(between).map(|index| points[index]).collect();
         if fine.is_empty() {
-            return Ok(self.smallest(&leg, sorted));
+            return Ok(self.extreme(Extreme::Smallest, &leg, sorted));
         }
-        let fine = self.ground.sample(self.runs, self.unloading, Grid::at(fine))?;
-        Ok(self.smallest(&leg.merged(fine), sorted))
+        let fine = self.sample(Grid::at(fine))?;
+        Ok(self.extreme(Extreme::Smallest, &leg.merged(fine), sorted))
     }
 
     /// The points of an unloading, from separation on, beyond which the force is above zero.
@@ -84,23 +101,9 @@ impl<E: EdgeModel> Search<'_, E> {
                 break;
             }
             let at = Grid::at(vec![points[end - 1]]);
-            state = self.ground.sample(self.runs, self.unloading, at)?.states[0];
+            state = self.sample(at)?.states[0];
         }
         Ok(points)
-    }
-
-    /// The largest force on the range of a grid.
-    pub fn largest(&self, leg: &Sampled, sorted: &mut u64) -> ContactState {
-        let last = leg.states[leg.states.len() - 1];
-        let larger = |best: ContactState, next: &ContactState| {
-            if next.compression > best.compression { *next } else { best }
-        };
-        let mut best = leg.states.iter().rev().fold(last, larger);
-        let chosen = leg.choose(|low, high| upper_bound(low, high) > best.compression);
-        for (&index, interval) in chosen.iter().zip(&self.intervals(leg, &chosen, sorted)).rev() {
-            interval.largest(&interval.pieces, leg.ends(index), &mut best);
-        }
-        best
     }
 
     /// The smallest indentation of a grid, m, at which the compression is at least `wanted`.

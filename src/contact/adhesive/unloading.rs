@@ -1,10 +1,11 @@
 //! Unloading: the indentation at which each part of a contact detaches, and the fragments between.
 
 use super::edge_model::EdgeModel;
+use super::levels::Levels;
 use super::run::{Ground, Held, Run};
 use super::span::{Span, smaller};
 use super::tree::Branch;
-use crate::contact::ContactError;
+use crate::contact::{ContactError, push};
 
 /// Margin of the bounds for rounding.
 const ABOVE: f64 = 1.0 + 1e-12;
@@ -22,14 +23,14 @@ pub struct Part {
 }
 
 /// End of the way down a branch.
-pub enum Descent<L> {
+pub enum Descent {
     /// No fragment is left inside.
     Nothing,
     /// At the smallest span, which parts at an indentation (m): the parts of its node are left.
     Bottom([Option<Part>; 2]),
-    /// At a span that has been listed before, inside a fragment that parts at an indentation, m; the span above and its
-    /// length, where its run may go on.
-    Known { opens: f64, above: Option<(Span, L)> },
+    /// At a span that has been listed before, inside a fragment that parts at an indentation, m; the levels of the span
+    /// above, where its run may go on.
+    Known { opens: f64, above: Option<Levels> },
 }
 
 impl Part {
@@ -116,7 +117,7 @@ impl<E: EdgeModel> Ground<'_, E> {
         (pin, known): (Option<f64>, Option<[u32; 2]>),
         runs: &mut Vec<Run>,
         opened: &mut Opened,
-    ) -> Result<Descent<E::Length>, ContactError> {
+    ) -> Result<Descent, ContactError> {
         let Ground { gaps, tree, edges } = *self;
         let (mut first, mut last) = (part.first as usize, part.last as usize);
         let (mut opens, mut is_whole) = (part.opens, part.is_whole);
@@ -135,7 +136,7 @@ impl<E: EdgeModel> Ground<'_, E> {
         }
         let is_leaf = bottom == f64::NEG_INFINITY;
         // The span above and its length, while its run may go on.
-        let mut above: Option<(Span, E::Length)> = None;
+        let mut above: Option<Levels> = None;
         loop {
             let (left, right) = (gaps[first], gaps[last]);
             let at_bottom = if is_leaf { first == last } else { left < bottom && right <= bottom };
@@ -153,35 +154,28 @@ impl<E: EdgeModel> Ground<'_, E> {
             let mut goes_on = None;
             if is_whole || self.may_hold(gap, opens, last + 1 - first) {
                 opened.evaluations += 1;
-                let length = edges.length(gaps, &span);
-                let holds = edges.holds_to(&span, length);
+                let levels = self.levels(&span);
+                let holds = edges.holds_to(&levels);
                 if is_whole || holds < opens {
                     let mut leaves = smaller(opens, holds);
                     let mut to = if is_whole { f64::INFINITY } else { opens };
                     if let Some(rise) = pin.filter(|_| is_whole) {
-                        let (released, slides) = edges.release(&span, length, rise);
+                        let (released, slides) = levels.release(edges.stretch(), rise);
                         let released = smaller(opens, released);
                         leaves = if slides { smaller(leaves, released) } else { released };
-                        runs.try_reserve(1).map_err(|_| ContactError::OutOfMemory { springs: gaps.len() })?;
-                        runs.push(Run::pinned(part.branch, &span, rise, released, to));
+                        push(runs, Run::pinned(part.branch, &span, rise, released, to), gaps.len())?;
                         to = released;
                     }
                     match (runs.last_mut(), above) {
                         // Pinned edges run away at once.
                         _ if leaves == to => {}
-                        (Some(run), Some((upper, of_upper)))
-                            if edges.slides_on((&span, length), (&upper, of_upper)) =>
-                        {
-                            run.lower(&span, leaves);
+                        (Some(run), Some(upper)) if edges.slides_on(&levels, &upper) => {
+                            run.lower(&span, leaves)
                         }
-                        _ => {
-                            runs.try_reserve(1)
-                                .map_err(|_| ContactError::OutOfMemory { springs: gaps.len() })?;
-                            runs.push(Run::new(part.branch, &span, leaves, to));
-                        }
+                        _ => push(runs, Run::new(part.branch, &span, leaves, to), gaps.len())?,
                     }
                     // A run continues only from a level equal to the gap of the span.
-                    goes_on = (leaves == holds && leaves < to).then_some((span, length));
+                    goes_on = (leaves == holds && leaves < to).then_some(levels);
                     opened.separates = smaller(opened.separates, leaves);
                     (opens, is_whole) = (leaves, false);
                 }

@@ -1,9 +1,11 @@
 //! Energy of the springs that attach or detach under a stretch on one move.
 
 use super::fragments::{Event, Fragment};
-use crate::contact::adhesive::{AtOnce, Boundary, Edge, EdgeModel, Ground, Span};
+use crate::contact::Direction;
+use crate::contact::adhesive::{AtOnce, Boundary, Edge, EdgeModel, Ground};
 use crate::contact::grid::CompensatedSum;
 use std::collections::HashMap;
+use std::slice::from_ref;
 
 /// Squared stretches of the parts of the line that have attached or detached on a move.
 ///
@@ -11,6 +13,7 @@ use std::collections::HashMap;
 /// passes to another span. Where they only slide on, the jump has no width but that of rounding, which changes the
 /// energy by its square: a jump by a small width and a slide over the same width differ in that order alone.
 pub struct Dissipation {
+    direction: Direction,
     /// Indentation at which the move begins, m.
     from: f64,
     /// By slot, where edges slide: the level at which the fragment began to fill its span on the move, m.
@@ -22,10 +25,10 @@ pub struct Dissipation {
 }
 
 impl Dissipation {
-    /// Nothing yet on a move from an indentation, m.
-    pub fn new(from: f64) -> Self {
+    /// Nothing yet on a move in this direction from an indentation, m.
+    pub fn new(direction: Direction, from: f64) -> Self {
         let (sliding, thirds) = (CompensatedSum::default(), CompensatedSum::default());
-        Dissipation { from, levels: HashMap::new(), sliding, thirds }
+        Dissipation { direction, from, levels: HashMap::new(), sliding, thirds }
     }
 
     /// ∫ (c − θ)² dx, in cells times m².
@@ -34,120 +37,77 @@ impl Dissipation {
         self.sliding.total()
     }
 
-    /// A fragment has formed from these parts at an indentation, m.
-    pub fn attach<E: EdgeModel>(
+    /// At an indentation, m, a fragment has formed from these parts, or has detached a spring and they remain; or its
+    /// pinned edges begin to slide.
+    pub fn change<E: EdgeModel>(
         &mut self,
         ground: Ground<'_, E>,
         at: f64,
-        event: &Event,
+        Event { whole, springs }: &Event,
         parts: &[Fragment],
     ) {
-        let Fragment { slot, span, .. } = event.whole;
-        for part in parts {
-            self.slide_up(ground, part, at);
+        if *springs == 0 {
+            self.levels.extend(whole.pin.map(|rise| (whole.slot, whole.span.gap + rise)));
+            return;
         }
-        let level = level(ground, &span, at);
-        self.jump(ground, at, (&span, level), parts, |part| level_up_to(ground, part, at));
+        let (before, after) = match self.direction {
+            Direction::Loading => (parts, from_ref(whole)),
+            Direction::Unloading => (from_ref(whole), parts),
+        };
+        for fragment in before {
+            self.slide(ground, fragment, at);
+        }
+        self.jump(ground, at, whole, parts);
         if E::SLIDES {
-            for part in parts {
-                self.levels.remove(&part.slot);
+            for fragment in before {
+                self.levels.remove(&fragment.slot);
             }
-            self.levels.insert(slot, level);
+            let begin = |fragment: &Fragment| (fragment.slot, ground.level(&fragment.span, fragment.pin, at));
+            self.levels.extend(after.iter().map(begin));
         }
     }
 
-    /// A fragment has detached a spring at an indentation (m), and these parts remain.
-    pub fn detach<E: EdgeModel>(
-        &mut self,
-        ground: Ground<'_, E>,
-        at: f64,
-        event: &Event,
-        parts: &[Fragment],
-    ) {
-        let Fragment { slot, span, .. } = event.whole;
-        self.slide_down(ground, &event.whole, at);
-        self.jump(ground, at, (&span, level_down_to(ground, &event.whole, at)), parts, |part| {
-            level(ground, &part.span, at)
-        });
+    /// The edges of a fragment slide to those of an indentation, m.
+    pub fn slide<E: EdgeModel>(&mut self, ground: Ground<'_, E>, fragment: &Fragment, to: f64) {
         if E::SLIDES {
-            self.levels.remove(&slot);
-            for part in parts {
-                self.levels.insert(part.slot, level(ground, &part.span, at));
-            }
+            let begun = self.levels.get(&fragment.slot).copied();
+            let from = begun.unwrap_or_else(|| ground.level(&fragment.span, fragment.pin, self.from));
+            let to = level_at_end(self.direction, ground, fragment, to);
+            let between = match self.direction {
+                Direction::Loading => [from, to],
+                Direction::Unloading => [to, from],
+            };
+            let between = between.map(|level| (fragment.span, level));
+            self.sliding.add(ground.edges.squared_stretch_sliding(ground.gaps, between));
         }
-    }
-
-    /// The pinned edges of a fragment begin to slide.
-    pub fn release(&mut self, fragment: &Fragment) {
-        if let Some(rise) = fragment.pin {
-            self.levels.insert(fragment.slot, fragment.span.gap + rise);
-        }
-    }
-
-    /// The edges of a fragment slide up to those of an indentation, m.
-    pub fn slide_up<E: EdgeModel>(&mut self, ground: Ground<'_, E>, fragment: &Fragment, to: f64) {
-        if E::SLIDES {
-            let from = self.level_before(ground, fragment);
-            let to = level_up_to(ground, fragment, to);
-            self.slide(ground, (&fragment.span, from), (&fragment.span, to));
-        }
-    }
-
-    /// The edges of a fragment slide down to those of an indentation, m.
-    pub fn slide_down<E: EdgeModel>(&mut self, ground: Ground<'_, E>, fragment: &Fragment, to: f64) {
-        if E::SLIDES {
-            let from = self.level_before(ground, fragment);
-            let to = level_down_to(ground, fragment, to);
-            self.slide(ground, (&fragment.span, to), (&fragment.span, from));
-        }
-    }
-
-    /// Level of the edges of a fragment where its span began on this move.
-    fn level_before<E: EdgeModel>(&self, ground: Ground<'_, E>, fragment: &Fragment) -> f64 {
-        let begun = self.levels.get(&fragment.slot).copied();
-        begun.unwrap_or_else(|| level_down_to(ground, fragment, self.from))
-    }
-
-    fn slide<E: EdgeModel>(&mut self, ground: Ground<'_, E>, lower: (&Span, f64), upper: (&Span, f64)) {
-        self.sliding.add(ground.edges.squared_stretch_sliding(ground.gaps, lower, upper));
     }
 
     /// All of a fragment attaches or detaches at once, but for these parts of it.
-    fn jump<E: EdgeModel>(
-        &mut self,
-        ground: Ground<'_, E>,
-        at: f64,
-        (whole, level): (&Span, f64),
-        parts: &[Fragment],
-        level_of: impl Fn(&Fragment) -> f64,
-    ) {
-        let mut add = |AtOnce { at, between }| {
-            self.thirds.add(ground.edges.squared_stretch(ground.gaps, between, at));
+    fn jump<E: EdgeModel>(&mut self, ground: Ground<'_, E>, at: f64, whole: &Fragment, parts: &[Fragment]) {
+        let mut add = |from, to| {
+            let stretch = AtOnce { at, between: (from, to) };
+            self.thirds.add(ground.edges.squared_stretch(ground.gaps, &stretch));
         };
-        let mut from = Boundary::Outer(Edge { spring: whole.first, level });
+        let level = ground.level(&whole.span, whole.pin, at);
+        let mut from = Boundary::Outer(Edge { spring: whole.span.first, level });
         for part in parts {
-            let level = level_of(part);
-            let to = Boundary::Part(Edge { spring: part.span.first, level });
-            add(AtOnce { at, between: (from, to) });
+            let level = level_at_end(self.direction, ground, part, at);
+            add(from, Boundary::Part(Edge { spring: part.span.first, level }));
             from = Boundary::Part(Edge { spring: part.span.last, level });
         }
-        add(AtOnce { at, between: (from, Boundary::Outer(Edge { spring: whole.last, level })) });
+        add(from, Boundary::Outer(Edge { spring: whole.span.last, level }));
     }
 }
 
-/// Level of the edges of a fragment at the upper end of the range in which it fills its span or below, m.
-fn level_up_to<E: EdgeModel>(ground: Ground<'_, E>, fragment: &Fragment, indentation: f64) -> f64 {
-    let Fragment { span, pin, .. } = fragment;
-    pin.map_or_else(|| ground.level_up_to(span, indentation, false), |rise| span.gap + rise)
-}
-
-/// The same at the lower end or above.
-fn level_down_to<E: EdgeModel>(ground: Ground<'_, E>, fragment: &Fragment, indentation: f64) -> f64 {
-    let Fragment { span, pin, .. } = fragment;
-    pin.map_or_else(|| level(ground, span, indentation), |rise| span.gap + rise)
-}
-
-/// Level of the edges of a span at an indentation, m.
-fn level<E: EdgeModel>(ground: Ground<'_, E>, span: &Span, indentation: f64) -> f64 {
-    ground.edges.level(span, ground.edges.length(ground.gaps, span), indentation)
+/// Level of the edges of a fragment at an indentation up to the end of the range in which it fills its span, m.
+fn level_at_end<E: EdgeModel>(
+    direction: Direction,
+    ground: Ground<'_, E>,
+    Fragment { span, pin, .. }: &Fragment,
+    at: f64,
+) -> f64 {
+    match direction {
+        Direction::Loading => ground.level_up_to(span, *pin, at, false),
+        Direction::Unloading => ground.level(span, *pin, at),
+    }
 }

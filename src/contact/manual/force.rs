@@ -2,22 +2,16 @@
 
 use super::fragments::Fragment;
 use super::{Course, Manual};
-use crate::contact::adhesive::{EdgeModel, Ground};
+use crate::contact::adhesive::{EdgeModel, Ground, Slider};
 use crate::contact::steady::SteadyContact;
 
 impl<E: EdgeModel> Manual<E> {
     /// The present contact, as it is up to the next event.
     pub(super) fn steady(&self) -> SteadyContact<E> {
         let Ground { gaps, tree, edges } = self.contact.ground();
-        let sliders = if E::SLIDES {
-            let slider = |Fragment { span, pin, .. }: Fragment| {
-                let slider = edges.slider(gaps, &span);
-                pin.map_or(slider, |rise| edges.pin(slider, rise))
-            };
-            self.contact.fragments().map(slider).collect()
-        } else {
-            Vec::new()
-        };
+        let fragments = self.contact.fragments().take_while(|_| E::SLIDES);
+        let slider = |Fragment { span, pin, .. }| Slider::new(gaps, &span, edges.stretch(), pin);
+        let sliders = fragments.map(slider).collect();
         SteadyContact { edges, scale: tree.scale(), totals: self.contact.totals(), sliders }
     }
 
@@ -26,22 +20,22 @@ impl<E: EdgeModel> Manual<E> {
     pub(super) fn press_to_compression(&mut self, course: &mut Course, wanted: f64) -> Option<f64> {
         // Nothing touches below d = 0.
         let mut from = if self.is_separated() { self.indentation.max(0.0) } else { self.indentation };
-        self.press(course, from);
+        self.proceed(course, |next| next <= from);
         loop {
             let contact = self.steady();
             if contact.compression(from) >= wanted {
                 return Some(from);
             }
-            let Some(to) = self.contact.attaches_next() else { break };
+            let Some(to) = self.contact.next_event() else { break };
             if let Some(found) = contact.rises_to((from, to), wanted) {
                 if found < to {
                     return Some(found);
                 }
-                self.press(course, to);
+                self.proceed(course, |next| next <= to);
                 return Some(if self.steady().compression(to) >= wanted { to } else { to.next_down() });
             }
             from = to;
-            self.press(course, from);
+            self.proceed(course, |next| next <= from);
         }
         // Everything is in contact.
         Some(self.beyond(from, wanted)).filter(|indentation| indentation.is_finite())
@@ -57,8 +51,8 @@ impl<E: EdgeModel> Manual<E> {
         }
         loop {
             // Below `to` only the springs held further are in contact.
-            self.pull(course, |holds| holds >= to);
-            let Some(from) = self.contact.detaches_next() else { return Err(smallest) };
+            self.proceed(course, |next| next >= to);
+            let Some(from) = self.contact.next_event() else { return Err(smallest) };
             match self.steady().falls_to((from, to.next_down().max(from)), wanted) {
                 Ok(found) => return Ok(found),
                 Err(compression) => smallest = smallest.min(compression),

@@ -193,8 +193,7 @@ impl<E: EdgeModel> FragmentSet<E> {
 
     /// Height of the level of the edges of a fragment above its largest gap at an indentation, m.
     fn rise(&self, Fragment { span, pin, .. }: &Fragment, indentation: f64) -> f64 {
-        let Ground { gaps, edges, .. } = self.ground();
-        pin.unwrap_or_else(|| edges.rise(span, edges.length(gaps, span), indentation))
+        self.ground().rise(span, *pin, indentation)
     }
 
     /// The same of all fragments where edges can be pinned, in their order along the line.
@@ -220,21 +219,27 @@ impl<E: EdgeModel> FragmentSet<E> {
         &self.parts
     }
 
-    /// Smallest indentation at which the next spring attaches, m.
+    /// Indentation of the next event in the present direction, m: the smallest one at which a spring attaches, or the
+    /// smallest one at which nothing in contact has detached.
     #[inline]
-    pub fn attaches_next(&self) -> Option<f64> {
-        self.attaching.first().map(|(_, key)| key)
+    pub fn next_event(&self) -> Option<f64> {
+        match self.direction {
+            Direction::Loading => self.attaching.first().map(|(_, key)| key),
+            Direction::Unloading => self.detaching.first().map(|(_, key)| -key),
+        }
     }
 
-    /// Smallest indentation at which nothing in contact has detached, m.
-    #[inline]
-    pub fn detaches_next(&self) -> Option<f64> {
-        self.detaching.first().map(|(_, key)| -key)
+    /// Makes this event happen.
+    pub fn change(&mut self) -> Option<Event> {
+        match self.direction {
+            Direction::Loading => self.attach(),
+            Direction::Unloading => self.detach(),
+        }
     }
 
     /// Attaches the next spring: a free leaf or the wall of a fragment. Where the wall is the node above the branch
     /// of the fragment, all of its subtree, no gap of which is larger, becomes one fragment.
-    pub fn attach(&mut self) -> Option<Event> {
+    fn attach(&mut self) -> Option<Event> {
         let (slot, _) = self.attaching.first()?;
         let before = self.totals;
         self.parts.clear();
@@ -304,14 +309,14 @@ impl<E: EdgeModel> FragmentSet<E> {
     /// Detaches the next spring, the most stretched one of a fragment: an outermost one as long as the fragment fills
     /// more than the lowest span of its branch, then that of the node from which the branch begins, between its two
     /// parts.
-    pub fn detach(&mut self) -> Option<Event> {
+    fn detach(&mut self) -> Option<Event> {
         let (slot, _) = self.detaching.first()?;
         let Slot::Fragment(held) = self.slots[slot] else { return None };
         self.parts.clear();
         let whole = self.fragment(slot, held);
         let span = whole.span;
         if let Some(rise) = held.pin {
-            let (_, slides) = self.opening.release(&span, self.opening.length(&self.gaps, &span), rise);
+            let (_, slides) = self.opening.levels(&self.gaps, &span).release(self.opening.stretch(), rise);
             if slides {
                 return Some(self.release(slot, held));
             }
@@ -438,17 +443,14 @@ impl<E: EdgeModel> FragmentSet<E> {
             Slot::Fragment(held) => {
                 let span = self.span(held);
                 let (closing, opening) = (self.closing, self.opening);
-                let length = opening.length(&self.gaps, &span);
+                let levels = opening.levels(&self.gaps, &span);
                 let wall = span.wall(&self.gaps).map(|wall| self.gaps[wall]);
                 let (attaches, holds) = match held.pin {
                     Some(rise) => {
-                        let released = |edges: E| edges.release(&span, length, rise).0;
+                        let released = |edges: E| levels.release(edges.stretch(), rise).0;
                         (wall.map(|_| released(closing)), released(opening))
                     }
-                    None => (
-                        wall.map(|wall| closing.attaches_at(&span, length, wall)),
-                        opening.holds_to(&span, length),
-                    ),
+                    None => (wall.map(|wall| closing.attaches_at(&levels, wall)), opening.holds_to(&levels)),
                 };
                 // A slot with a fragment must not seem empty, however far it holds.
                 (attaches.unwrap_or(NEVER), (-holds).min(f64::MAX))

@@ -15,10 +15,12 @@ mod fragments;
 mod start;
 mod winner_tree;
 
-use super::adhesive::{ContactTree, EdgeModel, Ground};
+use super::adhesive::{ContactTree, EdgeModel};
+use super::leg_plan::plan;
 use super::{ContactError, CurvePoint, Direction, Foundation};
+use crate::scene::Leg;
 use dissipation::Dissipation;
-use fragments::{Event, FragmentSet};
+use fragments::FragmentSet;
 use std::collections::HashMap;
 use std::sync::Arc;
 use thiserror::Error;
@@ -162,9 +164,8 @@ impl<E: EdgeModel> Manual<E> {
     ) -> Result<Self, ManualError> {
         let indentation = finite(indentation)?;
         let known: HashMap<_, _> = fragments.iter().copied().zip(rises.iter().copied()).collect();
-        let contact = FragmentSet::new(gaps, tree, edges, fragments, |Ground { gaps, edges, .. }, span| {
-            let rise = known.get(&(span.first, span.last)).copied();
-            rise.unwrap_or_else(|| edges.rise(span, edges.length(gaps, span), indentation))
+        let contact = FragmentSet::new(gaps, tree, edges, fragments, |ground, span| {
+            ground.rise(span, known.get(&(span.first, span.last)).copied(), indentation)
         })?;
         Ok(Manual { contact, foundation, indentation })
     }
@@ -184,43 +185,24 @@ impl<E: EdgeModel> Manual<E> {
             springs: 0,
             events: 0,
             touched_before,
-            dissipation: adheres.then(|| Dissipation::new(self.indentation)),
+            dissipation: adheres.then(|| Dissipation::new(direction, self.indentation)),
         }
     }
 
-    /// Attaches all that attaches up to this indentation.
-    fn press(&mut self, course: &mut Course, indentation: f64) {
-        while let Some(attaches) = self.contact.attaches_next().filter(|&attaches| attaches <= indentation) {
-            // A fragment attaches nothing before it has formed.
-            course.level = course.level.max(attaches);
-            let Some(event) = self.contact.attach() else { break };
-            course.count(&event);
+    /// Attaches or detaches one spring after the other, as long as `goes_on` says so of the indentation at which the
+    /// next one attaches, or to which it is held, m.
+    fn proceed(&mut self, course: &mut Course, goes_on: impl Fn(f64) -> bool) {
+        while let Some(next) = self.contact.next_event().filter(|&next| goes_on(next)) {
+            // A fragment attaches nothing before it has formed, and a part detaches nothing before the whole has.
+            course.level = match course.direction {
+                Direction::Loading => course.level.max(next),
+                Direction::Unloading => course.level.min(next),
+            };
+            let Some(event) = self.contact.change() else { break };
+            course.springs += event.springs;
+            course.events += u64::from(event.springs > 0);
             if let Some(dissipation) = &mut course.dissipation {
-                match event.springs {
-                    0 => dissipation.release(&event.whole),
-                    _ => {
-                        dissipation.attach(self.contact.ground(), course.level, &event, self.contact.parts())
-                    }
-                }
-            }
-        }
-    }
-
-    /// Detaches, one by one, the most stretched springs, as long as `detaches` says so of the indentation to which the
-    /// next one is held.
-    fn pull(&mut self, course: &mut Course, detaches: impl Fn(f64) -> bool) {
-        while let Some(holds) = self.contact.detaches_next().filter(|&holds| detaches(holds)) {
-            // A part can detach nothing before the whole has.
-            course.level = course.level.min(holds);
-            let Some(event) = self.contact.detach() else { break };
-            course.count(&event);
-            if let Some(dissipation) = &mut course.dissipation {
-                match event.springs {
-                    0 => dissipation.release(&event.whole),
-                    _ => {
-                        dissipation.detach(self.contact.ground(), course.level, &event, self.contact.parts())
-                    }
-                }
+                dissipation.change(self.contact.ground(), course.level, &event, self.contact.parts());
             }
         }
     }
@@ -232,104 +214,88 @@ impl<E: EdgeModel> Manual<E> {
         if let Some(dissipation) = course.dissipation.as_mut().filter(|_| E::SLIDES) {
             for fragment in self.contact.fragments() {
                 touched += 1;
-                match course.direction {
-                    Direction::Loading => {
-                        dissipation.slide_up(self.contact.ground(), &fragment, indentation);
-                    }
-                    Direction::Unloading => {
-                        dissipation.slide_down(self.contact.ground(), &fragment, indentation);
-                    }
-                }
+                dissipation.slide(self.contact.ground(), &fragment, indentation);
             }
         }
         let squared_stretch = course.dissipation.map_or(0.0, Dissipation::squared_stretch);
         let energy = 0.5 * self.foundation.spring_stiffness() * squared_stretch;
         let Course { springs, events, .. } = course;
-        match course.direction {
-            Direction::Loading => Move {
-                attaches: springs,
-                detaches: 0,
-                events,
-                touched,
-                // Not −0 where nothing attached under a stretch.
-                dissipated_energy: 0.0 - energy,
-            },
-            Direction::Unloading => {
-                Move { attaches: 0, detaches: springs, events, touched, dissipated_energy: energy }
-            }
-        }
+        let (attaches, detaches, dissipated_energy) = match course.direction {
+            // Not −0 where nothing attached under a stretch.
+            Direction::Loading => (springs, 0, 0.0 - energy),
+            Direction::Unloading => (0, springs, energy),
+        };
+        Move { attaches, detaches, events, touched, dissipated_energy }
     }
 
     /// Presses until the force is at least this, or pulls until it is at most this, and returns the way there with its
     /// indentation; `None` where the force is this already. The move has not ended.
     fn find_force(&mut self, force: f64) -> Result<Option<(Course, f64)>, ManualError> {
-        let here = self.point();
         let stiffness = self.foundation.spring_stiffness();
-        // As forces: the division by the stiffness may miss the compression the force came from.
-        if self.is_separated() || force > here.force {
-            let mut course = self.begin(Direction::Loading);
-            let to = self.press_to_compression(&mut course, force / stiffness);
-            Ok(Some((course, to.ok_or(ManualError::OutOfReach { force })?)))
-        } else if force < here.force {
-            let mut course = self.begin(Direction::Unloading);
-            let to = self.pull_to_compression(&mut course, force / stiffness);
-            let detaches = |smallest| ManualError::DetachesBefore { force, smallest: stiffness * smallest };
-            Ok(Some((course, to.map_err(detaches)?)))
-        } else {
-            Ok(None)
-        }
+        let Some(direction) = self.direction(Leg::ToForce(force))? else { return Ok(None) };
+        let mut course = self.begin(direction);
+        let to = match direction {
+            Direction::Loading => {
+                let to = self.press_to_compression(&mut course, force / stiffness);
+                to.ok_or(ManualError::OutOfReach { force })?
+            }
+            Direction::Unloading => {
+                let to = self.pull_to_compression(&mut course, force / stiffness);
+                to.map_err(|smallest| ManualError::DetachesBefore { force, smallest: stiffness * smallest })?
+            }
+        };
+        Ok(Some((course, to)))
     }
 
-    /// A force for a move: a finite one, and none that pulls where nothing touches.
-    fn allowed(&self, force: f64) -> Result<f64, ManualError> {
+    /// Direction of a leg from here; `None` where it ends here.
+    fn direction(&self, leg: Leg) -> Result<Option<Direction>, ManualError> {
+        let planned = plan(leg, self.point(), 0).map_err(|error| match error {
+            ContactError::NothingToPull { force, .. } => ManualError::NothingToPull { force },
+            other => ManualError::Contact(other),
+        })?;
+        Ok(planned.map(|(direction, _)| direction))
+    }
+
+    /// Moves to a force, or `stays` and finds out if it can be reached.
+    fn try_force(&mut self, force: f64, stays: bool) -> Result<Move, ManualError> {
         let force = finite(force)?;
-        if self.is_separated() && force < 0.0 { Err(ManualError::NothingToPull { force }) } else { Ok(force) }
+        let before = self.contact.totals();
+        self.contact.keep_journal();
+        let moved = match self.find_force(force) {
+            Ok(Some((course, to))) if !stays => Ok(self.end(course, to)),
+            found => {
+                self.contact.take_back(before);
+                found.map(|_| Move::default())
+            }
+        };
+        self.contact.drop_journal();
+        moved
     }
 }
 
 impl<E: EdgeModel> ManualLoading for Manual<E> {
     fn move_to_indentation(&mut self, indentation: f64) -> Result<Move, ManualError> {
-        let indentation = finite(indentation)?;
-        if indentation > self.indentation || (self.is_separated() && indentation >= 0.0) {
-            let mut course = self.begin(Direction::Loading);
-            self.press(&mut course, indentation);
-            Ok(self.end(course, indentation))
-        } else if indentation < self.indentation {
-            let mut course = self.begin(Direction::Unloading);
-            self.pull(&mut course, |holds| holds > indentation);
-            Ok(self.end(course, indentation))
-        } else {
-            // Another zero is no other place.
-            Ok(Move::default())
-        }
+        let leg = Leg::ToIndentation(finite(indentation)?);
+        let Some(direction) = self.direction(leg)? else { return Ok(Move::default()) };
+        let mut course = self.begin(direction);
+        self.proceed(&mut course, |next| match direction {
+            Direction::Loading => next <= indentation,
+            Direction::Unloading => next > indentation,
+        });
+        Ok(self.end(course, indentation))
     }
 
     fn move_to_force(&mut self, force: f64) -> Result<Move, ManualError> {
-        let force = self.allowed(force)?;
-        let before = self.contact.totals();
-        self.contact.keep_journal();
-        let found = self.find_force(force);
-        if found.is_err() {
-            self.contact.take_back(before);
-        }
-        let moved = found.map(|way| way.map_or_else(Move::default, |(course, to)| self.end(course, to)));
-        self.contact.drop_journal();
-        moved
+        self.try_force(force, false)
     }
 
     fn check_force(&mut self, force: f64) -> Result<(), ManualError> {
-        let force = self.allowed(force)?;
-        let before = self.contact.totals();
-        self.contact.keep_journal();
-        let found = self.find_force(force).map(drop);
-        self.contact.take_back(before);
-        self.contact.drop_journal();
-        found
+        self.try_force(force, true).map(drop)
     }
 
     fn separate(&mut self) -> Move {
         let mut course = self.begin(Direction::Unloading);
-        self.pull(&mut course, |_| true);
+        self.proceed(&mut course, |_| true);
         let end = course.level;
         self.end(course, end)
     }
@@ -357,13 +323,6 @@ struct Course {
     touched_before: u64,
     /// `None` where nothing is stretched.
     dissipation: Option<Dissipation>,
-}
-
-impl Course {
-    fn count(&mut self, event: &Event) {
-        self.springs += event.springs;
-        self.events += u64::from(event.springs > 0);
-    }
 }
 
 fn finite(value: f64) -> Result<f64, ManualError> {

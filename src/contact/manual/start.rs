@@ -1,7 +1,7 @@
 //! The spans that fragments can fill within any set of springs.
 
 use crate::contact::adhesive::Span;
-use crate::contact::{ContactError, reserve};
+use crate::contact::{ContactError, push, reserve};
 
 /// The largest spans, all of whose neighbours have larger gaps, within these runs of springs, given by first and last
 /// spring in any order; springs beyond the line are left out. They ascend along the line.
@@ -34,22 +34,19 @@ pub fn whole_spans(gaps: &[f64], runs: &[(usize, usize)]) -> Result<Vec<Span>, C
 /// Parts a run at the springs whose own spans reach beyond it: those above all between them and an end of the run and
 /// the spring beyond. Among equal gaps the leftmost counts as the largest.
 fn part(gaps: &[f64], (first, last): (usize, usize), spans: &mut Vec<Span>) -> Result<(), ContactError> {
-    let out_of_memory = |_| ContactError::OutOfMemory { springs: gaps.len() };
     let mut highest = first.checked_sub(1).map_or(f64::INFINITY, |before| gaps[before]);
     let mut reaching: Vec<usize> = Vec::new();
     for (spring, &gap) in gaps.iter().enumerate().take(last + 1).skip(first) {
         if gap > highest {
             highest = gap;
-            reaching.try_reserve(1).map_err(out_of_memory)?;
-            reaching.push(spring);
+            push(&mut reaching, spring, gaps.len())?;
         }
     }
     highest = gaps.get(last + 1).copied().unwrap_or(f64::INFINITY);
     for spring in (first..=last).rev() {
         if gaps[spring] >= highest {
             highest = gaps[spring];
-            reaching.try_reserve(1).map_err(out_of_memory)?;
-            reaching.push(spring);
+            push(&mut reaching, spring, gaps.len())?;
         }
     }
     reaching.sort_unstable();
@@ -58,8 +55,7 @@ fn part(gaps: &[f64], (first, last): (usize, usize), spans: &mut Vec<Span>) -> R
     for end in reaching.into_iter().chain([last + 1]) {
         if start < end {
             let gap = gaps[start..end].iter().copied().fold(0.0, f64::max);
-            spans.try_reserve(1).map_err(out_of_memory)?;
-            spans.push(Span { gap, first: start, last: end - 1 });
+            push(spans, Span { gap, first: start, last: end - 1 }, gaps.len())?;
         }
         start = end + 1;
     }

@@ -1,10 +1,9 @@
 //! Letters of pictures that are made of pixels: outlines of two fonts, the same on every machine.
 
 use super::canvas::set;
-use super::png::PngError;
 use crate::draw::label::{Face as Set, Label};
 use tiny_skia::{Path, PathBuilder, Transform};
-use ttf_parser::{Face, OutlineBuilder};
+use ttf_parser::{Face, FaceParsingError, OutlineBuilder};
 
 /// Latin, Greek, Cyrillic and mathematical characters; see LICENSE beside the files.
 const SANS: &[u8] = include_bytes!("font/sans.ttf");
@@ -23,7 +22,7 @@ impl Font {
     ///
     /// # Errors
     /// Where the outlines cannot be read.
-    pub(super) fn sans() -> Result<Font, PngError> {
+    pub(super) fn sans() -> Result<Font, FaceParsingError> {
         Font::read(SANS)
     }
 
@@ -31,13 +30,12 @@ impl Font {
     ///
     /// # Errors
     /// Where the outlines cannot be read.
-    pub(crate) fn mono() -> Result<Font, PngError> {
+    pub(crate) fn mono() -> Result<Font, FaceParsingError> {
         Font::read(MONO)
     }
 
-    fn read(file: &'static [u8]) -> Result<Font, PngError> {
-        let failed = |error: ttf_parser::FaceParsingError| PngError::Encoding(error.to_string());
-        Ok(Font { face: Face::parse(file, 0).map_err(failed)? })
+    fn read(file: &'static [u8]) -> Result<Font, FaceParsingError> {
+        Ok(Font { face: Face::parse(file, 0)? })
     }
 
     /// Outlines of a label, the base line at y = 0 from x = 0 on, with their width. A character that the font does not

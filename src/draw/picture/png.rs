@@ -38,6 +38,12 @@ pub enum PngError {
     Encoding(String),
 }
 
+impl From<ttf_parser::FaceParsingError> for PngError {
+    fn from(error: ttf_parser::FaceParsingError) -> Self {
+        PngError::Encoding(error.to_string())
+    }
+}
+
 /// A picture as pixels, drawn in px.
 pub(crate) struct Pixels(Pixmap);
 

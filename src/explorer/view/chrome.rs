@@ -334,7 +334,7 @@ fn footer_items(model: &Model) -> Vec<(String, &'static str)> {
 /// the present mode has; what changes what is seen; the rest.
 fn rank(row: &Binding, model: &Model) -> u8 {
     match row.command.name {
-        "help" | "quit" => 0,
+        "help" | "close-help" | "quit" => 0,
         _ if model.manual.is_some() && keys::is_manual(row) => 1,
         _ if !row.modes.contains(&ModeKind::Explore) => 1,
         "next-pane" | "toggle-chart" | "open-library" | "save" | "pin" | "open-palette" => 2,

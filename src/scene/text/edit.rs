@@ -3,7 +3,6 @@
 use std::ops::Range;
 
 use super::outline::{Entry, Text};
-use super::scan::comment_end;
 
 const NOT_ONE_VALUE: &str = "not one RON value by itself, such as 1.0e-3 or (1, 512)";
 
@@ -48,7 +47,7 @@ impl Text<'_> {
             Some(anchor) => {
                 let after = anchor.comma.unwrap_or(anchor.span.value.end);
                 let next = entries.iter().map(|entry| entry.span.entry.start).find(|start| *start >= after);
-                edits_after(self.text, anchor, after..next.unwrap_or(inside.end), &entry)
+                self.edits_after(anchor, after..next.unwrap_or(inside.end), &entry)
             }
         };
         let path = if group.is_empty() { name.to_string() } else { format!("{group}.{name}") };
@@ -106,8 +105,36 @@ impl Text<'_> {
     /// The line break before an entry, where nothing else but comments is on its line; `gap` is the stretch behind it.
     fn line_of_its_own(&self, start: usize, gap: Range<usize>) -> Option<usize> {
         let line_break = start - indentation(self.text, start)?.len() - 1;
-        line_break_in(self.text, gap)?;
+        self.line_break_in(gap)?;
         Some(if self.text[..line_break].ends_with('\r') { line_break - 1 } else { line_break })
+    }
+
+    /// Edits that put an entry after another one, written in the same way: on a line of its own, after the comment on the
+    /// line before, or on the same line.
+    fn edits_after(&self, anchor: &Entry, gap: Range<usize>, new: &str) -> Vec<(Range<usize>, String)> {
+        let comma = if anchor.comma.is_some() { "," } else { "" };
+        let at = |offset: usize, text: String| (offset..offset, text);
+        let own_line = indentation(self.text, anchor.span.entry.start);
+        match (own_line, self.line_break_in(gap.clone())) {
+            (Some(indentation), Some(end)) => {
+                let newline = if self.text[..end].ends_with('\r') { "\r\n" } else { "\n" };
+                let end = end + 1 - newline.len();
+                let missing_comma = if anchor.comma.is_some() { "" } else { "," };
+                vec![
+                    at(anchor.span.value.end, missing_comma.into()),
+                    at(end, format!("{newline}{indentation}{new}{comma}")),
+                ]
+            }
+            _ if anchor.comma.is_some() => vec![at(gap.start, format!(" {new},"))],
+            _ => vec![at(gap.start, format!(", {new}"))],
+        }
+    }
+
+    /// The first line break in a stretch of blanks and comments that is not inside a block comment.
+    fn line_break_in(&self, gap: Range<usize>) -> Option<usize> {
+        let mut breaks = self.text[gap.clone()].match_indices('\n').map(|(at, _)| gap.start + at);
+        let is_outside = |at: &usize| !self.comments.iter().any(|comment| comment.contains(at));
+        breaks.find(is_outside)
     }
 }
 
@@ -118,49 +145,11 @@ fn checked(text: String, path: &str, value: &str) -> Result<String, String> {
     if is_whole { Ok(text) } else { Err(NOT_ONE_VALUE.into()) }
 }
 
-/// Edits that put an entry after another one, written in the same way: on a line of its own, after the comment on the
-/// line before, or on the same line.
-fn edits_after(text: &str, anchor: &Entry, gap: Range<usize>, new: &str) -> Vec<(Range<usize>, String)> {
-    let comma = if anchor.comma.is_some() { "," } else { "" };
-    let at = |offset: usize, text: String| (offset..offset, text);
-    let own_line = indentation(text, anchor.span.entry.start);
-    match (own_line, line_break_in(text, gap.clone())) {
-        (Some(indentation), Some(end)) => {
-            let newline = if text[..end].ends_with('\r') { "\r\n" } else { "\n" };
-            let end = end + 1 - newline.len();
-            let missing_comma = if anchor.comma.is_some() { "" } else { "," };
-            vec![
-                at(anchor.span.value.end, missing_comma.into()),
-                at(end, format!("{newline}{indentation}{new}{comma}")),
-            ]
-        }
-        _ if anchor.comma.is_some() => vec![at(gap.start, format!(" {new},"))],
-        _ => vec![at(gap.start, format!(", {new}"))],
-    }
-}
-
 /// The blanks before a byte that is the first of its line but for them; `None` on the first line.
 fn indentation(text: &str, offset: usize) -> Option<&str> {
     let line = text[..offset].rfind('\n')? + 1;
     let before = &text[line..offset];
     before.chars().all(|c| matches!(c, ' ' | '\t')).then_some(before)
-}
-
-/// The first line break in a stretch of blanks and comments that is not inside a block comment.
-fn line_break_in(text: &str, gap: Range<usize>) -> Option<usize> {
-    let mut at = gap.start;
-    while at < gap.end {
-        if let Some(end) = comment_end(text, at).ok()? {
-            at = end;
-            continue;
-        }
-        let c = text[at..].chars().next()?;
-        if c == '\n' {
-            return Some(at);
-        }
-        at += c.len_utf8();
-    }
-    None
 }
 
 /// Applies edits that do not overlap.

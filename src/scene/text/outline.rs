@@ -6,7 +6,7 @@
 
 use std::ops::Range;
 
-use super::scan::{Bracket, Kind, Token, Unreadable, comments, tokens};
+use super::scan::{Kind, Scan, Token, Unreadable, scan};
 
 /// Place of an entry, in bytes of the text.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -51,6 +51,8 @@ pub(in crate::scene) fn is_within(path: &str, other: &str) -> bool {
 pub struct Text<'t> {
     pub(super) text: &'t str,
     tokens: Vec<Token>,
+    /// Bytes of the comments.
+    pub(super) comments: Vec<Range<usize>>,
 }
 
 /// The inside of two brackets: the indices of their tokens.
@@ -79,12 +81,25 @@ impl<'t> Text<'t> {
     /// # Errors
     /// A bracket, quote or comment that does not close.
     pub fn new(text: &'t str) -> Result<Text<'t>, Unreadable> {
-        Ok(Text { text, tokens: tokens(text)? })
+        let Scan { tokens, comments } = scan(text)?;
+        Ok(Text { text, tokens, comments })
     }
 
     /// Place of the entry at a path.
     pub fn span(&self, path: &str) -> Option<Span> {
         self.entry(path).map(|entry| entry.span)
+    }
+
+    /// Place of the entry at a path, or of the nearest group around it.
+    fn nearest(&self, path: &str) -> Option<Span> {
+        let mut around =
+            std::iter::successors(Some(path), |path| path.rsplit_once('.').map(|(group, _)| group));
+        around.find_map(|path| self.span(path))
+    }
+
+    /// First byte of the value at a path, or of the nearest group around it.
+    pub(in crate::scene) fn nearest_value(&self, path: &str) -> Option<usize> {
+        self.nearest(path).map(|span| span.value.start).or_else(|| self.opening(""))
     }
 
     /// The value at a path as it is written, with any `Some(…)` around it.
@@ -113,7 +128,7 @@ impl<'t> Text<'t> {
 
     /// Number of comments.
     pub(in crate::scene) fn comments(&self) -> usize {
-        comments(self.text, &self.tokens).len()
+        self.comments.len()
     }
 
     /// Comments about the entries at these paths: behind an entry on its last line, and on lines of their own above it.
@@ -122,22 +137,17 @@ impl<'t> Text<'t> {
         &self,
         paths: impl Iterator<Item = &'p str>,
     ) -> Vec<Range<usize>> {
-        let comments = comments(self.text, &self.tokens);
-        let mut about = vec![false; comments.len()];
+        let mut about = vec![false; self.comments.len()];
         for path in paths {
-            let around =
-                std::iter::successors(Some(path), |path| path.rsplit_once('.').map(|(group, _)| group));
-            let Some(entry) = around.filter_map(|path| self.span(path)).map(|span| span.entry).next() else {
-                continue;
-            };
-            for (comment, about) in comments.iter().zip(&mut about) {
+            let Some(Span { entry, .. }) = self.nearest(path) else { continue };
+            for (comment, about) in self.comments.iter().zip(&mut about) {
                 let between = self.text.get(entry.end..comment.start);
                 *about |= between.is_some_and(|between| !between.contains('\n'));
             }
             // From the entry upwards.
             let line_start = |at: usize| self.text[..at].rfind('\n').map_or(0, |line_break| line_break + 1);
             let mut line = line_start(entry.start);
-            for (comment, about) in comments.iter().zip(&mut about).rev() {
+            for (comment, about) in self.comments.iter().zip(&mut about).rev() {
                 let is_above = comment.end <= line && self.text[comment.end..line].trim().is_empty();
                 let is_alone = self.text[line_start(comment.start)..comment.start].trim().is_empty();
                 if is_above && is_alone {
@@ -145,19 +155,24 @@ impl<'t> Text<'t> {
                 }
             }
         }
-        comments.into_iter().zip(about).filter_map(|(comment, about)| about.then_some(comment)).collect()
+        let chosen = self.comments.iter().zip(about).filter(|(_, about)| *about);
+        chosen.map(|(comment, _)| comment.clone()).collect()
     }
 
     /// The elements of a text that is one list, as they are written; `None` for any other value.
     pub(in crate::scene) fn elements(&self) -> Option<Vec<&'t str>> {
-        let body = self.body("").filter(|_| self.text.starts_with('[') && self.is_one_value())?;
-        self.entries(body).map(|entry| self.text.get(entry.span.value)).collect()
+        self.whole('[')?.map(|entry| self.text.get(entry.span.value)).collect()
     }
 
     /// The names of the fields of a text that is one group; `None` for any other value.
     pub(in crate::scene) fn names(&self) -> Option<Vec<&'t str>> {
-        let body = self.body("").filter(|_| self.text.starts_with('(') && self.is_one_value())?;
-        self.entries(body).map(|entry| entry.name).collect()
+        self.whole('(')?.map(|entry| entry.name).collect()
+    }
+
+    /// The entries of a text that is one value and opens with this bracket.
+    fn whole(&self, bracket: char) -> Option<impl Iterator<Item = Entry<'t>>> {
+        let body = self.body("").filter(|_| self.text.starts_with(bracket) && self.is_one_value())?;
+        Some(self.entries(body))
     }
 
     /// The text is one value and nothing else.
@@ -246,7 +261,7 @@ impl<'t> Text<'t> {
                 return Some(index);
             }
             index += 1;
-            if let Some(Token { kind: Kind::Open(Bracket::Square, close), .. }) = self.tokens.get(index) {
+            if let Some(Token { kind: Kind::Open('[', close), .. }) = self.tokens.get(index) {
                 index = close + 1;
             }
         }
@@ -258,7 +273,7 @@ impl<'t> Text<'t> {
             Kind::Open(_, close) => Some(close + 1),
             Kind::Quoted => Some(first + 1),
             Kind::Word => match self.tokens.get(first + 1) {
-                Some(Token { kind: Kind::Open(Bracket::Round, close), .. }) => Some(close + 1),
+                Some(Token { kind: Kind::Open('(', close), .. }) => Some(close + 1),
                 _ => Some(first + 1),
             },
             Kind::Close | Kind::Comma | Kind::Colon => None,
@@ -270,8 +285,8 @@ impl<'t> Text<'t> {
         let first = self.inside_some(first);
         let open = if self.is(first, Kind::Word) { first + 1 } else { first };
         match self.tokens.get(open)?.kind {
-            Kind::Open(Bracket::Round, close) => Some(Body { open, close }),
-            Kind::Open(Bracket::Square, close) if open == first => Some(Body { open, close }),
+            Kind::Open('(', close) => Some(Body { open, close }),
+            Kind::Open('[', close) if open == first => Some(Body { open, close }),
             _ => None,
         }
     }
@@ -280,7 +295,7 @@ impl<'t> Text<'t> {
     fn inside_some(&self, first: usize) -> usize {
         let mut first = first;
         while self.word(first) == Some("Some")
-            && matches!(self.tokens.get(first + 1), Some(Token { kind: Kind::Open(Bracket::Round, _), .. }))
+            && matches!(self.tokens.get(first + 1), Some(Token { kind: Kind::Open('(', _), .. }))
             // With the extension that unwraps variants, `Some(work: 0.1)` is a struct itself.
             && !self.is(first + 3, Kind::Colon)
         {

@@ -5,19 +5,11 @@
 
 use std::ops::Range;
 
-/// Kinds of brackets.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Bracket {
-    Round,
-    Square,
-    Curly,
-}
-
 /// Kinds of tokens.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Kind {
     /// An opening bracket, with the index of the token that closes it.
-    Open(Bracket, usize),
+    Open(char, usize),
     Close,
     Comma,
     Colon,
@@ -44,26 +36,36 @@ pub struct Unreadable {
     pub reason: &'static str,
 }
 
-/// The tokens of a text whose brackets match.
-pub(super) fn tokens(text: &str) -> Result<Vec<Token>, Unreadable> {
-    let mut tokens: Vec<Token> = Vec::new();
-    let mut open: Vec<(usize, Bracket)> = Vec::new();
-    let mut at = skip_blank(text, 0)?;
+/// Tokens of a text, and the bytes of the comments between them.
+#[derive(Debug, Default)]
+pub(super) struct Scan {
+    pub(super) tokens: Vec<Token>,
+    pub(super) comments: Vec<Range<usize>>,
+}
+
+/// White space of RON.
+const BLANKS: [char; 11] =
+    [' ', '\t', '\n', '\r', '\x0B', '\x0C', '\u{85}', '\u{200E}', '\u{200F}', '\u{2028}', '\u{2029}'];
+
+/// Reads a text whose brackets match.
+pub(super) fn scan(text: &str) -> Result<Scan, Unreadable> {
+    let Scan { mut tokens, mut comments } = Scan::default();
+    let mut open: Vec<(usize, char)> = Vec::new();
+    let mut at = skip_blank(text, 0, &mut comments)?;
     while let Some(c) = text[at..].chars().next() {
         let start = at;
         let fail = |reason| Err(Unreadable { offset: start, reason });
         at += c.len_utf8();
         let kind = match c {
             '(' | '[' | '{' => {
-                let bracket = bracket(c);
-                open.push((tokens.len(), bracket));
-                Kind::Open(bracket, 0)
+                open.push((tokens.len(), c));
+                Kind::Open(c, 0)
             }
             ')' | ']' | '}' => {
-                let Some((opener, _)) = open.pop().filter(|(_, expected)| *expected == bracket(c)) else {
+                let Some((opener, bracket)) = open.pop().filter(|(_, bracket)| closing(*bracket) == c) else {
                     return fail("this bracket closes nothing");
                 };
-                tokens[opener].kind = Kind::Open(bracket(c), tokens.len());
+                tokens[opener].kind = Kind::Open(bracket, tokens.len());
                 Kind::Close
             }
             ',' => Kind::Comma,
@@ -81,70 +83,35 @@ pub(super) fn tokens(text: &str) -> Result<Vec<Token>, Unreadable> {
             },
         };
         tokens.push(Token { kind, start, end: at });
-        at = skip_blank(text, at)?;
+        at = skip_blank(text, at, &mut comments)?;
     }
     match open.last() {
         Some((opener, _)) => {
             Err(Unreadable { offset: tokens[*opener].start, reason: "this bracket is not closed" })
         }
-        None => Ok(tokens),
+        None => Ok(Scan { tokens, comments }),
     }
 }
 
-/// Bytes of the comments of a text with these tokens.
-pub(super) fn comments(text: &str, tokens: &[Token]) -> Vec<Range<usize>> {
-    let starts = tokens.iter().map(|token| token.start).chain([text.len()]);
-    let ends = [0].into_iter().chain(tokens.iter().map(|token| token.end));
-    let mut comments = Vec::new();
-    // Between tokens there is nothing else but white space.
-    for (from, to) in ends.zip(starts) {
-        let mut at = from;
-        while let Some(next) = text.get(at..to).and_then(|part| part.chars().next()) {
-            match comment_end(text, at) {
-                Ok(Some(end)) => {
-                    comments.push(at..end);
-                    at = end.max(at + 1);
-                }
-                _ => at += next.len_utf8(),
-            }
-        }
-    }
-    comments
-}
-
-fn bracket(c: char) -> Bracket {
-    match c {
-        '(' | ')' => Bracket::Round,
-        '[' | ']' => Bracket::Square,
-        _ => Bracket::Curly,
+fn closing(bracket: char) -> char {
+    match bracket {
+        '(' => ')',
+        '[' => ']',
+        _ => '}',
     }
 }
 
-/// White space of RON.
-fn is_blank(c: char) -> bool {
-    matches!(
-        c,
-        ' ' | '\t'
-            | '\n'
-            | '\r'
-            | '\x0B'
-            | '\x0C'
-            | '\u{85}'
-            | '\u{200E}'
-            | '\u{200F}'
-            | '\u{2028}'
-            | '\u{2029}'
-    )
-}
-
-/// The first byte at or after `at` that is neither white space nor comment.
-pub(super) fn skip_blank(text: &str, at: usize) -> Result<usize, Unreadable> {
+/// The first byte at or after `at` that is neither white space nor comment. Comments on the way are added.
+fn skip_blank(text: &str, at: usize, comments: &mut Vec<Range<usize>>) -> Result<usize, Unreadable> {
     let mut at = at;
     loop {
         let rest = &text[at..];
-        let next = at + rest.find(|c| !is_blank(c)).unwrap_or(rest.len());
+        let next = at + rest.find(|c| !BLANKS.contains(&c)).unwrap_or(rest.len());
         match comment_end(text, next)? {
-            Some(end) => at = end,
+            Some(end) => {
+                comments.push(next..end);
+                at = end;
+            }
             None => return Ok(next),
         }
     }
@@ -152,7 +119,7 @@ pub(super) fn skip_blank(text: &str, at: usize) -> Result<usize, Unreadable> {
 
 /// The end of the comment that starts at this byte, if one does: for `//` the byte of the line
 /// break, for `/* */` the byte after it. Block comments nest.
-pub(super) fn comment_end(text: &str, at: usize) -> Result<Option<usize>, Unreadable> {
+fn comment_end(text: &str, at: usize) -> Result<Option<usize>, Unreadable> {
     let rest = &text[at..];
     if rest.starts_with("//") {
         return Ok(Some(at + rest.find('\n').unwrap_or(rest.len())));
@@ -219,7 +186,7 @@ fn word_end(text: &str, at: usize) -> usize {
     let rest = &text[at..];
     let mut characters = rest.char_indices().skip(1);
     let end = characters.find(|(_, c)| {
-        is_blank(*c) || matches!(c, '(' | ')' | '[' | ']' | '{' | '}' | ',' | ':' | '"' | '\'' | '/')
+        BLANKS.contains(c) || matches!(c, '(' | ')' | '[' | ']' | '{' | '}' | ',' | ':' | '"' | '\'' | '/')
     });
     at + end.map_or(rest.len(), |(end, _)| end)
 }
@@ -229,7 +196,7 @@ mod tests {
     use super::*;
 
     fn words(text: &str) -> Vec<&str> {
-        tokens(text).unwrap().into_iter().map(|token| &text[token.start..token.end]).collect()
+        scan(text).unwrap().tokens.into_iter().map(|token| &text[token.start..token.end]).collect()
     }
 
     #[test]
@@ -241,15 +208,16 @@ mod tests {
     #[test]
     fn comments_are_counted_wherever_they_stand() {
         let text = "// one\n( /* two /* within */ */ a: \"// no\", // three\n// four\n) /* five */";
-        let comments = |text: &str| super::comments(text, &tokens(text).unwrap()).len();
+        let comments = |text: &str| scan(text).unwrap().comments.len();
         assert_eq!((comments(text), comments(""), comments("(a: 1)")), (5, 0, 0));
     }
 
     #[test]
     fn strings_hide_what_is_in_them() {
         let text = r####"("a\"),(", r#"b"),("#, r"c\", 'd', '\'', ''', b"e)", br##"f"#)"##, b'g', r#h)"####;
-        let quoted: Vec<_> = tokens(text)
+        let quoted: Vec<_> = scan(text)
             .unwrap()
+            .tokens
             .into_iter()
             .filter(|token| token.kind == Kind::Quoted)
             .map(|token| &text[token.start..token.end])
@@ -272,10 +240,10 @@ mod tests {
 
     #[test]
     fn brackets_know_their_partners() {
-        let tokens = tokens("([()])").unwrap();
-        assert_eq!(tokens[0].kind, Kind::Open(Bracket::Round, 5));
-        assert_eq!(tokens[1].kind, Kind::Open(Bracket::Square, 4));
-        assert_eq!(tokens[2].kind, Kind::Open(Bracket::Round, 3));
+        let tokens = scan("([()])").unwrap().tokens;
+        assert_eq!(tokens[0].kind, Kind::Open('(', 5));
+        assert_eq!(tokens[1].kind, Kind::Open('[', 4));
+        assert_eq!(tokens[2].kind, Kind::Open('(', 3));
     }
 
     #[test]
@@ -283,14 +251,14 @@ mod tests {
         for (text, offset) in
             [("(a", 0), ("a)", 1), ("(]", 1), ("a \"b", 2), ("a /* /* */", 2), ("r#\"x\"", 0), ("(')", 1)]
         {
-            assert_eq!(tokens(text).unwrap_err().offset, offset, "{text}");
+            assert_eq!(scan(text).unwrap_err().offset, offset, "{text}");
         }
     }
 
     #[test]
     fn depth_does_not_matter() {
         let deep = "(".repeat(500_000) + &")".repeat(500_000);
-        assert_eq!(tokens(&deep).unwrap().len(), 1_000_000);
-        assert!(tokens(&"[".repeat(1_000_000)).is_err());
+        assert_eq!(scan(&deep).unwrap().tokens.len(), 1_000_000);
+        assert!(scan(&"[".repeat(1_000_000)).is_err());
     }
 }

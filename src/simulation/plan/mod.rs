@@ -13,9 +13,6 @@ use table::TABLE;
 pub use call::StageCost;
 pub use table::Stage;
 
-/// Resident bytes of the program that has computed a small scene: code, tables and stacks.
-const PROGRAM: u64 = 14 << 20;
-
 /// A stage, whether a scene calls for it, and what it then costs.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct PlannedStage {
@@ -39,13 +36,17 @@ pub struct Plan {
     /// and the curves it leaves. The content of a measured file is not known here and comes on top, 16 bytes for
     /// each of its points, and so do lists of fragments.
     pub peak_bytes: u64,
-    /// The same with the program itself: about the largest resident memory of `asperity run`, bytes.
+    /// About the largest resident memory of `asperity run`, bytes: with the program itself, and without the heights of
+    /// roughness, in whose memory a single scene makes its gaps.
     pub resident_bytes: u64,
     /// All stages, those that are skipped as well.
     pub stages: Vec<PlannedStage>,
 }
 
 impl Plan {
+    /// Resident bytes of the program that has computed a small scene: code, tables and stacks.
+    pub const PROGRAM: u64 = 14 << 20;
+
     /// The plan of a checked scene.
     #[must_use]
     pub fn of(scene: &Scene) -> Self {
@@ -59,9 +60,10 @@ impl Plan {
             PlannedStage { stage: row.stage, runs, because, cost }
         });
         let stages = stages.into();
-        let mut plan = Plan { springs: call.springs, peak_bytes: 0, resident_bytes: PROGRAM, stages };
-        plan.peak_bytes = plan.peak_of(&call);
-        plan.resident_bytes += plan.peak_bytes;
+        let mut plan = Plan { springs: call.springs, peak_bytes: 0, resident_bytes: Plan::PROGRAM, stages };
+        let heights = if call.is_rough() { HEIGHT * call.points } else { 0 };
+        plan.peak_bytes = plan.peak_of(&call, heights);
+        plan.resident_bytes += plan.peak_of(&call, 0);
         plan
     }
 
@@ -80,9 +82,9 @@ impl Plan {
         HEIGHT * self.springs + self.bytes(Stage::Synthesis).max(self.bytes(Stage::MeasuredProfile))
     }
 
-    /// The line is made before the contact is solved: what the larger of both takes.
-    fn peak_of(&self, call: &Call<'_>) -> u64 {
-        let kept = if call.is_rough() { HEIGHT * call.points } else { 0 };
+    /// The line is made before the contact is solved: what the larger of both takes, with so many bytes kept of the line
+    /// beside its gaps.
+    fn peak_of(&self, call: &Call<'_>, kept: u64) -> u64 {
         let contact = [
             Stage::Tree,
             Stage::LoadingPass,

@@ -2,7 +2,7 @@
 
 use super::*;
 use asperity::analysis::Figures;
-use asperity::contact::{LegContact, Stepwise, Work};
+use asperity::contact::{AdhesiveMemory, LegContact, Stepwise, Work};
 use asperity::scene::{Document, Scene};
 use asperity::simulation::{Outcome, Simulation, Timings};
 use std::sync::Arc;
@@ -40,7 +40,7 @@ proptest! {
             }
             for (copy, expected) in copies.iter().zip(&expected) {
                 for (&probe, expected) in probes.iter().zip(expected) {
-                    prop_assert_eq!(&copy.fragments_at(probe, &body.gaps, tree), expected, "at {}", probe);
+                    prop_assert_eq!(&copy.view(&body.gaps, tree).fragments(probe), expected, "at {}", probe);
                 }
             }
         }
@@ -67,9 +67,12 @@ proptest! {
         let mut before = one.on(&trees[0], samples);
         let mut fresh = other.on(&trees[1], samples);
         legs.iter().for_each(|leg| drop(before.advance(*leg)));
-        let rule = GridEdges::new(HessRule::new(other.foundation, other.work));
-        let memory = before.into_memory();
-        let mut again = exact::adhesive_in(memory, &other.gaps, &trees[1], rule, other.foundation, samples);
+        let mut memory = AdhesiveMemory::default();
+        before.give_back(&mut memory);
+        let adhesion = Some((HessRule::new(other.foundation, other.work), &trees[1]));
+        let mut again =
+            Exact::new(&mut memory, &other.gaps, adhesion, Edges::Grid, other.foundation, samples);
+        prop_assert_eq!(memory.bytes(), 0);
         for leg in legs {
             prop_assert_eq!(again.advance(leg), fresh.advance(leg));
         }

@@ -1,0 +1,121 @@
+//! Contact at one indentation and along a grid of indentations, and bounds of the force between two of them.
+
+use super::grid::Grid;
+use super::totals::ContactTotals;
+use super::{CurvePoint, Foundation};
+
+/// Contact state at one indentation.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct ContactState {
+    /// d, m.
+    pub indentation: f64,
+    /// Springs in contact.
+    pub springs: i64,
+    /// Fragments they form.
+    pub fragments: i64,
+    /// Contact length in units of the distance between springs.
+    pub length: f64,
+    /// Compression ∫ (d − c) dx in units of that distance, m: the force in units of the stiffness of one spring.
+    pub compression: f64,
+}
+
+impl ContactState {
+    /// Nothing in contact at this indentation, m.
+    pub fn free(indentation: f64) -> Self {
+        ContactState { indentation, ..ContactState::default() }
+    }
+
+    /// The point of the curve on this foundation.
+    pub fn point(&self, foundation: Foundation) -> CurvePoint {
+        CurvePoint {
+            indentation: self.indentation,
+            force: foundation.spring_stiffness() * self.compression,
+            contact_length: foundation.contact_length(self.length),
+            springs: self.springs.unsigned_abs(),
+            fragments: self.fragments.unsigned_abs(),
+        }
+    }
+}
+
+/// Contact at each point of a grid, at least one.
+pub struct Sampled {
+    pub grid: Grid,
+    /// Totals of the full springs or cells at each point.
+    pub totals: Vec<ContactTotals>,
+    pub states: Vec<ContactState>,
+}
+
+impl Sampled {
+    /// The points of both grids, which have none in common.
+    pub fn merged(self, other: Sampled) -> Sampled {
+        let both = [self, other].into_iter();
+        let mut points: Vec<_> = both.flat_map(|leg| leg.states.into_iter().zip(leg.totals)).collect();
+        points.sort_by(|(one, _), (other, _)| one.indentation.total_cmp(&other.indentation));
+        let grid = Grid::at(points.iter().map(|(state, _)| state.indentation).collect());
+        let (states, totals) = points.into_iter().unzip();
+        Sampled { grid, totals, states }
+    }
+
+    /// State at the lowest indentation.
+    pub fn first(&self) -> ContactState {
+        self.states[0]
+    }
+
+    /// State at the highest indentation.
+    pub fn last(&self) -> ContactState {
+        self.states[self.states.len() - 1]
+    }
+
+    /// The intervals of the grid for which the contact at their ends allows it.
+    pub fn choose(&self, may_lie: impl Fn(&ContactState, &ContactState) -> bool) -> Vec<usize> {
+        let ends = self.states.windows(2).enumerate();
+        ends.filter(|(_, ends)| may_lie(&ends[0], &ends[1])).map(|(index, _)| index).collect()
+    }
+
+    /// Contact at the ends of an interval of the grid.
+    pub fn ends(&self, interval: usize) -> (&ContactState, &ContactState) {
+        (&self.states[interval], &self.states[interval + 1])
+    }
+}
+
+/// The smallest or the largest force.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Extreme {
+    Smallest,
+    Largest,
+}
+
+impl Extreme {
+    /// Returns true for a contact with a smaller or a larger force than another one.
+    pub fn is_beyond(self, state: &ContactState, best: &ContactState) -> bool {
+        match self {
+            Extreme::Smallest => state.compression < best.compression,
+            Extreme::Largest => state.compression > best.compression,
+        }
+    }
+
+    /// Returns true where the bounds of the force between two indentations allow one beyond the best.
+    pub fn may_lie(self, low: &ContactState, high: &ContactState, best: &ContactState) -> bool {
+        match self {
+            Extreme::Smallest => lower_bound(low, high) < best.compression,
+            Extreme::Largest => upper_bound(low, high) > best.compression,
+        }
+    }
+}
+
+/// A bound below any force between two indentations.
+pub fn lower_bound(low: &ContactState, high: &ContactState) -> f64 {
+    let rise = (high.indentation - low.indentation) * high.length;
+    high.compression - rise - slack(low, high, rise)
+}
+
+/// A bound above.
+pub fn upper_bound(low: &ContactState, high: &ContactState) -> f64 {
+    let rise = (high.indentation - low.indentation) * high.length;
+    low.compression + rise + slack(low, high, rise)
+}
+
+/// Bound of the rounding of a bound.
+fn slack(low: &ContactState, high: &ContactState, rise: f64) -> f64 {
+    8.0 * f64::EPSILON * (low.compression.abs() + high.compression.abs() + rise)
+}
