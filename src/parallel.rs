@@ -1,9 +1,10 @@
 //! Computations side by side. None sees another, so their results do not depend on the threads that they run on.
 
 use std::cell::Cell;
+use std::num::NonZero;
 use std::panic::resume_unwind;
 use std::sync::{Mutex, PoisonError};
-use std::thread::{Builder, Scope, ScopedJoinHandle, scope};
+use std::thread::{Builder, Scope, ScopedJoinHandle, available_parallelism, scope};
 
 thread_local! {
     /// True if this thread is one of as many as there are cores.
@@ -30,6 +31,23 @@ pub(crate) fn begin_threads<'scope>(
         Builder::new().spawn_scoped(scope, || on_this_thread(work)).is_ok()
     };
     (0..count).filter(|_| begin()).count()
+}
+
+/// Number of threads that work of this thread may be shared among: one for each core, or this one alone.
+pub(crate) fn threads() -> usize {
+    if ONE_OF_MANY.get() { 1 } else { available_parallelism().map_or(1, NonZero::get) }
+}
+
+/// Does `work` for each item, side by side.
+pub(crate) fn for_each_in_parallel<T: Send>(items: &mut [T], work: &(impl Fn(&mut T) + Sync)) {
+    match items {
+        [] => {}
+        [one] => work(one),
+        _ => {
+            let (some, others) = items.split_at_mut(items.len() / 2);
+            in_parallel(true, || for_each_in_parallel(some, work), || for_each_in_parallel(others, work));
+        }
+    }
 }
 
 /// Does both, the first on a thread of its own if that is `worth` it, the system gives one and the thread begins first.

@@ -38,10 +38,6 @@ pub enum CliError {
     /// An option with a format that cannot hold what the option asks for.
     #[error("{what}: {allowed}")]
     NotInFormat { what: &'static str, allowed: &'static str },
-    #[error(
-        "--scene: a scene does not hold {option}; allowed: one file, --unit, --detrend, --periodic, --continue-to"
-    )]
-    LostInScene { option: &'static str },
     #[error(transparent)]
     Measured(#[from] MeasuredHashError),
     #[error(transparent)]

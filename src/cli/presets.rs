@@ -121,11 +121,11 @@ fn of_file(file: &str) -> Result<Document, String> {
 /// Error of the measured surface that a scene names, with its place in the scene.
 fn profile_error(document: &Document) -> Option<String> {
     let scene = document.scene();
-    let files: Vec<_> = scene.measured_files().into_iter().map(|file| document.resolve(file)).collect();
-    if files.is_empty() {
+    let faces = scene.measured_paths(&document.resolve(""));
+    if faces.is_empty() {
         return None;
     }
-    let error = match MeasuredRoughness::read(&files, &measured_options(scene), &mut |_| ()) {
+    let error = match MeasuredRoughness::read(&faces, &measured_options(scene), &mut |_| ()) {
         Err(error) => error.to_string(),
         Ok(measured) => measured.check(scene.length, scene.numerics.points as usize).err()?,
     };

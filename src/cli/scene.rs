@@ -1,11 +1,10 @@
 //! Scene of a command, and its overrides.
 
 use super::CliError;
+use crate::parallel;
 use crate::scene::{Document, Scene, open_argument};
 use crate::simulation::{Outcome, Simulation};
 use clap::Args;
-use std::num::NonZero;
-use std::thread::available_parallelism;
 
 /// Most random profiles of a scene.
 pub(super) const MOST_LINES: i64 = 1_000_000;
@@ -62,7 +61,7 @@ pub(super) fn compute(document: &Document, scene: &Scene) -> Result<Outcome, Cli
 
 /// Threads that share many lines: as many as are asked for, or one for each core.
 pub(super) fn threads(asked: Option<u16>) -> usize {
-    asked.map_or_else(|| available_parallelism().map_or(1, NonZero::get), usize::from)
+    asked.map_or_else(parallel::threads, usize::from)
 }
 
 fn path_and_value(text: &str) -> Result<(String, String), String> {

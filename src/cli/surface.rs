@@ -3,20 +3,21 @@
 use super::scene::{MOST_LINES, threads};
 use super::{CliError, Format, OutputArguments};
 use crate::export::{
-    Spectra, SurfaceAdhesion, SurfaceContact, SurfaceFile, surface_text, write_surface_json,
-    write_surface_table,
+    MeasuredFace, Spectra, SurfaceAdhesion, SurfaceContact, SurfaceFile, SurfaceReport, write_surface_table,
 };
-use crate::io::{check_writable, write_new};
+use crate::io::{check_writable, hexadecimal, write_new};
 use crate::scene::{
-    Adhesion, Document, Leg, MOST_POINTS, Material, MeasuredHash, MeasuredHashError, Numerics, Provenance,
-    Roughness, SCENE_VERSIONS, Scene, exact_quantity, named_from, parse_quantity,
+    Adhesion, Document, Leg, MOST_POINTS, Material, MeasuredHash, Numerics, Provenance, Roughness,
+    SCENE_VERSIONS, Scene, exact_quantity, named_from, parse_quantity,
 };
-use crate::spectrum::{Analysis, Detrend, End, Options, SpectrumError, analyse};
+use crate::simulation::measured_roughness_options;
+use crate::spectrum::{Analysis, Detrend, Options, analyse};
 use crate::study::MeasuredAdhesion;
 use crate::surface::EquivalentLine;
 use crate::text::path_name;
-use crate::topography::{Missing, ReadOptions, Topography, Unit, read};
+use crate::topography::Unit;
 use clap::{Args, ValueEnum};
+use sha2::{Digest, Sha256};
 use std::error::Error;
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -27,6 +28,7 @@ Examples:
   asperity surface stylus.txt --unit um --modulus 2.7MPa --work 50mJ/m^2
   asperity surface afm.gwy --modulus 2.7MPa --work 50mJ/m^2 --preload 1mN --lines 100
   asperity surface a.x3p b.x3p c.x3p --format json -o surface.json
+  asperity surface one.sdf --opposite other.sdf --modulus 2.7MPa --work 50mJ/m^2
   asperity surface profile.csv --unit um -o spectra.csv
   asperity surface afm.gwy --tip-radius 10nm -o spectra.svg
   asperity surface profile.csv --unit um --modulus 2.7MPa --work 50mJ/m^2 --scene rough.ron
@@ -49,6 +51,9 @@ pub struct SurfaceArguments {
     /// Files of profiles or maps
     #[arg(required = true, value_name = "FILE")]
     pub files: Vec<PathBuf>,
+    /// Measured surface of the opposite face: the spectra of both faces add
+    #[arg(long, value_name = "FILE")]
+    pub opposite: Option<PathBuf>,
     /// Options of the readers.
     #[command(flatten)]
     pub reading: ReadingArguments,
@@ -64,7 +69,7 @@ pub struct SurfaceArguments {
     pub format: Option<Format>,
     /// Write a scene with the equivalent line to FILE; needs --modulus
     ///
-    /// The scene names the surface and holds --unit, --detrend, --periodic and --continue-to.
+    /// The scene names the files and holds all options of their reading and analysis.
     #[arg(long, value_name = "FILE", requires = "modulus", verbatim_doc_comment)]
     pub scene: Option<PathBuf>,
     /// Work of adhesion, as 50mJ/m^2: gives κ, e_el/γ, F_a; needs --modulus
@@ -111,6 +116,12 @@ pub struct ReadingArguments {
     /// Number of the channel of files with several
     #[arg(long, value_name = "NUMBER")]
     pub channel: Option<u32>,
+    /// Row of maps that is the profile, from 1 on
+    #[arg(long, value_name = "NUMBER", conflicts_with = "column", value_parser = clap::value_parser!(u64).range(1..))]
+    pub row: Option<u64>,
+    /// Column of maps that is the profile, from 1 on
+    #[arg(long, value_name = "NUMBER", value_parser = clap::value_parser!(u64).range(1..))]
+    pub column: Option<u64>,
 }
 
 /// Analysis of surfaces.
@@ -151,37 +162,14 @@ pub enum DetrendArgument {
 /// Formats of the results: text, one object with everything, and the spectra.
 const FORMATS: &[Format] = &[Format::Text, Format::Json, Format::Csv, Format::Npy, Format::Svg, Format::Png];
 
-impl ReadingArguments {
-    fn options(&self) -> ReadOptions {
-        ReadOptions {
-            unit: self.unit,
-            height_unit: self.height_unit,
-            convention: None,
-            spacing: self.spacing,
-            missing: if self.interpolate { Missing::Interpolate } else { Missing::Refuse },
-            channel: self.channel,
-        }
-    }
-
-    fn read(&self, file: &Path) -> Result<Topography, CliError> {
-        let refused = |error| CliError::named(path_name(file), error);
-        let surface = read(file, &self.options()).map_err(refused)?;
-        if self.resample { surface.resampled().map_err(refused) } else { Ok(surface) }
-    }
-}
-
 impl AnalysisArguments {
-    fn options(&self) -> Options {
-        Options {
-            detrend: match self.detrend {
-                DetrendArgument::None => Detrend::None,
-                DetrendArgument::Mean => Detrend::Mean,
-                DetrendArgument::Tilt => Detrend::Tilt,
-                DetrendArgument::Curvature => Detrend::Curvature,
-            },
-            periodic: self.periodic,
-            end: self.continue_to.map_or(End::Ends, |length| End::Continues(std::f64::consts::TAU / length)),
-            tip_radius: self.tip_radius,
+    /// Part that is removed; `None` for the tilt, which is removed unless something else is chosen.
+    fn detrend(&self) -> Option<Detrend> {
+        match self.detrend {
+            DetrendArgument::None => Some(Detrend::None),
+            DetrendArgument::Mean => Some(Detrend::Mean),
+            DetrendArgument::Tilt => None,
+            DetrendArgument::Curvature => Some(Detrend::Curvature),
         }
     }
 }
@@ -198,6 +186,8 @@ impl SurfaceArguments {
             ("--height-unit", unit(reading.height_unit)),
             ("--spacing", length(reading.spacing)),
             ("--channel", reading.channel.map(|channel| channel.to_string())),
+            ("--row", reading.row.map(|row| row.to_string())),
+            ("--column", reading.column.map(|column| column.to_string())),
             ("--detrend", detrend),
             ("--continue-to", length(analysis.continue_to)),
         ];
@@ -209,21 +199,81 @@ impl SurfaceArguments {
         let options =
             options.into_iter().filter_map(|(name, value)| Some([name.to_owned(), value?])).flatten();
         let flags = flags.into_iter().filter(|(_, is_given)| *is_given).map(|(name, _)| name.to_owned());
-        let destination = self.output.folder();
-        let file = |file: &PathBuf| named_from(&file.to_string_lossy(), &self.folder, destination);
-        options.chain(flags).chain(["--".to_owned()]).chain(self.files.iter().map(file)).collect()
+        let opposite = self.opposite.iter().flat_map(|file| ["--opposite".to_owned(), self.in_table(file)]);
+        let files = self.files.iter().map(|file| self.in_table(file));
+        options.chain(flags).chain(opposite).chain(["--".to_owned()]).chain(files).collect()
     }
 
-    /// Hashes of the files for a table.
-    fn hashes(&self) -> Result<Vec<MeasuredHash>, MeasuredHashError> {
-        let files: Vec<_> = self.files.iter().map(|file| file.to_string_lossy()).collect();
-        let names = files.iter().map(|file| &**file);
-        MeasuredHash::of_files(names, &self.folder, self.output.folder())
+    /// Name of a file in a table that goes where results go.
+    fn in_table(&self, file: &Path) -> String {
+        named_from(&file.to_string_lossy(), &self.folder, self.output.folder())
     }
 
-    /// Files as they are opened.
-    fn paths(&self) -> impl Iterator<Item = PathBuf> + '_ {
-        self.files.iter().map(|file| self.folder.join(file))
+    /// Roughness of a scene in a file, which names the surfaces from its own folder.
+    fn roughness(&self, scene: &Path) -> Roughness {
+        let beside = |file: &Path| std::path::absolute(file).ok()?.parent().map(Path::to_path_buf);
+        let named = |file: &Path| {
+            let path = match file.file_name() {
+                Some(name) if beside(file) == beside(scene) => PathBuf::from(name),
+                _ => std::path::absolute(file).unwrap_or_else(|_| file.to_path_buf()),
+            };
+            path.to_string_lossy().into_owned()
+        };
+        let (reading, analysis) = (&self.reading, &self.analysis);
+        let unit = |unit: Option<Unit>| unit.map_or_else(String::new, |unit| unit.name().to_owned());
+        let mut files = self.files.iter().map(|file| named(file));
+        Roughness::Measured {
+            file: files.next().unwrap_or_default(),
+            further_files: files.collect(),
+            as_line: None,
+            opposite: self.opposite.as_deref().map(named),
+            row: reading.row,
+            column: reading.column,
+            detrend: analysis.detrend(),
+            periodic: analysis.periodic,
+            unit: unit(reading.unit),
+            height_unit: unit(reading.height_unit),
+            spacing: reading.spacing,
+            interpolate: reading.interpolate,
+            resample: reading.resample,
+            channel: reading.channel.map(u64::from),
+            continue_to: analysis.continue_to,
+            seed: 1,
+        }
+    }
+
+    /// Error of the line, named by the first file.
+    fn failed(&self, error: impl Into<Box<dyn Error + Send + Sync>>) -> CliError {
+        let file = self.files.first().map(|file| path_name(&self.folder.join(file)));
+        CliError::named(file.unwrap_or_default(), error)
+    }
+
+    /// Reads and analyses the files of a face. The hashes of the files are added where they are asked for.
+    fn face(
+        &self,
+        files: &[PathBuf],
+        hashes: &mut Option<Vec<MeasuredHash>>,
+    ) -> Result<MeasuredFace, CliError> {
+        let options = measured_roughness_options(&self.roughness(Path::new("")), false);
+        let (mut surfaces, mut facts) = (Vec::new(), Vec::new());
+        for file in files {
+            let path = self.folder.join(file);
+            let mut hasher = hashes.as_ref().map(|_| Sha256::new());
+            let mut seen = |bytes: &[u8]| hasher.iter_mut().for_each(|hasher| hasher.update(bytes));
+            let surface = options.read(&path, &mut seen);
+            let surface = surface.map_err(|error| CliError::named(path_name(&path), error))?;
+            if let (Some(hashes), Some(hasher)) = (hashes.as_mut(), hasher) {
+                hashes.push(MeasuredHash { file: self.in_table(file), sha256: hexadecimal(hasher) });
+            }
+            facts.push(SurfaceFile::new(path, &surface));
+            surfaces.push(surface);
+        }
+        let options = Options { tip_radius: self.analysis.tip_radius, ..options.analysis() };
+        let analysis = analyse(&surfaces, &options).map_err(|error| {
+            let file = facts.get(error.surface().unwrap_or(0)).map(|file| path_name(&file.path));
+            CliError::named(file.unwrap_or_default(), error)
+        })?;
+        Ok(MeasuredFace { files: facts, analysis })
     }
 }
 
@@ -232,135 +282,88 @@ pub(super) fn surface(arguments: &SurfaceArguments, stdout: &mut dyn Write) -> R
     let format = arguments.output.format(arguments.format, FORMATS, Format::Text)?;
     arguments.output.check()?;
     if let Some(scene) = &arguments.scene {
-        check_scene(arguments)?;
         check_writable(scene, arguments.force_scene)?;
     }
-    let (mut surfaces, mut files) = (Vec::new(), Vec::new());
-    for file in arguments.paths() {
-        let surface = arguments.reading.read(&file)?;
-        files.push(SurfaceFile::new(file, &surface));
-        surfaces.push(surface);
+    let mut hashes = format.table().map(|_| Vec::new());
+    let mut faces = vec![arguments.face(&arguments.files, &mut hashes)?];
+    if let Some(opposite) = &arguments.opposite {
+        faces.push(arguments.face(std::slice::from_ref(opposite), &mut hashes)?);
     }
-    let analysis = analysed(arguments, &surfaces)?;
+    let spectra = faces.iter().map(|face| face.analysis.isotropic.clone()).collect();
+    let line = EquivalentLine::from_spectra(spectra).map_err(|error| arguments.failed(error))?;
     let modulus = arguments.analysis.modulus;
     let contact = modulus.map(|modulus| SurfaceContact { modulus, work: arguments.work });
     if let (Some(path), Some(modulus)) = (&arguments.scene, modulus) {
-        let scene = scene(arguments, path, &analysis, modulus)?;
-        let document = Document::from_scene(&scene, &path_name(path))?;
+        let document =
+            Document::from_scene(&scene(arguments, path, &faces, &line, modulus), &path_name(path))?;
         write_new(path, arguments.force_scene, |out| out.write_all(document.text().as_bytes()))?;
     }
     if format.picture().is_some() {
-        let names: Vec<String> = files.iter().map(|file| path_name(&file.path)).collect();
-        let figure = Spectra::of_analysis(&analysis).figure(&names.join(", "));
+        let files = faces.iter().flat_map(|face| &face.files);
+        let names: Vec<String> = files.map(|file| path_name(&file.path)).collect();
+        let analyses: Vec<&Analysis> = faces.iter().map(|face| &face.analysis).collect();
+        let figure = Spectra::of_faces(&analyses).figure(&names.join(", "));
         return arguments.output.write_figure(stdout, &figure, format);
     }
     if let Some(format) = format.table() {
-        let provenance = Provenance::of_spectra(&arguments.deciding()).with_hashes(&arguments.hashes()?);
-        let write = |out: &mut dyn Write| write_surface_table(out, format, &provenance, &analysis);
+        let provenance =
+            Provenance::of_spectra(&arguments.deciding()).with_hashes(&hashes.unwrap_or_default());
+        let write = |out: &mut dyn Write| write_surface_table(out, format, &provenance, &faces, &line);
         return arguments.output.write(stdout, write);
     }
     let adhesion = match modulus.filter(|_| arguments.work.is_some()) {
-        Some(modulus) => Some(adhesion(arguments, &analysis, modulus)?),
+        Some(modulus) => Some(adhesion(arguments, &faces, &line, modulus)?),
         None => None,
     };
-    let adhesion = adhesion.as_ref();
+    let report = SurfaceReport { faces: &faces, line: &line, contact, adhesion: adhesion.as_ref() };
     arguments.output.write(stdout, |out| match format {
-        Format::Json => write_surface_json(out, &files, &analysis, contact, adhesion),
-        _ => out.write_all(surface_text(&files, &analysis, contact, adhesion).as_bytes()),
+        Format::Json => report.write_json(out),
+        _ => out.write_all(report.text().as_bytes()),
     })
-}
-
-fn analysed(arguments: &SurfaceArguments, surfaces: &[Topography]) -> Result<Analysis, CliError> {
-    analyse(surfaces, &arguments.analysis.options()).map_err(|error| {
-        let index = match &error {
-            SpectrumError::Surface { index, .. } | SpectrumError::TooFew { index, .. } => *index,
-            _ => 0,
-        };
-        let file = arguments.paths().nth(index).map_or_else(String::new, |file| path_name(&file));
-        CliError::named(file, error)
-    })
-}
-
-/// A scene names one file and holds its unit and how its spectrum is estimated; whatever else was chosen would be lost.
-fn check_scene(arguments: &SurfaceArguments) -> Result<(), CliError> {
-    let reading = &arguments.reading;
-    let lost = [
-        (arguments.files.len() > 1, "several files"),
-        (reading.height_unit.is_some(), "--height-unit"),
-        (reading.spacing.is_some(), "--spacing"),
-        (reading.interpolate, "--interpolate"),
-        (reading.resample, "--resample"),
-        (reading.channel.is_some(), "--channel"),
-    ];
-    match lost.into_iter().find(|(is_given, _)| *is_given) {
-        Some((_, option)) => Err(CliError::LostInScene { option }),
-        None => Ok(()),
-    }
 }
 
 /// Adhesion of the equivalent line, computed where that was asked for or takes but seconds.
 fn adhesion(
     arguments: &SurfaceArguments,
-    analysis: &Analysis,
+    faces: &[MeasuredFace],
+    line: &EquivalentLine,
     modulus: f64,
 ) -> Result<SurfaceAdhesion, CliError> {
-    let scene = scene(arguments, Path::new(""), analysis, modulus)?;
+    let scene = scene(arguments, Path::new(""), faces, line, modulus);
     scene.check()?;
     let unasked = (scene.numerics.points <= MOST_SPRINGS).then_some(LINES);
-    let failed = |error: Box<dyn Error + Send + Sync>| {
-        let file = arguments.paths().next();
-        CliError::named(file.map_or_else(String::new, |file| path_name(&file)), error)
-    };
-    let solve = |lines: u32| {
-        let line = EquivalentLine::from_spectra(vec![analysis.isotropic.clone()])?;
-        Ok(MeasuredAdhesion::solve(&scene, &line, lines, threads(None))?)
-    };
-    let computed = arguments.lines.or(unasked).map(solve).transpose().map_err(failed)?;
+    let solve = |lines: u32| MeasuredAdhesion::solve(&scene, line, lines, threads(None));
+    let computed = arguments.lines.or(unasked).map(solve).transpose();
+    let computed = computed.map_err(|error| arguments.failed(error))?;
     Ok(SurfaceAdhesion { scene, computed })
 }
 
-/// Scene of the equivalent line over the length of the scan, on springs that resolve its shortest wave.
+/// Scene of the equivalent line over the length of the scan, the shorter one of two faces, on springs that resolve its
+/// shortest wave.
 fn scene(
     arguments: &SurfaceArguments,
     path: &Path,
-    analysis: &Analysis,
+    faces: &[MeasuredFace],
+    line: &EquivalentLine,
     modulus: f64,
-) -> Result<Scene, CliError> {
-    let file = &arguments.files[0];
-    let beside = |file: &Path| std::path::absolute(file).ok()?.parent().map(Path::to_path_buf);
-    let name = match file.file_name() {
-        Some(name) if beside(file) == beside(path) => PathBuf::from(name),
-        _ => std::path::absolute(file)?,
-    };
-    let waves = analysis.length * analysis.isotropic.range()[1] / std::f64::consts::TAU;
+) -> Scene {
+    let name = arguments.files.first().and_then(|file| file.file_name()).unwrap_or_default();
+    let length = faces.iter().map(|face| face.analysis.length).fold(f64::INFINITY, f64::min);
+    let waves = length * line.range()[1] / std::f64::consts::TAU;
     let points = ((SPRINGS_PER_WAVE * waves) as u64).next_power_of_two().clamp(1024, MOST_POINTS);
-    Ok(Scene {
+    Scene {
         version: *SCENE_VERSIONS.end(),
-        title: format!(
-            "Equivalent line of {}",
-            path_name(&PathBuf::from(file.file_name().unwrap_or_default()))
-        ),
+        title: format!("Equivalent line of {}", path_name(&PathBuf::from(name))),
         notice: String::new(),
         material: Material::effective(modulus),
-        length: analysis.length,
+        length,
         form: None,
-        roughness: Some(Roughness::Measured {
-            file: name.to_string_lossy().into_owned(),
-            as_line: None,
-            opposite: None,
-            row: None,
-            column: None,
-            detrend: Some(arguments.analysis.options().detrend).filter(|detrend| *detrend != Detrend::Tilt),
-            periodic: arguments.analysis.periodic,
-            unit: arguments.reading.unit.map(|unit| unit.name().to_owned()).unwrap_or_default(),
-            continue_to: arguments.analysis.continue_to,
-            seed: 1,
-        }),
+        roughness: Some(arguments.roughness(path)),
         adhesion: arguments.work.map(|work| Adhesion::default().with_work(work)),
         loading: vec![arguments.preload.map_or(Leg::ToZeroForce, Leg::ToForce), Leg::ToSeparation],
         numerics: Numerics { points, ..Numerics::default() },
         observe: Vec::new(),
-    })
+    }
 }
 
 /// Length above 0, m.

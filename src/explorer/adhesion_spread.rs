@@ -47,8 +47,8 @@ impl AdhesionSpread {
         report: &mut dyn FnMut(&AdhesionSpread),
     ) -> Result<(), RunError> {
         let scene = Arc::clone(&self.scene);
-        let files: Vec<_> = scene.measured_files().into_iter().map(|file| folder.join(file)).collect();
-        let line = EquivalentLine::read(&files, &measured_options(&scene), &mut |_| ())?;
+        let line =
+            EquivalentLine::read(&scene.measured_paths(folder), &measured_options(&scene), &mut |_| ())?;
         let first = scene.seed().unwrap_or(0);
         while !self.is_whole() {
             let seed = first.wrapping_add(self.found.profiles.len() as u64);

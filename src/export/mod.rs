@@ -38,7 +38,7 @@ pub use spectrum_figure::{Spectra, SpectrumPoint};
 pub use study_figure::study_figure;
 pub use summary::{brief_summary, summary};
 pub use surface::{
-    SurfaceAdhesion, SurfaceContact, SurfaceFile, measured_adhesion_text, surface_text, write_surface_json,
+    MeasuredFace, SurfaceAdhesion, SurfaceContact, SurfaceFile, SurfaceReport, measured_adhesion_text,
     write_surface_table,
 };
 pub use table::TableFormat;

@@ -1,7 +1,8 @@
 //! Spectra over the wave number: as measured, the fit to them, and those of the line.
 
 use crate::draw::{Axis, AxisScale, Chart, Figure, Ink, Label, Layer, Shape, Sign, Span, Stroke};
-use crate::spectrum::{Analysis, End};
+use crate::spectrum::{Analysis, Direction, End};
+use crate::surface::EquivalentLine;
 use std::f64::consts::TAU;
 
 /// Points of a curve for each decade of wave numbers.
@@ -34,6 +35,11 @@ pub struct Spectra {
     pub reliability_cutoff: Option<f64>,
 }
 
+/// Name of a spectrum of a face: the first one, or the opposite one.
+pub(super) fn spectrum_name(face: usize, direction: Direction) -> &'static str {
+    if face == 0 { direction.name() } else { direction.opposite_name() }
+}
+
 /// Wave numbers at even distances of their logarithm, about so many in each decade.
 pub(super) fn wave_numbers([low, high]: [f64; 2], per_decade: f64) -> impl Iterator<Item = f64> {
     let pieces = (per_decade * (high / low).log10()).ceil().max(1.0);
@@ -44,10 +50,14 @@ impl Spectra {
     /// Spectra of measured surfaces and of their equivalent line.
     #[must_use]
     pub fn of_analysis(analysis: &Analysis) -> Self {
+        Spectra::of_face(0, analysis)
+    }
+
+    fn of_face(face: usize, analysis: &Analysis) -> Self {
         let isotropic = &analysis.isotropic;
         let range = isotropic.range();
         let measured = analysis.spectra.iter().map(|(direction, bins)| {
-            (direction.name(), bins.iter().map(|bin| (bin.wave_number, bin.power)).collect())
+            (spectrum_name(face, *direction), bins.iter().map(|bin| (bin.wave_number, bin.power)).collect())
         });
         let over = |spectrum: &dyn Fn(f64) -> f64| {
             wave_numbers(range, PER_DECADE).map(|q| (q, spectrum(q))).collect()
@@ -66,6 +76,21 @@ impl Spectra {
             },
             reliability_cutoff: analysis.reliability_cutoff.map(|length| TAU / length),
         }
+    }
+
+    /// Spectra of the surfaces of one or both faces: of one face with the fit, of both with the line of their sum.
+    #[must_use]
+    pub fn of_faces(faces: &[&Analysis]) -> Self {
+        if let [face] = faces {
+            return Spectra::of_analysis(face);
+        }
+        let measured =
+            faces.iter().enumerate().flat_map(|(face, analysis)| Spectra::of_face(face, analysis).measured);
+        let line = EquivalentLine::from_spectra(faces.iter().map(|face| face.isotropic.clone()).collect());
+        let line = line.map_or(Vec::new(), |line| {
+            wave_numbers(line.range(), PER_DECADE).map(|q| (q, line.power(q))).collect()
+        });
+        Spectra { measured: measured.collect(), line, ..Spectra::default() }
     }
 
     /// Chart with logarithmic axes.

@@ -1,20 +1,28 @@
 //! Analysed surfaces: text for people, JSON and CSV for programs.
 
 use super::sheet::Sheet;
-use super::spectrum_figure::{SpectrumPoint, wave_numbers};
+use super::spectrum_figure::{SpectrumPoint, spectrum_name, wave_numbers};
 use super::table::{Column, TableFormat, Value, write_table};
 use crate::io::{object, write_json_value};
 use crate::scene::{Leg, Provenance, Scene, format_quantity};
 use crate::spectrum::{Analysis, Bin, Direction, End, Estimate, LineMoments};
 use crate::study::MeasuredAdhesion;
+use crate::surface::EquivalentLine;
 use crate::text::{grouped, path_name, per_cent};
 use crate::topography::Topography;
+use serde::Serialize;
 use serde_json::json;
 use std::io::{self, Write};
 use std::path::PathBuf;
 
 /// Points of the equivalent line's spectrum in CSV, for each decade.
 const LINE_PER_DECADE: f64 = 10.0;
+
+/// Name of the spectrum of the equivalent line.
+const LINE: &str = "equivalent line";
+
+/// Name of a spectrum, point, waves averaged.
+type SpectrumRow = (&'static str, SpectrumPoint, Option<u64>);
 
 /// A surface and the file it came from.
 #[derive(Clone, Debug, PartialEq)]
@@ -29,6 +37,15 @@ pub struct SurfaceFile {
     pub lengths: [f64; 2],
     /// Points with heights from their neighbours.
     pub interpolated: usize,
+}
+
+/// Surfaces of one face: files that are samples of the same roughness, and their analysis.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MeasuredFace {
+    /// Files.
+    pub files: Vec<SurfaceFile>,
+    /// Analysis of all of them.
+    pub analysis: Analysis,
 }
 
 impl SurfaceFile {
@@ -157,59 +174,98 @@ impl SurfaceAdhesion {
     }
 }
 
-/// Analysed surfaces in plain text, with the constants of a contact and its adhesion where they are known.
-#[must_use]
-pub fn surface_text(
-    files: &[SurfaceFile],
-    analysis: &Analysis,
-    contact: Option<SurfaceContact>,
-    adhesion: Option<&SurfaceAdhesion>,
-) -> String {
-    let mut sheet = Sheet::default();
-    sheet.heading("Measured surface");
-    for file in files {
-        sheet.row("file", describe(file));
-    }
-    measured(&mut sheet, analysis);
-    sheet.heading("Self-affine fit");
-    match &analysis.power_law {
-        None => sheet.row("fit", "none converges"),
-        Some(fit) => {
-            sheet.row("Hurst exponent H", with_error(fit.hurst, "1"));
-            let wavelength = fit.roll_off.map(|roll_off| {
-                let length = std::f64::consts::TAU / roll_off.value;
-                let error = length * roll_off.error / roll_off.value;
-                with_error(Estimate { value: length, error }, "m")
-            });
-            sheet.row(
-                "roll-off wavelength",
-                wavelength.unwrap_or_else(|| "none found inside the scan".to_owned()),
-            );
+/// Analysed surfaces of one or both faces, with what is known of their contact.
+#[derive(Clone, Copy, Debug)]
+pub struct SurfaceReport<'a> {
+    /// The face, and the opposite one where that is rough too.
+    pub faces: &'a [MeasuredFace],
+    /// Their equivalent line.
+    pub line: &'a EquivalentLine,
+    /// Constants of the contact.
+    pub contact: Option<SurfaceContact>,
+    /// Adhesion of the line.
+    pub adhesion: Option<&'a SurfaceAdhesion>,
+}
+
+impl SurfaceReport<'_> {
+    /// Plain text.
+    #[must_use]
+    pub fn text(&self) -> String {
+        let mut sheet = Sheet::default();
+        for (number, MeasuredFace { files, analysis }) in self.faces.iter().enumerate() {
+            sheet.heading(if number == 0 { "Measured surface" } else { "Opposite face" });
+            files.iter().for_each(|file| sheet.row("file", describe(file)));
+            measured(&mut sheet, analysis);
+            sheet.heading("Self-affine fit");
+            self_affine(&mut sheet, analysis);
         }
+        sheet.heading("Equivalent line");
+        let moments = self.line.moments();
+        line(&mut sheet, &moments, self.contact);
+        let wave = |q: f64| format_quantity(std::f64::consts::TAU / q, "m");
+        let [low, high] = self.line.range().map(wave);
+        let analyses = || self.faces.iter().map(|face| &face.analysis);
+        let end = match analyses().next().map(|analysis| analysis.end) {
+            Some(End::Continues(_)) => "continued as a power law",
+            _ => "the last resolved wave; shorter ones are left out",
+        };
+        sheet.row("wavelengths", format!("{low} to {high} ({end})"));
+        for (number, analysis) in analyses().enumerate() {
+            sheet.row(if number == 0 { "accuracy" } else { "opposite, accuracy" }, analysis.promise());
+        }
+        let cut = moments.of_cut();
+        let energy = 100.0 * cut.energy_per_modulus.value / moments.energy_per_modulus.value;
+        let gradient = format_quantity(cut.rms_gradient.value, "1");
+        sheet.row(
+            "a profile as the line",
+            format!("⟨∇z⟩ = {gradient} and {energy:.0} % of the elastic energy"),
+        );
+        if let Some(adhesion) = self.adhesion {
+            adhesion.rows(&mut sheet);
+        }
+        let warnings = analyses().enumerate().flat_map(|(number, analysis)| {
+            let of_face =
+                move |warning| if number == 0 { warning } else { format!("opposite face: {warning}") };
+            analysis.warnings().into_iter().map(of_face)
+        });
+        let warnings: Vec<String> = warnings.collect();
+        if !warnings.is_empty() {
+            sheet.heading("Warnings");
+            warnings.iter().for_each(|warning| sheet.row("", warning));
+        }
+        sheet.into_text()
     }
-    sheet.heading("Equivalent line");
-    line(&mut sheet, &analysis.line, contact);
-    let [low, high] = analysis.isotropic.range();
-    let wave = |q: f64| format_quantity(std::f64::consts::TAU / q, "m");
-    let end = match analysis.end {
-        End::Ends => "the last resolved wave; shorter ones are left out",
-        End::Continues(_) => "continued as a power law",
-    };
-    sheet.row("wavelengths", format!("{} to {} ({end})", wave(low), wave(high)));
-    sheet.row("accuracy", analysis.promise());
-    let cut = analysis.line.of_cut();
-    let energy = 100.0 * cut.energy_per_modulus.value / analysis.line.energy_per_modulus.value;
-    let gradient = format_quantity(cut.rms_gradient.value, "1");
-    sheet.row("a profile as the line", format!("⟨∇z⟩ = {gradient} and {energy:.0} % of the elastic energy"));
-    if let Some(adhesion) = adhesion {
-        adhesion.rows(&mut sheet);
+
+    /// Writes one JSON object. The opposite face has an object of its own in it, without equivalent line and adhesion.
+    ///
+    /// # Errors
+    /// Those of `out`.
+    pub fn write_json(&self, out: &mut (impl Write + ?Sized)) -> io::Result<()> {
+        let (moments, contact) = (self.line.moments(), self.contact);
+        let line = json!({
+            "rms_height": estimate(Some(moments.rms_height)),
+            "rms_gradient": estimate(Some(moments.rms_gradient)),
+            "energy_per_modulus": estimate(Some(moments.energy_per_modulus)),
+            "elastic_energy": estimate(contact.map(|contact| contact.elastic_energy(&moments))),
+            "kappa": estimate(contact.and_then(|contact| contact.kappa(&moments))),
+            "elastic_energy_ratio": estimate(contact.and_then(|contact| contact.energy_ratio(&moments))),
+        });
+        let adhesion = self.adhesion.and_then(SurfaceAdhesion::json).unwrap_or_default();
+        let Some((first, others)) = self.faces.split_first() else { return Ok(()) };
+        let opposite = others.first().map(|face| face_json(face, [None, None], None::<()>));
+        write_json_value(out, &face_json(first, [Some(line), Some(adhesion)], opposite))
     }
-    let warnings = analysis.warnings();
-    if !warnings.is_empty() {
-        sheet.heading("Warnings");
-        warnings.iter().for_each(|warning| sheet.row("", warning));
-    }
-    sheet.into_text()
+}
+
+fn self_affine(sheet: &mut Sheet, analysis: &Analysis) {
+    let Some(fit) = &analysis.power_law else { return sheet.row("fit", "none converges") };
+    sheet.row("Hurst exponent H", with_error(fit.hurst, "1"));
+    let wavelength = fit.roll_off.map(|roll_off| {
+        let length = std::f64::consts::TAU / roll_off.value;
+        let error = length * roll_off.error / roll_off.value;
+        with_error(Estimate { value: length, error }, "m")
+    });
+    sheet.row("roll-off wavelength", wavelength.unwrap_or_else(|| "none found inside the scan".to_owned()));
 }
 
 fn describe(file: &SurfaceFile) -> String {
@@ -261,18 +317,14 @@ fn with_error(estimate: Estimate, unit: &str) -> String {
     format!("{} ± {error}", format_quantity(estimate.value, unit))
 }
 
-/// Writes analysed surfaces as one JSON object in SI units.
-///
-/// # Errors
-/// Those of `out`.
-pub fn write_surface_json(
-    out: &mut (impl Write + ?Sized),
-    files: &[SurfaceFile],
-    analysis: &Analysis,
-    contact: Option<SurfaceContact>,
-    adhesion: Option<&SurfaceAdhesion>,
-) -> io::Result<()> {
-    let (statistics, fit, moments) = (&analysis.statistics, analysis.power_law, &analysis.line);
+/// JSON object of the surfaces of a face in SI units. That of the first face holds what both faces are together, and the
+/// object of the opposite face.
+fn face_json<'a>(
+    MeasuredFace { files, analysis }: &'a MeasuredFace,
+    [equivalent_line, adhesion]: [Option<serde_json::Value>; 2],
+    opposite: Option<impl Serialize + 'a>,
+) -> impl Serialize + 'a {
+    let (statistics, fit) = (&analysis.statistics, analysis.power_law);
     let file = |file: &SurfaceFile| {
         json!({
             "file": file.path.to_string_lossy(), "format": file.format, "points": &file.points[..file.axes()],
@@ -290,7 +342,7 @@ pub fn write_surface_json(
         let bins: Vec<_> = bins.iter().map(bin).collect();
         json!({"name": direction.name(), "bins": bins})
     };
-    let report = object! {
+    object! {
         "version": env!("CARGO_PKG_VERSION"),
         "files": files.iter().map(file).collect::<Vec<_>>(),
         "points": statistics.points,
@@ -302,21 +354,14 @@ pub fn write_surface_json(
         "reliability_cutoff": analysis.reliability_cutoff,
         "hurst_exponent": estimate(fit.map(|fit| fit.hurst)),
         "roll_off_wave_number": estimate(fit.and_then(|fit| fit.roll_off)),
-        "equivalent_line": json!({
-            "rms_height": estimate(Some(moments.rms_height)),
-            "rms_gradient": estimate(Some(moments.rms_gradient)),
-            "energy_per_modulus": estimate(Some(moments.energy_per_modulus)),
-            "elastic_energy": estimate(contact.map(|contact| contact.elastic_energy(moments))),
-            "kappa": estimate(contact.and_then(|contact| contact.kappa(moments))),
-            "elastic_energy_ratio": estimate(contact.and_then(|contact| contact.energy_ratio(moments))),
-        }),
-        "adhesion": adhesion.and_then(SurfaceAdhesion::json),
+        "equivalent_line"?: equivalent_line,
+        "adhesion"?: adhesion,
         "spectrum": analysis.isotropic.nodes().map(node).collect::<Vec<_>>(),
         "profile_spectra": analysis.spectra.iter().map(spectrum).collect::<Vec<_>>(),
         "accuracy": analysis.promise(),
         "warnings": analysis.warnings(),
-    };
-    write_json_value(out, &report)
+        "opposite"?: opposite,
+    }
 }
 
 fn estimate(estimate: Option<Estimate>) -> Option<serde_json::Value> {
@@ -331,23 +376,25 @@ pub fn write_surface_table(
     out: &mut (impl Write + ?Sized),
     format: TableFormat,
     provenance: &Provenance,
-    analysis: &Analysis,
+    faces: &[MeasuredFace],
+    line: &EquivalentLine,
 ) -> io::Result<()> {
-    let measured = analysis.spectra.iter().flat_map(|(direction, bins)| {
-        bins.iter().map(|bin| (direction.name(), (bin.wave_number, bin.power), Some(bin.waves)))
+    let measured = faces.iter().enumerate().flat_map(|(face, MeasuredFace { analysis, .. })| {
+        analysis.spectra.iter().flat_map(move |(direction, bins)| {
+            let row = move |bin: &Bin| {
+                (spectrum_name(face, *direction), (bin.wave_number, bin.power), Some(bin.waves))
+            };
+            bins.iter().map(row)
+        })
     });
-    let line = wave_numbers(analysis.isotropic.range(), LINE_PER_DECADE);
-    let line = line.map(|q| ("equivalent line", (q, analysis.isotropic.line(q)), None));
-    let rows: Vec<_> = measured.chain(line).collect();
-    write_table(out, format, provenance, COLUMNS, rows.len(), rows.iter())
+    let points = wave_numbers(line.range(), LINE_PER_DECADE).map(|q| (LINE, (q, line.power(q)), None));
+    let rows: Vec<SpectrumRow> = measured.chain(points).collect();
+    let longest = rows.iter().map(|(name, ..)| name.chars().count()).fold(0, usize::max);
+    let columns: [Column<SpectrumRow>; 4] = [
+        Column("spectrum", Value::Word(longest, |(name, ..)| name)),
+        Column("wave_number", Value::Real(|(_, point, _)| point.0)),
+        Column("power", Value::Real(|(_, point, _)| point.1)),
+        Column("waves", Value::Count(|(.., waves)| *waves)),
+    ];
+    write_table(out, format, provenance, &columns, rows.len(), rows.iter())
 }
-
-/// Name of a spectrum, point, waves averaged.
-type SpectrumRow = (&'static str, SpectrumPoint, Option<u64>);
-
-const COLUMNS: &[Column<SpectrumRow>] = &[
-    Column("spectrum", Value::Word("equivalent line".len(), |(name, ..)| name)),
-    Column("wave_number", Value::Real(|(_, point, _)| point.0)),
-    Column("power", Value::Real(|(_, point, _)| point.1)),
-    Column("waves", Value::Count(|(.., waves)| *waves)),
-];

@@ -137,13 +137,17 @@ fn check_modes(found: &mut Found) {
     }
 }
 
-/// A profile is one row or one column; two faces have a spectrum together and no profile.
+/// A profile is one row or one column; several files have a spectrum together and no profile.
 fn check_measured(found: &mut Found) {
-    let Some(Roughness::Measured { unit, opposite, row, column, .. }) = &found.scene.roughness else {
+    let Some(Roughness::Measured { unit, height_unit, further_files, opposite, row, column, .. }) =
+        &found.scene.roughness
+    else {
         return;
     };
-    if !unit.is_empty() && !found.has("roughness.unit") && unit.parse::<Unit>().is_err() {
-        found.refuse("roughness.unit", UnitError::ALLOWED, "unit of the file", &[]);
+    for (path, unit) in [("roughness.unit", unit), ("roughness.height_unit", height_unit)] {
+        if !unit.is_empty() && !found.has(path) && unit.parse::<Unit>().is_err() {
+            found.refuse(path, UnitError::ALLOWED, "unit of the file", &[]);
+        }
     }
     if row.is_some() && column.is_some() {
         let reason = "a profile is a row or a column: give one of them";
@@ -152,6 +156,10 @@ fn check_measured(found: &mut Found) {
     if opposite.is_some() && found.scene.measured_as_line() {
         let reason = "spectra of two faces add, their profiles do not: give as_line: false";
         found.refuse("roughness.opposite", "", reason, &["roughness.as_line", "version"]);
+    }
+    if !further_files.is_empty() && found.scene.measured_as_line() {
+        let reason = "several files have one spectrum, and no profile: give as_line: false";
+        found.refuse("roughness.further_files", "", reason, &["roughness.as_line", "version"]);
     }
 }
 

@@ -29,6 +29,9 @@ pub(super) fn fields_inside(path: &str, variant: Option<&str>) -> impl Iterator<
     FIELDS.iter().filter(inside)
 }
 
+/// Names of files.
+pub(super) const FILE_NAME: Range = Range::Text { least: 1, most: 4096, lines: false };
+
 /// Every field of a scene, in the order in which a scene is written.
 pub const FIELDS: &[Field] = &[
     at!(version)
@@ -143,8 +146,13 @@ pub const FIELDS: &[Field] = &[
         .meaning("seed of the random phases: the same seed gives the same profile"),
     at!(roughness?, Roughness::Measured.file)
         .name("measured surface")
-        .range(Range::Text { least: 1, most: 4096, lines: false })
+        .range(FILE_NAME)
         .meaning("file of a measured profile or map (docs/surfaces.md), relative to the scene file"),
+    at!(roughness?, Roughness::Measured.further_files)
+        .name("further files of the surface")
+        .range(Range::List { of: &["\"other.txt\""], least: 0, most: 10_000 })
+        .default("[]")
+        .meaning("further files of the same face, samples of one roughness: the spectrum is estimated from all of them"),
     at!(roughness?, Roughness::Measured.as_line)
         .name("profile as line")
         .range(Range::Choice(&["false", "true"]))
@@ -152,7 +160,7 @@ pub const FIELDS: &[Field] = &[
         .meaning("true: the measured profile is the line itself, with 29 % too little slope; false: its equivalent line is, with random phases; default: true in version 1, false in version 2"),
     at!(roughness?, Roughness::Measured.opposite)
         .name("measured surface of the opposite face")
-        .range(Range::Text { least: 1, most: 4096, lines: false })
+        .range(FILE_NAME)
         .default("None")
         .meaning("file of the opposite face, relative to the scene file: the spectra of both faces add; default: smooth"),
     at!(roughness?, Roughness::Measured.row)
@@ -182,6 +190,32 @@ pub const FIELDS: &[Field] = &[
         .range(Range::Text { least: 0, most: 20, lines: false })
         .default("\"\"")
         .meaning("unit of lengths where the file states none: m, mm, um, nm; default: none, and m of a profile as line"),
+    at!(roughness?, Roughness::Measured.height_unit)
+        .name("unit of heights of the file")
+        .range(Range::Text { least: 0, most: 20, lines: false })
+        .default("\"\"")
+        .meaning("unit of heights where the file states none; default: as roughness.unit"),
+    at!(roughness?, Roughness::Measured.spacing)
+        .quantity("distance between points of the file", "", "m")
+        .range(Range::closed(1e-18, 1e9))
+        .default("None")
+        .meaning("distance between points where the file states none"),
+    at!(roughness?, Roughness::Measured.interpolate)
+        .name("interpolation of missing points")
+        .range(Range::Choice(&["false", "true"]))
+        .default("false")
+        .meaning("true: missing points of the file get heights from their neighbours; false: they are refused"),
+    at!(roughness?, Roughness::Measured.resample)
+        .name("resampling of uneven profiles")
+        .range(Range::Choice(&["false", "true"]))
+        .default("false")
+        .meaning("true: profiles with points at uneven distances are resampled linearly at the mean distance"),
+    at!(roughness?, Roughness::Measured.channel)
+        .name("channel of the file")
+        .range(Range::whole(0, u32::MAX as u64))
+        .step(Step::Integer { fine: 1, coarse: 10 })
+        .default("None")
+        .meaning("number of the channel of a file that has several"),
     at!(roughness?, Roughness::Measured.continue_to)
         .quantity("shortest wavelength", "λ_s", "m")
         .range(Range::closed(1e-15, 10.0))
@@ -324,6 +358,8 @@ mod tests {
         }
     }
 
+    static UNUSUAL: [String; 7] = [const { String::new() }; 7];
+
     /// A value of the field's kind that no scene has by chance.
     fn unusual(field: &Field) -> Option<Value<'static>> {
         Some(match field.range {
@@ -332,7 +368,8 @@ mod tests {
             Range::Band { .. } => Value::Band(123, 1234),
             Range::Text { .. } => Value::Text("unusual"),
             Range::List { .. } if field.path == "loading" => Value::Legs(&[Leg::ToTouch; 7]),
-            Range::List { .. } => Value::Observers(&[Observer::Fragments; 7]),
+            Range::List { .. } if field.path == "observe" => Value::Observers(&[Observer::Fragments; 7]),
+            Range::List { .. } => Value::Texts(&UNUSUAL),
             Range::Choice(_) | Range::Group => return None,
         })
     }

@@ -2,7 +2,7 @@
 
 use super::errors::SceneError;
 use super::field::Field;
-use super::fields::{FIELDS, fields_inside};
+use super::fields::{FIELDS, FILE_NAME, fields_inside};
 use super::model::{Leg, Scene};
 use super::range::Range;
 use super::text::{is_within, ron_float, ron_string};
@@ -64,7 +64,11 @@ impl Found<'_> {
             {
                 self.outside(field, format!("({first}, {last})"));
             }
-            Value::Text(text) => self.check_text(field, text),
+            Value::Text(text) => self.check_text(field, text, field.range),
+            Value::Texts(texts) => {
+                self.check_count(field, texts.len());
+                texts.iter().for_each(|text| self.check_text(field, text, FILE_NAME));
+            }
             Value::Observers(observers) => self.check_count(field, observers.len()),
             Value::Legs(legs) => {
                 self.check_count(field, legs.len());
@@ -78,8 +82,8 @@ impl Found<'_> {
         self.refuse_value(field.path, value, field.allowed(), field.name, &[]);
     }
 
-    fn check_text(&mut self, field: &Field, text: &str) {
-        let Range::Text { least, most, lines } = field.range else { return };
+    fn check_text(&mut self, field: &Field, text: &str, range: Range) {
+        let Range::Text { least, most, lines } = range else { return };
         // Control characters would reach the terminal of whoever opens the scene.
         let forbidden = |c: &char| is_control(*c) && !(lines && *c == '\n');
         let count = text.chars().count();

@@ -6,6 +6,7 @@ use super::form::Form;
 use crate::spectrum::Detrend;
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
+use std::path::{Path, PathBuf};
 use strum::IntoStaticStr;
 
 /// Versions of the scene file that are read. In the first one a measured profile is the line itself unless
@@ -116,6 +117,9 @@ pub enum Roughness {
     Measured {
         /// The file, relative to the scene file.
         file: String,
+        /// Further files of the same face: samples of one roughness, whose spectrum is estimated from all of them.
+        #[serde(default, skip_serializing_if = "Vec::is_empty")]
+        further_files: Vec<String>,
         /// The profile itself is the line. `None`: so in scenes of version 1, and not in those of version 2; see
         /// [`Scene::measured_as_line`].
         #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -138,6 +142,21 @@ pub enum Roughness {
         /// Unit of lengths where the file states none; empty: none is known, and m for `as_line`.
         #[serde(default, skip_serializing_if = "String::is_empty")]
         unit: String,
+        /// Unit of heights where the file states none; empty: as `unit`.
+        #[serde(default, skip_serializing_if = "String::is_empty")]
+        height_unit: String,
+        /// Distance between points, m, where the file states none.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        spacing: Option<f64>,
+        /// True if missing points get heights from their neighbours.
+        #[serde(default, skip_serializing_if = "is_false")]
+        interpolate: bool,
+        /// True if uneven profiles are resampled at their mean distance.
+        #[serde(default, skip_serializing_if = "is_false")]
+        resample: bool,
+        /// Number of the channel of a file that has several.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        channel: Option<u64>,
         /// Shortest wavelength, m, down to which the spectrum of the equivalent line continues as a power law; `None`: the
         /// last resolved one.
         #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -168,8 +187,8 @@ impl Roughness {
 
     /// Gives the files of the measured surfaces other names.
     pub fn rename_files(&mut self, rename: impl Fn(&str) -> String) {
-        if let Roughness::Measured { file, opposite, .. } = self {
-            for name in std::iter::once(file).chain(opposite) {
+        if let Roughness::Measured { file, further_files, opposite, .. } = self {
+            for name in std::iter::once(file).chain(further_files).chain(opposite) {
                 *name = rename(name);
             }
         }
@@ -180,6 +199,7 @@ impl Roughness {
         let file = file.into();
         Roughness::Measured {
             file,
+            further_files: Vec::new(),
             as_line: None,
             opposite: None,
             row: None,
@@ -187,6 +207,11 @@ impl Roughness {
             detrend: None,
             periodic: false,
             unit: String::new(),
+            height_unit: String::new(),
+            spacing: None,
+            interpolate: false,
+            resample: false,
+            channel: None,
             continue_to: None,
             seed: default_seed(),
         }
@@ -213,12 +238,22 @@ impl Scene {
 
     /// Files of the measured surfaces, relative to the scene file.
     pub fn measured_files(&self) -> Vec<&str> {
-        match &self.roughness {
-            Some(Roughness::Measured { file, opposite, .. }) => {
-                std::iter::once(file.as_str()).chain(opposite.as_deref()).collect()
-            }
-            _ => Vec::new(),
-        }
+        self.measured_faces().concat()
+    }
+
+    /// Files of the measured surfaces of each face, relative to the scene file.
+    pub fn measured_faces(&self) -> Vec<Vec<&str>> {
+        let Some(Roughness::Measured { file, further_files, opposite, .. }) = &self.roughness else {
+            return Vec::new();
+        };
+        let first = std::iter::once(file).chain(further_files).map(String::as_str).collect();
+        std::iter::once(first).chain(opposite.as_deref().map(|file| vec![file])).collect()
+    }
+
+    /// Paths of the files of each face, with names relative to `folder`.
+    pub fn measured_paths(&self, folder: &Path) -> Vec<Vec<PathBuf>> {
+        let paths = |face: Vec<&str>| face.into_iter().map(|file| folder.join(file)).collect();
+        self.measured_faces().into_iter().map(paths).collect()
     }
 
     /// Gives the files of the measured surfaces other names.

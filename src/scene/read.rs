@@ -13,6 +13,10 @@ use super::text::{Text, offset_of};
 /// Longer values than this are not repeated in messages.
 const MOST_REPEATED: usize = 60;
 
+/// Message about text that does not begin as a scene, such as the table of an instrument.
+const NO_SCENE: &str = "a scene in ( ) is expected here; a measured surface is read by `asperity surface FILE`, and \
+                        is the roughness of a scene by --set roughness=FILE";
+
 /// Reason for which text is no scene.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Unread {
@@ -77,6 +81,9 @@ fn place_of(text: &str, error: &ron::error::SpannedError) -> (usize, usize) {
 fn explain(text: &str, error: &ron::error::SpannedError) -> Unread {
     let (offset, end) = place_of(text, error);
     let whole = |offset, message: String| Unread { offset, error: SceneError::whole(Origin::Scene, message) };
+    if !text.trim().is_empty() && !text[..end].contains('(') {
+        return whole(text.len() - text.trim_start().len(), NO_SCENE.into());
+    }
     match Text::new(text) {
         Ok(outline) => explain_at(text, &outline, offset, &error.code),
         // Where the reader only found the end of the text, the bracket that stays open says more.

@@ -1,21 +1,29 @@
 //! Values of fields as people type them, in `--set` and in the explorer alike.
 
 use super::field::Field;
+use super::fields::FILE_NAME;
 use super::quantity::{QuantityError, parse_quantity};
 use super::range::Range;
-use super::text::ron_float;
+use super::text::{ron_float, ron_string};
 
 /// Whole numbers from here on are not all exact as floating-point numbers.
 const MOST_EXACT: f64 = 9.0e15;
 
 impl Field {
-    /// The value as RON: a number may have an SI prefix and the unit of the field, `50 mJ/m²` or `16k`. Any other text
-    /// is the same, blanks around it aside.
+    /// The value as RON: a number may have an SI prefix and the unit of the field, `50 mJ/m²` or `16k`. The name of a file
+    /// needs no quotes, and as a roughness it is that of a measured surface, with its equivalent line. Any other text is
+    /// the same, blanks around it aside.
     ///
     /// # Errors
     /// Text that begins as a number and goes on as another unit, or a number that is too large.
     pub fn read_typed(&self, typed: &str) -> Result<String, QuantityError> {
         let typed = typed.trim();
+        if self.path == "roughness" && is_file_name(typed) {
+            return Ok(format!("Measured(file: {}, as_line: false)", ron_string(typed)));
+        }
+        if self.range == FILE_NAME && !(typed.is_empty() || typed == "None" || typed.starts_with('"')) {
+            return Ok(ron_string(typed));
+        }
         if !typed.starts_with(|c: char| c.is_ascii_digit() || matches!(c, '+' | '-' | '.')) {
             return Ok(typed.to_string());
         }
@@ -32,6 +40,11 @@ impl Field {
             _ => Ok(typed.to_string()),
         }
     }
+}
+
+/// Returns true for a name with an ending or a folder, as no choice of a field has.
+fn is_file_name(typed: &str) -> bool {
+    typed.contains(['.', '/', '\\']) && !typed.contains(['(', '"'])
 }
 
 #[cfg(test)]
@@ -58,6 +71,12 @@ mod tests {
             ("form.angle", "90°", "1.5707963267948966"),
             ("title", "\"10 µm\"", "\"10 µm\""),
             ("observe", "[]", "[]"),
+            ("roughness", "a b/1.txt", "Measured(file: \"a b/1.txt\", as_line: false)"),
+            ("roughness", "Measured(file: \"a.txt\")", "Measured(file: \"a.txt\")"),
+            ("roughness", "None", "None"),
+            ("roughness.file", "7.txt", "\"7.txt\""),
+            ("roughness.opposite", "\"7.txt\"", "\"7.txt\""),
+            ("roughness.opposite", "None", "None"),
         ] {
             assert_eq!(field(path, None).unwrap().read_typed(typed).as_deref(), Ok(ron), "{path} {typed}");
         }

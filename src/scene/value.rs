@@ -17,6 +17,8 @@ pub enum Value<'s> {
     Band(u64, u64),
     /// Text.
     Text(&'s str),
+    /// List of texts.
+    Texts(&'s [String]),
     /// Name of the variant of a choice; empty for a group of fields without variants.
     Choice(&'static str),
     /// Loading stages.
@@ -143,6 +145,7 @@ parts! {
     (u64, u64): part => Value::Band(part.0, part.1), Value::Band(first, last) => Some((first, last));
     bool: part => Value::Choice(if *part { "true" } else { "false" }), Value::Choice(name) => name.parse().ok();
     String: part => Value::Text(part), Value::Text(text) => Some(text.to_owned());
+    Vec<String>: part => Value::Texts(part), Value::Texts(texts) => Some(texts.to_vec());
     Vec<Leg>: part => Value::Legs(part), Value::Legs(legs) => Some(legs.to_vec());
     Vec<Observer>: part => Value::Observers(part), Value::Observers(observers) => Some(observers.to_vec());
     Form: part => Value::Choice(part.into()), Value::Choice(_) => None;

@@ -22,6 +22,7 @@ impl Field {
             Value::Whole(value) => value.to_string(),
             Value::Band(first, last) => format!("({first}, {last})"),
             Value::Text(text) => ron_string(text),
+            Value::Texts(texts) => list(texts.iter().map(|text| ron_string(text))),
             Value::Legs(stages) => legs(stages),
             Value::Observers(observed) => observers(observed),
             Value::Choice(variant) => match fields_inside(self.path, Some(variant)).next() {

@@ -12,5 +12,5 @@ pub use error::RunError;
 pub use outcome::{LineFacts, Outcome, Timings};
 pub use plan::{Plan, PlannedStage, Stage, StageCost};
 pub use reversals::{SeeReversal, TURNING_POINTS, TurningPoints};
-pub use stages::measured_options;
 pub use stages::{AfterLeg, Simulation};
+pub use stages::{measured_options, measured_roughness_options};

@@ -12,7 +12,7 @@ use crate::surface::{
     Amplitude, EquivalentLine, Histogram, Line, MeasuredOptions, MeasuredProfile, MeasuredRoughness,
     SelfAffine, SurfaceError, Synthesizer, WaveNumbers,
 };
-use crate::topography::Cut;
+use crate::topography::{Cut, Missing, ReadOptions, Unit};
 use std::mem::take;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -43,7 +43,7 @@ pub struct Simulation {
     /// A measured surface in place of the files that scenes name.
     measured: Option<Arc<MeasuredRoughness>>,
     /// The equivalent line of the file read last: it is small, and serves all seeds.
-    equivalent: Option<(Vec<PathBuf>, MeasuredOptions, EquivalentLine)>,
+    equivalent: Option<(Vec<Vec<PathBuf>>, MeasuredOptions, EquivalentLine)>,
     synthesizer: Synthesizer,
     /// Random phases drawn so far.
     phases_drawn: u64,
@@ -76,7 +76,8 @@ enum RoughnessKey {
     },
     /// The seed is that of an equivalent line.
     Measured {
-        files: Vec<PathBuf>,
+        /// Files of each face.
+        faces: Vec<Vec<PathBuf>>,
         options: MeasuredOptions,
         seed: Option<u64>,
         length: f64,
@@ -249,7 +250,7 @@ impl Simulation {
         }
         match &scene.roughness {
             Some(Roughness::Measured { .. }) => Some(RoughnessKey::Measured {
-                files: scene.measured_files().into_iter().map(|file| self.folder.join(file)).collect(),
+                faces: scene.measured_paths(&self.folder),
                 options: measured_options(scene),
                 seed: scene.seed(),
                 length: scene.length,
@@ -418,25 +419,52 @@ fn build_tree(
 }
 
 /// File of the first face, which errors about all of them name.
-fn first(files: &[PathBuf]) -> &Path {
-    files.first().map_or(Path::new(""), PathBuf::as_path)
+fn first(faces: &[Vec<PathBuf>]) -> &Path {
+    faces.iter().flatten().next().map_or(Path::new(""), PathBuf::as_path)
 }
 
 /// Choices of a checked scene for its measured surface.
 #[must_use]
 pub fn measured_options(scene: &Scene) -> MeasuredOptions {
-    match &scene.roughness {
-        Some(Roughness::Measured { unit, row, column, detrend, periodic, continue_to, .. }) => {
-            MeasuredOptions {
-                as_line: scene.measured_as_line(),
-                unit: unit.parse().ok(),
-                cut: row.map(Cut::Row).or(column.map(Cut::Column)),
-                detrend: *detrend,
-                periodic: *periodic,
-                continue_to: *continue_to,
-            }
-        }
-        _ => MeasuredOptions::default(),
+    let of_roughness = |roughness| measured_roughness_options(roughness, scene.measured_as_line());
+    scene.roughness.as_ref().map_or_else(MeasuredOptions::default, of_roughness)
+}
+
+/// Choices of a checked roughness, of which a measured profile is the line itself or not.
+#[must_use]
+pub fn measured_roughness_options(roughness: &Roughness, as_line: bool) -> MeasuredOptions {
+    let Roughness::Measured {
+        unit,
+        height_unit,
+        spacing,
+        interpolate,
+        resample,
+        channel,
+        row,
+        column,
+        detrend,
+        periodic,
+        continue_to,
+        ..
+    } = roughness
+    else {
+        return MeasuredOptions::default();
+    };
+    MeasuredOptions {
+        as_line,
+        reading: ReadOptions {
+            unit: unit.parse().ok(),
+            height_unit: height_unit.parse().ok(),
+            convention: as_line.then_some(Unit::METRE),
+            spacing: *spacing,
+            missing: if *interpolate { Missing::Interpolate } else { Missing::Refuse },
+            channel: channel.and_then(|channel| channel.try_into().ok()),
+        },
+        resample: *resample,
+        cut: row.map(Cut::Row).or(column.map(Cut::Column)),
+        detrend: *detrend,
+        periodic: *periodic,
+        continue_to: *continue_to,
     }
 }
 
@@ -454,11 +482,11 @@ impl Simulation {
                     modes: Some((spectrum.first, spectrum.last)),
                 })
             }
-            RoughnessKey::Measured { files, options, seed: Some(seed), length, points, shift } => {
-                let line = self.equivalent_line(files, options)?;
+            RoughnessKey::Measured { faces, options, seed: Some(seed), length, points, shift } => {
+                let line = self.equivalent_line(faces, options)?;
                 let modes = line
                     .modes(*length, *points)
-                    .map_err(|reason| SurfaceError::measured(first(files), &reason))?;
+                    .map_err(|reason| SurfaceError::measured(first(faces), &reason))?;
                 let amplitude = |mode: u64| line.amplitude(mode, *length);
                 let heights =
                     self.synthesizer.synthesize_waves(&amplitude, modes, *seed, *points, *shift, memory)?;
@@ -466,40 +494,40 @@ impl Simulation {
                 self.phases_drawn += modes.1 + 1 - modes.0;
                 Ok(Rough { heights, wave_numbers: None, measured, modes: Some(modes) })
             }
-            RoughnessKey::Measured { files, options, seed: None, length, points, shift } => {
+            RoughnessKey::Measured { faces, options, seed: None, length, points, shift } => {
                 let read;
                 let profile = match self.measured.as_deref() {
                     Some(MeasuredRoughness::Profile(known)) => known,
                     _ => {
-                        read = MeasuredProfile::read_observed(first(files), options, &mut |_| ())?;
+                        read = MeasuredProfile::read_observed(first(faces), options, &mut |_| ())?;
                         &read
                     }
                 };
                 let heights = profile
                     .sample(*length, *points, *shift)
-                    .map_err(|reason| SurfaceError::measured(first(files), &reason))?;
+                    .map_err(|reason| SurfaceError::measured(first(faces), &reason))?;
                 let measured = Some(profile.amplitude()?);
                 Ok(Rough { heights, wave_numbers: None, measured, modes: None })
             }
         }
     }
 
-    /// The equivalent line of files: the one that is known, the one read last, or a new one.
+    /// The equivalent line of the faces: the one that is known, the one read last, or a new one.
     fn equivalent_line(
         &mut self,
-        files: &[PathBuf],
+        faces: &[Vec<PathBuf>],
         options: &MeasuredOptions,
     ) -> Result<EquivalentLine, SurfaceError> {
         if let Some(MeasuredRoughness::Equivalent(known)) = self.measured.as_deref() {
             return Ok(known.clone());
         }
         if let Some((kept, of, line)) = &self.equivalent
-            && (kept.as_slice(), of) == (files, options)
+            && (kept.as_slice(), of) == (faces, options)
         {
             return Ok(line.clone());
         }
-        let line = EquivalentLine::read(files, options, &mut |_| ())?;
-        self.equivalent = Some((files.to_vec(), *options, line.clone()));
+        let line = EquivalentLine::read(faces, options, &mut |_| ())?;
+        self.equivalent = Some((faces.to_vec(), *options, line.clone()));
         Ok(line)
     }
 }

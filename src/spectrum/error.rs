@@ -56,3 +56,14 @@ pub enum SpectrumError {
     #[error("the Fourier transform failed: {0}")]
     Transform(String),
 }
+
+impl SpectrumError {
+    /// Index of the surface that is refused, where the error is of one; counted from 0.
+    #[must_use]
+    pub fn surface(&self) -> Option<usize> {
+        match self {
+            SpectrumError::Surface { index, .. } | SpectrumError::TooFew { index, .. } => Some(*index),
+            _ => None,
+        }
+    }
+}

@@ -212,10 +212,10 @@ impl IsotropicSpectrum {
         ((1.0 - share) * self.values[index] + share * self.values[index + 1]).exp()
     }
 
-    /// ∫ q^power C2D dq over waves from half the first wave number on, and its derivatives by the values.
-    fn moment(&self, power: i32) -> (f64, Vec<f64>) {
+    /// ∫ q^power C2D dq over waves from a wave number on, and its derivatives by the values.
+    fn moment(&self, power: i32, from: f64) -> (f64, Vec<f64>) {
         let (mut sum, mut gradient) = (0.0, vec![0.0; self.values.len()]);
-        for (low, high) in self.nodes.pieces_from(0.5 * self.nodes.wave_number(0)) {
+        for (low, high) in self.nodes.pieces_from(from) {
             for (ln_q, weight) in gauss(low.ln(), high.ln()) {
                 let term = weight * self.value(ln_q) * (f64::from(power + 1) * ln_q).exp();
                 let (index, share) = self.nodes.place(ln_q);
@@ -227,33 +227,48 @@ impl IsotropicSpectrum {
         (sum, gradient)
     }
 
-    /// Moments of the equivalent line, with the waves that begin at half the first wave number: wave 1 of a length
-    /// covers the range from ½ to 1½.
+    /// Moments of the equivalent line, with the waves that begin at half the first wave number.
     #[must_use]
     pub fn line_moments(&self) -> LineMoments {
-        let estimate = |power: i32, factor: f64, root: bool| {
-            let (sum, gradient) = self.moment(power);
-            let relative = self.information.variance(&gradient).sqrt() / sum;
-            if root {
-                let value = (factor * sum).sqrt();
-                Estimate { value, error: 0.5 * relative * value }
-            } else {
-                Estimate { value: factor * sum, error: relative * factor * sum }
-            }
-        };
-        let two_pi = 0.5 / PI;
-        let (rms_height, rms_gradient) = (estimate(1, two_pi, true), estimate(3, two_pi, true));
-        let (height, gradient) = (self.moment(1), self.moment(3));
-        let both = height.1.iter().zip(&gradient.1);
-        let logarithm: Vec<f64> = both.map(|(a, b)| 0.5 * (a / height.0 + b / gradient.0)).collect();
-        let product = rms_height.value * rms_gradient.value;
-        let error = product * self.information.variance(&logarithm).sqrt();
-        LineMoments {
-            rms_height,
-            rms_gradient,
-            height_gradient: Estimate { value: product, error },
-            energy_per_modulus: estimate(2, 0.25 * two_pi, false),
+        line_moments(std::slice::from_ref(self))
+    }
+}
+
+/// Moments of the equivalent line of faces whose spectra add and are independent of each other. The waves begin at half the
+/// first wave number that is known of all faces: wave 1 of a length covers the range from ½ to 1½.
+#[must_use]
+pub(crate) fn line_moments(faces: &[IsotropicSpectrum]) -> LineMoments {
+    let from = faces.iter().map(|face| 0.5 * face.nodes.wave_number(0)).fold(0.0, f64::max);
+    let moments = |power: i32| faces.iter().map(|face| face.moment(power, from)).collect::<Vec<_>>();
+    let sum = |moments: &[(f64, Vec<f64>)]| moments.iter().map(|(sum, _)| sum).sum::<f64>();
+    let variance = |face: &IsotropicSpectrum, gradient: &[f64]| face.information.variance(gradient);
+    let estimate = |moments: &[(f64, Vec<f64>)], factor: f64, root: bool| {
+        let each = faces.iter().zip(moments).map(|(face, (_, gradient))| variance(face, gradient));
+        let sum = sum(moments);
+        let relative = each.sum::<f64>().sqrt() / sum;
+        if root {
+            let value = (factor * sum).sqrt();
+            Estimate { value, error: 0.5 * relative * value }
+        } else {
+            Estimate { value: factor * sum, error: relative * factor * sum }
         }
+    };
+    let two_pi = 0.5 / PI;
+    let (heights, gradients) = (moments(1), moments(3));
+    let (rms_height, rms_gradient) = (estimate(&heights, two_pi, true), estimate(&gradients, two_pi, true));
+    let totals = (sum(&heights), sum(&gradients));
+    let both = heights.iter().zip(&gradients).zip(faces).map(|((height, gradient), face)| {
+        let terms = height.1.iter().zip(&gradient.1);
+        let logarithm: Vec<f64> = terms.map(|(a, b)| 0.5 * (a / totals.0 + b / totals.1)).collect();
+        variance(face, &logarithm)
+    });
+    let product = rms_height.value * rms_gradient.value;
+    let error = product * both.sum::<f64>().sqrt();
+    LineMoments {
+        rms_height,
+        rms_gradient,
+        height_gradient: Estimate { value: product, error },
+        energy_per_modulus: estimate(&moments(2), 0.25 * two_pi, false),
     }
 }
 

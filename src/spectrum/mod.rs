@@ -28,6 +28,7 @@ mod statistics;
 pub use analysis::{Analysis, Options, analyse};
 pub use detrend::Detrend;
 pub use error::{LEAST_POINTS, SpectrumError};
+pub(crate) use isotropic::line_moments;
 pub use isotropic::{End, Estimate, IsotropicSpectrum, LineMoments};
 pub use periodogram::{Bin, Direction, line_spectrum};
 pub use power_law::PowerLaw;

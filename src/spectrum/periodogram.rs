@@ -31,6 +31,16 @@ impl Direction {
             Direction::Radial => "q/π × 2D PSD",
         }
     }
+
+    /// Name of the spectrum of the opposite face.
+    #[must_use]
+    pub fn opposite_name(self) -> &'static str {
+        match self {
+            Direction::X => "opposite, 1D PSD along x",
+            Direction::Y => "opposite, 1D PSD along y",
+            Direction::Radial => "opposite, q/π × 2D PSD",
+        }
+    }
 }
 
 /// Mean power of the waves within a range of wave numbers.

@@ -59,12 +59,16 @@ fn expect(plan: &Plan, file: &Path, found: &str, origin: impl Fn() -> String) ->
     }
 }
 
-/// A surface, and the hash of the bytes it was read from; of two faces one file behind the other.
+/// A surface, and the hash of the bytes it was read from; of several files one behind the other.
 fn read(scene: &Scene) -> Result<(MeasuredRoughness, String), StudyError> {
     let mut hasher = Sha256::new();
-    let profile = MeasuredRoughness::read(&scene.measured_files(), &measured_options(scene), &mut |bytes| {
-        hasher.update(bytes);
-    })?;
+    let profile = MeasuredRoughness::read(
+        &scene.measured_paths(Path::new("")),
+        &measured_options(scene),
+        &mut |bytes| {
+            hasher.update(bytes);
+        },
+    )?;
     Ok((profile, hexadecimal(hasher)))
 }
 

@@ -2,10 +2,12 @@
 
 use super::SurfaceError;
 use super::{Amplitude, MeasuredProfile};
-use crate::spectrum::{Analysis, Detrend, End, IsotropicSpectrum, Options, SpectrumError, analyse};
-use crate::topography::{Cut, ReadOptions, Topography, TopographyError, Unit, read_observed};
+use crate::spectrum::{
+    Analysis, Detrend, End, IsotropicSpectrum, LineMoments, Options, SpectrumError, analyse, line_moments,
+};
+use crate::topography::{Cut, ReadOptions, Topography, TopographyError, read_observed};
 use std::f64::consts::TAU;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// Share by which a wave may be longer than the scan, for want of digits.
 const ROUNDING: f64 = 1.0e-9;
@@ -15,8 +17,10 @@ const ROUNDING: f64 = 1.0e-9;
 pub struct MeasuredOptions {
     /// The profile itself is the line.
     pub as_line: bool,
-    /// Unit of lengths where the file states none.
-    pub unit: Option<Unit>,
+    /// Choices where a file leaves something open.
+    pub reading: ReadOptions,
+    /// True if uneven profiles are resampled at their mean distance.
+    pub resample: bool,
     /// Row or column of a map that is the profile.
     pub cut: Option<Cut>,
     /// Part that is removed; `None`: the tilt for an equivalent line, nothing of a profile as the line.
@@ -28,37 +32,49 @@ pub struct MeasuredOptions {
 }
 
 impl MeasuredOptions {
-    /// Reads and analyses a surface. Lengths of a profile that is the line itself are in m where no unit is stated.
+    /// Reads and analyses the files of a face, samples of one roughness, with all bytes of the files shown to `seen`.
     ///
     /// # Errors
-    /// [`SurfaceError::Measured`] when the file cannot be read, is no surface, or has no spectrum.
-    pub fn analyse(&self, path: &Path) -> Result<Analysis, SurfaceError> {
-        let convention = self.as_line.then_some(Unit::METRE);
-        let surface =
-            self.read(path, convention, &mut |_| ()).map_err(|error| SurfaceError::measured(path, &error))?;
-        self.analysis(surface).map_err(|error| SurfaceError::measured(path, &error))
+    /// [`SurfaceError::Measured`] when there is no file, or one cannot be read, is no surface, or has no spectrum.
+    pub fn analyse(
+        &self,
+        face: &[impl AsRef<Path>],
+        seen: &mut (dyn FnMut(&[u8]) + Send),
+    ) -> Result<Analysis, SurfaceError> {
+        let read = |path: &Path, seen: &mut (dyn FnMut(&[u8]) + Send)| {
+            self.read(path, seen).map_err(|error| SurfaceError::measured(path, &error))
+        };
+        let surfaces =
+            face.iter().map(|path| read(path.as_ref(), seen)).collect::<Result<Vec<_>, SurfaceError>>()?;
+        analyse(&surfaces, &self.analysis()).map_err(|error| {
+            let path = face.get(error.surface().unwrap_or(0)).map_or(Path::new(""), AsRef::as_ref);
+            SurfaceError::measured(path, &error)
+        })
     }
 
-    fn analysis(&self, surface: Topography) -> Result<Analysis, SpectrumError> {
+    /// Options of the analysis.
+    #[must_use]
+    pub fn analysis(&self) -> Options {
         let end = self.continue_to.map_or(End::Ends, |wavelength| End::Continues(TAU / wavelength));
         let (detrend, periodic) = (self.detrend.unwrap_or_default(), self.periodic);
-        analyse(&[surface], &Options { detrend, periodic, end, tip_radius: None })
+        Options { detrend, periodic, end, tip_radius: None }
     }
 
-    /// Reads a surface, with all bytes of the file shown to `seen`. Lengths are in the unit of `convention` where neither
-    /// the file nor the options state one.
-    pub(super) fn read(
+    /// Reads a surface, with all bytes of the file shown to `seen`.
+    ///
+    /// # Errors
+    /// [`TopographyError`] when the file cannot be read, is no surface, or has no such row or column.
+    pub fn read(
         &self,
         path: &Path,
-        convention: Option<Unit>,
-        seen: &mut dyn FnMut(&[u8]),
+        seen: &mut (dyn FnMut(&[u8]) + Send),
     ) -> Result<Topography, TopographyError> {
-        let reading = ReadOptions { unit: self.unit, convention, ..ReadOptions::default() };
-        let surface = read_observed(path, &reading, seen)?;
-        match self.cut {
-            Some(cut) => surface.cut(cut),
-            None => Ok(surface),
-        }
+        let surface = read_observed(path, &self.reading, seen)?;
+        let surface = match self.cut {
+            Some(cut) => surface.cut(cut)?,
+            None => surface,
+        };
+        if self.resample { surface.resampled() } else { Ok(surface) }
     }
 }
 
@@ -72,21 +88,22 @@ pub enum MeasuredRoughness {
 }
 
 impl MeasuredRoughness {
-    /// Reads the measured surface of a face, or those of both faces, with all bytes of the files shown to `seen`.
+    /// Reads the measured surfaces of one or both faces, with all bytes of the files shown to `seen`.
     ///
     /// # Errors
     /// [`SurfaceError::Measured`] when a file cannot be read, is no surface, or has no spectrum.
     pub fn read(
-        files: &[impl AsRef<Path>],
+        faces: &[Vec<PathBuf>],
         options: &MeasuredOptions,
-        seen: &mut dyn FnMut(&[u8]),
+        seen: &mut (dyn FnMut(&[u8]) + Send),
     ) -> Result<Self, SurfaceError> {
-        Ok(match files {
-            [file] if options.as_line => {
-                MeasuredRoughness::Profile(MeasuredProfile::read_observed(file.as_ref(), options, seen)?)
-            }
-            _ => MeasuredRoughness::Equivalent(EquivalentLine::read(files, options, seen)?),
-        })
+        if let [face] = faces
+            && let [file] = face.as_slice()
+            && options.as_line
+        {
+            return MeasuredProfile::read_observed(file, options, seen).map(MeasuredRoughness::Profile);
+        }
+        EquivalentLine::read(faces, options, seen).map(MeasuredRoughness::Equivalent)
     }
 
     /// Checks that a line of a length (m) on so many springs can be made.
@@ -113,7 +130,7 @@ impl EquivalentLine {
     /// # Errors
     /// The reason for which the surface has no spectrum.
     pub fn new(surface: Topography, options: &MeasuredOptions) -> Result<Self, SpectrumError> {
-        Ok(EquivalentLine { faces: vec![options.analysis(surface)?.isotropic] })
+        Ok(EquivalentLine { faces: vec![analyse(&[surface], &options.analysis())?.isotropic] })
     }
 
     /// Line of the faces with these spectra; at least one.
@@ -150,22 +167,29 @@ impl EquivalentLine {
     /// # Errors
     /// [`SurfaceError::Measured`] when there is no file, or one cannot be read, is no surface, or has no spectrum.
     pub fn read(
-        files: &[impl AsRef<Path>],
+        faces: &[Vec<PathBuf>],
         options: &MeasuredOptions,
-        seen: &mut dyn FnMut(&[u8]),
+        seen: &mut (dyn FnMut(&[u8]) + Send),
     ) -> Result<Self, SurfaceError> {
-        let face = |path: &Path, seen: &mut dyn FnMut(&[u8])| {
-            let surface =
-                options.read(path, None, seen).map_err(|error| SurfaceError::measured(path, &error))?;
-            EquivalentLine::new(surface, options).map_err(|error| SurfaceError::measured(path, &error))
-        };
-        let faces =
-            files.iter().map(|file| Ok(face(file.as_ref(), seen)?.faces)).collect::<Result<Vec<_>, _>>()?;
-        EquivalentLine::from_spectra(faces.concat())
+        let spectra = faces.iter().map(|face| Ok(options.analyse(face, seen)?.isotropic));
+        EquivalentLine::from_spectra(spectra.collect::<Result<_, SurfaceError>>()?)
+    }
+
+    /// Moments of the line, over the waves that are known of all faces, with their standard errors.
+    #[must_use]
+    pub fn moments(&self) -> LineMoments {
+        line_moments(&self.faces)
+    }
+
+    /// PSD of the line, m³, at a wave number, rad/m: the sum of those of the faces.
+    #[must_use]
+    pub fn power(&self, wave_number: f64) -> f64 {
+        self.faces.iter().map(|face| face.line(wave_number)).sum()
     }
 
     /// First and last wave number, rad/m, that are known of all faces. Each spectrum ends where it does.
-    fn range(&self) -> [f64; 2] {
+    #[must_use]
+    pub fn range(&self) -> [f64; 2] {
         let ranges = self.faces.iter().map(IsotropicSpectrum::range);
         ranges.fold([0.0, 0.0], |[first, last], [low, high]| [first.max(low), last.max(high)])
     }
@@ -215,6 +239,7 @@ impl EquivalentLine {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::spectrum::Estimate;
     use crate::surface::Synthesizer;
     use crate::topography::parse;
 
@@ -258,8 +283,21 @@ mod tests {
         let [before, after] = [&one, &twice].map(|line| line.amplitude_of_modes(length, modes));
         assert!((after.rms_height / before.rms_height - std::f64::consts::SQRT_2).abs() < 1e-12);
         assert!((after.rms_gradient / before.rms_gradient - std::f64::consts::SQRT_2).abs() < 1e-12);
-        let none: [&Path; 0] = [];
-        assert!(EquivalentLine::read(&none, &further, &mut |_| ()).is_err());
+        // Moments too, over the waves that both scans hold.
+        let [one, other, both] =
+            [&one, &other, &one.clone().with_opposite(other.clone())].map(|line| line.moments());
+        let squares = |a: Estimate, b: Estimate, sum: Estimate| {
+            assert!((sum.value.powi(2) / (a.value.powi(2) + b.value.powi(2)) - 1.0).abs() < 1e-12, "{sum:?}");
+            let error = (a.value * a.error).hypot(b.value * b.error) / sum.value;
+            assert!((sum.error / error - 1.0).abs() < 1e-9, "{sum:?} {error}");
+        };
+        squares(one.rms_height, other.rms_height, both.rms_height);
+        squares(one.rms_gradient, other.rms_gradient, both.rms_gradient);
+        let energies = [one, other, both].map(|moments| moments.energy_per_modulus);
+        assert!((energies[2].value / (energies[0].value + energies[1].value) - 1.0).abs() < 1e-12);
+        assert!((energies[2].error / energies[0].error.hypot(energies[1].error) - 1.0).abs() < 1e-9);
+        assert!(EquivalentLine::read(&[], &further, &mut |_| ()).is_err());
+        assert!(EquivalentLine::read(&[Vec::new()], &further, &mut |_| ()).is_err());
     }
 
     #[test]

@@ -28,20 +28,22 @@ impl MeasuredProfile {
     /// # Errors
     /// [`SurfaceError::Measured`] when the file cannot be read or is no profile.
     pub fn read(path: &Path) -> Result<Self, SurfaceError> {
-        Self::read_observed(path, &MeasuredOptions::default(), &mut |_| ())
+        let reading = ReadOptions { convention: Some(Unit::METRE), ..ReadOptions::default() };
+        let options = MeasuredOptions { as_line: true, reading, ..MeasuredOptions::default() };
+        Self::read_observed(path, &options, &mut |_| ())
     }
 
-    /// Reads a profile, or a row or column of a map, with all bytes of the file shown to `seen`. Without a unit lengths are
-    /// in m. What is removed of the heights is removed of points at even distances.
+    /// Reads a profile, or a row or column of a map, with all bytes of the file shown to `seen`. What is removed of the
+    /// heights is removed of points at even distances.
     ///
     /// # Errors
     /// As [`Self::read`].
     pub fn read_observed(
         path: &Path,
         options: &MeasuredOptions,
-        seen: &mut dyn FnMut(&[u8]),
+        seen: &mut (dyn FnMut(&[u8]) + Send),
     ) -> Result<Self, SurfaceError> {
-        let read = options.read(path, Some(Unit::METRE), seen).and_then(|surface| match options.detrend {
+        let read = options.read(path, seen).and_then(|surface| match options.detrend {
             Some(detrend) if detrend != Detrend::None => {
                 surface.spacing()?;
                 Ok(surface.with_heights(|heights, columns| detrend.remove(heights, columns)))
@@ -307,11 +309,9 @@ mod tests {
         let path = folder.path().join("line.csv");
         let read = |text: &str, unit: Option<Unit>| {
             std::fs::write(&path, text).unwrap();
-            MeasuredProfile::read_observed(
-                &path,
-                &MeasuredOptions { unit, ..MeasuredOptions::default() },
-                &mut |_| (),
-            )
+            let reading = ReadOptions { unit, convention: Some(Unit::METRE), ..ReadOptions::default() };
+            let options = MeasuredOptions { as_line: true, reading, ..MeasuredOptions::default() };
+            MeasuredProfile::read_observed(&path, &options, &mut |_| ())
         };
         let millimetre: Unit = "mm".parse().unwrap();
         let metres = read("0,1\n1,2", None).unwrap();

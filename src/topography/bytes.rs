@@ -1,6 +1,6 @@
 //! Numbers of binary files, each read only where the file has its bytes.
 
-use super::error::{Place, TopographyError, refused};
+use super::error::{Place, TopographyError, gathered, refused};
 
 /// Part of a binary file that is read from its beginning to its end.
 #[derive(Clone, Copy, Debug)]
@@ -72,10 +72,7 @@ impl<'a> Bytes<'a> {
             refused(self.place(), format!("{count} points"), "as many as the file has bytes for")
         })?;
         let bytes = self.take(bytes)?;
-        let mut values = Vec::new();
-        values.try_reserve_exact(count).map_err(|_| TopographyError::OutOfMemory { points: count })?;
-        values.extend(bytes.chunks_exact(size).map(|bytes| of.value(bytes, order)));
-        Ok(values)
+        gathered(count, bytes.chunks_exact(size).map(|bytes| of.value(bytes, order)))
     }
 
     /// Bytes up to the next zero, which is skipped.

@@ -76,6 +76,17 @@ pub(super) fn refused(place: Place, fault: impl Into<String>, allowed: impl Into
     TopographyError::Content { place, fault: fault.into(), allowed: allowed.into() }
 }
 
+/// All values of an iterator of so many points, where there is memory for them.
+pub(super) fn gathered(
+    points: usize,
+    values: impl Iterator<Item = f64>,
+) -> Result<Vec<f64>, TopographyError> {
+    let mut gathered = Vec::new();
+    gathered.try_reserve_exact(points).map_err(|_| TopographyError::OutOfMemory { points })?;
+    gathered.extend(values);
+    Ok(gathered)
+}
+
 /// Text of a file for a message: on one line, of limited length.
 pub(super) fn shown(text: &str) -> String {
     let short = match text.char_indices().nth(MOST_SHOWN) {

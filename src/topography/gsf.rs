@@ -2,7 +2,8 @@
 
 use super::Unit;
 use super::bytes::{Bytes, Number, Order};
-use super::error::{Place, TopographyError, refused, shown};
+use super::entries::Entries;
+use super::error::{Place, TopographyError, refused};
 use super::reading::{Format, RawGrid, Reading};
 
 pub(super) const SIGNATURE: &[u8] = b"Gwyddion Simple Field 1.0\n";
@@ -12,8 +13,12 @@ pub(super) fn read(bytes: &[u8]) -> Result<Reading, TopographyError> {
     let end = bytes.iter().position(|byte| *byte == 0).ok_or_else(|| {
         refused(Place::Byte(bytes.len()), "a header without an end", "a header that ends with a zero byte")
     })?;
-    let header = Header::parse(&bytes[..end])?;
-    let (columns, rows) = (header.count("xres")?, header.count("yres")?);
+    let mut header = Entries::default();
+    for (index, line) in String::from_utf8_lossy(&bytes[..end]).lines().enumerate().skip(1) {
+        header.take(index + 1, line, "key = value")?;
+    }
+    let count = |key: &str| header.count(key, "XRes and YRes");
+    let (columns, rows) = (count("xres")?, count("yres")?);
     let mut data = Bytes::new(bytes);
     data.take((end / 4 + 1) * 4)?;
     let points = columns.saturating_mul(rows);
@@ -24,63 +29,18 @@ pub(super) fn read(bytes: &[u8]) -> Result<Reading, TopographyError> {
         (Some(along), Some(between)) => Some([along, between]),
         _ => None,
     };
+    let unit = |key: &str| match header.text(key) {
+        None | Some(("", _)) => Ok(None),
+        Some((value, place)) => Unit::stated(value, place).map(Some),
+    };
     Ok(Reading {
         format: Format::Gsf,
         heights,
         grid: RawGrid::of(columns, rows, spacing),
-        lateral_unit: header.unit("xyunits")?,
-        height_unit: header.unit("zunits")?,
+        lateral_unit: unit("xyunits")?,
+        height_unit: unit("zunits")?,
         first_missing: None,
     })
-}
-
-/// Entries of the header, keys in lower case.
-struct Header {
-    entries: Vec<(String, String, usize)>,
-}
-
-impl Header {
-    fn parse(bytes: &[u8]) -> Result<Self, TopographyError> {
-        let text = String::from_utf8_lossy(bytes);
-        let mut entries = Vec::new();
-        for (index, line) in text.lines().enumerate().skip(1) {
-            let (key, value) = line.split_once('=').ok_or_else(|| {
-                refused(Place::Line(index + 1), format!("{:?}", shown(line)), "key = value")
-            })?;
-            entries.push((key.trim().to_ascii_lowercase(), value.trim().to_owned(), index + 1));
-        }
-        Ok(Header { entries })
-    }
-
-    fn entry(&self, key: &str) -> Option<(&str, Place)> {
-        let found = self.entries.iter().find(|(name, ..)| name == key);
-        found.map(|(_, value, line)| (value.as_str(), Place::Line(*line)))
-    }
-
-    fn count(&self, key: &str) -> Result<usize, TopographyError> {
-        let Some((value, place)) = self.entry(key) else {
-            return Err(refused(Place::File, format!("no {key} in the header"), "XRes and YRes"));
-        };
-        match value.parse() {
-            Ok(count) if count > 0 => Ok(count),
-            _ => Err(refused(place, format!("{key} = {}", shown(value)), "a whole number above 0")),
-        }
-    }
-
-    fn number(&self, key: &str) -> Result<Option<f64>, TopographyError> {
-        let Some((value, place)) = self.entry(key) else { return Ok(None) };
-        match value.parse::<f64>() {
-            Ok(number) if number.is_finite() => Ok(Some(number)),
-            _ => Err(refused(place, format!("{key} = {}", shown(value)), "a number")),
-        }
-    }
-
-    fn unit(&self, key: &str) -> Result<Option<Unit>, TopographyError> {
-        match self.entry(key) {
-            None | Some(("", _)) => Ok(None),
-            Some((value, place)) => Unit::stated(value, place).map(Some),
-        }
-    }
 }
 
 #[cfg(test)]

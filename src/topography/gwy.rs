@@ -61,6 +61,17 @@ fn object<'a>(bytes: &mut Bytes<'a>) -> Result<Bytes<'a>, TopographyError> {
     bytes.part(size)
 }
 
+/// Skips so many bytes.
+fn skipped<'a>(content: &mut Bytes<'a>, bytes: usize) -> Result<Value<'a>, TopographyError> {
+    content.take(bytes).map(|_| Value::Other)
+}
+
+/// Skips a list of values of so many bytes each.
+fn skipped_list<'a>(content: &mut Bytes<'a>, size: usize) -> Result<Value<'a>, TopographyError> {
+    let count = content.u32()? as usize;
+    skipped(content, count.saturating_mul(size))
+}
+
 /// Calls `each` for the components of an object, not for those of objects inside.
 fn for_each_component<'a>(
     mut content: Bytes<'a>,
@@ -71,16 +82,10 @@ fn for_each_component<'a>(
         let place = content.place();
         let kind = content.take(1)?[0];
         let value = match kind {
-            b'b' | b'c' => {
-                content.take(1)?;
-                Value::Other
-            }
+            b'b' | b'c' => skipped(&mut content, 1)?,
+            b'q' => skipped(&mut content, 8)?,
             b'i' => Value::Integer(content.i32()?),
             b'd' => Value::Double(content.f64()?),
-            b'q' => {
-                content.take(8)?;
-                Value::Other
-            }
             b's' => Value::Text(str::from_utf8(content.text()?).unwrap_or("\u{fffd}")),
             b'o' => Value::Object(object(&mut content)?),
             b'D' => {
@@ -88,16 +93,9 @@ fn for_each_component<'a>(
                 let values = content.part(count.saturating_mul(8))?;
                 Value::Doubles { count, values }
             }
-            b'C' | b'I' | b'Q' => {
-                let size = match kind {
-                    b'C' => 1,
-                    b'I' => 4,
-                    _ => 8,
-                };
-                let count = content.u32()? as usize;
-                content.take(count.saturating_mul(size))?;
-                Value::Other
-            }
+            b'C' => skipped_list(&mut content, 1)?,
+            b'I' => skipped_list(&mut content, 4)?,
+            b'Q' => skipped_list(&mut content, 8)?,
             b'S' | b'O' => {
                 for _ in 0..content.u32()? {
                     if kind == b'S' {

@@ -6,6 +6,7 @@
 //! bytes for each byte of the file.
 
 mod bytes;
+mod entries;
 mod error;
 mod expansion;
 mod gsf;
@@ -14,6 +15,7 @@ mod missing;
 mod netcdf;
 mod npy;
 mod open;
+mod read_ahead;
 mod reading;
 mod sdf;
 mod sur;

@@ -3,7 +3,7 @@
 
 use super::UNEVEN;
 use super::bytes::{Bytes, Number, Order};
-use super::error::{Place, TopographyError, refused};
+use super::error::{Place, TopographyError, gathered, refused};
 use super::reading::{Format, RawGrid, Reading};
 use super::unit::Unit;
 
@@ -264,11 +264,8 @@ fn even_distance(positions: &[f64]) -> Result<f64, TopographyError> {
 
 /// Rows for columns.
 fn transposed(values: &[f64], columns: usize) -> Result<Vec<f64>, TopographyError> {
-    let points = values.len();
-    let mut turned = Vec::new();
-    turned.try_reserve_exact(points).map_err(|_| TopographyError::OutOfMemory { points })?;
-    turned.extend((0..columns).flat_map(|column| values.iter().skip(column).step_by(columns)));
-    Ok(turned)
+    let turned = (0..columns).flat_map(|column| values.iter().skip(column).step_by(columns).copied());
+    gathered(values.len(), turned)
 }
 
 #[cfg(test)]

@@ -2,9 +2,11 @@
 
 use super::error::{Place, TopographyError, refused};
 use super::expansion::{MOST_EXPANSION, most_expanded};
+use super::read_ahead::read_ahead;
 use super::reading::{ReadOptions, Reading};
 use super::{Topography, gsf, gwy, netcdf, npy, sdf, sur, text, x3p};
 use crate::io::{open_regular, read_limited};
+use crate::parallel::threads;
 use flate2::read::MultiGzDecoder;
 use std::cell::Cell;
 use std::io::{self, BufRead, BufReader, Read};
@@ -17,11 +19,10 @@ pub const MOST_BYTES: u64 = 1 << 30;
 /// First bytes of gzip.
 const GZIP: [u8; 2] = [0x1f, 0x8b];
 
-/// Bytes gathered from a file, and from a large one, whose lines several threads read.
+/// Bytes gathered from a file.
 const BUFFER: usize = 1 << 16;
-const LARGE_BUFFER: usize = 1 << 22;
 
-/// Bytes from which on a file is large.
+/// Bytes from which on another thread reads a file ahead, and shows its bytes.
 const LARGE: u64 = 1 << 24;
 
 /// A reader of a whole binary file.
@@ -49,14 +50,14 @@ pub fn read(path: &Path, options: &ReadOptions) -> Result<Topography, Topography
     read_observed(path, options, &mut |_| ())
 }
 
-/// [`read`], with all bytes of the file shown to `seen`, in order.
+/// [`read`], with all bytes of the file shown to `seen`, in order; those of a large file on another thread.
 ///
 /// # Errors
 /// As [`read`].
 pub fn read_observed(
     path: &Path,
     options: &ReadOptions,
-    seen: &mut dyn FnMut(&[u8]),
+    seen: &mut (dyn FnMut(&[u8]) + Send),
 ) -> Result<Topography, TopographyError> {
     read_up_to(path, MOST_BYTES, options, seen)
 }
@@ -65,12 +66,17 @@ fn read_up_to(
     path: &Path,
     most: u64,
     options: &ReadOptions,
-    seen: &mut dyn FnMut(&[u8]),
+    seen: &mut (dyn FnMut(&[u8]) + Send),
 ) -> Result<Topography, TopographyError> {
     let file = open_regular(path)?;
-    let buffer = if file.metadata()?.len() < LARGE { BUFFER } else { LARGE_BUFFER };
+    let is_shared = file.metadata()?.len() >= LARGE && threads() > 1;
     let mut source = Observed { source: file, left: most, most, seen };
-    let surface = from_source(&mut source, buffer, options)?;
+    let shared =
+        is_shared.then(|| read_ahead(&mut source, |content| from_source(content, options))).flatten();
+    let surface = match shared {
+        Some(surface) => surface?,
+        None => from_source(BufReader::with_capacity(BUFFER, &mut source), options)?,
+    };
     // What follows the surface belongs to the file as well.
     io::copy(&mut source, &mut io::sink())?;
     Ok(surface)
@@ -81,15 +87,10 @@ fn read_up_to(
 /// # Errors
 /// As [`read`].
 pub fn parse(bytes: &[u8], options: &ReadOptions) -> Result<Topography, TopographyError> {
-    from_source(bytes, BUFFER, options)
+    from_source(bytes, options)
 }
 
-fn from_source(
-    source: impl Read,
-    buffer: usize,
-    options: &ReadOptions,
-) -> Result<Topography, TopographyError> {
-    let mut source = BufReader::with_capacity(buffer, source);
+fn from_source(mut source: impl BufRead, options: &ReadOptions) -> Result<Topography, TopographyError> {
     let reading = if starts_with(&mut source, &GZIP)? {
         let read = Rc::new(Cell::new(0));
         let counted = Counted { source, read: Rc::clone(&read) };
@@ -124,7 +125,7 @@ struct Observed<'a, R> {
     source: R,
     left: u64,
     most: u64,
-    seen: &'a mut dyn FnMut(&[u8]),
+    seen: &'a mut (dyn FnMut(&[u8]) + Send),
 }
 
 impl<R: Read> Read for Observed<'_, R> {
@@ -245,7 +246,8 @@ mod tests {
         let error = parse(b"1\n2\n", &metres()).unwrap_err().to_string();
         assert_eq!(
             error,
-            "text columns without a distance between points; allowed: --spacing with a unit, such as --spacing 0.5um"
+            "text columns without a distance between points; allowed: a distance beside the file: --spacing 0.5um, in a \
+             scene roughness.spacing"
         );
         let error = parse(b"x [nm] z [nm]\n0 1\n1 2\n", &metres()).unwrap_err().to_string();
         assert!(
@@ -262,8 +264,8 @@ mod tests {
         let error = parse(text, &metres()).unwrap_err().to_string();
         assert_eq!(
             error,
-            "line 2: 1 of 4 points are missing (25.00 %), the first here; allowed: --interpolate, which fills them \
-             from their neighbours"
+            "line 2: 1 of 4 points are missing (25.00 %), the first here; allowed: --interpolate, in a scene \
+             roughness.interpolate, which fills them from their neighbours"
         );
         let options = ReadOptions { missing: crate::topography::Missing::Interpolate, ..metres() };
         let surface = parse(text, &options).unwrap();

@@ -2,6 +2,7 @@
 
 use super::error::{Place, TopographyError, refused};
 use super::{Grid, Topography, Unit, missing};
+use crate::parallel::in_parallel;
 use std::fmt;
 
 /// Largest position and height, m, and largest slope between neighbours: beyond these, lengths and mean squares would
@@ -10,6 +11,9 @@ pub(super) const LARGEST: f64 = 1.0e9;
 
 /// Most points of a surface: 2 GiB of heights.
 const MOST_POINTS: usize = 1 << 28;
+
+/// Points from which on heights and positions are converted side by side.
+const MANY_POINTS: usize = 1 << 20;
 
 /// Choices of a user where a file leaves something open.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -105,6 +109,41 @@ impl RawGrid {
             _ => RawGrid::Map { columns, spacing },
         }
     }
+
+    /// The grid in m.
+    ///
+    /// # Errors
+    /// A unit or a distance that is unknown, positions out of range.
+    fn in_metres(
+        self,
+        format: Format,
+        stated: Option<Unit>,
+        options: &ReadOptions,
+    ) -> Result<Grid, TopographyError> {
+        let unit = |name: &str| unit(name, stated, options.unit, options.convention);
+        let even = |distance: Option<f64>| match (distance, options.spacing) {
+            (Some(distance), _) => check_spacing(unit("distances")?.to_metres(distance)),
+            (None, Some(spacing)) => check_spacing(spacing),
+            (None, None) => Err(refused(
+                Place::File,
+                format!("{} without a distance between points", format.name()),
+                "a distance beside the file: --spacing 0.5um, in a scene roughness.spacing",
+            )),
+        };
+        match self {
+            RawGrid::Positions(mut positions) => {
+                let unit = unit("positions")?;
+                positions.iter_mut().for_each(|x| *x = unit.to_metres(*x));
+                check_positions(&positions)?;
+                Ok(Grid::Positions(positions))
+            }
+            RawGrid::Profile(spacing) => Ok(Grid::Profile { spacing: even(spacing)? }),
+            RawGrid::Map { columns, spacing } => {
+                let [along, between] = spacing.map_or([None; 2], |spacing| spacing.map(Some));
+                Ok(Grid::Map { columns, spacing: [even(along)?, even(between)?] })
+            }
+        }
+    }
 }
 
 /// Numbers of a file before units.
@@ -131,59 +170,50 @@ impl Reading {
         check_points(&heights, &grid)?;
         let height_option = options.height_unit.or(options.unit);
         let height_unit = unit("heights", height_unit, height_option, options.convention)?;
-        let missing = missing::count(&heights);
-        if missing > 0 && options.missing == Missing::Refuse {
-            let first = heights.iter().position(|height| !height.is_finite()).unwrap_or(0);
-            let share = 100.0 * missing as f64 / heights.len() as f64;
-            return Err(refused(
-                first_missing.unwrap_or(Place::Point(first + 1)),
-                format!("{missing} of {} points are missing ({share:.2} %), the first here", heights.len()),
-                "--interpolate, which fills them from their neighbours",
-            ));
-        }
-        heights.iter_mut().for_each(|height| *height = height_unit.to_metres(*height));
-        let is_beyond = |height: &f64| height.abs() > LARGEST && height.is_finite();
-        if let Some(index) = first_of(&heights, is_beyond) {
-            return Err(refused(
-                Place::Point(index + 1),
-                format!("a height of {:e} m", heights[index]),
-                format!("from -{LARGEST:e} to {LARGEST:e} m"),
-            ));
-        }
-        let lateral = |value: f64, name: &str| {
-            let unit = unit(name, lateral_unit, options.unit, options.convention)?;
-            Ok::<f64, TopographyError>(unit.to_metres(value))
-        };
-        let even = |stated: Option<f64>, name: &str| match (stated, options.spacing) {
-            (Some(stated), _) => check_spacing(lateral(stated, name)?),
-            (None, Some(spacing)) => check_spacing(spacing),
-            (None, None) => Err(refused(
-                Place::File,
-                format!("{} without a distance between points", format.name()),
-                "--spacing with a unit, such as --spacing 0.5um",
-            )),
-        };
-        let grid = match grid {
-            RawGrid::Positions(mut positions) => {
-                let unit = unit("positions", lateral_unit, options.unit, options.convention)?;
-                positions.iter_mut().for_each(|x| *x = unit.to_metres(*x));
-                check_positions(&positions)?;
-                Grid::Positions(positions)
-            }
-            RawGrid::Profile(spacing) => Grid::Profile { spacing: even(spacing, "distances")? },
-            RawGrid::Map { columns, spacing } => {
-                let [along, between] = spacing.map_or([None; 2], |spacing| spacing.map(Some));
-                Grid::Map { columns, spacing: [even(along, "distances")?, even(between, "distances")?] }
-            }
-        };
-        let columns = match &grid {
-            Grid::Map { columns, .. } => *columns,
-            Grid::Profile { .. } | Grid::Positions(_) => heights.len(),
-        };
+        let is_worth = heights.len() >= MANY_POINTS;
+        let (missing, grid) = in_parallel(
+            is_worth,
+            || heights_in_metres(&mut heights, height_unit, first_missing, options.missing),
+            || grid.in_metres(format, lateral_unit, options),
+        );
+        let (missing, grid) = (missing?, grid?);
         if missing > 0 {
+            let columns = if let Grid::Map { columns, .. } = grid { columns } else { heights.len() };
             missing::interpolate(&mut heights, columns)?;
         }
         Topography::new(format, heights, grid, missing)
+    }
+}
+
+/// Converts heights to m. Returns the number of missing ones.
+///
+/// # Errors
+/// Missing points that are refused, heights out of range.
+fn heights_in_metres(
+    heights: &mut [f64],
+    unit: Unit,
+    first_missing: Option<Place>,
+    treatment: Missing,
+) -> Result<usize, TopographyError> {
+    let missing = missing::count(heights);
+    if missing > 0 && treatment == Missing::Refuse {
+        let first = heights.iter().position(|height| !height.is_finite()).unwrap_or(0);
+        let share = 100.0 * missing as f64 / heights.len() as f64;
+        return Err(refused(
+            first_missing.unwrap_or(Place::Point(first + 1)),
+            format!("{missing} of {} points are missing ({share:.2} %), the first here", heights.len()),
+            "--interpolate, in a scene roughness.interpolate, which fills them from their neighbours",
+        ));
+    }
+    heights.iter_mut().for_each(|height| *height = unit.to_metres(*height));
+    let is_beyond = |height: &f64| height.abs() > LARGEST && height.is_finite();
+    match first_of(heights, is_beyond) {
+        Some(index) => Err(refused(
+            Place::Point(index + 1),
+            format!("a height of {:e} m", heights[index]),
+            format!("from -{LARGEST:e} to {LARGEST:e} m"),
+        )),
+        None => Ok(missing),
     }
 }
 

@@ -2,6 +2,7 @@
 
 use super::Unit;
 use super::bytes::{Bytes, Number, Order};
+use super::entries::{Entries, missing};
 use super::error::{Place, TopographyError, refused, shown};
 use super::reading::{Format, RawGrid, Reading};
 
@@ -84,54 +85,25 @@ pub(super) fn read_text(bytes: &[u8]) -> Result<Reading, TopographyError> {
 }
 
 fn text_header<'a>(lines: &mut impl Iterator<Item = (usize, &'a str)>) -> Result<Header, TopographyError> {
-    let mut entries: Vec<(String, &str, usize)> = Vec::new();
+    const REQUIRED: &str = "NumPoints, NumProfiles, Xscale, Yscale, Zscale";
+    let mut entries = Entries::default();
     let mut ended = false;
-    for (number, line) in lines.by_ref().skip(1) {
+    for (number, line) in lines.by_ref().skip(1).filter(|(_, line)| !line.is_empty()) {
         if line == "*" {
             ended = true;
             break;
         }
-        if line.is_empty() {
-            continue;
-        }
-        let Some((key, value)) = line.split_once('=') else {
-            return Err(refused(
-                Place::Line(number),
-                format!("{:?}", shown(line)),
-                "key = value, or * before the heights",
-            ));
-        };
-        entries.push((key.trim().to_ascii_lowercase(), value.trim(), number));
+        entries.take(number, line, "key = value, or * before the heights")?;
     }
     if !ended {
         return Err(refused(Place::File, "a header without an end", "a line with * before the heights"));
     }
-    let number = |key: &str| {
-        let entry = entries.iter().find(|(name, ..)| *name == key.to_ascii_lowercase());
-        let Some((_, value, line)) = entry else {
-            return Err(refused(
-                Place::File,
-                format!("no {key} in the header"),
-                "NumPoints, NumProfiles, Xscale, Yscale, Zscale",
-            ));
-        };
-        match value.parse::<f64>() {
-            Ok(value) if value.is_finite() => Ok((value, Place::Line(*line))),
-            _ => Err(refused(Place::Line(*line), format!("{key} = {}", shown(value)), "a number")),
-        }
-    };
-    let count = |key: &str| {
-        let (value, place) = number(key)?;
-        if value >= 1.0 && value <= f64::from(u32::MAX) && value.fract() == 0.0 {
-            return Ok(value as usize);
-        }
-        Err(refused(place, format!("{key} = {value}"), "a whole number above 0"))
-    };
-    let scales = [number("Xscale")?.0, number("Yscale")?.0, number("Zscale")?.0];
-    let (columns, rows) = (count("NumPoints")?, count("NumProfiles")?);
-    let missing = match number("DataType") {
-        Ok((value, place)) => data_type(value.max(0.0) as usize, place)?.1,
-        Err(_) => None,
+    let scale = |key: &str| entries.number(key)?.ok_or_else(|| missing(key, REQUIRED));
+    let scales = [scale("Xscale")?, scale("Yscale")?, scale("Zscale")?];
+    let (columns, rows) = (entries.count("NumPoints", REQUIRED)?, entries.count("NumProfiles", REQUIRED)?);
+    let missing = match (entries.number("DataType"), entries.text("DataType")) {
+        (Ok(Some(number)), Some((_, place))) => data_type(number.max(0.0) as usize, place)?.1,
+        _ => None,
     };
     Ok(Header { columns, rows, scales, missing })
 }

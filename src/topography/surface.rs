@@ -1,7 +1,7 @@
 //! Measured heights in m with their positions.
 
 use super::Format;
-use super::error::{Place, TopographyError, refused};
+use super::error::{Place, TopographyError, gathered, refused};
 use super::reading::LARGEST;
 
 /// Share of the distance between points by which points of an even grid may be displaced, for want of digits.
@@ -128,10 +128,7 @@ impl Topography {
             Grid::Positions(positions) => Ok((positions, self.heights)),
             Grid::Profile { spacing } => {
                 let points = self.heights.len();
-                let mut positions = Vec::new();
-                positions.try_reserve_exact(points).map_err(|_| TopographyError::OutOfMemory { points })?;
-                positions.extend((0..points).map(|index| index as f64 * spacing));
-                Ok((positions, self.heights))
+                Ok((gathered(points, (0..points).map(|index| index as f64 * spacing))?, self.heights))
             }
             Grid::Map { columns, .. } => {
                 let fault = format!("a map of {} rows of {columns} points", self.heights.len() / columns);
@@ -161,9 +158,7 @@ impl Topography {
             Cut::Row(_) => (index * columns, 1, columns, along),
             Cut::Column(_) => (index, columns, rows, between),
         };
-        let mut heights = Vec::new();
-        heights.try_reserve_exact(points).map_err(|_| TopographyError::OutOfMemory { points })?;
-        heights.extend(self.heights.iter().skip(first).step_by(step).take(points));
+        let heights = gathered(points, self.heights.iter().skip(first).step_by(step).take(points).copied())?;
         Ok(Topography { heights, grid: Grid::Profile { spacing }, ..self })
     }
 
@@ -196,7 +191,9 @@ impl Topography {
                             positions[index],
                             (positions[index] - first) / mean - index as f64
                         ),
-                        format!("at most {UNEVEN}, or --resample, which interpolates linearly"),
+                        format!(
+                            "at most {UNEVEN}, or --resample, in a scene roughness.resample, which interpolates linearly"
+                        ),
                     )),
                 }
             }
@@ -211,19 +208,17 @@ impl Topography {
     pub fn resampled(mut self) -> Result<Self, TopographyError> {
         let Grid::Positions(positions) = &self.grid else { return Ok(self) };
         let (first, spacing, points) = (positions[0], mean_distance(positions), positions.len());
-        let mut heights = Vec::new();
-        heights.try_reserve_exact(points).map_err(|_| TopographyError::OutOfMemory { points })?;
         let mut piece = 0;
-        for index in 0..points {
+        let height = |index: usize| {
             let x = first + index as f64 * spacing;
             while piece + 2 < points && positions[piece + 1] < x {
                 piece += 1;
             }
             let (x0, x1) = (positions[piece], positions[piece + 1]);
             let share = ((x - x0) / (x1 - x0)).clamp(0.0, 1.0);
-            heights.push(self.heights[piece] + share * (self.heights[piece + 1] - self.heights[piece]));
-        }
-        self.heights = heights;
+            self.heights[piece] + share * (self.heights[piece + 1] - self.heights[piece])
+        };
+        self.heights = gathered(points, (0..points).map(height))?;
         self.grid = Grid::Profile { spacing };
         Ok(self)
     }

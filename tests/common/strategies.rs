@@ -129,7 +129,8 @@ impl Drawn {
                 "" if self.wrong => 0.99,
                 "" => 1.0,
                 "None" if named => 0.95,
-                "None" if !template.is_empty() => 0.05,
+                // Texts such as units are rarely allowed.
+                "None" | "[]" | "\"\"" if !template.is_empty() => 0.05,
                 _ => 0.7,
             };
             let name = if self.wrong {

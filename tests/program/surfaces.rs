@@ -6,7 +6,7 @@ mod generate;
 use super::readme::scenes;
 use asperity::spectrum::{Analysis, End, Options, PowerLaw, analyse};
 use asperity::topography::Topography;
-use generate::{Profiles, Spectrum, map};
+use generate::{Profiles, Spectrum, cut, map};
 use std::fmt::Write;
 
 /// Waves of the finest resolved wavelength on the length of a surface, and points.
@@ -114,6 +114,57 @@ fn the_equivalent_line_of_generated_surfaces_is_theirs() {
         }
     }
     scenes::check("docs/surfaces.md", "biases", &table);
+}
+
+/// Mean of w⁴ of a Hann window w with a mean of w² of 1: the window leaves so many times fewer independent waves.
+const HANN: f64 = 35.0 / 18.0;
+
+/// Number of independent waves that carry ∫ k^power C_cut dk of one windowed profile: the power of each wave has a standard
+/// deviation as large as its mean.
+fn independent_waves(spectrum: &Spectrum, power: i32) -> f64 {
+    let waves = (1..=LAST as u32).map(f64::from).map(|k| k.powi(power) * cut(spectrum, k));
+    let (sum, squares) = waves.fold((0.0, 0.0), |(sum, squares), wave| (sum + wave, squares + wave * wave));
+    sum * sum / squares / HANN
+}
+
+/// A profile holds few waves, and no estimate knows more than they do: the spread is that of their number.
+#[test]
+#[ignore = "takes ten seconds or more; .ci/run runs it"]
+fn the_spread_of_an_estimate_is_that_of_the_waves_in_its_profiles() {
+    const SETS: u64 = 48;
+    let mut table = String::from(
+        "| H | quantity | independent waves | least spread, % | 1 profile, % | 4 profiles, % | 16 profiles, % |\n\
+         | --- | --- | --- | --- | --- | --- | --- |\n",
+    );
+    for hurst in [0.3, 0.5, 0.8] {
+        let spectrum = Spectrum { hurst, roll_off: 16.0, last: LAST };
+        let profiles = Profiles::new(&spectrum, POINTS);
+        let spreads = [1, 4, 16].map(|count| {
+            let set = |set: u64| {
+                let seeds = (0..count).map(|i| 10_000 * (count + 1) + set * count + i);
+                estimated(&seeds.map(|seed| profiles.profile(seed)).collect::<Vec<_>>())
+            };
+            let found: Vec<Analysis> = (0..SETS).map(set).collect();
+            ratios(&spectrum, &found).map(|ratio| ratio.spread)
+        });
+        // Of a root the relative error is half as large.
+        for (index, (name, power, share)) in
+            [("h", 0, 0.5), ("⟨∇z⟩", 2, 0.5), ("e_el", 1, 1.0)].into_iter().enumerate()
+        {
+            let waves = independent_waves(&spectrum, power);
+            let least = share / waves.sqrt();
+            let spreads = spreads.map(|spread| spread[index]);
+            for (spread, count) in spreads.iter().zip([1.0_f64, 4.0, 16.0]) {
+                // 48 samples know a standard deviation within 10 %.
+                let ratio = spread * count.sqrt() / least;
+                assert!((0.7..1.5).contains(&ratio), "H = {hurst}, {name}, {count} profiles: {ratio}");
+            }
+            let per_cent = |value: f64| format!("{:.1}", 100.0 * value);
+            let cells = spreads.map(per_cent).join(" | ");
+            writeln!(table, "| {hurst} | {name} | {waves:.0} | {} | {cells} |", per_cent(least)).unwrap();
+        }
+    }
+    scenes::check("docs/surfaces.md", "profiles", &table);
 }
 
 /// Waves of a rough surface beyond the distance between points.

@@ -5,7 +5,7 @@ use crate::memory::check_room;
 use crate::scene::{Form, Roughness, Scene};
 use crate::simulation::{Outcome, measured_options};
 use crate::spectrum::{Analysis, LineMoments, line_spectrum};
-use crate::surface::{Line, SelfAffine, mdr_profile};
+use crate::surface::{EquivalentLine, Line, SelfAffine, mdr_profile};
 use std::f64::consts::TAU;
 use std::path::Path;
 
@@ -35,22 +35,16 @@ impl SceneSpectra {
             missing = Some(error);
             Vec::new()
         });
-        let mut spectra = match &analyses[..] {
-            [analysis] => Spectra::of_analysis(analysis),
-            faces => Spectra {
-                measured: faces.iter().flat_map(|face| Spectra::of_analysis(face).measured).collect(),
-                ..Spectra::default()
-            },
-        };
-        spectra.line = expected(scene, outcome, &analyses);
+        let faces: Vec<&Analysis> = analyses.iter().collect();
+        let mut spectra = Spectra::of_faces(&faces);
+        let equivalent =
+            EquivalentLine::from_spectra(faces.iter().map(|face| face.isotropic.clone()).collect()).ok();
+        spectra.line = expected(scene, outcome, equivalent.as_ref());
         spectra.heights = of_heights(scene, line).unwrap_or_else(|error| {
             missing.get_or_insert(error);
             Vec::new()
         });
-        let moments = match &analyses[..] {
-            [analysis] if !scene.measured_as_line() => Some(analysis.line),
-            _ => None,
-        };
+        let moments = equivalent.filter(|_| !scene.measured_as_line()).map(|line| line.moments());
         SceneSpectra { spectra, moments, missing }
     }
 }
@@ -58,12 +52,12 @@ impl SceneSpectra {
 /// Analyses of the measured surfaces.
 fn analyses(scene: &Scene) -> Result<Vec<Analysis>, String> {
     let options = measured_options(scene);
-    let files = scene.measured_files();
-    files.iter().map(|file| options.analyse(Path::new(file)).map_err(|error| error.to_string())).collect()
+    let faces = scene.measured_paths(Path::new(""));
+    faces.iter().map(|face| options.analyse(face, &mut |_| ()).map_err(|error| error.to_string())).collect()
 }
 
 /// Spectrum that the line is to have, at some of its modes: A²L/4 of a mode with the amplitude A.
-fn expected(scene: &Scene, outcome: &Outcome, analyses: &[Analysis]) -> Vec<SpectrumPoint> {
+fn expected(scene: &Scene, outcome: &Outcome, equivalent: Option<&EquivalentLine>) -> Vec<SpectrumPoint> {
     let Some((first, last)) = outcome.line.modes else { return Vec::new() };
     let length = outcome.line.length;
     let power: Box<dyn Fn(u64) -> f64> = match scene.roughness {
@@ -73,10 +67,7 @@ fn expected(scene: &Scene, outcome: &Outcome, analyses: &[Analysis]) -> Vec<Spec
             let scale = 0.25 * length * (height / spectrum.relative_rms()).powi(2);
             Box::new(move |mode| scale * spectrum.relative_amplitude(mode).powi(2))
         }
-        _ => Box::new(|mode| {
-            let wave_number = TAU * mode as f64 / length;
-            analyses.iter().map(|face| face.isotropic.line(wave_number)).sum()
-        }),
+        _ => Box::new(|mode| equivalent.map_or(0.0, |line| line.power(TAU * mode as f64 / length))),
     };
     let modes = |step: u32| (first as f64 * 10.0_f64.powf(f64::from(step) / PER_DECADE)).round() as u64;
     let mut shown: Vec<u64> = (0..).map(modes).take_while(|mode| *mode < last).chain([last]).collect();

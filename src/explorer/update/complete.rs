@@ -17,22 +17,28 @@ struct TypedPath {
 }
 
 impl TypedPath {
-    /// Path that ends at the end of the line: the whole line, or in the value of a roughness the text behind an open quote.
+    /// Path that ends at the end of the line: the whole line, or in the value of a roughness the text behind an open quote
+    /// or a value without brackets.
     fn of(model: &Model) -> Option<Self> {
         let (line, is_value) = match &model.mode {
             // Title and notice of a scene are no paths.
             Mode::SaveAs(form) if form.line == 0 => (form.lines.first()?, false),
             Mode::Export(line) => (line, false),
             Mode::Library(library) => (&library.finder.query, false),
-            Mode::Edit(line) if model.parameter()?.path.starts_with("roughness") => (line, true),
+            Mode::Edit(line) if names_files(&model.parameter()?.path) => (line, true),
             _ => return None,
         };
         let text = line.text();
         if !is_value {
             return Some(TypedPath { before: String::new(), folder: String::new(), path: text });
         }
-        let quote = text.rfind('"').filter(|_| text.matches('"').count() % 2 == 1)?;
-        let (before, path) = text.split_at(quote + 1);
+        let quotes = text.matches('"').count();
+        let begin = match text.rfind('"') {
+            Some(quote) if quotes % 2 == 1 => quote + 1,
+            None if !text.contains(['(', '[']) => 0,
+            _ => return None,
+        };
+        let (before, path) = text.split_at(begin);
         let is_absolute = std::path::Path::new(path).is_absolute();
         let folder =
             if is_absolute { String::new() } else { model.document.resolve("").display().to_string() };
@@ -49,6 +55,11 @@ impl TypedPath {
         let path = whole.strip_prefix(&self.folder).unwrap_or(whole);
         TextLine::new(&format!("{}{path}", self.before))
     }
+}
+
+/// Returns true for the parameters whose values hold names of files.
+fn names_files(path: &str) -> bool {
+    ["roughness", "roughness.file", "roughness.further_files", "roughness.opposite"].contains(&path)
 }
 
 /// Returns true if a path is being typed.

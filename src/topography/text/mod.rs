@@ -68,8 +68,8 @@ struct Rows {
     decimal: Decimal,
     columns: usize,
     points: Points,
-    /// Memory for points on their way.
-    spare: Points,
+    /// Memory for points of other threads.
+    spare: Vec<Points>,
     first_missing: Option<Place>,
 }
 
@@ -82,7 +82,7 @@ impl Rows {
             decimal: Decimal::default(),
             columns: separator.split(line).count(),
             points: Points::default(),
-            spare: Points::default(),
+            spare: Vec::new(),
             first_missing: None,
         }
     }

@@ -146,6 +146,45 @@ fn a_measured_surface_has_its_spectrum_fit_and_errors() {
 }
 
 #[test]
+fn a_measured_surface_is_the_roughness_by_its_path_alone() {
+    within(120, || {
+        for size in [(120, 40), (80, 24), (40, 12)] {
+            let folder = tempfile::tempdir().unwrap();
+            let file = folder.path().join("stylus.txt");
+            measured(&file);
+            let text = changed(&rough(), &[("adhesion", "(work: 0.05)"), ("numerics.points", "1024")]);
+            let name = folder.path().join("scene.ron");
+            let document = Document::parse(text.text(), name.to_str().unwrap()).unwrap();
+            let mut driver = Driver::start(document);
+            driver.resize(size);
+            driver.select("roughness");
+            driver.press("Enter");
+            // What is typed replaces the value.
+            driver.type_text("sty");
+            driver.press("Tab");
+            let typed = driver.model.mode.line_mut().map(|line| line.text());
+            assert_eq!(typed.as_deref(), Some("stylus.txt"));
+            driver.press("Enter");
+            let scene = driver.model.document.scene();
+            assert_eq!((scene.measured_files(), scene.measured_as_line()), (vec!["stylus.txt"], false));
+            let computed = driver.model.computed.as_ref().unwrap();
+            assert!(computed.outcome.governing.kappa.is_some_and(|kappa| kappa > 0.0));
+            assert!(computed.outcome.figures.adhesion_force.is_some_and(|force| force > 0.0));
+            let screen = driver.text();
+            assert!(screen.contains("F_a"), "{screen}");
+            driver.appraiser = Some(Box::new(Accuracy));
+            driver.press("Q");
+            assert_eq!(driver.model.adhesion_spread.as_ref().unwrap().found.profiles.len(), PROFILES);
+            driver.press("z");
+            let screen = driver.text();
+            // The smallest screen has room for the spectra alone.
+            assert!(size.0 == 40 || screen.contains("over 16 lines, ± "), "{screen}");
+            assert!(screen.contains("Spectr"), "{screen}");
+        }
+    });
+}
+
+#[test]
 fn the_path_of_a_measured_surface_is_completed_beside_the_scene() {
     within(60, || {
         let folder = tempfile::tempdir().unwrap();
@@ -172,7 +211,7 @@ fn the_path_of_a_measured_surface_is_completed_beside_the_scene() {
         driver.type_text(&format!("Measured(file: \"{}/ot", folder.path().display()));
         driver.press("Tab");
         assert_eq!(typed(&driver), format!("Measured(file: \"{}/other.txt", folder.path().display()));
-        for (field, text) in [("roughness", "st"), ("material.youngs_modulus", "\"st")] {
+        for (field, text) in [("roughness", "SelfAffine(st"), ("material.youngs_modulus", "\"st")] {
             driver.press("Esc");
             driver.select(field);
             driver.press("Enter Ctrl+u");

@@ -190,6 +190,130 @@ fn several_files_are_one_roughness() {
     assert!(map["rms_gradient"].as_f64().unwrap() > map["rms_slope"].as_f64().unwrap());
 }
 
+/// Folder with files that leave everything open: `plain.txt` without units, `column.txt` without distances and units,
+/// `holes.txt` with missing points, `uneven.txt` with points at uneven distances, and a map `map.txt`.
+fn open_folder() -> tempfile::TempDir {
+    let folder = folder();
+    let heights = heights(512);
+    let write = |name: &str, text: String| std::fs::write(folder.path().join(name), text).unwrap();
+    write("column.txt", heights[100..400].iter().map(|z| format!("{z:?}\n")).collect());
+    let hole = |i: usize, z: &f64| if i % 97 == 50 { "bad".to_owned() } else { format!("{z:?}") };
+    write("holes.txt", heights.iter().enumerate().map(|(i, z)| format!("{i}\t{}\n", hole(i, z))).collect());
+    let place = |i: usize| i as f64 + if i % 5 == 2 { 0.3 } else { 0.0 };
+    write("uneven.txt", heights.iter().enumerate().map(|(i, z)| format!("{}\t{z:?}\n", place(i))).collect());
+    folder
+}
+
+/// Numbers behind the last of these keys, each looked for behind the one before, to the last digit: a general reader of JSON
+/// rounds some of them.
+fn numbers<'a>(text: &'a str, keys: &[&str]) -> impl Iterator<Item = f64> + 'a {
+    let quoted = |key: &str| format!("\"{key}\":");
+    let (last, before) = keys.split_last().unwrap();
+    let rest = before.iter().fold(text, |rest, key| rest.split_once(&quoted(key)).unwrap().1);
+    let cells: Vec<&str> = rest.split(&quoted(last)).skip(1).collect();
+    cells.into_iter().filter_map(|cell| cell[..cell.find([',', '}']).unwrap()].trim().parse().ok())
+}
+
+#[test]
+fn a_scene_holds_all_that_decides_the_equivalent_line() {
+    let folder = open_folder();
+    let folder = folder.path();
+    std::fs::create_dir(folder.join("scenes")).unwrap();
+    let units = ["--unit", "um", "--height-unit", "nm"];
+    let cases: [(&[&str], &[&str]); 7] = [
+        (&["plain.txt"], &units),
+        (&["plain.txt", "line.txt"], &["--unit", "um", "--height-unit", "nm", "--detrend", "curvature"]),
+        (&["column.txt"], &["--unit", "nm", "--spacing", "0.7um", "--periodic"]),
+        (&["plain.txt", "holes.txt", "column.txt"], &["--unit", "nm", "--spacing", "1nm", "--interpolate"]),
+        (&["uneven.txt"], &["--unit", "um", "--height-unit", "nm", "--resample", "--continue-to", "0.5um"]),
+        (&["map.txt"], &["--row", "7"]),
+        (&["map.txt", "map.txt"], &["--column", "3", "--opposite", "map.txt"]),
+    ];
+    for (number, (files, options)) in cases.into_iter().enumerate() {
+        let (scene, table) = (format!("scenes/{number}.ron"), format!("{number}.csv"));
+        let contact = ["--modulus", "1MPa", "--work", "50mJ/m^2", "--lines", "3", "--format", "json"];
+        let asked = [&["surface"], files, options].concat();
+        let report = done(folder, &[&asked[..], &contact, &["--scene", &scene]].concat());
+        // The moments of the analysis, and those of the line on springs: bit for bit.
+        let document = asperity::scene::open(folder.join(&scene).to_str().unwrap()).unwrap();
+        let options = asperity::simulation::measured_options(document.scene());
+        let faces = document.scene().measured_paths(&document.resolve(""));
+        let moments =
+            asperity::surface::EquivalentLine::read(&faces, &options, &mut |_| ()).unwrap().moments();
+        for (name, found) in [
+            ("rms_height", moments.rms_height),
+            ("rms_gradient", moments.rms_gradient),
+            ("energy_per_modulus", moments.energy_per_modulus),
+        ] {
+            for (kind, value) in [("value", found.value), ("error", found.error)] {
+                let stated = numbers(&report, &["equivalent_line", name, kind]).next();
+                assert_eq!(stated, Some(value), "{files:?}, {name}, {kind}");
+            }
+        }
+        let lines = done(folder, &["run", &scene, "--lines", "3", "--format", "csv"]);
+        let forces = rows(&lines).skip(1).map(|row| row.split(',').nth(1).unwrap().parse::<f64>().unwrap());
+        let stated: Vec<f64> = numbers(&report, &["adhesion", "lines", "adhesion_force"]).collect();
+        assert_eq!(forces.collect::<Vec<_>>(), stated, "{files:?}");
+        assert_eq!(numbers(&report, &["adhesion", "length"]).next(), Some(document.scene().length));
+        // The spectra are made again from their table, with the same options.
+        done(folder, &[&asked[..], &["-o", &table]].concat());
+        done(folder, &["run", &table, "-o", &format!("again.{table}")]);
+        let [one, again] = [table.clone(), format!("again.{table}")]
+            .map(|name| std::fs::read_to_string(folder.join(name)).unwrap());
+        assert!(one == again && one.contains("# sha256: "), "{one}");
+    }
+}
+
+#[test]
+fn the_spectra_of_both_faces_add() {
+    let folder = folder();
+    let folder = folder.path();
+    let report = |arguments: &[&str]| json(folder, &[&["surface", "--format", "json"], arguments].concat());
+    let [one, other] = ["line.txt", "map.txt"].map(|file| report(&[file]));
+    let both = report(&["line.txt", "--opposite", "map.txt"]);
+    // Each face is stated as alone.
+    for name in ["files", "points", "rms_height", "hurst_exponent", "spectrum", "profile_spectra", "warnings"]
+    {
+        assert_eq!((&both[name], &both["opposite"][name]), (&one[name], &other[name]), "{name}");
+    }
+    assert_eq!(one["opposite"], serde_json::Value::Null);
+    // The gradient, to which long waves that one scan does not hold add little.
+    let squares = |report: &serde_json::Value| {
+        report["equivalent_line"]["rms_gradient"]["value"].as_f64().unwrap().powi(2)
+    };
+    let ratio = squares(&both) / (squares(&one) + squares(&other));
+    assert!((ratio - 1.0).abs() < 1e-2 && ratio < 1.0, "{ratio}");
+    let table = done(folder, &["surface", "line.txt", "--opposite", "map.txt", "--format", "csv"]);
+    let power = |table: &str, kind: &str| -> Vec<[f64; 2]> {
+        let cells = rows(table).filter_map(|row| row.strip_prefix(kind)?.strip_prefix(','));
+        let number = |cell: Option<&str>| cell.unwrap().parse().unwrap();
+        cells
+            .map(|row| {
+                let mut cells = row.split(',');
+                [number(cells.next()), number(cells.next())]
+            })
+            .collect()
+    };
+    let alone = done(folder, &["surface", "map.txt", "--format", "csv"]);
+    for kind in ["1D PSD along x", "q/π × 2D PSD"] {
+        assert_eq!(power(&table, &format!("opposite, {kind}")), power(&alone, kind));
+        assert!(!power(&alone, kind).is_empty());
+    }
+    // The line begins at the first wave that both scans hold.
+    let line = power(&table, "equivalent line");
+    assert!((line[0][0] * 40e-6 / std::f64::consts::TAU - 1.0).abs() < 1e-9, "{line:?}");
+    let summary = done(folder, &["surface", "line.txt", "--opposite", "map.txt"]);
+    for words in ["Opposite face", "opposite, accuracy", "map of 40 × 40 points"] {
+        assert!(summary.contains(words), "{words}: {summary}");
+    }
+    done(folder, &["surface", "line.txt", "--opposite", "map.txt", "-o", "both.svg"]);
+    let picture = std::fs::read_to_string(folder.join("both.svg")).unwrap();
+    assert!(picture.contains("measured, opposite, q/π × 2D PSD"), "{picture}");
+    done(folder, &["surface", "line.txt", "--opposite", "map.txt", "-o", "both.csv"]);
+    std::fs::write(folder.join("map.txt"), "1 2 3 4\n").unwrap();
+    assert!(refused(folder, &["run", "both.csv"]).starts_with("map.txt: the measured file has changed"));
+}
+
 #[test]
 fn refusals_name_file_place_and_what_is_allowed() {
     let folder = folder();
@@ -207,9 +331,22 @@ fn refusals_name_file_place_and_what_is_allowed() {
         (&["surface", "bad.txt", "--interpolate"], "bad.txt: 3 points along an axis; allowed: at least 32"),
         (&["surface", "line.txt", "uneven.txt"], "uneven.txt: point 2: x = 1e-6 m is off the even grid"),
         (&["surface", "line.txt", "--continue-to", "1mm"], "line.txt: the spectrum continues up to q = "),
+        (&["surface", "line.txt", "--row", "1"], "line.txt: a profile, which has no rows and columns"),
+        (&["surface", "line.txt", "--opposite", "none.txt"], "none.txt: cannot be read: "),
         (
-            &["surface", "line.txt", "map.txt", "--modulus", "1MPa", "--scene", "a.ron"],
-            "--scene: a scene does not hold several files",
+            &[
+                "surface",
+                "plain.txt",
+                "--unit",
+                "um",
+                "--opposite",
+                "bad.txt",
+                "--modulus",
+                "1MPa",
+                "--scene",
+                "a.ron",
+            ],
+            "bad.txt: line 3: 1 of 3 points are missing",
         ),
     ] {
         let message = refused(folder, arguments);
@@ -408,6 +545,16 @@ fn scenes_choose_profile_detrending_window_and_opposite_face() {
             "roughness=Measured(file: \"line.txt\", opposite: \"line.txt\", as_line: true)",
             "spectra of two faces add, their profiles do not",
         ),
+        (
+            "roughness=Measured(file: \"line.txt\", further_files: [\"map.txt\"], as_line: true)",
+            "several files have one spectrum, and no profile",
+        ),
+        ("roughness=Measured(file: \"line.txt\", further_files: [\"none.txt\"])", "none.txt"),
+        (
+            "roughness=Measured(file: \"line.txt\", height_unit: \"px\")",
+            "roughness.height_unit = \"px\": allowed: m, cm",
+        ),
+        ("roughness=Measured(file: \"line.txt\", further_files: [\"\"])", "roughness.further_files"),
     ] {
         let message = refused(folder, &["run", "scene.ron", "--set", set]);
         assert!(message.contains(expected) && message.trim().lines().count() == 1, "{set}: {message}");

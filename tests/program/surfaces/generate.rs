@@ -131,7 +131,7 @@ impl Profiles {
 }
 
 /// Two-sided power of a cut per wave number: the integral over waves across.
-fn cut(spectrum: &Spectrum, k: f64) -> f64 {
+pub fn cut(spectrum: &Spectrum, k: f64) -> f64 {
     let most = (spectrum.last.powi(2) - k * k).max(0.0).sqrt();
     // t = e^u − 1 resolves the roll-off.
     let pieces = 2000;
