@@ -81,6 +81,9 @@ mod tests {
             Wait(_) | Select(_) | Enter(_) => None,
         });
         let names: Vec<&str> = names.collect();
-        assert!(names.len() > 20 && names.iter().all(|name| bindings.named(name, ModeKind::Explore).is_some()), "{names:?}");
+        assert!(
+            names.len() > 20 && names.iter().all(|name| bindings.named(name, ModeKind::Explore).is_some()),
+            "{names:?}"
+        );
     }
 }

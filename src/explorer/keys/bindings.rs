@@ -137,8 +137,7 @@ pub fn markdown() -> String {
         // A bar would end the cell.
         let names = names(&row.keys).into_iter().map(|name| name.replace('|', "\\|"));
         let keys: Vec<String> = names.map(|name| format!("`{name}`")).collect();
-        let action =
-            if row.is_rebindable() { format!("`{}`", row.command.name) } else { String::new() };
+        let action = if row.is_rebindable() { format!("`{}`", row.command.name) } else { String::new() };
         text += &format!("| {shown} | {} | {} | {action} |\n", keys.join(" "), row.help);
     }
     text
@@ -167,7 +166,8 @@ mod tests {
         let mut names: Vec<&str> =
             BINDINGS.iter().filter(|row| row.is_rebindable()).map(|row| row.command.name).collect();
         names.sort_unstable();
-        let twice: Vec<&str> = names.windows(2).filter(|pair| pair[0] == pair[1]).map(|pair| pair[0]).collect();
+        let twice: Vec<&str> =
+            names.windows(2).filter(|pair| pair[0] == pair[1]).map(|pair| pair[0]).collect();
         assert_eq!(twice, ["toggle-crosshair"], "one more key hides the crosshair while the arrows move it");
         let is_plain = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-' || c == ' ';
         assert!(names.iter().all(|name| !name.is_empty() && name.chars().all(is_plain)), "{names:?}");
