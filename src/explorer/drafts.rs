@@ -1,6 +1,7 @@
 //! Unsaved changes, kept in the state folder while the explorer runs, for the case that the process or the connection ends
 //! before they are saved. One file for each process; files of the user are never written.
 
+use super::action::Action;
 use crate::io::{is_gone, machine, read_regular_text, write_new};
 use crate::scene::Document;
 use etcetera::{BaseStrategy, choose_base_strategy};
@@ -114,14 +115,6 @@ enum Request {
     Flush(Sender<()>),
 }
 
-/// Report of the thread.
-pub enum Report {
-    /// The names of scenes that another session has left.
-    Offered(Vec<String>),
-    /// Changes are not kept, and why.
-    NotKept(String),
-}
-
 /// Thread that keeps unsaved changes of this process in a file.
 pub struct Drafts {
     requests: Sender<Request>,
@@ -136,7 +129,7 @@ impl Drafts {
     pub fn start(
         folder: PathBuf,
         restored: Option<Restored>,
-        report: impl Fn(Report) + Send + 'static,
+        report: impl Fn(Action) + Send + 'static,
     ) -> std::io::Result<Drafts> {
         let (requests, inbox) = channel();
         std::thread::Builder::new().name("unsaved".to_owned()).spawn(move || {
@@ -144,7 +137,7 @@ impl Drafts {
                 && let Ok(Some(left)) = restore(&folder)
             {
                 let names = left.documents.iter().map(|document| document.name().to_owned());
-                report(Report::Offered(names.collect()));
+                report(Action::Offered(names.collect()));
             }
             serve(&folder, restored.map(|restored| restored.path), &inbox, &report);
         })?;
@@ -167,7 +160,7 @@ impl Drafts {
 }
 
 /// Keeps what was asked for last, after a pause.
-fn serve(folder: &Path, mut restored: Option<PathBuf>, inbox: &Receiver<Request>, report: &dyn Fn(Report)) {
+fn serve(folder: &Path, mut restored: Option<PathBuf>, inbox: &Receiver<Request>, report: &dyn Fn(Action)) {
     let path = file_of(folder, std::process::id());
     let (mut wanted, mut has_failed) = (None, false);
     loop {
@@ -194,7 +187,7 @@ fn serve(folder: &Path, mut restored: Option<PathBuf>, inbox: &Receiver<Request>
                 }
                 Err(why) if !has_failed => {
                     has_failed = true;
-                    report(Report::NotKept(why));
+                    report(Action::NotKept(why));
                 }
                 Err(_) => {}
             }
@@ -264,7 +257,7 @@ mod tests {
         // Another session offers them; one that has restored them keeps them under its own name.
         let (reports, reported) = channel();
         let drafts = Drafts::start(folder.clone(), None, move |report| drop(reports.send(report))).unwrap();
-        let Ok(Report::Offered(names)) = reported.recv() else { panic!("nothing is offered") };
+        let Ok(Action::Offered(names)) = reported.recv() else { panic!("nothing is offered") };
         assert_eq!(names, ["pressure-sensitive", "rough-sphere"]);
         drop(drafts);
         let drafts = Drafts::start(folder.clone(), Some(restored), |_| ()).unwrap();
@@ -293,7 +286,7 @@ mod tests {
             drafts.flush();
         }
         drop(drafts);
-        let all: Vec<Report> = reported.iter().collect();
-        assert!(matches!(all[..], [Report::NotKept(_)]), "stated once");
+        let all: Vec<Action> = reported.iter().collect();
+        assert!(matches!(all[..], [Action::NotKept(_)]), "stated once");
     }
 }

@@ -30,8 +30,9 @@ impl FileJob {
     /// Description for who waits for it.
     pub fn describe(&self) -> String {
         match self {
-            FileJob::Write { path, .. } => format!("writing {} …", path.display()),
-            FileJob::Remember { path, .. } => format!("writing {} …", path.display()),
+            FileJob::Write { path, .. } | FileJob::Remember { path, .. } => {
+                format!("writing {} …", path.display())
+            }
             FileJob::List => "listing scenes …".to_owned(),
             FileJob::Complete(_) => "listing files …".to_owned(),
             FileJob::Open(name) => format!("opening {name} …"),

@@ -4,15 +4,13 @@
 use super::action::Action;
 use super::mode::ModeKind;
 use super::model::Model;
-use super::session::{scene_beside, scene_of};
 use super::study::{Accuracy, Found, PaneData, Task, perform};
 use super::theme::Appearance;
-use super::update::{Effect, moment_request, study_tasks, update};
-use super::worker::{Engine, Newest, Report, Request, WorkerState};
+use super::update::{Effect, request, study_tasks, update};
+use super::worker::{Engine, Newest, Report, WorkerState};
 use crate::scene::Document;
 use std::cell::RefCell;
 use std::collections::VecDeque;
-use std::sync::Arc;
 
 /// With more springs than these no error is estimated: who watches would have to wait for it.
 const MOST_ESTIMATED: u64 = 1 << 17;
@@ -74,36 +72,16 @@ impl Headless {
 
     /// Actions that follow an effect. Nothing leaves the program.
     fn answer(&mut self, effect: Effect) -> Vec<Action> {
-        let generation = self.model.generation;
-        let request = match effect {
-            Effect::Compute => Request::Compute { generation, scene: scene_of(&self.model.document) },
-            Effect::Show => match moment_request(&self.model) {
-                Some(request) => Request::Show(request),
-                None => return Vec::new(),
-            },
-            Effect::Beside => Request::Beside(scene_beside(&self.model)),
+        let request = match &effect {
             Effect::Study => return self.study(),
-            Effect::Manual(order) => Request::Manual { generation, order },
-            Effect::Preview(document) => {
-                Request::Preview { text: document.text().to_owned(), scene: scene_of(&document) }
-            }
             Effect::DrawSeed => {
                 self.seeds += 1;
                 return vec![Action::SetSeed(self.seeds)];
             }
-            Effect::StopPreview
-            | Effect::Write { .. }
-            | Effect::Remember { .. }
-            | Effect::Complete(_)
-            | Effect::List
-            | Effect::Open(_)
-            | Effect::Copy(_)
-            | Effect::Suspend => return Vec::new(),
+            effect => request(&self.model, effect),
         };
-        self.newest.set_generation(generation);
-        if let Request::Preview { scene, .. } = &request {
-            self.newest.set_preview(Some(Arc::clone(scene)));
-        }
+        let Some(request) = request else { return Vec::new() };
+        self.newest.ask(&request);
         let reports: RefCell<Vec<Report>> = RefCell::default();
         self.worker.serve(std::iter::once(request), &self.newest, &|report| {
             reports.borrow_mut().push(report);

@@ -49,10 +49,11 @@ impl Layout {
         self.panes.iter().find(|(pane, _)| *pane == wanted).map(|(_, area)| *area)
     }
 
-    /// Cells across the profile, without its histogram.
+    /// Cells across the profile, without its histogram; those of the profile beside where only that is shown.
     #[must_use]
     pub fn profile_cells(&self) -> usize {
-        self.pane(Pane::Profile).map_or(0, |area| usize::from(split_profile(inside(area)).0.width))
+        let shown = [Pane::Profile, Pane::Beside].into_iter().find_map(|pane| self.pane(pane));
+        shown.map_or(0, |area| usize::from(split_profile(inside(area)).0.width))
     }
 
     /// Cells across the close-up.

@@ -105,8 +105,7 @@ impl ManualBody {
             // The last one exactly.
             let at = if step == POINTS { to } else { from + (to - from) * share };
             let moved = self.body.move_to_indentation(at)?;
-            self.count(moved);
-            self.travel.path.push(self.body.point());
+            self.record(moved);
         }
         Ok(())
     }
@@ -126,8 +125,7 @@ impl ManualBody {
             let share = f64::from(step) / f64::from(POINTS);
             let wanted = if step == POINTS { force } else { from + (force - from) * share };
             let moved = self.body.move_to_force(wanted)?;
-            self.count(moved);
-            self.travel.path.push(self.body.point());
+            self.record(moved);
         }
         Ok(())
     }
@@ -141,16 +139,15 @@ impl ManualBody {
                 return Ok(());
             }
             let moved = self.body.move_to_indentation(start.indentation - self.step * f64::from(step))?;
-            self.count(moved);
-            self.travel.path.push(self.body.point());
+            self.record(moved);
         }
         let moved = self.body.separate();
-        self.count(moved);
-        self.travel.path.push(self.body.point());
+        self.record(moved);
         Ok(())
     }
 
-    fn count(&mut self, moved: Move) {
+    fn record(&mut self, moved: Move) {
+        self.travel.path.push(self.body.point());
         self.travel.changed += moved.attaches + moved.detaches;
         self.travel.touched += moved.touched;
         self.travel.dissipated_energy += moved.dissipated_energy;

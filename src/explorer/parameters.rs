@@ -54,6 +54,20 @@ pub enum Setting {
 const NOT_LISTED: &[&str] = &["version", "title", "notice"];
 
 impl Parameter {
+    /// A field without a value of its own.
+    fn new(field: &'static Field, path: &str) -> Self {
+        Parameter {
+            field,
+            path: path.to_owned(),
+            group: group_of(path),
+            leg: None,
+            written: String::new(),
+            shown: String::new(),
+            effect: effect_of(path),
+            setting: setting_of(path),
+        }
+    }
+
     /// Name with the number of its leg.
     #[must_use]
     pub fn name(&self) -> String {
@@ -111,7 +125,8 @@ pub fn parameters(document: &Document) -> Vec<Parameter> {
             continue;
         }
         if field.range == Range::Group || field.path == "observe" {
-            parameters.push(heading(field));
+            let heading = Parameter::new(field, field.path);
+            parameters.push(Parameter { effect: None, setting: Setting::Heading, ..heading });
             if field.path == "observe" {
                 parameters.extend(observers(document, field));
             }
@@ -126,10 +141,8 @@ pub fn parameters(document: &Document) -> Vec<Parameter> {
             "loading" => stages(&document.scene().loading),
             _ => shown(field, written),
         };
-        let path = field.path.to_owned();
-        let (effect, setting) = (effect_of(&path), setting_of(&path));
-        let (group, written) = (group_of(&path), written.to_owned());
-        parameters.push(Parameter { field, path, group, leg: None, written, shown, effect, setting });
+        let written = written.to_owned();
+        parameters.push(Parameter { written, shown, ..Parameter::new(field, field.path) });
         if field.path == "loading" {
             parameters.extend(leg_targets(&document.scene().loading));
         }
@@ -141,20 +154,6 @@ pub fn parameters(document: &Document) -> Vec<Parameter> {
         (group, !parameter.is_head(), first.unwrap_or(FIRST.len()))
     });
     parameters
-}
-
-/// The first row of a group without a value of its own.
-fn heading(field: &'static Field) -> Parameter {
-    Parameter {
-        field,
-        path: field.path.to_owned(),
-        group: group_of(field.path),
-        leg: None,
-        written: String::new(),
-        shown: String::new(),
-        effect: None,
-        setting: Setting::Heading,
-    }
 }
 
 /// The loading history in short: `10 µN, separation`.
@@ -201,17 +200,7 @@ fn insert_other_adhesion(parameters: &mut Vec<Parameter>) {
             Some(place) => place,
             None => {
                 let Some(field) = field(path, None) else { return };
-                let follows = Parameter {
-                    field,
-                    path: path.to_owned(),
-                    group: group_of(path),
-                    leg: None,
-                    written: String::new(),
-                    shown: String::new(),
-                    effect: Some(Effect::Adhesion),
-                    setting: setting_of(path),
-                };
-                parameters.insert(at + 1, follows);
+                parameters.insert(at + 1, Parameter::new(field, path));
                 at + 1
             }
         };
@@ -224,14 +213,11 @@ fn observers(document: &Document, field: &'static Field) -> impl Iterator<Item =
     observers.map(move |effect| {
         let is_on = effect.is_on(document.scene());
         Parameter {
-            field,
-            path: format!("observe.{}", effect.name()),
-            group: group_of("observe"),
-            leg: None,
             written: is_on.to_string(),
             shown: if is_on { "on" } else { "off" }.to_owned(),
             effect: Some(effect),
             setting: Setting::Switch(effect),
+            ..Parameter::new(field, &format!("observe.{}", effect.name()))
         }
     })
 }
@@ -240,14 +226,11 @@ fn leg_targets(loading: &[Leg]) -> impl Iterator<Item = Parameter> {
     loading.iter().enumerate().filter_map(|(index, leg)| {
         let (field, value) = leg.target()?;
         Some(Parameter {
-            field,
-            path: format!("loading.{index}.0"),
-            group: group_of("loading"),
             leg: Some(index),
             written: ron_float(value),
             shown: format_quantity(value, field.unit),
             effect: Some(Effect::Unloading),
-            setting: Setting::Field,
+            ..Parameter::new(field, &format!("loading.{index}.0"))
         })
     })
 }

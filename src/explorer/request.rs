@@ -162,6 +162,19 @@ impl Awaited {
         *self.preview.lock().unwrap_or_else(PoisonError::into_inner) = scene;
     }
 
+    /// Makes a request what is waited for: a scene makes all older ones and every preview stale at once, and a preview those
+    /// before.
+    pub fn ask(&self, request: &Request) {
+        match request {
+            Request::Compute { generation, .. } => {
+                self.set_generation(*generation);
+                self.set_preview(None);
+            }
+            Request::Preview { scene, .. } => self.set_preview(Some(Arc::clone(scene))),
+            Request::Manual { .. } | Request::Show(_) | Request::Beside(_) => {}
+        }
+    }
+
     /// This very preview is waited for.
     #[must_use]
     pub fn is_preview(&self, scene: &Arc<Scene>) -> bool {

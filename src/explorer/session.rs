@@ -2,20 +2,20 @@
 
 use super::action::{Action, Traffic};
 use super::config::Config;
-use super::drafts::{self, Drafts, Restored};
+use super::drafts::{Drafts, Restored};
 use super::file_job::FileJob;
 use super::input;
 use super::model::{Model, Notice};
 use super::opening::Opening;
 use super::signals::{SystemSignal, watch_for_signals};
 use super::snapshot::SolvedScene;
-use super::study::{Accuracy, Found, Study};
+use super::study::{Accuracy, Study};
 use super::terminal::{self, FrameWriter, TerminalGuard};
 use super::theme::{Appearance, Marker, Theme};
-use super::update::{Effect, moment_request, study_tasks, update};
+use super::update::{Effect, request, study_tasks, update};
 use super::view;
-use super::worker::{self, Engine, Report, Request, Worker};
-use crate::scene::{Document, Scene};
+use super::worker::{self, Engine, Worker};
+use crate::scene::Document;
 use crate::simulation::Simulation;
 use crossterm::clipboard::CopyToClipboard;
 use crossterm::event::Event;
@@ -80,12 +80,16 @@ enum Message {
     Ended(i32),
     /// The process was stopped and goes on: another program may have had the terminal.
     Continued,
-    Report(Report),
-    Found(Found),
+    /// Report of another thread.
+    Act(Box<Action>),
     /// The job with files of this number is done.
     Done(u64, Box<Action>),
-    /// Report of the thread of unsaved changes.
-    Drafts(drafts::Report),
+}
+
+impl Message {
+    fn act(action: Action) -> Self {
+        Message::Act(Box::new(action))
+    }
 }
 
 /// A job with files that goes on beside.
@@ -119,29 +123,19 @@ pub fn open_with(
     let (messages, inbox) = channel();
     let (requests, outbox) = channel();
     let newest = worker::Newest::default();
-    let reports = messages.clone();
-    worker::start(engine, Arc::clone(&newest), outbox, move |report| {
-        reports.send(Message::Report(report)).is_ok()
+    let send_report = sender(&messages, |report| Message::act(Action::Report(report)));
+    worker::start(engine, Arc::clone(&newest), outbox, send_report)?;
+    let send_found = sender(&messages, |found| Message::act(Action::Found(found)));
+    let study = Study::start(Box::new(Accuracy), send_found)?;
+    let send_end = sender(&messages, |()| Message::InputEnded);
+    terminal::watch_for_hang_up(move || {
+        send_end(());
     })?;
-    let study = Study::start(Box::new(Accuracy), {
-        let messages = messages.clone();
-        move |found| messages.send(Message::Found(found)).is_ok()
-    })?;
-    terminal::watch_for_hang_up({
-        let messages = messages.clone();
-        move || drop(messages.send(Message::InputEnded))
-    })?;
-    watch_for_signals({
-        let messages = messages.clone();
-        move |signal| {
-            let message = match signal {
-                SystemSignal::End(signal) => Message::Ended(signal),
-                SystemSignal::Continue => Message::Continued,
-            };
-            messages.send(message).is_ok()
-        }
-    })?;
-    read_input(messages.clone())?;
+    watch_for_signals(sender(&messages, |signal| match signal {
+        SystemSignal::End(signal) => Message::Ended(signal),
+        SystemSignal::Continue => Message::Continued,
+    }))?;
+    input::read(sender(&messages, |event: Option<Event>| event.map_or(Message::InputEnded, Message::Input)))?;
     // The guard gives everything back; ratatui's own drop would complain on standard error, and panic
     // where that is gone together with the terminal.
     let writer = FrameWriter::new(io::stdout());
@@ -164,13 +158,12 @@ pub fn open_with(
     if let Some(restored) = &options.restored {
         model.restore(&restored.documents);
     }
-    let drafts = match options.drafts {
-        Some(folder) => Some(Drafts::start(folder, options.restored, {
-            let messages = messages.clone();
-            move |report| drop(messages.send(Message::Drafts(report)))
-        })?),
-        None => None,
+    let send_action = sender(&messages, Message::act);
+    let keep = move |action| {
+        send_action(action);
     };
+    let start = |folder| Drafts::start(folder, options.restored, keep);
+    let drafts = options.drafts.map(start).transpose()?;
     let mut session = Session {
         terminal: &mut terminal,
         guard,
@@ -199,20 +192,10 @@ pub fn open_with(
     Ok(SessionEnd { document: model.document, computed, signal })
 }
 
-fn read_input(messages: Sender<Message>) -> io::Result<()> {
-    input::read(move |event| messages.send(event.map_or(Message::InputEnded, Message::Input)).is_ok())
-}
-
-/// The scene as the worker gets it: files it names are found wherever the explorer was started.
-pub(super) fn scene_of(document: &Document) -> Arc<Scene> {
-    let mut scene = document.scene().clone();
-    scene.rename_measured_files(|file| document.resolve(file).to_string_lossy().into_owned());
-    Arc::new(scene)
-}
-
-/// The scene that is shown beside, as the worker gets it.
-pub(super) fn scene_beside(model: &Model) -> Option<Arc<Scene>> {
-    model.beside().map(|ghost| scene_of(&ghost.document))
+/// A function for another thread, which sends messages and returns false once nobody listens.
+fn sender<T>(messages: &Sender<Message>, message: fn(T) -> Message) -> impl Fn(T) -> bool + Send + use<T> {
+    let messages = messages.clone();
+    move |content| messages.send(message(content)).is_ok()
 }
 
 struct Session<'a, W: Write> {
@@ -301,11 +284,8 @@ impl<W: Write> Session<'_, W> {
                     Message::Input(event) => {
                         input::action_of(&event, &self.model.bindings, self.model.keys())
                     }
-                    Message::Report(report) => Some(Action::Report(report)),
-                    Message::Found(found) => Some(Action::Found(found)),
+                    Message::Act(action) => Some(*action),
                     Message::Done(number, action) => Some(self.late(number, *action)),
-                    Message::Drafts(drafts::Report::Offered(names)) => Some(Action::Offered(names)),
-                    Message::Drafts(drafts::Report::NotKept(why)) => Some(Action::NotKept(why)),
                 };
                 if let Some(action) = action {
                     changed = true;
@@ -411,22 +391,17 @@ impl<W: Write> Session<'_, W> {
     /// Does what an update asks for.
     fn perform(&mut self, effects: Vec<Effect>) -> io::Result<()> {
         for effect in effects {
-            let generation = self.model.generation;
             match effect {
-                Effect::Compute => {
-                    let scene = scene_of(&self.model.document);
-                    // What is found out about the scene before is of no use, and takes time from this one.
-                    self.study.stop();
-                    self.worker.ask(Request::Compute { generation, scene });
-                }
-                Effect::Show => {
-                    if let Some(request) = moment_request(&self.model) {
-                        self.worker.ask(Request::Show(request));
+                Effect::Compute | Effect::Show | Effect::Beside | Effect::Manual(_) | Effect::Preview(_) => {
+                    if effect == Effect::Compute {
+                        // What is found out about the scene before is of no use, and takes time from this one.
+                        self.study.stop();
+                    }
+                    if let Some(request) = request(&self.model, &effect) {
+                        self.worker.ask(request);
                     }
                 }
-                Effect::Beside => self.worker.ask(Request::Beside(scene_beside(&self.model))),
-                Effect::Study => self.study.ask(generation, study_tasks(&self.model)),
-                Effect::Manual(order) => self.worker.ask(Request::Manual { generation, order }),
+                Effect::Study => self.study.ask(self.model.generation, study_tasks(&self.model)),
                 Effect::DrawSeed => {
                     // Six digits are enough for another line and can be read out to a colleague.
                     let seed = rand::random_range(0..1_000_000);
@@ -442,10 +417,6 @@ impl<W: Write> Session<'_, W> {
                 Effect::Complete(typed) => self.work_on_files(FileJob::Complete(typed))?,
                 Effect::List => self.work_on_files(FileJob::List)?,
                 Effect::Open(name) => self.work_on_files(FileJob::Open(name))?,
-                Effect::Preview(document) => {
-                    let (scene, text) = (scene_of(&document), document.text().to_owned());
-                    self.worker.ask(Request::Preview { text, scene });
-                }
                 Effect::StopPreview => self.worker.stop_preview(),
                 Effect::Copy(text) => {
                     // With the next frame; whether the terminal takes it, it does not say.

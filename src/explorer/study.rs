@@ -51,30 +51,28 @@ impl PaneData {
     /// The reason for which there is nothing more, also when `stop` says so before the end.
     pub fn extended(self, stop: &dyn Fn() -> bool, report: &mut dyn FnMut(PaneData)) -> Result<Self, String> {
         let folder = Path::new(FOLDER);
+        let described = |error: RunError| error.to_string();
         Ok(match self {
             PaneData::Map(mut map) => {
-                let whole = Arc::make_mut(&mut map);
-                compute(whole, folder, stop, &mut |map| report(PaneData::Map(Arc::new(map.clone()))));
+                let mut report = |map: &LiveMap| report(PaneData::Map(Arc::new(map.clone())));
+                compute(Arc::make_mut(&mut map), folder, stop, &mut report);
                 PaneData::Map(map)
             }
             PaneData::Preloads(mut curve) => {
-                let whole = Arc::make_mut(&mut curve);
-                let done =
-                    whole.compute(folder, stop, &mut |one| report(PaneData::Preloads(Arc::new(one.clone()))));
-                done.map_err(|error| error.to_string())?;
+                let mut report = |curve: &PreloadCurve| report(PaneData::Preloads(Arc::new(curve.clone())));
+                Arc::make_mut(&mut curve).compute(folder, stop, &mut report).map_err(described)?;
                 PaneData::Preloads(curve)
             }
             PaneData::Adhesion(mut spread) => {
-                let whole = Arc::make_mut(&mut spread);
-                let done =
-                    whole.compute(folder, stop, &mut |one| report(PaneData::Adhesion(Arc::new(one.clone()))));
-                done.map_err(|error| error.to_string())?;
+                let mut report =
+                    |spread: &AdhesionSpread| report(PaneData::Adhesion(Arc::new(spread.clone())));
+                Arc::make_mut(&mut spread).compute(folder, stop, &mut report).map_err(described)?;
                 PaneData::Adhesion(spread)
             }
             PaneData::Costs(scene, _) => {
                 let mut report = |costs: &Costs| report(PaneData::Costs(Arc::clone(&scene), costs.clone()));
-                let costs = Costs::measure(&scene, folder, stop, &mut report);
-                let costs = costs.map_err(|error| error.to_string())?;
+                let costs =
+                    Costs::measure(&scene, folder, stop, &mut report).map_err(|error| error.to_string())?;
                 PaneData::Costs(scene, costs)
             }
         })
@@ -132,13 +130,15 @@ pub struct Found {
     pub finding: Finding,
 }
 
-/// Solver of the studies: [`Accuracy`], or a substitute in tests.
+/// Solver of the studies: [`Accuracy`], or a substitute in tests that replaces some of the methods.
 pub trait Appraiser: Send {
     /// See [`estimate`].
     ///
     /// # Errors
     /// When a solution that is needed fails.
-    fn estimate(&mut self, of: &SolvedScene, stop: &dyn Fn() -> bool) -> Result<Option<Estimate>, RunError>;
+    fn estimate(&mut self, of: &SolvedScene, stop: &dyn Fn() -> bool) -> Result<Option<Estimate>, RunError> {
+        estimate(&of.scene, Path::new(FOLDER), &of.outcome, stop)
+    }
 
     /// See [`choose`].
     ///
@@ -150,7 +150,9 @@ pub trait Appraiser: Send {
         tolerance: f64,
         stop: &dyn Fn() -> bool,
         trying: &mut dyn FnMut(u64),
-    ) -> Result<Choice, ChoiceError>;
+    ) -> Result<Choice, ChoiceError> {
+        choose(scene, Path::new(FOLDER), tolerance, stop, trying)
+    }
 
     /// See [`Simulation::approximate_jkr`].
     ///
@@ -185,21 +187,7 @@ pub struct Accuracy;
 /// The files of a scene that is explored are named by whole paths.
 const FOLDER: &str = "";
 
-impl Appraiser for Accuracy {
-    fn estimate(&mut self, of: &SolvedScene, stop: &dyn Fn() -> bool) -> Result<Option<Estimate>, RunError> {
-        estimate(&of.scene, Path::new(FOLDER), &of.outcome, stop)
-    }
-
-    fn choose(
-        &mut self,
-        scene: &Scene,
-        tolerance: f64,
-        stop: &dyn Fn() -> bool,
-        trying: &mut dyn FnMut(u64),
-    ) -> Result<Choice, ChoiceError> {
-        choose(scene, Path::new(FOLDER), tolerance, stop, trying)
-    }
-}
+impl Appraiser for Accuracy {}
 
 /// Reason for no result after a panic.
 const INTERNAL: &str = "internal error, please report it";

@@ -103,18 +103,6 @@ impl Theme {
         }
     }
 
-    /// The next theme.
-    #[must_use]
-    pub fn next(self) -> Self {
-        next(self)
-    }
-
-    /// Its name, as the command line has it.
-    #[must_use]
-    pub fn name(self) -> String {
-        name(&self)
-    }
-
     /// The colour of a meaning.
     #[must_use]
     pub fn colour(self, meaning: Meaning) -> Color {
@@ -169,18 +157,6 @@ impl Theme {
 }
 
 impl Marker {
-    /// The next marker.
-    #[must_use]
-    pub fn next(self) -> Self {
-        next(self)
-    }
-
-    /// Its name, as the command line has it.
-    #[must_use]
-    pub fn name(self) -> String {
-        name(&self)
-    }
-
     /// Marker of a canvas. ASCII is made from dots when everything is drawn.
     #[must_use]
     pub fn symbols(self) -> Symbols {
@@ -201,15 +177,25 @@ impl Marker {
     }
 }
 
-fn next<T: ValueEnum + PartialEq + Copy>(one: T) -> T {
-    let all = T::value_variants();
-    let place = all.iter().position(|other| *other == one).unwrap_or(0);
-    all[(place + 1) % all.len()]
+/// Values of an option that a key goes through.
+pub trait Choice: ValueEnum + PartialEq + 'static {
+    /// The next one, after the last the first.
+    #[must_use]
+    fn next(self) -> Self {
+        let all = Self::value_variants();
+        let place = all.iter().position(|other| *other == self).unwrap_or(0);
+        all[(place + 1) % all.len()].clone()
+    }
+
+    /// Its name, as the command line has it.
+    #[must_use]
+    fn name(self) -> String {
+        self.to_possible_value().map_or_else(String::new, |value| value.get_name().to_owned())
+    }
 }
 
-fn name(one: &impl ValueEnum) -> String {
-    one.to_possible_value().map_or_else(String::new, |value| value.get_name().to_owned())
-}
+impl Choice for Theme {}
+impl Choice for Marker {}
 
 #[cfg(test)]
 mod tests {

@@ -199,16 +199,9 @@ impl Worker {
         Worker { requests, newest }
     }
 
-    /// Asks for something; a scene makes all older ones and every preview stale at once, and a preview those before.
+    /// Asks for something, see [`Awaited::ask`](super::request::Awaited::ask).
     pub fn ask(&self, request: Request) {
-        match &request {
-            Request::Compute { generation, .. } => {
-                self.newest.set_generation(*generation);
-                self.newest.set_preview(None);
-            }
-            Request::Preview { scene, .. } => self.newest.set_preview(Some(Arc::clone(scene))),
-            Request::Manual { .. } | Request::Show(_) | Request::Beside(_) => {}
-        }
+        self.newest.ask(&request);
         // The worker only ends with the explorer.
         let _ = self.requests.send(request);
     }

@@ -6,7 +6,7 @@ use asperity::explorer::model::Model;
 use asperity::explorer::snapshot::SolvedScene;
 use asperity::explorer::study::{Appraiser, Found, perform};
 use asperity::explorer::theme::{Appearance, Marker, Theme};
-use asperity::explorer::update::{Effect, moment_request, study_tasks};
+use asperity::explorer::update::{Effect, request, study_tasks};
 use asperity::explorer::worker::{self, Engine, Newest, Report, Request, Worker};
 use asperity::explorer::{Opening, complete, scene_file, write};
 use asperity::scene::Library;
@@ -76,30 +76,15 @@ impl Driver {
     /// What comes back when an effect is done.
     pub fn answer(&mut self, effect: Effect) -> Vec<Action> {
         match effect {
-            Effect::Compute => {
-                let generation = self.model.generation;
-                let scene = Arc::new(self.model.document.scene().clone());
-                self.ask(Request::Compute { generation, scene })
+            Effect::Compute | Effect::Show | Effect::Preview(_) => {
+                request(&self.model, &effect).map_or(Vec::new(), |one| self.ask(one))
             }
-            Effect::Show => {
-                moment_request(&self.model).map_or(Vec::new(), |one| self.ask(Request::Show(one)))
+            // Answered with the next moment.
+            Effect::Beside | Effect::Manual(_) => {
+                request(&self.model, &effect).into_iter().for_each(|one| self.worker.ask(one));
+                Vec::new()
             }
             Effect::Study => self.study(),
-            Effect::Beside => {
-                // Seen in the next moment.
-                let scene = self.model.beside().map(|ghost| Arc::new(ghost.document.scene().clone()));
-                self.worker.ask(Request::Beside(scene));
-                Vec::new()
-            }
-            Effect::Manual(order) => {
-                // Answered with the next moment.
-                self.worker.ask(Request::Manual { generation: self.model.generation, order });
-                Vec::new()
-            }
-            Effect::Preview(document) => {
-                let scene = Arc::new(document.scene().clone());
-                self.ask(Request::Preview { text: document.text().to_owned(), scene })
-            }
             Effect::Complete(typed) => {
                 let paths = complete(&typed);
                 vec![Action::Completed { typed, paths }]

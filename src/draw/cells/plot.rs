@@ -200,7 +200,7 @@ impl CellPlot {
             }
         }
         let mut y = plot.bottom();
-        let (numbers, label) = scale_below(chart, plot.width, style.marker);
+        let (numbers, label) = scale_below(chart, plot.width, style.marker, self.label);
         if self.line {
             let mut line: Vec<char> = vec!['─'; usize::from(plot.width)];
             for (column, _) in &numbers {
@@ -271,15 +271,20 @@ fn numbers_at(
 ) -> Vec<(u16, String)> {
     let numbers = |most: usize| axis.ticks(most).into_iter().filter_map(&place).collect::<Vec<_>>();
     let fewest = *ticks.start();
-    let two = |numbers: &Vec<(u16, String)>| numbers.iter().filter(|number| is_seen(number)).count() >= 2;
+    // Those of one cell are one.
+    let two = |numbers: &Vec<(u16, String)>| {
+        let mut seen = numbers.iter().filter(|number| is_seen(number)).map(|number| number.0);
+        seen.next().is_some_and(|first| seen.any(|other| other != first))
+    };
     ticks.map(numbers).find(two).unwrap_or_else(|| numbers(fewest))
 }
 
-/// Columns of a plot of this width with their numbers, and the label of the axis.
-fn scale_below(chart: &Chart, width: u16, marker: Marker) -> (Vec<(u16, String)>, String) {
+/// Columns of a plot of this width with their numbers, and the label of the axis: in full in a row of its own, else with
+/// the symbol alone where the name would take more than half of the columns.
+fn scale_below(chart: &Chart, width: u16, marker: Marker, own_row: bool) -> (Vec<(u16, String)>, String) {
     let mut label = chart.x.label_with_unit().to_string();
-    // Numbers say more than a name.
-    if 2 * label.chars().count() > usize::from(width) {
+    let room = if own_row { width } else { width / 2 };
+    if label.chars().count() > usize::from(room) {
         label = chart.x.symbol_with_unit().to_string();
     }
     if let Some(map) = chart.map() {
@@ -300,7 +305,7 @@ fn scale_below(chart: &Chart, width: u16, marker: Marker) -> (Vec<(u16, String)>
 
 /// Returns true if the label of the horizontal axis would cover a number.
 fn label_hides_numbers(chart: &Chart, width: u16) -> bool {
-    let (numbers, label) = scale_below(chart, width, Marker::Braille);
+    let (numbers, label) = scale_below(chart, width, Marker::Braille, true);
     let end = usize::from(width).saturating_sub(label.chars().count() + 1);
     numbers.iter().any(|(column, text)| usize::from(*column) + text.chars().count().div_ceil(2) > end)
 }
@@ -401,7 +406,7 @@ mod tests {
         let [x, y] = [axis(-5.26e-8, 6.71e-7, "d", "m"), axis(-1.93e-5, 1.22e-5, "F", "N")];
         let chart = Chart::new(x, y, Vec::new());
         for (width, height) in [(28, 7), (30, 9), (40, 12), (100, 30)] {
-            let (numbers, label) = scale_below(&chart, width, Marker::Braille);
+            let (numbers, label) = scale_below(&chart, width, Marker::Braille, false);
             let end = usize::from(width) - label.chars().count() - 1;
             let seen =
                 numbers.iter().filter(|(column, text)| usize::from(*column) + text.len().div_ceil(2) <= end);

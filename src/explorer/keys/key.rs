@@ -29,25 +29,17 @@ impl Key {
     /// The key as it is written on a keyboard.
     #[must_use]
     pub fn name(&self) -> String {
-        let name = match self.code {
-            KeyCode::Char(' ') => "space".to_owned(),
-            KeyCode::Char(character) => character.to_string(),
-            KeyCode::Up => "↑".to_owned(),
-            KeyCode::Down => "↓".to_owned(),
-            KeyCode::Left => "←".to_owned(),
-            KeyCode::Right => "→".to_owned(),
-            KeyCode::BackTab => "Shift+Tab".to_owned(),
-            KeyCode::F(number) => format!("F{number}"),
-            other => format!("{other:?}"),
+        let named = NAMES.iter().find(|(_, code)| *code == self.code);
+        let name = match (named, self.code) {
+            (Some((name, _)), _) => (*name).to_owned(),
+            (None, KeyCode::Char(character)) => character.to_string(),
+            (None, KeyCode::BackTab) => "Shift+Tab".to_owned(),
+            (None, KeyCode::F(number)) => format!("F{number}"),
+            (None, other) => format!("{other:?}"),
         };
-        let mut prefix = String::new();
-        if self.modifiers.contains(KeyModifiers::CONTROL) {
-            prefix.push_str("Ctrl+");
-        }
-        if self.modifiers.contains(KeyModifiers::SHIFT) {
-            prefix.push_str("Shift+");
-        }
-        prefix + &name
+        let control = if self.modifiers.contains(KeyModifiers::CONTROL) { "Ctrl+" } else { "" };
+        let shift = if self.modifiers.contains(KeyModifiers::SHIFT) { "Shift+" } else { "" };
+        format!("{control}{shift}{name}")
     }
 
     /// The key of a name, as [`Key::name`] writes it, or in the words on a keyboard: `Up`, `Ctrl+p`, `Shift+Left`.
@@ -56,38 +48,18 @@ impl Key {
         let (control, rest) = name.strip_prefix("Ctrl+").map_or((false, name), |rest| (true, rest));
         let (shift, rest) = rest.strip_prefix("Shift+").map_or((false, rest), |rest| (true, rest));
         let mut characters = rest.chars();
-        let code = match (characters.next(), characters.next()) {
-            (Some(arrow @ ('↑' | '↓' | '←' | '→')), None) => match arrow {
-                '↑' => KeyCode::Up,
-                '↓' => KeyCode::Down,
-                '←' => KeyCode::Left,
-                _ => KeyCode::Right,
-            },
+        let code = match (NAMES.iter().find(|(name, _)| *name == rest), characters.next(), characters.next())
+        {
+            (Some((_, KeyCode::Tab)), ..) if shift => KeyCode::BackTab,
+            (Some((_, code)), ..) => *code,
             // Shift is part of a character.
-            (Some(character), None) if !shift && !crate::text::is_control(character) => {
+            (None, Some(character), None) if !shift && !crate::text::is_control(character) => {
                 KeyCode::Char(character)
             }
-            _ => match rest {
-                "space" => KeyCode::Char(' '),
-                "Tab" if shift => KeyCode::BackTab,
-                "Up" => KeyCode::Up,
-                "Down" => KeyCode::Down,
-                "Left" => KeyCode::Left,
-                "Right" => KeyCode::Right,
-                "Tab" => KeyCode::Tab,
-                "Enter" => KeyCode::Enter,
-                "Esc" => KeyCode::Esc,
-                "Home" => KeyCode::Home,
-                "End" => KeyCode::End,
-                "PageUp" => KeyCode::PageUp,
-                "PageDown" => KeyCode::PageDown,
-                "Insert" => KeyCode::Insert,
-                "Delete" => KeyCode::Delete,
-                "Backspace" => KeyCode::Backspace,
-                function => KeyCode::F(
-                    function.strip_prefix('F')?.parse().ok().filter(|number| (1..=12).contains(number))?,
-                ),
-            },
+            _ => {
+                let number = rest.strip_prefix('F')?.parse().ok();
+                KeyCode::F(number.filter(|number| (1..=12).contains(number))?)
+            }
         };
         let mut modifiers = KeyModifiers::NONE;
         modifiers.set(KeyModifiers::CONTROL, control);
@@ -95,6 +67,29 @@ impl Key {
         Some(Key { code, modifiers })
     }
 }
+
+/// Keys with names of their own; of two names of a key the first is shown.
+const NAMES: [(&str, KeyCode); 19] = [
+    ("space", KeyCode::Char(' ')),
+    ("↑", KeyCode::Up),
+    ("↓", KeyCode::Down),
+    ("←", KeyCode::Left),
+    ("→", KeyCode::Right),
+    ("Up", KeyCode::Up),
+    ("Down", KeyCode::Down),
+    ("Left", KeyCode::Left),
+    ("Right", KeyCode::Right),
+    ("Tab", KeyCode::Tab),
+    ("Enter", KeyCode::Enter),
+    ("Esc", KeyCode::Esc),
+    ("Home", KeyCode::Home),
+    ("End", KeyCode::End),
+    ("PageUp", KeyCode::PageUp),
+    ("PageDown", KeyCode::PageDown),
+    ("Insert", KeyCode::Insert),
+    ("Delete", KeyCode::Delete),
+    ("Backspace", KeyCode::Backspace),
+];
 
 /// A key without modifiers.
 pub const fn key(code: KeyCode) -> Key {

@@ -127,6 +127,7 @@ pub const BINDINGS: &[Binding] = &[
     row(&[char('r')], EXPLORE, "restart", Act(movement::restart), "restart", "play from the beginning", ANIMATION),
     row(&[char('>')], EXPLORE, "leg 1", Act(|model| movement::go_to_leg(model, 1)), "", "jump to the start of the next loading stage", ANIMATION),
     row(&[char('<')], EXPLORE, "leg -1", Act(|model| movement::go_to_leg(model, -1)), "", "jump to the start of this loading stage or of the previous one", ANIMATION),
+    row(&[char('!')], EXPLORE, "pull-off", Act(movement::go_to_pull_off), "", "jump to the pull-off, the smallest force of the unloading stages", ANIMATION),
 
     row(&[char('d')], EXPLORE, "toggle-manual", Act(movement::toggle_manual), "manual", "begin manual loading at the present indentation, or end it", MANUAL),
     row(&[char(']')], EXPLORE, "push 1", Act(|model| movement::push(model, 1, false)), "press/pull", "press by a small step", MANUAL),

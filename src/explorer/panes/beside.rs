@@ -18,6 +18,11 @@ pub static ROW: PaneRow = PaneRow {
     place: Place::CloseUp,
     title,
     draw,
+    edge: |model, area| {
+        let snapshot = model.snapshot.as_deref()?;
+        let beside = snapshot.beside.as_deref()?;
+        Some(profile::scene_names(beside, profile::heights(snapshot), area, model.appearance))
+    },
     keys: Some(ModeKind::Crosshair),
     help: &[(
         "Beside",
@@ -40,7 +45,7 @@ fn title(model: &Model) -> String {
 fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
     let area = inside(area);
     let Some(ghost) = model.beside() else { return };
-    let text_rows = u16::from(area.height >= 4) + u16::from(area.height >= 6);
+    let text_rows = u16::from(area.height >= 4) + u16::from(area.height >= 8);
     let above = Rect { height: area.height - text_rows, ..area };
     let shown = model.snapshot.as_deref().and_then(|snapshot| Some((snapshot, snapshot.beside.as_deref()?)));
     if let Some((snapshot, beside)) = shown {

@@ -420,13 +420,19 @@ fn chart(model: &Model, units: Units) -> Chart {
     Chart::new(x, y, layers)
 }
 
+/// Share of the largest force below which a force is rounding.
+const ROUNDING: f64 = 1e-12;
+
 /// The marked forces with their values, in words where there is room. Where there is none for all, the
 /// pull-off force stays longest.
 fn values(legs: &[LegRecord], width: u16, theme: Theme) -> Line<'static> {
     let marks = marks(legs);
+    let largest = marks.iter().map(|(_, point)| point.force.abs()).fold(0.0, f64::max);
     let parts = |words: bool, from: usize| -> Vec<Vec<Text<'static>>> {
         let text = |&(mark, point): &(Mark, CurvePoint)| {
-            let force = format_rounded(point.force, 3, "N");
+            // A stage to zero force ends there but for rounding.
+            let is_zero = point.force.abs() < ROUNDING * largest;
+            let force = format_rounded(if is_zero { 0.0 } else { point.force }, 3, "N");
             let name = if words { format!(" {}", mark.name()) } else { String::new() };
             vec![
                 Text::styled(glyph(sign(mark)), theme.style(Meaning::Title)),

@@ -55,7 +55,7 @@ fn draw(frame: &mut Frame<'_>, area: Rect, model: &Model) {
     plot::draw_chart(frame, plot, &chart, model.appearance);
     if text_rows > 0 {
         let count: u64 = bins.iter().map(|bin| bin.fragments).sum();
-        let text = format!("○ number n of {count} fragments in steps of δx by √2");
+        let text = format!("○ n, {count} in all, in steps of δx by √2");
         let row = Rect { y: area.bottom() - 1, height: 1, ..area };
         draw_lines(frame, row, [Line::styled(text, theme.style(Meaning::Quiet))]);
     }

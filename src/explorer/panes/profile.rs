@@ -55,11 +55,15 @@ fn title(model: &Model) -> String {
 /// Names of what is drawn, for the lower edge of the frame.
 fn names(model: &Model, area: Rect) -> Option<Line<'static>> {
     let snapshot = model.snapshot.as_ref()?;
-    let chart = section::chart(&snapshot.profile, snapshot.line, heights(snapshot));
-    let theme = model.appearance.theme;
-    let bell = || vec![Text::styled("¦", theme.style(Meaning::Surface)), Text::raw(" normal")];
+    Some(scene_names(snapshot, heights(snapshot), area, model.appearance))
+}
+
+/// Names of what is drawn of a scene at one snapshot, heights within `z`.
+pub fn scene_names(snapshot: &ContactSnapshot, z: Span, area: Rect, appearance: Appearance) -> Line<'static> {
+    let chart = section::chart(&snapshot.profile, snapshot.line, z);
+    let bell = || vec![Text::styled("¦", appearance.theme.style(Meaning::Surface)), Text::raw(" normal")];
     let beside = split_profile(inside(area)).1.map(|_| bell());
-    Some(section::names(snapshot, &chart, beside, model.appearance, area.width))
+    section::names(snapshot, &chart, beside, appearance, area.width)
 }
 
 /// The part of the profile that is shown, with its chart and place.

@@ -3,7 +3,7 @@
 use super::{Effect, edit};
 use crate::accuracy::{Choice, ChoiceError, Estimate, Evidence, Target, parse_tolerance};
 use crate::explorer::mode::Mode;
-use crate::explorer::model::{Estimated, Model, Notice};
+use crate::explorer::model::{Estimated, Model};
 use crate::explorer::study::{Finding, Found, Task};
 use crate::explorer::text_line::TextLine;
 use crate::scene::format_quantity;
@@ -121,8 +121,8 @@ fn take_over(model: &mut Model, choice: &Choice) -> Vec<Effect> {
     let known = Estimate { target: choice.target, error: choice.error, evidence };
     model.appraisal.estimated = Estimated::Known(known);
     let already = if is_so { "as it is: " } else { "" };
-    model.notice =
-        Some(Notice::Done(fitting(model, format!("{already}{sentence}"), format!("{already}{short}"))));
+    let text = fitting(model, format!("{already}{sentence}"), format!("{already}{short}"));
+    model.set_done(text);
     model.appraisal.answer = Some(sentence);
     effects
 }
@@ -142,7 +142,8 @@ fn refuse(model: &mut Model, tolerance: f64, error: &ChoiceError) {
         ChoiceError::Stepwise => "a tolerance goes with numerics.solver: Exact".to_owned(),
         ChoiceError::Run(_) | ChoiceError::Stopped => sentence.clone(),
     };
-    model.notice = Some(Notice::Error(fitting(model, sentence.clone(), short)));
+    let why = fitting(model, sentence.clone(), short);
+    model.set_error(why);
     model.appraisal.answer = Some(sentence);
 }
 

@@ -2,7 +2,7 @@
 
 use super::{Effect, edit};
 use crate::explorer::command::Command;
-use crate::explorer::model::{Model, Notice};
+use crate::explorer::model::Model;
 use crate::explorer::opening::Opening;
 use crate::explorer::panes::Pane;
 use crate::scene::{Document, SceneErrors};
@@ -31,7 +31,7 @@ const NO_STUDY: &str = "no study is open; o and the path of its folder open one"
 /// Shows the map of the study, or the one that is computed here.
 pub fn toggle_study(model: &mut Model) -> Vec<Effect> {
     if model.chart.study.is_none() {
-        model.notice = Some(Notice::Error(NO_STUDY.to_owned()));
+        model.set_error(NO_STUDY);
         return Vec::new();
     }
     model.chart.of_study = !model.chart.of_study;
@@ -42,8 +42,7 @@ pub fn toggle_study(model: &mut Model) -> Vec<Effect> {
 /// Maps over the other parameter of roughness.
 pub fn next_parameter(model: &mut Model) -> Vec<Effect> {
     if model.chart.shown_study().is_some() {
-        let why = "a study has its own axes; W shows the map that is computed here";
-        model.notice = Some(Notice::Error(why.to_owned()));
+        model.set_error("a study has its own axes; W shows the map that is computed here");
         return Vec::new();
     }
     model.chart.next_parameter();
@@ -60,11 +59,11 @@ pub fn step_slice(model: &mut Model, steps: i32) -> Vec<Effect> {
         } else {
             NO_STUDY
         };
-        model.notice = Some(Notice::Error(why.to_owned()));
+        model.set_error(why);
         return Vec::new();
     };
     if study.study_map.slices() == 1 {
-        model.notice = Some(Notice::Done("this study has one map".to_owned()));
+        model.set_done("this study has one map");
         return Vec::new();
     }
     let next = study.stepped(steps);
@@ -83,13 +82,12 @@ pub fn step(model: &mut Model, columns: i32, rows: i32) -> Vec<Effect> {
             Ok(_) if model.chart.shown_study().is_some() => NO_PLACE.to_owned(),
             Ok(_) => "not before the scene is computed: its κ and e_el/γ follow from its profile".to_owned(),
         };
-        model.notice = Some(Notice::Error(why));
+        model.set_error(why);
         return Vec::new();
     };
     let (across, up) = axes(model);
     if rows != 0 && up.is_none() {
-        let why = format!("this map has one axis, {}", across.symbol());
-        model.notice = Some(Notice::Error(why));
+        model.set_error(format!("this map has one axis, {}", across.symbol()));
         return Vec::new();
     }
     let next = |at: f64, steps: i32, axis: &MapAxis| {
@@ -102,7 +100,7 @@ pub fn step(model: &mut Model, columns: i32, rows: i32) -> Vec<Effect> {
     match (next(at_across, columns, &across), to_up) {
         (Some(across), Some(up)) => move_to(model, (across, up)),
         _ => {
-            model.notice = Some(Notice::Done("here the map ends".to_owned()));
+            model.set_done("here the map ends");
             Vec::new()
         }
     }

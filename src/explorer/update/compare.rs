@@ -2,7 +2,7 @@
 
 use super::ghosts::name_ghosts;
 use super::{Effect, edit, show};
-use crate::explorer::model::{Ghost, Model, Notice, Pane};
+use crate::explorer::model::{Ghost, Model, Pane};
 use crate::explorer::snapshot::{Preview, SolvedScene};
 use crate::scene::{Document, Roughness};
 use std::sync::Arc;
@@ -78,7 +78,7 @@ pub fn pin(model: &mut Model) -> Vec<Effect> {
 /// Adds a ghost; returns false where it is there already.
 fn keep(model: &mut Model, ghost: Ghost) -> bool {
     if model.ghosts.iter().any(|kept| kept.document.scene() == ghost.document.scene()) {
-        model.notice = Some(Notice::Done("this loop is kept already".to_owned()));
+        model.set_done("this loop is kept already");
         return false;
     }
     if model.ghosts.len() == MOST_GHOSTS {
@@ -93,7 +93,7 @@ fn keep(model: &mut Model, ghost: Ghost) -> bool {
 pub fn pin_other_use(model: &mut Model) -> Vec<Effect> {
     let scene = model.document.scene();
     if !matches!(scene.roughness, Some(Roughness::Measured { .. })) {
-        model.notice = Some(Notice::Error("the roughness of this scene is not measured".to_owned()));
+        model.set_error("the roughness of this scene is not measured");
         return Vec::new();
     }
     let as_line = !scene.measured_as_line();
@@ -103,7 +103,7 @@ pub fn pin_other_use(model: &mut Model) -> Vec<Effect> {
             vec![Effect::Preview(Box::new(document))]
         }
         Err(errors) => {
-            model.notice = Some(Notice::Error(errors.to_string()));
+            model.set_error(errors.to_string());
             Vec::new()
         }
     }
@@ -122,10 +122,10 @@ pub fn previewed(model: &mut Model, preview: Arc<Preview>) -> Vec<Effect> {
             let computed = Arc::new(SolvedScene { generation: 0, scene, outcome: outcome.clone() });
             let ghost = Ghost { document, computed, differs: String::new(), changes: String::new() };
             if keep(model, ghost) {
-                model.notice = Some(Notice::Done(format!("kept: the {what}; x exchanges the two")));
+                model.set_done(format!("kept: the {what}; x exchanges the two"));
             }
         }
-        Err(why) => model.notice = Some(Notice::Error(why.clone())),
+        Err(why) => model.set_error(why.clone()),
     }
     vec![Effect::Show]
 }
@@ -134,7 +134,7 @@ pub fn previewed(model: &mut Model, preview: Arc<Preview>) -> Vec<Effect> {
 pub fn swap(model: &mut Model) -> Vec<Effect> {
     let Some(present) = ghost(model) else { return Vec::new() };
     let Some(last) = model.ghosts.pop() else {
-        model.notice = Some(Notice::Error("nothing to exchange with: c keeps a loop".to_owned()));
+        model.set_error("nothing to exchange with: c keeps a loop");
         return Vec::new();
     };
     model.ghosts.push(present);

@@ -104,7 +104,7 @@ pub fn accept(model: &mut Model) -> Vec<Effect> {
             chosen.map_or_else(Vec::new, |entry| run_entry(model, &entry))
         }
         Mode::StaleComments { path, then_quit, .. } => files::save_without_comments(model, path, then_quit),
-        Mode::Overwrite { path, content, then_quit } => files::overwrite(model, path, content, then_quit),
+        Mode::Overwrite { path, content, then_quit } => files::write(model, path, content, then_quit, true),
         Mode::Explore | Mode::Help { .. } | Mode::Quit => Vec::new(),
     }
 }

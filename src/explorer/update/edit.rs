@@ -4,7 +4,7 @@ use super::ghosts::name_ghosts;
 use super::{Effect, show};
 use crate::explorer::layout::Layout;
 use crate::explorer::mode::Mode;
-use crate::explorer::model::{Appraisal, CloseUpTarget, Model, Notice, Pane, Player};
+use crate::explorer::model::{Appraisal, CloseUpTarget, Model, Pane, Player};
 use crate::explorer::panes::first_listed;
 use crate::explorer::parameters::{Parameter, Setting, parameters};
 use crate::explorer::request::{Focus, LineView};
@@ -61,8 +61,7 @@ pub fn open_read(model: &mut Model, read: Result<Document, SceneErrors>) -> Vec<
 pub fn open(model: &mut Model, document: Document) -> Vec<Effect> {
     if model.is_unsaved() {
         model.left.insert(model.document.name().to_owned(), model.document.clone());
-        let kept = "the changed scene is kept: undo brings it back";
-        model.notice = Some(Notice::Done(kept.to_owned()));
+        model.set_done("the changed scene is kept: undo brings it back");
     }
     model.player = Player::START;
     model.look = CloseUpTarget { focus: Focus::Summit, springs: CloseUpTarget::springs_shown(&document) };
@@ -103,7 +102,8 @@ pub fn edit_value(model: &mut Model, first: Option<char>) -> Vec<Effect> {
     if let Some(parameter) = model.parameter() {
         match parameter.setting {
             _ if first.is_some() && !parameter.takes_number() => {
-                model.notice = Some(Notice::Done(way_of_changing(parameter)));
+                let way = way_of_changing(parameter);
+                model.set_done(way);
             }
             Setting::Switch(_) => return switch(model),
             Setting::Heading => return toggle_fold(model),
@@ -316,8 +316,7 @@ pub fn take_over(model: &mut Model, changed: Result<Document, SceneErrors>) -> V
             let effects = adopt(model, document);
             if lost > 0 {
                 let gone = if lost == 1 { "a comment is" } else { "comments are" };
-                let text = format!("{gone} gone with what was replaced: undo brings it all back");
-                model.notice = Some(Notice::Done(text));
+                model.set_done(format!("{gone} gone with what was replaced: undo brings it all back"));
             }
             effects
         }
@@ -383,8 +382,7 @@ fn renew(model: &mut Model) -> Vec<Effect> {
     model.approximate.renew();
     // Manual loading belongs to the former profile and contact.
     if model.manual.take().is_some() {
-        let back = "the body is back on the scene's loading".to_owned();
-        model.notice = Some(Notice::Done(back));
+        model.set_done("the body is back on the scene's loading");
     }
     name_ghosts(model);
     vec![Effect::Compute]

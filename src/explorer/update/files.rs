@@ -3,7 +3,7 @@
 use super::{Effect, edit};
 use crate::explorer::action::{Content, WriteFailure, Written};
 use crate::explorer::mode::{Mode, SaveForm};
-use crate::explorer::model::{Model, Notice, Writing};
+use crate::explorer::model::{Model, Writing};
 use crate::explorer::text_line::TextLine;
 use crate::scene::{Document, command_line, ron_string, typed_path};
 use std::path::{Path, PathBuf};
@@ -42,7 +42,7 @@ pub fn save(model: &mut Model, form: &SaveForm) -> Vec<Effect> {
     if count > 0 {
         model.mode = Mode::StaleComments { count, path, then_quit };
     } else {
-        effects.extend(write(model, path, Content::Scene, then_quit));
+        effects.extend(write(model, path, Content::Scene, then_quit, false));
     }
     effects
 }
@@ -51,14 +51,14 @@ pub fn save(model: &mut Model, form: &SaveForm) -> Vec<Effect> {
 pub fn save_without_comments(model: &mut Model, path: PathBuf, then_quit: bool) -> Vec<Effect> {
     let document = model.document.without_stale_comments();
     let mut effects = edit::adopt(model, document);
-    effects.extend(write(model, path, Content::Scene, then_quit));
+    effects.extend(write(model, path, Content::Scene, then_quit, false));
     effects
 }
 
 /// Saves the scene with all comments.
 pub fn save_with_comments(model: &mut Model) -> Vec<Effect> {
     let Mode::StaleComments { path, then_quit, .. } = model.mode.clone() else { return Vec::new() };
-    write(model, path, Content::Scene, then_quit)
+    write(model, path, Content::Scene, then_quit, false)
 }
 
 /// Asks for the file of the scene or, where that is saved, of one that was left with unsaved changes.
@@ -86,7 +86,7 @@ pub fn export(model: &mut Model, path: PathBuf) -> Vec<Effect> {
         return Vec::new();
     }
     match content_for(model, &path) {
-        Ok(content) => write(model, path, content, false),
+        Ok(content) => write(model, path, content, false, false),
         Err(why) => {
             model.set_error(why);
             model.mode = Mode::Explore;
@@ -115,20 +115,8 @@ fn content_for(model: &Model, path: &Path) -> Result<Content, String> {
     }
 }
 
-/// Writes a file that is not there yet.
-pub fn write(model: &mut Model, path: PathBuf, content: Content, then_quit: bool) -> Vec<Effect> {
-    if path.as_os_str().is_empty() {
-        return Vec::new();
-    }
-    begin(model, path, content, then_quit, false)
-}
-
-/// Writes a file in place of the one that is there.
-pub fn overwrite(model: &mut Model, path: PathBuf, content: Content, then_quit: bool) -> Vec<Effect> {
-    begin(model, path, content, then_quit, true)
-}
-
-fn begin(
+/// Writes a file; `overwrite`: in place of the one that is there.
+pub fn write(
     model: &mut Model,
     path: PathBuf,
     content: Content,
@@ -138,7 +126,7 @@ fn begin(
     model.mode = Mode::Explore;
     if let Some(writing) = &model.writing {
         let why = format!("{} is still being written; nothing else is until then", writing.path.display());
-        model.notice = Some(Notice::Error(why));
+        model.set_error(why);
         return Vec::new();
     }
     model.writing = Some(Writing { path: path.clone(), text: model.document.text().to_owned(), then_quit });
@@ -159,7 +147,7 @@ pub fn written(model: &mut Model, result: Result<Written, WriteFailure>) {
             } else {
                 "exported"
             };
-            model.notice = Some(Notice::Done(format!("{how} to {}", path.display())));
+            model.set_done(format!("{how} to {}", path.display()));
             if then_quit && !model.unsaved().is_empty() {
                 model.mode = Mode::Quit;
             } else {
@@ -170,7 +158,7 @@ pub fn written(model: &mut Model, result: Result<Written, WriteFailure>) {
             model.mode = Mode::Overwrite { path, content, then_quit };
         }
         Err(WriteFailure::Refused(error)) => {
-            model.notice = Some(Notice::Error(format!("not written: {error}")));
+            model.set_error(format!("not written: {error}"));
         }
     }
 }
@@ -191,7 +179,7 @@ pub fn quit(model: &mut Model) {
             writing.then_quit = true;
             let path = writing.path.display();
             let text = format!("leaving as soon as {path} is written; once more leaves without");
-            model.notice = Some(Notice::Done(text));
+            model.set_done(text);
         }
         _ => model.finished = true,
     }
@@ -201,6 +189,6 @@ pub fn quit(model: &mut Model) {
 pub fn copy_command(model: &mut Model) -> Vec<Effect> {
     let command = command_line(model.document.name(), model.document.overrides());
     // The terminal does not confirm a copy, so the notice has the command too.
-    model.notice = Some(Notice::Done(format!("copy: {command}")));
+    model.set_done(format!("copy: {command}"));
     vec![Effect::Copy(command)]
 }

@@ -4,6 +4,7 @@ use super::Effect;
 use crate::draw::AxisScale;
 use crate::explorer::model::{CloseUpTarget, Model, Pane};
 use crate::explorer::request::{Focus, LineView};
+use crate::explorer::theme::Choice;
 
 /// Fewest springs that fill a pane.
 const FEWEST_SPRINGS: usize = 8;

@@ -25,8 +25,10 @@ use super::command::Command;
 use super::layout::Layout;
 use super::mode::Mode;
 use super::model::{Model, Notice, Pane, Player};
-use super::request::SnapshotRequest;
+use super::request::{Request, SnapshotRequest};
 use super::snapshot::Report;
+use crate::scene::{Document, Scene};
+use std::sync::Arc;
 
 /// Applies an action and returns the effects to perform outside.
 pub fn update(model: &mut Model, action: Action) -> Vec<Effect> {
@@ -127,6 +129,30 @@ fn reported(model: &mut Model, report: Report) -> Vec<Effect> {
         Report::Previewed(preview) => return compare::previewed(model, preview),
     }
     Vec::new()
+}
+
+/// Request to the worker that an effect needs; `None` for an effect that is for others, or for a snapshot of a scene that is
+/// not computed yet.
+#[must_use]
+pub fn request(model: &Model, effect: &Effect) -> Option<Request> {
+    let generation = model.generation;
+    match effect {
+        Effect::Compute => Some(Request::Compute { generation, scene: scene_of(&model.document) }),
+        Effect::Show => moment_request(model).map(Request::Show),
+        Effect::Beside => Some(Request::Beside(model.beside().map(|ghost| scene_of(&ghost.document)))),
+        Effect::Manual(order) => Some(Request::Manual { generation, order: *order }),
+        Effect::Preview(document) => {
+            Some(Request::Preview { text: document.text().to_owned(), scene: scene_of(document) })
+        }
+        _ => None,
+    }
+}
+
+/// The scene as the worker gets it: files it names are found wherever the explorer was started.
+pub(super) fn scene_of(document: &Document) -> Arc<Scene> {
+    let mut scene = document.scene().clone();
+    scene.rename_measured_files(|file| document.resolve(file).to_string_lossy().into_owned());
+    Arc::new(scene)
 }
 
 /// Request to the worker for the panes of this model.

@@ -1,6 +1,7 @@
 //! Movement of the body: animation of the scene's loading, or manual loading.
 
 use super::Effect;
+use crate::contact::{Direction, LegRecord};
 use crate::explorer::config::Animation;
 use crate::explorer::mode::Mode;
 use crate::explorer::model::{ManualState, Model, Player};
@@ -76,6 +77,26 @@ pub fn go_to_leg(model: &mut Model, legs: i32) -> Vec<Effect> {
         model.player.leg = leg.min(model.legs().len().saturating_sub(1));
         model.player.done = 0.0;
     })
+}
+
+/// Goes to the smallest force of the unloading stages, while the contact still holds.
+pub fn go_to_pull_off(model: &mut Model) -> Vec<Effect> {
+    let unloading = |(_, leg): &(usize, &LegRecord)| leg.direction == Direction::Unloading;
+    let force = |leg: &LegRecord| leg.smallest.force;
+    let stages = model.legs().iter().enumerate().filter(unloading);
+    let pull_off = stages.min_by(|one, other| force(one.1).total_cmp(&force(other.1)));
+    let Some((leg, record)) = pull_off.filter(|(_, leg)| force(leg) < 0.0) else {
+        model.set_error("no stage of the loading pulls: there is no pull-off");
+        return Vec::new();
+    };
+    let (indentation, legs) = (record.smallest.indentation, model.legs());
+    // Rounding must not pass the indentation: below it springs detach.
+    let done = model.done_at(leg, indentation);
+    let paused = |done| Player { leg, done, playing: false };
+    let ulps = (0..8).map(|ulps| paused(done - f64::from(ulps) * f64::EPSILON));
+    let holds = ulps.into_iter().find(|player| player.indentation(legs) >= indentation);
+    let player = holds.unwrap_or(paused(done));
+    animate(model, |model| model.player = player)
 }
 
 /// Changes the animation, which ends manual loading: the animation is the loading of the scene.

@@ -164,7 +164,7 @@ mod tests {
         assert_eq!(texts("one two  three", 7), ["one two", "three"]);
         assert_eq!(texts("one two three", 8), ["one two ", "three"]);
         assert_eq!(texts("unbreakable", 4), ["unbr", "eaka", "ble"]);
-        assert_eq!(texts("by 2 048 springs, 940 µs", 8), ["by 2 048 ", "springs, ", "940 µs"]);
+        assert_eq!(texts("by 2 048 springs, 940 µs", 8), ["by 2 048", "springs,", "940 µs"]);
         assert_eq!(texts("1 234 567 springs", 6), ["1 234 ", "567 ", "spring", "s"]);
         assert_eq!(texts("", 4), Vec::<String>::new());
         assert_eq!(texts("a b", 0), Vec::<String>::new());

@@ -12,6 +12,7 @@ use asperity::explorer::update::Effect;
 use asperity::explorer::{picture, picture_of, screenshot};
 use asperity::export::{TableFormat, write_curve, write_json};
 use asperity::scene::{Document, Provenance, TableContent, open, presets};
+use ratatui::style::Modifier;
 use std::fs;
 use std::io::Read;
 use std::path::{Path, PathBuf};
@@ -225,13 +226,17 @@ fn a_picture_of_pixels_has_the_size_and_the_colours_of_the_screen() {
             let at = |x: usize, y: usize| pixels[y * width + x];
             let ground = at(0, 0);
             let screen = picture_of(&driver.model);
+            let seen = Modifier::REVERSED | Modifier::UNDERLINED | Modifier::CROSSED_OUT;
             // Cells with a sign have other colours than the background, blank ones have not.
             let mut signs = 0;
             for (column, row) in (0..size.0).flat_map(|column| (0..size.1).map(move |row| (column, row))) {
                 let (x, y) = (16 * (usize::from(column) + 1), 32 * usize::from(row) + 16);
-                let is_drawn = (x + 1..x + 15).any(|x| (y + 1..y + 31).any(|y| at(x, y) != ground));
                 let cell = &screen[(column, row)];
-                let is_blank = matches!(cell.symbol(), " " | "\u{2800}") && cell.modifier.is_empty();
+                let is_blank = matches!(cell.symbol(), " " | "\u{2800}") && !cell.modifier.intersects(seen);
+                // Ends of lines reach a little into the next cell.
+                let inset = if is_blank { 3 } else { 0 };
+                let is_drawn = (x + inset..x + 16 - inset)
+                    .any(|x| (y + inset..y + 32 - inset).any(|y| at(x, y) != ground));
                 assert!(is_drawn != is_blank, "{size:?} {column} {row} {:?}", cell.symbol());
                 signs += usize::from(is_drawn);
             }

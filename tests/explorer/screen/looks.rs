@@ -5,7 +5,7 @@ use super::common::driver::Driver;
 use super::common::script::rows;
 use super::{SIZES, everywhere, pressed, reversed, row_with};
 use asperity::explorer::layout::Layout;
-use asperity::explorer::theme::{Appearance, Marker, Theme};
+use asperity::explorer::theme::{Appearance, Choice, Marker, Theme};
 use clap::ValueEnum;
 use ratatui::buffer::{Buffer, Cell};
 use ratatui::style::{Color, Modifier};

@@ -2,7 +2,7 @@
 
 use super::common::deadline::within;
 use super::common::driver::Driver;
-use super::common::scenes::rough;
+use super::common::scenes::{rough, smooth, without_adhesion};
 use super::{is_up_to_date, pressed};
 use asperity::explorer::config::Config;
 use asperity::explorer::update::Effect;
@@ -108,6 +108,30 @@ fn the_animation_is_paused_stepped_and_begun_again() {
         assert_eq!((driver.model.player.leg, driver.model.player.done), (0, 1.0));
         driver.press(".");
         assert_eq!(driver.model.player.leg, 1);
+    });
+}
+
+#[test]
+fn a_key_goes_to_the_pull_off_of_the_loading() {
+    within(60, || {
+        let twice = "[ToForce(1.0e-5), ToZeroForce, ToForce(2.0e-5), ToSeparation]";
+        let scenes = [rough(), smooth(), rough().set("loading", twice).unwrap()];
+        for (document, size) in scenes.into_iter().flat_map(|one| [(one.clone(), (120, 40)), (one, (80, 24))])
+        {
+            let mut driver = Driver::start(document);
+            driver.resize(size);
+            driver.press("d ] !");
+            let smallest = driver.model.legs().iter().map(|leg| leg.smallest.force);
+            let expected = smallest.fold(f64::INFINITY, f64::min);
+            let point = driver.model.snapshot.as_ref().unwrap().point;
+            assert!(expected < 0.0 && (point.force / expected - 1.0).abs() < 1e-9, "{point:?}, {expected} N");
+            assert!(driver.model.manual.is_none() && !driver.model.player.playing);
+        }
+        let mut driver = Driver::start(without_adhesion());
+        let before = driver.model.player;
+        driver.press("!");
+        assert!(driver.status().contains("there is no pull-off"), "{}", driver.status());
+        assert_eq!(driver.model.player, before);
     });
 }
 

@@ -142,7 +142,7 @@ fn the_smallest_window_says_what_is_true() {
         let said = |driver: &Driver, text: &str| {
             assert!(driver.text().contains(text), "{text}\n{}", driver.text());
         };
-        assert_eq!(driver.status(), format!("F_a {force} ± …"), "and no number that is cut");
+        assert_eq!(driver.status(), format!("F_a {force}"), "and no number that is cut");
         said(&driver, "◆");
         driver.press("Tab");
         said(&driver, "⣿");
@@ -163,6 +163,8 @@ fn no_number_of_the_status_is_cut() {
         for columns in 12..200 {
             driver.resize((columns, 40));
             let status = driver.status();
+            // A narrow window leaves the name of the mode to the title.
+            let whole = if columns < 48 { whole.replace("manual: ", "") } else { whole.clone() };
             let rest = whole.strip_prefix(&status).unwrap_or_else(|| panic!("{status}, not of {whole}"));
             assert!(rest.is_empty() || rest.starts_with("  ") || rest.starts_with(" · "), "{status}|{rest}");
         }
