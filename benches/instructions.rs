@@ -29,6 +29,9 @@ fn main() -> ExitCode {
     let reports = instructions::count(&Case::all(), &[]);
     print!("{}", Report::table(&reports));
     let mut failures: Vec<String> = reports.iter().flat_map(Report::failures).collect();
+    if !reports.iter().all(Report::has_line_tables) {
+        failures.push("no line tables: instructions are not attributed to effects".to_owned());
+    }
     let (table, slow) = reversals::count(&[]);
     print!("\n{table}");
     failures.extend(slow);

@@ -14,6 +14,11 @@ impl Profile {
         self.lines.values().flat_map(BTreeMap::values).sum()
     }
 
+    /// Returns true where instructions are attributed to lines of this project, which takes line tables.
+    pub fn has_line_tables(&self) -> bool {
+        self.lines.keys().any(|file| file.contains("src/simulation/"))
+    }
+
     /// Files as the compiler named them, with the instructions of their lines.
     pub fn files(&self) -> impl Iterator<Item = (&str, &BTreeMap<u64, u64>)> {
         self.lines.iter().map(|(file, lines)| (file.as_str(), lines))

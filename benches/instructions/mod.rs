@@ -121,6 +121,11 @@ impl Report {
         self.program as f64 / self.kernel as f64
     }
 
+    /// Returns true where executed lines are known: the program has line tables.
+    pub fn has_line_tables(&self) -> bool {
+        self.profile.has_line_tables()
+    }
+
     /// One line for each thing that is not as it must be.
     pub fn failures(&self) -> Vec<String> {
         let name = self.case.name();
@@ -136,7 +141,7 @@ impl Report {
         for effect in EFFECTS {
             let (wanted, instructions) = ((effect.called_for)(&self.case), effect.executed(&self.profile));
             let counted = (effect.counted)(&self.work);
-            if wanted != (instructions > 0) {
+            if self.has_line_tables() && wanted != (instructions > 0) {
                 let called = if wanted { "called for" } else { "not called for" };
                 failures.push(format!("{name}: {} is {called}: {instructions} instructions", effect.name));
             }

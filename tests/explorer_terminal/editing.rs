@@ -83,9 +83,9 @@ fn help_opens_scrolls_and_closes() {
         let before = terminal.text();
         for (open, close) in [("?", "?"), ("?", ESCAPE), ("\x1bOP", "q")] {
             terminal.send(open);
-            terminal.wait_for("play or pause");
+            terminal.wait_for("rigid profile below");
             terminal.send(&"j".repeat(30));
-            terminal.wait_without("play or pause");
+            terminal.wait_without("rigid profile below");
             terminal.send(close);
             terminal.wait("screen as before", |rows| rows.join("\n") == before);
         }

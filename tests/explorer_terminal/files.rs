@@ -168,7 +168,7 @@ fn the_command_that_is_copied_gives_the_same_curve() {
         let command = copied(&terminal).expect("it is sent to the terminal");
         assert!(row_with(&terminal, "copy: ").starts_with(&format!("copy: {command}")), "{command}");
         terminal.send("E");
-        answer(&mut terminal, "Export to (.csv .npy .json .svg .txt): ", "curve.csv");
+        answer(&mut terminal, "Export to (.csv .npy .json .svg .png .txt): ", "curve.csv");
         terminal.wait_for("exported to curve.csv");
         quit_anyway(&mut terminal);
 
@@ -195,7 +195,7 @@ fn curve_figures_and_panes_are_exported() {
         terminal.settle();
         for name in ["out.csv", "out.json", "out.svg", "out.txt"] {
             terminal.send("E");
-            answer(&mut terminal, "Export to (.csv .npy .json .svg .txt): ", name);
+            answer(&mut terminal, "Export to (.csv .npy .json .svg .png .txt): ", name);
             terminal.wait_for(&format!("exported to {name}"));
         }
         let file = |name: &str| fs::read_to_string(folder.path().join(name)).unwrap();
@@ -223,14 +223,14 @@ fn curve_figures_and_panes_are_exported() {
 
         // What is there is not overwritten unasked, and a name must say what is wanted.
         terminal.send("E");
-        answer(&mut terminal, "Export to (.csv .npy .json .svg .txt): ", "out.csv");
+        answer(&mut terminal, "Export to (.csv .npy .json .svg .png .txt): ", "out.csv");
         terminal.wait_for("out.csv exists. Overwrite it?");
         terminal.send("n");
         terminal.wait_without("Overwrite");
         terminal.send("E");
-        answer(&mut terminal, "Export to (.csv .npy .json .svg .txt): ", "out.png");
-        terminal.wait_for("the name must end in .csv, .npy, .json, .svg, .txt");
+        answer(&mut terminal, "Export to (.csv .npy .json .svg .png .txt): ", "out.pdf");
+        terminal.wait_for("the name must end in .csv, .npy, .json, .svg, .png, .txt");
         quit(&mut terminal);
-        assert!(!folder.path().join("out.png").exists());
+        assert!(!folder.path().join("out.pdf").exists());
     });
 }

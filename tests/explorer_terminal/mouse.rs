@@ -150,13 +150,13 @@ fn the_wheel_zooms_into_the_profile_and_scrolls_the_help() {
         terminal.send(&report(WHEEL_DOWN, column, row + 5));
         terminal.wait("whole profile", |rows| rows.iter().all(|row| *row != closer));
         terminal.send("?");
-        terminal.wait_for("play or pause");
+        terminal.wait_for("rigid profile below");
         terminal.send(&report(WHEEL_DOWN, 20, 20).repeat(30));
-        terminal.wait_without("play or pause");
+        terminal.wait_without("rigid profile below");
         terminal.send(&report(WHEEL_UP, 20, 20).repeat(30));
-        terminal.wait_for("play or pause");
+        terminal.wait_for("rigid profile below");
         terminal.send("?");
-        terminal.wait_without("play or pause");
+        terminal.wait_without("rigid profile below");
         quit(&mut terminal);
     });
 }
