@@ -21,7 +21,7 @@ impl Font {
     /// The sans-serif font of figures.
     ///
     /// # Errors
-    /// Where the outlines cannot be read.
+    /// An unreadable outline.
     pub(super) fn sans() -> Result<Font, FaceParsingError> {
         Font::read(SANS)
     }
@@ -29,7 +29,7 @@ impl Font {
     /// The font of one width of screens.
     ///
     /// # Errors
-    /// Where the outlines cannot be read.
+    /// An unreadable outline.
     pub(crate) fn mono() -> Result<Font, FaceParsingError> {
         Font::read(MONO)
     }
