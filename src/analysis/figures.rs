@@ -1,6 +1,6 @@
 //! The headline figures of a loading history.
 
-use crate::contact::{Direction, History};
+use crate::contact::{CurvePoint, Direction, History, Reversal};
 use crate::scene::{Leg, Scene};
 
 /// Figures of one history; a figure the history does not have is `None`.
@@ -30,28 +30,47 @@ impl Figures {
         let pressed = legs()
             .filter(|leg| leg.direction == Direction::Loading)
             .max_by(|a, b| a.largest.force.total_cmp(&b.largest.force));
-        let preload = pressed.map(|leg| leg.largest);
         let pull = legs().rfind(|leg| leg.direction == Direction::Unloading);
-        let smallest = pull.map(|leg| leg.smallest).filter(|point| point.force <= 0.0);
-        // Not −F: that would make a force of zero negative.
-        let adhesion_force = smallest.map(|point| 0.0 - point.force);
-        let preload_force = preload.map(|point| point.force);
-        // Where the force is to come back to zero, what is left of it is rounding.
-        let under_load = pressed.is_some_and(|leg| leg.leg != Leg::ToForce(0.0));
         let ends_separated =
             history.legs.last().and_then(|leg| leg.curve.last()).is_some_and(|point| point.springs == 0);
+        Figures::at(
+            pressed.map(|leg| (leg.leg, leg.largest)),
+            pull.map(|leg| leg.smallest),
+            ends_separated.then(|| history.legs.iter().map(|leg| leg.dissipated_energy).sum::<f64>()),
+        )
+    }
+
+    /// The figures of a loading from separation to the end of this leg, at the turning point of `reversal`, and back.
+    #[must_use]
+    pub fn of_reversal(leg: Leg, reversal: &Reversal) -> Self {
+        let touches = reversal.turn.springs > 0;
+        Figures::at(
+            touches.then_some((leg, reversal.turn)),
+            touches.then_some(reversal.smallest),
+            Some(reversal.dissipated_energy),
+        )
+    }
+
+    /// The figures of the point of the largest force with its leg, of the smallest force after it, and of the energy of
+    /// all legs, J.
+    fn at(pressed: Option<(Leg, CurvePoint)>, smallest: Option<CurvePoint>, energy: Option<f64>) -> Self {
+        let preload = pressed.map(|(_, point)| point.force);
+        let smallest = smallest.filter(|point| point.force <= 0.0);
+        // Not −F: that would make a force of zero negative.
+        let adhesion_force = smallest.map(|point| 0.0 - point.force);
+        // Where the force is to come back to zero, what is left of it is rounding.
+        let under_load = pressed.is_some_and(|(leg, _)| leg != Leg::ToForce(0.0));
         Figures {
-            preload: preload_force,
-            preload_indentation: preload.map(|point| point.indentation),
+            preload,
+            preload_indentation: pressed.map(|(_, point)| point.indentation),
             adhesion_force,
             adhesion_coefficient: adhesion_force
-                .zip(preload_force.filter(|&force| force > 0.0 && under_load))
+                .zip(preload.filter(|&force| force > 0.0 && under_load))
                 .map(|(adhesion, preload)| adhesion / preload)
                 .filter(|coefficient| coefficient.is_finite()),
             pull_off_indentation: smallest.map(|point| point.indentation),
             // From −0 to 0 where nothing is lost.
-            dissipated_energy: ends_separated
-                .then(|| history.legs.iter().map(|leg| leg.dissipated_energy).sum::<f64>() + 0.0),
+            dissipated_energy: energy.map(|energy| energy + 0.0),
         }
     }
 

@@ -1,9 +1,10 @@
 //! Outcome of one case, the source of all recorded quantities.
 
 use super::height_shape::HeightShape;
-use crate::analysis::{Figures, Governing, Regime, ideal_adhesion_force};
-use crate::contact::{CurvePoint, Direction, LegRecord};
-use crate::simulation::Outcome;
+use crate::analysis::{Figures, Governing, Regime, ideal_adhesion_force, scene_tabor_number};
+use crate::contact::{CurvePoint, Direction, History, LegRecord, Reversal};
+use crate::reference::smooth_adhesion_force;
+use crate::scene::{Leg, Scene};
 
 /// Outcome of one loading on one profile; a figure that the case does not have is `None`.
 pub(super) struct CaseOutcome<'o> {
@@ -11,16 +12,45 @@ pub(super) struct CaseOutcome<'o> {
     pub governing: Governing,
     /// Properties of the profile, as far as they are recorded.
     pub profile: ProfileRecord,
-    /// Outcome of the run that this loading is a part of, where there was a run.
-    pub run: Option<&'o Outcome>,
+    /// The scene, whose loading is not looked at.
+    pub scene: &'o Scene,
+    /// F_a(0) by the touch protocol, N.
+    pub zero_load: Option<f64>,
     /// F_a(0) by the zero-force protocol, N.
     pub zero_force: Option<f64>,
-    /// Figures of this loading.
+    /// The loading.
+    pub loading: LoadingOutcome,
+}
+
+/// Outcome of one loading.
+#[derive(Clone, Copy, Default)]
+pub(super) struct LoadingOutcome {
     pub figures: Figures,
-    /// Legs of this loading.
-    pub legs: Vec<LegRecord>,
-    /// Apparent diameter L, m.
-    pub length: f64,
+    /// Largest length in contact, m.
+    pub contact_length: Option<f64>,
+    /// Point of the largest force on a loading leg.
+    pub preload: Option<CurvePoint>,
+}
+
+impl LoadingOutcome {
+    /// Outcome of these legs.
+    pub fn of_legs(legs: Vec<LegRecord>) -> Self {
+        let lengths = legs.iter().flat_map(|leg| &leg.curve).map(|point| point.contact_length);
+        let contact_length = lengths.reduce(f64::max);
+        let pressing = legs.iter().filter(|leg| leg.direction == Direction::Loading);
+        let preload = pressing.map(|leg| leg.largest).max_by(|a, b| a.force.total_cmp(&b.force));
+        let figures = Figures::of(&History { legs, ..History::default() });
+        LoadingOutcome { figures, contact_length, preload }
+    }
+
+    /// Outcome of a loading from separation to the end of this leg and back.
+    pub fn of_reversal(leg: Leg, reversal: &Reversal) -> Self {
+        LoadingOutcome {
+            figures: Figures::of_reversal(leg, reversal),
+            contact_length: Some(reversal.turn.contact_length),
+            preload: Some(reversal.turn),
+        }
+    }
 }
 
 /// Properties that depend on the profile and the elasticity alone.
@@ -53,36 +83,33 @@ pub(super) struct Exponents {
 }
 
 impl CaseOutcome<'_> {
-    /// F_a(0) by the touch protocol, N.
-    pub fn zero_load(&self) -> Option<f64> {
-        self.run?.zero_load_adhesion_force
-    }
-
     /// F_a,max of eq. (14), N.
     pub fn ideal(&self) -> Option<f64> {
         let Governing { work_of_adhesion, effective_modulus, .. } = self.governing;
-        work_of_adhesion.map(|work| ideal_adhesion_force(work, effective_modulus, self.length))
+        work_of_adhesion.map(|work| ideal_adhesion_force(work, effective_modulus, self.scene.length))
     }
 
     /// A force over F_a,max.
     pub fn share(&self, force: Option<f64>) -> Option<f64> {
-        Some(force? / self.run?.ideal_adhesion_force.filter(|&ideal| ideal > 0.0)?)
+        Some(force? / self.ideal().filter(|&ideal| ideal > 0.0)?)
     }
 
     /// Largest length in contact over L.
     pub fn contact_fraction(&self) -> Option<f64> {
-        let lengths = self.legs.iter().flat_map(|leg| &leg.curve).map(|point| point.contact_length);
-        lengths.reduce(f64::max).map(|longest| longest / self.length)
+        self.loading.contact_length.map(|longest| longest / self.scene.length)
     }
 
-    /// Point of the largest force on a loading leg.
-    pub fn preload(&self) -> Option<CurvePoint> {
-        let pressing = self.legs.iter().filter(|leg| leg.direction == Direction::Loading);
-        pressing.map(|leg| leg.largest).max_by(|a, b| a.force.total_cmp(&b.force))
+    /// Tabor number.
+    pub fn tabor_number(&self) -> Option<f64> {
+        scene_tabor_number(self.scene, &self.governing)
     }
 
     /// Regime of this loading.
     pub fn regime(&self) -> Option<Regime> {
-        Regime::of_loading(&self.figures, self.zero_load(), self.run?.smooth_adhesion_force)
+        let Scene { form, length, .. } = self.scene;
+        let smooth = self.governing.adhesive_work().map(|work| {
+            smooth_adhesion_force(form.as_ref(), *length, self.governing.effective_modulus, work)
+        });
+        Regime::of_loading(&self.loading.figures, self.zero_load, smooth)
     }
 }

@@ -82,13 +82,13 @@ quantities! {
     }
     ZeroLoadAdhesionForce {
         name: "zero_load_adhesion_force", meaning: "adhesion force after turning at first touch",
-        symbol: "F_a(0)", unit: "N", needs: Needs::Touch, of: |case| case.zero_load(),
+        symbol: "F_a(0)", unit: "N", needs: Needs::Touch, of: |case| case.zero_load,
     }
     ZeroLoadAdhesionShare {
         name: "zero_load_adhesion_share",
         meaning: "adhesion force after turning at first touch, over that of a flat face",
         symbol: "F_a(0)/F_a,max", needs: Needs::Touch,
-        of: |case| case.share(case.zero_load()),
+        of: |case| case.share(case.zero_load),
     }
     ZeroForceAdhesionForce {
         name: "zero_force_adhesion_force",
@@ -103,35 +103,35 @@ quantities! {
     }
     PreloadForce {
         name: "preload_force", meaning: "largest force of the loading",
-        symbol: "F_n", unit: "N", of: |case| case.figures.preload,
+        symbol: "F_n", unit: "N", of: |case| case.loading.figures.preload,
     }
     PreloadIndentation {
         name: "preload_indentation", meaning: "indentation at the preload",
-        symbol: "d", unit: "m", signed: true, of: |case| case.figures.preload_indentation,
+        symbol: "d", unit: "m", signed: true, of: |case| case.loading.figures.preload_indentation,
     }
     AdhesionForce {
         name: "adhesion_force", meaning: "adhesion force after the preload",
-        symbol: "F_a", unit: "N", of: |case| case.figures.adhesion_force,
+        symbol: "F_a", unit: "N", of: |case| case.loading.figures.adhesion_force,
     }
     AdhesionShare {
         name: "adhesion_share", meaning: "adhesion force after the preload, over that of a flat face",
-        symbol: "F_a/F_a,max", of: |case| case.share(case.figures.adhesion_force),
+        symbol: "F_a/F_a,max", of: |case| case.share(case.loading.figures.adhesion_force),
     }
     AdhesionCoefficient {
         name: "adhesion_coefficient", meaning: "adhesion force over preload",
-        symbol: "F_a/F_n", of: |case| case.figures.adhesion_coefficient,
+        symbol: "F_a/F_n", of: |case| case.loading.figures.adhesion_coefficient,
     }
     PullOffIndentation {
         name: "pull_off_indentation", meaning: "indentation at the smallest force",
-        symbol: "d", unit: "m", signed: true, of: |case| case.figures.pull_off_indentation,
+        symbol: "d", unit: "m", signed: true, of: |case| case.loading.figures.pull_off_indentation,
     }
     DissipatedEnergy {
         name: "dissipated_energy", meaning: "energy lost over the loop",
-        symbol: "ΔW", unit: "J", of: |case| case.figures.dissipated_energy,
+        symbol: "ΔW", unit: "J", of: |case| case.loading.figures.dissipated_energy,
     }
     TaborNumber {
         name: "tabor_number", meaning: "Tabor number; energies are too large below 5",
-        symbol: "μ", of: |case| case.run?.tabor_number,
+        symbol: "μ", of: |case| case.tabor_number(),
     }
     ContactFraction {
         name: "contact_fraction", meaning: "largest length in contact over the length",
@@ -139,7 +139,7 @@ quantities! {
     }
     Fragments {
         name: "fragments", meaning: "contact fragments at the preload",
-        of: |case| case.preload().map(|point| point.fragments as f64),
+        of: |case| case.loading.preload.map(|point| point.fragments as f64),
     }
     Regime {
         name: "regime", meaning: "regime of adhesion, Fig. 4",

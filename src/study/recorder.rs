@@ -1,12 +1,11 @@
 //! Recorder of a case: solves its loadings on one profile and reads the recorded quantities.
 
-use super::case_outcome::{CaseOutcome, Exponents, HeightStatistics, ProfileRecord};
+use super::case_outcome::{CaseOutcome, Exponents, HeightStatistics, LoadingOutcome, ProfileRecord};
 use super::height_shape::HeightShape;
 use super::plan::{Plan, StiffnessRange};
 use super::quantity::Needs;
-use crate::analysis::Figures;
-use crate::contact::{History, LegRecord};
-use crate::scene::{Leg, Roughness, Scene};
+use crate::analysis::Governing;
+use crate::scene::{Leg, Roughness, Scene, Solver};
 use crate::simulation::{Outcome, RunError, Simulation};
 
 /// Curve samples on a leg: all that is recorded is at the ends of legs or an exact extreme.
@@ -52,39 +51,68 @@ impl<'p> Recorder<'p> {
                 None => loops.push(own.clone()),
             }
         }
-        // From separation each loop is the same as by itself.
-        let ends_apart = loops.iter().all(|legs| legs.last() == Some(&Leg::ToSeparation));
-        let zero_force = plan.records(Needs::ZeroForce);
-        let aside = zero_force && !ends_apart;
         let count = loops.len();
-        if zero_force && !aside {
+        let zero_force = plan.records(Needs::ZeroForce);
+        if zero_force {
             loops.push(vec![Leg::ToZeroForce, Leg::ToSeparation]);
         }
-        if loops.is_empty() && plan.records(Needs::Touch) {
-            loops.push(vec![Leg::ToTouch, Leg::ToSeparation]);
-        }
-        let mut run = None;
-        if !loops.is_empty() {
-            scene.loading = loops.concat();
-            run = Some(self.run(scene)?);
-        }
-        let mut each = run.as_mut().map_or_else(Vec::new, |run| divided(run, &loops));
-        let mut at_zero_force = (zero_force && !aside).then(|| each.pop()).flatten();
-        if aside {
-            scene.loading = vec![Leg::ToZeroForce, Leg::ToSeparation];
-            at_zero_force = Some(self.run(scene)?.history.legs);
+        let mut zero_load = None;
+        let mut each = Vec::new();
+        if !loops.is_empty() || plan.records(Needs::Touch) {
+            (each, zero_load) = self.solve(scene, &governing, loops)?;
         }
         scene.loading = own;
-        let zero_force = at_zero_force.and_then(|legs| figures(legs).0.adhesion_force);
+        let zero_force = each.get(count).filter(|_| zero_force).and_then(|of| of.figures.adhesion_force);
+        let cells = plan.preloads.as_ref().map_or(1, |preloads| preloads.count() as usize);
         each.truncate(count);
-        each.resize_with(plan.preloads.as_ref().map_or(1, |preloads| preloads.count() as usize), Vec::new);
-        let (run, length) = (run.as_ref(), scene.length);
-        let values = |legs| {
-            let (figures, legs) = figures(legs);
-            let case = CaseOutcome { governing, profile, run, zero_force, figures, legs, length };
+        each.resize(cells, LoadingOutcome::default());
+        let scene = &*scene;
+        let values = |loading| {
+            let case = CaseOutcome { governing, profile, scene, zero_load, zero_force, loading };
             plan.record.iter().map(|quantity| quantity.of(&case)).collect()
         };
         Ok(each.into_iter().map(values).collect())
+    }
+
+    /// Outcomes of loadings, each of which begins separated, and F_a(0) by the touch protocol.
+    fn solve(
+        &mut self,
+        scene: &mut Scene,
+        governing: &Governing,
+        loops: Vec<Vec<Leg>>,
+    ) -> Result<(Vec<LoadingOutcome>, Option<f64>), RunError> {
+        let press = |legs: &Vec<Leg>| match legs[..] {
+            [press @ (Leg::ToForce(_) | Leg::ToTouch | Leg::ToZeroForce), Leg::ToSeparation] => Some(press),
+            _ => None,
+        };
+        let turned: Option<Vec<Leg>> = loops.iter().map(press).collect();
+        if let (Some(turned), Solver::Exact) = (turned, scene.numerics.solver) {
+            // One loading serves all of them.
+            let ends = [&[Leg::ToTouch], turned.as_slice()].concat();
+            let mut each = vec![LoadingOutcome::default(); ends.len()];
+            self.simulation.reverse(scene, (&ends, &[]), self.stop, &mut |index, reversal| {
+                each[index] = LoadingOutcome::of_reversal(ends[index], &reversal);
+                Ok(())
+            })?;
+            let at_touch = each.remove(0).figures.adhesion_force;
+            return Ok((each, at_touch.filter(|_| governing.adhesive_work().is_some())));
+        }
+        let loops = if loops.is_empty() { vec![vec![Leg::ToTouch, Leg::ToSeparation]] } else { loops };
+        // From separation each loading is the same as by itself.
+        let ends_apart = loops.iter().all(|legs| legs.last() == Some(&Leg::ToSeparation));
+        let together = if ends_apart { loops.len() } else { 1 };
+        let mut zero_load = None;
+        let mut each = Vec::with_capacity(loops.len());
+        for loops in loops.chunks(together) {
+            scene.loading = loops.concat();
+            let outcome = self.run(scene)?;
+            zero_load = zero_load.or(outcome.zero_load_adhesion_force);
+            let mut legs = outcome.history.legs.into_iter();
+            each.extend(
+                loops.iter().map(|one| LoadingOutcome::of_legs(legs.by_ref().take(one.len()).collect())),
+            );
+        }
+        Ok((each, zero_load))
     }
 
     fn run(&mut self, scene: &Scene) -> Result<Outcome, RunError> {
@@ -151,17 +179,6 @@ impl<'p> Recorder<'p> {
             .zip(slope(&indentations, &forces))
             .map(|(stiffness, force)| Exponents { stiffness, force }))
     }
-}
-
-/// The legs of an outcome, loop by loop.
-fn divided(outcome: &mut Outcome, loops: &[Vec<Leg>]) -> Vec<Vec<LegRecord>> {
-    let mut legs = std::mem::take(&mut outcome.history.legs).into_iter();
-    loops.iter().map(|one| legs.by_ref().take(one.len()).collect()).collect()
-}
-
-fn figures(legs: Vec<LegRecord>) -> (Figures, Vec<LegRecord>) {
-    let history = History { legs, ..History::default() };
-    (Figures::of(&history), history.legs)
 }
 
 /// Slope of the straight line of least squares; `None` for fewer than two different points.
