@@ -94,12 +94,12 @@ mod measure {
         );
         println!("{:<36} {:>8} {:>8} {:>8} {:>6}", "key", "p50", "p99", "max", "bar");
         let mut terminal = opened(options.scene);
-        tell("selecting: the key is seen", &echoes(&mut terminal, options.runs), ECHO);
-        tell("typing a value: the digit is seen", &digits(&mut terminal, options.runs), ECHO);
+        report("selecting: the key is seen", &echoes(&mut terminal, options.runs), ECHO);
+        report("typing a value: the digit is seen", &digits(&mut terminal, options.runs), ECHO);
         for case in &CASES {
             let (echo, done) = edits(&mut terminal, case, options.runs);
-            tell(case.what, &done, case.bar);
-            tell("  the key is seen", &echo, ECHO);
+            report(case.what, &done, case.bar);
+            report("  the key is seen", &echo, ECHO);
         }
         terminal.send("q");
         terminal.wait_for("unsaved changes");
@@ -166,8 +166,8 @@ mod measure {
             let start = Instant::now();
             let time = time(terminal, key, |rows| {
                 // The same line with other springs has the same figures, or nearly so.
-                let told = case.row == "points" || headline(rows) != headline(&before);
-                told && selected(rows) != selected(&before) && !is_computing(rows)
+                let is_recomputed = case.row == "points" || headline(rows) != headline(&before);
+                is_recomputed && selected(rows) != selected(&before) && !is_computing(rows)
             });
             echo.push(milliseconds(start, terminal.frames()[frames].arrived));
             done.push(time);
@@ -231,14 +231,14 @@ mod measure {
         values
     }
 
-    fn tell(what: &str, times: &[f64], bar: f64) {
+    fn report(what: &str, times: &[f64], bar: f64) {
         let times = sorted(times);
         let (median, p99, most) = (quantile(&times, 0.5), quantile(&times, 0.99), quantile(&times, 1.0));
         let holds = if p99 <= bar { "holds" } else { "does NOT hold" };
         println!("{what:<36} {median:>8.1} {p99:>8.1} {most:>8.1} {bar:>6.0}  {holds}");
     }
 
-    /// Plays a whole loop of the default scene and tells what was written for it.
+    /// Plays a whole loop of the default scene and prints the bytes written for it.
     fn play(connection: Option<(&str, &str)>) {
         let mut program = Program::new(ASPERITY);
         if let Some((name, value)) = connection {

@@ -11,7 +11,7 @@ use std::hint::black_box;
 /// Most loops that the reversals may take.
 const MOST_LOOPS: f64 = 4.0;
 
-/// Tells the process that callgrind watches what to do: the number of a task.
+/// Sends the process that callgrind watches the number of a task.
 const CHILD: &str = "ASPERITY_INSTRUCTIONS_OF_REVERSALS";
 
 const SPRINGS: usize = 1 << 16;

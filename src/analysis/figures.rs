@@ -25,7 +25,7 @@ impl Figures {
     /// The figures of `history`.
     #[must_use]
     pub fn of(history: &History) -> Self {
-        // What a separated body does on its way says nothing of the contact.
+        // Legs of a separated body have no extremes of the contact.
         let legs = || history.legs.iter().filter(|leg| leg.curve.iter().any(|point| point.springs > 0));
         let pressed = legs()
             .filter(|leg| leg.direction == Direction::Loading)
@@ -151,7 +151,7 @@ mod tests {
         let nothing = |leg: LegRecord| LegRecord { dissipated_energy: -0.0, ..leg };
         let lost = figures(vec![nothing(pressed(7.0)), nothing(pulled(-3.0, 0))]).dissipated_energy;
         assert!(lost.is_some_and(|lost| lost == 0.0 && lost.is_sign_positive()), "{lost:?}");
-        // What still holds has lost nothing for good.
+        // A contact that still holds has no loss over a loop.
         assert_eq!(figures(vec![pressed(7.0), pulled(-3.0, 1)]).dissipated_energy, None);
         assert_eq!(figures(vec![]), Figures::default());
     }

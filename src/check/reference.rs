@@ -278,7 +278,7 @@ impl Rest {
             compression += share * (Extended::from(d) - mean);
             magnitude += (share * (Extended::from(d) - mean)).abs().rounded();
         }
-        // How far the edges go for a rounding of the level, and with what stretch.
+        // Distance that the edges move for a rounding of the level, and their stretch.
         let edges_move = b.rounded() * (scale + level_slope(&half, &root) * scale);
         let stretched = (level - Extended::from(d)).abs().rounded();
         let springs = (last - first + 1) as f64;

@@ -243,7 +243,7 @@ pub fn remember(path: &Path, appearance: Appearance) -> Result<(), ConfigError> 
         };
         text = set.map_err(unread)?;
     }
-    // What is written can be read.
+    // A written configuration can be read.
     Config::parse(&text, path)?;
     write(path, &text, exists)
 }
@@ -308,7 +308,7 @@ mod tests {
         for field in ORDER {
             assert!(full().contains(&format!("    {field}: ")), "{field}");
         }
-        // What is printed can be read, and is the same.
+        // A printed configuration can be read, and is the same.
         let appearance = Appearance { theme: Theme::Dark, marker: Marker::Braille };
         assert_eq!(parse(&text_of(&config, appearance, 30)), Ok(config));
     }

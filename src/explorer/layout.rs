@@ -30,7 +30,7 @@ impl Layout {
     #[must_use]
     pub fn within(model: &Model, (width, height): (u16, u16)) -> Self {
         let row = |y: u16| Rect::new(0, y, width, 1).intersection(Rect::new(0, 0, width, height));
-        // What frames the panes gives way before they do.
+        // The frame of the panes gives way before the panes.
         let footer = height >= 6;
         let top = if height >= 32 { 2 } else { u16::from(height >= 8) };
         let bottom = 1 + u16::from(footer);

@@ -394,7 +394,7 @@ impl<W: Write> Session<'_, W> {
             match effect {
                 Effect::Compute | Effect::Show | Effect::Beside | Effect::Manual(_) | Effect::Preview(_) => {
                     if effect == Effect::Compute {
-                        // What is found out about the scene before is of no use, and takes time from this one.
+                        // Estimates of the former scene are of no use, and take time from this one.
                         self.study.stop();
                     }
                     if let Some(request) = request(&self.model, &effect) {

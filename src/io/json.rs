@@ -63,7 +63,7 @@ impl Lines {
 impl Formatter for Lines {
     fn write_string_fragment<W: ?Sized + Write>(&mut self, out: &mut W, fragment: &str) -> io::Result<()> {
         let mut rest = fragment;
-        // What JSON may hold in the open and a terminal may not; read back, the text is the same.
+        // Characters that JSON allows and a terminal does not; read back, the text is the same.
         while let Some((place, c)) = rest.char_indices().find(|(_, c)| is_control(*c)) {
             write!(out, "{}\\u{:04x}", &rest[..place], u32::from(c))?;
             rest = &rest[place + c.len_utf8()..];

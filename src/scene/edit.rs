@@ -118,7 +118,7 @@ mod tests {
 
     const SCENE: &str = r#"(
     version: 1,
-    // What it is made of.
+    // Its parts.
     material: (effective_modulus: 1.0e6), // soft
     length: 1.0e-4, /* as long
                        as it is */

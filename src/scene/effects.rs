@@ -141,7 +141,7 @@ pub(super) fn pressing(loading: &[Leg]) -> Vec<usize> {
     for (index, leg) in loading.iter().enumerate() {
         let replaces = kept.last().is_some_and(|last| passes(*leg, loading[*last]));
         if replaces {
-            // What is passed on the way need not be a leg of its own.
+            // A point passed on the way needs no leg of its own.
             kept.clear();
         } else if !kept.is_empty() && goes_back(*leg, reached) {
             continue;

@@ -224,7 +224,7 @@ fn list_folder(folder: &Path, origin: Source) -> Vec<Entry> {
 fn scene_files(folder: &Path) -> io::Result<Vec<PathBuf>> {
     let paths = fs::read_dir(folder)?.take(MOST_LOOKED_AT).filter_map(|entry| Some(entry.ok()?.path()));
     let is_scene = |path: &PathBuf| path.extension().is_some_and(|extension| extension == "ron");
-    // What lies behind a link decides; a link that leads nowhere is no folder.
+    // The target of a link decides; a link without a target is no folder.
     let is_folder = |path: &PathBuf| fs::metadata(path).is_ok_and(|found| found.is_dir());
     Ok(paths.filter(is_scene).filter(|path| !is_folder(path)).collect())
 }

@@ -68,7 +68,7 @@ fn inside(field: &Field, scene: &Scene) -> Vec<&'static Field> {
 /// The fields that differ, each by itself where both scenes have the same fields there, else the
 /// group around them.
 fn differences(field: &Field, mine: &Scene, theirs: &Scene) -> Overrides {
-    // What both leave at its default is equal, though the default may depend on another field.
+    // A field that both leave at its default is equal, though the default may depend on another field.
     let stated = |scene| field.written(scene).filter(|value| value != field.default_in(scene));
     if stated(mine) == stated(theirs) {
         return Vec::new();

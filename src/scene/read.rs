@@ -136,7 +136,7 @@ fn explain_value(text: &str, outline: &Text, at: Unread, error: &ron::Error) -> 
         return Unread { error: SceneError { message: plain(error), ..at.error }, ..at };
     };
     let (allowed, message) = match known_field(outline, field) {
-        // What text may hold is not the point where the quotes are missing.
+        // Without quotes the contents of a text are not the error.
         Some(Field { range: Range::Text { .. }, .. }) | None => (String::new(), plain(error)),
         Some(field) => (field.allowed(), field.name.to_string()),
     };

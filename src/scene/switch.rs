@@ -468,7 +468,7 @@ mod tests {
             prop_assert!(effect.is_on(back.scene()));
             let path = edits[0].0.as_str();
             let is_list = ["loading", "observe"].iter().any(|list| is_within(path, list));
-            // What the switch itself has changed is compared below.
+            // Changes by the switch itself are compared below.
             let is_switched = |field: &str| without.value(field) != document.value(field);
             if !is_list && !is_switched(path)
                 && let Ok(expected) = document.set_all(&edits)

@@ -42,7 +42,7 @@ pub(super) fn publish(
     let failed = StudyError::unwritable(study);
     let place = publication.new_place().map_err(&failed)?;
     write(&place).and_then(|()| publication.put_in_place(&place).map_err(&failed)).inspect_err(|_| {
-        // What was written, or a part of it, is of no use where it was not published.
+        // An unpublished file, or a part of it, is of no use.
         if publication.current().as_deref() != place.file_name() {
             let _ = remove(disk, &place);
         }

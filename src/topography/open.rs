@@ -77,7 +77,7 @@ fn read_up_to(
         Some(surface) => surface?,
         None => from_source(BufReader::with_capacity(BUFFER, &mut source), options)?,
     };
-    // What follows the surface belongs to the file as well.
+    // Bytes behind the surface belong to the file as well.
     io::copy(&mut source, &mut io::sink())?;
     Ok(surface)
 }

@@ -45,7 +45,7 @@ enum Event {
     /// The folder of the study, or one that is none, opened by its path.
     Open(bool),
     Resize(u16, u16),
-    /// The window has another size by now, and nobody has told the explorer.
+    /// The window has another size by now, unknown to the explorer.
     Shrunk(u16, u16),
     Elapse(f64),
     /// The oldest request that waits is answered.
@@ -294,7 +294,7 @@ impl Explorer {
         self.draw(self.driver.model.size);
     }
 
-    /// Lets the worker catch up: what is shown is then what is explored, or it is told why not.
+    /// Lets the worker catch up: the outcome shown is then that of the scene, or an error is.
     fn settle(&mut self) {
         while !self.waiting.is_empty() {
             self.answer();

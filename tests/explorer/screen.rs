@@ -141,7 +141,7 @@ fn generation(driver: &Driver) -> u64 {
     driver.model.generation
 }
 
-/// Whether what is shown belongs to the scene as it stands.
+/// True if the outcome shown is that of the present scene.
 fn is_up_to_date(model: &Model) -> bool {
     model.computed.as_ref().is_some_and(|computed| computed.generation == model.generation)
         && model.snapshot.as_ref().is_some_and(|snapshot| snapshot.generation == model.generation)

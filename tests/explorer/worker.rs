@@ -1,5 +1,5 @@
 //! The worker of the explorer, spoken to through its channels: the newest request wins, what fails
-//! is told, and a snapshot of the animation is a point of the computed curve.
+//! is shown, and a snapshot of the animation is a point of the computed curve.
 
 use super::common::deadline::within;
 use super::common::scenes::{changed, one_spring, punch, rough, smooth, without_adhesion};
@@ -309,10 +309,10 @@ fn a_scene_beside_is_computed_only_in_sight_and_gives_way_to_a_newer_scene() {
     });
 }
 
-/// A run that waits for a word, and then gives up if it is told to stop.
+/// A run that waits for a word, and then gives up if it is asked to stop.
 fn stop_when_told(words: &Receiver<()>, stop: &dyn Fn() -> bool) -> RunError {
     words.recv_timeout(PATIENCE).expect("a word to go on");
-    assert!(stop(), "the run is told to stop");
+    assert!(stop(), "the run is asked to stop");
     ContactError::Interrupted.into()
 }
 
@@ -328,12 +328,12 @@ fn the_worker_ends_with_the_explorer() {
         sender.send(compute(1, &rough())).unwrap();
         let generation = Newest::default();
         generation.set_generation(1);
-        let told = RefCell::new(0);
+        let calls = RefCell::new(0);
         worker::serve(Box::new(Simulation::default()), &generation, &receiver, &|_| {
-            *told.borrow_mut() += 1;
+            *calls.borrow_mut() += 1;
             false
         });
-        assert_eq!(told.into_inner(), 1);
+        assert_eq!(calls.into_inner(), 1);
         assert!(sender.send(compute(2, &rough())).is_ok(), "the queue itself is still there");
     });
 }
@@ -427,7 +427,7 @@ fn a_moment_at_a_sample_is_the_sample() {
                         continue;
                     }
                     let shown = served.shown(snapshot(leg, sample.indentation)).point;
-                    // Where the contact forms or ends at once two samples stand at one place.
+                    // Where the contact forms or ends at once two samples have one indentation.
                     let same = record.curve.iter().filter(|one| one.indentation == sample.indentation);
                     assert!(
                         same.clone().any(|one| near(one, &shown)),
@@ -484,7 +484,7 @@ fn above_the_foundation_nothing_touches() {
         assert_eq!((shown.point.springs, shown.point.fragments, shown.point.force), (0, 0, 0.0));
         assert!(shown.profile.columns.iter().all(|column| column.contact.is_none()));
         assert!(shown.close_up.boundaries.is_empty() && shown.close_up.fragment.is_none());
-        assert!(shown.profile.level > shown.profile.heights.1, "the surface stands above the line");
+        assert!(shown.profile.level > shown.profile.heights.1, "the surface is above the line");
     });
 }
 
@@ -544,7 +544,7 @@ fn picture_counts_and_boundaries_say_the_same() {
                     if let Some((number, springs)) = fragment {
                         assert_eq!(found[number], springs, "{name}");
                     }
-                    // In contact the surface follows the line, elsewhere it stands at its level.
+                    // In contact the surface follows the line, elsewhere it is at its level.
                     for column in &shown.profile.columns {
                         let level = (shown.profile.level, shown.profile.level);
                         assert_eq!(column.surface, column.contact.unwrap_or(level), "{name}");
@@ -615,7 +615,7 @@ fn next_and_previous_fragment_go_round() {
             (number, spring) = (next, middle);
         }
         assert_eq!(number, start);
-        // From nowhere the summit is where one begins, and a spring is looked at as it stands.
+        // Without a spring the summit is the first one; a spring is shown as it is.
         assert_eq!(look(Focus::After(None)).0, (start + 1) % count);
         assert_eq!(look(Focus::Before(None)).0, (start + count - 1) % count);
         assert_eq!(look(Focus::Spring(spring)).0, start);

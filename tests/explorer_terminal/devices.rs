@@ -48,7 +48,7 @@ fn a_pipe_or_a_device_is_not_opened_as_a_scene() {
         open(&mut terminal, "/proc/kmsg");
         terminal.wait_for("/proc/kmsg:");
         assert_answers(&mut terminal);
-        // In the list it stands with what is wrong with it.
+        // The list shows it with its error.
         terminal.send("o");
         terminal.send("pipe");
         terminal.wait_for("! pipe.ron  here");

@@ -49,7 +49,7 @@ pub fn paused(program: Program) -> Terminal {
     terminal
 }
 
-/// The row in which a text stands.
+/// The row that contains a text.
 pub fn row_with(terminal: &Terminal, text: &str) -> String {
     terminal
         .rows()
@@ -58,7 +58,7 @@ pub fn row_with(terminal: &Terminal, text: &str) -> String {
         .unwrap_or_else(|| panic!("no {text}:\n{}", terminal.text()))
 }
 
-/// The adhesion force as the screen tells it: a number and its unit.
+/// The adhesion force as on the screen: a number and its unit.
 pub fn headline(rows: &[String]) -> Option<String> {
     let after = rows.iter().rev().find_map(|row| row.split_once("F_a "))?.1;
     let words: Vec<&str> = after.split_whitespace().take(2).collect();

@@ -68,7 +68,7 @@ fn check(path: &Path) -> (bool, String) {
     (output.status.success(), String::from_utf8(output.stdout).unwrap())
 }
 
-/// The screen at the start of the loading, but for the line that tells times.
+/// The screen at the start of the loading, but for the line with the times.
 #[track_caller]
 fn at_the_start(terminal: &mut Terminal) -> Vec<String> {
     terminal.send("<<");
@@ -208,7 +208,7 @@ fn curve_figures_and_panes_are_exported() {
         }
         assert!(exported["adhesion_force"].as_f64().is_some_and(|force| force > 0.0));
 
-        // The panes are those on the screen, but for the line where the export was told.
+        // The panes are those on the screen, but for the line with the notice of the export.
         let screen = terminal.rows();
         let text = file("out.txt");
         let lines: Vec<&str> = text.lines().map(str::trim_end).collect();

@@ -18,7 +18,7 @@ fn a_loop_is_kept_compared_and_exchanged() {
         let before = headline(&terminal.rows()).unwrap();
         terminal.send("h");
         let after = wait_for_another(&mut terminal, &before);
-        // The ghost stands in the legend by what it has that the scene has not.
+        // The legend names the ghost by its differences from the scene.
         terminal.wait_for("· κ 8 ");
         let value = |rows: &[String]| {
             let row = rows.iter().find(|row| row.contains("›") && row.contains('κ'))?;

@@ -211,7 +211,7 @@ fn stopped_and_continued_from_outside_it_draws_everything_anew() {
     });
 }
 
-/// What stands below the last switch back to the terminal's own screen.
+/// The text below the last switch back to the terminal's own screen.
 fn left_behind(terminal: &Terminal) -> String {
     let bytes = terminal.written();
     let place = last_place(bytes, LEAVE_ALTERNATE_SCREEN).expect("the alternate screen is left");

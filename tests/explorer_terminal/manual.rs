@@ -5,7 +5,7 @@ use crate::common::terminal::Terminal;
 use crate::driving::{CLEAR_LINE, ENTER, ESCAPE, answer, explorer, paused, quantity, quit, select};
 
 /// Indentation and force of manual loading, m and N.
-fn stands(rows: &[String]) -> Option<(f64, f64)> {
+fn body_at(rows: &[String]) -> Option<(f64, f64)> {
     let row: Vec<String> = rows.iter().filter(|row| row.contains("manual: d ")).cloned().collect();
     Some((quantity(&row, "d", "m")?, quantity(&row, "F", "N")?))
 }
@@ -24,13 +24,13 @@ fn cost(terminal: &mut Terminal) -> (u64, u64) {
     numbers.unwrap_or_else(|| panic!("{row}"))
 }
 
-/// Moves the body by a key, and gives where it stands then.
+/// Moves the body by a key, and returns its new position.
 #[track_caller]
 fn push(terminal: &mut Terminal, key: &str) -> (f64, f64) {
-    let before = stands(&terminal.rows());
+    let before = body_at(&terminal.rows());
     terminal.send(key);
-    terminal.wait("moved body", |rows| stands(rows).is_some_and(|now| Some(now) != before));
-    stands(&terminal.rows()).unwrap()
+    terminal.wait("moved body", |rows| body_at(rows).is_some_and(|now| Some(now) != before));
+    body_at(&terminal.rows()).unwrap()
 }
 
 #[test]
@@ -38,10 +38,10 @@ fn the_body_is_pressed_and_pulled_by_keys() {
     within(60, || {
         let (program, _folder) = explorer();
         let mut terminal = paused(program);
-        assert_eq!(stands(&terminal.rows()), None);
+        assert_eq!(body_at(&terminal.rows()), None);
         terminal.send("d");
-        terminal.wait("manual loading", |rows| stands(rows).is_some());
-        let (start, _) = stands(&terminal.rows()).unwrap();
+        terminal.wait("manual loading", |rows| body_at(rows).is_some());
+        let (start, _) = body_at(&terminal.rows()).unwrap();
         let (coarse, _) = push(&mut terminal, "}");
         let (fine, _) = push(&mut terminal, "]");
         let ratio = (coarse - start) / (fine - coarse);
@@ -54,9 +54,9 @@ fn the_body_is_pressed_and_pulled_by_keys() {
         terminal.send("F");
         answer(&mut terminal, "Go to the force: ", "10 µN");
         let at_force =
-            |rows: &[String]| stands(rows).is_some_and(|(_, force)| (force / 1e-5 - 1.0).abs() < 1e-3);
+            |rows: &[String]| body_at(rows).is_some_and(|(_, force)| (force / 1e-5 - 1.0).abs() < 1e-3);
         terminal.wait("force of 10 µN", at_force);
-        let (pressed, force) = stands(&terminal.rows()).unwrap();
+        let (pressed, force) = body_at(&terminal.rows()).unwrap();
         let (changed, looked_at) = cost(&mut terminal);
         assert!(changed > 10 && looked_at >= changed, "{changed} springs changed, {looked_at} looked at");
         let (deeper, larger) = push(&mut terminal, "}");
@@ -67,9 +67,9 @@ fn the_body_is_pressed_and_pulled_by_keys() {
         assert!(changed < 100 && looked_at < 1024, "{changed} springs changed, {looked_at} looked at");
 
         terminal.send("S");
-        terminal.wait("separated body", |rows| stands(rows).is_some_and(|(d, f)| d < pressed && f == 0.0));
+        terminal.wait("separated body", |rows| body_at(rows).is_some_and(|(d, f)| d < pressed && f == 0.0));
         terminal.send("d");
-        terminal.wait("body given back", |rows| stands(rows).is_none());
+        terminal.wait("body given back", |rows| body_at(rows).is_none());
         quit(&mut terminal);
     });
 }
@@ -85,21 +85,21 @@ fn a_force_that_is_none_or_out_of_reach_is_told() {
         terminal.send("F");
         answer(&mut terminal, "Go to the force: ", "5u");
         terminal
-            .wait("force of 5 µN", |rows| stands(rows).is_some_and(|(_, f)| (f / 5e-6 - 1.0).abs() < 1e-3));
+            .wait("force of 5 µN", |rows| body_at(rows).is_some_and(|(_, f)| (f / 5e-6 - 1.0).abs() < 1e-3));
         terminal.send("F");
         answer(&mut terminal, "Go to the force: ", "-1");
         terminal.wait_for("the contact detaches before");
         // A key takes the line away, and manual loading goes on at the same place.
         terminal.send("k");
-        terminal.wait("manual loading", |rows| stands(rows).is_some());
-        let (_, force) = stands(&terminal.rows()).unwrap();
+        terminal.wait("manual loading", |rows| body_at(rows).is_some());
+        let (_, force) = body_at(&terminal.rows()).unwrap();
         assert!((force / 5e-6 - 1.0).abs() < 1e-3, "{force} N");
         terminal.send("F");
         terminal.wait_for("Go to the force:");
         terminal.send(CLEAR_LINE);
         terminal.send(ESCAPE);
         terminal.wait_without("Go to the force:");
-        assert_eq!(stands(&terminal.rows()).unwrap().1, force, "nothing was asked for");
+        assert_eq!(body_at(&terminal.rows()).unwrap().1, force, "nothing was asked for");
         quit(&mut terminal);
     });
 }
@@ -116,11 +116,11 @@ fn an_edit_puts_the_body_back_on_the_loading() {
         terminal.send("u");
         terminal.wait_without("[changed]");
         terminal.settle();
-        assert_eq!(stands(&terminal.rows()), None, "{}", terminal.text());
+        assert_eq!(body_at(&terminal.rows()), None, "{}", terminal.text());
         // The animation takes it back, too.
         push(&mut terminal, "}");
         terminal.send(".");
-        terminal.wait("body given back", |rows| stands(rows).is_none());
+        terminal.wait("body given back", |rows| body_at(rows).is_none());
         terminal.send("F");
         terminal.wait_for("Go to the force:");
         terminal.send(ENTER);

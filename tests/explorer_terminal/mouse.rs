@@ -37,7 +37,7 @@ fn manual_indentation(rows: &[String]) -> Option<f64> {
     quantity(&row, "d", "m")
 }
 
-/// The column, counted from 1, of the mark where the body stands on the curve. The legend has it, too.
+/// The column, counted from 1, of the mark of the body on the curve. The legend has it, too.
 #[track_caller]
 fn cursor(terminal: &Terminal) -> usize {
     let rows = terminal.rows();

@@ -48,7 +48,7 @@ fn whatever_is_drawn_is_drawn_in_whole_frames() {
             frames += 1;
         }
         assert!(frames > 3, "{frames} frames");
-        // Behind them the terminal is given back, and the summary stands on its own screen.
+        // Behind them the terminal is given back, and the summary is on its own screen.
         let rest = String::from_utf8_lossy(rest);
         let (given_back, summary) = rest.split_once("Rough line").expect("there is a summary");
         assert!(given_back.len() < 64 && given_back.contains("\x1b[?1049l"), "{given_back:?}");
@@ -109,8 +109,8 @@ fn a_misspelt_scene_is_told_without_taking_the_terminal() {
             let mut terminal = program.start();
             let status = terminal.wait_end();
             assert_eq!(status.exit_code(), 1);
-            let told = terminal.rows().concat();
-            assert!(told.contains(said), "{told}");
+            let screen = terminal.rows().concat();
+            assert!(screen.contains(said), "{screen}");
             assert!(!terminal.written().contains(&0x1b), "{}", terminal.text());
             assert!(terminal.is_as_before());
         }
@@ -122,8 +122,8 @@ fn without_a_terminal_it_says_what_to_do() {
     within(40, || {
         let output = Command::new(ASPERITY).arg("jkr-sphere").stdin(Stdio::null()).output().unwrap();
         assert_eq!(output.status.code(), Some(1));
-        let told = String::from_utf8(output.stderr).unwrap();
-        assert!(told.contains("asperity run jkr-sphere") && !told.contains('\x1b'), "{told}");
+        let message = String::from_utf8(output.stderr).unwrap();
+        assert!(message.contains("asperity run jkr-sphere") && !message.contains('\x1b'), "{message}");
         assert!(output.stdout.is_empty());
         // One end alone is not enough.
         for ends in ["</dev/null", ">written"] {

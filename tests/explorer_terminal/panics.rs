@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 
 /// The explorer with the engine that panics on the seed 13 and computes without end on the seed 14.
 fn panicking() -> Program {
-    let folder = Path::new(ASPERITY).parent().expect("the program stands in a folder");
+    let folder = Path::new(ASPERITY).parent().expect("the program is in a folder");
     let path: PathBuf = folder.join("examples").join("panicking_engine");
     assert!(path.exists(), "{} is not built: cargo build --examples", path.display());
     Program::new(path)
@@ -58,9 +58,9 @@ fn a_panic_while_drawing_gives_the_terminal_back_and_tells_why() {
         terminal.send(ENTER);
         assert_eq!(terminal.wait_end().exit_code(), 101);
         assert_given_back(&terminal);
-        // Told below one another: the terminal starts each line at its left again.
-        let told = terminal.rows();
-        assert!(told.iter().any(|row| row.starts_with("thirteen is unlucky")), "{}", terminal.text());
+        // One line below the other: the terminal starts each line at its left again.
+        let rows = terminal.rows();
+        assert!(rows.iter().any(|row| row.starts_with("thirteen is unlucky")), "{}", terminal.text());
     });
 }
 

@@ -21,7 +21,7 @@ const MOST_BYTES: f64 = 20_000.0;
 const MOST_FRAMES: f64 = 12.0;
 
 /// Says what is left out, past the test runner, which keeps what passing tests print to itself.
-fn tell(note: &str) {
+fn report(note: &str) {
     let _ = writeln!(std::io::stderr(), "{note}");
 }
 
@@ -56,7 +56,7 @@ struct Server {
 
 impl Drop for Server {
     fn drop(&mut self) {
-        // It is told by the end of its input, and waited for.
+        // The end of its input ends it, and its end is waited for.
         drop(self.sshd.stdin.take());
         let _ = self.sshd.wait();
     }
@@ -68,7 +68,7 @@ impl Server {
         let [sshd, ssh, keygen] = ["sshd", "ssh", "ssh-keygen"].map(|name| {
             let found = program(name);
             if found.is_none() {
-                tell(&format!("skipped: there is no {name} (Debian: openssh-server, openssh-client)"));
+                report(&format!("skipped: there is no {name} (Debian: openssh-server, openssh-client)"));
             }
             found
         });
@@ -77,7 +77,7 @@ impl Server {
         // As root it parts with its rights in an empty folder that must be there.
         let empty = Path::new("/run/sshd");
         if user == "root" && !empty.exists() && fs::create_dir(empty).is_err() {
-            tell(&format!("skipped: {} is not there and cannot be made", empty.display()));
+            report(&format!("skipped: {} is not there and cannot be made", empty.display()));
             return None;
         }
         let folder = tempfile::tempdir().unwrap();
@@ -105,8 +105,8 @@ impl Server {
         command.stdin(Stdio::piped()).stdout(Stdio::null()).stderr(Stdio::piped());
         let mut sshd = command.spawn().unwrap();
         let lines = BufReader::new(sshd.stderr.take().unwrap()).lines();
-        let (told, log) = channel();
-        std::thread::spawn(move || lines.map_while(Result::ok).try_for_each(|line| told.send(line)));
+        let (sender, log) = channel();
+        std::thread::spawn(move || lines.map_while(Result::ok).try_for_each(|line| sender.send(line)));
         let server = Server { sshd, ssh, port, user, folder, log };
         server.wait_for_log("Server listening");
         server.is_open().then_some(server)
@@ -151,13 +151,13 @@ impl Server {
         }
         let log: Vec<String> = self.log.try_iter().collect();
         if log.iter().any(|line| line.contains("account is locked") || line.contains("not allowed because")) {
-            tell(&format!("skipped: {} may not log in here", self.user));
+            report(&format!("skipped: {} may not log in here", self.user));
             return false;
         }
         panic!("{}\n{}", String::from_utf8_lossy(&output.stderr), log.join("\n"));
     }
 
-    /// The explorer behind a connection, in a terminal. Its process number comes to stand in a file.
+    /// The explorer behind a connection, in a terminal. Its process number is written to a file.
     fn explorer(&self, arguments: &str) -> Terminal {
         let pid = self.pid_file();
         // Nothing of the user's is read or written.
@@ -185,7 +185,7 @@ fn fullest_second(frames: &[Frame]) -> usize {
     frames.iter().map(within).max().unwrap_or(0)
 }
 
-/// The adhesion force as the screen tells it.
+/// The adhesion force as on the screen.
 fn headline(rows: &[String]) -> Option<String> {
     let after = rows.iter().find_map(|row| row.split_once("F_a "))?.1;
     Some(after.split_whitespace().take(2).collect::<Vec<_>>().join(" "))
@@ -234,8 +234,12 @@ fn a_whole_loop_is_edited_and_played_over_a_slow_line() {
         assert!(frames.len() > 60, "it plays: {} frames", frames.len());
         assert!(frames.len() as f64 <= MOST_FRAMES * seconds + 2.0, "{} frames in {seconds} s", frames.len());
         assert!(fullest_second(frames) <= 14, "{} frames in a second", fullest_second(frames));
-        let told = terminal.rows().into_iter().find(|row| row.contains("frames/s")).expect("it is told");
-        assert!(!told.contains(" 0 B/s"), "{told}");
+        let row = terminal
+            .rows()
+            .into_iter()
+            .find(|row| row.contains("frames/s"))
+            .expect("the row of the output rate");
+        assert!(!row.contains(" 0 B/s"), "{row}");
 
         terminal.send("q");
         terminal.wait_for("unsaved changes");

@@ -15,13 +15,13 @@ fn a_folder_opens_as_the_map_of_its_study() {
         let home = folder.path().to_str().unwrap();
         let program = Program::new(ASPERITY).argument("small/").folder(folder.path()).env("HOME", home);
         let mut terminal = paused(program);
-        for told in [
+        for message in [
             "Small study",
             "Study small: regime over H, κ, 12 profiles",
             "F_n/(E* h L) = 0.01",
             "◆ H 0.5, κ 1",
         ] {
-            terminal.wait_for(told);
+            terminal.wait_for(message);
         }
         terminal.send("P");
         terminal.wait_for("F_n/(E* h L) = 0.1");
@@ -59,7 +59,7 @@ fn a_study_is_opened_by_its_path_from_within() {
 }
 
 /// What the program says of a folder, without a terminal.
-fn told(folder: &Path, name: &str) -> String {
+fn message(folder: &Path, name: &str) -> String {
     let mut command = Command::new(ASPERITY);
     let output = command.current_dir(folder).arg(name).stdin(Stdio::null()).output().unwrap();
     assert_eq!(output.status.code(), Some(1));
@@ -108,9 +108,12 @@ fn a_folder_without_a_map_says_why() {
             // A built-in scene is not hidden by a folder that happens to have its name.
             ("jkr-sphere", "asperity run jkr-sphere computes the scene without one"),
         ] {
-            let told = told(folder.path(), name);
-            assert!(told.starts_with(said) || told.ends_with(&format!("{said}\n")), "{name}: {told}");
-            assert_eq!(told.lines().count(), 1, "{told}");
+            let message = message(folder.path(), name);
+            assert!(
+                message.starts_with(said) || message.ends_with(&format!("{said}\n")),
+                "{name}: {message}"
+            );
+            assert_eq!(message.lines().count(), 1, "{message}");
         }
     });
 }

@@ -62,7 +62,7 @@ fn presets() -> Vec<String> {
     names.map(|preset| preset["name"].as_str().unwrap().to_string()).collect()
 }
 
-/// Keys of an object whose entries stand on lines of their own, indented by `indent`.
+/// Keys of an object whose entries have lines of their own, indented by `indent`.
 fn keys_in_order(text: &str, indent: usize) -> Vec<&str> {
     let opening = format!("{}\"", " ".repeat(indent));
     text.lines().filter_map(|line| line.strip_prefix(&opening)?.split_once('"')).map(|(key, _)| key).collect()
@@ -106,7 +106,7 @@ fn every_scene_gives_the_documented_json() {
                 assert_eq!(cells, 0.0, "{scene:?}: {point}");
             }
         }
-        // What stands in contact at the end is what the curve ends with.
+        // The contact at the end is that of the last point of the curve.
         let end = curve.last().unwrap();
         let contacts = object["contacts"].as_array().unwrap();
         assert_eq!(contacts.len() as f64, number(&end["fragments"]), "{scene:?}");
@@ -191,7 +191,7 @@ fn the_same_command_prints_the_same_bytes() {
     let without_timings = || {
         let text = done(&["run", "fragment-closeup", "--format", "json"]);
         let (before, timings) = text.split_once("  \"timings\": {").unwrap();
-        assert_eq!(timings.matches('}').count(), 2, "timings stand last");
+        assert_eq!(timings.matches('}').count(), 2, "timings are last");
         before.to_string()
     };
     assert_eq!(without_timings(), without_timings());
@@ -442,7 +442,7 @@ fn a_line_refines_to_the_same_line() {
     let spacing = 1.0e-4 / 9000.0;
     for (index, &(x, z)) in coarse.iter().enumerate() {
         assert!((x - (index as f64 + 0.5) * spacing).abs() < 1e-12 * 1.0e-4);
-        // With three times the springs, the middle one of each three stands where one stood.
+        // With three times the springs, the middle one of each three is at the place of one.
         let (fine_x, fine_z) = fine[3 * index + 1];
         assert!((x - fine_x).abs() < 1e-12 * 1.0e-4);
         assert!((z - fine_z).abs() < 1e-10 * 2.0e-7, "{index}: {z} {fine_z}");
@@ -813,8 +813,8 @@ fn one_moment_of_a_demo_is_printed_or_drawn() {
         done(&["demo", "jkr-sphere", "--at", "3", "--picture", pixels.to_str().unwrap()]);
         assert!(fs::read(&pixels).unwrap().starts_with(b"\x89PNG"));
         let other = folder.path().join("screen.gif");
-        let told = failed(1, &["demo", "jkr-sphere", "--at", "3", "--picture", other.to_str().unwrap()]);
-        assert!(told.contains(".svg, .png") && !other.exists(), "{told}");
+        let stated = failed(1, &["demo", "jkr-sphere", "--at", "3", "--picture", other.to_str().unwrap()]);
+        assert!(stated.contains(".svg, .png") && !other.exists(), "{stated}");
     });
 }
 

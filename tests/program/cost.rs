@@ -83,7 +83,7 @@ fn rough_scenes_are_counted_from_their_finest_solution() {
     assert_eq!(reference["closed_form"], false);
     let own = reference["errors"]["adhesion_force"].as_f64().unwrap();
     assert!(own > 0.0 && own < 0.01, "{own}");
-    // The finest differs from itself by nothing: what is told is the error of the reference.
+    // The finest differs from itself by nothing: the error stated is that of the reference.
     let rows = table["rows"].as_array().unwrap();
     let finest = rows.iter().rfind(|row| row["knob"] == "sub-cell-springs").unwrap();
     assert_eq!(finest["setting"].as_f64(), reference["springs"].as_f64());
@@ -107,10 +107,10 @@ fn the_text_begins_with_the_answer_and_ends_with_what_was_too_much() {
     assert!(end.lines().skip(1).all(|line| line.starts_with("- ")), "{text}");
     assert!(text.lines().all(|line| line.chars().count() <= 100), "{text}");
     // One line for each knob.
-    let mut told: Vec<_> = progress.lines().collect();
-    let lines = told.len();
-    told.dedup();
-    assert!(lines == told.len() && (2..=6).contains(&lines), "{progress}");
+    let mut reported: Vec<_> = progress.lines().collect();
+    let lines = reported.len();
+    reported.dedup();
+    assert!(lines == reported.len() && (2..=6).contains(&lines), "{progress}");
     // Without adhesion it is about the curve.
     let text = done(&["cost", "jkr-sphere", "--budget", "1s", "--set", "adhesion=None"]);
     assert!(text.starts_with("1 % of the force curve: "), "{text}");

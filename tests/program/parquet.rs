@@ -78,7 +78,7 @@ fn rows_are_those_of_the_csv_and_no_older_file_stays() {
     let (part, _) = compare(&study);
     assert!(part > 0 && part < 36, "{part}");
 
-    // The whole study without it: the file of the part must not stand beside the new tables.
+    // The whole study without it: the file of the part must not be beside the new tables.
     asperity_in(at, &["sweep", "plan.ron", "-o", "study"]).succeeded();
     assert!(!study.join("results.parquet").exists());
 

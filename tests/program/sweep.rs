@@ -70,11 +70,11 @@ fn progress_and_status_state_the_same_rate() {
     let mut last = None;
     let options = Options { jobs: 1, shard: Shard::WHOLE };
     run(&folder, options, &|| false, &mut |progress| last = progress.rate()).unwrap();
-    let told = last.unwrap();
+    let reported = last.unwrap();
     let there = Status::of(&folder).unwrap().shards[0].attempts[0].rate.unwrap();
     // Times of files are those of the system's ticks.
-    let seconds = plan.records_in_all() as f64 / told;
-    assert!((told / there - 1.0).abs() <= 0.02 + 0.02 / seconds, "{told} and {there} per second");
+    let seconds = plan.records_in_all() as f64 / reported;
+    assert!((reported / there - 1.0).abs() <= 0.02 + 0.02 / seconds, "{reported} and {there} per second");
 }
 
 fn tables(folder: &Folder) -> [String; 2] {

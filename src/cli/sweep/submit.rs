@@ -101,7 +101,7 @@ pub(super) fn submit(arguments: &SubmitArguments, stdout: &mut dyn Write) -> Res
         write_new(&path, true, |out| out.write_all(script.as_bytes()))?;
     }
     let jobs = submission.submit()?;
-    // What sbatch warns of is no result.
+    // Warnings of sbatch are no result.
     let _ = write!(io::stderr(), "{}", printable_lines(&jobs.notes));
     let (array, merge) = (&jobs.array, &jobs.merge);
     let path = path_name(folder.path());

@@ -217,7 +217,7 @@ impl Closing {
             let start = self.start(ground, branch, state);
             let node = branch.origin().ok().map(|index| (index, ground.tree.nodes()[index]));
             let lowest = node.map_or(start.gap, |(_, node)| node.lowest);
-            // What is in contact already stays so, however far it is stretched.
+            // A present contact remains, however far it is stretched.
             if lowest >= merges && climb.held[0] == climb.held[1] {
                 continue;
             }

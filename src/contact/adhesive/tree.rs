@@ -191,7 +191,7 @@ impl ContactTree {
         let scale = self.scale();
         let start = block * BLOCK;
         let rest: i128 = match self.edges() {
-            // Whether or not they count all are read: a branch would often be mispredicted.
+            // All are read, also those that do not count: a branch would often be mispredicted.
             Edges::SubCell => (1..BLOCK)
                 .map(|k| {
                     let at = if start + k <= spring { start + k } else { spring };
@@ -210,7 +210,7 @@ impl ContactTree {
         debug_assert!(u32::try_from(count).is_ok_and(|count| count < 1 << 31));
         let out_of_memory = |_| ContactError::OutOfMemory { springs: count };
         self.turns = memory::emptied(std::mem::take(&mut self.turns), count / 4).map_err(out_of_memory)?;
-        // Whether the gap rises behind each spring, one bit for each; before the line it falls, behind it it rises.
+        // One bit for each spring: 1 if the gap rises behind it. The gap falls before the line and rises behind it.
         let mut rose = 0_u64;
         for base in (0..count).step_by(LANES) {
             let springs = LANES.min(count - base);

@@ -39,7 +39,7 @@ mod tests {
         let mut buffer = Buffer::empty(Rect::new(3, 2, 8, 1));
         buffer.set_string(3, 2, "漢字e\u{301}x", Style::new());
         assert_eq!(text(&buffer), "漢字e\u{301}x\n");
-        // What is left behind a wide character is not seen.
+        // The cell behind a wide character is not seen.
         buffer[(4, 2)].set_symbol("?");
         assert_eq!(text(&buffer), "漢字e\u{301}x\n");
     }

@@ -42,7 +42,7 @@ pub fn accept_tolerance(model: &mut Model, typed: &str) -> Vec<Effect> {
         Ok(tolerance) if model.is_current() => {
             model.appraisal.choosing = Some((tolerance, None));
             model.appraisal.answer = None;
-            // What was measured ends for it.
+            // A measurement ends for it.
             model.appraisal.costs.trying = None;
             return vec![Effect::Study];
         }

@@ -366,7 +366,7 @@ fn row_of(model: &Model, path: &str) -> usize {
 /// Asks for the scene as it is now.
 fn renew(model: &mut Model) -> Vec<Effect> {
     let selected = model.parameter().map(|parameter| parameter.path.clone()).unwrap_or_default();
-    // What was left and is shown again is the scene itself.
+    // The scene itself is shown again.
     let document = &model.document;
     model.left.retain(|_, left| left.name() != document.name() || left.scene() != document.scene());
     model.parameters = parameters(&model.document);

@@ -27,7 +27,7 @@ pub fn listed(model: &mut Model, entries: Vec<Entry>) -> Vec<Effect> {
 pub fn search(model: &mut Model) -> Vec<Effect> {
     let Mode::Library(library) = &mut model.mode else { return Vec::new() };
     let Some(entries) = &library.entries else { return Vec::new() };
-    // What has a separator in it is a path, and no name to search for.
+    // A text with a separator is a path, not a name to search for.
     if library.finder.query.text().contains(std::path::is_separator) {
         library.finder.search([]);
     } else {

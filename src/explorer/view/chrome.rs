@@ -56,7 +56,7 @@ pub fn status(frame: &mut Frame<'_>, area: Rect, model: &Model) {
             let (comments, are) = if *count == 1 { ("comment", "is") } else { ("comments", "are") };
             error(format!("{count} {comments} {are} about values that have changed. Save without?"))
         }
-        // What is typed is to be seen in the smallest window too.
+        // The typed text is visible in the smallest window too.
         (Mode::Export(line), _) if area.width < 60 => prompted("Export to: ", line),
         (Mode::Export(line), _) => {
             let exports = model.exports();

@@ -31,7 +31,7 @@ pub enum NoMap {
     #[error("no map: the scene has no adhesion, so no κ; switch adhesion on with t in its row")]
     NoAdhesion,
     /// Two works of adhesion.
-    #[error("no map: κ stands for one work of adhesion; leave adhesion.closing_work out")]
+    #[error("no map: κ is defined by one work of adhesion; leave adhesion.closing_work out")]
     TwoWorks,
     /// Nothing is rough.
     #[error("no map: a smooth body has neither κ nor H; switch roughness on with t in its row")]
@@ -231,7 +231,7 @@ mod tests {
             assert_eq!(before.kappa.is_some(), after.kappa.is_some());
             let (kappa, hurst) = Template::place(moved.scene()).unwrap();
             assert!((kappa / 3.0 - 1.0).abs() < 1e-12 && hurst == 0.4, "{kappa} {hurst}");
-            // What runs agrees.
+            // The same stages run.
             let (_, _, governing) =
                 Simulation::default().make_line(moved.scene()).map(|(a, b, c)| (a.first, b, c)).unwrap();
             assert!((governing.kappa.unwrap() / 3.0 - 1.0).abs() < 1e-9, "{governing:?}");

@@ -113,10 +113,10 @@ fn what_accuracy_costs_is_shown_beside_what_can_be_changed() {
         for size in [(120, 40), (80, 24)] {
             driver.resize(size);
             screens += &format!("── {} × {} ──\n{}\n", size.0, size.1, driver.text());
-            for told in
+            for stated in
                 ["order 2.0", "order 1.0", "1 %: SubCell 1 024", "Grid 2 048", "● line", "◆ 1 024 springs"]
             {
-                assert!(driver.text().contains(told), "{told} at {size:?}:\n{}", driver.text());
+                assert!(driver.text().contains(stated), "{stated} at {size:?}:\n{}", driver.text());
             }
         }
         keep("screen_of_what_accuracy_costs", &screens);
@@ -181,8 +181,8 @@ fn an_edit_forgets_what_was_found_out() {
 #[test]
 fn the_headline_has_its_error_and_its_time() {
     within(60, || {
-        let told = |error: Option<f64>| driver_with(rough(), error.and_then(estimate), Ok(table()));
-        let mut driver = told(Some(0.0042));
+        let stated = |error: Option<f64>| driver_with(rough(), error.and_then(estimate), Ok(table()));
+        let mut driver = stated(Some(0.0042));
         for size in [(120, 40), (80, 24), (60, 20)] {
             driver.resize(size);
             assert!(driver.status().contains("N ± 0.4 %"), "{}", driver.status());
@@ -203,7 +203,7 @@ fn the_headline_has_its_error_and_its_time() {
             "{}",
             driver.status()
         );
-        assert!(!told(None).status().contains('±'), "what cannot be told is left out");
+        assert!(!stated(None).status().contains('±'), "an unknown error is left out");
         // Where nothing pulls, the largest force, and how good its curve is.
         let curve = Estimate { target: Target::Curve, ..estimate(0.02).unwrap() };
         let driver = driver_with(without_adhesion(), Some(curve), Ok(table()));
@@ -251,8 +251,8 @@ fn a_tolerance_out_of_reach_changes_nothing() {
         let (text, generation) = (driver.model.document.text().to_owned(), driver.model.generation);
         ask(&mut driver, "1e-6");
         assert!(matches!(driver.model.notice, Some(Notice::Error(_))));
-        let told = "1e-4 % is out of reach: 4.0e-4 with 2 048 springs, edges SubCell";
-        assert!(driver.status().contains(told), "{}", driver.status());
+        let stated = "1e-4 % is out of reach: 4.0e-4 with 2 048 springs, edges SubCell";
+        assert!(driver.status().contains(stated), "{}", driver.status());
         for wrong in ["", "0", "2", "much", "-1 %"] {
             ask(&mut driver, wrong);
             assert!(driver.status().contains("allowed: a relative error"), "{wrong}: {}", driver.status());
@@ -308,7 +308,7 @@ fn what_is_measured_ends_as_soon_as_something_else_is_asked_for() {
             }
             assert_eq!(said.recv_timeout(PATIENCE), Ok("stopped"));
         }
-        // Nothing was told in between.
+        // No message was shown in between.
         let chosen = Finding::Chosen(0.1, Err(ChoiceError::Stepwise));
         assert_eq!(next(), Found { generation: 2, finding: chosen });
         // The explorer leaves: so does the study.

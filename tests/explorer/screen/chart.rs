@@ -136,8 +136,8 @@ fn the_map_is_shown_beside_what_can_be_changed() {
 fn the_map_says_without_colours_what_it_says_with_them() {
     within(60, || {
         let mut driver = charted(rough());
-        for told in ["█ pressure-insensitive", "▒ pressure-sensitive", "· non-adhesive"] {
-            assert!(driver.text().contains(told), "{told}\n{}", driver.text());
+        for legend in ["█ pressure-insensitive", "▒ pressure-sensitive", "· non-adhesive"] {
+            assert!(driver.text().contains(legend), "{legend}\n{}", driver.text());
         }
         // The same three in every column, from below.
         let [insensitive, sensitive, adhesive] = ["████", "▒▒▒▒", "····"].map(|shades| {
@@ -407,7 +407,7 @@ fn an_edit_ends_the_computing_of_the_map() {
         study.stop();
         assert_eq!(said.recv_timeout(PATIENCE), Ok("stopped"));
         drop(study);
-        let told: Vec<Found> = reports.iter().collect();
-        assert_eq!(told.len(), 5, "a finding for each row, and none after the stop");
+        let found: Vec<Found> = reports.iter().collect();
+        assert_eq!(found.len(), 5, "a finding for each row, and none after the stop");
     });
 }

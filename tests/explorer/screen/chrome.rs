@@ -1,4 +1,4 @@
-//! What stands around the panes: title, status, footer; and the help.
+//! Around the panes: title, status, footer; and the help.
 
 use super::common::deadline::within;
 use super::common::driver::Driver;

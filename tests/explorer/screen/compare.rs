@@ -23,7 +23,7 @@ fn outcome(driver: &Driver) -> Outcome {
     driver.model.computed.as_deref().map(|SolvedScene { outcome, .. }| outcome.clone()).unwrap()
 }
 
-fn told(driver: &Driver) -> String {
+fn message(driver: &Driver) -> String {
     match &driver.model.notice {
         Some(Notice::Done(text) | Notice::Error(text)) => text.clone(),
         None => String::new(),
@@ -34,7 +34,7 @@ fn told(driver: &Driver) -> String {
 fn ghosts_have_letters_and_say_where_they_differ() {
     within(30, || {
         let mut driver = pressed("c");
-        assert!(told(&driver).contains("x exchanges"), "{}", told(&driver));
+        assert!(message(&driver).contains("x exchanges"), "{}", message(&driver));
         assert!(driver.text().contains("· the same scene"), "{}", driver.text());
         driver.press("L");
         assert!(driver.text().contains("A F_a ") && driver.text().contains("· H 0.7"), "{}", driver.text());
@@ -53,7 +53,7 @@ fn ghosts_have_letters_and_say_where_they_differ() {
         let text = driver.text();
         assert!(text.contains("· κ 8, loading ["), "{text}");
         driver.press("u");
-        // The letters stand in the plot too.
+        // The letters are in the plot too.
         driver.press("z");
         let plot = driver.rows()[8..36].join("\n");
         for letter in ['A', 'B'] {
@@ -84,7 +84,7 @@ fn one_loop_is_kept_once_and_eight_at_most() {
     within(60, || {
         let mut driver = pressed("c c");
         assert_eq!(driver.model.ghosts.len(), 1);
-        assert!(told(&driver).contains("kept already"), "{}", told(&driver));
+        assert!(message(&driver).contains("kept already"), "{}", message(&driver));
         // Also when it was left meanwhile.
         driver.press("l c h c");
         assert_eq!(driver.model.ghosts.len(), 2);
@@ -94,7 +94,7 @@ fn one_loop_is_kept_once_and_eight_at_most() {
             driver.press("l c");
             scenes.push(driver.model.document.clone());
         }
-        assert_eq!(kept(&driver), scenes[2..], "the oldest are let go");
+        assert_eq!(kept(&driver), scenes[2..], "the oldest are dropped");
         driver.screen();
     });
 }
@@ -130,11 +130,11 @@ fn what_cannot_be_kept_or_exchanged_says_why() {
     within(30, || {
         let mut driver = Driver::open(rough());
         driver.press("c");
-        assert!(driver.model.ghosts.is_empty() && told(&driver).contains("no curve yet"));
+        assert!(driver.model.ghosts.is_empty() && message(&driver).contains("no curve yet"));
         let mut driver = pressed("");
         let before = driver.model.document.clone();
         driver.press("x");
-        assert!(told(&driver).contains("nothing to exchange"), "{}", told(&driver));
+        assert!(message(&driver).contains("nothing to exchange"), "{}", message(&driver));
         assert_eq!(driver.model.document, before);
         driver.select("loading");
         driver.enter("[ToForce(2.0e-5), ToForce(-1.0)]");

@@ -125,7 +125,7 @@ fn cues_are_followed_in_time() {
 #[ignore = "takes ten seconds or more; .ci/run runs it"]
 fn a_frame_costs_no_more_than_it_must() {
     within(240, || {
-        let mut told = Vec::new();
+        let mut lines = Vec::new();
         for preset in presets().iter().filter(|preset| preset.name != "million-springs") {
             for theme in [Theme::Neutral, Theme::Dark] {
                 let document = Document::parse(preset.text, preset.name).unwrap();
@@ -148,17 +148,17 @@ fn a_frame_costs_no_more_than_it_must() {
                 changed.sort_unstable();
                 let median = changed[changed.len() / 2];
                 let rate = total as f64 / last;
-                told.push(format!(
+                lines.push(format!(
                     "{} {theme:?}: {} frames of {median} bytes, at most {}; {rate:.0} bytes/s",
                     preset.name,
                     changed.len(),
                     changed[changed.len() - 1],
                 ));
-                let numbers = told.join("\n");
+                let numbers = lines.join("\n");
                 assert!(changed.len() > 50, "{numbers}");
                 assert!(median <= MOST_IN_FRAME && rate < MOST_IN_SECOND, "{numbers}");
             }
         }
-        println!("{}", told.join("\n"));
+        println!("{}", lines.join("\n"));
     });
 }

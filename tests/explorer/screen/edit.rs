@@ -116,7 +116,10 @@ fn a_built_in_scene_can_be_taken_back_like_any_edit() {
         driver.press("l");
         let text = driver.model.document.text().to_owned();
         driver.press("4");
-        assert!(matches!(driver.model.notice, Some(Notice::Done(_))), "it is told that the change is kept");
+        assert!(
+            matches!(driver.model.notice, Some(Notice::Done(_))),
+            "the notice states that the change is kept"
+        );
         driver.press("u");
         assert_eq!(driver.model.document.text(), text);
         assert!(driver.model.is_unsaved());

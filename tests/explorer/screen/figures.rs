@@ -16,7 +16,7 @@ const MARKS: [(char, &str); 4] = [('◇', "jump-in"), ('▲', "preload"), ('▼'
 /// Half the size of a sign in the figure, px.
 const SIGN: f64 = 2.7;
 
-/// An element of a figure: what stands in its tag, and its text without markup.
+/// An element of a figure: the attributes of its tag, and its text without markup.
 struct Element {
     tag: String,
     text: String,
@@ -77,7 +77,7 @@ fn marks_of_figure(svg: &str) -> Vec<(char, f64, f64)> {
     let (across, up) = (ticks("middle", " x"), ticks("end", " y"));
     let label = |name: &str| texts.iter().find(|text| text.text.starts_with(name)).unwrap().text.clone();
     let (metre, newton) = (unit(&label("indentation"), "m"), unit(&label("force"), "N"));
-    // Numbers stand with their base line below the tick.
+    // The base lines of numbers are below the tick.
     let size: f64 =
         texts.iter().find(|text| text.attribute("text-anchor") == "end").unwrap().number("font-size");
     let value =

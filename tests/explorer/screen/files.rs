@@ -83,7 +83,7 @@ fn a_file_that_is_there_is_asked_about() {
         driver.press("y");
         assert!(fs::read_to_string(&path).unwrap().contains("\nleg,indentation"));
         assert_eq!(driver.model.mode, Mode::Explore);
-        // What the system refuses is told.
+        // An error of the system is shown.
         export(&mut driver, &folder.path().join("no/such/folder/a.csv"));
         assert!(driver.status().starts_with("! not written"), "{}", driver.status());
     });

@@ -119,7 +119,7 @@ fn the_close_up_goes_to_the_longest_and_the_most_loaded() {
             driver.press("b");
             assert!(all.contains(&facts(&driver).springs), "{:?} of {all:?}", facts(&driver));
             assert_eq!(length(facts(&driver).springs), longest);
-            // What each carries is told when one looks at it.
+            // The selected fragment is shown with its force.
             let mut forces = Vec::new();
             for _ in 0..all.len() {
                 driver.press("n");

@@ -48,11 +48,11 @@ fn all_scenes_are_listed_and_found_as_one_types() {
             assert!(driver.text().contains(&name), "{name}\n{}", driver.text());
         }
         driver.type_text("sph");
-        let tells = |name: &String| {
+        let is_match = |name: &String| {
             let text = presets().iter().find(|preset| preset.name == *name).map(|preset| preset.text);
             name == "mine.ron" || text.is_some_and(|text| text.to_lowercase().contains("sph"))
         };
-        assert!(found(&driver).iter().all(tells), "{:?}", found(&driver));
+        assert!(found(&driver).iter().all(is_match), "{:?}", found(&driver));
         assert!(found(&driver).contains(&"mine.ron".to_owned()), "its title has it");
         driver.type_text("ere-no-such");
         assert!(found(&driver).is_empty());

@@ -297,17 +297,17 @@ fn the_loss_is_shaded_inside_the_loop_and_nowhere_else() {
 #[test]
 fn marked_forces_are_told_with_their_values() {
     within(30, || {
-        let told = |force: f64| format_quantity(format!("{force:.2e}").parse().unwrap(), "N");
+        let labelled = |force: f64| format_quantity(format!("{force:.2e}").parse().unwrap(), "N");
         let mut driver = mid_retraction(smooth());
         let text = curve(&mut driver);
         let legs = driver.model.legs();
         for said in [
-            format!("▲ preload {}", told(legs[0].largest.force)),
-            format!("▼ pull-off {}", told(legs[1].smallest.force)),
+            format!("▲ preload {}", labelled(legs[0].largest.force)),
+            format!("▼ pull-off {}", labelled(legs[1].smallest.force)),
         ] {
             assert!(text.contains(&said), "{said}\n{text}");
         }
-        // The glyphs stand on the curve as well.
+        // The glyphs are on the curve as well.
         for glyph in ['▲', '▼'] {
             assert_eq!(text.matches(glyph).count(), 2, "{glyph}\n{text}");
         }

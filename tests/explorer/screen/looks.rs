@@ -72,7 +72,7 @@ fn strong_contrast_is_bold_and_nothing_in_it_is_dim() {
             assert!(screen.content.iter().all(|cell| !cell.modifier.contains(Modifier::DIM)));
             assert!(screen.content.iter().all(|cell| cell.modifier.contains(Modifier::BOLD)));
         }
-        // Elsewhere only what stands back is dim, and without colours only.
+        // Elsewhere only elements in the background are dim, and without colours only.
         let driver = pressed("T T T T");
         assert_eq!(driver.model.appearance.theme, Theme::Plain);
         let screen = driver.screen();

@@ -32,14 +32,14 @@ fn the_body_is_taken_where_it_stands() {
             let mut driver = mid_retraction(document);
             for keys in ["", ". . . .", "<", "<"] {
                 driver.press(keys);
-                let stood = point(&driver);
+                let at_first = point(&driver);
                 driver.press("d");
                 assert_eq!(driver.model.snapshot.as_ref().unwrap().drive, Drive::Manual);
-                assert_eq!(point(&driver), stood, "{}", driver.model.document.name());
-                assert_eq!(manual(&driver).path, [stood]);
+                assert_eq!(point(&driver), at_first, "{}", driver.model.document.name());
+                assert_eq!(manual(&driver).path, [at_first]);
                 driver.press("d");
                 assert!(driver.model.manual.is_none());
-                assert_eq!(point(&driver), stood, "and given back there");
+                assert_eq!(point(&driver), at_first, "and given back there");
             }
         }
     });
@@ -102,7 +102,7 @@ fn the_status_tells_what_a_move_changed() {
         assert!(driver.status().contains("springs changed"), "in a common window too: {}", driver.status());
         assert!(manual(&driver).touched > 0);
         assert!(driver.text().contains("manual"), "{}", driver.text());
-        // A look around is no move: what the last one changed is still told.
+        // A look around is no move: the changes of the last one are still shown.
         driver.press("n + z z");
         assert_eq!(manual(&driver).changed, changed);
     });
@@ -187,11 +187,11 @@ fn a_force_out_of_reach_is_told_and_nothing_is_lost() {
         go(&mut driver, "-1 µN");
         assert!(driver.status().contains("nothing touches"), "{}", driver.status());
         for nonsense in ["", "strong", "1 kg", "NaN"] {
-            let stood = point(&driver);
+            let at_first = point(&driver);
             go(&mut driver, nonsense);
             assert!(matches!(driver.model.notice, Some(Notice::Error(_))), "{nonsense}");
             assert!(driver.status().contains("for example 10 µN"), "{nonsense}: {}", driver.status());
-            assert_eq!(point(&driver), stood);
+            assert_eq!(point(&driver), at_first);
         }
         driver.press("F Esc");
         assert!(driver.model.notice.is_none());
@@ -232,10 +232,10 @@ fn an_edit_puts_the_body_back_and_says_so() {
         }
         // What changes only how it looks does not.
         let mut driver = pressed("d {");
-        let stood = point(&driver);
+        let at_first = point(&driver);
         driver.press("j n v N a D T M z Tab + 0");
         assert!(driver.model.manual.is_some());
-        assert_eq!(point(&driver), stood);
+        assert_eq!(point(&driver), at_first);
     });
 }
 
@@ -280,8 +280,8 @@ fn time_does_not_move_manual_loading() {
         let mut driver = Driver::start(changed(&rough(), &[("loading", "[ToForce(1.0e-5)]")]));
         driver.elapse(2.0);
         driver.press("d");
-        let stood = point(&driver);
+        let at_first = point(&driver);
         assert!(driver.elapse(1.0).is_empty());
-        assert_eq!(point(&driver), stood);
+        assert_eq!(point(&driver), at_first);
     });
 }

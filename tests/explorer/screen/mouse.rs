@@ -86,10 +86,10 @@ fn a_drag_takes_the_body_to_where_the_mouse_is() {
                 mouse(&mut driver, column, area.y + 5, gesture);
                 let wanted = indentation_at(&driver.model, area, column).unwrap();
                 let next = indentation_at(&driver.model, area, column + 1).unwrap();
-                let stands = driver.model.snapshot.as_ref().unwrap().point.indentation;
+                let found = driver.model.snapshot.as_ref().unwrap().point.indentation;
                 assert!(driver.model.manual.is_some());
                 // What is seen may change a little as the path of manual loading grows.
-                assert!((stands - wanted).abs() <= next - wanted, "{stands}, not {wanted}");
+                assert!((found - wanted).abs() <= next - wanted, "{found}, not {wanted}");
                 let screen = driver.screen();
                 let seen: Vec<u16> = (0..driver.model.size.1)
                     .filter(|row| *row >= area.y + above && *row < area.bottom())

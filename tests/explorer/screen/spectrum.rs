@@ -105,14 +105,14 @@ fn the_profile_itself_is_kept_beside_its_equivalent_line() {
         let mut driver = Driver::start(equivalent);
         std::fs::remove_file(&file).unwrap();
         driver.press("|");
-        let told = |driver: &Driver| match &driver.model.notice {
+        let message = |driver: &Driver| match &driver.model.notice {
             Some(Notice::Error(text)) => text.clone(),
             other => panic!("{other:?}"),
         };
-        assert!(told(&driver).contains("stylus.txt") && driver.model.ghosts.is_empty());
+        assert!(message(&driver).contains("stylus.txt") && driver.model.ghosts.is_empty());
         let mut other = Driver::start(rough());
         other.press("|");
-        assert!(told(&other).contains("not measured"));
+        assert!(message(&other).contains("not measured"));
     });
 }
 

@@ -69,14 +69,14 @@ fn glyphs_tell_all_that_was_recorded() {
         let (_folder, mut driver) = opened();
         assert_eq!(driver.model.keys(), ModeKind::Chart);
         assert_eq!(driver.model.chart.charted(), Charted::Regime);
-        for (quantity, told) in [
+        for (quantity, text) in [
             (Quantity::ZeroLoadAdhesionShare, "F_a(0)/F_a,max over H, κ"),
             (Quantity::AdhesionCoefficient, "F_a/F_n over H, κ"),
             (Quantity::AdhesionForce, "F_a (mN) "),
         ] {
             driver.press("V");
             assert_eq!(driver.model.chart.charted(), Charted::Quantity(quantity));
-            assert!(driver.text().contains(told), "{told}\n{}", driver.text());
+            assert!(driver.text().contains(text), "{text}\n{}", driver.text());
         }
         // The map that is computed here does not have it, and shows what it has.
         driver.press("W");
@@ -85,8 +85,8 @@ fn glyphs_tell_all_that_was_recorded() {
         assert!(driver.text().contains("F_a (mN) "), "{}", driver.text());
         driver.press("V");
         assert_eq!(driver.model.chart.charted(), Charted::Regime);
-        for told in ["█ pressure-insensitive", "· non-adhesive", "▓ ░ divided", "of 12 profiles"] {
-            assert!(driver.text().contains(told), "{told}\n{}", driver.text());
+        for text in ["█ pressure-insensitive", "· non-adhesive", "▓ ░ divided", "of 12 profiles"] {
+            assert!(driver.text().contains(text), "{text}\n{}", driver.text());
         }
     });
 }
@@ -139,10 +139,10 @@ fn the_scene_follows_to_the_next_preload() {
         let first = preload(&driver);
         assert!(driver.text().contains("F_n/(E* h L) = 0.01  1 of 3, P: the next"), "{}", driver.text());
         let mut regimes = vec![driver.model.chart.map_model().cloned()];
-        for (times, told) in [(10.0, "0.1  2 of 3"), (100.0, "1  3 of 3"), (1.0, "0.01  1 of 3")] {
+        for (times, share) in [(10.0, "0.1  2 of 3"), (100.0, "1  3 of 3"), (1.0, "0.01  1 of 3")] {
             driver.press("P");
             assert!((preload(&driver) / first / times - 1.0).abs() < 1e-9);
-            assert!(driver.text().contains(&format!("F_n/(E* h L) = {told}")), "{}", driver.text());
+            assert!(driver.text().contains(&format!("F_n/(E* h L) = {share}")), "{}", driver.text());
             assert!(is_up_to_date(&driver.model));
             regimes.push(driver.model.chart.map_model().cloned());
         }
@@ -211,10 +211,10 @@ fn sections_have_the_confidence_of_the_mean() {
     within(60, || {
         let (_folder, mut driver) = opened();
         driver.press("X");
-        for told in
+        for text in
             ["over H at κ 1", "over κ at H 0.5", "⠒⠒⠒ F_a(0)/F_a,max", "⠒ ⠒ F_a/F_n", "⠂ ⠂ 95 % confidence"]
         {
-            assert!(driver.text().contains(told), "{told}\n{}", driver.text());
+            assert!(driver.text().contains(text), "{text}\n{}", driver.text());
         }
         driver.press("V V V");
         assert!(driver.text().contains("⠒⠒⠒ F_a  ⠂ ⠂ 95 % confidence"), "{}", driver.text());

@@ -197,7 +197,7 @@ fn a_value_that_is_refused_says_so_beside_its_field_and_leaves_the_scene() {
 #[test]
 fn wide_and_combining_characters_are_drawn_in_windows_of_any_width() {
     within(60, || {
-        // A mark without a letter to stand on, and words that no window is as wide as.
+        // A mark without a letter below it, and words wider than any window.
         let odd = "\u{301}e wörter 漢字 e\u{301}\u{301} a漢字b ".repeat(6) + &"漢".repeat(60);
         let quoted = format!("\"{odd}\"");
         let document = changed(&rough(), &[("title", &quoted), ("notice", &quoted)]);
@@ -208,7 +208,7 @@ fn wide_and_combining_characters_are_drawn_in_windows_of_any_width() {
             driver.press("e Ctrl+u");
             driver.type_text(&odd);
             driver.screen();
-            // What is wrong with it is told with the value itself.
+            // The error is shown with the value.
             driver.press("Enter");
             assert!(driver.model.refused.is_some());
             driver.screen();

@@ -67,10 +67,10 @@ fn a_header_that_no_program_wrote_is_an_error() {
         let other = header.replace(from, to);
         assert_ne!(other, header);
         fs::write(&stray, sealed(&other)).unwrap();
-        for told in
+        for message in
             [Status::of(&folder).unwrap_err().to_string(), merge(&folder, true).unwrap_err().to_string()]
         {
-            assert!(told.contains("stray.shard: ") && told.contains(said), "{told}");
+            assert!(message.contains("stray.shard: ") && message.contains(said), "{message}");
         }
     }
 }
@@ -113,9 +113,9 @@ fn pipes_and_devices_are_refused_at_once() {
     let path = folder.path().to_str().unwrap();
     let refused = |arguments: &[&str], said: &str| {
         let output = asperity(arguments);
-        let told = String::from_utf8(output.stderr).unwrap();
-        assert_eq!(output.status.code(), Some(1), "{arguments:?}: {told}");
-        assert!(told.contains(said), "{arguments:?}: {told}");
+        let message = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(1), "{arguments:?}: {message}");
+        assert!(message.contains(said), "{arguments:?}: {message}");
     };
     let pipe = folder.path().join("shards/pipe.shard");
     for make in [|path: &Path| fifo(path), |path: &Path| symlink("/dev/zero", path).unwrap()] {
@@ -163,8 +163,8 @@ fn titles_of_plans_are_held_to_what_scenes_may_have() {
     ] {
         let text = SMALL.replacen("\"Small\"", &format!("\"{title}\""), 1);
         assert_ne!(text, SMALL);
-        let told = Plan::parse(&text, "p.ron", &Changes::default()).unwrap_err().to_string();
-        assert!(told.contains(said), "{told}");
+        let message = Plan::parse(&text, "p.ron", &Changes::default()).unwrap_err().to_string();
+        assert!(message.contains(said), "{message}");
         let text = text.replacen("title:", "notice:", 1);
         let notice = Plan::parse(&text, "p.ron", &Changes::default());
         assert_eq!(notice.is_ok(), title.contains("lines") || title.starts_with('x'), "{notice:?}");

@@ -108,9 +108,9 @@ fn told_to_stop_it_ends_cleanly() {
         wait_for(&mut child, place.path(), 20);
         rustix::process::kill_process(rustix::process::Pid::from_child(&child), signal).unwrap();
         let output = child.wait_with_output().unwrap();
-        let told = String::from_utf8_lossy(&output.stderr);
-        assert_eq!(output.status.code(), Some(code), "{told}");
-        assert!(told.contains("records are complete; the same command continues the study"), "{told}");
+        let message = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(code), "{message}");
+        assert!(message.contains("records are complete; the same command continues the study"), "{message}");
         let folder = Folder::open(&place.path().join("study")).unwrap();
         assert_eq!(Status::of(&folder).unwrap().damaged, 0);
         assert!(finish(command(place.path())).status.success());
@@ -150,9 +150,9 @@ fn a_full_disk_is_told_and_loses_nothing() {
     let mut limited = Command::new("sh");
     limited.arg("-c").arg("trap '' XFSZ; ulimit -f 16; exec \"$@\"").arg("sh").args(words);
     let output = limited.output().unwrap();
-    let told = String::from_utf8_lossy(&output.stderr);
-    assert_eq!(output.status.code(), Some(1), "{told}");
-    assert!(told.contains(".shard: cannot be written: File too large"), "{told}");
+    let message = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(1), "{message}");
+    assert!(message.contains(".shard: cannot be written: File too large"), "{message}");
     let there = done(place.path());
     assert!(there > 10 && there < plan(&text()).records_in_all(), "{there}");
     let folder = Folder::open(&place.path().join("study")).unwrap();
@@ -173,8 +173,8 @@ fn too_little_memory_is_refused_and_some_keeps_threads_down() {
     assert_eq!(refused.status.code(), Some(1));
     assert!(String::from_utf8_lossy(&refused.stderr).contains("with one thread"));
     let fewer = with("17M");
-    let told = String::from_utf8_lossy(&fewer.stdout);
-    assert!(told.contains("fewer than 64 for want of memory"), "{told}");
+    let message = String::from_utf8_lossy(&fewer.stdout);
+    assert!(message.contains("fewer than 64 for want of memory"), "{message}");
     assert!(!place.path().join("study").exists());
 }
 
@@ -191,6 +191,6 @@ fn where_a_study_cannot_be_is_told() {
         .output()
         .unwrap();
     assert_eq!(output.status.code(), Some(1));
-    let told = String::from_utf8_lossy(&output.stderr);
-    assert!(told.contains("this is not the folder of a study: there is no plan.ron in it"), "{told}");
+    let message = String::from_utf8_lossy(&output.stderr);
+    assert!(message.contains("this is not the folder of a study: there is no plan.ron in it"), "{message}");
 }

@@ -1,4 +1,4 @@
-//! What is wrong with a plan is told before anything runs.
+//! Errors of a plan are found before anything runs.
 
 use super::SMALL;
 use asperity::study::{Changes, Plan};
@@ -48,28 +48,28 @@ fn each_mistake_has_its_message() {
     ] {
         let text = SMALL.replacen(from, to, 1);
         assert_ne!(text, SMALL);
-        let told = wrong(&text);
-        assert!(told.contains(said), "{to}: {told}");
-        assert!(told.lines().all(|line| line.starts_with("p.ron")), "{told}");
+        let message = wrong(&text);
+        assert!(message.contains(said), "{to}: {message}");
+        assert!(message.lines().all(|line| line.starts_with("p.ron")), "{message}");
     }
     let smooth = "(version: 1, base: \"jkr-sphere\", preloads: [0.1], lines: 2, record: [regime])";
-    let told = wrong(smooth);
-    assert!(told.contains("this scene is smooth; allowed: an axis loading.0.0, in N"), "{told}");
-    assert!(told.contains("lines = 2: several lines go with roughness: SelfAffine"), "{told}");
-    let told = wrong(&SMALL[..SMALL.len() / 2]);
-    assert!(told.starts_with("p.ron:"), "{told}");
+    let message = wrong(smooth);
+    assert!(message.contains("this scene is smooth; allowed: an axis loading.0.0, in N"), "{message}");
+    assert!(message.contains("lines = 2: several lines go with roughness: SelfAffine"), "{message}");
+    let message = wrong(&SMALL[..SMALL.len() / 2]);
+    assert!(message.starts_with("p.ron:"), "{message}");
 }
 
 #[test]
 fn too_many_cells_are_refused_at_once() {
     let clock = Instant::now();
     let text = SMALL.replace("count: 4", "count: 1000000");
-    let told = wrong(&text.replace("values: [1.0e6, 2.0e6]", "values: [1.0e6, 2.0e6, 3.0e6]"));
-    assert!(told.contains("1000000 × 2 × 3 × 2 cells; allowed: at most 10000000"), "{told}");
-    let told = wrong(&text.replace("lines: 3", "lines: 1000000"));
-    assert!(told.contains("on 1000000 lines; allowed: at most 100000000 together"), "{told}");
-    let told = wrong(&SMALL.replace("count: 4", "count: 18446744073709551615"));
-    assert!(told.contains("allowed: from 2 to 1000000"), "{told}");
+    let message = wrong(&text.replace("values: [1.0e6, 2.0e6]", "values: [1.0e6, 2.0e6, 3.0e6]"));
+    assert!(message.contains("1000000 × 2 × 3 × 2 cells; allowed: at most 10000000"), "{message}");
+    let message = wrong(&text.replace("lines: 3", "lines: 1000000"));
+    assert!(message.contains("on 1000000 lines; allowed: at most 100000000 together"), "{message}");
+    let message = wrong(&SMALL.replace("count: 4", "count: 18446744073709551615"));
+    assert!(message.contains("allowed: from 2 to 1000000"), "{message}");
     assert!(clock.elapsed().as_secs() < 20, "nothing is gone through");
 }
 
@@ -86,11 +86,11 @@ fn scenes_stand_beside_their_plans() {
     let plan = open("plan.ron").unwrap();
     assert_eq!((plan.seed, plan.cells()), (7, 1));
     let changes = Changes { set: vec![("roughness.hurst".into(), "1.5".into())], lines: None };
-    let told = Plan::open(folder.join("plan.ron").to_str().unwrap(), &changes).unwrap_err().to_string();
-    assert!(told.contains("roughness.hurst = 1.5: allowed: above 0 and below 1"), "{told}");
+    let message = Plan::open(folder.join("plan.ron").to_str().unwrap(), &changes).unwrap_err().to_string();
+    assert!(message.contains("roughness.hurst = 1.5: allowed: above 0 and below 1"), "{message}");
     std::fs::write(folder.join("lost.ron"), text.replace("mine", "other")).unwrap();
     assert!(open("lost.ron").unwrap_err().to_string().contains("other.ron"));
     assert!(open("none.ron").unwrap_err().to_string().contains("cannot be read"));
-    let told = Plan::open("figure5a", &Changes::default()).unwrap_err().to_string();
-    assert!(told.contains("did you mean figure-5a?"), "{told}");
+    let message = Plan::open("figure5a", &Changes::default()).unwrap_err().to_string();
+    assert!(message.contains("did you mean figure-5a?"), "{message}");
 }
