@@ -1,10 +1,38 @@
-//! Foreign text on its way to a terminal, a picture or a message: titles, names of files, headers, arguments.
+//! Text: prefixes of units and grouped digits, and foreign text on its way to a terminal, a picture or a message: titles,
+//! names of files, headers, arguments.
 //!
 //! A control character can clear a screen, write to the clipboard or make a picture no XML. A bidirectional
 //! control lets text read otherwise than it is. Either is shown by its number; all other characters stay.
 
 use std::borrow::Cow;
 use std::path::Path;
+
+/// SI prefixes that are read, with their powers of ten. Every third power is written, with the first of its prefixes.
+pub(crate) const SI_PREFIXES: &[(&str, i32)] = &[
+    ("y", -24),
+    ("z", -21),
+    ("a", -18),
+    ("f", -15),
+    ("p", -12),
+    ("n", -9),
+    ("µ", -6),
+    ("μ", -6),
+    ("u", -6),
+    ("m", -3),
+    ("c", -2),
+    ("", 0),
+    ("k", 3),
+    ("M", 6),
+    ("G", 9),
+    ("T", 12),
+    ("P", 15),
+    ("E", 18),
+];
+
+/// SI prefix of a power of ten as it is written, if there is one.
+pub(crate) fn si_prefix(power: i32) -> Option<&'static str> {
+    SI_PREFIXES.iter().find(|(_, of)| *of == power).map(|(prefix, _)| *prefix)
+}
 
 /// Returns true for characters that act on what displays them: controls (C0, DEL, C1), bidirectional controls
 /// and marks, and separators of lines and paragraphs.

@@ -1,7 +1,11 @@
 //! Text of figures: italic symbols, indices and exponents, SI prefixes, numbers.
 
-use crate::text::printable;
+use crate::text::{printable, si_prefix};
 use std::fmt;
+
+/// Powers of ten of the smallest and the largest prefix on an axis, femto and giga.
+const LEAST_POWER: i32 = -15;
+const LARGEST_POWER: i32 = 9;
 
 /// Typeface of a run of characters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -200,8 +204,6 @@ fn raised(character: char) -> char {
 /// Divisor and name of a unit with the SI prefix for numbers up to `largest`; `1` has no name.
 #[must_use]
 pub fn prefixed(unit: &str, largest: f64) -> (f64, String) {
-    const PREFIXES: [(&str, i32); 9] =
-        [("f", -15), ("p", -12), ("n", -9), ("µ", -6), ("m", -3), ("", 0), ("k", 3), ("M", 6), ("G", 9)];
     if matches!(unit, "" | "1") {
         return (1.0, String::new());
     }
@@ -210,7 +212,8 @@ pub fn prefixed(unit: &str, largest: f64) -> (f64, String) {
     }
     // 999.9999999 nm is 1 µm.
     let power = (largest * (1.0 + 1e-9)).log10().floor() as i32;
-    let (prefix, power) = PREFIXES.into_iter().rfind(|(_, least)| power >= *least).unwrap_or(PREFIXES[0]);
+    let power = (3 * power.div_euclid(3)).clamp(LEAST_POWER, LARGEST_POWER);
+    let prefix = si_prefix(power).unwrap_or_default();
     (10_f64.powi(power), format!("{prefix}{unit}"))
 }
 

@@ -1,28 +1,7 @@
 //! Numbers as people type and read them: `2.5 MPa`, `10 µm`, `50 mJ/m²`.
 
+use crate::text::{SI_PREFIXES, si_prefix};
 use std::fmt;
-
-/// SI prefixes that are read, with their powers of ten. Every third power is written, with the first of its prefixes.
-const PREFIXES: &[(&str, i32)] = &[
-    ("y", -24),
-    ("z", -21),
-    ("a", -18),
-    ("f", -15),
-    ("p", -12),
-    ("n", -9),
-    ("µ", -6),
-    ("μ", -6),
-    ("u", -6),
-    ("m", -3),
-    ("c", -2),
-    ("", 0),
-    ("k", 3),
-    ("M", 6),
-    ("G", 9),
-    ("T", 12),
-    ("P", 15),
-    ("E", 18),
-];
 
 /// Digits that are written.
 const DIGITS: usize = 4;
@@ -165,7 +144,7 @@ fn suffix_factor(suffix: &str, unit: &str) -> Option<(i32, f64)> {
         _ if !has_prefixes(&unit) && !plain => return None,
         _ => {}
     }
-    PREFIXES.iter().find_map(|(prefix, power)| {
+    SI_PREFIXES.iter().find_map(|(prefix, power)| {
         let rest = suffix.strip_prefix(prefix)?.trim_start();
         (rest.is_empty() || (!plain && rest == unit)).then_some((*power, 1.0))
     })
@@ -229,8 +208,8 @@ fn with_unit(value: f64, scientific: &str, unit: &str) -> String {
     let (mantissa, exponent) = scientific.split_once('e').unwrap_or((scientific, "0"));
     let exponent: i32 = exponent.parse().unwrap_or(0);
     let power = 3 * exponent.div_euclid(3);
-    match PREFIXES.iter().find(|(_, of)| *of == power) {
-        Some((prefix, _)) if !plain && has_prefixes(unit) => {
+    match si_prefix(power) {
+        Some(prefix) if !plain && has_prefixes(unit) => {
             format!("{} {prefix}{unit}", shifted(mantissa, exponent - power))
         }
         _ => format!("{}{unit_after}", decimal(mantissa, exponent)),

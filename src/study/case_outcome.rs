@@ -23,7 +23,7 @@ pub(super) struct CaseOutcome<'o> {
 }
 
 /// Outcome of one loading.
-#[derive(Clone, Copy, Default)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct LoadingOutcome {
     pub figures: Figures,
     /// Largest length in contact, m.
@@ -111,5 +111,45 @@ impl CaseOutcome<'_> {
             smooth_adhesion_force(form.as_ref(), *length, self.governing.effective_modulus, work)
         });
         Regime::of_loading(&self.loading.figures, self.zero_load, smooth)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::{Edges, open};
+    use crate::simulation::Simulation;
+
+    /// Rough, smooth and without adhesion, with one work of adhesion and with two, by both edge models.
+    #[test]
+    fn the_outcome_of_a_reversal_is_that_of_a_run() {
+        for name in ["pressure-sensitive", "rough-sphere", "kendall-punch", "non-adhesive", "two-works"] {
+            for edges in [Edges::Grid, Edges::SubCell] {
+                let document = open(name).unwrap();
+                let mut scene = document.scene().clone();
+                scene.numerics.edges = edges;
+                scene.numerics.samples = 2;
+                let presses = [
+                    Leg::ToTouch,
+                    Leg::ToZeroForce,
+                    Leg::ToForce(0.0),
+                    Leg::ToForce(1e-6),
+                    Leg::ToForce(3e-5),
+                ];
+                let mut reversed = vec![None; presses.len()];
+                let mut simulation = Simulation::new(document.resolve(""));
+                let see: &mut dyn FnMut(usize, Reversal) -> _ = &mut |index, reversal| {
+                    reversed[index] = Some(LoadingOutcome::of_reversal(presses[index], &reversal));
+                    Ok(())
+                };
+                simulation.reverse(&scene, (&presses, &[]), &|| false, see).unwrap();
+                for (press, reversed) in presses.into_iter().zip(reversed) {
+                    scene.loading = vec![press, Leg::ToSeparation];
+                    let run = simulation.run(&scene, &|| false, &mut |_, _, _| Ok(())).unwrap();
+                    let legs = LoadingOutcome::of_legs(run.history.legs);
+                    assert_eq!(reversed, Some(legs), "{name}, {edges:?}, {press:?}");
+                }
+            }
+        }
     }
 }

@@ -126,7 +126,7 @@ fn whatever_signal_ends_it_the_terminal_is_given_back() {
 #[test]
 fn a_terminal_that_reads_nothing_keeps_no_signal_from_ending_it() {
     within(120, || {
-        for name in ["TERM", "INT", "HUP", "QUIT"] {
+        let ends = |name| {
             let (program, _folder) = explorer();
             let mut terminal = paused(program);
             terminal.rest(true);
@@ -143,7 +143,12 @@ fn a_terminal_that_reads_nothing_keeps_no_signal_from_ending_it() {
             terminal.rest(false);
             terminal.wait_end();
             assert_given_back(&terminal);
-        }
+        };
+        std::thread::scope(|scope| {
+            for name in ["TERM", "INT", "HUP", "QUIT"] {
+                scope.spawn(move || ends(name));
+            }
+        });
     });
 }
 
