@@ -1,6 +1,6 @@
 //! The exact solver: any loading history, leg by leg, in linear time and without a step error.
 //!
-//! A leg proceeds in the same way for whole springs and for edges between them; the contact model gives forces and
+//! A leg proceeds in the same way for whole springs and for edges between them; the contact model supplies forces and
 //! thresholds.
 
 use super::adhesive::{Adhesive, AdhesiveMemory, ContactTree, EdgeModel, GridEdges, SubCellEdges};

@@ -1,7 +1,7 @@
 //! Contact without adhesion: a spring carries exactly while its gap is closed, on any leg.
 //!
 //! The contact depends on the indentation alone, so there is no history and no threshold; the force is a convex
-//! function of the indentation. One pass along the line gives a whole curve.
+//! function of the indentation. One pass along the line yields a whole curve.
 //!
 //! A *cell*, the line between two neighbouring springs, fills from its smaller gap to its larger one. Full cells are
 //! summed exactly, as whole numbers of quanta. Partly filled cells are summed one by one, which keeps every

@@ -1,5 +1,4 @@
-//! The room of scenes from outside: whatever text comes in, an answer comes out, and a change to
-//! one field is a change to that field alone.
+//! Scenes from outside: any text gets an answer, and a change to one field changes that field alone.
 
 use asperity::scene::{
     DEFAULT, Document, Effect, FIELDS, Form, LONGEST_TEXT, Leg, Range, Scene, Span, Text, line_column, open,
@@ -16,7 +15,7 @@ fn message(text: &str) -> String {
     Document::parse(text, "scene.ron").unwrap_err().to_string()
 }
 
-/// A scene whose third line is given.
+/// A scene with this third line.
 fn with_line(line: &str) -> String {
     format!(
         "(\n    version: 1,\n    {line}\n    material: (effective_modulus: 1.0e6),\n    length: 1.0e-4,\n)\n"
@@ -139,7 +138,7 @@ fn open_default() -> Document {
 
 #[test]
 fn the_table_names_every_field_of_the_model_and_no_other() {
-    // A scene as JSON has every field of the model, those left out included.
+    // A scene as JSON has every field of the model, including omitted ones.
     let mut found = Vec::new();
     for (form, rough, solver) in [
         (
@@ -185,7 +184,7 @@ fn paths_of(value: &serde_json::Value, path: String, found: &mut Vec<String>) {
         return;
     };
     for (name, value) in fields {
-        // A variant's name is not part of a path.
+        // The name of a variant is not part of a path.
         let inside = match (path.as_str(), name.starts_with(char::is_uppercase)) {
             (_, true) => path.clone(),
             ("", false) => name.clone(),
@@ -273,7 +272,7 @@ fn an_adhesion_free_sphere_is_made_from_a_preset_by_overrides() {
     assert!(changed.text().contains("\n    numerics: (points: 1024),\n)"), "{}", changed.text());
 }
 
-/// Values to set: plausible ones, and ones that try to escape.
+/// Values to set: plausible ones, and attempts to escape.
 fn values() -> impl Strategy<Value = String> {
     prop_oneof![
         "-?[0-9]{1,3}(\\.[0-9]{0,2})?(e-?[0-9]{1,2})?",
@@ -360,7 +359,7 @@ fn scene_of(text: &str) -> Scene {
     Document::parse(text, "x").unwrap().scene().clone()
 }
 
-/// Edits at any path: whatever comes of them, the text is read.
+/// Edits at any path: every result is read as text.
 fn edits_of(text: &str, path: &str) {
     let Ok(read) = Text::new(text) else { return };
     for edited in [read.replace(path, "0"), read.insert(path, "a", "0", &["b", "a"])].into_iter().flatten() {
@@ -407,7 +406,7 @@ proptest! {
             for (name, part) in before.as_object().unwrap() {
                 prop_assert!(*name == parts || after[name] == *part, "{path}={value} changed {name}");
             }
-            // The overrides say how to come from the opened scene to this one.
+            // The overrides lead from the opened scene to this one.
             prop_assert_eq!(document.set_all(changed.overrides()).unwrap(), changed);
         }
     }

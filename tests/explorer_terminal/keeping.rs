@@ -1,4 +1,4 @@
-//! What outlives a session: unsaved changes and the configuration, in the folders of a user of their own.
+//! Files that outlive a session: unsaved changes and the configuration, in the folders of a separate user.
 
 use crate::common::deadline::within;
 use crate::common::terminal::{Program, Terminal};
@@ -26,7 +26,7 @@ fn again(home: &Path, argument: &str) -> Program {
     program.argument(argument)
 }
 
-/// The explorer with a changed scene, once the change is kept.
+/// The explorer with a changed scene, after the change is kept.
 fn changed(program: Program, home: &Path) -> Terminal {
     let mut terminal = paused(program);
     assert!(kept(home).is_empty(), "nothing is written unasked");
@@ -53,7 +53,7 @@ fn unsaved_changes_outlive_a_killed_explorer_and_a_lost_connection() {
                 terminal.wait_process();
             }
             assert_eq!(fs::read_to_string(home.join("scene.ron")).unwrap(), SCENE);
-            // The next explorer says so, in one line that goes with the next key.
+            // The next explorer reports the kept change in a line that ends with the next key.
             let mut terminal = again(home, "scene.ron").start();
             terminal.wait_for("unsaved changes of scene.ron are kept");
             terminal.send(".");

@@ -72,7 +72,7 @@ fn a_study_is_drawn_as_map_and_as_section() {
     assert_eq!(fs::read_to_string(at.join("map.svg")).unwrap(), map);
     assert!(plot(&["--at", "preload=0.1", "-o", "map.svg"]).unwrap_err().contains("--force overwrites it"));
 
-    // Into a pipe: text, and no colours.
+    // Into a pipe: text without colours.
     let text = plot(&["--at", "preload=0.1"]).unwrap();
     assert!(
         text.contains("Hurst exponent H") && text.contains("F_a/F_n") && !text.contains('\x1b'),
@@ -110,14 +110,14 @@ fn curves_lie_along_the_longer_axis_and_protocols_stand_side_by_side() {
     assert_eq!(text.matches("⠒●⠒ H = 0.1  ⠒■⠒ H = 0.5  ⠒▲⠒ H = 0.9").count(), 2, "{text}");
     assert!(text.contains("governing parameter κ") && !text.contains('↑'), "{text}");
     let picture = plot(&["-o", "-"]);
-    // Quantities with their symbols, which are typeset.
+    // Quantities with their typeset symbols.
     let symbol = r#"<tspan font-style="italic">F</tspan>"#;
     assert!(picture.contains(&format!("(a) zero-load adhesion share {symbol}")), "{picture}");
     assert!(picture.contains(&format!("(b) zero-force adhesion share {symbol}")), "{picture}");
-    // Asked for, the short axis goes across, and it is a map.
+    // By request the short axis goes across, and the figure is a map.
     let map = plot(&["--x", "roughness.hurst"]);
     assert!(map.contains("↑ governing parameter κ"), "{map}");
-    // The same number but for rounding is one number.
+    // Numbers equal to rounding are one number.
     let same = plot(&["--x", "roughness.hurst", "--quantity", "rms_height"]);
     assert!(same.contains("180 ··· ") && same.contains(" 220\n"), "{same}");
 }

@@ -1,4 +1,4 @@
-//! Extremes and crossings of the force along a leg, exact whatever the number of samples.
+//! Extremes and crossings of the force along a leg, exact for any number of samples.
 //!
 //! Between two events the force is convex; at an event, read upwards in d, it falls or stays. From the contact at two
 //! indentations follow bounds of the force between them: springs that attach there are stretched, or just touch and are
@@ -60,7 +60,7 @@ impl<E: EdgeModel> Search<'_, E> {
     }
 
     /// The smallest force of an unloading to separation, on the range of a grid from there to the turning point, the
-    /// contact at which is given. Most points of the grid are left out: those where the force is certain to be above
+    /// state at which is `turn`. Most points of the grid are left out: those where the force is certain to be above
     /// zero, and those between two neighbours of a coarser grid whose bounds exclude a smaller force.
     pub fn smallest_below(
         &self,

@@ -365,7 +365,7 @@ impl<E: EdgeModel> FragmentSet<E> {
         }
     }
 
-    /// Removes a fragment that becomes part of another one from the totals.
+    /// Moves a fragment that becomes part of another one from the totals to the parts.
     fn take_part(&mut self, part: Fragment) {
         self.totals += -self.ground().totals(&part.span);
         self.parts.push(part);

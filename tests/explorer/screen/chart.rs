@@ -1,4 +1,4 @@
-//! The map over H and κ: what it shows, its mark, which is the scene, and what is computed of it when.
+//! The map over H and κ: its content, its mark at the scene, and the order of its computations.
 
 use super::common::deadline::within;
 use super::common::driver::Driver;
@@ -67,7 +67,7 @@ fn driver_with(document: Document, levels: &[Level]) -> Driver {
     driver
 }
 
-/// The explorer with a whole map, and the map shown.
+/// The explorer with a complete map on display.
 pub fn charted(document: Document) -> Driver {
     driver_with(document, &Level::ALL)
 }
@@ -91,7 +91,7 @@ fn e_maps_over_the_elastic_energy() {
         }
         let ratio = driver.model.governing().unwrap().elastic_energy_ratio.unwrap();
         assert_eq!(place(&driver), (ratio, over_kappa.1));
-        // The mark goes to values of the map, and the scene with it.
+        // The mark moves to values of the map, and the scene with it.
         driver.press("k");
         let (moved, _) = place(&driver);
         let mut values =
@@ -238,7 +238,7 @@ fn the_map_is_exported_as_it_is_seen() {
         assert_eq!(cells.lines().count(), 1 + COLUMNS + HURSTS - 1);
         let (nothing, said) = export("", "map.json");
         assert!(nothing.is_empty() && said.contains("the name must end in .csv, .svg, .png, .txt"), "{said}");
-        // The curve, while another pane is selected.
+        // The curve, with another pane selected.
         driver.press("Tab Tab E");
         assert!(driver.status().contains("Export to"), "{}", driver.status());
     });
@@ -304,7 +304,7 @@ fn adhesion_given_by_its_work_stays_so() {
         let (at, hurst) = place(&driver);
         assert!((0..COLUMNS).any(|column| (kappa(column) / at - 1.0).abs() < 1e-9), "{at}");
         assert_eq!(hurst, 0.75);
-        // What ran agrees.
+        // The computed value agrees.
         let computed = driver.model.computed.as_ref().unwrap().outcome.governing.kappa.unwrap();
         assert!((computed / at - 1.0).abs() < 1e-9);
     });
@@ -345,18 +345,18 @@ fn other_edits_begin_the_map_anew_and_wait_for_quiet() {
         driver.press("Tab Tab R");
         assert_eq!(chart(&driver), Some((None, true)));
         assert!(driver.text().contains("computing the map"), "{}", driver.text());
-        // What comes late is of no use.
+        // Late reports are dropped.
         let generation = driver.model.generation - 1;
         let late = Arc::new(LiveMap::new(Arc::new(Template::of(rough().scene()).unwrap())));
         driver.act(Action::Found(Found { generation, finding: Finding::Extended(PaneData::Map(late)) }));
         assert!(driver.model.chart.map.is_none());
-        // Nobody looks on.
+        // The map is hidden.
         driver.press("m m");
         assert!(!driver.model.is_shown(Pane::Chart));
         assert_eq!(chart(&driver), None);
         assert_eq!(driver.press("m"), [Effect::Study, Effect::Show]);
         assert_eq!(chart(&driver), Some((None, false)), "shown, it begins at once");
-        // Accuracy takes its place, and the other way round.
+        // Accuracy takes the place of the map, and vice versa.
         driver.press("A");
         assert_eq!(driver.model.large, Some(Pane::Accuracy));
         driver.press("m");

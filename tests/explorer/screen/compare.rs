@@ -18,7 +18,7 @@ fn kept(driver: &Driver) -> Vec<Document> {
     driver.model.ghosts.iter().map(|ghost| ghost.document.clone()).collect()
 }
 
-/// What was computed for the scene.
+/// Outcome computed for the scene.
 fn outcome(driver: &Driver) -> Outcome {
     driver.model.computed.as_deref().map(|SolvedScene { outcome, .. }| outcome.clone()).unwrap()
 }
@@ -85,7 +85,7 @@ fn one_loop_is_kept_once_and_eight_at_most() {
         let mut driver = pressed("c c");
         assert_eq!(driver.model.ghosts.len(), 1);
         assert!(message(&driver).contains("kept already"), "{}", message(&driver));
-        // Also when it was left meanwhile.
+        // Also after another scene in between.
         driver.press("l c h c");
         assert_eq!(driver.model.ghosts.len(), 2);
         driver.press("C");
@@ -115,7 +115,7 @@ fn two_exchanges_are_none() {
         assert_eq!(driver.model.document, document);
         assert_eq!(kept(&driver), ghosts);
         assert_eq!(outcome(&driver).history, computed.history);
-        // An exchange is taken back like any other edit, and the ghosts stay.
+        // An exchange is undone like any other edit, and the ghosts remain.
         driver.press("x u");
         assert_eq!(driver.model.document, document);
         assert_eq!(outcome(&driver).history, computed.history);
@@ -143,7 +143,7 @@ fn what_cannot_be_kept_or_exchanged_says_why() {
     });
 }
 
-/// The rows of the pane that has the close-up or the scene beside in it.
+/// The rows of the pane that holds the close-up or the scene beside.
 fn lower_pane(driver: &Driver) -> Vec<String> {
     rows_of(driver, driver.model.lower)
 }
@@ -192,7 +192,7 @@ fn two_scenes_are_shown_side_by_side() {
                 pane.join("\n")
             );
             assert!(pane[0].contains("Profile z(x) of A: Rough line"), "{}", pane[0]);
-            // Both profiles are on one scale, as far as the panes are of one height.
+            // Both profiles have one scale, if the panes have one height.
             let [upper, lower] = [scale(&rows_of(&driver, Pane::Profile)), scale(&pane)];
             assert!(!lower.is_empty(), "{}", driver.text());
             if size.0 == 120 {
@@ -241,7 +241,7 @@ fn two_scenes_that_are_opened_are_shown_side_by_side() {
         assert!(!driver.model.is_unsaved() && driver.model.undo.is_empty());
         let text = driver.text();
         assert!(text.contains("Stickier") && text.contains("A → this scene: κ 8 → 4"), "{text}");
-        // Exchanged, the other one is beside.
+        // After the exchange, the other scene is beside.
         driver.press("x");
         assert!(is_up_to_date(&driver.model));
         assert!(driver.text().contains("A → this scene: κ 4 → 8"), "{}", driver.text());

@@ -55,7 +55,7 @@ fn number(text: &str) -> Option<f64> {
     text.trim().replace('−', "-").parse().ok()
 }
 
-/// The value on a line through two labelled places.
+/// Value on a line through two labelled places.
 fn between(ticks: &[(f64, f64)], at: f64) -> f64 {
     let ((a, low), (b, high)) = (ticks[0], ticks[ticks.len() - 1]);
     low + (high - low) * (at - a) / (b - a)
@@ -77,7 +77,7 @@ fn marks_of_figure(svg: &str) -> Vec<(char, f64, f64)> {
     let (across, up) = (ticks("middle", " x"), ticks("end", " y"));
     let label = |name: &str| texts.iter().find(|text| text.text.starts_with(name)).unwrap().text.clone();
     let (metre, newton) = (unit(&label("indentation"), "m"), unit(&label("force"), "N"));
-    // The base lines of numbers are below the tick.
+    // The base lines of numbers lie below the tick.
     let size: f64 =
         texts.iter().find(|text| text.attribute("text-anchor") == "end").unwrap().number("font-size");
     let value =

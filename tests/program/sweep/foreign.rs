@@ -1,5 +1,5 @@
-//! What others may have put into the folder of a study, or named it: nothing hangs, panics, or reaches a terminal
-//! but as text.
+//! Foreign content in the folder of a study, or in its name: nothing hangs, panics, or reaches a terminal except as
+//! text.
 
 use super::{SMALL, compute, plan, shard_files, study, tables};
 use asperity::study::{Changes, Finished, Folder, Plan, Shard, Status, StudyError, merge};
@@ -9,7 +9,7 @@ use std::path::Path;
 use std::process::{Command, Output};
 use std::time::{Duration, Instant};
 
-/// Runs the program, and fails where it does not end.
+/// Runs the program, and fails if it does not end.
 fn asperity(arguments: &[&str]) -> Output {
     let mut child = Command::new(env!("CARGO_BIN_EXE_asperity"))
         .args(arguments)
@@ -137,7 +137,7 @@ fn pipes_and_devices_are_refused_at_once() {
                 assert!(error.to_string().contains(&said), "{error}");
             }
         }
-        // The link goes, and what it led to stays.
+        // The link is removed, and its target remains.
         merge(&folder, false).unwrap();
         assert_eq!(fs::read_link(&table).unwrap(), Path::new("tables").join(name));
         fs::remove_file(&table).unwrap();
@@ -231,7 +231,7 @@ fn nothing_that_is_named_acts_on_a_terminal() {
     run(&["check", EVIL]);
     run(&[EVIL]);
     run(&["sweep", "plans", EVIL, EVIL]);
-    // A header that says it comes from elsewhere, and a plan that differs.
+    // A header that claims another origin, and a different plan.
     let folder = Folder::open(Path::new(&evil)).unwrap();
     let payload = header_of(&folder);
     let start = payload.find("\"host\":\"").unwrap() + 8;

@@ -1,4 +1,4 @@
-//! Errors of a plan are found before anything runs.
+//! Errors of a plan are found before any computation.
 
 use super::SMALL;
 use asperity::study::{Changes, Plan};
